@@ -1,0 +1,3 @@
+//! Benchmarks of the describing functions.
+
+fn main() {}

@@ -1,0 +1,40 @@
+//! Self-oscillations under a relay: describing functions, exact limit cycles, identification of vehicles from them, and
+//! the theory behind it as executable claims.
+//!
+//! Data flows one way, and the modules stand below in that order.
+#![cfg_attr(not(feature = "std"), no_std)]
+
+pub mod numeric;
+
+pub mod nonlinearity;
+
+pub mod describing;
+
+pub mod plant;
+
+#[cfg(feature = "std")]
+pub mod balance;
+pub mod orbit;
+
+pub mod experiment;
+
+pub mod features;
+
+pub mod identify;
+
+#[cfg(feature = "std")]
+pub mod select;
+
+pub mod control;
+#[cfg(feature = "std")]
+pub mod vehicle;
+
+#[cfg(feature = "std")]
+pub mod claims;
+#[cfg(feature = "std")]
+pub mod paper;
+
+#[cfg(feature = "command")]
+pub mod command;
+#[cfg(feature = "command")]
+pub mod report;

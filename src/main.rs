@@ -1,0 +1,3 @@
+//! The command `selfosc`.
+
+fn main() {}

@@ -1,0 +1,7 @@
+//! The arithmetics: [`Real`] and [`Scalar`], and the numerical methods the rest stands on.
+
+#[cfg(feature = "std")]
+mod dual;
+mod real;
+
+pub use real::{Real, Scalar};

@@ -1,0 +1,193 @@
+//! The arithmetics a formula can be evaluated in.
+
+use core::fmt::Debug;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number a formula of this crate can be written over: f32, f64, dual numbers, intervals.
+///
+/// A formula generic over `Real` has no branches on values: an interval can straddle a case distinction, so `Real` has no
+/// order. Where a decision is needed, ask for [`Scalar`], which intervals do not implement.
+///
+/// Angles are in radians. Outside its domain (the square root of a negative number, say) a function gives NaN in
+/// floating point and the widest enclosure, or none, in intervals; the layers above check domains before they call.
+pub trait Real:
+    Copy
+    + Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + 'static
+{
+    /// The number `value`, exactly where the arithmetic holds it (f32 rounds).
+    fn from_f64(value: f64) -> Self;
+    /// The circle constant, enclosed in interval arithmetic.
+    fn pi() -> Self;
+    /// Lower and upper bound as f64: both the value itself for a point arithmetic, the real part for a dual number.
+    fn bounds(self) -> (f64, f64);
+
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// The smaller of two numbers.
+    fn min(self, other: Self) -> Self;
+    /// The larger of two numbers.
+    fn max(self, other: Self) -> Self;
+    /// Square root, domain `>= 0`.
+    fn sqrt(self) -> Self;
+    /// Sine.
+    fn sin(self) -> Self;
+    /// Cosine.
+    fn cos(self) -> Self;
+    /// Tangent.
+    fn tan(self) -> Self;
+    /// Inverse sine, domain `[-1, 1]`, range `[-pi/2, pi/2]`.
+    fn asin(self) -> Self;
+    /// Inverse tangent, range `(-pi/2, pi/2)`.
+    fn atan(self) -> Self;
+    /// Exponential function.
+    fn exp(self) -> Self;
+    /// `exp(x) - 1` without cancellation near zero.
+    fn exp_m1(self) -> Self;
+    /// Natural logarithm, domain `> 0`.
+    fn ln(self) -> Self;
+    /// `ln(1 + x)` without cancellation near zero, domain `> -1`.
+    fn ln_1p(self) -> Self;
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// Inverse hyperbolic tangent, domain `(-1, 1)`.
+    fn atanh(self) -> Self;
+
+    /// Zero.
+    #[must_use]
+    fn zero() -> Self {
+        Self::from_f64(0.0)
+    }
+    /// One.
+    #[must_use]
+    fn one() -> Self {
+        Self::from_f64(1.0)
+    }
+    /// Two.
+    #[must_use]
+    fn two() -> Self {
+        Self::from_f64(2.0)
+    }
+    /// The square; an interval that straddles zero keeps its lower bound at zero.
+    #[must_use]
+    fn square(self) -> Self {
+        self * self
+    }
+    /// Inverse cosine, domain `[-1, 1]`, range `[0, pi]`.
+    #[must_use]
+    fn acos(self) -> Self {
+        Self::pi() / Self::two() - self.asin()
+    }
+    /// The nearest point of `[-1, 1]`: a breakpoint outside the sweep counts as reached at the turning point.
+    #[must_use]
+    fn clamp_unit(self) -> Self {
+        self.max(-Self::one()).min(Self::one())
+    }
+}
+
+/// A [`Real`] whose comparisons decide: f32, f64, dual numbers (by their real part). Intervals are not scalars.
+pub trait Scalar: Real + PartialOrd {
+    /// Distance from one to the next larger number, as the real part's arithmetic has it.
+    fn epsilon() -> Self;
+    /// The value as f64 (the real part of a dual number).
+    #[must_use]
+    fn value(self) -> f64 {
+        self.bounds().0
+    }
+    /// Neither infinite nor NaN.
+    #[must_use]
+    fn is_finite(self) -> bool {
+        self.value().is_finite()
+    }
+}
+
+/// Forwards to `libm` rather than to the platform, so that results are the same on every machine.
+macro_rules! float {
+    ($float:ident, $($method:ident = $function:ident),+) => {
+        impl Real for $float {
+            #[allow(clippy::cast_possible_truncation, reason = "f32 holds what it can")]
+            #[inline]
+            fn from_f64(value: f64) -> Self {
+                value as $float
+            }
+            #[inline]
+            fn pi() -> Self {
+                core::$float::consts::PI
+            }
+            #[inline]
+            fn bounds(self) -> (f64, f64) {
+                (f64::from(self), f64::from(self))
+            }
+            #[inline]
+            fn abs(self) -> Self {
+                $float::abs(self)
+            }
+            #[inline]
+            fn min(self, other: Self) -> Self {
+                if other < self { other } else { self }
+            }
+            #[inline]
+            fn max(self, other: Self) -> Self {
+                if other > self { other } else { self }
+            }
+            $(
+                #[inline]
+                fn $method(self) -> Self {
+                    libm::$function(self)
+                }
+            )+
+        }
+        impl Scalar for $float {
+            #[inline]
+            fn epsilon() -> Self {
+                $float::EPSILON
+            }
+        }
+    };
+}
+
+float!(
+    f64,
+    sqrt = sqrt,
+    sin = sin,
+    cos = cos,
+    tan = tan,
+    asin = asin,
+    acos = acos,
+    atan = atan,
+    exp = exp,
+    exp_m1 = expm1,
+    ln = log,
+    ln_1p = log1p,
+    sinh = sinh,
+    cosh = cosh,
+    tanh = tanh,
+    atanh = atanh
+);
+float!(
+    f32,
+    sqrt = sqrtf,
+    sin = sinf,
+    cos = cosf,
+    tan = tanf,
+    asin = asinf,
+    acos = acosf,
+    atan = atanf,
+    exp = expf,
+    exp_m1 = expm1f,
+    ln = logf,
+    ln_1p = log1pf,
+    sinh = sinhf,
+    cosh = coshf,
+    tanh = tanhf,
+    atanh = atanhf
+);
