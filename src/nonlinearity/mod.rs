@@ -1,1 +1,118 @@
-//! (to be written)
+//! Nonlinear characteristics: what comes out for what goes in.
+//!
+//! A characteristic is a small struct with named, checked parameters. It says two things that are independent of each
+//! other, so that one can be checked against the other: its [output](Characteristic::output) on a sinusoidal sweep, and,
+//! if it is [`PiecewiseLinear`], the [kernels](Kernel) it is a sum of. Inputs and outputs carry whatever units the loop
+//! has; a slope has output units per input unit.
+//!
+//! One file holds one characteristic (a relay, a dead zone, ...). To add one, write its file and its line in
+//! the catalogue.
+
+mod error;
+mod kernel;
+mod parameter;
+mod sinusoid;
+
+mod absolute;
+mod backlash;
+mod custom;
+mod dead_zone;
+mod dead_zone_saturation;
+mod gain_changing;
+mod power;
+mod preload;
+mod quantizer;
+mod relay;
+mod relay_dead_zone;
+mod relay_dead_zone_hysteresis;
+mod relay_hysteresis;
+mod saturation;
+mod saturation_asymmetric;
+
+pub use absolute::Absolute;
+pub use backlash::Backlash;
+pub use custom::{Custom, Sum};
+pub use dead_zone::DeadZone;
+pub use dead_zone_saturation::DeadZoneSaturation;
+pub use error::NonlinearityError;
+pub use gain_changing::GainChanging;
+pub use kernel::{Branches, Kernel, Side};
+pub use parameter::{Catalogued, Domain, Parameter};
+pub use power::Power;
+pub use preload::Preload;
+pub use quantizer::Quantizer;
+pub use relay::Relay;
+pub use relay_dead_zone::RelayDeadZone;
+pub use relay_dead_zone_hysteresis::RelayDeadZoneHysteresis;
+pub use relay_hysteresis::RelayHysteresis;
+pub use saturation::Saturation;
+pub use saturation_asymmetric::SaturationAsymmetric;
+pub use sinusoid::Sinusoid;
+
+use crate::numeric::Real;
+
+/// Which way the input moves. A characteristic with memory answers differently on its way up and on its way down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Branch {
+    /// The input grows.
+    Rising,
+    /// The input falls.
+    Falling,
+}
+
+/// A characteristic under a sinusoidal input, after the transients of its memory.
+pub trait Characteristic {
+    /// The arithmetic of its parameters, inputs and outputs.
+    type Number: Real;
+
+    /// Output at input `x`, somewhere on the sweep `sweep` and on its way as `branch` says. A characteristic without
+    /// memory uses `x` alone.
+    fn output(&self, x: Self::Number, branch: Branch, sweep: &Sinusoid<Self::Number>) -> Self::Number;
+
+    /// Reports every input value at which the output is not smooth on this sweep.
+    fn kinks(&self, sweep: &Sinusoid<Self::Number>, report: &mut dyn FnMut(Self::Number));
+
+    /// Whether a periodic output exists on this sweep.
+    ///
+    /// # Errors
+    /// [`NonlinearityError::BelowSwitching`] where a relay with memory would not switch both ways.
+    fn admits(&self, sweep: &Sinusoid<Self::Number>) -> Result<(), NonlinearityError> {
+        let _ = sweep;
+        Ok(())
+    }
+}
+
+/// A characteristic that is a sum of steps and ramps, perhaps different ones on the two branches.
+pub trait PiecewiseLinear {
+    /// As [`Characteristic::Number`].
+    type Number: Real;
+
+    /// As [`Characteristic::output`], written without use of the kernels.
+    fn value(&self, x: Self::Number, branch: Branch, sweep: &Sinusoid<Self::Number>) -> Self::Number;
+
+    /// Reports the kernels whose sum is [`value`](Self::value) on this sweep.
+    fn kernels(&self, sweep: &Sinusoid<Self::Number>, report: &mut dyn FnMut(Kernel<Self::Number>));
+
+    /// As [`Characteristic::admits`].
+    ///
+    /// # Errors
+    /// [`NonlinearityError::BelowSwitching`].
+    fn periodic(&self, sweep: &Sinusoid<Self::Number>) -> Result<(), NonlinearityError> {
+        let _ = sweep;
+        Ok(())
+    }
+}
+
+impl<C: PiecewiseLinear> Characteristic for C {
+    type Number = C::Number;
+
+    fn output(&self, x: C::Number, branch: Branch, sweep: &Sinusoid<C::Number>) -> C::Number {
+        self.value(x, branch, sweep)
+    }
+    fn kinks(&self, sweep: &Sinusoid<C::Number>, report: &mut dyn FnMut(C::Number)) {
+        self.kernels(sweep, &mut |kernel| kernel.kinks(report));
+    }
+    fn admits(&self, sweep: &Sinusoid<C::Number>) -> Result<(), NonlinearityError> {
+        self.periodic(sweep)
+    }
+}

@@ -26,7 +26,23 @@ macro_rules! dual {
             fn max(self, other: Self) -> Self {
                 if other.re > self.re { other } else { self }
             }
-            dual!(@forward $dual: sqrt sin cos tan asin acos atan exp exp_m1 ln ln_1p sinh cosh tanh atanh);
+            fn pow(self, exponent: Self) -> Self {
+                DualNum::powd(&self, exponent)
+            }
+            fn floor(self) -> Self {
+                libm::floor(self.re).into()
+            }
+            fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
+                if self.re > 0.0 { above() } else { below() }
+            }
+            fn minus_sine(self, sine: Self) -> Self {
+                super::real::minus_sine(self, sine)
+            }
+            fn sqrt(self) -> Self {
+                // A constant zero has derivative zero; the chain rule would make it infinity times zero.
+                if self.re == 0.0 && self.eps == <$dual>::from_re(0.0).eps { self } else { DualNum::sqrt(&self) }
+            }
+            dual!(@forward $dual: sin cos tan asin acos atan exp exp_m1 ln ln_1p sinh cosh tanh atanh);
         }
         impl<$($generics)*> Scalar for $dual {
             fn epsilon() -> Self {

@@ -61,6 +61,16 @@ pub trait Real:
     fn tanh(self) -> Self;
     /// Inverse hyperbolic tangent, domain `(-1, 1)`.
     fn atanh(self) -> Self;
+    /// Power with a real exponent, domain `self >= 0`; `0^0 = 1`.
+    #[must_use]
+    fn pow(self, exponent: Self) -> Self;
+    /// The largest whole number not above; every one that can be, for an interval.
+    fn floor(self) -> Self;
+    /// `above` where this number is positive, `below` where it is not; both, joined, where an interval straddles zero.
+    #[must_use]
+    fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self;
+    /// `self - sin(self)` for `self >= 0` without cancellation near zero, given `sine = sin(self)` found some other way.
+    fn minus_sine(self, sine: Self) -> Self;
 
     /// Zero.
     #[must_use]
@@ -110,6 +120,20 @@ pub trait Scalar: Real + PartialOrd {
     }
 }
 
+/// `x - sin x`: the series below one, where the difference cancels; its first term left out is below 2e-17 of the sum.
+pub(super) fn minus_sine<S: Scalar>(x: S, sine: S) -> S {
+    if x >= S::one() {
+        return x - sine;
+    }
+    let square = x * x;
+    let mut sum = S::one();
+    for order in (5..=17).rev().step_by(2) {
+        let factor = f64::from(order) * f64::from(order - 1);
+        sum = S::one() - sum * square / S::from_f64(factor);
+    }
+    sum * square * x / S::from_f64(6.0)
+}
+
 /// Forwards to `libm` rather than to the platform, so that results are the same on every machine.
 macro_rules! float {
     ($float:ident, $($method:ident = $function:ident),+) => {
@@ -138,6 +162,22 @@ macro_rules! float {
             #[inline]
             fn max(self, other: Self) -> Self {
                 if other > self { other } else { self }
+            }
+            #[inline]
+            fn floor(self) -> Self {
+                libm::Libm::<$float>::floor(self)
+            }
+            #[inline]
+            fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
+                if self > 0.0 { above() } else { below() }
+            }
+            #[inline]
+            fn minus_sine(self, sine: Self) -> Self {
+                minus_sine(self, sine)
+            }
+            #[inline]
+            fn pow(self, exponent: Self) -> Self {
+                libm::Libm::<$float>::pow(self, exponent)
             }
             $(
                 #[inline]

@@ -1,0 +1,150 @@
+//! Named parameters: one declaration gives a characteristic its struct, its checks and its catalogue entry.
+
+use super::NonlinearityError;
+use crate::numeric::Real;
+
+/// The numbers a parameter may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Domain {
+    /// Any finite number.
+    Finite,
+    /// A finite number, zero or more.
+    NonNegative,
+    /// A finite number above zero.
+    Positive,
+}
+
+impl Domain {
+    /// In words, as error messages and help texts have it.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Finite => "a finite number",
+            Self::NonNegative => "a finite number, 0 or more",
+            Self::Positive => "a finite number above 0",
+        }
+    }
+
+    fn holds<T: Real>(self, value: T) -> bool {
+        let (lower, upper) = value.bounds();
+        let least = match self {
+            Self::Finite => lower > f64::NEG_INFINITY,
+            Self::NonNegative => lower >= 0.0,
+            Self::Positive => lower > 0.0,
+        };
+        least && upper < f64::INFINITY
+    }
+}
+
+/// Name, meaning, domain and default of one parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// The name used in `--set name=value`.
+    pub name: &'static str,
+    /// Meaning and unit.
+    pub meaning: &'static str,
+    /// The numbers it may be.
+    pub domain: Domain,
+    /// The value when none is given; `None` where the user has to choose.
+    pub default: Option<f64>,
+}
+
+impl Parameter {
+    pub(super) fn check<T: Real>(&self, characteristic: &'static str, value: T) -> Result<(), NonlinearityError> {
+        if self.domain.holds(value) {
+            return Ok(());
+        }
+        let (value, parameter, required) = (value.bounds().0, self.name, self.domain.words());
+        Err(NonlinearityError::Parameter { characteristic, parameter, value, required })
+    }
+}
+
+/// A characteristic that the catalogue can build by name.
+pub trait Catalogued<T>: Sized {
+    /// Name in the catalogue and on the command line.
+    const NAME: &'static str;
+    /// Its parameters, in the order of [`from_values`](Self::from_values).
+    const PARAMETERS: &'static [Parameter];
+
+    /// Builds it from one value for each parameter.
+    ///
+    /// # Errors
+    /// [`NonlinearityError`] where a value is outside its domain. Values that are missing count as NaN.
+    fn from_values(values: &[T]) -> Result<Self, NonlinearityError>;
+}
+
+/// `lesser < greater`, or the error that says so.
+pub(super) fn ordered<T: Real>(
+    characteristic: &'static str,
+    (lesser, low): (&'static str, T),
+    (greater, high): (&'static str, T),
+) -> Result<(), NonlinearityError> {
+    let (lesser_value, greater_value) = (low.bounds().1, high.bounds().0);
+    if lesser_value < greater_value {
+        return Ok(());
+    }
+    Err(NonlinearityError::Order { characteristic, lesser, lesser_value, greater, greater_value })
+}
+
+/// Declares a characteristic: documentation, catalogue name, struct, then for each parameter its meaning, name, domain and
+/// (optionally) default; last, order relations between parameters.
+macro_rules! characteristic {
+    (
+        $(#[$doc:meta])*
+        $name:literal $type:ident {
+            $( #[doc = $meaning:literal] $parameter:ident: $domain:ident $(= $default:literal)? ),+ $(,)?
+        }
+        $(where $($lesser:ident < $greater:ident),+)?
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $type<T> { $($parameter: T),+ }
+
+        impl<T: $crate::numeric::Real> $type<T> {
+            #[doc = concat!("A `", $name, "` with the parameters of the struct's documentation.\n\n# Errors\n",
+                "[`NonlinearityError`](super::NonlinearityError) where a parameter is outside its domain.")]
+            pub fn new($($parameter: T),+) -> Result<Self, super::NonlinearityError> {
+                let values = [$($parameter),+];
+                for (parameter, value) in <Self as super::Catalogued<T>>::PARAMETERS.iter().zip(values) {
+                    parameter.check($name, value)?;
+                }
+                $($(
+                    super::parameter::ordered(
+                        $name,
+                        (stringify!($lesser), $lesser),
+                        (stringify!($greater), $greater),
+                    )?;
+                )+)?
+                Ok(Self { $($parameter),+ })
+            }
+            $(
+                #[doc = $meaning]
+                #[inline]
+                pub fn $parameter(&self) -> T {
+                    self.$parameter
+                }
+            )+
+        }
+
+        impl<T: $crate::numeric::Real> super::Catalogued<T> for $type<T> {
+            const NAME: &'static str = $name;
+            const PARAMETERS: &'static [super::Parameter] = &[$(
+                super::Parameter {
+                    name: stringify!($parameter),
+                    meaning: $meaning.trim_ascii(),
+                    domain: super::Domain::$domain,
+                    default: characteristic!(@default $($default)?),
+                }
+            ),+];
+            fn from_values(values: &[T]) -> Result<Self, super::NonlinearityError> {
+                let mut values = values.iter().copied();
+                let mut next = || values.next().unwrap_or_else(|| T::from_f64(f64::NAN));
+                $(let $parameter = next();)+
+                Self::new($($parameter),+)
+            }
+        }
+    };
+    (@default) => { None };
+    (@default $default:literal) => { Some($default) };
+}
+pub(super) use characteristic;
