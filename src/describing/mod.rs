@@ -1,1 +1,56 @@
-//! (to be written)
+//! Describing functions of a biased sinusoid: `F_0`, `P`, `Q` of eqs. 7-15.
+//!
+//! Two ways that share nothing but the characteristic: the [closed form](ClosedForm), which sums the harmonics of the
+//! kernels a characteristic is made of (or a formula of its own, for a power law), and [quadrature](by_quadrature) of its
+//! output.
+
+#[cfg(feature = "std")]
+mod catalogue;
+mod closed_form;
+mod error;
+mod harmonics;
+mod power;
+#[cfg(feature = "std")]
+mod quadrature;
+mod relay;
+
+#[cfg(feature = "std")]
+pub use catalogue::{Boxed, CATALOGUE, CatalogueError, Entry};
+pub use closed_form::ClosedForm;
+pub use error::DescribingError;
+#[cfg(feature = "std")]
+pub use quadrature::{by_quadrature, harmonic};
+pub use relay::bias_of_output;
+
+use crate::numeric::Real;
+
+/// Static term and complex gain of a characteristic at one bias and amplitude: its output is
+/// `f0 + amplitude (p sin(theta) + q cos(theta)) +` higher harmonics (eqs. 11-15), where the input is
+/// `bias + amplitude sin(theta)`.
+///
+/// It says nothing of the higher harmonics that it leaves out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DescribingFunction<T> {
+    /// Mean of the output, `F_0 = Y_0`, in output units.
+    pub f0: T,
+    /// In-phase gain `P = Y_P1 / X`, output units per input unit.
+    pub p: T,
+    /// Quadrature gain `Q = Y_Q1 / X`, output units per input unit; negative where the output lags.
+    pub q: T,
+}
+
+impl<T: Real> DescribingFunction<T> {
+    /// The gain seen through a dead time of `phase_rad = w T_d` (eq. 34): rotated by `+phase_rad`, so that the
+    /// identification equations of the undelayed plant hold.
+    ///
+    /// ```
+    /// use selfosc::describing::DescribingFunction;
+    /// let turned = DescribingFunction { f0: 0.0, p: 1.0, q: 0.0 }.delayed(core::f64::consts::FRAC_PI_2);
+    /// assert!((turned.q + 1.0).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn delayed(self, phase_rad: T) -> Self {
+        let (cos, sin) = (phase_rad.cos(), phase_rad.sin());
+        Self { f0: self.f0, p: self.p * cos + self.q * sin, q: self.q * cos - self.p * sin }
+    }
+}

@@ -2,6 +2,8 @@
 
 #[cfg(feature = "std")]
 mod dual;
+#[cfg(feature = "std")]
+pub mod quadrature;
 mod real;
 
 pub use real::{Real, Scalar};

@@ -1,0 +1,43 @@
+//! Why there is no describing function.
+
+use crate::nonlinearity::NonlinearityError;
+
+/// Why a describing function cannot be given. Values are in the caller's input and output units.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DescribingError {
+    /// The characteristic or its input is at fault.
+    #[error(transparent)]
+    Nonlinearity(#[from] NonlinearityError),
+    /// Quadrature ran out of cells before the error estimate met the tolerance.
+    #[error(
+        "quadrature stopped at an estimated error of {estimate} (limit {tolerance}) after {cells} cells; \
+         name the input values at which the function has kinks"
+    )]
+    Quadrature {
+        /// Estimated error of the integral.
+        estimate: f64,
+        /// The error asked for.
+        tolerance: f64,
+        /// Cells used.
+        cells: usize,
+    },
+    /// The output is not a number somewhere on the sweep.
+    #[error("the output is {output} at input {input}; restrict amplitude and bias to where the function is finite")]
+    NotFinite {
+        /// The input.
+        input: f64,
+        /// The output there.
+        output: f64,
+    },
+    /// No closed form for this case.
+    #[error("{characteristic}: no closed form with bias = {bias} and exponent = {exponent}; use quadrature")]
+    NoClosedForm {
+        /// Catalogue name of the characteristic.
+        characteristic: &'static str,
+        /// Bias of the input.
+        bias: f64,
+        /// Exponent of the power law.
+        exponent: f64,
+    },
+}

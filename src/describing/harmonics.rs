@@ -1,0 +1,185 @@
+//! Mean and first harmonic of each kernel: the one place where the piecewise-linear catalogue is integrated.
+//!
+//! With `u = (at - bias) / amplitude` held to `[-1, 1]` and `phi = acos(u)`, a step above `at` covers the arc of width
+//! `2 phi` around the maximum of the input, half of it on each branch. `1 - u` and `phi` are formed from the distances of
+//! the breakpoint to the two turning points, so that nothing cancels where the sweep barely passes it.
+
+use core::ops::{Add, Mul, Sub};
+
+use crate::nonlinearity::{Branches, Kernel, Side, Sinusoid};
+use crate::numeric::Real;
+
+/// `mean + sine sin(theta) + cosine cos(theta)`: output units.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Harmonics<T> {
+    pub(super) mean: T,
+    pub(super) sine: T,
+    pub(super) cosine: T,
+}
+
+impl<T: Real> Add for Harmonics<T> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self { mean: self.mean + other.mean, sine: self.sine + other.sine, cosine: self.cosine + other.cosine }
+    }
+}
+
+impl<T: Real> Sub for Harmonics<T> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + other * -T::one()
+    }
+}
+
+impl<T: Real> Mul<T> for Harmonics<T> {
+    type Output = Self;
+    fn mul(self, factor: T) -> Self {
+        Self { mean: self.mean * factor, sine: self.sine * factor, cosine: self.cosine * factor }
+    }
+}
+
+impl<T: Real> Harmonics<T> {
+    pub(super) fn zero() -> Self {
+        Self { mean: T::zero(), sine: T::zero(), cosine: T::zero() }
+    }
+
+    /// Of one kernel under `sweep`.
+    pub(super) fn of(kernel: Kernel<T>, sweep: &Sinusoid<T>) -> Self {
+        match kernel {
+            Kernel::Constant { value, branches } => constant().on(branches) * value,
+            Kernel::Line { slope } => Self { mean: sweep.bias(), sine: sweep.amplitude(), cosine: T::zero() } * slope,
+            Kernel::Sign { at, level, branches } => Arc::above(at, sweep).sign().on(branches) * level,
+            Kernel::Step { at, height, side, branches } => arc(at, sweep, side, Arc::step).on(branches) * height,
+            Kernel::Ramp { at, slope, side, branches } => arc(at, sweep, side, Arc::ramp).on(branches) * slope,
+            Kernel::Band { lower, upper, slope } => band(lower, upper, sweep) * slope,
+        }
+    }
+
+    /// Takes what the rising branch alone contributes: the falling branch mirrors it at the maximum.
+    fn on(self, branches: Branches) -> Self {
+        match branches {
+            Branches::Rising => self,
+            Branches::Falling => Self { cosine: -self.cosine, ..self },
+            Branches::Both => Self { mean: self.mean + self.mean, sine: self.sine + self.sine, cosine: T::zero() },
+        }
+    }
+}
+
+/// The constant one on the rising branch.
+fn constant<T: Real>() -> Harmonics<T> {
+    Harmonics { mean: T::from_f64(0.5), sine: T::zero(), cosine: T::two() / T::pi() }
+}
+
+/// A kernel on either side of `at`: below is above, of the input turned upside down.
+fn arc<T: Real>(at: T, sweep: &Sinusoid<T>, side: Side, kernel: fn(Arc<T>) -> Harmonics<T>) -> Harmonics<T> {
+    match side {
+        Side::Above => kernel(Arc::above(at, sweep)),
+        Side::Below => {
+            let mirrored = kernel(Arc::below(at, sweep));
+            Harmonics { sine: -mirrored.sine, ..mirrored }
+        }
+    }
+}
+
+/// The part of the rising branch on which the input is beyond a breakpoint.
+#[derive(Clone, Copy)]
+struct Arc<T> {
+    amplitude: T,
+    /// `1 - u` and `1 + u`, both in `[0, 2]`.
+    one_minus_u: T,
+    one_plus_u: T,
+    /// `sin(phi)`.
+    sine: T,
+    /// How far the breakpoint lies outside the sweep on the far side, in input units: the kernel then never rests.
+    beyond: T,
+}
+
+impl<T: Real> Arc<T> {
+    fn above(at: T, sweep: &Sinusoid<T>) -> Self {
+        Self::new(sweep.maximum() - at, at - sweep.minimum(), sweep.amplitude())
+    }
+
+    fn below(at: T, sweep: &Sinusoid<T>) -> Self {
+        Self::new(at - sweep.minimum(), sweep.maximum() - at, sweep.amplitude())
+    }
+
+    /// From the breakpoint's distances to the turning point on the kernel's side and to the one on the other.
+    fn new(near: T, far: T, amplitude: T) -> Self {
+        let hold = |distance: T| (distance / amplitude).max(T::zero()).min(T::two());
+        let (one_minus_u, one_plus_u) = (hold(near), hold(far));
+        let sine = (one_minus_u * one_plus_u).sqrt();
+        Self { amplitude, one_minus_u, one_plus_u, sine, beyond: (-far).max(T::zero()) }
+    }
+
+    fn u(self) -> T {
+        (self.one_plus_u - self.one_minus_u) / T::two()
+    }
+
+    /// `acos(u)` from the nearer end.
+    fn phi(self) -> T {
+        let from = |end: T| T::two() * (end / T::two()).sqrt().asin();
+        (self.one_plus_u - self.one_minus_u).select(|| T::pi() - from(self.one_plus_u), || from(self.one_minus_u))
+    }
+
+    fn sign(self) -> Harmonics<T> {
+        let pi = T::pi();
+        Harmonics { mean: -self.u().asin() / pi, sine: T::two() * self.sine / pi, cosine: -T::two() * self.u() / pi }
+    }
+
+    fn step(self) -> Harmonics<T> {
+        let pi = T::pi();
+        Harmonics { mean: self.phi() / (pi + pi), sine: self.sine / pi, cosine: self.one_minus_u / pi }
+    }
+
+    /// `sin(phi) - phi cos(phi)` and `phi - sin(phi) cos(phi)` by way of `x - sin(x)`, which small arcs need.
+    fn ramp(self) -> Harmonics<T> {
+        let (phi, twice) = (self.phi(), T::two() * self.phi());
+        let scale = self.amplitude / (T::two() * T::pi());
+        let half = T::from_f64(0.5);
+        Harmonics {
+            mean: scale * (phi * self.one_minus_u - phi.minus_sine(self.sine)) + half * self.beyond,
+            sine: scale * half * twice.minus_sine(T::two() * self.sine * self.u()),
+            cosine: scale * self.one_minus_u.square() + constant::<T>().cosine * self.beyond,
+        }
+    }
+
+    /// `(asin(u) + u sqrt(1 - u^2)) / pi`: first harmonic of what lies below the breakpoint, from the middle.
+    fn middle_sine(self) -> T {
+        (self.u().asin() + self.u() * self.sine) / T::pi()
+    }
+
+    /// `(sqrt(1 - u^2) + u asin(u)) / pi`, the mean distance to the breakpoint over twice the amplitude.
+    fn middle_mean(self) -> T {
+        (self.sine + self.u() * self.u().asin()) / T::pi()
+    }
+}
+
+/// The input held between two breakpoints.
+///
+/// Three forms of one value: from the middle, where the turning points lie on either side, and as a difference of ramps
+/// where the whole band is near one turning point.
+fn band<T: Real>(lower: T, upper: T, sweep: &Sinusoid<T>) -> Harmonics<T> {
+    let (low, high) = (Arc::above(lower, sweep), Arc::above(upper, sweep));
+    let ramp = |at, side| arc(at, sweep, side, Arc::ramp).on(Branches::Both);
+    let near_maximum = || (ramp(lower, Side::Above) - ramp(upper, Side::Above), lower);
+    let near_minimum = || (ramp(lower, Side::Below) - ramp(upper, Side::Below), upper);
+    let middle = || {
+        let overshoot = |at: T| (at - sweep.maximum()).max(sweep.minimum() - at).max(T::zero()) / T::two();
+        let mean = sweep.amplitude() * (low.middle_mean() - high.middle_mean()) + overshoot(lower) - overshoot(upper);
+        let sine = sweep.amplitude() * (high.middle_sine() - low.middle_sine());
+        (Harmonics { mean, sine, cosine: T::zero() }, (lower + upper) / T::two())
+    };
+    let half = T::from_f64(0.5);
+    let component = |pick: fn(Harmonics<T>, T) -> T| {
+        let value = |(harmonics, level)| pick(harmonics, level);
+        (low.u() - half).select(
+            || (-half - high.u()).select(|| value(middle()), || value(near_minimum())),
+            || value(near_maximum()),
+        )
+    };
+    Harmonics {
+        mean: component(|harmonics, level| harmonics.mean + level),
+        sine: component(|harmonics, _| harmonics.sine),
+        cosine: T::zero(),
+    }
+}

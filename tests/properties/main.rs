@@ -1,0 +1,4 @@
+//! Property tests: what must hold for every input.
+
+mod describing;
+mod tolerance;

@@ -1,0 +1,5 @@
+//! The one table of tolerances. Each is the smallest that its reason allows.
+
+/// Closed form against quadrature, relative to the largest output: the quadrature stops at 1e-13 of the integrand for
+/// each of at most a dozen pieces.
+pub(crate) const QUADRATURE: f64 = 2e-12;
