@@ -1,4 +1,5 @@
 //! Property tests: what must hold for every input.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
 mod describing;
 mod tolerance;
