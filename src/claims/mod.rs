@@ -11,6 +11,8 @@ mod family;
 pub mod tolerance;
 
 pub mod fourier;
+pub mod identification;
+pub mod relay;
 pub mod symmetry;
 
 pub use claim::{Checker, Claim, Finding, Hypothesis, Kind, Printed};
@@ -29,6 +31,25 @@ macro_rules! for_each_claim {
             fourier::SINE_ABS_SINE,
             symmetry::LEMMA_1,
             symmetry::LEMMA_2,
+            relay::RELAY_Q,
+            relay::RELAY_P,
+            relay::RELAY_F0,
+            relay::SECOND_QUADRANT,
+            relay::NOISE,
+            relay::SWITCHING_CONDITION,
+            relay::SAMPLED_LEVEL,
+            identification::FIRST_HARMONIC,
+            identification::LINEAR_DRAG,
+            identification::QUADRATIC_DRAG,
+            identification::TABLE_3,
+            identification::DELAY_ROTATION,
+            identification::QUANTISATION_ALPHA,
+            identification::QUANTISATION_BETA,
+            identification::QUANTISATION_BETA_XX,
+            identification::QUANTISATION_ZERO,
+            identification::RELATIVE_SPREAD,
+            identification::DRAG_DECISION,
+            identification::ZIG_ZAG,
         }
     };
 }

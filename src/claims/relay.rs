@@ -104,8 +104,12 @@ fn mean_output(budget: Budget, sign: f64) -> Verdict {
         let high = PI - rising + falling;
         let by_time = sign * bias_of_output(s.level, high, 2.0 * PI - high) + s.offset;
         let scale = s.level + s.offset.abs();
-        draw.equal(("by_angle", by_angle), s.integral.f0, scale, tolerance::QUADRATURE)
-            .and(draw.equal(("by_time", by_time), s.integral.f0, scale, tolerance::QUADRATURE))
+        draw.equal(("by_angle", by_angle), s.integral.f0, scale, tolerance::QUADRATURE).and(draw.equal(
+            ("by_time", by_time),
+            s.integral.f0,
+            scale,
+            tolerance::QUADRATURE,
+        ))
     })
 }
 
@@ -190,7 +194,8 @@ fn condition(budget: Budget, limit: f64) -> Verdict {
         let amplitude = draw.uniform("amplitude", 0.1, 4.0);
         let meets = (half_width + bias.abs()) / amplitude <= limit;
         let radicands = [half_width - bias, half_width + bias].map(|distance| 1.0 - (distance / amplitude).powi(2));
-        let (Ok(relay), Ok(sweep)) = (RelayHysteresis::new(1.0, half_width, 0.0), Sinusoid::new(bias, amplitude)) else {
+        let (Ok(relay), Ok(sweep)) = (RelayHysteresis::new(1.0, half_width, 0.0), Sinusoid::new(bias, amplitude))
+        else {
             return Case::Skipped;
         };
         let real = radicands.iter().all(|radicand| *radicand >= 0.0);

@@ -1,1 +1,5 @@
-//! (to be written)
+//! The experiment: a relay in the loop.
+
+mod relay;
+
+pub use relay::Relay;

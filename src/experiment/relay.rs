@@ -1,0 +1,45 @@
+//! The relay as a state machine.
+
+use crate::nonlinearity::RelayHysteresis;
+use crate::numeric::Scalar;
+
+/// A relay with hysteresis that remembers which of its two outputs it has.
+///
+/// ```
+/// use selfosc::experiment::Relay;
+/// use selfosc::nonlinearity::RelayHysteresis;
+/// let mut relay = Relay::new(RelayHysteresis::new(1.0, 0.2, 0.0)?, false);
+/// assert_eq!(relay.step(0.1), -1.0);
+/// assert_eq!(relay.step(0.3), 1.0);
+/// assert_eq!(relay.step(-0.1), 1.0);
+/// # Ok::<(), selfosc::nonlinearity::NonlinearityError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Relay<T> {
+    characteristic: RelayHysteresis<T>,
+    high: bool,
+}
+
+impl<T: Scalar> Relay<T> {
+    /// A relay at its high or low output.
+    pub fn new(characteristic: RelayHysteresis<T>, high: bool) -> Self {
+        Self { characteristic, high }
+    }
+
+    /// Output after the input has become `input`: high from `half_width` upwards, low from `-half_width` downwards, else as
+    /// it was. An input that is not a number changes nothing.
+    pub fn step(&mut self, input: T) -> T {
+        if input >= self.characteristic.half_width() {
+            self.high = true;
+        } else if input <= -self.characteristic.half_width() {
+            self.high = false;
+        }
+        self.output()
+    }
+
+    /// The output it has now.
+    pub fn output(&self) -> T {
+        let level = self.characteristic.level();
+        self.characteristic.offset() + if self.high { level } else { -level }
+    }
+}
