@@ -1,1 +1,7 @@
-//! (to be written)
+//! Plants: what the relay drives.
+
+mod drag_axis;
+mod error;
+
+pub use drag_axis::DragAxis;
+pub use error::PlantError;
