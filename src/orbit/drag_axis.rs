@@ -1,0 +1,194 @@
+//! Limit cycle of a drag axis under a relay with hysteresis.
+
+use super::OrbitError;
+use super::half_cycle::{HalfCycle, Swing};
+use crate::nonlinearity::RelayHysteresis;
+use crate::numeric::Scalar;
+use crate::plant::DragAxis;
+
+/// The moment at which another command begins to act, delay included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Switching<T> {
+    /// Position x there; beyond the relay's half-width by the way made during the delay.
+    pub position: T,
+    /// Velocity x' there.
+    pub velocity: T,
+}
+
+/// A self-oscillation about the reference zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct LimitCycle<T> {
+    /// Half the peak-to-peak range, X_m.
+    pub amplitude: T,
+    /// Middle of the range; in general neither the time mean nor the constant term of a Fourier series.
+    pub bias: T,
+    /// Largest position.
+    pub maximum: T,
+    /// Smallest position.
+    pub minimum: T,
+    /// Period T, in s.
+    pub period_s: T,
+    /// Time per period with the positive command, t_plus, in s.
+    pub time_positive_s: T,
+    /// Time per period with the negative command, t_minus, in s.
+    pub time_negative_s: T,
+    /// Where the negative command begins to act: x rises there.
+    pub upper_switch: Switching<T>,
+    /// Where the positive command begins to act: x falls there.
+    pub lower_switch: Switching<T>,
+    /// Factor by which a small deviation shrinks from one period to the next: the slope of the return map, in (0, 1).
+    pub multiplier: T,
+}
+
+/// A point of the return map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Return<T> {
+    /// Speed one period later.
+    pub speed: T,
+    /// Its derivative with respect to the speed now.
+    pub derivative: T,
+}
+
+/// The limit cycle of `axis` under `relay`, with reference zero.
+///
+/// Exact up to rounding: the motion between switchings is in closed form (see [`OneWay`](crate::plant::OneWay)), and the
+/// two times from rest to the relay's levels solve two equations by Newton's method. The lengths of successive
+/// approaches map onto each other by increasing, concave functions, so without a delay Newton's method converges from
+/// every start.
+///
+/// A delay of any length is allowed. A half cycle always outlasts it: the axis turns only after a command has acted, and
+/// must turn before the next. So at most one command is on its way. A delay longer than the period without delay also
+/// admits faster periodic motions with several commands on their way (the limit cycles for the delay less some whole
+/// number of their own periods); those are not what this gives.
+///
+/// In dual numbers the result carries its derivatives with respect to every parameter.
+///
+/// ```
+/// use selfosc::{nonlinearity::RelayHysteresis, orbit::limit_cycle, plant::DragAxis};
+/// let axis = DragAxis::quadratic(1.0, 0.5)?;
+/// let cycle = limit_cycle(&axis, &RelayHysteresis::new(1.0, 0.3, 0.0)?)?;
+/// let y = (1.0 - (-4.0 * 0.5 * 0.3f64).exp()).sqrt();
+/// assert!((cycle.amplitude - (0.3 + (1.0 + y).ln())).abs() < 1e-14);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`OrbitError::Drift`], [`OrbitError::NoDrag`] and [`OrbitError::NoHysteresis`] where there is no limit cycle,
+/// [`OrbitError::Unresolved`] where rounding hides it.
+pub fn limit_cycle<S: Scalar>(axis: &DragAxis<S>, relay: &RelayHysteresis<S>) -> Result<LimitCycle<S>, OrbitError> {
+    let halves = HalfCycle::pair(axis, relay)?;
+    let (times, [upward, downward]) = solve(&halves)?;
+    let (half_width, delay_s) = (relay.half_width(), axis.delay_s());
+    let (above, below) = (upward.overshoot, downward.overshoot);
+    let (maximum, minimum) = (half_width + above.excursion, -(half_width + below.excursion));
+    let time_positive_s = below.stop_time_s + times[0] + delay_s;
+    let time_negative_s = above.stop_time_s + times[1] + delay_s;
+    let half = S::from_f64(0.5);
+    Ok(LimitCycle {
+        amplitude: half_width + half * (above.excursion + below.excursion),
+        bias: half * (above.excursion - below.excursion),
+        maximum,
+        minimum,
+        period_s: time_positive_s + time_negative_s,
+        time_positive_s,
+        time_negative_s,
+        upper_switch: Switching { position: half_width + above.switch_lag, velocity: above.switch_speed },
+        lower_switch: Switching { position: -(half_width + below.switch_lag), velocity: -below.switch_speed },
+        multiplier: upward.gain * downward.gain,
+    })
+}
+
+/// The return map of the speed at which x rises past the relay's half-width, one period on.
+///
+/// Without delay it is the speed at switching. The map is increasing; its one fixed point belongs to the limit cycle.
+///
+/// ```
+/// use selfosc::{nonlinearity::RelayHysteresis, orbit::return_map, plant::DragAxis};
+/// let axis = DragAxis::quadratic(1.0, 0.5)?;
+/// let relay = RelayHysteresis::new(1.0, 0.3, 0.0)?;
+/// let fixed = (2.0 * (1.0 - (-0.6f64).exp()).sqrt()).sqrt();
+/// assert!((return_map(&axis, &relay, fixed)?.speed - fixed).abs() < 1e-14);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`OrbitError::Speed`] unless `speed` is finite and zero or more; otherwise as [`limit_cycle`].
+pub fn return_map<S: Scalar>(
+    axis: &DragAxis<S>,
+    relay: &RelayHysteresis<S>,
+    speed: S,
+) -> Result<Return<S>, OrbitError> {
+    let [upward, downward] = HalfCycle::pair(axis, relay)?;
+    if !(speed >= S::zero() && speed.is_finite()) {
+        return Err(OrbitError::Speed { speed: speed.value() });
+    }
+    let unresolved = OrbitError::Unresolved { multiplier: f64::NAN };
+    let mut point = Return { speed, derivative: S::one() };
+    for (from, to) in [(upward, downward), (downward, upward)] {
+        let overshoot = from.overshoot(point.speed);
+        let approach = from.approach_after(overshoot.excursion);
+        if !(approach > S::zero()) {
+            return Err(unresolved);
+        }
+        let (speed, slope) = to.level_speed(approach).ok_or(unresolved)?;
+        point = Return { speed, derivative: slope * overshoot.gain * point.derivative };
+    }
+    Ok(point)
+}
+
+/// Newton steps allowed; about six are needed.
+const MAX_STEPS: usize = 60;
+
+/// Times from rest to the levels on the limit cycle, with the swings they give.
+type Solution<S> = ([S; 2], [Swing<S>; 2]);
+
+/// Newton's method for the lengths of the two approaches, with the times as coordinates.
+fn solve<S: Scalar>(halves: &[HalfCycle<S>; 2]) -> Result<Solution<S>, OrbitError> {
+    let one = S::one();
+    let mean_drive = (halves[0].drive.drive + halves[1].drive.drive) / S::two();
+    let mut times =
+        [halves[0].time_guess(mean_drive), halves[1].time_guess(mean_drive)].map(|t| S::from_f64(t.value()));
+    // Convergence is quadratic: the step after one as small as this is below rounding.
+    let tolerance = S::epsilon().sqrt() / S::from_f64(16.0);
+    let mut multiplier = f64::NAN;
+    for _ in 0..MAX_STEPS {
+        let swings = [halves[0].swing(times[0]), halves[1].swing(times[1])];
+        let [upward, downward] = swings;
+        let contraction = one - upward.gain * downward.gain;
+        multiplier = (one - contraction).value();
+        if contraction <= S::zero() {
+            // Left of where the map contracts, which happens only with a delay.
+            times = times.map(|time| S::two() * time);
+            continue;
+        }
+        let miss = [
+            halves[1].approach_after(upward.overshoot.excursion) - downward.approach,
+            halves[0].approach_after(downward.overshoot.excursion) - upward.approach,
+        ];
+        let steps = [
+            upward.prolongation((miss[1] + downward.gain * miss[0]) / contraction),
+            downward.prolongation((miss[0] + upward.gain * miss[1]) / contraction),
+        ];
+        if !(steps[0].is_finite() && steps[1].is_finite()) {
+            break;
+        }
+        let settled = steps[0].abs() <= tolerance * times[0] && steps[1].abs() <= tolerance * times[1];
+        for (time, step) in times.iter_mut().zip(steps) {
+            *time = (*time + step).max(*time / S::from_f64(8.0));
+        }
+        if settled && contraction > S::from_f64(1e3) * S::epsilon() {
+            return Ok((times, [halves[0].swing(times[0]), halves[1].swing(times[1])]));
+        }
+    }
+    Err(OrbitError::Unresolved { multiplier })
+}
+
+impl<S: Scalar> Swing<S> {
+    /// Time that lengthens the approach by `length`, to second order.
+    fn prolongation(&self, length: S) -> S {
+        let (speed, acceleration) = (self.level_speed, self.level_acceleration);
+        let square = speed * speed + S::two() * acceleration * length;
+        S::two() * length / (speed + square.max(S::zero()).sqrt())
+    }
+}

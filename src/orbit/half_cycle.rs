@@ -1,0 +1,147 @@
+//! One half of a cycle: from the turning point across the relay's level to the next turning point.
+
+use super::OrbitError;
+use crate::nonlinearity::RelayHysteresis;
+use crate::numeric::Scalar;
+use crate::plant::{DragAxis, OneWay};
+
+/// The half cycle that one command drives.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HalfCycle<S> {
+    /// Motion from rest until the other command acts.
+    pub(super) drive: OneWay<S>,
+    /// Motion after that until rest.
+    pub(super) brake: OneWay<S>,
+    delay_s: S,
+    half_width: S,
+}
+
+/// What happens from the crossing of the relay's level to rest.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Overshoot<S> {
+    /// Speed when the other command begins to act.
+    pub(super) switch_speed: S,
+    /// Way from the relay's level to the place where the other command begins to act.
+    pub(super) switch_lag: S,
+    /// Time from then to rest.
+    pub(super) stop_time_s: S,
+    /// Way from the relay's level to rest.
+    pub(super) excursion: S,
+    /// Derivative of the excursion with respect to the speed at the level, in s.
+    pub(super) gain: S,
+}
+
+/// The half cycle seen from the turning point before it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Swing<S> {
+    /// Speed at the relay's level.
+    pub(super) level_speed: S,
+    /// Acceleration there.
+    pub(super) level_acceleration: S,
+    /// Way from the turning point to the relay's level.
+    pub(super) approach: S,
+    pub(super) overshoot: Overshoot<S>,
+    /// Derivative of the next approach with respect to this one.
+    pub(super) gain: S,
+}
+
+impl<S: Scalar> HalfCycle<S> {
+    /// The upward half (command positive) and the downward half, or the reason why there is no oscillation.
+    pub(super) fn pair(axis: &DragAxis<S>, relay: &RelayHysteresis<S>) -> Result<[Self; 2], OrbitError> {
+        let (zero, level) = (S::zero(), relay.level());
+        let constant = axis.disturbance() + relay.offset();
+        let (upward, downward) = (level + constant, level - constant);
+        if !(upward > zero && downward > zero) {
+            return Err(OrbitError::Drift {
+                disturbance: axis.disturbance().value(),
+                offset: relay.offset().value(),
+                level: level.value(),
+            });
+        }
+        if axis.linear_drag() <= zero && axis.quadratic_drag() <= zero {
+            return Err(OrbitError::NoDrag);
+        }
+        if relay.half_width() <= zero && axis.delay_s() <= zero {
+            return Err(OrbitError::NoHysteresis);
+        }
+        let (delay_s, half_width) = (axis.delay_s(), relay.half_width());
+        let half =
+            |drive, brake: S| Self { drive: axis.one_way(drive), brake: axis.one_way(-brake), delay_s, half_width };
+        Ok([half(upward, downward), half(downward, upward)])
+    }
+
+    /// From the crossing of the level with `level_speed`.
+    pub(super) fn overshoot(&self, level_speed: S) -> Overshoot<S> {
+        let lag = self.drive.advance(level_speed, self.delay_s);
+        self.stop(lag.speed, lag.distance, lag.speed_gain, lag.distance_gain)
+    }
+
+    /// From rest, `time_s` before the crossing of the level.
+    pub(super) fn swing(&self, time_s: S) -> Swing<S> {
+        let approach = self.drive.advance(S::zero(), time_s);
+        // The speed gain is also the ratio of the accelerations at both ends; no difference cancels in it.
+        let acceleration = self.drive.drive * approach.speed_gain;
+        let overshoot = if self.delay_s == S::zero() {
+            // First order in the delay: exact, and a dual number keeps its derivative.
+            let (lag, gain) = (self.delay_s * approach.speed, self.delay_s * acceleration);
+            self.stop(approach.speed + gain, lag, S::one(), self.delay_s)
+        } else {
+            self.overshoot(approach.speed)
+        };
+        Swing {
+            level_speed: approach.speed,
+            level_acceleration: acceleration,
+            approach: approach.distance,
+            overshoot,
+            gain: overshoot.gain * acceleration / approach.speed,
+        }
+    }
+
+    fn stop(&self, speed: S, lag: S, speed_gain: S, lag_gain: S) -> Overshoot<S> {
+        // The drive of a brake is negative, so there is always a rest.
+        let stop_time_s = self.brake.time_to_rest(speed).unwrap_or(S::zero());
+        let stop = self.brake.advance(speed, stop_time_s).distance;
+        let braking = -self.brake.acceleration(speed);
+        Overshoot {
+            switch_speed: speed,
+            switch_lag: lag,
+            stop_time_s,
+            excursion: lag + stop,
+            gain: lag_gain + speed_gain * speed / braking,
+        }
+    }
+
+    /// Way from the turning point reached by an overshoot to the other level.
+    pub(super) fn approach_after(&self, excursion: S) -> S {
+        excursion + S::two() * self.half_width
+    }
+
+    /// Speed at the level after an approach from rest, and its derivative with respect to the length of the approach.
+    pub(super) fn level_speed(&self, approach: S) -> Option<(S, S)> {
+        let time = self.drive.time_to_distance(S::zero(), approach)?;
+        let passage = self.drive.advance(S::zero(), time);
+        Some((passage.speed, self.drive.drive * passage.speed_gain / passage.speed))
+    }
+
+    /// Near the time from rest to the level on the limit cycle, within a factor of about two.
+    pub(super) fn time_guess(&self, mean_drive: S) -> S {
+        let OneWay { linear, quadratic, .. } = self.drive;
+        let (x, t) = (self.half_width, self.delay_s);
+        let thrust = mean_drive * mean_drive;
+        let number = S::from_f64;
+        let third = number(1.0 / 3.0);
+        // Weak drag: what the relay does in a half cycle, drag undoes over a half cycle of speed nearly linear in time.
+        let mut speed = OneWay { drive: mean_drive, linear, quadratic }.terminal_speed();
+        if linear > S::zero() {
+            let waiting = (number(3.0) * thrust * t / linear).sqrt();
+            speed = speed.min(waiting.max((number(3.0) * thrust * x / linear).pow(third)));
+        }
+        if quadratic > S::zero() {
+            let waiting = (number(4.0) * thrust * t / quadratic).pow(third);
+            speed = speed.min(waiting.max((number(4.0) * thrust * x / quadratic).sqrt().sqrt()));
+        }
+        let approach = S::two() * x + speed * t + speed * speed / (S::two() * mean_drive);
+        let settled = approach / self.drive.terminal_speed();
+        (S::two() * approach / self.drive.drive + settled * settled).sqrt()
+    }
+}
