@@ -12,6 +12,7 @@ pub mod tolerance;
 
 pub mod fourier;
 pub mod identification;
+pub mod orbits;
 pub mod relay;
 pub mod symmetry;
 
@@ -50,6 +51,10 @@ macro_rules! for_each_claim {
             identification::RELATIVE_SPREAD,
             identification::DRAG_DECISION,
             identification::ZIG_ZAG,
+            orbits::ORBIT_QUADRATIC,
+            orbits::ORBIT_LINEAR,
+            orbits::DELTA_FROM_TIMES,
+            orbits::METHOD_BIAS,
         }
     };
 }
