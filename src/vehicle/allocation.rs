@@ -10,7 +10,7 @@ use crate::numeric::{Real, Scalar};
 ///
 /// ```
 /// # use selfosc::vehicle::{Allocation, VehicleError};
-/// let pair = Allocation::pair(0.08)?;
+/// let pair = Allocation::pair(0.08_f64)?;
 /// let [port, starboard] = pair.thrusts(&[1.0, 0.04]); // 1 N ahead, 0.04 N m
 /// assert!((port - 0.75).abs() < 1e-15 && (starboard - 0.25).abs() < 1e-15);
 /// # Ok::<(), VehicleError>(())

@@ -12,7 +12,7 @@ use crate::numeric::{Real, Scalar};
 ///
 /// ```
 /// # use selfosc::vehicle::{BilinearThruster, VehicleError};
-/// let propeller = BilinearThruster::new((0.01, 0.02), (2.0e-4, 3.0e-4), 40.0)?;
+/// let propeller = BilinearThruster::new((0.01_f64, 0.02), (2.0e-4, 3.0e-4), 40.0)?;
 /// let rate = propeller.rate(5.0, 0.5)?;
 /// assert!((propeller.thrust(rate, 0.5) - 5.0).abs() < 1e-12);
 /// # Ok::<(), VehicleError>(())

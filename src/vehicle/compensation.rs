@@ -12,7 +12,7 @@ use crate::numeric::Scalar;
 ///
 /// ```
 /// # use selfosc::vehicle::{Allocation, Compensation, Thruster, VehicleError};
-/// let thruster = Thruster::affine(1.5e-4, 0.01, 15.0, 200.0)?;
+/// let thruster = Thruster::affine(1.5e-4_f64, 0.01, 15.0, 200.0)?;
 /// // A yaw experiment up to 0.1 N m: both propellers turn ahead all the time.
 /// let chain = Compensation::against_dead_zone(Allocation::pair(0.08)?, [thruster; 2], [1.0, 1.0], [0.0, 0.1])?;
 /// let error = chain.identity_error(&[0.0, 0.003], &[thruster; 2])?;

@@ -91,6 +91,16 @@ impl Pose {
     }
 
     /// Velocity over the ground and the quaternion's rate `q omega / 2`, as (i, j, k, w), at any attitude.
+    ///
+    /// ```
+    /// # use selfosc::vehicle::{EulerAngles, Pose};
+    /// # use nalgebra::{Vector3, Vector6};
+    /// let straight_up = EulerAngles { pitch_rad: std::f64::consts::FRAC_PI_2, ..EulerAngles::default() };
+    /// let ahead = Vector6::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    /// assert!(straight_up.pose_rate(&ahead).is_err());
+    /// let (velocity, _) = Pose::new(Vector3::zeros(), straight_up).rate(&ahead);
+    /// assert!((velocity.z + 1.0).abs() < 1e-15); // it climbs
+    /// ```
     #[must_use]
     pub fn rate(&self, nu: &Vector6<f64>) -> (Vector3<f64>, Vector4<f64>) {
         let (linear, angular) = halves(nu);

@@ -106,6 +106,17 @@ impl Vehicle {
 
     /// The terms of eq. 5 that the uncoupled axis leaves out, for a motion. Together with the axis' own terms they are the
     /// axis' row of eq. 5, exactly up to rounding.
+    ///
+    /// ```
+    /// # use selfosc::vehicle::{Axis, Motion, VehicleError, pool_vehicle};
+    /// # use nalgebra::{UnitQuaternion, Vector6};
+    /// // Surging and swaying while heading is identified: the water's unequal mass turns the vehicle.
+    /// let nu = Vector6::new(0.1, 0.05, 0.0, 0.0, 0.0, 0.3);
+    /// let motion = Motion { attitude: UnitQuaternion::identity(), nu, nu_rate: Vector6::zeros() };
+    /// let neglected = pool_vehicle()?.neglected(Axis::Yaw, &motion);
+    /// assert!((neglected.coriolis - 0.1 * (0.05 * (9.6 - 5.4) + 0.3 * 0.05)).abs() < 1e-12);
+    /// # Ok::<(), VehicleError>(())
+    /// ```
     #[must_use]
     pub fn neglected(&self, axis: Axis, motion: &Motion) -> Neglected {
         let (i, nu) = (axis.index(), &motion.nu);

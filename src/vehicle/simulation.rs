@@ -72,8 +72,8 @@ type Column = SVector<f64, 13>;
 
 /// A vehicle with thrusters, advanced by the classical fourth-order Runge-Kutta method.
 ///
-/// Commands are held over a step and act after a whole number of steps. The error of a step is of fifth order while the
-/// disturbance is smooth; compare with half the step for its size.
+/// Commands are held over a step and act after a whole number of steps. The error of a step is of fifth order except where a
+/// speed with quadratic drag reverses or the disturbance is not smooth; compare with half the step for its size.
 ///
 /// ```
 /// # use selfosc::vehicle::{Simulation, State, VehicleError, pool_thrusters, pool_vehicle};

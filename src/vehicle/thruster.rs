@@ -112,7 +112,7 @@ pub struct Delivered<T> {
 /// ```
 /// # use selfosc::vehicle::{ThrustSide, Thruster, VehicleError};
 /// let thruster = Thruster::asymmetric(
-///     ThrustSide::new(1.5e-4, 0.01, 15.0, 200.0)?,
+///     ThrustSide::new(1.5e-4_f64, 0.01, 15.0, 200.0)?,
 ///     ThrustSide::new(1.0e-4, 0.01, 15.0, 200.0)?,
 /// );
 /// let command = thruster.command(-2.0)?;
@@ -170,7 +170,7 @@ impl<T: Scalar> Thruster<T> {
             let largest_n = (sign * side.largest_thrust_n()).value();
             return Err(VehicleError::Saturated { thruster: 0, thrust_n: thrust_n.value(), largest_n });
         }
-        if !(magnitude > T::zero()) {
+        if magnitude <= T::zero() {
             return Ok(T::zero());
         }
         if magnitude < side.smallest_thrust_n() {
@@ -189,7 +189,7 @@ impl<T: Scalar> Thruster<T> {
         let (side, sign) = self.side(thrust_n);
         let magnitude = thrust_n.abs();
         let (smallest, largest) = (side.smallest_thrust_n(), side.largest_thrust_n());
-        let stands = !(magnitude > T::zero()) || T::two() * magnitude <= smallest;
+        let stands = magnitude <= T::zero() || T::two() * magnitude <= smallest;
         let reached = if stands { T::zero() } else { magnitude.max(smallest).min(largest) };
         let command = if stands { T::zero() } else { side.command(reached) };
         Ok(Delivered { command: sign * command, thrust_n: sign * reached })
