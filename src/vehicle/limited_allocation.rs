@@ -86,10 +86,12 @@ impl<const AXES: usize, const THRUSTERS: usize> LimitedAllocation<AXES, THRUSTER
     /// limit no longer pays, until none is left.
     ///
     /// # Errors
-    /// Forces that are not finite; [`VehicleError::NoConvergence`] when rounding makes the search cycle.
+    /// Forces that are not finite or whose weighted square is not; [`VehicleError::NoConvergence`] when rounding makes the
+    /// search cycle.
     pub fn thrusts(&self, forces: &[f64; AXES]) -> Result<LimitedThrusts<AXES, THRUSTERS>, VehicleError> {
-        for &force in forces {
-            finite("force or moment (N, N m)", force)?;
+        for (&force, &weight) in forces.iter().zip(&self.weights) {
+            let squares = |f: f64| (weight * f).powi(2).is_finite();
+            checked("force or moment (N, N m)", "small enough for its weighted square", force, squares)?;
         }
         let target =
             DVector::from_fn(AXES + THRUSTERS, |i, _| if i < AXES { self.weights[i] * forces[i] } else { 0.0 });

@@ -29,6 +29,7 @@ impl<T: Scalar> ThrustSide<T> {
         checked("dead zone (command)", ">= 0", dead_zone, |d| d >= T::zero())?;
         checked("largest command", "above the dead zone", limit, |l| l > dead_zone)?;
         let side = Self { quadratic, linear, dead_zone, limit };
+        finite("thrust at the largest command (N)", side.curve(limit))?;
         // The slope is linear in the command, so its ends decide.
         let (first, last) = (side.slope(dead_zone), side.slope(limit));
         let starts_forward = quadratic * dead_zone + linear >= T::zero();
