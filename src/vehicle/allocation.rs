@@ -89,14 +89,17 @@ impl<const AXES: usize, const THRUSTERS: usize> Allocation<f64, AXES, THRUSTERS>
         if AXES == 0 || THRUSTERS == 0 {
             return Err(VehicleError::Count { what: "axes or thrusters", count: 0, needed: 1 });
         }
-        let svd = nalgebra::DMatrix::from_fn(AXES, THRUSTERS, |i, j| matrix[i][j]).svd(true, true);
-        let threshold = svd.singular_values.amax() * Self::RANK_TOLERANCE;
-        let (rank, needed) = (svd.rank(threshold), AXES.min(THRUSTERS));
-        let deficient = VehicleError::RankDeficient { what: "the allocation matrix", rank, needed };
+        let svd = faer::Mat::from_fn(AXES, THRUSTERS, |i, j| matrix[i][j])
+            .svd()
+            .map_err(|_| VehicleError::NoConvergence { what: "the singular values of the allocation matrix" })?;
+        let singular_values = svd.S().column_vector();
+        let largest = singular_values.iter().copied().fold(0.0, f64::max);
+        let rank = singular_values.iter().filter(|&&value| value > largest * Self::RANK_TOLERANCE).count();
+        let needed = AXES.min(THRUSTERS);
         if rank < needed {
-            return Err(deficient);
+            return Err(VehicleError::RankDeficient { what: "the allocation matrix", rank, needed });
         }
-        let inverse = svd.pseudo_inverse(threshold).map_err(|_| deficient)?;
+        let inverse = svd.pseudoinverse();
         Ok(Self { matrix, inverse: core::array::from_fn(|i| core::array::from_fn(|j| inverse[(i, j)])) })
     }
 }

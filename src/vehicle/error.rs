@@ -131,11 +131,11 @@ pub enum VehicleError {
         /// The step.
         step_s: f64,
     },
-    /// An active-set search that did not end.
-    #[error("allocation within limits did not settle in {iterations} exchanges: widen the limits or the effort weight")]
+    /// An iteration that rounding keeps from its end.
+    #[error("{what} did not settle: scale axes and weights to similar size")]
     NoConvergence {
-        /// Exchanges made.
-        iterations: usize,
+        /// The iteration.
+        what: &'static str,
     },
 }
 

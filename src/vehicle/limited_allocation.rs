@@ -50,6 +50,9 @@ enum Place {
 }
 
 impl<const AXES: usize, const THRUSTERS: usize> LimitedAllocation<AXES, THRUSTERS> {
+    /// Exchanges allowed for each thruster; a handful is usual.
+    const EXCHANGES: usize = 20;
+
     /// An allocation with a weight for each axis, limits `(lower, upper)` in N for each thruster and an effort weight.
     ///
     /// Weights balance the units: one N m on a short arm deserves more than one N. An effort weight of 1e-9 of the squared
@@ -99,8 +102,7 @@ impl<const AXES: usize, const THRUSTERS: usize> LimitedAllocation<AXES, THRUSTER
         let negligible = 1e-12 * (self.stacked.amax() * (target.amax() + self.stacked.amax() * self.largest_limit_n()));
         let mut places = [Place::Free; THRUSTERS];
         let mut thrusts = DVector::from_fn(THRUSTERS, |j, _| 0.0_f64.clamp(self.limits_n[j].0, self.limits_n[j].1));
-        let iterations = 20 * (THRUSTERS + 1);
-        for _ in 0..iterations {
+        for _ in 0..Self::EXCHANGES * (THRUSTERS + 1) {
             let step = self.free_step(&places, &target, &thrusts)?;
             if let Some((fraction, blocked, place)) = self.first_limit(&places, &thrusts, &step) {
                 thrusts += step * fraction;
@@ -122,7 +124,7 @@ impl<const AXES: usize, const THRUSTERS: usize> LimitedAllocation<AXES, THRUSTER
                 None => return Ok(self.answer(&thrusts, places)),
             }
         }
-        Err(VehicleError::NoConvergence { iterations })
+        Err(VehicleError::NoConvergence { what: "the search for thrusts within limits" })
     }
 
     fn largest_limit_n(&self) -> f64 {

@@ -10,7 +10,7 @@ use selfosc::vehicle::{
 use super::bodies::{angles, parameters, vector6};
 use crate::tolerance::ENERGY_BALANCE;
 
-const STEP_S: f64 = 1e-3;
+const STEP_S: f64 = 2.5e-4;
 
 /// Energy now, and the power that comes in from thrusters and disturbance less what drag takes.
 fn energy_and_power(simulation: &Simulation, tau: &Vector6<f64>) -> (f64, f64, f64) {
