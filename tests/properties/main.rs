@@ -5,3 +5,4 @@ mod architecture;
 mod claims;
 mod describing;
 mod tolerance;
+mod vehicle;

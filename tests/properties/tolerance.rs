@@ -3,3 +3,25 @@
 /// Closed form against quadrature, relative to the largest output: the quadrature stops at 1e-13 of the integrand for
 /// each of at most a dozen pieces.
 pub(crate) const QUADRATURE: f64 = 2e-12;
+
+/// Vehicle: sums and products of up to a hundred terms of order one, relative to the largest term.
+pub(crate) const VEHICLE_ALGEBRA: f64 = 1e-12;
+/// Vehicle: thrust after inverse and map, relative; a square root and a dozen operations.
+pub(crate) const THRUST_ROUND_TRIP: f64 = 1e-14;
+/// Vehicle: the same in f32, whose epsilon is 1.2e-7.
+pub(crate) const THRUST_ROUND_TRIP_F32: f64 = 2e-6;
+/// Vehicle: command after map and inverse, relative to the limit; the slope is at least a twentieth of its largest.
+pub(crate) const COMMAND_ROUND_TRIP: f64 = 1e-14;
+/// Vehicle: cost of an allocation within limits against the best over all active sets, relative; the oracle solves normal
+/// equations of condition up to 1e6 and cost is flat at its minimum.
+pub(crate) const ALLOCATION_COST: f64 = 1e-12;
+/// Vehicle: pull of an effort weight of 1e-10 where singular values are above 0.05: 1e-10 / 0.05^2, with room.
+pub(crate) const ALLOCATION_EFFORT: f64 = 1e-7;
+/// Vehicle: standard error of a fit against the spread of 2000 fits, relative; the spread itself has an error of 1.6 %.
+pub(crate) const STANDARD_ERROR: f64 = 0.08;
+/// Vehicle: central difference of step 1e-5 of a quaternion, relative to the cube of its rate: truncation 1e-10 of the third
+/// derivative, rounding 1e-11.
+pub(crate) const QUATERNION_RATE: f64 = 1e-9;
+/// Vehicle: fourth-order integration in steps of 0.25 ms, relative to the energy turned over; drag over inertia reaches 200/s
+/// and bends where a speed reverses.
+pub(crate) const ENERGY_BALANCE: f64 = 1e-9;
