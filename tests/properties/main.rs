@@ -2,7 +2,10 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
 mod architecture;
+mod certificate;
 mod claims;
 mod describing;
+mod interval;
+mod oracle;
 mod tolerance;
 mod vehicle;
