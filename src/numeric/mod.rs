@@ -5,5 +5,7 @@ mod dual;
 #[cfg(feature = "std")]
 pub mod quadrature;
 mod real;
+#[cfg(feature = "std")]
+pub mod scan;
 
 pub use real::{Real, Scalar};
