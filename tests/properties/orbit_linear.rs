@@ -128,8 +128,8 @@ fn integrating_plants_keep_symmetry_and_shift_with_the_reference() {
 
 #[test]
 fn a_delay_longer_than_half_a_period() {
-    // Lightly damped: fast cycles with more than half a period under way in the delay.
-    let plant = plant(&[1.0], &[1.0, 0.2, 1.0], 5.0);
+    // At the resonance the delay adds a turn and a quarter to the plant's quarter.
+    let plant = plant(&[1.0], &[1.0, 0.1, 1.0], 2.5 * PI);
     let relay = relay(0.1, 0.0);
     let orbits = RelayLoop::new(plant.clone(), relay).symmetric_orbits(1.0..=60.0).unwrap();
     let (events, _) = simulate(&plant, relay, 0.0, 600.0);
@@ -151,9 +151,9 @@ fn earlier_switching_is_seen() {
         let b = DVector::from_column_slice(&[1.0, 0.0, 1.0, 0.0]);
         let c = RowDVector::from_row_slice(&[0.0, 1.0, 0.0, gain]);
         let plant = StateSpace::new(a, b, c).unwrap();
-        let orbits = RelayLoop::new(plant.clone(), relay(0.2, 0.0)).symmetric_orbits(3.0..=20.0).unwrap();
-        let condition = |period: f64| 4.0 / PI * tsypkin_locus(&plant, 2.0 * PI / period, 300).unwrap().im + 0.2;
-        let periods: Vec<f64> = (0..2000).map(|index| 3.0 + 17.0 * f64::from(index) / 2000.0).collect();
+        let orbits = RelayLoop::new(plant.clone(), relay(0.2, 0.0)).symmetric_orbits(0.3..=20.0).unwrap();
+        let condition = |period: f64| 4.0 / PI * tsypkin_locus(&plant, 2.0 * PI / period, 100).unwrap().im + 0.2;
+        let periods: Vec<f64> = (0..4000).map(|index| 0.3 + 19.7 * f64::from(index) / 4000.0).collect();
         let candidates = periods.windows(2).filter(|pair| condition(pair[0]) * condition(pair[1]) < 0.0).count();
         (orbits.len(), candidates)
     };
