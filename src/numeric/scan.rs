@@ -44,11 +44,12 @@ pub fn roots(nodes: &[f64], mut f: impl FnMut(f64) -> Option<f64>) -> Vec<f64> {
     found
 }
 
-/// The root of `f` between two points where it has opposite signs; `None` where that is a pole or undefined.
+/// The root of `f` between two points where it has opposite signs; `None` if it has not, or where that is a pole or
+/// undefined.
 pub fn bracketed(mut f: impl FnMut(f64) -> Option<f64>, from: f64, to: f64) -> Option<f64> {
     let f: Partial = &mut f;
     let (at_from, at_to) = (finite(f, from)?, finite(f, to)?);
-    bracket(f, (from, at_from), (to, at_to))
+    if at_from * at_to < 0.0 { bracket(f, (from, at_from), (to, at_to)) } else { None }
 }
 
 fn finite(f: Partial, x: f64) -> Option<f64> {

@@ -11,3 +11,9 @@ pub(crate) const INTEGRATION: f64 = 1e-8;
 pub(crate) const TSYPKIN: f64 = 1e-7;
 /// A multiplier from the decay of a deviation of 1e-4: its second-order part.
 pub(crate) const DECAY: f64 = 2e-3;
+/// Harmonic balance against a published value of 12 or 7 digits: half a unit of its last place.
+pub(crate) const PUBLISHED_12: f64 = 5e-13;
+/// The same for 7 decimals.
+pub(crate) const PUBLISHED_7: f64 = 5e-8;
+/// Two ways to the same balance, relative: Newton's method ends at rounding times the condition.
+pub(crate) const BALANCE: f64 = 1e-9;
