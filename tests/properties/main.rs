@@ -2,10 +2,13 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
 mod architecture;
+mod balance;
 mod certificate;
 mod claims;
 mod describing;
+mod describing;
 mod interval;
 mod oracle;
+mod orbit_linear;
 mod tolerance;
 mod vehicle;
