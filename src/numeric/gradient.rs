@@ -8,7 +8,7 @@ use super::{Interval, Real};
 /// Enclosures of a function's value and of its `N` partial derivatives over a box.
 ///
 /// At a kink (`abs`, `min`, `max` of values that may coincide) the derivatives enclose both sides, so the mean value
-/// theorem holds across it. Outside a domain everything is [`Interval::ENTIRE`].
+/// theorem holds across it; at a jump (`floor`, `select`), and outside a domain, everything is [`Interval::ENTIRE`].
 ///
 /// ```
 /// use selfosc::numeric::{Gradient, Interval, Real};
@@ -54,6 +54,11 @@ impl<const N: usize> Gradient<N> {
 
     fn chain(self, value: Interval, slope: Interval) -> Self {
         Self { value, slopes: self.slopes.map(|inner| inner * slope) }
+    }
+
+    /// The value of a function that may be discontinuous there, so that no derivative says anything.
+    const fn jump(value: Interval) -> Self {
+        Self { value, slopes: [Interval::ENTIRE; N] }
     }
 
     fn combine(self, other: Self, value: Interval, slope: impl Fn(Interval, Interval) -> Interval) -> Self {
@@ -132,6 +137,29 @@ impl<const N: usize> Real for Gradient<N> {
     }
     fn square(self) -> Self {
         self.chain(self.value.square(), Interval::two() * self.value)
+    }
+    fn pow(self, exponent: Self) -> Self {
+        let (base, power) = (self.value, self.value.pow(exponent.value));
+        let by_base = self.chain(power, exponent.value * base.pow(exponent.value - Interval::ONE));
+        if exponent.slopes == [Interval::ZERO; N] {
+            return by_base;
+        }
+        let by_exponent = exponent.chain(power, power * base.ln());
+        by_base.combine(by_exponent, power, Add::add)
+    }
+    fn floor(self) -> Self {
+        let floor = self.value.floor();
+        if floor.is_point() { Self::constant(floor) } else { Self::jump(floor) }
+    }
+    fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
+        match self.value {
+            value if value.is_positive() => above(),
+            value if value.upper() <= 0.0 => below(),
+            value => Self::jump(value.select(|| below().value, || above().value)),
+        }
+    }
+    fn minus_sine(self, sine: Self) -> Self {
+        self.combine(sine, self.value.minus_sine(sine.value), Sub::sub)
     }
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();

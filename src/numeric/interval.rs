@@ -201,6 +201,11 @@ impl Interval {
         Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
     }
 
+    /// The whole number of factors that a power with this exponent is best computed from.
+    pub(super) fn small_natural(self) -> Option<u32> {
+        (0..=8).find(|&count| self == Self::from(f64::from(count)))
+    }
+
     /// The values of an increasing function, from `at_point`: its enclosure at an endpoint, or its limit at an infinite one.
     #[inline]
     fn increasing(self, at_point: impl Fn(f64) -> Self) -> Self {

@@ -8,8 +8,8 @@ use super::{Interval, Real};
 /// Enclosures of the first `N` Taylor coefficients `f^(k)(t)/k!`, `k < N`, for every point `t` of the interval the
 /// variable was started with. `N` is at least one.
 ///
-/// Outside a domain the coefficients are [`Interval::ENTIRE`], as for intervals. At a kink (`abs`, `min`, `max` of values
-/// that may coincide) the value is enclosed and the derivatives are `ENTIRE`: [`is_bounded`](Self::is_bounded) tells
+/// Outside a domain the coefficients are [`Interval::ENTIRE`], as for intervals. At a kink or jump (`abs`, `min`, `max` of values
+/// that may coincide, `floor`, `select`) the value is enclosed and the derivatives are `ENTIRE`: [`is_bounded`](Self::is_bounded) tells
 /// whether the jet says anything about all of them.
 ///
 /// ```
@@ -56,6 +56,10 @@ impl<const N: usize> Jet<N> {
     #[must_use]
     pub fn is_bounded(&self) -> bool {
         self.coefficients.iter().all(|c| c.is_bounded())
+    }
+
+    fn is_constant(&self) -> bool {
+        self.coefficients.iter().skip(1).all(|&c| c == Interval::ZERO)
     }
 
     /// Each coefficient from its index and those before it.
@@ -189,6 +193,31 @@ impl<const N: usize> Real for Jet<N> {
         let mut square = self * self;
         square.coefficients[0] = self.value().square();
         square
+    }
+    fn pow(self, exponent: Self) -> Self {
+        if let (Some(count), true) = (exponent.value().small_natural(), exponent.is_constant()) {
+            (0..count).fold(Self::one(), |power, _| power * self)
+        } else if self.value().is_positive() {
+            (exponent * self.ln()).exp()
+        } else {
+            Self::kink(self.value().pow(exponent.value()))
+        }
+    }
+    fn floor(self) -> Self {
+        let floor = self.value().floor();
+        if floor.is_point() { Self::constant(floor) } else { Self::kink(floor) }
+    }
+    fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
+        match self.value() {
+            value if value.is_positive() => above(),
+            value if value.upper() <= 0.0 => below(),
+            value => Self::kink(value.select(|| below().value(), || above().value())),
+        }
+    }
+    fn minus_sine(self, sine: Self) -> Self {
+        let mut difference = self - sine;
+        difference.coefficients[0] = self.value().minus_sine(sine.value());
+        difference
     }
     fn sqrt(self) -> Self {
         Self::from_terms(|k, s| match k {

@@ -133,10 +133,15 @@ fn a_small_budget_widens_but_stays_sound() {
     assert!(!pole.reached && !pole.integrals[0].is_bounded());
 }
 
+/// `x^x` and its derivatives.
+fn own_power(x: f64) -> [f64; 4] {
+    let (power, slope) = (x.powf(x), x.ln() + 1.0);
+    [power, power * slope, power * (slope.powi(2) + 1.0 / x), power * (slope.powi(3) + 3.0 * slope / x - 1.0 / (x * x))]
+}
+
 /// Each function with its derivative of order one to three, from the calculus books.
 #[test]
 fn jets_agree_with_derivatives() {
-    type Unary = fn(Jet<4>) -> Jet<4>;
     let x = 0.4_f64;
     let root = (1.0 - x * x).sqrt();
     let (s, c, t, e) = (x.sin(), x.cos(), x.tan(), x.exp());
@@ -144,29 +149,38 @@ fn jets_agree_with_derivatives() {
     let (sec, sech) = (1.0 + t * t, 1.0 - th * th);
     let q = 1.0 + x * x;
     let p = 1.0 - x * x;
-    let cases: [(&str, Unary, [f64; 4]); 18] = [
-        ("sqrt", Real::sqrt, [x.sqrt(), 0.5 / x.sqrt(), -0.25 * x.powf(-1.5), 0.375 * x.powf(-2.5)]),
-        ("square", Real::square, [x * x, 2.0 * x, 2.0, 0.0]),
-        ("product", |x| x * x * x, [x * x * x, 3.0 * x * x, 6.0 * x, 6.0]),
-        ("reciprocal", |x| Jet::one() / x, [1.0 / x, -1.0 / (x * x), 2.0 / x.powi(3), -6.0 / x.powi(4)]),
-        ("sin", Real::sin, [s, c, -s, -c]),
-        ("cos", Real::cos, [c, -s, -c, s]),
-        ("tan", Real::tan, [t, sec, 2.0 * t * sec, 2.0 * sec * sec + 4.0 * t * t * sec]),
-        ("asin", Real::asin, [x.asin(), 1.0 / root, x / root.powi(3), 1.0 / root.powi(3) + 3.0 * x * x / root.powi(5)]),
+    let (half, three) = (Jet::from_f64(0.5), Jet::from_f64(3.0));
+    let cases: [(&str, &dyn Fn(Jet<4>) -> Jet<4>, [f64; 4]); 22] = [
+        ("root", &|x| x.pow(half), [x.sqrt(), 0.5 / x.sqrt(), -0.25 * x.powf(-1.5), 0.375 * x.powf(-2.5)]),
+        ("cube", &|x| x.pow(three), [x * x * x, 3.0 * x * x, 6.0 * x, 6.0]),
+        ("own power", &|x| x.pow(x), own_power(x)),
+        ("minus_sine", &|x| x.minus_sine(x.sin()), [x - s, 1.0 - c, s, c]),
+        ("sqrt", &Real::sqrt, [x.sqrt(), 0.5 / x.sqrt(), -0.25 * x.powf(-1.5), 0.375 * x.powf(-2.5)]),
+        ("square", &Real::square, [x * x, 2.0 * x, 2.0, 0.0]),
+        ("product", &|x| x * x * x, [x * x * x, 3.0 * x * x, 6.0 * x, 6.0]),
+        ("reciprocal", &|x| Jet::one() / x, [1.0 / x, -1.0 / (x * x), 2.0 / x.powi(3), -6.0 / x.powi(4)]),
+        ("sin", &Real::sin, [s, c, -s, -c]),
+        ("cos", &Real::cos, [c, -s, -c, s]),
+        ("tan", &Real::tan, [t, sec, 2.0 * t * sec, 2.0 * sec * sec + 4.0 * t * t * sec]),
+        (
+            "asin",
+            &Real::asin,
+            [x.asin(), 1.0 / root, x / root.powi(3), 1.0 / root.powi(3) + 3.0 * x * x / root.powi(5)],
+        ),
         (
             "acos",
-            Real::acos,
+            &Real::acos,
             [x.acos(), -1.0 / root, -x / root.powi(3), -1.0 / root.powi(3) - 3.0 * x * x / root.powi(5)],
         ),
-        ("atan", Real::atan, [x.atan(), 1.0 / q, -2.0 * x / (q * q), -2.0 / (q * q) + 8.0 * x * x / q.powi(3)]),
-        ("exp", Real::exp, [e; 4]),
-        ("exp_m1", Real::exp_m1, [x.exp_m1(), e, e, e]),
-        ("ln", Real::ln, [x.ln(), 1.0 / x, -1.0 / (x * x), 2.0 / x.powi(3)]),
-        ("ln_1p", Real::ln_1p, [x.ln_1p(), 1.0 / (1.0 + x), -(1.0 + x).powi(-2), 2.0 * (1.0 + x).powi(-3)]),
-        ("sinh", Real::sinh, [sh, ch, sh, ch]),
-        ("cosh", Real::cosh, [ch, sh, ch, sh]),
-        ("tanh", Real::tanh, [th, sech, -2.0 * th * sech, -2.0 * sech * sech + 4.0 * th * th * sech]),
-        ("atanh", Real::atanh, [x.atanh(), 1.0 / p, 2.0 * x / (p * p), 2.0 / (p * p) + 8.0 * x * x / p.powi(3)]),
+        ("atan", &Real::atan, [x.atan(), 1.0 / q, -2.0 * x / (q * q), -2.0 / (q * q) + 8.0 * x * x / q.powi(3)]),
+        ("exp", &Real::exp, [e; 4]),
+        ("exp_m1", &Real::exp_m1, [x.exp_m1(), e, e, e]),
+        ("ln", &Real::ln, [x.ln(), 1.0 / x, -1.0 / (x * x), 2.0 / x.powi(3)]),
+        ("ln_1p", &Real::ln_1p, [x.ln_1p(), 1.0 / (1.0 + x), -(1.0 + x).powi(-2), 2.0 * (1.0 + x).powi(-3)]),
+        ("sinh", &Real::sinh, [sh, ch, sh, ch]),
+        ("cosh", &Real::cosh, [ch, sh, ch, sh]),
+        ("tanh", &Real::tanh, [th, sech, -2.0 * th * sech, -2.0 * sech * sech + 4.0 * th * th * sech]),
+        ("atanh", &Real::atanh, [x.atanh(), 1.0 / p, 2.0 * x / (p * p), 2.0 / (p * p) + 8.0 * x * x / p.powi(3)]),
     ];
     for (name, function, derivatives) in cases {
         let jet = function(Jet::variable(Interval::point(x)));
@@ -195,6 +209,13 @@ fn gradients_agree_with_jets() {
             )+
         };
     }
+    for x in [interval(0.4, 0.4), interval(0.4, 0.5)] {
+        let (jet, [gradient]) = (Jet::<2>::variable(x), Gradient::variables([x]));
+        let (jet, gradient) = (jet.pow(jet), gradient.pow(gradient));
+        assert!(
+            jet.coefficients()[1].intersection(gradient.slopes()[0]).is_some() && !gradient.slopes()[0].is_entire()
+        );
+    }
     agree!(sin cos tan asin acos atan exp exp_m1 ln ln_1p sinh cosh tanh atanh sqrt square abs);
 }
 
@@ -205,9 +226,14 @@ fn kinks_are_undecided() {
     assert!(
         !across.abs().is_bounded() && !across.min(Jet::zero()).is_bounded() && !across.max(Jet::zero()).is_bounded()
     );
+    let choice = across.select(Jet::zero, Jet::one);
+    assert!(choice.value() == interval(0.0, 1.0) && !choice.is_bounded() && !across.floor().is_bounded());
     assert!(Jet::<3>::variable(interval(1.0, 2.0)).abs().is_bounded());
+    assert_eq!(Jet::<3>::variable(interval(1.1, 1.9)).floor(), Jet::one());
     let [x] = Gradient::variables([Interval::UNIT]);
     assert_eq!(x.abs().slopes()[0], Interval::UNIT);
+    assert_eq!(x.floor().slopes()[0], Interval::ENTIRE);
+    assert_eq!(x.select(Gradient::zero, Gradient::one).slopes()[0], Interval::ENTIRE);
     assert_eq!(x.max(Gradient::zero()).slopes()[0], interval(0.0, 1.0));
 }
 

@@ -69,7 +69,7 @@ const LN_EDGES: &[f64] = &[
     0.5,
     2.0,
     core::f64::consts::SQRT_2,
-    0.707_106_781_186_547_6,
+    core::f64::consts::FRAC_1_SQRT_2,
     core::f64::consts::E,
 ];
 
@@ -92,10 +92,18 @@ const OPEN_UNIT: (f64, f64) = (-BELOW_ONE, BELOW_ONE);
 const EXPONENTS: (f64, f64) = (-760.0, 760.0);
 
 /// Every function of the arithmetic that rests on more than the five basic operations.
-const ELEMENTARY: [Elementary; 14] = [
+const ELEMENTARY: [Elementary; 15] = [
     elementary!(sin, TURNS, TURNS, TURN_EDGES),
     elementary!(cos, TURNS, TURNS, TURN_EDGES),
     elementary!(tan, TURNS, TURNS, TURN_EDGES),
+    Elementary {
+        name: "minus_sine",
+        interval: |x| x.minus_sine(x.sin()),
+        exact: |x| bracket!(x: x.clone() - x.sin()),
+        domain: TURNS,
+        tight: (1e-100, 1e6),
+        edges: &[0.8, 1.0, 1.2, -1.2],
+    },
     elementary!(asin, (-1.0, 1.0), (-1.0, 1.0), UNIT_EDGES),
     elementary!(acos, (-1.0, 1.0), (-1.0, 1.0), UNIT_EDGES),
     elementary!(atan, LARGEST, LARGEST, UNIT_EDGES),
@@ -130,6 +138,10 @@ const COMMON_EDGES: [f64; 14] = [
     f64::MAX,
     f64::MIN,
 ];
+
+fn interval(lo: f64, hi: f64) -> Interval {
+    Interval::new(lo, hi).expect("an interval")
+}
 
 fn config(cases: u32) -> ProptestConfig {
     ProptestConfig {
@@ -444,4 +456,46 @@ fn unbounded_intervals_give_no_nan() {
             }
         }
     }
+}
+
+#[test]
+fn powers_enclose_the_oracle() {
+    let exponent = prop_oneof![0.0..9.0, -3.0..3.0, (0_u32..12).prop_map(f64::from)];
+    let base = prop_oneof![1e-3..20.0, 0.9..1.1, (-60.0..60.0).prop_map(f64::exp2)];
+    TestRunner::new(config(3000))
+        .run(&(base, 0.0..1.0, exponent, 0.0..1.0), |(x, width, p, spread): (f64, f64, f64, f64)| {
+            let (base, exponent) = (interval(x, x * (1.0 + width)), interval(p, p + spread));
+            let wide = base.pow(exponent);
+            let with_zero = interval(0.0, base.upper()).pow(exponent);
+            for x in [base.lower(), base.midpoint(), base.upper()] {
+                for p in [exponent.lower(), exponent.midpoint(), exponent.upper()] {
+                    let exact = bracket!(x, p: x.powf(&p));
+                    prop_assert!(exact.lies_within(wide.bounds()), "{x}^{p} = {exact:?} is not in {wide}");
+                    prop_assert!(exact.lies_within(with_zero.bounds()), "{x}^{p} = {exact:?} is not in {with_zero}");
+                    let thin = Interval::point(x).pow(Interval::point(p));
+                    prop_assert!(exact.lies_within(thin.bounds()), "{x}^{p} = {exact:?} is not in {thin}");
+                    // The exponential amplifies the rounding of its argument.
+                    let width = ELEMENTARY_WIDTH_ULP * f64::EPSILON * (1.0 + (p * x.ln()).abs()) * thin.magnitude();
+                    prop_assert!(thin.width() < width, "{x}^{p} = {thin}");
+                }
+            }
+            prop_assert_eq!(with_zero.is_entire(), exponent.lower() < 0.0);
+            Ok(())
+        })
+        .unwrap_or_else(|failure| panic!("{failure}"));
+    assert_eq!(Interval::ZERO.pow(Interval::ZERO), Interval::ONE);
+    assert_eq!(Interval::ZERO.pow(Interval::point(0.5)), Interval::ZERO);
+    assert_eq!(Interval::ZERO.pow(interval(0.0, 1.0)), interval(0.0, 1.0));
+    assert!(interval(-1.0, 1.0).pow(Interval::point(2.0)).is_entire());
+}
+
+#[test]
+fn decisions_join_what_they_cannot_tell_apart() {
+    let (below, above) = (|| Interval::point(-3.0), || Interval::point(5.0));
+    assert_eq!(interval(5e-324, 1.0).select(below, above), above());
+    assert_eq!(interval(-1.0, 0.0).select(below, above), below());
+    assert_eq!(interval(0.0, 1.0).select(below, above), interval(-3.0, 5.0));
+    assert!(Interval::ENTIRE.select(below, above).is_entire());
+    assert_eq!(interval(-0.5, 2.0).floor(), interval(-1.0, 2.0));
+    assert_eq!(interval(2.25, 2.75).floor(), Interval::point(2.0));
 }

@@ -49,14 +49,15 @@ fn reduce(x: f64) -> Option<(i32, Interval)> {
     Some((k as i32, r))
 }
 
+/// What a series adds to its first term, in units of that.
+fn series([low @ .., rest]: &[Interval; 9], r: Interval) -> Interval {
+    let square = r.square();
+    square * low.iter().rev().fold(*rest, |tail, &coefficient| coefficient + square * tail)
+}
+
 /// `sin(k pi/2 + r)` for `|r| < 0.8`.
 fn quarter_sine(k: i32, r: Interval) -> Interval {
-    let square = r.square();
-    let series = |coefficients: &[Interval; 9]| {
-        let [low @ .., rest] = coefficients;
-        square * low.iter().rev().fold(*rest, |tail, &coefficient| coefficient + square * tail)
-    };
-    let size = if k % 2 == 0 { r + r * series(&SINE) } else { Interval::ONE + series(&COSINE) };
+    let size = if k % 2 == 0 { r + r * series(&SINE, r) } else { Interval::ONE + series(&COSINE, r) };
     if k.rem_euclid(4) < 2 { size } else { -size }
 }
 
@@ -164,6 +165,14 @@ pub(super) fn tan(x: Interval) -> Interval {
         }
         _ => Interval::ENTIRE,
     }
+}
+
+/// `x - sin x`, which increases.
+pub(super) fn minus_sine(x: Interval) -> Interval {
+    x.increasing(|x| {
+        let x = Interval::point(x);
+        if x.magnitude() < 1.2 { -(x * series(&SINE, x)) } else { x - sin(x) }
+    })
 }
 
 pub(super) fn asin(x: Interval) -> Interval {

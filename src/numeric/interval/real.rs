@@ -61,6 +61,43 @@ impl Real for Interval {
         }
         Self { lo: square_root(self.lo).down(), hi: square_root(self.hi).up() }
     }
+    fn pow(self, exponent: Self) -> Self {
+        if self.lo < 0.0 || self.is_entire() || exponent.is_entire() {
+            Self::ENTIRE
+        } else if let Some(count) = exponent.small_natural() {
+            (0..count).fold(Self::ONE, |power, _| power * self)
+        } else if self.lo > 0.0 {
+            (exponent * self.ln()).exp()
+        } else if exponent.lo < 0.0 {
+            Self::ENTIRE
+        } else {
+            // Zero to a positive power is zero; one is a value if the exponent may vanish.
+            let at_zero = Self { lo: 0.0, hi: if exponent.lo > 0.0 { 0.0 } else { 1.0 } };
+            if self.hi > 0.0 { at_zero.hull((exponent * Self::point(self.hi).ln()).exp()) } else { at_zero }
+        }
+    }
+    fn floor(self) -> Self {
+        Self { lo: libm::floor(self.lo), hi: libm::floor(self.hi) }
+    }
+    fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
+        if self.is_entire() {
+            Self::ENTIRE
+        } else if self.lo > 0.0 {
+            above()
+        } else if self.hi <= 0.0 {
+            below()
+        } else {
+            below().hull(above())
+        }
+    }
+    fn minus_sine(self, sine: Self) -> Self {
+        let difference = self - sine;
+        if difference.is_entire() {
+            return difference;
+        }
+        // Both enclose it, so they meet.
+        circular::minus_sine(self).intersection(difference).unwrap_or(difference)
+    }
     from_module!(circular: sin cos tan asin acos atan);
     from_module!(exponential: exp exp_m1 ln ln_1p sinh cosh tanh atanh);
 }
