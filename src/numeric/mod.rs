@@ -15,6 +15,7 @@ mod real;
 #[cfg(feature = "std")]
 pub mod rigorous_quadrature;
 mod root;
+#[cfg(feature = "std")]
 pub mod scan;
 
 pub use gradient::Gradient;

@@ -6,7 +6,6 @@ mod balance;
 mod certificate;
 mod claims;
 mod describing;
-mod describing;
 mod interval;
 mod oracle;
 mod orbit_linear;
