@@ -72,4 +72,21 @@ pub enum BalanceError {
         /// Input value of the turning point.
         input: f64,
     },
+    /// No sinusoid balances a drag axis.
+    #[error(
+        "no sinusoid balances: it needs drag (linear_drag = {linear_drag}, quadratic_drag = {quadratic_drag}), a constant \
+         force ({constant_force}) below the relay level {level}, and a half-width ({half_width}) or a delay above 0"
+    )]
+    NoAxisBalance {
+        /// Linear drag, force per speed.
+        linear_drag: f64,
+        /// Quadratic drag, force per speed squared.
+        quadratic_drag: f64,
+        /// Disturbance plus relay offset, in force units.
+        constant_force: f64,
+        /// Relay level C, in force units.
+        level: f64,
+        /// Half-width of the hysteresis, in position units.
+        half_width: f64,
+    },
 }

@@ -2,12 +2,14 @@
 //!
 //! The loop is that of [`orbit`](crate::orbit): characteristic input `e = r - y`, plant input `N(e) + disturbance`.
 
+mod drag_axis;
 mod error;
 mod grid;
 mod harmonics;
 mod intersections;
 mod nyquist;
 
+pub use drag_axis::AxisOscillation;
 pub use error::BalanceError;
 pub use harmonics::MultiHarmonic;
 pub use intersections::{Bias, HarmonicBalance, Intersection};

@@ -2,8 +2,10 @@
 
 use std::process::ExitCode;
 
+use crate::balance::BalanceError;
 use crate::describing::{CatalogueError, DescribingError};
 use crate::nonlinearity::NonlinearityError;
+use crate::plant::PlantError;
 
 /// Why a subcommand could not answer.
 #[derive(Debug, thiserror::Error)]
@@ -20,6 +22,12 @@ pub(super) enum CommandError {
     /// A bad amplitude or bias.
     #[error(transparent)]
     Nonlinearity(#[from] NonlinearityError),
+    /// A plant that is none.
+    #[error(transparent)]
+    Plant(#[from] PlantError),
+    /// Harmonic balance without an answer.
+    #[error(transparent)]
+    Balance(#[from] BalanceError),
     /// An id that no claim has.
     #[error("there is no claim `{id}`; the claims are: {known}")]
     UnknownClaim {

@@ -3,8 +3,11 @@
 //! Answers go to standard output, everything else to standard error. Exit status: 0 done, 1 the answer is no, 2 usage or
 //! unreadable input.
 
+mod axis;
+mod balance;
 mod df;
 mod error;
+mod predict;
 mod verify;
 
 use std::io::{self, Write};
@@ -29,6 +32,8 @@ struct Command {
 enum Action {
     Verify(verify::Arguments),
     Df(df::Arguments),
+    Balance(balance::Arguments),
+    Predict(predict::Arguments),
 }
 
 /// What a subcommand found, when nothing went wrong.
@@ -50,6 +55,8 @@ pub fn run() -> ExitCode {
     let outcome = match &command.action {
         Action::Verify(arguments) => verify::run(arguments, &mut output),
         Action::Df(arguments) => df::run(arguments, &mut output),
+        Action::Balance(arguments) => balance::run(arguments, &mut output),
+        Action::Predict(arguments) => predict::run(arguments, &mut output),
     };
     match outcome.and_then(|outcome| output.flush().map(|()| outcome).map_err(CommandError::from)) {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
