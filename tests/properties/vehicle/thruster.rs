@@ -171,4 +171,6 @@ fn corners() {
         assert!(Thruster::affine(broken, 1.0, 0.0, 2.0).is_err());
         assert!(Thruster::affine(1.0, 1.0, 0.0, broken).is_err());
     }
+    // Finite coefficients whose thrust is not.
+    assert!(matches!(Thruster::affine(1.0, 0.0, 0.0, 1e200), Err(VehicleError::OutOfDomain { .. })));
 }
