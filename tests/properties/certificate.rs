@@ -150,7 +150,8 @@ fn jets_agree_with_derivatives() {
     let q = 1.0 + x * x;
     let p = 1.0 - x * x;
     let (half, three) = (Jet::from_f64(0.5), Jet::from_f64(3.0));
-    let cases: [(&str, &dyn Fn(Jet<4>) -> Jet<4>, [f64; 4]); 22] = [
+    type Case<'a> = (&'static str, &'a dyn Fn(Jet<4>) -> Jet<4>, [f64; 4]);
+    let cases: [Case; 22] = [
         ("root", &|x| x.pow(half), [x.sqrt(), 0.5 / x.sqrt(), -0.25 * x.powf(-1.5), 0.375 * x.powf(-2.5)]),
         ("cube", &|x| x.pow(three), [x * x * x, 3.0 * x * x, 6.0 * x, 6.0]),
         ("own power", &|x| x.pow(x), own_power(x)),
