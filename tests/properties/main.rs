@@ -4,4 +4,7 @@
 mod architecture;
 mod claims;
 mod describing;
+mod motion_drag_axis;
+mod oracle;
+mod orbit_drag_axis;
 mod tolerance;
