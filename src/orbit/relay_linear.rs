@@ -69,7 +69,8 @@ impl RelayLoop {
     /// isolated from bounds of its derivatives. That none is missed is as sure as the scan is fine: it follows every
     /// turn of the delay and of the plant's own oscillations in at least 20 samples, and, on a plant without
     /// integrator, looks at 48 shares of positive command between 0 and 1. The delay may exceed the period. Cycles
-    /// with more switchings in a period are not looked for.
+    /// with more switchings in a period are not looked for, nor are periods over which an unstable plant magnifies
+    /// rounding to more than 1e-9 of the cycle.
     ///
     /// # Errors
     /// [`OrbitError::Drift`] where an integrating plant cannot have one; [`OrbitError::Range`],

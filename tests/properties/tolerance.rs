@@ -47,5 +47,7 @@ pub(crate) const DECAY: f64 = 2e-3;
 pub(crate) const PUBLISHED_12: f64 = 5e-13;
 /// The same for 7 decimals.
 pub(crate) const PUBLISHED_7: f64 = 5e-8;
+/// The published values of a minimiser, whose residual there is 1.4e-6.
+pub(crate) const MINIMISED: f64 = 1.5e-6;
 /// Two ways to the same balance, relative: Newton's method ends at rounding times the condition.
 pub(crate) const BALANCE: f64 = 1e-9;
