@@ -97,7 +97,11 @@ impl Cycle {
     }
     /// The state at `0 <= time <= period`.
     pub(super) fn state(&self, plant: &StateSpace, time: f64) -> DVector<f64> {
-        if time <= self.positive {
+        if time == 0.0 {
+            self.start.clone()
+        } else if time == self.positive {
+            self.turn.clone()
+        } else if time < self.positive {
             plant.flow(time).apply(&self.start, self.levels.high)
         } else {
             plant.flow(time - self.positive).apply(&self.turn, self.levels.low)

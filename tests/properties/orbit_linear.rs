@@ -304,9 +304,10 @@ proptest! {
             .windows(2)
             .find(|pair| pair[0].abs() < 1e-4 && pair[1].abs() > 1e-9)
             .map(|pair| pair[1] / pair[0]);
-        if let Some(ratio) = ratio && orbit.multipliers()[0].norm() > 5.0 * orbit.multipliers()[1].norm() {
-            let largest = orbit.multipliers()[0].re;
-            prop_assert!((ratio - largest).abs() < tolerance::DECAY, "{ratio} {largest}");
-        }
+        let largest = orbit.multipliers()[0];
+        prop_assume!(ratio.is_some() && largest.im == 0.0 && largest.re.abs() > 5.0 * orbit.multipliers()[1].norm());
+        let decays = |multiplier: f64| (ratio.unwrap_or(0.0) / multiplier - 1.0).abs() < tolerance::DECAY;
+        prop_assert!(decays(largest.re), "{ratio:?} {largest}");
+        prop_assert!(!decays(1.1 * largest.re));
     }
 }

@@ -41,8 +41,8 @@ pub(crate) const PERIOD: f64 = 1e-14;
 pub(crate) const INTEGRATION: f64 = 1e-8;
 /// Tsypkin's series cut after 4000 terms, relative to the largest: the tail of `k^-3` is 1e-8 of it.
 pub(crate) const TSYPKIN: f64 = 1e-7;
-/// A multiplier from the decay of a deviation of 1e-4: its second-order part.
-pub(crate) const DECAY: f64 = 2e-3;
+/// A multiplier from the decay of a deviation below 1e-4, relative: its second-order part and the next multiplier's.
+pub(crate) const DECAY: f64 = 1e-2;
 /// Harmonic balance against a published value of 12 or 7 digits: half a unit of its last place.
 pub(crate) const PUBLISHED_12: f64 = 5e-13;
 /// The same for 7 decimals.
