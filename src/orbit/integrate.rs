@@ -95,7 +95,7 @@ impl Integrator {
             let trial = Step::new(system, time, &state, length);
             let error = trial.error(&state, self);
             let factor = if error > 0.0 { (0.9 * error.powf(-0.2)).clamp(0.2, 5.0) } else { 5.0 };
-            if !(error <= 1.0) {
+            if error.is_nan() || error > 1.0 {
                 step = length * if error.is_finite() { factor } else { 0.2 };
                 if step <= 1e-15 * until_s {
                     return Err(OrbitError::StepTooSmall { time_s: time, step_s: step });

@@ -4,6 +4,9 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::plant::StateSpace;
 
+/// A gap between the ends of a cycle that counts as rounding, relative to its size.
+const CLOSED: f64 = 1e-9;
+
 /// The two inputs after offset and disturbance, and the output levels at which the relay switches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Levels {
@@ -27,7 +30,8 @@ pub(super) struct Cycle {
 }
 
 impl Cycle {
-    /// The periodic response; `None` where there is none or not one alone (a pole on the imaginary axis in resonance).
+    /// The periodic response; `None` where there is none or not one alone (a pole on the imaginary axis in resonance), or
+    /// where rounding hides it.
     ///
     /// An integrating plant has one only if the input's mean vanishes, and then with any constant added: the one is
     /// returned that is at the lower level when the command becomes positive.
@@ -55,7 +59,9 @@ impl Cycle {
         } else {
             matrix.lu().solve(&forced)?
         };
-        Self::from_start(plant, levels, times, start)
+        let turn = first.apply(&start, levels.high);
+        let end = second.apply(&turn, levels.low);
+        Self { positive, negative, start, turn, levels }.closed(&end)
     }
 
     /// The response that repeats itself with the opposite sign after half a period (Åström's condition): regular for an
@@ -63,19 +69,15 @@ impl Cycle {
     pub(super) fn symmetric(plant: &StateSpace, levels: Levels, half_period: f64) -> Option<Self> {
         let order = plant.order();
         let flow = plant.flow(half_period);
-        let start = (DMatrix::identity(order, order) + &flow.state).lu().solve(&(flow.input * -levels.high))?;
-        let turn = -&start;
-        Self { positive: half_period, negative: half_period, start, turn, levels }.finite()
+        let start = (DMatrix::identity(order, order) + &flow.state).lu().solve(&(&flow.input * -levels.high))?;
+        let (end, turn) = (-flow.apply(&start, levels.high), -&start);
+        Self { positive: half_period, negative: half_period, start, turn, levels }.closed(&end)
     }
 
-    fn from_start(plant: &StateSpace, levels: Levels, times: (f64, f64), start: DVector<f64>) -> Option<Self> {
-        let (positive, negative) = times;
-        let turn = plant.flow(positive).apply(&start, levels.high);
-        Self { positive, negative, start, turn, levels }.finite()
-    }
-
-    fn finite(self) -> Option<Self> {
-        self.start.iter().chain(&self.turn).all(|value| value.is_finite()).then_some(self)
+    /// Itself if it ends where it began; a plant unstable enough magnifies rounding until it does not.
+    fn closed(self, end: &DVector<f64>) -> Option<Self> {
+        let size = self.start.amax().max(self.turn.amax());
+        ((end - &self.start).amax() <= CLOSED * size).then_some(self)
     }
 
     pub(super) fn period(&self) -> f64 {
@@ -95,7 +97,11 @@ impl Cycle {
     }
     /// The state at `0 <= time <= period`.
     pub(super) fn state(&self, plant: &StateSpace, time: f64) -> DVector<f64> {
-        if time <= self.positive {
+        if time == 0.0 {
+            self.start.clone()
+        } else if time == self.positive {
+            self.turn.clone()
+        } else if time < self.positive {
             plant.flow(time).apply(&self.start, self.levels.high)
         } else {
             plant.flow(time - self.positive).apply(&self.turn, self.levels.low)

@@ -3,6 +3,7 @@
 use core::ops::RangeInclusive;
 
 use nalgebra::{Complex, Matrix2, Vector2};
+use rayon::prelude::*;
 
 use super::OrbitError;
 use super::extrema::Extrema;
@@ -69,7 +70,8 @@ impl RelayLoop {
     /// isolated from bounds of its derivatives. That none is missed is as sure as the scan is fine: it follows every
     /// turn of the delay and of the plant's own oscillations in at least 20 samples, and, on a plant without
     /// integrator, looks at 48 shares of positive command between 0 and 1. The delay may exceed the period. Cycles
-    /// with more switchings in a period are not looked for.
+    /// with more switchings in a period are not looked for, nor are periods over which an unstable plant magnifies
+    /// rounding to more than 1e-9 of the cycle.
     ///
     /// # Errors
     /// [`OrbitError::Drift`] where an integrating plant cannot have one; [`OrbitError::Range`],
@@ -167,8 +169,8 @@ impl RelayLoop {
             (0..SHARES).map(at).map(|at| (at, miss(at))).collect()
         };
         let mut found: Vec<Vector2<f64>> = Vec::new();
-        let mut last = nodes.first().map(column).unwrap_or_default();
-        for next in nodes.iter().skip(1).map(column) {
+        let columns: Vec<_> = nodes.par_iter().map(column).collect();
+        for (last, next) in columns.iter().zip(columns.iter().skip(1)) {
             for (here, (right, above)) in last.iter().zip(next.iter().zip(last.iter().skip(1))) {
                 let (Some(value), Some(at_right), Some(at_above)) = (here.1, right.1, above.1) else { continue };
                 let cell = Vector2::new(right.0[0] - here.0[0], above.0[1] - here.0[1]);
@@ -184,7 +186,6 @@ impl RelayLoop {
                     found.push(root);
                 }
             }
-            last = next;
         }
         found.sort_by(|a, b| a[0].total_cmp(&b[0]));
         found.iter().filter_map(|root| cycle(root[0].exp(), root[1])).collect()

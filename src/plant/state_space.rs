@@ -166,7 +166,6 @@ impl Flow {
 /// # Errors
 /// [`PlantError::Eigenvalues`] where the iteration does not converge.
 pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, PlantError> {
-    // nalgebra's iteration has no exceptional shifts: it stalls on a cyclic permutation.
     let order = matrix.nrows();
     let failed = PlantError::Eigenvalues { order };
     if matrix.iter().any(|value| !value.is_finite()) {

@@ -41,12 +41,14 @@ pub(crate) const PERIOD: f64 = 1e-14;
 pub(crate) const INTEGRATION: f64 = 1e-8;
 /// Tsypkin's series cut after 4000 terms, relative to the largest: the tail of `k^-3` is 1e-8 of it.
 pub(crate) const TSYPKIN: f64 = 1e-7;
-/// A multiplier from the decay of a deviation of 1e-4: its second-order part.
-pub(crate) const DECAY: f64 = 2e-3;
+/// A multiplier from the decay of a deviation below 1e-4, relative: its second-order part and the next multiplier's.
+pub(crate) const DECAY: f64 = 1e-2;
 /// Harmonic balance against a published value of 12 or 7 digits: half a unit of its last place.
 pub(crate) const PUBLISHED_12: f64 = 5e-13;
 /// The same for 7 decimals.
 pub(crate) const PUBLISHED_7: f64 = 5e-8;
+/// The published values of a minimiser, whose residual there is 1.4e-6.
+pub(crate) const MINIMISED: f64 = 1.5e-6;
 /// Two ways to the same balance, relative: Newton's method ends at rounding times the condition.
 pub(crate) const BALANCE: f64 = 1e-9;
 /// Closed-form limit cycles against integration, relative: the integrator's 1e-13 a step over some hundred steps, and
