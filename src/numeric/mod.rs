@@ -2,6 +2,8 @@
 
 #[cfg(feature = "std")]
 mod dual;
+mod interval;
 mod real;
 
+pub use interval::Interval;
 pub use real::{Real, Scalar};
