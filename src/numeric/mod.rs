@@ -2,8 +2,10 @@
 
 #[cfg(feature = "std")]
 mod dual;
+mod interval;
 #[cfg(feature = "std")]
 pub mod quadrature;
 mod real;
 
+pub use interval::Interval;
 pub use real::{Real, Scalar};

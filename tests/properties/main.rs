@@ -2,4 +2,6 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
 mod describing;
+mod interval;
+mod oracle;
 mod tolerance;

@@ -1,0 +1,84 @@
+//! Intervals as an arithmetic for the formulas of this crate.
+
+use super::rounding::{product, square_root};
+use super::{Interval, circular, exponential};
+use crate::numeric::Real;
+
+macro_rules! from_module {
+    ($module:ident: $($function:ident)+) => {
+        $(
+            fn $function(self) -> Self {
+                $module::$function(self)
+            }
+        )+
+    };
+}
+
+impl Real for Interval {
+    #[inline]
+    fn from_f64(value: f64) -> Self {
+        Self::point(value)
+    }
+    #[inline]
+    fn pi() -> Self {
+        Self::PI
+    }
+    #[inline]
+    fn bounds(self) -> (f64, f64) {
+        (self.lo, self.hi)
+    }
+    fn abs(self) -> Self {
+        if self.is_entire() || self.lo >= 0.0 {
+            self
+        } else if self.hi <= 0.0 {
+            -self
+        } else {
+            Self { lo: 0.0, hi: self.magnitude() }
+        }
+    }
+    fn min(self, other: Self) -> Self {
+        if self.is_entire() || other.is_entire() {
+            return Self::ENTIRE;
+        }
+        Self { lo: self.lo.min(other.lo), hi: self.hi.min(other.hi) }
+    }
+    fn max(self, other: Self) -> Self {
+        if self.is_entire() || other.is_entire() {
+            return Self::ENTIRE;
+        }
+        Self { lo: self.lo.max(other.lo), hi: self.hi.max(other.hi) }
+    }
+    fn square(self) -> Self {
+        if self.is_entire() {
+            return self;
+        }
+        let size = self.abs();
+        Self { lo: product(size.lo, size.lo).down(), hi: product(size.hi, size.hi).up() }
+    }
+    fn sqrt(self) -> Self {
+        if self.lo < 0.0 {
+            return Self::ENTIRE;
+        }
+        Self { lo: square_root(self.lo).down(), hi: square_root(self.hi).up() }
+    }
+    fn pow(self, exponent: Self) -> Self {
+        (self.ln() * exponent).exp()
+    }
+    fn floor(self) -> Self {
+        Self { lo: self.lo.floor(), hi: self.hi.floor() }
+    }
+    fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
+        if self.is_positive() {
+            above()
+        } else if self.hi <= 0.0 {
+            below()
+        } else {
+            below().hull(above())
+        }
+    }
+    fn minus_sine(self, sine: Self) -> Self {
+        self - sine
+    }
+    from_module!(circular: sin cos tan asin acos atan);
+    from_module!(exponential: exp exp_m1 ln ln_1p sinh cosh tanh atanh);
+}
