@@ -1,3 +1,7 @@
 //! The command `selfosc`.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    selfosc::command::run()
+}

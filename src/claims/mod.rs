@@ -1,1 +1,50 @@
-//! (to be written)
+//! The theory as values: every definition, lemma, theorem and identity with a checker that can fail.
+//!
+//! A claim holds as printed, or is refuted as printed and holds as corrected. Sampling is evidence and is called
+//! sampling; a proof is an enclosure over a stated domain.
+
+mod claim;
+mod sampling;
+mod verdict;
+
+mod family;
+pub mod tolerance;
+
+pub mod fourier;
+pub mod symmetry;
+
+pub use claim::{Checker, Claim, Finding, Hypothesis, Kind, Printed};
+pub use sampling::{Budget, Case, Draw, sample};
+pub use verdict::{Evidence, Verdict, Witness};
+
+/// Hands the module and constant of every claim to a macro: the one list that the registry and the tests are made from.
+#[macro_export]
+macro_rules! for_each_claim {
+    ($callback:ident) => {
+        $callback! {
+            fourier::FOURIER_COEFFICIENTS,
+            fourier::DESCRIBING_FUNCTION,
+            fourier::ODD_HARMONICS,
+            fourier::ODD_HARMONICS_HYSTERETIC,
+            fourier::SINE_ABS_SINE,
+            symmetry::LEMMA_1,
+            symmetry::LEMMA_2,
+        }
+    };
+}
+
+macro_rules! registry {
+    ($($module:ident::$constant:ident),+ $(,)?) => {
+        /// Every claim.
+        pub const CLAIMS: &[Claim] = &[$($module::$constant),+];
+    };
+}
+for_each_claim!(registry);
+
+impl Claim {
+    /// The claim of that id.
+    #[must_use]
+    pub fn find(id: &str) -> Option<&'static Self> {
+        CLAIMS.iter().find(|claim| claim.id == id)
+    }
+}

@@ -1,1 +1,3 @@
-//! (to be written)
+//! Which drag law a vehicle has.
+
+pub mod pairwise;

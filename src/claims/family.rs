@@ -1,0 +1,67 @@
+//! Families of characteristics that claims draw from.
+
+use super::Draw;
+use crate::describing::{Boxed, DescribingFunction, by_quadrature};
+use crate::nonlinearity::{
+    Backlash, Branch, Characteristic, Custom, DeadZone, NonlinearityError, Preload, Quantizer, Relay, RelayDeadZone,
+    RelayDeadZoneHysteresis, RelayHysteresis, Saturation, SaturationAsymmetric, Sinusoid,
+};
+
+/// Odd, nondecreasing, without memory: the hypothesis of the corrected lemma 1 (but for vanishing on the sweep).
+pub(super) fn odd_nondecreasing(draw: &mut Draw) -> Result<Boxed<f64>, NonlinearityError> {
+    let (a, b) = (draw.uniform("a", 0.1, 3.0), draw.uniform("b", 0.1, 2.0));
+    Ok(match draw.index("family", 6) {
+        0 => Box::new(Relay::new(a)?),
+        1 => Box::new(Saturation::new(a, b)?),
+        2 => Box::new(DeadZone::new(a, b)?),
+        3 => Box::new(RelayDeadZone::new(a, b)?),
+        4 => Box::new(Preload::new(a, b)?),
+        _ => Box::new(Quantizer::new(b)?),
+    })
+}
+
+/// Odd with memory: the rising branch is the falling one turned about the origin.
+pub(super) fn odd_hysteretic(draw: &mut Draw) -> Result<Boxed<f64>, NonlinearityError> {
+    let (a, b) = (draw.uniform("a", 0.1, 3.0), draw.uniform("b", 0.1, 2.0));
+    Ok(match draw.index("family", 3) {
+        0 => Box::new(RelayHysteresis::new(a, b, 0.0)?),
+        1 => Box::new(RelayDeadZoneHysteresis::new(a, b, 0.5 * b)?),
+        _ => Box::new(Backlash::new(a, b)?),
+    })
+}
+
+/// Not odd: what Theorem 1 and the lemmas exclude.
+pub(super) fn not_odd(draw: &mut Draw) -> Result<Boxed<f64>, NonlinearityError> {
+    let (a, b) = (draw.uniform("a", 0.1, 3.0), draw.uniform("b", 0.1, 2.0));
+    Ok(match draw.index("family", 2) {
+        0 => Box::new(RelayHysteresis::new(a, b, 0.3 * a)?),
+        _ => Box::new(SaturationAsymmetric::new(a, -0.5 * b, b)?),
+    })
+}
+
+/// A biased sinusoid of moderate size.
+pub(super) fn sweep(draw: &mut Draw) -> Result<Sinusoid<f64>, NonlinearityError> {
+    Sinusoid::new(draw.uniform("bias", -2.0, 2.0), draw.uniform("amplitude", 0.1, 5.0))
+}
+
+/// An unbiased sinusoid of moderate size.
+pub(super) fn unbiased(draw: &mut Draw) -> Result<Sinusoid<f64>, NonlinearityError> {
+    Sinusoid::new(0.0, draw.uniform("amplitude", 0.1, 5.0))
+}
+
+/// Largest magnitude of the output at the ends and in the middle of the sweep: the scale of its Fourier coefficients.
+pub(super) fn output_scale(
+    characteristic: &(impl Characteristic<Number = f64> + ?Sized),
+    sweep: &Sinusoid<f64>,
+) -> f64 {
+    let at = |x| characteristic.output(x, Branch::Rising, sweep).abs();
+    at(sweep.minimum()).max(at(sweep.maximum())).max(at(sweep.bias()))
+}
+
+/// Mean output of a function without memory and without kinks.
+pub(super) fn mean_of(function: fn(f64) -> f64, bias: f64, amplitude: f64) -> f64 {
+    let smooth = Custom::new(|x: f64, _| function(x), &[]);
+    let df: Result<DescribingFunction<f64>, _> =
+        Sinusoid::new(bias, amplitude).map_err(Into::into).and_then(|sweep| by_quadrature(&smooth, &sweep));
+    df.map_or(f64::NAN, |df| df.f0)
+}

@@ -1,0 +1,124 @@
+//! Drawing cases, with a record of what was drawn.
+
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+
+use super::{Evidence, Verdict, Witness};
+
+/// How many cases to draw, and from which seed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// Cases for each checker.
+    pub cases: usize,
+    /// Seed of the generator. The same seed draws the same cases on every machine.
+    pub seed: u64,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Self { cases: 1000, seed: 1 }
+    }
+}
+
+/// Numbers of one case, with the names they are reported under.
+#[derive(Debug)]
+pub struct Draw {
+    generator: Pcg64,
+    drawn: Vec<(&'static str, f64)>,
+}
+
+impl Draw {
+    /// Uniform on `[from, to)`.
+    pub fn uniform(&mut self, name: &'static str, from: f64, to: f64) -> f64 {
+        let value = self.generator.random_range(from..to);
+        self.note(name, value)
+    }
+    /// Uniform in the logarithm on `[from, to)`, both positive.
+    pub fn log_uniform(&mut self, name: &'static str, from: f64, to: f64) -> f64 {
+        let value = self.generator.random_range(from.ln()..to.ln()).exp();
+        self.note(name, value)
+    }
+    /// Uniform on `[from, to)`, too many of a kind to be shown in a witness.
+    pub fn unrecorded(&mut self, from: f64, to: f64) -> f64 {
+        self.generator.random_range(from..to)
+    }
+    /// A whole number of `0..count`.
+    pub fn index(&mut self, name: &'static str, count: usize) -> usize {
+        let value = self.generator.random_range(0..count);
+        self.note(name, value as f64);
+        value
+    }
+    /// Adds a number that follows from the drawn ones to what a witness shows.
+    pub fn note(&mut self, name: &'static str, value: f64) -> f64 {
+        self.drawn.push((name, value));
+        value
+    }
+    /// The two sides of an equation, equal to `tolerance` relative to `scale`.
+    pub fn equal(&mut self, (name, value): (&'static str, f64), expected: f64, scale: f64, tolerance: f64) -> Case {
+        self.note(name, value);
+        self.note("expected", expected);
+        Case::margin(1.0 - (value - expected).abs() / (tolerance * scale.abs()))
+    }
+    /// `lesser <= greater`; the margin is the gap relative to `scale`.
+    pub fn at_most(&mut self, lesser: (&'static str, f64), greater: (&'static str, f64), scale: f64) -> Case {
+        self.note(lesser.0, lesser.1);
+        self.note(greater.0, greater.1);
+        Case::margin((greater.1 - lesser.1) / scale.abs())
+    }
+}
+
+/// What one case says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Case {
+    /// The hypotheses do not hold: it does not count.
+    Skipped,
+    /// The statement holds with this margin, or fails where the margin is negative or no number.
+    Counted(f64),
+}
+
+impl Case {
+    /// By margin: below zero, or no number, fails.
+    #[must_use]
+    pub fn margin(margin: f64) -> Self {
+        Self::Counted(margin)
+    }
+    /// By truth.
+    #[must_use]
+    pub fn truth(holds: bool) -> Self {
+        Self::Counted(if holds { 1.0 } else { -1.0 })
+    }
+    /// Both, by the smaller margin.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Counted(a), Self::Counted(b)) => Self::Counted(if a.is_nan() || b >= a { a } else { b }),
+            _ => Self::Skipped,
+        }
+    }
+}
+
+/// Draws until `budget.cases` cases have counted: refuted by the first that fails, undecided where the hypotheses are met
+/// too rarely.
+pub fn sample(budget: Budget, mut case: impl FnMut(&mut Draw) -> Case) -> Verdict {
+    let mut draw = Draw { generator: Pcg64::seed_from_u64(budget.seed), drawn: Vec::new() };
+    let (mut counted, mut worst) = (0, f64::INFINITY);
+    let tries = 100 * budget.cases;
+    for _ in 0..tries {
+        if counted == budget.cases {
+            break;
+        }
+        draw.drawn.clear();
+        match case(&mut draw) {
+            Case::Skipped => {}
+            Case::Counted(margin) if margin >= 0.0 => {
+                counted += 1;
+                worst = worst.min(margin);
+            }
+            Case::Counted(_) => return Verdict::Refuted(Witness { numbers: draw.drawn }),
+        }
+    }
+    if counted < budget.cases || counted == 0 {
+        return Verdict::Undecided { spent: format!("{counted} of {} cases in {tries} draws", budget.cases) };
+    }
+    Verdict::Holds(Evidence::Sampled { cases: counted, margin: worst })
+}

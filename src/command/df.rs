@@ -1,0 +1,114 @@
+//! `selfosc df`: one describing function.
+
+use std::io::Write;
+
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use serde_json::json;
+
+use super::{CommandError, Outcome, write_json};
+use crate::describing::{CATALOGUE, DescribingFunction, Entry, by_quadrature};
+use crate::nonlinearity::{Parameter, Sinusoid};
+
+/// The describing function F_0, P, Q of a characteristic at one bias and amplitude.
+///
+/// P + jQ is the gain for the input B + X sin(theta), F_0 the mean output; Q is negative where the output lags.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  selfosc df relay-hysteresis --set level=2 --set half_width=0.3 --amplitude 1 --bias 0.1
+  selfosc df saturation --set breakpoint=0.5 --amplitude 2 --method quadrature --json
+  selfosc df --list")]
+pub(super) struct Arguments {
+    /// Name of the characteristic, as --list shows it
+    #[arg(required_unless_present = "list")]
+    name: Option<String>,
+    /// A parameter of the characteristic, as key=value; repeat for each
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    settings: Vec<(String, f64)>,
+    /// Amplitude X of the input
+    #[arg(long, value_name = "X", required_unless_present = "list", allow_negative_numbers = true)]
+    amplitude: Option<f64>,
+    /// Bias B of the input
+    #[arg(long, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
+    bias: f64,
+    /// How it is found
+    #[arg(long, value_enum, default_value_t = Method::ClosedForm)]
+    method: Method,
+    /// Lists every characteristic with its parameters, and does nothing else
+    #[arg(long)]
+    list: bool,
+    /// Prints one JSON document
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum, Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum Method {
+    /// The formula
+    ClosedForm,
+    /// Adaptive quadrature of the output: an error estimate, no bound
+    Quadrature,
+}
+
+fn setting(text: &str) -> Result<(String, f64), String> {
+    let (key, value) = text.split_once('=').ok_or_else(|| format!("`{text}` is not key=value"))?;
+    let number = value.parse().map_err(|_| format!("{key}: `{value}` is not a number"))?;
+    Ok((key.to_owned(), number))
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    nonlinearity: &'a str,
+    params: serde_json::Map<String, serde_json::Value>,
+    amplitude: f64,
+    bias: f64,
+    f0: f64,
+    p: f64,
+    q: f64,
+    method: Method,
+    enclosure: Option<()>,
+}
+
+pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
+    let (Some(name), Some(amplitude), false) = (&arguments.name, arguments.amplitude, arguments.list) else {
+        return list(arguments.json, output);
+    };
+    let entry = Entry::find(name)?;
+    let values = entry.values(&arguments.settings)?;
+    let characteristic = entry.build(&values)?;
+    let sweep = Sinusoid::new(arguments.bias, amplitude)?;
+    let DescribingFunction { f0, p, q } = match arguments.method {
+        Method::ClosedForm => characteristic.describing_function(&sweep)?,
+        Method::Quadrature => by_quadrature(&*characteristic, &sweep)?,
+    };
+    if arguments.json {
+        let named = entry.parameters.iter().zip(&values);
+        let params = named.map(|(parameter, value)| (parameter.name.to_owned(), json!(value))).collect();
+        let (bias, method) = (arguments.bias, arguments.method);
+        let answer = Answer { nonlinearity: entry.name, params, amplitude, bias, f0, p, q, method, enclosure: None };
+        write_json(output, &answer)?;
+    } else {
+        writeln!(output, "F_0 = {f0}\nP   = {p}\nQ   = {q}")?;
+    }
+    Ok(Outcome::Done)
+}
+
+fn list(as_json: bool, output: &mut impl Write) -> Result<Outcome, CommandError> {
+    if as_json {
+        let parameter = |p: &Parameter| json!({ "name": p.name, "meaning": p.meaning, "domain": p.domain.words(), "default": p.default });
+        let entry =
+            |e: &Entry| json!({ "name": e.name, "parameters": e.parameters.iter().map(parameter).collect::<Vec<_>>() });
+        write_json(output, &CATALOGUE.iter().map(entry).collect::<Vec<_>>())?;
+        return Ok(Outcome::Done);
+    }
+    for entry in CATALOGUE {
+        writeln!(output, "{}", entry.name)?;
+        for parameter in entry.parameters {
+            let default = parameter.default.map_or_else(String::new, |value| format!(" [{value}]"));
+            writeln!(output, "    {}{default}  {}", parameter.name, parameter.meaning)?;
+        }
+    }
+    Ok(Outcome::Done)
+}

@@ -1,0 +1,38 @@
+//! What ends a subcommand early.
+
+use std::process::ExitCode;
+
+use crate::describing::{CatalogueError, DescribingError};
+use crate::nonlinearity::NonlinearityError;
+
+/// Why a subcommand could not answer.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum CommandError {
+    /// Standard output cannot be written.
+    #[error("cannot write the answer: {0}; free the output or redirect it elsewhere")]
+    Output(#[from] std::io::Error),
+    /// A name or a setting that the catalogue does not take.
+    #[error("{0}\n  `selfosc df --list` shows every characteristic with its parameters")]
+    Catalogue(#[from] CatalogueError),
+    /// No describing function for this input.
+    #[error(transparent)]
+    Describing(#[from] DescribingError),
+    /// A bad amplitude or bias.
+    #[error(transparent)]
+    Nonlinearity(#[from] NonlinearityError),
+    /// An id that no claim has.
+    #[error("there is no claim `{id}`; the claims are: {known}")]
+    UnknownClaim {
+        /// The id given.
+        id: String,
+        /// The ids there are.
+        known: String,
+    },
+}
+
+impl CommandError {
+    /// All of them are input that cannot be used.
+    pub(super) fn status(&self) -> ExitCode {
+        ExitCode::from(2)
+    }
+}

@@ -1,0 +1,45 @@
+//! The paper's rule for two experiments (eqs. 41-42): the right drag law is the one whose coefficient does not change.
+
+/// Relative spread of two values in percent (eq. 41): their sample standard deviation over their mean.
+///
+/// The factor `sqrt(2)` belongs to it: with it the paper's Fig. 15 comes out.
+///
+/// ```
+/// use selfosc::select::pairwise::relative_spread_percent;
+/// assert!((relative_spread_percent(1.0, 3.0) - 100.0 / 2f64.sqrt()).abs() < 1e-12);
+/// ```
+#[must_use]
+pub fn relative_spread_percent(first: f64, second: f64) -> f64 {
+    core::f64::consts::SQRT_2 * ((first - second) / (first + second)).abs() * 100.0
+}
+
+/// What a pair of experiments says of the drag law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Decision {
+    /// Force proportional to speed.
+    Linear,
+    /// Force proportional to speed squared.
+    Quadratic,
+    /// The spreads differ by no more than the margin.
+    Undecided,
+}
+
+/// Eq. 42: quadratic where the linear coefficient spreads more than the quadratic one by more than `margin_percent`,
+/// linear where it is the other way about. All in percent. Says nothing of how sure the decision is.
+///
+/// ```
+/// use selfosc::select::pairwise::{Decision, decide};
+/// assert_eq!(decide(20.0, 5.0, 10.0), Decision::Quadratic);
+/// assert_eq!(decide(20.0, 15.0, 10.0), Decision::Undecided);
+/// ```
+#[must_use]
+pub fn decide(spread_linear_percent: f64, spread_quadratic_percent: f64, margin_percent: f64) -> Decision {
+    let difference = spread_linear_percent - spread_quadratic_percent;
+    if difference > margin_percent {
+        Decision::Quadratic
+    } else if difference < -margin_percent {
+        Decision::Linear
+    } else {
+        Decision::Undecided
+    }
+}
