@@ -5,6 +5,7 @@
 
 mod df;
 mod error;
+mod reproduce;
 mod verify;
 
 use std::io::{self, Write};
@@ -27,6 +28,7 @@ struct Command {
 
 #[derive(Debug, Subcommand)]
 enum Action {
+    Reproduce(reproduce::Arguments),
     Verify(verify::Arguments),
     Df(df::Arguments),
 }
@@ -48,6 +50,7 @@ pub fn run() -> ExitCode {
     let command = Command::parse();
     let mut output = io::BufWriter::new(io::stdout().lock());
     let outcome = match &command.action {
+        Action::Reproduce(arguments) => reproduce::run(arguments, &mut output),
         Action::Verify(arguments) => verify::run(arguments, &mut output),
         Action::Df(arguments) => df::run(arguments, &mut output),
     };

@@ -1,23 +1,25 @@
 //! Formulas as an arithmetic: evaluating a generic formula over symbols gives the formula itself, to print.
 
+mod algebra;
 mod print;
 
-use core::ops::{Add, Div, Mul, Neg, Sub};
+use super::{Interval, Real};
 
-use super::Real;
-
-/// A formula over named quantities, kept as a fraction of powers or as a sum of such.
+/// A formula over named quantities, each of which is known to lie in an interval.
 ///
 /// It is an arithmetic like any other, so a formula printed from it is the formula the program evaluates: `2 x / (x x)`
-/// comes out as `2/x`. Collecting powers and equal terms is all the algebra it does; it cancels `x/x` without asking
-/// whether `x` is zero. [`Display`](core::fmt::Display) gives plain text, [`latex`](Self::latex) LaTeX.
+/// comes out as `2/x`. It collects powers and equal terms, multiplies a single term into a sum, and writes
+/// `(a + b)(a - b)` as a difference of squares; it cancels `x/x` without asking whether `x` is zero. `min`, `max` and
+/// `select` that the intervals decide are gone from the result, which therefore holds **for quantities in those
+/// intervals**. [`Display`](core::fmt::Display) gives plain text, [`latex`](Self::latex) LaTeX.
 ///
 /// Its nodes are never freed (an arithmetic is `Copy`): meant for formulas of a page, not for long computations.
 ///
 /// ```
-/// use selfosc::numeric::{Expression, Real};
-/// let (level, amplitude) = (Expression::symbol("C", "C"), Expression::symbol("X_m", "X_m"));
-/// let gain = Expression::from_f64(4.0) * level / (Expression::pi() * amplitude);
+/// use selfosc::numeric::{Expression, Interval, Real};
+/// let level = Expression::symbol("C", "C", Interval::new(1.0, 2.0).unwrap());
+/// let amplitude = Expression::symbol("X_m", "X_m", Interval::new(1.0, 2.0).unwrap());
+/// let gain = Expression::from_f64(4.0) * level.max(Real::zero()) / (Expression::pi() * amplitude);
 /// assert_eq!(gain.to_string(), "4 C/(pi X_m)");
 /// assert_eq!((gain * amplitude).latex(), r"\frac{4 C}{\pi}");
 /// ```
@@ -26,9 +28,9 @@ pub struct Expression(&'static Node);
 
 #[derive(Debug, PartialEq)]
 enum Node {
-    Symbol { text: &'static str, latex: &'static str },
+    Symbol { text: &'static str, latex: &'static str, within: Interval },
     Product(Product),
-    Sum(Vec<Expression>),
+    Sum(Vec<Product>),
     Call { function: Function, arguments: Vec<Expression> },
 }
 
@@ -39,6 +41,7 @@ struct Product {
     factors: Vec<(Expression, i32)>,
 }
 
+/// Declares the functions of one argument, and implements the arithmetic.
 macro_rules! functions {
     ($($function:ident)+) => {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,26 +75,34 @@ macro_rules! functions {
                 Product::number(value).expression()
             }
             fn pi() -> Self {
-                Self::symbol("pi", r"\pi")
+                Self::symbol(PI, r"\pi", Interval::PI)
             }
-            /// A number's own value; nothing is known of a symbol.
+            /// Of the formula's values for quantities in their intervals.
             fn bounds(self) -> (f64, f64) {
-                self.number().map_or((f64::NEG_INFINITY, f64::INFINITY), |value| (value, value))
+                self.range().bounds()
             }
             fn min(self, other: Self) -> Self {
-                Self::call(Function::min, [self, other])
+                match (self.bounds(), other.bounds()) {
+                    (a, b) if a.1 <= b.0 => self,
+                    (a, b) if b.1 <= a.0 => other,
+                    _ => Self::call(Function::min, [self, other]),
+                }
             }
             fn max(self, other: Self) -> Self {
-                Self::call(Function::max, [self, other])
+                match (self.bounds(), other.bounds()) {
+                    (a, b) if a.0 >= b.1 => self,
+                    (a, b) if b.0 >= a.1 => other,
+                    _ => Self::call(Function::max, [self, other]),
+                }
             }
             fn pow(self, exponent: Self) -> Self {
                 Self::call(Function::pow, [self, exponent])
             }
-            /// Both cases are kept; a number decides.
             fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
-                match self.number() {
-                    Some(value) => if value > 0.0 { above() } else { below() },
-                    None => Self::call(Function::select, [self, below(), above()]),
+                match self.bounds() {
+                    (lower, _) if lower > 0.0 => above(),
+                    (_, upper) if upper <= 0.0 => below(),
+                    _ => Self::call(Function::select, [self, below(), above()]),
                 }
             }
             fn minus_sine(self, sine: Self) -> Self {
@@ -108,29 +119,35 @@ macro_rules! functions {
 
 functions!(abs sqrt sin cos tan asin acos atan exp exp_m1 ln ln_1p sinh cosh tanh atanh floor);
 
+/// The plain name of the circle constant.
+const PI: &str = "pi";
+
 impl Expression {
-    /// A quantity by its name in plain text and in LaTeX.
+    /// A quantity by its name in plain text and in LaTeX, and where it lies.
     #[must_use]
-    pub fn symbol(text: &'static str, latex: &'static str) -> Self {
-        Self::new(Node::Symbol { text, latex })
+    pub fn symbol(text: &'static str, latex: &'static str, within: Interval) -> Self {
+        Self::new(Node::Symbol { text, latex, within })
     }
 
-    /// The formula's value in another arithmetic, where `of` gives the value of a symbol by its plain name and the circle
-    /// constant is known; `None` where `of` does not know a symbol.
+    /// The formula's value in another arithmetic, where `of` gives the value of a symbol by its plain name; the circle
+    /// constant is known. `None` where `of` does not know a symbol.
     pub fn value<T: Real>(self, of: &impl Fn(&str) -> Option<T>) -> Option<T> {
+        self.evaluate(&|text, _| of(text))
+    }
+
+    /// Encloses the values for quantities in their intervals.
+    fn range(self) -> Interval {
+        self.evaluate(&|_, within| Some(within)).unwrap_or(Interval::ENTIRE)
+    }
+
+    fn evaluate<T: Real>(self, of: &impl Fn(&str, Interval) -> Option<T>) -> Option<T> {
         match self.0 {
-            Node::Symbol { text: "pi", .. } => Some(T::pi()),
-            Node::Symbol { text, .. } => of(text),
-            Node::Product(Product { coefficient, factors }) => {
-                factors.iter().try_fold(T::from_f64(*coefficient), |product, &(factor, power)| {
-                    let factor = factor.value(of)?;
-                    let times = |product: T| if power > 0 { product * factor } else { product / factor };
-                    Some((0..power.unsigned_abs()).fold(product, |product, _| times(product)))
-                })
-            }
-            Node::Sum(terms) => terms.iter().try_fold(T::zero(), |sum, term| Some(sum + term.value(of)?)),
+            Node::Symbol { text, .. } if *text == PI => Some(T::pi()),
+            Node::Symbol { text, within, .. } => of(text, *within),
+            Node::Product(product) => product.evaluate(of),
+            Node::Sum(terms) => terms.iter().try_fold(T::zero(), |sum, term| Some(sum + term.evaluate(of)?)),
             Node::Call { function, arguments } => {
-                let arguments: Option<Vec<T>> = arguments.iter().map(|argument| argument.value(of)).collect();
+                let arguments: Option<Vec<T>> = arguments.iter().map(|argument| argument.evaluate(of)).collect();
                 function.apply(&arguments?)
             }
         }
@@ -141,7 +158,9 @@ impl Expression {
     }
 
     fn call<const N: usize>(function: Function, arguments: [Self; N]) -> Self {
-        Self::new(Node::Call { function, arguments: arguments.into() })
+        let numbers: Option<Vec<f64>> = arguments.iter().map(|argument| argument.number()).collect();
+        let value = numbers.and_then(|numbers| function.apply(&numbers)).filter(|value| value.fract() == 0.0);
+        value.map_or_else(|| Self::new(Node::Call { function, arguments: arguments.into() }), Self::from_f64)
     }
 
     fn number(self) -> Option<f64> {
@@ -150,95 +169,14 @@ impl Expression {
             _ => None,
         }
     }
-
-    fn product(self) -> Product {
-        match self.0 {
-            Node::Product(product) => product.clone(),
-            _ => Product { coefficient: 1.0, factors: vec![(self, 1)] },
-        }
-    }
-
-    fn terms(self) -> Vec<Product> {
-        match self.0 {
-            Node::Sum(terms) => terms.iter().map(|term| term.product()).collect(),
-            _ => vec![self.product()],
-        }
-    }
 }
 
 impl Product {
-    fn number(value: f64) -> Self {
-        Self { coefficient: value, factors: Vec::new() }
-    }
-
-    fn times(mut self, other: Self, sign: i32) -> Self {
-        self.coefficient = if sign > 0 { self.coefficient * other.coefficient } else { self.coefficient / other.coefficient };
-        for (factor, power) in other.factors {
-            match self.factors.iter_mut().find(|(present, _)| *present == factor) {
-                Some((_, present)) => *present += sign * power,
-                None => self.factors.push((factor, sign * power)),
-            }
-        }
-        self.factors.retain(|&(_, power)| power != 0);
-        self
-    }
-
-    fn expression(self) -> Expression {
-        match self.factors[..] {
-            [(factor, 1)] if self.coefficient == 1.0 => factor,
-            _ if self.coefficient == 0.0 => Expression::new(Node::Product(Self::number(0.0))),
-            _ => Expression::new(Node::Product(self)),
-        }
-    }
-}
-
-impl Add for Expression {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        let mut sum: Vec<Product> = self.terms();
-        for term in other.terms() {
-            match sum.iter_mut().find(|present| present.factors == term.factors) {
-                Some(present) => present.coefficient += term.coefficient,
-                None => sum.push(term),
-            }
-        }
-        sum.retain(|term| term.coefficient != 0.0);
-        let mut terms: Vec<Self> = sum.into_iter().map(Product::expression).collect();
-        match terms.len() {
-            0 => Self::zero(),
-            1 => terms.remove(0),
-            _ => Self::new(Node::Sum(terms)),
-        }
-    }
-}
-
-impl Sub for Expression {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
-impl Neg for Expression {
-    type Output = Self;
-    fn neg(self) -> Self {
-        match self.0 {
-            Node::Sum(terms) => Self::new(Node::Sum(terms.iter().map(|&term| -term).collect())),
-            _ => Self::from_f64(-1.0) * self,
-        }
-    }
-}
-
-impl Mul for Expression {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        self.product().times(other.product(), 1).expression()
-    }
-}
-
-impl Div for Expression {
-    type Output = Self;
-    fn div(self, other: Self) -> Self {
-        self.product().times(other.product(), -1).expression()
+    fn evaluate<T: Real>(&self, of: &impl Fn(&str, Interval) -> Option<T>) -> Option<T> {
+        self.factors.iter().try_fold(T::from_f64(self.coefficient), |product, &(factor, power)| {
+            let factor = factor.evaluate(of)?;
+            let size = (1..power.unsigned_abs()).fold(factor, |size, _| size * factor);
+            Some(if power > 0 { product * size } else { product / size })
+        })
     }
 }

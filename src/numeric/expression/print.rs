@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-use super::{Expression, Function, Node, Product};
+use super::algebra::common;
+use super::{Expression, Function, Node, PI, Product};
 
 /// What differs between the two.
 #[derive(Clone, Copy, PartialEq)]
@@ -26,7 +27,7 @@ impl Expression {
 
     fn print(self, notation: Notation) -> String {
         match self.0 {
-            Node::Symbol { text, latex } => notation.pick(text, latex).to_owned(),
+            Node::Symbol { text, latex, .. } => notation.pick(text, latex).to_owned(),
             Node::Product(product) => notation.product(product),
             Node::Sum(terms) => notation.sum(terms),
             Node::Call { function, arguments } => {
@@ -46,10 +47,16 @@ impl Notation {
         format!("{}{inner}{}", self.pick("(", r"\left("), self.pick(")", r"\right)"))
     }
 
-    fn sum(self, terms: &[Expression]) -> String {
+    /// Terms in the order they came, what they share before a bracket.
+    fn sum(self, terms: &[Product]) -> String {
+        let (shared, rest) = common(terms);
+        if !shared.factors.is_empty() || shared.coefficient != 1.0 {
+            let bracket = self.brackets(&self.sum(&rest));
+            return format!("{} {bracket}", self.product(&shared));
+        }
         let mut sum = String::new();
         for term in terms {
-            let printed = term.print(self);
+            let printed = self.product(term);
             match (sum.is_empty(), printed.strip_prefix('-')) {
                 (true, _) => sum.push_str(&printed),
                 (false, Some(magnitude)) => sum += &format!(" - {magnitude}"),
@@ -65,7 +72,7 @@ impl Notation {
         // Symbols before brackets, the circle constant first, as formulas are written.
         let mut factors = product.factors.clone();
         factors.sort_by_key(|(factor, _)| match factor.0 {
-            Node::Symbol { text: "pi", .. } => 0,
+            Node::Symbol { text: PI, .. } => 0,
             Node::Symbol { .. } => 1,
             _ => 2,
         });
