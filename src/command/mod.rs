@@ -8,6 +8,7 @@ mod balance;
 mod df;
 mod error;
 mod predict;
+mod reproduce;
 mod verify;
 
 use std::io::{self, Write};
@@ -30,6 +31,7 @@ struct Command {
 
 #[derive(Debug, Subcommand)]
 enum Action {
+    Reproduce(reproduce::Arguments),
     Verify(verify::Arguments),
     Df(df::Arguments),
     Balance(balance::Arguments),
@@ -53,6 +55,7 @@ pub fn run() -> ExitCode {
     let command = Command::parse();
     let mut output = io::BufWriter::new(io::stdout().lock());
     let outcome = match &command.action {
+        Action::Reproduce(arguments) => reproduce::run(arguments, &mut output),
         Action::Verify(arguments) => verify::run(arguments, &mut output),
         Action::Df(arguments) => df::run(arguments, &mut output),
         Action::Balance(arguments) => balance::run(arguments, &mut output),

@@ -5,6 +5,8 @@ pub mod branch_and_bound;
 #[cfg(feature = "std")]
 mod dual;
 pub mod enclosure;
+#[cfg(feature = "std")]
+mod expression;
 mod gradient;
 mod interval;
 mod jet;
@@ -18,6 +20,8 @@ mod root;
 #[cfg(feature = "std")]
 pub mod scan;
 
+#[cfg(feature = "std")]
+pub use expression::Expression;
 pub use gradient::Gradient;
 pub use interval::Interval;
 pub use jet::Jet;

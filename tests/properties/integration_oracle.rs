@@ -159,7 +159,11 @@ impl Simulation<'_> {
                 time = if beyond(self.state) < 0.0 { step.event(time, beyond) } else { 0.0 };
                 end = step.at(time);
             }
-            if self.acting > 0.0 { cycle.time_positive_s += time } else { cycle.time_negative_s += time }
+            if self.acting > 0.0 {
+                cycle.time_positive_s += time
+            } else {
+                cycle.time_negative_s += time
+            }
             self.state = end;
             if end.velocity == 0.0 {
                 cycle.maximum = cycle.maximum.max(end.position);
