@@ -5,5 +5,6 @@ mod dual;
 #[cfg(feature = "std")]
 pub mod quadrature;
 mod real;
+pub mod special;
 
 pub use real::{Real, Scalar};
