@@ -117,7 +117,8 @@ impl Entry {
         }
         let mut values = Vec::new();
         for parameter in self.parameters {
-            let set = settings.iter().rev().find(|(name, _)| name == parameter.name).map(|(_, value)| value.clone().into());
+            let set =
+                settings.iter().rev().find(|(name, _)| name == parameter.name).map(|(_, value)| value.clone().into());
             let value = set.or(parameter.default.map(Setting::Number)).ok_or(CatalogueError::MissingParameter {
                 characteristic: self.name,
                 parameter: parameter.name,

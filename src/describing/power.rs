@@ -97,7 +97,12 @@ fn about_infinity(v: f64, p: f64) -> Moments {
     let (m, m_slope) = hypergeometric(-0.5 * p, 0.5 * (1.0 - p), 1.0, v * v);
     let (h, h_slope) = hypergeometric(0.5 * (1.0 - p), 0.5 * (2.0 - p), 2.0, v * v);
     let half = 0.5 * p;
-    Moments { m, m_slope: 2.0 * m_slope / v.max(f64::MIN_POSITIVE), h: half * v * h, h_slope: half * (h + 2.0 * h_slope) }
+    Moments {
+        m,
+        m_slope: 2.0 * m_slope / v.max(f64::MIN_POSITIVE),
+        h: half * v * h,
+        h_slope: half * (h + 2.0 * h_slope),
+    }
 }
 
 /// In `z = (1 - u)/2`: `m = alpha sum a_n z^n + c sum b_j z^(p + 1/2 + j)`, the exponents of the equation at `u = 1`.

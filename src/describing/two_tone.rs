@@ -59,7 +59,8 @@ pub fn two_tone(
             let integrand = |t: f64| {
                 let sine = (from + width * t * t * (3.0 - 2.0 * t)).sin();
                 let sweep = Sinusoid::new(slow.bias() + slow.amplitude() * sine, first);
-                match sweep.map_err(DescribingError::from).and_then(|sweep| characteristic.describing_function(&sweep)) {
+                match sweep.map_err(DescribingError::from).and_then(|sweep| characteristic.describing_function(&sweep))
+                {
                     Ok(df) => part(df, sine) * 6.0 * t * (1.0 - t) * width,
                     Err(error) => {
                         fault = Some(error);

@@ -19,21 +19,19 @@ struct Tally {
     failures: Vec<String>,
 }
 
-/// The exact value, with one input moved by half a unit in its last place.
+/// The exact value, with one input moved by about half a unit in its last place: a parameter, the bias (by that of the
+/// sweep's far end, as which it enters), or the amplitude.
 fn exact(entry: &Entry, case: &Case, moved: Option<usize>) -> [Big; 3] {
-    let half = |k: usize| if moved == Some(k) { big(1.0 + 0.0) + big(f64::EPSILON / 2.0) } else { big(1.0) };
-    let count = case.values.len();
-    let (bias, amplitude) = (big(case.sweep.bias()) * half(count), big(case.sweep.amplitude()) * half(count + 1));
-    let values: Vec<f64> = case.values.clone();
-    let definition = match moved {
-        Some(k) if k < count => {
-            let mut values = values;
-            values[k] *= 1.0 + f64::EPSILON;
-            definition(entry.name, &values, &bias, &amplitude)
-        }
-        _ => definition(entry.name, &values, &bias, &amplitude),
-    };
-    describing_function(&definition, &bias, &amplitude)
+    let mut values = case.values.clone();
+    let (mut bias, mut amplitude) = (big(case.sweep.bias()), big(case.sweep.amplitude()));
+    let half = big(f64::EPSILON / 2.0);
+    match moved {
+        Some(k) if k < values.len() => values[k] *= 1.0 + f64::EPSILON,
+        Some(k) if k == values.len() => bias += big(case.sweep.bias().abs() + case.sweep.amplitude()) * half,
+        Some(_) => amplitude = &amplitude * (big(1.0) + half),
+        None => {}
+    }
+    describing_function(&definition(entry.name, &values, &bias, &amplitude), &bias, &amplitude)
 }
 
 fn compare(entry: &Entry, case: &Case) -> Tally {
@@ -111,7 +109,7 @@ fn all(count: u64) {
 
 #[test]
 fn closed_forms_equal_the_oracle() {
-    all(12);
+    all(4);
 }
 
 #[test]

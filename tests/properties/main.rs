@@ -4,5 +4,6 @@
 mod cases;
 mod catalogue;
 mod describing;
+mod laws;
 mod oracle;
 mod tolerance;

@@ -66,7 +66,7 @@ fn tanh_sinh() -> &'static [(Big, Big, bool)] {
             let sech = big(4.0) * &decay / ((big(1.0) + &decay) * (big(1.0) + &decay));
             (from_right, big(step) * pi() / big(2.0) * cosh * sech, k % 2 == 0)
         };
-        (-150..=150).map(rule).collect()
+        (-126..=126).map(rule).collect()
     });
     &RULE
 }
@@ -88,6 +88,8 @@ pub(crate) struct Definition {
     pub(crate) kinks: Vec<Big>,
     /// The output has an algebraic singularity at its kinks.
     pub(crate) singular: bool,
+    /// Rising and falling branch differ.
+    pub(crate) memory: bool,
 }
 
 /// `F_0`, `P`, `Q`.
@@ -108,7 +110,8 @@ pub(crate) fn describing_function(definition: &Definition, bias: &Big, amplitude
         let square = big(1.0) + t * t;
         let (sine, cosine) = (big(2.0) * t / &square, (big(2.0) - &square) / &square);
         let x = bias + amplitude * &sine;
-        let (rising, falling) = ((definition.output)(&x, true, &ends), (definition.output)(&x, false, &ends));
+        let rising = (definition.output)(&x, true, &ends);
+        let falling = if definition.memory { (definition.output)(&x, false, &ends) } else { rising.clone() };
         let weight = big(2.0) / square;
         let both = (&rising + &falling) * &weight;
         [both.clone(), both * sine, (rising - falling) * weight * cosine]
@@ -186,6 +189,9 @@ fn sign(x: &Big, size: &Big) -> Big {
     pick(x > &big(0.0), size, &-size.clone())
 }
 
+/// Those whose output depends on the branch.
+pub(crate) const MEMORY: [&str; 3] = ["relay-hysteresis", "relay-dead-zone-hysteresis", "backlash"];
+
 /// The characteristic of that name, as its page defines it.
 pub(crate) fn definition(name: &str, values: &[f64], bias: &Big, amplitude: &Big) -> Definition {
     let v: Vec<Big> = values.iter().copied().map(big).collect();
@@ -200,7 +206,7 @@ pub(crate) fn definition(name: &str, values: &[f64], bias: &Big, amplitude: &Big
                 let _ = ($rising, $ends);
                 $output
             });
-            Definition { output, kinks, singular: false }
+            Definition { output, kinks, singular: false, memory: MEMORY.contains(&name) }
         }};
     }
 

@@ -10,3 +10,6 @@ pub(crate) const CLOSED_FORM: f64 = 1e-12;
 /// Error of a closed form above that, as a multiple of what moving every input by half to one unit in its last place does to
 /// the exact value: a dozen rounded operations.
 pub(crate) const CONDITION: f64 = 8.0;
+
+/// A few rounded operations, relative to the largest number that takes part.
+pub(crate) const ROUNDING: f64 = 1e-15;
