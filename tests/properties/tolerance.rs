@@ -53,7 +53,7 @@ pub(crate) const MINIMISED: f64 = 1.5e-6;
 pub(crate) const BALANCE: f64 = 1e-9;
 /// Closed-form limit cycles against integration, relative: the integrator's 1e-13 a step over some hundred steps, and
 /// its approach to the cycle stopped at 1e-13 a cycle while a deviation may need ten cycles to shrink.
-pub(crate) const INTEGRATION: f64 = 1e-10;
+pub(crate) const AXIS_INTEGRATION: f64 = 1e-10;
 
 /// Limit cycles against 30-digit references, relative: rounding, magnified by one over the distance of the multiplier
 /// from one, which is down to 1/125 at g = 1e-6.
@@ -68,6 +68,12 @@ pub(crate) const SINGLE: f64 = 2e-5;
 
 /// Derivatives against central differences of relative step 1e-5: its square, and rounding over the step.
 pub(crate) const DIFFERENCE: f64 = 1e-7;
-/// Width of an elementary function at a point, in units of the last place of the result; measured maxima are below, and
-/// proofs elsewhere rely on enclosures not much wider than rounding.
-pub(crate) const ELEMENTARY_WIDTH_ULP: f64 = 12.0;
+/// Closed form against the oracle, relative to the value itself: what the catalogue promises.
+pub(crate) const CLOSED_FORM: f64 = 1e-12;
+
+/// Error of a closed form above that, as a multiple of what moving every input by half to one unit in its last place does to
+/// the exact value: a dozen rounded operations.
+pub(crate) const CONDITION: f64 = 8.0;
+
+/// A few rounded operations, relative to the largest number that takes part.
+pub(crate) const ROUNDING: f64 = 1e-15;
