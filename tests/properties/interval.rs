@@ -298,6 +298,12 @@ fn is_tightest(x: Interval) -> bool {
 fn check_operations(cases: u32) {
     TestRunner::new(config(cases))
         .run(&([double(), double(), double(), double()], 0.0..1.0), |([a, b, c, d], weight): ([f64; 4], f64)| {
+            let range = interval(a.min(b), a.max(b));
+            let (lo, hi, middle) = (range.lower(), range.upper(), range.midpoint());
+            let width = bracket!(lo, hi: hi - lo);
+            prop_assert!(range.contains(middle) && width.lies_within((0.0, range.width())), "width of {range}");
+            let halves = [bracket!(lo, middle: middle - lo), bracket!(middle, hi: hi - middle)];
+            prop_assert!(halves.iter().all(|half| half.lies_within((0.0, range.radius()))), "radius of {range}");
             for operation in &OPERATIONS {
                 let undefined = |y: Interval| operation.name == "/" && y.contains_zero();
                 let (x, y) = (Interval::point(a), Interval::point(c));
