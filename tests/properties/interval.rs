@@ -447,6 +447,12 @@ fn unbounded_intervals_give_no_nan() {
     let valid = |x: Interval| x.lower() <= x.upper() && x.lower() < f64::INFINITY && x.upper() > f64::NEG_INFINITY;
     let intervals: Vec<_> =
         ends.iter().flat_map(|&lo| ends.iter().filter_map(move |&hi| Interval::new(lo, hi))).collect();
+    let beyond_one = Interval::ONE.hull(Interval::point(f64::INFINITY));
+    for unbounded in
+        [Interval::exp, Interval::exp_m1, Interval::sinh, Interval::cosh, Interval::ln, Interval::ln_1p, Interval::sqrt]
+    {
+        assert_eq!(unbounded(beyond_one).upper(), f64::INFINITY);
+    }
     for &x in &intervals {
         for function in &ELEMENTARY {
             assert!(valid((function.interval)(x)), "{}({x})", function.name);
