@@ -52,7 +52,7 @@ pub(crate) const MINIMISED: f64 = 1.5e-6;
 /// Two ways to the same balance, relative: Newton's method ends at rounding times the condition.
 pub(crate) const BALANCE: f64 = 1e-9;
 /// Closed-form limit cycles against integration, relative: the integrator's 1e-13 a step over some hundred steps, and
-/// its approach to the cycle stopped at 1e-13 a cycle while a deviation may need ten cycles to shrink.
+/// its approach to the cycle stopped at 1e-12 a cycle while a deviation may need ten cycles to shrink.
 pub(crate) const AXIS_INTEGRATION: f64 = 1e-10;
 
 /// Limit cycles against 30-digit references, relative: rounding, magnified by one over the distance of the multiplier
