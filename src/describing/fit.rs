@@ -89,7 +89,8 @@ fn best(entry: &'static Entry, points: &[(f64, f64)], bias: f64) -> Option<Fit> 
     let mut candidates: Vec<_> = candidates.collect();
     candidates.sort_by(|a, b| a.1.total_cmp(&b.1));
     let starts = candidates.into_iter().take(STARTS);
-    let (searched, sum) = starts.filter_map(|(start, _)| descend(entry, start, points, bias)).min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let (searched, sum) =
+        starts.filter_map(|(start, _)| descend(entry, start, points, bias)).min_by(|a, b| a.1.total_cmp(&b.1))?;
     let jacobian = jacobian(entry, &searched, points, bias)?;
     let largest = jacobian.amax();
     let parameters = jacobian.column_iter().filter(|column| column.amax() > 1e-9 * largest).count();
@@ -103,7 +104,8 @@ fn candidate(entry: &Entry, points: &[(f64, f64)], number: u32) -> DVector<f64> 
     const STEPS: [f64; 10] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0];
     let sizes = points.iter().flat_map(|&(amplitude, p)| [amplitude, p.abs(), (p * amplitude).abs(), 1.0]);
     let sizes = sizes.filter(|size| *size > 0.0).map(f64::ln);
-    let (low, high) = sizes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), size| (low.min(size), high.max(size)));
+    let (low, high) =
+        sizes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), size| (low.min(size), high.max(size)));
     let size = |(place, parameter): (usize, &Parameter)| {
         let fraction = (f64::from(number) * STEPS[place % STEPS.len()].sqrt()).fract();
         let size = low - 1.0 + (high - low + 2.0) * fraction;

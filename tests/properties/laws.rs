@@ -325,7 +325,8 @@ fn the_characteristic_comes_back_from_points_of_its_gain() {
         let own = ranked.iter().find(|fit| fit.entry.name == entry.name);
         let size = points.iter().fold(0.0, |size: f64, point| size.max(point.1.abs()));
         match own {
-            Some(own) if own.residual <= 1e-6 * size => {}
+            // A search ends near the minimum; the points have four digits at best.
+            Some(own) if own.residual <= 1e-4 * size => {}
             other => missed.push(format!("{}: {:?}", entry.name, other.map(|fit| (&fit.values, fit.residual)))),
         }
     }
