@@ -38,7 +38,7 @@ pub(crate) const JET_ROUNDING: f64 = 1e-14;
 /// A half-period from the matrix exponential against a published 16-digit value, relative: rounding.
 pub(crate) const PERIOD: f64 = 1e-14;
 /// Exact orbits against integration at a relative tolerance of 1e-12 per step over some tens of periods.
-pub(crate) const INTEGRATION: f64 = 1e-8;
+pub(crate) const ORBIT_INTEGRATION: f64 = 1e-8;
 /// Tsypkin's series cut after 4000 terms, relative to the largest: the tail of `k^-3` is 1e-8 of it.
 pub(crate) const TSYPKIN: f64 = 1e-7;
 /// A multiplier from the decay of a deviation below 1e-4, relative: its second-order part and the next multiplier's.

@@ -77,12 +77,18 @@ impl Notation {
             Node::Product(_) | Node::Sum(_) => (2, ""),
             Node::Call { .. } => (3, ""),
         });
-        let side = |number: String, sign: i32| {
-            let factors = factors.iter().filter(|(_, power)| power * sign > 0);
-            let number = (number != "1").then_some(number);
-            let sides: Vec<String> =
-                number.into_iter().chain(factors.map(|&(base, power)| self.power(base, power.abs()))).collect();
-            sides
+        let is_fraction = under != "1" || factors.iter().any(|(_, power)| *power < 0);
+        let side = |number: String, sign: i32| -> Vec<String> {
+            let factors: Vec<_> = factors.iter().copied().filter(|(_, power)| power * sign > 0).collect();
+            match (number.as_str(), &factors[..]) {
+                // The bar of the fraction holds a sum together.
+                ("1", [(base, 1 | -1)]) if self == Self::Latex && is_fraction => vec![base.print(self)],
+                ("1", _) => factors.iter().map(|&(base, power)| self.power(base, power.abs())).collect(),
+                _ => {
+                    let powers = factors.iter().map(|&(base, power)| self.power(base, power.abs()));
+                    [number].into_iter().chain(powers).collect()
+                }
+            }
         };
         let (numerator, denominator) = (side(over, 1), side(under, -1));
         let above = if numerator.is_empty() { "1".to_owned() } else { numerator.join(" ") };
