@@ -38,7 +38,7 @@ pub(crate) const JET_ROUNDING: f64 = 1e-14;
 /// A half-period from the matrix exponential against a published 16-digit value, relative: rounding.
 pub(crate) const PERIOD: f64 = 1e-14;
 /// Exact orbits against integration at a relative tolerance of 1e-12 per step over some tens of periods.
-pub(crate) const INTEGRATION: f64 = 1e-8;
+pub(crate) const ORBIT_INTEGRATION: f64 = 1e-8;
 /// Tsypkin's series cut after 4000 terms, relative to the largest: the tail of `k^-3` is 1e-8 of it.
 pub(crate) const TSYPKIN: f64 = 1e-7;
 /// A multiplier from the decay of a deviation below 1e-4, relative: its second-order part and the next multiplier's.
@@ -77,3 +77,11 @@ pub(crate) const CONDITION: f64 = 8.0;
 
 /// A few rounded operations, relative to the largest number that takes part.
 pub(crate) const ROUNDING: f64 = 1e-15;
+/// Width of an elementary function at a point, in units of the last place of the result; measured maxima are below, and
+/// proofs elsewhere rely on enclosures not much wider than rounding.
+pub(crate) const ELEMENTARY_WIDTH_ULP: f64 = 12.0;
+
+/// Central differences with steps of 1e-5 of a quantity near one: step squared, and rounding over the step.
+pub(crate) const CENTRAL_DIFFERENCE: f64 = 1e-8;
+/// The formulas of Table 3 rearranged, relative to the relay level: a few dozen roundings of terms below one.
+pub(crate) const REARRANGED: f64 = 1e-14;
