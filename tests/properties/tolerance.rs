@@ -77,10 +77,6 @@ pub(crate) const CONDITION: f64 = 8.0;
 
 /// A few rounded operations, relative to the largest number that takes part.
 pub(crate) const ROUNDING: f64 = 1e-15;
-/// Width of an elementary function at a point, in units of the last place of the result; measured maxima are below, and
-/// proofs elsewhere rely on enclosures not much wider than rounding.
-pub(crate) const ELEMENTARY_WIDTH_ULP: f64 = 12.0;
-
 /// Central differences with steps of 1e-5 of a quantity near one: step squared, and rounding over the step.
 pub(crate) const CENTRAL_DIFFERENCE: f64 = 1e-8;
 /// The formulas of Table 3 rearranged, relative to the relay level: a few dozen roundings of terms below one.
