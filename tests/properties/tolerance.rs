@@ -55,9 +55,9 @@ pub(crate) const BALANCE: f64 = 1e-9;
 /// its approach to the cycle stopped at 1e-12 a cycle while a deviation may need ten cycles to shrink.
 pub(crate) const AXIS_INTEGRATION: f64 = 1e-10;
 
-/// Limit cycles against 30-digit references, relative: rounding, magnified by one over the distance of the multiplier
-/// from one, which is down to 1/125 at g = 1e-6.
-pub(crate) const REFERENCE: f64 = 2e-13;
+/// Limit cycles against 30-digit references or closed forms, relative: twenty roundings, which one over the distance of
+/// the multiplier from one then magnifies (by at most 125 for g >= 1e-6).
+pub(crate) const REFERENCE: f64 = 20.0 * f64::EPSILON;
 
 /// Closed-form motion against itself or an integrator, relative to the largest way and speed involved: some ten
 /// roundings.
@@ -66,7 +66,7 @@ pub(crate) const MOTION: f64 = 1e-12;
 /// f32 against f64, relative: some ten roundings of 6e-8, magnified up to twentyfold by a multiplier near one.
 pub(crate) const SINGLE: f64 = 2e-5;
 
-/// Derivatives against central differences of relative step 1e-5: its square, and rounding over the step.
+/// Derivatives against five-point differences, which are taken for good where halving the step changes them by no more.
 pub(crate) const DIFFERENCE: f64 = 1e-7;
 /// Closed form against the oracle, relative to the value itself: what the catalogue promises.
 pub(crate) const CLOSED_FORM: f64 = 1e-12;
