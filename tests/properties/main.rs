@@ -4,4 +4,6 @@
 mod architecture;
 mod claims;
 mod describing;
+mod identify_exact;
+mod identify_joint;
 mod tolerance;
