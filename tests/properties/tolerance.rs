@@ -13,3 +13,6 @@ pub(crate) const INVERSION_DERIVATIVE: f64 = 1e-4;
 
 /// The same in single precision, for well-conditioned shapes.
 pub(crate) const INVERSION_SINGLE: f64 = 1e-3;
+
+/// Parameters common to exact rows: the search ends at a relative step of 1e-9.
+pub(crate) const JOINT: f64 = 1e-6;
