@@ -26,7 +26,6 @@ pub mod identify;
 pub mod select;
 
 pub mod control;
-#[cfg(feature = "std")]
 pub mod vehicle;
 
 #[cfg(feature = "std")]

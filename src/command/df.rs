@@ -52,7 +52,7 @@ enum Method {
     Quadrature,
 }
 
-fn setting(text: &str) -> Result<(String, f64), String> {
+pub(super) fn setting(text: &str) -> Result<(String, f64), String> {
     let (key, value) = text.split_once('=').ok_or_else(|| format!("`{text}` is not key=value"))?;
     let number = value.parse().map_err(|_| format!("{key}: `{value}` is not a number"))?;
     Ok((key.to_owned(), number))

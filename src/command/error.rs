@@ -1,9 +1,13 @@
 //! What ends a subcommand early.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
+use crate::balance::BalanceError;
 use crate::describing::{CatalogueError, DescribingError};
 use crate::nonlinearity::NonlinearityError;
+use crate::plant::PlantError;
+use crate::report::ReportError;
 
 /// Why a subcommand could not answer.
 #[derive(Debug, thiserror::Error)]
@@ -20,6 +24,23 @@ pub(super) enum CommandError {
     /// A bad amplitude or bias.
     #[error(transparent)]
     Nonlinearity(#[from] NonlinearityError),
+    /// A plant that is none.
+    #[error(transparent)]
+    Plant(#[from] PlantError),
+    /// Harmonic balance without an answer.
+    #[error(transparent)]
+    Balance(#[from] BalanceError),
+    /// A table, a figure or a report that cannot be made.
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    /// A file that cannot be written.
+    #[error("cannot write {}: {source}; choose a folder that you may write to", path.display())]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
     /// An id that no claim has.
     #[error("there is no claim `{id}`; the claims are: {known}")]
     UnknownClaim {

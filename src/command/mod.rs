@@ -3,8 +3,12 @@
 //! Answers go to standard output, everything else to standard error. Exit status: 0 done, 1 the answer is no, 2 usage or
 //! unreadable input.
 
+mod axis;
+mod balance;
 mod df;
 mod error;
+mod predict;
+mod reproduce;
 mod verify;
 
 use std::io::{self, Write};
@@ -27,8 +31,11 @@ struct Command {
 
 #[derive(Debug, Subcommand)]
 enum Action {
+    Reproduce(reproduce::Arguments),
     Verify(verify::Arguments),
     Df(df::Arguments),
+    Balance(balance::Arguments),
+    Predict(predict::Arguments),
 }
 
 /// What a subcommand found, when nothing went wrong.
@@ -48,8 +55,11 @@ pub fn run() -> ExitCode {
     let command = Command::parse();
     let mut output = io::BufWriter::new(io::stdout().lock());
     let outcome = match &command.action {
+        Action::Reproduce(arguments) => reproduce::run(arguments, &mut output),
         Action::Verify(arguments) => verify::run(arguments, &mut output),
         Action::Df(arguments) => df::run(arguments, &mut output),
+        Action::Balance(arguments) => balance::run(arguments, &mut output),
+        Action::Predict(arguments) => predict::run(arguments, &mut output),
     };
     match outcome.and_then(|outcome| output.flush().map(|()| outcome).map_err(CommandError::from)) {
         Ok(Outcome::Done) => ExitCode::SUCCESS,

@@ -72,7 +72,7 @@ impl<T: Real> Oscillation<T> {
     /// use selfosc::identify::iso::Oscillation;
     /// // Row 7 of Table 4, in its own units: degrees and 1e-2 N m.
     /// let row = Oscillation {
-    ///     relay_level: 8.23, switch_level: 6.58, amplitude: 26.36, bias: 3.8, period_s: 2.69, delay_s: 0.2,
+    ///     relay_level: 8.23f64, switch_level: 6.58, amplitude: 26.36, bias: 3.8, period_s: 2.69, delay_s: 0.2,
     /// };
     /// let parameters = row.identify()?;
     /// assert!((parameters.beta * 100.0 - 11.11).abs() < 0.02);

@@ -1,13 +1,31 @@
 //! The arithmetics: [`Real`] and [`Scalar`], and the numerical methods the rest stands on.
 
 #[cfg(feature = "std")]
+pub mod branch_and_bound;
+#[cfg(feature = "std")]
 mod dual;
+pub mod enclosure;
+#[cfg(feature = "std")]
+mod expression;
+mod gradient;
+mod interval;
+mod jet;
 #[cfg(feature = "std")]
 pub mod quadrature;
 mod ratio;
 mod real;
+#[cfg(feature = "std")]
+pub mod rigorous_quadrature;
 mod root;
+#[cfg(feature = "std")]
+pub mod scan;
+pub mod special;
 
+#[cfg(feature = "std")]
+pub use expression::Expression;
+pub use gradient::Gradient;
+pub use interval::Interval;
+pub use jet::Jet;
 pub use ratio::{atanh_root_ratio, cosh_root, exp_m1_ratio, ln_1p_ratio, minus_ln_1p, minus_tanh, sinh_root_ratio};
 pub use real::{Real, Scalar};
 pub use root::increasing_root;

@@ -2,7 +2,7 @@
 
 /// Nodes in `[0, 1)` and weights of the 15-point Kronrod rule, and the weights of the 7-point Gauss rule on every second
 /// node (Piessens et al., QUADPACK, 1983).
-const RULE: [(f64, f64, f64); 8] = [
+pub(crate) const RULE: [(f64, f64, f64); 8] = [
     (0.991_455_371_120_812_6, 0.022_935_322_010_529_224, 0.0),
     (0.949_107_912_342_758_5, 0.063_092_092_629_978_55, 0.129_484_966_168_869_7),
     (0.864_864_423_359_769_1, 0.104_790_010_322_250_18, 0.0),

@@ -1,9 +1,16 @@
 //! Why there is no limit cycle.
 
+#[cfg(feature = "std")]
+use crate::plant::PlantError;
+
 /// Why a loop has no limit cycle, or none that the arithmetic can resolve. Values are in the caller's units.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum OrbitError {
+    /// The plant is at fault.
+    #[cfg(feature = "std")]
+    #[error(transparent)]
+    Plant(#[from] PlantError),
     /// The relay cannot overcome the constant force, so that the axis drifts away.
     #[error(
         "disturbance {disturbance} plus relay offset {offset} must be smaller in magnitude than the relay level \
@@ -42,5 +49,66 @@ pub enum OrbitError {
     Speed {
         /// The speed given, in position units per second.
         speed: f64,
+    },
+    /// A reference, disturbance or tolerance that is not usable.
+    #[error("{quantity} = {value} must be {required}")]
+    Parameter {
+        /// What it is.
+        quantity: &'static str,
+        /// The value given.
+        value: f64,
+        /// What it has to be.
+        required: &'static str,
+    },
+    /// A range of periods that is empty or not positive.
+    #[error("the range of periods from {from_s} s to {to_s} s must be finite, above 0 and ascending")]
+    Range {
+        /// Lower end, s.
+        from_s: f64,
+        /// Upper end, s.
+        to_s: f64,
+    },
+    /// A range of periods that takes too many samples.
+    #[error("the range of periods from {from_s} s to {to_s} s needs more than {limit} samples; narrow it")]
+    TooManySamples {
+        /// Lower end, s.
+        from_s: f64,
+        /// Upper end, s.
+        to_s: f64,
+        /// The most there may be.
+        limit: usize,
+    },
+    /// A constant input or, for a plant without integrator, a reference that rules symmetric orbits out (Theorem 2).
+    #[error(
+        "no symmetric limit cycle with a constant input of {constant_input} and a reference of {reference}; \
+         ask for all limit cycles instead"
+    )]
+    NotSymmetric {
+        /// Relay offset plus disturbance, in input units.
+        constant_input: f64,
+        /// Reference, in output units.
+        reference: f64,
+    },
+    /// Extrema too close to each other to be told apart.
+    #[error("the output between two switchings needs more than {limit} pieces to isolate its extrema")]
+    TooManyPieces {
+        /// The most there may be.
+        limit: usize,
+    },
+    /// A step size that shrank to nothing.
+    #[error("the step at t = {time_s} s fell to {step_s} s; the right side is not smooth there or not finite")]
+    StepTooSmall {
+        /// Time, s.
+        time_s: f64,
+        /// The step, s.
+        step_s: f64,
+    },
+    /// More steps or events than allowed.
+    #[error("stopped at t = {time_s} s after {steps} steps; raise the limit or the tolerances")]
+    TooManySteps {
+        /// Time reached, s.
+        time_s: f64,
+        /// Steps taken.
+        steps: usize,
     },
 }

@@ -3,7 +3,19 @@
 mod closed_form;
 mod drag_axis;
 mod error;
+#[cfg(feature = "std")]
+mod extrema;
 mod half_cycle;
+#[cfg(feature = "std")]
+pub mod integrate;
+#[cfg(feature = "std")]
+mod relay_cycle;
+#[cfg(feature = "std")]
+mod relay_linear;
+#[cfg(feature = "std")]
+mod relay_multiplier;
+#[cfg(feature = "std")]
+mod tsypkin;
 
 pub use closed_form::{
     linear_amplitude_excess, linear_half_cycle, linear_half_width, quadratic_half_cycle, quadratic_period,
@@ -11,3 +23,7 @@ pub use closed_form::{
 };
 pub use drag_axis::{LimitCycle, Return, Switching, limit_cycle, return_map};
 pub use error::OrbitError;
+#[cfg(feature = "std")]
+pub use relay_linear::{RelayLoop, RelayOrbit};
+#[cfg(feature = "std")]
+pub use tsypkin::tsypkin_locus;

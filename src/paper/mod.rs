@@ -1,1 +1,32 @@
-//! (to be written)
+//! The paper regenerated from its printed data, and audited against it.
+//!
+//! N. Mišković, Z. Vukić, M. Barišić, *Identification of Unmanned Underwater Vehicles by Self-Oscillation Method*,
+//! AUTOMATIKA 50 (2009) 3-4, 167-183. Where the paper says "constant" and "linear" drag it names the drag coefficient; this
+//! project names the force, and says linear and quadratic.
+//!
+//! | file | content |
+//! |---|---|
+//! | `fixtures` | what is printed, read from `fixtures/` |
+//! | `printed` | a printed decimal, and the interval it stands for |
+//! | `table2`, `table3` | the axes and the identification formulas, printed by evaluating them over symbols |
+//! | `table4` | the parameters of 19 experiments, their means and spreads |
+//! | `figure15` | the drag law from pairs of experiments |
+//! | `quantisation` | errors by the sensor's step: eqs. 37-39 and Fig. 14 |
+//! | `relay_figures` | Figs. 5-7 |
+//! | `thruster_figure` | Fig. 9 (b) |
+//! | `audit` | every printed number against its recomputation in intervals |
+
+pub mod audit;
+mod error;
+pub mod figure15;
+pub mod fixtures;
+mod printed;
+pub mod quantisation;
+pub mod relay_figures;
+pub mod table2;
+pub mod table3;
+pub mod table4;
+pub mod thruster_figure;
+
+pub use error::PaperError;
+pub use printed::Printed;

@@ -16,4 +16,86 @@ pub enum PlantError {
         /// What the parameter has to be.
         required: &'static str,
     },
+    /// A polynomial without coefficients.
+    #[error("the {polynomial} has no coefficients; give them in descending powers of s")]
+    NoCoefficients {
+        /// Numerator or denominator.
+        polynomial: &'static str,
+    },
+    /// An entry that is not a finite number.
+    #[error("entry {index} of the {part} is {value}; give finite numbers")]
+    NotFinite {
+        /// Polynomial or matrix.
+        part: &'static str,
+        /// Its place, from zero, column by column in a matrix.
+        index: usize,
+        /// The value given.
+        value: f64,
+    },
+    /// A polynomial whose first coefficient is zero: its degree is not what its length says.
+    #[error("the {polynomial} begins with 0; leave that coefficient out")]
+    LeadingZero {
+        /// Numerator or denominator.
+        polynomial: &'static str,
+    },
+    /// Numerator and denominator both vanish at s = 0.
+    #[error("numerator and denominator share the factor s; cancel it")]
+    CommonFactor,
+    /// A numerator of higher degree than the denominator.
+    #[error(
+        "numerator of degree {numerator} over denominator of degree {denominator} is improper; \
+         the numerator's degree may be {denominator} at most"
+    )]
+    Improper {
+        /// Degree of the numerator.
+        numerator: usize,
+        /// Degree of the denominator.
+        denominator: usize,
+    },
+    /// A plant that passes its input straight through, where a state space without feedthrough is asked for.
+    #[error("numerator and denominator both have degree {degree}; a state space needs a strictly proper plant")]
+    NotStrictlyProper {
+        /// The common degree.
+        degree: usize,
+    },
+    /// A delay that is negative or not a number.
+    #[error("delay = {delay_s} s must be a finite number, 0 or more")]
+    Delay {
+        /// The delay given.
+        delay_s: f64,
+    },
+    /// An order of Padé approximant that is not available.
+    #[error("a Pade approximant of order {order} is not available; use 1 to {limit}")]
+    PadeOrder {
+        /// The order asked for.
+        order: usize,
+        /// The highest there is.
+        limit: usize,
+    },
+    /// Matrices that do not fit together.
+    #[error(
+        "a is {rows} by {columns}, b has {inputs} rows, c has {outputs} columns; all four must be equal and above 0"
+    )]
+    Shape {
+        /// Rows of a.
+        rows: usize,
+        /// Columns of a.
+        columns: usize,
+        /// Rows of b.
+        inputs: usize,
+        /// Columns of c.
+        outputs: usize,
+    },
+    /// The frequency response at a pole on the imaginary axis.
+    #[error("the plant has a pole at s = {omega_rad_s}j: no frequency response there; choose another frequency")]
+    PoleAt {
+        /// The frequency, rad/s.
+        omega_rad_s: f64,
+    },
+    /// The eigenvalue iteration did not converge.
+    #[error("the eigenvalues of a matrix of order {order} did not converge; scale the plant's time unit")]
+    Eigenvalues {
+        /// Order of the matrix.
+        order: usize,
+    },
 }

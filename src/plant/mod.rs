@@ -4,8 +4,29 @@ mod drag_axis;
 mod error;
 mod motion;
 mod one_way;
+#[cfg(feature = "std")]
+mod state_space;
+#[cfg(feature = "std")]
+mod transfer;
 
 pub use drag_axis::DragAxis;
 pub use error::PlantError;
 pub use motion::State;
 pub use one_way::{OneWay, Passage};
+#[cfg(feature = "std")]
+pub use state_space::{Flow, StateSpace, eigenvalues};
+#[cfg(feature = "std")]
+pub use transfer::TransferFunction;
+
+#[cfg(feature = "std")]
+pub(crate) fn checked_delay(delay_s: f64) -> Result<f64, PlantError> {
+    if delay_s.is_finite() && delay_s >= 0.0 { Ok(delay_s) } else { Err(PlantError::Delay { delay_s }) }
+}
+
+#[cfg(feature = "std")]
+pub(crate) fn all_finite<'a>(part: &'static str, values: impl IntoIterator<Item = &'a f64>) -> Result<(), PlantError> {
+    match values.into_iter().enumerate().find(|(_, value)| !value.is_finite()) {
+        Some((index, &value)) => Err(PlantError::NotFinite { part, index, value }),
+        None => Ok(()),
+    }
+}

@@ -1,1 +1,16 @@
-//! (to be written)
+//! Tables, figures and one-file reports.
+//!
+//! A [`Table`] is one thing with several faces: Markdown, CSV, LaTeX, JSON, HTML and text for a terminal. A [`Figure`] is
+//! data with labelled axes, drawn as SVG; the same data give the same bytes. A [`Document`] puts both into one HTML file that
+//! needs no network.
+
+mod error;
+mod figure;
+mod html;
+pub mod paper;
+mod table;
+
+pub use error::ReportError;
+pub use figure::{Figure, Mark, Panel, Series};
+pub use html::{Document, Section};
+pub use table::{Cell, Table};

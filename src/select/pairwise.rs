@@ -1,5 +1,7 @@
 //! The paper's rule for two experiments (eqs. 41-42): the right drag law is the one whose coefficient does not change.
 
+use crate::numeric::Real;
+
 /// Relative spread of two values in percent (eq. 41): their sample standard deviation over their mean.
 ///
 /// The factor `sqrt(2)` belongs to it: with it the paper's Fig. 15 comes out.
@@ -8,9 +10,8 @@
 /// use selfosc::select::pairwise::relative_spread_percent;
 /// assert!((relative_spread_percent(1.0, 3.0) - 100.0 / 2f64.sqrt()).abs() < 1e-12);
 /// ```
-#[must_use]
-pub fn relative_spread_percent(first: f64, second: f64) -> f64 {
-    core::f64::consts::SQRT_2 * ((first - second) / (first + second)).abs() * 100.0
+pub fn relative_spread_percent<T: Real>(first: T, second: T) -> T {
+    T::two().sqrt() * ((first - second) / (first + second)).abs() * T::from_f64(100.0)
 }
 
 /// What a pair of experiments says of the drag law.

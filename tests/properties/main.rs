@@ -2,8 +2,21 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
 mod architecture;
+mod balance;
+mod cases;
+mod catalogue;
+mod certificate;
 mod claims;
 mod describing;
 mod identify_exact;
 mod identify_joint;
+mod fourier_oracle;
+mod integration_oracle;
+mod interval;
+mod laws;
+mod motion_drag_axis;
+mod oracle;
+mod orbit_drag_axis;
+mod orbit_linear;
 mod tolerance;
+mod vehicle;

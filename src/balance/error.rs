@@ -1,0 +1,92 @@
+//! Why a harmonic balance cannot be computed.
+
+use crate::describing::DescribingError;
+use crate::nonlinearity::NonlinearityError;
+use crate::plant::PlantError;
+
+/// Why a harmonic balance cannot be computed. That there is no intersection is not an error but an empty answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BalanceError {
+    /// The plant is at fault.
+    #[error(transparent)]
+    Plant(#[from] PlantError),
+    /// The characteristic has no describing function here.
+    #[error(transparent)]
+    Describing(#[from] DescribingError),
+    /// The characteristic or its input is at fault.
+    #[error(transparent)]
+    Nonlinearity(#[from] NonlinearityError),
+    /// A range that is empty or not positive.
+    #[error("the range of {quantity} from {from} to {to} must be finite, above 0 and ascending")]
+    Range {
+        /// Amplitude or frequency.
+        quantity: &'static str,
+        /// Lower end.
+        from: f64,
+        /// Upper end.
+        to: f64,
+    },
+    /// A bias, reference or disturbance that is not a number.
+    #[error("{quantity} = {value} must be a finite number")]
+    NotFinite {
+        /// What it is.
+        quantity: &'static str,
+        /// The value given.
+        value: f64,
+    },
+    /// A curve that winds too much for its range.
+    #[error("the curve over {quantity} from {from} to {to} needs more than {limit} points; narrow the range")]
+    TooManyPoints {
+        /// Amplitude or frequency.
+        quantity: &'static str,
+        /// Lower end.
+        from: f64,
+        /// Upper end.
+        to: f64,
+        /// The most there may be.
+        limit: usize,
+    },
+    /// A number of harmonics out of range.
+    #[error("{order} harmonics asked for; 1 to {limit} are possible")]
+    Order {
+        /// The number asked for.
+        order: usize,
+        /// The most there may be.
+        limit: usize,
+    },
+    /// Newton's method did not settle with more harmonics.
+    #[error("no balance found with {order} harmonics: the residual stays at {residual} of the amplitude")]
+    NotConverged {
+        /// Number of harmonics.
+        order: usize,
+        /// Residual over amplitude.
+        residual: f64,
+    },
+    /// A characteristic with memory whose input turns inside a period where the memory acts.
+    #[error(
+        "the input turns at {input} within the range where the characteristic has memory; \
+         its output there is not known from the input's range alone"
+    )]
+    TurnsInMemory {
+        /// Input value of the turning point.
+        input: f64,
+    },
+    /// No sinusoid balances a drag axis.
+    #[error(
+        "no sinusoid balances: it needs drag (linear_drag = {linear_drag}, quadratic_drag = {quadratic_drag}), a constant \
+         force ({constant_force}) below the relay level {level}, and a half-width ({half_width}) or a delay above 0"
+    )]
+    NoAxisBalance {
+        /// Linear drag, force per speed.
+        linear_drag: f64,
+        /// Quadratic drag, force per speed squared.
+        quadratic_drag: f64,
+        /// Disturbance plus relay offset, in force units.
+        constant_force: f64,
+        /// Relay level C, in force units.
+        level: f64,
+        /// Half-width of the hysteresis, in position units.
+        half_width: f64,
+    },
+}

@@ -1,0 +1,65 @@
+//! Points on a curve over a logarithmic range, closer where the curve moves faster.
+
+use core::ops::RangeInclusive;
+
+use super::BalanceError;
+
+/// Points in a decade before refinement.
+const PER_DECADE: f64 = 24.0;
+/// Halvings of a gap: the edge of a domain is met to 1e-7 of its place.
+const DEPTH: u32 = 20;
+/// Halvings where the curve is defined on both sides.
+const SMOOTH_DEPTH: u32 = 12;
+/// The most points of one curve.
+const POINTS: usize = 100_000;
+
+/// What is sampled, for errors.
+pub(super) struct Axis {
+    pub(super) quantity: &'static str,
+    pub(super) range: RangeInclusive<f64>,
+}
+
+impl Axis {
+    pub(super) fn new(quantity: &'static str, range: &RangeInclusive<f64>) -> Result<Self, BalanceError> {
+        let (from, to) = (*range.start(), *range.end());
+        if !(from > 0.0 && from < to && to.is_finite()) {
+            return Err(BalanceError::Range { quantity, from, to });
+        }
+        Ok(Self { quantity, range: range.clone() })
+    }
+
+    /// Samples `curve`; halves every gap between two points that are not `close`, and every edge of its domain.
+    pub(super) fn sample<V: Clone>(
+        &self,
+        mut curve: impl FnMut(f64) -> Option<V>,
+        close: impl Fn(&V, &V) -> bool,
+    ) -> Result<Vec<(f64, Option<V>)>, BalanceError> {
+        let (from, to) = (*self.range.start(), *self.range.end());
+        let gaps = ((to / from).log10() * PER_DECADE).ceil().max(1.0);
+        let mut points: Vec<(f64, Option<V>)> = vec![(from, curve(from))];
+        for index in 1..=gaps as usize {
+            let end = if index == gaps as usize { to } else { from * (to / from).powf(index as f64 / gaps) };
+            // Ends of the gaps still to be checked, the nearest on top.
+            let mut stack = vec![(end, curve(end), 0)];
+            while let Some((x, value, depth)) = stack.pop() {
+                let Some((last, before)) = points.last() else { break };
+                let (gap_is_fine, limit) = match (before, &value) {
+                    (Some(a), Some(b)) => (close(a, b), SMOOTH_DEPTH),
+                    (None, None) => (true, 0),
+                    _ => (false, DEPTH),
+                };
+                if gap_is_fine || depth >= limit {
+                    points.push((x, value));
+                    continue;
+                }
+                if points.len() + stack.len() >= POINTS {
+                    return Err(BalanceError::TooManyPoints { quantity: self.quantity, from, to, limit: POINTS });
+                }
+                let middle = (last * x).sqrt();
+                stack.push((x, value, depth + 1));
+                stack.push((middle, curve(middle), depth + 1));
+            }
+        }
+        Ok(points)
+    }
+}

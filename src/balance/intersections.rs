@@ -1,0 +1,339 @@
+//! All oscillations that the first harmonic predicts, and Loeb's verdict on each.
+
+use core::cell::Cell;
+use core::ops::RangeInclusive;
+
+use nalgebra::{Complex, Matrix2, Matrix3, Vector2, Vector3};
+
+use super::BalanceError;
+use super::grid::Axis;
+use super::nyquist::near;
+use crate::describing::{DescribingError, DescribingFunction};
+use crate::nonlinearity::Sinusoid;
+use crate::numeric::scan;
+use crate::plant::TransferFunction;
+
+/// Loop gain below which no oscillation can be near: the curve is not refined there.
+const QUIET: f64 = 0.3;
+/// Two solutions nearer than this, relative, are one.
+const SAME: f64 = 1e-6;
+/// Sine of the angle between the derivatives of the balance at which Loeb's criterion says nothing.
+const PARALLEL: f64 = 1e-6;
+/// Step of the difference quotients, relative.
+const STEP: f64 = 1e-5;
+
+/// What fixes the mean of the characteristic's input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bias {
+    /// It is given, in input units.
+    Fixed(f64),
+    /// The loop's static balance fixes it (eqs. 17, 20): `bias = reference - G(0) (F_0 + disturbance)`, and
+    /// `F_0 + disturbance = 0` for an integrating plant.
+    Loop {
+        /// Constant reference, in units of the plant's output.
+        reference: f64,
+        /// Constant disturbance at the plant's input.
+        disturbance: f64,
+    },
+}
+
+/// One oscillation predicted by the first harmonic.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Intersection {
+    /// Amplitude X of the characteristic's input, which is the plant output's too.
+    pub amplitude: f64,
+    /// Mean of the characteristic's input; the plant output's mean is the reference less this.
+    pub bias: f64,
+    /// Frequency, rad/s.
+    pub omega_rad_s: f64,
+    /// Loeb's criterion: whether a larger amplitude decays. `None` where it is degenerate: the curves touch, or the
+    /// balance does not fix the bias. A statement of the approximation, not of the loop.
+    pub stable: Option<bool>,
+}
+
+/// A plant in a loop with a characteristic, given by its describing function.
+///
+/// ```
+/// use selfosc::balance::HarmonicBalance;
+/// use selfosc::describing::ClosedForm;
+/// use selfosc::nonlinearity::Saturation;
+/// use selfosc::plant::TransferFunction;
+/// let plant = TransferFunction::new(&[8.0], &[1.0, 2.0, 2.0, 1.0])?;
+/// let saturation = Saturation::new(1.0, 1.0)?;
+/// let found = HarmonicBalance::new(&plant, |sweep| saturation.describing_function(sweep))?.intersections()?;
+/// assert_eq!(found.len(), 1);
+/// assert!((found[0].omega_rad_s - 2f64.sqrt()).abs() < 1e-12);
+/// assert!((found[0].amplitude - 3.343_998_730_206).abs() < 1e-11);
+/// assert_eq!(found[0].stable, Some(true));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct HarmonicBalance<'a, N> {
+    plant: &'a TransferFunction,
+    describing: N,
+    bias: Bias,
+    amplitude: RangeInclusive<f64>,
+    omega_rad_s: RangeInclusive<f64>,
+}
+
+/// The gain of the characteristic at one amplitude and bias.
+#[derive(Clone, Copy, PartialEq)]
+struct Gain {
+    bias: f64,
+    gain: Complex<f64>,
+}
+
+impl<'a, N> HarmonicBalance<'a, N>
+where
+    N: Fn(&Sinusoid<f64>) -> Result<DescribingFunction<f64>, DescribingError>,
+{
+    /// At bias zero, amplitudes from 1e-6 to 1e6, frequencies three decades around the plant's poles and zeros (with a
+    /// delay, up to 100/delay or ten times the fastest of them).
+    ///
+    /// # Errors
+    /// [`BalanceError::Plant`] where the plant's poles cannot be computed.
+    pub fn new(plant: &'a TransferFunction, describing: N) -> Result<Self, BalanceError> {
+        let mut corners: Vec<f64> = plant.poles()?.iter().chain(&plant.zeros()?).map(|root| root.norm()).collect();
+        corners.retain(|&corner| corner > 0.0);
+        let delay = plant.delay_s();
+        if delay > 0.0 {
+            corners.push(1.0 / delay);
+        }
+        let slowest = corners.iter().copied().reduce(f64::min).unwrap_or(1.0);
+        let fastest = corners.iter().copied().reduce(f64::max).unwrap_or(1.0);
+        let highest = if delay > 0.0 { (10.0 * fastest).max(100.0 / delay) } else { 1e3 * fastest };
+        let omega_rad_s = 1e-3 * slowest..=highest;
+        Ok(Self { plant, describing, bias: Bias::Fixed(0.0), amplitude: 1e-6..=1e6, omega_rad_s })
+    }
+
+    /// With another condition on the bias.
+    ///
+    /// # Errors
+    /// [`BalanceError::NotFinite`].
+    pub fn with_bias(self, bias: Bias) -> Result<Self, BalanceError> {
+        let numbers = match bias {
+            Bias::Fixed(bias) => [("bias", bias), ("bias", bias)],
+            Bias::Loop { reference, disturbance } => [("reference", reference), ("disturbance", disturbance)],
+        };
+        match numbers.into_iter().find(|(_, value)| !value.is_finite()) {
+            Some((quantity, value)) => Err(BalanceError::NotFinite { quantity, value }),
+            None => Ok(Self { bias, ..self }),
+        }
+    }
+    /// Within these amplitudes of the characteristic's input and these frequencies, rad/s.
+    ///
+    /// # Errors
+    /// [`BalanceError::Range`] unless both ranges are positive, finite and ascending.
+    pub fn within(
+        self,
+        amplitude: RangeInclusive<f64>,
+        omega_rad_s: RangeInclusive<f64>,
+    ) -> Result<Self, BalanceError> {
+        Axis::new("amplitude", &amplitude)?;
+        Axis::new("frequency", &omega_rad_s)?;
+        Ok(Self { amplitude, omega_rad_s, ..self })
+    }
+    /// The range of frequencies searched, rad/s.
+    #[must_use]
+    pub fn omega_rad_s(&self) -> RangeInclusive<f64> {
+        self.omega_rad_s.clone()
+    }
+    pub(super) fn plant(&self) -> &TransferFunction {
+        self.plant
+    }
+
+    /// All solutions of `1 + N(X) G(jw) = 0` and of the condition on the bias, ascending in frequency, then amplitude.
+    ///
+    /// Both curves are sampled to a tenth of their magnitude, every pair of steps is tried with their linear parts, and
+    /// Newton's method finishes. So two solutions are told apart where the curves bend less than that between them; a
+    /// solution at which the curves touch may be missed.
+    ///
+    /// # Errors
+    /// [`BalanceError::TooManyPoints`]; [`BalanceError::Describing`] where the describing function fails other than for
+    /// an amplitude below switching.
+    pub fn intersections(&self) -> Result<Vec<Intersection>, BalanceError> {
+        let failure = Cell::new(None);
+        let amplitude = Axis::new("amplitude", &self.amplitude)?;
+        let omega = Axis::new("frequency", &self.omega_rad_s)?;
+        let response = |omega: f64| self.plant.response(omega).ok();
+
+        let coarse = omega.sample(response, |_, _| true)?;
+        let largest = coarse.iter().filter_map(|(_, g)| g.map(|g| g.norm())).fold(0.0, f64::max);
+        let quiet = |a: Complex<f64>, b: Complex<f64>, other: f64| a.norm().max(b.norm()) * other < QUIET;
+        let gains = amplitude.sample(
+            |amplitude| Some(self.gains(amplitude, &failure)).filter(|gains| !gains.is_empty()),
+            |a, b| {
+                a.len() == b.len()
+                    && a.iter().zip(b).all(|(a, b)| near(a.gain, b.gain) || quiet(a.gain, b.gain, largest))
+            },
+        )?;
+        if let Some(error) = failure.take() {
+            return Err(error.into());
+        }
+        let loudest =
+            gains.iter().flat_map(|(_, gains)| gains).flatten().map(|gain| gain.gain.norm()).fold(0.0, f64::max);
+        let responses = omega.sample(response, |a, b| near(*a, *b) || quiet(*a, *b, loudest))?;
+
+        let mut found: Vec<Intersection> = Vec::new();
+        for steps in gains.windows(2) {
+            let (Some(here), Some(next)) = (&steps[0].1, &steps[1].1) else { continue };
+            for gain in here {
+                let nearest = |a: &&Gain, b: &&Gain| (a.bias - gain.bias).abs().total_cmp(&(b.bias - gain.bias).abs());
+                let Some(after) = next.iter().min_by(nearest) else { continue };
+                for pair in responses.windows(2) {
+                    let (Some(g), Some(g_after)) = (pair[0].1, pair[1].1) else { continue };
+                    let Some(share) = crossing(gain.gain, after.gain, g, g_after) else { continue };
+                    let between = |a: f64, b: f64, share: f64| (a.ln() + share * (b / a).ln()).exp();
+                    let guess = Vector3::new(
+                        between(steps[0].0, steps[1].0, share[0]),
+                        gain.bias + share[0] * (after.bias - gain.bias),
+                        between(pair[0].0, pair[1].0, share[1]),
+                    );
+                    let same = |known: &Intersection, at: &Vector3<f64>| {
+                        (known.amplitude / at[0]).ln().abs() < SAME
+                            && (known.omega_rad_s / at[2]).ln().abs() < SAME
+                            && (known.bias - at[1]).abs() < SAME * at[0]
+                    };
+                    let Some((root, slopes)) = self.newton(guess) else { continue };
+                    let inside = self.amplitude.contains(&root[0]) && self.omega_rad_s.contains(&root[2]);
+                    if inside && !found.iter().any(|known| same(known, &root)) {
+                        found.push(Intersection {
+                            amplitude: root[0],
+                            bias: root[1],
+                            omega_rad_s: root[2],
+                            stable: loeb(&slopes),
+                        });
+                    }
+                }
+            }
+        }
+        let place = |at: &Intersection| (at.omega_rad_s, at.amplitude);
+        found.sort_by(|a, b| place(a).partial_cmp(&place(b)).unwrap_or(core::cmp::Ordering::Equal));
+        Ok(found)
+    }
+
+    fn describe(&self, amplitude: f64, bias: f64) -> Result<DescribingFunction<f64>, DescribingError> {
+        (self.describing)(&Sinusoid::new(bias, amplitude)?)
+    }
+
+    /// What the bias is off by, with `f0` the mean of the characteristic's output.
+    pub(super) fn bias_miss(&self, bias: f64, f0: f64) -> f64 {
+        match (self.bias, self.plant.static_gain()) {
+            (Bias::Fixed(fixed), _) => bias - fixed,
+            (Bias::Loop { reference, disturbance }, Some(gain)) => bias - reference + gain * (f0 + disturbance),
+            (Bias::Loop { disturbance, .. }, None) => f0 + disturbance,
+        }
+    }
+
+    /// Every bias that fits an amplitude, with the gain there. Keeps a failure other than of the amplitude's size.
+    fn gains(&self, amplitude: f64, failure: &Cell<Option<DescribingError>>) -> Vec<Gain> {
+        let describe = |bias: f64| match self.describe(amplitude, bias) {
+            Ok(df) => Some(df),
+            Err(DescribingError::Nonlinearity(_) | DescribingError::NotFinite { .. }) => None,
+            Err(other) => {
+                failure.set(Some(other));
+                None
+            }
+        };
+        let biases = match self.bias {
+            Bias::Fixed(bias) => vec![bias],
+            Bias::Loop { reference, .. } => {
+                // Evenly where the sweep straddles zero, geometrically beyond, and about the reference.
+                let even = (-20..=20).map(|step| f64::from(step) * 0.05 * amplitude);
+                let far = (1..=24).flat_map(|step| [-1.0, 1.0].map(|side| side * amplitude * 1.5f64.powi(step)));
+                let mut nodes: Vec<f64> = even.chain(far).flat_map(|node| [node, node + reference]).collect();
+                nodes.sort_by(f64::total_cmp);
+                nodes.dedup();
+                scan::roots(&nodes, |bias| Some(self.bias_miss(bias, describe(bias)?.f0)))
+            }
+        };
+        let gain = |bias: f64| {
+            let df = describe(bias)?;
+            Some(Gain { bias, gain: Complex::new(df.p, df.q) }).filter(|gain| gain.gain.is_finite())
+        };
+        biases.into_iter().filter_map(gain).collect()
+    }
+
+    /// Bias condition, real and imaginary part of the balance at (amplitude, bias, frequency).
+    fn residual(&self, at: Vector3<f64>) -> Option<Vector3<f64>> {
+        let df = self.describe(at[0], at[1]).ok()?;
+        let balance = Complex::new(df.p, df.q) * self.plant.response(at[2]).ok()? + 1.0;
+        let residual = Vector3::new(self.bias_miss(at[1], df.f0), balance.re, balance.im);
+        residual.iter().all(|value| value.is_finite()).then_some(residual)
+    }
+
+    /// A solution near `at` and the derivatives there, by logarithm of amplitude, bias over amplitude, logarithm of
+    /// frequency.
+    fn newton(&self, mut at: Vector3<f64>) -> Option<(Vector3<f64>, Matrix3<f64>)> {
+        let mut last = f64::INFINITY;
+        for _ in 0..60 {
+            let residual = self.residual(at)?;
+            let scale = Vector3::new(at[0], at[0], at[2]);
+            let slopes = self.slopes(at, residual, scale)?;
+            let step = slopes.lu().solve(&residual)?;
+            // The amplitude and frequency at most double or halve; a step out of the domain is shortened.
+            let mut share = (0.5 / step[0].abs().max(step[2].abs())).min(1.0);
+            let moved = |share: f64| at - (step * share).component_mul(&scale);
+            for _ in 0..40 {
+                if self.residual(moved(share)).is_some() {
+                    break;
+                }
+                share *= 0.5;
+            }
+            at = moved(share);
+            let size = step.amax();
+            // Until rounding stops the steps from shrinking.
+            if size < 1e-8 && size >= 0.5 * last {
+                let residual = self.residual(at)?;
+                return Some((at, self.slopes(at, residual, scale)?));
+            }
+            last = size;
+        }
+        None
+    }
+
+    fn slopes(&self, at: Vector3<f64>, here: Vector3<f64>, scale: Vector3<f64>) -> Option<Matrix3<f64>> {
+        let mut slopes = Matrix3::zeros();
+        for axis in 0..3 {
+            let mut offset = Vector3::zeros();
+            offset[axis] = STEP * scale[axis];
+            let slope = match (self.residual(at + offset), self.residual(at - offset)) {
+                (Some(after), Some(before)) => (after - before) / (2.0 * STEP),
+                (Some(after), None) => (after - here) / STEP,
+                (None, Some(before)) => (here - before) / STEP,
+                (None, None) => return None,
+            };
+            slopes.set_column(axis, &slope);
+        }
+        Some(slopes)
+    }
+}
+
+/// Where, in shares of the two steps, the linear part of `1 + N G` vanishes; `None` if not near them.
+fn crossing(
+    gain: Complex<f64>,
+    gain_after: Complex<f64>,
+    response: Complex<f64>,
+    response_after: Complex<f64>,
+) -> Option<Vector2<f64>> {
+    let here = gain * response + 1.0;
+    let (by_gain, by_response) = ((gain_after - gain) * response, gain * (response_after - response));
+    let reach = 2.0;
+    if here.norm() > reach * (by_gain.norm() + by_response.norm()) {
+        return None;
+    }
+    let slopes = Matrix2::new(by_gain.re, by_response.re, by_gain.im, by_response.im);
+    let share = slopes.lu().solve(&Vector2::new(-here.re, -here.im))?;
+    (share.amax() <= reach).then_some(share)
+}
+
+/// Loeb's criterion: with `1 + N(X) G(s) = 0` kept, a larger X must move s to the left, that is
+/// `R_X I_w - I_X R_w > 0` for the real and imaginary parts R, I of the balance. The bias follows the amplitude.
+fn loeb(slopes: &Matrix3<f64>) -> Option<bool> {
+    let follow = -slopes[(0, 0)] / slopes[(0, 1)];
+    let by_amplitude = Vector2::new(slopes[(1, 0)] + follow * slopes[(1, 1)], slopes[(2, 0)] + follow * slopes[(2, 1)]);
+    let by_frequency = Vector2::new(slopes[(1, 2)], slopes[(2, 2)]);
+    let determinant = by_amplitude[0] * by_frequency[1] - by_amplitude[1] * by_frequency[0];
+    let scale = by_amplitude.norm() * by_frequency.norm();
+    (determinant.abs() > PARALLEL * scale).then_some(determinant > 0.0)
+}

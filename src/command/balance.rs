@@ -1,0 +1,70 @@
+//! `selfosc balance`: harmonic balance of a transfer function with a characteristic.
+
+use std::io::Write;
+
+use clap::Args;
+use serde_json::json;
+
+use super::{CommandError, Outcome, write_json};
+use crate::balance::{Bias, HarmonicBalance};
+use crate::describing::Entry;
+use crate::plant::TransferFunction;
+
+/// The oscillations that harmonic balance predicts for a plant in a loop with a characteristic.
+///
+/// Every intersection of the plant's Nyquist curve with -1/N, with Loeb's verdict on its stability. An approximation: it leaves
+/// out all harmonics but the first. No intersection is an answer too.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  selfosc balance --num 8 --den 1,2,2,1 --nonlinearity saturation --set breakpoint=1
+  selfosc balance --num 1 --den 1,1,0 --delay 0.1 --nonlinearity relay-hysteresis --set half_width=0.2 --json")]
+pub(super) struct Arguments {
+    /// Numerator, descending powers of s
+    #[arg(long, value_name = "A,B,...", value_delimiter = ',', required = true, allow_hyphen_values = true)]
+    num: Vec<f64>,
+    /// Denominator, descending powers of s
+    #[arg(long, value_name = "A,B,...", value_delimiter = ',', required = true, allow_hyphen_values = true)]
+    den: Vec<f64>,
+    /// Delay of the plant in s
+    #[arg(long, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
+    delay: f64,
+    /// Name of the characteristic, as `selfosc df --list` shows it
+    #[arg(long, value_name = "NAME")]
+    nonlinearity: String,
+    /// A parameter of the characteristic, as key=value; repeat for each
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = super::df::setting)]
+    settings: Vec<(String, f64)>,
+    /// Bias of the characteristic's input
+    #[arg(long, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
+    bias: f64,
+    /// Prints one JSON document
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
+    let plant = TransferFunction::new(&arguments.num, &arguments.den)?.with_delay(arguments.delay)?;
+    let entry = Entry::find(&arguments.nonlinearity)?;
+    let characteristic = entry.build(&entry.values(&arguments.settings)?)?;
+    let balance = HarmonicBalance::new(&plant, |sweep| characteristic.describing_function(sweep))?
+        .with_bias(Bias::Fixed(arguments.bias))?;
+    let found = balance.intersections()?;
+    if arguments.json {
+        let intersection = |found: &crate::balance::Intersection| json!({ "amplitude": found.amplitude, "omega_rad_s": found.omega_rad_s, "stable": found.stable });
+        write_json(output, &json!({ "intersections": found.iter().map(intersection).collect::<Vec<_>>() }))?;
+        return Ok(Outcome::Done);
+    }
+    if found.is_empty() {
+        let (from, to) = balance.omega_rad_s().into_inner();
+        writeln!(output, "no oscillation: -1/N does not meet the plant's curve between {from:.3e} and {to:.3e} rad/s")?;
+        return Ok(Outcome::Done);
+    }
+    writeln!(output, "{:>14}  {:>14}  {:>12}  stable", "amplitude", "omega / rad/s", "period / s")?;
+    for one in &found {
+        let stable = one.stable.map_or("not decided", |stable| if stable { "yes" } else { "no" });
+        let period_s = core::f64::consts::TAU / one.omega_rad_s;
+        writeln!(output, "{:14.7}  {:14.7}  {period_s:12.6}  {stable}", one.amplitude, one.omega_rad_s)?;
+    }
+    Ok(Outcome::Done)
+}

@@ -1,0 +1,95 @@
+//! `selfosc predict`: the self-oscillation of a drag axis.
+
+use std::io::Write;
+
+use clap::Args;
+use serde::Serialize;
+use serde_json::json;
+
+use super::axis::AxisArguments;
+use super::{CommandError, Outcome, write_json};
+use crate::balance::AxisOscillation;
+use crate::orbit::{LimitCycle, limit_cycle};
+
+/// The self-oscillation of alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay) + delta under a relay with hysteresis.
+///
+/// Harmonic balance is the paper's approximation; the exact limit cycle comes from the closed-form motion between switchings.
+/// Exit status 1 where there is no limit cycle, with the reason.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  selfosc predict --alpha 0.033 --beta-quadratic 0.007 --relay 0.08 --half-width 0.21 --delay 0.2
+  selfosc predict --alpha 1 --beta 1 --relay 1 --half-width 0.2 --delta 0.3 --json")]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    axis: AxisArguments,
+    /// Prints one JSON document
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Exact {
+    amplitude: f64,
+    bias: f64,
+    maximum: f64,
+    minimum: f64,
+    period_s: f64,
+    time_positive_s: f64,
+    time_negative_s: f64,
+    switch_level: f64,
+    multiplier: f64,
+}
+
+impl From<LimitCycle<f64>> for Exact {
+    fn from(cycle: LimitCycle<f64>) -> Self {
+        Self {
+            amplitude: cycle.amplitude,
+            bias: cycle.bias,
+            maximum: cycle.maximum,
+            minimum: cycle.minimum,
+            period_s: cycle.period_s,
+            time_positive_s: cycle.time_positive_s,
+            time_negative_s: cycle.time_negative_s,
+            switch_level: cycle.upper_switch.position,
+            multiplier: cycle.multiplier,
+        }
+    }
+}
+
+pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
+    let (axis, relay) = (arguments.axis.axis()?, arguments.axis.relay()?);
+    let exact = match limit_cycle(&axis, &relay) {
+        Ok(cycle) => Exact::from(cycle),
+        Err(reason) => {
+            if arguments.json {
+                write_json(output, &json!({ "no_limit_cycle": { "text": reason.to_string() } }))?;
+            } else {
+                writeln!(output, "no limit cycle: {reason}")?;
+            }
+            return Ok(Outcome::No);
+        }
+    };
+    // The approximation may miss an oscillation that exists.
+    let balance = AxisOscillation::predict(&axis, &relay).ok();
+    if arguments.json {
+        let balance = balance
+            .map(|found| json!({ "amplitude": found.amplitude, "bias": found.bias, "period_s": found.period_s() }));
+        write_json(output, &json!({ "harmonic_balance": balance, "exact": exact, "certificate": null }))?;
+        return Ok(Outcome::Done);
+    }
+    let approximate = |part: fn(&AxisOscillation) -> f64| {
+        balance.as_ref().map_or_else(|| "-".to_owned(), |found| format!("{:.6}", part(found)))
+    };
+    let mut row = |name: &str, exact: f64, balance: String| writeln!(output, "{name:22}{exact:>16.6}{balance:>20}");
+    row("amplitude", exact.amplitude, approximate(|found| found.amplitude))?;
+    row("bias", exact.bias, approximate(|found| found.bias))?;
+    row("period / s", exact.period_s, approximate(AxisOscillation::period_s))?;
+    row("maximum", exact.maximum, String::new())?;
+    row("minimum", exact.minimum, String::new())?;
+    row("time at +C / s", exact.time_positive_s, String::new())?;
+    row("time at -C / s", exact.time_negative_s, String::new())?;
+    row("real switching level", exact.switch_level, String::new())?;
+    row("multiplier", exact.multiplier, String::new())?;
+    Ok(Outcome::Done)
+}

@@ -1,0 +1,192 @@
+//! Circular functions of intervals and their inverses, with proved bounds.
+
+use core::f64::consts::FRAC_2_PI;
+
+use super::Interval;
+use crate::numeric::Real;
+
+/// `pi/2` as three numbers of 33 significant bits, whose products with a quarter count up to 2^20 are exact, and a rest.
+pub(super) const HALF_PI_PARTS: [f64; 3] =
+    [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_711_166_5e-21];
+pub(super) const HALF_PI_REST: Interval =
+    Interval { lo: 8.478_427_660_368_9e-32, hi: 8.478_427_660_368_9e-32_f64.next_up() };
+const HALF_PI: Interval = Interval { lo: core::f64::consts::FRAC_PI_2, hi: core::f64::consts::FRAC_PI_2.next_up() };
+
+/// Largest argument that is reduced; beyond it sine and cosine are only known to lie in `[-1, 1]`.
+const REDUCTION_LIMIT: f64 = 1_048_576.0;
+
+/// Coefficients of `r^3, r^5, ..., r^17` of the sine, and that of `r^19` as a bound of the alternating rest.
+pub(super) const SINE: [Interval; 9] = alternating(6.0, 3.0);
+/// Coefficients of `r^2, r^4, ..., r^16` of the cosine, and that of `r^18` as a bound of the alternating rest.
+pub(super) const COSINE: [Interval; 9] = alternating(2.0, 2.0);
+
+/// `-1/n!, +1/(n + 2)!, ...`; the rest of such a series lies between zero and its first omitted term while `r^2 < 6`.
+const fn alternating(mut factorial: f64, mut n: f64) -> [Interval; 9] {
+    let mut coefficients = [Interval::ZERO; 9];
+    let mut i = 0;
+    while i < coefficients.len() {
+        let Interval { mut lo, hi } = Interval::reciprocal(factorial);
+        if i + 1 == coefficients.len() {
+            lo = 0.0;
+        }
+        coefficients[i] = if i % 2 == 0 { Interval { lo: -hi, hi: -lo } } else { Interval { lo, hi } };
+        factorial *= (n + 1.0) * (n + 2.0);
+        n += 2.0;
+        i += 1;
+    }
+    coefficients
+}
+
+/// `(k, r)` with `x = k pi/2 + r` and `|r| < 0.79`; `None` beyond the limit.
+fn reduce(x: f64) -> Option<(i32, Interval)> {
+    if x.is_nan() || x.abs() > REDUCTION_LIMIT {
+        return None;
+    }
+    let k = libm::rint(x * FRAC_2_PI);
+    let [first, second, third] = HALF_PI_PARTS.map(|part| Interval::point(k * part));
+    // The smallest first, but for the second: near a multiple of pi/2 it cancels what the first leaves.
+    let r = Interval::point(x) - first - second - (third + Interval::point(k) * HALF_PI_REST);
+    Some((k as i32, r))
+}
+
+/// What a series adds to its first term, in units of that.
+fn series([low @ .., rest]: &[Interval; 9], r: Interval) -> Interval {
+    let square = r.square();
+    square * low.iter().rev().fold(*rest, |tail, &coefficient| coefficient + square * tail)
+}
+
+/// `sin(k pi/2 + r)` for `|r| < 0.8`.
+fn quarter_sine(k: i32, r: Interval) -> Interval {
+    let size = if k % 2 == 0 { r + r * series(&SINE, r) } else { Interval::ONE + series(&COSINE, r) };
+    if k.rem_euclid(4) < 2 { size } else { -size }
+}
+
+fn quarter_tangent(k: i32, r: Interval) -> Interval {
+    quarter_sine(k, r) / quarter_sine(k + 1, r)
+}
+
+/// Whether an odd number congruent to `residue` modulo `modulus` lies in `first..=last`.
+fn contains_residue(first: i32, last: i32, residue: i32, modulus: i32) -> bool {
+    first + (residue - first).rem_euclid(modulus) <= last
+}
+
+/// The endpoints in quarter turns and rests, with the range of quarter counts whose points may lie in the interval.
+struct Quarters {
+    lower: (i32, Interval),
+    upper: (i32, Interval),
+    first: i32,
+    last: i32,
+}
+
+impl Quarters {
+    fn of(x: Interval) -> Option<Self> {
+        let lower = reduce(x.lo)?;
+        let upper = if x.is_point() { lower } else { reduce(x.hi)? };
+        let first = lower.0 + i32::from(lower.1.is_positive());
+        let last = upper.0 - i32::from(upper.1.is_negative());
+        Some(Self { lower, upper, first, last })
+    }
+}
+
+/// `sin(x + shift pi/2)`.
+fn shifted_sine(x: Interval, shift: i32) -> Interval {
+    if x.is_entire() {
+        return x;
+    }
+    let Some(Quarters { lower, upper, first, last }) = Quarters::of(x) else {
+        return Interval::UNIT;
+    };
+    let at_lower = quarter_sine(lower.0 + shift, lower.1);
+    let ends = if x.is_point() { at_lower } else { at_lower.hull(quarter_sine(upper.0 + shift, upper.1)) };
+    let reaches = |residue| contains_residue(first + shift, last + shift, residue, 4);
+    Interval {
+        lo: if reaches(3) { -1.0 } else { ends.lo.max(-1.0) },
+        hi: if reaches(1) { 1.0 } else { ends.hi.min(1.0) },
+    }
+}
+
+/// The angle within `range` (narrower than 3 pi/2) of the vector `(cosine, sine)` of any length, by correcting any guess
+/// `y` in `range`: with `d = tan(angle - y)`, the angle is `y + atan(d)` and `atan(d)` lies between `d/(1 + d^2)` and `d`.
+pub(super) fn angle(sine: Interval, cosine: Interval, guess: f64, range: Interval) -> Interval {
+    let Some((k, r)) = reduce(guess).filter(|_| range.contains(guess)) else {
+        return range;
+    };
+    let (s, c) = (quarter_sine(k, r), quarter_sine(k + 1, r));
+    let along = cosine * c + sine * s;
+    // A positive cosine of the difference, which is below 3 pi/2, puts the difference within a quarter turn.
+    if !along.is_positive() {
+        return range;
+    }
+    let d = (sine * c - cosine * s) / along;
+    let shrink = Interval { lo: (Interval::ONE / (Interval::ONE + d.square())).lo, hi: 1.0 };
+    (Interval::point(guess) + d * shrink).intersection(range).unwrap_or(range)
+}
+
+/// `sqrt(1 - x^2)` for `|x| <= 1`.
+pub(super) fn complement(x: Interval) -> Interval {
+    ((Interval::ONE - x) * (Interval::ONE + x)).sqrt()
+}
+
+/// What an inverse sine or tangent can be.
+pub(super) const HALF_TURN: Interval = Interval { lo: -HALF_PI.hi, hi: HALF_PI.hi };
+
+fn asin_at(x: f64) -> Interval {
+    let sine = Interval::point(x);
+    angle(sine, complement(sine), libm::asin(x), HALF_TURN)
+}
+
+fn acos_at(x: f64) -> Interval {
+    let cosine = Interval::point(x);
+    angle(complement(cosine), cosine, libm::acos(x), Interval { lo: 0.0, hi: Interval::PI.hi })
+}
+
+fn atan_at(x: f64) -> Interval {
+    let (sine, cosine) = if x.abs() <= 1.0 {
+        (Interval::point(x), Interval::ONE)
+    } else {
+        (Interval::point(1_f64.copysign(x)), Interval::ONE / Interval::point(x.abs()))
+    };
+    angle(sine, cosine, libm::atan(x), HALF_TURN)
+}
+
+pub(super) fn sin(x: Interval) -> Interval {
+    shifted_sine(x, 0)
+}
+
+pub(super) fn cos(x: Interval) -> Interval {
+    shifted_sine(x, 1)
+}
+
+pub(super) fn tan(x: Interval) -> Interval {
+    match Quarters::of(x) {
+        Some(Quarters { lower, upper, first, last }) if !contains_residue(first, last, 1, 2) => {
+            let at_lower = quarter_tangent(lower.0, lower.1);
+            if x.is_point() { at_lower } else { Interval { lo: at_lower.lo, hi: quarter_tangent(upper.0, upper.1).hi } }
+        }
+        _ => Interval::ENTIRE,
+    }
+}
+
+/// `x - sin x`, which increases.
+pub(super) fn minus_sine(x: Interval) -> Interval {
+    x.increasing(|x| {
+        let x = Interval::point(x);
+        if x.magnitude() < 1.2 { -(x * series(&SINE, x)) } else { x - sin(x) }
+    })
+}
+
+pub(super) fn asin(x: Interval) -> Interval {
+    if x.is_subset_of(Interval::UNIT) { x.increasing(asin_at) } else { Interval::ENTIRE }
+}
+
+pub(super) fn acos(x: Interval) -> Interval {
+    if !x.is_subset_of(Interval::UNIT) {
+        return Interval::ENTIRE;
+    }
+    // Negated to make it increasing.
+    (-x).increasing(|x| acos_at(-x))
+}
+
+pub(super) fn atan(x: Interval) -> Interval {
+    x.increasing(atan_at)
+}

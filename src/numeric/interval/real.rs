@@ -1,0 +1,103 @@
+//! Intervals as an arithmetic for the formulas of this crate.
+
+use super::rounding::{product, square_root};
+use super::{Interval, circular, exponential};
+use crate::numeric::Real;
+
+macro_rules! from_module {
+    ($module:ident: $($function:ident)+) => {
+        $(
+            fn $function(self) -> Self {
+                $module::$function(self)
+            }
+        )+
+    };
+}
+
+impl Real for Interval {
+    #[inline]
+    fn from_f64(value: f64) -> Self {
+        Self::point(value)
+    }
+    #[inline]
+    fn pi() -> Self {
+        Self::PI
+    }
+    #[inline]
+    fn bounds(self) -> (f64, f64) {
+        (self.lo, self.hi)
+    }
+    fn abs(self) -> Self {
+        if self.is_entire() || self.lo >= 0.0 {
+            self
+        } else if self.hi <= 0.0 {
+            -self
+        } else {
+            Self { lo: 0.0, hi: self.magnitude() }
+        }
+    }
+    fn min(self, other: Self) -> Self {
+        if self.is_entire() || other.is_entire() {
+            return Self::ENTIRE;
+        }
+        Self { lo: self.lo.min(other.lo), hi: self.hi.min(other.hi) }
+    }
+    fn max(self, other: Self) -> Self {
+        if self.is_entire() || other.is_entire() {
+            return Self::ENTIRE;
+        }
+        Self { lo: self.lo.max(other.lo), hi: self.hi.max(other.hi) }
+    }
+    fn square(self) -> Self {
+        if self.is_entire() {
+            return self;
+        }
+        let size = self.abs();
+        Self { lo: product(size.lo, size.lo).down(), hi: product(size.hi, size.hi).up() }
+    }
+    fn sqrt(self) -> Self {
+        if self.lo < 0.0 {
+            return Self::ENTIRE;
+        }
+        Self { lo: square_root(self.lo).down(), hi: square_root(self.hi).up() }
+    }
+    fn pow(self, exponent: Self) -> Self {
+        if self.lo < 0.0 || self.is_entire() || exponent.is_entire() {
+            Self::ENTIRE
+        } else if let Some(count) = exponent.small_natural() {
+            (0..count).fold(Self::ONE, |power, _| power * self)
+        } else if self.lo > 0.0 {
+            (exponent * self.ln()).exp()
+        } else if exponent.lo < 0.0 {
+            Self::ENTIRE
+        } else {
+            // Zero to a positive power is zero; one is a value if the exponent may vanish.
+            let at_zero = Self { lo: 0.0, hi: if exponent.lo > 0.0 { 0.0 } else { 1.0 } };
+            if self.hi > 0.0 { at_zero.hull((exponent * Self::point(self.hi).ln()).exp()) } else { at_zero }
+        }
+    }
+    fn floor(self) -> Self {
+        Self { lo: libm::floor(self.lo), hi: libm::floor(self.hi) }
+    }
+    fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
+        if self.is_entire() {
+            Self::ENTIRE
+        } else if self.lo > 0.0 {
+            above()
+        } else if self.hi <= 0.0 {
+            below()
+        } else {
+            below().hull(above())
+        }
+    }
+    fn minus_sine(self, sine: Self) -> Self {
+        let difference = self - sine;
+        if difference.is_entire() {
+            return difference;
+        }
+        // Both enclose it, so they meet.
+        circular::minus_sine(self).intersection(difference).unwrap_or(difference)
+    }
+    from_module!(circular: sin cos tan asin acos atan);
+    from_module!(exponential: exp exp_m1 ln ln_1p sinh cosh tanh atanh);
+}

@@ -1,0 +1,111 @@
+//! What the public functions hide: constants, remainders of series, and guesses that are wrong.
+
+#[path = "../../../tests/properties/oracle.rs"]
+mod oracle;
+
+use oracle::{Bracket, Down, Up, at, bracket};
+
+use super::circular::{COSINE, HALF_PI_PARTS, HALF_PI_REST, HALF_TURN, SINE, angle, complement};
+use super::exponential::{EXP_COEFFICIENTS, EXP_REMAINDER, LN_2_HIGH, LN_2_LOW, REDUCED_LIMIT, ln_1p_reduced};
+use super::*;
+use crate::numeric::Real;
+
+#[track_caller]
+fn assert_encloses(enclosure: Interval, exact: &Bracket) {
+    assert!(exact.lies_within(enclosure.bounds()), "{exact:?} is not in {enclosure}");
+}
+
+fn factorial(n: u32) -> f64 {
+    (1..=n).map(f64::from).product()
+}
+
+#[test]
+fn constants_are_enclosed() {
+    let one = 1.0;
+    assert_encloses(Interval::PI, &bracket!(one: at(4.0) * one.atan()));
+    assert_encloses(HALF_TURN, &bracket!(one: at(2.0) * one.atan()));
+    let [a, b, c] = HALF_PI_PARTS;
+    assert_encloses(HALF_PI_REST, &bracket!(one, a, b, c: at(2.0) * one.atan() - a - b - c));
+    let two = 2.0;
+    assert_encloses(LN_2_LOW, &bracket!(two: two.ln() - at(LN_2_HIGH)));
+    for (factor, count) in HALF_PI_PARTS.map(|part| (part, 1_048_575.0)).into_iter().chain([(LN_2_HIGH, 1075.0)]) {
+        let (product, rounded): (Down, Down) = (at(factor) * at(count), at(factor * count));
+        assert_eq!(product, rounded, "{factor} times a count of half turns or halvings is exact");
+    }
+}
+
+#[test]
+fn coefficients_are_enclosed() {
+    for (i, coefficient) in (2..).zip(EXP_COEFFICIENTS) {
+        let divisor = factorial(i);
+        assert_encloses(coefficient, &bracket!(divisor: at(1.0) / divisor));
+    }
+    for (series, first) in [(SINE, 3), (COSINE, 2)] {
+        for (i, coefficient) in (0..).zip(&series[..8]) {
+            let divisor = if i % 2 == 0 { -factorial(first + 2 * i) } else { factorial(first + 2 * i) };
+            assert_encloses(*coefficient, &bracket!(divisor: at(1.0) / divisor));
+        }
+    }
+}
+
+/// `(value - sum of c_k r^(first + k step)) / r^(first + n step)`.
+macro_rules! remainder {
+    ($r:ident, $value:expr, $first:expr, $step:expr, $divisors:expr) => {
+        bracket!($r: {
+            let (mut rest, mut power) = ($value, $r.powi($first.into()));
+            for divisor in $divisors {
+                rest -= power.clone() / at(divisor);
+                power *= $r.powi($step.into());
+            }
+            rest / power
+        })
+    };
+}
+
+#[test]
+fn remainders_of_series_are_enclosed() {
+    let signed =
+        |first: u32| (0..9).map(move |i| if i % 2 == 0 { factorial(first + 2 * i) } else { -factorial(first + 2 * i) });
+    for i in 1..=8_u32 {
+        for r in [f64::from(i) / 8.0, -f64::from(i) / 8.0] {
+            let x = r * REDUCED_LIMIT;
+            assert_encloses(EXP_REMAINDER, &remainder!(x, x.exp(), 0, 1, (0..14).map(factorial)));
+            let x = 0.8 * r;
+            assert_encloses(SINE[8], &remainder!(x, x.sin(), 1, 2, signed(1)));
+            assert_encloses(COSINE[8], &remainder!(x, x.cos(), 0, 2, signed(0)));
+        }
+    }
+}
+
+/// What a bad library could return for `y`.
+fn guesses(y: f64) -> impl Iterator<Item = f64> {
+    let relative =
+        [0.0, 1e-15, -1e-15, 1e-9, -1e-9, 1e-4, -1e-4, 0.03, -0.03, 0.5, -0.5].map(|error| y * (1.0 + error));
+    let absolute = [1e-9, -1e-9, 1e-3, -1e-3, 0.3, -0.3, 2.0, -2.0].map(|error| y + error);
+    let absurd = [0.0, -y, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, f64::MIN];
+    relative.into_iter().chain(absolute).chain(absurd)
+}
+
+#[test]
+fn a_wrong_guess_does_not_break_the_enclosure() {
+    for i in -100..=100 {
+        let x = f64::from(i) / 100.0;
+        let thin = Interval::point(x);
+        for guess in guesses(x.asin()) {
+            let enclosure = angle(thin, complement(thin), guess, HALF_TURN);
+            assert_encloses(enclosure, &bracket!(x: x.asin()));
+        }
+        for guess in guesses(x.acos()) {
+            let enclosure = angle(complement(thin), thin, guess, Interval { lo: 0.0, hi: Interval::PI.hi });
+            assert_encloses(enclosure, &bracket!(x: x.acos()));
+        }
+        for guess in guesses(x.atan()) {
+            assert_encloses(angle(thin, Interval::ONE, guess, HALF_TURN), &bracket!(x: x.atan()));
+        }
+        if (-0.3..=0.42).contains(&x) {
+            for guess in guesses(x.ln_1p()) {
+                assert_encloses(ln_1p_reduced(thin, guess), &bracket!(x: x.ln_1p()));
+            }
+        }
+    }
+}

@@ -1,0 +1,270 @@
+//! Taylor jets over intervals: a function's value and derivatives at a point, or at every point of an interval at once.
+
+use core::array;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::{Interval, Real};
+
+/// Enclosures of the first `N` Taylor coefficients `f^(k)(t)/k!`, `k < N`, for every point `t` of the interval the
+/// variable was started with. `N` is at least one.
+///
+/// Outside a domain the coefficients are [`Interval::ENTIRE`], as for intervals. At a kink or jump (`abs`, `min`, `max` of values
+/// that may coincide, `floor`, `select`) the value is enclosed and the derivatives are `ENTIRE`: [`is_bounded`](Self::is_bounded) tells
+/// whether the jet says anything about all of them.
+///
+/// ```
+/// use selfosc::numeric::{Interval, Jet, Real};
+/// let t: Jet<4> = Jet::variable(Interval::ZERO);
+/// let sixth = t.exp().coefficients()[3];
+/// assert!(sixth.contains(1.0 / 6.0) && sixth.width() < 1e-15);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jet<const N: usize> {
+    coefficients: [Interval; N],
+}
+
+impl<const N: usize> Jet<N> {
+    /// The function that is `value` everywhere.
+    #[must_use]
+    pub fn constant(value: Interval) -> Self {
+        Self::from_terms(|k, _| if k == 0 { value } else { Interval::ZERO })
+    }
+
+    /// The variable itself, at every point of `at`.
+    #[must_use]
+    pub fn variable(at: Interval) -> Self {
+        Self::from_terms(|k, _| match k {
+            0 => at,
+            1 => Interval::ONE,
+            _ => Interval::ZERO,
+        })
+    }
+
+    /// The Taylor coefficients, from the value upwards.
+    #[must_use]
+    pub const fn coefficients(&self) -> &[Interval; N] {
+        &self.coefficients
+    }
+
+    /// Enclosure of the value.
+    #[must_use]
+    pub const fn value(&self) -> Interval {
+        self.coefficients[0]
+    }
+
+    /// Whether every coefficient is bounded.
+    #[must_use]
+    pub fn is_bounded(&self) -> bool {
+        self.coefficients.iter().all(|c| c.is_bounded())
+    }
+
+    fn is_constant(&self) -> bool {
+        self.coefficients.iter().skip(1).all(|&c| c == Interval::ZERO)
+    }
+
+    /// Each coefficient from its index and those before it.
+    fn from_terms(term: impl Fn(usize, &[Interval]) -> Interval) -> Self {
+        let mut coefficients = [Interval::ZERO; N];
+        for k in 0..N {
+            let (known, rest) = coefficients.split_at_mut(k);
+            rest[0] = term(k, known);
+        }
+        Self { coefficients }
+    }
+
+    /// The value of a function that has a kink there.
+    fn kink(value: Interval) -> Self {
+        Self::from_terms(|k, _| if k == 0 { value } else { Interval::ENTIRE })
+    }
+
+    /// Coefficient `k` of the integral of `slope u'`, `u` this jet; reads the slope's coefficients below `k`.
+    fn chain(&self, k: usize, slope: impl Fn(usize) -> Interval) -> Interval {
+        let terms = (1..=k).filter(|&j| self.coefficients[j] != Interval::ZERO);
+        total(terms.map(|j| integer(j) * self.coefficients[j] * slope(k - j))) / integer(k)
+    }
+
+    /// The function of this jet with the given value and derivative.
+    fn with_slope(&self, value: Interval, slope: &Self) -> Self {
+        Self::from_terms(|k, _| if k == 0 { value } else { self.chain(k, |i| slope.coefficients[i]) })
+    }
+
+    /// `y` with `y' = (1 + sign y^2) u'`: tangent and hyperbolic tangent.
+    fn tangent(&self, value: Interval, sign: Interval) -> Self {
+        let slope = |y: &[Interval], i: usize| {
+            let square = sign * convolution(y, y, i);
+            if i == 0 { Interval::ONE + square } else { square }
+        };
+        Self::from_terms(|k, y| if k == 0 { value } else { self.chain(k, |i| slope(y, i)) })
+    }
+
+    /// `(s, c)` with `s' = c u'` and `c' = sign s u'`: circular and hyperbolic functions.
+    fn sine_and_cosine(&self, sine: Interval, cosine: Interval, sign: Interval) -> (Self, Self) {
+        let (mut s, mut c) = (Self::constant(sine), Self::constant(cosine));
+        for k in 1..N {
+            s.coefficients[k] = self.chain(k, |i| c.coefficients[i]);
+            c.coefficients[k] = sign * self.chain(k, |i| s.coefficients[i]);
+        }
+        (s, c)
+    }
+
+    /// `sqrt(1 - u^2)`.
+    fn complement(self) -> Self {
+        ((Self::one() - self) * (Self::one() + self)).sqrt()
+    }
+}
+
+fn integer(k: usize) -> Interval {
+    Interval::point(k as f64)
+}
+
+fn total(terms: impl Iterator<Item = Interval>) -> Interval {
+    terms.reduce(|sum, term| sum + term).unwrap_or(Interval::ZERO)
+}
+
+/// Coefficient `k` of the product of two series.
+fn convolution(a: &[Interval], b: &[Interval], k: usize) -> Interval {
+    total((0..=k).map(|j| a[j] * b[k - j]))
+}
+
+impl<const N: usize> Neg for Jet<N> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { coefficients: self.coefficients.map(Neg::neg) }
+    }
+}
+
+impl<const N: usize> Add for Jet<N> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self { coefficients: array::from_fn(|k| self.coefficients[k] + other.coefficients[k]) }
+    }
+}
+
+impl<const N: usize> Sub for Jet<N> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self { coefficients: array::from_fn(|k| self.coefficients[k] - other.coefficients[k]) }
+    }
+}
+
+impl<const N: usize> Mul for Jet<N> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Self { coefficients: array::from_fn(|k| convolution(&self.coefficients, &other.coefficients, k)) }
+    }
+}
+
+impl<const N: usize> Div for Jet<N> {
+    type Output = Self;
+    fn div(self, divisor: Self) -> Self {
+        let b = &divisor.coefficients;
+        Self::from_terms(|k, q| (self.coefficients[k] - total((0..k).map(|j| q[j] * b[k - j]))) / b[0])
+    }
+}
+
+impl<const N: usize> Real for Jet<N> {
+    fn from_f64(value: f64) -> Self {
+        Self::constant(Interval::point(value))
+    }
+    fn pi() -> Self {
+        Self::constant(Interval::PI)
+    }
+    fn bounds(self) -> (f64, f64) {
+        self.value().bounds()
+    }
+    fn abs(self) -> Self {
+        match self.value() {
+            value if value.is_positive() => self,
+            value if value.is_negative() => -self,
+            value => Self::kink(value.abs()),
+        }
+    }
+    fn min(self, other: Self) -> Self {
+        match (self.value(), other.value()) {
+            (a, b) if a.precedes(b) => self,
+            (a, b) if b.precedes(a) => other,
+            (a, b) => Self::kink(a.min(b)),
+        }
+    }
+    fn max(self, other: Self) -> Self {
+        -(-self).min(-other)
+    }
+    fn square(self) -> Self {
+        let mut square = self * self;
+        square.coefficients[0] = self.value().square();
+        square
+    }
+    fn pow(self, exponent: Self) -> Self {
+        if let (Some(count), true) = (exponent.value().small_natural(), exponent.is_constant()) {
+            (0..count).fold(Self::one(), |power, _| power * self)
+        } else if self.value().is_positive() {
+            (exponent * self.ln()).exp()
+        } else {
+            Self::kink(self.value().pow(exponent.value()))
+        }
+    }
+    fn floor(self) -> Self {
+        let floor = self.value().floor();
+        if floor.is_point() { Self::constant(floor) } else { Self::kink(floor) }
+    }
+    fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
+        match self.value() {
+            value if value.is_positive() => above(),
+            value if value.upper() <= 0.0 => below(),
+            value => Self::kink(value.select(|| below().value(), || above().value())),
+        }
+    }
+    fn minus_sine(self, sine: Self) -> Self {
+        let mut difference = self - sine;
+        difference.coefficients[0] = self.value().minus_sine(sine.value());
+        difference
+    }
+    fn sqrt(self) -> Self {
+        Self::from_terms(|k, s| match k {
+            0 => self.value().sqrt(),
+            _ => (self.coefficients[k] - total((1..k).map(|j| s[j] * s[k - j]))) / (Interval::two() * s[0]),
+        })
+    }
+    fn sin(self) -> Self {
+        self.sine_and_cosine(self.value().sin(), self.value().cos(), -Interval::ONE).0
+    }
+    fn cos(self) -> Self {
+        self.sine_and_cosine(self.value().sin(), self.value().cos(), -Interval::ONE).1
+    }
+    fn tan(self) -> Self {
+        self.tangent(self.value().tan(), Interval::ONE)
+    }
+    fn asin(self) -> Self {
+        self.with_slope(self.value().asin(), &(Self::one() / self.complement()))
+    }
+    fn acos(self) -> Self {
+        self.with_slope(self.value().acos(), &(-Self::one() / self.complement()))
+    }
+    fn atan(self) -> Self {
+        self.with_slope(self.value().atan(), &(Self::one() / (Self::one() + self.square())))
+    }
+    fn exp(self) -> Self {
+        Self::from_terms(|k, y| if k == 0 { self.value().exp() } else { self.chain(k, |i| y[i]) })
+    }
+    fn exp_m1(self) -> Self {
+        self.with_slope(self.value().exp_m1(), &self.exp())
+    }
+    fn ln(self) -> Self {
+        self.with_slope(self.value().ln(), &(Self::one() / self))
+    }
+    fn ln_1p(self) -> Self {
+        self.with_slope(self.value().ln_1p(), &(Self::one() / (Self::one() + self)))
+    }
+    fn sinh(self) -> Self {
+        self.sine_and_cosine(self.value().sinh(), self.value().cosh(), Interval::ONE).0
+    }
+    fn cosh(self) -> Self {
+        self.sine_and_cosine(self.value().sinh(), self.value().cosh(), Interval::ONE).1
+    }
+    fn tanh(self) -> Self {
+        self.tangent(self.value().tanh(), -Interval::ONE)
+    }
+    fn atanh(self) -> Self {
+        self.with_slope(self.value().atanh(), &(Self::one() / ((Self::one() - self) * (Self::one() + self))))
+    }
+}

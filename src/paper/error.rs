@@ -1,0 +1,64 @@
+//! Why a part of the paper cannot be regenerated.
+
+use crate::identify::IdentifyError;
+use crate::nonlinearity::NonlinearityError;
+use crate::vehicle::VehicleError;
+
+/// Why a part of the paper cannot be regenerated.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PaperError {
+    /// A cell that is not what its column holds.
+    #[error(
+        "{fixture}, line {line}, column {column}: `{cell}` is not {required}; restore the file as it was published"
+    )]
+    Cell {
+        /// File name.
+        fixture: &'static str,
+        /// Line in the file, from 1.
+        line: u64,
+        /// Name of the column.
+        column: String,
+        /// What stands there.
+        cell: String,
+        /// What has to stand there.
+        required: &'static str,
+    },
+    /// A row that cannot be taken apart.
+    #[error("{fixture}, line {line}, column {column}: {reason}; restore the file as it was published")]
+    Row {
+        /// File name.
+        fixture: &'static str,
+        /// Line in the file, from 1.
+        line: u64,
+        /// The last column present, or the first one missing.
+        column: String,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A row that the other files or the formulas rely on is not there.
+    #[error("{fixture} has no {missing}; restore the file as it was published")]
+    Missing {
+        /// File name.
+        fixture: &'static str,
+        /// What is not there.
+        missing: String,
+    },
+    /// A row of Table 4 that the method does not take.
+    #[error("experiment {experiment}: {cause}")]
+    Experiment {
+        /// Its number.
+        experiment: u32,
+        /// Why not.
+        cause: IdentifyError,
+    },
+    /// A formula outside its domain.
+    #[error(transparent)]
+    Identify(#[from] IdentifyError),
+    /// A characteristic outside its domain.
+    #[error(transparent)]
+    Nonlinearity(#[from] NonlinearityError),
+    /// A thruster outside its domain.
+    #[error(transparent)]
+    Vehicle(#[from] VehicleError),
+}

@@ -1,0 +1,97 @@
+//! Figs. 5-7: the relay with hysteresis and level offset, its output under a biased sinusoid, and its late switching when
+//! sampled.
+
+use super::PaperError;
+use crate::nonlinearity::{Branch, Characteristic, RelayHysteresis, Sinusoid};
+
+/// A curve as (x, y).
+pub type Curve = Vec<(f64, f64)>;
+
+const LEVEL: f64 = 1.0;
+const HALF_WIDTH: f64 = 1.0;
+const OFFSET: f64 = 0.3;
+
+fn relay() -> Result<RelayHysteresis<f64>, PaperError> {
+    Ok(RelayHysteresis::new(LEVEL, HALF_WIDTH, OFFSET)?)
+}
+
+/// Fig. 5: the characteristic of a relay with `C = 1`, `x_a = 1`, `d = 0.3`, while the input rises and while it falls.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Characteristic5 {
+    /// Output while the input rises.
+    pub rising: Curve,
+    /// Output while the input falls.
+    pub falling: Curve,
+}
+
+/// Regenerates Fig. 5.
+///
+/// # Errors
+/// None in practice: the parameters are in their domains.
+pub fn figure5() -> Result<Characteristic5, PaperError> {
+    let (relay, sweep) = (relay()?, Sinusoid::new(0.0, 2.5 * HALF_WIDTH)?);
+    let branch = |branch| -> Curve {
+        let inputs = (-250..=250).map(|i| f64::from(i) / 100.0 * HALF_WIDTH);
+        inputs.map(|x| (x, relay.output(x, branch, &sweep))).collect()
+    };
+    Ok(Characteristic5 { rising: branch(Branch::Rising), falling: branch(Branch::Falling) })
+}
+
+/// Fig. 6: two periods of a biased sinusoid and of the relay's output, over time in periods.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Response6 {
+    /// The input `0.4 + 2 sin`.
+    pub input: Curve,
+    /// The output: longer at the upper level, as the input's mean is positive.
+    pub output: Curve,
+    /// The switching level x_a.
+    pub half_width: f64,
+}
+
+/// Regenerates Fig. 6.
+///
+/// # Errors
+/// None in practice: the parameters are in their domains.
+pub fn figure6() -> Result<Response6, PaperError> {
+    let (relay, sweep) = (relay()?, Sinusoid::new(0.4, 2.0)?);
+    let times = || (0..=1000).map(|i| f64::from(i) / 500.0);
+    let input = |time: f64| sweep.bias() + sweep.amplitude() * (core::f64::consts::TAU * time).sin();
+    let output = |time: f64| {
+        let rising = (core::f64::consts::TAU * time).cos() > 0.0;
+        relay.output(input(time), if rising { Branch::Rising } else { Branch::Falling }, &sweep)
+    };
+    Ok(Response6 {
+        input: times().map(|time| (time, input(time))).collect(),
+        output: times().map(|time| (time, output(time))).collect(),
+        half_width: relay.half_width(),
+    })
+}
+
+/// Fig. 7: a relay that should switch at 3 sees 2.15 and, a step later, 6.57, and switches there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LateSwitching7 {
+    /// The input between samples, over time in steps.
+    pub input: Curve,
+    /// What is sampled.
+    pub samples: Curve,
+    /// The level at which it should switch.
+    pub preset_level: f64,
+    /// The sample at which it does.
+    pub switching: (f64, f64),
+}
+
+/// Regenerates Fig. 7: the two printed samples fix a sinusoid of amplitude 10.
+#[must_use]
+pub fn figure7() -> LateSwitching7 {
+    let (before, after, step, amplitude, preset_level) = (2.15_f64, 6.57_f64, 5.0, 10.0, 3.0);
+    let (first, second) = ((before / amplitude).asin(), (after / amplitude).asin());
+    let input = |time: f64| amplitude * (first + (second - first) * (time - step)).sin();
+    let samples: Curve = (0..=11).map(|i| (f64::from(i), input(f64::from(i)))).collect();
+    let late = samples.windows(2).find(|pair| pair[0].1 < preset_level && pair[1].1 >= preset_level);
+    LateSwitching7 {
+        input: (0..=220).map(|i| f64::from(i) / 20.0).map(|time| (time, input(time))).collect(),
+        switching: late.map_or((step + 1.0, after), |pair| pair[1]),
+        samples,
+        preset_level,
+    }
+}

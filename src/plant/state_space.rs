@@ -1,0 +1,175 @@
+//! Linear plants in state space, and their exact flow under a constant input.
+
+use nalgebra::{Complex, DMatrix, DVector, RowDVector};
+
+use super::transfer::companion;
+use super::{PlantError, TransferFunction, all_finite, checked_delay};
+
+/// `x' = a x + b u(t - delay)`, `y = c x`: one input, one output, no feedthrough, time in seconds.
+///
+/// ```
+/// use selfosc::plant::{StateSpace, TransferFunction};
+/// let plant = StateSpace::realise(&TransferFunction::new(&[1.0], &[1.0, 1.0, 0.0])?)?;
+/// assert!(plant.is_integrating());
+/// assert_eq!(plant.order(), 2);
+/// # Ok::<(), selfosc::plant::PlantError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct StateSpace {
+    a: DMatrix<f64>,
+    b: DVector<f64>,
+    c: RowDVector<f64>,
+    delay_s: f64,
+}
+
+impl StateSpace {
+    /// A plant from its matrices, without delay.
+    ///
+    /// # Errors
+    /// [`PlantError::Shape`] where they do not fit together, [`PlantError::NotFinite`].
+    pub fn new(a: DMatrix<f64>, b: DVector<f64>, c: RowDVector<f64>) -> Result<Self, PlantError> {
+        let (rows, columns, inputs, outputs) = (a.nrows(), a.ncols(), b.len(), c.len());
+        if rows == 0 || [columns, inputs, outputs] != [rows; 3] {
+            return Err(PlantError::Shape { rows, columns, inputs, outputs });
+        }
+        all_finite("matrix a", a.iter())?;
+        all_finite("vector b", b.iter())?;
+        all_finite("vector c", c.iter())?;
+        Ok(Self { a, b, c, delay_s: 0.0 })
+    }
+
+    /// The controllable realisation of a transfer function, balanced by powers of two; keeps the delay.
+    ///
+    /// # Errors
+    /// [`PlantError::NotStrictlyProper`] where numerator and denominator have the same degree.
+    pub fn realise(plant: &TransferFunction) -> Result<Self, PlantError> {
+        let (numerator, denominator) = (plant.numerator(), plant.denominator());
+        let order = denominator.len() - 1;
+        if numerator.len() > order {
+            return Err(PlantError::NotStrictlyProper { degree: order });
+        }
+        let mut a = companion(denominator);
+        let scale = nalgebra::linalg::balancing::balance_parlett_reinsch(&mut a);
+        let b = DVector::from_fn(order, |row, _| if row == 0 { 1.0 / scale[0] } else { 0.0 });
+        let skipped = order - numerator.len();
+        let c = RowDVector::from_fn(order, |_, column| {
+            if column < skipped { 0.0 } else { numerator[column - skipped] / denominator[0] * scale[column] }
+        });
+        Self::new(a, b, c)?.with_delay(plant.delay_s())
+    }
+
+    /// The same plant behind a dead time, which replaces the one it had.
+    ///
+    /// # Errors
+    /// [`PlantError::Delay`] where the delay is negative or not finite.
+    pub fn with_delay(self, delay_s: f64) -> Result<Self, PlantError> {
+        Ok(Self { delay_s: checked_delay(delay_s)?, ..self })
+    }
+
+    /// System matrix, 1/s.
+    #[must_use]
+    pub fn a(&self) -> &DMatrix<f64> {
+        &self.a
+    }
+    /// Input vector.
+    #[must_use]
+    pub fn b(&self) -> &DVector<f64> {
+        &self.b
+    }
+    /// Output vector.
+    #[must_use]
+    pub fn c(&self) -> &RowDVector<f64> {
+        &self.c
+    }
+    /// Dead time, seconds.
+    #[must_use]
+    pub fn delay_s(&self) -> f64 {
+        self.delay_s
+    }
+    /// Number of states.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.b.len()
+    }
+
+    /// Eigenvalues of the system matrix, rad/s.
+    ///
+    /// # Errors
+    /// [`PlantError::Eigenvalues`] where the iteration does not converge.
+    pub fn poles(&self) -> Result<Vec<Complex<f64>>, PlantError> {
+        eigenvalues(&self.a)
+    }
+    /// Whether the system matrix is singular to working precision: a pole at zero, the astatic process of Theorem 2.
+    #[must_use]
+    pub fn is_integrating(&self) -> bool {
+        let values = self.a.singular_values();
+        values.min() <= values.max() * self.order() as f64 * f64::EPSILON
+    }
+    /// Frequency response `c (jw - a)^-1 b exp(-jw delay)`.
+    ///
+    /// # Errors
+    /// [`PlantError::PoleAt`] where `jw` is a pole.
+    pub fn response(&self, omega_rad_s: f64) -> Result<Complex<f64>, PlantError> {
+        let s = Complex::new(0.0, omega_rad_s);
+        let order = self.order();
+        let matrix = DMatrix::from_diagonal_element(order, order, s) - self.a.map(Complex::from);
+        let state = matrix.lu().solve(&self.b.map(Complex::from)).ok_or(PlantError::PoleAt { omega_rad_s })?;
+        let value = self.c.map(Complex::from).dot(&state.transpose()) * (-s * self.delay_s).exp();
+        if value.is_finite() { Ok(value) } else { Err(PlantError::PoleAt { omega_rad_s }) }
+    }
+
+    /// The output at a state.
+    #[must_use]
+    pub fn output(&self, state: &DVector<f64>) -> f64 {
+        self.c.tr_dot(state)
+    }
+    /// Rate of the state under the input `u` that has come through the delay.
+    #[must_use]
+    pub fn rate(&self, state: &DVector<f64>, u: f64) -> DVector<f64> {
+        &self.a * state + &self.b * u
+    }
+    /// The map over `time_s` under a constant input, from one exponential of the matrix augmented by the input, so that a
+    /// singular system matrix needs no special case. Entries overflow to infinity where the plant is unstable enough.
+    #[must_use]
+    pub fn flow(&self, time_s: f64) -> Flow {
+        let order = self.order();
+        let mut augmented = DMatrix::zeros(order + 1, order + 1);
+        augmented.view_mut((0, 0), (order, order)).copy_from(&(&self.a * time_s));
+        augmented.view_mut((0, order), (order, 1)).copy_from(&(&self.b * time_s));
+        let exponential = augmented.exp();
+        Flow {
+            state: exponential.view((0, 0), (order, order)).into_owned(),
+            input: exponential.view((0, order), (order, 1)).column(0).into_owned(),
+        }
+    }
+}
+
+/// The exact step `x -> state x + input u` of a linear plant under a constant input u.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flow {
+    /// `exp(a t)`.
+    pub state: DMatrix<f64>,
+    /// The integral of `exp(a s) b` from 0 to t.
+    pub input: DVector<f64>,
+}
+
+impl Flow {
+    /// The state at the end of the step.
+    #[must_use]
+    pub fn apply(&self, state: &DVector<f64>, u: f64) -> DVector<f64> {
+        &self.state * state + &self.input * u
+    }
+}
+
+/// Eigenvalues of a square matrix.
+///
+/// # Errors
+/// [`PlantError::Eigenvalues`] where the iteration does not converge.
+pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, PlantError> {
+    let order = matrix.nrows();
+    let failed = PlantError::Eigenvalues { order };
+    if matrix.iter().any(|value| !value.is_finite()) {
+        return Err(failed);
+    }
+    faer::Mat::from_fn(order, order, |row, column| matrix[(row, column)]).eigenvalues().map_err(|_| failed)
+}

@@ -1,0 +1,28 @@
+//! Why there is no report.
+
+use crate::paper::PaperError;
+
+/// Why there is no report.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReportError {
+    /// The data are not to be had.
+    #[error(transparent)]
+    Paper(#[from] PaperError),
+    /// A figure cannot be drawn.
+    #[error("figure {figure}: {reason}; give it series with finite points")]
+    Figure {
+        /// Its name.
+        figure: &'static str,
+        /// What the drawing library says.
+        reason: String,
+    },
+    /// A table cannot be written as text.
+    #[error("table {table}: {reason}; give every row one cell for each column")]
+    Table {
+        /// Its name.
+        table: &'static str,
+        /// What is wrong.
+        reason: String,
+    },
+}

@@ -1,0 +1,223 @@
+//! Figures as SVG.
+
+use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+use plotters::series::DashedLineSeries;
+
+use super::ReportError;
+
+/// How a series is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mark {
+    /// A line through the points.
+    Line,
+    /// A dashed line through the points.
+    Dashed,
+    /// A dot at each point.
+    Dots,
+    /// A bar from zero to each point, so wide in units of the x axis.
+    Bars {
+        /// Width of a bar.
+        width: f64,
+    },
+}
+
+/// Points that belong together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Name in the legend; empty to leave it out, and then drawn in the colour of the series before.
+    pub label: String,
+    /// How it is drawn.
+    pub mark: Mark,
+    /// Points (x, y).
+    pub points: Vec<(f64, f64)>,
+}
+
+/// One pair of axes with what is drawn on them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    x_label: String,
+    y_label: String,
+    y_limits: Option<(f64, f64)>,
+    series: Vec<Series>,
+}
+
+impl Panel {
+    /// Empty axes; labels name quantity and unit.
+    #[must_use]
+    pub fn new(x_label: &str, y_label: &str) -> Self {
+        Self { x_label: x_label.to_owned(), y_label: y_label.to_owned(), y_limits: None, series: Vec::new() }
+    }
+
+    /// The panel with the y axis held to a range instead of spanning the data.
+    #[must_use]
+    pub fn y_limits(self, from: f64, to: f64) -> Self {
+        Self { y_limits: Some((from, to)), ..self }
+    }
+
+    /// The panel with one more series.
+    #[must_use]
+    pub fn with(mut self, label: &str, mark: Mark, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        self.series.push(Series { label: label.to_owned(), mark, points: points.into_iter().collect() });
+        self
+    }
+
+    /// The range of one coordinate over all series, with a margin.
+    fn range(&self, of: fn(&(f64, f64)) -> f64) -> (f64, f64) {
+        let values = self.series.iter().flat_map(|series| series.points.iter().map(of));
+        let (from, to) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(from, to), v| (from.min(v), to.max(v)));
+        let margin = 0.04 * if to > from { to - from } else { 1.0 };
+        (from - margin, to + margin)
+    }
+
+    fn x_range(&self) -> (f64, f64) {
+        let half_bar = |series: &Series| if let Mark::Bars { width } = series.mark { width } else { 0.0 };
+        let widest = self.series.iter().map(half_bar).fold(0.0, f64::max);
+        let (from, to) = self.range(|point| point.0);
+        (from - widest, to + widest)
+    }
+
+    fn y_range(&self) -> (f64, f64) {
+        let bars = self.series.iter().any(|series| matches!(series.mark, Mark::Bars { .. }));
+        let (from, to) = self.range(|point| point.1);
+        self.y_limits.unwrap_or(if bars { (0.0, to) } else { (from, to) })
+    }
+}
+
+/// Panels below each other under one title.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Name of its file.
+    pub name: &'static str,
+    /// Title above the panels.
+    pub title: String,
+    /// From top to bottom.
+    pub panels: Vec<Panel>,
+}
+
+/// Width of a figure and height of a panel, in pixels.
+const SIZE: (u32, u32) = (900, 420);
+const TITLE_HEIGHT: u32 = 40;
+const FONT: &str = "sans-serif";
+
+/// Colours that people who confuse red and green tell apart (Okabe and Ito).
+const PALETTE: [RGBColor; 6] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+];
+
+type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+impl Figure {
+    /// The figure as SVG: the same data give the same text.
+    ///
+    /// # Errors
+    /// [`ReportError::Figure`] where a panel has no finite points.
+    pub fn svg(&self) -> Result<String, ReportError> {
+        let failed = |reason: String| ReportError::Figure { figure: self.name, reason };
+        let points = || self.panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.points);
+        if self.panels.iter().any(|panel| panel.series.iter().all(|series| series.points.is_empty()))
+            || !points().all(|point| point.0.is_finite() && point.1.is_finite())
+        {
+            return Err(failed("a panel without points, or a point that is not finite".to_owned()));
+        }
+        let mut svg = String::new();
+        self.draw(&mut svg).map_err(|error| failed(error.to_string()))?;
+        Ok(svg)
+    }
+
+    fn draw(&self, svg: &mut String) -> Result<(), Box<dyn std::error::Error>> {
+        let panels = u32::try_from(self.panels.len())?;
+        let root = SVGBackend::with_string(svg, (SIZE.0, TITLE_HEIGHT + SIZE.1 * panels)).into_drawing_area();
+        root.fill(&WHITE)?;
+        let root = root.titled(&self.title, (FONT, 20))?;
+        for (panel, area) in self.panels.iter().zip(root.split_evenly((self.panels.len(), 1))) {
+            panel.draw(&area)?;
+        }
+        root.present()?;
+        Ok(())
+    }
+}
+
+impl Panel {
+    fn draw(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), Box<dyn std::error::Error>> {
+        let ((x_from, x_to), (y_from, y_to)) = (self.x_range(), self.y_range());
+        let mut chart = ChartBuilder::on(area)
+            .margin(14)
+            .x_label_area_size(52)
+            .y_label_area_size(72)
+            .build_cartesian_2d(x_from..x_to, y_from..y_to)?;
+        chart
+            .configure_mesh()
+            .x_desc(&self.x_label)
+            .y_desc(&self.y_label)
+            .axis_desc_style((FONT, 17))
+            .label_style((FONT, 15))
+            .x_label_formatter(&|value| tick(*value))
+            .y_label_formatter(&|value| tick(*value))
+            .x_labels(11)
+            .y_labels(9)
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(RGBColor(225, 225, 225))
+            .draw()?;
+        let mut colour = PALETTE[0];
+        let named = self.series.iter().filter(|series| !series.label.is_empty());
+        for series in &self.series {
+            if let Some(place) = named.clone().position(|other| other == series) {
+                colour = PALETTE[place % PALETTE.len()];
+            }
+            series.draw(&mut chart, colour)?;
+        }
+        if named.count() > 1 {
+            chart
+                .configure_series_labels()
+                .position(SeriesLabelPosition::UpperRight)
+                .margin(10)
+                .label_font((FONT, 15))
+                .background_style(WHITE.mix(0.9))
+                .border_style(RGBColor(200, 200, 200))
+                .draw()?;
+        }
+        Ok(())
+    }
+}
+
+impl Series {
+    fn draw<'a>(&self, chart: &mut Chart<'a>, colour: RGBColor) -> Result<(), Box<dyn std::error::Error>> {
+        let points = self.points.iter().copied();
+        let line = colour.stroke_width(2);
+        let drawn = match self.mark {
+            Mark::Line => chart.draw_series(LineSeries::new(points, line))?,
+            Mark::Dashed => chart.draw_series(DashedLineSeries::new(points, 7, 5, line))?,
+            Mark::Dots => chart.draw_series(points.map(|point| Circle::new(point, 5, colour.filled())))?,
+            Mark::Bars { width } => {
+                let half = width / 2.0;
+                chart.draw_series(
+                    points.map(|(x, y)| Rectangle::new([(x - half, 0.0), (x + half, y)], colour.filled())),
+                )?
+            }
+        };
+        if self.label.is_empty() {
+            return Ok(());
+        }
+        let mark = self.mark;
+        drawn.label(&self.label).legend(move |(x, y)| match mark {
+            Mark::Line | Mark::Dashed => PathElement::new([(x, y), (x + 22, y)], line).into_dyn(),
+            Mark::Dots => Circle::new((x + 11, y), 5, colour.filled()).into_dyn(),
+            Mark::Bars { .. } => Rectangle::new([(x + 5, y - 6), (x + 17, y + 6)], colour.filled()).into_dyn(),
+        });
+        Ok(())
+    }
+}
+
+/// A tick's number without trailing zeros.
+fn tick(value: f64) -> String {
+    let text = format!("{value:.4}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}

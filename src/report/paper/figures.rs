@@ -1,0 +1,101 @@
+//! The regenerated paper's figures.
+
+use super::Reproduction;
+use crate::paper::figure15::Counts;
+use crate::paper::quantisation::{CurvePoint, Error, curves, figure14};
+use crate::paper::relay_figures::{self, Characteristic5, LateSwitching7, Response6};
+use crate::paper::thruster_figure;
+use crate::report::{Figure, Mark, Panel, ReportError};
+
+pub(super) fn quantisation() -> Figure {
+    let curves = curves();
+    let curve = |of: fn(&CurvePoint) -> f64| curves.iter().map(move |point| (point.amplitude_ratio, of(point)));
+    let zero = (core::f64::consts::SQRT_2, 0.0);
+    let panel = Panel::new("X_m / x_a", "parameter error / amplitude error (% per %)")
+        .y_limits(-4.0, 10.0)
+        .with("alpha (eq. 37)", Mark::Line, curve(|point| point.sensitivity.alpha).filter(|point| point.1 <= 10.0))
+        .with("beta (eq. 38)", Mark::Line, curve(|point| point.sensitivity.beta))
+        .with("beta_xx (eq. 39)", Mark::Line, curve(|point| point.sensitivity.beta_quadratic))
+        .with("X_m = sqrt(2) x_a", Mark::Dots, [zero]);
+    Figure { name: "quantisation", title: "Sensitivity to the amplitude".to_owned(), panels: vec![panel] }
+}
+
+pub(super) fn figure5() -> Result<Figure, ReportError> {
+    let Characteristic5 { rising, falling } = relay_figures::figure5()?;
+    let panel = Panel::new("relay input e (units of x_a)", "relay output u (units of C)")
+        .y_limits(-1.2, 2.0)
+        .with("e rising", Mark::Line, rising)
+        .with("e falling", Mark::Dashed, falling);
+    Ok(Figure { name: "fig5", title: "Relay with hysteresis, level offset d = 0.3 C".to_owned(), panels: vec![panel] })
+}
+
+pub(super) fn figure6() -> Result<Figure, ReportError> {
+    let Response6 { input, output, half_width } = relay_figures::figure6()?;
+    let level = |value: f64| [(0.0, value), (2.0, value)];
+    let panel = Panel::new("time (periods)", "input (units of x_a), output (units of C)")
+        .y_limits(-2.2, 4.0)
+        .with("input e", Mark::Line, input)
+        .with("output u", Mark::Line, output)
+        .with("switching levels", Mark::Dashed, level(half_width))
+        .with("", Mark::Dashed, level(-half_width));
+    Ok(Figure { name: "fig6", title: "Relay under a biased sinusoid".to_owned(), panels: vec![panel] })
+}
+
+pub(super) fn figure7() -> Figure {
+    let LateSwitching7 { input, samples, preset_level, switching } = relay_figures::figure7();
+    let panel = Panel::new("time (steps)", "relay input (deg)")
+        .with("input between samples", Mark::Line, input)
+        .with("samples", Mark::Dots, samples)
+        .with("preset level 3", Mark::Dashed, [(0.0, preset_level), (11.0, preset_level)])
+        .with("switches here, at 6.57", Mark::Dots, [switching]);
+    Figure { name: "fig7", title: "Late switching of a sampled relay".to_owned(), panels: vec![panel] }
+}
+
+pub(super) fn figure9() -> Result<Figure, ReportError> {
+    let map = thruster_figure::figure9()?;
+    let side = |fit: &crate::vehicle::FittedSide| format!("{:.2e} n^2 + {:.2e} n", fit.quadratic, fit.linear);
+    let panel = Panel::new("thruster command n", "thrust (N)").with("readings", Mark::Dots, map.readings).with(
+        &format!("fit: ahead {}, astern {}", side(&map.map.forward), side(&map.map.backward)),
+        Mark::Line,
+        map.fitted,
+    );
+    Ok(Figure { name: "fig9", title: "Thruster map".to_owned(), panels: vec![panel] })
+}
+
+impl Reproduction {
+    pub(super) fn figure14(&self) -> Figure {
+        let errors = figure14(&self.printed);
+        let points = |of: fn(&Error) -> f64| errors.iter().map(move |error| (f64::from(error.experiment), of(error)));
+        let panel = |panel: Panel, label: &str, percent: fn(&Error) -> f64, bound: fn(&Error) -> f64| {
+            panel
+                .with(label, Mark::Dots, points(percent))
+                .with(&format!("{label}: bounds"), Mark::Dashed, points(bound))
+                .with("", Mark::Dashed, points(bound).map(|(x, y)| (x, -y)))
+        };
+        let axes = |label: &str| Panel::new("experiment", label);
+        let alpha = panel(
+            axes("error of alpha (%)").y_limits(-30.0, 45.0),
+            "alpha",
+            |e| e.percent.alpha,
+            |e| e.bound_percent.alpha,
+        );
+        let drag = axes("error of drag (%)").y_limits(-55.0, 85.0);
+        let drag = panel(drag, "beta_r", |e| e.percent.beta_r, |e| e.bound_percent.beta_r);
+        let drag = panel(drag, "beta_rr", |e| e.percent.beta_rr, |e| e.bound_percent.beta_rr);
+        let title = "Errors against the mean, bounds by a compass step of 1 degree";
+        Figure { name: "fig14", title: title.to_owned(), panels: vec![alpha, drag] }
+    }
+
+    pub(super) fn figure15(&self) -> Figure {
+        let bars = |place: f64, of: fn(&Counts) -> u32| {
+            self.figure15.iter().map(move |counts| (f64::from(counts.criterion) + place, f64::from(of(counts))))
+        };
+        let mark = Mark::Bars { width: 0.22 };
+        let panel = Panel::new("criterion", "pairs of experiments")
+            .y_limits(0.0, 140.0)
+            .with("correct", mark, bars(-0.24, |counts| counts.correct))
+            .with("wrong", mark, bars(0.0, |counts| counts.wrong))
+            .with("undecided", mark, bars(0.24, |counts| counts.undecided));
+        Figure { name: "fig15", title: "Drag law decided from two experiments".to_owned(), panels: vec![panel] }
+    }
+}

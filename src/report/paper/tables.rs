@@ -1,0 +1,139 @@
+//! The regenerated paper's tables.
+
+use super::Reproduction;
+use crate::numeric::Expression;
+use crate::paper::figure15::CRITERIA;
+use crate::paper::quantisation::{curves, figure14};
+use crate::paper::{table2, table3, table4};
+use crate::report::{Cell, ReportError, Table};
+
+pub(super) fn table2() -> Table {
+    let table = Table::new("table2", "Uncoupled axes (eq. 6)", &["axis", "alpha", "-beta(nu)", "delta"]);
+    table2::formulas().into_iter().fold(table, |table, (axis, terms)| {
+        let name = format!("{axis:?}").to_lowercase();
+        table.row([Cell::Text(name), terms.alpha.into(), terms.minus_beta.into(), terms.delta.into()])
+    })
+}
+
+pub(super) fn quantisation() -> Table {
+    let columns = ["X_m/x_a", "alpha (% per %)", "beta (% per %)", "beta_xx (% per %)"];
+    curves().into_iter().fold(
+        Table::new("quantisation", "Error per error of the amplitude", &columns),
+        |table, point| {
+            table.row(
+                [
+                    point.amplitude_ratio,
+                    point.sensitivity.alpha,
+                    point.sensitivity.beta,
+                    point.sensitivity.beta_quadratic,
+                ]
+                .map(|value| Cell::number(value, 3)),
+            )
+        },
+    )
+}
+
+impl Reproduction {
+    /// Formulas without and with delay, and what they give for one experiment of Table 4 in SI units per degree.
+    pub(super) fn table3(&self) -> Result<Vec<Table>, ReportError> {
+        let quantities =
+            ["alpha", "beta (linear drag)", "beta_xx (quadratic drag)", "delta (bias of the input)", "delta (times)"];
+        let listed = |table: &table3::Table3<Expression>| {
+            let p = table.parameters;
+            [p.alpha, p.beta, p.beta_quadratic, p.disturbance, table.disturbance_from_times]
+        };
+        let formulas = |name, title, delayed| -> Result<Table, ReportError> {
+            let table = Table::new(name, title, &["parameter", "formula"]);
+            let rows = quantities.into_iter().zip(listed(&table3::formulas(delayed)?));
+            Ok(rows.fold(table, |table, (quantity, formula)| table.row([quantity.into(), formula.into()])))
+        };
+        Ok(vec![
+            formulas("table3", "Formulas without delay", false)?,
+            formulas("table3-delay", "Formulas with the delay corrected (eq. 34)", true)?,
+        ])
+    }
+
+    /// Means and spreads.
+    pub(super) fn parameters_table(&self) -> Table {
+        let t = &self.table4;
+        let row = |name: &str, yaw: table4::Yaw<f64>| {
+            let values = yaw.named().map(|(_, value)| Cell::number(value, 2));
+            [Cell::from(name)].into_iter().chain(values)
+        };
+        let columns = ["", "alpha (1e-4)", "beta_r (1e-4)", "beta_rr (1e-5)"];
+        Table::new("table4-means", "Table 4, 19 experiments on the yaw axis (N m, degrees, seconds)", &columns)
+            .row(row("mean, printed rows", t.mean))
+            .row(row("mean, recomputed rows", t.recomputed_mean))
+            .row(row("spread in %, printed rows", t.std_percent))
+            .row(row("spread in %, recomputed rows", t.recomputed_std_percent))
+    }
+
+    pub(super) fn table4(&self) -> Table {
+        let columns = [
+            "experiment",
+            "alpha",
+            "alpha printed",
+            "alpha raised",
+            "beta_r",
+            "beta_r printed",
+            "beta_rr",
+            "beta_rr printed",
+        ];
+        let table = Table::new("table4", "Recomputed and printed", &columns).note(format!(
+            "Units: alpha 1e-4 N m/(deg/s^2), beta_r 1e-4 N m/(deg/s), beta_rr 1e-5 N m/(deg/s)^2. Raised: with {:.3}e-2 N m added \
+             to the relay level, the constant that fits best; it leaves {:.2} %.",
+            self.table4.level_offset, self.table4.level_offset_residual_percent,
+        ));
+        self.table4.rows.iter().fold(table, |table, row| {
+            let (new, old) = (row.recomputed, row.printed);
+            let values = [new.alpha, old.alpha, row.alpha_raised, new.beta_r, old.beta_r, new.beta_rr, old.beta_rr];
+            table.row([Cell::count(row.experiment)].into_iter().chain(values.map(|value| Cell::number(value, 2))))
+        })
+    }
+
+    pub(super) fn figure14_table(&self) -> Table {
+        let columns = ["experiment", "alpha (%)", "bound (%)", "beta_r (%)", "bound (%)", "beta_rr (%)", "bound (%)"];
+        let table = Table::new("fig14", "Relative errors and their bounds by quantisation", &columns);
+        figure14(&self.printed).into_iter().fold(table, |table, error| {
+            let pairs = error.percent.named().into_iter().zip(error.bound_percent.named());
+            let values = pairs.flat_map(|((_, percent), (_, bound))| [percent, bound]);
+            table.row([Cell::count(error.experiment)].into_iter().chain(values.map(|value| Cell::number(value, 2))))
+        })
+    }
+
+    pub(super) fn figure15_table(&self) -> Table {
+        let title = "Fig. 15, the drag law from pairs of experiments with different relay levels";
+        let table = Table::new("fig15", title, &["criterion", "margin (%)", "pairs", "correct", "wrong", "undecided"]);
+        self.figure15.iter().zip(&CRITERIA).fold(table, |table, (counts, criterion)| {
+            let numbers = [counts.correct, counts.wrong, counts.undecided];
+            let total: u32 = numbers.iter().sum();
+            let margin = Cell::from(criterion.margin);
+            table.row(
+                [Cell::count(counts.criterion), margin, Cell::count(total)].into_iter().chain(numbers.map(Cell::count)),
+            )
+        })
+    }
+
+    pub(super) fn audit_summary(&self) -> Table {
+        let columns = ["printed", "agree", "of", "largest difference", ""];
+        let table = Table::new("audit", "Audit, printed numbers against their recomputation in intervals", &columns);
+        self.audit.iter().fold(table, |table, group| {
+            let (agree, of) = (Cell::Text(group.agreeing().to_string()), Cell::Text(group.items.len().to_string()));
+            let difference = Cell::number(group.largest_difference(), 2);
+            table.row([group.name.as_str().into(), agree, of, difference, group.note.as_str().into()])
+        })
+    }
+
+    pub(super) fn audit_table(&self) -> Table {
+        let columns = ["group", "item", "printed", "recomputed", "lowest", "highest", "agrees", "note"];
+        let table = Table::new("audit-items", "Every item", &columns);
+        let items = self.audit.iter().flat_map(|group| group.items.iter().map(move |item| (group, item)));
+        items.fold(table, |table, (group, item)| {
+            let numbers =
+                [item.printed, item.recomputed, item.range.0, item.range.1].map(|value| Cell::number(value, 3));
+            let words = [Cell::from(group.name.as_str()), item.item.as_str().into()];
+            let verdict = [Cell::Flag(item.agrees), item.note.as_str().into()];
+            table.row(words.into_iter().chain(numbers).chain(verdict))
+        })
+    }
+}

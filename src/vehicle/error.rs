@@ -1,0 +1,171 @@
+//! What can be wrong with a vehicle, a thruster or a demand on them.
+
+/// A refusal of the vehicle layer: which number, which limit, what to do.
+///
+/// Thrusters are counted from 0 in the order of their chain; a thruster used alone is number 0.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum VehicleError {
+    /// A parameter or an input outside its domain.
+    #[error("{quantity} is {value}: it must be {requirement}")]
+    OutOfDomain {
+        /// What the number means, with its unit.
+        quantity: &'static str,
+        /// The domain.
+        requirement: &'static str,
+        /// The number given.
+        value: f64,
+    },
+    /// Thrust that is negative or falls as the command grows: no inverse.
+    #[error(
+        "thrust {thrust_at_dead_zone_n} N with slope {slope_at_dead_zone} at the dead zone {dead_zone}, slope {slope_at_limit} at \
+         the limit {limit}: thrust must not be negative nor fall between them; narrow the range or fit again"
+    )]
+    NotMonotone {
+        /// Command magnitude at which the propeller starts.
+        dead_zone: f64,
+        /// Largest command magnitude.
+        limit: f64,
+        /// Thrust magnitude at the dead zone's end.
+        thrust_at_dead_zone_n: f64,
+        /// Thrust per command at the dead zone's end.
+        slope_at_dead_zone: f64,
+        /// Thrust per command at the limit.
+        slope_at_limit: f64,
+    },
+    /// More thrust than the largest command gives.
+    #[error(
+        "thruster {thruster}: {thrust_n} N asked for, {largest_n} N is the most on that side; ask for less or clamp"
+    )]
+    Saturated {
+        /// Number of the thruster.
+        thruster: usize,
+        /// Thrust asked for.
+        thrust_n: f64,
+        /// Thrust at the largest command on that side.
+        largest_n: f64,
+    },
+    /// A thrust between standing still and the slowest rotation.
+    #[error(
+        "thruster {thruster}: {thrust_n} N asked for, {smallest_n} N is the least while turning on that side; bias the thruster \
+         out of its dead zone or clamp"
+    )]
+    InDeadZone {
+        /// Number of the thruster.
+        thruster: usize,
+        /// Thrust asked for.
+        thrust_n: f64,
+        /// Thrust at the dead zone's end on that side.
+        smallest_n: f64,
+    },
+    /// Thrusters that cannot produce every axis independently, or data that cannot tell parameters apart.
+    #[error("{what} has rank {rank}, {needed} is needed: columns depend on each other")]
+    RankDeficient {
+        /// The matrix.
+        what: &'static str,
+        /// Its numerical rank.
+        rank: usize,
+        /// The rank it must have.
+        needed: usize,
+    },
+    /// A number of items other than the one that fits.
+    #[error("{count} {what} given: {needed} needed")]
+    Count {
+        /// The items.
+        what: &'static str,
+        /// How many were given.
+        count: usize,
+        /// How many it takes (the least number, for data).
+        needed: usize,
+    },
+    /// A measured thrust that points against its command.
+    #[error(
+        "point {index}: command {command} gave {thrust_n} N, against its own sign; check wiring or the scale's sign"
+    )]
+    ThrustAgainstCommand {
+        /// Position of the point in the data.
+        index: usize,
+        /// Command of the point.
+        command: f64,
+        /// Thrust of the point.
+        thrust_n: f64,
+    },
+    /// A propeller that turned at a smaller command than one at which it stood.
+    #[error(
+        "the propeller turned at command {turned_at} and stood at {stood_at}, threshold {threshold_n} N: repeat the points or \
+         change the threshold"
+    )]
+    DeadZoneUnclear {
+        /// Smallest command on that side at which thrust was measured.
+        turned_at: f64,
+        /// Largest command on that side at which none was.
+        stood_at: f64,
+        /// Thrust below which the propeller counts as standing.
+        threshold_n: f64,
+    },
+    /// Euler angles near pitch = +-90 degrees, where roll and yaw are the same rotation.
+    #[error("pitch {pitch_rad} rad: Euler rates need abs(cos(pitch)) >= {limit}; use the quaternion form")]
+    PitchSingular {
+        /// The pitch.
+        pitch_rad: f64,
+        /// Least cosine.
+        limit: f64,
+    },
+    /// A matrix that is not symmetric, or not positive definite where inertia or drag must be.
+    #[error("{matrix} is not {property}: {value} is below {limit}")]
+    Indefinite {
+        /// The matrix.
+        matrix: &'static str,
+        /// What it must be.
+        property: &'static str,
+        /// The offending eigenvalue, or minus the asymmetry.
+        value: f64,
+        /// The least value allowed.
+        limit: f64,
+    },
+    /// An integration step after which the state is no number.
+    #[error("the state is not finite {time_s} s after the start with steps of {step_s} s: take smaller steps")]
+    Diverged {
+        /// Simulated time.
+        time_s: f64,
+        /// The step.
+        step_s: f64,
+    },
+    /// An iteration that rounding keeps from its end.
+    #[error("{what} did not settle: scale axes and weights to similar size")]
+    NoConvergence {
+        /// The iteration.
+        what: &'static str,
+    },
+}
+
+impl VehicleError {
+    /// The same refusal with the number the thruster has in its chain.
+    #[must_use]
+    pub(super) fn of_thruster(self, thruster: usize) -> Self {
+        match self {
+            Self::Saturated { thrust_n, largest_n, .. } => Self::Saturated { thruster, thrust_n, largest_n },
+            Self::InDeadZone { thrust_n, smallest_n, .. } => Self::InDeadZone { thruster, thrust_n, smallest_n },
+            other => other,
+        }
+    }
+}
+
+/// The number, if it satisfies `valid` and is finite.
+pub(super) fn checked<T: crate::numeric::Scalar>(
+    quantity: &'static str,
+    requirement: &'static str,
+    value: T,
+    valid: impl FnOnce(T) -> bool,
+) -> Result<T, VehicleError> {
+    if value.is_finite() && valid(value) {
+        Ok(value)
+    } else {
+        Err(VehicleError::OutOfDomain { quantity, requirement, value: value.value() })
+    }
+}
+
+/// The number, if it is finite.
+pub(super) fn finite<T: crate::numeric::Scalar>(quantity: &'static str, value: T) -> Result<T, VehicleError> {
+    checked(quantity, "finite", value, |_| true)
+}
