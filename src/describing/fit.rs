@@ -5,9 +5,10 @@ use nalgebra::{DMatrix, DVector};
 use super::{CATALOGUE, DescribingError, Entry};
 use crate::nonlinearity::{Domain, NonlinearityError, Parameter, Sinusoid};
 
-/// Starting points for each characteristic, and steps of Levenberg-Marquardt from each.
-const STARTS: usize = 24;
-const STEPS: usize = 60;
+/// Parameter sets tried for each characteristic, how many of the best are refined, and in how many steps.
+const CANDIDATES: u32 = 600;
+const STARTS: usize = 10;
+const STEPS: usize = 200;
 
 /// A characteristic fitted to the points.
 #[derive(Clone, Debug)]
@@ -26,8 +27,8 @@ pub struct Fit {
 /// standard deviation of its residuals, which counts parameters against it.
 ///
 /// Left out: characteristics with as many parameters as there are points, and `piecewise-linear`, which fits anything. Several can fit
-/// equally well (a preload without slope is a relay), and the search, from 24 deterministic starts each, can miss the best
-/// parameters; a fit says nothing of amplitudes outside the points'.
+/// equally well (a preload without slope is a relay), and the search, from the best of 600 parameter sets each, can miss
+/// the best parameters; a fit says nothing of amplitudes outside the points'.
 ///
 /// # Errors
 /// [`NonlinearityError::Amplitude`] or [`DescribingError::NotFinite`] for a point that is not two finite numbers with a
@@ -81,8 +82,15 @@ fn best(entry: &'static Entry, points: &[(f64, f64)], bias: f64) -> Option<Fit> 
     if entry.parameters.iter().any(|parameter| parameter.domain == Domain::Points) {
         return None;
     }
-    let descents = (0..STARTS).filter_map(|start| descend(entry, begin(entry, points, start), points, bias));
-    let (searched, sum) = descents.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let candidates = (0..CANDIDATES).filter_map(|number| {
+        let candidate = candidate(entry, points, number);
+        residuals(entry, &candidate, points, bias).map(|residual| (candidate, residual.norm_squared()))
+    });
+    let mut candidates: Vec<_> = candidates.collect();
+    candidates.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let starts = candidates.into_iter().take(STARTS);
+    let (searched, sum) =
+        starts.filter_map(|(start, _)| descend(entry, start, points, bias)).min_by(|a, b| a.1.total_cmp(&b.1))?;
     let jacobian = jacobian(entry, &searched, points, bias)?;
     let largest = jacobian.amax();
     let parameters = jacobian.column_iter().filter(|column| column.amax() > 1e-9 * largest).count();
@@ -90,18 +98,22 @@ fn best(entry: &'static Entry, points: &[(f64, f64)], bias: f64) -> Option<Fit> 
     Some(Fit { entry, values: values(entry, &searched), parameters, residual: (sum / freedom as f64).sqrt() })
 }
 
-/// The k-th start: each parameter is one of the sizes that the points suggest for inputs, outputs and gains.
-fn begin(entry: &Entry, points: &[(f64, f64)], start: usize) -> DVector<f64> {
-    let mean = |part: fn(&(f64, f64)) -> f64| points.iter().map(part).sum::<f64>() / points.len() as f64;
-    let least = points.iter().fold(f64::INFINITY, |least, point| least.min(point.0));
-    let (amplitude, p) = (mean(|point| point.0), mean(|point| point.1));
-    let sizes = [0.5 * least, p, p * amplitude, 0.5 * amplitude, 1.0, 1.0 / amplitude, 2.0 * p, 2.0];
+/// A parameter set: sizes spread evenly in their logarithm over those that the points suggest for inputs, outputs and
+/// gains, by an additive recurrence in as many dimensions as there are parameters (irrational steps: square roots of primes).
+fn candidate(entry: &Entry, points: &[(f64, f64)], number: u32) -> DVector<f64> {
+    const STEPS: [f64; 10] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0];
+    let sizes = points.iter().flat_map(|&(amplitude, p)| [amplitude, p.abs(), (p * amplitude).abs(), 1.0]);
+    let sizes = sizes.filter(|size| *size > 0.0).map(f64::ln);
+    let (low, high) =
+        sizes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), size| (low.min(size), high.max(size)));
     let size = |(place, parameter): (usize, &Parameter)| {
-        let size = sizes[(start / (place + 1) + start * place * 3 + place) % sizes.len()];
-        if parameter.domain == Domain::Finite {
-            if parameter.default == Some(0.0) { 0.0 } else { size }
-        } else {
-            size.abs().max(f64::MIN_POSITIVE).ln()
+        let fraction = (f64::from(number) * STEPS[place % STEPS.len()].sqrt()).fract();
+        let size = low - 1.0 + (high - low + 2.0) * fraction;
+        match (parameter.domain, parameter.default) {
+            (Domain::Finite, Some(0.0)) => 0.0,
+            (Domain::Finite, _) if number % 3 == 2 => -size.exp(),
+            (Domain::Finite, _) => size.exp(),
+            _ => size,
         }
     };
     DVector::from_iterator(entry.parameters.len(), entry.parameters.iter().enumerate().map(size))
@@ -121,9 +133,16 @@ fn jacobian(entry: &Entry, searched: &DVector<f64>, points: &[(f64, f64)], bias:
     Some(jacobian)
 }
 
+/// How far the logarithm of a parameter may go from its start: a factor of 1000.
+const REACH: f64 = 7.0;
+
 /// Levenberg-Marquardt from one start: where it ends and the sum of squares there.
 fn descend(entry: &Entry, start: DVector<f64>, points: &[(f64, f64)], bias: f64) -> Option<(DVector<f64>, f64)> {
-    let (mut searched, mut damping) = (start, 1e-3);
+    let within = |trial: &DVector<f64>| {
+        let moves = entry.parameters.iter().zip(trial.iter().zip(start.iter()));
+        moves.into_iter().all(|(parameter, (x, from))| parameter.domain == Domain::Finite || (x - from).abs() <= REACH)
+    };
+    let (mut searched, mut damping) = (start.clone(), 1e-3);
     let mut residual = residuals(entry, &searched, points, bias)?;
     for _ in 0..STEPS {
         let Some(jacobian) = jacobian(entry, &searched, points, bias) else { break };
@@ -133,7 +152,8 @@ fn descend(entry: &Entry, start: DVector<f64>, points: &[(f64, f64)], bias: f64)
         let damped = &normal + DMatrix::from_diagonal(&normal.diagonal().add_scalar(ridge)) * damping;
         let Some(step) = damped.cholesky().map(|factor| factor.solve(&gradient)) else { break };
         let trial = &searched - &step;
-        match residuals(entry, &trial, points, bias) {
+        let residuals = within(&trial).then(|| residuals(entry, &trial, points, bias)).flatten();
+        match residuals {
             Some(better) if better.norm_squared() < residual.norm_squared() => {
                 let gain = residual.norm_squared() - better.norm_squared();
                 (searched, residual, damping) = (trial, better, 0.2 * damping);

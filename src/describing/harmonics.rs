@@ -127,9 +127,15 @@ impl<T: Real> Arc<T> {
         (self.one_plus_u - self.one_minus_u).select(|| T::pi() - from(self.one_plus_u), || from(self.one_minus_u))
     }
 
+    /// `asin(u)`, towards the ends by way of phi: its derivative then agrees with that of `sin(phi)`.
+    fn asin(self) -> T {
+        let quarter = T::pi() / T::two();
+        (self.u.abs() - T::from_f64(0.5)).select(|| self.u.asin(), || quarter - self.phi())
+    }
+
     fn sign(self) -> Harmonics<T> {
         let pi = T::pi();
-        Harmonics { mean: -self.u.asin() / pi, sine: T::two() * self.sine / pi, cosine: -T::two() * self.u / pi }
+        Harmonics { mean: -self.asin() / pi, sine: T::two() * self.sine / pi, cosine: -T::two() * self.u / pi }
     }
 
     fn step(self) -> Harmonics<T> {
@@ -151,12 +157,12 @@ impl<T: Real> Arc<T> {
 
     /// `(asin(u) + u sqrt(1 - u^2)) / pi`: first harmonic of what lies below the breakpoint, from the middle.
     fn middle_sine(self) -> T {
-        (self.u.asin() + self.u * self.sine) / T::pi()
+        (self.asin() + self.u * self.sine) / T::pi()
     }
 
     /// `(sqrt(1 - u^2) + u asin(u)) / pi`, the mean distance to the breakpoint over twice the amplitude.
     fn middle_mean(self) -> T {
-        (self.sine + self.u * self.u.asin()) / T::pi()
+        (self.sine + self.u * self.asin()) / T::pi()
     }
 }
 

@@ -28,7 +28,9 @@ impl<T: Scalar> ClosedForm for Power<T> {
     ///
     /// Derivatives by dual numbers hold with respect to bias, amplitude and gain; the exponent counts as a constant.
     fn describing_function(&self, sweep: &Sinusoid<T>) -> Result<DescribingFunction<T>, DescribingError> {
-        let (bias, amplitude, p) = (sweep.bias().abs(), sweep.amplitude(), self.exponent().value());
+        let negative = sweep.bias() < T::zero();
+        let bias = if negative { -sweep.bias() } else { sweep.bias() };
+        let (amplitude, p) = (sweep.amplitude(), self.exponent().value());
         let u = (bias / amplitude).value();
         let outside = u > OUTER || (p >= STEEP && u > 1.0);
         let (reference, ratio) = if outside { (bias, amplitude / bias) } else { (amplitude, bias / amplitude) };
@@ -42,7 +44,7 @@ impl<T: Scalar> ClosedForm for Power<T> {
         let scale = self.gain() * reference.pow(T::from_f64(p));
         let m = lift(ratio, moments.m, moments.m_slope);
         let h = lift(ratio, moments.h, moments.h_slope);
-        let f0 = sweep.bias().select(|| -(scale * m), || scale * m);
+        let f0 = if negative { -(scale * m) } else { scale * m };
         finite(DescribingFunction { f0, p: T::two() * scale * h / amplitude, q: T::zero() }, sweep)
     }
 }

@@ -51,9 +51,10 @@ pub fn harmonic(
     characteristic.admits(sweep)?;
     let mut angles = vec![-FRAC_PI_2, FRAC_PI_2];
     characteristic.kinks(sweep, &mut |x| {
-        let u = (x - sweep.bias()) / sweep.amplitude();
-        if u.abs() < 1.0 {
-            angles.push(u.asin());
+        // By its tangent, which is accurate where the sweep barely passes x.
+        let (above, below) = (sweep.maximum() - x, x - sweep.minimum());
+        if above > 0.0 && below > 0.0 {
+            angles.push((x - sweep.bias()).atan2((above * below).sqrt()));
         }
     });
     angles.sort_by(f64::total_cmp);

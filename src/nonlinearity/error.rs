@@ -59,4 +59,19 @@ pub enum NonlinearityError {
         /// The smallest amplitude that switches.
         required: f64,
     },
+    /// A sweep over more treads of a quantizer than are summed.
+    #[error(
+        "quantizer: amplitude = {amplitude} with bias = {bias} sweeps {treads} treads; at most {limit} are summed, \
+         treat a finer step as a straight line"
+    )]
+    Treads {
+        /// Amplitude of the input.
+        amplitude: f64,
+        /// Bias of the input.
+        bias: f64,
+        /// Treads swept.
+        treads: f64,
+        /// The limit.
+        limit: f64,
+    },
 }

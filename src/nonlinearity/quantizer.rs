@@ -1,5 +1,5 @@
 use super::parameter::characteristic;
-use super::{Branch, Kernel, PiecewiseLinear, Sinusoid};
+use super::{Branch, Kernel, NonlinearityError, PiecewiseLinear, Sinusoid};
 use crate::numeric::Real;
 
 characteristic! {
@@ -9,6 +9,9 @@ characteristic! {
         step: Positive,
     }
 }
+
+/// Treads that are summed at most: a few milliseconds, and more than a 16-bit converter has.
+const TREADS: f64 = 1e5;
 
 impl<T: Real> PiecewiseLinear for Quantizer<T> {
     type Number = T;
@@ -32,5 +35,14 @@ impl<T: Real> PiecewiseLinear for Quantizer<T> {
             }
             tread += 1.0;
         }
+    }
+
+    fn periodic(&self, sweep: &Sinusoid<T>) -> Result<(), NonlinearityError> {
+        let (amplitude, bias) = (sweep.amplitude().bounds().1, sweep.bias().bounds().1);
+        let treads = (amplitude + bias.abs()) / self.step.bounds().0;
+        if treads <= TREADS {
+            return Ok(());
+        }
+        Err(NonlinearityError::Treads { amplitude, bias, treads, limit: TREADS })
     }
 }

@@ -18,5 +18,9 @@ impl<T: Real> Characteristic for Tanh<T> {
     fn output(&self, x: T, _: Branch, _: &Sinusoid<T>) -> T {
         self.gain * (self.scale * x).tanh()
     }
-    fn kinks(&self, _: &Sinusoid<T>, _: &mut dyn FnMut(T)) {}
+    /// None; what is reported brackets the bend, which a quadrature of a long sweep would miss.
+    fn kinks(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(T)) {
+        let bend = T::from_f64(10.0) / self.scale;
+        [-bend, T::zero(), bend].into_iter().for_each(report);
+    }
 }

@@ -3,6 +3,8 @@
 mod algebra;
 mod print;
 
+use core::ops::Neg;
+
 use super::{Interval, Real};
 
 /// A formula over named quantities, each of which is known to lie in an interval.
@@ -119,6 +121,13 @@ macro_rules! functions {
 
 functions!(abs sqrt sin cos tan asin acos atan exp exp_m1 ln ln_1p sinh cosh tanh atanh floor);
 
+impl Function {
+    /// Whether `f(-x) = -f(x)`.
+    fn is_odd(self) -> bool {
+        matches!(self, Self::sin | Self::tan | Self::asin | Self::atan | Self::sinh | Self::tanh | Self::atanh)
+    }
+}
+
 /// The plain name of the circle constant.
 const PI: &str = "pi";
 
@@ -158,6 +167,9 @@ impl Expression {
     }
 
     fn call<const N: usize>(function: Function, arguments: [Self; N]) -> Self {
+        if function.is_odd() && arguments.iter().any(|argument| argument.leads_negative()) {
+            return -Self::call(function, arguments.map(Neg::neg));
+        }
         let numbers: Option<Vec<f64>> = arguments.iter().map(|argument| argument.number()).collect();
         let value = numbers.and_then(|numbers| function.apply(&numbers)).filter(|value| value.fract() == 0.0);
         value.map_or_else(|| Self::new(Node::Call { function, arguments: arguments.into() }), Self::from_f64)

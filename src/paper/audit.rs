@@ -81,28 +81,22 @@ pub fn audit(table: &PrintedTable, regenerated: &Table4) -> Result<Vec<Group>, P
         Rows { table, regenerated, change, value, parameter }.group(name, note)
     };
     let mut groups = vec![
+        rows("alpha", "printed over computed depends on the relay level alone", &|_| (), &|row| row.recomputed, ALPHA)?,
         rows(
-            "alpha",
-            "the ratio of printed to computed depends on the relay level alone",
-            &|_| (),
-            &|row| row.recomputed,
-            ALPHA,
-        )?,
-        rows(
-            "alpha, relay level raised",
-            &format!("relay level + {offset:.3}e-2 N m, the constant that fits best; its cause is unknown"),
+            "alpha, C raised",
+            &format!("by {offset:.3}e-2 N m, fitted; cause unknown"),
             &raise,
             &|row| Yaw { alpha: row.alpha_raised, ..row.recomputed },
             ALPHA,
         )?,
-        rows("beta_r", "eqs. 27, 30 and 31 with a delay of 0.2 s (eq. 34)", &|_| (), &|row| row.recomputed, BETA_R)?,
-        rows("beta_rr", "eqs. 29, 30 and 31 with a delay of 0.2 s (eq. 34)", &|_| (), &|row| row.recomputed, BETA_RR)?,
+        rows("beta_r", "eqs. 27, 30, 31 and 34 with a delay of 0.2 s", &|_| (), &|row| row.recomputed, BETA_R)?,
+        rows("beta_rr", "eqs. 29, 30, 31 and 34 with a delay of 0.2 s", &|_| (), &|row| row.recomputed, BETA_RR)?,
     ];
     let centered = unbiased(table)?;
     for (parameter, name) in [(BETA_R, "beta_r, x_0 = 0"), (BETA_RR, "beta_rr, x_0 = 0")] {
         let value =
             |row: &Row| centered.iter().find(|(number, _)| *number == row.experiment).map_or(row.recomputed, |r| r.1);
-        groups.push(rows(name, "without the bias some rows do not come out: it was used", &center, &value, parameter)?);
+        groups.push(rows(name, "not all without the bias: it was used", &center, &value, parameter)?);
     }
     groups.push(amplitudes(table)?);
     groups.extend(stated(table)?);
@@ -155,7 +149,7 @@ fn unbiased(table: &PrintedTable) -> Result<Vec<(u32, Yaw<f64>)>, PaperError> {
 
 /// The amplitude that the printed drag parameters imply: `beta_r/beta_rr` is proportional to it, whatever relay, bias and delay.
 fn amplitudes(table: &PrintedTable) -> Result<Group, PaperError> {
-    let note = "implied by beta_r/beta_rr; shows where the point of row 9's 36.57 is, which the scan lost";
+    let note = "implied by beta_r/beta_rr: row 9 is 36.57, not 3657";
     let rows = table.experiments().iter().zip(table.printed_intervals()).zip(table.printed());
     let items = rows.map(|((row, printed), value)| {
         let at = row.amplitude.value();
@@ -194,9 +188,9 @@ fn stated(table: &PrintedTable) -> Result<[Group; 4], PaperError> {
         Ok(Group { name: name.to_owned(), note: note.to_owned(), items })
     };
     Ok([
-        group("last rows of Table 4", "mean, and sample standard deviation (n - 1) over the mean", last_rows)?,
-        group("spread in the text", "contradicts the table's own last row", text)?,
-        group("Fig. 15", "counted with eq. 41's sqrt(2), from the printed parameters", bars)?,
+        group("last rows of Table 4", "mean, and standard deviation (n - 1) over it", last_rows)?,
+        group("spread in the text", "of beta_rr: contradicts the table's own last row", text)?,
+        group("Fig. 15", "counted with eq. 41's sqrt(2), from printed rows", bars)?,
         group("words on Fig. 15", "each follows from the counts", words)?,
     ])
 }

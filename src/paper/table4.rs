@@ -56,7 +56,18 @@ impl PrintedTable {
     /// # Errors
     /// As [`fixtures::table4`].
     pub fn compiled_in() -> Result<Self, PaperError> {
-        Ok(Self { experiments: fixtures::table4()? })
+        Self::new(fixtures::table4()?)
+    }
+
+    /// From rows.
+    ///
+    /// # Errors
+    /// [`PaperError::Missing`] for fewer than two experiments, which have no spread.
+    pub fn new(experiments: Vec<Experiment>) -> Result<Self, PaperError> {
+        if experiments.len() < 2 {
+            return Err(PaperError::Missing { fixture: "table4.csv", missing: "two experiments".to_owned() });
+        }
+        Ok(Self { experiments })
     }
 
     /// Its rows.

@@ -2,6 +2,7 @@
 
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
+use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::series::DashedLineSeries;
 
@@ -78,10 +79,21 @@ impl Panel {
         (from - widest, to + widest)
     }
 
+    /// With room at the top for the legend.
     fn y_range(&self) -> (f64, f64) {
-        let bars = self.series.iter().any(|series| matches!(series.mark, Mark::Bars { .. }));
         let (from, to) = self.range(|point| point.1);
-        self.y_limits.unwrap_or(if bars { (0.0, to) } else { (from, to) })
+        let from = if self.has_bars() { 0.0 } else { from };
+        let entries = self.named().count();
+        let legend = if entries > 1 { LEGEND_ENTRY * entries as f64 / f64::from(SIZE.1) } else { 0.0 };
+        self.y_limits.unwrap_or((from, to + (to - from) * legend / (1.0 - legend)))
+    }
+
+    fn named(&self) -> impl Iterator<Item = &Series> {
+        self.series.iter().filter(|series| !series.label.is_empty())
+    }
+
+    fn has_bars(&self) -> bool {
+        self.series.iter().any(|series| matches!(series.mark, Mark::Bars { .. }))
     }
 }
 
@@ -99,6 +111,8 @@ pub struct Figure {
 /// Width of a figure and height of a panel, in pixels.
 const SIZE: (u32, u32) = (900, 420);
 const TITLE_HEIGHT: u32 = 40;
+/// Height of a legend's entry with its share of the border, in pixels.
+const LEGEND_ENTRY: f64 = 30.0;
 const FONT: &str = "sans-serif";
 
 /// Colours that people who confuse red and green tell apart (Okabe and Ito).
@@ -152,13 +166,18 @@ impl Panel {
             .x_label_area_size(52)
             .y_label_area_size(72)
             .build_cartesian_2d(x_from..x_to, y_from..y_to)?;
-        chart
-            .configure_mesh()
-            .x_desc(&self.x_label)
+        let mut mesh = chart.configure_mesh();
+        // Bars stand at whole numbers.
+        let bars = self.has_bars();
+        let x_tick = |value: &f64| if bars && value.fract() != 0.0 { String::new() } else { tick(*value) };
+        if bars {
+            mesh.disable_x_mesh();
+        }
+        mesh.x_desc(&self.x_label)
             .y_desc(&self.y_label)
             .axis_desc_style((FONT, 17))
             .label_style((FONT, 15))
-            .x_label_formatter(&|value| tick(*value))
+            .x_label_formatter(&x_tick)
             .y_label_formatter(&|value| tick(*value))
             .x_labels(11)
             .y_labels(9)
@@ -166,14 +185,13 @@ impl Panel {
             .bold_line_style(RGBColor(225, 225, 225))
             .draw()?;
         let mut colour = PALETTE[0];
-        let named = self.series.iter().filter(|series| !series.label.is_empty());
         for series in &self.series {
-            if let Some(place) = named.clone().position(|other| other == series) {
+            if let Some(place) = self.named().position(|other| other == series) {
                 colour = PALETTE[place % PALETTE.len()];
             }
             series.draw(&mut chart, colour)?;
         }
-        if named.count() > 1 {
+        if self.named().count() > 1 {
             chart
                 .configure_series_labels()
                 .position(SeriesLabelPosition::UpperRight)
@@ -207,7 +225,8 @@ impl Series {
         }
         let mark = self.mark;
         drawn.label(&self.label).legend(move |(x, y)| match mark {
-            Mark::Line | Mark::Dashed => PathElement::new([(x, y), (x + 22, y)], line).into_dyn(),
+            Mark::Line => PathElement::new([(x, y), (x + 22, y)], line).into_dyn(),
+            Mark::Dashed => DashedPathElement::new([(x, y), (x + 22, y)], 7, 5, line).into_dyn(),
             Mark::Dots => Circle::new((x + 11, y), 5, colour.filled()).into_dyn(),
             Mark::Bars { .. } => Rectangle::new([(x + 5, y - 6), (x + 17, y + 6)], colour.filled()).into_dyn(),
         });

@@ -34,8 +34,9 @@ impl Cell {
 
     /// A whole number.
     #[must_use]
-    pub fn count(value: impl Into<f64>) -> Self {
-        Self::number(value.into(), 0)
+    #[allow(clippy::cast_precision_loss, reason = "nothing that is counted here comes near 2^53")]
+    pub fn count(value: usize) -> Self {
+        Self::number(value as f64, 0)
     }
 
     fn is_number(&self) -> bool {

@@ -11,6 +11,19 @@ pub(crate) struct Case {
     pub(crate) sweep: Sinusoid<f64>,
 }
 
+impl Case {
+    /// The sweep ends next to a kink, where its last bits decide.
+    pub(crate) fn on_edge(&self) -> bool {
+        let mut on_edge = false;
+        let (low, high) = (self.sweep.minimum(), self.sweep.maximum());
+        self.characteristic.kinks(&self.sweep, &mut |kink| {
+            let near = 1e-5 * (low.abs() + high.abs() + kink.abs());
+            on_edge |= (kink - low).abs() < near || (kink - high).abs() < near;
+        });
+        on_edge
+    }
+}
+
 fn sign(rng: &mut impl Rng) -> f64 {
     if rng.random() { 1.0 } else { -1.0 }
 }

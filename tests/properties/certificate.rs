@@ -87,6 +87,11 @@ fn known_integrals_are_enclosed() {
     check(exponential, &bracket!(one: one.exp_m1()));
     let backwards = integrate(&formula!(|t| t.exp()), Interval::ONE, Interval::ZERO, QUADRATURE_WIDTH, 1000);
     check(backwards, &bracket!(one: -one.exp_m1()));
+    // An endpoint known only to lie between one and 1.1 gives the integrals up to either; so does the start.
+    let to_either = |end| integrate(&formula!(|t| t.exp()), interval(0.0, 0.1), end, 1.0, 1000).integrals[0];
+    for (from, to) in [(0.0, 1.0), (0.0, 1.1), (0.1, 1.0), (0.1, 1.1)] {
+        assert!(bracket!(from, to: to.exp() - from.exp()).lies_within(to_either(interval(1.0, 1.1)).bounds()));
+    }
     let arc = integrate(&formula!(|t| one_over(t.square())), Interval::ZERO, Interval::ONE, QUADRATURE_WIDTH, 1000);
     check(arc, &bracket!(one: one.atan()));
     let kinked = integrate(&formula!(|t| t.min(half())), Interval::ZERO, Interval::ONE, QUADRATURE_WIDTH, 1000);
@@ -267,9 +272,12 @@ fn krawczyk_proves_what_is_true_only() {
     // Beside the root, far from it, and with the whole circle.
     assert!(matches!(krawczyk(circle_and_exponential, around([x + 0.01, y], 1e-3), 20), Roots::None { .. }));
     assert!(!matches!(krawczyk(circle_and_exponential, around([0.0, 0.0], 3.0), 20), Roots::Unique { .. }));
+    // A box around both roots, whose midpoint has a regular Jacobian.
+    assert!(!matches!(krawczyk(circle_and_exponential, around([-0.4, -0.4], 2.5), 20), Roots::Unique { .. }));
     // A double root: circle and tangent.
     let touching = |[x, y]: [Gradient<2>; 2]| [x.square() + y.square() - Gradient::one(), y - Gradient::one()];
     assert!(!matches!(krawczyk(touching, around([0.0, 1.0], 1e-3), 20), Roots::Unique { .. }));
+    assert!(!matches!(krawczyk(touching, around([0.01, 1.0], 0.1), 20), Roots::Unique { .. }));
     // Three unknowns, where rows must be exchanged.
     let cyclic = |[x, y, z]: [Gradient<3>; 3]| [y - x.cos(), z - y.cos(), x - z.cos()];
     let found = krawczyk(cyclic, around([0.739; 3], 1e-2), 20);

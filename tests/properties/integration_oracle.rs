@@ -12,6 +12,8 @@ const TOLERANCE: f64 = 1e-15;
 struct Step {
     velocity: [f64; ORDER + 1],
     position: [f64; ORDER + 1],
+    /// Ten time constants of the drag: at the terminal speed the series would allow any duration.
+    limit: f64,
 }
 
 impl Step {
@@ -27,7 +29,8 @@ impl Step {
             velocity[k + 1] = rate / axis.alpha() / (k + 1) as f64;
             position[k + 1] = velocity[k] / (k + 1) as f64;
         }
-        Self { velocity, position }
+        let drag = axis.linear_drag() + 2.0 * axis.quadratic_drag() * state.velocity.abs();
+        Self { velocity, position, limit: 10.0 * axis.alpha() / drag }
     }
 
     /// The duration for which the last terms are negligible; two of them, because every other one can vanish.
@@ -36,7 +39,7 @@ impl Step {
         let radius = last.map(|k| (self.velocity[1] / self.velocity[k]).abs().powf(1.0 / (k - 1) as f64));
         let scale = self.velocity[0].abs().max(self.velocity[1].abs() * radius[0].min(radius[1]));
         let reach = last.map(|k| (TOLERANCE * scale / self.velocity[k].abs()).powf(1.0 / k as f64));
-        let reach = reach[0].min(reach[1]);
+        let reach = reach[0].min(reach[1]).min(self.limit);
         assert!(reach > 0.0, "no step from {:?}", self.velocity);
         reach
     }
@@ -124,9 +127,9 @@ pub(crate) fn limit_cycle(axis: &DragAxis<f64>, relay: &RelayHysteresis<f64>) ->
     };
     simulation.cycle();
     let mut before = simulation.cycle();
-    for _ in 0..5_000 {
+    for _ in 0..500 {
         let cycle = simulation.cycle();
-        if cycle.change(&before) < 1e-13 {
+        if cycle.change(&before) < 1e-12 {
             return cycle;
         }
         before = cycle;

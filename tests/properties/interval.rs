@@ -298,6 +298,12 @@ fn is_tightest(x: Interval) -> bool {
 fn check_operations(cases: u32) {
     TestRunner::new(config(cases))
         .run(&([double(), double(), double(), double()], 0.0..1.0), |([a, b, c, d], weight): ([f64; 4], f64)| {
+            let range = interval(a.min(b), a.max(b));
+            let (lo, hi, middle) = (range.lower(), range.upper(), range.midpoint());
+            let width = bracket!(lo, hi: hi - lo);
+            prop_assert!(range.contains(middle) && width.lies_within((0.0, range.width())), "width of {range}");
+            let halves = [bracket!(lo, middle: middle - lo), bracket!(middle, hi: hi - middle)];
+            prop_assert!(halves.iter().all(|half| half.lies_within((0.0, range.radius()))), "radius of {range}");
             for operation in &OPERATIONS {
                 let undefined = |y: Interval| operation.name == "/" && y.contains_zero();
                 let (x, y) = (Interval::point(a), Interval::point(c));
@@ -441,6 +447,12 @@ fn unbounded_intervals_give_no_nan() {
     let valid = |x: Interval| x.lower() <= x.upper() && x.lower() < f64::INFINITY && x.upper() > f64::NEG_INFINITY;
     let intervals: Vec<_> =
         ends.iter().flat_map(|&lo| ends.iter().filter_map(move |&hi| Interval::new(lo, hi))).collect();
+    let beyond_one = Interval::ONE.hull(Interval::point(f64::INFINITY));
+    for unbounded in
+        [Interval::exp, Interval::exp_m1, Interval::sinh, Interval::cosh, Interval::ln, Interval::ln_1p, Interval::sqrt]
+    {
+        assert_eq!(unbounded(beyond_one).upper(), f64::INFINITY);
+    }
     for &x in &intervals {
         for function in &ELEMENTARY {
             assert!(valid((function.interval)(x)), "{}({x})", function.name);

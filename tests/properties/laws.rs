@@ -183,10 +183,9 @@ proptest! {
         let (bias, amplitude) = (narrow(case.sweep.bias()), narrow(case.sweep.amplitude()));
         let single = characteristic.describing_function(&Sinusoid::new(bias, amplitude).unwrap());
         let double = entry.build(&wide).unwrap().describing_function(&Sinusoid::new(bias.into(), amplitude.into()).unwrap());
-        if let (Ok(single), Ok(double)) = (single, double) {
+        if let (Ok(single), Ok(double), false) = (single, double, case.on_edge()) {
             let largest = outputs(&case).into_iter().fold(0.0, |l: f64, (_, y, _)| l.max(y.abs())) * 1.01;
-            // A sweep that ends near a jump is another one in f32.
-            let slack = 2e-2 * largest;
+            let slack = 1e-3 * largest;
             prop_assert!((f64::from(single.f0) - double.f0).abs() <= slack, "{} {single:?} {double:?}", entry.name);
             prop_assert!((f64::from(single.p * amplitude) - double.p * f64::from(amplitude)).abs() <= slack, "{} {single:?} {double:?}", entry.name);
         }
@@ -326,7 +325,8 @@ fn the_characteristic_comes_back_from_points_of_its_gain() {
         let own = ranked.iter().find(|fit| fit.entry.name == entry.name);
         let size = points.iter().fold(0.0, |size: f64, point| size.max(point.1.abs()));
         match own {
-            Some(own) if own.residual <= 1e-6 * size => {}
+            // A search ends near the minimum; the points have four digits at best.
+            Some(own) if own.residual <= 1e-4 * size => {}
             other => missed.push(format!("{}: {:?}", entry.name, other.map(|fit| (&fit.values, fit.residual)))),
         }
     }

@@ -18,5 +18,6 @@ mod motion_drag_axis;
 mod oracle;
 mod orbit_drag_axis;
 mod orbit_linear;
+mod paper;
 mod tolerance;
 mod vehicle;

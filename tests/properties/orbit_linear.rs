@@ -140,8 +140,8 @@ fn a_delay_longer_than_half_a_period() {
     let (events, _) = simulate(&plant, relay, 0.0, 600.0);
     let times = last_times(&events);
     let attracting: Vec<&RelayOrbit> = orbits.iter().filter(|orbit| orbit.is_stable() == Some(true)).collect();
-    assert!(attracting.iter().any(|orbit| agree(orbit, times, tolerance::INTEGRATION)), "{times:?} {orbits:#?}");
-    let there = attracting.iter().find(|orbit| agree(orbit, times, tolerance::INTEGRATION)).unwrap();
+    assert!(attracting.iter().any(|orbit| agree(orbit, times, tolerance::ORBIT_INTEGRATION)), "{times:?} {orbits:#?}");
+    let there = attracting.iter().find(|orbit| agree(orbit, times, tolerance::ORBIT_INTEGRATION)).unwrap();
     assert!(plant.delay_s() > there.time_positive_s(), "{}", there.time_positive_s());
 }
 
@@ -276,12 +276,12 @@ proptest! {
             RelayLoop::new(plant.clone(), relay).with_reference(reference).unwrap().orbits(0.1..=60.0).unwrap();
         let (events, (low, high)) = simulate(&plant, relay, reference, 250.0);
         let measured = last_times(&events);
-        let found = orbits.iter().find(|orbit| agree(orbit, measured, tolerance::INTEGRATION));
+        let found = orbits.iter().find(|orbit| agree(orbit, measured, tolerance::ORBIT_INTEGRATION));
         prop_assert!(found.is_some(), "{:?} not among {:#?}", measured, orbits);
         if let Some(orbit) = found {
             prop_assert!(orbit.is_stable() != Some(false));
             prop_assert!(orbit.minimum() <= low + 1e-9 && orbit.maximum() >= high - 1e-9);
-            prop_assert!(!agree(orbit, (measured.0 * 1.0001, measured.1), tolerance::INTEGRATION));
+            prop_assert!(!agree(orbit, (measured.0 * 1.0001, measured.1), tolerance::ORBIT_INTEGRATION));
         }
     }
 

@@ -20,6 +20,11 @@ impl Expression {
         }
     }
 
+    /// Whether the formula starts with a minus.
+    pub(super) fn leads_negative(self) -> bool {
+        self.terms().first().is_some_and(|term| term.coefficient < 0.0)
+    }
+
     fn is_sum(self) -> bool {
         matches!(self.0, Node::Sum(_))
     }
@@ -44,13 +49,22 @@ impl Expression {
     }
 }
 
-/// What all terms have in common, and the terms without it.
+/// What all terms have in common, and the terms without it: the lowest powers, and the smallest coefficient where the others
+/// are multiples of it.
 pub(super) fn common(terms: &[Product]) -> (Product, Vec<Product>) {
     let Some((first, others)) = terms.split_first() else { return (Product::number(1.0), Vec::new()) };
-    let size = first.coefficient.abs();
-    let coefficient = if others.iter().all(|term| term.coefficient.abs() == size) { size } else { 1.0 };
-    let shared = |factor: &&(Expression, i32)| others.iter().all(|term| term.factors.contains(factor));
-    let common = Product { coefficient, factors: first.factors.iter().filter(shared).copied().collect() };
+    let smallest = terms.iter().map(|term| term.coefficient.abs()).fold(f64::INFINITY, f64::min);
+    let divides = terms.iter().all(|term| (term.coefficient / smallest).fract() == 0.0);
+    let shared = first.factors.iter().filter_map(|&(factor, power)| {
+        others
+            .iter()
+            .try_fold(power, |lowest, other| {
+                let power = other.power(factor);
+                (power.signum() == lowest.signum()).then_some(if power.abs() < lowest.abs() { power } else { lowest })
+            })
+            .map(|lowest| (factor, lowest))
+    });
+    let common = Product { coefficient: if divides { smallest } else { 1.0 }, factors: shared.collect() };
     let rest = terms.iter().map(|term| term.clone().times(common.clone(), -1)).collect();
     (common, rest)
 }
@@ -58,6 +72,10 @@ pub(super) fn common(terms: &[Product]) -> (Product, Vec<Product>) {
 impl Product {
     pub(super) fn number(value: f64) -> Self {
         Self { coefficient: value, factors: Vec::new() }
+    }
+
+    fn power(&self, factor: Expression) -> i32 {
+        self.factors.iter().find(|(present, _)| *present == factor).map_or(0, |&(_, power)| power)
     }
 
     /// The product with `other`, or the quotient where `sign` is -1.

@@ -47,41 +47,48 @@ impl Notation {
         format!("{}{inner}{}", self.pick("(", r"\left("), self.pick(")", r"\right)"))
     }
 
-    /// Terms in the order they came, what they share before a bracket.
+    /// Terms in the order they came but a positive one first, what they share before a bracket.
     fn sum(self, terms: &[Product]) -> String {
-        let (shared, rest) = common(terms);
-        if !shared.factors.is_empty() || shared.coefficient != 1.0 {
-            let bracket = self.brackets(&self.sum(&rest));
-            return format!("{} {bracket}", self.product(&shared));
+        let (mut shared, rest) = common(terms);
+        if shared != Product::number(1.0) {
+            shared.factors.push((Expression::new(Node::Sum(rest)), 1));
+            return self.product(&shared);
         }
-        let mut sum = String::new();
-        for term in terms {
+        let first = terms.iter().position(|term| term.coefficient > 0.0).unwrap_or(0);
+        let others = terms.iter().enumerate().filter(|(place, _)| *place != first);
+        terms.iter().skip(first).take(1).chain(others.map(|(_, term)| term)).fold(String::new(), |sum, term| {
             let printed = self.product(term);
             match (sum.is_empty(), printed.strip_prefix('-')) {
-                (true, _) => sum.push_str(&printed),
-                (false, Some(magnitude)) => sum += &format!(" - {magnitude}"),
-                (false, None) => sum += &format!(" + {printed}"),
+                (true, _) => printed,
+                (false, Some(magnitude)) => format!("{sum} - {magnitude}"),
+                (false, None) => format!("{sum} + {printed}"),
             }
-        }
-        sum
+        })
     }
 
     fn product(self, product: &Product) -> String {
         let (over, under) = fraction(product.coefficient.abs());
         let sign = if product.coefficient < 0.0 { "-" } else { "" };
-        // Symbols before brackets, the circle constant first, as formulas are written.
+        // The circle constant, symbols by name, sums, functions: as formulas are written.
         let mut factors = product.factors.clone();
         factors.sort_by_key(|(factor, _)| match factor.0 {
-            Node::Symbol { text: PI, .. } => 0,
-            Node::Symbol { .. } => 1,
-            _ => 2,
+            Node::Symbol { text: PI, .. } => (0, ""),
+            Node::Symbol { text, .. } => (1, *text),
+            Node::Product(_) | Node::Sum(_) => (2, ""),
+            Node::Call { .. } => (3, ""),
         });
-        let side = |number: String, sign: i32| {
-            let factors = factors.iter().filter(|(_, power)| power * sign > 0);
-            let number = (number != "1").then_some(number);
-            let sides: Vec<String> =
-                number.into_iter().chain(factors.map(|&(base, power)| self.power(base, power.abs()))).collect();
-            sides
+        let is_fraction = under != "1" || factors.iter().any(|(_, power)| *power < 0);
+        let side = |number: String, sign: i32| -> Vec<String> {
+            let factors: Vec<_> = factors.iter().copied().filter(|(_, power)| power * sign > 0).collect();
+            match (number.as_str(), &factors[..]) {
+                // The bar of the fraction holds a sum together.
+                ("1", [(base, 1 | -1)]) if self == Self::Latex && is_fraction => vec![base.print(self)],
+                ("1", _) => factors.iter().map(|&(base, power)| self.power(base, power.abs())).collect(),
+                _ => {
+                    let powers = factors.iter().map(|&(base, power)| self.power(base, power.abs()));
+                    [number].into_iter().chain(powers).collect()
+                }
+            }
         };
         let (numerator, denominator) = (side(over, 1), side(under, -1));
         let above = if numerator.is_empty() { "1".to_owned() } else { numerator.join(" ") };

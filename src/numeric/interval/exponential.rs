@@ -128,7 +128,7 @@ fn odd(x: f64, at_positive: impl Fn(f64) -> Interval) -> Interval {
 
 fn sinh_at(x: f64) -> Interval {
     odd(x, |x| {
-        if x < 22.0 {
+        if x < 1.0 {
             let e = exp_m1_at(x);
             (e + e / (Interval::ONE + e)) / TWO
         } else {

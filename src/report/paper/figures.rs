@@ -6,6 +6,7 @@ use crate::paper::quantisation::{CurvePoint, Error, curves, figure14};
 use crate::paper::relay_figures::{self, Characteristic5, LateSwitching7, Response6};
 use crate::paper::thruster_figure;
 use crate::report::{Figure, Mark, Panel, ReportError};
+use crate::vehicle::FittedSide;
 
 pub(super) fn quantisation() -> Figure {
     let curves = curves();
@@ -23,7 +24,6 @@ pub(super) fn quantisation() -> Figure {
 pub(super) fn figure5() -> Result<Figure, ReportError> {
     let Characteristic5 { rising, falling } = relay_figures::figure5()?;
     let panel = Panel::new("relay input e (units of x_a)", "relay output u (units of C)")
-        .y_limits(-1.2, 2.0)
         .with("e rising", Mark::Line, rising)
         .with("e falling", Mark::Dashed, falling);
     Ok(Figure { name: "fig5", title: "Relay with hysteresis, level offset d = 0.3 C".to_owned(), panels: vec![panel] })
@@ -33,7 +33,6 @@ pub(super) fn figure6() -> Result<Figure, ReportError> {
     let Response6 { input, output, half_width } = relay_figures::figure6()?;
     let level = |value: f64| [(0.0, value), (2.0, value)];
     let panel = Panel::new("time (periods)", "input (units of x_a), output (units of C)")
-        .y_limits(-2.2, 4.0)
         .with("input e", Mark::Line, input)
         .with("output u", Mark::Line, output)
         .with("switching levels", Mark::Dashed, level(half_width))
@@ -53,13 +52,14 @@ pub(super) fn figure7() -> Figure {
 
 pub(super) fn figure9() -> Result<Figure, ReportError> {
     let map = thruster_figure::figure9()?;
-    let side = |fit: &crate::vehicle::FittedSide| format!("{:.2e} n^2 + {:.2e} n", fit.quadratic, fit.linear);
+    let side = |fit: &FittedSide| format!("{:.2e} n^2 + {:.2e} abs(n)", fit.quadratic, fit.linear);
+    let title = format!("Thrust ahead {}, astern {} (N)", side(&map.map.forward), side(&map.map.backward));
     let panel = Panel::new("thruster command n", "thrust (N)").with("readings", Mark::Dots, map.readings).with(
-        &format!("fit: ahead {}, astern {}", side(&map.map.forward), side(&map.map.backward)),
+        "fit",
         Mark::Line,
         map.fitted,
     );
-    Ok(Figure { name: "fig9", title: "Thruster map".to_owned(), panels: vec![panel] })
+    Ok(Figure { name: "fig9", title, panels: vec![panel] })
 }
 
 impl Reproduction {
@@ -68,18 +68,13 @@ impl Reproduction {
         let points = |of: fn(&Error) -> f64| errors.iter().map(move |error| (f64::from(error.experiment), of(error)));
         let panel = |panel: Panel, label: &str, percent: fn(&Error) -> f64, bound: fn(&Error) -> f64| {
             panel
-                .with(label, Mark::Dots, points(percent))
-                .with(&format!("{label}: bounds"), Mark::Dashed, points(bound))
+                .with(&format!("{label}, its bounds dashed"), Mark::Dots, points(percent))
+                .with("", Mark::Dashed, points(bound))
                 .with("", Mark::Dashed, points(bound).map(|(x, y)| (x, -y)))
         };
         let axes = |label: &str| Panel::new("experiment", label);
-        let alpha = panel(
-            axes("error of alpha (%)").y_limits(-30.0, 45.0),
-            "alpha",
-            |e| e.percent.alpha,
-            |e| e.bound_percent.alpha,
-        );
-        let drag = axes("error of drag (%)").y_limits(-55.0, 85.0);
+        let alpha = panel(axes("error of alpha (%)"), "alpha", |e| e.percent.alpha, |e| e.bound_percent.alpha);
+        let drag = axes("error of drag (%)");
         let drag = panel(drag, "beta_r", |e| e.percent.beta_r, |e| e.bound_percent.beta_r);
         let drag = panel(drag, "beta_rr", |e| e.percent.beta_rr, |e| e.bound_percent.beta_rr);
         let title = "Errors against the mean, bounds by a compass step of 1 degree";
@@ -92,7 +87,6 @@ impl Reproduction {
         };
         let mark = Mark::Bars { width: 0.22 };
         let panel = Panel::new("criterion", "pairs of experiments")
-            .y_limits(0.0, 140.0)
             .with("correct", mark, bars(-0.24, |counts| counts.correct))
             .with("wrong", mark, bars(0.0, |counts| counts.wrong))
             .with("undecided", mark, bars(0.24, |counts| counts.undecided));

@@ -61,7 +61,7 @@ impl Reproduction {
             [Cell::from(name)].into_iter().chain(values)
         };
         let columns = ["", "alpha (1e-4)", "beta_r (1e-4)", "beta_rr (1e-5)"];
-        Table::new("table4-means", "Table 4, 19 experiments on the yaw axis (N m, degrees, seconds)", &columns)
+        Table::new("table4-means", "Table 4: 19 experiments on the yaw axis (N m, degrees, seconds)", &columns)
             .row(row("mean, printed rows", t.mean))
             .row(row("mean, recomputed rows", t.recomputed_mean))
             .row(row("spread in %, printed rows", t.std_percent))
@@ -87,7 +87,9 @@ impl Reproduction {
         self.table4.rows.iter().fold(table, |table, row| {
             let (new, old) = (row.recomputed, row.printed);
             let values = [new.alpha, old.alpha, row.alpha_raised, new.beta_r, old.beta_r, new.beta_rr, old.beta_rr];
-            table.row([Cell::count(row.experiment)].into_iter().chain(values.map(|value| Cell::number(value, 2))))
+            table.row(
+                [Cell::count(row.experiment as usize)].into_iter().chain(values.map(|value| Cell::number(value, 2))),
+            )
         })
     }
 
@@ -97,28 +99,32 @@ impl Reproduction {
         figure14(&self.printed).into_iter().fold(table, |table, error| {
             let pairs = error.percent.named().into_iter().zip(error.bound_percent.named());
             let values = pairs.flat_map(|((_, percent), (_, bound))| [percent, bound]);
-            table.row([Cell::count(error.experiment)].into_iter().chain(values.map(|value| Cell::number(value, 2))))
+            table.row(
+                [Cell::count(error.experiment as usize)].into_iter().chain(values.map(|value| Cell::number(value, 2))),
+            )
         })
     }
 
     pub(super) fn figure15_table(&self) -> Table {
-        let title = "Fig. 15, the drag law from pairs of experiments with different relay levels";
+        let title = "Fig. 15: the drag law from pairs of experiments with different relay levels";
         let table = Table::new("fig15", title, &["criterion", "margin (%)", "pairs", "correct", "wrong", "undecided"]);
         self.figure15.iter().zip(&CRITERIA).fold(table, |table, (counts, criterion)| {
             let numbers = [counts.correct, counts.wrong, counts.undecided];
             let total: u32 = numbers.iter().sum();
             let margin = Cell::from(criterion.margin);
             table.row(
-                [Cell::count(counts.criterion), margin, Cell::count(total)].into_iter().chain(numbers.map(Cell::count)),
+                [Cell::count(counts.criterion as usize), margin, Cell::count(total as usize)]
+                    .into_iter()
+                    .chain(numbers.map(|number| Cell::count(number as usize))),
             )
         })
     }
 
     pub(super) fn audit_summary(&self) -> Table {
-        let columns = ["printed", "agree", "of", "largest difference", ""];
-        let table = Table::new("audit", "Audit, printed numbers against their recomputation in intervals", &columns);
+        let columns = ["printed", "agree", "of", "off by", ""];
+        let table = Table::new("audit", "Audit: printed numbers that meet their recomputation in intervals", &columns);
         self.audit.iter().fold(table, |table, group| {
-            let (agree, of) = (Cell::Text(group.agreeing().to_string()), Cell::Text(group.items.len().to_string()));
+            let (agree, of) = (Cell::count(group.agreeing()), Cell::count(group.items.len()));
             let difference = Cell::number(group.largest_difference(), 2);
             table.row([group.name.as_str().into(), agree, of, difference, group.note.as_str().into()])
         })

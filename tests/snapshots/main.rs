@@ -1,0 +1,14 @@
+//! Snapshots: what users see, word for word.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
+
+mod paper;
+
+/// Compares with `golden/<name>.snap`.
+macro_rules! golden {
+    ($name:literal, $value:expr) => {
+        insta::with_settings!({ snapshot_path => "golden", prepend_module_to_snapshot => false, omit_expression => true }, {
+            insta::assert_snapshot!($name, $value)
+        })
+    };
+}
+pub(crate) use golden;

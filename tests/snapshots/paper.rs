@@ -1,0 +1,53 @@
+//! `selfosc reproduce` as it is printed.
+
+use assert_cmd::Command;
+
+use crate::golden;
+
+fn reproduce(arguments: &[&str]) -> String {
+    let output = Command::cargo_bin("selfosc").unwrap().arg("reproduce").args(arguments).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn summary() {
+    golden!("reproduce", reproduce(&[]));
+}
+
+#[test]
+fn help() {
+    golden!("reproduce-help", reproduce(&["--help"]));
+}
+
+#[test]
+fn table_2() {
+    golden!("table2", reproduce(&["--only", "table2"]));
+}
+
+#[test]
+fn table_3() {
+    golden!("table3", reproduce(&["--only", "table3"]));
+}
+
+#[test]
+fn table_3_in_latex() {
+    let folder = tempfile::tempdir().unwrap();
+    reproduce(&["--only", "table3", "--out", folder.path().to_str().unwrap()]);
+    golden!("table3-latex", std::fs::read_to_string(folder.path().join("table3.tex")).unwrap());
+}
+
+#[test]
+fn table_4() {
+    golden!("table4", reproduce(&["--only", "table4"]));
+}
+
+#[test]
+fn figure_15() {
+    golden!("fig15", reproduce(&["--only", "fig15"]));
+}
+
+#[test]
+fn audit() {
+    golden!("audit", reproduce(&["--only", "audit"]));
+}
