@@ -10,6 +10,8 @@ mod claims;
 mod describing;
 mod difference;
 mod fourier_oracle;
+mod identify_exact;
+mod identify_joint;
 mod integration_oracle;
 mod interval;
 mod laws;
