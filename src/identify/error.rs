@@ -2,6 +2,8 @@
 
 use crate::describing::DescribingError;
 use crate::nonlinearity::NonlinearityError;
+use crate::orbit::OrbitError;
+use crate::plant::PlantError;
 
 /// Why an oscillation gives no model.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -17,6 +19,64 @@ pub enum IdentifyError {
         /// What it has to be.
         required: &'static str,
     },
+    /// No orbit of a drag axis has these features.
+    #[error(
+        "switching level over amplitude is {ratio}, but orbits with these times and this delay have it below {limit} \
+         (1 - delay (1/t_plus + 1/t_minus)), and above 0 without a delay; read the level where the command was given, and \
+         check the delay"
+    )]
+    NoOrbit {
+        /// Switching level over amplitude.
+        ratio: f64,
+        /// What it stays below, however strong the drag.
+        limit: f64,
+    },
+    /// The features are those of an orbit whose drag is lost in rounding.
+    #[error(
+        "switching level over amplitude is {ratio}, too near its limits for this arithmetic to tell the drag; repeat \
+         the experiment with another half-width"
+    )]
+    Unresolved {
+        /// Switching level over amplitude.
+        ratio: f64,
+    },
+    /// Fewer numbers measured than parameters asked for.
+    #[error(
+        "{equations} residuals for {parameters} parameters, which leaves nothing to judge the fit by; give more \
+         experiments or fix the delay"
+    )]
+    TooFewEquations {
+        /// Residuals there are.
+        equations: usize,
+        /// Parameters to estimate.
+        parameters: usize,
+    },
+    /// The experiments do not tell the parameters apart.
+    #[error(
+        "some combination of the parameters changes the residuals only {ratio} times as much as another does; give \
+         experiments that differ more in relay level or half-width, or fix the delay"
+    )]
+    Confounded {
+        /// Smallest over largest singular value of the scaled Jacobian.
+        ratio: f64,
+    },
+    /// The search for the best parameters did not end.
+    #[error(
+        "the parameters still move after {steps} steps, at a residual rms of {rms}; start nearer or leave out \
+         experiments that do not belong to this vehicle"
+    )]
+    NotSettled {
+        /// Steps made.
+        steps: usize,
+        /// Residual rms reached.
+        rms: f64,
+    },
+    /// No limit cycle at the parameters tried.
+    #[error(transparent)]
+    Orbit(#[from] OrbitError),
+    /// The parameters tried are not those of a plant.
+    #[error(transparent)]
+    Plant(#[from] PlantError),
     /// Condition 40 is not met, or the relay or the input is not one.
     #[error(transparent)]
     Describing(#[from] DescribingError),

@@ -1,6 +1,11 @@
 //! From an oscillation to a model of the vehicle.
 
+mod drag_law;
 mod error;
+pub mod exact;
 pub mod iso;
+#[cfg(feature = "std")]
+pub mod joint;
 
+pub use drag_law::DragLaw;
 pub use error::IdentifyError;

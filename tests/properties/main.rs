@@ -12,5 +12,7 @@ mod motion_drag_axis;
 mod oracle;
 mod orbit_drag_axis;
 mod orbit_linear;
+mod identify_exact;
+mod identify_joint;
 mod tolerance;
 mod vehicle;

@@ -1,0 +1,160 @@
+//! Nonlinear least squares over parameters that are zero or more: Levenberg-Marquardt on the singular value
+//! decomposition.
+
+use faer::Mat;
+
+use crate::identify::IdentifyError;
+
+/// Residuals with their derivatives, one row of the Jacobian for each.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Linearised<const N: usize> {
+    pub(super) residuals: Vec<f64>,
+    pub(super) jacobian: Vec<[f64; N]>,
+}
+
+/// Where the search ended.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Minimum<const N: usize> {
+    pub(super) values: [f64; N],
+    /// Estimated, and not on the bound zero.
+    pub(super) free: [bool; N],
+    pub(super) residuals: Vec<f64>,
+    /// Zero in the rows and columns of what is not free.
+    pub(super) covariance: [[f64; N]; N],
+}
+
+impl<const N: usize> Minimum<N> {
+    /// Sum of squares.
+    pub(super) fn cost(&self) -> f64 {
+        sum_of_squares(&self.residuals)
+    }
+
+    pub(super) fn degrees_of_freedom(&self) -> usize {
+        self.residuals.len() - count(&self.free)
+    }
+}
+
+/// Steps allowed; about ten are needed.
+const MAX_STEPS: usize = 200;
+/// Relative step, and cosine of the angle between the residuals and what parameters can change, at which the search ends.
+const SETTLED: f64 = 1e-10;
+/// Ratio of singular values below which two combinations of parameters are not told apart.
+const RANK: f64 = 1e-9;
+
+/// The minimum reached from `start`, all of whose `estimated` parameters are above zero: they are searched in units of it.
+pub(super) fn minimise<const N: usize>(
+    start: [f64; N],
+    estimated: [bool; N],
+    evaluate: impl Fn(&[f64; N]) -> Result<Linearised<N>, IdentifyError>,
+) -> Result<Minimum<N>, IdentifyError> {
+    let mut values = start;
+    let mut here = evaluate(&values)?;
+    let (equations, parameters) = (here.residuals.len(), count(&estimated));
+    if equations <= parameters {
+        return Err(IdentifyError::TooFewEquations { equations, parameters });
+    }
+    let mut damping = 1e-3;
+    for _ in 0..MAX_STEPS {
+        let free = std::array::from_fn(|j| estimated[j] && (values[j] > 0.0 || here.slope(j) < 0.0));
+        let system = here.decompose(&start, &free)?;
+        let cost = sum_of_squares(&here.residuals);
+        let step = system.step(damping);
+        let next = std::array::from_fn(|j| (values[j] + step[j] * start[j]).max(0.0));
+        let moved =
+            (0..N).map(|j| (next[j] - values[j]).abs() / start[j]).filter(|x| x.is_finite()).fold(0.0, f64::max);
+        if moved <= SETTLED || system.reachable <= SETTLED * cost.sqrt() {
+            let variance = cost / (equations - count(&free)) as f64;
+            let covariance = system.covariance(variance, &start)?;
+            return Ok(Minimum { values, free, residuals: here.residuals, covariance });
+        }
+        match evaluate(&next) {
+            Ok(there) if sum_of_squares(&there.residuals) < cost => {
+                (values, here) = (next, there);
+                damping /= 10.0;
+            }
+            _ => damping *= 10.0,
+        }
+    }
+    Err(IdentifyError::NotSettled {
+        steps: MAX_STEPS,
+        rms: (sum_of_squares(&here.residuals) / equations as f64).sqrt(),
+    })
+}
+
+fn sum_of_squares(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum()
+}
+
+fn count(flags: &[bool]) -> usize {
+    flags.iter().filter(|&&flag| flag).count()
+}
+
+/// The free part of a Jacobian, decomposed.
+struct Decomposed<const N: usize> {
+    columns: Vec<usize>,
+    singular: Vec<f64>,
+    /// Right singular vectors, one for each singular value.
+    directions: Vec<[f64; N]>,
+    /// Components of the residuals along the left singular vectors.
+    components: Vec<f64>,
+    /// Length of the part of the residuals that the parameters can change.
+    reachable: f64,
+}
+
+impl<const N: usize> Linearised<N> {
+    /// Half the derivative of the sum of squares.
+    fn slope(&self, column: usize) -> f64 {
+        self.residuals.iter().zip(&self.jacobian).map(|(residual, row)| residual * row[column]).sum()
+    }
+
+    fn decompose(&self, unit: &[f64; N], free: &[bool; N]) -> Result<Decomposed<N>, IdentifyError> {
+        let columns: Vec<usize> = (0..N).filter(|&j| free[j]).collect();
+        let matrix =
+            Mat::from_fn(self.residuals.len(), columns.len(), |i, j| self.jacobian[i][columns[j]] * unit[columns[j]]);
+        let svd = matrix.thin_svd().map_err(|_| IdentifyError::Confounded { ratio: f64::NAN })?;
+        let (left, right) = (svd.U(), svd.V());
+        let rank = 0..columns.len();
+        let components: Vec<f64> =
+            rank.clone().map(|k| self.residuals.iter().enumerate().map(|(i, r)| left[(i, k)] * r).sum()).collect();
+        let mut directions = vec![[0.0; N]; columns.len()];
+        for k in rank.clone() {
+            for (j, &column) in columns.iter().enumerate() {
+                directions[k][column] = right[(j, k)];
+            }
+        }
+        let reachable = sum_of_squares(&components).sqrt();
+        Ok(Decomposed { columns, singular: rank.map(|k| svd.S()[k]).collect(), directions, components, reachable })
+    }
+}
+
+impl<const N: usize> Decomposed<N> {
+    fn largest(&self) -> f64 {
+        self.singular.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The damped step, in the units of the search.
+    fn step(&self, damping: f64) -> [f64; N] {
+        let damping = damping * self.largest().powi(2);
+        let mut step = [0.0; N];
+        for ((&singular, direction), component) in self.singular.iter().zip(&self.directions).zip(&self.components) {
+            let factor = -component * singular / (singular * singular + damping);
+            for &column in &self.columns {
+                step[column] += factor * direction[column];
+            }
+        }
+        step
+    }
+
+    fn covariance(&self, variance: f64, unit: &[f64; N]) -> Result<[[f64; N]; N], IdentifyError> {
+        let smallest = self.singular.iter().copied().fold(f64::INFINITY, f64::min);
+        let ratio = smallest / self.largest();
+        if !(ratio > RANK) {
+            return Err(IdentifyError::Confounded { ratio });
+        }
+        let entry = |i: usize, j: usize| {
+            let sum = self.singular.iter().zip(&self.directions).map(|(s, v)| v[i] * v[j] / (s * s)).sum::<f64>();
+            variance * sum * unit[i] * unit[j]
+        };
+        Ok(std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))))
+    }
+}
