@@ -3,6 +3,8 @@
 mod drag_law;
 mod error;
 pub mod exact;
+#[cfg(feature = "std")]
+pub mod fit;
 pub mod iso;
 #[cfg(feature = "std")]
 pub mod joint;
