@@ -97,7 +97,7 @@ impl Fit {
         let mut best: Option<Search<'_>> = None;
         let mut failure = IdentifyError::TooFewEquations { equations: 0, parameters: motion::UNKNOWNS };
         for &between in betweens {
-            match Search::new(records, self.law, self.delay, between, self.quantum).and_then(Search::settle) {
+            match Search::new(records, self.law, self.delay, between, self.quantum).and_then(Search::approach) {
                 Ok(search) if best.as_ref().is_none_or(|best| search.evidence() > best.evidence()) => {
                     best = Some(search);
                 }
@@ -105,6 +105,6 @@ impl Fit {
                 Err(error) => failure = error,
             }
         }
-        best.ok_or(failure)?.finish()
+        best.ok_or(failure)?.settle()?.finish()
     }
 }

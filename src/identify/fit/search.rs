@@ -15,7 +15,9 @@ use crate::identify::{DragLaw, IdentifyError};
 /// Steps allowed; a dozen are usual.
 const MAX_STEPS: usize = 60;
 /// The search ends when no common parameter moves by more than this, relative.
-const SETTLED: f64 = 1e-7;
+const SETTLED: f64 = 1e-6;
+/// It looks at every sample once no common parameter moves by more than this, relative.
+const APPROACHED: f64 = 1e-3;
 /// Samples per stretch while the search is far from its end.
 const COARSE: usize = 24;
 /// Least noise taken for a rounding sensor, in steps: with less, a step of the search sees hardly any reading.
@@ -267,26 +269,39 @@ impl<'a> Search<'a> {
         self.fixed().iter().filter(|fixed| fixed.is_none()).count() + OWN * self.motions.len()
     }
 
-    /// Steps until nothing moves: coarsely first, then with every sample.
-    pub(super) fn settle(mut self) -> Result<Self, IdentifyError> {
+    /// Every how many samples the search looks while it is far from its end.
+    fn coarse_stride(&self) -> usize {
         let stretches: usize = self.motions.iter().map(|motion| motion.stretches.len()).sum();
+        let samples: usize = self.motions.iter().map(|motion| motion.record.samples()).sum();
+        (samples / (COARSE * stretches.max(1))).max(1)
+    }
+
+    /// Steps with part of the samples, until little moves.
+    pub(super) fn approach(self) -> Result<Self, IdentifyError> {
         let samples: usize = self.motions.iter().map(|motion| motion.record.samples()).sum();
         if samples <= self.parameters() {
             return Err(IdentifyError::TooFewEquations { equations: samples, parameters: self.parameters() });
         }
-        let mut stride = (samples / (COARSE * stretches.max(1))).max(1);
+        let stride = self.coarse_stride();
+        self.iterate(stride, if stride > 1 { APPROACHED } else { SETTLED })
+    }
+
+    /// Steps with every sample, until nothing moves.
+    pub(super) fn settle(self) -> Result<Self, IdentifyError> {
+        if self.coarse_stride() == 1 { Ok(self) } else { self.iterate(1, SETTLED) }
+    }
+
+    fn iterate(mut self, stride: usize, limit: f64) -> Result<Self, IdentifyError> {
         let mut moved = f64::INFINITY;
-        while self.steps < MAX_STEPS {
+        for _ in 0..MAX_STEPS {
             moved = self.step(stride)?;
             self.steps += 1;
-            if stride > 1 && moved < 1e-3 {
-                stride = 1;
-            } else if moved < SETTLED {
+            if moved < limit {
                 return Ok(self);
             }
         }
-        if moved < 1e-3 {
-            // The noise's likelihood is flat at rounding's edge: the rest is far below any error.
+        // The likelihood of the noise can be flat at rounding's edge: the rest is then far below any error.
+        if moved < APPROACHED {
             return Ok(self);
         }
         Err(IdentifyError::NotSettled { steps: self.steps, rms: self.motions.first().map_or(f64::NAN, |m| m.noise.std) })
