@@ -1,11 +1,7 @@
 //! Every characteristic by name, as the command line and the generated pages know it.
 
-use super::ClosedForm;
-use crate::nonlinearity::{
-    Absolute, Backlash, Catalogued, DeadZone, DeadZoneSaturation, GainChanging, NonlinearityError, Parameter, Power,
-    Preload, Quantizer, Relay, RelayDeadZone, RelayDeadZoneHysteresis, RelayHysteresis, Saturation,
-    SaturationAsymmetric,
-};
+use super::{ClosedForm, Setting};
+use crate::nonlinearity::{self, Catalogued, Domain, NonlinearityError, Parameter, every_characteristic};
 use crate::numeric::Scalar;
 
 /// A characteristic of the catalogue, in the arithmetic `T`.
@@ -43,18 +39,52 @@ pub enum CatalogueError {
         /// Its meaning.
         meaning: &'static str,
     },
+    /// A number where points are wanted, or the other way round.
+    #[error("{characteristic}: {parameter} = {value} must be {required}")]
+    Kind {
+        /// Catalogue name.
+        characteristic: &'static str,
+        /// The parameter.
+        parameter: &'static str,
+        /// What was given.
+        value: Setting,
+        /// What the parameter has to be.
+        required: &'static str,
+    },
+    /// A setting that is neither a number nor points.
+    #[error("`{part}` in `{text}` is no number; write a number, or points as x0:y0,x1:y1,...")]
+    Setting {
+        /// What was given.
+        text: String,
+        /// The part that is no number.
+        part: String,
+    },
+    /// A line of a characteristic's page that cannot be read.
+    #[error("page of {characteristic}: {fault}; correct spec/characteristics/{characteristic}.md")]
+    Page {
+        /// Catalogue name.
+        characteristic: &'static str,
+        /// What is wrong.
+        fault: &'static str,
+    },
     /// A parameter outside its domain.
     #[error(transparent)]
     Nonlinearity(#[from] NonlinearityError),
 }
 
-/// Name and parameters of a characteristic.
+/// Name, parameters and page of a characteristic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
     /// Name on the command line.
     pub name: &'static str,
     /// Its parameters, in the order in which [`Entry::build`] takes their values.
     pub parameters: &'static [Parameter],
+    /// Pairs of parameters of which the first has to be below the second.
+    pub ordered: &'static [(&'static str, &'static str)],
+    /// Its page, Markdown: formula, domain, limits, source.
+    pub page: &'static str,
+    /// Its graph, SVG without line breaks.
+    pub sketch: &'static str,
 }
 
 impl Entry {
@@ -69,11 +99,15 @@ impl Entry {
         })
     }
 
-    /// One value for each parameter, in order: from the settings, else the default.
+    /// The values of the parameters, in order: from the settings (the last one of a name counts), else the default. Points
+    /// take two values each.
     ///
     /// # Errors
-    /// [`CatalogueError::UnknownParameter`] and [`CatalogueError::MissingParameter`].
-    pub fn values(&self, settings: &[(String, f64)]) -> Result<Vec<f64>, CatalogueError> {
+    /// [`CatalogueError::UnknownParameter`], [`CatalogueError::MissingParameter`], [`CatalogueError::Kind`].
+    pub fn values<S>(&self, settings: &[(String, S)]) -> Result<Vec<f64>, CatalogueError>
+    where
+        S: Clone + Into<Setting>,
+    {
         if let Some((unknown, _)) = settings.iter().find(|(name, _)| self.parameters.iter().all(|p| p.name != name)) {
             return Err(CatalogueError::UnknownParameter {
                 characteristic: self.name,
@@ -81,26 +115,50 @@ impl Entry {
                 known: self.parameters.iter().map(|p| p.name).collect::<Vec<_>>().join(", "),
             });
         }
-        let value = |parameter: &Parameter| {
-            let set = settings.iter().rev().find(|(name, _)| name == parameter.name).map(|(_, value)| *value);
-            set.or(parameter.default).ok_or(CatalogueError::MissingParameter {
+        let mut values = Vec::new();
+        for parameter in self.parameters {
+            let set =
+                settings.iter().rev().find(|(name, _)| name == parameter.name).map(|(_, value)| value.clone().into());
+            let value = set.or(parameter.default.map(Setting::Number)).ok_or(CatalogueError::MissingParameter {
                 characteristic: self.name,
                 parameter: parameter.name,
                 meaning: parameter.meaning,
-            })
+            })?;
+            if matches!(value, Setting::Points(_)) != (parameter.domain == Domain::Points) {
+                let (characteristic, required) = (self.name, parameter.domain.words());
+                return Err(CatalogueError::Kind { characteristic, parameter: parameter.name, value, required });
+            }
+            values.extend(value.numbers());
+        }
+        Ok(values)
+    }
+
+    /// The opposite of [`values`](Self::values): each parameter with its setting.
+    #[must_use]
+    pub fn settings(&self, values: &[f64]) -> Vec<(&'static str, Setting)> {
+        let setting = |(place, parameter): (usize, &Parameter)| {
+            let values = values.get(place..)?;
+            let setting = match parameter.domain {
+                Domain::Points => Setting::Points(values.chunks_exact(2).map(|point| (point[0], point[1])).collect()),
+                _ => Setting::Number(*values.first()?),
+            };
+            Some((parameter.name, setting))
         };
-        self.parameters.iter().map(value).collect()
+        self.parameters.iter().enumerate().filter_map(setting).collect()
     }
 }
 
 /// One line a characteristic: its type.
 macro_rules! catalogue {
-    ($($type:ident),+ $(,)?) => {
+    ($($module:ident::$type:ident),+ $(,)?) => {
         /// Every characteristic that has a name.
         pub const CATALOGUE: &[Entry] = &[$(
             Entry {
                 name: <$type<f64> as Catalogued<f64>>::NAME,
                 parameters: <$type<f64> as Catalogued<f64>>::PARAMETERS,
+                ordered: <$type<f64> as Catalogued<f64>>::ORDERED,
+                page: <$type<f64> as Catalogued<f64>>::SPEC,
+                sketch: <$type<f64> as Catalogued<f64>>::SKETCH,
             }
         ),+];
 
@@ -122,7 +180,7 @@ macro_rules! catalogue {
             pub fn build<T: Scalar>(&self, values: &[T]) -> Result<Boxed<T>, CatalogueError> {
                 $(
                     if self.name == <$type<T> as Catalogued<T>>::NAME {
-                        return Ok(Box::new($type::from_values(values)?));
+                        return Ok(Box::new(<$type<T>>::from_values(values)?));
                     }
                 )+
                 Err(CatalogueError::UnknownName { name: self.name.to_owned(), known: String::new() })
@@ -131,19 +189,8 @@ macro_rules! catalogue {
     };
 }
 
-catalogue![
-    Relay,
-    RelayDeadZone,
-    RelayHysteresis,
-    RelayDeadZoneHysteresis,
-    Saturation,
-    SaturationAsymmetric,
-    DeadZone,
-    DeadZoneSaturation,
-    GainChanging,
-    Preload,
-    Quantizer,
-    Power,
-    Absolute,
-    Backlash,
-];
+use nonlinearity::*;
+/// Points in the catalogue are owned.
+type Polyline<T> = nonlinearity::Polyline<T, Vec<(T, T)>>;
+
+every_characteristic!(catalogue);

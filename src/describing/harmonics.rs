@@ -2,7 +2,8 @@
 //!
 //! With `u = (at - bias) / amplitude` held to `[-1, 1]` and `phi = acos(u)`, a step above `at` covers the arc of width
 //! `2 phi` around the maximum of the input, half of it on each branch. `1 - u` and `phi` are formed from the distances of
-//! the breakpoint to the two turning points, so that nothing cancels where the sweep barely passes it.
+//! the breakpoint to the two turning points, so that nothing cancels where the sweep barely passes it; u itself from the
+//! distance to the bias.
 
 use core::ops::{Add, Mul, Sub};
 
@@ -85,6 +86,8 @@ fn arc<T: Real>(at: T, sweep: &Sinusoid<T>, side: Side, kernel: fn(Arc<T>) -> Ha
 #[derive(Clone, Copy)]
 struct Arc<T> {
     amplitude: T,
+    /// In `[-1, 1]`.
+    u: T,
     /// `1 - u` and `1 + u`, both in `[0, 2]`.
     one_minus_u: T,
     one_plus_u: T,
@@ -96,23 +99,26 @@ struct Arc<T> {
 
 impl<T: Real> Arc<T> {
     fn above(at: T, sweep: &Sinusoid<T>) -> Self {
-        Self::new(sweep.maximum() - at, at - sweep.minimum(), sweep.amplitude())
+        Self::new(at - sweep.bias(), sweep.maximum() - at, at - sweep.minimum(), sweep.amplitude())
     }
 
     fn below(at: T, sweep: &Sinusoid<T>) -> Self {
-        Self::new(at - sweep.minimum(), sweep.maximum() - at, sweep.amplitude())
+        Self::new(sweep.bias() - at, at - sweep.minimum(), sweep.maximum() - at, sweep.amplitude())
     }
 
-    /// From the breakpoint's distances to the turning point on the kernel's side and to the one on the other.
-    fn new(near: T, far: T, amplitude: T) -> Self {
+    /// From the breakpoint's distances: from the bias, to the turning point on the kernel's side, to the one on the other.
+    fn new(middle: T, near: T, far: T, amplitude: T) -> Self {
         let hold = |distance: T| (distance / amplitude).max(T::zero()).min(T::two());
         let (one_minus_u, one_plus_u) = (hold(near), hold(far));
         let sine = (one_minus_u * one_plus_u).sqrt();
-        Self { amplitude, one_minus_u, one_plus_u, sine, beyond: (-far).max(T::zero()) }
-    }
-
-    fn u(self) -> T {
-        (self.one_plus_u - self.one_minus_u) / T::two()
+        Self {
+            amplitude,
+            u: (middle / amplitude).clamp_unit(),
+            one_minus_u,
+            one_plus_u,
+            sine,
+            beyond: (-far).max(T::zero()),
+        }
     }
 
     /// `acos(u)` from the nearer end.
@@ -123,7 +129,7 @@ impl<T: Real> Arc<T> {
 
     fn sign(self) -> Harmonics<T> {
         let pi = T::pi();
-        Harmonics { mean: -self.u().asin() / pi, sine: T::two() * self.sine / pi, cosine: -T::two() * self.u() / pi }
+        Harmonics { mean: -self.u.asin() / pi, sine: T::two() * self.sine / pi, cosine: -T::two() * self.u / pi }
     }
 
     fn step(self) -> Harmonics<T> {
@@ -138,19 +144,19 @@ impl<T: Real> Arc<T> {
         let half = T::from_f64(0.5);
         Harmonics {
             mean: scale * (phi * self.one_minus_u - phi.minus_sine(self.sine)) + half * self.beyond,
-            sine: scale * half * twice.minus_sine(T::two() * self.sine * self.u()),
+            sine: scale * half * twice.minus_sine(T::two() * self.sine * self.u),
             cosine: scale * self.one_minus_u.square() + constant::<T>().cosine * self.beyond,
         }
     }
 
     /// `(asin(u) + u sqrt(1 - u^2)) / pi`: first harmonic of what lies below the breakpoint, from the middle.
     fn middle_sine(self) -> T {
-        (self.u().asin() + self.u() * self.sine) / T::pi()
+        (self.u.asin() + self.u * self.sine) / T::pi()
     }
 
     /// `(sqrt(1 - u^2) + u asin(u)) / pi`, the mean distance to the breakpoint over twice the amplitude.
     fn middle_mean(self) -> T {
-        (self.sine + self.u() * self.u().asin()) / T::pi()
+        (self.sine + self.u * self.u.asin()) / T::pi()
     }
 }
 
@@ -172,10 +178,8 @@ fn band<T: Real>(lower: T, upper: T, sweep: &Sinusoid<T>) -> Harmonics<T> {
     let half = T::from_f64(0.5);
     let component = |pick: fn(Harmonics<T>, T) -> T| {
         let value = |(harmonics, level)| pick(harmonics, level);
-        (low.u() - half).select(
-            || (-half - high.u()).select(|| value(middle()), || value(near_minimum())),
-            || value(near_maximum()),
-        )
+        (low.u - half)
+            .select(|| (-half - high.u).select(|| value(middle()), || value(near_minimum())), || value(near_maximum()))
     };
     Harmonics {
         mean: component(|harmonics, level| harmonics.mean + level),

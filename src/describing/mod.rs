@@ -4,23 +4,54 @@
 //! kernels a characteristic is made of (or a formula of its own, for a power law), and [quadrature](by_quadrature) of its
 //! output.
 
+mod arctan;
 #[cfg(feature = "std")]
 mod catalogue;
 mod closed_form;
 mod error;
+#[cfg(feature = "std")]
+mod example;
+#[cfg(feature = "std")]
+mod fit;
 mod harmonics;
+#[cfg(feature = "std")]
+mod incremental;
+#[cfg(feature = "std")]
+mod inverse;
+mod pole;
+mod polynomial;
 mod power;
 #[cfg(feature = "std")]
 mod quadrature;
 mod relay;
+#[cfg(feature = "std")]
+mod setting;
+mod sine;
+#[cfg(feature = "std")]
+mod sketch;
+mod tanh;
+#[cfg(feature = "std")]
+mod two_tone;
 
 #[cfg(feature = "std")]
 pub use catalogue::{Boxed, CATALOGUE, CatalogueError, Entry};
-pub use closed_form::ClosedForm;
+pub use closed_form::{ClosedForm, over_amplitudes};
 pub use error::DescribingError;
+#[cfg(feature = "std")]
+pub use example::{Curve, Example};
+#[cfg(feature = "std")]
+pub use fit::{Fit, fit};
+#[cfg(feature = "std")]
+pub use incremental::incremental_gain;
+#[cfg(feature = "std")]
+pub use inverse::{Solution, amplitudes, nearest_amplitude};
 #[cfg(feature = "std")]
 pub use quadrature::{by_quadrature, harmonic};
 pub use relay::bias_of_output;
+#[cfg(feature = "std")]
+pub use setting::Setting;
+#[cfg(feature = "std")]
+pub use two_tone::{TwoTone, two_tone};
 
 use crate::numeric::Real;
 

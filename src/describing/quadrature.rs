@@ -7,9 +7,9 @@ use crate::nonlinearity::{Branch, Characteristic, Sinusoid};
 use crate::numeric::quadrature::{Quadrature, integrate};
 
 /// Relative to the largest integrand seen, the error estimate at which a cell is taken as done.
-const TOLERANCE: f64 = 1e-13;
+pub(super) const TOLERANCE: f64 = 1e-13;
 /// Cells of one integral; a smooth piece takes a handful.
-const CELLS: usize = 4000;
+pub(super) const CELLS: usize = 4000;
 
 /// `F_0`, `P`, `Q` by adaptive Gauss-Kronrod quadrature of eq. 10 between the kinks of the output (eqs. 13-15).
 ///
@@ -89,7 +89,7 @@ pub fn harmonic(
     Ok(if order == 0 { (cosine / (2.0 * PI), 0.0) } else { (sine / PI, cosine / PI) })
 }
 
-fn settled(quadrature: Quadrature) -> Result<f64, DescribingError> {
+pub(super) fn settled(quadrature: Quadrature) -> Result<f64, DescribingError> {
     let Quadrature { value, estimate, tolerance, cells } = quadrature;
     if estimate <= tolerance { Ok(value) } else { Err(DescribingError::Quadrature { estimate, tolerance, cells }) }
 }

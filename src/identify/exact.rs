@@ -199,24 +199,22 @@ impl<S: Scalar> Shape<S> {
 
     /// Quadratic drag, from `g = beta x_s/alpha` (x_s half the span) and the difference of the shares of the period.
     fn quadratic(g: S, share_difference: S) -> Option<Self> {
-        if share_difference == S::zero() {
-            return Some(Self::quadratic_disturbed(g, share_difference));
-        }
         // A force up shortens the time with the positive command.
-        let excess = |mu| {
-            let [positive, negative] = Self::quadratic_disturbed(g, mu).times;
+        let excess = |force| {
+            let [positive, negative] = Self::quadratic_disturbed(g, force).times;
             Some(share_difference - (positive - negative) / (positive + negative))
         };
-        let step = |mu: S| S::epsilon().sqrt() * (S::one() - mu * mu);
-        let mu = increasing_root(with_slope(excess, step), -S::one(), S::one(), -share_difference)?;
-        Some(Self::quadratic_disturbed(g, mu))
+        let two = S::two();
+        let step = |force: S| S::epsilon().sqrt() * force * (two - force);
+        let force = increasing_root(with_slope(excess, step), S::zero(), two, S::one() - share_difference)?;
+        Some(Self::quadratic_disturbed(g, force))
     }
 
-    /// Quadratic drag, from g and the disturbance mu over the level.
-    fn quadratic_disturbed(g: S, mu: S) -> Self {
+    /// Quadratic drag, from g and the force `1 + mu` that acts with the positive command.
+    fn quadratic_disturbed(g: S, force: S) -> Self {
         let (one, two) = (S::one(), S::two());
-        let squares = quadratic_speeds(-(-S::from_f64(4.0) * g).exp_m1(), mu);
-        let forces = [one + mu, one - mu];
+        let squares = quadratic_speeds(-(-S::from_f64(4.0) * g).exp_m1(), force - one);
+        let forces = [force, two - force];
         let half_cycle = |half: usize| {
             let (force, after, before) = (forces[half], squares[half], squares[1 - half]);
             let fraction = (after / force).sqrt();

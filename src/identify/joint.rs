@@ -176,10 +176,11 @@ impl Joint {
         &self.minimum.residuals
     }
 
-    /// Root of the mean square of the residuals, all counted.
+    /// Root of the sum of squares of the residuals over the degrees of freedom: what is left for one measured number, the
+    /// parameters having taken up their share.
     #[must_use]
     pub fn residual_rms(&self) -> f64 {
-        (self.minimum.cost() / self.minimum.residuals.len() as f64).sqrt()
+        self.minimum.variance().sqrt()
     }
 
     /// Residuals less parameters estimated.

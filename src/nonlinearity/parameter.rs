@@ -12,6 +12,8 @@ pub enum Domain {
     NonNegative,
     /// A finite number above zero.
     Positive,
+    /// Points of a graph: as many pairs of values as there are, after the values of all other parameters.
+    Points,
 }
 
 impl Domain {
@@ -22,13 +24,14 @@ impl Domain {
             Self::Finite => "a finite number",
             Self::NonNegative => "a finite number, 0 or more",
             Self::Positive => "a finite number above 0",
+            Self::Points => "points x0:y0,x1:y1,... with growing x",
         }
     }
 
     fn holds<T: Real>(self, value: T) -> bool {
         let (lower, upper) = value.bounds();
         let least = match self {
-            Self::Finite => lower > f64::NEG_INFINITY,
+            Self::Finite | Self::Points => lower > f64::NEG_INFINITY,
             Self::NonNegative => lower >= 0.0,
             Self::Positive => lower > 0.0,
         };
@@ -65,6 +68,12 @@ pub trait Catalogued<T>: Sized {
     const NAME: &'static str;
     /// Its parameters, in the order of [`from_values`](Self::from_values).
     const PARAMETERS: &'static [Parameter];
+    /// Pairs of parameters of which the first has to be below the second.
+    const ORDERED: &'static [(&'static str, &'static str)];
+    /// Its page `spec/characteristics/<name>.md`: formula, domain, source, limits.
+    const SPEC: &'static str;
+    /// Its graph, an SVG that a test compares with the characteristic.
+    const SKETCH: &'static str;
 
     /// Builds it from one value for each parameter.
     ///
@@ -86,6 +95,34 @@ pub(super) fn ordered<T: Real>(
     Err(NonlinearityError::Order { characteristic, lesser, lesser_value, greater, greater_value })
 }
 
+/// The page of a characteristic.
+macro_rules! specification {
+    ($name:literal) => {
+        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/spec/characteristics/", $name, ".md"))
+    };
+}
+pub(super) use specification;
+
+/// The graph of a characteristic.
+macro_rules! sketch {
+    ($name:literal) => {
+        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/spec/characteristics/", $name, ".svg"))
+    };
+}
+pub(super) use sketch;
+
+/// Graph and page together, as the documentation of the type has them.
+macro_rules! document {
+    ($name:literal) => {
+        concat!(
+            include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/spec/characteristics/", $name, ".svg")),
+            "\n\n",
+            include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/spec/characteristics/", $name, ".md")),
+        )
+    };
+}
+pub(super) use document;
+
 /// Declares a characteristic: documentation, catalogue name, struct, then for each parameter its meaning, name, domain and
 /// (optionally) default; last, order relations between parameters.
 macro_rules! characteristic {
@@ -97,6 +134,8 @@ macro_rules! characteristic {
         $(where $($lesser:ident < $greater:ident),+)?
     ) => {
         $(#[$doc])*
+        #[doc = ""]
+        #[doc = super::parameter::document!($name)]
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $type<T> { $($parameter: T),+ }
 
@@ -136,6 +175,11 @@ macro_rules! characteristic {
                     default: characteristic!(@default $($default)?),
                 }
             ),+];
+            const ORDERED: &'static [(&'static str, &'static str)] =
+                &[$($((stringify!($lesser), stringify!($greater))),+)?];
+            const SPEC: &'static str = super::parameter::specification!($name);
+            const SKETCH: &'static str = super::parameter::sketch!($name);
+
             fn from_values(values: &[T]) -> Result<Self, super::NonlinearityError> {
                 let mut values = values.iter().copied();
                 let mut next = || values.next().unwrap_or_else(|| T::from_f64(f64::NAN));

@@ -19,6 +19,7 @@ pub mod rigorous_quadrature;
 mod root;
 #[cfg(feature = "std")]
 pub mod scan;
+pub mod special;
 
 #[cfg(feature = "std")]
 pub use expression::Expression;

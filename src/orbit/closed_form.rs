@@ -23,8 +23,9 @@ pub fn quadratic_speeds<T: Real>(gap: T, mu: T) -> [T; 2] {
     let product = (T::one() - mu.square()) * gap;
     let larger = shift + (shift.square() + product).sqrt();
     let smaller = product / larger;
-    // A constant force up makes the axis faster on its way up.
-    [mu.select(|| smaller, || larger), mu.select(|| larger, || smaller)]
+    // A constant force up makes the axis faster on its way up; zero counts as up, as `abs` has it for derivatives.
+    let down = -mu;
+    [down.select(|| larger, || smaller), down.select(|| smaller, || larger)]
 }
 
 /// Quadratic drag without disturbance: `T/2 sqrt(beta C)/alpha = atan sqrt(y) + atanh sqrt(y)` at `y = sqrt(gap)`.

@@ -3,11 +3,17 @@
 
 mod architecture;
 mod balance;
+mod cases;
+mod catalogue;
 mod certificate;
 mod claims;
 mod describing;
+mod identify_exact;
+mod identify_joint;
+mod fourier_oracle;
 mod integration_oracle;
 mod interval;
+mod laws;
 mod motion_drag_axis;
 mod oracle;
 mod orbit_drag_axis;

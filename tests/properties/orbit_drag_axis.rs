@@ -102,7 +102,7 @@ proptest! {
             ("lower position", exact.lower_switch.position, seen.lower_position, size),
             ("lower velocity", exact.lower_switch.velocity, seen.lower_velocity, speed),
         ] {
-            assert_close(what, value, expected, scale, tolerance::INTEGRATION);
+            assert_close(what, value, expected, scale, tolerance::AXIS_INTEGRATION);
         }
     }
 
@@ -126,9 +126,9 @@ proptest! {
         }
         let fixed = return_map(&axis, &relay, speed).unwrap();
         assert_close("fixed point", fixed.speed, speed, speed, tolerance::REFERENCE);
-        assert_close("multiplier", fixed.derivative, cycle.multiplier, 1.0, tolerance::INTEGRATION);
+        assert_close("multiplier", fixed.derivative, cycle.multiplier, 1.0, tolerance::AXIS_INTEGRATION);
         if case.delay_s == 0.0 {
-            assert_close("speed", speed, cycle.upper_switch.velocity, speed, tolerance::INTEGRATION);
+            assert_close("speed", speed, cycle.upper_switch.velocity, speed, tolerance::AXIS_INTEGRATION);
         }
     }
 
@@ -139,7 +139,7 @@ proptest! {
         let slope = return_map(&axis, &relay, speed).unwrap().derivative;
         let (dual_axis, dual_relay) = build(case.to_array().map(Dual64::from));
         let dual = return_map(&dual_axis, &dual_relay, Dual64::from(speed).derivative()).unwrap();
-        assert_close("dual slope", dual.speed.eps, slope, 1.0, tolerance::INTEGRATION);
+        assert_close("dual slope", dual.speed.eps, slope, 1.0, tolerance::AXIS_INTEGRATION);
         let step = 1e-5 * speed;
         let map = |s| return_map(&axis, &relay, s).unwrap().speed;
         let difference = (map(speed + step) - map(speed - step)) / (2.0 * step);
@@ -195,7 +195,7 @@ proptest! {
         let case = Loop { linear_drag: case.linear_drag.max(1e-3), quadratic_drag: 0.0, ..case };
         let cycle = case.solve().unwrap();
         let delta = -case.level * (cycle.time_positive_s - cycle.time_negative_s) / cycle.period_s;
-        assert_close("delta", delta, case.disturbance, case.level, tolerance::INTEGRATION);
+        assert_close("delta", delta, case.disturbance, case.level, tolerance::AXIS_INTEGRATION);
     }
 
     #[test]
@@ -350,7 +350,7 @@ fn long_delays() {
         let case = Loop { delay_s, disturbance: 0.3, ..PLAIN };
         let seen = oracle::limit_cycle(&case.axis(), &case.relay());
         let exact = case.solve().unwrap();
-        assert_close("period", exact.period_s, seen.period_s(), seen.period_s(), tolerance::INTEGRATION);
-        assert_close("maximum", exact.maximum, seen.maximum, seen.maximum, tolerance::INTEGRATION);
+        assert_close("period", exact.period_s, seen.period_s(), seen.period_s(), tolerance::AXIS_INTEGRATION);
+        assert_close("maximum", exact.maximum, seen.maximum, seen.maximum, tolerance::AXIS_INTEGRATION);
     }
 }

@@ -4,6 +4,18 @@
 /// each of at most a dozen pieces.
 pub(crate) const QUADRATURE: f64 = 2e-12;
 
+/// Parameters from the features of an exact orbit: rounding of the features times the condition of the inversion, at
+/// most 1e5 over the shapes drawn.
+pub(crate) const INVERSION: f64 = 1e-9;
+
+/// Derivatives of the same: slopes are difference quotients, good to 1e-8, and meet the same condition.
+pub(crate) const INVERSION_DERIVATIVE: f64 = 1e-4;
+
+/// The same in single precision, for well-conditioned shapes.
+pub(crate) const INVERSION_SINGLE: f64 = 1e-3;
+
+/// Parameters common to exact rows: the search ends at a relative step of 1e-9.
+pub(crate) const JOINT: f64 = 1e-6;
 /// Vehicle: sums and products of up to a hundred terms of order one, relative to the largest term.
 pub(crate) const VEHICLE_ALGEBRA: f64 = 1e-12;
 /// Vehicle: thrust after inverse and map, relative; a square root and a dozen operations.
@@ -53,7 +65,7 @@ pub(crate) const MINIMISED: f64 = 1.5e-6;
 pub(crate) const BALANCE: f64 = 1e-9;
 /// Closed-form limit cycles against integration, relative: the integrator's 1e-13 a step over some hundred steps, and
 /// its approach to the cycle stopped at 1e-13 a cycle while a deviation may need ten cycles to shrink.
-pub(crate) const INTEGRATION: f64 = 1e-10;
+pub(crate) const AXIS_INTEGRATION: f64 = 1e-10;
 
 /// Limit cycles against 30-digit references, relative: rounding, magnified by one over the distance of the multiplier
 /// from one, which is down to 1/125 at g = 1e-6.
@@ -80,3 +92,12 @@ pub(crate) const INVERSION_DERIVATIVE: f64 = 1e-4;
 
 /// The same in single precision, for well-conditioned shapes.
 pub(crate) const INVERSION_SINGLE: f64 = 1e-3;
+/// Closed form against the oracle, relative to the value itself: what the catalogue promises.
+pub(crate) const CLOSED_FORM: f64 = 1e-12;
+
+/// Error of a closed form above that, as a multiple of what moving every input by half to one unit in its last place does to
+/// the exact value: a dozen rounded operations.
+pub(crate) const CONDITION: f64 = 8.0;
+
+/// A few rounded operations, relative to the largest number that takes part.
+pub(crate) const ROUNDING: f64 = 1e-15;

@@ -24,9 +24,9 @@ pub(super) struct Minimum<const N: usize> {
 }
 
 impl<const N: usize> Minimum<N> {
-    /// Sum of squares.
-    pub(super) fn cost(&self) -> f64 {
-        sum_of_squares(&self.residuals)
+    /// Sum of squares over the degrees of freedom.
+    pub(super) fn variance(&self) -> f64 {
+        sum_of_squares(&self.residuals) / self.degrees_of_freedom() as f64
     }
 
     pub(super) fn degrees_of_freedom(&self) -> usize {
@@ -37,7 +37,7 @@ impl<const N: usize> Minimum<N> {
 /// Steps allowed; about ten are needed.
 const MAX_STEPS: usize = 200;
 /// Relative step, and cosine of the angle between the residuals and what parameters can change, at which the search ends.
-const SETTLED: f64 = 1e-10;
+const SETTLED: f64 = 1e-9;
 /// Ratio of singular values below which two combinations of parameters are not told apart.
 const RANK: f64 = 1e-9;
 

@@ -1,0 +1,48 @@
+//! Benchmarks of the identification.
+
+use divan::{Bencher, black_box};
+use selfosc::identify::DragLaw;
+use selfosc::identify::exact::Cycle;
+use selfosc::identify::iso::Oscillation;
+use selfosc::identify::joint::{Delay, FeatureRow, fit_rows};
+
+fn main() {
+    divan::main();
+}
+
+/// Row 7 of Table 4, with a disturbance.
+const CYCLE: Cycle<f64> = Cycle {
+    relay_level: 8.23,
+    switch_level: 6.58,
+    amplitude: 26.36,
+    time_positive_s: 1.3,
+    time_negative_s: 1.39,
+    delay_s: 0.2,
+};
+
+#[divan::bench]
+fn exact_linear() -> bool {
+    black_box(CYCLE).linear_drag().is_ok()
+}
+
+#[divan::bench]
+fn exact_quadratic() -> bool {
+    black_box(CYCLE).quadratic_drag().is_ok()
+}
+
+/// The 19 rows of Table 4 under one law.
+#[divan::bench(args = [DragLaw::Linear, DragLaw::Quadratic, DragLaw::Mixed], consts = [false, true])]
+fn joint<const ESTIMATED: bool>(bencher: Bencher<'_, '_>, law: DragLaw) {
+    let rows: Vec<FeatureRow> = include_str!("../fixtures/table4.csv")
+        .lines()
+        .skip(1)
+        .filter_map(|line| {
+            let cells: Vec<f64> = line.split(',').filter_map(|cell| cell.parse().ok()).collect();
+            let [_, relay_level, switch_level, amplitude, bias, period_s, ..] = *cells else { return None };
+            FeatureRow::new(&Oscillation { relay_level, switch_level, amplitude, bias, period_s, delay_s: 0.0 }).ok()
+        })
+        .collect();
+    assert_eq!(rows.len(), 19);
+    let delay = if ESTIMATED { Delay::Estimated } else { Delay::KnownS(0.2) };
+    bencher.bench(|| fit_rows(black_box(&rows), law, delay).is_ok());
+}

@@ -1,0 +1,150 @@
+//! Which characteristic has a measured gain: every one of the catalogue fitted to points of P over amplitude, and ranked.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{CATALOGUE, DescribingError, Entry};
+use crate::nonlinearity::{Domain, NonlinearityError, Parameter, Sinusoid};
+
+/// Starting points for each characteristic, and steps of Levenberg-Marquardt from each.
+const STARTS: usize = 24;
+const STEPS: usize = 60;
+
+/// A characteristic fitted to the points.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// The characteristic.
+    pub entry: &'static Entry,
+    /// Its parameter values, as [`Entry::build`] takes them.
+    pub values: Vec<f64>,
+    /// How many of them the points have any say on.
+    pub parameters: usize,
+    /// Standard deviation of the residuals, `sqrt(sum r^2/(points - parameters))`, output units per input unit.
+    pub residual: f64,
+}
+
+/// Every characteristic of the catalogue fitted by least squares to points `(amplitude, P)` at one bias, the best first by the
+/// standard deviation of its residuals, which counts parameters against it.
+///
+/// Left out: characteristics with as many parameters as there are points, and `piecewise-linear`, which fits anything. Several can fit
+/// equally well (a preload without slope is a relay), and the search, from 24 deterministic starts each, can miss the best
+/// parameters; a fit says nothing of amplitudes outside the points'.
+///
+/// # Errors
+/// [`NonlinearityError::Amplitude`] or [`DescribingError::NotFinite`] for a point that is not two finite numbers with a
+/// positive amplitude.
+///
+/// ```
+/// use selfosc::describing::{fit, over_amplitudes};
+/// use selfosc::nonlinearity::Saturation;
+/// let amplitudes = [0.2, 0.5, 0.8, 1.1, 1.6, 2.5, 4.0];
+/// let saturation = Saturation::new(2.0, 0.7)?;
+/// let gains = over_amplitudes(&saturation, 0.0, amplitudes).map(|df| df.map(|df| df.p)).collect::<Result<Vec<_>, _>>()?;
+/// let points: Vec<_> = amplitudes.into_iter().zip(gains).collect();
+/// let ranked = fit(&points, 0.0)?;
+/// assert!(ranked.iter().take(3).any(|fit| fit.entry.name == "saturation" && fit.residual < 1e-9));
+/// # Ok::<(), selfosc::describing::DescribingError>(())
+/// ```
+pub fn fit(points: &[(f64, f64)], bias: f64) -> Result<Vec<Fit>, DescribingError> {
+    for &(amplitude, p) in points {
+        if !(amplitude > 0.0 && amplitude.is_finite()) {
+            return Err(NonlinearityError::Amplitude { amplitude }.into());
+        }
+        if !p.is_finite() {
+            return Err(DescribingError::NotFinite { input: amplitude, output: p });
+        }
+    }
+    let mut fits: Vec<Fit> = CATALOGUE.iter().filter_map(|entry| best(entry, points, bias)).collect();
+    fits.sort_by(|a, b| a.residual.total_cmp(&b.residual));
+    Ok(fits)
+}
+
+/// A parameter as the search sees it: of one sign by its logarithm.
+fn value(parameter: &Parameter, searched: f64) -> f64 {
+    if parameter.domain == Domain::Finite { searched } else { searched.exp() }
+}
+
+fn values(entry: &Entry, searched: &DVector<f64>) -> Vec<f64> {
+    entry.parameters.iter().zip(searched.iter()).map(|(parameter, &x)| value(parameter, x)).collect()
+}
+
+fn residuals(entry: &Entry, searched: &DVector<f64>, points: &[(f64, f64)], bias: f64) -> Option<DVector<f64>> {
+    let characteristic = entry.build(&values(entry, searched)).ok()?;
+    let residual = |&(amplitude, p): &(f64, f64)| {
+        let sweep = Sinusoid::new(bias, amplitude).ok()?;
+        let residual = characteristic.describing_function(&sweep).ok()?.p - p;
+        residual.is_finite().then_some(residual)
+    };
+    points.iter().map(residual).collect::<Option<Vec<_>>>().map(DVector::from_vec)
+}
+
+fn best(entry: &'static Entry, points: &[(f64, f64)], bias: f64) -> Option<Fit> {
+    if entry.parameters.iter().any(|parameter| parameter.domain == Domain::Points) {
+        return None;
+    }
+    let descents = (0..STARTS).filter_map(|start| descend(entry, begin(entry, points, start), points, bias));
+    let (searched, sum) = descents.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let jacobian = jacobian(entry, &searched, points, bias)?;
+    let largest = jacobian.amax();
+    let parameters = jacobian.column_iter().filter(|column| column.amax() > 1e-9 * largest).count();
+    let freedom = points.len().checked_sub(parameters).filter(|&freedom| freedom > 0)?;
+    Some(Fit { entry, values: values(entry, &searched), parameters, residual: (sum / freedom as f64).sqrt() })
+}
+
+/// The k-th start: each parameter is one of the sizes that the points suggest for inputs, outputs and gains.
+fn begin(entry: &Entry, points: &[(f64, f64)], start: usize) -> DVector<f64> {
+    let mean = |part: fn(&(f64, f64)) -> f64| points.iter().map(part).sum::<f64>() / points.len() as f64;
+    let least = points.iter().fold(f64::INFINITY, |least, point| least.min(point.0));
+    let (amplitude, p) = (mean(|point| point.0), mean(|point| point.1));
+    let sizes = [0.5 * least, p, p * amplitude, 0.5 * amplitude, 1.0, 1.0 / amplitude, 2.0 * p, 2.0];
+    let size = |(place, parameter): (usize, &Parameter)| {
+        let size = sizes[(start / (place + 1) + start * place * 3 + place) % sizes.len()];
+        if parameter.domain == Domain::Finite {
+            if parameter.default == Some(0.0) { 0.0 } else { size }
+        } else {
+            size.abs().max(f64::MIN_POSITIVE).ln()
+        }
+    };
+    DVector::from_iterator(entry.parameters.len(), entry.parameters.iter().enumerate().map(size))
+}
+
+fn jacobian(entry: &Entry, searched: &DVector<f64>, points: &[(f64, f64)], bias: f64) -> Option<DMatrix<f64>> {
+    let mut jacobian = DMatrix::zeros(points.len(), searched.len());
+    for place in 0..searched.len() {
+        let step = 1e-6 * searched[place].abs().max(1e-3);
+        let moved = |by: f64| {
+            let mut moved = searched.clone();
+            moved[place] += by;
+            residuals(entry, &moved, points, bias)
+        };
+        jacobian.set_column(place, &((moved(step)? - moved(-step)?) / (2.0 * step)));
+    }
+    Some(jacobian)
+}
+
+/// Levenberg-Marquardt from one start: where it ends and the sum of squares there.
+fn descend(entry: &Entry, start: DVector<f64>, points: &[(f64, f64)], bias: f64) -> Option<(DVector<f64>, f64)> {
+    let (mut searched, mut damping) = (start, 1e-3);
+    let mut residual = residuals(entry, &searched, points, bias)?;
+    for _ in 0..STEPS {
+        let Some(jacobian) = jacobian(entry, &searched, points, bias) else { break };
+        let gradient = jacobian.tr_mul(&residual);
+        let normal = jacobian.tr_mul(&jacobian);
+        let ridge = 1e-12 * normal.diagonal().max() + f64::MIN_POSITIVE;
+        let damped = &normal + DMatrix::from_diagonal(&normal.diagonal().add_scalar(ridge)) * damping;
+        let Some(step) = damped.cholesky().map(|factor| factor.solve(&gradient)) else { break };
+        let trial = &searched - &step;
+        match residuals(entry, &trial, points, bias) {
+            Some(better) if better.norm_squared() < residual.norm_squared() => {
+                let gain = residual.norm_squared() - better.norm_squared();
+                (searched, residual, damping) = (trial, better, 0.2 * damping);
+                if gain <= 1e-14 * residual.norm_squared() {
+                    break;
+                }
+            }
+            _ if damping > 1e12 => break,
+            _ => damping *= 8.0,
+        }
+    }
+    let sum = residual.norm_squared();
+    Some((searched, sum))
+}

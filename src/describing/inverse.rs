@@ -1,0 +1,170 @@
+//! The inverse problem: the amplitude that has a given gain.
+
+use core::ops::RangeInclusive;
+
+use super::{ClosedForm, DescribingError, DescribingFunction, over_amplitudes};
+use crate::nonlinearity::{NonlinearityError, Sinusoid};
+
+/// Amplitudes at which a range is sampled, evenly in their logarithm.
+const SAMPLES: u32 = 1000;
+/// Steps of bisection or golden section: more than a float has bits.
+const STEPS: u32 = 80;
+/// Relative difference at which a crossing counts as one, not as a jump over the value.
+const CROSSED: f64 = 1e-9;
+
+/// An amplitude and what the characteristic does there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solution {
+    /// Amplitude of the input, in input units.
+    pub amplitude: f64,
+    /// `F_0`, `P`, `Q` at this amplitude.
+    pub df: DescribingFunction<f64>,
+}
+
+/// Every amplitude of `range` found at which `P` has the value `p`, growing. A gain often has two (a relay with dead zone).
+///
+/// The range is sampled at 1000 amplitudes, and where P turns between two samples its extremum is looked for; solutions
+/// closer together than that can be missed. Amplitudes without describing function are passed over.
+///
+/// # Errors
+/// [`NonlinearityError::Amplitude`] unless both ends of the range are positive and finite.
+///
+/// ```
+/// use selfosc::describing::amplitudes;
+/// use selfosc::nonlinearity::RelayDeadZone;
+/// let relay = RelayDeadZone::new(1.0, 0.5)?;
+/// let found = amplitudes(&relay, 0.0, 1.0, 0.1..=10.0)?;
+/// assert_eq!(found.len(), 2);
+/// assert!(found.iter().all(|solution| (solution.df.p - 1.0).abs() < 1e-12));
+/// # Ok::<(), selfosc::describing::DescribingError>(())
+/// ```
+pub fn amplitudes(
+    characteristic: &(impl ClosedForm<Number = f64> + ?Sized),
+    bias: f64,
+    p: f64,
+    range: RangeInclusive<f64>,
+) -> Result<Vec<Solution>, DescribingError> {
+    let excess = |solution: Solution| solution.df.p - p;
+    let solve = |amplitude| at(characteristic, bias, amplitude);
+    let samples = sampled(characteristic, bias, range)?;
+    let mut found = Vec::new();
+    let mut bracket = |low: Solution, high: Solution| {
+        let (mut low, mut high) = (low, high);
+        for _ in 0..STEPS {
+            let Ok(middle) = solve(0.5 * (low.amplitude + high.amplitude)) else { return };
+            if (excess(middle) < 0.0) == (excess(low) < 0.0) { low = middle } else { high = middle }
+        }
+        let nearer = if excess(low).abs() < excess(high).abs() { low } else { high };
+        if excess(nearer).abs() <= CROSSED * nearer.df.p.abs().max(p.abs()) {
+            found.push(nearer);
+        }
+    };
+    for (place, pair) in samples.windows(2).enumerate() {
+        let (low, high) = (pair[0], pair[1]);
+        if (excess(low) < 0.0) != (excess(high) < 0.0) {
+            bracket(low, high);
+            continue;
+        }
+        // A turn towards the value, with the sample after these two farther away again.
+        let Some(&beyond) = samples.get(place + 2) else { continue };
+        let distance = |solution: Solution| excess(solution).abs();
+        if (excess(beyond) < 0.0) == (excess(low) < 0.0) && distance(high) < distance(low).min(distance(beyond)) {
+            let nearest = minimum(low, beyond, &solve, distance);
+            let signed = |solution: Solution| if excess(low) < 0.0 { -excess(solution) } else { excess(solution) };
+            let turn = minimum(low, beyond, &solve, signed);
+            if (excess(turn) < 0.0) == (excess(low) < 0.0) {
+                if distance(nearest) <= CROSSED * p.abs() {
+                    bracket(nearest, nearest);
+                }
+            } else {
+                bracket(low, turn);
+                bracket(turn, beyond);
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// The amplitude of `range` whose complex gain `P + jQ` is nearest to `p + jq`, and the distance: an error of the gain, in
+/// its units, that no amplitude explains.
+///
+/// # Errors
+/// As [`amplitudes`]; the error of the largest amplitude if there is no describing function anywhere.
+///
+/// ```
+/// use selfosc::describing::{ClosedForm, nearest_amplitude};
+/// use selfosc::nonlinearity::{RelayHysteresis, Sinusoid};
+/// let relay = RelayHysteresis::new(1.0, 0.5, 0.0)?;
+/// let df = relay.describing_function(&Sinusoid::new(0.0, 1.3)?)?;
+/// let (found, distance) = nearest_amplitude(&relay, 0.0, (df.p, df.q), 0.1..=10.0)?;
+/// assert!((found.amplitude - 1.3).abs() < 1e-7 && distance < 1e-7);
+/// # Ok::<(), selfosc::describing::DescribingError>(())
+/// ```
+pub fn nearest_amplitude(
+    characteristic: &(impl ClosedForm<Number = f64> + ?Sized),
+    bias: f64,
+    (p, q): (f64, f64),
+    range: RangeInclusive<f64>,
+) -> Result<(Solution, f64), DescribingError> {
+    let largest = *range.end();
+    let distance = |solution: Solution| (solution.df.p - p).hypot(solution.df.q - q);
+    let solve = |amplitude| at(characteristic, bias, amplitude);
+    let samples = sampled(characteristic, bias, range)?;
+    let order = |a: &usize, b: &usize| distance(samples[*a]).total_cmp(&distance(samples[*b]));
+    let Some(best) = (0..samples.len()).min_by(order) else {
+        return solve(largest).map(|solution| (solution, distance(solution)));
+    };
+    let (low, high) = (samples[best.saturating_sub(1)], samples[(best + 1).min(samples.len() - 1)]);
+    let refined = minimum(low, high, &solve, distance);
+    let nearest = if distance(refined) < distance(samples[best]) { refined } else { samples[best] };
+    Ok((nearest, distance(nearest)))
+}
+
+fn at(
+    characteristic: &(impl ClosedForm<Number = f64> + ?Sized),
+    bias: f64,
+    amplitude: f64,
+) -> Result<Solution, DescribingError> {
+    let df = characteristic.describing_function(&Sinusoid::new(bias, amplitude)?)?;
+    Ok(Solution { amplitude, df })
+}
+
+/// The range sampled evenly in the logarithm, without the amplitudes that have no describing function.
+fn sampled(
+    characteristic: &(impl ClosedForm<Number = f64> + ?Sized),
+    bias: f64,
+    range: RangeInclusive<f64>,
+) -> Result<Vec<Solution>, DescribingError> {
+    let (from, to) = range.into_inner();
+    for amplitude in [from, to] {
+        if !(amplitude > 0.0 && amplitude.is_finite()) {
+            return Err(NonlinearityError::Amplitude { amplitude }.into());
+        }
+    }
+    let amplitude = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(SAMPLES));
+    let grid = (0..=SAMPLES).map(amplitude);
+    let results = over_amplitudes(characteristic, bias, grid.clone());
+    Ok(grid.zip(results).filter_map(|(amplitude, df)| Some(Solution { amplitude, df: df.ok()? })).collect())
+}
+
+/// Golden-section search for the least `cost` between two solutions.
+fn minimum(
+    low: Solution,
+    high: Solution,
+    solve: &impl Fn(f64) -> Result<Solution, DescribingError>,
+    cost: impl Fn(Solution) -> f64,
+) -> Solution {
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    let (mut from, mut to) = (low.amplitude, high.amplitude);
+    let mut best = if cost(low) < cost(high) { low } else { high };
+    for _ in 0..STEPS {
+        let (left, right) = (to - golden * (to - from), from + golden * (to - from));
+        let (Ok(left), Ok(right)) = (solve(left), solve(right)) else { break };
+        let nearer = if cost(left) < cost(right) { left } else { right };
+        if cost(nearer) < cost(best) {
+            best = nearer;
+        }
+        if cost(left) < cost(right) { to = right.amplitude } else { from = left.amplitude }
+    }
+    best
+}

@@ -1,0 +1,22 @@
+use super::parameter::characteristic;
+use super::{Branch, Characteristic, Sinusoid};
+use crate::numeric::Real;
+
+characteristic! {
+    /// Hyperbolic tangent: `gain tanh(scale x)`, a smooth saturation at `gain`.
+    "tanh" Tanh {
+        /// Factor of the output, in output units.
+        gain: Finite = 1.0,
+        /// Argument per input unit.
+        scale: Positive = 1.0,
+    }
+}
+
+impl<T: Real> Characteristic for Tanh<T> {
+    type Number = T;
+
+    fn output(&self, x: T, _: Branch, _: &Sinusoid<T>) -> T {
+        self.gain * (self.scale * x).tanh()
+    }
+    fn kinks(&self, _: &Sinusoid<T>, _: &mut dyn FnMut(T)) {}
+}
