@@ -8,6 +8,11 @@ pub mod fit;
 pub mod iso;
 #[cfg(feature = "std")]
 pub mod joint;
+mod reading;
+#[cfg(feature = "std")]
+mod warning;
 
 pub use drag_law::DragLaw;
 pub use error::IdentifyError;
+#[cfg(feature = "std")]
+pub use warning::Warning;

@@ -262,7 +262,7 @@ impl<'a> Search<'a> {
     /// Common unknowns that the drag law or a known delay fixes.
     pub(super) fn fixed(&self) -> [Option<f64>; SHARED] {
         let fix = |fixed: bool| fixed.then_some(0.0);
-        [None, fix(self.law == DragLaw::Quadratic), fix(self.law == DragLaw::Linear), fix(!self.estimate_delay)]
+        [None, fix(!self.law.has_linear()), fix(!self.law.has_quadratic()), fix(!self.estimate_delay)]
     }
 
     pub(super) fn parameters(&self) -> usize {
