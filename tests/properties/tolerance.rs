@@ -77,6 +77,18 @@ pub(crate) const SINGLE: f64 = 2e-5;
 
 /// Derivatives against five-point differences, which are taken for good where halving the step changes them by no more.
 pub(crate) const DIFFERENCE: f64 = 1e-7;
+/// Width of an elementary function at a point, in units of the last place of the result; measured maxima are below, and
+/// proofs elsewhere rely on enclosures not much wider than rounding.
+pub(crate) const ELEMENTARY_WIDTH_ULP: f64 = 12.0;
+/// Parameters from the features of an exact orbit: rounding of the features times the condition of the inversion, at
+/// most 1e5 over the shapes drawn.
+pub(crate) const INVERSION: f64 = 1e-9;
+
+/// Derivatives of the same: slopes are difference quotients, good to 1e-8, and meet the same condition.
+pub(crate) const INVERSION_DERIVATIVE: f64 = 1e-4;
+
+/// The same in single precision, for well-conditioned shapes.
+pub(crate) const INVERSION_SINGLE: f64 = 1e-3;
 /// Closed form against the oracle, relative to the value itself: what the catalogue promises.
 pub(crate) const CLOSED_FORM: f64 = 1e-12;
 
