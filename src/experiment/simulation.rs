@@ -54,11 +54,7 @@ impl Experiment {
     ///
     /// # Errors
     /// [`ExperimentError::Setting`] unless the rate is positive and finite.
-    pub fn new(
-        axis: DragAxis<f64>,
-        relay: RelayHysteresis<f64>,
-        rate_hz: f64,
-    ) -> Result<Self, ExperimentError> {
+    pub fn new(axis: DragAxis<f64>, relay: RelayHysteresis<f64>, rate_hz: f64) -> Result<Self, ExperimentError> {
         require("rate in Hz", rate_hz, rate_hz > 0.0, "a finite number above 0")?;
         let start = State { position: 0.0, velocity: 0.0 };
         Ok(Self { axis, relay, rate_hz, held: false, sensor: Sensor::default(), seed: 0, start })

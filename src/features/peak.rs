@@ -51,7 +51,8 @@ impl<S: Scalar> Peak<S> {
         let near = |index: &usize| (samples[*index].0 - origin).abs() <= reach_s;
         // The nearest neighbours always count.
         let first = (0..self.top).find(near).unwrap_or(self.top).min(self.top.saturating_sub(1));
-        let last = (self.top + 1..self.valid).rev().find(near).unwrap_or(self.top).max((self.top + 1).min(self.valid - 1));
+        let last =
+            (self.top + 1..self.valid).rev().find(near).unwrap_or(self.top).max((self.top + 1).min(self.valid - 1));
         Some(vertex(&samples[first..=last], origin, largest).unwrap_or(largest))
     }
 

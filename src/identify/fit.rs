@@ -47,7 +47,7 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// A drag law, and what is known of the delay. 
+    /// A drag law, and what is known of the delay.
     #[must_use]
     pub fn new(law: DragLaw, delay: Delay) -> Self {
         Self { law, delay, between: None, quantum: None }

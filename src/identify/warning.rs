@@ -106,7 +106,8 @@ impl Warning {
                 warnings.push(Self::ActuatorLag { given_s, fitted_s: fitted.value });
             }
         }
-        let coloured = fit.records().iter().map(|record| (record.autocorrelation, record.residual_rms / record.quantum));
+        let coloured =
+            fit.records().iter().map(|record| (record.autocorrelation, record.residual_rms / record.quantum));
         // Rounding alone leaves a third of a step and may well have a pattern of its own.
         let worst = coloured.filter(|(_, steps)| *steps > 0.5).map(|(correlation, _)| correlation).fold(0.0, f64::max);
         if worst > COLOURED {

@@ -82,7 +82,8 @@ impl Choice {
     /// The likeliest fit.
     #[must_use]
     pub fn likeliest(&self) -> &RecordFit {
-        let best = self.probabilities.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(index, _)| index);
+        let best =
+            self.probabilities.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(index, _)| index);
         &self.fits[best]
     }
 

@@ -20,7 +20,5 @@ mod oracle;
 mod orbit_drag_axis;
 mod orbit_linear;
 mod paper;
-mod identify_exact;
-mod identify_joint;
 mod tolerance;
 mod vehicle;

@@ -67,9 +67,7 @@ impl Chain {
                 let Some(rows) = carried.as_ref() else { return 0.0 };
                 let (position, velocity) = (rows[(row, 0)], rows[(row, 1)]);
                 match column.checked_sub(UNKNOWNS) {
-                    Some(0) => {
-                        rows[(row, CARRIED)] - position * link.defect[0] - velocity * link.defect[1]
-                    }
+                    Some(0) => rows[(row, CARRIED)] - position * link.defect[0] - velocity * link.defect[1],
                     Some(side) => rows[(row, CARRIED + side)],
                     None => {
                         let direct = if column > 2 { rows[(row, column - 1)] } else { 0.0 };

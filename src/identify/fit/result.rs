@@ -70,31 +70,33 @@ impl Search<'_> {
             Estimate { value: self.shared[k], spread }
         };
         let estimates = [estimate(0), estimate(1), estimate(2), estimate(3)];
-        let records = self.motions.iter().zip(&linearised).zip(&covariance.disturbance).map(|((motion, rows), variance)| {
-            let residuals = motion.residuals(rows);
-            let output: Vec<f64> = rows.rows.iter().flatten().map(|(_, model)| model.value).collect();
-            let start = motion.stretches.first().map_or(State { position: 0.0, velocity: 0.0 }, |first| first.start);
-            let first_sample = rows.rows.iter().flatten().next().map_or(0, |(sample, _)| *sample);
-            let readings = &motion.record.output()[first_sample..];
-            let (rms, std) = (mean_square(&residuals, 0.0).sqrt(), mean_square(readings, mean(readings)).sqrt());
-            let products: Vec<f64> = residuals.windows(2).map(|pair| pair[0] * pair[1]).collect();
-            FittedRecord {
-                disturbance: Estimate {
-                    value: motion.disturbance,
-                    spread: Some(spread(motion.disturbance, variance.sqrt())),
-                },
-                begin_s: motion.stretches.first().map_or(0.0, |first| first.begin_s),
-                start,
-                first_sample,
-                noise: if motion.noise.quantum > 0.0 { motion.real_noise(rows) } else { motion.noise.std },
-                quantum: motion.noise.quantum,
-                residual_rms: rms,
-                fit_percent: 100.0 * (1.0 - rms / std.max(f64::MIN_POSITIVE)),
-                autocorrelation: mean(&products) / (rms * rms).max(f64::MIN_POSITIVE),
-                output,
-                residuals,
-            }
-        });
+        let records =
+            self.motions.iter().zip(&linearised).zip(&covariance.disturbance).map(|((motion, rows), variance)| {
+                let residuals = motion.residuals(rows);
+                let output: Vec<f64> = rows.rows.iter().flatten().map(|(_, model)| model.value).collect();
+                let start =
+                    motion.stretches.first().map_or(State { position: 0.0, velocity: 0.0 }, |first| first.start);
+                let first_sample = rows.rows.iter().flatten().next().map_or(0, |(sample, _)| *sample);
+                let readings = &motion.record.output()[first_sample..];
+                let (rms, std) = (mean_square(&residuals, 0.0).sqrt(), mean_square(readings, mean(readings)).sqrt());
+                let products: Vec<f64> = residuals.windows(2).map(|pair| pair[0] * pair[1]).collect();
+                FittedRecord {
+                    disturbance: Estimate {
+                        value: motion.disturbance,
+                        spread: Some(spread(motion.disturbance, variance.sqrt())),
+                    },
+                    begin_s: motion.stretches.first().map_or(0.0, |first| first.begin_s),
+                    start,
+                    first_sample,
+                    noise: if motion.noise.quantum > 0.0 { motion.real_noise(rows) } else { motion.noise.std },
+                    quantum: motion.noise.quantum,
+                    residual_rms: rms,
+                    fit_percent: 100.0 * (1.0 - rms / std.max(f64::MIN_POSITIVE)),
+                    autocorrelation: mean(&products) / (rms * rms).max(f64::MIN_POSITIVE),
+                    output,
+                    residuals,
+                }
+            });
         Ok(RecordFit {
             law: self.law,
             between: self.between,
@@ -167,4 +169,3 @@ impl RecordFit {
         self.parameters
     }
 }
-

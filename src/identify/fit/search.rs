@@ -111,8 +111,7 @@ impl<'a> Motion<'a> {
             while after < self.edges.len() && acting(after) <= stretch.end_s {
                 after += 1;
             }
-            let drive =
-                Drive { before, edges: &self.edges[first..after], deviations: &self.deviations[first..after] };
+            let drive = Drive { before, edges: &self.edges[first..after], deviations: &self.deviations[first..after] };
             let mut rows = Vec::with_capacity(stretch.samples.len() / stride + 1);
             let time = self.record.time_s();
             let end = integrate(stretch, &drive, time, (shared, self.disturbance), stride, &mut rows)?;
@@ -304,7 +303,10 @@ impl<'a> Search<'a> {
         if moved < APPROACHED {
             return Ok(self);
         }
-        Err(IdentifyError::NotSettled { steps: self.steps, rms: self.motions.first().map_or(f64::NAN, |m| m.noise.std) })
+        Err(IdentifyError::NotSettled {
+            steps: self.steps,
+            rms: self.motions.first().map_or(f64::NAN, |m| m.noise.std),
+        })
     }
 
     /// One step; the largest relative motion of a common parameter.
@@ -338,7 +340,8 @@ impl<'a> Search<'a> {
         // Far from the end the linearisation holds only so far.
         let relative = |k: usize| if k + 1 < SHARED { shared[k] / self.shared[k].max(f64::MIN_POSITIVE) } else { 0.0 };
         let share = (0.5 / relative(0).abs()).min(1.0);
-        let share = (1..SHARED).fold(share, |share, k| if relative(k) > 2.0 { share.min(2.0 / relative(k)) } else { share });
+        let share =
+            (1..SHARED).fold(share, |share, k| if relative(k) > 2.0 { share.min(2.0 / relative(k)) } else { share });
         let share = if self.steps < 2 { share.min(0.7) } else { share };
         for ((motion, steps), (_, instants)) in self.motions.iter_mut().zip(&steps).zip(&chains) {
             motion.advance(steps, instants, share);

@@ -44,9 +44,8 @@ impl Covariance {
                 *value = mean(errors.iter().map(|(common, _)| common[i] * common[j]).sum());
             }
         }
-        let disturbance = (0..search.motions.len())
-            .map(|k| mean(errors.iter().map(|(_, own)| own[k] * own[k]).sum()))
-            .collect();
+        let disturbance =
+            (0..search.motions.len()).map(|k| mean(errors.iter().map(|(_, own)| own[k] * own[k]).sum())).collect();
         Ok(Self { shared, disturbance })
     }
 }
@@ -55,7 +54,11 @@ impl Covariance {
 type Errors = Vec<([f64; SHARED], Vec<f64>)>;
 
 /// Errors whose squares add up to the inverse of the information: one for each independent direction.
-fn unit(search: &Search<'_>, linearised: &[Linearised], fixed: &[Option<f64>; SHARED]) -> Result<Errors, IdentifyError> {
+fn unit(
+    search: &Search<'_>,
+    linearised: &[Linearised],
+    fixed: &[Option<f64>; SHARED],
+) -> Result<Errors, IdentifyError> {
     let chains: Vec<Chain> = search
         .motions
         .iter()
@@ -91,7 +94,11 @@ fn unit(search: &Search<'_>, linearised: &[Linearised], fixed: &[Option<f64>; SH
 }
 
 /// Errors drawn from readings of motions near the one fitted.
-fn drawn(search: &Search<'_>, linearised: &[Linearised], fixed: &[Option<f64>; SHARED]) -> Result<Errors, IdentifyError> {
+fn drawn(
+    search: &Search<'_>,
+    linearised: &[Linearised],
+    fixed: &[Option<f64>; SHARED],
+) -> Result<Errors, IdentifyError> {
     let mut random = Pcg64Mcg::seed_from_u64(1);
     let mut chains = Vec::with_capacity(linearised.len());
     for (motion, rows) in search.motions.iter().zip(linearised) {

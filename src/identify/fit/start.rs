@@ -16,7 +16,13 @@ pub(super) fn swing_s(record: &Record) -> f64 {
     let margin = 0.3 * (output.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
     let (mut side, mut crossings) = (0.0, 0.0);
     for value in output {
-        let now = if value - mean > margin { 1.0 } else if value - mean < -margin { -1.0 } else { side };
+        let now = if value - mean > margin {
+            1.0
+        } else if value - mean < -margin {
+            -1.0
+        } else {
+            side
+        };
         if side != 0.0 && now != side {
             crossings += 1.0;
         }
@@ -47,7 +53,8 @@ pub(super) fn parameters(record: &Record, law: DragLaw, delay_s: f64) -> Option<
             let weight = 0.5 * (time[k + 1] - time[k - 1]);
             let angle = core::f64::consts::TAU * (time[k] - begin) / swing;
             let rate = core::f64::consts::TAU / swing;
-            let (value, slope, bend) = (0.5 * (1.0 - angle.cos()), 0.5 * rate * angle.sin(), 0.5 * rate * rate * angle.cos());
+            let (value, slope, bend) =
+                (0.5 * (1.0 - angle.cos()), 0.5 * rate * angle.sin(), 0.5 * rate * rate * angle.cos());
             while command + 1 < time.len() && time[command + 1] <= time[k] - delay_s {
                 command += 1;
             }
@@ -69,8 +76,8 @@ pub(super) fn parameters(record: &Record, law: DragLaw, delay_s: f64) -> Option<
     let right = Mat::from_fn(equations.len(), 1, |row, _| equations[row][3]);
     let solution = matrix.qr().solve_lstsq(&right);
     let force = 0.5 * input.iter().map(|value| value.abs()).fold(0.0, f64::max);
-    let span = output.iter().copied().fold(f64::NEG_INFINITY, f64::max)
-        - output.iter().copied().fold(f64::INFINITY, f64::min);
+    let span =
+        output.iter().copied().fold(f64::NEG_INFINITY, f64::max) - output.iter().copied().fold(f64::INFINITY, f64::min);
     // Orders of magnitude where noise makes an answer impossible.
     let speed = span / swing;
     let fallback = [force * swing / speed, force / if law == DragLaw::Quadratic { speed * speed } else { speed }];
