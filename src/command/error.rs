@@ -5,7 +5,9 @@ use std::process::ExitCode;
 
 use crate::balance::BalanceError;
 use crate::describing::{CatalogueError, DescribingError};
+use crate::experiment::ExperimentError;
 use crate::nonlinearity::NonlinearityError;
+use crate::orbit::OrbitError;
 use crate::plant::PlantError;
 use crate::report::ReportError;
 
@@ -27,6 +29,12 @@ pub(super) enum CommandError {
     /// A plant that is none.
     #[error(transparent)]
     Plant(#[from] PlantError),
+    /// An experiment that cannot be simulated, or a log that cannot be read.
+    #[error(transparent)]
+    Experiment(#[from] ExperimentError),
+    /// A loop without a limit cycle, where one is needed.
+    #[error("no limit cycle: {0}")]
+    Orbit(#[from] OrbitError),
     /// Harmonic balance without an answer.
     #[error(transparent)]
     Balance(#[from] BalanceError),

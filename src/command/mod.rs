@@ -9,6 +9,7 @@ mod df;
 mod error;
 mod predict;
 mod reproduce;
+mod simulate;
 mod verify;
 
 use std::io::{self, Write};
@@ -36,6 +37,7 @@ enum Action {
     Df(df::Arguments),
     Balance(balance::Arguments),
     Predict(predict::Arguments),
+    Simulate(simulate::Arguments),
 }
 
 /// What a subcommand found, when nothing went wrong.
@@ -60,6 +62,7 @@ pub fn run() -> ExitCode {
         Action::Df(arguments) => df::run(arguments, &mut output),
         Action::Balance(arguments) => balance::run(arguments, &mut output),
         Action::Predict(arguments) => predict::run(arguments, &mut output),
+        Action::Simulate(arguments) => simulate::run(arguments, &mut output),
     };
     match outcome.and_then(|outcome| output.flush().map(|()| outcome).map_err(CommandError::from)) {
         Ok(Outcome::Done) => ExitCode::SUCCESS,

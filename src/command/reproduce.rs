@@ -114,7 +114,7 @@ fn document(reproduction: &Reproduction, arguments: &Arguments) -> Value {
     json!({
         "table4": asked("table4", |reproduction| json!(reproduction.table4)),
         "figure15": asked("fig15", |reproduction| json!(reproduction.figure15)),
-        "joint": [],
+        "joint": asked("joint", |reproduction| json!(reproduction.joint)),
         "audit": asked("audit", |reproduction| reproduction.audit.iter().flat_map(items).collect()),
     })
 }

@@ -14,12 +14,14 @@
 //! | `quantisation` | errors by the sensor's step: eqs. 37-39 and Fig. 14 |
 //! | `relay_figures` | Figs. 5-7 |
 //! | `thruster_figure` | Fig. 9 (b) |
+//! | `joint` | all experiments together, by exact limit cycles |
 //! | `audit` | every printed number against its recomputation in intervals |
 
 pub mod audit;
 mod error;
 pub mod figure15;
 pub mod fixtures;
+pub mod joint;
 mod printed;
 pub mod quantisation;
 pub mod relay_figures;

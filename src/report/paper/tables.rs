@@ -120,6 +120,29 @@ impl Reproduction {
         })
     }
 
+    pub(super) fn joint_table(&self) -> Table {
+        let columns = ["drag", "delay (s)", "alpha", "beta_r", "beta_rr", "residual (%)"];
+        let title = "All 19 experiments together, exact limit cycles (value and half-width of the 95 % interval)";
+        let table = Table::new("joint", title, &columns);
+        let with_error = |value: f64, interval: Option<[f64; 2]>, decimals: usize| {
+            let half = interval.map(|[low, high]| (high - value).max(value - low));
+            let shown = half.map_or_else(String::new, |half| format!(" +- {half:.decimals$}"));
+            Cell::from(format!("{value:.decimals$}{shown}").as_str())
+        };
+        self.joint.iter().fold(table, |table, row| {
+            let drag =
+                |value: Option<f64>, interval| value.map_or(Cell::Missing, |value| with_error(value, interval, 2));
+            table.row([
+                row.drag.into(),
+                with_error(row.delay_s, row.delay_interval_s, 2),
+                with_error(row.alpha, row.alpha_interval, 2),
+                drag(row.beta, row.beta_interval),
+                drag(row.beta_quadratic, row.beta_quadratic_interval),
+                Cell::number(100.0 * row.residual_rms, 1),
+            ])
+        })
+    }
+
     pub(super) fn audit_summary(&self) -> Table {
         let columns = ["printed", "agree", "of", "off by", ""];
         let table = Table::new("audit", "Audit: printed numbers that meet their recomputation in intervals", &columns);
