@@ -1,1 +1,16 @@
-//! (to be written)
+//! What a self-oscillation shows: cycles, and means over them with their spreads.
+//!
+//! [`Cycles`] and [`Summary`] work on samples as they come, without allocation; a whole record goes through the same two.
+
+#[cfg(feature = "std")]
+mod batch;
+mod cycle;
+mod error;
+mod peak;
+mod summary;
+
+#[cfg(feature = "std")]
+pub use batch::{RecordFeatures, RelayLevels};
+pub use cycle::{Cycle, Cycles};
+pub use error::FeatureError;
+pub use summary::{Features, Spread, Summary};

@@ -10,3 +10,30 @@ pub enum DragLaw {
     /// The sum of both.
     Mixed,
 }
+
+impl DragLaw {
+    /// All of them, the simplest first.
+    pub const ALL: [Self; 3] = [Self::Linear, Self::Quadratic, Self::Mixed];
+
+    /// Name on the command line and in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Quadratic => "quadratic",
+            Self::Mixed => "mixed",
+        }
+    }
+
+    /// Whether part of the force is proportional to v.
+    #[must_use]
+    pub fn has_linear(self) -> bool {
+        self != Self::Quadratic
+    }
+
+    /// Whether part of the force is proportional to v |v|.
+    #[must_use]
+    pub fn has_quadratic(self) -> bool {
+        self != Self::Linear
+    }
+}

@@ -3,9 +3,16 @@
 mod drag_law;
 mod error;
 pub mod exact;
+#[cfg(feature = "std")]
+pub mod fit;
 pub mod iso;
 #[cfg(feature = "std")]
 pub mod joint;
+mod reading;
+#[cfg(feature = "std")]
+mod warning;
 
 pub use drag_law::DragLaw;
 pub use error::IdentifyError;
+#[cfg(feature = "std")]
+pub use warning::Warning;

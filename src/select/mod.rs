@@ -1,3 +1,4 @@
 //! Which drag law a vehicle has.
 
+pub mod likelihood;
 pub mod pairwise;

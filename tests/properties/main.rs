@@ -8,6 +8,7 @@ mod catalogue;
 mod certificate;
 mod claims;
 mod describing;
+mod difference;
 mod fourier_oracle;
 mod identify_exact;
 mod identify_joint;

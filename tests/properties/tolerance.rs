@@ -7,33 +7,46 @@ pub(crate) const QUADRATURE: f64 = 2e-12;
 /// Parameters from the features of an exact orbit, and back: some ten roundings times the condition of the inversion, up
 /// to 1e5 over the shapes drawn.
 pub(crate) const INVERSION: f64 = 1e-10;
+
 /// Derivatives of the same: slopes are difference quotients, good to 1e-8, under a milder condition.
 pub(crate) const INVERSION_DERIVATIVE: f64 = 1e-5;
+
 /// The inversion in single precision, for a well-conditioned shape: some ten roundings of 6e-8, magnified tenfold.
 pub(crate) const INVERSION_SINGLE: f64 = 2e-5;
+
 /// Common parameters from exact rows: the search ends at a relative step of 1e-9.
 pub(crate) const JOINT: f64 = 1e-7;
+
 /// Vehicle: sums and products of up to a hundred terms of order one, relative to the largest term.
 pub(crate) const VEHICLE_ALGEBRA: f64 = 1e-12;
+
 /// Vehicle: thrust after inverse and map, relative; a square root and a dozen operations.
 pub(crate) const THRUST_ROUND_TRIP: f64 = 1e-14;
+
 /// Vehicle: the same in f32, whose epsilon is 1.2e-7.
 pub(crate) const THRUST_ROUND_TRIP_F32: f64 = 2e-6;
+
 /// Vehicle: command after map and inverse, relative to the limit; the slope is at least a twentieth of its largest.
 pub(crate) const COMMAND_ROUND_TRIP: f64 = 1e-14;
+
 /// Vehicle: cost of an allocation within limits against the best over all active sets, relative; the oracle solves normal
 /// equations of condition up to 1e6 and cost is flat at its minimum.
 pub(crate) const ALLOCATION_COST: f64 = 1e-12;
+
 /// Vehicle: pull of an effort weight of 1e-10 where singular values are above 0.05: 1e-10 / 0.05^2, with room.
 pub(crate) const ALLOCATION_EFFORT: f64 = 1e-7;
+
 /// Vehicle: standard error of a fit against the spread of 2000 fits, relative; the spread itself has an error of 1.6 %.
 pub(crate) const STANDARD_ERROR: f64 = 0.08;
+
 /// Vehicle: central difference of step 1e-5 of a quaternion, relative to the cube of its rate: truncation 1e-10 of the third
 /// derivative, rounding 1e-11.
 pub(crate) const QUATERNION_RATE: f64 = 1e-9;
+
 /// Vehicle: fourth-order integration in steps of 0.25 ms, relative to the energy turned over; drag over inertia reaches 200/s
 /// and bends where a speed reverses.
 pub(crate) const ENERGY_BALANCE: f64 = 1e-9;
+
 /// Width of an elementary function of intervals at a point, in units of the last place; 16 is the largest seen (the
 /// tangent), and proofs rely on enclosures not much wider than rounding.
 pub(crate) const ELEMENTARY_WIDTH_ULP: f64 = 20.0;
@@ -44,29 +57,38 @@ pub(crate) const QUADRATURE_WIDTH: f64 = 1e-12;
 /// Relative rounding of a derivative up to the third by its formula in floating point, and of the jet that it is
 /// compared with.
 pub(crate) const JET_ROUNDING: f64 = 1e-14;
+
 /// A half-period from the matrix exponential against a published 16-digit value, relative: rounding.
 pub(crate) const PERIOD: f64 = 1e-14;
+
 /// Exact orbits against integration at a relative tolerance of 1e-12 per step over some tens of periods.
 pub(crate) const ORBIT_INTEGRATION: f64 = 1e-8;
+
 /// Tsypkin's series cut after 4000 terms, relative to the largest: the tail of `k^-3` is 1e-8 of it.
 pub(crate) const TSYPKIN: f64 = 1e-7;
+
 /// A multiplier from the decay of a deviation below 1e-4, relative: its second-order part and the next multiplier's.
 pub(crate) const DECAY: f64 = 1e-2;
+
 /// Harmonic balance against a published value of 12 or 7 digits: half a unit of its last place.
 pub(crate) const PUBLISHED_12: f64 = 5e-13;
+
 /// The same for 7 decimals.
 pub(crate) const PUBLISHED_7: f64 = 5e-8;
+
 /// The published values of a minimiser, whose residual there is 1.4e-6.
 pub(crate) const MINIMISED: f64 = 1.5e-6;
+
 /// Two ways to the same balance, relative: Newton's method ends at rounding times the condition.
 pub(crate) const BALANCE: f64 = 1e-9;
+
 /// Closed-form limit cycles against integration, relative: the integrator's 1e-13 a step over some hundred steps, and
 /// its approach to the cycle stopped at 1e-12 a cycle while a deviation may need ten cycles to shrink.
 pub(crate) const AXIS_INTEGRATION: f64 = 1e-10;
 
-/// Limit cycles against 30-digit references, relative: rounding, magnified by one over the distance of the multiplier
-/// from one, which is down to 1/125 at g = 1e-6.
-pub(crate) const REFERENCE: f64 = 2e-13;
+/// Limit cycles against 30-digit references or closed forms, relative: twenty roundings, which one over the distance of
+/// the multiplier from one then magnifies (by at most 125 for g >= 1e-6).
+pub(crate) const REFERENCE: f64 = 20.0 * f64::EPSILON;
 
 /// Closed-form motion against itself or an integrator, relative to the largest way and speed involved: some ten
 /// roundings.
@@ -75,8 +97,9 @@ pub(crate) const MOTION: f64 = 1e-12;
 /// f32 against f64, relative: some ten roundings of 6e-8, magnified up to twentyfold by a multiplier near one.
 pub(crate) const SINGLE: f64 = 2e-5;
 
-/// Derivatives against central differences of relative step 1e-5: its square, and rounding over the step.
+/// Derivatives against five-point differences, which are taken for good where halving the step changes them by no more.
 pub(crate) const DIFFERENCE: f64 = 1e-7;
+
 /// Closed form against the oracle, relative to the value itself: what the catalogue promises.
 pub(crate) const CLOSED_FORM: f64 = 1e-12;
 
@@ -89,5 +112,6 @@ pub(crate) const ROUNDING: f64 = 1e-15;
 
 /// Central differences with steps of 1e-5 of a quantity near one: step squared, and rounding over the step.
 pub(crate) const CENTRAL_DIFFERENCE: f64 = 1e-8;
+
 /// The formulas of Table 3 rearranged, relative to the relay level: a few dozen roundings of terms below one.
 pub(crate) const REARRANGED: f64 = 1e-14;

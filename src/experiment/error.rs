@@ -1,0 +1,160 @@
+//! What can be wrong with a record, a log or a simulated experiment.
+
+use core::fmt;
+
+use crate::nonlinearity::NonlinearityError;
+
+/// Where in a record something is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Number of the sample, from zero.
+    Sample(usize),
+    /// Line of the file, from one.
+    Line(u64),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Sample(sample) => write!(f, "sample {sample}"),
+            Self::Line(line) => write!(f, "line {line}"),
+        }
+    }
+}
+
+/// Why there is no record. [`code`](Self::code) is the name that scripts see.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExperimentError {
+    /// The three columns do not belong together.
+    #[error("{time} times, {output} outputs and {input} inputs must be as many; give one of each for every sample")]
+    Lengths {
+        /// Number of times.
+        time: usize,
+        /// Number of outputs.
+        output: usize,
+        /// Number of inputs.
+        input: usize,
+    },
+    /// Too few samples for any identification.
+    #[error("{samples} samples, at least {required} needed; log longer or faster")]
+    TooShort {
+        /// Samples found.
+        samples: usize,
+        /// Samples needed.
+        required: usize,
+    },
+    /// NaN or an infinity.
+    #[error("{place}: {column} = {value} must be finite; remove the line or log a number there")]
+    NotFinite {
+        /// Where.
+        place: Place,
+        /// Which of time, output and input.
+        column: &'static str,
+        /// The value.
+        value: f64,
+    },
+    /// A time that does not come after the one before it.
+    #[error(
+        "{place}: time {time_s} s must come after {previous_s} s; sort the log by time, remove repeated samples, or log \
+         times with more digits"
+    )]
+    TimeOrder {
+        /// Where.
+        place: Place,
+        /// Time there, in s.
+        time_s: f64,
+        /// Time before it, in s.
+        previous_s: f64,
+    },
+    /// Samples are missing: the input in between is not known.
+    #[error("{place}: no sample for {gap_s} s, at most {limit_s} s allowed; cut the log there and use one part")]
+    Gap {
+        /// Where the gap ends.
+        place: Place,
+        /// Its duration, in s.
+        gap_s: f64,
+        /// The longest interval allowed, in s.
+        limit_s: f64,
+    },
+    /// Nothing to read.
+    #[error("the log is empty; it needs a header line with column names and one line for each sample")]
+    Empty,
+    /// Not text.
+    #[error("line {line}: not text (character {character:#04x}); export the log as delimiter-separated text")]
+    Binary {
+        /// Line of the file.
+        line: u64,
+        /// The character found.
+        character: u32,
+    },
+    /// A column that is not there.
+    #[error("no column {wanted} among {found}; name one of these")]
+    UnknownColumn {
+        /// The name, or the names tried.
+        wanted: String,
+        /// The names in the header.
+        found: String,
+    },
+    /// A cell without a number.
+    #[error("line {line}, column {column}: the cell is blank; fill it in or remove the line")]
+    Blank {
+        /// Line of the file.
+        line: u64,
+        /// Name of the column.
+        column: String,
+    },
+    /// A cell that is not a number.
+    #[error("line {line}, column {column}: {text:?} is not a number; correct the cell or remove the line")]
+    NotANumber {
+        /// Line of the file.
+        line: u64,
+        /// Name of the column.
+        column: String,
+        /// What stands there, cut to a readable length.
+        text: String,
+    },
+    /// The reader failed.
+    #[error("line {line}: {reason}; make every line as the header says")]
+    Unreadable {
+        /// Line of the file; zero before the first.
+        line: u64,
+        /// What the reader says.
+        reason: String,
+    },
+    /// A setting of a simulated experiment outside its domain.
+    #[error("{setting} = {value} must be {required}; give it such a value")]
+    Setting {
+        /// Name and unit.
+        setting: &'static str,
+        /// The value given.
+        value: f64,
+        /// What it has to be.
+        required: &'static str,
+    },
+    /// The relay of a simulated experiment is not one.
+    #[error(transparent)]
+    Relay(#[from] NonlinearityError),
+}
+
+impl ExperimentError {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Lengths { .. } => "unequal-columns",
+            Self::TooShort { .. } => "too-short",
+            Self::NotFinite { .. } => "not-finite",
+            Self::TimeOrder { .. } => "time-order",
+            Self::Gap { .. } => "gap",
+            Self::Empty => "empty",
+            Self::Binary { .. } => "not-text",
+            Self::UnknownColumn { .. } => "unknown-column",
+            Self::Blank { .. } => "blank-cell",
+            Self::NotANumber { .. } => "not-a-number",
+            Self::Unreadable { .. } => "unreadable",
+            Self::Setting { .. } => "setting",
+            Self::Relay(_) => "relay",
+        }
+    }
+}

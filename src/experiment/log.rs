@@ -1,0 +1,172 @@
+//! Reading logs: delimiter-separated text with a header.
+
+use core::f64::consts::{PI, TAU};
+use std::borrow::Cow;
+use std::io::Read;
+
+use super::{ExperimentError, Place, Record};
+
+/// Names tried for each column, best first.
+const TIME: &[&str] = &["time_s", "time", "t"];
+const OUTPUT: &[&str] =
+    &["heading_deg", "yaw_deg", "heading", "yaw", "depth_m", "position_m", "position", "output", "y"];
+const INPUT: &[&str] = &["command", "input", "u"];
+
+/// Which columns of a log to read, and how.
+///
+/// ```
+/// use selfosc::experiment::Columns;
+/// let text: String = (0..20).map(|i| format!("0.{i:02};{};1\n", (355 + i) % 360)).collect();
+/// let log = Columns::default().read(format!("time_s;heading_deg;command\n{text}").as_bytes())?;
+/// assert!(log.degrees);
+/// assert_eq!(log.unwrapped, 1);
+/// assert!((log.record.output()[19] - 374f64.to_radians()).abs() < 1e-12);
+/// # Ok::<(), selfosc::experiment::ExperimentError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Columns {
+    /// Name of the time column, in seconds; by default the first of `time_s`, `time`, `t`.
+    pub time: Option<String>,
+    /// Name of the output column; by default the first of `heading_deg`, `yaw_deg`, `heading`, `yaw`, `depth_m`,
+    /// `position_m`, `position`, `output`, `y`.
+    pub output: Option<String>,
+    /// Name of the input column; by default the first of `command`, `input`, `u`.
+    pub input: Option<String>,
+    /// The output is in degrees. A column whose name ends in `_deg` always is.
+    pub degrees: bool,
+    /// The output is an angle that jumps by a turn. Columns named after heading or yaw always count as such.
+    pub wrap: bool,
+}
+
+/// A log that has been read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Log {
+    /// The record, angles in radians.
+    pub record: Record,
+    /// Whether the output was in degrees.
+    pub degrees: bool,
+    /// Jumps by whole turns taken out.
+    pub unwrapped: usize,
+    /// Names of the columns read: time, output, input.
+    pub columns: [String; 3],
+}
+
+impl Columns {
+    /// Reads a log: a header line, then a line for each sample. The delimiter (comma, semicolon, tabulator, blanks) is seen
+    /// from the header; with any but the comma, a decimal comma is understood. Lines that start with `#` are comments.
+    ///
+    /// # Errors
+    /// [`ExperimentError`] with line and value; nothing is repaired but whole turns of an angle.
+    pub fn read(&self, mut source: impl Read) -> Result<Log, ExperimentError> {
+        let mut bytes = Vec::new();
+        source
+            .read_to_end(&mut bytes)
+            .map_err(|error| ExperimentError::Unreadable { line: 0, reason: error.to_string() })?;
+        let text = String::from_utf8_lossy(&bytes);
+        self.parse(text.trim_start_matches('\u{feff}'))
+    }
+
+    fn parse(&self, text: &str) -> Result<Log, ExperimentError> {
+        let unprintable = |c: char| (c.is_control() && !matches!(c, '\t' | '\n' | '\r')) || c == '\u{7f}';
+        if let Some(at) = text.find(unprintable) {
+            let line = 1 + text[..at].matches('\n').count() as u64;
+            return Err(ExperimentError::Binary { line, character: text[at..].chars().next().map_or(0, u32::from) });
+        }
+        let header = text.lines().find(|line| !(line.trim().is_empty() || line.starts_with('#')));
+        let Some(header) = header else { return Err(ExperimentError::Empty) };
+        let (delimiter, table) = delimiter(header, text);
+        let mut reader = csv::ReaderBuilder::new()
+            .delimiter(delimiter)
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(table.as_bytes());
+        let names: Vec<String> = reader.headers().map_err(unreadable)?.iter().map(str::to_owned).collect();
+        let columns = [
+            column(&names, self.time.as_deref(), TIME)?,
+            column(&names, self.output.as_deref(), OUTPUT)?,
+            column(&names, self.input.as_deref(), INPUT)?,
+        ];
+        let mut values: [Vec<f64>; 3] = Default::default();
+        let mut lines = Vec::new();
+        let mut row = csv::StringRecord::new();
+        while reader.read_record(&mut row).map_err(unreadable)? {
+            let line = row.position().map_or(0, csv::Position::line);
+            for (&column, values) in columns.iter().zip(&mut values) {
+                values.push(number(row.get(column).unwrap_or(""), delimiter, line, &names[column])?);
+            }
+            lines.push(line);
+        }
+        let [time_s, mut output, input] = values;
+        let name = names[columns[1]].to_lowercase();
+        let degrees = self.degrees || name.ends_with("_deg");
+        if degrees {
+            output.iter_mut().for_each(|angle| *angle = angle.to_radians());
+        }
+        let wrap = self.wrap || name.contains("heading") || name.contains("yaw");
+        let unwrapped = if wrap { unwrap(&mut output) } else { 0 };
+        let record = Record::placed(time_s, output, input, |sample| Place::Line(lines[sample]))?;
+        Ok(Log { record, degrees, unwrapped, columns: columns.map(|column| names[column].clone()) })
+    }
+}
+
+/// The delimiter of the header, and the text with single delimiters.
+fn delimiter<'a>(header: &str, text: &'a str) -> (u8, Cow<'a, str>) {
+    for candidate in [b';', b'\t', b','] {
+        if header.as_bytes().contains(&candidate) {
+            return (candidate, Cow::Borrowed(text));
+        }
+    }
+    let line = |line: &str| line.split_whitespace().collect::<Vec<_>>().join("\t");
+    (b'\t', Cow::Owned(text.lines().map(line).collect::<Vec<_>>().join("\n")))
+}
+
+/// Index of the column asked for, or of the first default that is there.
+fn column(names: &[String], wanted: Option<&str>, defaults: &[&str]) -> Result<usize, ExperimentError> {
+    let find = |name: &str| {
+        let same = |candidate: &String| candidate.eq_ignore_ascii_case(name);
+        names.iter().position(|candidate| candidate == name).or_else(|| names.iter().position(same))
+    };
+    let found = match wanted {
+        Some(name) => find(name),
+        None => defaults.iter().find_map(|name| find(name)),
+    };
+    found.ok_or_else(|| ExperimentError::UnknownColumn {
+        wanted: wanted.map_or_else(|| defaults.join(", "), str::to_owned),
+        found: names.join(", "),
+    })
+}
+
+/// The number in a cell.
+fn number(cell: &str, delimiter: u8, line: u64, column: &str) -> Result<f64, ExperimentError> {
+    if cell.is_empty() {
+        return Err(ExperimentError::Blank { line, column: column.to_owned() });
+    }
+    let point = if delimiter == b',' { Cow::Borrowed(cell) } else { Cow::Owned(cell.replace(',', ".")) };
+    point.parse().map_err(|_| ExperimentError::NotANumber {
+        line,
+        column: column.to_owned(),
+        text: cell.chars().take(40).collect(),
+    })
+}
+
+/// Takes out jumps by more than half a turn; how many there were. Values that are not finite are left for the record to
+/// refuse.
+fn unwrap(angles: &mut [f64]) -> usize {
+    let (mut turns, mut jumps) = (0.0, 0);
+    let Some(mut previous) = angles.first().copied() else { return 0 };
+    for angle in angles {
+        let jump = *angle - previous;
+        previous = *angle;
+        if jump.abs() > PI && jump.is_finite() {
+            turns -= (jump / TAU).round();
+            jumps += 1;
+        }
+        *angle += turns * TAU;
+    }
+    jumps
+}
+
+fn unreadable(error: csv::Error) -> ExperimentError {
+    let line = error.position().map_or(0, csv::Position::line);
+    ExperimentError::Unreadable { line, reason: error.to_string() }
+}

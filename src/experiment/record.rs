@@ -1,0 +1,120 @@
+//! What an experiment leaves behind.
+
+use super::{ExperimentError, Place};
+
+/// Time, output and input of one experiment, simulated or logged.
+///
+/// Every value is finite, time increases strictly, and no interval is longer than [`LONGEST_GAP`](Self::LONGEST_GAP)
+/// times the middle one. The input of a sample is the command that the logger saw with it.
+///
+/// ```
+/// use selfosc::experiment::Record;
+/// let time: Vec<f64> = (0..20).map(|i| 0.1 * f64::from(i)).collect();
+/// assert!(Record::new(time.clone(), vec![0.0; 20], vec![1.0; 20]).is_ok());
+/// assert!(Record::new(time.into_iter().rev().collect(), vec![0.0; 20], vec![1.0; 20]).is_err());
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    time_s: Vec<f64>,
+    output: Vec<f64>,
+    input: Vec<f64>,
+    interval_s: f64,
+}
+
+impl Record {
+    /// The fewest samples that make a record.
+    pub const FEWEST_SAMPLES: usize = 16;
+    /// The longest interval allowed, in middle intervals: longer, and the input in between is anyone's guess.
+    pub const LONGEST_GAP: f64 = 10.0;
+
+    /// # Errors
+    /// [`ExperimentError`] that names the sample and what is wrong with it.
+    pub fn new(time_s: Vec<f64>, output: Vec<f64>, input: Vec<f64>) -> Result<Self, ExperimentError> {
+        Self::placed(time_s, output, input, Place::Sample)
+    }
+
+    /// As [`new`](Self::new), with places in the file rather than in the record.
+    pub(super) fn placed(
+        time_s: Vec<f64>,
+        output: Vec<f64>,
+        input: Vec<f64>,
+        place: impl Fn(usize) -> Place,
+    ) -> Result<Self, ExperimentError> {
+        let samples = time_s.len();
+        if output.len() != samples || input.len() != samples {
+            return Err(ExperimentError::Lengths { time: samples, output: output.len(), input: input.len() });
+        }
+        for (column, values) in [("time", &time_s), ("output", &output), ("input", &input)] {
+            if let Some((sample, value)) = values.iter().enumerate().find(|(_, value)| !value.is_finite()) {
+                return Err(ExperimentError::NotFinite { place: place(sample), column, value: *value });
+            }
+        }
+        if samples < Self::FEWEST_SAMPLES {
+            return Err(ExperimentError::TooShort { samples, required: Self::FEWEST_SAMPLES });
+        }
+        let mut intervals: Vec<f64> = time_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        if let Some(sample) = intervals.iter().position(|interval| *interval <= 0.0) {
+            let (previous_s, time_s) = (time_s[sample], time_s[sample + 1]);
+            return Err(ExperimentError::TimeOrder { place: place(sample + 1), time_s, previous_s });
+        }
+        let middle = intervals.len() / 2;
+        let unsorted = intervals.clone();
+        let interval_s = *intervals.select_nth_unstable_by(middle, f64::total_cmp).1;
+        let limit_s = Self::LONGEST_GAP * interval_s;
+        if let Some(sample) = unsorted.iter().position(|interval| *interval > limit_s) {
+            return Err(ExperimentError::Gap { place: place(sample + 1), gap_s: unsorted[sample], limit_s });
+        }
+        Ok(Self { time_s, output, input, interval_s })
+    }
+
+    /// Times of the samples in s.
+    #[must_use]
+    pub fn time_s(&self) -> &[f64] {
+        &self.time_s
+    }
+    /// Outputs: heading, depth, integrated speed.
+    #[must_use]
+    pub fn output(&self) -> &[f64] {
+        &self.output
+    }
+    /// Inputs: commands.
+    #[must_use]
+    pub fn input(&self) -> &[f64] {
+        &self.input
+    }
+    /// Number of samples.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.time_s.len()
+    }
+    /// Time from the first sample to the last, in s.
+    #[must_use]
+    pub fn duration_s(&self) -> f64 {
+        self.time_s[self.samples() - 1] - self.time_s[0]
+    }
+    /// The middle sampling interval, in s.
+    #[must_use]
+    pub fn interval_s(&self) -> f64 {
+        self.interval_s
+    }
+
+    /// Step of the sensor: the spacing that every output is a whole number of steps away from; `None` for a sensor
+    /// without one, as far as this record tells.
+    ///
+    /// A record printed with few digits has the step of its last digit. Values within a thousandth of a step count as on it.
+    #[must_use]
+    pub fn quantum(&self) -> Option<f64> {
+        let mut sorted = self.output.clone();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let range = sorted[sorted.len() - 1] - sorted[0];
+        // Rounding leaves equal readings apart by this much.
+        let same = 1e-9 * range.max(sorted[0].abs()).max(sorted[sorted.len() - 1].abs());
+        sorted.dedup_by(|next, kept| *next - *kept <= same);
+        let steps: Vec<f64> = sorted.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let least = steps.iter().copied().fold(f64::INFINITY, f64::min);
+        // A record with hardly a value twice has not been rounded, or its step does not matter.
+        let rounded = steps.len() > 1 && 2 * sorted.len() < self.output.len();
+        let whole = |step: &f64| (step / least - (step / least).round()).abs() * least <= 1e-3 * least + same;
+        (rounded && steps.iter().all(whole)).then_some(least)
+    }
+}

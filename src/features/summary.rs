@@ -1,0 +1,210 @@
+//! Means and spreads over the steady cycles.
+
+use super::{Cycle, FeatureError};
+use crate::numeric::Scalar;
+
+/// Mean and sample standard deviation over cycles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread<S> {
+    /// Mean.
+    pub mean: S,
+    /// Standard deviation (n - 1) of one cycle's value, not of the mean.
+    pub std: S,
+}
+
+/// What a relay experiment shows, as means over its steady cycles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Features<S> {
+    /// Cycles that the means are over.
+    pub cycles: u32,
+    /// Cycles left out before, as start-up.
+    pub start_up_cycles: u32,
+    /// Amplitude X_m, in output units.
+    pub amplitude: Spread<S>,
+    /// Bias x_0 against the reference, in output units.
+    pub bias: Spread<S>,
+    /// Middle of the switching levels, in output units.
+    pub reference: Spread<S>,
+    /// Period T, in s.
+    pub period_s: Spread<S>,
+    /// Level x_a* where the command really switched, in output units.
+    pub switch_level: Spread<S>,
+    /// Time per period with the positive command, in s.
+    pub time_positive_s: Spread<S>,
+    /// Time per period with the negative command, in s.
+    pub time_negative_s: Spread<S>,
+}
+
+/// Welford's recurrence.
+#[derive(Clone, Copy, Debug)]
+struct Moments<S> {
+    mean: S,
+    squares: S,
+}
+
+impl<S: Scalar> Moments<S> {
+    const fn new(zero: S) -> Self {
+        Self { mean: zero, squares: zero }
+    }
+
+    fn push(&mut self, value: S, count: S) {
+        let before = value - self.mean;
+        self.mean = self.mean + before / count;
+        self.squares = self.squares + before * (value - self.mean);
+    }
+
+    fn spread(&self, count: S) -> Spread<S> {
+        let freedom = (count - S::one()).max(S::one());
+        Spread { mean: self.mean, std: (self.squares / freedom).sqrt() }
+    }
+}
+
+/// Means over cycles as they come. Constant memory, no allocation.
+///
+/// Cycles count from the first that agrees with the one before it within [`STEADY`](Self::STEADY) in amplitude and period;
+/// those before are start-up.
+#[derive(Clone, Copy, Debug)]
+pub struct Summary<S> {
+    cycles: u32,
+    start_up: u32,
+    previous: Option<Cycle<S>>,
+    first: Option<Cycle<S>>,
+    /// Amplitude, bias, reference, period, level, time positive, time negative.
+    moments: [Moments<S>; 7],
+    /// Sums for the slopes of ln(amplitude) and of the middle over the cycle's number.
+    trends: [Trend<S>; 2],
+}
+
+/// Regression of a value on the number 0, 1, 2, ... of its cycle.
+#[derive(Clone, Copy, Debug)]
+struct Trend<S> {
+    sum: S,
+    weighted: S,
+    squares: S,
+}
+
+impl<S: Scalar> Trend<S> {
+    fn push(&mut self, value: S, number: S) {
+        self.sum = self.sum + value;
+        self.weighted = self.weighted + number * value;
+        self.squares = self.squares + value * value;
+    }
+
+    /// Change from the first to the last of `n` cycles along the line of least squares, and its standard error.
+    fn change(&self, n: S) -> (S, S) {
+        let (one, two) = (S::one(), S::two());
+        let middle = (n - one) / two;
+        let spread = n * (n * n - one) / S::from_f64(12.0);
+        let slope = (self.weighted - middle * self.sum) / spread;
+        let total = self.squares - self.sum * self.sum / n;
+        let rest = (total - slope * slope * spread).max(S::zero()) / (n - two).max(one);
+        (slope * (n - one), (rest / spread).sqrt() * (n - one))
+    }
+}
+
+impl<S: Scalar> Summary<S> {
+    /// Relative difference of two successive cycles that counts as none.
+    pub const STEADY: f64 = 0.08;
+    /// Fewest steady cycles for a result.
+    pub const FEWEST_CYCLES: u32 = 2;
+    /// Largest change of the amplitude over the record, relative, and of its middle, against the amplitude.
+    pub const LARGEST_TREND: f64 = 0.15;
+
+    /// Nothing seen yet.
+    #[must_use]
+    pub fn new() -> Self {
+        let zero = S::zero();
+        let trend = Trend { sum: zero, weighted: zero, squares: zero };
+        Self {
+            cycles: 0,
+            start_up: 0,
+            previous: None,
+            first: None,
+            moments: [Moments::new(zero); 7],
+            trends: [trend; 2],
+        }
+    }
+
+    /// Takes the next cycle.
+    pub fn push(&mut self, cycle: Cycle<S>) {
+        let alike = |a: S, b: S| (a - b).abs() <= S::from_f64(Self::STEADY) * a.abs();
+        let steady = self.previous.is_some_and(|before| {
+            alike(before.amplitude(), cycle.amplitude()) && alike(before.period_s, cycle.period_s)
+        });
+        self.previous = Some(cycle);
+        if self.cycles == 0 && !steady {
+            self.start_up += 1;
+            return;
+        }
+        let first = *self.first.get_or_insert(cycle);
+        let number = S::from_f64(f64::from(self.cycles));
+        self.cycles += 1;
+        let count = number + S::one();
+        let values = [
+            cycle.amplitude(),
+            cycle.bias(),
+            cycle.reference(),
+            cycle.period_s,
+            cycle.switch_level(),
+            cycle.time_positive_s,
+            cycle.time_negative_s(),
+        ];
+        for (moments, value) in self.moments.iter_mut().zip(values) {
+            moments.push(value, count);
+        }
+        // Relative to the first cycle, so that sums of squares do not cancel.
+        let growth = (cycle.amplitude() / first.amplitude()).ln();
+        let middle = |cycle: &Cycle<S>| (cycle.maximum + cycle.minimum) / S::two();
+        self.trends[0].push(growth, number);
+        self.trends[1].push((middle(&cycle) - middle(&first)) / first.amplitude(), number);
+    }
+
+    /// Steady cycles so far.
+    pub fn cycles(&self) -> u32 {
+        self.cycles
+    }
+
+    /// Means and spreads so far.
+    ///
+    /// # Errors
+    /// [`FeatureError::TooFewCycles`], [`FeatureError::Growing`], [`FeatureError::Decaying`], [`FeatureError::Drift`].
+    pub fn features(&self) -> Result<Features<S>, FeatureError> {
+        if self.cycles < Self::FEWEST_CYCLES {
+            let (cycles, start_up) = (self.cycles, self.start_up);
+            return Err(FeatureError::TooFewCycles { cycles, start_up, required: Self::FEWEST_CYCLES });
+        }
+        let count = S::from_f64(f64::from(self.cycles));
+        let limit = S::from_f64(Self::LARGEST_TREND);
+        let three = S::from_f64(3.0);
+        let significant = |(change, error): (S, S)| self.cycles > 2 && change.abs() > limit.max(three * error);
+        let growth = self.trends[0].change(count);
+        if significant(growth) {
+            let ratio = growth.0.exp().value();
+            return Err(if ratio > 1.0 { FeatureError::Growing { ratio } } else { FeatureError::Decaying { ratio } });
+        }
+        let drift = self.trends[1].change(count);
+        if significant(drift) {
+            return Err(FeatureError::Drift { amplitudes: drift.0.value() });
+        }
+        let [amplitude, bias, reference, period_s, switch_level, time_positive_s, time_negative_s] =
+            self.moments.map(|moments| moments.spread(count));
+        Ok(Features {
+            cycles: self.cycles,
+            start_up_cycles: self.start_up,
+            amplitude,
+            bias,
+            reference,
+            period_s,
+            switch_level,
+            time_positive_s,
+            time_negative_s,
+        })
+    }
+}
+
+impl<S: Scalar> Default for Summary<S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,85 @@
+//! The likelihood of a reading.
+
+use core::f64::consts::{LN_2, PI, SQRT_2};
+
+/// How a reading differs from the output: Gaussian noise, then perhaps rounding to whole steps.
+///
+/// A rounded reading says that the noisy output lay within half a step of it; that is all it says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Noise {
+    pub(super) std: f64,
+    /// Step of the sensor; zero for none.
+    pub(super) quantum: f64,
+}
+
+/// Likelihood of one reading, about the model's output.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Likelihood {
+    /// Logarithm: of a density without rounding, of a probability with it.
+    pub(super) log: f64,
+    /// Its derivative with respect to the output.
+    pub(super) score: f64,
+    /// Less its second derivative: never negative.
+    pub(super) information: f64,
+}
+
+impl Noise {
+    /// Of a reading that is `residual` above the model's output.
+    pub(super) fn likelihood(&self, residual: f64) -> Likelihood {
+        let precision = 1.0 / self.std;
+        if self.quantum == 0.0 {
+            let scaled = residual * precision;
+            let log = -0.5 * scaled * scaled - self.std.ln() - 0.5 * (2.0 * PI).ln();
+            return Likelihood { log, score: scaled * precision, information: precision * precision };
+        }
+        // The noise lies between these two, in standard deviations; by symmetry nearer to the lower one.
+        let (distance, half) = (residual.abs() * precision, 0.5 * self.quantum * precision);
+        let (low, high) = (distance - half, distance + half);
+        let (log, lower, upper) = if low > 5.0 {
+            // Far out, the nearer end decides: P = density(low)/low (1 - 1/low^2 + ...).
+            let series = 1.0 - 1.0 / (low * low) + 3.0 / low.powi(4);
+            let ratio = (-0.5 * (high * high - low * low)).exp();
+            let log = -0.5 * low * low - 0.5 * (2.0 * PI).ln() - low.ln() + series.ln();
+            (log, low / series, ratio * low / series)
+        } else {
+            let probability = 0.5 * (libm::erfc(low / SQRT_2) - libm::erfc(high / SQRT_2));
+            let density = |z: f64| (-0.5 * z * z).exp() / (2.0 * PI).sqrt();
+            (probability.ln(), density(low) / probability, density(high) / probability)
+        };
+        let score = (lower - upper) * precision;
+        let curvature = score * precision * (lower - upper) - (low * lower - high * upper) * precision * precision;
+        Likelihood { log, score: score * residual.signum(), information: curvature.max(0.0) }
+    }
+
+    /// Reading less output, where the noise is `disturbed` standard deviations.
+    pub(super) fn reading_error(&self, output: f64, disturbed: f64) -> f64 {
+        let noisy = output + self.std * disturbed;
+        if self.quantum == 0.0 { noisy - output } else { (noisy / self.quantum).round() * self.quantum - output }
+    }
+
+    /// The standard deviation, between `least` and `most`, under which the residuals are likeliest.
+    pub(super) fn likeliest_std(residuals: &[f64], quantum: f64, least: f64, most: f64) -> f64 {
+        let golden = 0.5 * (5f64.sqrt() - 1.0);
+        let cost = |ln: f64| -> f64 {
+            let noise = Self { std: ln.exp(), quantum };
+            -residuals.iter().map(|residual| noise.likelihood(*residual).log).sum::<f64>()
+        };
+        let (mut low, mut high) = (least.ln(), most.max(2.0 * least).ln());
+        let mut inner = [high - golden * (high - low), low + golden * (high - low)];
+        let mut costs = inner.map(cost);
+        while high - low > 0.01 * LN_2 {
+            if costs[0] < costs[1] {
+                high = inner[1];
+                (inner[1], costs[1]) = (inner[0], costs[0]);
+                inner[0] = high - golden * (high - low);
+                costs[0] = cost(inner[0]);
+            } else {
+                low = inner[0];
+                (inner[0], costs[0]) = (inner[1], costs[1]);
+                inner[1] = low + golden * (high - low);
+                costs[1] = cost(inner[1]);
+            }
+        }
+        f64::midpoint(low, high).exp()
+    }
+}

@@ -1,0 +1,171 @@
+//! What a fit found.
+
+use super::input::Between;
+use super::motion::SHARED;
+use super::search::{Linearised, Search};
+use super::spread::Covariance;
+use crate::identify::joint::{Estimate, Parameter, Spread};
+use crate::identify::{DragLaw, IdentifyError};
+use crate::plant::{DragAxis, State};
+
+/// Half the width of a 95 % interval in standard deviations.
+const NORMAL_95: f64 = 1.959_963_984_540_054;
+
+/// A model fitted to whole records.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordFit {
+    law: DragLaw,
+    between: Between,
+    axis: DragAxis<f64>,
+    estimates: [Estimate; SHARED],
+    covariance: [[f64; SHARED]; SHARED],
+    records: Vec<FittedRecord>,
+    evidence: f64,
+    parameters: usize,
+}
+
+/// The model along one record.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct FittedRecord {
+    /// The constant force during this record.
+    pub disturbance: Estimate,
+    /// When the model begins: once every acting command is in the log.
+    pub begin_s: f64,
+    /// State then.
+    pub start: State<f64>,
+    /// Index of the first sample that the model covers; there is one output for each from here on.
+    pub first_sample: usize,
+    /// Outputs of the model.
+    pub output: Vec<f64>,
+    /// Readings less outputs.
+    pub residuals: Vec<f64>,
+    /// Standard deviation of the noise, before rounding.
+    pub noise: f64,
+    /// Step of the sensor, zero for none.
+    pub quantum: f64,
+    /// Root mean square of the residuals.
+    pub residual_rms: f64,
+    /// Share of the output's variation about its mean that the model explains: `100 (1 - rms/std)`.
+    pub fit_percent: f64,
+    /// Correlation of successive residuals: near zero for white ones. Rounding alone makes it positive on slow motions.
+    pub autocorrelation: f64,
+}
+
+impl Search<'_> {
+    /// The result, with errors.
+    pub(super) fn finish(self) -> Result<RecordFit, IdentifyError> {
+        let linearised = self
+            .motions
+            .iter()
+            .map(|motion| motion.linearise(&self.shared, 1))
+            .collect::<Result<Vec<Linearised>, _>>()?;
+        let covariance = Covariance::of(&self, &linearised)?;
+        let fixed = self.fixed();
+        let [alpha, linear, quadratic, delay_s] = self.shared;
+        let estimate = |k: usize| {
+            let spread = (fixed[k].is_none() && self.shared[k] > 0.0)
+                .then(|| spread(self.shared[k], covariance.shared[k][k].sqrt()))
+                .map(|spread| Spread { low: spread.low.max(0.0), ..spread });
+            Estimate { value: self.shared[k], spread }
+        };
+        let estimates = [estimate(0), estimate(1), estimate(2), estimate(3)];
+        let records =
+            self.motions.iter().zip(&linearised).zip(&covariance.disturbance).map(|((motion, rows), variance)| {
+                let residuals = motion.residuals(rows);
+                let output: Vec<f64> = rows.rows.iter().flatten().map(|(_, model)| model.value).collect();
+                let start =
+                    motion.stretches.first().map_or(State { position: 0.0, velocity: 0.0 }, |first| first.start);
+                let first_sample = rows.rows.iter().flatten().next().map_or(0, |(sample, _)| *sample);
+                let readings = &motion.record.output()[first_sample..];
+                let (rms, std) = (mean_square(&residuals, 0.0).sqrt(), mean_square(readings, mean(readings)).sqrt());
+                let products: Vec<f64> = residuals.windows(2).map(|pair| pair[0] * pair[1]).collect();
+                FittedRecord {
+                    disturbance: Estimate {
+                        value: motion.disturbance,
+                        spread: Some(spread(motion.disturbance, variance.sqrt())),
+                    },
+                    begin_s: motion.stretches.first().map_or(0.0, |first| first.begin_s),
+                    start,
+                    first_sample,
+                    noise: if motion.noise.quantum > 0.0 { motion.real_noise(rows) } else { motion.noise.std },
+                    quantum: motion.noise.quantum,
+                    residual_rms: rms,
+                    fit_percent: 100.0 * (1.0 - rms / std.max(f64::MIN_POSITIVE)),
+                    autocorrelation: mean(&products) / (rms * rms).max(f64::MIN_POSITIVE),
+                    output,
+                    residuals,
+                }
+            });
+        Ok(RecordFit {
+            law: self.law,
+            between: self.between,
+            axis: DragAxis::mixed(alpha, linear, quadratic)?.with_delay_s(delay_s)?,
+            estimates,
+            covariance: covariance.shared,
+            records: records.collect(),
+            evidence: self.evidence(),
+            parameters: self.parameters(),
+        })
+    }
+}
+
+fn spread(value: f64, std: f64) -> Spread {
+    Spread { std, low: value - NORMAL_95 * std, high: value + NORMAL_95 * std }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "a count of samples")]
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
+#[allow(clippy::cast_precision_loss, reason = "a count of samples")]
+fn mean_square(values: &[f64], about: f64) -> f64 {
+    values.iter().map(|value| (value - about).powi(2)).sum::<f64>() / values.len().max(1) as f64
+}
+
+impl RecordFit {
+    /// The drag law fitted.
+    #[must_use]
+    pub fn law(&self) -> DragLaw {
+        self.law
+    }
+    /// What the command was taken to do between samples.
+    #[must_use]
+    pub fn between(&self) -> Between {
+        self.between
+    }
+    /// The model, without a disturbance: that belongs to a record.
+    #[must_use]
+    pub fn axis(&self) -> &DragAxis<f64> {
+        &self.axis
+    }
+    /// A parameter with its error; without one where the law has no such drag, where it was given, or where it ended on zero.
+    #[must_use]
+    pub fn estimate(&self, parameter: Parameter) -> Estimate {
+        self.estimates[parameter as usize]
+    }
+    /// Correlation of the errors of two parameters; `None` unless both have one.
+    #[must_use]
+    pub fn correlation(&self, first: Parameter, second: Parameter) -> Option<f64> {
+        let (i, j) = (first as usize, second as usize);
+        let scale = (self.covariance[i][i] * self.covariance[j][j]).sqrt();
+        (scale > 0.0).then(|| self.covariance[i][j] / scale)
+    }
+    /// The records, in the order given.
+    #[must_use]
+    pub fn records(&self) -> &[FittedRecord] {
+        &self.records
+    }
+    /// Logarithm of the likelihood at the estimate, uncertain instants integrated out: for comparison of drag laws on the same
+    /// records.
+    #[must_use]
+    pub fn log_likelihood(&self) -> f64 {
+        self.evidence
+    }
+    /// Parameters estimated, each record's own included.
+    #[must_use]
+    pub fn parameters(&self) -> usize {
+        self.parameters
+    }
+}

@@ -1,0 +1,380 @@
+//! Gauss and Newton's method with the reading's own likelihood, over records cut into stretches.
+
+use faer::Mat;
+
+use super::chain::{Chain, Link, OWN, solve_shared, weighted};
+use super::input::{Between, Edge, edges};
+use super::motion::{COMMON, Drive, Gradient, SHARED, Sensitive, Shared, Stretch, UNKNOWNS, integrate, uncertain};
+use super::motion::{DISTURBANCE, INSTANT, POSITION, VELOCITY};
+use super::noise::Noise;
+use super::start;
+use crate::experiment::Record;
+use crate::identify::joint::Delay;
+use crate::identify::{DragLaw, IdentifyError};
+
+/// Steps allowed; a dozen are usual.
+const MAX_STEPS: usize = 60;
+/// The search ends when no common parameter moves by more than this, relative.
+const SETTLED: f64 = 1e-6;
+/// It looks at every sample once no common parameter moves by more than this, relative.
+const APPROACHED: f64 = 1e-3;
+/// Samples per stretch while the search is far from its end.
+const COARSE: usize = 24;
+/// Least noise taken for a rounding sensor, in steps: with less, a step of the search sees hardly any reading.
+pub(super) const LEAST_NOISE_STEPS: f64 = 0.15;
+/// Least noise for any sensor, against the output's range: below it there is only rounding of the arithmetic.
+const LEAST_NOISE: f64 = 1e-10;
+
+/// One record and the model's motion along it.
+#[derive(Clone, Debug)]
+pub(super) struct Motion<'a> {
+    pub(super) record: &'a Record,
+    pub(super) edges: Vec<Edge>,
+    pub(super) deviations: Vec<f64>,
+    pub(super) stretches: Vec<Stretch>,
+    pub(super) disturbance: f64,
+    pub(super) noise: Noise,
+    range: f64,
+}
+
+/// The model along one record, linearised.
+pub(super) struct Linearised {
+    /// For each stretch: sample, model output with derivatives.
+    pub(super) rows: Vec<Vec<(usize, Sensitive)>>,
+    ends: Vec<[Sensitive; 2]>,
+    /// For each stretch the edge whose instant is estimated.
+    pub(super) instants: Vec<Option<usize>>,
+}
+
+/// The state of the search.
+#[derive(Clone, Debug)]
+pub(super) struct Search<'a> {
+    pub(super) law: DragLaw,
+    pub(super) estimate_delay: bool,
+    pub(super) between: Between,
+    pub(super) shared: Shared,
+    pub(super) motions: Vec<Motion<'a>>,
+    pub(super) steps: usize,
+    evidence: f64,
+}
+
+impl<'a> Motion<'a> {
+    fn new(record: &'a Record, between: Between, delay_s: f64, disturbance: f64, quantum: Option<f64>) -> Self {
+        let edges = edges(record, between);
+        let time = record.time_s();
+        let last = time[time.len() - 1];
+        let swing = start::swing_s(record);
+        // What acted before the log began is not known: the model starts when all of its commands are.
+        let begin = (time[0] + delay_s).min(time[time.len() / 2]);
+        let mut nodes = vec![begin];
+        let acting = |edge: &Edge| edge.time_s + delay_s;
+        if between == Between::Evenly {
+            let mut next = begin + swing;
+            while next + 0.5 * swing < last {
+                nodes.push(next);
+                next += swing;
+            }
+        } else {
+            // One uncertain edge to a stretch, as far from its ends as can be.
+            nodes.extend(edges.windows(2).map(|pair| f64::midpoint(acting(&pair[0]), acting(&pair[1]))));
+            nodes.retain(|node| *node >= begin && *node < last);
+        }
+        nodes.push(last);
+        let stretches = nodes.windows(2).enumerate().map(|(index, pair)| {
+            let from = time.partition_point(|t| *t < pair[0]);
+            let to = if index + 2 == nodes.len() { time.len() } else { time.partition_point(|t| *t < pair[1]) };
+            let start = start::state_near(record, pair[0], swing / 8.0);
+            Stretch { begin_s: pair[0], end_s: pair[1], samples: from..to, start }
+        });
+        let stretches = stretches.collect();
+        let output = record.output();
+        let range = output.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+            - output.iter().copied().fold(f64::INFINITY, f64::min);
+        let quantum = quantum.or_else(|| record.quantum()).unwrap_or(0.0);
+        let noise = Noise { std: 0.02 * range + quantum + f64::MIN_POSITIVE, quantum };
+        Self { record, deviations: vec![0.0; edges.len()], edges, stretches, disturbance, noise, range }
+    }
+
+    pub(super) fn linearise(&self, shared: &Shared, stride: usize) -> Result<Linearised, IdentifyError> {
+        let delay_s = shared[SHARED - 1];
+        let acting = |k: usize| self.edges[k].time_s + self.deviations[k] + delay_s;
+        let mut next = 0;
+        let mut before = self.record.input()[0];
+        let mut all = Linearised { rows: Vec::new(), ends: Vec::new(), instants: Vec::new() };
+        for stretch in &self.stretches {
+            while next < self.edges.len() && acting(next) <= stretch.begin_s {
+                before = self.edges[next].input;
+                next += 1;
+            }
+            let first = next;
+            let mut after = first;
+            while after < self.edges.len() && acting(after) <= stretch.end_s {
+                after += 1;
+            }
+            let drive = Drive { before, edges: &self.edges[first..after], deviations: &self.deviations[first..after] };
+            let mut rows = Vec::with_capacity(stretch.samples.len() / stride + 1);
+            let time = self.record.time_s();
+            let end = integrate(stretch, &drive, time, (shared, self.disturbance), stride, &mut rows)?;
+            all.instants.push(uncertain(drive.edges).map(|k| first + k));
+            all.rows.push(rows);
+            all.ends.push(end);
+        }
+        Ok(all)
+    }
+
+    pub(super) fn residuals(&self, linearised: &Linearised) -> Vec<f64> {
+        let output = self.record.output();
+        linearised.rows.iter().flatten().map(|(sample, model)| output[*sample] - model.value).collect()
+    }
+
+    fn least_noise(&self) -> f64 {
+        (LEAST_NOISE_STEPS * self.noise.quantum).max(LEAST_NOISE * self.range).max(f64::MIN_POSITIVE)
+    }
+
+    fn update_noise(&mut self, linearised: &Linearised, parameters: f64) {
+        let residuals = self.residuals(linearised);
+        #[allow(clippy::cast_precision_loss, reason = "a count of samples")]
+        let freedom = (residuals.len() as f64 - parameters).max(1.0);
+        let rms = (residuals.iter().map(|residual| residual * residual).sum::<f64>() / freedom).sqrt();
+        let least = self.least_noise();
+        self.noise.std = if self.noise.quantum == 0.0 {
+            rms.max(least)
+        } else {
+            let thinned: Vec<f64> = residuals.iter().step_by(residuals.len() / 4000 + 1).copied().collect();
+            Noise::likeliest_std(&thinned, self.noise.quantum, least, rms.max(2.0 * least))
+        };
+    }
+
+    /// Rows for the chain; the right-hand sides are this one's scores, then `more` of each reading's and instant's.
+    pub(super) fn links(
+        &self,
+        linearised: &Linearised,
+        sides: usize,
+        mut side: impl FnMut(&Sensitive, f64) -> Vec<f64>,
+        mut prior: impl FnMut() -> Vec<f64>,
+    ) -> Vec<Link> {
+        let output = self.record.output();
+        let mut links = Vec::with_capacity(self.stretches.len());
+        for (index, rows) in linearised.rows.iter().enumerate() {
+            let mut block = Mat::zeros(rows.len() + 1, UNKNOWNS + 1 + sides);
+            for (row, (sample, model)) in rows.iter().enumerate() {
+                let likelihood = self.noise.likelihood(output[*sample] - model.value);
+                let weight = likelihood.information.sqrt();
+                let mut put = |column: usize, value: f64| block[(row, column)] = value;
+                if weight > 0.0 {
+                    weighted(model, weight).into_iter().enumerate().for_each(|(k, value)| put(k, value));
+                    put(UNKNOWNS, likelihood.score / weight);
+                    for (k, value) in side(model, weight).into_iter().enumerate() {
+                        put(UNKNOWNS + 1 + k, value);
+                    }
+                }
+            }
+            let last = rows.len();
+            match linearised.instants[index] {
+                Some(edge) => {
+                    let std = self.edges[edge].std_s;
+                    block[(last, INSTANT)] = 1.0 / std;
+                    block[(last, UNKNOWNS)] = -self.deviations[edge] / std;
+                    for (k, value) in prior().into_iter().enumerate() {
+                        block[(last, UNKNOWNS + 1 + k)] = value;
+                    }
+                }
+                None => block[(last, INSTANT)] = 1.0,
+            }
+            let end = linearised.ends[index];
+            let defect = match self.stretches.get(index + 1) {
+                Some(next) => [end[0].value - next.start.position, end[1].value - next.start.velocity],
+                None => [0.0; 2],
+            };
+            links.push(Link { rows: block, end: end.map(|sensitive| sensitive.gradient), defect });
+        }
+        links
+    }
+
+    /// Moves all unknowns by `share` of the steps.
+    fn advance(&mut self, steps: &[Gradient], instants: &[Option<usize>], share: f64) {
+        for ((stretch, step), instant) in self.stretches.iter_mut().zip(steps).zip(instants) {
+            stretch.start.position += share * step[POSITION];
+            stretch.start.velocity += share * step[VELOCITY];
+            if let Some(edge) = *instant {
+                // Not beyond what is possible, but for a little: an edge on a sample is estimated on either side of it.
+                let limit = 2.5 * self.edges[edge].std_s;
+                self.deviations[edge] = (self.deviations[edge] + share * step[INSTANT]).clamp(-limit, limit);
+            }
+        }
+        if let Some(step) = steps.first() {
+            self.disturbance += share * step[DISTURBANCE];
+        }
+    }
+
+    /// The noise before rounding, however small: not the one that the search works with.
+    pub(super) fn real_noise(&self, linearised: &Linearised) -> f64 {
+        let residuals = self.residuals(linearised);
+        let thinned: Vec<f64> = residuals.iter().step_by(residuals.len() / 4000 + 1).copied().collect();
+        Noise::likeliest_std(&thinned, self.noise.quantum, 0.01 * self.noise.quantum, self.noise.std)
+    }
+
+    fn log_likelihood(&self, linearised: &Linearised) -> f64 {
+        self.residuals(linearised).iter().map(|residual| self.noise.likelihood(*residual).log).sum()
+    }
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(
+        records: &[&'a Record],
+        law: DragLaw,
+        delay: Delay,
+        between: Between,
+        quantum: Option<f64>,
+    ) -> Result<Self, IdentifyError> {
+        let too_few = IdentifyError::TooFewEquations { equations: 0, parameters: UNKNOWNS };
+        let first = *records.first().ok_or(too_few)?;
+        let (estimate_delay, delay_s) = match delay {
+            Delay::KnownS(delay_s) => (false, delay_s),
+            Delay::Estimated => (true, (0.02 * start::swing_s(first)).max(0.5 * first.interval_s())),
+        };
+        let of = |law| start::parameters(first, law, delay_s).ok_or(too_few);
+        let (alpha, linear, quadratic) = match law {
+            DragLaw::Linear => of(law).map(|[alpha, drag, _]| (alpha, drag, 0.0))?,
+            DragLaw::Quadratic => of(law).map(|[alpha, drag, _]| (alpha, 0.0, drag))?,
+            DragLaw::Mixed => {
+                let (linear, quadratic) = (of(DragLaw::Linear)?, of(DragLaw::Quadratic)?);
+                (0.5 * (linear[0] + quadratic[0]), 0.5 * linear[1], 0.5 * quadratic[1])
+            }
+        };
+        let motions = records.iter().map(|record| {
+            let single = if law == DragLaw::Quadratic { law } else { DragLaw::Linear };
+            let disturbance = start::parameters(record, single, delay_s).map_or(0.0, |[.., disturbance]| disturbance);
+            Motion::new(record, between, delay_s, disturbance, quantum)
+        });
+        let motions = motions.collect();
+        let shared = [alpha, linear, quadratic, delay_s];
+        Ok(Self { law, estimate_delay, between, shared, motions, steps: 0, evidence: f64::NEG_INFINITY })
+    }
+
+    /// Logarithm of the likelihood with the uncertain instants integrated out: comparable between treatments of the input and
+    /// between drag laws.
+    pub(super) fn evidence(&self) -> f64 {
+        self.evidence
+    }
+
+    /// Common unknowns that the drag law or a known delay fixes.
+    pub(super) fn fixed(&self) -> [Option<f64>; SHARED] {
+        let fix = |fixed: bool| fixed.then_some(0.0);
+        [None, fix(!self.law.has_linear()), fix(!self.law.has_quadratic()), fix(!self.estimate_delay)]
+    }
+
+    pub(super) fn parameters(&self) -> usize {
+        self.fixed().iter().filter(|fixed| fixed.is_none()).count() + OWN * self.motions.len()
+    }
+
+    /// Every how many samples the search looks while it is far from its end.
+    fn coarse_stride(&self) -> usize {
+        let stretches: usize = self.motions.iter().map(|motion| motion.stretches.len()).sum();
+        let samples: usize = self.motions.iter().map(|motion| motion.record.samples()).sum();
+        (samples / (COARSE * stretches.max(1))).max(1)
+    }
+
+    /// Steps with part of the samples, until little moves.
+    pub(super) fn approach(self) -> Result<Self, IdentifyError> {
+        let samples: usize = self.motions.iter().map(|motion| motion.record.samples()).sum();
+        if samples <= self.parameters() {
+            return Err(IdentifyError::TooFewEquations { equations: samples, parameters: self.parameters() });
+        }
+        let stride = self.coarse_stride();
+        self.iterate(stride, if stride > 1 { APPROACHED } else { SETTLED })
+    }
+
+    /// Steps with every sample, until nothing moves.
+    pub(super) fn settle(self) -> Result<Self, IdentifyError> {
+        if self.coarse_stride() == 1 { Ok(self) } else { self.iterate(1, SETTLED) }
+    }
+
+    fn iterate(mut self, stride: usize, limit: f64) -> Result<Self, IdentifyError> {
+        let mut moved = f64::INFINITY;
+        for _ in 0..MAX_STEPS {
+            moved = self.step(stride)?;
+            self.steps += 1;
+            if moved < limit {
+                return Ok(self);
+            }
+        }
+        // The likelihood of the noise can be flat at rounding's edge: the rest is then far below any error.
+        if moved < APPROACHED {
+            return Ok(self);
+        }
+        Err(IdentifyError::NotSettled {
+            steps: self.steps,
+            rms: self.motions.first().map_or(f64::NAN, |m| m.noise.std),
+        })
+    }
+
+    /// One step; the largest relative motion of a common parameter.
+    fn step(&mut self, stride: usize) -> Result<f64, IdentifyError> {
+        #[allow(clippy::cast_precision_loss, reason = "a small count")]
+        let parameters = self.parameters() as f64 / self.motions.len() as f64;
+        let mut chains = Vec::with_capacity(self.motions.len());
+        let mut evidence = 0.0;
+        for motion in &mut self.motions {
+            let linearised = motion.linearise(&self.shared, stride)?;
+            if self.steps > 0 {
+                motion.update_noise(&linearised, parameters);
+            }
+            let links = motion.links(&linearised, 0, |_, _| Vec::new(), Vec::new);
+            let chain = Chain::new(&links);
+            evidence += motion.log_likelihood(&linearised);
+            for (information, instant) in chain.log_information().zip(&linearised.instants) {
+                if let Some(edge) = *instant {
+                    let std = motion.edges[edge].std_s;
+                    evidence -= 0.5 * (motion.deviations[edge] / std).powi(2) + information + std.ln();
+                }
+            }
+            chains.push((chain, linearised.instants));
+        }
+        self.evidence = evidence;
+        let shared = self.bounded(&chains)?;
+        let mut steps = Vec::with_capacity(chains.len());
+        for (chain, _) in &chains {
+            steps.push(chain.unfold(chain.own(&shared, 0)?, &shared));
+        }
+        // Far from the end the linearisation holds only so far.
+        let relative = |k: usize| if k + 1 < SHARED { shared[k] / self.shared[k].max(f64::MIN_POSITIVE) } else { 0.0 };
+        let share = (0.5 / relative(0).abs()).min(1.0);
+        let share =
+            (1..SHARED).fold(share, |share, k| if relative(k) > 2.0 { share.min(2.0 / relative(k)) } else { share });
+        let share = if self.steps < 2 { share.min(0.7) } else { share };
+        for ((motion, steps), (_, instants)) in self.motions.iter_mut().zip(&steps).zip(&chains) {
+            motion.advance(steps, instants, share);
+        }
+        let mut moved = 0.0f64;
+        for k in 0..SHARED {
+            let before = self.shared[k];
+            self.shared[k] = (before + share * shared[k]).max(0.0);
+            let scale = before.abs().max(self.shared[k]).max(f64::MIN_POSITIVE);
+            moved = moved.max((self.shared[k] - before).abs() / scale);
+        }
+        Ok(if share < 1.0 { moved.max(1.0) } else { moved })
+    }
+
+    /// The step of the common unknowns, with drag and delay kept at zero or more.
+    fn bounded(&self, chains: &[(Chain, Vec<Option<usize>>)]) -> Result<Shared, IdentifyError> {
+        let stacked = stack(chains.iter().map(|(chain, _)| chain));
+        let mut fixed = self.fixed();
+        loop {
+            let (solutions, _) = solve_shared(stacked.as_ref(), &fixed)?;
+            let step = solutions[0];
+            let below = (1..SHARED).find(|k| fixed[*k].is_none() && self.shared[*k] + step[*k] < 0.0);
+            let Some(below) = below else { return Ok(step) };
+            fixed[below] = Some(-self.shared[below]);
+        }
+    }
+}
+
+/// The common unknowns' rows of all records.
+pub(super) fn stack<'a>(chains: impl Iterator<Item = &'a Chain> + Clone) -> Mat<f64> {
+    let blocks: Vec<_> = chains.map(Chain::shared).collect();
+    let columns = blocks.first().map_or(SHARED + 1, |block| block.ncols());
+    Mat::from_fn(SHARED * blocks.len(), columns, |row, column| blocks[row / SHARED][(row % SHARED, column)])
+}
+
+const _: () = assert!(COMMON + SHARED == UNKNOWNS && DISTURBANCE + 1 == COMMON);

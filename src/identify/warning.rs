@@ -1,0 +1,186 @@
+//! What a user should know before trusting a result.
+
+use core::fmt;
+
+use super::fit::RecordFit;
+use super::iso;
+use super::joint::Parameter;
+use crate::features::Features;
+
+/// Something that would mislead. Ratios are plain numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// The oscillation barely passes the switching level: inertia follows from a small difference.
+    IllConditioned {
+        /// Switching level with magnitude of the bias, over amplitude.
+        ratio: f64,
+    },
+    /// The interval of a parameter is wider than its value.
+    WideInterval {
+        /// The parameter.
+        parameter: Parameter,
+        /// Width of the interval over the value.
+        ratio: f64,
+    },
+    /// Delay and inertia cannot be told apart.
+    DelayConfounded {
+        /// Correlation of their errors.
+        correlation: f64,
+    },
+    /// The command acts later than the delay given says.
+    ActuatorLag {
+        /// Delay given, in s.
+        given_s: f64,
+        /// Delay that fits the record best, in s.
+        fitted_s: f64,
+    },
+    /// The model leaves a pattern in the residuals.
+    ColouredResiduals {
+        /// Correlation of successive residuals.
+        autocorrelation: f64,
+    },
+    /// The paper's method and the fit disagree by more than their errors.
+    MethodsDisagree {
+        /// The parameter.
+        parameter: Parameter,
+        /// Value by the paper's method over that of the fit.
+        ratio: f64,
+    },
+}
+
+/// Switching level over amplitude from which inertia is ill-conditioned.
+const NEAR_AMPLITUDE: f64 = 0.9;
+/// Correlation from which two parameters are one.
+const CONFOUNDED: f64 = 0.95;
+/// Correlation of successive residuals from which they have a pattern.
+const COLOURED: f64 = 0.5;
+/// Difference between the methods that is the sinusoid's own error.
+const METHOD_ERROR: f64 = 0.1;
+/// Standard deviations that count as a difference.
+const SIGNIFICANT: f64 = 3.0;
+
+impl Warning {
+    /// Short name for scripts.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::IllConditioned { .. } => "ill-conditioned",
+            Self::WideInterval { .. } => "wide-interval",
+            Self::DelayConfounded { .. } => "delay-confounded",
+            Self::ActuatorLag { .. } => "actuator-lag",
+            Self::ColouredResiduals { .. } => "coloured-residuals",
+            Self::MethodsDisagree { .. } => "methods-disagree",
+        }
+    }
+
+    /// Warnings that features give.
+    #[must_use]
+    pub fn of_features(features: &Features<f64>) -> Vec<Self> {
+        let ratio = (features.switch_level.mean + features.bias.mean.abs()) / features.amplitude.mean;
+        if ratio > NEAR_AMPLITUDE { vec![Self::IllConditioned { ratio }] } else { Vec::new() }
+    }
+
+    /// Warnings that a fit gives; `free_delay` is the same fit with the delay estimated, if there is one.
+    #[must_use]
+    pub fn of_fit(fit: &RecordFit, free_delay: Option<&RecordFit>) -> Vec<Self> {
+        let mut warnings = Vec::new();
+        for parameter in [Parameter::Alpha, Parameter::LinearDrag, Parameter::QuadraticDrag] {
+            let estimate = fit.estimate(parameter);
+            if let Some(spread) = estimate.spread
+                && spread.high - spread.low > estimate.value
+            {
+                let ratio = (spread.high - spread.low) / estimate.value;
+                warnings.push(Self::WideInterval { parameter, ratio });
+            }
+        }
+        if let Some(correlation) = fit.correlation(Parameter::Alpha, Parameter::DelayS)
+            && correlation.abs() > CONFOUNDED
+        {
+            warnings.push(Self::DelayConfounded { correlation });
+        }
+        if let Some(free) = free_delay {
+            let (given_s, fitted) = (fit.axis().delay_s(), free.estimate(Parameter::DelayS));
+            let std = fitted.spread.map_or(0.0, |spread| spread.std);
+            if fitted.value - given_s > (SIGNIFICANT * std).max(0.05 * given_s) {
+                warnings.push(Self::ActuatorLag { given_s, fitted_s: fitted.value });
+            }
+        }
+        let coloured =
+            fit.records().iter().map(|record| (record.autocorrelation, record.residual_rms / record.quantum));
+        // Rounding alone leaves a third of a step and may well have a pattern of its own.
+        let worst = coloured.filter(|(_, steps)| *steps > 0.5).map(|(correlation, _)| correlation).fold(0.0, f64::max);
+        if worst > COLOURED {
+            warnings.push(Self::ColouredResiduals { autocorrelation: worst });
+        }
+        warnings
+    }
+
+    /// Warnings that the paper's method beside a fit gives.
+    #[must_use]
+    pub fn of_methods(iso: &iso::Parameters<f64>, fit: &RecordFit) -> Vec<Self> {
+        let mut warnings = Vec::new();
+        let drag = match (fit.law().has_linear(), fit.law().has_quadratic()) {
+            (true, false) => Some((Parameter::LinearDrag, iso.beta)),
+            (false, true) => Some((Parameter::QuadraticDrag, iso.beta_quadratic)),
+            _ => None,
+        };
+        for (parameter, value) in [Some((Parameter::Alpha, iso.alpha)), drag].into_iter().flatten() {
+            let estimate = fit.estimate(parameter);
+            let std = estimate.spread.map_or(0.0, |spread| spread.std);
+            if (value - estimate.value).abs() > (SIGNIFICANT * std).max(METHOD_ERROR * estimate.value) {
+                warnings.push(Self::MethodsDisagree { parameter, ratio: value / estimate.value });
+            }
+        }
+        warnings
+    }
+}
+
+/// A parameter's name in a sentence.
+fn name(parameter: Parameter) -> &'static str {
+    match parameter {
+        Parameter::Alpha => "inertia",
+        Parameter::LinearDrag => "linear drag",
+        Parameter::QuadraticDrag => "quadratic drag",
+        Parameter::DelayS => "delay",
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::IllConditioned { ratio } => write!(
+                f,
+                "switching level with bias is {ratio:.2} of the amplitude (above {NEAR_AMPLITUDE}): inertia follows from a \
+                 small difference; repeat with a smaller half-width or a higher relay level"
+            ),
+            Self::WideInterval { parameter, ratio } => write!(
+                f,
+                "the interval of {} is {ratio:.1} times its value: this record hardly determines it; log longer or with \
+                 other relay parameters",
+                name(parameter)
+            ),
+            Self::DelayConfounded { correlation } => write!(
+                f,
+                "errors of delay and inertia have correlation {correlation:.2}: give the delay, or add a record with other \
+                 relay parameters"
+            ),
+            Self::ActuatorLag { given_s, fitted_s } => write!(
+                f,
+                "the record fits a delay of {fitted_s:.3} s better than the {given_s:.3} s given: an actuator lags, or the \
+                 command is held; measure the delay or have it estimated"
+            ),
+            Self::ColouredResiduals { autocorrelation } => write!(
+                f,
+                "successive residuals have correlation {autocorrelation:.2}: something moves that the model has not, and the \
+                 intervals are too narrow"
+            ),
+            Self::MethodsDisagree { parameter, ratio } => write!(
+                f,
+                "the paper's method gives {ratio:.2} times the {} of the fit: the oscillation is far from a sinusoid, trust \
+                 the fit",
+                name(parameter)
+            ),
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! The drag law by likelihood: every law fitted to the same records.
+
+use rayon::prelude::*;
+
+use crate::experiment::Record;
+use crate::identify::fit::{Fit, RecordFit};
+use crate::identify::joint::Delay;
+use crate::identify::{DragLaw, IdentifyError};
+
+/// Probability from which a law counts as recognised.
+pub const DECIDED: f64 = 0.95;
+
+/// The laws fitted, and which of them the records speak for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    fits: Vec<RecordFit>,
+    probabilities: Vec<f64>,
+}
+
+impl Choice {
+    /// Fits linear, quadratic and mixed drag to all records at once, in parallel.
+    ///
+    /// A law's probability is its share of the sum of likelihoods, each charged `sqrt(n)` for every parameter (Schwarz's
+    /// criterion; n samples). It compares these laws with each other: that none of them is right shows in the residuals.
+    ///
+    /// # Errors
+    /// The first error where no law could be fitted.
+    ///
+    /// ```
+    /// use selfosc::experiment::Experiment;
+    /// use selfosc::identify::{DragLaw, joint::Delay};
+    /// use selfosc::select::likelihood::Choice;
+    /// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
+    /// let axis = DragAxis::quadratic(1.0, 0.5)?;
+    /// let record = Experiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().run(60.0)?;
+    /// let choice = Choice::among_all(&[&record], Delay::KnownS(0.0))?;
+    /// assert_eq!(choice.decision(), Some(DragLaw::Quadratic));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    pub fn among_all(records: &[&Record], delay: Delay) -> Result<Self, IdentifyError> {
+        let results: Vec<_> = DragLaw::ALL.into_par_iter().map(|law| Fit::new(law, delay).records(records)).collect();
+        let samples: usize = records.iter().map(|record| record.samples()).sum();
+        Self::of(results, samples)
+    }
+
+    /// From fits to the same `samples` samples; those that failed take no part.
+    ///
+    /// # Errors
+    /// The first error where none succeeded.
+    pub fn of(results: Vec<Result<RecordFit, IdentifyError>>, samples: usize) -> Result<Self, IdentifyError> {
+        let mut failure = IdentifyError::TooFewEquations { equations: 0, parameters: 0 };
+        let mut fits = Vec::with_capacity(results.len());
+        for result in results.into_iter().rev() {
+            match result {
+                Ok(fit) => fits.insert(0, fit),
+                Err(error) => failure = error,
+            }
+        }
+        #[allow(clippy::cast_precision_loss, reason = "counts")]
+        let score = |fit: &RecordFit| fit.log_likelihood() - 0.5 * fit.parameters() as f64 * (samples as f64).ln();
+        let best = fits.iter().map(score).fold(f64::NEG_INFINITY, f64::max);
+        if !best.is_finite() {
+            return Err(failure);
+        }
+        let weights: Vec<f64> = fits.iter().map(|fit| (score(fit) - best).exp()).collect();
+        let sum: f64 = weights.iter().sum();
+        Ok(Self { probabilities: weights.into_iter().map(|weight| weight / sum).collect(), fits })
+    }
+
+    /// The fits, in the order linear, quadratic, mixed; one that failed is missing.
+    #[must_use]
+    pub fn fits(&self) -> &[RecordFit] {
+        &self.fits
+    }
+
+    /// Probability of a law; zero for one that could not be fitted.
+    #[must_use]
+    pub fn probability(&self, law: DragLaw) -> f64 {
+        self.fits.iter().zip(&self.probabilities).find(|(fit, _)| fit.law() == law).map_or(0.0, |(_, p)| *p)
+    }
+
+    /// The likeliest fit.
+    #[must_use]
+    pub fn likeliest(&self) -> &RecordFit {
+        let best =
+            self.probabilities.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(index, _)| index);
+        &self.fits[best]
+    }
+
+    /// The law recognised, or `None` where none reaches [`DECIDED`].
+    #[must_use]
+    pub fn decision(&self) -> Option<DragLaw> {
+        let best = self.likeliest().law();
+        (self.probability(best) >= DECIDED).then_some(best)
+    }
+}
