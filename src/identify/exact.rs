@@ -56,7 +56,7 @@ impl<S: Scalar> Cycle<S> {
     /// ```
     /// use selfosc::identify::exact::Cycle;
     /// use selfosc::{nonlinearity::RelayHysteresis, orbit::limit_cycle, plant::DragAxis};
-    /// let axis = DragAxis::linear(2.0, 0.7)?.with_disturbance(0.1)?.with_delay_s(0.2)?;
+    /// let axis = DragAxis::linear(2.0f64, 0.7)?.with_disturbance(0.1)?.with_delay_s(0.2)?;
     /// let orbit = limit_cycle(&axis, &RelayHysteresis::new(1.0, 0.3, 0.0)?)?;
     /// let cycle = Cycle {
     ///     relay_level: 1.0,

@@ -64,8 +64,11 @@ fn table_4() -> Vec<Measured> {
     reader.records().map(|record| measured(record.unwrap())).collect()
 }
 
-/// Residual rms in percent and, where it was estimated, delay of each law, printed with one and two decimals.
-const FIGURES: [(Delay, [(&str, Option<&str>); 3]); 2] = [
+/// Residual rms in percent and, where it was estimated, delay, to one and two decimals.
+type Figure = (&'static str, Option<&'static str>);
+
+/// The figures of each law: known from an independent computation.
+const FIGURES: [(Delay, [Figure; 3]); 2] = [
     (Delay::KnownS(0.2), [("12.8", None), ("5.8", None), ("4.3", None)]),
     (Delay::Estimated, [("10.0", None), ("4.0", Some("0.30")), ("3.7", Some("0.28"))]),
 ];

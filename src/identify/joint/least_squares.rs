@@ -148,7 +148,7 @@ impl<const N: usize> Decomposed<N> {
     fn covariance(&self, variance: f64, unit: &[f64; N]) -> Result<[[f64; N]; N], IdentifyError> {
         let smallest = self.singular.iter().copied().fold(f64::INFINITY, f64::min);
         let ratio = smallest / self.largest();
-        if !(ratio > RANK) {
+        if ratio.is_nan() || ratio <= RANK {
             return Err(IdentifyError::Confounded { ratio });
         }
         let entry = |i: usize, j: usize| {
