@@ -15,6 +15,7 @@ pub mod identification;
 pub mod orbits;
 pub mod relay;
 pub mod symmetry;
+pub mod theorems;
 
 pub use claim::{Checker, Claim, Finding, Hypothesis, Kind, Printed};
 pub use sampling::{Budget, Case, Draw, sample};
@@ -32,6 +33,8 @@ macro_rules! for_each_claim {
             fourier::SINE_ABS_SINE,
             symmetry::LEMMA_1,
             symmetry::LEMMA_2,
+            theorems::THEOREM_2,
+            theorems::THEOREM_3,
             relay::RELAY_Q,
             relay::RELAY_P,
             relay::RELAY_F0,
