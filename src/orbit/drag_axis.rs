@@ -150,7 +150,7 @@ fn solve<S: Scalar>(halves: &[HalfCycle<S>; 2]) -> Result<Solution<S>, OrbitErro
     let mut times =
         [halves[0].time_guess(mean_drive), halves[1].time_guess(mean_drive)].map(|t| S::from_f64(t.value()));
     // Convergence is quadratic: the step after one as small as this is below rounding.
-    let tolerance = S::epsilon().sqrt() / S::from_f64(16.0);
+    let tolerance = S::epsilon().sqrt() / S::two();
     let mut multiplier = f64::NAN;
     for _ in 0..MAX_STEPS {
         let swings = [halves[0].swing(times[0]), halves[1].swing(times[1])];
