@@ -128,7 +128,7 @@ pub fn return_map<S: Scalar>(
     for (from, to) in [(upward, downward), (downward, upward)] {
         let overshoot = from.overshoot(point.speed);
         let approach = from.approach_after(overshoot.excursion);
-        if !(approach > S::zero()) {
+        if approach <= S::zero() || !approach.is_finite() {
             return Err(unresolved);
         }
         let (speed, slope) = to.level_speed(approach).ok_or(unresolved)?;
