@@ -26,6 +26,9 @@ pub use expression::Expression;
 pub use gradient::Gradient;
 pub use interval::Interval;
 pub use jet::Jet;
-pub use ratio::{atanh_root_ratio, cosh_root, exp_m1_ratio, ln_1p_ratio, minus_ln_1p, minus_tanh, sinh_root_ratio};
+pub use ratio::{
+    atanh_root_ratio, cosh_root, cosh_root_difference, exp_m1_ratio, ln_1p_ratio, minus_ln_1p, minus_tanh,
+    sinh_root_difference, sinh_root_ratio,
+};
 pub use real::{Real, Scalar};
 pub use root::increasing_root;

@@ -34,7 +34,8 @@ pub fn exp_m1_ratio<T: Real>(x: T) -> T {
 pub fn sinh_root_ratio<T: Real>(z: T) -> T {
     around_zero(
         z,
-        || series(z, 8, |k| 1.0 / (2.0 * k * (2.0 * k + 1.0))),
+        0.25,
+        || series(z, 7, |k| 1.0 / (2.0 * k * (2.0 * k + 1.0))),
         |root| root.sin() / root,
         |root| root.sinh() / root,
     )
@@ -43,13 +44,34 @@ pub fn sinh_root_ratio<T: Real>(z: T) -> T {
 /// `cosh(sqrt z)`, which is `cos(sqrt -z)` for negative z.
 #[must_use]
 pub fn cosh_root<T: Real>(z: T) -> T {
-    around_zero(z, || series(z, 8, |k| 1.0 / (2.0 * k * (2.0 * k - 1.0))), T::cos, T::cosh)
+    around_zero(z, 0.25, || series(z, 7, |k| 1.0 / (2.0 * k * (2.0 * k - 1.0))), T::cos, T::cosh)
+}
+
+/// [`cosh_root`] at z, and its divided difference between z and w; both within 1.75 of zero.
+#[must_use]
+pub fn cosh_root_difference<T: Real>(z: T, w: T) -> (T, T) {
+    series_difference(z, w, |k| 1.0 / (2.0 * k * (2.0 * k - 1.0)))
+}
+
+/// [`sinh_root_ratio`] at z, and its divided difference between z and w; both within 1.75 of zero.
+#[must_use]
+pub fn sinh_root_difference<T: Real>(z: T, w: T) -> (T, T) {
+    series_difference(z, w, |k| 1.0 / (2.0 * k * (2.0 * k + 1.0)))
+}
+
+/// Horner's rule as in [`series`], for the value at z and the divided difference between z and w.
+fn series_difference<T: Real>(z: T, w: T, ratio: impl Fn(f64) -> f64) -> (T, T) {
+    let start = (T::one(), T::zero());
+    (1_u32..=10).rev().fold(start, |(value, difference), k| {
+        let ratio = T::from_f64(ratio(f64::from(k)));
+        (T::one() + ratio * z * value, ratio * (value + w * difference))
+    })
 }
 
 /// `atanh(sqrt z)/sqrt z`, which is `atan(sqrt -z)/sqrt -z` for negative z; one at zero; domain `z < 1`.
 #[must_use]
 pub fn atanh_root_ratio<T: Real>(z: T) -> T {
-    around_zero(z, || atanh_series(z, 25), |root| root.atan() / root, |root| root.atanh() / root)
+    around_zero(z, 0.04, || atanh_series(z, 11), |root| root.atan() / root, |root| root.atanh() / root)
 }
 
 /// `x - ln(1 + x)` without cancellation near zero; domain `x > -1`.
@@ -86,8 +108,13 @@ fn atanh_series<T: Real>(z: T, terms: u32) -> T {
     series(z, terms, |k| (2.0 * k - 1.0) / (2.0 * k + 1.0))
 }
 
-/// One of three expressions: near zero, in `sqrt -z` below, in `sqrt z` above.
-fn around_zero<T: Real>(z: T, near: impl FnOnce() -> T, below: impl FnOnce(T) -> T, above: impl FnOnce(T) -> T) -> T {
-    let limit = T::from_f64(0.25);
-    (z.abs() - limit).select(near, || z.select(|| below((-z).sqrt()), || above(z.sqrt())))
+/// One of three expressions: up to `small`, in `sqrt -z` below, in `sqrt z` above.
+fn around_zero<T: Real>(
+    z: T,
+    small: f64,
+    near: impl FnOnce() -> T,
+    below: impl FnOnce(T) -> T,
+    above: impl FnOnce(T) -> T,
+) -> T {
+    (z.abs() - T::from_f64(small)).select(near, || z.select(|| below((-z).sqrt()), || above(z.sqrt())))
 }

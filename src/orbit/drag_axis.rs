@@ -128,7 +128,7 @@ pub fn return_map<S: Scalar>(
     for (from, to) in [(upward, downward), (downward, upward)] {
         let overshoot = from.overshoot(point.speed);
         let approach = from.approach_after(overshoot.excursion);
-        if !(approach > S::zero()) {
+        if approach <= S::zero() || !approach.is_finite() {
             return Err(unresolved);
         }
         let (speed, slope) = to.level_speed(approach).ok_or(unresolved)?;
@@ -150,7 +150,7 @@ fn solve<S: Scalar>(halves: &[HalfCycle<S>; 2]) -> Result<Solution<S>, OrbitErro
     let mut times =
         [halves[0].time_guess(mean_drive), halves[1].time_guess(mean_drive)].map(|t| S::from_f64(t.value()));
     // Convergence is quadratic: the step after one as small as this is below rounding.
-    let tolerance = S::epsilon().sqrt() / S::from_f64(16.0);
+    let tolerance = S::epsilon().sqrt() / S::two();
     let mut multiplier = f64::NAN;
     for _ in 0..MAX_STEPS {
         let swings = [halves[0].swing(times[0]), halves[1].swing(times[1])];

@@ -1,7 +1,10 @@
 //! Motion in one direction: closed forms of speed, distance and event times.
 
 use crate::numeric::{Real, Scalar};
-use crate::numeric::{atanh_root_ratio, cosh_root, exp_m1_ratio, increasing_root, ln_1p_ratio, sinh_root_ratio};
+use crate::numeric::{
+    atanh_root_ratio, cosh_root, cosh_root_difference, exp_m1_ratio, increasing_root, ln_1p_ratio,
+    sinh_root_difference, sinh_root_ratio,
+};
 
 /// Motion of a drag axis while the velocity keeps its sign and the force is constant:
 /// `p' = drive - linear p - quadratic p^2` for the speed `p >= 0`, a Riccati equation with constant coefficients.
@@ -70,15 +73,28 @@ impl<T: Real> OneWay<T> {
 impl<S: Scalar> OneWay<S> {
     /// Distance and speed after `duration >= 0` from `speed >= 0`. Domain: the motion does not come to
     /// [rest](Self::time_to_rest) before.
+    #[inline]
     pub fn advance(&self, speed: S, duration: S) -> Passage<S> {
         let square = self.discriminant() * duration * duration;
         if square > S::from_f64(0.25) {
             return self.settle(speed, duration);
         }
         let half = self.linear / S::two();
-        let (cosine, sine) = (cosh_root(square), duration * sinh_root_ratio(square));
-        let decay = (-(half * duration)).exp();
-        let way = self.drive * duration * duration * double_integral(half * duration, square) + speed * sine * decay;
+        let h = half * duration;
+        let decay = (-h).exp();
+        // How a constant force adds up to a way: the integral of s exp(-h s) sinh(r s)/(r s) over s from 0 to 1, r^2 = square.
+        let product = h * h - square;
+        let (cosine, sine, integral) = if product.abs() > S::from_f64(0.5) {
+            let (cosine, sine) = (cosh_root(square), sinh_root_ratio(square));
+            (cosine, sine, (S::one() - decay * (cosine + h * sine)) / product)
+        } else {
+            // exp(h) = cosh h + h (sinh h)/h: its difference from the rest is one of divided differences.
+            let (cosine, cosine_difference) = cosh_root_difference(square, h * h);
+            let (sine, sine_difference) = sinh_root_difference(square, h * h);
+            (cosine, sine, decay * (cosine_difference + h * sine_difference))
+        };
+        let sine = duration * sine;
+        let way = self.drive * duration * duration * integral + speed * sine * decay;
         let bend = cosine + (half + self.quadratic * speed) * sine;
         Passage {
             distance: way * ln_1p_ratio(self.quadratic * way),
@@ -89,6 +105,7 @@ impl<S: Scalar> OneWay<S> {
     }
 
     /// Time in which a braking drive brings the motion to rest; `None` where the drive does not brake.
+    #[inline]
     pub fn time_to_rest(&self, speed: S) -> Option<S> {
         if self.drive >= S::zero() {
             return None;
@@ -97,7 +114,7 @@ impl<S: Scalar> OneWay<S> {
         let discriminant = self.discriminant();
         let time = speed / (half * speed - self.drive);
         let square = discriminant * time * time;
-        if square <= S::from_f64(0.25) {
+        if square <= S::from_f64(0.04) {
             return Some(time * atanh_root_ratio(square));
         }
         let root = discriminant.sqrt();
@@ -145,28 +162,4 @@ impl<S: Scalar> OneWay<S> {
         let free = S::two() * distance / (speed + (speed * speed + S::two() * self.drive * distance).sqrt());
         (free * free + settled * settled).sqrt()
     }
-}
-
-/// `integral over s in [0, 1] of s exp(-h s) sinh(r s)/(r s)` with `r^2 = square`: how a constant force adds up to a way
-/// twice integrated. Domain `h >= 0`, `square <= 1/4`.
-fn double_integral<S: Scalar>(h: S, square: S) -> S {
-    // h +- r are the two rates; this is a divided difference of (1 - exp(-x))/x between them.
-    let product = h * h - square;
-    if product.abs() > S::from_f64(0.5) {
-        return (S::one() - (-h).exp() * (cosh_root(square) + h * sinh_root_ratio(square))) / product;
-    }
-    // Complete homogeneous symmetric polynomials of the two rates, over (k + 2)! with alternating sign.
-    let (mut before, mut current, mut factorial) = (S::zero(), S::one(), S::from_f64(0.5));
-    let mut sum = factorial;
-    let negligible = S::epsilon() * S::from_f64(1e-3);
-    for k in 1..40 {
-        (before, current) = (current, S::two() * h * current - product * before);
-        factorial = -factorial / S::from_f64(f64::from(k + 2));
-        sum = sum + current * factorial;
-        // Both, because one polynomial of a sequence can vanish by itself.
-        if (current.abs() + before.abs()) * factorial.abs() <= negligible {
-            break;
-        }
-    }
-    sum
 }

@@ -42,6 +42,9 @@ fn starts() -> impl Strategy<Value = Start> {
     )
 }
 
+/// Position or velocity.
+type Part = fn(State<f64>) -> f64;
+
 /// Largest way and speed that a motion could have made.
 fn scales(start: Start, duration: f64) -> (f64, f64) {
     let [_, _, force, x, v] = start.0;
@@ -125,7 +128,7 @@ proptest! {
         let end = axis.advance(state, input, time);
         let (way, speed) = scales(Start(numbers), duration + 1.0);
         let tolerance = tolerance::DIFFERENCE * (1.0 + duration);
-        let values: [(_, _, fn(State<f64>) -> f64); 2] =
+        let values: [(_, _, Part); 2] =
             [(end.position.eps, way, |end| end.position), (end.velocity.eps, speed, |end| end.velocity)];
         for (value, scale, of) in values {
             let tolerance = tolerance * scale * (1.0 + scale);

@@ -76,6 +76,9 @@ fn loops(g: core::ops::Range<f64>) -> impl Strategy<Value = Loop> {
     )
 }
 
+/// One number of a limit cycle.
+type Feature = fn(&LimitCycle<f64>) -> f64;
+
 /// Rounding on the way to a fixed point, magnified by its slope.
 fn magnified(cycle: &LimitCycle<f64>) -> f64 {
     tolerance::REFERENCE / (1.0 - cycle.multiplier)
@@ -170,7 +173,7 @@ proptest! {
             Loop::from_array(p).solve().unwrap()
         };
         let (size, period) = (sensitive.amplitude.re, sensitive.period_s.re);
-        let values: [(_, _, fn(&LimitCycle<f64>) -> f64); 4] = [
+        let values: [(_, _, Feature); 4] = [
             (sensitive.amplitude, size, |cycle| cycle.amplitude),
             (sensitive.bias, size, |cycle| cycle.bias),
             (sensitive.period_s, period, |cycle| cycle.period_s),
