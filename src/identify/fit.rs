@@ -72,7 +72,7 @@ impl Fit {
     /// [autocorrelation](FittedRecord::autocorrelation) says whether it is.
     ///
     /// # Errors
-    /// [`IdentifyError::Feature`] for a delay or step that is none, [`IdentifyError::TooFewEquations`],
+    /// [`IdentifyError::Feature`] for an output that never moves, and for a delay or step that is none; [`IdentifyError::TooFewEquations`],
     /// [`IdentifyError::Confounded`], [`IdentifyError::NotSettled`].
     pub fn records(&self, records: &[&Record]) -> Result<RecordFit, IdentifyError> {
         let feature = |feature, value: f64| {
@@ -81,6 +81,12 @@ impl Fit {
             }
             Err(IdentifyError::Feature { feature, value, required: "a finite number, 0 or more" })
         };
+        for record in records {
+            let output = record.output();
+            if output.iter().all(|value| *value == output[0]) {
+                return Err(IdentifyError::Feature { feature: "range of the output", value: 0.0, required: "above 0" });
+            }
+        }
         if let Delay::KnownS(delay_s) = self.delay {
             feature("delay in seconds", delay_s)?;
         }

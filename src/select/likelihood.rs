@@ -7,8 +7,9 @@ use crate::identify::fit::{Fit, RecordFit};
 use crate::identify::joint::Delay;
 use crate::identify::{DragLaw, IdentifyError};
 
-/// Probability from which a law counts as recognised.
-pub const DECIDED: f64 = 0.95;
+/// Probability from which a law counts as recognised. One of the two simple laws, if true, never gets much more than
+/// `1 - 1/sqrt(n)`: the mixed law explains as much.
+pub const DECIDED: f64 = 0.8;
 
 /// The laws fitted, and which of them the records speak for.
 #[derive(Clone, Debug, PartialEq)]

@@ -16,6 +16,8 @@ use crate::identify::{DragLaw, IdentifyError};
 const MAX_STEPS: usize = 60;
 /// The search ends when no common parameter moves by more than this, relative.
 const SETTLED: f64 = 1e-6;
+/// Change of the noise, as a logarithm, that weighs as much as a change of a parameter of this size: it is needed roughly.
+const NOISE_WEIGHT: f64 = 1e-4;
 /// It looks at every sample once no common parameter moves by more than this, relative.
 const APPROACHED: f64 = 1e-3;
 /// Samples per stretch while the search is far from its end.
@@ -314,11 +316,13 @@ impl<'a> Search<'a> {
         #[allow(clippy::cast_precision_loss, reason = "a small count")]
         let parameters = self.parameters() as f64 / self.motions.len() as f64;
         let mut chains = Vec::with_capacity(self.motions.len());
-        let mut evidence = 0.0;
+        let (mut evidence, mut moved) = (0.0, 0.0f64);
         for motion in &mut self.motions {
             let linearised = motion.linearise(&self.shared, stride)?;
             if self.steps > 0 {
+                let before = motion.noise.std;
                 motion.update_noise(&linearised, parameters);
+                moved = moved.max(NOISE_WEIGHT * (motion.noise.std / before).ln().abs());
             }
             let links = motion.links(&linearised, 0, |_, _| Vec::new(), Vec::new);
             let chain = Chain::new(&links);
@@ -346,7 +350,6 @@ impl<'a> Search<'a> {
         for ((motion, steps), (_, instants)) in self.motions.iter_mut().zip(&steps).zip(&chains) {
             motion.advance(steps, instants, share);
         }
-        let mut moved = 0.0f64;
         for k in 0..SHARED {
             let before = self.shared[k];
             self.shared[k] = (before + share * shared[k]).max(0.0);

@@ -28,7 +28,8 @@ pub(super) fn swing_s(record: &Record) -> f64 {
         }
         side = now;
     }
-    (record.duration_s() / (crossings + 1.0)).max(6.0 * record.interval_s())
+    // Short enough for a dozen overlapping weights.
+    (record.duration_s() / (crossings + 1.0)).min(record.duration_s() / 5.0).max(6.0 * record.interval_s())
 }
 
 /// Inertia, one drag coefficient and disturbance that satisfy the axis's equation under smooth weights, each as long as a
