@@ -1,4 +1,5 @@
 //! Speed of the describing functions: closed form, quadrature, many amplitudes.
+#![allow(clippy::unwrap_used, reason = "a benchmark may panic")]
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};

@@ -5,6 +5,7 @@
 //! the breakpoint to the two turning points, so that nothing cancels where the sweep barely passes it; u itself from the
 //! distance to the bias.
 
+use core::cell::OnceCell;
 use core::ops::{Add, Mul, Sub};
 
 use crate::nonlinearity::{Branches, Kernel, Side, Sinusoid};
@@ -155,14 +156,11 @@ impl<T: Real> Arc<T> {
         }
     }
 
-    /// `(asin(u) + u sqrt(1 - u^2)) / pi`: first harmonic of what lies below the breakpoint, from the middle.
-    fn middle_sine(self) -> T {
-        (self.asin() + self.u * self.sine) / T::pi()
-    }
-
-    /// `(sqrt(1 - u^2) + u asin(u)) / pi`, the mean distance to the breakpoint over twice the amplitude.
-    fn middle_mean(self) -> T {
-        (self.sine + self.u * self.asin()) / T::pi()
+    /// Mean distance to the breakpoint over twice the amplitude, `(sqrt(1 - u^2) + u asin(u))/pi`, and first harmonic of what
+    /// lies below it, `(asin(u) + u sqrt(1 - u^2))/pi`: both from the middle.
+    fn middle(self) -> (T, T) {
+        let asin = self.asin();
+        ((self.sine + self.u * asin) / T::pi(), (asin + self.u * self.sine) / T::pi())
     }
 }
 
@@ -173,13 +171,18 @@ impl<T: Real> Arc<T> {
 fn band<T: Real>(lower: T, upper: T, sweep: &Sinusoid<T>) -> Harmonics<T> {
     let (low, high) = (Arc::above(lower, sweep), Arc::above(upper, sweep));
     let ramp = |at, side| arc(at, sweep, side, Arc::ramp).on(Branches::Both);
-    let near_maximum = || (ramp(lower, Side::Above) - ramp(upper, Side::Above), lower);
-    let near_minimum = || (ramp(lower, Side::Below) - ramp(upper, Side::Below), upper);
+    // Each at most once: selecting the mean and selecting the harmonic ask for the same.
+    let (near_maximum, near_minimum, middle) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
+    let near_maximum = || *near_maximum.get_or_init(|| (ramp(lower, Side::Above) - ramp(upper, Side::Above), lower));
+    let near_minimum = || *near_minimum.get_or_init(|| (ramp(lower, Side::Below) - ramp(upper, Side::Below), upper));
     let middle = || {
-        let overshoot = |at: T| (at - sweep.maximum()).max(sweep.minimum() - at).max(T::zero()) / T::two();
-        let mean = sweep.amplitude() * (low.middle_mean() - high.middle_mean()) + overshoot(lower) - overshoot(upper);
-        let sine = sweep.amplitude() * (high.middle_sine() - low.middle_sine());
-        (Harmonics { mean, sine, cosine: T::zero() }, (lower + upper) / T::two())
+        *middle.get_or_init(|| {
+            let overshoot = |at: T| (at - sweep.maximum()).max(sweep.minimum() - at).max(T::zero()) / T::two();
+            let ((low_mean, low_sine), (high_mean, high_sine)) = (low.middle(), high.middle());
+            let mean = sweep.amplitude() * (low_mean - high_mean) + overshoot(lower) - overshoot(upper);
+            let sine = sweep.amplitude() * (high_sine - low_sine);
+            (Harmonics { mean, sine, cosine: T::zero() }, (lower + upper) / T::two())
+        })
     };
     let half = T::from_f64(0.5);
     let component = |pick: fn(Harmonics<T>, T) -> T| {

@@ -151,7 +151,7 @@ fn about_one(u: f64, z: f64, p: f64) -> Moments {
         let (part, part_slope) = (shift * pair, shift * ((order + j) * pair - b * weight * power));
         m += part;
         slope += part_slope;
-        if !(part_slope.abs() > 0.1 * f64::EPSILON * m.abs()) {
+        if part_slope.abs() <= 0.1 * f64::EPSILON * m.abs() || m.is_nan() {
             break;
         }
         j += 1.0;
@@ -189,7 +189,7 @@ fn log_gamma_over(x: f64) -> f64 {
         1.202_056_903_159_594_2,
         1.082_323_233_711_138_2,
         1.036_927_755_143_37,
-        1.017_343_061_984_449_1,
+        1.017_343_061_984_449,
         1.008_349_277_381_922_8,
         1.004_077_356_197_944_3,
         1.002_008_392_826_082_2,

@@ -100,7 +100,7 @@ fn by_exponentials<T: Scalar>(scale: T, distance: T, sweep: &Sinusoid<T>) -> T {
         let twice = T::two() * n;
         let term = (-(twice * distance)).exp() * bessel_i1_scaled(twice * amplitude);
         sum = sum + sign * term;
-        if !(term > sum * T::epsilon()) {
+        if term <= sum * T::epsilon() || !term.is_finite() {
             return T::from_f64(4.0) * sum / sweep.amplitude();
         }
         (n, sign) = (n + T::one(), -sign);

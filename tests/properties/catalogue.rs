@@ -102,7 +102,10 @@ fn all(count: u64) {
             tally.failures.len(),
             started.elapsed().as_secs_f64()
         );
-        failures.extend(tally.failures.into_iter().take(3));
+        for failure in tally.failures.into_iter().take(6) {
+            println!("    {failure}");
+            failures.push(failure);
+        }
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
