@@ -58,7 +58,12 @@ fn start_up_is_left_out() {
     assert!((found.features.amplitude.mean - 1.0).abs() < 0.03, "{found:?}");
 }
 
-fn experiment(half_width: f64, quadratic: f64, sensor: Sensor, seed: u64) -> (Experiment, DragAxis<f64>, RelayHysteresis<f64>) {
+fn experiment(
+    half_width: f64,
+    quadratic: f64,
+    sensor: Sensor,
+    seed: u64,
+) -> (Experiment, DragAxis<f64>, RelayHysteresis<f64>) {
     let axis = DragAxis::quadratic(1.0, quadratic).unwrap().with_disturbance(0.1).unwrap().with_delay_s(0.1).unwrap();
     let relay = RelayHysteresis::new(1.0, half_width, 0.0).unwrap();
     let experiment = Experiment::new(axis, relay, 10.0).unwrap().with_sensor(sensor).unwrap().with_seed(seed);

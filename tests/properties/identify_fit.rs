@@ -147,7 +147,10 @@ fn gaussian_noise_costs_no_more_than_the_bound() {
 fn intervals_cover_in_500_experiments() {
     for law in DragLaw::ALL {
         for (parameter, Coverage { held, rms, errors }) in coverage(law, 500, rounding()) {
-            println!("rounded {law:?} {parameter:?}: coverage {held}, rms {rms}, worst error {}", errors[errors.len() - 1]);
+            println!(
+                "rounded {law:?} {parameter:?}: coverage {held}, rms {rms}, worst error {}",
+                errors[errors.len() - 1]
+            );
             assert!((0.92..=0.98).contains(&held), "{law:?} {parameter:?}: {held}");
         }
         for (parameter, Coverage { held, rms, .. }) in coverage(law, 500, noisy()) {
@@ -208,11 +211,8 @@ fn rudder_record(axis: &DragAxis<f64>) -> Record {
 #[test]
 fn a_moved_rudder_identifies_too() {
     for law in DragLaw::ALL {
-        let axis = DragAxis::mixed(
-            1.0,
-            if law.has_linear() { 0.4 } else { 0.0 },
-            if law.has_quadratic() { 0.6 } else { 0.0 },
-        );
+        let axis =
+            DragAxis::mixed(1.0, if law.has_linear() { 0.4 } else { 0.0 }, if law.has_quadratic() { 0.6 } else { 0.0 });
         let axis = axis.unwrap().with_delay_s(0.15).unwrap().with_disturbance(0.05).unwrap();
         let fit = Fit::new(law, Delay::KnownS(0.15)).records(&[&rudder_record(&axis)]).unwrap();
         assert_eq!(fit.between(), Between::Evenly);
@@ -228,16 +228,27 @@ fn several_records_share_the_vehicle() {
     let record = |half_width: f64, disturbance: f64, seed: u64| {
         let axis = axis.with_disturbance(disturbance).unwrap();
         let relay = RelayHysteresis::new(1.0, half_width, 0.0).unwrap();
-        Experiment::new(axis, relay, 10.0).unwrap().held().with_sensor(noisy()).unwrap().with_seed(seed).run(60.0).unwrap()
+        Experiment::new(axis, relay, 10.0)
+            .unwrap()
+            .held()
+            .with_sensor(noisy())
+            .unwrap()
+            .with_seed(seed)
+            .run(60.0)
+            .unwrap()
     };
     let records = [record(0.1, 0.1, 1), record(0.3, -0.1, 2), record(0.8, 0.0, 3)];
-    let together = Fit::new(DragLaw::Mixed, Delay::Estimated).records(&[&records[0], &records[1], &records[2]]).unwrap();
+    let together =
+        Fit::new(DragLaw::Mixed, Delay::Estimated).records(&[&records[0], &records[1], &records[2]]).unwrap();
     let alone = Fit::new(DragLaw::Mixed, Delay::Estimated).records(&[&records[1]]).unwrap();
     let std = |fit: &RecordFit| fit.estimate(Parameter::LinearDrag).spread.unwrap().std;
     assert!(std(&together) < 0.5 * std(&alone));
-    for (parameter, truth) in
-        [(Parameter::Alpha, 1.0), (Parameter::LinearDrag, 0.3), (Parameter::QuadraticDrag, 0.5), (Parameter::DelayS, 0.1)]
-    {
+    for (parameter, truth) in [
+        (Parameter::Alpha, 1.0),
+        (Parameter::LinearDrag, 0.3),
+        (Parameter::QuadraticDrag, 0.5),
+        (Parameter::DelayS, 0.1),
+    ] {
         let estimate = together.estimate(parameter);
         assert!((estimate.value - truth).abs() < 4.0 * estimate.spread.unwrap().std, "{parameter:?}: {estimate:?}");
     }
@@ -253,7 +264,9 @@ fn a_lagging_actuator_is_named() {
     let record = drawn.experiment(rounding()).held().run(60.0).unwrap();
     let fit = |delay| Fit::new(DragLaw::Quadratic, delay).records(&[&record]).unwrap();
     let free = fit(Delay::Estimated);
-    let codes = |given_s| Warning::of_fit(&fit(Delay::KnownS(given_s)), Some(&free)).iter().map(Warning::code).collect::<Vec<_>>();
+    let codes = |given_s| {
+        Warning::of_fit(&fit(Delay::KnownS(given_s)), Some(&free)).iter().map(Warning::code).collect::<Vec<_>>()
+    };
     assert!(codes(0.0).contains(&"actuator-lag"), "{:?}", codes(0.0));
     assert!(!codes(0.1).contains(&"actuator-lag"), "{:?}", codes(0.1));
 }
@@ -261,7 +274,9 @@ fn a_lagging_actuator_is_named() {
 #[test]
 fn a_record_without_motion_is_refused() {
     let time: Vec<f64> = (0..100).map(f64::from).collect();
-    for (output, input) in [(vec![0.0; 100], vec![1.0; 100]), (vec![1.0; 100], time.iter().map(|t| (t / 7.0).sin()).collect())] {
+    for (output, input) in
+        [(vec![0.0; 100], vec![1.0; 100]), (vec![1.0; 100], time.iter().map(|t| (t / 7.0).sin()).collect())]
+    {
         let record = Record::new(time.clone(), output, input).unwrap();
         for law in DragLaw::ALL {
             match Fit::new(law, Delay::KnownS(0.0)).records(&[&record]) {

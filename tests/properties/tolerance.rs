@@ -118,13 +118,18 @@ pub(crate) const REARRANGED: f64 = 1e-14;
 
 /// Angles printed with nine decimals of a degree, in radians.
 pub(crate) const PRINTED_ANGLE: f64 = 1e-10;
+
 /// Spacing of rounded readings, which are products of whole numbers with it.
 pub(crate) const ROUNDED_STEP: f64 = 1e-6;
+
 /// Amplitude of one cycle at 200 Hz by the parabola through a peak, where the acceleration may bend at the peak.
 pub(crate) const DENSE_FEATURE: f64 = 2e-4;
+
 /// The same at 10 Hz, with up to a twelfth of the period on either side of the peak.
 pub(crate) const SLOW_FEATURE: f64 = 1e-2;
+
 /// Sums of up to a hundred numbers in another order.
 pub(crate) const SUM: f64 = 1e-13;
+
 /// Parameters from a record without noise: the search ends at a relative step of 1e-6.
 pub(crate) const CLEAN_FIT: f64 = 1e-3;
