@@ -57,7 +57,7 @@ fn tanh_sinh() -> &'static [(Big, Big, bool)] {
         let step = 1.0 / 32.0;
         let rule = |k: i32| {
             let tau = big(step * f64::from(k));
-            let growth = (&tau).exp();
+            let growth = tau.exp();
             let (sinh, cosh) = ((&growth - big(1.0) / &growth) / big(2.0), (&growth + big(1.0) / &growth) / big(2.0));
             let inner = pi() / big(2.0) * sinh;
             let decay = (big(-2.0) * inner).exp();
