@@ -7,7 +7,7 @@ use serde_json::json;
 
 use super::{CommandError, Outcome, write_json};
 use crate::balance::{Bias, HarmonicBalance};
-use crate::describing::Entry;
+use crate::describing::{Entry, Setting};
 use crate::plant::TransferFunction;
 
 /// The oscillations that harmonic balance predicts for a plant in a loop with a characteristic.
@@ -34,7 +34,7 @@ pub(super) struct Arguments {
     nonlinearity: String,
     /// A parameter of the characteristic, as key=value; repeat for each
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = super::df::setting)]
-    settings: Vec<(String, f64)>,
+    settings: Vec<(String, Setting)>,
     /// Bias of the characteristic's input
     #[arg(long, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
     bias: f64,

@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::{CommandError, Outcome, write_json};
-use crate::describing::{CATALOGUE, DescribingFunction, Entry, by_quadrature};
+use crate::describing::{CATALOGUE, DescribingFunction, Entry, Setting, by_quadrature};
 use crate::nonlinearity::{Parameter, Sinusoid};
 
 /// The describing function F_0, P, Q of a characteristic at one bias and amplitude.
@@ -18,6 +18,7 @@ use crate::nonlinearity::{Parameter, Sinusoid};
 Examples:
   selfosc df relay-hysteresis --set level=2 --set half_width=0.3 --amplitude 1 --bias 0.1
   selfosc df saturation --set breakpoint=0.5 --amplitude 2 --method quadrature --json
+  selfosc df piecewise-linear --set points=-1:-1,0:0,1:2 --set left_slope=0 --set right_slope=0 --amplitude 2
   selfosc df --list")]
 pub(super) struct Arguments {
     /// Name of the characteristic, as --list shows it
@@ -25,7 +26,7 @@ pub(super) struct Arguments {
     name: Option<String>,
     /// A parameter of the characteristic, as key=value; repeat for each
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
-    settings: Vec<(String, f64)>,
+    settings: Vec<(String, Setting)>,
     /// Amplitude X of the input
     #[arg(long, value_name = "X", required_unless_present = "list", allow_negative_numbers = true)]
     amplitude: Option<f64>,
@@ -52,10 +53,10 @@ enum Method {
     Quadrature,
 }
 
-pub(super) fn setting(text: &str) -> Result<(String, f64), String> {
+pub(super) fn setting(text: &str) -> Result<(String, Setting), String> {
     let (key, value) = text.split_once('=').ok_or_else(|| format!("`{text}` is not key=value"))?;
-    let number = value.parse().map_err(|_| format!("{key}: `{value}` is not a number"))?;
-    Ok((key.to_owned(), number))
+    let setting = value.parse().map_err(|error| format!("{key}: {error}"))?;
+    Ok((key.to_owned(), setting))
 }
 
 #[derive(Serialize)]
@@ -84,8 +85,8 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         Method::Quadrature => by_quadrature(&*characteristic, &sweep)?,
     };
     if arguments.json {
-        let named = entry.parameters.iter().zip(&values);
-        let params = named.map(|(parameter, value)| (parameter.name.to_owned(), json!(value))).collect();
+        let params =
+            entry.settings(&values).into_iter().map(|(name, value)| (name.to_owned(), plain(&value))).collect();
         let (bias, method) = (arguments.bias, arguments.method);
         let answer = Answer { nonlinearity: entry.name, params, amplitude, bias, f0, p, q, method, enclosure: None };
         write_json(output, &answer)?;
@@ -93,6 +94,14 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         writeln!(output, "F_0 = {f0}\nP   = {p}\nQ   = {q}")?;
     }
     Ok(Outcome::Done)
+}
+
+/// A number as a number, points as pairs.
+fn plain(setting: &Setting) -> serde_json::Value {
+    match setting {
+        Setting::Number(number) => json!(number),
+        Setting::Points(points) => json!(points),
+    }
 }
 
 fn list(as_json: bool, output: &mut impl Write) -> Result<Outcome, CommandError> {
@@ -107,7 +116,7 @@ fn list(as_json: bool, output: &mut impl Write) -> Result<Outcome, CommandError>
         writeln!(output, "{}", entry.name)?;
         for parameter in entry.parameters {
             let default = parameter.default.map_or_else(String::new, |value| format!(" [{value}]"));
-            writeln!(output, "    {}{default}  {}", parameter.name, parameter.meaning)?;
+            writeln!(output, "    {:18}  {}", format!("{}{default}", parameter.name), parameter.meaning)?;
         }
     }
     Ok(Outcome::Done)
