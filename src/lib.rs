@@ -25,7 +25,6 @@ pub mod identify;
 #[cfg(feature = "std")]
 pub mod select;
 
-pub mod control;
 pub mod vehicle;
 
 #[cfg(feature = "std")]

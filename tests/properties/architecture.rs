@@ -13,7 +13,7 @@ const ORDER: &[&[&str]] = &[
     &["features"],
     &["identify"],
     &["select"],
-    &["control", "vehicle"],
+    &["vehicle"],
     &["claims", "paper"],
     &["report"],
     &["command"],
