@@ -53,7 +53,7 @@ impl<T: Real> Harmonics<T> {
             Kernel::Sign { at, level, branches } => Arc::above(at, sweep).sign().on(branches) * level,
             Kernel::Step { at, height, side, branches } => arc(at, sweep, side, Arc::step).on(branches) * height,
             Kernel::Ramp { at, slope, side, branches } => arc(at, sweep, side, Arc::ramp).on(branches) * slope,
-            Kernel::Band { lower, upper, slope } => band(lower, upper, sweep) * slope,
+            Kernel::Band { origin, lower, upper, slope } => band(origin, lower, upper, sweep) * slope,
         }
     }
 
@@ -155,44 +155,58 @@ impl<T: Real> Arc<T> {
             cosine: scale * self.one_minus_u.square() + constant::<T>().cosine * self.beyond,
         }
     }
+}
 
-    /// Mean distance to the breakpoint over twice the amplitude, `(sqrt(1 - u^2) + u asin(u))/pi`, and first harmonic of what
-    /// lies below it, `(asin(u) + u sqrt(1 - u^2))/pi`: both from the middle.
-    fn middle(self) -> (T, T) {
-        let asin = self.asin();
-        ((self.sine + self.u * asin) / T::pi(), (asin + self.u * self.sine) / T::pi())
+/// The input held between two breakpoints, less `origin`.
+///
+/// Four forms of one value, each accurate where the others cancel: a difference of ramps, for a band near either turning
+/// point; between them, for a band wider than the amplitude, the whole input less what lies outside; and from the middle.
+fn band<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> Harmonics<T> {
+    let (low, high) = (Arc::above(lower, sweep), Arc::above(upper, sweep));
+    let ramp = |at, side| arc(at, sweep, side, Arc::ramp).on(Branches::Both);
+    let flat = |level: T| Harmonics { mean: level - origin, sine: T::zero(), cosine: T::zero() };
+    // Each at most once: selecting the mean and selecting the harmonic ask for the same.
+    let cells = [const { OnceCell::new() }; 4];
+    let [wide, near_maximum, near_minimum, middle] = &cells;
+    let line = Harmonics { sine: sweep.amplitude(), ..flat(sweep.bias()) };
+    let wide = || *wide.get_or_init(|| line + ramp(lower, Side::Below) - ramp(upper, Side::Above));
+    let near_maximum =
+        || *near_maximum.get_or_init(|| flat(lower) + ramp(lower, Side::Above) - ramp(upper, Side::Above));
+    let near_minimum =
+        || *near_minimum.get_or_init(|| flat(upper) + ramp(lower, Side::Below) - ramp(upper, Side::Below));
+    let middle = || *middle.get_or_init(|| from_the_middle(low, high, lower, upper, sweep) + flat(T::zero()));
+
+    let (half, width) = (T::from_f64(0.5), (upper - lower) / sweep.amplitude());
+    let component = |pick: fn(Harmonics<T>) -> T| {
+        let inner = || (width - T::one()).select(|| pick(middle()), || pick(wide()));
+        (low.u - half).select(|| (-half - high.u).select(inner, || pick(near_minimum())), || pick(near_maximum()))
+    };
+    Harmonics {
+        mean: component(|harmonics| harmonics.mean),
+        sine: component(|harmonics| harmonics.sine),
+        cosine: T::zero(),
     }
 }
 
-/// The input held between two breakpoints.
-///
-/// Three forms of one value: from the middle, where the turning points lie on either side, and as a difference of ramps
-/// where the whole band is near one turning point.
-fn band<T: Real>(lower: T, upper: T, sweep: &Sinusoid<T>) -> Harmonics<T> {
-    let (low, high) = (Arc::above(lower, sweep), Arc::above(upper, sweep));
-    let ramp = |at, side| arc(at, sweep, side, Arc::ramp).on(Branches::Both);
-    // Each at most once: selecting the mean and selecting the harmonic ask for the same.
-    let (near_maximum, near_minimum, middle) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
-    let near_maximum = || *near_maximum.get_or_init(|| (ramp(lower, Side::Above) - ramp(upper, Side::Above), lower));
-    let near_minimum = || *near_minimum.get_or_init(|| (ramp(lower, Side::Below) - ramp(upper, Side::Below), upper));
-    let middle = || {
-        *middle.get_or_init(|| {
-            let overshoot = |at: T| (at - sweep.maximum()).max(sweep.minimum() - at).max(T::zero()) / T::two();
-            let ((low_mean, low_sine), (high_mean, high_sine)) = (low.middle(), high.middle());
-            let mean = sweep.amplitude() * (low_mean - high_mean) + overshoot(lower) - overshoot(upper);
-            let sine = sweep.amplitude() * (high_sine - low_sine);
-            (Harmonics { mean, sine, cosine: T::zero() }, (lower + upper) / T::two())
-        })
-    };
-    let half = T::from_f64(0.5);
-    let component = |pick: fn(Harmonics<T>, T) -> T| {
-        let value = |(harmonics, level)| pick(harmonics, level);
-        (low.u - half)
-            .select(|| (-half - high.u).select(|| value(middle()), || value(near_minimum())), || value(near_maximum()))
-    };
+/// A band by sums and differences of the two angles `asin(u)`; what is odd in the bias comes from their sum, which is formed
+/// from the sum of the breakpoints.
+fn from_the_middle<T: Real>(low: Arc<T>, high: Arc<T>, lower: T, upper: T, sweep: &Sinusoid<T>) -> Harmonics<T> {
+    let (pi, two, half) = (T::pi(), T::two(), T::from_f64(0.5));
+    let overshoot = |at: T| (at - sweep.maximum()).max(sweep.minimum() - at).max(T::zero()) / two;
+    let (low_angle, high_angle) = (low.asin(), high.asin());
+    let difference = low.u - high.u;
+    // With a breakpoint outside the sweep the bias is not small, and nothing cancels.
+    let inside = (low.sine * high.sine).select(T::zero, T::one);
+    let sum = inside.select(|| low.u + high.u, || ((lower + upper) - two * sweep.bias()) / sweep.amplitude());
+    let angle_sum = (sum.abs() - half).select(
+        || (difference * sum / (low.u * high.sine - high.u * low.sine)).clamp_unit().asin(),
+        || low_angle + high_angle,
+    );
+    let mean =
+        sum * ((low_angle - high_angle) / two - difference / (low.sine + high.sine)) + difference * angle_sum / two;
     Harmonics {
-        mean: component(|harmonics, level| harmonics.mean + level),
-        sine: component(|harmonics, _| harmonics.sine),
+        mean: sweep.amplitude() * mean / pi + overshoot(lower) - overshoot(upper) + (lower + upper) / two,
+        sine: sweep.amplitude() * (high_angle + high.u * high.sine - low_angle - low.u * low.sine) / pi,
         cosine: T::zero(),
     }
 }

@@ -23,9 +23,8 @@ impl<T: Real> PiecewiseLinear for DeadZoneSaturation<T> {
         self.slope * (held - held.max(-self.half_width).min(self.half_width))
     }
     fn kernels(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
-        report(Kernel::ramp_above(self.half_width, self.slope));
-        report(Kernel::ramp_below(-self.half_width, -self.slope));
-        report(Kernel::ramp_above(self.breakpoint, -self.slope));
-        report(Kernel::ramp_below(-self.breakpoint, self.slope));
+        let (inner, outer, slope) = (self.half_width, self.breakpoint, self.slope);
+        report(Kernel::Band { origin: inner, lower: inner, upper: outer, slope });
+        report(Kernel::Band { origin: -inner, lower: -outer, upper: -inner, slope });
     }
 }

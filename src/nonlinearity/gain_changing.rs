@@ -22,7 +22,12 @@ impl<T: Real> PiecewiseLinear for GainChanging<T> {
         self.inner_slope * inner + self.outer_slope * (x - inner)
     }
     fn kernels(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
-        report(Kernel::Band { lower: -self.breakpoint, upper: self.breakpoint, slope: self.inner_slope });
+        report(Kernel::Band {
+            origin: T::zero(),
+            lower: -self.breakpoint,
+            upper: self.breakpoint,
+            slope: self.inner_slope,
+        });
         report(Kernel::ramp_above(self.breakpoint, self.outer_slope));
         report(Kernel::ramp_below(-self.breakpoint, -self.outer_slope));
     }

@@ -69,8 +69,10 @@ pub enum Kernel<T> {
         /// Where it counts.
         branches: Branches,
     },
-    /// `slope x` with the input held between `lower` and `upper`.
+    /// `slope (x - origin)` with the input held between `lower` and `upper`.
     Band {
+        /// Input at which the band gives zero, in input units: zero, or the end from which it counts.
+        origin: T,
         /// Input units.
         lower: T,
         /// Input units, above `lower`.

@@ -142,8 +142,7 @@ impl<T: Real, S: AsRef<[(T, T)]>> PiecewiseLinear for Polyline<T, S> {
         for pair in points.windows(2) {
             let slope = slope(pair[0], pair[1]);
             let nearer = if pair[0].0.bounds().0 < anchor.0.bounds().0 { pair[1].0 } else { pair[0].0 };
-            report(Kernel::Band { lower: pair[0].0, upper: pair[1].0, slope });
-            report(Kernel::constant(-(slope * nearer)));
+            report(Kernel::Band { origin: nearer, lower: pair[0].0, upper: pair[1].0, slope });
         }
     }
 }

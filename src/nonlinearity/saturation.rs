@@ -19,6 +19,6 @@ impl<T: Real> PiecewiseLinear for Saturation<T> {
         self.slope * x.max(-self.breakpoint).min(self.breakpoint)
     }
     fn kernels(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
-        report(Kernel::Band { lower: -self.breakpoint, upper: self.breakpoint, slope: self.slope });
+        report(Kernel::Band { origin: T::zero(), lower: -self.breakpoint, upper: self.breakpoint, slope: self.slope });
     }
 }

@@ -22,6 +22,6 @@ impl<T: Real> PiecewiseLinear for SaturationAsymmetric<T> {
         self.slope * x.max(self.lower).min(self.upper)
     }
     fn kernels(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
-        report(Kernel::Band { lower: self.lower, upper: self.upper, slope: self.slope });
+        report(Kernel::Band { origin: T::zero(), lower: self.lower, upper: self.upper, slope: self.slope });
     }
 }

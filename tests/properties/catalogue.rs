@@ -12,7 +12,7 @@ use crate::tolerance;
 /// What a batch of comparisons showed.
 #[derive(Clone, Debug, Default)]
 struct Tally {
-    /// Largest relative error of `F_0`, `P`, `Q` among those that meet the tolerance.
+    /// Largest relative error of `F_0` and of `P`, `Q` (to the complex gain's magnitude) among those that meet the tolerance.
     worst: f64,
     /// Values whose error is above the tolerance but no larger than what rounding the input does to the exact value.
     conditioned: usize,
@@ -42,9 +42,13 @@ fn compare(entry: &Entry, case: &Case) -> Tally {
     let mut spread: Option<[f64; 3]> = None;
     for part in 0..3 {
         let error = (big(computed[part]) - &reference[part]).to_f64().value().abs();
-        let size = reference[part].to_f64().value().abs();
-        if error <= tolerance::CLOSED_FORM * size {
-            tally.worst = tally.worst.max(if size > 0.0 { error / size } else { 0.0 });
+        // P and Q are parts of one complex gain.
+        let of = |part: usize| reference[part].to_f64().value().abs();
+        let size = if part == 0 { of(0) } else { of(1).hypot(of(2)) };
+        let largest = of(0) + case.sweep.amplitude() * of(1).hypot(of(2));
+        let unit = if part == 0 { 1.0 } else { case.sweep.amplitude() };
+        if error <= tolerance::CLOSED_FORM * size || error * unit <= tolerance::ORACLE * largest {
+            tally.worst = tally.worst.max(if error <= tolerance::CLOSED_FORM * size { error / size } else { 0.0 });
             continue;
         }
         let spread = spread.get_or_insert_with(|| {

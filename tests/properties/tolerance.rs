@@ -100,6 +100,9 @@ pub(crate) const SINGLE: f64 = 2e-5;
 /// Derivatives against five-point differences, which are taken for good where halving the step changes them by no more.
 pub(crate) const DIFFERENCE: f64 = 1e-7;
 
+/// What the oracle itself cannot tell from zero, relative to the mean and first harmonic it finds.
+pub(crate) const ORACLE: f64 = 1e-28;
+
 /// Closed form against the oracle, relative to the value itself: what the catalogue promises.
 pub(crate) const CLOSED_FORM: f64 = 1e-12;
 
