@@ -1,14 +1,16 @@
 //! `selfosc balance`: harmonic balance of a transfer function with a characteristic.
 
 use std::io::Write;
+use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::json;
 
-use super::{CommandError, Outcome, write_json};
+use super::{CommandError, Outcome, write_file, write_json};
 use crate::balance::{Bias, HarmonicBalance};
 use crate::describing::{Entry, Setting};
 use crate::plant::TransferFunction;
+use crate::report::nyquist;
 
 /// The oscillations that harmonic balance predicts for a plant in a loop with a characteristic.
 ///
@@ -17,7 +19,7 @@ use crate::plant::TransferFunction;
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  selfosc balance --num 8 --den 1,2,2,1 --nonlinearity saturation --set breakpoint=1
+  selfosc balance --num 8 --den 1,2,2,1 --nonlinearity saturation --set breakpoint=1 --svg nyquist.svg
   selfosc balance --num 1 --den 1,1,0 --delay 0.1 --nonlinearity relay-hysteresis --set half_width=0.2 --json")]
 pub(super) struct Arguments {
     /// Numerator, descending powers of s
@@ -38,6 +40,9 @@ pub(super) struct Arguments {
     /// Bias of the characteristic's input
     #[arg(long, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
     bias: f64,
+    /// Draws G(jw) and -1/N into this SVG file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
     /// Prints one JSON document
     #[arg(long)]
     json: bool,
@@ -50,6 +55,11 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     let balance = HarmonicBalance::new(&plant, |sweep| characteristic.describing_function(sweep))?
         .with_bias(Bias::Fixed(arguments.bias))?;
     let found = balance.intersections()?;
+    if let Some(path) = &arguments.svg {
+        let describing = |sweep: &_| characteristic.describing_function(sweep);
+        let figure = nyquist(&plant, balance.omega_rad_s(), describing, arguments.bias, &found)?;
+        write_file(path, &figure.svg()?)?;
+    }
     if arguments.json {
         let intersection = |found: &crate::balance::Intersection| json!({ "amplitude": found.amplitude, "omega_rad_s": found.omega_rad_s, "stable": found.stable });
         write_json(output, &json!({ "intersections": found.iter().map(intersection).collect::<Vec<_>>() }))?;

@@ -1,14 +1,16 @@
 //! `selfosc df`: one describing function.
 
 use std::io::Write;
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use serde_json::json;
 
-use super::{CommandError, Outcome, write_json};
+use super::{CommandError, Outcome, write_file, write_json};
 use crate::describing::{CATALOGUE, DescribingFunction, Entry, Setting, by_quadrature};
 use crate::nonlinearity::{Parameter, Sinusoid};
+use crate::report::characteristics;
 
 /// The describing function F_0, P, Q of a characteristic at one bias and amplitude.
 ///
@@ -19,7 +21,7 @@ Examples:
   selfosc df relay-hysteresis --set level=2 --set half_width=0.3 --amplitude 1 --bias 0.1
   selfosc df saturation --set breakpoint=0.5 --amplitude 2 --method quadrature --json
   selfosc df piecewise-linear --set points=-1:-1,0:0,1:2 --set left_slope=0 --set right_slope=0 --amplitude 2
-  selfosc df --list")]
+  selfosc df --list --page catalogue.html")]
 pub(super) struct Arguments {
     /// Name of the characteristic, as --list shows it
     #[arg(required_unless_present = "list")]
@@ -39,6 +41,9 @@ pub(super) struct Arguments {
     /// Lists every characteristic with its parameters, and does nothing else
     #[arg(long)]
     list: bool,
+    /// With --list: writes every characteristic with its formula and its curves into this HTML file
+    #[arg(long, value_name = "FILE", requires = "list")]
+    page: Option<PathBuf>,
     /// Prints one JSON document
     #[arg(long)]
     json: bool,
@@ -74,6 +79,9 @@ struct Answer<'a> {
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let (Some(name), Some(amplitude), false) = (&arguments.name, arguments.amplitude, arguments.list) else {
+        if let Some(path) = &arguments.page {
+            write_file(path, &characteristics()?.html()?)?;
+        }
         return list(arguments.json, output);
     };
     let entry = Entry::find(name)?;

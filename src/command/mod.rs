@@ -77,6 +77,11 @@ pub fn run() -> ExitCode {
     }
 }
 
+/// Writes a file, or says which one cannot be written.
+fn write_file(path: &std::path::Path, content: &str) -> Result<(), CommandError> {
+    std::fs::write(path, content).map_err(|source| CommandError::Write { path: path.to_owned(), source })
+}
+
 /// Writes one JSON document and a line end.
 fn write_json(output: &mut impl Write, value: &impl serde::Serialize) -> Result<(), CommandError> {
     serde_json::to_writer_pretty(&mut *output, value).map_err(io::Error::from)?;

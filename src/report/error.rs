@@ -9,6 +9,9 @@ pub enum ReportError {
     /// The data are not to be had.
     #[error(transparent)]
     Paper(#[from] PaperError),
+    /// A page of the catalogue without a usable example.
+    #[error(transparent)]
+    Catalogue(#[from] crate::describing::CatalogueError),
     /// A figure cannot be drawn.
     #[error("figure {figure}: {reason}; give it series with finite points")]
     Figure {

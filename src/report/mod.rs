@@ -4,13 +4,17 @@
 //! data with labelled axes, drawn as SVG; the same data give the same bytes. A [`Document`] puts both into one HTML file that
 //! needs no network.
 
+mod characteristics;
 mod error;
 mod figure;
 mod html;
+mod nyquist;
 pub mod paper;
 mod table;
 
+pub use characteristics::characteristics;
 pub use error::ReportError;
 pub use figure::{Figure, Mark, Panel, Series};
 pub use html::{Document, Section};
+pub use nyquist::nyquist;
 pub use table::{Cell, Table};

@@ -1,0 +1,43 @@
+//! The Nyquist plot of a harmonic balance: the plant's curve and -1/N of the characteristic.
+
+use nalgebra::Complex;
+
+use super::{Figure, Mark, Panel};
+use crate::balance::{BalanceError, Intersection, negative_inverse_locus, nyquist_locus};
+use crate::describing::{DescribingError, DescribingFunction};
+use crate::nonlinearity::Sinusoid;
+use crate::plant::TransferFunction;
+
+/// How far beyond the intersections (or beyond -1 without any) the plot reaches.
+const REACH: f64 = 2.5;
+
+/// `G(jw)` over `omega_rad_s`, `-1/N` over amplitudes from 1e-3 to 1e3 at one bias, and the `found` intersections, as far from
+/// the origin as two and a half times the farthest of them.
+///
+/// # Errors
+/// [`BalanceError`] where a curve cannot be followed.
+pub fn nyquist(
+    plant: &TransferFunction,
+    omega_rad_s: core::ops::RangeInclusive<f64>,
+    describing: impl Fn(&Sinusoid<f64>) -> Result<DescribingFunction<f64>, DescribingError>,
+    bias: f64,
+    found: &[Intersection],
+) -> Result<Figure, BalanceError> {
+    let marks: Vec<(&Intersection, Complex<f64>)> =
+        found.iter().filter_map(|one| Some((one, plant.response(one.omega_rad_s).ok()?))).collect();
+    let reach = REACH * marks.iter().map(|(_, point)| point.norm()).fold(0.0, f64::max);
+    let reach = if reach > 0.0 { reach } else { REACH };
+    let curve = |points: Vec<(f64, Complex<f64>)>| {
+        points.into_iter().map(|(_, z)| (z.re, z.im)).filter(move |(re, im)| re.hypot(*im) <= reach).collect::<Vec<_>>()
+    };
+    let response = curve(nyquist_locus(plant, omega_rad_s)?);
+    let inverse = curve(negative_inverse_locus(describing, bias, 1e-3..=1e3)?);
+    let axes = Panel::new("real part", "imaginary part").with("G(jw)", Mark::Line, response);
+    let axes = if inverse.is_empty() { axes } else { axes.with("-1/N(X)", Mark::Dashed, inverse) };
+    let panel = marks.into_iter().fold(axes, |panel, (one, point)| {
+        let stable = one.stable.map_or("not decided", |stable| if stable { "stable" } else { "unstable" });
+        let label = format!("X = {:.4}, w = {:.4} rad/s, {stable}", one.amplitude, one.omega_rad_s);
+        panel.with(&label, Mark::Dots, [(point.re, point.im)])
+    });
+    Ok(Figure { name: "nyquist", title: "Harmonic balance: G(jw) = -1/N(X)".to_owned(), panels: vec![panel] })
+}
