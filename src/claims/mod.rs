@@ -58,6 +58,7 @@ macro_rules! for_each_claim {
             orbits::ORBIT_LINEAR,
             orbits::DELTA_FROM_TIMES,
             orbits::METHOD_BIAS,
+            orbits::BALANCE_CONVERGES,
         }
     };
 }

@@ -2,10 +2,12 @@
 
 use super::claim::claim;
 use super::{Budget, Case, Draw, Hypothesis, Printed, Verdict, sample, tolerance};
+use crate::balance::HarmonicBalance;
+use crate::describing::ClosedForm;
 use crate::identify::iso::{Oscillation, Parameters, disturbance_from_times};
 use crate::nonlinearity::RelayHysteresis;
-use crate::orbit::{self, LimitCycle, limit_cycle, return_map};
-use crate::plant::{DragAxis, PlantError};
+use crate::orbit::{self, LimitCycle, RelayLoop, limit_cycle, return_map};
+use crate::plant::{DragAxis, PlantError, StateSpace, TransferFunction};
 
 /// A drag law of one coefficient.
 struct Family {
@@ -246,4 +248,45 @@ fn depends_on_g_alone(budget: Budget, family: &Family, assumed: &Family, disturb
             tolerance::CANCELLING,
         ))
     })
+}
+
+claim! {
+    BALANCE_CONVERGES = "balance-converges" "16-17, more harmonics" Theorem
+    "With more harmonics the balance of an integrating plant under a relay comes ever closer to the exact orbit" {
+        printed: Printed::Absent,
+        corrected: Some(|budget| balance_error(budget, [1, 5, 15], 0.2)),
+        // Closer by a factor of a thousand for each fivefold of harmonics.
+        falsified: |budget| balance_error(budget, [1, 5, 15], 1e-3),
+        hypotheses: &[],
+        depends: &["theorem-2"],
+    }
+}
+
+/// Relative errors of the period with ever more harmonics: each at most `factor` times the one before.
+fn balance_error(budget: Budget, orders: [usize; 3], factor: f64) -> Verdict {
+    sample(Budget { cases: budget.cases.div_ceil(200), ..budget }, |draw| {
+        let (lag_s, half_width) = (draw.log_uniform("lag_s", 0.3, 3.0), draw.uniform("half_width", 0.05, 0.5));
+        let errors = balance_errors(lag_s, half_width, orders);
+        let Some([first, some, many]) = errors else { return Case::Skipped };
+        for (name, error) in [("first", first), ("some", some), ("many", many)] {
+            draw.note(name, error);
+        }
+        Case::margin(1.0 - some / (factor * first)).and(Case::margin(1.0 - many / (factor * some)))
+    })
+}
+
+/// Of `1/(s (lag s + 1))` under a unit relay.
+fn balance_errors(lag_s: f64, half_width: f64, orders: [usize; 3]) -> Option<[f64; 3]> {
+    let plant = TransferFunction::new(&[1.0], &[lag_s, 1.0, 0.0]).ok()?;
+    let relay = RelayHysteresis::new(1.0, half_width, 0.0).ok()?;
+    let orbits = RelayLoop::new(StateSpace::realise(&plant).ok()?, relay).symmetric_orbits(0.01..=1000.0).ok()?;
+    let exact = orbits.first()?.period_s();
+    let balance = HarmonicBalance::new(&plant, |sweep| relay.describing_function(sweep)).ok()?;
+    let first = *balance.intersections().ok()?.first()?;
+    let error = |order| {
+        let found = balance.with_harmonics(&relay, &first, order).ok()?;
+        Some((core::f64::consts::TAU / found.omega_rad_s() / exact - 1.0).abs())
+    };
+    let [a, b, c] = orders.map(error);
+    Some([a?, b?, c?])
 }

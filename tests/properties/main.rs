@@ -19,6 +19,7 @@ mod identify_joint;
 mod integration_oracle;
 mod interval;
 mod laws;
+mod method_bias;
 mod motion_drag_axis;
 mod oracle;
 mod orbit_drag_axis;

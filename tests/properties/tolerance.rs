@@ -136,3 +136,6 @@ pub(crate) const SUM: f64 = 1e-13;
 
 /// Parameters from a record without noise: the search ends at a relative step of 1e-6.
 pub(crate) const CLEAN_FIT: f64 = 1e-3;
+
+/// A percentage known to half a percent or a whole one: as printed in the findings.
+pub(crate) const PRINTED_PERCENT: f64 = 0.6;
