@@ -136,3 +136,6 @@ pub(crate) const SUM: f64 = 1e-13;
 
 /// Parameters from a record without noise: the search ends at a relative step of 1e-6.
 pub(crate) const CLEAN_FIT: f64 = 1e-3;
+/// What is left of the start-up in a mean over a dozen cycles or more: the first counts once it is within 8 % of the one before,
+/// and successive ones come nearer by the orbit's multiplier, at most a half here.
+pub(crate) const START_UP_LEFT: f64 = 5e-3;
