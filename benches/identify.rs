@@ -1,10 +1,15 @@
 //! Benchmarks of the identification.
 
 use divan::{Bencher, black_box};
+use selfosc::experiment::{Experiment, Record, Sensor};
+use selfosc::features::RecordFeatures;
 use selfosc::identify::DragLaw;
 use selfosc::identify::exact::Cycle;
 use selfosc::identify::iso::Oscillation;
 use selfosc::identify::joint::{Delay, FeatureRow, fit_rows};
+use selfosc::nonlinearity::RelayHysteresis;
+use selfosc::plant::DragAxis;
+use selfosc::select::likelihood::Choice;
 
 fn main() {
     divan::main();
@@ -45,4 +50,29 @@ fn joint<const ESTIMATED: bool>(bencher: Bencher<'_, '_>, law: DragLaw) {
     assert_eq!(rows.len(), 19);
     let delay = if ESTIMATED { Delay::Estimated } else { Delay::KnownS(0.2) };
     bencher.bench(|| fit_rows(black_box(&rows), law, delay).is_ok());
+}
+
+/// A noisy record of so many seconds at 100 Hz.
+fn record(duration_s: f64) -> Option<Record> {
+    let axis = DragAxis::quadratic(1.0, 0.5).ok()?.with_delay_s(0.1).ok()?.with_disturbance(0.1).ok()?;
+    let relay = RelayHysteresis::new(1.0, 0.3, 0.0).ok()?;
+    let sensor = Sensor { noise: 0.01, ..Sensor::default() };
+    Experiment::new(axis, relay, 100.0).ok()?.held().with_sensor(sensor).ok()?.run(duration_s).ok()
+}
+
+/// From the record to the paper's parameters.
+#[divan::bench(args = [60.0, 600.0])]
+fn iso_of_record(bencher: Bencher<'_, '_>, duration_s: f64) {
+    let record = record(duration_s);
+    bencher.bench(|| {
+        let found = RecordFeatures::of(black_box(record.as_ref()?)).ok()?;
+        Oscillation::of(&found.features, found.relay.level, 0.1).identify().ok()
+    });
+}
+
+/// All drag laws fitted to the record.
+#[divan::bench(args = [60.0, 600.0], sample_count = 5)]
+fn fit_of_record(bencher: Bencher<'_, '_>, duration_s: f64) {
+    let record = record(duration_s);
+    bencher.bench(|| Choice::among_all(&[black_box(record.as_ref()?)], Delay::KnownS(0.1)).ok());
 }

@@ -53,7 +53,7 @@ impl<S: Scalar> Peak<S> {
         let first = (0..self.top).find(near).unwrap_or(self.top).min(self.top.saturating_sub(1));
         let last =
             (self.top + 1..self.valid).rev().find(near).unwrap_or(self.top).max((self.top + 1).min(self.valid - 1));
-        Some(vertex(&samples[first..=last], origin, largest).unwrap_or(largest))
+        Some(vertex(&samples[first..=last], largest).unwrap_or(largest))
     }
 
     /// When the search began.
@@ -63,7 +63,7 @@ impl<S: Scalar> Peak<S> {
 }
 
 /// Height of the parabola of least squares at its vertex; `None` where it has none among the samples.
-fn vertex<S: Scalar>(samples: &[(S, S)], origin: S, offset: S) -> Option<S> {
+fn vertex<S: Scalar>(samples: &[(S, S)], offset: S) -> Option<S> {
     if samples.len() < 3 {
         return None;
     }
@@ -90,10 +90,7 @@ fn vertex<S: Scalar>(samples: &[(S, S)], origin: S, offset: S) -> Option<S> {
     let constant = determinant(m, columns[1], columns[2]) / whole;
     let slope = determinant(columns[0], m, columns[2]) / whole;
     let curvature = determinant(columns[0], columns[1], m) / whole;
-    if !(curvature < S::zero()) {
-        return None;
-    }
     let at = -slope / (S::two() * curvature);
-    let inside = at.abs() <= S::one() && (origin - middle).is_finite();
-    inside.then(|| offset + constant + slope * at / S::two())
+    let peaked = curvature < S::zero() && at.abs() <= S::one();
+    peaked.then(|| offset + constant + slope * at / S::two())
 }

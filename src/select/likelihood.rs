@@ -7,9 +7,11 @@ use crate::identify::fit::{Fit, RecordFit};
 use crate::identify::joint::Delay;
 use crate::identify::{DragLaw, IdentifyError};
 
-/// Probability from which a law counts as recognised. One of the two simple laws, if true, never gets much more than
-/// `1 - 1/sqrt(n)`: the mixed law explains as much.
-pub const DECIDED: f64 = 0.8;
+/// Odds against each other law from which a law counts as recognised: 95 %.
+pub const DECIDED: f64 = 19.0;
+/// Odds of a simple law against the mixed one from which the simple one counts: the mixed law explains whatever the simple one
+/// does, so that no record speaks against it by more than the charge for its parameter.
+pub const DECIDED_AGAINST_MIXED: f64 = 4.0;
 
 /// The laws fitted, and which of them the records speak for.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,10 +90,15 @@ impl Choice {
         &self.fits[best]
     }
 
-    /// The law recognised, or `None` where none reaches [`DECIDED`].
+    /// The law recognised: the likeliest, where its odds against each other law that could be fitted are [`DECIDED`], or
+    /// [`DECIDED_AGAINST_MIXED`]; else `None`.
     #[must_use]
     pub fn decision(&self) -> Option<DragLaw> {
         let best = self.likeliest().law();
-        (self.probability(best) >= DECIDED).then_some(best)
+        let beaten = |fit: &RecordFit| {
+            let odds = if fit.law() == DragLaw::Mixed { DECIDED_AGAINST_MIXED } else { DECIDED };
+            fit.law() == best || self.probability(best) >= odds * self.probability(fit.law())
+        };
+        self.fits.iter().all(beaten).then_some(best)
     }
 }

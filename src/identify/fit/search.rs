@@ -350,11 +350,11 @@ impl<'a> Search<'a> {
         for ((motion, steps), (_, instants)) in self.motions.iter_mut().zip(&steps).zip(&chains) {
             motion.advance(steps, instants, share);
         }
-        for k in 0..SHARED {
-            let before = self.shared[k];
-            self.shared[k] = (before + share * shared[k]).max(0.0);
-            let scale = before.abs().max(self.shared[k]).max(f64::MIN_POSITIVE);
-            moved = moved.max((self.shared[k] - before).abs() / scale);
+        for (value, step) in self.shared.iter_mut().zip(shared) {
+            let before = *value;
+            *value = (before + share * step).max(0.0);
+            let scale = before.max(*value).max(f64::MIN_POSITIVE);
+            moved = moved.max((*value - before).abs() / scale);
         }
         Ok(if share < 1.0 { moved.max(1.0) } else { moved })
     }
