@@ -139,6 +139,7 @@ pub(crate) const CLEAN_FIT: f64 = 1e-3;
 
 /// A percentage known to half a percent or a whole one: as printed in the findings.
 pub(crate) const PRINTED_PERCENT: f64 = 0.6;
+
 /// What is left of the start-up in a mean over a dozen cycles or more: the first counts once it is within 8 % of the one before,
 /// and successive ones come nearer by the orbit's multiplier, at most a half here.
 pub(crate) const START_UP_LEFT: f64 = 5e-3;
