@@ -10,12 +10,15 @@ mod verdict;
 mod family;
 pub mod tolerance;
 
+pub mod experiment;
 pub mod fourier;
 pub mod identification;
 pub mod orbits;
 pub mod relay;
 pub mod symmetry;
 pub mod theorems;
+pub mod thruster;
+pub mod vehicle;
 
 pub use claim::{Checker, Claim, Finding, Hypothesis, Kind, Printed};
 pub use sampling::{Budget, Case, Draw, sample};
@@ -59,6 +62,19 @@ macro_rules! for_each_claim {
             orbits::DELTA_FROM_TIMES,
             orbits::METHOD_BIAS,
             orbits::BALANCE_CONVERGES,
+            thruster::THRUSTER_BILINEAR,
+            thruster::THRUSTER_AFFINE,
+            thruster::THRUSTER_ASYMMETRIC,
+            thruster::ALLOCATION,
+            thruster::COMPENSATION,
+            vehicle::KINEMATICS,
+            vehicle::SIX_AXES,
+            vehicle::UNCOUPLED_AXIS,
+            experiment::DELAYS_ADD,
+            experiment::HEAVE,
+            experiment::SURGE,
+            experiment::PROCEDURE,
+            experiment::HARMONIC_BALANCE,
         }
     };
 }

@@ -6,3 +6,8 @@ pub const QUADRATURE: f64 = 2e-12;
 pub const ROUNDING: f64 = 1e-13;
 /// The same where the two forms cancel to a part of their terms: three decimal digits of [`ROUNDING`].
 pub const CANCELLING: f64 = 1e-10;
+/// Closed form against step-by-step integration with 1e-11 a step, over at most a few hundred steps and two events.
+pub const INTEGRATED: f64 = 1e-8;
+/// Parameters from a record with 1000 samples in a period: the switching level is read within one sample's motion, 0.6 % of
+/// the amplitude, and drag follows from its first power.
+pub const SAMPLED: f64 = 1e-2;
