@@ -12,6 +12,7 @@ pub mod tolerance;
 
 pub mod fourier;
 pub mod identification;
+pub mod method_bias;
 pub mod orbits;
 pub mod relay;
 pub mod symmetry;

@@ -8,6 +8,8 @@ pub mod enclosure;
 #[cfg(feature = "std")]
 mod expression;
 mod gradient;
+#[cfg(feature = "std")]
+pub mod inequality;
 mod interval;
 mod jet;
 #[cfg(feature = "std")]

@@ -14,6 +14,7 @@ mod interval;
 mod laws;
 mod motion_drag_axis;
 mod oracle;
+mod orbit_certified;
 mod orbit_drag_axis;
 mod orbit_linear;
 mod paper;
