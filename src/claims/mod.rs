@@ -13,6 +13,7 @@ pub mod tolerance;
 pub mod fourier;
 pub mod identification;
 pub mod method_bias;
+pub mod orbit_proofs;
 pub mod orbits;
 pub mod relay;
 pub mod symmetry;
@@ -56,6 +57,16 @@ macro_rules! for_each_claim {
             orbits::ORBIT_LINEAR,
             orbits::DELTA_FROM_TIMES,
             orbits::METHOD_BIAS,
+            orbit_proofs::NO_EARLY_SWITCHING,
+            orbit_proofs::MULTIPLIER,
+            orbit_proofs::QUADRATIC_DISTURBED,
+            orbit_proofs::LINEAR_DISTURBED,
+            orbit_proofs::AMPLITUDE_MONOTONE_QUADRATIC,
+            orbit_proofs::AMPLITUDE_MONOTONE_LINEAR,
+            orbit_proofs::BIAS_ALPHA_LINEAR,
+            orbit_proofs::BIAS_BETA_LINEAR,
+            orbit_proofs::BIAS_ALPHA_QUADRATIC,
+            orbit_proofs::BIAS_BETA_QUADRATIC,
         }
     };
 }

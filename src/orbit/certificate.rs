@@ -136,8 +136,7 @@ struct End {
 impl Half {
     fn pair(axis: &DragAxis<f64>, relay: &RelayHysteresis<f64>) -> Result<[Self; 2], PlantError> {
         let exact = Interval::point;
-        let interval =
-            DragAxis::mixed(exact(axis.alpha()), exact(axis.linear_drag()), exact(axis.quadratic_drag()))?;
+        let interval = DragAxis::mixed(exact(axis.alpha()), exact(axis.linear_drag()), exact(axis.quadratic_drag()))?;
         let (level, constant) = (exact(relay.level()), exact(axis.disturbance()) + exact(relay.offset()));
         let (upward, downward) = (level + constant, level - constant);
         let half = |drive, brake: Interval| {

@@ -260,15 +260,3 @@ pub const LINEAR_OVERSHOOT: Theorem = Theorem {
     domain: "every g > 0, as tanh z in (0, 1)",
     inequalities: &[LINEAR_OVERSHOOT_WEAK, LINEAR_OVERSHOOT_STRONG, LINEAR_WIDTH_SHORT, LINEAR_WIDTH_LONG],
 };
-
-/// All theorems of this module.
-pub const THEOREMS: &[Theorem] = &[
-    QUADRATIC,
-    LINEAR,
-    QUADRATIC_DISTURBED,
-    LINEAR_DISTURBED,
-    NO_EARLY_SWITCHING,
-    MULTIPLIER,
-    QUADRATIC_OVERSHOOT,
-    LINEAR_OVERSHOOT,
-];
