@@ -68,7 +68,7 @@ pub enum Search {
     },
 }
 
-/// A proof: boxes that cover the domain, on each of which interval arithmetic alone shows the inequality.
+/// A proof: boxes, halves of halves of the domain, that cover the domain, on each of which interval arithmetic alone shows the inequality.
 ///
 /// As text, one item a line: `inequality ID`, `domain LO HI ...`, `bound B`, and `box LO HI ...` for each box.
 #[derive(Clone, Debug, PartialEq)]
@@ -182,28 +182,26 @@ impl Inequality {
             }
         }
         let boxes: Vec<&Cell> = proof.boxes.iter().collect();
-        if covered(&proof.domain, &boxes) { Ok(()) } else { Err(Refusal::NotCovered) }
+        let mut cuts = CUTS_PER_BOX * boxes.len();
+        if covered(&proof.domain, &proof.domain, &boxes, &mut cuts) { Ok(()) } else { Err(Refusal::NotCovered) }
     }
 }
 
-/// Whether every point of `domain` lies in a box.
-fn covered(domain: &Cell, boxes: &[&Cell]) -> bool {
-    if boxes.iter().any(|at| (0..SIDES).all(|i| domain[i].is_subset_of(at[i]))) {
+/// Bisections allowed for each box, to see that the boxes cover their domain.
+const CUTS_PER_BOX: usize = 64;
+
+/// Whether every point of `part`, a part of `domain`, lies in a box: by bisection, as the boxes arose.
+fn covered(domain: &Cell, part: &Cell, boxes: &[&Cell], cuts: &mut usize) -> bool {
+    if boxes.iter().any(|at| (0..SIDES).all(|i| part[i].is_subset_of(at[i]))) {
         return true;
     }
-    // Cut along the face of a box that comes nearest to halving the domain.
-    let faces = boxes.iter().flat_map(|at| (0..SIDES).flat_map(|i| [(i, at[i].lower()), (i, at[i].upper())]));
-    let off_centre = |&(i, face): &(usize, f64)| (face - domain[i].midpoint()).abs() / domain[i].width();
-    let cut = faces
-        .filter(|&(i, face)| domain[i].lower() < face && face < domain[i].upper())
-        .min_by(|a, b| off_centre(a).total_cmp(&off_centre(b)));
-    let Some((side, face)) = cut else { return false };
-    [(domain[side].lower(), face), (face, domain[side].upper())].into_iter().all(|(lower, upper)| {
-        let Some(part) = Interval::new(lower, upper) else { return false };
-        let mut half = *domain;
-        half[side] = part;
-        let inside = |at: &&&Cell| at[side].lower() < upper && at[side].upper() > lower;
-        covered(&half, &boxes.iter().filter(inside).copied().collect::<Vec<_>>())
+    let Some(left) = cuts.checked_sub(1).filter(|_| !boxes.is_empty()) else { return false };
+    *cuts = left;
+    let Some(halves) = branch_and_bound::halves(part, &domain.map(Interval::width)) else { return false };
+    halves.iter().all(|half| {
+        let overlaps = |a: Interval, b: Interval| a.is_point() || (a.lower() < b.upper() && a.upper() > b.lower());
+        let inside = |at: &&&Cell| (0..SIDES).all(|i| overlaps(half[i], at[i]));
+        covered(domain, half, &boxes.iter().filter(inside).copied().collect::<Vec<_>>(), cuts)
     })
 }
 

@@ -215,10 +215,10 @@ impl Half {
     }
 }
 
-/// Integral over [0, 1], as narrow as rounding allows.
+/// Integral over [0, 1], nearly as narrow as rounding allows.
 fn integral<const M: usize>(integrand: &impl Integrand<M>) -> [Interval; M] {
     let scale = integrand.range(Interval::ONE).map(Interval::magnitude).into_iter().fold(f64::INFINITY, f64::min);
-    integrate(integrand, Interval::ZERO, Interval::ONE, 1e-15 * scale, 300).integrals
+    integrate(integrand, Interval::ZERO, Interval::ONE, 1e-14 * scale, 300).integrals
 }
 
 /// `speed/(terminal rate)` over the share of an angle.

@@ -39,6 +39,8 @@ impl Theorem {
 const NONE: Side = Side::NONE;
 /// Disturbance over relay level: what the theorems with disturbance cover.
 const MU: Side = Side::new("mu", -0.95, 0.95);
+/// Up to here a multiple zero at zero is divided out.
+const NEAR_ZERO: f64 = 0.1;
 /// From here on a border at one is treated by itself.
 const NEAR_ONE: f64 = 0.9;
 
@@ -154,9 +156,15 @@ fn quadratic_overshoot<T: Real>(r: T) -> T {
 /// A double zero at zero.
 pub const QUADRATIC_OVERSHOOT_WEAK: Inequality = Inequality {
     id: "quadratic-overshoot-weak",
-    statement: "quadratic drag: the derivative of the relative overshoot, over y*^2, keeps its sign for y* <= 0.9",
+    statement: "quadratic drag: the derivative of the relative overshoot, over y*^2 near zero, keeps its sign for y* <= 0.9",
     sides: [Side::new("y*", 0.0, NEAR_ONE), NONE, NONE],
-    margin: |at| last_coefficient(at[0], quadratic_overshoot::<Jet<3>>),
+    margin: |at| {
+        if at[0].upper() > NEAR_ZERO {
+            quadratic_overshoot(at[0])
+        } else {
+            last_coefficient(at[0], quadratic_overshoot::<Jet<3>>)
+        }
+    },
 };
 
 /// Up to the strongest drag.
@@ -175,15 +183,16 @@ fn linear_overshoot<T: Real>(t: T) -> T {
 /// A triple zero at zero.
 pub const LINEAR_OVERSHOOT_WEAK: Inequality = Inequality {
     id: "linear-overshoot-weak",
-    statement: "linear drag: the derivative of the relative overshoot, over tanh^3 z, keeps its sign for tanh z <= 0.9",
+    statement: "linear drag: the derivative of the relative overshoot, over tanh^3 z near zero, keeps its sign for tanh z <= 0.9",
     sides: [Side::new("tanh z", 0.0, NEAR_ONE), NONE, NONE],
-    margin: |at| linear_overshoot_coefficient(at[0]),
+    margin: |at| {
+        if at[0].upper() > NEAR_ZERO {
+            linear_overshoot(at[0])
+        } else {
+            last_coefficient(at[0], linear_overshoot::<Jet<4>>)
+        }
+    },
 };
-
-/// Third coefficient near zero; the value, which then is not zero, further on.
-fn linear_overshoot_coefficient(at: Interval) -> Interval {
-    if at.lower() > 0.25 { linear_overshoot(at) } else { last_coefficient(at, linear_overshoot::<Jet<4>>) }
-}
 
 /// Up to the strongest drag: `(1 - t) atanh t = (1 - t) ln(1 + t)/2 - (1 - t) ln(1 - t)/2`.
 pub const LINEAR_OVERSHOOT_STRONG: Inequality = Inequality {
