@@ -14,6 +14,8 @@ pub mod experiment;
 pub mod fourier;
 pub mod identification;
 pub mod kernels;
+pub mod method_bias;
+pub mod orbit_proofs;
 pub mod orbits;
 pub mod proof;
 pub mod relay;
@@ -81,6 +83,16 @@ macro_rules! for_each_claim {
             experiment::SURGE,
             experiment::PROCEDURE,
             experiment::HARMONIC_BALANCE,
+            orbit_proofs::NO_EARLY_SWITCHING,
+            orbit_proofs::MULTIPLIER,
+            orbit_proofs::QUADRATIC_DISTURBED,
+            orbit_proofs::LINEAR_DISTURBED,
+            orbit_proofs::AMPLITUDE_MONOTONE_QUADRATIC,
+            orbit_proofs::AMPLITUDE_MONOTONE_LINEAR,
+            orbit_proofs::BIAS_ALPHA_LINEAR,
+            orbit_proofs::BIAS_BETA_LINEAR,
+            orbit_proofs::BIAS_ALPHA_QUADRATIC,
+            orbit_proofs::BIAS_BETA_QUADRATIC,
         }
     };
 }

@@ -9,7 +9,8 @@ use serde_json::json;
 use super::axis::AxisArguments;
 use super::{CommandError, Outcome, write_json};
 use crate::balance::AxisOscillation;
-use crate::orbit::{LimitCycle, limit_cycle};
+use crate::numeric::Interval;
+use crate::orbit::{Certificate, LimitCycle, certify, limit_cycle};
 
 /// The self-oscillation of alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay) + delta under a relay with hysteresis.
 ///
@@ -57,6 +58,27 @@ impl From<LimitCycle<f64>> for Exact {
     }
 }
 
+/// Each number as its lower and upper bound.
+fn certificate(proof: &Certificate) -> serde_json::Value {
+    let bounds = |interval: Interval| [interval.lower(), interval.upper()];
+    let cycle = &proof.enclosure;
+    json!({
+        "unique": proof.unique,
+        "attracting": proof.attracting,
+        "enclosure": {
+            "amplitude": bounds(cycle.amplitude),
+            "bias": bounds(cycle.bias),
+            "maximum": bounds(cycle.maximum),
+            "minimum": bounds(cycle.minimum),
+            "period_s": bounds(cycle.period_s),
+            "time_positive_s": bounds(cycle.time_positive_s),
+            "time_negative_s": bounds(cycle.time_negative_s),
+            "switch_level": bounds(cycle.upper_switch.position),
+            "multiplier": bounds(cycle.multiplier),
+        },
+    })
+}
+
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let (axis, relay) = (arguments.axis.axis()?, arguments.axis.relay()?);
     let exact = match limit_cycle(&axis, &relay) {
@@ -75,7 +97,9 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     if arguments.json {
         let balance = balance
             .map(|found| json!({ "amplitude": found.amplitude, "bias": found.bias, "period_s": found.period_s() }));
-        write_json(output, &json!({ "harmonic_balance": balance, "exact": exact, "certificate": null }))?;
+        // Without a proof the exact cycle stands as computed.
+        let proof = certify(&axis, &relay).ok().as_ref().map(certificate);
+        write_json(output, &json!({ "harmonic_balance": balance, "exact": exact, "certificate": proof }))?;
         return Ok(Outcome::Done);
     }
     let approximate = |part: fn(&AxisOscillation) -> f64| {

@@ -112,7 +112,7 @@ impl<const N: usize> PartialEq for Open<N> {
 impl<const N: usize> Eq for Open<N> {}
 
 /// The box halved along its longest side, measured in `sizes`; `None` if that cannot be.
-fn halves<const N: usize>(at: &[Interval; N], sizes: &[f64; N]) -> Option<[[Interval; N]; 2]> {
+pub(super) fn halves<const N: usize>(at: &[Interval; N], sizes: &[f64; N]) -> Option<[[Interval; N]; 2]> {
     let share = |i: usize| if sizes[i] > 0.0 { at[i].width() / sizes[i] } else { 0.0 };
     let longest = (0..N).max_by(|&i, &j| share(i).total_cmp(&share(j)))?;
     let (lower, upper) = at[longest].bisect();

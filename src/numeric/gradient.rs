@@ -52,7 +52,10 @@ impl<const N: usize> Gradient<N> {
         &self.slopes
     }
 
-    fn chain(self, value: Interval, slope: Interval) -> Self {
+    /// A function of this one, given that function's `value` and derivative `slope` over [`value`](Self::value): for functions
+    /// that are known by an integral.
+    #[must_use]
+    pub fn chain(self, value: Interval, slope: Interval) -> Self {
         Self { value, slopes: self.slopes.map(|inner| inner * slope) }
     }
 

@@ -57,3 +57,20 @@ pub fn linear_half_width<T: Real>(z: T) -> T {
 pub fn linear_amplitude_excess<T: Real>(z: T) -> T {
     minus_ln_1p(z.tanh())
 }
+
+/// Slope of the return map without delay, as numerator and denominator, whatever the drag law: the drag forces at the
+/// upper and at the lower switching are `drags`, the disturbance with the relay's offset is `mu`, all in units of C.
+///
+/// Energy gives a half cycle's share: force left over force that brakes, `(1 + mu - d_1)/(1 - mu + d_1)`. The
+/// denominator exceeds the numerator by exactly `2 (d_1 + d_2)`, so that the map contracts wherever there is drag.
+pub fn return_slope<T: Real>(mu: T, drags: [T; 2]) -> [T; 2] {
+    let [upward, downward] = [T::one() + mu, T::one() - mu];
+    let [upper, lower] = drags;
+    [(upward - upper) * (downward - lower), (downward + upper) * (upward + lower)]
+}
+
+/// Share of a force that drag leaves, at the share `speed` of the terminal speed, where `linear` is the linear share of the
+/// drag at terminal speed.
+pub fn force_left<T: Real>(speed: T, linear: T) -> T {
+    T::one() - (linear + (T::one() - linear) * speed) * speed
+}

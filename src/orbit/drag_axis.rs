@@ -141,10 +141,10 @@ pub fn return_map<S: Scalar>(
 const MAX_STEPS: usize = 60;
 
 /// Times from rest to the levels on the limit cycle, with the swings they give.
-type Solution<S> = ([S; 2], [Swing<S>; 2]);
+pub(super) type Solution<S> = ([S; 2], [Swing<S>; 2]);
 
 /// Newton's method for the lengths of the two approaches, with the times as coordinates.
-fn solve<S: Scalar>(halves: &[HalfCycle<S>; 2]) -> Result<Solution<S>, OrbitError> {
+pub(super) fn solve<S: Scalar>(halves: &[HalfCycle<S>; 2]) -> Result<Solution<S>, OrbitError> {
     let one = S::one();
     let mean_drive = (halves[0].drive.drive + halves[1].drive.drive) / S::two();
     let mut times =

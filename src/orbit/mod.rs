@@ -1,5 +1,7 @@
 //! Exact limit cycles under a relay, for comparison with harmonic balance and for identification.
 
+#[cfg(feature = "std")]
+mod certificate;
 mod closed_form;
 mod drag_axis;
 mod error;
@@ -15,11 +17,15 @@ mod relay_linear;
 #[cfg(feature = "std")]
 mod relay_multiplier;
 #[cfg(feature = "std")]
+pub mod theorem;
+#[cfg(feature = "std")]
 mod tsypkin;
 
+#[cfg(feature = "std")]
+pub use certificate::{Certificate, certify};
 pub use closed_form::{
-    linear_amplitude_excess, linear_half_cycle, linear_half_width, quadratic_half_cycle, quadratic_period,
-    quadratic_speeds,
+    force_left, linear_amplitude_excess, linear_half_cycle, linear_half_width, quadratic_half_cycle, quadratic_period,
+    quadratic_speeds, return_slope,
 };
 pub use drag_axis::{LimitCycle, Return, Switching, limit_cycle, return_map};
 pub use error::OrbitError;

@@ -22,6 +22,7 @@ mod laws;
 mod method_bias;
 mod motion_drag_axis;
 mod oracle;
+mod orbit_certified;
 mod orbit_drag_axis;
 mod orbit_linear;
 mod paper;

@@ -1,0 +1,263 @@
+//! Inequalities over boxes, and proofs of them that can be checked again without a search.
+
+use core::fmt;
+use core::str::FromStr;
+
+use super::Interval;
+use super::branch_and_bound::{self, prove_positive};
+
+/// Unknowns of an inequality, used or not.
+pub const SIDES: usize = 3;
+
+/// A box: one interval for each unknown.
+pub type Cell = [Interval; SIDES];
+
+/// The range of one unknown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Side {
+    /// Name in the statement; empty where the inequality has fewer unknowns.
+    pub name: &'static str,
+    /// Lower end.
+    pub lower: f64,
+    /// Upper end, possibly infinite: then the inequality must come out without subdivision.
+    pub upper: f64,
+}
+
+impl Side {
+    /// Takes the place of an unknown that there is not.
+    pub const NONE: Self = Self { name: "", lower: 0.0, upper: 0.0 };
+
+    /// An unknown with its range.
+    #[must_use]
+    pub const fn new(name: &'static str, lower: f64, upper: f64) -> Self {
+        Self { name, lower, upper }
+    }
+}
+
+/// `margin > 0` for every point of a box.
+#[derive(Clone, Copy, Debug)]
+pub struct Inequality {
+    /// Its name, and that of its proof.
+    pub id: &'static str,
+    /// What is positive.
+    pub statement: &'static str,
+    /// The box.
+    pub sides: [Side; SIDES],
+    /// An enclosure of the margin over a part of the box.
+    pub margin: fn(&Cell) -> Interval,
+}
+
+/// What a search for a proof found.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Search {
+    /// A proof.
+    Proved(Proof),
+    /// A point at which the margin is not positive.
+    Refuted {
+        /// The point.
+        witness: [f64; SIDES],
+        /// The margin there.
+        margin: Interval,
+    },
+    /// The budget was spent.
+    Undecided {
+        /// A box that was not decided.
+        at: Cell,
+        /// Boxes evaluated.
+        boxes: usize,
+    },
+}
+
+/// A proof: boxes, halves of halves of the domain, that cover the domain, on each of which interval arithmetic alone shows the inequality.
+///
+/// As text, one item a line: `inequality ID`, `domain LO HI ...`, `bound B`, and `box LO HI ...` for each box.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Proof {
+    /// What was proved, by [`Inequality::id`].
+    pub inequality: String,
+    /// Where.
+    pub domain: Cell,
+    /// The margin is at least this, everywhere.
+    pub bound: f64,
+    /// The boxes.
+    pub boxes: Vec<Cell>,
+}
+
+/// Why a proof is not accepted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// A line that is not of the format.
+    #[error("line {line}: `{text}` is not an item of a proof, or is out of place")]
+    Malformed {
+        /// From one.
+        line: usize,
+        /// The line.
+        text: String,
+    },
+    /// A proof of something else.
+    #[error("a proof of `{found}`; `{expected}` is in question")]
+    Other {
+        /// What is proved.
+        found: String,
+        /// What should be.
+        expected: &'static str,
+    },
+    /// A proof on another domain.
+    #[error("the domain is not that of `{inequality}`")]
+    Domain {
+        /// The inequality.
+        inequality: &'static str,
+    },
+    /// A bound that proves nothing.
+    #[error("the bound {bound} is not above 0")]
+    Bound {
+        /// The bound.
+        bound: f64,
+    },
+    /// A box on which the margin may lie below the bound.
+    #[error("on box {index} the margin is {margin}, which reaches below the bound {bound}")]
+    NotShown {
+        /// Place in the list, from zero.
+        index: usize,
+        /// The margin.
+        margin: Interval,
+        /// The bound claimed.
+        bound: f64,
+    },
+    /// Part of the domain lies in no box.
+    #[error("the boxes do not cover the domain")]
+    NotCovered,
+}
+
+impl Inequality {
+    /// The box, or `None` where a range is empty.
+    #[must_use]
+    pub fn domain(&self) -> Option<Cell> {
+        let [a, b, c] = self.sides.map(|side| Interval::new(side.lower, side.upper));
+        Some([a?, b?, c?])
+    }
+
+    /// Searches for a proof by subdivision, on at most `budget` boxes.
+    #[must_use]
+    pub fn prove(&self, budget: usize) -> Search {
+        let Some(domain) = self.domain() else { return Search::Undecided { at: [Interval::ENTIRE; SIDES], boxes: 0 } };
+        let shown = core::cell::RefCell::new(Vec::new());
+        let margin = |at: &Cell| {
+            let value = (self.margin)(at);
+            if value.is_positive() && (*at == domain || at.iter().any(|side| !side.is_point())) {
+                shown.borrow_mut().push(*at);
+            }
+            value
+        };
+        match prove_positive(margin, domain, budget) {
+            branch_and_bound::Verdict::Proved { margin, .. } => {
+                let boxes = shown.into_inner();
+                Search::Proved(Proof { inequality: self.id.to_owned(), domain, bound: margin, boxes })
+            }
+            branch_and_bound::Verdict::Refuted { witness, margin, .. } => Search::Refuted { witness, margin },
+            branch_and_bound::Verdict::Undecided { at, boxes, .. } => Search::Undecided { at, boxes },
+        }
+    }
+
+    /// Whether `proof` shows this inequality: by evaluation on the boxes listed, and by their covering the domain. Searches
+    /// nothing.
+    ///
+    /// # Errors
+    /// [`Refusal`].
+    pub fn check(&self, proof: &Proof) -> Result<(), Refusal> {
+        if proof.inequality != self.id {
+            return Err(Refusal::Other { found: proof.inequality.clone(), expected: self.id });
+        }
+        if self.domain() != Some(proof.domain) {
+            return Err(Refusal::Domain { inequality: self.id });
+        }
+        if !(proof.bound > 0.0) {
+            return Err(Refusal::Bound { bound: proof.bound });
+        }
+        for (index, at) in proof.boxes.iter().enumerate() {
+            let margin = (self.margin)(at);
+            if margin.lower() < proof.bound {
+                return Err(Refusal::NotShown { index, margin, bound: proof.bound });
+            }
+        }
+        let boxes: Vec<&Cell> = proof.boxes.iter().collect();
+        let mut cuts = CUTS_PER_BOX * boxes.len();
+        if covered(&proof.domain, &proof.domain, &boxes, &mut cuts) { Ok(()) } else { Err(Refusal::NotCovered) }
+    }
+}
+
+/// Bisections allowed for each box, to see that the boxes cover their domain.
+const CUTS_PER_BOX: usize = 64;
+
+/// Whether every point of `part`, a part of `domain`, lies in a box: by bisection, as the boxes arose.
+fn covered(domain: &Cell, part: &Cell, boxes: &[&Cell], cuts: &mut usize) -> bool {
+    if boxes.iter().any(|at| (0..SIDES).all(|i| part[i].is_subset_of(at[i]))) {
+        return true;
+    }
+    let Some(left) = cuts.checked_sub(1).filter(|_| !boxes.is_empty()) else { return false };
+    *cuts = left;
+    let Some(halves) = branch_and_bound::halves(part, &domain.map(Interval::width)) else { return false };
+    halves.iter().all(|half| {
+        let overlaps = |a: Interval, b: Interval| a.is_point() || (a.lower() < b.upper() && a.upper() > b.lower());
+        let inside = |at: &&&Cell| (0..SIDES).all(|i| overlaps(half[i], at[i]));
+        covered(domain, half, &boxes.iter().filter(inside).copied().collect::<Vec<_>>(), cuts)
+    })
+}
+
+struct Numbers<'a>(&'a Cell);
+
+impl fmt::Display for Numbers<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // The shortest decimals that give the same doubles again.
+        self.0.iter().try_for_each(|side| write!(f, " {:?} {:?}", side.lower(), side.upper()))
+    }
+}
+
+impl fmt::Display for Proof {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "inequality {}\ndomain{}\nbound {:?}", self.inequality, Numbers(&self.domain), self.bound)?;
+        self.boxes.iter().try_for_each(|at| writeln!(f, "box{}", Numbers(at)))
+    }
+}
+
+/// Several proofs, one after the other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Proofs(pub Vec<Proof>);
+
+impl fmt::Display for Proofs {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|proof| write!(f, "{proof}"))
+    }
+}
+
+impl FromStr for Proofs {
+    type Err = Refusal;
+
+    fn from_str(text: &str) -> Result<Self, Refusal> {
+        let mut proofs: Vec<Proof> = Vec::new();
+        for (index, line) in text.lines().enumerate() {
+            let fault = || Refusal::Malformed { line: index + 1, text: line.to_owned() };
+            let (item, rest) = line.split_once(' ').ok_or_else(fault)?;
+            if item == "inequality" {
+                let domain = [Interval::ENTIRE; SIDES];
+                proofs.push(Proof { inequality: rest.to_owned(), domain, bound: 0.0, boxes: Vec::new() });
+                continue;
+            }
+            let proof = proofs.last_mut().ok_or_else(fault)?;
+            match item {
+                "domain" => proof.domain = cell(rest).ok_or_else(fault)?,
+                "bound" => proof.bound = rest.parse().map_err(|_| fault())?,
+                "box" => proof.boxes.push(cell(rest).ok_or_else(fault)?),
+                _ => return Err(fault()),
+            }
+        }
+        Ok(Self(proofs))
+    }
+}
+
+fn cell(text: &str) -> Option<Cell> {
+    let numbers: Vec<f64> = text.split(' ').map(|word| word.parse().ok()).collect::<Option<_>>()?;
+    let [a, b, c, d, e, f] = numbers[..] else { return None };
+    Some([Interval::new(a, b)?, Interval::new(c, d)?, Interval::new(e, f)?])
+}

@@ -1,0 +1,206 @@
+//! Proofs about exact orbits: they exist, they can be checked again, and nothing false passes.
+
+use selfosc::claims::method_bias::DragLaw;
+use selfosc::claims::orbit_proofs::{FALSEHOODS, THEOREMS};
+use selfosc::identify::iso::Oscillation;
+use selfosc::nonlinearity::RelayHysteresis;
+use selfosc::numeric::inequality::{Inequality, Proof, Proofs, Refusal, Search};
+use selfosc::numeric::{Gradient, Interval};
+use selfosc::orbit::theorem::BUDGET;
+use selfosc::orbit::{OrbitError, certify, force_left, limit_cycle, return_slope};
+use selfosc::plant::DragAxis;
+
+use crate::tolerance::{CENTRAL_DIFFERENCE, REFERENCE, ROUNDING};
+
+fn proofs() -> Vec<(Inequality, Proof)> {
+    let prove = |inequality: &Inequality| match inequality.prove(BUDGET) {
+        Search::Proved(proof) => (*inequality, proof),
+        other => panic!("{}: {other:?}", inequality.id),
+    };
+    THEOREMS.iter().flat_map(|theorem| theorem.inequalities.iter().map(prove)).collect()
+}
+
+#[test]
+fn every_theorem_is_proved_and_its_proof_survives_a_file() {
+    for (inequality, proof) in proofs() {
+        let file = Proofs(vec![proof.clone()]).to_string();
+        let read: Proofs = file.parse().unwrap();
+        assert_eq!(read.0, [proof]);
+        assert_eq!(inequality.check(&read.0[0]), Ok(()), "{}", inequality.id);
+    }
+}
+
+#[test]
+fn no_falsehood_is_proved() {
+    for inequality in FALSEHOODS {
+        let found = inequality.prove(BUDGET);
+        assert!(matches!(found, Search::Refuted { .. }), "{}: {found:?}", inequality.id);
+    }
+}
+
+#[test]
+fn corrupted_proofs_are_refused() {
+    for (inequality, proof) in proofs() {
+        let missing = Proof { boxes: proof.boxes[1..].to_vec(), ..proof.clone() };
+        assert_eq!(inequality.check(&missing), Err(Refusal::NotCovered), "{}", inequality.id);
+        let mut moved = proof.clone();
+        let side = moved.boxes[0][0];
+        moved.boxes[0][0] = Interval::new(side.lower(), side.lower().midpoint(side.upper().min(1e3))).unwrap();
+        if !side.is_point() {
+            assert!(inequality.check(&moved).is_err(), "{}: a box cut in half", inequality.id);
+        }
+        let boast = Proof { bound: 10.0 * proof.bound.max(1.0), ..proof.clone() };
+        assert!(matches!(inequality.check(&boast), Err(Refusal::NotShown { .. })), "{}", inequality.id);
+        let vacuous = Proof { bound: 0.0, ..proof.clone() };
+        assert!(matches!(inequality.check(&vacuous), Err(Refusal::Bound { .. })));
+        let other = Proof { inequality: "another".to_owned(), ..proof.clone() };
+        assert!(matches!(inequality.check(&other), Err(Refusal::Other { .. })));
+        let mut elsewhere = proof;
+        elsewhere.domain[0] = Interval::UNIT + Interval::UNIT;
+        assert!(matches!(inequality.check(&elsewhere), Err(Refusal::Domain { .. })));
+    }
+    for text in [
+        "box 0 1 0 0 0 0",
+        "inequality a\nbox 0 1 0 0 0",
+        "inequality a\nbox 1 0 0 0 0 0",
+        "inequality a\nbound x",
+        "nonsense",
+    ] {
+        assert!(matches!(text.parse::<Proofs>(), Err(Refusal::Malformed { .. })), "{text}");
+    }
+}
+
+/// Linear and quadratic drag, disturbance, delay, half-width; alpha and level are one.
+const AXES: [[f64; 5]; 11] = [
+    [0.4, 0.0, 0.0, 0.0, 0.3],
+    [0.0, 0.5, 0.0, 0.0, 0.3],
+    [0.2, 0.3, 0.0, 0.0, 0.3],
+    [0.2, 0.3, 0.4, 0.0, 0.3],
+    [2e-4, 3e-4, -0.4, 0.0, 0.3],
+    [20.0, 30.0, 0.4, 0.0, 0.3],
+    [0.2, 0.3, 0.4, 0.5, 0.3],
+    [0.2, 0.3, -0.4, 0.5, 0.0],
+    [0.0, 1.0, 0.0, 0.0, 10.0],
+    [0.0, 1.0, 0.95, 0.0, 10.0],
+    [1e-6, 0.0, 0.0, 0.0, 0.3],
+];
+
+fn build([linear, quadratic, disturbance, delay_s, half_width]: [f64; 5]) -> (DragAxis<f64>, RelayHysteresis<f64>) {
+    let axis = DragAxis::mixed(1.0, linear, quadratic).unwrap().with_disturbance(disturbance).unwrap();
+    (axis.with_delay_s(delay_s).unwrap(), RelayHysteresis::new(1.0, half_width, 0.0).unwrap())
+}
+
+#[test]
+fn enclosures_of_one_axis_are_narrow_and_hold_the_orbit() {
+    for case in AXES {
+        let (axis, relay) = build(case);
+        let proof = certify(&axis, &relay).unwrap();
+        assert!(proof.unique && proof.attracting);
+        let (cycle, enclosure) = (limit_cycle(&axis, &relay).unwrap(), proof.enclosure);
+        // Rounding of the floating-point cycle grows as its multiplier nears one.
+        let allowed = REFERENCE / (1.0 - cycle.multiplier);
+        for (value, interval, scale) in [
+            (cycle.amplitude, enclosure.amplitude, cycle.amplitude),
+            (cycle.bias, enclosure.bias, cycle.amplitude),
+            (cycle.maximum, enclosure.maximum, cycle.amplitude),
+            (cycle.minimum, enclosure.minimum, cycle.amplitude),
+            (cycle.period_s, enclosure.period_s, cycle.period_s),
+            (cycle.time_positive_s, enclosure.time_positive_s, cycle.period_s),
+            (cycle.time_negative_s, enclosure.time_negative_s, cycle.period_s),
+            (cycle.upper_switch.position, enclosure.upper_switch.position, cycle.amplitude),
+            (cycle.upper_switch.velocity, enclosure.upper_switch.velocity, cycle.upper_switch.velocity),
+            (cycle.multiplier, enclosure.multiplier, 1.0),
+        ] {
+            let off = (interval - Interval::point(value)).magnitude();
+            assert!(off <= 10.0 * allowed * scale.abs(), "{case:?}: {value} and {interval}");
+        }
+    }
+}
+
+/// The closed form of the symmetric case in intervals, by another path, meets the enclosure.
+#[test]
+fn enclosures_hold_the_closed_form() {
+    use selfosc::numeric::Real;
+    for g in [1e-3, 0.1, 1.0, 5.0] {
+        let (axis, relay) = build([0.0, 1.0, 0.0, 0.0, g]);
+        let y = (-(Interval::point(-4.0) * Interval::point(g)).exp_m1()).sqrt();
+        let amplitude = Interval::point(g) + y.ln_1p() / Interval::two();
+        assert!(certify(&axis, &relay).unwrap().enclosure.amplitude.intersection(amplitude).is_some(), "{g}");
+    }
+}
+
+#[test]
+fn refusals_are_named() {
+    let refusal = |case| {
+        let (axis, relay) = build(case);
+        certify(&axis, &relay).unwrap_err()
+    };
+    assert!(matches!(refusal([0.1, 0.0, 1.0, 0.0, 0.3]), OrbitError::Drift { .. }));
+    assert!(matches!(refusal([0.0, 0.0, 0.0, 0.0, 0.3]), OrbitError::NoDrag));
+    assert!(matches!(refusal([0.1, 0.0, 0.0, 0.0, 0.0]), OrbitError::NoHysteresis));
+    assert!(matches!(refusal([1e-300, 0.0, 0.0, 0.0, 0.3]), OrbitError::Unresolved { .. }));
+}
+
+/// The slope that the theorems rest on is the slope of the map itself, and obeys the proved bound.
+#[test]
+fn slope_formula_is_the_multiplier() {
+    for case in AXES.into_iter().filter(|case| case[3] == 0.0) {
+        let (axis, relay) = build(case);
+        let cycle = limit_cycle(&axis, &relay).unwrap();
+        let drag = |speed: f64| (case[0] + case[1] * speed) * speed;
+        let drags = [drag(cycle.upper_switch.velocity), drag(-cycle.lower_switch.velocity)];
+        let [numerator, denominator] = return_slope(case[2], drags);
+        // At strong drag the numerator is what rounding leaves.
+        let off = (numerator / denominator - cycle.multiplier).abs();
+        assert!(off <= REFERENCE / (1.0 - cycle.multiplier), "{case:?}: {off}");
+        assert!(1.0 - cycle.multiplier > 0.48 * (drags[0] + drags[1]), "{case:?}");
+    }
+    let [x, y] = Gradient::variables([Interval::point(0.3), Interval::point(0.2)]);
+    let [numerator, denominator] = return_slope(Gradient::constant(Interval::point(0.1)), [x, y]);
+    assert!((denominator - numerator).slopes().iter().all(|slope| slope.contains(2.0)));
+    assert!(force_left(1.0, 0.3f64).abs() <= ROUNDING);
+}
+
+/// The enclosed errors are those of the method on the computed orbit.
+#[test]
+fn method_errors_are_enclosed() {
+    for g in [1e-6, 1e-3, 0.1, 1.0, 3.0, 10.0, 50.0] {
+        for law in [DragLaw::Linear, DragLaw::Quadratic] {
+            let drag = if law == DragLaw::Linear { [1.0, 0.0] } else { [0.0, 1.0] };
+            let (axis, relay) = build([drag[0], drag[1], 0.0, 0.0, g]);
+            let cycle = limit_cycle(&axis, &relay).unwrap();
+            let read = Oscillation {
+                relay_level: 1.0,
+                switch_level: g,
+                amplitude: cycle.amplitude,
+                bias: 0.0,
+                period_s: cycle.period_s,
+                delay_s: 0.0,
+            };
+            let found = read.identify().unwrap();
+            let errors = [found.alpha, if law == DragLaw::Linear { found.beta } else { found.beta_quadratic }];
+            let enclosed = law.error_over(g, g).unwrap();
+            for (error, interval) in errors.into_iter().zip([enclosed.alpha, enclosed.drag]) {
+                let off = (interval - Interval::point(error - 1.0)).magnitude();
+                assert!(off < interval.width() + CENTRAL_DIFFERENCE, "{law:?} {g}: {error} {interval}");
+            }
+            let over = law.error_over(0.5 * g, 2.0 * g).unwrap();
+            assert!(enclosed.alpha.is_subset_of(over.alpha) && enclosed.drag.is_subset_of(over.drag));
+        }
+    }
+    assert!(DragLaw::Linear.error_over(-1.0, 1.0).is_none() && DragLaw::Linear.error_over(2.0, 1.0).is_none());
+}
+
+/// The coordinates at which the curves are proved enclose the values of `g` that the claims name.
+#[test]
+fn coordinates_bracket_the_stated_groups() {
+    for (law, from, to, g) in [
+        (DragLaw::Linear, 1.95, 1.97, 1.0),
+        (DragLaw::Linear, 10.99, 11.0, 10.0),
+        (DragLaw::Quadratic, 2.68, 2.7, 1.0),
+        (DragLaw::Quadratic, 20.68, 20.7, 10.0),
+    ] {
+        let [lower, upper] = [from, to].map(|coordinate| law.group(Interval::point(coordinate)));
+        assert!(lower.upper() < g && g < lower.hull(upper).upper() && upper.lower() > g, "{law:?} {g}");
+    }
+}
