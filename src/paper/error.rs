@@ -1,7 +1,9 @@
 //! Why a part of the paper cannot be regenerated.
 
+use crate::experiment::ExperimentError;
 use crate::identify::IdentifyError;
 use crate::nonlinearity::NonlinearityError;
+use crate::plant::PlantError;
 use crate::vehicle::VehicleError;
 
 /// Why a part of the paper cannot be regenerated.
@@ -58,6 +60,18 @@ pub enum PaperError {
     /// A characteristic outside its domain.
     #[error(transparent)]
     Nonlinearity(#[from] NonlinearityError),
+    /// No axis to simulate Figs. 12 and 13 with.
+    #[error("no quadratic drag at the paper's delay among {rows} joint estimates; pass all of them")]
+    NoQuadraticFit {
+        /// Estimates given.
+        rows: usize,
+    },
+    /// An axis outside its domain.
+    #[error(transparent)]
+    Plant(#[from] PlantError),
+    /// An experiment that cannot be simulated.
+    #[error(transparent)]
+    Simulation(#[from] ExperimentError),
     /// A thruster outside its domain.
     #[error(transparent)]
     Vehicle(#[from] VehicleError),

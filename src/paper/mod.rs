@@ -14,6 +14,7 @@
 //! | `quantisation` | errors by the sensor's step: eqs. 37-39 and Fig. 14 |
 //! | `relay_figures` | Figs. 5-7 |
 //! | `thruster_figure` | Fig. 9 (b) |
+//! | `response_figures` | Figs. 12-13, simulated |
 //! | `joint` | all experiments together, by exact limit cycles |
 //! | `audit` | every printed number against its recomputation in intervals |
 
@@ -25,6 +26,7 @@ pub mod joint;
 mod printed;
 pub mod quantisation;
 pub mod relay_figures;
+pub mod response_figures;
 pub mod table2;
 pub mod table3;
 pub mod table4;

@@ -11,6 +11,7 @@ mod certificate;
 mod claims;
 mod describing;
 mod difference;
+mod examples;
 mod features;
 mod fourier_oracle;
 mod identify_exact;

@@ -4,6 +4,7 @@ use super::Reproduction;
 use crate::paper::figure15::Counts;
 use crate::paper::quantisation::{CurvePoint, Error, curves, figure14};
 use crate::paper::relay_figures::{self, Characteristic5, LateSwitching7, Response6};
+use crate::paper::response_figures::{self, Response};
 use crate::paper::thruster_figure;
 use crate::report::{Figure, Mark, Panel, ReportError};
 use crate::vehicle::FittedSide;
@@ -62,7 +63,32 @@ pub(super) fn figure9() -> Result<Figure, ReportError> {
     Ok(Figure { name: "fig9", title, panels: vec![panel] })
 }
 
+fn response(name: &'static str, title: &str, response: Response) -> Figure {
+    let Response { heading, command, maxima, minima, switchings, half_width_deg } = response;
+    let end = heading.last().map_or(0.0, |sample| sample.0);
+    let level = |value: f64| [(0.0, value), (end, value)];
+    let above = Panel::new("time (s)", "heading (deg)")
+        .with("heading", Mark::Line, heading)
+        .with("maxima", Mark::Dots, maxima)
+        .with("minima", Mark::Dots, minima)
+        .with("switchings", Mark::Dots, switchings)
+        .with("preset levels", Mark::Dashed, level(half_width_deg))
+        .with("", Mark::Dashed, level(-half_width_deg));
+    let below = Panel::new("time (s)", "command (1e-2 N m)").with("command", Mark::Line, command);
+    Figure { name, title: title.to_owned(), panels: vec![above, below] }
+}
+
 impl Reproduction {
+    pub(super) fn figure12(&self) -> Result<Figure, ReportError> {
+        let simulated = response_figures::figure12(&self.joint)?;
+        Ok(response("fig12", "Heading and command, simulated", simulated))
+    }
+
+    pub(super) fn figure13(&self) -> Result<Figure, ReportError> {
+        let simulated = response_figures::figure13(&self.joint)?;
+        Ok(response("fig13", "Heading and command without hysteresis, simulated", simulated))
+    }
+
     pub(super) fn figure14(&self) -> Figure {
         let errors = figure14(&self.printed);
         let points = |of: fn(&Error) -> f64| errors.iter().map(move |error| (f64::from(error.experiment), of(error)));

@@ -150,6 +150,22 @@ pub const PARTS: &[Part] = &[
         figures: |_| Ok(vec![figures::figure9()?]),
     },
     Part {
+        name: "fig12",
+        title: "Fig. 12: responses in an experiment, simulated",
+        about: "Simulated, not measured: the quadratic drag of all experiments together (delay 0.2 s), C = 8.23e-2 N m, half-width \
+                10 degrees, a disturbance of 0.5e-2 N m; compass in whole degrees, a command held for 0.1 s, delays of 0.1 s each way.",
+        tables: |_| Ok(Vec::new()),
+        figures: |reproduction| Ok(vec![reproduction.figure12()?]),
+    },
+    Part {
+        name: "fig13",
+        title: "Fig. 13: no hysteresis, simulated",
+        about: "Simulated as Fig. 12 with half-width 0: sampling and delay alone keep a small oscillation of few degrees, which the \
+                method cannot use.",
+        tables: |_| Ok(Vec::new()),
+        figures: |reproduction| Ok(vec![reproduction.figure13()?]),
+    },
+    Part {
         name: "fig14",
         title: "Fig. 14: relative errors and quantisation bounds",
         about: "Errors of the printed parameters against their means; bounds from eqs. 37-39 for an amplitude error of 1 degree.",

@@ -1,0 +1,92 @@
+//! Help, verdicts and refusals of the command, word for word.
+
+use assert_cmd::Command;
+
+use crate::golden;
+
+fn output(arguments: &[&str]) -> (Option<i32>, String, String) {
+    let output = Command::cargo_bin("selfosc").unwrap().args(arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+/// Standard output of a command that does what it is asked.
+fn done(arguments: &[&str]) -> String {
+    let (status, answer, complaint) = output(arguments);
+    assert_eq!((status, complaint.as_str()), (Some(0), ""));
+    answer
+}
+
+/// Exit status and the complaint; nothing on standard output.
+fn refused(arguments: &[&str]) -> String {
+    let (status, answer, complaint) = output(arguments);
+    assert_eq!(answer, "", "{arguments:?}");
+    format!("selfosc {}\nexit status {}\n{complaint}", arguments.join(" "), status.unwrap())
+}
+
+macro_rules! helps {
+    ($($test:ident $name:literal [$($argument:literal),*];)+) => {
+        $(
+            #[test]
+            fn $test() {
+                golden!($name, done(&[$($argument,)* "--help"]));
+            }
+        )+
+    };
+}
+helps! {
+    help "help" [];
+    verify_help "verify-help" ["verify"];
+    df_help "df-help" ["df"];
+    balance_help "balance-help" ["balance"];
+    predict_help "predict-help" ["predict"];
+    simulate_help "simulate-help" ["simulate"];
+}
+
+/// Verdicts and evidence of every claim. The worst margins are left out: they hang on the last bit of the arithmetic.
+#[test]
+fn verify() {
+    let summary = done(&["verify", "--cases", "100"]);
+    insta::with_settings!({ filters => [(r"margin \S+", "margin [..]")] }, { golden!("verify", summary) });
+}
+
+const RELAY: [&str; 4] = ["df", "relay-hysteresis", "--set", "half_width=0.3"];
+const AXIS: [&str; 7] = ["predict", "--alpha", "1", "--beta", "1", "--relay", "1"];
+
+fn with(first: &[&'static str], rest: &[&'static str]) -> Vec<&'static str> {
+    first.iter().chain(rest).copied().collect()
+}
+
+#[test]
+fn refusals() {
+    let cases = [
+        vec!["df", "relays", "--amplitude", "1"],
+        vec!["df", "relay-hysteresis", "--amplitude", "1"],
+        vec!["df", "relay-hysteresis", "--set", "width=1", "--amplitude", "1"],
+        vec!["df", "relay-hysteresis", "--set", "half_width=-1", "--amplitude", "1"],
+        vec!["df", "relay-hysteresis", "--set", "half_width=wide", "--amplitude", "1"],
+        with(&RELAY, &[]),
+        with(&RELAY, &["--amplitude", "0.2"]),
+        with(&RELAY, &["--amplitude", "-1"]),
+        with(&RELAY, &["--amplitude", "NaN"]),
+        with(&RELAY, &["--amplitude", "1", "--bias", "inf"]),
+        with(&AXIS, &["--half-width", "-0.2"]),
+        with(&AXIS, &["--half-width", "0.2", "--delay", "NaN"]),
+        with(&AXIS, &[]),
+        vec!["predict", "--alpha", "0", "--relay", "1", "--half-width", "0.2"],
+        vec!["balance", "--num", "1", "--den", "0,1", "--nonlinearity", "relay"],
+        vec!["balance", "--num", "1,2,3", "--den", "1,1", "--nonlinearity", "relay"],
+        vec!["verify", "--claim", "lemma-3"],
+        vec!["verify", "--cases", "0"],
+        vec!["reproduce", "--only", "fig1"],
+    ];
+    golden!("refusals", cases.map(|case| refused(&case)).join("\n"));
+}
+
+/// No limit cycle is an answer: status 1 and the reason on standard output.
+#[test]
+fn no_limit_cycle() {
+    let (status, answer, complaint) = output(&with(&AXIS, &["--half-width", "0.2", "--delta", "1.5"]));
+    assert_eq!((status, complaint.as_str()), (Some(1), ""));
+    golden!("no-limit-cycle", answer);
+}
