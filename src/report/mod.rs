@@ -7,6 +7,7 @@
 mod error;
 mod figure;
 mod html;
+pub mod identification;
 pub mod paper;
 mod table;
 
