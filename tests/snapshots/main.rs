@@ -1,6 +1,7 @@
 //! Snapshots: what users see, word for word.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
+mod catalogue;
 mod paper;
 
 /// Compares with `golden/<name>.snap`.
