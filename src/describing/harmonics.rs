@@ -164,17 +164,18 @@ impl<T: Real> Arc<T> {
 fn band<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> Harmonics<T> {
     let (low, high) = (Arc::above(lower, sweep), Arc::above(upper, sweep));
     let ramp = |at, side| arc(at, sweep, side, Arc::ramp).on(Branches::Both);
-    let flat = |level: T| Harmonics { mean: level - origin, sine: T::zero(), cosine: T::zero() };
+    let flat = |mean: T| Harmonics { mean, sine: T::zero(), cosine: T::zero() };
     // Each at most once: selecting the mean and selecting the harmonic ask for the same.
     let cells = [const { OnceCell::new() }; 4];
     let [wide, near_maximum, near_minimum, middle] = &cells;
-    let line = Harmonics { sine: sweep.amplitude(), ..flat(sweep.bias()) };
+    let line = Harmonics { sine: sweep.amplitude(), ..flat(sweep.bias() - origin) };
     let wide = || *wide.get_or_init(|| line + ramp(lower, Side::Below) - ramp(upper, Side::Above));
     let near_maximum =
-        || *near_maximum.get_or_init(|| flat(lower) + ramp(lower, Side::Above) - ramp(upper, Side::Above));
+        || *near_maximum.get_or_init(|| flat(lower - origin) + ramp(lower, Side::Above) - ramp(upper, Side::Above));
     let near_minimum =
-        || *near_minimum.get_or_init(|| flat(upper) + ramp(lower, Side::Below) - ramp(upper, Side::Below));
-    let middle = || *middle.get_or_init(|| from_the_middle(low, high, lower, upper, sweep) + flat(T::zero()));
+        || *near_minimum.get_or_init(|| flat(upper - origin) + ramp(lower, Side::Below) - ramp(upper, Side::Below));
+    let centre = ((lower - origin) + (upper - origin)) / T::two();
+    let middle = || *middle.get_or_init(|| from_the_middle(low, high, lower, upper, sweep) + flat(centre));
 
     let (half, width) = (T::from_f64(0.5), (upper - lower) / sweep.amplitude());
     let component = |pick: fn(Harmonics<T>) -> T| {
@@ -188,8 +189,8 @@ fn band<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> Harmonic
     }
 }
 
-/// A band by sums and differences of the two angles `asin(u)`; what is odd in the bias comes from their sum, which is formed
-/// from the sum of the breakpoints.
+/// A band, less the middle of its breakpoints, by sums and differences of the two angles `asin(u)`; what is odd in the bias
+/// comes from their sum, which is formed from the sum of the breakpoints.
 fn from_the_middle<T: Real>(low: Arc<T>, high: Arc<T>, lower: T, upper: T, sweep: &Sinusoid<T>) -> Harmonics<T> {
     let (pi, two, half) = (T::pi(), T::two(), T::from_f64(0.5));
     let overshoot = |at: T| (at - sweep.maximum()).max(sweep.minimum() - at).max(T::zero()) / two;
@@ -198,14 +199,12 @@ fn from_the_middle<T: Real>(low: Arc<T>, high: Arc<T>, lower: T, upper: T, sweep
     // With a breakpoint outside the sweep the bias is not small, and nothing cancels.
     let inside = (low.sine * high.sine).select(T::zero, T::one);
     let sum = inside.select(|| low.u + high.u, || ((lower + upper) - two * sweep.bias()) / sweep.amplitude());
-    let angle_sum = (sum.abs() - half).select(
-        || (difference * sum / (low.u * high.sine - high.u * low.sine)).clamp_unit().asin(),
-        || low_angle + high_angle,
-    );
-    let mean =
-        sum * ((low_angle - high_angle) / two - difference / (low.sine + high.sine)) + difference * angle_sum / two;
+    let sines = low.sine + high.sine;
+    let angle_sum = (sum.abs() - half)
+        .select(|| (half * sum * (sines + difference.square() / sines)).clamp_unit().asin(), || low_angle + high_angle);
+    let mean = sum * ((low_angle - high_angle) / two - difference / sines) + difference * angle_sum / two;
     Harmonics {
-        mean: sweep.amplitude() * mean / pi + overshoot(lower) - overshoot(upper) + (lower + upper) / two,
+        mean: sweep.amplitude() * mean / pi + overshoot(lower) - overshoot(upper),
         sine: sweep.amplitude() * (high_angle + high.u * high.sine - low_angle - low.u * low.sine) / pi,
         cosine: T::zero(),
     }

@@ -101,8 +101,10 @@ proptest! {
         let area: f64 = cuts.windows(2).map(|pair| (pair[1] - pair[0]) * difference(0.5 * (pair[0] + pair[1]))).sum();
         let q = case.characteristic.describing_function(&sweep).unwrap().q;
         let largest = outputs(&case).into_iter().fold(0.0, |largest: f64, (_, y, _)| largest.max(y.abs()));
+        // A backlash whose gap is nearly the amplitude has a small loop of large terms.
+        let largest = largest + case.values[0].abs() * size;
         let scale = largest * (size + sweep.bias().abs() + case.values.iter().fold(0.0, |a: f64, b| a.max(b.abs())));
-        prop_assert!((area + std::f64::consts::PI * size * size * q).abs() <= 20.0 * tolerance::ROUNDING * scale, "{area} {q}");
+        prop_assert!((area + std::f64::consts::PI * size * size * q).abs() <= 20.0 * tolerance::ROUNDING * scale, "{} {:?} {sweep:?}: {area} {q}", entry.name, case.values);
     }
 
     /// A characteristic between two straight lines through zero has an unbiased gain between their slopes.

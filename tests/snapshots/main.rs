@@ -3,6 +3,7 @@
 
 mod command;
 mod identify;
+mod catalogue;
 mod paper;
 
 /// Compares with `golden/<name>.snap`.
