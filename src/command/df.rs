@@ -8,8 +8,10 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::{CommandError, Outcome, write_file, write_json};
-use crate::describing::{CATALOGUE, DescribingFunction, Entry, Setting, by_quadrature};
+use crate::describing::{CATALOGUE, DescribingFunction, Entry, Setting, by_quadrature, certified};
 use crate::nonlinearity::{Parameter, Sinusoid};
+use crate::numeric::rigorous_quadrature::CellJet;
+use crate::numeric::{Interval, Real};
 use crate::report::characteristics;
 
 /// The describing function F_0, P, Q of a characteristic at one bias and amplitude.
@@ -56,6 +58,8 @@ enum Method {
     ClosedForm,
     /// Adaptive quadrature of the output: an error estimate, no bound
     Quadrature,
+    /// Rigorous quadrature of the output: intervals that contain the exact values
+    Certified,
 }
 
 pub(super) fn setting(text: &str) -> Result<(String, Setting), String> {
@@ -74,7 +78,15 @@ struct Answer<'a> {
     p: f64,
     q: f64,
     method: Method,
-    enclosure: Option<()>,
+    enclosure: Option<Enclosure>,
+}
+
+/// Lower and upper bounds.
+#[derive(Serialize)]
+struct Enclosure {
+    f0: (f64, f64),
+    p: (f64, f64),
+    q: (f64, f64),
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
@@ -88,16 +100,26 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     let values = entry.values(&arguments.settings)?;
     let characteristic = entry.build(&values)?;
     let sweep = Sinusoid::new(arguments.bias, amplitude)?;
-    let DescribingFunction { f0, p, q } = match arguments.method {
-        Method::ClosedForm => characteristic.describing_function(&sweep)?,
-        Method::Quadrature => by_quadrature(&*characteristic, &sweep)?,
+    let enclosed = match arguments.method {
+        Method::Certified => Some(enclose(entry, &values, arguments.bias, amplitude)?),
+        Method::ClosedForm | Method::Quadrature => None,
+    };
+    let DescribingFunction { f0, p, q } = match (arguments.method, &enclosed) {
+        (Method::ClosedForm, _) => characteristic.describing_function(&sweep)?,
+        (_, None) => by_quadrature(&*characteristic, &sweep)?,
+        (_, Some(DescribingFunction { f0, p, q })) => {
+            DescribingFunction { f0: f0.midpoint(), p: p.midpoint(), q: q.midpoint() }
+        }
     };
     if arguments.json {
         let params =
             entry.settings(&values).into_iter().map(|(name, value)| (name.to_owned(), plain(&value))).collect();
         let (bias, method) = (arguments.bias, arguments.method);
-        let answer = Answer { nonlinearity: entry.name, params, amplitude, bias, f0, p, q, method, enclosure: None };
+        let enclosure = enclosed.map(|df| Enclosure { f0: df.f0.bounds(), p: df.p.bounds(), q: df.q.bounds() });
+        let answer = Answer { nonlinearity: entry.name, params, amplitude, bias, f0, p, q, method, enclosure };
         write_json(output, &answer)?;
+    } else if let Some(DescribingFunction { f0, p, q }) = enclosed {
+        writeln!(output, "F_0 in {f0}\nP   in {p}\nQ   in {q}")?;
     } else {
         writeln!(output, "F_0 = {f0}\nP   = {p}\nQ   = {q}")?;
     }
@@ -110,6 +132,17 @@ fn plain(setting: &Setting) -> serde_json::Value {
         Setting::Number(number) => json!(number),
         Setting::Points(points) => json!(points),
     }
+}
+
+fn enclose(
+    entry: &Entry,
+    values: &[f64],
+    bias: f64,
+    amplitude: f64,
+) -> Result<DescribingFunction<Interval>, CommandError> {
+    let values: Vec<_> = values.iter().map(|&value| CellJet::from_f64(value)).collect();
+    let sweep = Sinusoid::new(CellJet::from_f64(bias), CellJet::from_f64(amplitude))?;
+    Ok(certified(&*entry.build_output(&values)?, &sweep)?.enclosure)
 }
 
 fn list(as_json: bool, output: &mut impl Write) -> Result<Outcome, CommandError> {

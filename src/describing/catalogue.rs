@@ -1,11 +1,16 @@
 //! Every characteristic by name, as the command line and the generated pages know it.
 
 use super::{ClosedForm, Setting};
-use crate::nonlinearity::{self, Catalogued, Domain, NonlinearityError, Parameter, every_characteristic};
-use crate::numeric::Scalar;
+use crate::nonlinearity::{
+    self, Catalogued, Characteristic, Domain, NonlinearityError, Parameter, every_characteristic,
+};
+use crate::numeric::{Real, Scalar};
 
 /// A characteristic of the catalogue, in the arithmetic `T`.
 pub type Boxed<T> = Box<dyn ClosedForm<Number = T>>;
+
+/// The output of a characteristic of the catalogue, in the arithmetic `T`: intervals and jets have no closed form of all.
+pub type BoxedOutput<T> = Box<dyn Characteristic<Number = T>>;
 
 /// Why a name and its settings do not make a characteristic.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -178,6 +183,19 @@ macro_rules! catalogue {
             /// # Ok::<(), Box<dyn std::error::Error>>(())
             /// ```
             pub fn build<T: Scalar>(&self, values: &[T]) -> Result<Boxed<T>, CatalogueError> {
+                $(
+                    if self.name == <$type<T> as Catalogued<T>>::NAME {
+                        return Ok(Box::new(<$type<T>>::from_values(values)?));
+                    }
+                )+
+                Err(CatalogueError::UnknownName { name: self.name.to_owned(), known: String::new() })
+            }
+
+            /// The output alone, in any arithmetic: what [`certified`](super::certified()) takes.
+            ///
+            /// # Errors
+            /// As [`build`](Self::build).
+            pub fn build_output<T: Real>(&self, values: &[T]) -> Result<BoxedOutput<T>, CatalogueError> {
                 $(
                     if self.name == <$type<T> as Catalogued<T>>::NAME {
                         return Ok(Box::new(<$type<T>>::from_values(values)?));

@@ -68,7 +68,7 @@ impl<T: Real> Harmonics<T> {
 }
 
 /// The constant one on the rising branch.
-fn constant<T: Real>() -> Harmonics<T> {
+pub(super) fn constant<T: Real>() -> Harmonics<T> {
     Harmonics { mean: T::from_f64(0.5), sine: T::zero(), cosine: T::two() / T::pi() }
 }
 
@@ -85,15 +85,15 @@ fn arc<T: Real>(at: T, sweep: &Sinusoid<T>, side: Side, kernel: fn(Arc<T>) -> Ha
 
 /// The part of the rising branch on which the input is beyond a breakpoint.
 #[derive(Clone, Copy)]
-struct Arc<T> {
+pub(super) struct Arc<T> {
     amplitude: T,
     /// In `[-1, 1]`.
-    u: T,
+    pub(super) u: T,
     /// `1 - u` and `1 + u`, both in `[0, 2]`.
     one_minus_u: T,
     one_plus_u: T,
     /// `sin(phi)`.
-    sine: T,
+    pub(super) sine: T,
     /// How far the breakpoint lies outside the sweep on the far side, in input units: the kernel then never rests.
     beyond: T,
 }
@@ -108,7 +108,7 @@ impl<T: Real> Arc<T> {
     }
 
     /// From the breakpoint's distances: from the bias, to the turning point on the kernel's side, to the one on the other.
-    fn new(middle: T, near: T, far: T, amplitude: T) -> Self {
+    pub(super) fn new(middle: T, near: T, far: T, amplitude: T) -> Self {
         let hold = |distance: T| (distance / amplitude).max(T::zero()).min(T::two());
         let (one_minus_u, one_plus_u) = (hold(near), hold(far));
         let sine = (one_minus_u * one_plus_u).sqrt();
@@ -129,23 +129,23 @@ impl<T: Real> Arc<T> {
     }
 
     /// `asin(u)`, towards the ends by way of phi: its derivative then agrees with that of `sin(phi)`.
-    fn asin(self) -> T {
+    pub(super) fn asin(self) -> T {
         let quarter = T::pi() / T::two();
         (self.u.abs() - T::from_f64(0.5)).select(|| self.u.asin(), || quarter - self.phi())
     }
 
-    fn sign(self) -> Harmonics<T> {
+    pub(super) fn sign(self) -> Harmonics<T> {
         let pi = T::pi();
         Harmonics { mean: -self.asin() / pi, sine: T::two() * self.sine / pi, cosine: -T::two() * self.u / pi }
     }
 
-    fn step(self) -> Harmonics<T> {
+    pub(super) fn step(self) -> Harmonics<T> {
         let pi = T::pi();
         Harmonics { mean: self.phi() / (pi + pi), sine: self.sine / pi, cosine: self.one_minus_u / pi }
     }
 
     /// `sin(phi) - phi cos(phi)` and `phi - sin(phi) cos(phi)` by way of `x - sin(x)`, which small arcs need.
-    fn ramp(self) -> Harmonics<T> {
+    pub(super) fn ramp(self) -> Harmonics<T> {
         let (phi, twice) = (self.phi(), T::two() * self.phi());
         let scale = self.amplitude / (T::two() * T::pi());
         let half = T::from_f64(0.5);

@@ -1,12 +1,14 @@
 //! Describing functions of a biased sinusoid: `F_0`, `P`, `Q` of eqs. 7-15.
 //!
-//! Two ways that share nothing but the characteristic: the [closed form](ClosedForm), which sums the harmonics of the
-//! kernels a characteristic is made of (or a formula of its own, for a power law), and [quadrature](by_quadrature) of its
-//! output.
+//! Three ways that share nothing but the characteristic: the [closed form](ClosedForm), which sums the harmonics of the
+//! kernels a characteristic is made of (or a formula of its own, for a power law), [quadrature](by_quadrature) of its
+//! output, and [rigorous quadrature](certified()), which gives enclosures. [`KernelForm`] proves the closed forms.
 
 mod arctan;
 #[cfg(feature = "std")]
 mod catalogue;
+#[cfg(feature = "std")]
+mod certified;
 mod closed_form;
 mod error;
 #[cfg(feature = "std")]
@@ -18,6 +20,8 @@ mod harmonics;
 mod incremental;
 #[cfg(feature = "std")]
 mod inverse;
+#[cfg(feature = "std")]
+mod kernel_proof;
 mod pole;
 mod polynomial;
 mod power;
@@ -34,7 +38,9 @@ mod tanh;
 mod two_tone;
 
 #[cfg(feature = "std")]
-pub use catalogue::{Boxed, CATALOGUE, CatalogueError, Entry};
+pub use catalogue::{Boxed, BoxedOutput, CATALOGUE, CatalogueError, Entry};
+#[cfg(feature = "std")]
+pub use certified::{Certified, certified};
 pub use closed_form::{ClosedForm, over_amplitudes};
 pub use error::DescribingError;
 #[cfg(feature = "std")]
@@ -45,6 +51,8 @@ pub use fit::{Fit, fit};
 pub use incremental::incremental_gain;
 #[cfg(feature = "std")]
 pub use inverse::{Solution, amplitudes, nearest_amplitude};
+#[cfg(feature = "std")]
+pub use kernel_proof::{KernelForm, KernelProof};
 #[cfg(feature = "std")]
 pub use quadrature::{by_quadrature, harmonic};
 pub use relay::bias_of_output;

@@ -58,6 +58,15 @@ impl<const N: usize> Jet<N> {
         self.coefficients.iter().all(|c| c.is_bounded())
     }
 
+    /// The jet of the derivative; its last coefficient is not known, hence [`Interval::ENTIRE`].
+    #[must_use]
+    pub fn derivative(&self) -> Self {
+        Self::from_terms(|k, _| match self.coefficients.get(k + 1) {
+            Some(&next) => integer(k + 1) * next,
+            None => Interval::ENTIRE,
+        })
+    }
+
     fn is_constant(&self) -> bool {
         self.coefficients.iter().skip(1).all(|&c| c == Interval::ZERO)
     }

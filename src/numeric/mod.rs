@@ -8,6 +8,8 @@ pub mod enclosure;
 #[cfg(feature = "std")]
 mod expression;
 mod gradient;
+#[cfg(feature = "std")]
+pub mod identity;
 mod interval;
 mod jet;
 #[cfg(feature = "std")]
