@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use super::claim::claim;
 use super::family::{not_odd, odd_hysteretic, odd_nondecreasing, output_scale, sweep, unbiased};
-use super::{Budget, Case, Draw, Hypothesis, Printed, Verdict, sample, tolerance};
+use super::{Budget, Case, Draw, Hypothesis, Printed, Verdict, proof, sample, tolerance};
 use crate::describing::{Boxed, ClosedForm, by_quadrature, harmonic};
 use crate::nonlinearity::{Branch, Characteristic, NonlinearityError, Power, Sinusoid};
 use crate::numeric::quadrature::integrate;
@@ -61,11 +61,11 @@ fn mean_over_sweep(
 claim! {
     DESCRIBING_FUNCTION = "describing-function" "12-15" Definition
     "P and Q are the first-harmonic coefficients over the amplitude, F_0 the mean: closed form and integral agree" {
-        printed: Printed::Holds(|budget| closed_is_integral(budget, 1.0)),
+        printed: Printed::Holds(|budget| closed_is_integral(budget, 1.0).backed_by(proof::describing_function)),
         corrected: None,
         falsified: |budget| closed_is_integral(budget, 1.000_01),
         hypotheses: &[],
-        depends: &["fourier-coefficients"],
+        depends: &["fourier-coefficients", "kernel-step", "kernel-ramp", "kernel-sign", "kernel-band"],
     }
 }
 
@@ -139,7 +139,7 @@ fn even_vanish(budget: Budget, family: Family, sweep: Sweep) -> Verdict {
 claim! {
     SINE_ABS_SINE = "sine-abs-sine" "before 29" Identity
     "The first harmonic of sin abs(sin) is 8/(3 pi) sin; the next is the third, -8/(15 pi)" {
-        printed: Printed::Holds(|budget| sine_abs_sine(budget, 8.0 / (3.0 * PI))),
+        printed: Printed::Holds(|budget| sine_abs_sine(budget, 8.0 / (3.0 * PI)).backed_by(proof::sine_abs_sine)),
         corrected: None,
         falsified: |budget| sine_abs_sine(budget, 0.85),
         hypotheses: &[],

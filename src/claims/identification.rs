@@ -6,7 +6,7 @@ use nalgebra::Complex;
 use num_dual::Dual64;
 
 use super::claim::claim;
-use super::{Budget, Case, Draw, Hypothesis, Printed, Verdict, sample, tolerance};
+use super::{Budget, Case, Draw, Hypothesis, Printed, Verdict, proof, sample, tolerance};
 use crate::describing::{DescribingFunction, by_quadrature};
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity, parameters};
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
@@ -56,7 +56,7 @@ impl Tone {
 claim! {
     FIRST_HARMONIC = "first-harmonic-equations" "21-25" Identity
     "On one tone the drag axis has f_R = -alpha w^2 and f_I = beta_1 w + (8/(3 pi)) beta_2 X w^2" {
-        printed: Printed::Holds(|budget| left_side(budget, 8.0 / (3.0 * PI))),
+        printed: Printed::Holds(|budget| left_side(budget, 8.0 / (3.0 * PI)).backed_by(proof::first_harmonic)),
         corrected: None,
         falsified: |budget| left_side(budget, 0.85),
         hypotheses: &[],
@@ -82,7 +82,7 @@ fn left_side(budget: Budget, sine_abs_sine: f64) -> Verdict {
 claim! {
     LINEAR_DRAG = "linear-drag" "26-27" Theorem
     "On one tone with linear drag, alpha = P/w^2 and beta = -Q/w give the parameters back" {
-        printed: Printed::Holds(|budget| gives_back(budget, |tone| tone.quadratic = 0.0, |p| p.beta, |t| t.linear)),
+        printed: Printed::Holds(|budget| gives_back(budget, |tone| tone.quadratic = 0.0, |p| p.beta, |t| t.linear).backed_by(proof::linear_drag)),
         corrected: None,
         falsified: |budget| gives_back(budget, |_| {}, |p| p.beta, |t| t.linear),
         hypotheses: &[Hypothesis { id: "one-tone", counterexample: None }],
@@ -93,7 +93,7 @@ claim! {
 claim! {
     QUADRATIC_DRAG = "quadratic-drag" "28-29" Theorem
     "On one tone with quadratic drag, alpha = P/w^2 and beta_xx = -(3 pi/8) Q/(X w^2) give the parameters back" {
-        printed: Printed::Holds(|budget| gives_back(budget, |tone| tone.linear = 0.0, |p| p.beta_quadratic, |t| t.quadratic)),
+        printed: Printed::Holds(|budget| gives_back(budget, |tone| tone.linear = 0.0, |p| p.beta_quadratic, |t| t.quadratic).backed_by(proof::quadratic_drag)),
         corrected: None,
         falsified: |budget| gives_back(budget, |_| {}, |p| p.beta_quadratic, |t| t.quadratic),
         hypotheses: &[Hypothesis { id: "one-tone", counterexample: None }],
@@ -142,7 +142,7 @@ fn oscillation(draw: &mut Draw, biased: bool, delayed: bool) -> Oscillation<f64>
 claim! {
     TABLE_3 = "table-3" "Table 3" Identity
     "Eqs. 27 and 29 with 30 and 31 put in are Table 3" {
-        printed: Printed::Holds(|budget| table_3(budget, 1.5)),
+        printed: Printed::Holds(|budget| table_3(budget, 1.5).backed_by(proof::table_3)),
         corrected: None,
         falsified: |budget| table_3(budget, 3.0 * PI / 8.0),
         hypotheses: &[],
@@ -181,7 +181,7 @@ fn table_3(budget: Budget, quadratic_factor: f64) -> Verdict {
 claim! {
     DELAY_ROTATION = "delay-rotation" "33-34" Identity
     "A delay turns the describing function by -w T_d: lengths stay, delays add, a negative one undoes" {
-        printed: Printed::Holds(|budget| rotation(budget, -1.0)),
+        printed: Printed::Holds(|budget| rotation(budget, -1.0).backed_by(proof::delay_rotation)),
         corrected: None,
         falsified: |budget| rotation(budget, 1.0),
         hypotheses: &[],
@@ -243,7 +243,7 @@ const NO_DELAY: &str = "no-delay";
 claim! {
     QUANTISATION_ALPHA = "quantisation-alpha" "37" Identity
     "dalpha/alpha = [(2 - r^2)/(r^2 - 1)] dX/X with r = X_m/x_a" {
-        printed: Printed::Holds(|budget| sensitivity(budget, 0, false, false, 1.0)),
+        printed: Printed::Holds(|budget| sensitivity(budget, 0, false, false, 1.0).backed_by(proof::quantisation_alpha)),
         corrected: None,
         falsified: |budget| sensitivity(budget, 0, false, false, 1.001),
         hypotheses: &[
@@ -257,7 +257,7 @@ claim! {
 claim! {
     QUANTISATION_BETA = "quantisation-beta" "38" Identity
     "dbeta/beta = -2 dX/X" {
-        printed: Printed::Holds(|budget| sensitivity(budget, 1, true, false, 1.0)),
+        printed: Printed::Holds(|budget| sensitivity(budget, 1, true, false, 1.0).backed_by(proof::quantisation_beta)),
         corrected: None,
         falsified: |budget| sensitivity(budget, 1, true, false, 1.001),
         hypotheses: &[Hypothesis { id: NO_DELAY, counterexample: Some(|budget| sensitivity(budget, 1, true, true, 1.0)) }],
@@ -268,7 +268,7 @@ claim! {
 claim! {
     QUANTISATION_BETA_XX = "quantisation-beta-xx" "39" Identity
     "dbeta_xx/beta_xx = -3 dX/X" {
-        printed: Printed::Holds(|budget| sensitivity(budget, 2, true, false, 1.0)),
+        printed: Printed::Holds(|budget| sensitivity(budget, 2, true, false, 1.0).backed_by(proof::quantisation_beta_xx)),
         corrected: None,
         falsified: |budget| sensitivity(budget, 2, true, false, 1.001),
         hypotheses: &[Hypothesis { id: NO_DELAY, counterexample: Some(|budget| sensitivity(budget, 2, true, true, 1.0)) }],
@@ -280,7 +280,9 @@ claim! {
     QUANTISATION_ZERO = "quantisation-zero" "after 37" Theorem
     "At X_m = sqrt(2) x_a alpha is insensitive, to first order, to an error of the amplitude" {
         printed: Printed::Absent,
-        corrected: Some(|budget| zero_at(budget, core::f64::consts::SQRT_2, false, false)),
+        corrected: Some(|budget| {
+            zero_at(budget, core::f64::consts::SQRT_2, false, false).backed_by(proof::quantisation_zero)
+        }),
         falsified: |budget| zero_at(budget, 1.5, false, false),
         hypotheses: &[
             Hypothesis {
@@ -315,7 +317,7 @@ fn zero_at(budget: Budget, ratio: f64, biased: bool, delayed: bool) -> Verdict {
 claim! {
     RELATIVE_SPREAD = "relative-spread" "41" Definition
     "The relative spread of two values is their sample standard deviation over their mean" {
-        printed: Printed::Holds(|budget| spread(budget, 1.0)),
+        printed: Printed::Holds(|budget| spread(budget, 1.0).backed_by(proof::relative_spread)),
         corrected: None,
         // Over n in place of n - 1.
         falsified: |budget| spread(budget, 2.0),
@@ -365,7 +367,7 @@ fn decision(budget: Budget, rule: fn(f64, f64, f64) -> Decision) -> Verdict {
 claim! {
     ZIG_ZAG = "zig-zag" "introduction" Identity
     "Nomoto's T r' + r = K delta_R is the drag axis alpha = T/K, beta = 1/K" {
-        printed: Printed::Holds(|budget| nomoto(budget, |gain| 1.0 / gain)),
+        printed: Printed::Holds(|budget| nomoto(budget, |gain| 1.0 / gain).backed_by(proof::zig_zag)),
         corrected: None,
         falsified: |budget| nomoto(budget, |gain| gain),
         hypotheses: &[],

@@ -13,7 +13,9 @@ pub mod tolerance;
 pub mod experiment;
 pub mod fourier;
 pub mod identification;
+pub mod kernels;
 pub mod orbits;
+pub mod proof;
 pub mod relay;
 pub mod symmetry;
 pub mod theorems;
@@ -30,6 +32,10 @@ macro_rules! for_each_claim {
     ($callback:ident) => {
         $callback! {
             fourier::FOURIER_COEFFICIENTS,
+            kernels::KERNEL_STEP,
+            kernels::KERNEL_RAMP,
+            kernels::KERNEL_SIGN,
+            kernels::KERNEL_BAND,
             fourier::DESCRIBING_FUNCTION,
             fourier::ODD_HARMONICS,
             fourier::ODD_HARMONICS_HYSTERETIC,

@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use super::claim::claim;
-use super::{Budget, Case, Draw, Hypothesis, Printed, Verdict, sample, tolerance};
+use super::{Budget, Case, Draw, Hypothesis, Printed, Verdict, proof, sample, tolerance};
 use crate::describing::{ClosedForm, DescribingFunction, bias_of_output, by_quadrature};
 use crate::experiment::Relay;
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
@@ -46,13 +46,14 @@ claim! {
     "Q of a relay with hysteresis is -4 C x_a/(pi X^2), whatever the bias and the offset" {
         printed: Printed::Holds(|budget| {
             formula(budget, |df| df.q, |s| -4.0 * s.level * s.half_width / (PI * s.amplitude * s.amplitude), true)
+                .backed_by(proof::relay_q)
         }),
         corrected: None,
         falsified: |budget| {
             formula(budget, |df| df.q, |s| -4.0 * s.level * (s.half_width + s.bias) / (PI * s.amplitude * s.amplitude), true)
         },
         hypotheses: &[Hypothesis { id: "switches-both-ways", counterexample: Some(formula_below_switching) }],
-        depends: &["describing-function"],
+        depends: &["kernel-sign", "describing-function"],
     }
 }
 
@@ -69,11 +70,11 @@ fn formula_below_switching(budget: Budget) -> Verdict {
 claim! {
     RELAY_P = "relay-p" "31" Identity
     "P of a relay with hysteresis is (2C/(pi X)) [sqrt(1 - ((x_a - x_0)/X)^2) + sqrt(1 - ((x_a + x_0)/X)^2)]" {
-        printed: Printed::Holds(|budget| formula(budget, |df| df.p, |s| in_phase(s, s.bias), true)),
+        printed: Printed::Holds(|budget| formula(budget, |df| df.p, |s| in_phase(s, s.bias), true).backed_by(proof::relay_p)),
         corrected: None,
         falsified: |budget| formula(budget, |df| df.p, |s| in_phase(s, 0.0), true),
         hypotheses: &[Hypothesis { id: "switches-both-ways", counterexample: None }],
-        depends: &["describing-function"],
+        depends: &["kernel-sign", "describing-function"],
     }
 }
 
@@ -85,12 +86,12 @@ fn in_phase(s: &Switching, bias: f64) -> f64 {
 claim! {
     RELAY_F0 = "relay-f0" "32" Identity
     "The mean output is C (t_high - t_low)/T = (C/pi) [asin((x_a + e_0)/X) - asin((x_a - e_0)/X)], plus the offset" {
-        printed: Printed::Holds(|budget| mean_output(budget, 1.0)),
+        printed: Printed::Holds(|budget| mean_output(budget, 1.0).backed_by(proof::relay_f0)),
         corrected: None,
         // The times exchanged: the sign error that reading T_H as the time at command +C makes.
         falsified: |budget| mean_output(budget, -1.0),
         hypotheses: &[Hypothesis { id: "switches-both-ways", counterexample: None }],
-        depends: &["describing-function"],
+        depends: &["kernel-sign", "describing-function"],
     }
 }
 
@@ -116,7 +117,7 @@ fn mean_output(budget: Budget, sign: f64) -> Verdict {
 claim! {
     SECOND_QUADRANT = "second-quadrant" "section 4.1 (Goldfarb)" Statement
     "-G_N of the unbiased relay with hysteresis covers the second quadrant, and nothing else" {
-        printed: Printed::Holds(|budget| covers(budget, 0.5 * PI, PI)),
+        printed: Printed::Holds(|budget| covers(budget, 0.5 * PI, PI).backed_by(proof::second_quadrant)),
         corrected: None,
         falsified: |budget| covers(budget, 0.5 * PI, 1.25 * PI),
         hypotheses: &[],

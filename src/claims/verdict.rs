@@ -108,6 +108,18 @@ impl Verdict {
         matches!(self, Self::Refuted(_))
     }
 
+    /// With the evidence of a proof, where sampling found nothing against the statement and the proof succeeds.
+    #[must_use]
+    pub fn backed_by(self, proof: fn(f64) -> Self) -> Self {
+        match self {
+            Self::Holds(sampled) => match proof(1.0) {
+                Self::Holds(proved) => Self::Holds(proved),
+                Self::Refuted(_) | Self::Undecided { .. } => Self::Holds(sampled),
+            },
+            failed => failed,
+        }
+    }
+
     /// Both: the first that fails, else the weaker of the two evidences.
     #[must_use]
     pub fn and(self, other: impl FnOnce() -> Self) -> Self {

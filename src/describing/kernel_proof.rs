@@ -12,14 +12,14 @@ use crate::numeric::identity::{Series, cover, magnitude};
 use crate::numeric::{Interval, Real};
 
 /// Length of either end on which values are compared, in radians: beyond, `cos(phi)` can be told from one.
-const END: f64 = 4e-8;
+const END: f64 = 3e-8;
 /// Error allowed on a cell of an end.
-const AT_END: f64 = 4e-12;
+const AT_END: f64 = 8e-12;
 /// Error allowed of a derivative: over the whole arc it adds up to three times this.
 const SLOPE: f64 = 1e-13;
 /// A cell shorter than this, on which no derivative is known, holds a decision of the code between two of its formulas.
 const TRAP: f64 = 1e-14;
-/// Cells of one kernel; a true closed form takes fewer than twenty thousand, nearly all at the ends.
+/// Cells of one kernel; a true closed form takes up to fifteen thousand, nearly all at the ends.
 const BUDGET: usize = 60_000;
 
 /// The functions that the closed forms of the piecewise-linear catalogue are made of.

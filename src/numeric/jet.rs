@@ -159,6 +159,12 @@ impl<const N: usize> Sub for Jet<N> {
 impl<const N: usize> Mul for Jet<N> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
+        if other.is_constant() {
+            return Self { coefficients: self.coefficients.map(|c| c * other.value()) };
+        }
+        if self.is_constant() {
+            return other * self;
+        }
         Self { coefficients: array::from_fn(|k| convolution(&self.coefficients, &other.coefficients, k)) }
     }
 }
@@ -166,6 +172,9 @@ impl<const N: usize> Mul for Jet<N> {
 impl<const N: usize> Div for Jet<N> {
     type Output = Self;
     fn div(self, divisor: Self) -> Self {
+        if divisor.is_constant() {
+            return Self { coefficients: self.coefficients.map(|c| c / divisor.value()) };
+        }
         let b = &divisor.coefficients;
         Self::from_terms(|k, q| (self.coefficients[k] - total((0..k).map(|j| q[j] * b[k - j]))) / b[0])
     }
@@ -206,6 +215,16 @@ impl<const N: usize> Real for Jet<N> {
     fn pow(self, exponent: Self) -> Self {
         if let (Some(count), true) = (exponent.value().small_natural(), exponent.is_constant()) {
             (0..count).fold(Self::one(), |power, _| power * self)
+        } else if self.value().is_positive() && exponent.is_constant() {
+            // From x y' = exponent x' y.
+            let (x, power) = (&self.coefficients, exponent.value());
+            Self::from_terms(|k, y| match k {
+                0 => x[0].pow(power),
+                _ => {
+                    let terms = (1..=k).map(|j| (power * integer(j) - integer(k - j)) * x[j] * y[k - j]);
+                    total(terms) / (integer(k) * x[0])
+                }
+            })
         } else if self.value().is_positive() {
             (exponent * self.ln()).exp()
         } else {

@@ -1,0 +1,414 @@
+//! Proofs by enclosure. Each takes a factor that makes the statement false unless it is one, and then must not succeed.
+//!
+//! Every quantity here is homogeneous in level, amplitude, half-width and angular frequency, so all but ratios are set to one;
+//! an identity of one ratio is proved for all its values at once by [`prove_zero`].
+
+use std::sync::LazyLock;
+
+use super::{Evidence, Verdict};
+use crate::describing::{ClosedForm, DescribingFunction, KernelForm, KernelProof};
+use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity, parameters};
+use crate::nonlinearity::{RelayHysteresis, Sinusoid};
+use crate::numeric::branch_and_bound::{self, prove_positive};
+use crate::numeric::identity::{Series, prove_zero};
+use crate::numeric::rigorous_quadrature::{CellJet, Integrand, integrate};
+use crate::numeric::{Gradient, Interval, Real};
+use crate::select::pairwise::relative_spread_percent;
+
+/// A proof, true of the factor one.
+pub type Proof = fn(f64) -> Verdict;
+
+/// Every proof, with the id of the claim that it backs.
+pub const PROOFS: &[(&str, Proof)] = &[
+    ("kernel-step", kernel_step),
+    ("kernel-ramp", kernel_ramp),
+    ("kernel-sign", kernel_sign),
+    ("kernel-band", kernel_band),
+    ("describing-function", describing_function),
+    ("sine-abs-sine", sine_abs_sine),
+    ("relay-q", relay_q),
+    ("relay-p", relay_p),
+    ("relay-f0", relay_f0),
+    ("second-quadrant", second_quadrant),
+    ("first-harmonic-equations", first_harmonic),
+    ("linear-drag", linear_drag),
+    ("quadratic-drag", quadratic_drag),
+    ("table-3", table_3),
+    ("delay-rotation", delay_rotation),
+    ("quantisation-alpha", quantisation_alpha),
+    ("quantisation-beta", quantisation_beta),
+    ("quantisation-beta-xx", quantisation_beta_xx),
+    ("quantisation-zero", quantisation_zero),
+    ("relative-spread", relative_spread),
+    ("zig-zag", zig_zag),
+];
+
+/// Bound asked of an identity between numbers of order one.
+const TOLERANCE: f64 = 1e-10;
+/// Cells of an identity of one variable.
+const CELLS: usize = 5000;
+
+fn undecided(spent: &str) -> Verdict {
+    Verdict::Undecided { spent: spent.to_owned() }
+}
+
+/// That functions of one variable vanish from `from` to `to`, described by `domain`.
+fn identity<const M: usize>(domain: &str, [from, to]: [f64; 2], f: impl Fn(Series) -> [Series; M]) -> Verdict {
+    match prove_zero(f, from, to, TOLERANCE, CELLS) {
+        Some(proved) => {
+            let domain = format!("{domain} in [{from}, {to}]");
+            Verdict::Holds(Evidence::Proved { domain, bound: proved.bound, boxes: proved.cells })
+        }
+        None => undecided("an identity of one variable, 5000 cells"),
+    }
+}
+
+/// That each number enclosed is zero to the tolerance.
+fn zeros(domain: &str, numbers: &[Interval], boxes: usize) -> Verdict {
+    let bound = numbers.iter().map(|number| number.magnitude()).fold(0.0, f64::max);
+    if bound <= TOLERANCE {
+        Verdict::Holds(Evidence::Proved { domain: domain.to_owned(), bound, boxes })
+    } else {
+        undecided("one enclosure")
+    }
+}
+
+/// A value that proves nothing, where a domain was left.
+fn unknown<T: Real>() -> T {
+    T::from_f64(f64::NAN)
+}
+
+fn kernel(form: KernelForm, factor: f64, domain: &str) -> Verdict {
+    type Found = LazyLock<Option<KernelProof>>;
+    static STEP: Found = LazyLock::new(|| KernelForm::Step.prove(1.0));
+    static RAMP: Found = LazyLock::new(|| KernelForm::Ramp.prove(1.0));
+    static SIGN: Found = LazyLock::new(|| KernelForm::Sign.prove(1.0));
+    static BAND: Found = LazyLock::new(|| KernelForm::Band.prove(1.0));
+    let proved = if (factor - 1.0).abs() > 0.0 {
+        form.prove(factor)
+    } else {
+        match form {
+            KernelForm::Step => *STEP,
+            KernelForm::Ramp => *RAMP,
+            KernelForm::Sign => *SIGN,
+            KernelForm::Band => *BAND,
+        }
+    };
+    match proved {
+        Some(KernelProof { bound, cells }) => {
+            Verdict::Holds(Evidence::Proved { domain: domain.to_owned(), bound, boxes: cells })
+        }
+        None => undecided("60000 cells at most"),
+    }
+}
+
+const BREAKPOINT: &str = "every breakpoint u in [-1, 1], mean, sine and cosine component, both sides and branches";
+
+/// The step, every ratio.
+#[must_use]
+pub fn kernel_step(factor: f64) -> Verdict {
+    kernel(KernelForm::Step, factor, BREAKPOINT)
+}
+
+/// The ramp, every ratio.
+#[must_use]
+pub fn kernel_ramp(factor: f64) -> Verdict {
+    kernel(KernelForm::Ramp, factor, BREAKPOINT)
+}
+
+/// The sign, every ratio.
+#[must_use]
+pub fn kernel_sign(factor: f64) -> Verdict {
+    kernel(KernelForm::Sign, factor, "every breakpoint u in [-1, 1], mean, sine and cosine component, both branches")
+}
+
+/// One end of a band, every ratio.
+#[must_use]
+pub fn kernel_band(factor: f64) -> Verdict {
+    kernel(KernelForm::Band, factor, "each end u in [-1, 1], mean and sine component")
+}
+
+/// Every kernel, hence every sum of them.
+#[must_use]
+pub fn describing_function(factor: f64) -> Verdict {
+    let domain =
+        "piecewise-linear catalogue, every parameter; per unit height, or slope times amplitude, of each kernel";
+    let forms = [KernelForm::Step, KernelForm::Ramp, KernelForm::Sign, KernelForm::Band];
+    forms
+        .map(|form| kernel(form, factor, domain))
+        .into_iter()
+        .reduce(|all, next| all.and(|| next))
+        .unwrap_or_else(|| undecided("nothing"))
+}
+
+/// Products of sine, cosine and their magnitudes over one turn.
+struct Products<const M: usize>(fn(CellJet, CellJet) -> [CellJet; M]);
+
+impl<const M: usize> Integrand<M> for Products<M> {
+    fn range(&self, t: Interval) -> [Interval; M] {
+        (self.0)(CellJet::constant(t.sin()), CellJet::constant(t.cos())).map(|jet| jet.value())
+    }
+    fn jet(&self, t: CellJet) -> Option<[CellJet; M]> {
+        Some((self.0)(t.sin(), t.cos()))
+    }
+}
+
+/// Fourier coefficients: integrals over one turn, over pi.
+fn coefficients<const M: usize>(of: fn(CellJet, CellJet) -> [CellJet; M]) -> ([Interval; M], usize) {
+    let found = integrate(&Products(of), Interval::ZERO, Interval::two() * Interval::PI, 1e-12, 20_000);
+    (found.integrals.map(|integral| integral / Interval::PI), found.cells)
+}
+
+fn ratio(numerator: f64, denominator: f64) -> Interval {
+    Interval::point(numerator) / (Interval::point(denominator) * Interval::PI)
+}
+
+/// First and third harmonic.
+#[must_use]
+pub fn sine_abs_sine(factor: f64) -> Verdict {
+    let ([first, cosine, third], cells) = coefficients(|s, c| {
+        let square = s * s.abs();
+        let thrice = s * (CellJet::from_f64(3.0) - CellJet::from_f64(4.0) * s * s);
+        [square * s, square * c, square * thrice]
+    });
+    let factor = Interval::point(factor);
+    let numbers = [first - factor * ratio(8.0, 3.0), cosine, third + factor * ratio(8.0, 15.0)];
+    zeros("every amplitude, by homogeneity of degree two", &numbers, cells)
+}
+
+/// First harmonic of inertia, linear and quadratic drag on a unit sinusoid: sine parts, then cosine parts.
+fn tone() -> ([Interval; 6], usize) {
+    coefficients(|s, c| [-(s * s), s * c, c * c.abs() * s, -(s * c), c * c, c * c.abs() * c])
+}
+
+const TONE: &str =
+    "every alpha, beta_1, beta_2, X, w > 0: the left side is linear in the three and homogeneous in X and w";
+
+/// The three forces of an axis.
+#[must_use]
+pub fn first_harmonic(factor: f64) -> Verdict {
+    let ([inertia, linear, quadratic, inertia_q, linear_q, quadratic_q], cells) = tone();
+    let factor = Interval::point(factor);
+    let numbers =
+        [inertia + factor, linear, quadratic, inertia_q, linear_q - factor, quadratic_q - factor * ratio(8.0, 3.0)];
+    zeros(TONE, &numbers, cells)
+}
+
+/// Inertia and one drag coefficient, given back.
+fn gives_back(factor: f64, quadratic: bool, read: fn(Parameters<Interval>) -> Interval) -> Verdict {
+    let ([inertia, linear_p, quadratic_p, inertia_q, linear_q, quadratic_q], cells) = tone();
+    let (in_phase, in_quadrature) = if quadratic { (quadratic_p, quadratic_q) } else { (linear_p, linear_q) };
+    let gain = DescribingFunction { f0: Interval::ZERO, p: -(inertia + in_phase), q: -(inertia_q + in_quadrature) };
+    let found = parameters(gain, Interval::ONE, Interval::ONE);
+    let factor = Interval::point(factor);
+    zeros(TONE, &[found.alpha - factor, read(found) - factor], cells)
+}
+
+/// Linear drag.
+#[must_use]
+pub fn linear_drag(factor: f64) -> Verdict {
+    gives_back(factor, false, |found| found.beta)
+}
+
+/// Quadratic drag.
+#[must_use]
+pub fn quadratic_drag(factor: f64) -> Verdict {
+    gives_back(factor, true, |found| found.beta_quadratic)
+}
+
+/// Describing function of the unit relay under a unit sinusoid, in closed form.
+fn relay(level: Series, half_width: Series, bias: Series) -> DescribingFunction<Series> {
+    let relay = RelayHysteresis::new(level, half_width, Series::zero());
+    let df = relay.and_then(|relay| Ok((relay, Sinusoid::new(bias, Series::one())?)));
+    df.ok().and_then(|(relay, sweep)| relay.describing_function(&sweep).ok()).unwrap_or(DescribingFunction {
+        f0: unknown(),
+        p: unknown(),
+        q: unknown(),
+    })
+}
+
+/// The biases, over the amplitude, at which a formula is compared with the code in the half-width: each of its terms is a
+/// function of one switching level's own ratio, which these two run through.
+const BIASES: [f64; 2] = [0.0, 0.3];
+
+/// The kernel's proof, and a printed formula of half-width and bias against the closed form.
+fn printed(
+    factor: f64,
+    formula: impl Fn(Series, Series) -> Series,
+    part: fn(DescribingFunction<Series>) -> Series,
+) -> Verdict {
+    let of_bias = |bias: f64| {
+        identity(&format!("formula = closed form, x_0/X = {bias}, x_a/X"), [0.0, 0.69], |half_width| {
+            let bias = Series::from_f64(bias);
+            let formula = formula(half_width, bias) * Series::from_f64(factor);
+            [formula - part(relay(Series::one(), half_width, bias))]
+        })
+    };
+    kernel(KernelForm::Sign, factor, "closed form = integral, every X >= x_a + abs(x_0), in units of C/X (mean: C)")
+        .and(|| of_bias(BIASES[0]))
+        .and(|| of_bias(BIASES[1]))
+}
+
+fn root(distance: Series) -> Series {
+    (Series::one() - distance.square()).sqrt()
+}
+
+/// Eq. 30.
+#[must_use]
+pub fn relay_q(factor: f64) -> Verdict {
+    printed(factor, |width, _| -(Series::from_f64(4.0) * width / Series::pi()), |df| df.q)
+}
+
+/// Eq. 31.
+#[must_use]
+pub fn relay_p(factor: f64) -> Verdict {
+    printed(factor, |width, bias| Series::two() / Series::pi() * (root(width - bias) + root(width + bias)), |df| df.p)
+}
+
+/// Eq. 32.
+#[must_use]
+pub fn relay_f0(factor: f64) -> Verdict {
+    printed(factor, |width, bias| ((width + bias).asin() - (width - bias).asin()) / Series::pi(), |df| df.f0)
+}
+
+/// Each direction of the quadrant is that of some relay.
+#[must_use]
+pub fn second_quadrant(factor: f64) -> Verdict {
+    identity("every magnitude; angle_rad", [1.572, 3.141], |angle| {
+        let df = relay(Series::pi() / Series::from_f64(4.0), (Series::pi() - angle).sin(), Series::zero());
+        let factor = Series::from_f64(factor);
+        [df.p + factor * angle.cos(), df.q + factor * angle.sin()]
+    })
+}
+
+/// Table 3.
+#[must_use]
+pub fn table_3(factor: f64) -> Verdict {
+    let of_bias = |bias: f64| {
+        identity(&format!("every C, X, w > 0; x_0/X = {bias}, x_a/X"), [0.0, 0.69], |width| {
+            let bias = Series::from_f64(bias);
+            let found = parameters(relay(Series::one(), width, bias), Series::one(), Series::one());
+            let (factor, pi) = (Series::from_f64(factor), Series::pi());
+            let alpha = Series::two() / pi * (root(width - bias) + root(width + bias));
+            [
+                factor * alpha - found.alpha,
+                factor * Series::from_f64(4.0) * width / pi - found.beta,
+                factor * Series::from_f64(1.5) * width - found.beta_quadratic,
+            ]
+        })
+    };
+    of_bias(BIASES[0]).and(|| of_bias(BIASES[1]))
+}
+
+/// Turning is multiplication by `exp(-j phase)`, and turning back undoes it.
+#[must_use]
+pub fn delay_rotation(factor: f64) -> Verdict {
+    identity("every P and Q, by linearity; phase_rad", [0.0, 6.5], |phase| {
+        let (one, none, factor) = (Series::one(), Series::zero(), Series::from_f64(factor));
+        let (cosine, sine) = (factor * phase.cos(), factor * phase.sin());
+        let real = DescribingFunction { f0: none, p: one, q: none };
+        let imaginary = DescribingFunction { f0: none, p: none, q: one };
+        let (turned, other) = (real.delayed(phase), imaginary.delayed(phase));
+        let back = turned.delayed(-phase);
+        [
+            turned.p - cosine,
+            turned.q + sine,
+            other.p - sine,
+            other.q - cosine,
+            turned.p.square() + turned.q.square() - one,
+            back.p - one,
+            back.q,
+        ]
+    })
+}
+
+/// What is identified from an unbiased oscillation of that amplitude, half-width, level and angular frequency one.
+fn identified<T: Real>(amplitude: T) -> Parameters<T> {
+    let (one, zero) = (T::one(), T::zero());
+    let period_s = T::two() * T::pi();
+    Oscillation { relay_level: one, switch_level: one, amplitude, bias: zero, period_s, delay_s: zero }
+        .identify()
+        .unwrap_or(Parameters { alpha: unknown(), beta: unknown(), beta_quadratic: unknown(), disturbance: unknown() })
+}
+
+/// `X dp/dX = sensitivity p` for one of the parameters.
+fn sensitivity(
+    factor: f64,
+    domain: &str,
+    read: fn(Parameters<Series>) -> Series,
+    printed: fn(Series) -> Series,
+) -> Verdict {
+    identity(domain, [1.001, 100.0], |amplitude| {
+        let parameter = read(identified(amplitude));
+        [amplitude * parameter.derivative() - Series::from_f64(factor) * printed(amplitude) * parameter]
+    })
+}
+
+/// Eq. 37.
+#[must_use]
+pub fn quantisation_alpha(factor: f64) -> Verdict {
+    sensitivity(factor, "unbiased, no delay, X/x_a", |found| found.alpha, |r| amplitude_sensitivity(r).alpha)
+}
+
+/// Eq. 38.
+#[must_use]
+pub fn quantisation_beta(factor: f64) -> Verdict {
+    let domain = "no delay, any bias by relay-q, X/x_a";
+    sensitivity(factor, domain, |found| found.beta, |r| amplitude_sensitivity(r).beta)
+}
+
+/// Eq. 39.
+#[must_use]
+pub fn quantisation_beta_xx(factor: f64) -> Verdict {
+    let domain = "no delay, any bias by relay-q, X/x_a";
+    sensitivity(factor, domain, |found| found.beta_quadratic, |r| amplitude_sensitivity(r).beta_quadratic)
+}
+
+/// The slope of alpha: zero at the root of two, positive below, negative above.
+#[must_use]
+pub fn quantisation_zero(factor: f64) -> Verdict {
+    let slope = |ratio: Interval| {
+        let [amplitude] = Gradient::variables([ratio]);
+        identified(amplitude).alpha.slopes()[0]
+    };
+    let zero = Interval::two().sqrt() * Interval::point(factor);
+    let signs = |[from, to]: [f64; 2], sign: f64| {
+        let domain = Interval::new(from, to).map(|domain| [domain]);
+        let verdict =
+            domain.map(|domain| prove_positive(|[ratio]| slope(*ratio) * Interval::point(sign), domain, 20_000));
+        match verdict {
+            Some(branch_and_bound::Verdict::Proved { boxes, .. }) => Verdict::Holds(Evidence::Proved {
+                domain: format!("sign of the slope, X/x_a in [{from}, {to}]"),
+                bound: 0.0,
+                boxes,
+            }),
+            _ => undecided("20000 boxes"),
+        }
+    };
+    zeros("unbiased, no delay, X/x_a = sqrt(2)", &[slope(zero)], 1)
+        .and(|| signs([1.001, 1.4142], 1.0))
+        .and(|| signs([1.4143, 100.0], -1.0))
+}
+
+/// Eq. 41 squared.
+#[must_use]
+pub fn relative_spread(factor: f64) -> Verdict {
+    identity("ratio of the two values", [0.01, 100.0], |second| {
+        let first = Series::one();
+        let mean = (first + second) / Series::two();
+        let square = (first - mean).square() + (second - mean).square();
+        let spread = relative_spread_percent(first, second) / Series::from_f64(100.0);
+        [Series::from_f64(factor) * square / mean.square() - spread.square()]
+    })
+}
+
+/// Nomoto's response to a step of the rudder; all but the time's ratio to T scales out.
+#[must_use]
+pub fn zig_zag(factor: f64) -> Verdict {
+    identity("T = 2 s, K = 1/2 per s, unit rudder, others by scaling; time_s", [0.0, 60.0], |t| {
+        let (time_constant, gain) = (Series::two(), Series::from_f64(0.5));
+        let rate = gain * (Series::one() - (-t / time_constant).exp());
+        let (alpha, beta) = (time_constant / gain, Series::from_f64(factor) / gain);
+        [alpha * rate.derivative() + beta * rate - Series::one()]
+    })
+}
