@@ -69,9 +69,11 @@ impl KernelForm {
             Self::Ramp => arc.ramp(),
             Self::Sign => arc.sign(),
             // As a ramp on both branches would be; the straight parts cancel between the two ends of a band.
-            Self::Band => {
-                Harmonics { mean: arc.middle_mean() - half * arc.u, sine: half - arc.middle_sine(), cosine: T::zero() }
-            }
+            Self::Band => Harmonics {
+                mean: (arc.sine + arc.u * arc.asin()) / T::pi() - half * arc.u,
+                sine: half - (arc.asin() + arc.u * arc.sine) / T::pi(),
+                cosine: T::zero(),
+            },
         };
         [mean, sine, cosine]
     }
