@@ -1,9 +1,9 @@
 //! Snapshots: what users see, word for word.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
+mod catalogue;
 mod command;
 mod identify;
-mod catalogue;
 mod paper;
 
 /// Compares with `golden/<name>.snap`.
