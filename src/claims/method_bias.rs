@@ -30,12 +30,16 @@ const RESOLUTION: f64 = 5e-3;
 /// At most as often.
 const HALVINGS: u32 = 24;
 
-/// An orbit in units of length and time that keep it of order one as `g` goes to zero.
+/// An orbit in units that keep it of order one as `g` goes to zero: lengths in `X_m`, times in the coordinate (linear drag)
+/// or its square root (quadratic drag).
 struct Shape {
-    amplitude: Interval,
+    /// `X_m` over the square of the unit of time: the true alpha in these units.
+    alpha: Interval,
     period: Interval,
-    /// Half-width over the coordinate.
-    half_width: Interval,
+    /// `x_a/X_m`.
+    share: Interval,
+    /// The same over the coordinate.
+    share_rate: Interval,
 }
 
 impl DragLaw {
@@ -55,16 +59,14 @@ impl DragLaw {
             Self::Linear => linear_shape(coordinate),
             Self::Quadratic => quadratic_shape(coordinate),
         };
-        let less_one = |value: Interval| value - Interval::ONE;
-        let drag = shape.identify(shape.half_width)?;
-        Some(MethodError {
-            alpha: less_one(shape.identify(coordinate * shape.half_width)?.alpha),
-            // The drag found is proportional to the half-width, and the true one to the coordinate.
-            drag: less_one(match self {
-                Self::Linear => drag.beta,
-                Self::Quadratic => drag.beta_quadratic,
-            }),
-        })
+        let alpha = shape.identify(shape.share)?.alpha / shape.alpha;
+        // The drag found is proportional to the half-width, and the true one to the coordinate.
+        let found = shape.identify(shape.share_rate)?;
+        let drag = match self {
+            Self::Linear => found.beta / shape.alpha,
+            Self::Quadratic => found.beta_quadratic / shape.alpha.square(),
+        };
+        Some(MethodError { alpha: alpha - Interval::ONE, drag: drag - Interval::ONE })
     }
 
     /// The errors over a range of `g`, at most 700: all that occur, and at most 0.5 % more; `None` where it is empty, negative
@@ -116,7 +118,7 @@ impl Shape {
         let read = Oscillation {
             relay_level: Interval::ONE,
             switch_level: half_width,
-            amplitude: self.amplitude,
+            amplitude: Interval::ONE,
             bias: Interval::ZERO,
             period_s: self.period,
             delay_s: Interval::ZERO,
@@ -136,30 +138,33 @@ fn tanh_ratio(at: Interval) -> Interval {
     (Interval::ONE - tangent.square()).hull(Interval::ONE)
 }
 
-/// `X_m = z - ln(1 + tanh z)`, the integral of tanh, `T = 4 z`, `x_a = z - tanh z`, the integral of its square; in units
-/// `z^2` and `z`.
+/// `X_m = z - ln(1 + tanh z)`, the integral of tanh, `T = 4 z`, `x_a = z - tanh z`, the integral of its square. Their ratio
+/// grows with z (`orbit-amplitude-monotone-linear`).
 fn linear_shape(z: Interval) -> Shape {
-    let number = Interval::point;
-    let (amplitude, half_width) = if z.upper() <= SMALL {
-        (tanh_ratio(z) / Interval::two(), tanh_ratio(z).square() / number(3.0))
-    } else {
-        let amplitude = increasing(z, |z| z - z.tanh().ln_1p());
-        (amplitude / z.square(), DragLaw::Linear.group(z) / (z * z.square()))
-    };
-    Shape { amplitude, period: number(4.0), half_width }
+    let period = Interval::point(4.0);
+    if z.upper() <= SMALL {
+        let alpha = tanh_ratio(z) / Interval::two();
+        let share_rate = tanh_ratio(z).square() / (Interval::point(3.0) * alpha);
+        return Shape { alpha, period, share: z * share_rate, share_rate };
+    }
+    let amplitude = |z: Interval| z - z.tanh().ln_1p();
+    let share = increasing(z, |z| DragLaw::Linear.group(z) / amplitude(z));
+    Shape { alpha: increasing(z, amplitude) / z.square(), period, share, share_rate: share / z }
 }
 
-/// `X_m = t/2`, `x_a = ln(cosh t)/2`, the period by its formula; in units `t` and `sqrt t`.
+/// `X_m = t/2`, `x_a = ln(cosh t)/2`, the period by its formula. The ratio of the first two grows with t
+/// (`orbit-amplitude-monotone-quadratic`).
 fn quadratic_shape(t: Interval) -> Shape {
-    let (two, ratio) = (Interval::two(), tanh_ratio(t));
-    let (period, half_width) = if t.upper() <= SMALL {
+    let (two, alpha) = (Interval::two(), Interval::point(0.5));
+    if t.upper() <= SMALL {
         // atan s + atanh s = 2 s (1 + s^4/5 + s^8/9 + ...) with s^2 = tanh t.
-        let fourth = Interval::point(t.upper()).square();
+        let (ratio, fourth) = (tanh_ratio(t), Interval::point(t.upper()).square());
         let tail = (fourth / (Interval::point(5.0) * (Interval::ONE - fourth))).hull(Interval::ZERO);
-        (two * two * ratio.sqrt() * (Interval::ONE + tail), ratio.hull(Interval::ONE) / Interval::point(4.0))
-    } else {
-        let group = DragLaw::Quadratic.group(t);
-        (two * increasing(t, |t| quadratic_period(DragLaw::Quadratic.group(t))) / t.sqrt(), group / t.square())
-    };
-    Shape { amplitude: Interval::point(0.5), period, half_width }
+        let period = two * two * ratio.sqrt() * (Interval::ONE + tail);
+        let share_rate = ratio / two;
+        return Shape { alpha, period, share: t * share_rate, share_rate };
+    }
+    let share = increasing(t, |t| two * DragLaw::Quadratic.group(t) / t);
+    let period = two * increasing(t, |t| quadratic_period(DragLaw::Quadratic.group(t))) / t.sqrt();
+    Shape { alpha, period, share, share_rate: share / t }
 }

@@ -191,7 +191,7 @@ macro_rules! curve {
         $constant:ident, $theorem:ident, $false:ident: $id:literal, $name:literal, $law:ident $part:ident,
         ends $one:literal and $ten:literal, up_to_one $small:literal, up_to_ten $large:literal, too_small $wrong:literal,
         at_zero $zero:literal, at_one [$one_from:literal, $one_value:expr], at_ten [$ten_from:literal, $ten_value:expr],
-        depends $orbit:literal
+        depends $orbit:literal and $monotone:literal
     ) => {
         #[doc = concat!("What `", $id, "` rests on.")]
         pub const $theorem: Theorem = Theorem {
@@ -214,7 +214,7 @@ pub const $false: Inequality = within!("false-bound": $law $part on 0.0 to $ten 
                 corrected: Some(|_| proved(&$theorem)),
                 falsified: |_| single(&$false),
                 hypotheses: &[],
-                depends: &[$orbit, "method-bias"],
+                depends: &[$orbit, "method-bias", $monotone],
             }
         }
     };
@@ -224,28 +224,28 @@ curve! {
     BIAS_ALPHA_LINEAR, ALPHA_LINEAR, FALSE_ALPHA_LINEAR: "method-bias-alpha-linear",
     "Linear drag: the method's error of alpha is +3.2 % as g goes to 0, -3 % at 1, +47 % at 10, below 5 % for g <= 1",
     Linear alpha, ends 1.97 and 11.0, up_to_one 0.05, up_to_ten 0.48, too_small 0.4,
-    at_zero 0.032, at_one [1.95, -0.03], at_ten [10.99, 0.47], depends "orbit-linear"
+    at_zero 0.032, at_one [1.95, -0.03], at_ten [10.99, 0.47], depends "orbit-linear" and "orbit-amplitude-monotone-linear"
 }
 
 curve! {
     BIAS_BETA_LINEAR, BETA_LINEAR, FALSE_BETA_LINEAR: "method-bias-beta-linear",
     "Linear drag: the method's error of beta is +8 % as g goes to 0, -4 % at 1, -16 % at 10, below 17 % up to there",
     Linear drag, ends 1.97 and 11.0, up_to_one 0.09, up_to_ten 0.17, too_small 0.1,
-    at_zero 0.0808, at_one [1.95, -0.041], at_ten [10.99, -0.16], depends "orbit-linear"
+    at_zero 0.0808, at_one [1.95, -0.041], at_ten [10.99, -0.16], depends "orbit-linear" and "orbit-amplitude-monotone-linear"
 }
 
 curve! {
     BIAS_ALPHA_QUADRATIC, ALPHA_QUADRATIC, FALSE_ALPHA_QUADRATIC: "method-bias-alpha-quadratic",
     "Quadratic drag: the method's error of alpha is +3.2 % as g goes to 0, -6.5 % at 1, +52 % at 10",
     Quadratic alpha, ends 2.7 and 20.7, up_to_one 0.08, up_to_ten 0.53, too_small 0.4,
-    at_zero 0.032, at_one [2.68, -0.065], at_ten [20.68, 0.52], depends "orbit-quadratic"
+    at_zero 0.032, at_one [2.68, -0.065], at_ten [20.68, 0.52], depends "orbit-quadratic" and "orbit-amplitude-monotone-quadratic"
 }
 
 curve! {
     BIAS_BETA_QUADRATIC, BETA_QUADRATIC, FALSE_BETA_QUADRATIC: "method-bias-beta-quadratic",
     "Quadratic drag: the method's error of beta_xx is +22 % as g goes to 0, -9 % at 1, -35 % at 10, below 36 % up to there",
     Quadratic drag, ends 2.7 and 20.7, up_to_one 0.22, up_to_ten 0.36, too_small 0.3,
-    at_zero 0.2158, at_one [2.68, -0.088], at_ten [20.68, -0.346], depends "orbit-quadratic"
+    at_zero 0.2158, at_one [2.68, -0.088], at_ten [20.68, -0.346], depends "orbit-quadratic" and "orbit-amplitude-monotone-quadratic"
 }
 
 /// All theorems that claims rest on, those of the method's error included.

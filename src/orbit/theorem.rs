@@ -40,7 +40,7 @@ const NONE: Side = Side::NONE;
 /// Disturbance over relay level: what the theorems with disturbance cover.
 const MU: Side = Side::new("mu", -0.95, 0.95);
 /// Up to here a multiple zero at zero is divided out.
-const NEAR_ZERO: f64 = 0.1;
+const NEAR_ZERO: f64 = 0.05;
 /// From here on a border at one is treated by itself.
 const NEAR_ONE: f64 = 0.9;
 
