@@ -41,6 +41,28 @@ pub(super) enum CommandError {
     /// A table, a figure or a report that cannot be made.
     #[error(transparent)]
     Report(#[from] ReportError),
+    /// Arguments that contradict each other.
+    #[error("{reason}")]
+    Usage {
+        /// What contradicts what, and the remedy.
+        reason: &'static str,
+    },
+    /// A file that cannot be opened.
+    #[error("cannot read {}: {source}; give the path of a log that you may read", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// A log that cannot be read.
+    #[error("{}: {source}", path.display())]
+    Log {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: ExperimentError,
+    },
     /// A file that cannot be written.
     #[error("cannot write {}: {source}; choose a folder that you may write to", path.display())]
     Write {

@@ -7,6 +7,7 @@ mod axis;
 mod balance;
 mod df;
 mod error;
+mod identify;
 mod predict;
 mod reproduce;
 mod simulate;
@@ -38,6 +39,7 @@ enum Action {
     Balance(balance::Arguments),
     Predict(predict::Arguments),
     Simulate(simulate::Arguments),
+    Identify(identify::Arguments),
 }
 
 /// What a subcommand found, when nothing went wrong.
@@ -63,6 +65,7 @@ pub fn run() -> ExitCode {
         Action::Balance(arguments) => balance::run(arguments, &mut output),
         Action::Predict(arguments) => predict::run(arguments, &mut output),
         Action::Simulate(arguments) => simulate::run(arguments, &mut output),
+        Action::Identify(arguments) => identify::run(arguments, &mut output),
     };
     match outcome.and_then(|outcome| output.flush().map(|()| outcome).map_err(CommandError::from)) {
         Ok(Outcome::Done) => ExitCode::SUCCESS,

@@ -17,6 +17,8 @@ pub enum Mark {
     Dashed,
     /// A dot at each point.
     Dots,
+    /// A small dot at each of many points.
+    Points,
     /// A bar from zero to each point, so wide in units of the x axis.
     Bars {
         /// Width of a bar.
@@ -213,6 +215,7 @@ impl Series {
             Mark::Line => chart.draw_series(LineSeries::new(points, line))?,
             Mark::Dashed => chart.draw_series(DashedLineSeries::new(points, 7, 5, line))?,
             Mark::Dots => chart.draw_series(points.map(|point| Circle::new(point, 5, colour.filled())))?,
+            Mark::Points => chart.draw_series(points.map(|point| Circle::new(point, 2, colour.filled())))?,
             Mark::Bars { width } => {
                 let half = width / 2.0;
                 chart.draw_series(
@@ -228,6 +231,7 @@ impl Series {
             Mark::Line => PathElement::new([(x, y), (x + 22, y)], line).into_dyn(),
             Mark::Dashed => DashedPathElement::new([(x, y), (x + 22, y)], 7, 5, line).into_dyn(),
             Mark::Dots => Circle::new((x + 11, y), 5, colour.filled()).into_dyn(),
+            Mark::Points => Circle::new((x + 11, y), 2, colour.filled()).into_dyn(),
             Mark::Bars { .. } => Rectangle::new([(x + 5, y - 6), (x + 17, y + 6)], colour.filled()).into_dyn(),
         });
         Ok(())

@@ -8,6 +8,7 @@ mod characteristics;
 mod error;
 mod figure;
 mod html;
+pub mod identification;
 mod nyquist;
 pub mod paper;
 mod table;

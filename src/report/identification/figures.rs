@@ -1,0 +1,85 @@
+//! A record with its model.
+
+use super::Source;
+use crate::identify::fit::{Between, FittedRecord, RecordFit};
+use crate::report::{Figure, Mark, Panel};
+
+/// Samples that a figure shows: more than these cannot be told apart on a page.
+const SHOWN: usize = 1500;
+
+impl Source {
+    /// Record with model, residuals, and phase portrait.
+    pub(super) fn figures(&self, fitted: Option<(&RecordFit, &FittedRecord)>) -> Vec<Figure> {
+        let samples = self.log.record.samples();
+        let from = samples.saturating_sub(SHOWN);
+        let part = if from > 0 { format!(", the last {SHOWN} of {samples} samples") } else { String::new() };
+        let mut figures = vec![self.record_figure(fitted, from, &part)];
+        if let Some((_, fitted)) = fitted {
+            figures.push(self.residual_figure(fitted, from, &part));
+        }
+        figures.push(self.phase_figure(fitted.map(|(_, fitted)| fitted), from, &part));
+        figures
+    }
+
+    fn record_figure(&self, fitted: Option<(&RecordFit, &FittedRecord)>, from: usize, part: &str) -> Figure {
+        let record = &self.log.record;
+        let points = |values: &[f64]| pairs(&record.time_s()[from..], &values[from..]);
+        let mut output =
+            Panel::new("time (s)", self.output_label()).with("readings", Mark::Points, points(record.output()));
+        if let Some((_, fitted)) = fitted {
+            let (time, model) = shown(self, fitted, &fitted.output, from);
+            output = output.with("model", Mark::Line, pairs(time, model));
+        }
+        let evenly = fitted.is_some_and(|(fit, _)| fit.between() == Between::Evenly);
+        let command = points(record.input());
+        let command = if evenly { command } else { held(&command) };
+        let input = Panel::new("time (s)", "command").with("command", Mark::Line, command);
+        Figure { name: "record", title: format!("Record and fitted model{part}"), panels: vec![output, input] }
+    }
+
+    fn residual_figure(&self, fitted: &FittedRecord, from: usize, part: &str) -> Figure {
+        let (time, residuals) = shown(self, fitted, &fitted.residuals, from);
+        let ends = [time.first(), time.last()].into_iter().flatten();
+        let panel = Panel::new("time (s)", &format!("residual, as the {}", self.output_label()))
+            .with("readings less model", Mark::Points, pairs(time, residuals))
+            .with("", Mark::Dashed, ends.map(|time| (*time, 0.0)));
+        Figure { name: "residuals", title: format!("Residuals{part}"), panels: vec![panel] }
+    }
+
+    fn phase_figure(&self, fitted: Option<&FittedRecord>, from: usize, part: &str) -> Figure {
+        let record = &self.log.record;
+        let readings = speeds(&record.time_s()[from..], &record.output()[from..]);
+        let mut panel = Panel::new(self.output_label(), "its rate of change (1/s)").with(
+            "readings, by differences",
+            Mark::Points,
+            readings,
+        );
+        if let Some(fitted) = fitted {
+            let (time, model) = shown(self, fitted, &fitted.output, from);
+            panel = panel.with("model", Mark::Line, speeds(time, model));
+        }
+        Figure { name: "phase", title: format!("Phase portrait{part}"), panels: vec![panel] }
+    }
+}
+
+/// Times and values of the model from sample `from` on.
+fn shown<'a>(source: &'a Source, fitted: &FittedRecord, values: &'a [f64], from: usize) -> (&'a [f64], &'a [f64]) {
+    let time = &source.log.record.time_s()[fitted.first_sample..];
+    let before = from.saturating_sub(fitted.first_sample).min(values.len());
+    (&time[before..values.len()], &values[before..])
+}
+
+fn pairs(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
+    x.iter().copied().zip(y.iter().copied()).collect()
+}
+
+/// Each value until the next.
+fn held(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    points.windows(2).flat_map(|pair| [pair[0], (pair[1].0, pair[0].1)]).chain(points.last().copied()).collect()
+}
+
+/// Positions with central differences.
+fn speeds(time: &[f64], position: &[f64]) -> Vec<(f64, f64)> {
+    let triples = time.windows(3).zip(position.windows(3));
+    triples.map(|(t, x)| (x[1], (x[2] - x[0]) / (t[2] - t[0]))).collect()
+}
