@@ -113,9 +113,9 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     // Drawn on standard error, and only where that is a terminal.
     let progress = ProgressBar::new_spinner();
     progress.enable_steady_tick(Duration::from_millis(100));
-    let found = arguments.read(output).and_then(|logs| {
-        Ok(logs.and_then(|logs| Identification::of(logs, &settings, |stage| progress.set_message(stage))))
-    });
+    let logs = arguments.read(output);
+    let identify = |logs| Identification::of(logs, &settings, |stage| progress.set_message(stage));
+    let found = logs.map(|logs| logs.and_then(identify));
     progress.finish_and_clear();
     let found = match found? {
         Ok(found) => found,

@@ -24,12 +24,12 @@ impl Source {
     fn record_figure(&self, fitted: Option<(&RecordFit, &FittedRecord)>, from: usize, part: &str) -> Figure {
         let record = &self.log.record;
         let points = |values: &[f64]| pairs(&record.time_s()[from..], &values[from..]);
-        let mut output =
-            Panel::new("time (s)", self.output_label()).with("readings", Mark::Points, points(record.output()));
+        let mut output = Panel::new("time (s)", self.output_label());
         if let Some((_, fitted)) = fitted {
             let (time, model) = shown(self, fitted, &fitted.output, from);
             output = output.with("model", Mark::Line, pairs(time, model));
         }
+        let output = output.with("readings", Mark::Points, points(record.output()));
         let evenly = fitted.is_some_and(|(fit, _)| fit.between() == Between::Evenly);
         let command = points(record.input());
         let command = if evenly { command } else { held(&command) };
@@ -40,7 +40,7 @@ impl Source {
     fn residual_figure(&self, fitted: &FittedRecord, from: usize, part: &str) -> Figure {
         let (time, residuals) = shown(self, fitted, &fitted.residuals, from);
         let ends = [time.first(), time.last()].into_iter().flatten();
-        let panel = Panel::new("time (s)", &format!("residual, as the {}", self.output_label()))
+        let panel = Panel::new("time (s)", &format!("residual of {}", self.output_label()))
             .with("readings less model", Mark::Points, pairs(time, residuals))
             .with("", Mark::Dashed, ends.map(|time| (*time, 0.0)));
         Figure { name: "residuals", title: format!("Residuals{part}"), panels: vec![panel] }
@@ -48,16 +48,14 @@ impl Source {
 
     fn phase_figure(&self, fitted: Option<&FittedRecord>, from: usize, part: &str) -> Figure {
         let record = &self.log.record;
-        let readings = speeds(&record.time_s()[from..], &record.output()[from..]);
-        let mut panel = Panel::new(self.output_label(), "its rate of change (1/s)").with(
-            "readings, by differences",
-            Mark::Points,
-            readings,
-        );
+        let rate = if self.log.degrees { "rate of change (rad/s)" } else { "rate of change (output per s)" };
+        let mut panel = Panel::new(self.output_label(), rate);
         if let Some(fitted) = fitted {
             let (time, model) = shown(self, fitted, &fitted.output, from);
             panel = panel.with("model", Mark::Line, speeds(time, model));
         }
+        let readings = speeds(&record.time_s()[from..], &record.output()[from..]);
+        let panel = panel.with("readings, by differences", Mark::Points, readings);
         Figure { name: "phase", title: format!("Phase portrait{part}"), panels: vec![panel] }
     }
 }

@@ -126,7 +126,7 @@ impl Identification {
             (Delay::Estimated, None) => None,
         };
         if let Some(delay_s) = delay_s {
-            failure = found.from_cycles(settings, delay_s).or(failure);
+            failure = found.identify_cycles(settings, delay_s).or(failure);
         }
         if found.models.is_empty() {
             let none = IdentifyError::TooFewEquations { equations: 0, parameters: 1 };
@@ -220,7 +220,7 @@ impl Identification {
     }
 
     /// The methods that work on the features of one record, put before the fits; the last failure.
-    fn from_cycles(&mut self, settings: &Settings, delay_s: f64) -> Option<IdentifyError> {
+    fn identify_cycles(&mut self, settings: &Settings, delay_s: f64) -> Option<IdentifyError> {
         let fit = self.fits.as_ref().map(Choice::likeliest);
         let mut models = Vec::new();
         let mut failure = None;

@@ -6,14 +6,14 @@ use crate::identify::joint::Estimate;
 use crate::report::{Cell, Table};
 use crate::select::likelihood::DECIDED;
 
-/// Digits that a measured number is shown with.
-const DIGITS: i32 = 4;
+/// Digits that a measured number is shown with, after the first.
+const DIGITS: u8 = 3;
 
-/// A number with [`DIGITS`] significant digits.
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 12")]
 fn cell(value: f64) -> Cell {
-    let magnitude = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
-    Cell::number(value, (f64::from(DIGITS - 1) - magnitude).clamp(0.0, 12.0) as usize)
+    // The magnitude after rounding: 0.99996 is shown as 1.000.
+    let rounded = format!("{value:.digits$e}", digits = usize::from(DIGITS));
+    let magnitude = rounded.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0);
+    Cell::number(value, usize::try_from(i32::from(DIGITS) - magnitude).unwrap_or(0).min(12))
 }
 
 fn value(estimate: Option<Estimate>) -> Cell {
