@@ -8,6 +8,7 @@ mod balance;
 mod cases;
 mod catalogue;
 mod certificate;
+mod certified;
 mod claims;
 mod describing;
 mod difference;

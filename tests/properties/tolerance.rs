@@ -143,3 +143,5 @@ pub(crate) const PRINTED_PERCENT: f64 = 0.6;
 /// What is left of the start-up in a mean over a dozen cycles or more: the first counts once it is within 8 % of the one before,
 /// and successive ones come nearer by the orbit's multiplier, at most a half here.
 pub(crate) const START_UP_LEFT: f64 = 5e-3;
+/// Width of an enclosure of a describing function at moderate parameters, and error of a proved kernel: what is promised.
+pub(crate) const CERTIFIED_WIDTH: f64 = 1e-11;

@@ -1,0 +1,61 @@
+//! Cost of an enclosed describing function, by quadrature and by closed form, and of the kernels' proofs.
+
+use divan::{Bencher, black_box};
+use selfosc::claims::proof::PROOFS;
+use selfosc::describing::{CATALOGUE, ClosedForm, Entry, KernelForm, certified};
+use selfosc::nonlinearity::{Backlash, DeadZone, RelayHysteresis, Saturation, Sinusoid};
+use selfosc::numeric::rigorous_quadrature::CellJet;
+use selfosc::numeric::{Interval, Real};
+
+fn main() {
+    divan::main();
+}
+
+/// The example of each page, at a bias of a fifth of its amplitude.
+#[divan::bench(args = CATALOGUE.iter().map(|entry| entry.name), sample_count = 20)]
+fn quadrature(bencher: Bencher, name: &str) {
+    let entry = Entry::find(name).unwrap();
+    let example = entry.example().unwrap();
+    let values: Vec<_> = example.values.iter().map(|&value| CellJet::from_f64(value)).collect();
+    let characteristic = entry.build_output(&values).unwrap();
+    let number = CellJet::from_f64;
+    let sweep = Sinusoid::new(number(0.2 * example.amplitude), number(example.amplitude)).unwrap();
+    bencher.bench_local(|| certified(&*characteristic, black_box(&sweep)));
+}
+
+fn closed_form(bencher: Bencher, characteristic: impl ClosedForm<Number = Interval>) {
+    let sweep = Sinusoid::new(Interval::point(0.1), Interval::ONE).unwrap();
+    bencher.bench_local(|| characteristic.describing_function(black_box(&sweep)));
+}
+
+#[divan::bench]
+fn closed_relay_hysteresis(bencher: Bencher) {
+    let number = Interval::point;
+    closed_form(bencher, RelayHysteresis::new(number(1.0), number(0.3), number(0.0)).unwrap());
+}
+
+#[divan::bench]
+fn closed_saturation(bencher: Bencher) {
+    closed_form(bencher, Saturation::new(Interval::ONE, Interval::point(0.3)).unwrap());
+}
+
+#[divan::bench]
+fn closed_dead_zone(bencher: Bencher) {
+    closed_form(bencher, DeadZone::new(Interval::ONE, Interval::point(0.3)).unwrap());
+}
+
+#[divan::bench]
+fn closed_backlash(bencher: Bencher) {
+    closed_form(bencher, Backlash::new(Interval::ONE, Interval::point(0.3)).unwrap());
+}
+
+#[divan::bench(sample_count = 3)]
+fn kernels(bencher: Bencher) {
+    let forms = [KernelForm::Step, KernelForm::Ramp, KernelForm::Sign, KernelForm::Band];
+    bencher.bench_local(|| black_box(forms).map(|form| form.prove(1.0)));
+}
+
+#[divan::bench(sample_count = 3)]
+fn proofs(bencher: Bencher) {
+    bencher.bench_local(|| PROOFS.iter().filter(|(_, proof)| proof(black_box(1.0)).holds()).count());
+}
