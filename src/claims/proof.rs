@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 use super::{Evidence, Verdict};
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm, KernelProof};
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity, parameters};
-use crate::nonlinearity::{RelayHysteresis, Sinusoid};
+use crate::nonlinearity::{Branch, Branches, Kernel, PiecewiseLinear, RelayHysteresis, Sinusoid};
 use crate::numeric::branch_and_bound::{self, prove_positive};
 use crate::numeric::identity::{Series, prove_zero};
 use crate::numeric::rigorous_quadrature::{CellJet, Integrand, integrate};
@@ -227,24 +227,53 @@ fn relay(level: Series, half_width: Series, bias: Series) -> DescribingFunction<
     })
 }
 
-/// The biases, over the amplitude, at which a formula is compared with the code in the half-width: each of its terms is a
-/// function of one switching level's own ratio, which these two run through.
+/// The sign of `x - at` on the rising branch alone: one switching level.
+struct Level {
+    at: Series,
+}
+
+impl PiecewiseLinear for Level {
+    type Number = Series;
+
+    fn value(&self, x: Series, branch: Branch, _: &Sinusoid<Series>) -> Series {
+        match branch {
+            Branch::Rising => (x - self.at).select(|| -Series::one(), Series::one),
+            Branch::Falling => Series::zero(),
+        }
+    }
+    fn kernels(&self, _: &Sinusoid<Series>, report: &mut dyn FnMut(Kernel<Series>)) {
+        report(Kernel::Sign { at: self.at, level: Series::one(), branches: Branches::Rising });
+    }
+}
+
+/// The biases, over the amplitude, at which a whole formula is compared with the code in the half-width.
 const BIASES: [f64; 2] = [0.0, 0.3];
 
-/// The kernel's proof, and a printed formula of half-width and bias against the closed form.
+/// Proof of a printed formula in three parts: the closed form of a sign is its integral; the formula's term of one switching
+/// level, at the ratio u, is that closed form; the terms are put together as the code does.
 fn printed(
     factor: f64,
+    term: impl Fn(Series) -> Series,
     formula: impl Fn(Series, Series) -> Series,
     part: fn(DescribingFunction<Series>) -> Series,
 ) -> Verdict {
+    let false_unless_one = Series::from_f64(factor);
     let of_bias = |bias: f64| {
         identity(&format!("formula = closed form, x_0/X = {bias}, x_a/X"), [0.0, 0.69], |half_width| {
             let bias = Series::from_f64(bias);
-            let formula = formula(half_width, bias) * Series::from_f64(factor);
+            let formula = formula(half_width, bias) * false_unless_one;
             [formula - part(relay(Series::one(), half_width, bias))]
         })
     };
+    let of_level = || {
+        identity("each term of the formula = closed form, u", [-0.9999, 0.9999], |at| {
+            let unit = Sinusoid::new(Series::zero(), Series::one()).ok();
+            let closed = unit.and_then(|unit| Level { at }.describing_function(&unit).ok());
+            [term(at) * false_unless_one - closed.map_or_else(unknown, part)]
+        })
+    };
     kernel(KernelForm::Sign, factor, "closed form = integral, every X >= x_a + abs(x_0), in units of C/X (mean: C)")
+        .and(of_level)
         .and(|| of_bias(BIASES[0]))
         .and(|| of_bias(BIASES[1]))
 }
@@ -256,19 +285,22 @@ fn root(distance: Series) -> Series {
 /// Eq. 30.
 #[must_use]
 pub fn relay_q(factor: f64) -> Verdict {
-    printed(factor, |width, _| -(Series::from_f64(4.0) * width / Series::pi()), |df| df.q)
+    let term = |u| -(Series::two() * u / Series::pi());
+    printed(factor, term, |width, _| -(Series::from_f64(4.0) * width / Series::pi()), |df| df.q)
 }
 
 /// Eq. 31.
 #[must_use]
 pub fn relay_p(factor: f64) -> Verdict {
-    printed(factor, |width, bias| Series::two() / Series::pi() * (root(width - bias) + root(width + bias)), |df| df.p)
+    let term = |u| Series::two() / Series::pi() * root(u);
+    printed(factor, term, |width, bias| term(width - bias) + term(width + bias), |df| df.p)
 }
 
 /// Eq. 32.
 #[must_use]
 pub fn relay_f0(factor: f64) -> Verdict {
-    printed(factor, |width, bias| ((width + bias).asin() - (width - bias).asin()) / Series::pi(), |df| df.f0)
+    let term = |u: Series| -(u.asin() / Series::pi());
+    printed(factor, term, |width, bias| term(width - bias) - term(width + bias), |df| df.f0)
 }
 
 /// Each direction of the quadrant is that of some relay.

@@ -221,7 +221,8 @@ impl<const N: usize> Real for Jet<N> {
             Self::from_terms(|k, y| match k {
                 0 => x[0].pow(power),
                 _ => {
-                    let terms = (1..=k).map(|j| (power * integer(j) - integer(k - j)) * x[j] * y[k - j]);
+                    let moving = (1..=k).filter(|&j| x[j] != Interval::ZERO);
+                    let terms = moving.map(|j| (power * integer(j) - integer(k - j)) * x[j] * y[k - j]);
                     total(terms) / (integer(k) * x[0])
                 }
             })
