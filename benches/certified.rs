@@ -1,5 +1,7 @@
 //! Cost of an enclosed describing function, by quadrature and by closed form, and of the kernels' proofs.
 
+#![allow(clippy::unwrap_used, reason = "a benchmark may panic")]
+
 use divan::{Bencher, black_box};
 use selfosc::claims::proof::PROOFS;
 use selfosc::describing::{CATALOGUE, ClosedForm, Entry, KernelForm, certified};

@@ -4,29 +4,30 @@ use super::claim::claim;
 use super::{Budget, Case, Printed, Verdict, proof, sample, tolerance};
 use crate::describing::{ClosedForm, by_quadrature};
 use crate::nonlinearity::{Branch, Branches, Kernel, PiecewiseLinear, Side, Sinusoid};
+use crate::numeric::Real;
 
 /// One kernel, by itself a characteristic; only its values are written here.
-struct Single(Kernel<f64>);
+pub(super) struct Single<T>(pub(super) Kernel<T>);
 
-impl PiecewiseLinear for Single {
-    type Number = f64;
+impl<T: Real> PiecewiseLinear for Single<T> {
+    type Number = T;
 
-    fn value(&self, x: f64, branch: Branch, _: &Sinusoid<f64>) -> f64 {
-        let beyond = |at: f64, side| if side == Side::Above { x - at } else { at - x };
-        let counts = |branches| match branches {
-            Branches::Both => true,
-            Branches::Rising => branch == Branch::Rising,
-            Branches::Falling => branch == Branch::Falling,
+    fn value(&self, x: T, branch: Branch, _: &Sinusoid<T>) -> T {
+        let beyond = |at: T, side| if side == Side::Above { x - at } else { at - x };
+        let on = |branches, value: T| match (branches, branch) {
+            (Branches::Rising, Branch::Falling) | (Branches::Falling, Branch::Rising) => T::zero(),
+            _ => value,
         };
         match self.0 {
-            Kernel::Step { at, height, side, branches } if counts(branches) && beyond(at, side) > 0.0 => height,
-            Kernel::Ramp { at, slope, side, branches } if counts(branches) => slope * beyond(at, side).max(0.0),
-            Kernel::Sign { at, level, branches } if counts(branches) => level.copysign(x - at),
-            Kernel::Band { origin, lower, upper, slope } => slope * (x.clamp(lower, upper) - origin),
-            _ => 0.0,
+            Kernel::Constant { value, branches } => on(branches, value),
+            Kernel::Line { slope } => slope * x,
+            Kernel::Step { at, height, side, branches } => on(branches, beyond(at, side).select(T::zero, || height)),
+            Kernel::Ramp { at, slope, side, branches } => on(branches, slope * beyond(at, side).max(T::zero())),
+            Kernel::Sign { at, level, branches } => on(branches, (x - at).select(|| -level, || level)),
+            Kernel::Band { origin, lower, upper, slope } => slope * (x.max(lower).min(upper) - origin),
         }
     }
-    fn kernels(&self, _: &Sinusoid<f64>, report: &mut dyn FnMut(Kernel<f64>)) {
+    fn kernels(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
         report(self.0);
     }
 }
@@ -57,7 +58,7 @@ fn closed_is_integral(budget: Budget, make: Make, factor: f64) -> Verdict {
 const STEP: Make = |at, _, side, branches| Kernel::Step { at, height: 1.0, side, branches };
 const RAMP: Make = |at, _, side, branches| Kernel::Ramp { at, slope: 1.0, side, branches };
 const SIGN: Make = |at, _, _, branches| Kernel::Sign { at, level: 1.0, branches };
-const BAND: Make = |lower, upper, _, _| Kernel::Band { origin: 0.0, lower, upper, slope: 1.0 };
+const BAND: Make = |lower, upper, _, _| Kernel::Band { origin: 0.3, lower, upper, slope: 1.0 };
 
 claim! {
     KERNEL_STEP = "kernel-step" "10" Identity

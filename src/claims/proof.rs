@@ -5,10 +5,11 @@
 
 use std::sync::LazyLock;
 
+use super::kernels::Single;
 use super::{Evidence, Verdict};
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm, KernelProof};
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity, parameters};
-use crate::nonlinearity::{Branch, Branches, Kernel, PiecewiseLinear, RelayHysteresis, Sinusoid};
+use crate::nonlinearity::{Branches, Kernel, RelayHysteresis, Sinusoid};
 use crate::numeric::branch_and_bound::{self, prove_positive};
 use crate::numeric::identity::{Series, prove_zero};
 use crate::numeric::rigorous_quadrature::{CellJet, Integrand, integrate};
@@ -122,10 +123,33 @@ pub fn kernel_sign(factor: f64) -> Verdict {
     kernel(KernelForm::Sign, factor, "every breakpoint u in [-1, 1], mean, sine and cosine component, both branches")
 }
 
-/// One end of a band, every ratio.
+/// Each end of a band, every ratio; and the code's rearranged sum over both ends, along lines of constant width.
 #[must_use]
 pub fn kernel_band(factor: f64) -> Verdict {
+    let of_width = |width: f64| {
+        identity(&format!("rearranged as coded, width/X = {width}, lower end u"), [-0.99, 0.99 - width], |lower| {
+            let one = Series::one();
+            let upper = lower + Series::from_f64(width);
+            let band = on_unit(Kernel::Band { origin: Series::zero(), lower, upper, slope: one });
+            let (above, below) = (on_unit(Kernel::ramp_above(lower, one)), on_unit(Kernel::ramp_above(upper, one)));
+            [lower + above.f0 - below.f0 - band.f0, above.p - below.p - band.p]
+        })
+    };
     kernel(KernelForm::Band, factor, "each end u in [-1, 1], mean and sine component")
+        .and(|| of_width(0.1))
+        .and(|| of_width(0.5))
+        .and(|| of_width(0.9))
+        .and(|| of_width(1.4))
+}
+
+/// Closed form of one kernel under a unit sinusoid.
+fn on_unit(kernel: Kernel<Series>) -> DescribingFunction<Series> {
+    let sweep = Sinusoid::new(Series::zero(), Series::one()).ok();
+    sweep.and_then(|sweep| Single(kernel).describing_function(&sweep).ok()).unwrap_or_else(no_function)
+}
+
+fn no_function() -> DescribingFunction<Series> {
+    DescribingFunction { f0: unknown(), p: unknown(), q: unknown() }
 }
 
 /// Every kernel, hence every sum of them.
@@ -227,25 +251,6 @@ fn relay(level: Series, half_width: Series, bias: Series) -> DescribingFunction<
     })
 }
 
-/// The sign of `x - at` on the rising branch alone: one switching level.
-struct Level {
-    at: Series,
-}
-
-impl PiecewiseLinear for Level {
-    type Number = Series;
-
-    fn value(&self, x: Series, branch: Branch, _: &Sinusoid<Series>) -> Series {
-        match branch {
-            Branch::Rising => (x - self.at).select(|| -Series::one(), Series::one),
-            Branch::Falling => Series::zero(),
-        }
-    }
-    fn kernels(&self, _: &Sinusoid<Series>, report: &mut dyn FnMut(Kernel<Series>)) {
-        report(Kernel::Sign { at: self.at, level: Series::one(), branches: Branches::Rising });
-    }
-}
-
 /// The biases, over the amplitude, at which a whole formula is compared with the code in the half-width.
 const BIASES: [f64; 2] = [0.0, 0.3];
 
@@ -267,9 +272,8 @@ fn printed(
     };
     let of_level = || {
         identity("each term of the formula = closed form, u", [-0.9999, 0.9999], |at| {
-            let unit = Sinusoid::new(Series::zero(), Series::one()).ok();
-            let closed = unit.and_then(|unit| Level { at }.describing_function(&unit).ok());
-            [term(at) * false_unless_one - closed.map_or_else(unknown, part)]
+            let level = Kernel::Sign { at, level: Series::one(), branches: Branches::Rising };
+            [term(at) * false_unless_one - part(on_unit(level))]
         })
     };
     kernel(KernelForm::Sign, factor, "closed form = integral, every X >= x_a + abs(x_0), in units of C/X (mean: C)")

@@ -31,8 +31,8 @@ pub enum KernelForm {
     Ramp,
     /// One beyond the breakpoint, else minus one.
     Sign,
-    /// What each end of a band adds where the turning points lie on either side; the code joins both ends by sums and
-    /// differences of these, an identity of algebra.
+    /// What each end of a band adds, with the code's own inverse sine: the sum over both ends is what the code rearranges so
+    /// that nothing cancels.
     Band,
 }
 
@@ -69,11 +69,11 @@ impl KernelForm {
             Self::Ramp => arc.ramp(),
             Self::Sign => arc.sign(),
             // As a ramp on both branches would be; the straight parts cancel between the two ends of a band.
-            Self::Band => {
-                let (angle, pi) = (arc.asin(), T::pi());
-                let mean = (arc.sine + arc.u * angle) / pi - half * arc.u;
-                Harmonics { mean, sine: half - (angle + arc.u * arc.sine) / pi, cosine: T::zero() }
-            }
+            Self::Band => Harmonics {
+                mean: (arc.sine + arc.u * arc.asin()) / T::pi() - half * arc.u,
+                sine: half - (arc.asin() + arc.u * arc.sine) / T::pi(),
+                cosine: T::zero(),
+            },
         };
         [mean, sine, cosine]
     }
