@@ -310,7 +310,7 @@ pub fn relay_f0(factor: f64) -> Verdict {
 /// Each direction of the quadrant is that of some relay.
 #[must_use]
 pub fn second_quadrant(factor: f64) -> Verdict {
-    identity("every magnitude; angle_rad", [1.572, 3.141], |angle| {
+    identity("every magnitude; angle_rad", [1.58, 3.13], |angle| {
         let df = relay(Series::pi() / Series::from_f64(4.0), (Series::pi() - angle).sin(), Series::zero());
         let factor = Series::from_f64(factor);
         [df.p + factor * angle.cos(), df.q + factor * angle.sin()]
@@ -422,8 +422,8 @@ pub fn quantisation_zero(factor: f64) -> Verdict {
         }
     };
     zeros("unbiased, no delay, X/x_a = sqrt(2)", &[slope(zero)], 1)
-        .and(|| signs([1.001, 1.4142], 1.0))
-        .and(|| signs([1.4143, 100.0], -1.0))
+        .and(|| signs([1.001, 1.4], 1.0))
+        .and(|| signs([1.43, 100.0], -1.0))
 }
 
 /// Eq. 41 squared.
