@@ -6,6 +6,7 @@
 use selfosc::describing::{ClosedForm, by_quadrature};
 use selfosc::nonlinearity::{RelayHysteresis, Sinusoid};
 
+/// Runs it; an error is a failure.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let relay = RelayHysteresis::new(1.0, 0.3, 0.0)?;
     let sweep = Sinusoid::new(0.1, 1.0)?;

@@ -8,6 +8,7 @@ use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::orbit::limit_cycle;
 use selfosc::plant::DragAxis;
 
+/// Runs it; an error is a failure.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Yaw in N m and rad, with a constant pull and the delay of the loop.
     let axis = DragAxis::quadratic(0.033, 0.007)?.with_disturbance(0.01)?.with_delay_s(0.2)?;

@@ -8,6 +8,7 @@ use selfosc::describing::ClosedForm;
 use selfosc::nonlinearity::Saturation;
 use selfosc::plant::TransferFunction;
 
+/// Runs it; an error is a failure.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let plant = TransferFunction::new(&[8.0], &[1.0, 2.0, 2.0, 1.0])?;
     let saturation = Saturation::new(1.0, 1.0)?;

@@ -2,15 +2,22 @@
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use std::fs::File;
+use std::io::Read;
 
 use selfosc::experiment::Columns;
 use selfosc::features::RecordFeatures;
 use selfosc::identify::joint::{Delay, Parameter};
 use selfosc::select::likelihood::Choice;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// Runs it; an error is a failure.
+pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let path = std::env::args().nth(1).ok_or("usage: pool_log LOG.csv")?;
-    let record = Columns::default().read(File::open(path)?)?.record;
+    identify(File::open(path)?)
+}
+
+/// Prints the likeliest drag law and its parameters.
+pub fn identify(log: impl Read) -> Result<(), Box<dyn std::error::Error>> {
+    let record = Columns::default().read(log)?.record;
     let features = RecordFeatures::of(&record)?.features;
     println!("{} cycles of {:.2} s, amplitude {:.4}", features.cycles, features.period_s.mean, features.amplitude.mean);
 

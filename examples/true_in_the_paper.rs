@@ -5,6 +5,7 @@
 
 use selfosc::claims::{Budget, CLAIMS, Claim};
 
+/// Runs it; an error is a failure.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let budget = Budget { cases: 100, seed: 1 };
     let lemma = Claim::find("lemma-1").ok_or("no such claim")?;

@@ -1,8 +1,13 @@
 //! Every example runs to its end.
 #![allow(unreachable_pub, reason = "an example's `main` is called from here")]
+#![allow(dead_code, reason = "that of `pool_log` is not")]
 
 use std::collections::BTreeSet;
 use std::path::Path;
+
+use selfosc::experiment::Experiment;
+use selfosc::nonlinearity::RelayHysteresis;
+use selfosc::plant::DragAxis;
 
 #[path = "../../examples/describing_function.rs"]
 mod describing_function;
@@ -10,8 +15,20 @@ mod describing_function;
 mod limit_cycle;
 #[path = "../../examples/nyquist_balance.rs"]
 mod nyquist_balance;
+#[path = "../../examples/pool_log.rs"]
+mod pool_log;
 #[path = "../../examples/true_in_the_paper.rs"]
 mod true_in_the_paper;
+
+/// The one that takes a file, here a simulated one.
+#[test]
+fn pool_log() {
+    let (axis, relay) = (DragAxis::quadratic(1.0, 0.5).unwrap(), RelayHysteresis::new(1.0, 0.3, 0.0).unwrap());
+    let record = Experiment::new(axis, relay, 20.0).unwrap().run(60.0).unwrap();
+    let rows = record.time_s().iter().zip(record.output()).zip(record.input());
+    let lines: String = rows.map(|((time, output), input)| format!("{time},{output},{input}\n")).collect();
+    pool_log::identify(format!("time_s,output,input\n{lines}").as_bytes()).unwrap();
+}
 
 macro_rules! run {
     ($($name:ident),+ $(,)?) => {
@@ -34,5 +51,5 @@ fn none_is_left_out() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let names: BTreeSet<String> = files.map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()).collect();
-    assert_eq!(names, LISTED.iter().map(|&name| name.to_owned()).collect());
+    assert_eq!(names, LISTED.iter().chain(&["pool_log"]).map(|&name| name.to_owned()).collect());
 }
