@@ -10,7 +10,7 @@ use selfosc::orbit::theorem::BUDGET;
 use selfosc::orbit::{OrbitError, certify, force_left, limit_cycle, return_slope};
 use selfosc::plant::DragAxis;
 
-use crate::tolerance::{CENTRAL_DIFFERENCE, REFERENCE, ROUNDING};
+use crate::tolerance::{CENTRAL_DIFFERENCE, ORBIT_ENCLOSURE, REFERENCE, ROUNDING};
 
 fn proofs() -> Vec<(Inequality, Proof)> {
     let prove = |inequality: &Inequality| match inequality.prove(BUDGET) {
@@ -98,7 +98,7 @@ fn enclosures_of_one_axis_are_narrow_and_hold_the_orbit() {
         assert!(proof.unique && proof.attracting);
         let (cycle, enclosure) = (limit_cycle(&axis, &relay).unwrap(), proof.enclosure);
         // Rounding of the floating-point cycle grows as its multiplier nears one.
-        let allowed = REFERENCE / (1.0 - cycle.multiplier);
+        let allowed = ORBIT_ENCLOSURE / (1.0 - cycle.multiplier);
         for (value, interval, scale) in [
             (cycle.amplitude, enclosure.amplitude, cycle.amplitude),
             (cycle.bias, enclosure.bias, cycle.amplitude),
@@ -112,7 +112,7 @@ fn enclosures_of_one_axis_are_narrow_and_hold_the_orbit() {
             (cycle.multiplier, enclosure.multiplier, 1.0),
         ] {
             let off = (interval - Interval::point(value)).magnitude();
-            assert!(off <= 10.0 * allowed * scale.abs(), "{case:?}: {value} and {interval}");
+            assert!(off <= allowed * scale.abs(), "{case:?}: {value} and {interval}");
         }
     }
 }

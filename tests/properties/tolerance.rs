@@ -146,3 +146,7 @@ pub(crate) const START_UP_LEFT: f64 = 5e-3;
 
 /// Width of an enclosure of a describing function at moderate parameters, and error of a proved kernel: what is promised.
 pub(crate) const CERTIFIED_WIDTH: f64 = 1e-11;
+
+/// Width of the enclosure of an orbit, relative and times one less the multiplier: a few hundred outward roundings of the
+/// closed-form motion, of a multiplier itself the difference of large terms where drag is weak.
+pub(crate) const ORBIT_ENCLOSURE: f64 = 2e-12;
