@@ -146,7 +146,8 @@ impl<T: Real> Arc<T> {
 
     /// `sin(phi) - phi cos(phi)` and `phi - sin(phi) cos(phi)` by way of `x - sin(x)`, which small arcs need.
     pub(super) fn ramp(self) -> Harmonics<T> {
-        let (phi, twice) = (self.phi(), T::two() * self.phi());
+        let phi = self.phi();
+        let twice = phi + phi;
         let scale = self.amplitude / (T::two() * T::pi());
         let half = T::from_f64(0.5);
         Harmonics {

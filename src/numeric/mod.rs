@@ -10,6 +10,7 @@ mod expression;
 mod gradient;
 #[cfg(feature = "std")]
 pub mod identity;
+#[cfg(feature = "std")]
 pub mod inequality;
 mod interval;
 mod jet;
