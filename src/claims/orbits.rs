@@ -61,7 +61,7 @@ impl Loop {
 
 claim! {
     ORBIT_QUADRATIC = "orbit-quadratic" "of this project" Theorem
-    "Quadratic drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start; X_m and T in closed form" {
+    "Quadratic drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start" {
         printed: Printed::Absent,
         corrected: Some(|budget| {
             cross_checked(|| proved(&theorem::QUADRATIC), closed_form_orbit(budget, |l| {
@@ -88,7 +88,7 @@ claim! {
 
 claim! {
     ORBIT_LINEAR = "orbit-linear" "of this project" Theorem
-    "Linear drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start; g = z - tanh z gives X_m and T" {
+    "Linear drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start" {
         printed: Printed::Absent,
         corrected: Some(|budget| cross_checked(
             || proved(&theorem::LINEAR),
