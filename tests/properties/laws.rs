@@ -219,6 +219,8 @@ impl ClosedForm for Shared<'_> {
 
 quickcheck::quickcheck! {
     fn sums_add(level: f64, slope: f64, breakpoint: f64, bias: f64, amplitude: f64) -> TestResult {
+        // Of a size at which nothing overflows: infinity less infinity adds to nothing.
+        let [level, slope, breakpoint, bias, amplitude] = [level, slope, breakpoint, bias, amplitude].map(|x| x % 1e3);
         let (Ok(relay), Ok(saturation), Ok(sweep)) =
             (Relay::new(level), Saturation::new(slope, breakpoint), Sinusoid::new(bias, amplitude)) else { return TestResult::discard() };
         let (a, b) = (relay.describing_function(&sweep).unwrap(), saturation.describing_function(&sweep).unwrap());
