@@ -27,7 +27,7 @@ impl<T: Real> PiecewiseLinear for Single<T> {
             Kernel::Band { origin, lower, upper, slope } => slope * (x.max(lower).min(upper) - origin),
         }
     }
-    fn kernels(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
+    fn kernels(&self, _: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         report(self.0);
     }
 }

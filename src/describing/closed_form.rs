@@ -1,6 +1,5 @@
 //! Describing functions in closed form.
 
-use super::harmonics::Harmonics;
 use super::{DescribingError, DescribingFunction};
 use crate::nonlinearity::{Affine, Characteristic, PiecewiseLinear, Sinusoid, Sum};
 use crate::numeric::Real;
@@ -11,8 +10,7 @@ pub trait ClosedForm: Characteristic {
     /// one-tone input; does not say how far a loop's oscillation is from one tone.
     ///
     /// # Errors
-    /// [`DescribingError::Nonlinearity`] below the switching amplitude; [`DescribingError::NoClosedForm`] where none is
-    /// known.
+    /// [`DescribingError::Nonlinearity`] below the switching amplitude; [`DescribingError::NotFinite`] where it overflows.
     ///
     /// ```
     /// use selfosc::describing::ClosedForm;
@@ -36,17 +34,15 @@ impl<C: PiecewiseLinear> ClosedForm for C {
         sweep: &Sinusoid<C::Number>,
     ) -> Result<DescribingFunction<C::Number>, DescribingError> {
         self.periodic(sweep)?;
-        let mut sum = Harmonics::zero();
-        self.kernels(sweep, &mut |kernel| sum = sum + Harmonics::of(kernel, sweep));
-        let amplitude = sweep.amplitude();
-        Ok(DescribingFunction { f0: sum.mean, p: sum.sine / amplitude, q: sum.cosine / amplitude })
+        let mut sum = DescribingFunction::zero();
+        self.kernels(sweep, |kernel| sum = sum + DescribingFunction::of(kernel, sweep));
+        finite(sum, sweep)
     }
 }
 
 impl<T: Real, A: ClosedForm<Number = T>, B: ClosedForm<Number = T>> ClosedForm for Sum<A, B> {
     fn describing_function(&self, sweep: &Sinusoid<T>) -> Result<DescribingFunction<T>, DescribingError> {
-        let (a, b) = (self.0.describing_function(sweep)?, self.1.describing_function(sweep)?);
-        Ok(DescribingFunction { f0: a.f0 + b.f0, p: a.p + b.p, q: a.q + b.q })
+        finite(self.0.describing_function(sweep)? + self.1.describing_function(sweep)?, sweep)
     }
 }
 
@@ -55,7 +51,8 @@ impl<T: Real, C: ClosedForm<Number = T>> ClosedForm for Affine<T, C> {
         let inner = self.inner().describing_function(&self.inner_sweep(sweep)?)?;
         let (input_gain, output_gain, output_offset) = self.gains();
         let gain = output_gain * input_gain;
-        Ok(DescribingFunction { f0: output_gain * inner.f0 + output_offset, p: gain * inner.p, q: gain * inner.q })
+        let f0 = output_gain * inner.f0 + output_offset;
+        finite(DescribingFunction { f0, p: gain * inner.p, q: gain * inner.q }, sweep)
     }
 }
 
@@ -77,12 +74,13 @@ pub fn over_amplitudes<C: ClosedForm + ?Sized>(
     amplitudes.into_iter().map(move |amplitude| characteristic.describing_function(&Sinusoid::new(bias, amplitude)?))
 }
 
-/// The describing function, unless a number in it overflowed or is none.
+/// The describing function, unless a number in it overflowed or is none. An unbounded interval is neither.
 pub(super) fn finite<T: Real>(
     df: DescribingFunction<T>,
     sweep: &Sinusoid<T>,
 ) -> Result<DescribingFunction<T>, DescribingError> {
-    let fault = [df.f0, df.p, df.q].into_iter().map(|part| part.bounds()).find(|(low, high)| !(high - low).is_finite());
+    let fault =
+        [df.f0, df.p, df.q].into_iter().map(|part| part.bounds()).find(|(low, high)| !low.is_finite() && !(low < high));
     match fault {
         None => Ok(df),
         Some((output, _)) => {

@@ -7,7 +7,8 @@
 //! `abs(F - I)` is bounded by its value at the start plus the integral of `abs(F' - I')`. Near `phi = 0` and `phi = pi`, where `F`
 //! has square roots of nearly nothing, the values are compared on small cells instead, `I` by the mean value theorem.
 
-use super::harmonics::{Arc, Harmonics, constant};
+use super::DescribingFunction;
+use super::kernel::{Arc, constant};
 use crate::numeric::identity::{Series, cover, magnitude};
 use crate::numeric::{Interval, Real};
 
@@ -64,18 +65,18 @@ impl KernelForm {
     /// The closed form by the code that computes.
     fn value<T: Real>(self, arc: Arc<T>) -> [T; 3] {
         let half = T::from_f64(0.5);
-        let Harmonics { mean, sine, cosine } = match self {
+        let DescribingFunction { f0, p, q } = match self {
             Self::Step => arc.step(),
             Self::Ramp => arc.ramp(),
             Self::Sign => arc.sign(),
             // As a ramp on both branches would be; the straight parts cancel between the two ends of a band.
-            Self::Band => Harmonics {
-                mean: (arc.sine + arc.u * arc.asin()) / T::pi() - half * arc.u,
-                sine: half - (arc.asin() + arc.u * arc.sine) / T::pi(),
-                cosine: T::zero(),
+            Self::Band => DescribingFunction {
+                f0: (arc.sine + arc.u * arc.asin()) / T::pi() - half * arc.u,
+                p: half - (arc.asin() + arc.u * arc.sine) / T::pi(),
+                q: T::zero(),
             },
         };
-        [mean, sine, cosine]
+        [f0, p, q]
     }
 
     /// Derivative of the integral by phi.
@@ -94,11 +95,11 @@ impl KernelForm {
 
     /// The integral where the breakpoint is at the maximum: nothing of the branch is beyond it.
     fn start(self) -> [Interval; 3] {
-        let none: Harmonics<Interval> = match self {
-            Self::Sign => constant() * -Interval::ONE,
-            Self::Step | Self::Ramp | Self::Band => Harmonics::zero(),
+        let none = match self {
+            Self::Sign => constant(Interval::ONE) * -Interval::ONE,
+            Self::Step | Self::Ramp | Self::Band => DescribingFunction::zero(),
         };
-        [none.mean, none.sine, none.cosine]
+        [none.f0, none.p, none.q]
     }
 }
 
@@ -128,8 +129,8 @@ impl Scaled {
         // The breakpoint at the minimum: the kernel is then the constant one.
         let whole = match self.form {
             KernelForm::Step => {
-                let Harmonics { mean, sine, cosine } = constant();
-                largest(difference(self.value(Interval::PI), [mean, sine, cosine]))
+                let DescribingFunction { f0, p, q } = constant(Interval::ONE);
+                largest(difference(self.value(Interval::PI), [f0, p, q]))
             }
             _ => 0.0,
         };

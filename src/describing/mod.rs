@@ -15,11 +15,11 @@ mod error;
 mod example;
 #[cfg(feature = "std")]
 mod fit;
-mod harmonics;
 #[cfg(feature = "std")]
 mod incremental;
 #[cfg(feature = "std")]
 mod inverse;
+mod kernel;
 #[cfg(feature = "std")]
 mod kernel_proof;
 mod pole;
@@ -61,6 +61,8 @@ pub use setting::Setting;
 #[cfg(feature = "std")]
 pub use two_tone::{TwoTone, two_tone};
 
+use core::ops::{Add, Mul, Sub};
+
 use crate::numeric::Real;
 
 /// Static term and complex gain of a characteristic at one bias and amplitude: its output is
@@ -78,7 +80,40 @@ pub struct DescribingFunction<T> {
     pub q: T,
 }
 
+/// Of the sum of two characteristics.
+impl<T: Real> Add for DescribingFunction<T> {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self { f0: self.f0 + other.f0, p: self.p + other.p, q: self.q + other.q }
+    }
+}
+
+/// Of the difference of two characteristics.
+impl<T: Real> Sub for DescribingFunction<T> {
+    type Output = Self;
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        Self { f0: self.f0 - other.f0, p: self.p - other.p, q: self.q - other.q }
+    }
+}
+
+/// Of a characteristic whose output is multiplied.
+impl<T: Real> Mul<T> for DescribingFunction<T> {
+    type Output = Self;
+    #[inline]
+    fn mul(self, factor: T) -> Self {
+        Self { f0: self.f0 * factor, p: self.p * factor, q: self.q * factor }
+    }
+}
+
 impl<T: Real> DescribingFunction<T> {
+    /// Of a characteristic that gives nothing.
+    #[must_use]
+    pub fn zero() -> Self {
+        Self { f0: T::zero(), p: T::zero(), q: T::zero() }
+    }
+
     /// The gain seen through a dead time of `phase_rad = w T_d` (eq. 34): rotated by `+phase_rad`, so that the
     /// identification equations of the undelayed plant hold.
     ///

@@ -37,7 +37,7 @@ impl<T: Scalar> ClosedForm for Power<T> {
         let moments = if outside {
             about_infinity(ratio.value(), p)
         } else if u < INNER || p >= STEEP {
-            about_zero(u, p)
+            about_zero(u, p, self.mean_power())
         } else {
             about_one(u, 0.5 * ((amplitude - bias) / amplitude).value(), p)
         };
@@ -79,14 +79,9 @@ fn hypergeometric(a: f64, b: f64, c: f64, x: f64) -> (f64, f64) {
     }
 }
 
-/// `m = m'(0) u 2F1((1-p)/2, (1-p)/2; 3/2; u^2)`, every term positive.
-fn about_zero(u: f64, p: f64) -> Moments {
-    let gamma = if p < 300.0 {
-        tgamma(0.5 * p + 1.0) / tgamma(0.5 * p + 0.5)
-    } else {
-        exp(lgamma(0.5 * p + 1.0) - lgamma(0.5 * p + 0.5))
-    };
-    let slope_at_zero = 2.0 * gamma / sqrt(PI);
+/// `m = m'(0) u 2F1((1-p)/2, (1-p)/2; 3/2; u^2)`, every term positive; `m'(0) = (p + 1) <abs(sin)^(p+1)>`.
+fn about_zero(u: f64, p: f64, mean_power: f64) -> Moments {
+    let slope_at_zero = (p + 1.0) * mean_power;
     let a = 0.5 * (1.0 - p);
     let (sum, slope) = hypergeometric(a, a, 1.5, u * u);
     let m_slope = slope_at_zero * (sum + 2.0 * slope);

@@ -16,7 +16,7 @@ impl<T: Real> PiecewiseLinear for Absolute<T> {
     fn value(&self, x: T, _: Branch, _: &Sinusoid<T>) -> T {
         self.gain * x.abs()
     }
-    fn kernels(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
+    fn kernels(&self, _: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         report(Kernel::ramp_above(T::zero(), self.gain));
         report(Kernel::ramp_below(T::zero(), self.gain));
     }

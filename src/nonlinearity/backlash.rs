@@ -27,7 +27,7 @@ impl<T: Real> PiecewiseLinear for Backlash<T> {
     }
 
     /// The straight line, less the half-gap one way and more the other, corrected where the gap is being crossed.
-    fn kernels(&self, sweep: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
+    fn kernels(&self, sweep: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         let (gap, lag) = (T::two() * self.half_gap, self.slope * self.half_gap);
         report(Kernel::Line { slope: self.slope });
         report(Kernel::Constant { value: -lag, branches: Branches::Rising });

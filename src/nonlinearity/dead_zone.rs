@@ -18,7 +18,7 @@ impl<T: Real> PiecewiseLinear for DeadZone<T> {
     fn value(&self, x: T, _: Branch, _: &Sinusoid<T>) -> T {
         self.slope * (x - x.max(-self.half_width).min(self.half_width))
     }
-    fn kernels(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
+    fn kernels(&self, _: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         report(Kernel::ramp_above(self.half_width, self.slope));
         report(Kernel::ramp_below(-self.half_width, -self.slope));
     }

@@ -22,7 +22,7 @@ impl<T: Real> PiecewiseLinear for DeadZoneSaturation<T> {
         let held = x.max(-self.breakpoint).min(self.breakpoint);
         self.slope * (held - held.max(-self.half_width).min(self.half_width))
     }
-    fn kernels(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
+    fn kernels(&self, _: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         let (inner, outer, slope) = (self.half_width, self.breakpoint, self.slope);
         report(Kernel::Band { origin: inner, lower: inner, upper: outer, slope });
         report(Kernel::Band { origin: -inner, lower: -outer, upper: -inner, slope });

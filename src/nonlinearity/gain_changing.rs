@@ -21,14 +21,24 @@ impl<T: Real> PiecewiseLinear for GainChanging<T> {
         let inner = x.max(-self.breakpoint).min(self.breakpoint);
         self.inner_slope * inner + self.outer_slope * (x - inner)
     }
-    fn kernels(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
-        report(Kernel::Band {
-            origin: T::zero(),
-            lower: -self.breakpoint,
-            upper: self.breakpoint,
-            slope: self.inner_slope,
-        });
-        report(Kernel::ramp_above(self.breakpoint, self.outer_slope));
-        report(Kernel::ramp_below(-self.breakpoint, -self.outer_slope));
+    /// A line and what departs from it: with slopes of one sign, the line of the smaller one leaves nothing to cancel.
+    fn kernels(&self, _: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
+        let (inner, outer, at) = (self.inner_slope, self.outer_slope, self.breakpoint);
+        let band = |slope| Kernel::Band { origin: T::zero(), lower: -at, upper: at, slope };
+        let is_part = |(least, most): (f64, f64)| least >= 0.0 && most <= 1.0;
+        if is_part((outer / inner).bounds()) {
+            report(Kernel::Line { slope: outer });
+            report(band(inner - outer));
+            return;
+        }
+        let beyond = if is_part((inner / outer).bounds()) {
+            report(Kernel::Line { slope: inner });
+            outer - inner
+        } else {
+            report(band(inner));
+            outer
+        };
+        report(Kernel::ramp_above(at, beyond));
+        report(Kernel::ramp_below(-at, -beyond));
     }
 }

@@ -121,7 +121,7 @@ pub trait PiecewiseLinear {
     fn value(&self, x: Self::Number, branch: Branch, sweep: &Sinusoid<Self::Number>) -> Self::Number;
 
     /// Reports the kernels whose sum is [`value`](Self::value) on this sweep.
-    fn kernels(&self, sweep: &Sinusoid<Self::Number>, report: &mut dyn FnMut(Kernel<Self::Number>));
+    fn kernels(&self, sweep: &Sinusoid<Self::Number>, report: impl FnMut(Kernel<Self::Number>));
 
     /// As [`Characteristic::admits`].
     ///
@@ -140,7 +140,7 @@ impl<C: PiecewiseLinear> Characteristic for C {
         self.value(x, branch, sweep)
     }
     fn kinks(&self, sweep: &Sinusoid<C::Number>, report: &mut dyn FnMut(C::Number)) {
-        self.kernels(sweep, &mut |kernel| kernel.kinks(report));
+        self.kernels(sweep, |kernel| kernel.kinks(report));
     }
     fn admits(&self, sweep: &Sinusoid<C::Number>) -> Result<(), NonlinearityError> {
         self.periodic(sweep)

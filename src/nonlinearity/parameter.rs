@@ -124,7 +124,7 @@ macro_rules! document {
 pub(super) use document;
 
 /// Declares a characteristic: documentation, catalogue name, struct, then for each parameter its meaning, name, domain and
-/// (optionally) default; last, order relations between parameters.
+/// (optionally) default; last, order relations between parameters, and what is computed from them once and for all.
 macro_rules! characteristic {
     (
         $(#[$doc:meta])*
@@ -132,12 +132,13 @@ macro_rules! characteristic {
             $( #[doc = $meaning:literal] $parameter:ident: $domain:ident $(= $default:literal)? ),+ $(,)?
         }
         $(where $($lesser:ident < $greater:ident),+)?
+        $(computed { $( #[doc = $content:literal] $computed:ident: $kind:ty = $value:expr ),+ $(,)? })?
     ) => {
         $(#[$doc])*
         #[doc = ""]
         #[doc = super::parameter::document!($name)]
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct $type<T> { $($parameter: T),+ }
+        pub struct $type<T> { $($parameter: T,)+ $($($computed: $kind),+)? }
 
         impl<T: $crate::numeric::Real> $type<T> {
             #[doc = concat!("A `", $name, "` with the parameters of the struct's documentation.\n\n# Errors\n",
@@ -154,8 +155,16 @@ macro_rules! characteristic {
                         (stringify!($greater), $greater),
                     )?;
                 )+)?
-                Ok(Self { $($parameter),+ })
+                $($(let $computed = $value;)+)?
+                Ok(Self { $($parameter,)+ $($($computed),+)? })
             }
+            $($(
+                #[doc = $content]
+                #[inline]
+                pub(crate) fn $computed(&self) -> $kind {
+                    self.$computed
+                }
+            )+)?
             $(
                 #[doc = $meaning]
                 #[inline]

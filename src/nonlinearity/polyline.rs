@@ -131,7 +131,7 @@ impl<T: Real, S: AsRef<[(T, T)]>> PiecewiseLinear for Polyline<T, S> {
 
     /// Each segment is a band that counts from its end nearer the bias, so that a segment out of reach adds nothing and
     /// takes no accuracy.
-    fn kernels(&self, sweep: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
+    fn kernels(&self, sweep: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         let points = self.points();
         let (Some(&first), Some(&last)) = (points.first(), points.last()) else { return };
         let middle = sweep.bias().bounds().0;

@@ -18,7 +18,7 @@ impl<T: Real> PiecewiseLinear for Preload<T> {
     fn value(&self, x: T, _: Branch, _: &Sinusoid<T>) -> T {
         self.slope * x + x.select(|| -self.level, || self.level)
     }
-    fn kernels(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
+    fn kernels(&self, _: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         report(Kernel::Line { slope: self.slope });
         report(Kernel::Sign { at: T::zero(), level: self.level, branches: Branches::Both });
     }

@@ -20,7 +20,7 @@ impl<T: Real> PiecewiseLinear for Quantizer<T> {
         self.step * (x / self.step + T::from_f64(0.5)).floor()
     }
     /// One step for each tread inside the sweep: the cost grows with amplitude over step.
-    fn kernels(&self, sweep: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
+    fn kernels(&self, sweep: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         let half = T::from_f64(0.5);
         let treads = |excursion: T| (excursion / self.step + half).bounds().1;
         let at = |tread: f64| self.step * (T::from_f64(tread) - half);

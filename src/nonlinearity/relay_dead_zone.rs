@@ -18,7 +18,7 @@ impl<T: Real> PiecewiseLinear for RelayDeadZone<T> {
     fn value(&self, x: T, _: Branch, _: &Sinusoid<T>) -> T {
         (x.abs() - self.dead_zone).select(T::zero, || x.select(|| -self.level, || self.level))
     }
-    fn kernels(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
+    fn kernels(&self, _: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         report(Kernel::step_above(self.dead_zone, self.level));
         report(Kernel::step_below(-self.dead_zone, -self.level));
     }

@@ -37,7 +37,7 @@ impl<T: Real> PiecewiseLinear for RelayDeadZoneHysteresis<T> {
         (x - upper).select(T::zero, || positive) - (x - lower).select(|| negative, T::zero)
     }
 
-    fn kernels(&self, sweep: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
+    fn kernels(&self, sweep: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         let (positive, negative) = self.reached(sweep);
         let mut step = |at, height, side, branches| report(Kernel::Step { at, height, side, branches });
         step(self.on, positive, Side::Above, Branches::Rising);

@@ -35,7 +35,7 @@ impl<T: Real> PiecewiseLinear for RelayHysteresis<T> {
         self.offset + (x - threshold).select(|| -self.level, || self.level)
     }
 
-    fn kernels(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
+    fn kernels(&self, _: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         report(Kernel::constant(self.offset));
         report(Kernel::Sign { at: self.half_width, level: self.level, branches: Branches::Rising });
         report(Kernel::Sign { at: -self.half_width, level: self.level, branches: Branches::Falling });

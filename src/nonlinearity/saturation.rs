@@ -18,7 +18,7 @@ impl<T: Real> PiecewiseLinear for Saturation<T> {
     fn value(&self, x: T, _: Branch, _: &Sinusoid<T>) -> T {
         self.slope * x.max(-self.breakpoint).min(self.breakpoint)
     }
-    fn kernels(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
+    fn kernels(&self, _: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         report(Kernel::Band { origin: T::zero(), lower: -self.breakpoint, upper: self.breakpoint, slope: self.slope });
     }
 }

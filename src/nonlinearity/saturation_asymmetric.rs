@@ -21,7 +21,7 @@ impl<T: Real> PiecewiseLinear for SaturationAsymmetric<T> {
     fn value(&self, x: T, _: Branch, _: &Sinusoid<T>) -> T {
         self.slope * x.max(self.lower).min(self.upper)
     }
-    fn kernels(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(Kernel<T>)) {
+    fn kernels(&self, _: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         report(Kernel::Band { origin: T::zero(), lower: self.lower, upper: self.upper, slope: self.slope });
     }
 }

@@ -18,9 +18,10 @@ impl<T: Real> Characteristic for Tanh<T> {
     fn output(&self, x: T, _: Branch, _: &Sinusoid<T>) -> T {
         self.gain * (self.scale * x).tanh()
     }
-    /// None; what is reported brackets the bend, which a quadrature of a long sweep would miss.
+    /// None; what is reported brackets the bend, which a quadrature of a long sweep would miss: beyond, the output is at
+    /// its limit to within 1e-17.
     fn kinks(&self, _: &Sinusoid<T>, report: &mut dyn FnMut(T)) {
-        let bend = T::from_f64(10.0) / self.scale;
+        let bend = T::from_f64(20.0) / self.scale;
         [-bend, T::zero(), bend].into_iter().for_each(report);
     }
 }

@@ -32,7 +32,11 @@ macro_rules! dual {
             fn floor(self) -> Self {
                 libm::floor(self.re).into()
             }
-            fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
+            fn select_all<const M: usize>(
+                self,
+                below: impl FnOnce() -> [Self; M],
+                above: impl FnOnce() -> [Self; M],
+            ) -> [Self; M] {
                 if self.re > 0.0 { above() } else { below() }
             }
             fn minus_sine(self, sine: Self) -> Self {

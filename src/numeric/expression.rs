@@ -100,11 +100,18 @@ macro_rules! functions {
             fn pow(self, exponent: Self) -> Self {
                 Self::call(Function::pow, [self, exponent])
             }
-            fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
+            fn select_all<const N: usize>(
+                self,
+                below: impl FnOnce() -> [Self; N],
+                above: impl FnOnce() -> [Self; N],
+            ) -> [Self; N] {
                 match self.bounds() {
                     (lower, _) if lower > 0.0 => above(),
                     (_, upper) if upper <= 0.0 => below(),
-                    _ => Self::call(Function::select, [self, below(), above()]),
+                    _ => {
+                        let (below, above) = (below(), above());
+                        core::array::from_fn(|k| Self::call(Function::select, [self, below[k], above[k]]))
+                    }
                 }
             }
             fn minus_sine(self, sine: Self) -> Self {

@@ -114,6 +114,9 @@ impl<const N: usize> Real for Gradient<N> {
     fn pi() -> Self {
         Self::constant(Interval::PI)
     }
+    fn inverse_pi() -> Self {
+        Self::constant(Interval::INVERSE_PI)
+    }
     fn bounds(self) -> (f64, f64) {
         self.value.bounds()
     }
@@ -154,11 +157,18 @@ impl<const N: usize> Real for Gradient<N> {
         let floor = self.value.floor();
         if floor.is_point() { Self::constant(floor) } else { Self::jump(floor) }
     }
-    fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
+    fn select_all<const M: usize>(
+        self,
+        below: impl FnOnce() -> [Self; M],
+        above: impl FnOnce() -> [Self; M],
+    ) -> [Self; M] {
         match self.value {
             value if value.is_positive() => above(),
             value if value.upper() <= 0.0 => below(),
-            value => Self::jump(value.select(|| below().value, || above().value)),
+            value => {
+                let values = |branch: [Self; M]| branch.map(|number| number.value);
+                value.select_all(|| values(below()), || values(above())).map(Self::jump)
+            }
         }
     }
     fn minus_sine(self, sine: Self) -> Self {

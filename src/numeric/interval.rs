@@ -51,6 +51,9 @@ impl Interval {
     pub const UNIT: Self = Self { lo: -1.0, hi: 1.0 };
     /// The circle constant; its double lies below it.
     pub const PI: Self = Self { lo: core::f64::consts::PI, hi: core::f64::consts::PI.next_up() };
+    /// The reciprocal of the circle constant; its double lies above it.
+    pub const INVERSE_PI: Self =
+        Self { lo: core::f64::consts::FRAC_1_PI.next_down(), hi: core::f64::consts::FRAC_1_PI };
 
     /// The interval from `lo` to `hi`; `None` if it would be empty or an endpoint is NaN.
     #[must_use]

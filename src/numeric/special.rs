@@ -1,4 +1,4 @@
-//! Bessel functions of order 0 and 1, to a few units in the last place.
+//! Bessel functions of order 0 and 1 and powers of the sine, to a few units in the last place.
 
 use super::Scalar;
 
@@ -70,4 +70,20 @@ fn modified<T: Scalar>(x: T, order: f64, first: T) -> T {
         term = term * argument * T::from_f64(factor);
     }
     sum * if near { (-x).exp() } else { T::one() / (T::two() * T::pi() * x).sqrt() }
+}
+
+/// Mean of `abs(sin)^exponent` over a period, `Gamma((p + 1)/2)/(sqrt(pi) Gamma(p/2 + 1))` (DLMF 5.12.2), domain
+/// `exponent >= 0`.
+///
+/// ```
+/// use selfosc::numeric::special::mean_power_of_sine;
+/// assert!((mean_power_of_sine(2.0) - 0.5).abs() < 1e-15);
+/// ```
+#[must_use]
+pub fn mean_power_of_sine(exponent: f64) -> f64 {
+    let (a, b) = (0.5 * exponent + 0.5, 0.5 * exponent + 1.0);
+    // Beyond, the gamma function overflows.
+    let ratio =
+        if b < 170.0 { libm::tgamma(a) / libm::tgamma(b) } else { libm::exp(libm::lgamma(a) - libm::lgamma(b)) };
+    ratio / libm::sqrt(core::f64::consts::PI)
 }

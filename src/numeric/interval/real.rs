@@ -24,6 +24,10 @@ impl Real for Interval {
         Self::PI
     }
     #[inline]
+    fn inverse_pi() -> Self {
+        Self::INVERSE_PI
+    }
+    #[inline]
     fn bounds(self) -> (f64, f64) {
         (self.lo, self.hi)
     }
@@ -79,15 +83,20 @@ impl Real for Interval {
     fn floor(self) -> Self {
         Self { lo: libm::floor(self.lo), hi: libm::floor(self.hi) }
     }
-    fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
+    fn select_all<const N: usize>(
+        self,
+        below: impl FnOnce() -> [Self; N],
+        above: impl FnOnce() -> [Self; N],
+    ) -> [Self; N] {
         if self.is_entire() {
-            Self::ENTIRE
+            [Self::ENTIRE; N]
         } else if self.lo > 0.0 {
             above()
         } else if self.hi <= 0.0 {
             below()
         } else {
-            below().hull(above())
+            let (below, above) = (below(), above());
+            core::array::from_fn(|k| below[k].hull(above[k]))
         }
     }
     fn minus_sine(self, sine: Self) -> Self {

@@ -23,6 +23,7 @@ fn factorial(n: u32) -> f64 {
 fn constants_are_enclosed() {
     let one = 1.0;
     assert_encloses(Interval::PI, &bracket!(one: at(4.0) * one.atan()));
+    assert_encloses(Interval::INVERSE_PI, &bracket!(one: at(0.25) / one.atan()));
     assert_encloses(HALF_TURN, &bracket!(one: at(2.0) * one.atan()));
     let [a, b, c] = HALF_PI_PARTS;
     assert_encloses(HALF_PI_REST, &bracket!(one, a, b, c: at(2.0) * one.atan() - a - b - c));

@@ -1,0 +1,198 @@
+//! The describing function of each kernel: the one place where the piecewise-linear catalogue is integrated.
+//!
+//! With `u = (at - bias) / amplitude` held to `[-1, 1]` and `phi = acos(u)`, a step above `at` covers the arc of width
+//! `2 phi` around the maximum of the input, half of it on each branch. `1 - u` and `phi` are formed from the distances of
+//! the breakpoint to the two turning points, so that nothing cancels where the sweep barely passes it; u itself from the
+//! distance to the bias.
+
+use super::DescribingFunction;
+use crate::nonlinearity::{Branches, Kernel, Side, Sinusoid};
+use crate::numeric::Real;
+
+impl<T: Real> DescribingFunction<T> {
+    /// Of one kernel under `sweep`.
+    #[inline(always)]
+    pub(super) fn of(kernel: Kernel<T>, sweep: &Sinusoid<T>) -> Self {
+        match kernel {
+            Kernel::Constant { value, branches } => constant(sweep.amplitude()).on(branches) * value,
+            Kernel::Line { slope } => Self { f0: sweep.bias(), p: T::one(), q: T::zero() } * slope,
+            Kernel::Sign { at, level, branches } => Arc::above(at, sweep).sign().on(branches) * level,
+            Kernel::Step { at, height, side, branches } => arc(at, sweep, side, Arc::step).on(branches) * height,
+            Kernel::Ramp { at, slope, side, branches } => arc(at, sweep, side, Arc::ramp).on(branches) * slope,
+            Kernel::Band { origin, lower, upper, slope } => band(origin, lower, upper, sweep) * slope,
+        }
+    }
+
+    /// Takes what the rising branch alone contributes: the falling branch mirrors it at the maximum.
+    #[inline]
+    fn on(self, branches: Branches) -> Self {
+        match branches {
+            Branches::Rising => self,
+            Branches::Falling => Self { q: -self.q, ..self },
+            Branches::Both => Self { f0: self.f0 + self.f0, p: self.p + self.p, q: T::zero() },
+        }
+    }
+}
+
+fn half<T: Real>() -> T {
+    T::from_f64(0.5)
+}
+
+/// A constant output.
+fn flat<T: Real>(mean: T) -> DescribingFunction<T> {
+    DescribingFunction { f0: mean, p: T::zero(), q: T::zero() }
+}
+
+/// The constant one on the rising branch.
+pub(super) fn constant<T: Real>(amplitude: T) -> DescribingFunction<T> {
+    DescribingFunction { f0: half(), p: T::zero(), q: T::two() * T::inverse_pi() / amplitude }
+}
+
+/// A kernel on either side of `at`: below is above, of the input turned upside down.
+#[inline]
+fn arc<T: Real>(
+    at: T,
+    sweep: &Sinusoid<T>,
+    side: Side,
+    kernel: fn(Arc<T>) -> DescribingFunction<T>,
+) -> DescribingFunction<T> {
+    match side {
+        Side::Above => kernel(Arc::above(at, sweep)),
+        Side::Below => {
+            let mirrored = kernel(Arc::below(at, sweep));
+            DescribingFunction { p: -mirrored.p, ..mirrored }
+        }
+    }
+}
+
+/// The part of the rising branch on which the input is beyond a breakpoint.
+#[derive(Clone, Copy)]
+pub(super) struct Arc<T> {
+    amplitude: T,
+    /// In `[-1, 1]`.
+    pub(super) u: T,
+    /// `1 - u` and `1 + u`, both in `[0, 2]`.
+    one_minus_u: T,
+    one_plus_u: T,
+    /// `sin(phi)`.
+    pub(super) sine: T,
+    /// How far the breakpoint lies outside the sweep on the far side, in input units: the kernel then never rests.
+    beyond: T,
+}
+
+impl<T: Real> Arc<T> {
+    #[inline]
+    fn above(at: T, sweep: &Sinusoid<T>) -> Self {
+        Self::new(at - sweep.bias(), sweep.maximum() - at, at - sweep.minimum(), sweep.amplitude())
+    }
+
+    #[inline]
+    fn below(at: T, sweep: &Sinusoid<T>) -> Self {
+        Self::new(sweep.bias() - at, at - sweep.minimum(), sweep.maximum() - at, sweep.amplitude())
+    }
+
+    /// From the breakpoint's distances: from the bias, to the turning point on the kernel's side, to the one on the other.
+    #[inline]
+    pub(super) fn new(middle: T, near: T, far: T, amplitude: T) -> Self {
+        let hold = |distance: T| (distance / amplitude).max(T::zero()).min(T::two());
+        let (one_minus_u, one_plus_u) = (hold(near), hold(far));
+        let sine = (one_minus_u * one_plus_u).sqrt();
+        Self {
+            amplitude,
+            u: (middle / amplitude).clamp_unit(),
+            one_minus_u,
+            one_plus_u,
+            sine,
+            beyond: (-far).max(T::zero()),
+        }
+    }
+
+    /// `acos(u)`: from the nearer end, or from the middle.
+    #[inline]
+    fn phi(self) -> T {
+        let from = |end: T| T::two() * (half::<T>() * end).sqrt().asin();
+        let near_an_end = || self.u.select(|| T::pi() - from(self.one_plus_u), || from(self.one_minus_u));
+        (self.u.abs() - half()).select(|| half::<T>() * T::pi() - self.u.asin(), near_an_end)
+    }
+
+    /// `asin(u)`, towards the ends by way of phi: its derivative then agrees with that of `sin(phi)`.
+    #[inline]
+    pub(super) fn asin(self) -> T {
+        (self.u.abs() - half()).select(|| self.u.asin(), || half::<T>() * T::pi() - self.phi())
+    }
+
+    #[inline]
+    pub(super) fn sign(self) -> DescribingFunction<T> {
+        let scale = T::two() * T::inverse_pi() / self.amplitude;
+        DescribingFunction { f0: -self.asin() * T::inverse_pi(), p: scale * self.sine, q: -scale * self.u }
+    }
+
+    #[inline]
+    pub(super) fn step(self) -> DescribingFunction<T> {
+        let scale = T::inverse_pi() / self.amplitude;
+        DescribingFunction {
+            f0: half::<T>() * T::inverse_pi() * self.phi(),
+            p: scale * self.sine,
+            q: scale * self.one_minus_u,
+        }
+    }
+
+    /// `sin(phi) - phi cos(phi)` and `phi - sin(phi) cos(phi)` by way of `x - sin(x)`, which small arcs need.
+    pub(super) fn ramp(self) -> DescribingFunction<T> {
+        let (phi, scale) = (self.phi(), half::<T>() * T::inverse_pi());
+        let mean = phi * self.one_minus_u - phi.minus_sine(self.sine);
+        DescribingFunction {
+            f0: scale * self.amplitude * mean + half::<T>() * self.beyond,
+            p: scale * half() * (phi + phi).minus_sine(T::two() * self.sine * self.u),
+            q: scale * self.one_minus_u.square() + constant(self.amplitude).q * self.beyond,
+        }
+    }
+}
+
+/// The input held between two breakpoints, less `origin`.
+///
+/// Four forms of one value, each accurate where the others cancel: a difference of ramps, for a band near either turning
+/// point; between them, for a band wider than the amplitude, the whole input less what lies outside; and from the middle.
+#[inline]
+fn band<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
+    let (bias, amplitude) = (sweep.bias(), sweep.amplitude());
+    let ramp = |at, side| arc(at, sweep, side, Arc::ramp).on(Branches::Both);
+    let line = || DescribingFunction { p: T::one(), ..flat(bias - origin) };
+    let components = |df: DescribingFunction<T>| [df.f0, df.p];
+    let middle = || {
+        let centre = half::<T>() * ((lower - origin) + (upper - origin));
+        components(flat(centre) + from_the_middle(lower, upper, sweep))
+    };
+    let wide = || components(line() + ramp(lower, Side::Below) - ramp(upper, Side::Above));
+    let near_maximum = || components(flat(lower - origin) + ramp(lower, Side::Above) - ramp(upper, Side::Above));
+    let near_minimum = || components(flat(upper - origin) + ramp(lower, Side::Below) - ramp(upper, Side::Below));
+
+    let near = half::<T>() * amplitude;
+    let inner = || (upper - lower - amplitude).select_all(middle, wide);
+    let beside_maximum = || (bias - upper - near).select_all(inner, near_minimum);
+    let [f0, p] = (lower - bias - near).select_all(beside_maximum, near_maximum);
+    DescribingFunction { f0, p, q: T::zero() }
+}
+
+/// A band, less the middle of its breakpoints, from the angles `a`, `b` at which the input passes its ends, by the tangents
+/// of `(b - a)/2` and `(b + a)/2`. What is odd in the bias comes from the latter, formed from the sum of the breakpoints.
+#[inline]
+fn from_the_middle<T: Real>(lower: T, upper: T, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
+    let (minimum, maximum) = (sweep.minimum(), sweep.maximum());
+    let hold = |at: T| at.max(minimum).min(maximum);
+    let cosine = |at: T| (at - minimum).max(T::zero()).sqrt() * (maximum - at).max(T::zero()).sqrt();
+    let overshoot = |at: T| half::<T>() * (at - maximum).max(minimum - at).max(T::zero());
+    let (low, high) = (hold(lower), hold(upper));
+    let (sum, difference) = ((low + high) - T::two() * sweep.bias(), high - low);
+    let cosines = cosine(low) + cosine(high);
+    let (of_difference, of_sum) = (difference / cosines, sum / cosines);
+    let (difference_squared, sum_squared) = (of_difference.square(), of_sum.square());
+    let sine = of_difference * (T::one() - sum_squared) / ((T::one() + difference_squared) * (T::one() + sum_squared));
+    let half_angle = of_difference.atan();
+    DescribingFunction {
+        f0: T::inverse_pi() * (sum * (of_difference - half_angle) - difference * of_sum.atan()) + overshoot(lower)
+            - overshoot(upper),
+        p: T::two() * T::inverse_pi() * (half_angle + sine),
+        q: T::zero(),
+    }
+}
