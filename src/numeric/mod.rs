@@ -13,6 +13,8 @@ pub mod identity;
 #[cfg(feature = "std")]
 pub mod inequality;
 mod interval;
+#[cfg(feature = "std")]
+pub mod interval_matrix;
 mod jet;
 #[cfg(feature = "std")]
 pub mod quadrature;

@@ -89,6 +89,25 @@ pub enum OrbitError {
         /// Reference, in output units.
         reference: f64,
     },
+    /// A delay for which no certificate is built.
+    #[error(
+        "delay_s = {delay_s} must be below the half-period of {half_period_s} s for a certificate: with more than one \
+         switching on its way there is none yet"
+    )]
+    LongDelay {
+        /// The plant's delay, s.
+        delay_s: f64,
+        /// Half the cycle's period, s.
+        half_period_s: f64,
+    },
+    /// An enclosure that stayed too wide, or a cycle that is none.
+    #[error("not proved of the cycle with half-period {half_period_s} s: {what}; scale time and state to order one")]
+    NotProved {
+        /// What was to be proved.
+        what: &'static str,
+        /// Half the cycle's period, s.
+        half_period_s: f64,
+    },
     /// Extrema too close to each other to be told apart.
     #[error("the output between two switchings needs more than {limit} pieces to isolate its extrema")]
     TooManyPieces {

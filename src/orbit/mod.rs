@@ -11,6 +11,8 @@ mod half_cycle;
 #[cfg(feature = "std")]
 pub mod integrate;
 #[cfg(feature = "std")]
+mod relay_certificate;
+#[cfg(feature = "std")]
 mod relay_cycle;
 #[cfg(feature = "std")]
 mod relay_linear;
@@ -29,6 +31,8 @@ pub use closed_form::{
 };
 pub use drag_axis::{LimitCycle, Return, Switching, limit_cycle, return_map};
 pub use error::OrbitError;
+#[cfg(feature = "std")]
+pub use relay_certificate::RelayCertificate;
 #[cfg(feature = "std")]
 pub use relay_linear::{RelayLoop, RelayOrbit};
 #[cfg(feature = "std")]

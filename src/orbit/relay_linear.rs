@@ -103,13 +103,23 @@ impl RelayLoop {
     /// [`orbits`](Self::orbits).
     pub fn symmetric_orbits(&self, period_s: RangeInclusive<f64>) -> Result<Vec<RelayOrbit>, OrbitError> {
         let nodes = self.nodes(&period_s)?;
+        let levels = self.symmetric_levels()?;
+        let cycle = |period: f64| Cycle::symmetric(&self.plant, levels, 0.5 * period);
+        let miss = |period: f64| Some(cycle(period)?.misses(&self.plant).1);
+        self.genuine(scan::roots(&nodes, miss).into_iter().filter_map(cycle).collect())
+    }
+
+    /// The levels, unless they rule symmetric cycles out.
+    pub(super) fn symmetric_levels(&self) -> Result<Levels, OrbitError> {
         let (constant_input, reference) = (self.constant_input(), self.reference);
         if constant_input != 0.0 || (reference != 0.0 && !self.plant.is_integrating()) {
             return Err(OrbitError::NotSymmetric { constant_input, reference });
         }
-        let cycle = |period: f64| Cycle::symmetric(&self.plant, self.levels(), 0.5 * period);
-        let miss = |period: f64| Some(cycle(period)?.misses(&self.plant).1);
-        self.genuine(scan::roots(&nodes, miss).into_iter().filter_map(cycle).collect())
+        Ok(self.levels())
+    }
+
+    pub(super) fn plant(&self) -> &StateSpace {
+        &self.plant
     }
 
     fn constant_input(&self) -> f64 {
@@ -209,7 +219,12 @@ impl RelayLoop {
         ends.sort_by(f64::total_cmp);
         ends.dedup();
 
-        let scale = output(on).abs().max(output(off).abs()).max(output(0.0).abs()).max(output(cycle.positive).abs());
+        // By the slope too, as a sinusoid's amplitude would follow from it: under the ideal relay the output is zero here.
+        let size = |time: f64| {
+            let (state, turn) = (cycle.state(plant, time), period / core::f64::consts::TAU);
+            plant.output(&state).abs().max(turn * plant.output(&plant.rate(&state, cycle.input(time))).abs())
+        };
+        let scale = [on, off, 0.0, cycle.positive].map(size).into_iter().fold(0.0, f64::max);
         let slack = PAST * scale.max(levels.upper - levels.lower);
         let extrema = Extrema::new(plant, scale);
         let (mut minimum, mut maximum) = (f64::INFINITY, f64::NEG_INFINITY);

@@ -29,5 +29,6 @@ mod orbit_drag_axis;
 mod orbit_linear;
 mod paper;
 mod record;
+mod relay_certificate;
 mod tolerance;
 mod vehicle;

@@ -150,3 +150,10 @@ pub(crate) const CERTIFIED_WIDTH: f64 = 1e-11;
 /// Width of the enclosure of an orbit, relative and times one less the multiplier: a few hundred outward roundings of the
 /// closed-form motion, of a multiplier itself the difference of large terms where drag is weak.
 pub(crate) const ORBIT_ENCLOSURE: f64 = 2e-12;
+
+/// A half-period from the matrix exponential in floating point: a few roundings times the condition of Astroem's equation.
+pub(crate) const HALF_PERIOD_ROUNDING: f64 = 1e-11;
+
+/// A matrix exponential by diagonalisation in floating point, relative to entries of order one: the basis has entries
+/// up to two, and `exp(3)` is 20.
+pub(crate) const MATRIX_EXPONENTIAL: f64 = 1e-13;
