@@ -5,7 +5,7 @@
 use divan::{Bencher, black_box};
 use selfosc::claims::proof::PROOFS;
 use selfosc::describing::{CATALOGUE, ClosedForm, Entry, KernelForm, certified};
-use selfosc::nonlinearity::{Backlash, DeadZone, RelayHysteresis, Saturation, Sinusoid};
+use selfosc::nonlinearity::{Backlash, DeadZone, Power, RelayHysteresis, Saturation, Sinusoid};
 use selfosc::numeric::rigorous_quadrature::CellJet;
 use selfosc::numeric::{Interval, Real};
 
@@ -23,6 +23,15 @@ fn quadrature(bencher: Bencher, name: &str) {
     let number = CellJet::from_f64;
     let sweep = Sinusoid::new(number(0.2 * example.amplitude), number(example.amplitude)).unwrap();
     bencher.bench_local(|| certified(&*characteristic, black_box(&sweep)));
+}
+
+/// Exponents of drag and of springs; a whole one is smooth on either side of zero, the others are not.
+#[divan::bench(args = [0.5, 1.0, 1.5, 1.7, 2.0, 3.0], sample_count = 20)]
+fn power_law(bencher: Bencher, exponent: f64) {
+    let number = CellJet::from_f64;
+    let power = Power::new(number(1.0), number(exponent)).unwrap();
+    let sweep = Sinusoid::new(number(0.2), number(1.0)).unwrap();
+    bencher.bench_local(|| certified(&power, black_box(&sweep)));
 }
 
 fn closed_form(bencher: Bencher, characteristic: impl ClosedForm<Number = Interval>) {

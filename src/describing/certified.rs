@@ -49,7 +49,7 @@ pub fn certified(
     characteristic.admits(sweep)?;
     let branches = Branches { characteristic, sweep };
     let quarter = Interval::PI / Interval::two();
-    let outputs = branches.outputs(Jet::constant((-quarter).hull(quarter))).map(|output| output.value());
+    let outputs = branches.outputs(Jet::constant(Interval::UNIT)).map(|output| output.value());
     if let Some(output) = outputs.into_iter().find(|output| !output.is_bounded()) {
         return Err(DescribingError::NotFinite { input: sweep.maximum().bounds().1, output: output.upper() });
     }
@@ -62,7 +62,7 @@ pub fn certified(
         let piece = integrate(&branches, pair[0], pair[1], share, CELLS);
         cells += piece.cells;
         for (sum, integral) in integrals.iter_mut().zip(piece.integrals) {
-            *sum = *sum + integral;
+            *sum += integral;
         }
     }
     let estimate = integrals.iter().map(|integral| integral.width()).fold(0.0, f64::max);
@@ -82,15 +82,20 @@ struct Branches<'a, C: ?Sized> {
 }
 
 impl<C: Characteristic<Number = CellJet> + ?Sized> Branches<'_, C> {
-    fn outputs(&self, t: CellJet) -> [CellJet; 2] {
-        let x = self.sweep.bias() + self.sweep.amplitude() * t.sin();
-        [Branch::Rising, Branch::Falling].map(|branch| self.characteristic.output(x, branch, self.sweep))
+    fn outputs(&self, sine: CellJet) -> [CellJet; 2] {
+        let x = self.sweep.bias() + self.sweep.amplitude() * sine;
+        let output = |branch| self.characteristic.output(x, branch, self.sweep);
+        let rising = output(Branch::Rising);
+        [rising, if self.characteristic.has_memory() { output(Branch::Falling) } else { rising }]
     }
 
     /// The output weighted with 1, sine and cosine of its angle, both branches together.
     fn weighted(&self, t: CellJet) -> [CellJet; 3] {
-        let [rising, falling] = self.outputs(t);
-        [rising + falling, (rising + falling) * t.sin(), (rising - falling) * t.cos()]
+        let (sine, cosine) = t.sin_cos();
+        let [rising, falling] = self.outputs(sine);
+        let sum = rising + falling;
+        let turned = if self.characteristic.has_memory() { (rising - falling) * cosine } else { Jet::zero() };
+        [sum, sum * sine, turned]
     }
 
     /// Ends of the pieces into which the traps of the reported kinks divide the branch.

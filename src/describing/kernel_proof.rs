@@ -167,7 +167,7 @@ impl Scaled {
             let slope = magnitude(&mismatch, cell)?;
             let settled = slope <= SLOPE;
             if settled {
-                sum = sum + Interval::point(slope) * length;
+                sum += Interval::point(slope) * length;
             } else if cell.width() < TRAP {
                 // Neither side can change by more on so short a cell.
                 let closed = self.value(cell).map(|part| part.width()).into_iter().fold(0.0, f64::max);

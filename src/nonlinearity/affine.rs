@@ -95,6 +95,9 @@ impl<T: Real, C: Characteristic<Number = T>> Characteristic for Affine<T, C> {
         let Ok(inner) = self.inner_sweep(sweep) else { return T::from_f64(f64::NAN) };
         self.output_gain * self.inner.output(self.inner_input(x), branch, &inner) + self.output_offset
     }
+    fn has_memory(&self) -> bool {
+        self.inner.has_memory()
+    }
     fn kinks(&self, sweep: &Sinusoid<T>, report: &mut dyn FnMut(T)) {
         if let Ok(inner) = self.inner_sweep(sweep) {
             self.inner.kinks(&inner, &mut |kink| report((kink - self.input_offset) / self.input_gain));

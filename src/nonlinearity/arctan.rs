@@ -15,6 +15,10 @@ characteristic! {
 impl<T: Real> Characteristic for Arctan<T> {
     type Number = T;
 
+    fn has_memory(&self) -> bool {
+        false
+    }
+
     fn output(&self, x: T, _: Branch, _: &Sinusoid<T>) -> T {
         self.gain * (self.scale * x).atan()
     }

@@ -58,6 +58,9 @@ impl<T: Real, A: Characteristic<Number = T>, B: Characteristic<Number = T>> Char
         self.0.kinks(sweep, report);
         self.1.kinks(sweep, report);
     }
+    fn has_memory(&self) -> bool {
+        self.0.has_memory() || self.1.has_memory()
+    }
     fn admits(&self, sweep: &Sinusoid<T>) -> Result<(), NonlinearityError> {
         self.0.admits(sweep)?;
         self.1.admits(sweep)

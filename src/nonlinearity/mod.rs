@@ -102,6 +102,11 @@ pub trait Characteristic {
     /// Reports every input value at which the output is not smooth on this sweep.
     fn kinks(&self, sweep: &Sinusoid<Self::Number>, report: &mut dyn FnMut(Self::Number));
 
+    /// Whether the output may depend on the branch. Where it does not, `false` saves work; `true` is never wrong.
+    fn has_memory(&self) -> bool {
+        true
+    }
+
     /// Whether a periodic output exists on this sweep.
     ///
     /// # Errors

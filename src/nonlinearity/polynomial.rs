@@ -68,6 +68,10 @@ impl<T: Real> Catalogued<T> for Polynomial<T> {
 impl<T: Real, const N: usize> Characteristic for Polynomial<T, N> {
     type Number = T;
 
+    fn has_memory(&self) -> bool {
+        false
+    }
+
     fn output(&self, x: T, _: Branch, _: &Sinusoid<T>) -> T {
         self.coefficients.iter().rev().fold(T::zero(), |sum, &coefficient| sum * x + coefficient)
     }

@@ -20,6 +20,10 @@ characteristic! {
 impl<T: Real> Characteristic for Power<T> {
     type Number = T;
 
+    fn has_memory(&self) -> bool {
+        false
+    }
+
     fn output(&self, x: T, _: Branch, _: &Sinusoid<T>) -> T {
         let magnitude = x.abs().pow(self.exponent);
         self.gain * x.select(|| -magnitude, || magnitude)

@@ -8,7 +8,7 @@ mod rounding;
 mod tests;
 
 use core::fmt;
-use core::ops::{Add, Div, Mul, Neg, Sub};
+use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use rounding::{product, quotient, sum};
 
@@ -256,6 +256,24 @@ impl Sub for Interval {
     #[inline]
     fn sub(self, other: Self) -> Self {
         self + -other
+    }
+}
+
+impl AddAssign for Interval {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for Interval {
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl MulAssign for Interval {
+    fn mul_assign(&mut self, other: Self) {
+        *self = *self * other;
     }
 }
 

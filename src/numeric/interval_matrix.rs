@@ -1,29 +1,9 @@
 //! Matrices of intervals: products by nalgebra, and here what needs a proof of its own.
 
-use core::ops::{AddAssign, MulAssign, SubAssign};
-
 use nalgebra::DMatrix;
 use num_traits::{One, Zero};
 
 use super::{Interval, Real};
-
-impl AddAssign for Interval {
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl SubAssign for Interval {
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-
-impl MulAssign for Interval {
-    fn mul_assign(&mut self, other: Self) {
-        *self = *self * other;
-    }
-}
 
 impl Zero for Interval {
     fn zero() -> Self {

@@ -116,6 +116,11 @@ impl<const N: usize> Jet<N> {
         (s, c)
     }
 
+    /// Sine and cosine, for the price of either.
+    pub(crate) fn sin_cos(self) -> (Self, Self) {
+        self.sine_and_cosine(self.value().sin(), self.value().cos(), -Interval::ONE)
+    }
+
     /// `sqrt(1 - u^2)`.
     fn complement(self) -> Self {
         ((Self::one() - self) * (Self::one() + self)).sqrt()
@@ -265,10 +270,10 @@ impl<const N: usize> Real for Jet<N> {
         })
     }
     fn sin(self) -> Self {
-        self.sine_and_cosine(self.value().sin(), self.value().cos(), -Interval::ONE).0
+        self.sin_cos().0
     }
     fn cos(self) -> Self {
-        self.sine_and_cosine(self.value().sin(), self.value().cos(), -Interval::ONE).1
+        self.sin_cos().1
     }
     fn tan(self) -> Self {
         self.tangent(self.value().tan(), Interval::ONE)

@@ -149,12 +149,12 @@ fn taylor<const M: usize>(integrand: &impl Integrand<M>, domain: Interval) -> Op
     let (mut left_power, mut right_power) = (Interval::ONE, Interval::ONE);
     let mut integrals = [Interval::ZERO; M];
     for k in 0..=DEGREE {
-        left_power = left_power * left;
-        right_power = right_power * right;
+        left_power *= left;
+        right_power *= right;
         let weight = (right_power - left_power) / Interval::point((k + 1) as f64);
         let jets = if k == DEGREE { &over_cell } else { &at_middle };
         for (integral, jet) in integrals.iter_mut().zip(jets) {
-            *integral = *integral + jet.coefficients()[k] * weight;
+            *integral += jet.coefficients()[k] * weight;
         }
     }
     Some(integrals)

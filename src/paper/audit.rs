@@ -75,7 +75,7 @@ impl Group {
 /// [`PaperError`] where a fixture lacks a number that is recomputed, or the method does not take a row.
 pub fn audit(table: &PrintedTable, regenerated: &Table4) -> Result<Vec<Group>, PaperError> {
     let offset = regenerated.level_offset;
-    let raise = move |o: &mut Oscillation<Interval>| o.relay_level = o.relay_level + Interval::point(offset);
+    let raise = move |o: &mut Oscillation<Interval>| o.relay_level += Interval::point(offset);
     let center = |o: &mut Oscillation<Interval>| o.bias = Interval::ZERO;
     let rows = |name: &str, note: &str, change: Change, value: Value, parameter: Parameter| {
         Rows { table, regenerated, change, value, parameter }.group(name, note)
