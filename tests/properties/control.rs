@@ -1,0 +1,8 @@
+//! Controllers: design, margins, what runs, and the critical point.
+
+mod controller;
+mod design;
+mod margins;
+mod oracle;
+mod ultimate;
+mod worst_case;
