@@ -135,25 +135,26 @@ impl<T: Scalar> Controller<T> {
             measurement,
             speed: zero,
             integral: zero,
-            guided: Guided { position: measurement, speed: zero, acceleration: zero },
+            guided: Guided::at_rest(measurement),
         });
         let moved = self.short_way(measurement - memory.measurement);
         memory.measurement = measurement;
-        let (mut goal, mut force) = (reference, zero);
+        let (mut goal, mut goal_speed, mut force) = (reference, zero, zero);
         if let Some(feed_forward) = &self.feed_forward {
             let ahead = self.short_way(reference - memory.guided.position);
             memory.guided = feed_forward.advance(&memory.guided, ahead, dt_s);
             force = feed_forward.force(&memory.guided);
-            goal = memory.guided.position;
-            memory.guided.position = self.short_way(goal);
+            goal = memory.guided.position - memory.guided.behind;
+            goal_speed = feed_forward.expected_speed(&memory.guided);
+            memory.guided.position = self.short_way(memory.guided.position);
         }
         let error = self.short_way(goal - measurement);
-        let speed = moved / dt_s - memory.guided.speed;
+        let speed = moved / dt_s - goal_speed;
         memory.speed = memory.speed + (speed - memory.speed) * dt_s / (gains.filter_s() + dt_s);
         let proportional = match gains.structure() {
             Structure::Pd | Structure::Pid => gains.proportional() * error,
             Structure::Ipd => {
-                memory.integral = memory.integral - gains.proportional() * (moved - memory.guided.speed * dt_s);
+                memory.integral = memory.integral - gains.proportional() * (moved - goal_speed * dt_s);
                 zero
             }
         };
@@ -173,7 +174,7 @@ impl<T: Scalar> Controller<T> {
             };
             integral = integral + excess * dt_s / (tracking_s + dt_s);
         }
-        let finite = [integral, memory.speed, memory.guided.position, memory.guided.speed];
+        let finite = [integral, memory.speed, memory.guided.position, memory.guided.speed, memory.guided.behind];
         finite.iter().all(|value| value.is_finite()).then_some(Memory { integral, ..memory })
     }
 

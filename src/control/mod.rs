@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `design` | gains from a bandwidth by pole placement |
 //! | `open_loop`, `margins` | crossovers, stability and margins with the delay |
+//! | `closed_loop` | poles and bandwidth, computed without the design equations |
 //! | `worst_case` | margins over intervals of the parameters |
 //! | `controller`, `reference` | what runs on the vehicle |
 //! | `response` | the simulated answer to a step, and its figures |
@@ -11,6 +12,8 @@
 //!
 //! Design, margins, controllers, ultimate point and rules need neither `std` nor a heap, in f32 or f64.
 
+#[cfg(feature = "std")]
+mod closed_loop;
 mod controller;
 mod design;
 mod error;

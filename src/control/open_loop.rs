@@ -209,6 +209,23 @@ impl<T: Scalar> OpenLoop<T> {
         (n0 / w.square() + n1 / w + n2) / (filter * (self.drag.square() + w.square()).sqrt())
     }
 
+    /// Numerator and denominator without the delay, in descending powers of s, common factors cancelled.
+    #[cfg(feature = "std")]
+    pub(super) fn polynomials(&self) -> (Vec<T>, Vec<T>) {
+        let [n0, n1, n2] = self.numerator;
+        let (zero, one, f) = (T::zero(), T::one(), self.filter_s);
+        let mut numerator = vec![n2, n1, n0];
+        let mut denominator = vec![f, one + self.drag * f, self.drag, zero, zero];
+        if n0 == zero {
+            numerator.pop();
+            denominator.pop();
+        }
+        let leading = |polynomial: &[T]| polynomial.iter().position(|c| *c != zero).unwrap_or(0);
+        numerator.drain(..leading(&numerator));
+        denominator.drain(..leading(&denominator));
+        (numerator, denominator)
+    }
+
     /// Bounds of `|L|` between two frequencies: numerator and denominator by themselves.
     #[cfg(feature = "std")]
     pub(super) fn magnitude_over(&self, from: T, to: T) -> (T, T) {

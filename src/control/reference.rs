@@ -22,6 +22,15 @@ pub(super) struct Guided<T> {
     pub(super) position: T,
     pub(super) speed: T,
     pub(super) acceleration: T,
+    /// How far the vehicle is behind, for the delay.
+    pub(super) behind: T,
+}
+
+impl<T: Scalar> Guided<T> {
+    /// At rest at a place.
+    pub(super) fn at_rest(position: T) -> Self {
+        Self { position, speed: T::zero(), acceleration: T::zero(), behind: T::zero() }
+    }
 }
 
 impl<T: Scalar> FeedForward<T> {
@@ -51,7 +60,19 @@ impl<T: Scalar> FeedForward<T> {
             speed = if speed > T::zero() { top } else { -top };
             position = from.position + speed * dt_s;
         }
-        Guided { position, speed, acceleration: (speed - from.speed) / dt_s }
+        let (delay_s, way) = (self.axis.delay_s(), position - from.position);
+        let mut behind = T::zero();
+        if delay_s > T::zero() {
+            let left = (-(dt_s / delay_s)).exp();
+            behind = from.behind * left + (T::one() - left) * delay_s * way / dt_s;
+        }
+        Guided { position, speed, acceleration: (speed - from.speed) / dt_s, behind }
+    }
+
+    /// The speed at which the vehicle should be, for the delay.
+    pub(super) fn expected_speed(&self, guided: &Guided<T>) -> T {
+        let delay_s = self.axis.delay_s();
+        if delay_s > T::zero() { guided.behind / delay_s } else { guided.speed }
     }
 
     /// The force that moves the axis so.

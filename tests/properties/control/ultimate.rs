@@ -123,8 +123,8 @@ fn experiments_that_are_none() {
 /// The rules in their published form, in `K_u` and `T_u`.
 #[test]
 fn rules_as_published() {
-    let ultimate = UltimatePoint::new(10.0, 4.0).unwrap();
-    let published = [
+    let ultimate = UltimatePoint::new(10.0_f64, 4.0).unwrap();
+    let published: [(Rule, f64, Option<f64>, f64); 7] = [
         (Rule::ZieglerNicholsP, 5.0, None, 0.0),
         (Rule::ZieglerNicholsPi, 4.5, Some(10.0 / 3.0), 0.0),
         (Rule::ZieglerNicholsPid, 6.0, Some(2.0), 0.5),

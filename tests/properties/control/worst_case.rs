@@ -71,6 +71,6 @@ fn a_range_of_speeds_is_a_range_of_slopes() {
     let gains = Tuning::new(&DragAxis::linear(1.0, 0.1).unwrap(), Structure::Pd, 0.8).unwrap();
     let (a, b) = (made.worst_margins(gains.gains()).unwrap(), direct.worst_margins(gains.gains()).unwrap());
     for (a, b) in list(&a.at_least).iter().zip(list(&b.at_least)) {
-        assert!((a / b - 1.0).abs() < 1e-9);
+        assert!(*a == b || (a / b - 1.0).abs() < 1e-9, "{a} {b}");
     }
 }
