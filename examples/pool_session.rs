@@ -121,7 +121,7 @@ pub fn run(folder: &Path) -> Result<Session, Failure> {
     let tuning = match Tuning::new(&axis, Structure::Pd, WISH_RAD_S) {
         Err(refusal @ ControlError::TooFast { most_rad_s, .. }) => {
             println!("  {refusal}");
-            Tuning::new(&axis, Structure::Pd, 0.6 * most_rad_s)?
+            Tuning::new(&axis, Structure::Pd, 0.8 * most_rad_s)?
         }
         other => other?,
     };
@@ -134,9 +134,9 @@ pub fn run(folder: &Path) -> Result<Session, Failure> {
     );
     let along = FeedForward::new(&axis, tuning.double_pole_rad_s(), None)?;
     let tuned = ready(Controller::new(tuning.gains()))?.with_feed_forward(along);
-    // Before: the dry inertia, no drag, no delay, and the bandwidth wished for.
-    let dry = DragAxis::linear(pool_vehicle()?.parameters().inertia_kg_m2[(2, 2)], 0.0)?;
-    let guessed = ready(Controller::new(Tuning::new(&dry, Structure::Pd, WISH_RAD_S)?.gains()))?;
+    // Before: no drag and no delay known of, and twice the inertia for good measure.
+    let guess = DragAxis::linear(2.0 * truth.alpha, 0.0)?;
+    let guessed = ready(Controller::new(Tuning::new(&guess, Structure::Pd, WISH_RAD_S)?.gains()))?;
 
     println!("5. A step of the heading by {:.0} degrees.", STEP_RAD.to_degrees());
     let steps = [guessed, tuned].map(|mut controller| {
@@ -222,11 +222,9 @@ fn series<'a>(time_s: &'a [f64], values: &'a [f64], scale: f64) -> impl Iterator
 
 fn thruster_figure(points: &[DynamometerPoint], map: &ThrusterMap) -> Figure {
     let fitted = (-200..=200).map(|n| (f64::from(n), map.thruster.thrust(f64::from(n))));
-    let panel = Panel::new("command", "thrust / N").with("fitted map", Mark::Line, fitted).with(
-        "dynamometer",
-        Mark::Dots,
-        points.iter().map(|point| (point.command, point.thrust_n)),
-    );
+    let panel = Panel::new("command", "thrust / N")
+        .with("dynamometer", Mark::Points, points.iter().map(|point| (point.command, point.thrust_n)))
+        .with("fitted map", Mark::Line, fitted);
     Figure { name: "thruster-map", title: "Thruster map".to_owned(), panels: vec![panel] }
 }
 
