@@ -201,8 +201,11 @@ impl Tuned {
         let Margins { gain, gain_reduction, phase_rad, delay_s, .. } = *margins;
         let nominal = WorstMargin { gain, gain_reduction, phase_rad, delay_s };
         let worst = self.worst.as_ref();
-        let heading = worst.map_or("", |_| "at least for all");
-        writeln!(output, "\n{:34}{:>14}{heading:>20}", "margins", "at rest")?;
+        let mut line = |name: &str, nominal: &str, all: Option<String>| {
+            let all = all.map_or_else(String::new, |all| format!("{all:>20}"));
+            writeln!(output, "{name:34}{nominal:>14}{all}")
+        };
+        line("\nmargins", "at rest", worst.map(|_| "at least for all".to_owned()))?;
         type Part = fn(&WorstMargin) -> Option<f64>;
         let parts: [(&str, Part); 4] = [
             ("gain, may grow by a factor", |margin| margin.gain),
@@ -213,8 +216,7 @@ impl Tuned {
         for (name, part) in parts {
             let text =
                 |margin: &WorstMargin| part(margin).map_or_else(|| "any".to_owned(), |value| format!("{value:.4}"));
-            let all = worst.map_or_else(String::new, |found| text(&found.at_least));
-            writeln!(output, "{name:34}{:>14}{all:>20}", text(&nominal))?;
+            line(name, &text(&nominal), worst.map(|found| text(&found.at_least)))?;
         }
         if let Some(found) = worst {
             writeln!(output, "all: the intervals given, speeds up to {:.4}, {} boxes", self.top_speed, found.boxes)?;

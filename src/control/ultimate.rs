@@ -85,8 +85,16 @@ impl<T: Scalar> RelayTest<T> {
     /// The point of the process' frequency response at the frequency of the oscillation, `G = -1/N` with the describing function N of the relay:
     /// hysteresis turns it by `asin(half_width/amplitude)` (more with a bias), and the bias lowers the gain (eqs. 30-31).
     ///
-    /// It takes the oscillation for a sinusoid. What that costs depends on how far the process suppresses the third and higher harmonics:
-    /// without hysteresis `K_u` of `1/(s + 1)^3` comes out 2.0 % too low, of an integrator with dead time 19 % (`8/pi^2`), and the error has no sign in general.
+    /// It takes the oscillation for a sinusoid. What that costs depends on how far the process suppresses the third and higher harmonics. Without hysteresis,
+    /// exact oscillations against the true critical points:
+    ///
+    /// | process | K_u off by | T_u off by |
+    /// |---|---|---|
+    /// | `1/(s + 1)^3` | -2.4 % | +1.4 % |
+    /// | `1/(s + 1)^4` | -1.8 % | +0.7 % |
+    /// | `exp(-0.2 s)/(s (s + 1))` | -8.0 % | +5.5 % |
+    /// | `exp(-s)/(s + 1)` | -10.9 % | -3.8 % |
+    /// | `exp(-s)/s` | -18.9 % (`8/pi^2`) | exact |
     ///
     /// # Errors
     /// [`ControlError::Parameter`] for a level, half-width, amplitude or period outside its domain; [`ControlError::BelowSwitching`]

@@ -166,3 +166,6 @@ pub(crate) const MARGIN: f64 = 1e-7;
 
 /// Controllers: eigenvalues of a matrix with a double or triple pole, relative: the cube root of rounding.
 pub(crate) const DOUBLE_POLE: f64 = 1e-3;
+
+/// A percentage printed with one decimal.
+pub(crate) const PRINTED_TENTH: f64 = 0.06;
