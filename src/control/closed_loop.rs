@@ -7,6 +7,8 @@ use crate::plant::{TransferFunction, product};
 
 /// Order of the rational approximation of the delay.
 const PADE_ORDER: usize = 6;
+/// A delay this short against the loop's time constants moves no pole by more than that, relative.
+const NEGLIGIBLE: f64 = 1e-9;
 /// Points at which the response is looked at, a ratio of 1.01 apart, from a hundredth of the bandwidth asked for.
 const POINTS: i32 = 1500;
 
@@ -27,8 +29,11 @@ impl OpenLoop<f64> {
     /// # Errors
     /// [`ControlError::Plant`] where the eigenvalues do not converge.
     pub fn closed_loop_poles(&self) -> Result<Vec<Complex<f64>>, ControlError> {
-        let delay = TransferFunction::pade(self.delay_s(), PADE_ORDER)?;
         let (numerator, denominator) = self.polynomials();
+        // A bound of all poles without delay; the approximant's own would be too far from them for an eigenvalue iteration.
+        let pace = 1.0 + numerator.iter().chain(&denominator).map(|c| (c / denominator[0]).abs()).fold(0.0, f64::max);
+        let delay_s = if self.delay_s() * pace < NEGLIGIBLE { 0.0 } else { self.delay_s() };
+        let delay = TransferFunction::pade(delay_s, PADE_ORDER)?;
         let (open, fed_back) = (product(&denominator, delay.denominator()), product(&numerator, delay.numerator()));
         let mut characteristic = open;
         let offset = characteristic.len() - fed_back.len();

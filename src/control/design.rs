@@ -140,6 +140,8 @@ fn unchecked<T: Scalar>(axis: &DragAxis<T>, structure: Structure, bandwidth: T) 
 
 fn place<T: Scalar>(axis: &DragAxis<T>, structure: Structure, bandwidth: T) -> Result<Gains<T>, ControlError> {
     let [proportional, integral, derivative, filter] = unchecked(axis, structure, bandwidth);
+    let gives = proportional > T::zero() && proportional.is_finite() && filter.is_finite();
+    checked("bandwidth in rad/s", bandwidth, gives, "such that the gains are within the range of the arithmetic")?;
     // Rounding at the least bandwidth itself.
     Gains::new(structure, proportional, integral, derivative.max(T::zero()), filter)
 }

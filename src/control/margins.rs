@@ -71,6 +71,10 @@ impl<T: Scalar> OpenLoop<T> {
         let better = |known: Option<T>, new: T| Some(known.map_or(new, |known| known.min(new)));
         self.phase_crossovers(|omega| {
             let size = self.magnitude(omega);
+            // Too small for the arithmetic: no limit worth the name.
+            if !(size > T::zero()) {
+                return false;
+            }
             if size < T::one() {
                 margins.gain = better(margins.gain, T::one() / size);
             } else {

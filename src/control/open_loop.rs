@@ -29,7 +29,7 @@ impl<T: Scalar> OpenLoop<T> {
     /// ```
     /// use selfosc::control::{Gains, OpenLoop, Structure};
     /// use selfosc::plant::DragAxis;
-    /// let gains = Gains::new(Structure::Pd, 1.0, 0.0, 1.0, 0.0)?;
+    /// let gains = Gains::new(Structure::Pd, 1.0_f64, 0.0, 1.0, 0.0)?;
     /// let resting = OpenLoop::new(&DragAxis::linear(1.0, 1.0)?, &gains, 0.0)?;
     /// let (re, im) = resting.response(1.0); // 1/s at s = j
     /// assert!(re.abs() < 1e-15 && (im + 1.0).abs() < 1e-15);

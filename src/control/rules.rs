@@ -53,7 +53,7 @@ impl Rule {
     /// ```
     /// use selfosc::control::{Rule, UltimatePoint};
     /// // 1/(s + 1)^3 oscillates at K_u = 8 with sqrt(3) rad/s.
-    /// let ultimate = UltimatePoint::new(8.0, 3.6276)?;
+    /// let ultimate = UltimatePoint::new(8.0_f64, 3.6276)?;
     /// let gains = Rule::ZieglerNicholsPid.gains(&ultimate)?;
     /// assert!((gains.proportional() - 4.8).abs() < 1e-12);
     /// assert!((gains.integral() - 4.8 / 1.8138).abs() < 1e-12);

@@ -5,4 +5,5 @@ mod design;
 mod margins;
 mod oracle;
 mod ultimate;
+mod vehicle;
 mod worst_case;

@@ -5,7 +5,7 @@ use selfosc::control::{ControlError, Controller, Gains, OpenLoop, StepResponse, 
 use selfosc::plant::DragAxis;
 
 use super::oracle::{Case, case};
-use crate::tolerance::{MARGIN, ROUNDING_MARGIN};
+use crate::tolerance::{MARGIN, ROUNDING_MARGIN, SINGLE};
 use crate::vehicle::config;
 
 /// Gain, reduction (infinite for none), phase, delay.
@@ -101,6 +101,39 @@ fn conditionally_stable_loop() {
     assert!((margins.gain_reduction.unwrap() - 9.0).abs() < 1e-12);
     assert!(matches!(at(0.11).margins(), Err(ControlError::Unstable { poles: 2, .. })));
     assert_eq!(at(0.112).unstable_poles(), 0);
+}
+
+/// Delays from none to absurd: a margin or a refusal, and no number that is none.
+#[test]
+fn extreme_delays_and_frequencies() {
+    let powers = [-300, -200, -100, -30, -9, 0, 9, 30, 100, 200, 300].map(|power| 10f64.powi(power));
+    for (delay_s, pace) in powers.iter().flat_map(|delay| powers.map(|pace| (*delay, pace))) {
+        let gains = Gains::new(Structure::Pd, pace, 0.0, pace.sqrt(), 0.0).unwrap();
+        let axis = DragAxis::linear(1.0, 0.0).unwrap().with_delay_s(delay_s).unwrap();
+        if let Ok(margins) = OpenLoop::new(&axis, &gains, 0.0).unwrap().margins() {
+            let limits = [margins.gain.unwrap_or(1.0), margins.phase_rad, margins.delay_s, margins.crossover_rad_s];
+            assert!(limits.iter().all(|limit| *limit > 0.0), "{delay_s} {pace} {margins:?}");
+        }
+    }
+}
+
+/// In single precision to a few of its digits.
+#[test]
+fn single_precision() {
+    let wide =
+        Tuning::new(&DragAxis::mixed(0.033, 0.01, 0.06).unwrap().with_delay_s(0.2).unwrap(), Structure::Pid, 0.7)
+            .unwrap();
+    let narrow = Tuning::new(
+        &DragAxis::<f32>::mixed(0.033, 0.01, 0.06).unwrap().with_delay_s(0.2).unwrap(),
+        Structure::Pid,
+        0.7,
+    )
+    .unwrap();
+    let near = |narrow: f32, wide: f64| assert!((f64::from(narrow) / wide - 1.0).abs() < SINGLE, "{narrow} {wide}");
+    near(narrow.gains().integral(), wide.gains().integral());
+    near(narrow.margins().phase_rad, wide.margins().phase_rad);
+    near(narrow.margins().gain.unwrap(), wide.margins().gain.unwrap());
+    near(narrow.margins().delay_s, wide.margins().delay_s);
 }
 
 /// Quadratic drag acts by its slope at a speed.
