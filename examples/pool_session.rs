@@ -81,7 +81,8 @@ pub fn run(folder: &Path) -> Result<Session, Failure> {
         side(&map.forward, map.thruster.forward())?,
         side(&map.backward, map.thruster.backward())?,
     );
-    // Turning on the spot: a constant push against the dead zone would drive this vehicle ahead, where it does not keep its heading.
+    // Turning on the spot: a constant push against the dead zone would drive this vehicle ahead, where it does not
+    // keep its heading.
     let chain = Compensation::new(Allocation::pair(0.08)?, [thruster; 2]);
 
     println!("2. In the pool: a relay in the heading loop.");

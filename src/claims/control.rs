@@ -33,7 +33,8 @@ claim! {
     }
 }
 
-/// The characteristic function `D(s) + N(s) exp(-s delay)` and its slope vanish at the double pole, it alone at the slow one.
+/// The characteristic function `D(s) + N(s) exp(-s delay)` and its slope vanish at the double pole, it alone at the
+/// slow one.
 fn poles(budget: Budget, delay: f64, double_pole: fn(&Tuning<f64>) -> f64) -> Verdict {
     sample(budget, |draw| {
         let Some(tuning) = design(draw, delay) else { return Case::Skipped };

@@ -15,9 +15,10 @@ use crate::plant::DragAxis;
 
 /// Gains of a controller for alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay), and the margins that it has.
 ///
-/// The gains place the closed loop's poles for a bandwidth (-3 dB of the answer to the reference). The margins count the delay and the filter of the
-/// derivative; poles, bandwidth and the answer to a step are computed without the design equations. With intervals, or quadratic drag,
-/// margins are given for every axis in them too. Exit status 1 where some axis in the intervals is not stabilised.
+/// The gains place the closed loop's poles for a bandwidth (-3 dB of the answer to the reference). The margins count
+/// the delay and the filter of the derivative; poles, bandwidth and the answer to a step are computed without the
+/// design equations. With intervals, or quadratic drag, margins are given for every axis in them too. Exit status 1
+/// where some axis in the intervals is not stabilised.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -36,7 +37,8 @@ pub(super) struct Arguments {
     /// Bandwidth of the answer to the reference, rad/s
     #[arg(long, value_name = "W", allow_negative_numbers = true)]
     bandwidth: f64,
-    /// On what the actions act: pd and pid act on the error, ipd with its integral only; the derivative acts on the measurement
+    /// On what the actions act: pd and pid act on the error, ipd with its integral only; the derivative acts on the
+    /// measurement
     #[arg(long, value_name = "NAME", default_value = "pd", value_parser = structure)]
     structure: Structure,
     /// Delay of the whole loop in s
@@ -79,8 +81,8 @@ fn interval(text: &str) -> Result<Interval, String> {
     Interval::new(low, high).ok_or_else(|| format!("{low} to {high} is no interval; give the lower number first"))
 }
 
-/// Samples in the time constant of the double pole, and time constants in the simulated step: the hold is a four-hundredth of one, and
-/// the slow pole of a PID has six of its own.
+/// Samples in the time constant of the double pole, and time constants in the simulated step: the hold is a
+/// four-hundredth of one, and the slow pole of a PID has six of its own.
 const SAMPLES: f64 = 200.0;
 const TIME_CONSTANTS: f64 = 60.0;
 

@@ -1,4 +1,5 @@
-//! What the design equations promise, computed without them: poles as eigenvalues, bandwidth from the frequency response.
+//! What the design equations promise, computed without them: poles as eigenvalues, bandwidth from the frequency
+//! response.
 
 use nalgebra::Complex;
 
@@ -13,8 +14,8 @@ const NEGLIGIBLE: f64 = 1e-9;
 const POINTS: i32 = 1500;
 
 impl OpenLoop<f64> {
-    /// Poles of the closed loop, rad/s, slowest first: eigenvalues, with the delay as a Padé approximant of sixth order. Poles much faster than
-    /// `1/delay` belong to the approximant rather than to the loop.
+    /// Poles of the closed loop, rad/s, slowest first: eigenvalues, with the delay as a Padé approximant of sixth
+    /// order. Poles much faster than `1/delay` belong to the approximant rather than to the loop.
     ///
     /// ```
     /// use selfosc::control::{Structure, Tuning, OpenLoop};
@@ -30,7 +31,8 @@ impl OpenLoop<f64> {
     /// [`ControlError::Plant`] where the eigenvalues do not converge.
     pub fn closed_loop_poles(&self) -> Result<Vec<Complex<f64>>, ControlError> {
         let (numerator, denominator) = self.polynomials();
-        // A bound of all poles without delay; the approximant's own would be too far from them for an eigenvalue iteration.
+        // A bound of all poles without delay; the approximant's own would be too far from them for an eigenvalue
+        // iteration.
         let pace = 1.0 + numerator.iter().chain(&denominator).map(|c| (c / denominator[0]).abs()).fold(0.0, f64::max);
         let delay_s = if self.delay_s() * pace < NEGLIGIBLE { 0.0 } else { self.delay_s() };
         let delay = TransferFunction::pade(delay_s, PADE_ORDER)?;
@@ -47,8 +49,8 @@ impl OpenLoop<f64> {
 }
 
 impl Tuning<f64> {
-    /// The bandwidth of the answer to the reference with filter and delay, rad/s: the first frequency at which it is -3 dB, `None`
-    /// if that is not within a hundredth and three hundred thousand times the bandwidth asked for.
+    /// The bandwidth of the answer to the reference with filter and delay, rad/s: the first frequency at which it is
+    /// -3 dB, `None` if that is not within a hundredth and three hundred thousand times the bandwidth asked for.
     #[must_use]
     pub fn achieved_bandwidth_rad_s(&self) -> Option<f64> {
         let open_loop = OpenLoop::new(self.axis(), self.gains(), 0.0).ok()?;

@@ -7,9 +7,10 @@ use crate::numeric::Scalar;
 
 /// A controller with its memory. No allocation; a step costs a few dozen operations.
 ///
-/// The derivative acts on the measurement through a filter that is stable for every interval. An integral that drives the command past a limit is led back
-/// (back-calculation with the time constant `sqrt(K_d/K_i)`, `K_p/K_i` without derivative; Astrom and Hagglund). What is not a number changes nothing: the command is held, and
-/// the [`Fault`] named; how long to accept that is the caller's decision.
+/// The derivative acts on the measurement through a filter that is stable for every interval. An integral that drives
+/// the command past a limit is led back (back-calculation with the time constant `sqrt(K_d/K_i)`, `K_p/K_i` without
+/// derivative; Astrom and Hagglund). What is not a number changes nothing: the command is held, and the [`Fault`]
+/// named; how long to accept that is the caller's decision.
 ///
 /// ```
 /// use selfosc::control::{Controller, Structure, Tuning};
@@ -85,8 +86,8 @@ impl<T: Scalar> Controller<T> {
         Ok(Self { command: limited.clamp(T::zero()), ..limited })
     }
 
-    /// The same for a coordinate that begins again after `turn`: `2 pi` for a heading in radians, 360 in degrees. Errors take the
-    /// short way, and readings may jump by whole turns. Starts anew.
+    /// The same for a coordinate that begins again after `turn`: `2 pi` for a heading in radians, 360 in degrees.
+    /// Errors take the short way, and readings may jump by whole turns. Starts anew.
     ///
     /// # Errors
     /// [`ControlError::Parameter`] unless the turn is positive and finite.
@@ -107,8 +108,8 @@ impl<T: Scalar> Controller<T> {
         self.command = self.clamp(T::zero());
     }
 
-    /// The next command, given the reference, the measurement, and the time since the step before (s). The first step after a start has no
-    /// speed to go by.
+    /// The next command, given the reference, the measurement, and the time since the step before (s). The first step
+    /// after a start has no speed to go by.
     pub fn step(&mut self, reference: T, measurement: T, dt_s: T) -> Step<T> {
         let fault = if !measurement.is_finite() {
             Fault::Measurement

@@ -9,8 +9,9 @@ use crate::plant::DragAxis;
 const FILTER: f64 = 0.1;
 
 impl Structure {
-    /// The slow pole of the closed loop as a share of the double one. An integral action ten times slower than the rest is the marine craft
-    /// literature's choice (Fossen, *Handbook of Marine Craft Hydrodynamics and Motion Control*, PID by pole placement); I-PD takes all three poles together.
+    /// The slow pole of the closed loop as a share of the double one. An integral action ten times slower than the
+    /// rest is the marine craft literature's choice (Fossen, *Handbook of Marine Craft Hydrodynamics and Motion
+    /// Control*, PID by pole placement); I-PD takes all three poles together.
     fn slow_pole(self) -> f64 {
         match self {
             Self::Pd => 0.0,
@@ -21,8 +22,8 @@ impl Structure {
 
     /// Bandwidth over the place of the double pole, for an ideal derivative and no delay: where `|x/r|^2` is one half.
     ///
-    /// `1/(1 + y)^2 = 1/2` for PD, `1/(1 + y)^3 = 1/2` for I-PD, and for PID, whose proportional action adds a zero, the positive
-    /// root of `(1 + y)^2 (c^2 + y) = 2 ((1 + 2c)^2 y + c^2)` with c = 0.1; the ratio is the root of y.
+    /// `1/(1 + y)^2 = 1/2` for PD, `1/(1 + y)^3 = 1/2` for I-PD, and for PID, whose proportional action adds a zero,
+    /// the positive root of `(1 + y)^2 (c^2 + y) = 2 ((1 + 2c)^2 y + c^2)` with c = 0.1; the ratio is the root of y.
     #[must_use]
     pub fn bandwidth_ratio(self) -> f64 {
         match self {
@@ -35,12 +36,14 @@ impl Structure {
 
 /// A controller designed for an axis, with the margins it has there.
 ///
-/// The closed loop without delay gets the poles `(s + w)^2 (s + c w)(s + p)`: w from the bandwidth, c = 0, 0.1, 1 for PD, PID, I-PD, and p the pole
-/// that the filter adds, about `8/w`, which the design takes into account. Drag enters with its slope at rest, `beta_1`, the least there is: quadratic drag only
-/// damps more. With `f` the filter's time constant and `q = alpha (1 - (2 + c) w f) + beta_1 f`,
-/// `K_i = q c w^3`, `K_p + K_i f = alpha f c w^3 + q (1 + 2c) w^2`, `K_d + K_p f = alpha f (1 + 2c) w^2 + q (2 + c) w - beta_1`.
+/// The closed loop without delay gets the poles `(s + w)^2 (s + c w)(s + p)`: w from the bandwidth, c = 0, 0.1, 1 for
+/// PD, PID, I-PD, and p the pole that the filter adds, about `8/w`, which the design takes into account. Drag enters
+/// with its slope at rest, `beta_1`, the least there is: quadratic drag only damps more. With `f` the filter's time
+/// constant and `q = alpha (1 - (2 + c) w f) + beta_1 f`, `K_i = q c w^3`, `K_p + K_i f = alpha f c w^3 + q (1 + 2c)
+/// w^2`, `K_d + K_p f = alpha f (1 + 2c) w^2 + q (2 + c) w - beta_1`.
 ///
-/// The bandwidth is that of the answer to the reference, at -3 dB. Filter and delay move it; the filter by less than 0.5 %.
+/// The bandwidth is that of the answer to the reference, at -3 dB. Filter and delay move it; the filter by less than
+/// 0.5 %.
 ///
 /// ```
 /// use selfosc::control::{Structure, Tuning};
@@ -62,15 +65,16 @@ pub struct Tuning<T> {
 impl<T: Scalar> Tuning<T> {
     /// Least gain margin a design may have, as a factor (6 dB).
     pub const LEAST_GAIN_MARGIN: f64 = 2.0;
-    /// Least phase margin a design may have, in degrees. Both are the usual lower ends (Astrom and Hagglund, *Advanced PID Control*).
+    /// Least phase margin a design may have, in degrees. Both are the usual lower ends (Astrom and Hagglund, *Advanced
+    /// PID Control*).
     pub const LEAST_PHASE_MARGIN_DEG: f64 = 30.0;
 
     /// Designs for an axis at rest, and checks the margins there, delay and filter included.
     ///
     /// # Errors
-    /// [`ControlError::Parameter`] unless the bandwidth is positive and finite; [`ControlError::Overdamped`] below the bandwidth at which drag
-    /// alone damps more than the design; [`ControlError::TooFast`] above that at which the margins fall below the least ones;
-    /// [`ControlError::NoBandwidth`] where the two leave none.
+    /// [`ControlError::Parameter`] unless the bandwidth is positive and finite; [`ControlError::Overdamped`] below the
+    /// bandwidth at which drag alone damps more than the design; [`ControlError::TooFast`] above that at which the
+    /// margins fall below the least ones; [`ControlError::NoBandwidth`] where the two leave none.
     pub fn new(axis: &DragAxis<T>, structure: Structure, bandwidth_rad_s: T) -> Result<Self, ControlError> {
         let zero = T::zero();
         checked("bandwidth in rad/s", bandwidth_rad_s, bandwidth_rad_s > zero, "a finite number above 0")?;
@@ -146,7 +150,8 @@ fn place<T: Scalar>(axis: &DragAxis<T>, structure: Structure, bandwidth: T) -> R
     Gains::new(structure, proportional, integral, derivative.max(T::zero()), filter)
 }
 
-/// The bandwidth at which the derivative gain is zero: that gain over `alpha w` is a straight line in `beta_1/(alpha w)`.
+/// The bandwidth at which the derivative gain is zero: that gain over `alpha w` is a straight line in `beta_1/(alpha
+/// w)`.
 fn least_bandwidth<T: Scalar>(axis: &DragAxis<T>, structure: Structure) -> T {
     let (zero, one) = (T::zero(), T::one());
     let derivative = |drag| {

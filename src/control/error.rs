@@ -21,8 +21,8 @@ pub enum ControlError {
     Plant(#[from] PlantError),
     /// The axis' own drag damps more than the closed loop asked for.
     #[error(
-        "bandwidth = {bandwidth_rad_s} rad/s is below {least_rad_s} rad/s, under which the drag of the axis alone damps more than \
-         the design and the derivative gain would be negative; ask for at least {least_rad_s} rad/s"
+        "bandwidth = {bandwidth_rad_s} rad/s is below {least_rad_s} rad/s, under which the drag of the axis alone \
+         damps more than the design and the derivative gain would be negative; ask for at least {least_rad_s} rad/s"
     )]
     Overdamped {
         /// The bandwidth asked for, rad/s.
@@ -32,8 +32,8 @@ pub enum ControlError {
     },
     /// The delay leaves too little margin.
     #[error(
-        "bandwidth = {bandwidth_rad_s} rad/s with a delay of {delay_s} s leaves less than a gain margin of {gain} and a phase \
-         margin of {phase_deg} degrees; ask for at most {most_rad_s} rad/s or shorten the delay"
+        "bandwidth = {bandwidth_rad_s} rad/s with a delay of {delay_s} s leaves less than a gain margin of {gain} \
+         and a phase margin of {phase_deg} degrees; ask for at most {most_rad_s} rad/s or shorten the delay"
     )]
     TooFast {
         /// The bandwidth asked for, rad/s.
@@ -49,8 +49,8 @@ pub enum ControlError {
     },
     /// No bandwidth is both above what drag damps and below what the delay allows.
     #[error(
-        "with a delay of {delay_s} s the bandwidth may be {most_rad_s} rad/s at most, and drag wants {least_rad_s} rad/s at least; \
-         shorten the delay"
+        "with a delay of {delay_s} s the bandwidth may be {most_rad_s} rad/s at most, and drag wants {least_rad_s} \
+         rad/s at least; shorten the delay"
     )]
     NoBandwidth {
         /// The delay of the loop, s.
@@ -62,8 +62,8 @@ pub enum ControlError {
     },
     /// A loop that is not stable has no margins.
     #[error(
-        "the closed loop has {poles} poles that do not decay (inertia {alpha}, drag {drag}, delay {delay_s} s): no margins; lower the \
-         gains or shorten the delay"
+        "the closed loop has {poles} poles that do not decay (inertia {alpha}, drag {drag}, delay {delay_s} s): no \
+         margins; lower the gains or shorten the delay"
     )]
     Unstable {
         /// Poles in the right half plane or, as far as rounding tells, on its edge.
@@ -77,8 +77,8 @@ pub enum ControlError {
     },
     /// An oscillation that no relay with this half-width makes.
     #[error(
-        "amplitude = {amplitude} with bias {bias} does not pass both levels at +-{half_width}: condition 40 fails; repeat the \
-         experiment with a smaller half-width or a higher relay level"
+        "amplitude = {amplitude} with bias {bias} does not pass both levels at +-{half_width}: condition 40 fails; \
+         repeat the experiment with a smaller half-width or a higher relay level"
     )]
     BelowSwitching {
         /// Amplitude of the oscillation.
@@ -90,8 +90,8 @@ pub enum ControlError {
     },
     /// Two oscillations at one phase do not tell where another phase is.
     #[error(
-        "both experiments are at a phase of {phase_deg} degrees; repeat one with another half-width, so that the critical point \
-         can be found from the two"
+        "both experiments are at a phase of {phase_deg} degrees; repeat one with another half-width, so that the \
+         critical point can be found from the two"
     )]
     OnePhase {
         /// Phase of both, degrees.
@@ -99,8 +99,8 @@ pub enum ControlError {
     },
     /// A process whose phase does not reach -180 degrees.
     #[error(
-        "the phase does not pass -180 degrees between {from_rad_s} and {to_rad_s} rad/s: no ultimate gain there; widen the range or \
-         choose a rule that needs none"
+        "the phase does not pass -180 degrees between {from_rad_s} and {to_rad_s} rad/s: no ultimate gain there; \
+         widen the range or choose a rule that needs none"
     )]
     NoCriticalPoint {
         /// Where the search began, rad/s.

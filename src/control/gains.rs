@@ -30,8 +30,8 @@ impl Structure {
 
 /// Gains of a controller: from the error to the command `K_p + K_i/s`, from the measurement `-K_d s/(filter_s s + 1)`.
 ///
-/// With the command in F and the coordinate in x: `proportional` F/x, `integral` F/(x s), `derivative` F s/x. A loop feels the same
-/// gains in each [`Structure`]; only the answer to the reference differs.
+/// With the command in F and the coordinate in x: `proportional` F/x, `integral` F/(x s), `derivative` F s/x. A loop
+/// feels the same gains in each [`Structure`]; only the answer to the reference differs.
 ///
 /// ```
 /// use selfosc::control::{Gains, Structure};
@@ -50,11 +50,12 @@ pub struct Gains<T> {
 }
 
 impl<T: Scalar> Gains<T> {
-    /// Gains as they are. `filter_s` is the time constant of the filter on the derivative, zero where speed itself is measured.
+    /// Gains as they are. `filter_s` is the time constant of the filter on the derivative, zero where speed itself is
+    /// measured.
     ///
     /// # Errors
-    /// [`ControlError::Parameter`] unless the proportional gain is positive, the others zero or more, all finite; and for an
-    /// integral gain of a PD, or none of an I-PD.
+    /// [`ControlError::Parameter`] unless the proportional gain is positive, the others zero or more, all finite; and
+    /// for an integral gain of a PD, or none of an I-PD.
     pub fn new(
         structure: Structure,
         proportional: T,

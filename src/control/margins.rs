@@ -10,8 +10,8 @@ use crate::numeric::Scalar;
 pub struct Margins<T> {
     /// The gain may grow by less than this factor, above 1; `None` where any growth is borne.
     pub gain: Option<T>,
-    /// The gain may be divided by less than this factor, above 1; `None` where any cut is borne. Loops that integrate twice
-    /// or more have such a limit.
+    /// The gain may be divided by less than this factor, above 1; `None` where any cut is borne. Loops that integrate
+    /// twice or more have such a limit.
     pub gain_reduction: Option<T>,
     /// The phase may lag or lead by less than this more, rad.
     pub phase_rad: T,
@@ -24,8 +24,8 @@ pub struct Margins<T> {
 impl<T: Scalar> OpenLoop<T> {
     /// Gain, phase and delay margin of the loop with its delay.
     ///
-    /// Every crossover of gain and every crossover of phase that can matter is found: the first are the roots of a polynomial, the second are
-    /// looked for between the turns of the phase, until `|L|` is too small for good.
+    /// Every crossover of gain and every crossover of phase that can matter is found: the first are the roots of a
+    /// polynomial, the second are looked for between the turns of the phase, until `|L|` is too small for good.
     ///
     /// ```
     /// use selfosc::control::{Gains, OpenLoop, Structure};

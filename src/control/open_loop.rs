@@ -8,11 +8,12 @@ use crate::plant::DragAxis;
 /// Phase crossovers looked at in one loop.
 const CROSSOVERS: u32 = 10_000;
 
-/// `L(s) = (n_2 s^2 + n_1 s + n_0) exp(-s delay)/(s^2 (filter s + 1)(s + drag))`, drag and gains divided by the inertia.
+/// `L(s) = (n_2 s^2 + n_1 s + n_0) exp(-s delay)/(s^2 (filter s + 1)(s + drag))`, drag and gains divided by the
+/// inertia.
 ///
-/// The proportional, the integral and the filtered derivative action over one denominator; the axis with the slope of its drag
-/// at one speed. Both squared magnitude over `y = w^2` and phase are in closed form, so that all crossovers of gain come from
-/// a polynomial of fourth degree, and so do the points between which the phase is monotone.
+/// The proportional, the integral and the filtered derivative action over one denominator; the axis with the slope of
+/// its drag at one speed. Both squared magnitude over `y = w^2` and phase are in closed form, so that all crossovers
+/// of gain come from a polynomial of fourth degree, and so do the points between which the phase is monotone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OpenLoop<T> {
     alpha: T,
@@ -23,8 +24,8 @@ pub struct OpenLoop<T> {
 }
 
 impl<T: Scalar> OpenLoop<T> {
-    /// The loop of `gains` about `axis` while it moves at `speed` (per s, either sign): drag is taken by its slope there,
-    /// `beta_1 + 2 beta_2 |speed|`. Slow signals on top of that speed, and no others, obey it.
+    /// The loop of `gains` about `axis` while it moves at `speed` (per s, either sign): drag is taken by its slope
+    /// there, `beta_1 + 2 beta_2 |speed|`. Slow signals on top of that speed, and no others, obey it.
     ///
     /// ```
     /// use selfosc::control::{Gains, OpenLoop, Structure};
@@ -145,8 +146,8 @@ impl<T: Scalar> OpenLoop<T> {
             - self.delay_s
     }
 
-    /// Hands every frequency at which L is real and negative to `visit`, each once, until that returns false. With a delay
-    /// they are infinitely many.
+    /// Hands every frequency at which L is real and negative to `visit`, each once, until that returns false. With a
+    /// delay they are infinitely many.
     pub(super) fn phase_crossovers(&self, mut visit: impl FnMut(T) -> bool) {
         let (zero, turn) = (T::zero(), T::two() * T::pi());
         let half_pi = T::pi() / T::two();
@@ -241,9 +242,10 @@ impl<T: Scalar> OpenLoop<T> {
 
     /// Roots of the closed loop's characteristic equation `1 + L = 0` that do not decay.
     ///
-    /// Without delay by Routh's table. With it by the direct method (Walton and Marshall, 1987): roots can pass the imaginary axis only at the
-    /// crossovers of gain, each at the delays that bring its phase to the critical one, and the sign of the slope of `|L|` there says in which direction.
-    /// Exact but for rounding; a root within rounding of the axis counts as not decaying or not, as it falls.
+    /// Without delay by Routh's table. With it by the direct method (Walton and Marshall, 1987): roots can pass the
+    /// imaginary axis only at the crossovers of gain, each at the delays that bring its phase to the critical one, and
+    /// the sign of the slope of `|L|` there says in which direction. Exact but for rounding; a root within rounding of
+    /// the axis counts as not decaying or not, as it falls.
     pub fn unstable_poles(&self) -> u32 {
         let mut poles = self.unstable_without_delay();
         let turn = T::two() * T::pi();

@@ -5,10 +5,11 @@ use super::error::checked;
 use crate::numeric::Scalar;
 use crate::plant::DragAxis;
 
-/// A reference model with two equal poles and a top speed, and the feed-forward of inertia, drag and disturbance along it.
+/// A reference model with two equal poles and a top speed, and the feed-forward of inertia, drag and disturbance along
+/// it.
 ///
-/// The force `alpha r'' + beta_1 r' + beta_2 |r'| r' - delta` moves the identified axis along the reference all by itself; feedback is left with
-/// what the model does not know. The delay stays in: the vehicle is that much behind.
+/// The force `alpha r'' + beta_1 r' + beta_2 |r'| r' - delta` moves the identified axis along the reference all by
+/// itself; feedback is left with what the model does not know. The delay stays in: the vehicle is that much behind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeedForward<T> {
     axis: DragAxis<T>,
@@ -34,7 +35,8 @@ impl<T: Scalar> Guided<T> {
 }
 
 impl<T: Scalar> FeedForward<T> {
-    /// Along the answer of `pace^2/(s + pace)^2` to the reference, `pace_rad_s` in rad/s; `top_speed` (per s) bounds its speed.
+    /// Along the answer of `pace^2/(s + pace)^2` to the reference, `pace_rad_s` in rad/s; `top_speed` (per s) bounds
+    /// its speed.
     ///
     /// # Errors
     /// [`ControlError::Parameter`] unless pace and top speed are positive and finite.
@@ -47,8 +49,8 @@ impl<T: Scalar> FeedForward<T> {
         Ok(Self { axis: *axis, pace_rad_s, top_speed })
     }
 
-    /// The reference's place after `dt_s`, coming from `from`; `ahead` is how far it has still to go. Exact for a constant
-    /// reference below the top speed.
+    /// The reference's place after `dt_s`, coming from `from`; `ahead` is how far it has still to go. Exact for a
+    /// constant reference below the top speed.
     pub(super) fn advance(&self, from: &Guided<T>, ahead: T, dt_s: T) -> Guided<T> {
         let (w, decay) = (self.pace_rad_s, (-(self.pace_rad_s * dt_s)).exp());
         let mixed = from.speed - w * ahead;

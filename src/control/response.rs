@@ -30,8 +30,8 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// The figures of an output that should go from `from` to `to` at the first sample. Times are those of samples; what happens after the last
-    /// sample is not known.
+    /// The figures of an output that should go from `from` to `to` at the first sample. Times are those of samples;
+    /// what happens after the last sample is not known.
     #[must_use]
     pub fn of(time_s: &[f64], output: &[f64], from: f64, to: f64) -> Self {
         let way = |value: &f64| (value - from) / (to - from);
@@ -52,8 +52,8 @@ impl Answer {
 
 /// An axis under a controller that steps its reference at time zero.
 ///
-/// The motion is in closed form between the commands, quadratic drag and the delay included; the controller reads the true coordinate at the
-/// given rate and holds its command between.
+/// The motion is in closed form between the commands, quadratic drag and the delay included; the controller reads the
+/// true coordinate at the given rate and holds its command between.
 ///
 /// ```
 /// use selfosc::control::{Controller, StepResponse, Structure, Tuning};
@@ -80,8 +80,8 @@ impl StepResponse {
     /// From rest at zero, the reference at `size` (m, or rad) from the first sample on.
     ///
     /// # Errors
-    /// [`ControlError::Parameter`] unless the size is finite and not zero, rate and duration positive and finite with at most
-    /// [`MOST_SAMPLES`](Self::MOST_SAMPLES) samples, in the delay too.
+    /// [`ControlError::Parameter`] unless the size is finite and not zero, rate and duration positive and finite with
+    /// at most [`MOST_SAMPLES`](Self::MOST_SAMPLES) samples, in the delay too.
     pub fn simulate(
         axis: &DragAxis<f64>,
         mut controller: Controller<f64>,

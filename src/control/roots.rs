@@ -44,7 +44,8 @@ pub(super) fn product<S: Scalar>(a: &[S], b: &[S]) -> Polynomial<S> {
     product
 }
 
-/// The points `> 0` where the polynomial changes its sign: between the critical points, which are the roots of the derivative.
+/// The points `> 0` where the polynomial changes its sign: between the critical points, which are the roots of the
+/// derivative.
 pub(super) fn positive_roots<S: Scalar>(polynomial: &Polynomial<S>) -> Few<S> {
     // The derivatives, from the one of first degree to the polynomial itself.
     let degree = polynomial.iter().rposition(|c| *c != S::zero()).unwrap_or(0);

@@ -3,7 +3,8 @@
 use super::{ControlError, Gains, Structure, UltimatePoint};
 use crate::numeric::Scalar;
 
-/// A rule of the literature. They are for stable processes with lag and dead time, tell nothing of margins, and differ in how brisk they are.
+/// A rule of the literature. They are for stable processes with lag and dead time, tell nothing of margins, and differ
+/// in how brisk they are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
     /// `K_u/2` (Ziegler and Nichols, 1942): decay to a quarter in each oscillation.

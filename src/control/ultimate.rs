@@ -1,4 +1,5 @@
-//! The critical point of a process: from relay experiments (ATV, auto-tuning variation), and from a known transfer function.
+//! The critical point of a process: from relay experiments (ATV, auto-tuning variation), and from a known transfer
+//! function.
 
 use super::ControlError;
 use super::error::checked;
@@ -58,10 +59,11 @@ impl<T: Scalar> UltimatePoint<T> {
         self.period_s
     }
 
-    /// Where the phase is `-pi`, from two points with different phases: frequency and logarithm of the magnitude on a straight line over
-    /// the phase. Between or just beyond the two.
+    /// Where the phase is `-pi`, from two points with different phases: frequency and logarithm of the magnitude on a
+    /// straight line over the phase. Between or just beyond the two.
     ///
-    /// Two relay experiments with different half-widths, none zero, give the critical point so without chattering at zero half-width.
+    /// Two relay experiments with different half-widths, none zero, give the critical point so without chattering at
+    /// zero half-width.
     ///
     /// # Errors
     /// [`ControlError::OnePhase`]; [`ControlError::Parameter`] where the line leads to no positive frequency.
@@ -82,11 +84,12 @@ impl<T: Scalar> UltimatePoint<T> {
 }
 
 impl<T: Scalar> RelayTest<T> {
-    /// The point of the process' frequency response at the frequency of the oscillation, `G = -1/N` with the describing function N of the relay:
-    /// hysteresis turns it by `asin(half_width/amplitude)` (more with a bias), and the bias lowers the gain (eqs. 30-31).
+    /// The point of the process' frequency response at the frequency of the oscillation, `G = -1/N` with the
+    /// describing function N of the relay: hysteresis turns it by `asin(half_width/amplitude)` (more with a bias), and
+    /// the bias lowers the gain (eqs. 30-31).
     ///
-    /// It takes the oscillation for a sinusoid. What that costs depends on how far the process suppresses the third and higher harmonics. Without hysteresis,
-    /// exact oscillations against the true critical points:
+    /// It takes the oscillation for a sinusoid. What that costs depends on how far the process suppresses the third
+    /// and higher harmonics. Without hysteresis, exact oscillations against the true critical points:
     ///
     /// | process | K_u off by | T_u off by |
     /// |---|---|---|
@@ -97,8 +100,8 @@ impl<T: Scalar> RelayTest<T> {
     /// | `exp(-s)/s` | -18.9 % (`8/pi^2`) | exact |
     ///
     /// # Errors
-    /// [`ControlError::Parameter`] for a level, half-width, amplitude or period outside its domain; [`ControlError::BelowSwitching`]
-    /// where condition 40 fails.
+    /// [`ControlError::Parameter`] for a level, half-width, amplitude or period outside its domain;
+    /// [`ControlError::BelowSwitching`] where condition 40 fails.
     pub fn point(&self) -> Result<FrequencyPoint<T>, ControlError> {
         let zero = T::zero();
         let above = "a finite number above 0";
@@ -126,9 +129,9 @@ impl<T: Scalar> RelayTest<T> {
         })
     }
 
-    /// The point of this one experiment taken for the critical one, as the ATV method does: `K_u = |N|`, and the period as it is. With hysteresis the real
-    /// critical frequency is higher, by as much as the process needs to lag by `asin(half_width/amplitude)` more; a second experiment tells
-    /// ([`UltimatePoint::between`]).
+    /// The point of this one experiment taken for the critical one, as the ATV method does: `K_u = |N|`, and the
+    /// period as it is. With hysteresis the real critical frequency is higher, by as much as the process needs to lag
+    /// by `asin(half_width/amplitude)` more; a second experiment tells ([`UltimatePoint::between`]).
     ///
     /// ```
     /// use selfosc::control::RelayTest;
@@ -147,9 +150,11 @@ impl<T: Scalar> RelayTest<T> {
     }
 }
 
-/// The critical point of a transfer function: the crossover of `-180` degrees with the largest gain, between two frequencies in rad/s.
+/// The critical point of a transfer function: the crossover of `-180` degrees with the largest gain, between two
+/// frequencies in rad/s.
 ///
-/// Crossovers are looked for between 2000 points evenly spaced in the logarithm, closer where the delay turns faster; two between neighbouring points are missed.
+/// Crossovers are looked for between 2000 points evenly spaced in the logarithm, closer where the delay turns faster;
+/// two between neighbouring points are missed.
 ///
 /// ```
 /// use selfosc::control::critical_point;

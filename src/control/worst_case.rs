@@ -65,8 +65,8 @@ impl AxisIntervals {
         Ok(Self { alpha, drag, delay_s })
     }
 
-    /// With linear and quadratic drag, at all speeds up to `top_speed` either way: the slope `beta_1 + 2 beta_2 |v|` is between the
-    /// lower bound of `linear_drag` and the upper one at the top speed.
+    /// With linear and quadratic drag, at all speeds up to `top_speed` either way: the slope `beta_1 + 2 beta_2 |v|`
+    /// is between the lower bound of `linear_drag` and the upper one at the top speed.
     ///
     /// # Errors
     /// As [`new`](Self::new); the same for quadratic drag and top speed.
@@ -86,11 +86,12 @@ impl AxisIntervals {
 
     /// The worst margins of a controller on any linear axis of the intervals, enclosed between a bound and a case.
     ///
-    /// Branch and bound: on a box, the phase at each frequency is lowest at greatest inertia, least drag and longest delay, and the magnitude largest at
-    /// least inertia and drag, so that the extreme curves bound every loop of the box; their crossovers are complete (see
-    /// [`OpenLoop::margins`]), and boxes are halved until bound and worst case agree to 1 % or the budget of 20 000 is spent. Floating point, not
-    /// interval arithmetic: the bound is sure up to rounding. Parameters are taken to be constant; a slope of drag that moves with the speed is covered only as
-    /// far as it moves slowly.
+    /// Branch and bound: on a box, the phase at each frequency is lowest at greatest inertia, least drag and longest
+    /// delay, and the magnitude largest at least inertia and drag, so that the extreme curves bound every loop of the
+    /// box; their crossovers are complete (see [`OpenLoop::margins`]), and boxes are halved until bound and worst case
+    /// agree to 1 % or the budget of 20 000 is spent. Floating point, not interval arithmetic: the bound is sure up to
+    /// rounding. Parameters are taken to be constant; a slope of drag that moves with the speed is covered only as far
+    /// as it moves slowly.
     ///
     /// ```
     /// use selfosc::control::{AxisIntervals, Structure, Tuning};
@@ -202,7 +203,8 @@ impl Curves {
         worst
     }
 
-    /// Least factors on the gain where some loop of the box has a critical phase; magnitudes below `small` do not matter.
+    /// Least factors on the gain where some loop of the box has a critical phase; magnitudes below `small` do not
+    /// matter.
     fn at_critical_phase(&self, small: f64) -> [f64; 2] {
         let mut nodes = vec![0.0];
         for curve in [&self.lagging, &self.leading] {

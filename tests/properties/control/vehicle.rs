@@ -1,4 +1,5 @@
-//! A depth step in six degrees of freedom: vertical thruster with dead zone and delay, buoyancy as disturbance, rough sensor.
+//! A depth step in six degrees of freedom: vertical thruster with dead zone and delay, buoyancy as disturbance, rough
+//! sensor.
 
 use nalgebra::Vector6;
 use selfosc::control::{Answer, Controller, Structure, Tuning};
@@ -30,8 +31,8 @@ fn dive(mut controller: Controller<f64>) -> Answer {
     Answer::of(&time_s, &depth_m, 0.0, STEP_M)
 }
 
-/// With the axis known to the 5 % that an experiment is held to, I-PD settles the depth and carries the buoyancy; PD leaves the depth that
-/// buoyancy over the proportional gain makes, half a reading more or less.
+/// With the axis known to the 5 % that an experiment is held to, I-PD settles the depth and carries the buoyancy; PD
+/// leaves the depth that buoyancy over the proportional gain makes, half a reading more or less.
 #[test]
 fn depth_step_with_the_identified_axis() {
     let truth = pool_vehicle().unwrap().axis(Axis::Heave, &Vector6::zeros());
