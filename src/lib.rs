@@ -27,6 +27,8 @@ pub mod select;
 
 pub mod vehicle;
 
+pub mod control;
+
 #[cfg(feature = "std")]
 pub mod claims;
 #[cfg(feature = "std")]

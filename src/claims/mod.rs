@@ -10,6 +10,7 @@ mod verdict;
 mod family;
 pub mod tolerance;
 
+pub mod control;
 pub mod experiment;
 pub mod fourier;
 pub mod identification;
@@ -93,6 +94,9 @@ macro_rules! for_each_claim {
             orbit_proofs::BIAS_BETA_LINEAR,
             orbit_proofs::BIAS_ALPHA_QUADRATIC,
             orbit_proofs::BIAS_BETA_QUADRATIC,
+            control::POLE_PLACEMENT,
+            control::DELAY_MARGIN,
+            control::RELAY_ULTIMATE,
         }
     };
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use crate::balance::BalanceError;
+use crate::control::ControlError;
 use crate::describing::{CatalogueError, DescribingError};
 use crate::experiment::ExperimentError;
 use crate::nonlinearity::NonlinearityError;
@@ -38,6 +39,9 @@ pub(super) enum CommandError {
     /// Harmonic balance without an answer.
     #[error(transparent)]
     Balance(#[from] BalanceError),
+    /// A controller that cannot be designed.
+    #[error(transparent)]
+    Control(#[from] ControlError),
     /// A table, a figure or a report that cannot be made.
     #[error(transparent)]
     Report(#[from] ReportError),

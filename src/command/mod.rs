@@ -11,6 +11,7 @@ mod identify;
 mod predict;
 mod reproduce;
 mod simulate;
+mod tune;
 mod verify;
 
 use std::io::{self, Write};
@@ -40,6 +41,7 @@ enum Action {
     Predict(predict::Arguments),
     Simulate(simulate::Arguments),
     Identify(identify::Arguments),
+    Tune(tune::Arguments),
 }
 
 /// What a subcommand found, when nothing went wrong.
@@ -66,6 +68,7 @@ pub fn run() -> ExitCode {
         Action::Predict(arguments) => predict::run(arguments, &mut output),
         Action::Simulate(arguments) => simulate::run(arguments, &mut output),
         Action::Identify(arguments) => identify::run(arguments, &mut output),
+        Action::Tune(arguments) => tune::run(arguments, &mut output),
     };
     match outcome.and_then(|outcome| output.flush().map(|()| outcome).map_err(CommandError::from)) {
         Ok(Outcome::Done) => ExitCode::SUCCESS,

@@ -17,6 +17,8 @@ pub use one_way::{OneWay, Passage};
 pub use state_space::{Flow, StateSpace, eigenvalues};
 #[cfg(feature = "std")]
 pub use transfer::TransferFunction;
+#[cfg(feature = "std")]
+pub(crate) use transfer::product;
 
 #[cfg(feature = "std")]
 pub(crate) fn checked_delay(delay_s: f64) -> Result<f64, PlantError> {

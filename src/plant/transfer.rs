@@ -153,7 +153,8 @@ fn horner(descending: &[f64], s: Complex<f64>) -> Complex<f64> {
     descending.iter().fold(Complex::new(0.0, 0.0), |sum, &coefficient| sum * s + coefficient)
 }
 
-fn product(a: &[f64], b: &[f64]) -> Vec<f64> {
+/// Coefficients of the product of two polynomials that have some.
+pub(crate) fn product(a: &[f64], b: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; a.len() + b.len() - 1];
     for (i, x) in a.iter().enumerate() {
         for (j, y) in b.iter().enumerate() {

@@ -14,6 +14,7 @@ const ORDER: &[&[&str]] = &[
     &["identify"],
     &["select"],
     &["vehicle"],
+    &["control"],
     &["claims", "paper"],
     &["report"],
     &["command"],

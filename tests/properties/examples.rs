@@ -1,6 +1,6 @@
 //! Every example runs to its end.
 #![allow(unreachable_pub, reason = "an example's `main` is called from here")]
-#![allow(dead_code, reason = "that of `pool_log` is not")]
+#![allow(dead_code, reason = "those of the pool are not")]
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -17,6 +17,8 @@ mod limit_cycle;
 mod nyquist_balance;
 #[path = "../../examples/pool_log.rs"]
 mod pool_log;
+#[path = "../../examples/pool_session.rs"]
+mod pool_session;
 #[path = "../../examples/true_in_the_paper.rs"]
 mod true_in_the_paper;
 
@@ -28,6 +30,18 @@ fn pool_log() {
     let rows = record.time_s().iter().zip(record.output()).zip(record.input());
     let lines: String = rows.map(|((time, output), input)| format!("{time},{output},{input}\n")).collect();
     pool_log::identify(format!("time_s,output,input\n{lines}").as_bytes()).unwrap();
+}
+
+/// The one that draws into a folder: identified within 5 %, and a heading step that only the identified axis settles.
+#[test]
+fn pool_session() {
+    let folder = tempfile::tempdir().unwrap();
+    let session = pool_session::run(folder.path()).unwrap();
+    assert!((session.alpha_ratio - 1.0).abs() < 0.05, "{session:?}");
+    assert!(session.before.settling_s.is_none() && session.before.overshoot_percent > 10.0, "{session:?}");
+    assert!(session.after.settling_s.is_some_and(|time| time < 8.0), "{session:?}");
+    assert!(session.after.overshoot_percent < 3.0, "{session:?}");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 3);
 }
 
 macro_rules! run {
@@ -51,5 +65,5 @@ fn none_is_left_out() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let names: BTreeSet<String> = files.map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()).collect();
-    assert_eq!(names, LISTED.iter().chain(&["pool_log"]).map(|&name| name.to_owned()).collect());
+    assert_eq!(names, LISTED.iter().chain(&["pool_log", "pool_session"]).map(|&name| name.to_owned()).collect());
 }

@@ -10,6 +10,7 @@ mod catalogue;
 mod certificate;
 mod certified;
 mod claims;
+mod control;
 mod describing;
 mod difference;
 mod examples;

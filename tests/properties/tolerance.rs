@@ -157,3 +157,15 @@ pub(crate) const HALF_PERIOD_ROUNDING: f64 = 1e-11;
 /// A matrix exponential by diagonalisation in floating point, relative to entries of order one: the basis has entries
 /// up to two, and `exp(3)` is 20.
 pub(crate) const MATRIX_EXPONENTIAL: f64 = 1e-13;
+/// Controllers: a dozen rounded operations, relative to the largest number that takes part.
+pub(crate) const ROUNDING_MARGIN: f64 = 1e-12;
+
+/// Controllers: margins against a sweep whose crossovers are bisected to rounding, relative; a crossover moves with the root of
+/// rounding where curves graze.
+pub(crate) const MARGIN: f64 = 1e-7;
+
+/// Controllers: eigenvalues of a matrix with a double or triple pole, relative: the cube root of rounding.
+pub(crate) const DOUBLE_POLE: f64 = 1e-3;
+
+/// A percentage printed with one decimal.
+pub(crate) const PRINTED_TENTH: f64 = 0.06;

@@ -12,7 +12,7 @@ mod thruster_map;
 use proptest::test_runner::{Config, FileFailurePersistence};
 
 /// Failing cases are kept beside the tests.
-fn config(cases: u32) -> Config {
+pub(crate) fn config(cases: u32) -> Config {
     Config {
         cases,
         failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))),

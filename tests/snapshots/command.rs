@@ -41,6 +41,7 @@ helps! {
     balance_help "balance-help" ["balance"];
     predict_help "predict-help" ["predict"];
     simulate_help "simulate-help" ["simulate"];
+    tune_help "tune-help" ["tune"];
 }
 
 /// Verdicts and evidence of every claim. The worst margins are left out: they hang on the last bit of the arithmetic.
@@ -76,6 +77,13 @@ fn refusals() {
         vec!["predict", "--alpha", "0", "--relay", "1", "--half-width", "0.2"],
         vec!["balance", "--num", "1", "--den", "0,1", "--nonlinearity", "relay"],
         vec!["balance", "--num", "1,2,3", "--den", "1,1", "--nonlinearity", "relay"],
+        vec!["tune", "--alpha", "0", "--bandwidth", "1"],
+        vec!["tune", "--alpha", "1", "--bandwidth", "0"],
+        vec!["tune", "--alpha", "1", "--beta", "5", "--bandwidth", "1"],
+        vec!["tune", "--alpha", "1", "--delay", "1", "--bandwidth", "1"],
+        vec!["tune", "--alpha", "1", "--beta", "5", "--delay", "1", "--bandwidth", "2", "--structure", "ipd"],
+        vec!["tune", "--alpha", "1", "--bandwidth", "1", "--structure", "pdi"],
+        vec!["tune", "--alpha", "1", "--bandwidth", "1", "--alpha-interval", "2,1"],
         vec!["verify", "--claim", "lemma-3"],
         vec!["verify", "--cases", "0"],
         vec!["reproduce", "--only", "fig1"],
@@ -85,6 +93,34 @@ fn refusals() {
     insta::with_settings!({ filters => [(r"the claims are: .*", "the claims are: [..]")] }, {
         golden!("refusals", complaints)
     });
+}
+
+const TUNE: [&str; 9] = ["tune", "--alpha", "0.033", "--beta", "0.01", "--delay", "0.2", "--bandwidth", "0.8"];
+
+/// Gains and margins; the poles and the step have digits that hang on the arithmetic, four of them do not.
+#[test]
+fn tune() {
+    let quadratic = done(&with(&TUNE, &["--beta-quadratic", "0.06", "--alpha-interval", "0.031,0.035"]));
+    let integral = done(&with(&TUNE, &["--structure", "pid"]));
+    golden!("tune", format!("{quadratic}\n{integral}"));
+}
+
+/// The document that scripts read: names and kinds, and a few numbers against the text of the command.
+#[test]
+fn tune_json() {
+    let document: serde_json::Value = serde_json::from_str(&done(&with(&TUNE, &["--json"]))).unwrap();
+    let keys = |value: &serde_json::Value| value.as_object().unwrap().keys().cloned().collect::<Vec<_>>().join(" ");
+    let parts = ["gains", "margins", "verified"].map(|name| format!("{name}: {}", keys(&document[name])));
+    golden!("tune-json", format!("{}\n{}", keys(&document), parts.join("\n")));
+    assert!(document["worst_case"].is_null() && document["margins"]["gain"].as_f64().unwrap() > 2.0);
+}
+
+/// An interval that the controller does not stabilise is an answer.
+#[test]
+fn tune_unstable() {
+    let (status, answer, complaint) = output(&with(&TUNE, &["--delay-interval", "0.1,2"]));
+    assert_eq!((status, complaint.as_str()), (Some(1), ""));
+    golden!("tune-unstable", answer);
 }
 
 /// No limit cycle is an answer: status 1 and the reason on standard output.

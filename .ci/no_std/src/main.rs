@@ -5,11 +5,13 @@
 use core::hint::black_box;
 use core::panic::PanicInfo;
 
+use selfosc::control::{Controller, RelayTest, Rule, Structure, Tuning};
 use selfosc::describing::ClosedForm;
 use selfosc::experiment::Relay;
 use selfosc::identify::iso::Oscillation;
 use selfosc::nonlinearity::{Catalogued, RelayHysteresis, Sinusoid};
 use selfosc::numeric::Scalar;
+use selfosc::plant::DragAxis;
 
 #[panic_handler]
 fn panic(_: &PanicInfo) -> ! {
@@ -29,7 +31,13 @@ fn exercise<T: Scalar>() -> Option<T> {
         period_s: number(2.69),
         delay_s: number(0.2),
     };
-    Some(output + df.p + oscillation.identify().ok()?.alpha)
+    let axis = DragAxis::linear(number(0.033), number(0.01)).ok()?.with_delay_s(number(0.2)).ok()?;
+    let tuning = Tuning::new(&axis, Structure::Pid, number(0.8)).ok()?;
+    let moment = Controller::new(tuning.gains()).on_circle(T::two() * T::pi()).ok()?.step(number(1.0), number(0.0), number(0.1));
+    let zero = number(0.0);
+    let test = RelayTest { level: number(1.0), half_width: zero, amplitude: number(0.16), bias: zero, period_s: number(3.7) };
+    let gains = Rule::ZieglerNicholsPid.gains(&test.ultimate().ok()?).ok()?;
+    Some(output + df.p + oscillation.identify().ok()?.alpha + moment.command + gains.integral())
 }
 
 /// Entry point in place of the C runtime's; never runs.

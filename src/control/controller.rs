@@ -1,0 +1,190 @@
+//! The controller as it runs: one step for each measurement.
+
+use super::error::checked;
+use super::reference::{FeedForward, Guided};
+use super::{ControlError, Gains, Structure};
+use crate::numeric::Scalar;
+
+/// A controller with its memory. No allocation; a step costs a few dozen operations.
+///
+/// The derivative acts on the measurement through a filter that is stable for every interval. An integral that drives
+/// the command past a limit is led back (back-calculation with the time constant `sqrt(K_d/K_i)`, `K_p/K_i` without
+/// derivative; Astrom and Hagglund). What is not a number changes nothing: the command is held, and the [`Fault`]
+/// named; how long to accept that is the caller's decision.
+///
+/// ```
+/// use selfosc::control::{Controller, Structure, Tuning};
+/// use selfosc::plant::DragAxis;
+/// let yaw = DragAxis::<f32>::mixed(0.033, 0.01, 0.06)?.with_delay_s(0.2)?;
+/// let tuning = Tuning::new(&yaw, Structure::Pd, 0.8)?;
+/// let mut heading = Controller::new(tuning.gains()).with_limits(-0.2, 0.2)?.on_circle(core::f32::consts::TAU)?;
+/// let step = heading.step(3.1, -3.1, 0.1); // the short way, through pi: 0.083 rad to the left
+/// assert!(step.command < 0.0 && step.command > -0.02);
+/// assert_eq!(heading.step(f32::NAN, -3.1, 0.1).command, step.command);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Controller<T> {
+    gains: Gains<T>,
+    limits: Option<(T, T)>,
+    turn: Option<T>,
+    feed_forward: Option<FeedForward<T>>,
+    command: T,
+    memory: Option<Memory<T>>,
+}
+
+/// What a controller remembers of the past.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Memory<T> {
+    measurement: T,
+    /// Filtered speed, against that of the guided reference.
+    speed: T,
+    /// Integral action; that of an I-PD includes its proportional action, which keeps it small.
+    integral: T,
+    guided: Guided<T>,
+}
+
+/// What a step gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step<T> {
+    /// The command, within the limits, a number in any case.
+    pub command: T,
+    /// Whether a limit holds the command back.
+    pub limited: bool,
+    /// Why the command is held, if it is.
+    pub fault: Option<Fault>,
+}
+
+/// Why a step held the command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Fault {
+    /// The reference is not a finite number.
+    Reference,
+    /// The measurement is not a finite number.
+    Measurement,
+    /// The interval is not a finite number above zero.
+    Interval,
+    /// The command would not be a finite number.
+    Overflow,
+}
+
+impl<T: Scalar> Controller<T> {
+    /// Without limits, on a line, without feed-forward; the command is zero before the first step.
+    pub fn new(gains: &Gains<T>) -> Self {
+        Self { gains: *gains, limits: None, turn: None, feed_forward: None, command: T::zero(), memory: None }
+    }
+
+    /// The same with limits on the command. Starts anew.
+    ///
+    /// # Errors
+    /// [`ControlError::Parameter`] unless `lower < upper`, both finite.
+    pub fn with_limits(self, lower: T, upper: T) -> Result<Self, ControlError> {
+        checked("lower limit of the command", lower, true, "finite")?;
+        checked("upper limit of the command", upper, upper > lower, "finite and above the lower one")?;
+        let limited = Self { limits: Some((lower, upper)), memory: None, ..self };
+        Ok(Self { command: limited.clamp(T::zero()), ..limited })
+    }
+
+    /// The same for a coordinate that begins again after `turn`: `2 pi` for a heading in radians, 360 in degrees.
+    /// Errors take the short way, and readings may jump by whole turns. Starts anew.
+    ///
+    /// # Errors
+    /// [`ControlError::Parameter`] unless the turn is positive and finite.
+    pub fn on_circle(self, turn: T) -> Result<Self, ControlError> {
+        checked("length of a turn", turn, turn > T::zero(), "a finite number above 0")?;
+        Ok(Self { turn: Some(turn), memory: None, ..self })
+    }
+
+    /// The same along a guided reference, with the force that takes. Starts anew, from the first measurement at rest.
+    #[must_use]
+    pub fn with_feed_forward(self, feed_forward: FeedForward<T>) -> Self {
+        Self { feed_forward: Some(feed_forward), memory: None, ..self }
+    }
+
+    /// Forgets everything but its settings.
+    pub fn reset(&mut self) {
+        self.memory = None;
+        self.command = self.clamp(T::zero());
+    }
+
+    /// The next command, given the reference, the measurement, and the time since the step before (s). The first step
+    /// after a start has no speed to go by.
+    pub fn step(&mut self, reference: T, measurement: T, dt_s: T) -> Step<T> {
+        let fault = if !measurement.is_finite() {
+            Fault::Measurement
+        } else if !reference.is_finite() {
+            Fault::Reference
+        } else if !(dt_s > T::zero() && dt_s.is_finite()) {
+            Fault::Interval
+        } else {
+            let (wanted, memory) = self.wanted(reference, measurement, dt_s);
+            let command = self.clamp(wanted);
+            if let Some(memory) = self.led_back(memory, command - wanted, dt_s).filter(|_| wanted.is_finite()) {
+                (self.command, self.memory) = (command, Some(memory));
+                return Step { command, limited: command != wanted, fault: None };
+            }
+            Fault::Overflow
+        };
+        Step { command: self.command, limited: false, fault: Some(fault) }
+    }
+
+    /// The command without limits, and the memory that it leaves.
+    fn wanted(&self, reference: T, measurement: T, dt_s: T) -> (T, Memory<T>) {
+        let (zero, gains) = (T::zero(), &self.gains);
+        let mut memory = self.memory.unwrap_or(Memory {
+            measurement,
+            speed: zero,
+            integral: zero,
+            guided: Guided::at_rest(measurement),
+        });
+        let moved = self.short_way(measurement - memory.measurement);
+        memory.measurement = measurement;
+        let (mut goal, mut goal_speed, mut force) = (reference, zero, zero);
+        if let Some(feed_forward) = &self.feed_forward {
+            let ahead = self.short_way(reference - memory.guided.position);
+            memory.guided = feed_forward.advance(&memory.guided, ahead, dt_s);
+            force = feed_forward.force(&memory.guided);
+            goal = memory.guided.position - memory.guided.behind;
+            goal_speed = feed_forward.expected_speed(&memory.guided);
+            memory.guided.position = self.short_way(memory.guided.position);
+        }
+        let error = self.short_way(goal - measurement);
+        let speed = moved / dt_s - goal_speed;
+        memory.speed = memory.speed + (speed - memory.speed) * dt_s / (gains.filter_s() + dt_s);
+        let proportional = match gains.structure() {
+            Structure::Pd | Structure::Pid => gains.proportional() * error,
+            Structure::Ipd => {
+                memory.integral = memory.integral - gains.proportional() * (moved - goal_speed * dt_s);
+                zero
+            }
+        };
+        memory.integral = memory.integral + gains.integral() * error * dt_s;
+        (proportional + memory.integral - gains.derivative() * memory.speed + force, memory)
+    }
+
+    /// The memory after the limits have held the command back by `excess`; `None` where it is no number.
+    fn led_back(&self, memory: Memory<T>, excess: T, dt_s: T) -> Option<Memory<T>> {
+        let gains = &self.gains;
+        let mut integral = memory.integral;
+        if gains.integral() > T::zero() {
+            let tracking_s = if gains.derivative() > T::zero() {
+                (gains.derivative() / gains.integral()).sqrt()
+            } else {
+                gains.proportional() / gains.integral()
+            };
+            integral = integral + excess * dt_s / (tracking_s + dt_s);
+        }
+        let finite = [integral, memory.speed, memory.guided.position, memory.guided.speed, memory.guided.behind];
+        finite.iter().all(|value| value.is_finite()).then_some(Memory { integral, ..memory })
+    }
+
+    fn clamp(&self, command: T) -> T {
+        self.limits.map_or(command, |(lower, upper)| command.max(lower).min(upper))
+    }
+
+    /// The representative nearest to zero on a circle; the number itself on a line.
+    fn short_way(&self, way: T) -> T {
+        self.turn.map_or(way, |turn| way - turn * (way / turn + T::from_f64(0.5)).floor())
+    }
+}

@@ -1,0 +1,124 @@
+//! Why there is no controller.
+
+use crate::plant::PlantError;
+
+/// A refusal of the control layer: which number, which limit, what to do.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ControlError {
+    /// A parameter outside its domain.
+    #[error("{parameter} = {value} must be {required}; give it such a value")]
+    Parameter {
+        /// Name of the parameter, with its unit.
+        parameter: &'static str,
+        /// The value given.
+        value: f64,
+        /// What it has to be.
+        required: &'static str,
+    },
+    /// A plant that is none.
+    #[error(transparent)]
+    Plant(#[from] PlantError),
+    /// The axis' own drag damps more than the closed loop asked for.
+    #[error(
+        "bandwidth = {bandwidth_rad_s} rad/s is below {least_rad_s} rad/s, under which the drag of the axis alone \
+         damps more than the design and the derivative gain would be negative; ask for at least {least_rad_s} rad/s"
+    )]
+    Overdamped {
+        /// The bandwidth asked for, rad/s.
+        bandwidth_rad_s: f64,
+        /// The least one the design has gains for, rad/s.
+        least_rad_s: f64,
+    },
+    /// The delay leaves too little margin.
+    #[error(
+        "bandwidth = {bandwidth_rad_s} rad/s with a delay of {delay_s} s leaves less than a gain margin of {gain} \
+         and a phase margin of {phase_deg} degrees; ask for at most {most_rad_s} rad/s or shorten the delay"
+    )]
+    TooFast {
+        /// The bandwidth asked for, rad/s.
+        bandwidth_rad_s: f64,
+        /// The delay of the loop, s.
+        delay_s: f64,
+        /// The gain margin wanted, a factor.
+        gain: f64,
+        /// The phase margin wanted, degrees.
+        phase_deg: f64,
+        /// The largest bandwidth that leaves them, rad/s, to 1 %.
+        most_rad_s: f64,
+    },
+    /// No bandwidth is both above what drag damps and below what the delay allows.
+    #[error(
+        "with a delay of {delay_s} s the bandwidth may be {most_rad_s} rad/s at most, and drag wants {least_rad_s} \
+         rad/s at least; shorten the delay"
+    )]
+    NoBandwidth {
+        /// The delay of the loop, s.
+        delay_s: f64,
+        /// Below this the drag alone damps more than the design, rad/s.
+        least_rad_s: f64,
+        /// Above this the delay leaves too little margin, rad/s.
+        most_rad_s: f64,
+    },
+    /// A loop that is not stable has no margins.
+    #[error(
+        "the closed loop has {poles} poles that do not decay (inertia {alpha}, drag {drag}, delay {delay_s} s): no \
+         margins; lower the gains or shorten the delay"
+    )]
+    Unstable {
+        /// Poles in the right half plane or, as far as rounding tells, on its edge.
+        poles: u32,
+        /// Inertia of the axis.
+        alpha: f64,
+        /// Slope of its drag.
+        drag: f64,
+        /// Delay of the loop, s.
+        delay_s: f64,
+    },
+    /// An oscillation that no relay with this half-width makes.
+    #[error(
+        "amplitude = {amplitude} with bias {bias} does not pass both levels at +-{half_width}: condition 40 fails; \
+         repeat the experiment with a smaller half-width or a higher relay level"
+    )]
+    BelowSwitching {
+        /// Amplitude of the oscillation.
+        amplitude: f64,
+        /// Its bias.
+        bias: f64,
+        /// Half-width of the hysteresis.
+        half_width: f64,
+    },
+    /// Two oscillations at one phase do not tell where another phase is.
+    #[error(
+        "both experiments are at a phase of {phase_deg} degrees; repeat one with another half-width, so that the \
+         critical point can be found from the two"
+    )]
+    OnePhase {
+        /// Phase of both, degrees.
+        phase_deg: f64,
+    },
+    /// A process whose phase does not reach -180 degrees.
+    #[error(
+        "the phase does not pass -180 degrees between {from_rad_s} and {to_rad_s} rad/s: no ultimate gain there; \
+         widen the range or choose a rule that needs none"
+    )]
+    NoCriticalPoint {
+        /// Where the search began, rad/s.
+        from_rad_s: f64,
+        /// Where it ended, rad/s.
+        to_rad_s: f64,
+    },
+}
+
+/// The value, or the error that names it, where it is not finite or not `inside` its domain.
+pub(super) fn checked<S: crate::numeric::Scalar>(
+    parameter: &'static str,
+    value: S,
+    inside: bool,
+    required: &'static str,
+) -> Result<S, ControlError> {
+    if inside && value.is_finite() {
+        return Ok(value);
+    }
+    Err(ControlError::Parameter { parameter, value: value.value(), required })
+}

@@ -1,0 +1,46 @@
+//! Controllers from an identified axis, and their margins.
+//!
+//! | file | content |
+//! |---|---|
+//! | `design` | gains from a bandwidth by pole placement |
+//! | `open_loop`, `margins` | crossovers, stability and margins with the delay |
+//! | `closed_loop` | poles and bandwidth, computed without the design equations |
+//! | `worst_case` | margins over intervals of the parameters |
+//! | `controller`, `reference` | what runs on the vehicle |
+//! | `response` | the simulated answer to a step, and its figures |
+//! | `ultimate`, `rules` | the critical point from relay experiments, and the classic rules |
+//!
+//! Design, margins, controllers, ultimate point and rules need neither `std` nor a heap, in f32 or f64.
+
+#[cfg(feature = "std")]
+mod closed_loop;
+mod controller;
+mod design;
+mod error;
+mod gains;
+mod margins;
+mod open_loop;
+mod reference;
+#[cfg(feature = "std")]
+mod response;
+mod roots;
+mod rules;
+mod ultimate;
+#[cfg(feature = "std")]
+mod worst_case;
+
+pub use controller::{Controller, Fault, Step};
+pub use design::Tuning;
+pub use error::ControlError;
+pub use gains::{Gains, Structure};
+pub use margins::Margins;
+pub use open_loop::OpenLoop;
+pub use reference::FeedForward;
+#[cfg(feature = "std")]
+pub use response::{Answer, StepResponse};
+pub use rules::Rule;
+#[cfg(feature = "std")]
+pub use ultimate::critical_point;
+pub use ultimate::{FrequencyPoint, RelayTest, UltimatePoint};
+#[cfg(feature = "std")]
+pub use worst_case::{AxisIntervals, WorstMargin, WorstMargins};

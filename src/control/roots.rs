@@ -1,0 +1,88 @@
+//! Positive roots of polynomials of low degree, all of them and without a heap.
+
+use crate::numeric::{Scalar, increasing_root};
+
+/// Coefficients of degree four or less, ascending.
+pub(super) type Polynomial<S> = [S; 5];
+
+/// At most four numbers, ascending.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Few<S> {
+    values: [S; 4],
+    count: usize,
+}
+
+impl<S: Scalar> Few<S> {
+    fn none() -> Self {
+        Self { values: [S::zero(); 4], count: 0 }
+    }
+    fn push(&mut self, value: S) {
+        if let Some(place) = self.values.get_mut(self.count) {
+            *place = value;
+            self.count += 1;
+        }
+    }
+    pub(super) fn as_slice(&self) -> &[S] {
+        self.values.get(..self.count).unwrap_or_default()
+    }
+}
+
+/// Value and derivative of the polynomial at a point.
+pub(super) fn horner<S: Scalar>(polynomial: &[S], at: S) -> (S, S) {
+    polynomial.iter().rev().fold((S::zero(), S::zero()), |(value, slope), &c| (value * at + c, slope * at + value))
+}
+
+pub(super) fn product<S: Scalar>(a: &[S], b: &[S]) -> Polynomial<S> {
+    let mut product = [S::zero(); 5];
+    for (i, &x) in a.iter().enumerate() {
+        for (j, &y) in b.iter().enumerate() {
+            if let Some(place) = product.get_mut(i + j) {
+                *place = *place + x * y;
+            }
+        }
+    }
+    product
+}
+
+/// The points `> 0` where the polynomial changes its sign: between the critical points, which are the roots of the
+/// derivative.
+pub(super) fn positive_roots<S: Scalar>(polynomial: &Polynomial<S>) -> Few<S> {
+    // The derivatives, from the one of first degree to the polynomial itself.
+    let degree = polynomial.iter().rposition(|c| *c != S::zero()).unwrap_or(0);
+    let mut turns = Few::none();
+    for order in (0..degree).rev() {
+        let mut derivative = *polynomial;
+        for _ in 0..order {
+            for k in 1..derivative.len() {
+                derivative[k - 1] = derivative[k] * S::from_f64(k as f64);
+            }
+            derivative[4] = S::zero();
+        }
+        turns = between(&derivative, degree - order, &turns);
+    }
+    turns
+}
+
+/// Sign changes between neighbours of zero, the critical points, and a bound of all roots.
+fn between<S: Scalar>(polynomial: &Polynomial<S>, degree: usize, turns: &Few<S>) -> Few<S> {
+    let leading = polynomial[degree];
+    let largest = polynomial[..degree].iter().fold(S::zero(), |most, c| most.max((*c / leading).abs()));
+    let bound = S::two() + largest;
+    let mut roots = Few::none();
+    let mut lower = S::zero();
+    for &upper in turns.as_slice().iter().chain([&bound]) {
+        let (at_lower, at_upper) = (horner(polynomial, lower).0, horner(polynomial, upper).0);
+        if (at_lower < S::zero() && at_upper > S::zero()) || (at_lower > S::zero() && at_upper < S::zero()) {
+            let sign = if at_upper > S::zero() { S::one() } else { -S::one() };
+            let signed = |at: S| {
+                let (value, slope) = horner(polynomial, at);
+                (sign * value, sign * slope)
+            };
+            if let Some(root) = increasing_root(signed, lower, upper, (lower + upper) / S::two()) {
+                roots.push(root);
+            }
+        }
+        lower = upper;
+    }
+    roots
+}

@@ -1,0 +1,9 @@
+//! Controllers: design, margins, what runs, and the critical point.
+
+mod controller;
+mod design;
+mod margins;
+mod oracle;
+mod ultimate;
+mod vehicle;
+mod worst_case;
