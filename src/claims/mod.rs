@@ -14,7 +14,9 @@ pub mod experiment;
 pub mod fourier;
 pub mod identification;
 pub mod kernels;
+mod machine;
 pub mod method_bias;
+pub mod on_board;
 pub mod orbit_proofs;
 pub mod orbits;
 pub mod proof;
@@ -93,6 +95,11 @@ macro_rules! for_each_claim {
             orbit_proofs::BIAS_BETA_LINEAR,
             orbit_proofs::BIAS_ALPHA_QUADRATIC,
             orbit_proofs::BIAS_BETA_QUADRATIC,
+            on_board::ON_BOARD_ENDS,
+            on_board::ON_BOARD_SWITCHES,
+            on_board::ON_BOARD_ABORT,
+            on_board::ON_BOARD_LIMITS,
+            on_board::ON_BOARD_FAULTS,
         }
     };
 }

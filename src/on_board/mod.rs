@@ -27,5 +27,5 @@ pub use fault::{Fault, ProtocolError};
 pub use outcome::Outcome;
 pub use protocol::{Coordinate, Protocol};
 #[cfg(feature = "std")]
-pub(crate) use supervisor::{Observation, Observer, Supervisor};
+pub(crate) use supervisor::{Key, Observation, Observer, Supervisor};
 pub use supervisor::{Phase, Step};

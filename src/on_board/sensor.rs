@@ -64,6 +64,13 @@ impl<T: Scalar> Sensor<T> {
         Ok(Self { time_s, reading, position, changed_s })
     }
 
+    /// All that it is, exactly.
+    #[cfg(feature = "std")]
+    pub(super) fn key(&self) -> [u64; 4] {
+        let Self { time_s, reading, position, changed_s } = self;
+        [time_s, reading, position, changed_s].map(|value| value.value().to_bits())
+    }
+
     /// The coordinate now.
     pub(super) fn position(&self) -> T {
         self.position

@@ -56,6 +56,10 @@ enum Failure {
     Condition40,
 }
 
+/// All that decides on what a supervisor does next, its protocol being given; exact in its numbers.
+#[cfg(feature = "std")]
+pub(crate) type Key = (&'static str, [u64; 5], Option<[u64; 4]>, [u8; 2]);
+
 /// The experiment but for its cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Supervisor<T> {
@@ -131,6 +135,27 @@ impl<T: Scalar> Supervisor<T> {
     /// The coordinate that the relay sees, once there was a sample.
     pub(crate) fn position(&self) -> Option<T> {
         self.sensor.map(|sensor| sensor.position())
+    }
+
+    /// The state, for a table of visited ones. Of a fault its name: the numbers in it decide nothing.
+    #[cfg(feature = "std")]
+    pub(crate) fn key(&self) -> Key {
+        let Self { protocol: _, phase, relay, sensor, started_s, switched_s, attempt, cycles } = self;
+        let phase = match phase {
+            Phase::Running => "running",
+            Phase::Done => "done",
+            Phase::Aborted => "aborted",
+            Phase::Failed(fault) => fault.code(),
+        };
+        let numbers = [
+            relay.output(),
+            relay.characteristic().level(),
+            relay.characteristic().half_width(),
+            *started_s,
+            *switched_s,
+        ];
+        let numbers = numbers.map(|value| value.value().to_bits());
+        (phase, numbers, sensor.map(|sensor| sensor.key()), [*attempt, *cycles])
     }
 
     fn run(&mut self, reading: T, time_s: T, observer: &mut impl Observer<T>) -> Result<(), Fault> {

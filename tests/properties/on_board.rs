@@ -49,8 +49,7 @@ struct Run<T> {
 /// Runs until the experiment ends; `sensor` turns the state into a reading.
 fn run<T: Scalar>(protocol: Protocol<T>, mut pool: Pool, sensor: impl Fn(f64, &State<f64>) -> f64) -> Run<T> {
     let experiment = Experiment::new(protocol).unwrap();
-    let mut run =
-        Run { experiment, time_s: Vec::new(), position: Vec::new(), command: Vec::new(), attempt_began: 0 };
+    let mut run = Run { experiment, time_s: Vec::new(), position: Vec::new(), command: Vec::new(), attempt_began: 0 };
     for sample in 0..20_000 {
         let time_s = INTERVAL_S * f64::from(sample);
         let attempt = run.experiment.attempt();
