@@ -32,9 +32,9 @@ impl Lattice {
             highest_command: 2.5,
             interval_s: 0.5,
             largest_rate: 2.0 * half_width,
-            unchanged_s: 3.0,
-            patience_s: 4.0,
-            duration_s: 10.0,
+            unchanged_s: 2.0,
+            patience_s: 3.0,
+            duration_s: 6.0,
             cycles: 2,
             most_cycles: 2,
             factor: 2.0,
@@ -43,20 +43,15 @@ impl Lattice {
         Self { name, protocol, readings }
     }
 
-    /// One for each kind of coordinate. All numbers are multiples of powers of two, or whole: sums are exact.
+    /// One for each kind of coordinate. All numbers are whole or halves: sums are exact.
     pub(super) fn all() -> [Self; 3] {
         [
+            Self::of("position in {-2, -1, 0, 1, 2}", Coordinate::Position, 1.0, &[-2.0, -1.0, 0.0, 1.0, 2.0]),
             Self::of(
-                "position in {-3, -2, ..., 3}",
-                Coordinate::Position,
-                1.0,
-                &[-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0],
-            ),
-            Self::of(
-                "heading in {0, 45, ..., 315} degrees",
+                "heading in {0, 60, ..., 300} degrees",
                 Coordinate::HeadingDegrees,
-                45.0,
-                &[0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0],
+                60.0,
+                &[0.0, 60.0, 120.0, 180.0, 240.0, 300.0],
             ),
             Self::of("speed in {-1, 0, 1}", Coordinate::Speed, 1.0, &[-1.0, 0.0, 1.0]),
         ]
@@ -223,13 +218,16 @@ fn explore_one(lattice: &Lattice, defect: Defect, property: Property) -> Verdict
 
 fn events<'a>(lattice: &'a Lattice, machine: &Machine) -> impl Iterator<Item = Event> + use<'a> {
     // The first sample's interval means nothing.
-    let intervals = if machine.seen.is_some() { &INTERVALS_S[..] } else { &INTERVALS_S[..1] };
-    let samples = lattice.readings.iter().chain(&BROKEN).flat_map(move |&reading| {
-        intervals.iter().flat_map(move |&interval_s| {
-            OBSERVATIONS.iter().map(move |&observation| Event::Sample { reading, interval_s, observation })
-        })
+    let (sound, unsound) =
+        if machine.seen.is_some() { INTERVALS_S.split_at(SOUND) } else { (&INTERVALS_S[..1], &INTERVALS_S[..0]) };
+    let sample = |reading, interval_s, observation| Event::Sample { reading, interval_s, observation };
+    let good = lattice.readings.iter().flat_map(move |&reading| {
+        sound.iter().flat_map(move |&interval_s| OBSERVATIONS.map(|says| sample(reading, interval_s, says)))
     });
-    samples.chain([Event::Abort])
+    // A sample that is refused is not observed.
+    let late = unsound.iter().map(move |&interval_s| sample(lattice.readings[0], interval_s, OBSERVATIONS[0]));
+    let broken = BROKEN.into_iter().map(move |reading| sample(reading, INTERVALS_S[0], OBSERVATIONS[0]));
+    good.chain(late).chain(broken).chain([Event::Abort])
 }
 
 /// Names of the numbers of a path, by its steps.
