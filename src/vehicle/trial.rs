@@ -3,6 +3,9 @@
 use std::collections::VecDeque;
 
 use nalgebra::{Matrix4, Vector4, Vector6};
+use rand::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64Mcg;
 
 use super::error::checked;
 use super::{Axis, AxisParameters, Motion, Simulation, State, Vehicle, VehicleError};
@@ -40,6 +43,7 @@ pub struct Trial {
     axis: Axis,
     protocol: Protocol<f64>,
     sensor: Sensor,
+    seed: u64,
 }
 
 /// What a trial left behind.
@@ -97,10 +101,10 @@ impl TrialRun {
 
 impl Trial {
     /// An experiment on an axis through a sensor of its coordinate (heading, depth) or of its speed (surge, sway), read every
-    /// `protocol.interval_s`. Noise is left to the caller's disturbance: readings are delayed and rounded only.
+    /// `protocol.interval_s`.
     ///
     /// # Errors
-    /// A coordinate that is not the axis's own, a sensor with noise, or a delay that is negative.
+    /// A coordinate that is not the axis's own, a delay, step or noise of the sensor that is negative.
     pub fn new(axis: Axis, protocol: Protocol<f64>, sensor: Sensor) -> Result<Self, VehicleError> {
         let fits = match axis {
             Axis::Yaw => matches!(protocol.coordinate, Coordinate::HeadingRad | Coordinate::HeadingDegrees),
@@ -111,8 +115,14 @@ impl Trial {
         checked("axis of the trial", "observed by heading (yaw), position (heave), speed (others)", number, |_| fits)?;
         checked("sensor delay (s)", ">= 0", sensor.delay_s, |delay| delay >= 0.0)?;
         checked("quantum of the sensor", ">= 0", sensor.quantum, |quantum| quantum >= 0.0)?;
-        checked("noise of the sensor", "0 in a trial", sensor.noise, |noise| noise == 0.0)?;
-        Ok(Self { axis, protocol, sensor })
+        checked("noise of the sensor", ">= 0", sensor.noise, |noise| noise >= 0.0)?;
+        Ok(Self { axis, protocol, sensor, seed: 0 })
+    }
+
+    /// The same trial with other noise.
+    #[must_use]
+    pub fn with_seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
     }
 
     /// Runs until the experiment has ended. `commands` turns a force (moment) on the axis into thruster commands, once for each
@@ -141,6 +151,7 @@ impl Trial {
         })?;
         let mut run =
             TrialRun { experiment, time_s: Vec::new(), position: Vec::new(), force: Vec::new(), states: Vec::new() };
+        let mut random = Pcg64Mcg::seed_from_u64(self.seed);
         let mut under_way: VecDeque<f64> = std::iter::repeat_n(self.observe(simulation.state()), late + 1).collect();
         loop {
             let thrust = commands(run.experiment.command(), simulation.state())?;
@@ -152,7 +163,8 @@ impl Trial {
             }
             let time_s = simulation.time_s();
             let force = run.experiment.command();
-            let step = run.experiment.step(self.sensor.read(under_way[0]), time_s);
+            let noise: f64 = StandardNormal.sample(&mut random);
+            let step = run.experiment.step(self.sensor.read(under_way[0] + self.sensor.noise * noise), time_s);
             run.time_s.push(time_s);
             run.position.push(run.experiment.position().unwrap_or(self.protocol.reference));
             run.states.push(*simulation.state());

@@ -9,8 +9,8 @@ use selfosc::identify::joint::{Delay, Parameter};
 use selfosc::on_board::{Coordinate, Phase, Protocol};
 use selfosc::plant::DragAxis;
 use selfosc::vehicle::{
-    Allocation, Axis, AxisParameters, Compensation, MountedThruster, Simulation, State, Trial, TrialRun, Vehicle,
-    VehicleError, VehicleParameters, pool_thrusters, pool_vehicle,
+    Allocation, Axis, AxisParameters, Compensation, MountedThruster, STANDARD_GRAVITY, Simulation, State, Trial,
+    TrialRun, Vehicle, VehicleError, VehicleParameters, pool_thrusters, pool_vehicle,
 };
 
 /// 0.1 s to the thrusters and 0.1 s from the sensor (eq. 36).
@@ -31,14 +31,15 @@ fn setups() -> [Setup; 4] {
     let of = |axis, coordinate, half_width, levels, quantum| Setup { axis, coordinate, half_width, levels, quantum };
     [
         of(Axis::Yaw, Coordinate::HeadingRad, 0.3, [0.06, 0.2], degree),
-        of(Axis::Heave, Coordinate::Position, 0.15, [0.8, 2.4], 0.02),
-        of(Axis::Surge, Coordinate::Speed, 0.15, [0.8, 1.6], 0.01),
+        of(Axis::Heave, Coordinate::Position, 0.3, [1.2, 2.4], 0.02),
+        of(Axis::Surge, Coordinate::Speed, 0.15, [0.6, 1.6], 0.01),
         of(Axis::Sway, Coordinate::Speed, 0.15, [0.8, 2.4], 0.01),
     ]
 }
 
 impl Setup {
-    /// One experiment under a tether that pulls with `tether` of the lower level, and a little across.
+    /// One experiment under a tether that pulls with `tether` of the lower level, and with 0.02 N across where the axes are
+    /// coupled. Noise of half a step before rounding.
     fn run(&self, vehicle: &Vehicle, level: f64, tether: f64) -> TrialRun {
         let mut thrusters = pool_thrusters().unwrap().to_vec();
         // The pool vehicle has no thruster to the side.
@@ -63,18 +64,23 @@ impl Setup {
         };
         let mut pull = Vector6::zeros();
         pull[self.axis.index()] = tether * self.levels[0];
-        pull[(self.axis.index() + 1) % 3] += 0.02;
+        pull[(self.axis.index() + 1) % 3] += if vehicle.parameters().added_mass[(1, 5)] > 0.0 { 0.02 } else { 0.0 };
         let protocol = Protocol {
             resolution: self.quantum,
             unchanged_s: 6.0,
-            cycles: 10,
-            most_cycles: 40,
+            cycles: 15,
+            most_cycles: 60,
+            duration_s: 600.0,
             spread: 0.25,
             ..Protocol::new(self.coordinate, level, self.half_width, 0.1)
         };
-        let sensor = Sensor { delay_s: 0.1, quantum: self.quantum, noise: 0.0 };
+        let sensor = Sensor { delay_s: 0.1, quantum: self.quantum, noise: 0.5 * self.quantum };
         let pool = Simulation::new(vehicle.clone(), thrusters, 0.01, State::at_rest()).unwrap();
-        let run = Trial::new(self.axis, protocol, sensor).unwrap().run(pool, commands, |_, _| pull).unwrap();
+        let run = Trial::new(self.axis, protocol, sensor)
+            .unwrap()
+            .with_seed((1000.0 * (level + tether)) as u64)
+            .run(pool, commands, |_, _| pull)
+            .unwrap();
         assert_eq!(run.experiment.phase(), Phase::Done, "{:?} at {level}", self.axis);
         run
     }
@@ -139,7 +145,11 @@ fn every_axis_is_identified_within_five_percent() {
 fn uncoupled() -> Vehicle {
     let pool = *pool_vehicle().unwrap().parameters();
     let added_mass = Matrix6::from_diagonal(&pool.added_mass.diagonal());
-    Vehicle::new(VehicleParameters { added_mass, centre_of_gravity_m: Vector3::zeros(), ..pool }).unwrap()
+    let middle = Vector3::zeros();
+    let buoyancy_n = pool.mass_kg * STANDARD_GRAVITY;
+    let centred =
+        VehicleParameters { added_mass, centre_of_gravity_m: middle, centre_of_buoyancy_m: middle, buoyancy_n, ..pool };
+    Vehicle::new(centred).unwrap()
 }
 
 /// 95 % intervals cover the truth about as often as they say, over experiments under different tethers. Errors of an integrated
@@ -202,7 +212,7 @@ fn a_trial_refuses_what_does_not_fit() {
     let still = |_: f64, _: &State| Ok(vec![0.0; 3]);
     let calm = |_: f64, _: &State| Vector6::zeros();
     assert!(Trial::new(Axis::Heave, protocol, compass).is_err());
-    assert!(Trial::new(Axis::Yaw, protocol, Sensor { noise: 0.1, ..compass }).is_err());
+    assert!(Trial::new(Axis::Yaw, protocol, Sensor { noise: -0.1, ..compass }).is_err());
     assert!(Trial::new(Axis::Yaw, protocol, Sensor { delay_s: -0.1, ..compass }).is_err());
     let odd = Trial::new(Axis::Yaw, Protocol { interval_s: 0.105, ..protocol }, compass).unwrap();
     assert!(matches!(odd.run(pool(0.01), still, calm), Err(VehicleError::OutOfDomain { .. })));
