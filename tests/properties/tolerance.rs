@@ -157,3 +157,12 @@ pub(crate) const HALF_PERIOD_ROUNDING: f64 = 1e-11;
 /// A matrix exponential by diagonalisation in floating point, relative to entries of order one: the basis has entries
 /// up to two, and `exp(3)` is 20.
 pub(crate) const MATRIX_EXPONENTIAL: f64 = 1e-13;
+/// A heading about a reference of up to two turns against the plain number: rounding of 720.
+pub(crate) const WRAPPED: f64 = 1e-11;
+
+/// Inertia identified in single precision against double: features to 1e-5, in times of some tens of seconds, and the
+/// condition of the inversion.
+pub(crate) const SINGLE_EXPERIMENT: f64 = 2e-3;
+
+/// Inertia identified from a few cycles at some thirty samples each, relay levels read up to a sample late.
+pub(crate) const SLOW_MODEL: f64 = 0.06;
