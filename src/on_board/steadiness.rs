@@ -2,11 +2,8 @@
 
 use super::Protocol;
 use super::supervisor::{Observation, Observer};
-use crate::describing::DescribingError;
 use crate::features::{Cycle, Cycles, Features, Summary};
-use crate::identify::IdentifyError;
-use crate::identify::iso::Oscillation;
-use crate::nonlinearity::NonlinearityError;
+use crate::nonlinearity::{PiecewiseLinear, RelayHysteresis, Sinusoid};
 use crate::numeric::Scalar;
 
 /// Finds cycles and compares them.
@@ -72,12 +69,12 @@ impl<T: Scalar> Observer<T> for Judge<'_, T> {
             return Observation::Unsteady;
         }
         let Some(features) = self.steadiness.features() else { return Observation::Unsteady };
-        match Oscillation::of(&features, self.relay_level, T::zero()).describing_function() {
-            Ok(_) => Observation::Steady,
-            Err(IdentifyError::Describing(DescribingError::Nonlinearity(NonlinearityError::BelowSwitching {
-                ..
-            }))) => Observation::Condition40,
-            Err(_) => Observation::Unsteady,
+        let relay = RelayHysteresis::new(self.relay_level, features.switch_level.mean, T::zero());
+        let sweep = Sinusoid::new(features.bias.mean, features.amplitude.mean);
+        match (relay, sweep) {
+            (Ok(relay), Ok(sweep)) if relay.periodic(&sweep).is_ok() => Observation::Steady,
+            (Ok(_), Ok(_)) => Observation::Condition40,
+            _ => Observation::Unsteady,
         }
     }
 }
