@@ -55,7 +55,7 @@ impl<T: Scalar> Sensor<T> {
         if !(change.abs() <= limit) {
             return Err(Fault::Jump { change: change.value(), limit: limit.value() });
         }
-        let moved = reading < self.reading || reading > self.reading;
+        let moved = reading != self.reading;
         let changed_s = if moved { time_s } else { self.changed_s };
         let unchanged_s = time_s - changed_s;
         if unchanged_s > protocol.unchanged_s {

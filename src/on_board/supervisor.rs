@@ -174,7 +174,7 @@ impl<T: Scalar> Supervisor<T> {
         }
         let before = self.relay.output();
         let command = self.relay.step(self.protocol.reference - sensor.position());
-        if command < before || command > before {
+        if command != before {
             self.switched_s = time_s;
         }
         match observer.sample(time_s, sensor.position(), command) {
