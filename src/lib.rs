@@ -25,6 +25,8 @@ pub mod identify;
 #[cfg(feature = "std")]
 pub mod select;
 
+pub mod on_board;
+
 pub mod vehicle;
 
 pub mod control;

@@ -15,7 +15,9 @@ pub mod experiment;
 pub mod fourier;
 pub mod identification;
 pub mod kernels;
+mod machine;
 pub mod method_bias;
+pub mod on_board;
 pub mod orbit_proofs;
 pub mod orbits;
 pub mod proof;
@@ -97,6 +99,11 @@ macro_rules! for_each_claim {
             control::POLE_PLACEMENT,
             control::DELAY_MARGIN,
             control::RELAY_ULTIMATE,
+            on_board::ON_BOARD_ENDS,
+            on_board::ON_BOARD_SWITCHES,
+            on_board::ON_BOARD_ABORT,
+            on_board::ON_BOARD_LIMITS,
+            on_board::ON_BOARD_FAULTS,
         }
     };
 }

@@ -28,6 +28,13 @@ pub enum Evidence {
         /// Boxes the domain was divided into.
         boxes: usize,
     },
+    /// Every case of a finite domain was tried: true of each of them, and said of nothing else.
+    Exhausted {
+        /// The domain, in words and numbers.
+        domain: String,
+        /// States reached, all of them.
+        states: usize,
+    },
     /// True of every case drawn. Says nothing of the cases not drawn.
     Sampled {
         /// Cases drawn that meet the hypotheses.
@@ -48,7 +55,12 @@ impl Evidence {
                 let domain = if a == b { a } else { format!("{a}; {b}") };
                 Self::Proved { domain, bound: m.max(n), boxes: i + j }
             }
-            (sampled @ Self::Sampled { .. }, _) | (_, sampled) => sampled,
+            (Self::Exhausted { domain: a, states: i }, Self::Exhausted { domain: b, states: j }) => {
+                let domain = if a == b { a } else { format!("{a}; {b}") };
+                Self::Exhausted { domain, states: i + j }
+            }
+            (sampled @ Self::Sampled { .. }, _) | (_, sampled @ Self::Sampled { .. }) => sampled,
+            (exhausted @ Self::Exhausted { .. }, _) | (_, exhausted) => exhausted,
         }
     }
 }
@@ -89,7 +101,7 @@ impl Verdict {
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
-            Self::Holds(Evidence::Proved { .. }) => "proved",
+            Self::Holds(Evidence::Proved { .. } | Evidence::Exhausted { .. }) => "proved",
             Self::Holds(Evidence::Sampled { .. }) => "sampled",
             Self::Refuted(_) => "refuted",
             Self::Undecided { .. } => "undecided",

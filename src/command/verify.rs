@@ -108,6 +108,7 @@ fn evidence(finding: &Finding) -> String {
         Some(Verdict::Holds(Evidence::Proved { domain, bound, boxes })) => {
             format!("{domain}: bound {bound:.1e}, {boxes} boxes")
         }
+        Some(Verdict::Holds(Evidence::Exhausted { domain, states })) => format!("{domain}: all {states} states"),
         Some(Verdict::Holds(Evidence::Sampled { cases, margin })) => format!("{cases} cases, margin {margin:.2}"),
         Some(Verdict::Refuted(witness)) => format!("refuted by {witness}"),
         Some(Verdict::Undecided { spent }) => spent.clone(),
@@ -147,6 +148,7 @@ fn document(findings: &[(&Claim, Finding)]) -> Value {
         let (cases, margin) = match carrying(finding) {
             Some(Verdict::Holds(Evidence::Sampled { cases, margin })) => (json!(cases), json!(margin)),
             Some(Verdict::Holds(Evidence::Proved { boxes, bound, .. })) => (json!(boxes), json!(bound)),
+            Some(Verdict::Holds(Evidence::Exhausted { states, .. })) => (json!(states), Value::Null),
             _ => (Value::Null, Value::Null),
         };
         let witness = [&finding.printed, &finding.corrected].into_iter().flatten().find_map(|verdict| match verdict {

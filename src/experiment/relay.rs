@@ -26,6 +26,11 @@ impl<T: Scalar> Relay<T> {
         Self { characteristic, high }
     }
 
+    /// The characteristic: levels and half-width.
+    pub fn characteristic(&self) -> &RelayHysteresis<T> {
+        &self.characteristic
+    }
+
     /// Output after the input has become `input`: high from `half_width` upwards, low from `-half_width` downwards, else as
     /// it was. An input that is not a number changes nothing.
     pub fn step(&mut self, input: T) -> T {

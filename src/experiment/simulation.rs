@@ -152,7 +152,8 @@ impl Experiment {
 }
 
 impl Sensor {
-    fn read(&self, value: f64) -> f64 {
+    /// The reading of a value, rounded.
+    pub(crate) fn read(&self, value: f64) -> f64 {
         if self.quantum > 0.0 { (value / self.quantum).round() * self.quantum } else { value }
     }
 }

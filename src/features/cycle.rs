@@ -1,6 +1,6 @@
 //! Cycles of a relay experiment, found sample by sample.
 
-use super::peak::Peak;
+use super::peak::{Peak, Recent};
 use crate::numeric::Scalar;
 
 /// One cycle: from one change of the command to positive to the next.
@@ -66,25 +66,27 @@ pub struct Cycles<S> {
     begin: Option<S>,
     /// Change to negative: time and level.
     change: Option<(S, S)>,
+    recent: Recent<S>,
     maximum: Peak<S>,
     minimum: Peak<S>,
     switchings: u32,
-    last_change_s: Option<S>,
+    /// Valid once there was a switching.
+    last_change_s: S,
 }
 
 impl<S: Scalar> Cycles<S> {
     /// Commands above `threshold` are positive, others negative: give the middle of the relay's two levels.
     pub fn new(threshold: S) -> Self {
-        let peak = Peak::new(S::zero());
         Self {
             threshold,
             positive: None,
             begin: None,
             change: None,
-            maximum: peak,
-            minimum: peak,
+            recent: Recent::new(),
+            maximum: Peak::new(),
+            minimum: Peak::new(),
             switchings: 0,
-            last_change_s: None,
+            last_change_s: S::zero(),
         }
     }
 
@@ -95,7 +97,7 @@ impl<S: Scalar> Cycles<S> {
 
     /// Time of the last change of the command, in s.
     pub fn last_change_s(&self) -> Option<S> {
-        self.last_change_s
+        (self.switchings > 0).then_some(self.last_change_s)
     }
 
     /// Takes the next sample; the cycle that it completes, if it does.
@@ -109,20 +111,21 @@ impl<S: Scalar> Cycles<S> {
         let mut complete = None;
         if changed {
             self.switchings += 1;
-            self.last_change_s = Some(time_s);
+            self.last_change_s = time_s;
             if positive {
                 complete = self.complete(time_s, output);
                 self.begin = Some(time_s);
                 self.change = None;
                 // The positive command lasts from the upswing's beginning: the minimum lies after its start.
-                self.minimum = Peak::new(time_s);
+                self.minimum = Peak::new();
             } else {
                 self.change = Some((time_s, output));
-                self.maximum = Peak::new(time_s);
+                self.maximum = Peak::new();
             }
         }
-        self.maximum.push(time_s, output);
-        self.minimum.push(time_s, -output);
+        self.recent.push(time_s, output);
+        self.maximum.push(&self.recent, S::one());
+        self.minimum.push(&self.recent, -S::one());
         complete
     }
 
@@ -132,10 +135,6 @@ impl<S: Scalar> Cycles<S> {
         let period_s = time_s - begin_s;
         // A parabola is true to a sinusoid's peak for about a twelfth of the period on either side.
         let reach = period_s / S::from_f64(12.0);
-        let after = |peak: &Peak<S>, from: S| peak.began() >= from;
-        if !(after(&self.maximum, begin_s) && after(&self.minimum, begin_s)) {
-            return None;
-        }
         Some(Cycle {
             begin_s,
             period_s,

@@ -6,59 +6,70 @@ use crate::numeric::Scalar;
 const REACH: usize = 4;
 const WINDOW: usize = 2 * REACH + 1;
 
+/// The last samples: time and value, the newest at the end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Recent<S>([(S, S); REACH + 1]);
+
+impl<S: Scalar> Recent<S> {
+    pub(super) fn new() -> Self {
+        Self([(S::zero(), S::zero()); REACH + 1])
+    }
+
+    pub(super) fn push(&mut self, time: S, value: S) {
+        self.0.rotate_left(1);
+        self.0[REACH] = (time, value);
+    }
+}
+
 /// The largest value of a sampled signal, interpolated by the parabola of least squares through its neighbours.
 ///
 /// Up to four samples on either side take part, as far as they lie within `share` of the time since the search began: so
 /// that noise and rounding average out where the sampling is fast, and a slowly sampled peak keeps its shape.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Peak<S> {
-    recent: [(S, S); WINDOW],
-    count: usize,
     around: [(S, S); WINDOW],
+    largest: S,
+    /// Samples since the search began, as far as they are remembered.
+    count: u8,
     /// Index of the largest sample in `around`, and number of valid ones; zero valid ones before the first sample.
-    top: usize,
-    valid: usize,
-    largest: Option<S>,
-    began: S,
+    top: u8,
+    valid: u8,
 }
 
 impl<S: Scalar> Peak<S> {
-    pub(super) fn new(began: S) -> Self {
-        let empty = [(S::zero(), S::zero()); WINDOW];
-        Self { recent: empty, count: 0, around: empty, top: 0, valid: 0, largest: None, began }
+    pub(super) fn new() -> Self {
+        Self { around: [(S::zero(), S::zero()); WINDOW], largest: S::zero(), count: 0, top: 0, valid: 0 }
     }
 
-    pub(super) fn push(&mut self, time: S, value: S) {
-        self.recent.rotate_left(1);
-        self.recent[WINDOW - 1] = (time, value);
-        self.count = (self.count + 1).min(WINDOW);
-        if self.largest.is_none_or(|largest| value > largest) {
-            self.largest = Some(value);
-            let before = (self.count - 1).min(REACH);
-            self.around[..=before].copy_from_slice(&self.recent[WINDOW - 1 - before..]);
-            (self.top, self.valid) = (before, before + 1);
-        } else if self.valid > 0 && self.valid <= self.top + REACH {
-            self.around[self.valid] = (time, value);
+    /// Takes the newest of the recent samples, times `sign`.
+    pub(super) fn push(&mut self, recent: &Recent<S>, sign: S) {
+        let signed = |(time, value): (S, S)| (time, sign * value);
+        let newest = signed(recent.0[REACH]);
+        self.count = (self.count + 1).min(WINDOW as u8);
+        let valid = usize::from(self.valid);
+        if valid == 0 || newest.1 > self.largest {
+            self.largest = newest.1;
+            let before = usize::from(self.count - 1).min(REACH);
+            for (place, sample) in self.around.iter_mut().zip(&recent.0[REACH - before..]) {
+                *place = signed(*sample);
+            }
+            (self.top, self.valid) = (before as u8, before as u8 + 1);
+        } else if valid <= usize::from(self.top) + REACH {
+            self.around[valid] = newest;
             self.valid += 1;
         }
     }
 
     /// Value of the peak; `None` before the first sample. Samples further than `reach_s` from the largest are left out.
     pub(super) fn value(&self, reach_s: S) -> Option<S> {
-        let largest = self.largest?;
-        let samples = &self.around[..self.valid];
-        let origin = samples[self.top].0;
+        let (top, valid) = (usize::from(self.top), usize::from(self.valid));
+        let samples = &self.around[..valid];
+        let origin = samples.get(top)?.0;
         let near = |index: &usize| (samples[*index].0 - origin).abs() <= reach_s;
         // The nearest neighbours always count.
-        let first = (0..self.top).find(near).unwrap_or(self.top).min(self.top.saturating_sub(1));
-        let last =
-            (self.top + 1..self.valid).rev().find(near).unwrap_or(self.top).max((self.top + 1).min(self.valid - 1));
-        Some(vertex(&samples[first..=last], largest).unwrap_or(largest))
-    }
-
-    /// When the search began.
-    pub(super) fn began(&self) -> S {
-        self.began
+        let first = (0..top).find(near).unwrap_or(top).min(top.saturating_sub(1));
+        let last = (top + 1..valid).rev().find(near).unwrap_or(top).max((top + 1).min(valid - 1));
+        Some(vertex(&samples[first..=last], self.largest).unwrap_or(self.largest))
     }
 }
 

@@ -68,8 +68,10 @@ impl<S: Scalar> Moments<S> {
 pub struct Summary<S> {
     cycles: u32,
     start_up: u32,
-    previous: Option<Cycle<S>>,
-    first: Option<Cycle<S>>,
+    /// Amplitude and period of the cycle before.
+    previous: Option<[S; 2]>,
+    /// Amplitude and middle of the first steady cycle.
+    first: Option<[S; 2]>,
     /// Amplitude, bias, reference, period, level, time positive, time negative.
     moments: [Moments<S>; 7],
     /// Sums for the slopes of ln(amplitude) and of the middle over the cycle's number.
@@ -129,15 +131,16 @@ impl<S: Scalar> Summary<S> {
     /// Takes the next cycle.
     pub fn push(&mut self, cycle: Cycle<S>) {
         let alike = |a: S, b: S| (a - b).abs() <= S::from_f64(Self::STEADY) * a.abs();
-        let steady = self.previous.is_some_and(|before| {
-            alike(before.amplitude(), cycle.amplitude()) && alike(before.period_s, cycle.period_s)
+        let steady = self.previous.is_some_and(|[amplitude, period_s]| {
+            alike(amplitude, cycle.amplitude()) && alike(period_s, cycle.period_s)
         });
-        self.previous = Some(cycle);
+        self.previous = Some([cycle.amplitude(), cycle.period_s]);
         if self.cycles == 0 && !steady {
             self.start_up += 1;
             return;
         }
-        let first = *self.first.get_or_insert(cycle);
+        let middle = (cycle.maximum + cycle.minimum) / S::two();
+        let [first_amplitude, first_middle] = *self.first.get_or_insert([cycle.amplitude(), middle]);
         let number = S::from_f64(f64::from(self.cycles));
         self.cycles += 1;
         let count = number + S::one();
@@ -154,10 +157,9 @@ impl<S: Scalar> Summary<S> {
             moments.push(value, count);
         }
         // Relative to the first cycle, so that sums of squares do not cancel.
-        let growth = (cycle.amplitude() / first.amplitude()).ln();
-        let middle = |cycle: &Cycle<S>| (cycle.maximum + cycle.minimum) / S::two();
+        let growth = (cycle.amplitude() / first_amplitude).ln();
         self.trends[0].push(growth, number);
-        self.trends[1].push((middle(&cycle) - middle(&first)) / first.amplitude(), number);
+        self.trends[1].push((middle - first_middle) / first_amplitude, number);
     }
 
     /// Steady cycles so far.

@@ -17,6 +17,7 @@
 //! | `dynamics` | six degrees of freedom | eq. 5 |
 //! | `simulation` | the same in time, with thrusters and delays | eq. 5 |
 //! | `reduction` | uncoupled axes and what they neglect | eq. 6, Table 2 |
+//! | `trial` | the experiment on board, carried out on all this | eqs. 36, 43, 44 |
 //! | `pool_vehicle` | a small inspection vehicle to try all this on | |
 
 mod allocation;
@@ -38,6 +39,8 @@ mod simulation;
 mod thruster;
 #[cfg(feature = "std")]
 mod thruster_map;
+#[cfg(feature = "std")]
+mod trial;
 
 pub use allocation::Allocation;
 pub use bilinear_thruster::BilinearThruster;
@@ -58,3 +61,5 @@ pub use simulation::{MountedThruster, Simulation, State};
 pub use thruster::{Delivered, ThrustSide, Thruster};
 #[cfg(feature = "std")]
 pub use thruster_map::{DynamometerPoint, FittedSide, ThrusterMap};
+#[cfg(feature = "std")]
+pub use trial::{Trial, TrialRun};

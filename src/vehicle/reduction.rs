@@ -3,6 +3,7 @@
 use nalgebra::{Matrix6, UnitQuaternion, Vector6};
 
 use super::{Vehicle, coriolis};
+use crate::plant::{DragAxis, PlantError};
 
 /// An axis that is identified on its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,6 +45,18 @@ pub struct AxisParameters {
     pub quadratic_drag: f64,
     /// Constant force: N, or N m; weight minus buoyancy is part of it in heave.
     pub disturbance: f64,
+}
+
+impl TryFrom<AxisParameters> for DragAxis<f64> {
+    type Error = PlantError;
+
+    /// The axis as a plant, without delay.
+    ///
+    /// # Errors
+    /// Those of [`DragAxis::mixed`].
+    fn try_from(axis: AxisParameters) -> Result<Self, PlantError> {
+        Self::mixed(axis.alpha, axis.linear_drag, axis.quadratic_drag)?.with_disturbance(axis.disturbance)
+    }
 }
 
 /// A motion at one instant, for which [`Neglected`] is asked.

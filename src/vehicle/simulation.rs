@@ -132,6 +132,12 @@ impl Simulation {
         &self.state
     }
 
+    /// The integration step, s.
+    #[must_use]
+    pub fn step_s(&self) -> f64 {
+        self.step_s
+    }
+
     /// Time since the start, s.
     #[must_use]
     pub fn time_s(&self) -> f64 {

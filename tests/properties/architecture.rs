@@ -13,6 +13,7 @@ const ORDER: &[&[&str]] = &[
     &["features"],
     &["identify"],
     &["select"],
+    &["on_board"],
     &["vehicle"],
     &["control"],
     &["claims", "paper"],

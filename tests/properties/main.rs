@@ -24,6 +24,7 @@ mod interval;
 mod laws;
 mod method_bias;
 mod motion_drag_axis;
+mod on_board;
 mod oracle;
 mod orbit_certified;
 mod orbit_drag_axis;

@@ -169,3 +169,12 @@ pub(crate) const DOUBLE_POLE: f64 = 1e-3;
 
 /// A percentage printed with one decimal.
 pub(crate) const PRINTED_TENTH: f64 = 0.06;
+/// A heading about a reference of up to two turns against the plain number: rounding of 720.
+pub(crate) const WRAPPED: f64 = 1e-11;
+
+/// Inertia identified in single precision against double: features to 1e-5, in times of some tens of seconds, and the
+/// condition of the inversion.
+pub(crate) const SINGLE_EXPERIMENT: f64 = 2e-3;
+
+/// Inertia identified from a few cycles at some thirty samples each, relay levels read up to a sample late.
+pub(crate) const SLOW_MODEL: f64 = 0.06;

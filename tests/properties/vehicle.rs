@@ -8,6 +8,7 @@ mod reduction;
 mod simulation;
 mod thruster;
 mod thruster_map;
+mod trial;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 

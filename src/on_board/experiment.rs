@@ -1,0 +1,102 @@
+//! The experiment as the vehicle calls it.
+
+use super::steadiness::{Judge, Steadiness};
+use super::supervisor::Supervisor;
+use super::{Outcome, Phase, Protocol, ProtocolError, Step};
+use crate::numeric::Scalar;
+
+/// A relay experiment that runs sample by sample.
+///
+/// Less than 1 KiB in f64, without allocation. Each call takes a bounded time: a fixed number of operations, some two hundred
+/// more where a cycle ends. In f32 let the clock start near zero.
+///
+/// ```
+/// use selfosc::on_board::{Coordinate, Experiment, Phase, Protocol};
+/// use selfosc::plant::{DragAxis, State};
+/// // A vehicle in simulation: heading in rad, torque in N m.
+/// let axis = DragAxis::linear(0.04, 0.03)?;
+/// let mut state = State { position: 0.0, velocity: 0.0 };
+/// let mut experiment = Experiment::new(Protocol::new(Coordinate::HeadingRad, 0.02, 0.2, 0.05))?;
+/// for sample in 0..4000 {
+///     let step = experiment.step(state.position, 0.05 * f64::from(sample));
+///     if step.phase != Phase::Running {
+///         break;
+///     }
+///     state = axis.advance(state, step.command, 0.05);
+/// }
+/// let outcome = experiment.outcome().ok_or("not done")?;
+/// // The command is held, for half an interval on average.
+/// let found = outcome.exact(selfosc::identify::DragLaw::Linear, 0.0)?;
+/// assert!((found.alpha() / 0.04 - 1.0).abs() < 0.05);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Experiment<T> {
+    supervisor: Supervisor<T>,
+    steadiness: Steadiness<T>,
+}
+
+impl<T: Scalar> Experiment<T> {
+    /// An experiment that starts with its first sample.
+    ///
+    /// # Errors
+    /// [`ProtocolError`] that names the number of the protocol that is outside its domain.
+    pub fn new(protocol: Protocol<T>) -> Result<Self, ProtocolError> {
+        Ok(Self { supervisor: Supervisor::new(protocol)?, steadiness: Steadiness::new(&protocol) })
+    }
+
+    /// Takes a reading and its time in s; the command to give now.
+    ///
+    /// Any values at all may come: what a sound sensor and clock cannot have said is a fault, upon which, as after the end and
+    /// after an abort, the command is neutral until [`restart`](Self::restart).
+    pub fn step(&mut self, reading: T, time_s: T) -> Step<T> {
+        let protocol = *self.supervisor.protocol();
+        let relay_level = self.supervisor.relay_level();
+        self.supervisor.step(reading, time_s, &mut Judge { steadiness: &mut self.steadiness, protocol, relay_level })
+    }
+
+    /// Stops a running experiment: the command is neutral from now on. An end or a fault stays what it is.
+    pub fn abort(&mut self) {
+        self.supervisor.abort();
+    }
+
+    /// Begins anew, with the relay parameters of the first attempt and the next sample.
+    ///
+    /// # Errors
+    /// None in practice: the protocol was accepted before.
+    pub fn restart(&mut self) -> Result<(), ProtocolError> {
+        *self = Self::new(*self.supervisor.protocol())?;
+        Ok(())
+    }
+
+    /// The command that holds now: neutral unless running.
+    pub fn command(&self) -> T {
+        self.supervisor.command()
+    }
+
+    /// Where it stands.
+    pub fn phase(&self) -> Phase {
+        self.supervisor.phase()
+    }
+
+    /// The coordinate that the relay sees: a heading without its jumps, the integral of a speed. `None` before the first
+    /// sample.
+    pub fn position(&self) -> Option<T> {
+        self.supervisor.position()
+    }
+
+    /// Attempt under way, or the last one: 1, 2, ...
+    pub fn attempt(&self) -> u8 {
+        self.supervisor.attempt()
+    }
+
+    /// What was found, once the experiment is [`Done`](Phase::Done).
+    pub fn outcome(&self) -> Option<Outcome<T>> {
+        let supervisor = &self.supervisor;
+        let features = self.steadiness.features().filter(|_| supervisor.phase() == Phase::Done)?;
+        Some(Outcome::new(features, supervisor.relay_level(), supervisor.half_width(), supervisor.attempt()))
+    }
+}
+
+/// What a microcontroller has to keep, limits and settings included.
+const _: () = assert!(core::mem::size_of::<Experiment<f64>>() < 1024);

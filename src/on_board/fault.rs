@@ -1,0 +1,110 @@
+//! Why an experiment was not accepted, or was broken off.
+
+/// A protocol with a number outside its domain.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{setting} = {value} must be {required}; change the protocol")]
+pub struct ProtocolError {
+    /// Name and unit of the setting.
+    pub setting: &'static str,
+    /// The value given.
+    pub value: f64,
+    /// What it has to be.
+    pub required: &'static str,
+}
+
+/// Why a running experiment was broken off. Values are in the units of the [`Protocol`](super::Protocol), as f64 whatever the arithmetic.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Fault {
+    /// A reading or a time that is no number.
+    #[error("{quantity} = {value}, a finite number needed; check the sensor's driver")]
+    NotFinite {
+        /// Reading, time, or the integral of the readings.
+        quantity: &'static str,
+        /// The value.
+        value: f64,
+    },
+    /// A time that is not after the one before.
+    #[error("time {time_s} s after {previous_s} s; samples must be in order and each given once")]
+    TimeOrder {
+        /// Time of this sample.
+        time_s: f64,
+        /// Time of the one before.
+        previous_s: f64,
+    },
+    /// No sample for too long.
+    #[error("{gap_s} s without a sample, limit {limit_s} s; speed up the loop or plan a longer interval")]
+    Gap {
+        /// Time between two samples.
+        gap_s: f64,
+        /// The limit.
+        limit_s: f64,
+    },
+    /// A reading further from the one before than the vehicle can have moved.
+    #[error("the reading jumped by {change}, limit {limit}; check the sensor or allow a higher rate")]
+    Jump {
+        /// Change of the reading, for a heading the short way round.
+        change: f64,
+        /// The limit over this interval.
+        limit: f64,
+    },
+    /// A reading that does not move.
+    #[error(
+        "the reading is {reading} for {unchanged_s} s under a relay that drives; check the sensor and the thrusters"
+    )]
+    Stuck {
+        /// The reading.
+        reading: f64,
+        /// For how long it has not changed.
+        unchanged_s: f64,
+    },
+    /// The relay did not switch, in the last attempt either.
+    #[error(
+        "no switching at relay level {relay_level}; it does not overcome the disturbance: raise the limits or trim"
+    )]
+    NoOscillation {
+        /// Level of the last attempt.
+        relay_level: f64,
+    },
+    /// The cycles did not repeat, in the last attempt either.
+    #[error("cycles not alike at half-width {half_width}; allow more cycles or a larger spread, or quieten the water")]
+    NotConverged {
+        /// Half-width of the last attempt.
+        half_width: f64,
+    },
+    /// Condition 40 was not met, in the last attempt either.
+    #[error(
+        "x_a + |x_0| above X_m (condition 40) at relay level {relay_level}, half-width {half_width}; trim or raise the \
+         limits"
+    )]
+    Condition40 {
+        /// Level of the last attempt.
+        relay_level: f64,
+        /// Half-width of the last attempt.
+        half_width: f64,
+    },
+    /// The whole experiment took too long.
+    #[error("not done after {duration_s} s; plan for longer or for fewer attempts")]
+    Overtime {
+        /// The time planned.
+        duration_s: f64,
+    },
+}
+
+impl Fault {
+    /// Short name for telemetry; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NotFinite { .. } => "not-finite",
+            Self::TimeOrder { .. } => "time-order",
+            Self::Gap { .. } => "gap",
+            Self::Jump { .. } => "jump",
+            Self::Stuck { .. } => "stuck",
+            Self::NoOscillation { .. } => "no-oscillation",
+            Self::NotConverged { .. } => "not-converged",
+            Self::Condition40 { .. } => "condition-40",
+            Self::Overtime { .. } => "overtime",
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! The experiment on board, carried out on the model with six degrees of freedom.
+
+use std::collections::VecDeque;
+
+use nalgebra::{Matrix4, Vector4, Vector6};
+use rand::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64Mcg;
+
+use super::error::checked;
+use super::{Axis, AxisParameters, Motion, Simulation, State, Vehicle, VehicleError};
+use crate::experiment::{Record, Sensor};
+use crate::on_board::{Coordinate, Experiment, Phase, Protocol};
+
+/// A relay experiment on one axis of a simulated vehicle: yaw by its heading (eq. 36), heave by its depth (eq. 43), surge and
+/// sway by the integral of their speed (eq. 44).
+///
+/// ```
+/// # use selfosc::vehicle::{Allocation, Axis, Compensation, Simulation, State, Trial, pool_thrusters, pool_vehicle};
+/// # use nalgebra::Vector6;
+/// use selfosc::experiment::Sensor;
+/// use selfosc::identify::DragLaw;
+/// use selfosc::on_board::{Coordinate, Protocol};
+/// let thrusters = pool_thrusters()?;
+/// let pair = [*thrusters[0].thruster(), *thrusters[1].thruster()];
+/// let chain = Compensation::new(Allocation::pair(0.08)?, pair);
+/// // A compass of one degree, read 0.1 s late; the thrusters are 0.1 s late too.
+/// let compass = Sensor { delay_s: 0.1, quantum: 1f64.to_radians(), noise: 0.0 };
+/// let protocol = Protocol { resolution: compass.quantum, ..Protocol::new(Coordinate::HeadingRad, 0.06, 0.3, 0.1) };
+/// let pool = Simulation::new(pool_vehicle()?, thrusters.to_vec(), 0.01, State::at_rest())?;
+/// let run = Trial::new(Axis::Yaw, protocol, compass)?.run(
+///     pool,
+///     |moment, _| chain.commands(&[0.0, moment]).map(|[port, starboard]| vec![port, starboard, 0.0]),
+///     |_, _| Vector6::zeros(),
+/// )?;
+/// let outcome = run.experiment.outcome().ok_or("not done")?;
+/// let truth = pool_vehicle()?.axis(Axis::Yaw, &Vector6::zeros());
+/// assert!((outcome.exact(DragLaw::Quadratic, 0.2)?.alpha() / truth.alpha - 1.0).abs() < 0.1);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trial {
+    axis: Axis,
+    protocol: Protocol<f64>,
+    sensor: Sensor,
+    seed: u64,
+}
+
+/// What a trial left behind.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct TrialRun {
+    /// The experiment as it ended.
+    pub experiment: Experiment<f64>,
+    /// What the relay saw, and the force (moment) that it asked for on the axis.
+    pub time_s: Vec<f64>,
+    /// Coordinate that the relay saw: heading without jumps, depth, integrated speed.
+    pub position: Vec<f64>,
+    /// Force or moment asked for on the axis.
+    pub force: Vec<f64>,
+    /// The vehicle's true state at each sample.
+    pub states: Vec<State>,
+}
+
+impl TrialRun {
+    /// The samples as a record.
+    ///
+    /// # Errors
+    /// Those of [`Record::new`]: too few samples.
+    pub fn record(&self) -> Result<Record, crate::experiment::ExperimentError> {
+        Record::new(self.time_s.clone(), self.position.clone(), self.force.clone())
+    }
+
+    /// What the terms that the uncoupled axis neglects add to its parameters, in least squares along this motion: an
+    /// identification that sees this axis alone finds [`Vehicle::axis`] plus this. Disturbances are not in it.
+    ///
+    /// Accelerations are central differences of the samples. What the four parameters cannot absorb is left out.
+    ///
+    /// # Errors
+    /// [`VehicleError::RankDeficient`] for a motion too short or too simple to tell the four apart.
+    pub fn absorbed(&self, vehicle: &Vehicle, axis: Axis) -> Result<AxisParameters, VehicleError> {
+        let i = axis.index();
+        let (mut normal, mut right) = (Matrix4::zeros(), Vector4::zeros());
+        for (states, times) in self.states.windows(3).zip(self.time_s.windows(3)) {
+            let nu = states[1].nu;
+            let nu_rate = (states[2].nu - states[0].nu) / (times[2] - times[0]);
+            let motion = Motion { attitude: states[1].pose.attitude, nu, nu_rate };
+            let row = Vector4::new(nu_rate[i], nu[i], nu[i] * nu[i].abs(), -1.0);
+            normal += row * row.transpose();
+            right += row * vehicle.neglected(axis, &motion).total();
+        }
+        let solved = normal.cholesky().map(|factor| factor.solve(&right)).ok_or(VehicleError::RankDeficient {
+            what: "the motion, as acceleration, speed, speed squared and one",
+            rank: 3,
+            needed: 4,
+        })?;
+        let [alpha, linear_drag, quadratic_drag, disturbance] = solved.into();
+        Ok(AxisParameters { alpha, linear_drag, quadratic_drag, disturbance })
+    }
+}
+
+impl Trial {
+    /// An experiment on an axis through a sensor of its coordinate (heading, depth) or of its speed (surge, sway), read every
+    /// `protocol.interval_s`.
+    ///
+    /// # Errors
+    /// A coordinate that is not the axis's own, a delay, step or noise of the sensor that is negative.
+    pub fn new(axis: Axis, protocol: Protocol<f64>, sensor: Sensor) -> Result<Self, VehicleError> {
+        let fits = match axis {
+            Axis::Yaw => matches!(protocol.coordinate, Coordinate::HeadingRad | Coordinate::HeadingDegrees),
+            Axis::Heave => protocol.coordinate == Coordinate::Position,
+            Axis::Surge | Axis::Sway => protocol.coordinate == Coordinate::Speed,
+        };
+        let number = axis.index() as f64;
+        checked("axis of the trial", "observed by heading (yaw), position (heave), speed (others)", number, |_| fits)?;
+        checked("sensor delay (s)", ">= 0", sensor.delay_s, |delay| delay >= 0.0)?;
+        checked("quantum of the sensor", ">= 0", sensor.quantum, |quantum| quantum >= 0.0)?;
+        checked("noise of the sensor", ">= 0", sensor.noise, |noise| noise >= 0.0)?;
+        Ok(Self { axis, protocol, sensor, seed: 0 })
+    }
+
+    /// The same trial with other noise.
+    #[must_use]
+    pub fn with_seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
+    }
+
+    /// Runs until the experiment has ended. `commands` turns a force (moment) on the axis into thruster commands, once for each
+    /// sample; by the state it may hold the other axes. `disturbance` is `tau_E` by time and state.
+    ///
+    /// # Errors
+    /// A protocol that is refused, a sampling interval or sensor delay that is not a whole number of the simulation's steps,
+    /// and whatever commands and simulation refuse.
+    pub fn run(
+        &self,
+        mut simulation: Simulation,
+        commands: impl Fn(f64, &State) -> Result<Vec<f64>, VehicleError>,
+        disturbance: impl Fn(f64, &State) -> Vector6<f64>,
+    ) -> Result<TrialRun, VehicleError> {
+        let steps = |quantity, time_s: f64| {
+            let steps = time_s / simulation.step_s();
+            let whole = |s: f64| (s - s.round()).abs() < 1e-6;
+            checked(quantity, "a whole number of integration steps", steps, whole).map(|s| s.round() as usize)
+        };
+        let each = steps("sampling interval in integration steps", self.protocol.interval_s)?.max(1);
+        let late = steps("sensor delay in integration steps", self.sensor.delay_s)?;
+        let experiment = Experiment::new(self.protocol).map_err(|refusal| VehicleError::OutOfDomain {
+            quantity: refusal.setting,
+            requirement: refusal.required,
+            value: refusal.value,
+        })?;
+        let mut run =
+            TrialRun { experiment, time_s: Vec::new(), position: Vec::new(), force: Vec::new(), states: Vec::new() };
+        let mut random = Pcg64Mcg::seed_from_u64(self.seed);
+        let mut under_way: VecDeque<f64> = std::iter::repeat_n(self.observe(simulation.state()), late + 1).collect();
+        loop {
+            let thrust = commands(run.experiment.command(), simulation.state())?;
+            for _ in 0..if run.time_s.is_empty() { 0 } else { each } {
+                let time_s = simulation.time_s();
+                simulation.step(&thrust, |state| disturbance(time_s, state))?;
+                under_way.push_back(self.observe(simulation.state()));
+                under_way.pop_front();
+            }
+            let time_s = simulation.time_s();
+            let force = run.experiment.command();
+            let noise: f64 = StandardNormal.sample(&mut random);
+            let step = run.experiment.step(self.sensor.read(under_way[0] + self.sensor.noise * noise), time_s);
+            run.time_s.push(time_s);
+            run.position.push(run.experiment.position().unwrap_or(self.protocol.reference));
+            run.states.push(*simulation.state());
+            if step.phase != Phase::Running {
+                // The neutral command after the end never acts on this record.
+                run.force.push(force);
+                return Ok(run);
+            }
+            run.force.push(step.command);
+        }
+    }
+
+    /// What the sensor is to measure.
+    fn observe(&self, state: &State) -> f64 {
+        match self.axis {
+            Axis::Yaw => {
+                let heading_rad = state.pose.attitude.euler_angles().2;
+                if self.protocol.coordinate == Coordinate::HeadingDegrees {
+                    heading_rad.to_degrees()
+                } else {
+                    heading_rad
+                }
+            }
+            Axis::Heave => state.pose.position_m.z,
+            Axis::Surge | Axis::Sway => state.nu[self.axis.index()],
+        }
+    }
+}

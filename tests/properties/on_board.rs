@@ -1,0 +1,377 @@
+//! The experiment on board: the same numbers as the record's, named faults, limits.
+
+use std::cell::Cell;
+use std::collections::{BTreeSet, VecDeque};
+
+use proptest::prelude::*;
+use selfosc::experiment::Record;
+use selfosc::features::RecordFeatures;
+use selfosc::identify::DragLaw;
+use selfosc::identify::exact::Cycle;
+use selfosc::identify::iso::Oscillation;
+use selfosc::numeric::Scalar;
+use selfosc::on_board::{Coordinate, Experiment, Fault, Outcome, Phase, Protocol};
+use selfosc::plant::{DragAxis, State};
+
+use crate::tolerance;
+
+const INTERVAL_S: f64 = 0.1;
+
+/// An axis in simulation, one delay of whole samples, seen through a sensor.
+struct Pool {
+    axis: DragAxis<f64>,
+    state: State<f64>,
+    pending: VecDeque<f64>,
+}
+
+impl Pool {
+    fn new(axis: DragAxis<f64>, late: usize) -> Self {
+        Self { axis, state: State { position: 0.0, velocity: 0.0 }, pending: std::iter::repeat_n(0.0, late).collect() }
+    }
+
+    fn advance(&mut self, command: f64) {
+        self.pending.push_back(command);
+        let acting = self.pending.pop_front().unwrap();
+        self.state = self.axis.advance(self.state, acting, INTERVAL_S);
+    }
+}
+
+/// What an experiment left behind.
+struct Run<T> {
+    experiment: Experiment<T>,
+    time_s: Vec<f64>,
+    position: Vec<f64>,
+    command: Vec<f64>,
+    /// Sample at which the last attempt began.
+    attempt_began: usize,
+}
+
+/// Runs until the experiment ends; `sensor` turns the state into a reading.
+fn run<T: Scalar>(protocol: Protocol<T>, mut pool: Pool, sensor: impl Fn(f64, &State<f64>) -> f64) -> Run<T> {
+    let experiment = Experiment::new(protocol).unwrap();
+    let mut run = Run { experiment, time_s: Vec::new(), position: Vec::new(), command: Vec::new(), attempt_began: 0 };
+    for sample in 0..20_000 {
+        let time_s = INTERVAL_S * f64::from(sample);
+        let attempt = run.experiment.attempt();
+        let before = run.experiment.command();
+        let step = run.experiment.step(T::from_f64(sensor(time_s, &pool.state)), T::from_f64(time_s));
+        assert!(step.command >= protocol.lowest_command && step.command <= protocol.highest_command);
+        // The last command of an experiment that has ended is neutral, and was not the relay's.
+        let command = if step.phase == Phase::Running { step.command } else { before };
+        run.time_s.push(time_s);
+        run.position.push(run.experiment.position().map_or(0.0, Scalar::value));
+        run.command.push(command.value());
+        if run.experiment.attempt() != attempt {
+            run.attempt_began = run.time_s.len();
+        }
+        if step.phase != Phase::Running {
+            assert_eq!(step.command.value(), protocol.neutral_command.value());
+            break;
+        }
+        pool.advance(step.command.value());
+    }
+    run
+}
+
+fn plain(_: f64, state: &State<f64>) -> f64 {
+    state.position
+}
+
+fn axis(drag: (f64, f64), disturbance: f64) -> DragAxis<f64> {
+    DragAxis::mixed(1.0, drag.0, drag.1).unwrap().with_disturbance(disturbance).unwrap()
+}
+
+fn protocol() -> Protocol<f64> {
+    Protocol { largest_rate: 20.0, ..Protocol::new(Coordinate::Position, 1.0, 0.5, INTERVAL_S) }
+}
+
+fn done<T: Scalar>(run: &Run<T>) -> Outcome<T> {
+    run.experiment.outcome().unwrap_or_else(|| panic!("{:?}", run.experiment.phase()))
+}
+
+fn fault<T: Scalar>(run: &Run<T>) -> Fault {
+    match run.experiment.phase() {
+        Phase::Failed(fault) => fault,
+        other => panic!("{other:?} after {:?} s", run.time_s.last()),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// The last attempt's samples as a record: the same features, and parameters, to the last bit.
+    #[test]
+    fn the_stream_agrees_with_the_batch(
+        linear in 0.1..1.0f64, quadratic in 0.0..1.0f64, disturbance in -0.4..0.4f64, late in 0usize..3,
+        quantum in prop_oneof![Just(0.0), 0.01..0.1f64],
+    ) {
+        let protocol = Protocol { resolution: quantum, ..protocol() };
+        let rounded = |_, state: &State<f64>| {
+            if quantum > 0.0 { (state.position / quantum).round() * quantum } else { state.position }
+        };
+        let run = run(protocol, Pool::new(axis((linear, quadratic), disturbance), late), rounded);
+        let outcome = done(&run);
+        // The relay's own last command: the sample that completes a cycle turns it positive.
+        let from = run.attempt_began;
+        let mut command = run.command[from..].to_vec();
+        *command.last_mut().unwrap() = outcome.relay_level;
+        let record = Record::new(run.time_s[from..].to_vec(), run.position[from..].to_vec(), command).unwrap();
+        let batch = RecordFeatures::of(&record).unwrap();
+        prop_assert_eq!(outcome.features, batch.features);
+        prop_assert_eq!(outcome.relay_level, batch.relay.level);
+        let delay_s = INTERVAL_S * late as f64;
+        let parameters = Oscillation::of(&batch.features, batch.relay.level, delay_s).identify();
+        prop_assert_eq!(outcome.iso(delay_s), parameters);
+        let cycle = Cycle::of(&batch.features, batch.relay.level, delay_s);
+        prop_assert_eq!(outcome.exact(DragLaw::Linear, delay_s), cycle.linear_drag());
+        prop_assert_eq!(outcome.exact(DragLaw::Quadratic, delay_s), cycle.quadratic_drag());
+    }
+}
+
+/// A square wave none of whose halves is as long as the one before.
+fn irregular(time_s: f64) -> f64 {
+    let (mut left, mut half) = (time_s, 0);
+    while left > 0.0 {
+        half += 1;
+        left -= 1.0 + 3.0 * (0.618 * f64::from(half)).fract();
+    }
+    if half % 2 == 0 { 1.0 } else { -1.0 }
+}
+
+/// One scenario for each fault, and no fault without one.
+#[test]
+fn every_fault_has_a_name() {
+    let calm = || Pool::new(axis((0.5, 0.0), 0.0), 1);
+    let broken =
+        |at: f64, what: f64| move |time_s: f64, state: &State<f64>| if time_s >= at { what } else { state.position };
+    let mut found = BTreeSet::new();
+    let mut expect = |code: &str, run: Run<f64>| {
+        assert_eq!(fault(&run).code(), code, "{code}");
+        assert!(!fault(&run).to_string().is_empty());
+        found.insert(code.to_owned());
+    };
+    expect("not-finite", run(protocol(), calm(), broken(3.0, f64::NAN)));
+    expect("jump", run(protocol(), calm(), broken(3.0, 1e3)));
+    expect("stuck", run(protocol(), calm(), broken(0.0, 0.01)));
+    // A disturbance that the limits do not allow to overcome.
+    expect("no-oscillation", run(protocol(), Pool::new(axis((0.5, 0.0), 5.0), 1), plain));
+    // Cycles that come as they like.
+    let jitter = |time_s: f64, _: &State<f64>| irregular(time_s);
+    expect("not-converged", run(Protocol { largest_rate: 1e3, factor: 1.1, ..protocol() }, calm(), jitter));
+    // Outliers switch the relay, and the motion does not reach as far: x_a* above X_m.
+    let outliers = |time_s: f64, _: &State<f64>| {
+        let sample = (time_s / INTERVAL_S).round() as usize % 40;
+        let side = if sample < 20 { 1.0 } else { -1.0 };
+        side * [1.0, 0.8, 1.01, 0.8, 0.6, 0.3].get(sample % 20).copied().unwrap_or(0.0)
+    };
+    expect("condition-40", run(Protocol { largest_rate: 1e3, ..protocol() }, calm(), outliers));
+    expect("overtime", run(Protocol { duration_s: 21.0, patience_s: 20.5, cycles: 9, ..protocol() }, calm(), plain));
+    for (code, time_s) in [("not-finite", f64::NAN), ("time-order", 0.1), ("time-order", -1.0), ("gap", 9.0)] {
+        let mut experiment = Experiment::new(protocol()).unwrap();
+        for sample in 0..2 {
+            experiment.step(0.01 * f64::from(sample), 0.1 * f64::from(sample));
+        }
+        let step = experiment.step(0.02, time_s);
+        assert!(matches!(step.phase, Phase::Failed(fault) if fault.code() == code), "{:?}", step.phase);
+        found.insert(code.to_owned());
+    }
+    let all = [
+        "not-finite",
+        "time-order",
+        "gap",
+        "jump",
+        "stuck",
+        "no-oscillation",
+        "not-converged",
+        "condition-40",
+        "overtime",
+    ];
+    assert_eq!(found, all.map(str::to_owned).into());
+}
+
+#[test]
+fn a_protocol_outside_its_domain_is_refused() {
+    let good = protocol();
+    assert!(Experiment::new(good).is_ok());
+    for bad in [
+        Protocol { reference: f64::NAN, ..good },
+        Protocol { neutral_command: f64::INFINITY, ..good },
+        Protocol { lowest_command: f64::NEG_INFINITY, ..good },
+        Protocol { highest_command: 0.5, ..good },
+        Protocol { neutral_command: 1.5, ..good },
+        Protocol { relay_level: 0.0, ..good },
+        Protocol { half_width: 0.0, ..good },
+        Protocol { interval_s: 0.0, ..good },
+        Protocol { resolution: -0.1, ..good },
+        Protocol { largest_rate: f64::NAN, ..good },
+        Protocol { unchanged_s: 20.0, ..good },
+        Protocol { unchanged_s: 0.05, ..good },
+        Protocol { patience_s: 300.0, ..good },
+        Protocol { duration_s: f64::INFINITY, ..good },
+        Protocol { cycles: 1, ..good },
+        Protocol { most_cycles: 2, ..good },
+        Protocol { attempts: 0, ..good },
+        Protocol { spread: 0.0, ..good },
+        Protocol { factor: 1.0, ..good },
+    ] {
+        let refusal = Experiment::new(bad).unwrap_err();
+        assert!(refusal.to_string().contains(refusal.setting), "{bad:?}");
+    }
+}
+
+/// What a vehicle needs more of, it gets, within its limits.
+#[test]
+fn attempts_change_the_relay() {
+    // The disturbance is above the first level and below the second, which the limits cut.
+    let strong = Pool::new(axis((0.5, 0.0), 1.1), 1);
+    let raised =
+        run(Protocol { highest_command: 1.4, lowest_command: -3.0, patience_s: 15.0, ..protocol() }, strong, plain);
+    let outcome = done(&raised);
+    assert_eq!((outcome.attempts, outcome.relay_level, outcome.half_width), (2, 1.4, 0.5));
+    // A ripple on the sensor makes the relay switch as it likes until its hysteresis is wider.
+    let ripple = |time_s: f64, state: &State<f64>| state.position + 0.2 * irregular(5.0 * time_s);
+    let narrow = Protocol { half_width: 0.15, largest_rate: 1e3, spread: 0.3, factor: 2.0, attempts: 6, ..protocol() };
+    let outcome = done(&run(narrow, Pool::new(axis((0.5, 0.0), 0.0), 1), ripple));
+    assert!(outcome.attempts > 1 && outcome.half_width > 0.15, "{outcome:?}");
+}
+
+#[test]
+fn an_end_is_an_end_until_a_restart() {
+    let mut experiment = Experiment::new(Protocol { neutral_command: 0.25, ..protocol() }).unwrap();
+    assert_eq!((experiment.command(), experiment.position(), experiment.outcome()), (0.25, None, None));
+    assert_eq!(experiment.step(-1.0, 0.0).command, 1.25);
+    experiment.abort();
+    assert_eq!((experiment.phase(), experiment.command()), (Phase::Aborted, 0.25));
+    assert_eq!(experiment.step(f64::NAN, 0.1).phase, Phase::Aborted);
+    experiment.restart().unwrap();
+    assert_eq!(experiment.step(1.0, 7.0).command, -0.75);
+    assert!(matches!(experiment.step(1.0, 6.0).phase, Phase::Failed(Fault::TimeOrder { .. })));
+    experiment.abort();
+    assert!(matches!(experiment.phase(), Phase::Failed(Fault::TimeOrder { .. })));
+}
+
+/// Every sequence of seven samples out of eight, broken ones among them, through the whole machine.
+#[test]
+fn no_sequence_of_samples_leaves_the_limits() {
+    const SAMPLES: [(f64, f64); 8] = [
+        (0.0, 0.1),
+        (0.6, 0.1),
+        (-0.6, 0.1),
+        (-0.6, 0.3),
+        (f64::NAN, 0.1),
+        (f64::INFINITY, 0.1),
+        (1e9, 0.1),
+        (0.6, 0.0),
+    ];
+    fn go(experiment: &Experiment<f64>, protocol: &Protocol<f64>, time_s: f64, left: u32) -> u32 {
+        let mut ends = 0;
+        for (reading, interval_s) in SAMPLES {
+            let (mut next, time_s) = (*experiment, time_s + interval_s);
+            let step = next.step(reading, time_s);
+            assert!(step.command >= protocol.lowest_command && step.command <= protocol.highest_command);
+            if step.phase == Phase::Running {
+                ends += if left == 0 { 1 } else { go(&next, protocol, time_s, left - 1) };
+            } else {
+                let after = next.step(0.0, time_s + 0.1);
+                assert_eq!(
+                    (after.command, format!("{:?}", after.phase)),
+                    (protocol.neutral_command, format!("{:?}", step.phase))
+                );
+                assert_eq!(step.command, protocol.neutral_command);
+                ends += 1;
+            }
+        }
+        ends
+    }
+    let protocol = Protocol { neutral_command: 0.5, cycles: 2, most_cycles: 2, ..protocol() };
+    let ends = go(&Experiment::new(protocol).unwrap(), &protocol, 0.0, 6);
+    assert!(ends > 10_000, "{ends}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    /// Any bits at all for readings and times.
+    #[test]
+    fn no_sample_panics(samples in proptest::collection::vec((any::<f64>(), any::<f64>()), 1..20), coordinate in 0usize..4) {
+        let kinds = [Coordinate::Position, Coordinate::HeadingRad, Coordinate::HeadingDegrees, Coordinate::Speed];
+        let protocol = Protocol { coordinate: kinds[coordinate], largest_rate: f64::MAX, ..protocol() };
+        let mut wide = Experiment::new(protocol).unwrap();
+        let mut narrow = Experiment::new(Protocol::new(kinds[coordinate], 1f32, 0.5, 0.1)).unwrap();
+        for (sample, (reading, time_s)) in samples.iter().enumerate() {
+            // Every other time is a sound one, so that the readings are looked at.
+            let time_s = if sample % 2 == 0 { *time_s } else { 0.1 * sample as f64 };
+            prop_assert!(wide.step(*reading, 0.1 * sample as f64).command.abs() <= 2.0);
+            prop_assert!(narrow.step(*reading as f32, time_s as f32).command.abs() <= 2.0);
+        }
+    }
+
+    /// A coarse sensor stays at one value for long; it is not stuck.
+    #[test]
+    fn a_coarse_sensor_is_not_stuck(share in 0.05..0.9f64, linear in 0.2..1.0f64, disturbance in -0.3..0.3f64) {
+        let quantum = 0.5 * share;
+        let coarse = |_, state: &State<f64>| (state.position / quantum).round() * quantum;
+        let protocol = Protocol { resolution: quantum, spread: 0.3, ..protocol() };
+        let run = run(protocol, Pool::new(axis((linear, 0.3), disturbance), 1), coarse);
+        prop_assert_eq!(run.experiment.phase(), Phase::Done);
+    }
+
+    /// A heading that jumps by whole turns is the plain number; a speed is what it is the speed of.
+    #[test]
+    fn the_kind_of_coordinate_does_not_matter(linear in 0.2..1.0f64, disturbance in -0.3..0.3f64, reference in -720.0..720.0f64) {
+        let pool = || Pool::new(axis((linear, 0.3), disturbance), 1);
+        let wrapped = |turn: f64| move |_: f64, state: &State<f64>| {
+            let heading = reference + state.position;
+            heading - turn * (heading / turn).round()
+        };
+        let expected = done(&run(protocol(), pool(), plain)).features;
+        let degrees = Protocol { coordinate: Coordinate::HeadingDegrees, reference, ..protocol() };
+        let radians = Protocol { coordinate: Coordinate::HeadingRad, reference, ..protocol() };
+        for found in [
+            done(&run(degrees, pool(), wrapped(360.0))).features,
+            done(&run(radians, pool(), wrapped(core::f64::consts::TAU))).features,
+        ] {
+            prop_assert_eq!(found.cycles, expected.cycles);
+            prop_assert!((found.amplitude.mean - expected.amplitude.mean).abs() < tolerance::WRAPPED);
+            prop_assert!((found.bias.mean - expected.bias.mean).abs() < tolerance::WRAPPED);
+            prop_assert_eq!(found.period_s, expected.period_s);
+        }
+        // Against its integral by trapezoids.
+        let speed = Protocol { coordinate: Coordinate::Speed, ..protocol() };
+        let integral = Cell::new((0.0, 0.0));
+        let integrated = |_, state: &State<f64>| {
+            let (before, sum) = integral.get();
+            integral.set((state.velocity, sum + 0.5 * (before + state.velocity) * INTERVAL_S));
+            integral.get().1
+        };
+        let found = done(&run(speed, pool(), |_, state| state.velocity)).features;
+        let expected = done(&run(protocol(), pool(), integrated)).features;
+        prop_assert!((found.amplitude.mean - expected.amplitude.mean).abs() < tolerance::WRAPPED);
+        prop_assert_eq!(found.period_s, expected.period_s);
+    }
+
+    /// Single precision sees the same cycles.
+    #[test]
+    fn single_precision_agrees(linear in 0.2..1.0f64, disturbance in -0.3..0.3f64) {
+        let pool = || Pool::new(axis((linear, 0.3), disturbance), 1);
+        let wide = done(&run(protocol(), pool(), plain));
+        let protocol = Protocol { largest_rate: 20f32, ..Protocol::new(Coordinate::Position, 1.0, 0.5, INTERVAL_S as f32) };
+        let narrow = done(&run(protocol, pool(), plain));
+        for law in [DragLaw::Linear, DragLaw::Quadratic] {
+            let (wide, narrow) = (wide.exact(law, 0.1).unwrap(), narrow.exact(law, 0.1).unwrap());
+            prop_assert!((f64::from(narrow.alpha()) / wide.alpha() - 1.0).abs() < tolerance::SINGLE_EXPERIMENT);
+        }
+    }
+
+    /// What is identified on board from a dense record is the axis.
+    #[test]
+    fn the_axis_is_found(drag in 0.2..1.0f64, disturbance in -0.3..0.3f64, quadratic: bool) {
+        let law = if quadratic { DragLaw::Quadratic } else { DragLaw::Linear };
+        let axis = axis(if quadratic { (0.0, drag) } else { (drag, 0.0) }, disturbance);
+        let found = done(&run(protocol(), Pool::new(axis, 2), plain)).exact(law, 0.2).unwrap();
+        prop_assert!((found.alpha() - 1.0).abs() < tolerance::SLOW_MODEL, "{found:?}");
+        let [was, is] = [&axis, &found].map(|axis| axis.linear_drag() + axis.quadratic_drag());
+        prop_assert!((is / was - 1.0).abs() < 3.0 * tolerance::SLOW_MODEL, "{found:?}");
+        prop_assert!((found.disturbance() - disturbance).abs() < tolerance::SLOW_MODEL, "{found:?}");
+    }
+}
