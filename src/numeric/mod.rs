@@ -24,6 +24,7 @@ mod root;
 #[cfg(feature = "std")]
 pub mod scan;
 pub mod special;
+mod tangent;
 
 #[cfg(feature = "std")]
 pub use expression::Expression;
@@ -36,3 +37,4 @@ pub use ratio::{
 };
 pub use real::{Real, Scalar};
 pub use root::increasing_root;
+pub use tangent::Tangent;
