@@ -18,6 +18,7 @@ mod fourier_oracle;
 mod identify_exact;
 mod identify_fit;
 mod identify_joint;
+mod identify_moved;
 mod integration_oracle;
 mod interval;
 mod laws;

@@ -2,7 +2,7 @@
 
 use super::input::Between;
 use super::motion::SHARED;
-use super::search::{Linearised, Search};
+use super::search::{Linearised, Search, Start};
 use super::spread::Covariance;
 use crate::identify::joint::{Estimate, Parameter, Spread};
 use crate::identify::{DragLaw, IdentifyError};
@@ -125,6 +125,11 @@ fn mean_square(values: &[f64], about: f64) -> f64 {
 }
 
 impl RecordFit {
+    /// As the start of another search.
+    pub(super) fn place(&self) -> Start {
+        let disturbances = self.records.iter().map(|record| record.disturbance.value).collect();
+        Start { between: self.between, shared: self.estimates.map(|estimate| estimate.value), disturbances }
+    }
     /// The drag law fitted.
     #[must_use]
     pub fn law(&self) -> DragLaw {

@@ -3,7 +3,7 @@
 use faer::Mat;
 
 use super::chain::{Chain, Link, OWN, solve_shared, weighted};
-use super::input::{Between, Edge, edges};
+use super::input::{Between, Edge, edges, gather};
 use super::motion::{COMMON, Drive, Gradient, SHARED, Sensitive, Shared, Stretch, UNKNOWNS, integrate, uncertain};
 use super::motion::{DISTURBANCE, INSTANT, POSITION, VELOCITY};
 use super::noise::Noise;
@@ -20,6 +20,10 @@ const SETTLED: f64 = 1e-6;
 const NOISE_WEIGHT: f64 = 1e-4;
 /// It looks at every sample once no common parameter moves by more than this, relative.
 const APPROACHED: f64 = 1e-3;
+/// Least drag coefficient that counts, against inertia over the swing: below, the vehicle coasts.
+const LEAST_DRAG: f64 = 1e-3;
+/// Least delay that counts, against the swing.
+const DELAY_SHARE: f64 = 1e-2;
 /// Samples per stretch while the search is far from its end.
 const COARSE: usize = 24;
 /// Least noise taken for a rounding sensor, in steps: with less, a step of the search sees hardly any reading.
@@ -37,6 +41,7 @@ pub(super) struct Motion<'a> {
     pub(super) disturbance: f64,
     pub(super) noise: Noise,
     range: f64,
+    swing_s: f64,
 }
 
 /// The model along one record, linearised.
@@ -46,6 +51,14 @@ pub(super) struct Linearised {
     ends: Vec<[Sensitive; 2]>,
     /// For each stretch the edge whose instant is estimated.
     pub(super) instants: Vec<Option<usize>>,
+}
+
+/// Where a search may start.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Start {
+    pub(super) between: Between,
+    pub(super) shared: Shared,
+    pub(super) disturbances: Vec<f64>,
 }
 
 /// The state of the search.
@@ -62,7 +75,7 @@ pub(super) struct Search<'a> {
 
 impl<'a> Motion<'a> {
     fn new(record: &'a Record, between: Between, delay_s: f64, disturbance: f64, quantum: Option<f64>) -> Self {
-        let edges = edges(record, between);
+        let mut edges = edges(record, between);
         let time = record.time_s();
         let last = time[time.len() - 1];
         let swing = start::swing_s(record);
@@ -70,7 +83,7 @@ impl<'a> Motion<'a> {
         let begin = (time[0] + delay_s).min(time[time.len() / 2]);
         let mut nodes = vec![begin];
         let acting = |edge: &Edge| edge.time_s + delay_s;
-        if between == Between::Evenly {
+        if between == Between::Evenly || between == Between::Bent || edges.len() > record.samples() / 3 {
             let mut next = begin + swing;
             while next + 0.5 * swing < last {
                 nodes.push(next);
@@ -82,6 +95,9 @@ impl<'a> Motion<'a> {
             nodes.retain(|node| *node >= begin && *node < last);
         }
         nodes.push(last);
+        if between == Between::Bent {
+            gather(&mut edges, record.input()[0], |time| nodes.partition_point(|node| *node <= time + delay_s));
+        }
         let stretches = nodes.windows(2).enumerate().map(|(index, pair)| {
             let from = time.partition_point(|t| *t < pair[0]);
             let to = if index + 2 == nodes.len() { time.len() } else { time.partition_point(|t| *t < pair[1]) };
@@ -94,7 +110,7 @@ impl<'a> Motion<'a> {
             - output.iter().copied().fold(f64::INFINITY, f64::min);
         let quantum = quantum.or_else(|| record.quantum()).unwrap_or(0.0);
         let noise = Noise { std: 0.02 * range + quantum + f64::MIN_POSITIVE, quantum };
-        Self { record, deviations: vec![0.0; edges.len()], edges, stretches, disturbance, noise, range }
+        Self { record, deviations: vec![0.0; edges.len()], edges, stretches, disturbance, noise, range, swing_s: swing }
     }
 
     pub(super) fn linearise(&self, shared: &Shared, stride: usize) -> Result<Linearised, IdentifyError> {
@@ -254,6 +270,23 @@ impl<'a> Search<'a> {
         Ok(Self { law, estimate_delay, between, shared, motions, steps: 0, evidence: f64::NEG_INFINITY })
     }
 
+    /// The same search from another place.
+    pub(super) fn starting_at(mut self, start: &Start) -> Self {
+        let delay_s = if self.estimate_delay { start.shared[SHARED - 1] } else { self.shared[SHARED - 1] };
+        self.shared = start.shared;
+        self.shared[SHARED - 1] = delay_s;
+        for (motion, disturbance) in self.motions.iter_mut().zip(&start.disturbances) {
+            motion.disturbance = *disturbance;
+        }
+        self
+    }
+
+    /// Where it is, as the start of another search.
+    pub(super) fn place(&self) -> Start {
+        let disturbances = self.motions.iter().map(|motion| motion.disturbance).collect();
+        Start { between: self.between, shared: self.shared, disturbances }
+    }
+
     /// Logarithm of the likelihood with the uncertain instants integrated out: comparable between treatments of the input and
     /// between drag laws.
     pub(super) fn evidence(&self) -> f64 {
@@ -289,7 +322,12 @@ impl<'a> Search<'a> {
 
     /// Steps with every sample, until nothing moves.
     pub(super) fn settle(self) -> Result<Self, IdentifyError> {
-        if self.coarse_stride() == 1 { Ok(self) } else { self.iterate(1, SETTLED) }
+        if self.coarse_stride() == 1 { Ok(self) } else { self.refine() }
+    }
+
+    /// Steps with every sample from wherever it is.
+    pub(super) fn refine(self) -> Result<Self, IdentifyError> {
+        self.iterate(1, SETTLED)
     }
 
     fn iterate(mut self, stride: usize, limit: f64) -> Result<Self, IdentifyError> {
@@ -342,21 +380,31 @@ impl<'a> Search<'a> {
             steps.push(chain.unfold(chain.own(&shared, 0)?, &shared));
         }
         // Far from the end the linearisation holds only so far.
-        let relative = |k: usize| if k + 1 < SHARED { shared[k] / self.shared[k].max(f64::MIN_POSITIVE) } else { 0.0 };
+        let scales = self.scales();
+        let relative = |k: usize| shared[k] / scales[k];
         let share = (0.5 / relative(0).abs()).min(1.0);
-        let share =
-            (1..SHARED).fold(share, |share, k| if relative(k) > 2.0 { share.min(2.0 / relative(k)) } else { share });
+        let share = (1..SHARED - 1)
+            .fold(share, |share, k| if relative(k) > 2.0 { share.min(2.0 / relative(k)) } else { share });
         let share = if self.steps < 2 { share.min(0.7) } else { share };
         for ((motion, steps), (_, instants)) in self.motions.iter_mut().zip(&steps).zip(&chains) {
             motion.advance(steps, instants, share);
         }
-        for (value, step) in self.shared.iter_mut().zip(shared) {
+        for ((value, step), scale) in self.shared.iter_mut().zip(shared).zip(scales) {
             let before = *value;
             *value = (before + share * step).max(0.0);
-            let scale = before.max(*value).max(f64::MIN_POSITIVE);
             moved = moved.max((*value - before).abs() / scale);
         }
         Ok(if share < 1.0 { moved.max(1.0) } else { moved })
+    }
+
+    /// What the common unknowns are measured by: inertia by itself, either drag by both at the record's typical speed, the
+    /// delay by itself or a part of the swing, so that none stands still for being near zero.
+    fn scales(&self) -> Shared {
+        let [alpha, linear, quadratic, delay_s] = self.shared;
+        let typical = |of: fn(&Motion<'_>) -> f64| self.motions.iter().map(of).fold(f64::MIN_POSITIVE, f64::max);
+        let speed = typical(|motion| core::f64::consts::FRAC_PI_2 * motion.range / motion.swing_s);
+        let drag = (linear + quadratic * speed).max(LEAST_DRAG * alpha / typical(|motion| motion.swing_s));
+        [alpha, drag, drag / speed, delay_s.max(DELAY_SHARE * typical(|motion| motion.swing_s))]
     }
 
     /// The step of the common unknowns, with drag and delay kept at zero or more.
