@@ -108,7 +108,17 @@ impl Fit {
         let reached = best.as_ref().map_or(f64::INFINITY, RecordFit::log_likelihood);
         let missed = fits.iter().filter(|fit| fit.log_likelihood() > reached);
         let again = missed.map(|fit| search(self.law, fit.between())?.starting_at(&fit.place()).refine()?.finish());
-        likeliest(core::iter::once(best).chain(again), RecordFit::log_likelihood)
+        let best = likeliest(core::iter::once(best).chain(again), RecordFit::log_likelihood)?;
+        let other = match best.between() {
+            Between::Evenly => Between::Bent,
+            Between::Bent => Between::Evenly,
+            Between::AtSamples | Between::Anywhere => return Ok(best),
+        };
+        if !ways.contains(&other) {
+            return Ok(best);
+        }
+        let other = search(self.law, other)?.starting_at(&best.place()).refine()?.finish()?;
+        Ok(if other.log_likelihood() > best.log_likelihood() { other.widened(&best) } else { best.widened(&other) })
     }
 
     fn check(&self, records: &[&Record]) -> Result<(), IdentifyError> {

@@ -144,3 +144,26 @@ fn figures() {
         }
     }
 }
+
+#[test]
+#[ignore = "debug"]
+fn debug() {
+    for command in [Command::Rudder, Command::Curve] {
+        for seed in 0..24 {
+            let moved = Moved::new(DragLaw::Linear, command, 0.0, 0.003, seed);
+            println!("{command:?} {seed} {:?}", moved.axis);
+            for way in [Between::AtSamples, Between::Evenly, Between::Bent] {
+                let fit = Fit::new(DragLaw::Linear, Delay::KnownS(0.1)).with_between(way).records(&[&moved.record]);
+                match fit {
+                    Ok(fit) => println!(
+                        "   {way:?} {:.3} {:?} rms {:.5}",
+                        fit.log_likelihood(),
+                        moved.errors(&fit).iter().map(|(r, z)| format!("{r:.5} {z:.2}")).collect::<Vec<_>>(),
+                        fit.records()[0].residual_rms
+                    ),
+                    Err(e) => println!("   {way:?} {e}"),
+                }
+            }
+        }
+    }
+}

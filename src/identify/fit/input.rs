@@ -12,8 +12,7 @@ pub enum Between {
     /// It passes evenly from one sample's value to the next's.
     Evenly,
     /// It moves steadily, but its corners lie between samples, as a rudder's at a limited rate do: it bends where the straight
-    /// lines from either side meet, or follows the curve through its neighbours. What impulse it may have had beyond that is
-    /// estimated, once for each half cycle.
+    /// lines from either side meet, or follows the curve through its neighbours. Where it jumps, the instant is estimated.
     Bent,
 }
 
@@ -112,8 +111,7 @@ fn bulges(input: &[f64], before: usize) -> Bulge {
     let alone = (1.0 - beyond / (left + right).abs()).max(0.0);
     let corner = 0.5 * left * right / (left + right);
     let curve = least.copysign(left) / 12.0;
-    let mean = -(alone * corner + (1.0 - alone) * curve);
-    Bulge { mean, std: 0.5 * mean.abs() }
+    Bulge { mean: -(alone * corner + (1.0 - alone) * curve), std: 0.0 }
 }
 
 /// Makes the instant of each stretch's largest change uncertain, by as much as the impulses within the stretch are: with what

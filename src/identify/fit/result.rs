@@ -114,6 +114,15 @@ fn spread(value: f64, std: f64) -> Spread {
     Spread { std, low: value - NORMAL_95 * std, high: value + NORMAL_95 * std }
 }
 
+/// With so much more variance, and not below `least`.
+fn wider(estimate: Estimate, variance: f64, least: f64) -> Estimate {
+    let wider = |before: Spread| {
+        let after = spread(estimate.value, (before.std * before.std + variance).sqrt());
+        Spread { low: after.low.max(least), ..after }
+    };
+    Estimate { spread: estimate.spread.map(wider), ..estimate }
+}
+
 #[allow(clippy::cast_precision_loss, reason = "a count of samples")]
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
@@ -125,6 +134,26 @@ fn mean_square(values: &[f64], about: f64) -> f64 {
 }
 
 impl RecordFit {
+    /// The same model, its errors with what the input's way between samples leaves open: `other` takes the other of two ways
+    /// that pass into each other. A way between them is as likely as the parabola through both likelihoods says, and the
+    /// estimate moves along with it.
+    pub(super) fn widened(mut self, other: &Self) -> Self {
+        let lost = (self.evidence - other.evidence).max(0.5);
+        let share = 0.5 / lost;
+        let apart: [f64; SHARED] = core::array::from_fn(|k| self.estimates[k].value - other.estimates[k].value);
+        for (i, row) in self.covariance.iter_mut().enumerate() {
+            for (j, value) in row.iter_mut().enumerate() {
+                *value += share * apart[i] * apart[j];
+            }
+            self.estimates[i] = wider(self.estimates[i], share * apart[i] * apart[i], 0.0);
+        }
+        for (record, other) in self.records.iter_mut().zip(&other.records) {
+            let apart = record.disturbance.value - other.disturbance.value;
+            record.disturbance = wider(record.disturbance, share * apart * apart, f64::NEG_INFINITY);
+        }
+        self
+    }
+
     /// As the start of another search.
     pub(super) fn place(&self) -> Start {
         let disturbances = self.records.iter().map(|record| record.disturbance.value).collect();
