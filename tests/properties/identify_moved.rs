@@ -149,7 +149,7 @@ fn figures() {
 #[ignore = "debug"]
 fn debug() {
     for command in [Command::Rudder, Command::Curve] {
-        for seed in 0..24 {
+        for seed in 24..40 {
             let moved = Moved::new(DragLaw::Linear, command, 0.0, 0.003, seed);
             println!("{command:?} {seed} {:?}", moved.axis);
             for way in [Between::AtSamples, Between::Evenly, Between::Bent] {

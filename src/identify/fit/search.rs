@@ -24,8 +24,8 @@ const APPROACHED: f64 = 1e-3;
 const LEAST_DRAG: f64 = 1e-3;
 /// Least delay that counts, against the swing.
 const DELAY_SHARE: f64 = 1e-2;
-/// Samples per stretch while the search is far from its end.
-const COARSE: usize = 24;
+/// Samples per swing while the search is far from its end.
+const COARSE: f64 = 24.0;
 /// Least noise taken for a rounding sensor, in steps: with less, a step of the search sees hardly any reading.
 pub(super) const LEAST_NOISE_STEPS: f64 = 0.15;
 /// Least noise for any sensor, against the output's range: below it there is only rounding of the arithmetic.
@@ -303,11 +303,12 @@ impl<'a> Search<'a> {
         self.fixed().iter().filter(|fixed| fixed.is_none()).count() + OWN * self.motions.len()
     }
 
-    /// Every how many samples the search looks while it is far from its end.
+    /// Every how many samples the search looks while it is far from its end: a matter of the records alone, so that likelihoods
+    /// on the way are comparable.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most the number of samples")]
     fn coarse_stride(&self) -> usize {
-        let stretches: usize = self.motions.iter().map(|motion| motion.stretches.len()).sum();
-        let samples: usize = self.motions.iter().map(|motion| motion.record.samples()).sum();
-        (samples / (COARSE * stretches.max(1))).max(1)
+        let samples = |motion: &Motion<'_>| motion.swing_s / (COARSE * motion.record.interval_s());
+        self.motions.iter().map(samples).fold(f64::INFINITY, f64::min).max(1.0) as usize
     }
 
     /// Steps with part of the samples, until little moves.
