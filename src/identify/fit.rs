@@ -97,7 +97,8 @@ impl Fit {
         let mut starts: Vec<Start> = fits.iter().map(|fit| fit.place()).collect();
         if self.law == DragLaw::Mixed && starts.is_empty() {
             let simple = |law| ways.par_iter().flat_map(move |way| search(law, *way)?.approach());
-            starts = [DragLaw::Linear, DragLaw::Quadratic].into_par_iter().flat_map(simple).map(|s| s.place()).collect();
+            starts =
+                [DragLaw::Linear, DragLaw::Quadratic].into_par_iter().flat_map(simple).map(|s| s.place()).collect();
         }
         starts.retain(|start| ways.contains(&start.between));
         let own = ways.par_iter().map(|way| search(self.law, *way)?.approach());
@@ -150,9 +151,11 @@ fn likeliest<T>(
     log_likelihood: impl Fn(&T) -> f64,
 ) -> Result<T, IdentifyError> {
     let none = Err(IdentifyError::TooFewEquations { equations: 0, parameters: motion::UNKNOWNS });
-    ends.into_iter().reduce(|best, next| match (best, next) {
-        (Ok(best), Ok(next)) => Ok(if log_likelihood(&next) > log_likelihood(&best) { next } else { best }),
-        (Err(_), Ok(next)) => Ok(next),
-        (best, Err(_)) => best,
-    }).unwrap_or(none)
+    ends.into_iter()
+        .reduce(|best, next| match (best, next) {
+            (Ok(best), Ok(next)) => Ok(if log_likelihood(&next) > log_likelihood(&best) { next } else { best }),
+            (Err(_), Ok(next)) => Ok(next),
+            (best, Err(_)) => best,
+        })
+        .unwrap_or(none)
 }

@@ -83,6 +83,27 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    /// The mixed law contains the simple ones: it never ends less likely, from noisy or rounded readings of any of the three.
+    #[test]
+    fn the_mixed_law_is_never_less_likely(law in law(), seed: u64, held: bool, rounded: bool, rate_hz in prop_oneof![Just(10.0), Just(50.0)]) {
+        let sensor = if rounded { rounding() } else { noisy() };
+        let relay = RelayHysteresis::new(1.0, Drawn::new(law, seed).half_width, 0.0).unwrap();
+        let drawn = Drawn::new(law, seed);
+        let experiment = Experiment::new(drawn.axis, relay, rate_hz).unwrap().with_sensor(sensor).unwrap().with_seed(seed);
+        let record = if held { experiment.held() } else { experiment }.run(40.0).unwrap();
+        let delay = Delay::KnownS(0.1);
+        let choice = Choice::among_all(&[&record], delay).unwrap();
+        let likelihood = |law| choice.fits().iter().find(|fit| fit.law() == law).unwrap().log_likelihood();
+        let simple = likelihood(DragLaw::Linear).max(likelihood(DragLaw::Quadratic));
+        prop_assert!(likelihood(DragLaw::Mixed) >= simple - tolerance::LIKELIHOOD, "{} {simple}", likelihood(DragLaw::Mixed));
+        let alone = Fit::new(DragLaw::Mixed, delay).records(&[&record]).unwrap().log_likelihood();
+        prop_assert!(alone >= simple - tolerance::LIKELIHOOD, "alone {alone}, {simple}");
+    }
+}
+
 /// Share of 95 % intervals that hold the truth, the root mean square of errors in standard deviations, and the errors sorted.
 struct Coverage {
     held: f64,
@@ -142,20 +163,49 @@ fn gaussian_noise_costs_no_more_than_the_bound() {
     }
 }
 
+/// A share of 95 % among 500 has a standard error of 1 %; a root mean square among 500 one of 3 %.
 #[test]
 #[ignore = "slow: 500 experiments for each law"]
 fn intervals_cover_in_500_experiments() {
     for law in DragLaw::ALL {
-        for (parameter, Coverage { held, rms, errors }) in coverage(law, 500, rounding()) {
-            let worst = errors[errors.len() - 1];
-            assert!(
-                (0.92..=0.98).contains(&held),
-                "{law:?} {parameter:?}: coverage {held}, {rms}, worst error {worst}"
-            );
+        for (sensor, name) in [(rounding(), "rounded to 1 degree"), (noisy(), "Gaussian noise 0.01")] {
+            for (parameter, Coverage { held, rms, errors }) in coverage(law, 500, sensor) {
+                let (middle, worst) = (errors[errors.len() / 2], errors[errors.len() - 1]);
+                println!(
+                    "{} drag, {name}, {parameter:?}: coverage {:.1} %, rms over std {rms:.3}, error median {:.2} %, worst {:.2} %",
+                    law.name(),
+                    100.0 * held,
+                    100.0 * middle,
+                    100.0 * worst
+                );
+                assert!((0.92..=0.98).contains(&held), "{law:?} {parameter:?}: coverage {held}");
+                if sensor.noise > 0.0 {
+                    assert!(rms < 1.2, "{law:?} {parameter:?}: {rms}");
+                } else if law != DragLaw::Mixed {
+                    assert!(worst < 0.03, "{law:?} {parameter:?}: {worst}");
+                }
+            }
         }
-        for (parameter, Coverage { held, rms, .. }) in coverage(law, 500, noisy()) {
-            assert!(rms < 1.2 && held >= 0.92, "{law:?} {parameter:?}: {rms}, coverage {held}");
-        }
+    }
+}
+
+#[test]
+#[ignore = "slow: 500 experiments for each law"]
+fn the_drag_law_is_recognised_in_500_experiments() {
+    for law in DragLaw::ALL {
+        let [right, wrong, none] = decisions(law, 500, rounding());
+        println!("{} drag: {right} right, {wrong} wrong, {none} undecided", law.name());
+        // A mixed law may be as near to a simple one as one likes: there it need not be seen.
+        assert!(wrong <= 25 && (law == DragLaw::Mixed || right >= 475), "{law:?}: {right} {wrong} {none}");
+    }
+    let coarse = Sensor { noise: 0.3, ..Sensor::default() };
+    for law in [DragLaw::Linear, DragLaw::Quadratic] {
+        let [right, wrong, none] = decisions(law, 500, coarse);
+        println!(
+            "{} drag under noise as large as the difference: {right} right, {wrong} wrong, {none} undecided",
+            law.name()
+        );
+        assert!(wrong <= 50 && none >= 100, "{law:?}: {right} {wrong} {none}");
     }
 }
 

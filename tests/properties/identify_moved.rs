@@ -10,6 +10,8 @@ use selfosc::identify::fit::{Between, Fit, RecordFit};
 use selfosc::identify::joint::{Delay, Parameter};
 use selfosc::plant::{DragAxis, State};
 
+use crate::tolerance;
+
 /// How a command comes about. The first two close the loop.
 #[derive(Clone, Copy, Debug)]
 enum Command {
@@ -27,14 +29,8 @@ enum Command {
     Straight,
 }
 
-const COMMANDS: [Command; 6] = [
-    Command::Rudder,
-    Command::FreeRudder,
-    Command::Curve,
-    Command::CutCurve,
-    Command::Held,
-    Command::Straight,
-];
+const COMMANDS: [Command; 6] =
+    [Command::Rudder, Command::FreeRudder, Command::Curve, Command::CutCurve, Command::Held, Command::Straight];
 
 /// Step of the simulation, and samples of the log, in s.
 const STEP_S: f64 = 1e-3;
@@ -133,36 +129,57 @@ fn coverage(law: DragLaw, command: Command, quantum: f64, noise: f64, experiment
     (held, worst, ways.map(|way| all.iter().filter(|(_, chosen)| *chosen == way).count()))
 }
 
+/// Unless a curve has corners: see below.
+const COVERED: [Command; 5] = [Command::Rudder, Command::FreeRudder, Command::Curve, Command::Held, Command::Straight];
+const SENSORS: [(f64, f64); 2] = [(0.0, 0.003), (0.0175, 0.0)];
+
+/// A 95 % interval misses more than six of 32 or 48 with a probability below 2 %.
 #[test]
-#[ignore = "figures"]
-fn figures() {
+fn intervals_cover_whatever_the_command_did_between_samples() {
     for law in DragLaw::ALL {
-        for command in COMMANDS {
-            for (quantum, noise) in [(0.0, 0.0003), (0.0, 0.003), (0.0175, 0.0)] {
-                println!("{law:?} {command:?} {quantum} {noise}: {:?}", coverage(law, command, quantum, noise, 40));
+        for command in COVERED {
+            for (quantum, noise) in SENSORS {
+                let (held, worst, ways) = coverage(law, command, quantum, noise, 16);
+                assert!(held >= 0.8, "{law:?} {command:?} {quantum} {noise}: {held}, {worst}, {ways:?}");
+                let allowed = if law == DragLaw::Mixed { tolerance::MOVED_MIXED } else { tolerance::MOVED };
+                assert!(worst < allowed, "{law:?} {command:?} {quantum} {noise}: {held}, {worst}, {ways:?}");
             }
         }
     }
 }
 
+/// Corners of a curve are found to within a part of the interval only; the errors that are left stay below those of the readings.
 #[test]
-#[ignore = "debug"]
-fn debug() {
-    for command in [Command::Rudder, Command::Curve] {
-        for seed in 24..40 {
-            let moved = Moved::new(DragLaw::Linear, command, 0.0, 0.003, seed);
-            println!("{command:?} {seed} {:?}", moved.axis);
-            for way in [Between::AtSamples, Between::Evenly, Between::Bent] {
-                let fit = Fit::new(DragLaw::Linear, Delay::KnownS(0.1)).with_between(way).records(&[&moved.record]);
-                match fit {
-                    Ok(fit) => println!(
-                        "   {way:?} {:.3} {:?} rms {:.5}",
-                        fit.log_likelihood(),
-                        moved.errors(&fit).iter().map(|(r, z)| format!("{r:.5} {z:.2}")).collect::<Vec<_>>(),
-                        fit.records()[0].residual_rms
-                    ),
-                    Err(e) => println!("   {way:?} {e}"),
-                }
+fn a_cut_curve_leaves_a_thousandth() {
+    for law in [DragLaw::Linear, DragLaw::Quadratic] {
+        let (_, worst, _) = coverage(law, Command::CutCurve, 0.0, 0.0003, 16);
+        assert!(worst < tolerance::CUT_CURVE, "{law:?}: {worst}");
+    }
+}
+
+#[test]
+fn what_the_log_cannot_show_is_told_by_the_motion() {
+    for (command, way) in [
+        (Command::Held, Between::AtSamples),
+        (Command::Straight, Between::Evenly),
+        (Command::FreeRudder, Between::Bent),
+        (Command::CutCurve, Between::Bent),
+    ] {
+        let chosen =
+            |seed| Moved::new(DragLaw::Quadratic, command, 0.0, 0.0003, seed).fit(DragLaw::Quadratic).between();
+        assert!((0..6).all(|seed| chosen(seed) == way), "{command:?}");
+    }
+}
+
+#[test]
+#[ignore = "slow: 200 experiments for each law, command and sensor"]
+fn intervals_cover_in_200_experiments() {
+    for law in DragLaw::ALL {
+        for command in COMMANDS {
+            for (quantum, noise) in SENSORS {
+                let (held, worst, ways) = coverage(law, command, quantum, noise, 200);
+                println!("{law:?} {command:?} step {quantum} noise {noise}: {held:.3}, worst {worst:.4}, {ways:?}");
+                assert!(held >= 0.9 || matches!(command, Command::CutCurve), "{law:?} {command:?}: {held}");
             }
         }
     }

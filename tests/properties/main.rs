@@ -15,6 +15,7 @@ mod difference;
 mod examples;
 mod features;
 mod fourier_oracle;
+mod fuzz;
 mod identify_exact;
 mod identify_fit;
 mod identify_joint;

@@ -150,3 +150,16 @@ pub(crate) const CERTIFIED_WIDTH: f64 = 1e-11;
 /// Width of the enclosure of an orbit, relative and times one less the multiplier: a few hundred outward roundings of the
 /// closed-form motion, of a multiplier itself the difference of large terms where drag is weak.
 pub(crate) const ORBIT_ENCLOSURE: f64 = 2e-12;
+
+/// Inertia and drag from 60 s at 10 Hz under a command that moves: four standard deviations of the readings' noise, and what a
+/// ramp's unknown corners add.
+pub(crate) const MOVED: f64 = 8e-3;
+
+/// The same with both kinds of drag, which such a record hardly tells apart.
+pub(crate) const MOVED_MIXED: f64 = 0.12;
+
+/// The same where a curve is cut off between samples, with little noise: a tenth of an interval at each corner.
+pub(crate) const CUT_CURVE: f64 = 2e-3;
+
+/// Logarithm of a likelihood where a search ends: successive steps differ by less.
+pub(crate) const LIKELIHOOD: f64 = 0.3;

@@ -56,7 +56,9 @@ pub(super) fn edges(record: &Record, between: Between) -> Vec<Edge> {
         let change = input[after] - input[before];
         match between {
             Between::AtSamples | Between::Anywhere if change == 0.0 => {}
-            Between::AtSamples => edges.push(Edge { time_s: time[after], input: input[after], std_s: 0.0, variance: 0.0 }),
+            Between::AtSamples => {
+                edges.push(Edge { time_s: time[after], input: input[after], std_s: 0.0, variance: 0.0 })
+            }
             Between::Anywhere => edges.push(Edge {
                 time_s: time[before] + 0.5 * interval,
                 input: input[after],

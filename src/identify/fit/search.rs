@@ -16,6 +16,8 @@ use crate::identify::{DragLaw, IdentifyError};
 const MAX_STEPS: usize = 60;
 /// The search ends when no common parameter moves by more than this, relative.
 const SETTLED: f64 = 1e-6;
+/// And when the logarithm of the likelihood changes by no more than this.
+const SETTLED_EVIDENCE: f64 = 0.3;
 /// Change of the noise, as a logarithm, that weighs as much as a change of a parameter of this size: it is needed roughly.
 const NOISE_WEIGHT: f64 = 1e-4;
 /// It looks at every sample once no common parameter moves by more than this, relative.
@@ -334,9 +336,12 @@ impl<'a> Search<'a> {
     fn iterate(mut self, stride: usize, limit: f64) -> Result<Self, IdentifyError> {
         let mut moved = f64::INFINITY;
         for _ in 0..MAX_STEPS {
+            let before = self.evidence;
             moved = self.step(stride)?;
             self.steps += 1;
-            if moved < limit {
+            // The common parameters may stand while the states have yet to follow; without noise they follow for ever.
+            let clean = self.motions.iter().all(|motion| motion.noise.std <= motion.least_noise());
+            if moved < limit && (clean || (self.evidence - before).abs() < SETTLED_EVIDENCE) {
                 return Ok(self);
             }
         }

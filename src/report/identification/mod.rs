@@ -136,7 +136,7 @@ impl Identification {
             let free = match settings.delay {
                 Delay::KnownS(_) => {
                     Fit::new(fit.law(), Delay::Estimated).records_from(&records(&found.sources), &[fit]).ok()
-                },
+                }
                 Delay::Estimated => None,
             };
             found.cautions.extend(Warning::of_fit(fit, free.as_ref()).into_iter().map(Caution::from));
