@@ -39,8 +39,8 @@ fn identify(record: &Record) -> Result<String, Failure> {
     let choice = Choice::among_all(&[record], Delay::KnownS(0.1))?;
     let fit = choice.likeliest();
     let (law, alpha) = (fit.law(), fit.estimate(Parameter::Alpha));
-    let std = alpha.spread.map_or(f64::NAN, |spread| spread.std);
-    Ok(format!("{},{:.3},{:.4},{std:.4}", law.name(), choice.probability(law), alpha.value))
+    let std = alpha.spread.map_or_else(String::new, |spread| format!("{:.4}", spread.std));
+    Ok(format!("{},{:.3},{:.4},{std}", law.name(), choice.probability(law), alpha.value))
 }
 
 fn logged(path: &str) -> Result<Record, Failure> {

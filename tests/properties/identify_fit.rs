@@ -65,21 +65,25 @@ fn law() -> impl Strategy<Value = DragLaw> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// Without noise the parameters come back, whether the relay was held or its instants are not in the log.
+    /// Without noise the parameters come back, with or without disturbance and delay, whether the relay was held or its instants are not in the log.
     #[test]
-    fn clean_records_give_the_parameters_back(law in law(), seed: u64, held: bool, free: bool) {
-        let drawn = Drawn::new(law, seed);
+    fn clean_records_give_the_parameters_back(
+        law in law(), seed: u64, held: bool, free: bool, disturbed: bool, delay_s in prop_oneof![Just(0.0), Just(0.1), 0.0..0.3f64],
+    ) {
+        let mut drawn = Drawn::new(law, seed);
+        let disturbance = if disturbed { drawn.axis.disturbance() } else { 0.0 };
+        drawn.axis = drawn.axis.with_disturbance(disturbance).unwrap().with_delay_s(delay_s).unwrap();
         let experiment = drawn.experiment(Sensor::default());
         let record = if held { experiment.held() } else { experiment }.run(60.0).unwrap();
         // A delay and unknown instants are told apart by the mean of the instants only.
-        let delay = if free && held { Delay::Estimated } else { Delay::KnownS(0.1) };
+        let delay = if free && held { Delay::Estimated } else { Delay::KnownS(delay_s) };
         let fit = Fit::new(law, delay).records(&[&record]).unwrap();
         prop_assert_eq!(fit.between(), if held { Between::AtSamples } else { Between::Anywhere });
         for (parameter, error, _) in drawn.errors(&fit) {
             prop_assert!(error < tolerance::CLEAN_FIT, "{parameter:?} off by {error}");
         }
         prop_assert!((fit.records()[0].disturbance.value - drawn.axis.disturbance()).abs() < tolerance::CLEAN_FIT);
-        prop_assert!((fit.axis().delay_s() - 0.1).abs() < tolerance::CLEAN_FIT);
+        prop_assert!((fit.axis().delay_s() - delay_s).abs() < tolerance::CLEAN_FIT);
     }
 }
 
@@ -318,6 +322,25 @@ fn a_lagging_actuator_is_named() {
     };
     assert!(codes(0.0).contains(&"actuator-lag"), "{:?}", codes(0.0));
     assert!(!codes(0.1).contains(&"actuator-lag"), "{:?}", codes(0.1));
+}
+
+/// White noise of 500 readings leaves white residuals; a slow wave on the sensor, which no vehicle explains, does not.
+#[test]
+fn a_pattern_in_the_residuals_is_named() {
+    let drawn = Drawn::new(DragLaw::Quadratic, 3);
+    let record = drawn.experiment(noisy()).held().run(60.0).unwrap();
+    let codes = |record: &Record| {
+        let fit = Fit::new(DragLaw::Quadratic, Delay::KnownS(0.1)).records(&[record]).unwrap();
+        let codes: Vec<_> = Warning::of_fit(&fit, None).iter().map(Warning::code).collect();
+        (fit.records()[0].colour, codes)
+    };
+    let (colour, names) = codes(&record);
+    assert!(colour.abs() < 3.5 && !names.contains(&"coloured-residuals"), "{colour} {names:?}");
+    // Alternating enough for neighbours to be uncorrelated: seen at longer lags only.
+    let wave = |t: f64| 0.01 * (0.5 * core::f64::consts::PI * t / 0.1).sin();
+    let output = record.time_s().iter().zip(record.output()).map(|(t, x)| x + wave(*t)).collect();
+    let (colour, names) = codes(&Record::new(record.time_s().to_vec(), output, record.input().to_vec()).unwrap());
+    assert!(colour > 3.5 && names.contains(&"coloured-residuals"), "{colour} {names:?}");
 }
 
 #[test]

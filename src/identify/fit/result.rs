@@ -50,6 +50,34 @@ pub struct FittedRecord {
     pub fit_percent: f64,
     /// Correlation of successive residuals: near zero for white ones. Rounding alone makes it positive on slow motions.
     pub autocorrelation: f64,
+    /// The strongest correlation of residuals up to [`LAGS`](Self::LAGS) samples apart, with its sign.
+    pub strongest_correlation: f64,
+    /// Ljung and Box's statistic over those lags as a standard normal deviate (Wilson and Hilferty's cube root): above 3, the
+    /// residuals are hardly white.
+    pub colour: f64,
+}
+
+impl FittedRecord {
+    /// Lags over which the residuals' whiteness is judged.
+    pub const LAGS: usize = 20;
+}
+
+/// Correlations of values with those 1, 2, ... places later.
+fn correlations(values: &[f64]) -> Vec<f64> {
+    let power = values.iter().map(|value| value * value).sum::<f64>().max(f64::MIN_POSITIVE);
+    let lags = 1..=FittedRecord::LAGS.min(values.len().saturating_sub(1));
+    lags.map(|lag| values.iter().zip(&values[lag..]).map(|(a, b)| a * b).sum::<f64>() / power).collect()
+}
+
+/// Ljung and Box's statistic as a normal deviate.
+#[allow(clippy::cast_precision_loss, reason = "counts of samples")]
+fn colour(correlations: &[f64], samples: usize) -> f64 {
+    let (n, lags) = (samples as f64, correlations.len().max(1) as f64);
+    let terms =
+        correlations.iter().enumerate().map(|(k, correlation)| correlation * correlation / (n - 1.0 - k as f64));
+    let statistic = n * (n + 2.0) * terms.sum::<f64>();
+    let unit = 2.0 / (9.0 * lags);
+    ((statistic / lags).cbrt() - (1.0 - unit)) / unit.sqrt()
 }
 
 impl Search<'_> {
@@ -79,7 +107,8 @@ impl Search<'_> {
                 let first_sample = rows.rows.iter().flatten().next().map_or(0, |(sample, _)| *sample);
                 let readings = &motion.record.output()[first_sample..];
                 let (rms, std) = (mean_square(&residuals, 0.0).sqrt(), mean_square(readings, mean(readings)).sqrt());
-                let products: Vec<f64> = residuals.windows(2).map(|pair| pair[0] * pair[1]).collect();
+                let correlations = correlations(&residuals);
+                let strongest = correlations.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()));
                 FittedRecord {
                     disturbance: Estimate {
                         value: motion.disturbance,
@@ -92,7 +121,9 @@ impl Search<'_> {
                     quantum: motion.noise.quantum,
                     residual_rms: rms,
                     fit_percent: 100.0 * (1.0 - rms / std.max(f64::MIN_POSITIVE)),
-                    autocorrelation: mean(&products) / (rms * rms).max(f64::MIN_POSITIVE),
+                    autocorrelation: correlations.first().copied().unwrap_or(0.0),
+                    strongest_correlation: strongest.unwrap_or(0.0),
+                    colour: colour(&correlations, residuals.len()),
                     output,
                     residuals,
                 }

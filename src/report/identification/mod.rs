@@ -60,7 +60,7 @@ impl Refusal {
         match self {
             Self::Record { source, .. } => source.code(),
             Self::Features { source, .. } => source.code(),
-            Self::Model(error) => estimate::code(error),
+            Self::Model(error) => error.code(),
         }
     }
 }
