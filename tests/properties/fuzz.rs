@@ -178,18 +178,19 @@ fn fuzz(first: u64, enough: impl Fn(u64) -> bool) -> (u64, u64) {
     (cases, models)
 }
 
-/// Cases that made trouble once, by their numbers: a delay of many periods gave a negative inertia.
+/// Cases that made trouble once, by their numbers: a delay of many periods gave a negative inertia; a step of the search beyond
+/// all numbers gave NaN.
 #[test]
 fn findings() {
-    for number in [1_000_029] {
+    for number in [1_000_029, 1_009_450] {
         fuzz(number, |cases| cases >= 1);
     }
 }
 
 #[test]
 fn damaged_logs_give_answers_or_refusals() {
-    let (_, models) = fuzz(0, |cases| cases >= 150);
-    assert!(models >= 10, "the damage leaves too little to identify: {models}");
+    let (_, models) = fuzz(0, |cases| cases >= 200);
+    assert!(models >= 8, "the damage leaves too little to identify: {models}");
 }
 
 #[test]

@@ -164,6 +164,6 @@ pub(crate) const CUT_CURVE: f64 = 2e-3;
 /// Logarithm of a likelihood where a search ends: successive steps differ by less.
 pub(crate) const LIKELIHOOD: f64 = 0.3;
 
-/// Parameters by orbit inversion from a record of 1000 samples a period: a level read half a sample late, and what is left of the
+/// Parameters by orbit inversion from a record of 4000 samples a period: a level read half a sample late, and what is left of the
 /// start-up.
 pub(crate) const DENSE_EXACT: f64 = 1e-2;

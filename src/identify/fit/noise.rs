@@ -114,9 +114,9 @@ impl Scores {
     pub(super) fn at(&self, residual: f64) -> f64 {
         let place = residual.abs() * self.cells_per_unit;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
-        let cell = place as usize;
-        match (self.scores.get(cell), self.scores.get(cell.saturating_add(1))) {
-            (Some(low), Some(high)) => residual.signum() * (low + (place - place.floor()) * (high - low)),
+        let cell = place as u32;
+        match self.scores.get(cell as usize..).unwrap_or_default() {
+            [low, high, ..] => residual.signum() * (low + (place - f64::from(cell)) * (high - low)),
             _ => self.noise.likelihood(residual).score,
         }
     }

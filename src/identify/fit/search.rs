@@ -1,6 +1,7 @@
 //! Gauss and Newton's method with the reading's own likelihood, over records cut into stretches.
 
 use faer::Mat;
+use rayon::prelude::*;
 
 use super::chain::{Chain, Link, OWN, solve_shared, weighted};
 use super::input::{Between, Edge, edges, gather};
@@ -22,6 +23,8 @@ const SETTLED_EVIDENCE: f64 = 0.3;
 const NOISE_WEIGHT: f64 = 1e-4;
 /// It looks at every sample once no common parameter moves by more than this, relative.
 const APPROACHED: f64 = 1e-3;
+/// Samples whose motion takes longer than handing it to another thread.
+const SAMPLES_PER_TASK: usize = 2000;
 /// Least drag coefficient that counts, against inertia over the swing: below, the vehicle coasts.
 const LEAST_DRAG: f64 = 1e-3;
 /// Least delay that counts, against the swing.
@@ -120,7 +123,7 @@ impl<'a> Motion<'a> {
         let acting = |k: usize| self.edges[k].time_s + self.deviations[k] + delay_s;
         let mut next = 0;
         let mut before = self.record.input()[0];
-        let mut all = Linearised { rows: Vec::new(), ends: Vec::new(), instants: Vec::new() };
+        let mut drives = Vec::with_capacity(self.stretches.len());
         for stretch in &self.stretches {
             while next < self.edges.len() && acting(next) <= stretch.begin_s {
                 before = self.edges[next].input;
@@ -131,15 +134,25 @@ impl<'a> Motion<'a> {
             while after < self.edges.len() && acting(after) <= stretch.end_s {
                 after += 1;
             }
-            let drive = Drive { before, edges: &self.edges[first..after], deviations: &self.deviations[first..after] };
-            let mut rows = Vec::with_capacity(stretch.samples.len() / stride + 1);
-            let time = self.record.time_s();
-            let end = integrate(stretch, &drive, time, (shared, self.disturbance), stride, &mut rows)?;
-            all.instants.push(uncertain(drive.edges).map(|k| first + k));
-            all.rows.push(rows);
-            all.ends.push(end);
+            let (edges, deviations) = (&self.edges[first..after], &self.deviations[first..after]);
+            drives.push((first, Drive { before, edges, deviations }));
         }
-        Ok(all)
+        let integrated = self.stretches.par_iter().zip(&drives).with_min_len(self.stretches_per_task()).map(
+            |(stretch, (_, drive))| {
+                let mut rows = Vec::with_capacity(stretch.samples.len() / stride + 1);
+                let time = self.record.time_s();
+                let end = integrate(stretch, drive, time, (shared, self.disturbance), stride, &mut rows)?;
+                Ok((rows, end))
+            },
+        );
+        let (rows, ends) = integrated.collect::<Result<Vec<_>, IdentifyError>>()?.into_iter().unzip();
+        let instants = drives.iter().map(|(first, drive)| Some(first + uncertain(drive.edges)?)).collect();
+        Ok(Linearised { rows, ends, instants })
+    }
+
+    /// Stretches that are worth another thread.
+    fn stretches_per_task(&self) -> usize {
+        1 + SAMPLES_PER_TASK * self.stretches.len() / self.record.samples()
     }
 
     pub(super) fn residuals(&self, linearised: &Linearised) -> Vec<f64> {
@@ -399,6 +412,9 @@ impl<'a> Search<'a> {
             let before = *value;
             *value = (before + share * step).max(0.0);
             moved = moved.max((*value - before).abs() / scale);
+        }
+        if !(self.shared.iter().all(|value| value.is_finite()) && self.shared[0] > 0.0 && moved.is_finite()) {
+            return Err(IdentifyError::Confounded { ratio: 0.0 });
         }
         Ok(if share < 1.0 { moved.max(1.0) } else { moved })
     }
