@@ -218,7 +218,8 @@ fn decisions(law: DragLaw, experiments: u64, sensor: Sensor) -> [usize; 3] {
     let decide = |seed: u64| {
         let drawn = Drawn::new(law, 5000 + seed);
         let record = drawn.experiment(sensor).held().run(60.0).unwrap();
-        match Choice::among_all(&[&record], Delay::KnownS(0.1)).unwrap().decision() {
+        // No answer at all, from noise as large as the motion, is none.
+        match Choice::among_all(&[&record], Delay::KnownS(0.1)).ok().and_then(|choice| choice.decision()) {
             Some(found) if found == law => [1, 0, 0],
             Some(_) => [0, 1, 0],
             None => [0, 0, 1],
@@ -268,10 +269,10 @@ fn a_moved_rudder_identifies_too() {
             DragAxis::mixed(1.0, if law.has_linear() { 0.4 } else { 0.0 }, if law.has_quadratic() { 0.6 } else { 0.0 });
         let axis = axis.unwrap().with_delay_s(0.15).unwrap().with_disturbance(0.05).unwrap();
         let fit = Fit::new(law, Delay::KnownS(0.15)).records(&[&rudder_record(&axis)]).unwrap();
-        assert_eq!(fit.between(), Between::Evenly);
+        assert_eq!(fit.between(), Between::Bent);
         let relative = (fit.axis().alpha() - 1.0).abs();
-        // The command between samples is taken for a ramp; it bends where it meets its limit.
-        assert!(relative < 0.01, "{law:?}: {fit:?}");
+        // The command bends between samples where it meets its limit.
+        assert!(relative < tolerance::CUT_CURVE, "{law:?}: {fit:?}");
     }
 }
 

@@ -347,6 +347,7 @@ impl<'a> Search<'a> {
     }
 
     fn iterate(mut self, stride: usize, limit: f64) -> Result<Self, IdentifyError> {
+        self.check()?;
         let mut moved = f64::INFINITY;
         for _ in 0..MAX_STEPS {
             let before = self.evidence;
@@ -413,10 +414,16 @@ impl<'a> Search<'a> {
             *value = (before + share * step).max(0.0);
             moved = moved.max((*value - before).abs() / scale);
         }
-        if !(self.shared.iter().all(|value| value.is_finite()) && self.shared[0] > 0.0 && moved.is_finite()) {
-            return Err(IdentifyError::Confounded { ratio: 0.0 });
-        }
+        self.check()?;
         Ok(if share < 1.0 { moved.max(1.0) } else { moved })
+    }
+
+    /// Whether there are numbers to go on with: none are left where a step went beyond them all.
+    fn check(&self) -> Result<(), IdentifyError> {
+        let [alpha, ..] = self.shared;
+        let sound =
+            alpha > 0.0 && self.shared.iter().chain(self.motions.iter().map(|m| &m.disturbance)).all(|v| v.is_finite());
+        if sound { Ok(()) } else { Err(IdentifyError::Confounded { ratio: 0.0 }) }
     }
 
     /// What the common unknowns are measured by: inertia by itself, either drag by both at the record's typical speed, the
