@@ -28,7 +28,6 @@ impl<S: Scalar> Recent<S> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Peak<S> {
     around: [(S, S); WINDOW],
-    largest: S,
     /// Samples since the search began, as far as they are remembered.
     count: u8,
     /// Index of the largest sample in `around`, and number of valid ones; zero valid ones before the first sample.
@@ -38,7 +37,7 @@ pub(super) struct Peak<S> {
 
 impl<S: Scalar> Peak<S> {
     pub(super) fn new() -> Self {
-        Self { around: [(S::zero(), S::zero()); WINDOW], largest: S::zero(), count: 0, top: 0, valid: 0 }
+        Self { around: [(S::zero(), S::zero()); WINDOW], count: 0, top: 0, valid: 0 }
     }
 
     /// Takes the newest of the recent samples, times `sign`.
@@ -47,8 +46,7 @@ impl<S: Scalar> Peak<S> {
         let newest = signed(recent.0[REACH]);
         self.count = (self.count + 1).min(WINDOW as u8);
         let valid = usize::from(self.valid);
-        if valid == 0 || newest.1 > self.largest {
-            self.largest = newest.1;
+        if valid == 0 || newest.1 > self.around[usize::from(self.top)].1 {
             let before = usize::from(self.count - 1).min(REACH);
             for (place, sample) in self.around.iter_mut().zip(&recent.0[REACH - before..]) {
                 *place = signed(*sample);
@@ -64,12 +62,12 @@ impl<S: Scalar> Peak<S> {
     pub(super) fn value(&self, reach_s: S) -> Option<S> {
         let (top, valid) = (usize::from(self.top), usize::from(self.valid));
         let samples = &self.around[..valid];
-        let origin = samples.get(top)?.0;
+        let &(origin, largest) = samples.get(top)?;
         let near = |index: &usize| (samples[*index].0 - origin).abs() <= reach_s;
         // The nearest neighbours always count.
         let first = (0..top).find(near).unwrap_or(top).min(top.saturating_sub(1));
         let last = (top + 1..valid).rev().find(near).unwrap_or(top).max((top + 1).min(valid - 1));
-        Some(vertex(&samples[first..=last], self.largest).unwrap_or(self.largest))
+        Some(vertex(&samples[first..=last], largest).unwrap_or(largest))
     }
 }
 

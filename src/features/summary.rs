@@ -72,10 +72,38 @@ pub struct Summary<S> {
     previous: Option<[S; 2]>,
     /// Amplitude and middle of the first steady cycle.
     first: Option<[S; 2]>,
+    run: Run<S>,
     /// Amplitude, bias, reference, period, level, time positive, time negative.
     moments: [Moments<S>; 7],
     /// Sums for the slopes of ln(amplitude) and of the middle over the cycle's number.
     trends: [Trend<S>; 2],
+}
+
+/// Successive start-up cycles whose amplitude changes one way, and no less each time.
+#[derive(Clone, Copy, Debug)]
+struct Run<S> {
+    changes: u32,
+    /// Logarithm of the last cycle's amplitude over that of the one before, and over that of the first.
+    last: S,
+    total: S,
+}
+
+impl<S: Scalar> Run<S> {
+    /// Against the change before: less, and the oscillation settles.
+    const KEPT: f64 = 0.7;
+    /// Fewest changes that make a run.
+    const FEWEST: u32 = 2;
+
+    fn push(&mut self, change: S) {
+        let ratio = change / self.last;
+        let goes_on = self.changes > 0 && ratio >= S::from_f64(Self::KEPT);
+        let begins = change.abs() > S::from_f64(Summary::<S>::STEADY).ln_1p();
+        *self = match (goes_on, begins) {
+            (true, _) => Self { changes: self.changes + 1, last: change, total: self.total + change },
+            (false, true) => Self { changes: 1, last: change, total: change },
+            (false, false) => Self { changes: 0, last: change, total: change },
+        };
+    }
 }
 
 /// Regression of a value on the number 0, 1, 2, ... of its cycle.
@@ -123,6 +151,7 @@ impl<S: Scalar> Summary<S> {
             start_up: 0,
             previous: None,
             first: None,
+            run: Run { changes: 0, last: zero, total: zero },
             moments: [Moments::new(zero); 7],
             trends: [trend; 2],
         }
@@ -134,6 +163,9 @@ impl<S: Scalar> Summary<S> {
         let steady = self.previous.is_some_and(|[amplitude, period_s]| {
             alike(amplitude, cycle.amplitude()) && alike(period_s, cycle.period_s)
         });
+        if let Some([amplitude, _]) = self.previous {
+            self.run.push((cycle.amplitude() / amplitude).ln());
+        }
         self.previous = Some([cycle.amplitude(), cycle.period_s]);
         if self.cycles == 0 && !steady {
             self.start_up += 1;
@@ -173,6 +205,9 @@ impl<S: Scalar> Summary<S> {
     /// [`FeatureError::TooFewCycles`], [`FeatureError::Growing`], [`FeatureError::Decaying`], [`FeatureError::Drift`].
     pub fn features(&self) -> Result<Features<S>, FeatureError> {
         if self.cycles < Self::FEWEST_CYCLES {
+            if self.run.changes >= Run::<S>::FEWEST {
+                return Err(trend(self.run.total));
+            }
             let (cycles, start_up) = (self.cycles, self.start_up);
             return Err(FeatureError::TooFewCycles { cycles, start_up, required: Self::FEWEST_CYCLES });
         }
@@ -182,8 +217,7 @@ impl<S: Scalar> Summary<S> {
         let significant = |(change, error): (S, S)| self.cycles > 2 && change.abs() > limit.max(three * error);
         let growth = self.trends[0].change(count);
         if significant(growth) {
-            let ratio = growth.0.exp().value();
-            return Err(if ratio > 1.0 { FeatureError::Growing { ratio } } else { FeatureError::Decaying { ratio } });
+            return Err(trend(growth.0));
         }
         let drift = self.trends[1].change(count);
         if significant(drift) {
@@ -203,6 +237,12 @@ impl<S: Scalar> Summary<S> {
             time_negative_s,
         })
     }
+}
+
+/// What a change of the amplitude's logarithm is called.
+fn trend<S: Scalar>(growth: S) -> FeatureError {
+    let ratio = growth.exp().value();
+    if ratio > 1.0 { FeatureError::Growing { ratio } } else { FeatureError::Decaying { ratio } }
 }
 
 impl<S: Scalar> Default for Summary<S> {

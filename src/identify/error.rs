@@ -71,6 +71,21 @@ pub enum IdentifyError {
         /// Residual rms reached.
         rms: f64,
     },
+    /// The first harmonic belongs to no vehicle.
+    #[error(
+        "{parameter} = {value} by the first harmonic with a delay of {delay_s} s in a period of {period_s} s, but it must be \
+         above 0; check the delay, and the sign of the command"
+    )]
+    Unphysical {
+        /// The parameter.
+        parameter: &'static str,
+        /// Its value, in units of the experiment.
+        value: f64,
+        /// Delay given, in s.
+        delay_s: f64,
+        /// Period, in s.
+        period_s: f64,
+    },
     /// No limit cycle at the parameters tried.
     #[error(transparent)]
     Orbit(#[from] OrbitError),
@@ -80,6 +95,25 @@ pub enum IdentifyError {
     /// Condition 40 is not met, or the relay or the input is not one.
     #[error(transparent)]
     Describing(#[from] DescribingError),
+}
+
+impl IdentifyError {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Feature { .. } => "feature",
+            Self::NoOrbit { .. } => "no-orbit",
+            Self::Unresolved { .. } => "unresolved",
+            Self::TooFewEquations { .. } => "too-few-equations",
+            Self::Confounded { .. } => "confounded",
+            Self::NotSettled { .. } => "not-settled",
+            Self::Unphysical { .. } => "unphysical",
+            Self::Orbit(_) => "orbit",
+            Self::Plant(_) => "plant",
+            Self::Describing(_) => "condition-40",
+        }
+    }
 }
 
 impl From<NonlinearityError> for IdentifyError {

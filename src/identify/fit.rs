@@ -17,10 +17,15 @@ mod start;
 pub use input::Between;
 pub use result::{FittedRecord, RecordFit};
 
+use rayon::prelude::*;
+
 use super::joint::Delay;
 use super::{DragLaw, IdentifyError};
 use crate::experiment::Record;
-use search::Search;
+use search::{Search, Start};
+
+/// Largest number of a record: sums of squares of larger ones leave the arithmetic.
+const MOST: f64 = 1e50;
 
 /// What to fit, and what is known.
 ///
@@ -53,8 +58,8 @@ impl Fit {
         Self { law, delay, between: None, quantum: None }
     }
 
-    /// What the command does between samples; else a switched command is tried both ways and the likelier one taken, and any
-    /// other command passes evenly from sample to sample.
+    /// What the command does between samples. Else a switched command is taken to change at samples or anywhere between them,
+    /// any other to be held or to pass evenly or with bends from sample to sample, whichever is likeliest.
     #[must_use]
     pub fn with_between(self, between: Between) -> Self {
         Self { between: Some(between), ..self }
@@ -75,6 +80,52 @@ impl Fit {
     /// [`IdentifyError::Feature`] for an output that never moves, and for a delay or step that is none; [`IdentifyError::TooFewEquations`],
     /// [`IdentifyError::Confounded`], [`IdentifyError::NotSettled`].
     pub fn records(&self, records: &[&Record]) -> Result<RecordFit, IdentifyError> {
+        self.records_from(records, &[])
+    }
+
+    /// As [`records`](Self::records), where fits to the same records are there already: under another law, or with another
+    /// delay. The search starts from them too, and the likeliest end is taken, so that a law is never found less likely than one
+    /// that it contains.
+    ///
+    /// # Errors
+    /// As [`records`](Self::records).
+    pub fn records_from(&self, records: &[&Record], fits: &[&RecordFit]) -> Result<RecordFit, IdentifyError> {
+        self.check(records)?;
+        let ways: &[Between] = match self.between {
+            Some(ref given) => core::slice::from_ref(given),
+            None if records.iter().all(|record| input::switched(record)) => &[Between::AtSamples, Between::Anywhere],
+            None => &[Between::AtSamples, Between::Evenly, Between::Bent],
+        };
+        let search = |law, between| Search::new(records, law, self.delay, between, self.quantum);
+        let mut starts: Vec<Start> = fits.iter().map(|fit| fit.place()).collect();
+        if self.law == DragLaw::Mixed && starts.is_empty() {
+            let simple = |law| ways.par_iter().flat_map(move |way| search(law, *way)?.approach());
+            starts =
+                [DragLaw::Linear, DragLaw::Quadratic].into_par_iter().flat_map(simple).map(|s| s.place()).collect();
+        }
+        starts.retain(|start| ways.contains(&start.between));
+        let own = ways.par_iter().map(|way| search(self.law, *way)?.approach());
+        let given = starts.par_iter().map(|start| search(self.law, start.between)?.starting_at(start).approach());
+        let ends: Vec<Result<Search<'_>, IdentifyError>> = own.chain(given).collect();
+        let best = likeliest(ends, Search::evidence).and_then(|best| best.settle()?.finish());
+        // With every sample, another start may yet have been the better one.
+        let reached = best.as_ref().map_or(f64::INFINITY, RecordFit::log_likelihood);
+        let missed = fits.iter().filter(|fit| fit.log_likelihood() > reached);
+        let again = missed.map(|fit| search(self.law, fit.between())?.starting_at(&fit.place()).refine()?.finish());
+        let best = likeliest(core::iter::once(best).chain(again), RecordFit::log_likelihood)?;
+        let other = match best.between() {
+            Between::Evenly => Between::Bent,
+            Between::Bent => Between::Evenly,
+            Between::AtSamples | Between::Anywhere => return Ok(best),
+        };
+        if !ways.contains(&other) {
+            return Ok(best);
+        }
+        let other = search(self.law, other)?.starting_at(&best.place()).refine()?.finish()?;
+        Ok(if other.log_likelihood() > best.log_likelihood() { other.widened(&best) } else { best.widened(&other) })
+    }
+
+    fn check(&self, records: &[&Record]) -> Result<(), IdentifyError> {
         let feature = |feature, value: f64| {
             if value >= 0.0 && value.is_finite() {
                 return Ok(());
@@ -86,6 +137,12 @@ impl Fit {
             if output.iter().all(|value| *value == output[0]) {
                 return Err(IdentifyError::Feature { feature: "range of the output", value: 0.0, required: "above 0" });
             }
+            for (feature, values) in [("largest output", output), ("largest input", record.input())] {
+                let value = values.iter().copied().fold(0.0, |most: f64, value| most.max(value.abs()));
+                if value > MOST {
+                    return Err(IdentifyError::Feature { feature, value, required: "at most 1e50" });
+                }
+            }
         }
         if let Delay::KnownS(delay_s) = self.delay {
             feature("delay in seconds", delay_s)?;
@@ -93,24 +150,21 @@ impl Fit {
         if let Some(quantum) = self.quantum {
             feature("step of the sensor", quantum)?;
         }
-        let betweens: &[Between] = match self.between {
-            Some(Between::AtSamples) => &[Between::AtSamples],
-            Some(Between::Anywhere) => &[Between::Anywhere],
-            Some(Between::Evenly) => &[Between::Evenly],
-            None if records.iter().all(|record| input::switched(record)) => &[Between::AtSamples, Between::Anywhere],
-            None => &[Between::Evenly],
-        };
-        let mut best: Option<Search<'_>> = None;
-        let mut failure = IdentifyError::TooFewEquations { equations: 0, parameters: motion::UNKNOWNS };
-        for &between in betweens {
-            match Search::new(records, self.law, self.delay, between, self.quantum).and_then(Search::approach) {
-                Ok(search) if best.as_ref().is_none_or(|best| search.evidence() > best.evidence()) => {
-                    best = Some(search);
-                }
-                Ok(_) => {}
-                Err(error) => failure = error,
-            }
-        }
-        best.ok_or(failure)?.settle()?.finish()
+        Ok(())
     }
+}
+
+/// The likeliest of those that succeeded; the first failure where none did.
+fn likeliest<T>(
+    ends: impl IntoIterator<Item = Result<T, IdentifyError>>,
+    log_likelihood: impl Fn(&T) -> f64,
+) -> Result<T, IdentifyError> {
+    let none = Err(IdentifyError::TooFewEquations { equations: 0, parameters: motion::UNKNOWNS });
+    ends.into_iter()
+        .reduce(|best, next| match (best, next) {
+            (Ok(best), Ok(next)) => Ok(if log_likelihood(&next) > log_likelihood(&best) { next } else { best }),
+            (Err(_), Ok(next)) => Ok(next),
+            (best, Err(_)) => best,
+        })
+        .unwrap_or(none)
 }

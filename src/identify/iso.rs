@@ -66,7 +66,8 @@ impl<T: Real> Oscillation<T> {
     /// Parameters under each drag law (Table 3 with eq. 34): step 5 of the paper's procedure, after condition 40.
     ///
     /// # Errors
-    /// As [`describing_function`](Self::describing_function).
+    /// As [`describing_function`](Self::describing_function); [`IdentifyError::Unphysical`] where inertia or drag comes out
+    /// negative, as with a delay that is a large part of the period.
     ///
     /// ```
     /// use selfosc::identify::iso::Oscillation;
@@ -80,7 +81,15 @@ impl<T: Real> Oscillation<T> {
     /// # Ok::<(), selfosc::identify::IdentifyError>(())
     /// ```
     pub fn identify(&self) -> Result<Parameters<T>, IdentifyError> {
-        Ok(parameters(self.describing_function()?, self.amplitude, self.omega_rad_s()))
+        let found = parameters(self.describing_function()?, self.amplitude, self.omega_rad_s());
+        for (parameter, value) in [("inertia", found.alpha), ("drag", found.beta)] {
+            if value.bounds().1 <= 0.0 {
+                let (value, delay_s) = (value.bounds().1, self.delay_s.bounds().1);
+                let period_s = self.period_s.bounds().0;
+                return Err(IdentifyError::Unphysical { parameter, value, delay_s, period_s });
+            }
+        }
+        Ok(found)
     }
 }
 

@@ -37,8 +37,8 @@ pub enum Warning {
     },
     /// The model leaves a pattern in the residuals.
     ColouredResiduals {
-        /// Correlation of successive residuals.
-        autocorrelation: f64,
+        /// The strongest correlation of residuals a few samples apart.
+        correlation: f64,
     },
     /// The paper's method and the fit disagree by more than their errors.
     MethodsDisagree {
@@ -53,8 +53,8 @@ pub enum Warning {
 const NEAR_AMPLITUDE: f64 = 0.9;
 /// Correlation from which two parameters are one.
 const CONFOUNDED: f64 = 0.95;
-/// Correlation of successive residuals from which they have a pattern.
-const COLOURED: f64 = 0.5;
+/// Correlation of residuals from which a pattern matters: with it at one lag, errors are half as large again as claimed.
+const COLOURED: f64 = 0.3;
 /// Difference between the methods that is the sinusoid's own error.
 const METHOD_ERROR: f64 = 0.1;
 /// Standard deviations that count as a difference.
@@ -106,12 +106,12 @@ impl Warning {
                 warnings.push(Self::ActuatorLag { given_s, fitted_s: fitted.value });
             }
         }
-        let coloured =
-            fit.records().iter().map(|record| (record.autocorrelation, record.residual_rms / record.quantum));
         // Rounding alone leaves a third of a step and may well have a pattern of its own.
-        let worst = coloured.filter(|(_, steps)| *steps > 0.5).map(|(correlation, _)| correlation).fold(0.0, f64::max);
-        if worst > COLOURED {
-            warnings.push(Self::ColouredResiduals { autocorrelation: worst });
+        let real = fit.records().iter().filter(|record| record.residual_rms > 0.5 * record.quantum);
+        let coloured = real.filter(|record| record.colour > SIGNIFICANT).map(|record| record.strongest_correlation);
+        let worst = coloured.fold(0.0, |worst: f64, next| if next.abs() > worst.abs() { next } else { worst });
+        if worst.abs() > COLOURED {
+            warnings.push(Self::ColouredResiduals { correlation: worst });
         }
         warnings
     }
@@ -170,9 +170,9 @@ impl fmt::Display for Warning {
                 "the record fits a delay of {fitted_s:.3} s better than the {given_s:.3} s given: an actuator lags, or the \
                  command is held; measure the delay or have it estimated"
             ),
-            Self::ColouredResiduals { autocorrelation } => write!(
+            Self::ColouredResiduals { correlation } => write!(
                 f,
-                "successive residuals have correlation {autocorrelation:.2}: something moves that the model has not, and the \
+                "residuals a few samples apart have correlation {correlation:.2}: something moves that the model has not, and the \
                  intervals are too narrow"
             ),
             Self::MethodsDisagree { parameter, ratio } => write!(

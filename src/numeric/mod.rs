@@ -26,6 +26,7 @@ mod root;
 #[cfg(feature = "std")]
 pub mod scan;
 pub mod special;
+mod tangent;
 
 #[cfg(feature = "std")]
 pub use expression::Expression;
@@ -38,3 +39,4 @@ pub use ratio::{
 };
 pub use real::{Real, Scalar};
 pub use root::increasing_root;
+pub use tangent::Tangent;

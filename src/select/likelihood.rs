@@ -20,6 +20,20 @@ pub struct Choice {
     probabilities: Vec<f64>,
 }
 
+/// Each of `laws` fitted to all records at once, in their order; the simple ones in parallel, then the mixed one, which contains
+/// them, from where they ended.
+///
+/// Each result is that of [`Fit::records`].
+pub fn fit_each(laws: &[DragLaw], records: &[&Record], delay: Delay) -> Vec<Result<RecordFit, IdentifyError>> {
+    let is_simple = |law: &DragLaw| *law != DragLaw::Mixed;
+    let simple = laws.par_iter().map(|law| is_simple(law).then(|| Fit::new(*law, delay).records(records)));
+    let simple: Vec<_> = simple.collect();
+    let starts: Vec<RecordFit> = simple.iter().flatten().flatten().cloned().collect();
+    let starts: Vec<&RecordFit> = starts.iter().collect();
+    let mixed = |law: &DragLaw| Fit::new(*law, delay).records_from(records, &starts);
+    laws.iter().zip(simple).map(|(law, result)| result.unwrap_or_else(|| mixed(law))).collect()
+}
+
 impl Choice {
     /// Fits linear, quadratic and mixed drag to all records at once, in parallel.
     ///
@@ -41,9 +55,7 @@ impl Choice {
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     pub fn among_all(records: &[&Record], delay: Delay) -> Result<Self, IdentifyError> {
-        let results: Vec<_> = DragLaw::ALL.into_par_iter().map(|law| Fit::new(law, delay).records(records)).collect();
-        let samples: usize = records.iter().map(|record| record.samples()).sum();
-        Self::of(results, samples)
+        Self::of(fit_each(&DragLaw::ALL, records, delay), records.iter().map(|record| record.samples()).sum())
     }
 
     /// From fits to the same `samples` samples; those that failed take no part.

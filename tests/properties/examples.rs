@@ -11,6 +11,8 @@ use selfosc::plant::DragAxis;
 
 #[path = "../../examples/describing_function.rs"]
 mod describing_function;
+#[path = "../../examples/fleet.rs"]
+mod fleet;
 #[path = "../../examples/limit_cycle.rs"]
 mod limit_cycle;
 #[path = "../../examples/nyquist_balance.rs"]
@@ -58,7 +60,7 @@ macro_rules! run {
         }
     };
 }
-run!(describing_function, limit_cycle, nyquist_balance, true_in_the_paper);
+run!(describing_function, fleet, limit_cycle, nyquist_balance, true_in_the_paper);
 
 #[test]
 fn none_is_left_out() {

@@ -43,6 +43,25 @@ fn every_unusable_record_has_a_name() {
     }
 }
 
+proptest! {
+    /// Two in a hundred each cycle, or half as much again: never just too few cycles.
+    #[test]
+    fn growth_and_decay_are_named_at_any_rate(percent in 2.0..80.0f64, growing: bool, cycles in 9..14u32) {
+        let rate = (1.0 + percent / 100.0).ln() / core::f64::consts::TAU;
+        let rate = if growing { rate } else { -rate };
+        let record = oscillation(core::f64::consts::TAU * (f64::from(cycles) + 1.5), |_| 0.0, |t| (rate * t).exp());
+        prop_assert_eq!(code(&record), if growing { "growing" } else { "decaying" });
+    }
+
+    /// A start-up that dies away is no decay, however far it begins from the end, in either direction.
+    #[test]
+    fn a_start_up_that_settles_is_not_a_trend(excess in -0.7..3.0f64, kept in 0.05..0.5f64) {
+        let rate = -kept.ln() / core::f64::consts::TAU;
+        let record = oscillation(150.0, |_| 0.0, |t| 1.0 + excess * (-rate * t).exp());
+        prop_assert_eq!(code(&record), "features");
+    }
+}
+
 #[test]
 fn the_reference_is_taken_out() {
     let found = RecordFeatures::of(&oscillation(80.0, |_| 7.0, |_| 1.0)).unwrap();

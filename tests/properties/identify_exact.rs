@@ -2,6 +2,8 @@
 
 use num_dual::Dual64;
 use proptest::prelude::*;
+use selfosc::experiment::Experiment;
+use selfosc::features::RecordFeatures;
 use selfosc::identify::IdentifyError;
 use selfosc::identify::exact::Cycle;
 use selfosc::identify::iso::Oscillation;
@@ -190,6 +192,30 @@ proptest! {
         prop_assert!((unit * (z - z.tanh()) / half_width - 1.0).abs() <= tolerance::INVERSION);
         let excess = unit * (z.tanh() - (1.0 + z.tanh()).ln());
         prop_assert!((excess / (ratio * half_width) - 1.0).abs() <= tolerance::INVERSION);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// From a dense record, simulated, through its features: both laws, with and without disturbance and delay, whether the relay is
+    /// held or watches all the time.
+    #[test]
+    fn dense_records_give_the_parameters_within_a_percent(
+        quadratic: bool, alpha in 0.3..3.0f64, half_width in 0.1..0.5f64, g in 0.1..2.0f64,
+        mu in prop_oneof![Just(0.0), -0.3..0.3f64], delay_s in prop_oneof![Just(0.0), 0.0..0.3f64], held: bool,
+    ) {
+        let drag = if quadratic { g * alpha / half_width } else { (g * alpha / half_width).sqrt() };
+        let case = Loop { quadratic, alpha, drag, level: 1.0, half_width, mu, delay_s };
+        let axis = case.axis(case.parameters());
+        let relay = RelayHysteresis::new(1.0, half_width, 0.0).unwrap();
+        let period_s = limit_cycle(&axis, &relay).unwrap().period_s;
+        let experiment = Experiment::new(axis, relay, 4000.0 / period_s).unwrap();
+        let record = if held { experiment.held() } else { experiment }.run(25.0 * period_s).unwrap();
+        let found = RecordFeatures::of(&record).unwrap();
+        let cycle = Cycle::of(&found.features, found.relay.level, delay_s);
+        let error = case.error(case.invert(&cycle).unwrap());
+        prop_assert!(error < tolerance::DENSE_EXACT, "{case:?}: {error}");
     }
 }
 

@@ -65,21 +65,46 @@ fn law() -> impl Strategy<Value = DragLaw> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// Without noise the parameters come back, whether the relay was held or its instants are not in the log.
+    /// Without noise the parameters come back, with or without disturbance and delay, whether the relay was held or its instants are not in the log.
     #[test]
-    fn clean_records_give_the_parameters_back(law in law(), seed: u64, held: bool, free: bool) {
-        let drawn = Drawn::new(law, seed);
+    fn clean_records_give_the_parameters_back(
+        law in law(), seed: u64, held: bool, free: bool, disturbed: bool, delay_s in prop_oneof![Just(0.0), Just(0.1), 0.0..0.3f64],
+    ) {
+        let mut drawn = Drawn::new(law, seed);
+        let disturbance = if disturbed { drawn.axis.disturbance() } else { 0.0 };
+        drawn.axis = drawn.axis.with_disturbance(disturbance).unwrap().with_delay_s(delay_s).unwrap();
         let experiment = drawn.experiment(Sensor::default());
         let record = if held { experiment.held() } else { experiment }.run(60.0).unwrap();
         // A delay and unknown instants are told apart by the mean of the instants only.
-        let delay = if free && held { Delay::Estimated } else { Delay::KnownS(0.1) };
+        let delay = if free && held { Delay::Estimated } else { Delay::KnownS(delay_s) };
         let fit = Fit::new(law, delay).records(&[&record]).unwrap();
         prop_assert_eq!(fit.between(), if held { Between::AtSamples } else { Between::Anywhere });
         for (parameter, error, _) in drawn.errors(&fit) {
             prop_assert!(error < tolerance::CLEAN_FIT, "{parameter:?} off by {error}");
         }
         prop_assert!((fit.records()[0].disturbance.value - drawn.axis.disturbance()).abs() < tolerance::CLEAN_FIT);
-        prop_assert!((fit.axis().delay_s() - 0.1).abs() < tolerance::CLEAN_FIT);
+        prop_assert!((fit.axis().delay_s() - delay_s).abs() < tolerance::CLEAN_FIT);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    /// The mixed law contains the simple ones: it never ends less likely, from noisy or rounded readings of any of the three.
+    #[test]
+    fn the_mixed_law_is_never_less_likely(law in law(), seed: u64, held: bool, rounded: bool, rate_hz in prop_oneof![Just(10.0), Just(50.0)]) {
+        let sensor = if rounded { rounding() } else { noisy() };
+        let relay = RelayHysteresis::new(1.0, Drawn::new(law, seed).half_width, 0.0).unwrap();
+        let drawn = Drawn::new(law, seed);
+        let experiment = Experiment::new(drawn.axis, relay, rate_hz).unwrap().with_sensor(sensor).unwrap().with_seed(seed);
+        let record = if held { experiment.held() } else { experiment }.run(40.0).unwrap();
+        let delay = Delay::KnownS(0.1);
+        let choice = Choice::among_all(&[&record], delay).unwrap();
+        let likelihood = |law| choice.fits().iter().find(|fit| fit.law() == law).unwrap().log_likelihood();
+        let simple = likelihood(DragLaw::Linear).max(likelihood(DragLaw::Quadratic));
+        prop_assert!(likelihood(DragLaw::Mixed) >= simple - tolerance::LIKELIHOOD, "{} {simple}", likelihood(DragLaw::Mixed));
+        let alone = Fit::new(DragLaw::Mixed, delay).records(&[&record]).unwrap().log_likelihood();
+        prop_assert!(alone >= simple - tolerance::LIKELIHOOD, "alone {alone}, {simple}");
     }
 }
 
@@ -142,20 +167,49 @@ fn gaussian_noise_costs_no_more_than_the_bound() {
     }
 }
 
+/// A share of 95 % among 500 has a standard error of 1 %; a root mean square among 500 one of 3 %.
 #[test]
 #[ignore = "slow: 500 experiments for each law"]
 fn intervals_cover_in_500_experiments() {
     for law in DragLaw::ALL {
-        for (parameter, Coverage { held, rms, errors }) in coverage(law, 500, rounding()) {
-            let worst = errors[errors.len() - 1];
-            assert!(
-                (0.92..=0.98).contains(&held),
-                "{law:?} {parameter:?}: coverage {held}, {rms}, worst error {worst}"
-            );
+        for (sensor, name) in [(rounding(), "rounded to 1 degree"), (noisy(), "Gaussian noise 0.01")] {
+            for (parameter, Coverage { held, rms, errors }) in coverage(law, 500, sensor) {
+                let (middle, worst) = (errors[errors.len() / 2], errors[errors.len() - 1]);
+                println!(
+                    "{} drag, {name}, {parameter:?}: coverage {:.1} %, rms over std {rms:.3}, error median {:.2} %, worst {:.2} %",
+                    law.name(),
+                    100.0 * held,
+                    100.0 * middle,
+                    100.0 * worst
+                );
+                assert!((0.92..=0.98).contains(&held), "{law:?} {parameter:?}: coverage {held}");
+                if sensor.noise > 0.0 {
+                    assert!(rms < 1.2, "{law:?} {parameter:?}: {rms}");
+                } else if law != DragLaw::Mixed {
+                    assert!(worst < 0.03, "{law:?} {parameter:?}: {worst}");
+                }
+            }
         }
-        for (parameter, Coverage { held, rms, .. }) in coverage(law, 500, noisy()) {
-            assert!(rms < 1.2 && held >= 0.92, "{law:?} {parameter:?}: {rms}, coverage {held}");
-        }
+    }
+}
+
+#[test]
+#[ignore = "slow: 500 experiments for each law"]
+fn the_drag_law_is_recognised_in_500_experiments() {
+    for law in DragLaw::ALL {
+        let [right, wrong, none] = decisions(law, 500, rounding());
+        println!("{} drag: {right} right, {wrong} wrong, {none} undecided", law.name());
+        // A mixed law may be as near to a simple one as one likes: there it need not be seen.
+        assert!(wrong <= 25 && (law == DragLaw::Mixed || right >= 475), "{law:?}: {right} {wrong} {none}");
+    }
+    let coarse = Sensor { noise: 0.3, ..Sensor::default() };
+    for law in [DragLaw::Linear, DragLaw::Quadratic] {
+        let [right, wrong, none] = decisions(law, 500, coarse);
+        println!(
+            "{} drag under noise as large as the difference: {right} right, {wrong} wrong, {none} undecided",
+            law.name()
+        );
+        assert!(wrong <= 50 && none >= 100, "{law:?}: {right} {wrong} {none}");
     }
 }
 
@@ -164,7 +218,8 @@ fn decisions(law: DragLaw, experiments: u64, sensor: Sensor) -> [usize; 3] {
     let decide = |seed: u64| {
         let drawn = Drawn::new(law, 5000 + seed);
         let record = drawn.experiment(sensor).held().run(60.0).unwrap();
-        match Choice::among_all(&[&record], Delay::KnownS(0.1)).unwrap().decision() {
+        // No answer at all, from noise as large as the motion, is none.
+        match Choice::among_all(&[&record], Delay::KnownS(0.1)).ok().and_then(|choice| choice.decision()) {
             Some(found) if found == law => [1, 0, 0],
             Some(_) => [0, 1, 0],
             None => [0, 0, 1],
@@ -214,10 +269,10 @@ fn a_moved_rudder_identifies_too() {
             DragAxis::mixed(1.0, if law.has_linear() { 0.4 } else { 0.0 }, if law.has_quadratic() { 0.6 } else { 0.0 });
         let axis = axis.unwrap().with_delay_s(0.15).unwrap().with_disturbance(0.05).unwrap();
         let fit = Fit::new(law, Delay::KnownS(0.15)).records(&[&rudder_record(&axis)]).unwrap();
-        assert_eq!(fit.between(), Between::Evenly);
+        assert_eq!(fit.between(), Between::Bent);
         let relative = (fit.axis().alpha() - 1.0).abs();
-        // The command between samples is taken for a ramp; it bends where it meets its limit.
-        assert!(relative < 0.01, "{law:?}: {fit:?}");
+        // The command bends between samples where it meets its limit.
+        assert!(relative < tolerance::CUT_CURVE, "{law:?}: {fit:?}");
     }
 }
 
@@ -268,6 +323,25 @@ fn a_lagging_actuator_is_named() {
     };
     assert!(codes(0.0).contains(&"actuator-lag"), "{:?}", codes(0.0));
     assert!(!codes(0.1).contains(&"actuator-lag"), "{:?}", codes(0.1));
+}
+
+/// White noise of 500 readings leaves white residuals; a slow wave on the sensor, which no vehicle explains, does not.
+#[test]
+fn a_pattern_in_the_residuals_is_named() {
+    let drawn = Drawn::new(DragLaw::Quadratic, 3);
+    let record = drawn.experiment(noisy()).held().run(60.0).unwrap();
+    let codes = |record: &Record| {
+        let fit = Fit::new(DragLaw::Quadratic, Delay::KnownS(0.1)).records(&[record]).unwrap();
+        let codes: Vec<_> = Warning::of_fit(&fit, None).iter().map(Warning::code).collect();
+        (fit.records()[0].colour, codes)
+    };
+    let (colour, names) = codes(&record);
+    assert!(colour.abs() < 3.5 && !names.contains(&"coloured-residuals"), "{colour} {names:?}");
+    // Alternating enough for neighbours to be uncorrelated: seen at longer lags only.
+    let wave = |t: f64| 0.01 * (0.5 * core::f64::consts::PI * t / 0.1).sin();
+    let output = record.time_s().iter().zip(record.output()).map(|(t, x)| x + wave(*t)).collect();
+    let (colour, names) = codes(&Record::new(record.time_s().to_vec(), output, record.input().to_vec()).unwrap());
+    assert!(colour > 3.5 && names.contains(&"coloured-residuals"), "{colour} {names:?}");
 }
 
 #[test]

@@ -178,3 +178,19 @@ pub(crate) const SINGLE_EXPERIMENT: f64 = 2e-3;
 
 /// Inertia identified from a few cycles at some thirty samples each, relay levels read up to a sample late.
 pub(crate) const SLOW_MODEL: f64 = 0.06;
+/// Inertia and drag from 60 s at 10 Hz under a command that moves: four standard deviations of the readings' noise, and what a
+/// ramp's unknown corners add.
+pub(crate) const MOVED: f64 = 8e-3;
+
+/// The same with both kinds of drag, which such a record hardly tells apart.
+pub(crate) const MOVED_MIXED: f64 = 0.12;
+
+/// The same where a curve is cut off between samples, with little noise: a tenth of an interval at each corner.
+pub(crate) const CUT_CURVE: f64 = 2e-3;
+
+/// Logarithm of a likelihood where a search ends: successive steps differ by less.
+pub(crate) const LIKELIHOOD: f64 = 0.3;
+
+/// Parameters by orbit inversion from a record of 4000 samples a period: a level read half a sample late, and what is left of the
+/// start-up.
+pub(crate) const DENSE_EXACT: f64 = 1e-2;

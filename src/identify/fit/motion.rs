@@ -1,10 +1,8 @@
 //! Motion of the model over a stretch of the record, with its derivatives.
 
-use nalgebra::{Const, U1};
-use num_dual::DualSVec64;
-
 use super::input::Edge;
 use crate::identify::IdentifyError;
+use crate::numeric::{Real, Scalar, Tangent};
 use crate::plant::{DragAxis, State};
 
 /// Unknowns of a stretch: instant of its uncertain edge, state at its beginning, disturbance, then what is common to all.
@@ -15,10 +13,11 @@ pub(super) const VELOCITY: usize = 2;
 pub(super) const DISTURBANCE: usize = 3;
 /// The first unknown common to all records: alpha, linear drag, quadratic drag, delay.
 pub(super) const COMMON: usize = 4;
+/// The last of them.
+const DELAY: usize = UNKNOWNS - 1;
 /// Number of common unknowns.
 pub(super) const SHARED: usize = UNKNOWNS - COMMON;
 
-type Dual = DualSVec64<UNKNOWNS>;
 pub(super) type Gradient = [f64; UNKNOWNS];
 
 /// A number and its derivatives with respect to the unknowns.
@@ -50,12 +49,55 @@ pub(super) struct Drive<'a> {
 /// Common unknowns: alpha, linear drag, quadratic drag, delay in s.
 pub(super) type Shared = [f64; SHARED];
 
-fn seed(value: f64, index: usize) -> Dual {
-    Dual::from_re(value).derivative(index)
+/// The motion under one constant force after another, with its derivatives.
+struct Flow {
+    shared: Shared,
+    disturbance: f64,
+    input: f64,
+    now: Sensitive,
+    position: Sensitive,
+    velocity: Sensitive,
 }
 
-fn sensitive(value: &Dual) -> Sensitive {
-    Sensitive { value: value.re, gradient: value.eps.unwrap_generic(Const, U1).into() }
+impl Flow {
+    /// Position and velocity at `time`, `input` acting since `now`.
+    ///
+    /// The passage depends on speed, drive and drags (all over the inertia) and the duration; the last derivative is the
+    /// equation of motion itself, so that four are carried through the closed forms.
+    fn at(&self, time: &Sensitive) -> Result<[Sensitive; 2], IdentifyError> {
+        let [alpha, linear, quadratic, _] = self.shared;
+        let force = (self.input + self.disturbance) / alpha;
+        let [speed, drive, linear, quadratic] =
+            Tangent::variables([self.velocity.value, force, linear / alpha, quadratic / alpha]);
+        let axis = DragAxis::mixed(Tangent::one(), linear, quadratic)?;
+        let state = State { position: Tangent::zero(), velocity: speed };
+        let duration = time.value - self.now.value;
+        let end = axis.advance(state, drive, Tangent::from_f64(duration));
+        let speed = end.velocity.value();
+        let acceleration = force - (linear.value() + quadratic.value() * speed.abs()) * speed;
+        let position = self.sensitive(end.position, speed, time);
+        let velocity = self.sensitive(end.velocity, acceleration, time);
+        let mut moved = position;
+        moved.value += self.position.value;
+        moved.gradient.iter_mut().zip(self.position.gradient).for_each(|(sum, before)| *sum += before);
+        Ok([moved, velocity])
+    }
+
+    /// By the chain rule from the flow's own variables and its rate to the unknowns.
+    fn sensitive(&self, number: Tangent<4>, rate: f64, time: &Sensitive) -> Sensitive {
+        let [by_speed, by_drive, by_linear, by_quadratic] = number.slopes();
+        let [alpha, linear, quadratic, _] = self.shared;
+        let mut gradient = self.velocity.gradient.map(|slope| by_speed * slope);
+        for k in [INSTANT, DELAY] {
+            gradient[k] += rate * (time.gradient[k] - self.now.gradient[k]);
+        }
+        let force = self.input + self.disturbance;
+        gradient[DISTURBANCE] += by_drive / alpha;
+        gradient[COMMON] -= (by_drive * force + by_linear * linear + by_quadratic * quadratic) / (alpha * alpha);
+        gradient[COMMON + 1] += by_linear / alpha;
+        gradient[COMMON + 2] += by_quadratic / alpha;
+        Sensitive { value: number.value(), gradient }
+    }
 }
 
 /// Index, among the edges of a stretch, of the one whose instant is estimated.
@@ -72,38 +114,45 @@ pub(super) fn integrate(
     stride: usize,
     rows: &mut Vec<(usize, Sensitive)>,
 ) -> Result<[Sensitive; 2], IdentifyError> {
-    let common = |k: usize| seed(shared[k], COMMON + k);
-    let axis = DragAxis::mixed(common(0), common(1), common(2))?
-        .with_disturbance(seed(disturbance, DISTURBANCE))?
-        .with_delay_s(common(3))?;
-    let mut now = Dual::from_re(stretch.begin_s);
-    let mut state =
-        State { position: seed(stretch.start.position, POSITION), velocity: seed(stretch.start.velocity, VELOCITY) };
-    let mut input = drive.before;
+    let exactly = |value: f64| Sensitive { value, gradient: [0.0; UNKNOWNS] };
+    let seed = |value: f64, index: usize| {
+        let mut unknown = exactly(value);
+        unknown.gradient[index] = 1.0;
+        unknown
+    };
+    let mut flow = Flow {
+        shared: *shared,
+        disturbance,
+        input: drive.before,
+        now: exactly(stretch.begin_s),
+        position: seed(stretch.start.position, POSITION),
+        velocity: seed(stretch.start.velocity, VELOCITY),
+    };
     let free = uncertain(drive.edges);
     let mut next = 0;
-    let mut act = |until: f64, now: &mut Dual, state: &mut State<Dual>, input: &mut f64| {
+    let mut act = |until: f64, flow: &mut Flow| {
         while let Some(edge) = drive.edges.get(next) {
-            let time = edge.time_s + drive.deviations[next];
-            let time = if free == Some(next) { seed(time, INSTANT) } else { Dual::from_re(time) };
-            let time = time + axis.delay_s();
-            if time.re > until {
-                return;
+            let mut time = seed(edge.time_s + drive.deviations[next] + shared[SHARED - 1], DELAY);
+            if free == Some(next) {
+                time.gradient[INSTANT] = 1.0;
             }
-            if time.re > now.re {
-                *state = axis.advance(*state, Dual::from_re(*input), time - *now);
-                *now = time;
+            if time.value > until {
+                break;
             }
-            *input = edge.input;
+            if time.value > flow.now.value {
+                [flow.position, flow.velocity] = flow.at(&time)?;
+                flow.now = time;
+            }
+            flow.input = edge.input;
             next += 1;
         }
+        Ok::<(), IdentifyError>(())
     };
     for sample in stretch.samples.clone().step_by(stride) {
-        act(time_s[sample], &mut now, &mut state, &mut input);
-        let output = axis.advance(state, Dual::from_re(input), Dual::from_re(time_s[sample]) - now).position;
-        rows.push((sample, sensitive(&output)));
+        act(time_s[sample], &mut flow)?;
+        let [output, _] = flow.at(&exactly(time_s[sample]))?;
+        rows.push((sample, output));
     }
-    act(stretch.end_s, &mut now, &mut state, &mut input);
-    let end = axis.advance(state, Dual::from_re(input), Dual::from_re(stretch.end_s) - now);
-    Ok([sensitive(&end.position), sensitive(&end.velocity)])
+    act(stretch.end_s, &mut flow)?;
+    flow.at(&exactly(stretch.end_s))
 }

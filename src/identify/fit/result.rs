@@ -2,7 +2,7 @@
 
 use super::input::Between;
 use super::motion::SHARED;
-use super::search::{Linearised, Search};
+use super::search::{Linearised, Search, Start};
 use super::spread::Covariance;
 use crate::identify::joint::{Estimate, Parameter, Spread};
 use crate::identify::{DragLaw, IdentifyError};
@@ -50,6 +50,34 @@ pub struct FittedRecord {
     pub fit_percent: f64,
     /// Correlation of successive residuals: near zero for white ones. Rounding alone makes it positive on slow motions.
     pub autocorrelation: f64,
+    /// The strongest correlation of residuals up to [`LAGS`](Self::LAGS) samples apart, with its sign.
+    pub strongest_correlation: f64,
+    /// Ljung and Box's statistic over those lags as a standard normal deviate (Wilson and Hilferty's cube root): above 3, the
+    /// residuals are hardly white.
+    pub colour: f64,
+}
+
+impl FittedRecord {
+    /// Lags over which the residuals' whiteness is judged.
+    pub const LAGS: usize = 20;
+}
+
+/// Correlations of values with those 1, 2, ... places later.
+fn correlations(values: &[f64]) -> Vec<f64> {
+    let power = values.iter().map(|value| value * value).sum::<f64>().max(f64::MIN_POSITIVE);
+    let lags = 1..=FittedRecord::LAGS.min(values.len().saturating_sub(1));
+    lags.map(|lag| values.iter().zip(&values[lag..]).map(|(a, b)| a * b).sum::<f64>() / power).collect()
+}
+
+/// Ljung and Box's statistic as a normal deviate.
+#[allow(clippy::cast_precision_loss, reason = "counts of samples")]
+fn colour(correlations: &[f64], samples: usize) -> f64 {
+    let (n, lags) = (samples as f64, correlations.len().max(1) as f64);
+    let terms =
+        correlations.iter().enumerate().map(|(k, correlation)| correlation * correlation / (n - 1.0 - k as f64));
+    let statistic = n * (n + 2.0) * terms.sum::<f64>();
+    let unit = 2.0 / (9.0 * lags);
+    ((statistic / lags).cbrt() - (1.0 - unit)) / unit.sqrt()
 }
 
 impl Search<'_> {
@@ -79,7 +107,8 @@ impl Search<'_> {
                 let first_sample = rows.rows.iter().flatten().next().map_or(0, |(sample, _)| *sample);
                 let readings = &motion.record.output()[first_sample..];
                 let (rms, std) = (mean_square(&residuals, 0.0).sqrt(), mean_square(readings, mean(readings)).sqrt());
-                let products: Vec<f64> = residuals.windows(2).map(|pair| pair[0] * pair[1]).collect();
+                let correlations = correlations(&residuals);
+                let strongest = correlations.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()));
                 FittedRecord {
                     disturbance: Estimate {
                         value: motion.disturbance,
@@ -92,7 +121,9 @@ impl Search<'_> {
                     quantum: motion.noise.quantum,
                     residual_rms: rms,
                     fit_percent: 100.0 * (1.0 - rms / std.max(f64::MIN_POSITIVE)),
-                    autocorrelation: mean(&products) / (rms * rms).max(f64::MIN_POSITIVE),
+                    autocorrelation: correlations.first().copied().unwrap_or(0.0),
+                    strongest_correlation: strongest.unwrap_or(0.0),
+                    colour: colour(&correlations, residuals.len()),
                     output,
                     residuals,
                 }
@@ -114,6 +145,15 @@ fn spread(value: f64, std: f64) -> Spread {
     Spread { std, low: value - NORMAL_95 * std, high: value + NORMAL_95 * std }
 }
 
+/// With so much more variance, and not below `least`.
+fn wider(estimate: Estimate, variance: f64, least: f64) -> Estimate {
+    let wider = |before: Spread| {
+        let after = spread(estimate.value, (before.std * before.std + variance).sqrt());
+        Spread { low: after.low.max(least), ..after }
+    };
+    Estimate { spread: estimate.spread.map(wider), ..estimate }
+}
+
 #[allow(clippy::cast_precision_loss, reason = "a count of samples")]
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
@@ -125,6 +165,31 @@ fn mean_square(values: &[f64], about: f64) -> f64 {
 }
 
 impl RecordFit {
+    /// The same model, its errors with what the input's way between samples leaves open: `other` takes the other of two ways
+    /// that pass into each other. A way between them is as likely as the parabola through both likelihoods says, and the
+    /// estimate moves along with it.
+    pub(super) fn widened(mut self, other: &Self) -> Self {
+        let lost = (self.evidence - other.evidence).max(0.5);
+        let share = 0.5 / lost;
+        let apart: [f64; SHARED] = core::array::from_fn(|k| self.estimates[k].value - other.estimates[k].value);
+        for (i, row) in self.covariance.iter_mut().enumerate() {
+            for (j, value) in row.iter_mut().enumerate() {
+                *value += share * apart[i] * apart[j];
+            }
+            self.estimates[i] = wider(self.estimates[i], share * apart[i] * apart[i], 0.0);
+        }
+        for (record, other) in self.records.iter_mut().zip(&other.records) {
+            let apart = record.disturbance.value - other.disturbance.value;
+            record.disturbance = wider(record.disturbance, share * apart * apart, f64::NEG_INFINITY);
+        }
+        self
+    }
+
+    /// As the start of another search.
+    pub(super) fn place(&self) -> Start {
+        let disturbances = self.records.iter().map(|record| record.disturbance.value).collect();
+        Start { between: self.between, shared: self.estimates.map(|estimate| estimate.value), disturbances }
+    }
     /// The drag law fitted.
     #[must_use]
     pub fn law(&self) -> DragLaw {

@@ -1,9 +1,10 @@
 //! Gauss and Newton's method with the reading's own likelihood, over records cut into stretches.
 
 use faer::Mat;
+use rayon::prelude::*;
 
 use super::chain::{Chain, Link, OWN, solve_shared, weighted};
-use super::input::{Between, Edge, edges};
+use super::input::{Between, Edge, edges, gather};
 use super::motion::{COMMON, Drive, Gradient, SHARED, Sensitive, Shared, Stretch, UNKNOWNS, integrate, uncertain};
 use super::motion::{DISTURBANCE, INSTANT, POSITION, VELOCITY};
 use super::noise::Noise;
@@ -16,12 +17,20 @@ use crate::identify::{DragLaw, IdentifyError};
 const MAX_STEPS: usize = 60;
 /// The search ends when no common parameter moves by more than this, relative.
 const SETTLED: f64 = 1e-6;
+/// And when the logarithm of the likelihood changes by no more than this.
+const SETTLED_EVIDENCE: f64 = 0.3;
 /// Change of the noise, as a logarithm, that weighs as much as a change of a parameter of this size: it is needed roughly.
 const NOISE_WEIGHT: f64 = 1e-4;
 /// It looks at every sample once no common parameter moves by more than this, relative.
 const APPROACHED: f64 = 1e-3;
-/// Samples per stretch while the search is far from its end.
-const COARSE: usize = 24;
+/// Samples whose motion takes longer than handing it to another thread.
+const SAMPLES_PER_TASK: usize = 2000;
+/// Least drag coefficient that counts, against inertia over the swing: below, the vehicle coasts.
+const LEAST_DRAG: f64 = 1e-3;
+/// Least delay that counts, against the swing.
+const DELAY_SHARE: f64 = 1e-2;
+/// Samples per swing while the search is far from its end.
+const COARSE: f64 = 24.0;
 /// Least noise taken for a rounding sensor, in steps: with less, a step of the search sees hardly any reading.
 pub(super) const LEAST_NOISE_STEPS: f64 = 0.15;
 /// Least noise for any sensor, against the output's range: below it there is only rounding of the arithmetic.
@@ -37,6 +46,7 @@ pub(super) struct Motion<'a> {
     pub(super) disturbance: f64,
     pub(super) noise: Noise,
     range: f64,
+    swing_s: f64,
 }
 
 /// The model along one record, linearised.
@@ -46,6 +56,14 @@ pub(super) struct Linearised {
     ends: Vec<[Sensitive; 2]>,
     /// For each stretch the edge whose instant is estimated.
     pub(super) instants: Vec<Option<usize>>,
+}
+
+/// Where a search may start.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Start {
+    pub(super) between: Between,
+    pub(super) shared: Shared,
+    pub(super) disturbances: Vec<f64>,
 }
 
 /// The state of the search.
@@ -62,7 +80,7 @@ pub(super) struct Search<'a> {
 
 impl<'a> Motion<'a> {
     fn new(record: &'a Record, between: Between, delay_s: f64, disturbance: f64, quantum: Option<f64>) -> Self {
-        let edges = edges(record, between);
+        let mut edges = edges(record, between);
         let time = record.time_s();
         let last = time[time.len() - 1];
         let swing = start::swing_s(record);
@@ -70,7 +88,7 @@ impl<'a> Motion<'a> {
         let begin = (time[0] + delay_s).min(time[time.len() / 2]);
         let mut nodes = vec![begin];
         let acting = |edge: &Edge| edge.time_s + delay_s;
-        if between == Between::Evenly {
+        if between == Between::Evenly || between == Between::Bent || edges.len() > record.samples() / 3 {
             let mut next = begin + swing;
             while next + 0.5 * swing < last {
                 nodes.push(next);
@@ -82,6 +100,9 @@ impl<'a> Motion<'a> {
             nodes.retain(|node| *node >= begin && *node < last);
         }
         nodes.push(last);
+        if between == Between::Bent {
+            gather(&mut edges, record.input()[0], |time| nodes.partition_point(|node| *node <= time + delay_s));
+        }
         let stretches = nodes.windows(2).enumerate().map(|(index, pair)| {
             let from = time.partition_point(|t| *t < pair[0]);
             let to = if index + 2 == nodes.len() { time.len() } else { time.partition_point(|t| *t < pair[1]) };
@@ -94,7 +115,7 @@ impl<'a> Motion<'a> {
             - output.iter().copied().fold(f64::INFINITY, f64::min);
         let quantum = quantum.or_else(|| record.quantum()).unwrap_or(0.0);
         let noise = Noise { std: 0.02 * range + quantum + f64::MIN_POSITIVE, quantum };
-        Self { record, deviations: vec![0.0; edges.len()], edges, stretches, disturbance, noise, range }
+        Self { record, deviations: vec![0.0; edges.len()], edges, stretches, disturbance, noise, range, swing_s: swing }
     }
 
     pub(super) fn linearise(&self, shared: &Shared, stride: usize) -> Result<Linearised, IdentifyError> {
@@ -102,7 +123,7 @@ impl<'a> Motion<'a> {
         let acting = |k: usize| self.edges[k].time_s + self.deviations[k] + delay_s;
         let mut next = 0;
         let mut before = self.record.input()[0];
-        let mut all = Linearised { rows: Vec::new(), ends: Vec::new(), instants: Vec::new() };
+        let mut drives = Vec::with_capacity(self.stretches.len());
         for stretch in &self.stretches {
             while next < self.edges.len() && acting(next) <= stretch.begin_s {
                 before = self.edges[next].input;
@@ -113,15 +134,25 @@ impl<'a> Motion<'a> {
             while after < self.edges.len() && acting(after) <= stretch.end_s {
                 after += 1;
             }
-            let drive = Drive { before, edges: &self.edges[first..after], deviations: &self.deviations[first..after] };
-            let mut rows = Vec::with_capacity(stretch.samples.len() / stride + 1);
-            let time = self.record.time_s();
-            let end = integrate(stretch, &drive, time, (shared, self.disturbance), stride, &mut rows)?;
-            all.instants.push(uncertain(drive.edges).map(|k| first + k));
-            all.rows.push(rows);
-            all.ends.push(end);
+            let (edges, deviations) = (&self.edges[first..after], &self.deviations[first..after]);
+            drives.push((first, Drive { before, edges, deviations }));
         }
-        Ok(all)
+        let integrated = self.stretches.par_iter().zip(&drives).with_min_len(self.stretches_per_task()).map(
+            |(stretch, (_, drive))| {
+                let mut rows = Vec::with_capacity(stretch.samples.len() / stride + 1);
+                let time = self.record.time_s();
+                let end = integrate(stretch, drive, time, (shared, self.disturbance), stride, &mut rows)?;
+                Ok((rows, end))
+            },
+        );
+        let (rows, ends) = integrated.collect::<Result<Vec<_>, IdentifyError>>()?.into_iter().unzip();
+        let instants = drives.iter().map(|(first, drive)| Some(first + uncertain(drive.edges)?)).collect();
+        Ok(Linearised { rows, ends, instants })
+    }
+
+    /// Stretches that are worth another thread.
+    fn stretches_per_task(&self) -> usize {
+        1 + SAMPLES_PER_TASK * self.stretches.len() / self.record.samples()
     }
 
     pub(super) fn residuals(&self, linearised: &Linearised) -> Vec<f64> {
@@ -254,6 +285,23 @@ impl<'a> Search<'a> {
         Ok(Self { law, estimate_delay, between, shared, motions, steps: 0, evidence: f64::NEG_INFINITY })
     }
 
+    /// The same search from another place.
+    pub(super) fn starting_at(mut self, start: &Start) -> Self {
+        let delay_s = if self.estimate_delay { start.shared[SHARED - 1] } else { self.shared[SHARED - 1] };
+        self.shared = start.shared;
+        self.shared[SHARED - 1] = delay_s;
+        for (motion, disturbance) in self.motions.iter_mut().zip(&start.disturbances) {
+            motion.disturbance = *disturbance;
+        }
+        self
+    }
+
+    /// Where it is, as the start of another search.
+    pub(super) fn place(&self) -> Start {
+        let disturbances = self.motions.iter().map(|motion| motion.disturbance).collect();
+        Start { between: self.between, shared: self.shared, disturbances }
+    }
+
     /// Logarithm of the likelihood with the uncertain instants integrated out: comparable between treatments of the input and
     /// between drag laws.
     pub(super) fn evidence(&self) -> f64 {
@@ -270,11 +318,12 @@ impl<'a> Search<'a> {
         self.fixed().iter().filter(|fixed| fixed.is_none()).count() + OWN * self.motions.len()
     }
 
-    /// Every how many samples the search looks while it is far from its end.
+    /// Every how many samples the search looks while it is far from its end: a matter of the records alone, so that likelihoods
+    /// on the way are comparable.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most the number of samples")]
     fn coarse_stride(&self) -> usize {
-        let stretches: usize = self.motions.iter().map(|motion| motion.stretches.len()).sum();
-        let samples: usize = self.motions.iter().map(|motion| motion.record.samples()).sum();
-        (samples / (COARSE * stretches.max(1))).max(1)
+        let samples = |motion: &Motion<'_>| motion.swing_s / (COARSE * motion.record.interval_s());
+        self.motions.iter().map(samples).fold(f64::INFINITY, f64::min).max(1.0) as usize
     }
 
     /// Steps with part of the samples, until little moves.
@@ -289,15 +338,24 @@ impl<'a> Search<'a> {
 
     /// Steps with every sample, until nothing moves.
     pub(super) fn settle(self) -> Result<Self, IdentifyError> {
-        if self.coarse_stride() == 1 { Ok(self) } else { self.iterate(1, SETTLED) }
+        if self.coarse_stride() == 1 { Ok(self) } else { self.refine() }
+    }
+
+    /// Steps with every sample from wherever it is.
+    pub(super) fn refine(self) -> Result<Self, IdentifyError> {
+        self.iterate(1, SETTLED)
     }
 
     fn iterate(mut self, stride: usize, limit: f64) -> Result<Self, IdentifyError> {
+        self.check()?;
         let mut moved = f64::INFINITY;
         for _ in 0..MAX_STEPS {
+            let before = self.evidence;
             moved = self.step(stride)?;
             self.steps += 1;
-            if moved < limit {
+            // The common parameters may stand while the states have yet to follow; without noise they follow for ever.
+            let clean = self.motions.iter().all(|motion| motion.noise.std <= motion.least_noise());
+            if moved < limit && (clean || (self.evidence - before).abs() < SETTLED_EVIDENCE) {
                 return Ok(self);
             }
         }
@@ -342,21 +400,40 @@ impl<'a> Search<'a> {
             steps.push(chain.unfold(chain.own(&shared, 0)?, &shared));
         }
         // Far from the end the linearisation holds only so far.
-        let relative = |k: usize| if k + 1 < SHARED { shared[k] / self.shared[k].max(f64::MIN_POSITIVE) } else { 0.0 };
+        let scales = self.scales();
+        let relative = |k: usize| shared[k] / scales[k];
         let share = (0.5 / relative(0).abs()).min(1.0);
-        let share =
-            (1..SHARED).fold(share, |share, k| if relative(k) > 2.0 { share.min(2.0 / relative(k)) } else { share });
+        let share = (1..SHARED - 1)
+            .fold(share, |share, k| if relative(k) > 2.0 { share.min(2.0 / relative(k)) } else { share });
         let share = if self.steps < 2 { share.min(0.7) } else { share };
         for ((motion, steps), (_, instants)) in self.motions.iter_mut().zip(&steps).zip(&chains) {
             motion.advance(steps, instants, share);
         }
-        for (value, step) in self.shared.iter_mut().zip(shared) {
+        for ((value, step), scale) in self.shared.iter_mut().zip(shared).zip(scales) {
             let before = *value;
             *value = (before + share * step).max(0.0);
-            let scale = before.max(*value).max(f64::MIN_POSITIVE);
             moved = moved.max((*value - before).abs() / scale);
         }
+        self.check()?;
         Ok(if share < 1.0 { moved.max(1.0) } else { moved })
+    }
+
+    /// Whether there are numbers to go on with: none are left where a step went beyond them all.
+    fn check(&self) -> Result<(), IdentifyError> {
+        let [alpha, ..] = self.shared;
+        let sound =
+            alpha > 0.0 && self.shared.iter().chain(self.motions.iter().map(|m| &m.disturbance)).all(|v| v.is_finite());
+        if sound { Ok(()) } else { Err(IdentifyError::Confounded { ratio: 0.0 }) }
+    }
+
+    /// What the common unknowns are measured by: inertia by itself, either drag by both at the record's typical speed, the
+    /// delay by itself or a part of the swing, so that none stands still for being near zero.
+    fn scales(&self) -> Shared {
+        let [alpha, linear, quadratic, delay_s] = self.shared;
+        let typical = |of: fn(&Motion<'_>) -> f64| self.motions.iter().map(of).fold(f64::MIN_POSITIVE, f64::max);
+        let speed = typical(|motion| core::f64::consts::FRAC_PI_2 * motion.range / motion.swing_s);
+        let drag = (linear + quadratic * speed).max(LEAST_DRAG * alpha / typical(|motion| motion.swing_s));
+        [alpha, drag, drag / speed, delay_s.max(DELAY_SHARE * typical(|motion| motion.swing_s))]
     }
 
     /// The step of the common unknowns, with drag and delay kept at zero or more.

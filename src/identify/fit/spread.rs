@@ -11,12 +11,12 @@ use rand_pcg::Pcg64Mcg;
 
 use super::chain::{Chain, OWN, solve_shared};
 use super::motion::{SHARED, Sensitive};
-use super::noise::Noise;
+use super::noise::{Noise, Scores};
 use super::search::{Linearised, Motion, Search, stack};
 use crate::identify::IdentifyError;
 
 /// Draws of the rounding errors: enough for standard deviations within a tenth.
-const DRAWS: usize = 150;
+const DRAWS: usize = 100;
 
 /// Covariances of the errors.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,13 +108,14 @@ fn drawn(
         let mut noise_source = Pcg64Mcg::seed_from_u64(2);
         let mut prior_source = Pcg64Mcg::seed_from_u64(3);
         let noise = Noise { std: motion.real_noise(rows), quantum: motion.noise.quantum };
+        let scores = Scores::new(motion.noise);
         let side = |model: &Sensitive, weight: f64| {
             shifts
                 .iter()
                 .map(|shift| {
                     let disturbed: f64 = StandardNormal.sample(&mut noise_source);
                     let residual = noise.reading_error(shift.of(model.value), disturbed);
-                    motion.noise.likelihood(residual).score / weight
+                    scores.at(residual) / weight
                 })
                 .collect()
         };

@@ -3,7 +3,7 @@
 use crate::features::RelayLevels;
 use crate::identify::fit::RecordFit;
 use crate::identify::joint::{Estimate, Parameter};
-use crate::identify::{DragLaw, IdentifyError, iso};
+use crate::identify::{DragLaw, iso};
 use crate::plant::DragAxis;
 
 /// Ways from records to parameters.
@@ -137,19 +137,4 @@ fn pooled(fit: &RecordFit) -> (f64, f64) {
     }
     let share = (residual / variation.max(f64::MIN_POSITIVE)).sqrt();
     ((residual / samples.max(1.0)).sqrt(), 100.0 * (1.0 - share))
-}
-
-/// Short name for scripts.
-pub(super) fn code(error: &IdentifyError) -> &'static str {
-    match error {
-        IdentifyError::Feature { .. } => "feature",
-        IdentifyError::NoOrbit { .. } => "no-orbit",
-        IdentifyError::Unresolved { .. } => "unresolved",
-        IdentifyError::TooFewEquations { .. } => "too-few-equations",
-        IdentifyError::Confounded { .. } => "confounded",
-        IdentifyError::NotSettled { .. } => "not-settled",
-        IdentifyError::Orbit(_) => "orbit",
-        IdentifyError::Plant(_) => "plant",
-        IdentifyError::Describing(_) => "condition-40",
-    }
 }

@@ -30,7 +30,7 @@ impl Source {
             output = output.with("model", Mark::Line, pairs(time, model));
         }
         let output = output.with("readings", Mark::Points, points(record.output()));
-        let evenly = fitted.is_some_and(|(fit, _)| fit.between() == Between::Evenly);
+        let evenly = fitted.is_some_and(|(fit, _)| matches!(fit.between(), Between::Evenly | Between::Bent));
         let command = points(record.input());
         let command = if evenly { command } else { held(&command) };
         let input = Panel::new("time (s)", "command").with("command", Mark::Line, command);

@@ -4,8 +4,6 @@ mod estimate;
 mod figures;
 mod tables;
 
-use rayon::prelude::*;
-
 pub use estimate::{Method, Model};
 
 use super::{Document, Section};
@@ -14,7 +12,7 @@ use crate::features::{FeatureError, RecordFeatures, RelayLevels};
 use crate::identify::fit::{Fit, RecordFit};
 use crate::identify::joint::{Delay, Parameter};
 use crate::identify::{DragLaw, IdentifyError, Warning, exact, iso};
-use crate::select::likelihood::Choice;
+use crate::select::likelihood::{Choice, fit_each};
 
 /// What to find, and what is known beforehand.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +60,7 @@ impl Refusal {
         match self {
             Self::Record { source, .. } => source.code(),
             Self::Features { source, .. } => source.code(),
-            Self::Model(error) => estimate::code(error),
+            Self::Model(error) => error.code(),
         }
     }
 }
@@ -136,7 +134,9 @@ impl Identification {
             stage("checking the delay");
             let fit = fits.likeliest();
             let free = match settings.delay {
-                Delay::KnownS(_) => Fit::new(fit.law(), Delay::Estimated).records(&records(&found.sources)).ok(),
+                Delay::KnownS(_) => {
+                    Fit::new(fit.law(), Delay::Estimated).records_from(&records(&found.sources), &[fit]).ok()
+                }
                 Delay::Estimated => None,
             };
             found.cautions.extend(Warning::of_fit(fit, free.as_ref()).into_iter().map(Caution::from));
@@ -206,7 +206,7 @@ impl Identification {
     fn fit(&mut self, settings: &Settings) -> Result<(), IdentifyError> {
         let laws = settings.drag.map_or(DragLaw::ALL.to_vec(), |law| vec![law]);
         let records = records(&self.sources);
-        let results: Vec<_> = laws.par_iter().map(|law| Fit::new(*law, settings.delay).records(&records)).collect();
+        let results = fit_each(&laws, &records, settings.delay);
         for (law, result) in laws.iter().zip(&results) {
             if let Err(error) = result {
                 let text = format!("no fit with {} drag: {error}", law.name());
