@@ -261,3 +261,6 @@ impl From<Scores> for WorstMargin {
         Self { gain: limit(gain), gain_reduction: limit(reduction), phase_rad, delay_s }
     }
 }
+
+#[cfg(test)]
+mod tests;

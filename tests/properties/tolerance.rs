@@ -194,3 +194,6 @@ pub(crate) const LIKELIHOOD: f64 = 0.3;
 /// Parameters by orbit inversion from a record of 4000 samples a period: a level read half a sample late, and what is left of the
 /// start-up.
 pub(crate) const DENSE_EXACT: f64 = 1e-2;
+
+/// A pole near the crossover by a delay's Pade approximant of sixth order, whose phase is right to 1e-9 for `w delay` up to one.
+pub(crate) const PADE: f64 = 1e-6;

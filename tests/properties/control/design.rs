@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use selfosc::control::{ControlError, Structure, Tuning};
 use selfosc::plant::{DragAxis, TransferFunction};
 
-use crate::tolerance::{DOUBLE_POLE, ROUNDING_MARGIN};
+use crate::tolerance::{DOUBLE_POLE, MARGIN, ROUNDING_MARGIN};
 use crate::vehicle::config;
 
 const STRUCTURES: [(Structure, f64); 3] = [(Structure::Pd, 0.0), (Structure::Pid, 0.1), (Structure::Ipd, 1.0)];
@@ -60,16 +60,26 @@ proptest! {
         let w = bandwidth / structure.bandwidth_ratio();
         let axis = DragAxis::linear(alpha, share * 1.7 * alpha * w).unwrap();
         let tuning = Tuning::new(&axis, structure, bandwidth).unwrap();
-        let (g, s) = (tuning.gains(), Complex::new(0.0, bandwidth));
-        let filtered = s * g.derivative() / (s * g.filter_s() + 1.0);
-        let forward = match structure {
-            Structure::Ipd => Complex::new(0.0, 0.0),
-            Structure::Pd | Structure::Pid => Complex::new(g.proportional(), 0.0),
-        } + g.integral() / s;
-        let back = g.proportional() + g.integral() / s + filtered;
-        let answer = forward / (s * (s * alpha + axis.linear_drag()) + back);
+        let answer = |tuning: &Tuning<f64>, omega: f64| {
+            let (g, s) = (tuning.gains(), Complex::new(0.0, omega));
+            let filtered = s * g.derivative() / (s * g.filter_s() + 1.0);
+            let forward = match structure {
+                Structure::Ipd => Complex::new(0.0, 0.0),
+                Structure::Pd | Structure::Pid => Complex::new(g.proportional(), 0.0),
+            } + g.integral() / s;
+            let late = (-s * tuning.axis().delay_s()).exp();
+            let back = g.proportional() + g.integral() / s + filtered;
+            (forward * late / (s * (s * alpha + axis.linear_drag()) + back * late)).norm() * 2f64.sqrt()
+        };
         // The filter's share.
-        prop_assert!((answer.norm() * 2f64.sqrt() - 1.0).abs() < 5e-3, "{}", answer.norm());
+        prop_assert!((answer(&tuning, bandwidth) - 1.0).abs() < 5e-3, "{}", answer(&tuning, bandwidth));
+        // What is computed of it, with a delay too.
+        let delayed = Tuning::new(&axis.with_delay_s(0.05 / w).unwrap(), structure, bandwidth).unwrap();
+        for tuning in [tuning, delayed] {
+            let achieved = tuning.achieved_bandwidth_rad_s().unwrap();
+            prop_assert!((answer(&tuning, achieved) - 1.0).abs() < MARGIN);
+            prop_assert!((1..60).all(|k| answer(&tuning, achieved * f64::from(k) / 60.0) > 1.0));
+        }
     }
 
     #[test]

@@ -5,7 +5,7 @@ use selfosc::control::{ControlError, Controller, Gains, OpenLoop, StepResponse, 
 use selfosc::plant::DragAxis;
 
 use super::oracle::{Case, case};
-use crate::tolerance::{MARGIN, ROUNDING_MARGIN, SINGLE};
+use crate::tolerance::{MARGIN, PADE, ROUNDING_MARGIN, SINGLE};
 use crate::vehicle::config;
 
 /// Gain, reduction (infinite for none), phase, delay.
@@ -67,6 +67,10 @@ fn simulation_at_the_margins() {
         let tuning = Tuning::new(&axis, structure, 0.8).unwrap();
         let (margins, gains) = (tuning.margins(), tuning.gains());
         let delayed = |share: f64| axis.with_delay_s(0.1 + share * margins.delay_s).unwrap();
+        // At the margin itself a pair of poles is on the imaginary axis, at the crossover.
+        let poles = OpenLoop::new(&delayed(1.0), gains, 0.0).unwrap().closed_loop_poles().unwrap();
+        let distance = poles[0].re.hypot(poles[0].im.abs() - margins.crossover_rad_s) / margins.crossover_rad_s;
+        assert!(distance < PADE, "{structure:?} drag {drag}: {distance} from the axis");
         for (share, stable) in [(0.96, true), (1.04, false)] {
             let growth = growth(&delayed(share), gains, margins.crossover_rad_s);
             assert_eq!(
@@ -134,6 +138,20 @@ fn single_precision() {
     near(narrow.margins().phase_rad, wide.margins().phase_rad);
     near(narrow.margins().gain.unwrap(), wide.margins().gain.unwrap());
     near(narrow.margins().delay_s, wide.margins().delay_s);
+}
+
+/// Delay stabilises what is unstable without: three crossovers, the middle one of which takes poles to the left.
+#[test]
+fn delay_takes_poles_to_the_left() {
+    let poles = |delay_s: f64| {
+        let gains = Gains::new(Structure::Pid, 0.4, 1.5, 3.0, 0.0).unwrap();
+        let case = Case { alpha: 1.0, drag: 0.0, delay_s, gains };
+        assert!((case.unstable_by_angle() - f64::from(case.open_loop().unstable_poles())).abs() < 0.02, "{delay_s}");
+        case.open_loop().unstable_poles()
+    };
+    let counts: Vec<u32> = (0..60).map(|k| poles(0.05 * f64::from(k) + 0.013)).collect();
+    assert!(counts.windows(2).any(|pair| pair[1] < pair[0]), "{counts:?}");
+    assert!(counts.windows(2).any(|pair| pair[1] > pair[0]), "{counts:?}");
 }
 
 /// Quadratic drag acts by its slope at a speed.
