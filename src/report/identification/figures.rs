@@ -79,5 +79,6 @@ fn held(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 /// Positions with central differences.
 fn speeds(time: &[f64], position: &[f64]) -> Vec<(f64, f64)> {
     let triples = time.windows(3).zip(position.windows(3));
-    triples.map(|(t, x)| (x[1], (x[2] - x[0]) / (t[2] - t[0]))).collect()
+    // Samples can be too near to each other for a rate.
+    triples.map(|(t, x)| (x[1], (x[2] - x[0]) / (t[2] - t[0]))).filter(|(_, rate)| rate.is_finite()).collect()
 }
