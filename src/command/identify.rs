@@ -202,10 +202,9 @@ impl Arguments {
     }
 }
 
-/// Whether the log was readable, and only its numbers make no record.
+/// Whether the file was read, and what it holds makes no record.
 fn is_bad_record(error: &ExperimentError) -> bool {
-    use ExperimentError::{Gap, NotFinite, TimeOrder, TooShort};
-    matches!(error, NotFinite { .. } | TimeOrder { .. } | Gap { .. } | TooShort { .. })
+    !matches!(error, ExperimentError::Unreadable { line: 0, .. })
 }
 
 fn refused(code: &str, reason: &impl ToString) -> Value {

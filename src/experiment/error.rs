@@ -54,6 +54,20 @@ pub enum ExperimentError {
         /// The value.
         value: f64,
     },
+    /// A number whose square leaves the arithmetic.
+    #[error(
+        "{place}: {column} = {value:e} must be at most {limit:e} in magnitude; remove the line or log another unit"
+    )]
+    TooLarge {
+        /// Where.
+        place: Place,
+        /// Which of time, output and input.
+        column: &'static str,
+        /// The value.
+        value: f64,
+        /// The largest magnitude allowed.
+        limit: f64,
+    },
     /// A time that does not come after the one before it.
     #[error(
         "{place}: time {time_s} s must come after {previous_s} s; sort the log by time, remove repeated samples, or log \
@@ -145,6 +159,7 @@ impl ExperimentError {
             Self::Lengths { .. } => "unequal-columns",
             Self::TooShort { .. } => "too-short",
             Self::NotFinite { .. } => "not-finite",
+            Self::TooLarge { .. } => "too-large",
             Self::TimeOrder { .. } => "time-order",
             Self::Gap { .. } => "gap",
             Self::Empty => "empty",

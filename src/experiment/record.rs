@@ -4,7 +4,7 @@ use super::{ExperimentError, Place};
 
 /// Time, output and input of one experiment, simulated or logged.
 ///
-/// Every value is finite, time increases strictly, and no interval is longer than [`LONGEST_GAP`](Self::LONGEST_GAP)
+/// Every value is finite and at most [`LARGEST`](Self::LARGEST) in magnitude, time increases strictly, and no interval is longer than [`LONGEST_GAP`](Self::LONGEST_GAP)
 /// times the middle one. The input of a sample is the command that the logger saw with it.
 ///
 /// ```
@@ -24,6 +24,8 @@ pub struct Record {
 impl Record {
     /// The fewest samples that make a record.
     pub const FEWEST_SAMPLES: usize = 16;
+    /// The largest magnitude of any number: sums of squares of larger ones leave the arithmetic.
+    pub const LARGEST: f64 = 1e50;
     /// The longest interval allowed, in middle intervals: longer, and the input in between is anyone's guess.
     pub const LONGEST_GAP: f64 = 10.0;
 
@@ -47,6 +49,10 @@ impl Record {
         for (column, values) in [("time", &time_s), ("output", &output), ("input", &input)] {
             if let Some((sample, value)) = values.iter().enumerate().find(|(_, value)| !value.is_finite()) {
                 return Err(ExperimentError::NotFinite { place: place(sample), column, value: *value });
+            }
+            if let Some((sample, value)) = values.iter().enumerate().find(|(_, value)| value.abs() > Self::LARGEST) {
+                let (place, limit) = (place(sample), Self::LARGEST);
+                return Err(ExperimentError::TooLarge { place, column, value: *value, limit });
             }
         }
         if samples < Self::FEWEST_SAMPLES {

@@ -24,9 +24,6 @@ use super::{DragLaw, IdentifyError};
 use crate::experiment::Record;
 use search::{Search, Start};
 
-/// Largest number of a record: sums of squares of larger ones leave the arithmetic.
-const MOST: f64 = 1e50;
-
 /// What to fit, and what is known.
 ///
 /// ```
@@ -136,12 +133,6 @@ impl Fit {
             let output = record.output();
             if output.iter().all(|value| *value == output[0]) {
                 return Err(IdentifyError::Feature { feature: "range of the output", value: 0.0, required: "above 0" });
-            }
-            for (feature, values) in [("largest output", output), ("largest input", record.input())] {
-                let value = values.iter().copied().fold(0.0, |most: f64, value| most.max(value.abs()));
-                if value > MOST {
-                    return Err(IdentifyError::Feature { feature, value, required: "at most 1e50" });
-                }
             }
         }
         if let Delay::KnownS(delay_s) = self.delay {

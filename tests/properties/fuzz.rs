@@ -179,10 +179,10 @@ fn fuzz(first: u64, enough: impl Fn(u64) -> bool) -> (u64, u64) {
 }
 
 /// Cases that made trouble once, by their numbers: a delay of many periods gave a negative inertia; a step of the search beyond
-/// all numbers gave NaN, and so did a start from an input that never pushes.
+/// all numbers gave NaN, and so did a start from an input that never pushes; differences of numbers near the largest left the figures.
 #[test]
 fn findings() {
-    for number in [1_000_029, 1_009_450, 1_017_269] {
+    for number in [1_000_029, 1_009_450, 1_017_269, 1_046_713] {
         fuzz(number, |cases| cases >= 1);
     }
 }

@@ -367,7 +367,7 @@ proptest! {
     /// Whatever the record, a result or a refusal.
     #[test]
     fn no_record_makes_the_fit_panic(
-        output in prop::collection::vec(prop_oneof![-1e3..1e3f64, Just(0.0), Just(1e300)], 20..80),
+        output in prop::collection::vec(prop_oneof![-1e3..1e3f64, Just(0.0), Just(1e49)], 20..80),
         input in prop::collection::vec(prop_oneof![Just(1.0), Just(-1.0), -2.0..2.0f64], 80),
         law in law(), delay_s in 0.0..100.0f64,
     ) {

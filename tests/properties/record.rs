@@ -34,6 +34,7 @@ fn refusals_have_names_and_places() {
         (changed("0.5,2.5,", "0.5,n/a,"), "not-a-number", "line 7"),
         (changed("0.5,2.5,", "0.5,NaN,"), "not-finite", "line 7"),
         (changed("0.5,2.5,", "0.5,inf,"), "not-finite", "line 7"),
+        (changed("0.5,2.5,", "0.5,-1e60,"), "too-large", "line 7"),
         (changed("0.5,2.5,", "0.4,2.5,"), "time-order", "line 7"),
         (changed("0.5,2.5,", "0.3,2.5,"), "time-order", "line 7"),
         (changed("1.9,9.5,", "19,9.5,"), "gap", "line 21"),

@@ -24,12 +24,13 @@ impl Source {
     fn record_figure(&self, fitted: Option<(&RecordFit, &FittedRecord)>, from: usize, part: &str) -> Figure {
         let record = &self.log.record;
         let points = |values: &[f64]| pairs(&record.time_s()[from..], &values[from..]);
-        let mut output = Panel::new("time (s)", self.output_label());
+        // The model lies on top, where dense readings would hide it.
+        let mut output =
+            Panel::new("time (s)", self.output_label()).with("readings", Mark::Points, points(record.output()));
         if let Some((_, fitted)) = fitted {
             let (time, model) = shown(self, fitted, &fitted.output, from);
             output = output.with("model", Mark::Line, pairs(time, model));
         }
-        let output = output.with("readings", Mark::Points, points(record.output()));
         let evenly = fitted.is_some_and(|(fit, _)| matches!(fit.between(), Between::Evenly | Between::Bent));
         let command = points(record.input());
         let command = if evenly { command } else { held(&command) };
@@ -49,14 +50,21 @@ impl Source {
     fn phase_figure(&self, fitted: Option<&FittedRecord>, from: usize, part: &str) -> Figure {
         let record = &self.log.record;
         let rate = if self.log.degrees { "rate of change (rad/s)" } else { "rate of change (output per s)" };
-        let mut panel = Panel::new(self.output_label(), rate);
+        let reach = self.reach();
+        let readings = speeds(&record.time_s()[from..], &record.output()[from..], reach);
+        let mut panel = Panel::new(self.output_label(), rate).with("readings, by differences", Mark::Points, readings);
         if let Some(fitted) = fitted {
             let (time, model) = shown(self, fitted, &fitted.output, from);
-            panel = panel.with("model", Mark::Line, speeds(time, model));
+            panel = panel.with("model", Mark::Line, speeds(time, model, 1));
         }
-        let readings = speeds(&record.time_s()[from..], &record.output()[from..]);
-        let panel = panel.with("readings, by differences", Mark::Points, readings);
         Figure { name: "phase", title: format!("Phase portrait{part}"), panels: vec![panel] }
+    }
+
+    /// Samples on either side of one over which rounding does not drown its rate: up to a fortieth of the period.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most the number of samples")]
+    fn reach(&self) -> usize {
+        let period_s = self.features.as_ref().map_or(0.0, |found| found.features.period_s.mean);
+        (period_s / (40.0 * self.log.record.interval_s())).max(1.0) as usize
     }
 }
 
@@ -76,8 +84,10 @@ fn held(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     points.windows(2).flat_map(|pair| [pair[0], (pair[1].0, pair[0].1)]).chain(points.last().copied()).collect()
 }
 
-/// Positions with central differences.
-fn speeds(time: &[f64], position: &[f64]) -> Vec<(f64, f64)> {
-    let triples = time.windows(3).zip(position.windows(3));
-    triples.map(|(t, x)| (x[1], (x[2] - x[0]) / (t[2] - t[0]))).collect()
+/// Positions with central differences over `reach` samples either way.
+fn speeds(time: &[f64], position: &[f64], reach: usize) -> Vec<(f64, f64)> {
+    let spans = time.windows(2 * reach + 1).zip(position.windows(2 * reach + 1));
+    // Samples can be too near to each other for a rate.
+    let rate = |(t, x): (&[f64], &[f64])| (x[reach], (x[2 * reach] - x[0]) / (t[2 * reach] - t[0]));
+    spans.map(rate).filter(|(_, rate)| rate.is_finite()).collect()
 }
