@@ -9,7 +9,7 @@ use crate::numeric::Real;
 /// ```
 /// use selfosc::describing::ClosedForm;
 /// use selfosc::nonlinearity::{Affine, Relay, Sinusoid};
-/// let relay = Affine::of(Relay::new(1.0)?).scaled(3.0).offset(0.5);
+/// let relay = Affine::of(Relay::new(1.0f64)?).scaled(3.0).offset(0.5);
 /// let df = relay.describing_function(&Sinusoid::new(0.0, 1.0)?)?;
 /// assert!((df.f0 - 0.5).abs() < 1e-15);
 /// assert!((df.p - 12.0 / core::f64::consts::PI).abs() < 1e-14);

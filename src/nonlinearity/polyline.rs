@@ -24,7 +24,7 @@ impl<T: Real, S: AsRef<[(T, T)]>> Polyline<T, S> {
     /// ```
     /// use selfosc::describing::ClosedForm;
     /// use selfosc::nonlinearity::{Polyline, Sinusoid};
-    /// let thruster = Polyline::new([(-1.0, -0.8), (-0.2, 0.0), (0.1, 0.0), (1.0, 1.2)], 0.0, 0.0)?;
+    /// let thruster = Polyline::new([(-1.0f64, -0.8), (-0.2, 0.0), (0.1, 0.0), (1.0, 1.2)], 0.0, 0.0)?;
     /// let df = thruster.describing_function(&Sinusoid::new(0.0, 0.1)?)?;
     /// assert!(df.p.abs() < 1e-15);
     /// # Ok::<(), selfosc::describing::DescribingError>(())

@@ -19,7 +19,7 @@ impl<T: Real, const N: usize> Polynomial<T, N> {
     /// ```
     /// use selfosc::describing::ClosedForm;
     /// use selfosc::nonlinearity::{Polynomial, Sinusoid};
-    /// let spring = Polynomial::new([0.0, 1.0, 0.0, 0.2])?;
+    /// let spring = Polynomial::new([0.0f64, 1.0, 0.0, 0.2])?;
     /// let df = spring.describing_function(&Sinusoid::new(0.0, 2.0)?)?;
     /// assert!((df.p - (1.0 + 0.75 * 0.2 * 4.0)).abs() < 1e-15);
     /// # Ok::<(), selfosc::describing::DescribingError>(())
