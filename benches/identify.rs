@@ -52,18 +52,22 @@ fn joint<const ESTIMATED: bool>(bencher: Bencher<'_, '_>, law: DragLaw) {
     bencher.bench(|| fit_rows(black_box(&rows), law, delay).is_ok());
 }
 
-/// A noisy record of so many seconds at 100 Hz.
-fn record(duration_s: f64) -> Option<Record> {
+/// A record of so many seconds at 100 Hz, of a noisy sensor or of one that rounds.
+fn record(duration_s: f64, rounded: bool) -> Option<Record> {
     let axis = DragAxis::quadratic(1.0, 0.5).ok()?.with_delay_s(0.1).ok()?.with_disturbance(0.1).ok()?;
     let relay = RelayHysteresis::new(1.0, 0.3, 0.0).ok()?;
-    let sensor = Sensor { noise: 0.01, ..Sensor::default() };
+    let sensor = if rounded {
+        Sensor { quantum: 0.0175, ..Sensor::default() }
+    } else {
+        Sensor { noise: 0.01, ..Sensor::default() }
+    };
     Experiment::new(axis, relay, 100.0).ok()?.held().with_sensor(sensor).ok()?.run(duration_s).ok()
 }
 
 /// From the record to the paper's parameters.
 #[divan::bench(args = [60.0, 600.0])]
 fn iso_of_record(bencher: Bencher<'_, '_>, duration_s: f64) {
-    let record = record(duration_s);
+    let record = record(duration_s, false);
     bencher.bench(|| {
         let found = RecordFeatures::of(black_box(record.as_ref()?)).ok()?;
         Oscillation::of(&found.features, found.relay.level, 0.1).identify().ok()
@@ -71,8 +75,8 @@ fn iso_of_record(bencher: Bencher<'_, '_>, duration_s: f64) {
 }
 
 /// All drag laws fitted to the record.
-#[divan::bench(args = [60.0, 600.0], sample_count = 5)]
-fn fit_of_record(bencher: Bencher<'_, '_>, duration_s: f64) {
-    let record = record(duration_s);
+#[divan::bench(args = [60.0, 600.0], consts = [false, true], sample_count = 5)]
+fn fit_of_record<const ROUNDED: bool>(bencher: Bencher<'_, '_>, duration_s: f64) {
+    let record = record(duration_s, ROUNDED);
     bencher.bench(|| Choice::among_all(&[black_box(record.as_ref()?)], Delay::KnownS(0.1)).ok());
 }

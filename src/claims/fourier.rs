@@ -6,7 +6,7 @@ use super::claim::claim;
 use super::family::{not_odd, odd_hysteretic, odd_nondecreasing, output_scale, sweep, unbiased};
 use super::{Budget, Case, Draw, Hypothesis, Printed, Verdict, proof, sample, tolerance};
 use crate::describing::{Boxed, ClosedForm, by_quadrature, harmonic};
-use crate::nonlinearity::{Branch, Characteristic, NonlinearityError, Power, Sinusoid};
+use crate::nonlinearity::{Branch, Characteristic, NonlinearityError, Polynomial, Power, Sinusoid};
 use crate::numeric::quadrature::integrate;
 
 claim! {
@@ -86,6 +86,34 @@ fn closed_is_integral(budget: Budget, factor: f64) -> Verdict {
             closed.q * amplitude,
             integral.q * amplitude,
         ))
+    })
+}
+
+claim! {
+    POLYNOMIAL = "polynomial" "10" Identity
+    "F_0 and P of a polynomial follow from its coefficients about the bias and the means of even powers of the sine" {
+        printed: Printed::Absent,
+        corrected: Some(|budget| polynomial_is_integral(budget, 1.0).backed_by(proof::polynomial)),
+        falsified: |budget| polynomial_is_integral(budget, 1.000_01),
+        hypotheses: &[],
+        depends: &["fourier-coefficients"],
+    }
+}
+
+fn polynomial_is_integral(budget: Budget, factor: f64) -> Verdict {
+    const NAMES: [&str; 5] = ["c0", "c1", "c2", "c3", "c4"];
+    sample(budget, |draw| {
+        let polynomial = Polynomial::new(NAMES.map(|name| draw.uniform(name, -1.0, 1.0)));
+        let (Ok(polynomial), Ok(sweep)) = (polynomial, sweep(draw)) else { return Case::Skipped };
+        let (Ok(closed), Ok(integral)) = (polynomial.describing_function(&sweep), by_quadrature(&polynomial, &sweep))
+        else {
+            return Case::Skipped;
+        };
+        let scale = output_scale(&polynomial, &sweep).max(1e-3);
+        let mut equal =
+            |name, closed: f64, integral| draw.equal((name, closed * factor), integral, scale, tolerance::QUADRATURE);
+        let amplitude = sweep.amplitude();
+        equal("f0", closed.f0, integral.f0).and(equal("y_p1", closed.p * amplitude, integral.p * amplitude))
     })
 }
 

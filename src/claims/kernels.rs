@@ -1,36 +1,10 @@
 //! The kernels that the piecewise-linear catalogue is made of: closed form equals integral.
 
 use super::claim::claim;
+use super::single::Single;
 use super::{Budget, Case, Printed, Verdict, proof, sample, tolerance};
 use crate::describing::{ClosedForm, by_quadrature};
-use crate::nonlinearity::{Branch, Branches, Kernel, PiecewiseLinear, Side, Sinusoid};
-use crate::numeric::Real;
-
-/// One kernel, by itself a characteristic; only its values are written here.
-pub(super) struct Single<T>(pub(super) Kernel<T>);
-
-impl<T: Real> PiecewiseLinear for Single<T> {
-    type Number = T;
-
-    fn value(&self, x: T, branch: Branch, _: &Sinusoid<T>) -> T {
-        let beyond = |at: T, side| if side == Side::Above { x - at } else { at - x };
-        let on = |branches, value: T| match (branches, branch) {
-            (Branches::Rising, Branch::Falling) | (Branches::Falling, Branch::Rising) => T::zero(),
-            _ => value,
-        };
-        match self.0 {
-            Kernel::Constant { value, branches } => on(branches, value),
-            Kernel::Line { slope } => slope * x,
-            Kernel::Step { at, height, side, branches } => on(branches, beyond(at, side).select(T::zero, || height)),
-            Kernel::Ramp { at, slope, side, branches } => on(branches, slope * beyond(at, side).max(T::zero())),
-            Kernel::Sign { at, level, branches } => on(branches, (x - at).select(|| -level, || level)),
-            Kernel::Band { origin, lower, upper, slope } => slope * (x.max(lower).min(upper) - origin),
-        }
-    }
-    fn kernels(&self, _: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
-        report(self.0);
-    }
-}
+use crate::nonlinearity::{Branches, Kernel, Side, Sinusoid};
 
 /// Makes a kernel from a breakpoint, a second one above it, a side and branches.
 type Make = fn(f64, f64, Side, Branches) -> Kernel<f64>;

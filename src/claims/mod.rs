@@ -5,6 +5,7 @@
 
 mod claim;
 mod sampling;
+mod single;
 mod verdict;
 
 mod family;
@@ -42,6 +43,7 @@ macro_rules! for_each_claim {
             kernels::KERNEL_SIGN,
             kernels::KERNEL_BAND,
             fourier::DESCRIBING_FUNCTION,
+            fourier::POLYNOMIAL,
             fourier::ODD_HARMONICS,
             fourier::ODD_HARMONICS_HYSTERETIC,
             fourier::SINE_ABS_SINE,

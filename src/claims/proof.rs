@@ -3,13 +3,14 @@
 //! Every quantity here is homogeneous in level, amplitude, half-width and angular frequency, so all but ratios are set to one;
 //! an identity of one ratio is proved for all its values at once by [`prove_zero`].
 
+use std::array;
 use std::sync::LazyLock;
 
-use super::kernels::Single;
+use super::single::Single;
 use super::{Evidence, Verdict};
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm, KernelProof};
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity, parameters};
-use crate::nonlinearity::{Branches, Kernel, RelayHysteresis, Sinusoid};
+use crate::nonlinearity::{Branches, Kernel, Polynomial, RelayHysteresis, Sinusoid};
 use crate::numeric::branch_and_bound::{self, prove_positive};
 use crate::numeric::identity::{Series, prove_zero};
 use crate::numeric::rigorous_quadrature::{CellJet, Integrand, integrate};
@@ -26,6 +27,7 @@ pub const PROOFS: &[(&str, Proof)] = &[
     ("kernel-sign", kernel_sign),
     ("kernel-band", kernel_band),
     ("describing-function", describing_function),
+    ("polynomial", polynomial),
     ("sine-abs-sine", sine_abs_sine),
     ("relay-q", relay_q),
     ("relay-p", relay_p),
@@ -163,6 +165,34 @@ pub fn describing_function(factor: f64) -> Verdict {
         .into_iter()
         .reduce(|all, next| all.and(|| next))
         .unwrap_or_else(|| undecided("nothing"))
+}
+
+/// Powers up to the ninth. The mean over twelve equally spaced angles is the mean over the circle for every trigonometric
+/// polynomial of degree below twelve, so the integral needs no antiderivative.
+#[must_use]
+pub fn polynomial(factor: f64) -> Verdict {
+    identity("x^0 to x^9, every amplitude by homogeneity, bias/amplitude", [-2.0, 2.0], |bias| {
+        let sweep = Sinusoid::new(bias, Series::one()).ok();
+        let nodes = (0..12).map(|k| Interval::point(f64::from(k)) * Interval::PI / Interval::point(6.0));
+        let sines: Vec<Series> = nodes.map(|angle| Series::constant(angle.sin())).collect();
+        let mut powers = vec![Series::one(); sines.len()];
+        let mut errors = [Series::zero(); 20];
+        for (degree, error) in errors.chunks_mut(2).enumerate() {
+            let monomial =
+                Polynomial::<_, 10>::new(array::from_fn(|k| Series::from_f64(f64::from(u8::from(k == degree)))));
+            let closed =
+                sweep.zip(monomial.ok()).and_then(|(sweep, monomial)| monomial.describing_function(&sweep).ok());
+            let closed = closed.unwrap_or_else(no_function) * Series::from_f64(factor);
+            let (mut mean, mut sine) = (Series::zero(), Series::zero());
+            for (power, &node) in powers.iter_mut().zip(&sines) {
+                (mean, sine) = (mean + *power, sine + *power * node);
+                *power = *power * (bias + node);
+            }
+            error[0] = closed.f0 - mean / Series::from_f64(12.0);
+            error[1] = closed.p - sine / Series::from_f64(6.0);
+        }
+        errors
+    })
 }
 
 /// Products of sine, cosine and their magnitudes over one turn.

@@ -1,6 +1,6 @@
 //! A limit cycle with proof: for one given axis, existence in a narrow enclosure; uniqueness and attraction by theorem.
 
-use super::drag_axis::{LimitCycle, Switching, solve};
+use super::drag_axis::{End, LimitCycle, solve};
 use super::half_cycle::{HalfCycle, Swing};
 use super::{OrbitError, limit_cycle};
 use crate::nonlinearity::RelayHysteresis;
@@ -73,22 +73,7 @@ pub fn certify(axis: &DragAxis<f64>, relay: &RelayHysteresis<f64>) -> Result<Cer
     });
     let [a0, a, b0, b] = found.ok_or(unresolved)?;
     let (above, below) = (upward.end(a0, a), downward.end(b0, b));
-    let half = Interval::point(0.5);
-    let (maximum, minimum) = (half_width + above.excursion, -(half_width + below.excursion));
-    let time_positive_s = below.stop_time_s + above.rise_time_s;
-    let time_negative_s = above.stop_time_s + below.rise_time_s;
-    let enclosure = LimitCycle {
-        amplitude: half_width + half * (above.excursion + below.excursion),
-        bias: half * (above.excursion - below.excursion),
-        maximum,
-        minimum,
-        period_s: time_positive_s + time_negative_s,
-        time_positive_s,
-        time_negative_s,
-        upper_switch: Switching { position: half_width + above.lag, velocity: above.speed },
-        lower_switch: Switching { position: -(half_width + below.lag), velocity: -below.speed },
-        multiplier: above.gain * below.gain,
-    };
+    let enclosure = LimitCycle::between(half_width, &above, &below);
     if !enclosure.period_s.is_bounded() || !(enclosure.multiplier.upper() < 1.0) {
         return Err(unresolved);
     }
@@ -121,16 +106,6 @@ struct Half {
     slow: Interval,
     /// Rate of the angle at terminal speed, in 1/s.
     fast: Interval,
-}
-
-/// What an end of a half cycle amounts to.
-struct End {
-    speed: Interval,
-    lag: Interval,
-    excursion: Interval,
-    rise_time_s: Interval,
-    stop_time_s: Interval,
-    gain: Interval,
 }
 
 impl Half {
@@ -196,7 +171,7 @@ impl Half {
         [speed.square() / force * way, speed / force * time]
     }
 
-    fn end(&self, level: Interval, switch: Interval) -> End {
+    fn end(&self, level: Interval, switch: Interval) -> End<Interval> {
         let constant = Gradient::constant;
         let lag = (self.approach(constant(switch)) - self.approach(constant(level))).value();
         let (speed, level_speed) = (self.speed(switch), self.speed(level));
@@ -205,8 +180,8 @@ impl Half {
         let gained = -self.terminal * (-level).exp() * (level - switch).exp_m1();
         let driving = self.terminal * (-switch).exp() * self.rate(switch);
         End {
-            speed,
-            lag,
+            switch_speed: speed,
+            switch_lag: lag,
             excursion: lag + stop,
             rise_time_s: self.rise_time(constant(switch)).value(),
             stop_time_s,

@@ -3,7 +3,7 @@
 use super::OrbitError;
 use super::half_cycle::{HalfCycle, Swing};
 use crate::nonlinearity::RelayHysteresis;
-use crate::numeric::Scalar;
+use crate::numeric::{Real, Scalar};
 use crate::plant::DragAxis;
 
 /// The moment at which another command begins to act, delay included.
@@ -39,6 +39,42 @@ pub struct LimitCycle<T> {
     pub lower_switch: Switching<T>,
     /// Factor by which a small deviation shrinks from one period to the next: the slope of the return map, in (0, 1).
     pub multiplier: T,
+}
+
+/// One end of a limit cycle, seen outwards from the middle; every quantity is positive.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End<T> {
+    /// Way from the relay's level to rest.
+    pub(super) excursion: T,
+    /// Way from the relay's level to where the other command begins to act, and the speed there.
+    pub(super) switch_lag: T,
+    pub(super) switch_speed: T,
+    /// Time from rest at the other end to there, and from there to rest at this end.
+    pub(super) rise_time_s: T,
+    pub(super) stop_time_s: T,
+    /// Derivative of the next approach with respect to the one to this end.
+    pub(super) gain: T,
+}
+
+impl<T: Real> LimitCycle<T> {
+    /// The cycle between two ends.
+    pub(super) fn between(half_width: T, above: &End<T>, below: &End<T>) -> Self {
+        let half = T::from_f64(0.5);
+        let time_positive_s = below.stop_time_s + above.rise_time_s;
+        let time_negative_s = above.stop_time_s + below.rise_time_s;
+        Self {
+            amplitude: half_width + half * (above.excursion + below.excursion),
+            bias: half * (above.excursion - below.excursion),
+            maximum: half_width + above.excursion,
+            minimum: -(half_width + below.excursion),
+            period_s: time_positive_s + time_negative_s,
+            time_positive_s,
+            time_negative_s,
+            upper_switch: Switching { position: half_width + above.switch_lag, velocity: above.switch_speed },
+            lower_switch: Switching { position: -(half_width + below.switch_lag), velocity: -below.switch_speed },
+            multiplier: above.gain * below.gain,
+        }
+    }
 }
 
 /// A point of the return map.
@@ -79,24 +115,15 @@ pub struct Return<T> {
 pub fn limit_cycle<S: Scalar>(axis: &DragAxis<S>, relay: &RelayHysteresis<S>) -> Result<LimitCycle<S>, OrbitError> {
     let halves = HalfCycle::pair(axis, relay)?;
     let (times, [upward, downward]) = solve(&halves)?;
-    let (half_width, delay_s) = (relay.half_width(), axis.delay_s());
-    let (above, below) = (upward.overshoot, downward.overshoot);
-    let (maximum, minimum) = (half_width + above.excursion, -(half_width + below.excursion));
-    let time_positive_s = below.stop_time_s + times[0] + delay_s;
-    let time_negative_s = above.stop_time_s + times[1] + delay_s;
-    let half = S::from_f64(0.5);
-    Ok(LimitCycle {
-        amplitude: half_width + half * (above.excursion + below.excursion),
-        bias: half * (above.excursion - below.excursion),
-        maximum,
-        minimum,
-        period_s: time_positive_s + time_negative_s,
-        time_positive_s,
-        time_negative_s,
-        upper_switch: Switching { position: half_width + above.switch_lag, velocity: above.switch_speed },
-        lower_switch: Switching { position: -(half_width + below.switch_lag), velocity: -below.switch_speed },
-        multiplier: upward.gain * downward.gain,
-    })
+    let end = |swing: &Swing<S>, time_s: S| End {
+        excursion: swing.overshoot.excursion,
+        switch_lag: swing.overshoot.switch_lag,
+        switch_speed: swing.overshoot.switch_speed,
+        rise_time_s: time_s + axis.delay_s(),
+        stop_time_s: swing.overshoot.stop_time_s,
+        gain: swing.gain,
+    };
+    Ok(LimitCycle::between(relay.half_width(), &end(&upward, times[0]), &end(&downward, times[1])))
 }
 
 /// The return map of the speed at which x rises past the relay's half-width, one period on.
