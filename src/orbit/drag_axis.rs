@@ -174,8 +174,7 @@ pub(super) type Solution<S> = ([S; 2], [Swing<S>; 2]);
 pub(super) fn solve<S: Scalar>(halves: &[HalfCycle<S>; 2]) -> Result<Solution<S>, OrbitError> {
     let one = S::one();
     let mean_drive = (halves[0].drive.drive + halves[1].drive.drive) / S::two();
-    let mut times =
-        [halves[0].time_guess(mean_drive), halves[1].time_guess(mean_drive)].map(|t| S::from_f64(t.value()));
+    let mut times = [0, 1].map(|half: usize| S::from_f64(halves[half].time_guess(mean_drive)));
     // Convergence is quadratic: the step after one as small as this is below rounding.
     let tolerance = S::epsilon().sqrt() / S::two();
     let mut multiplier = f64::NAN;

@@ -123,25 +123,24 @@ impl<S: Scalar> HalfCycle<S> {
         Some((passage.speed, self.drive.drive * passage.speed_gain / passage.speed))
     }
 
-    /// Near the time from rest to the level on the limit cycle, within a factor of about two.
-    pub(super) fn time_guess(&self, mean_drive: S) -> S {
-        let OneWay { linear, quadratic, .. } = self.drive;
-        let (x, t) = (self.half_width, self.delay_s);
-        let thrust = mean_drive * mean_drive;
-        let number = S::from_f64;
-        let third = number(1.0 / 3.0);
-        // Weak drag: what the relay does in a half cycle, drag undoes over a half cycle of speed nearly linear in time.
-        let mut speed = OneWay { drive: mean_drive, linear, quadratic }.terminal_speed();
-        if linear > S::zero() {
-            let waiting = (number(3.0) * thrust * t / linear).sqrt();
-            speed = speed.min(waiting.max((number(3.0) * thrust * x / linear).pow(third)));
-        }
-        if quadratic > S::zero() {
-            let waiting = (number(4.0) * thrust * t / quadratic).pow(third);
-            speed = speed.min(waiting.max((number(4.0) * thrust * x / quadratic).sqrt().sqrt()));
-        }
-        let approach = S::two() * x + speed * t + speed * speed / (S::two() * mean_drive);
-        let settled = approach / self.drive.terminal_speed();
-        (S::two() * approach / self.drive.drive + settled * settled).sqrt()
+    /// Near the time from rest to the level on the limit cycle: where Newton's method starts.
+    pub(super) fn time_guess(&self, mean_drive: S) -> f64 {
+        let [linear, quadratic] = [self.drive.linear, self.drive.quadratic].map(Scalar::value);
+        let [drive, mean] = [self.drive.drive, mean_drive].map(Scalar::value);
+        let (x, t, thrust) = (self.half_width.value(), self.delay_s.value(), mean * mean);
+        let terminal = OneWay { drive: mean, linear, quadratic }.terminal_speed();
+        // Cubes of the speeds that each drag alone allows. Weak drag: what the relay does in a half cycle, drag undoes over a half
+        // cycle of speed nearly linear in time.
+        let waiting = libm::sqrt(3.0 * thrust * t / linear);
+        let square = libm::sqrt(4.0 * thrust * x / quadratic);
+        let linear_alone = (waiting * waiting * waiting).max(3.0 * thrust * x / linear);
+        let quadratic_alone = (4.0 * thrust * t / quadratic).max(square * libm::sqrt(square));
+        // A drag that is not there sets no limit.
+        let inverse = |cube: f64| if cube > 0.0 { 1.0 / cube } else { 0.0 };
+        let limits = [terminal * terminal * terminal, linear_alone, quadratic_alone].map(inverse);
+        let speed = 1.0 / libm::cbrt(limits[0] + limits[1] + limits[2]);
+        let approach = 2.0 * x + speed * t + speed * speed / (2.0 * mean);
+        let settled = approach / OneWay { drive, linear, quadratic }.terminal_speed();
+        libm::sqrt(2.0 * approach / drive + settled * settled)
     }
 }

@@ -37,13 +37,18 @@ pub struct Passage<T> {
 impl<T: Real> OneWay<T> {
     /// `linear^2/4 + drive quadratic`, in 1/s^2: the square of the rate at which two motions approach each other.
     pub fn discriminant(&self) -> T {
-        (self.linear / T::two()).square() + self.drive * self.quadratic
+        (T::from_f64(0.5) * self.linear).square() + self.drive * self.quadratic
     }
 
     /// The speed at which drag balances the drive; negative for a braking drive, where it is only a number of the
     /// formulas. Domain: discriminant `>= 0`, and drag of some kind.
     pub fn terminal_speed(&self) -> T {
-        self.drive / (self.linear / T::two() + self.discriminant().sqrt())
+        self.terminal_by(self.discriminant().sqrt())
+    }
+
+    /// By the root of the discriminant.
+    fn terminal_by(&self, root: T) -> T {
+        self.drive / (T::from_f64(0.5) * self.linear + root)
     }
 
     /// Acceleration at a speed, in x/s^2.
@@ -54,12 +59,22 @@ impl<T: Real> OneWay<T> {
     /// The passage as an approach to the terminal speed. Domain: discriminant `> 0`. Accurate where the duration is not
     /// short against `1/sqrt(discriminant)`, true everywhere.
     pub fn settle(&self, speed: T, duration: T) -> Passage<T> {
-        let terminal = self.terminal_speed();
-        let rate = T::two() * self.discriminant().sqrt();
+        let root = self.discriminant().sqrt();
+        let (terminal, rate) = (self.terminal_by(root), T::two() * root);
         let excess = speed - terminal;
         let exponent = -(rate * duration);
-        let decay = exponent.exp();
-        let time = -exponent.exp_m1() / rate;
+        // One of the two functions gives the other: nothing cancels on either side of exp(-1).
+        let [decay, rest] = (exponent + T::one()).select_all(
+            || {
+                let decay = exponent.exp();
+                [decay, T::one() - decay]
+            },
+            || {
+                let rest = -exponent.exp_m1();
+                [T::one() - rest, rest]
+            },
+        );
+        let time = rest / rate;
         let bend = T::one() + self.quadratic * excess * time;
         Passage {
             distance: terminal * duration + excess * time * ln_1p_ratio(self.quadratic * excess * time),
@@ -79,7 +94,7 @@ impl<S: Scalar> OneWay<S> {
         if square > S::from_f64(0.25) {
             return self.settle(speed, duration);
         }
-        let half = self.linear / S::two();
+        let half = S::from_f64(0.5) * self.linear;
         let h = half * duration;
         let decay = (-h).exp();
         // How a constant force adds up to a way: the integral of s exp(-h s) sinh(r s)/(r s) over s from 0 to 1, r^2 = square.
@@ -110,7 +125,7 @@ impl<S: Scalar> OneWay<S> {
         if self.drive >= S::zero() {
             return None;
         }
-        let half = self.linear / S::two();
+        let half = S::from_f64(0.5) * self.linear;
         let discriminant = self.discriminant();
         let time = speed / (half * speed - self.drive);
         let square = discriminant * time * time;
