@@ -16,7 +16,7 @@ use super::search::{Linearised, Motion, Search, stack};
 use crate::identify::IdentifyError;
 
 /// Draws of the rounding errors: enough for standard deviations within a tenth.
-const DRAWS: usize = 150;
+const DRAWS: usize = 72;
 
 /// Covariances of the errors.
 #[derive(Clone, Debug, PartialEq)]
