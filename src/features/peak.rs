@@ -103,3 +103,20 @@ fn vertex<S: Scalar>(samples: &[(S, S)], offset: S) -> Option<S> {
     let peaked = curvature < S::zero() && at.abs() <= S::one();
     peaked.then(|| offset + constant + slope * at / S::two())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The top of a tent is a sample; what comes after it is lower, though above where the window began.
+    #[test]
+    fn the_largest_sample_stays_the_largest() {
+        let (mut recent, mut peak) = (Recent::new(), Peak::new());
+        for time in -10..=10 {
+            let time = f64::from(time);
+            recent.push(time, 10.0 - time.abs());
+            peak.push(&recent, 1.0);
+        }
+        assert_eq!(peak.value(0.0), Some(10.0));
+    }
+}

@@ -62,19 +62,8 @@ impl<T: Real> OneWay<T> {
         let root = self.discriminant().sqrt();
         let (terminal, rate) = (self.terminal_by(root), T::two() * root);
         let excess = speed - terminal;
-        let exponent = -(rate * duration);
-        // One of the two functions gives the other: nothing cancels on either side of exp(-1).
-        let [decay, rest] = (exponent + T::one()).select_all(
-            || {
-                let decay = exponent.exp();
-                [decay, T::one() - decay]
-            },
-            || {
-                let rest = -exponent.exp_m1();
-                [T::one() - rest, rest]
-            },
-        );
-        let time = rest / rate;
+        let decay = (-(rate * duration)).exp();
+        let time = (T::one() - decay) / rate;
         let bend = T::one() + self.quadratic * excess * time;
         Passage {
             distance: terminal * duration + excess * time * ln_1p_ratio(self.quadratic * excess * time),

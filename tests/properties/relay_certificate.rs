@@ -83,11 +83,14 @@ fn what_cannot_be_certified_says_why() {
     assert!(matches!(late.certify(4.0), Err(OrbitError::LongDelay { .. })));
 }
 
-/// A right half-plane pole makes the cycle repel; its existence is proved all the same.
+/// Three integrators and two zeros are stable only where the gain is high, and a relay's gain falls with the amplitude: the
+/// cycle repels. Its existence is proved all the same.
 #[test]
 fn a_repelling_cycle_is_not_called_attracting() {
-    let closed = closed(&[1.0], &[1.0, -0.5], 0.2, 0.1);
-    for orbit in closed.symmetric_orbits(0.05..=20.0).unwrap() {
+    let closed = closed(&[1.0, 2.0, 1.0], &[1.0, 0.0, 0.0, 0.0], 0.0, 0.05);
+    let orbits = closed.symmetric_orbits(0.5..=50.0).unwrap();
+    assert!(orbits.iter().any(|orbit| orbit.is_stable() == Some(false)), "{orbits:?}");
+    for orbit in orbits {
         let proof = closed.certify(0.5 * orbit.period_s()).unwrap();
         assert_eq!(proof.contracts_after.is_some(), orbit.is_stable() == Some(true), "{orbit:?}");
     }
