@@ -1,13 +1,14 @@
-//! The arguments that describe a drag axis and its relay, common to `predict` and `simulate`.
+//! The arguments that describe a drag axis, common to `predict`, `simulate` and `tune`, and its relay.
 
 use clap::Args;
 
 use super::CommandError;
 use crate::nonlinearity::RelayHysteresis;
-use crate::plant::DragAxis;
+use crate::plant::{DragAxis, PlantError};
 
-#[derive(Debug, Args)]
-pub(super) struct AxisArguments {
+/// What resists motion.
+#[derive(Clone, Copy, Debug, Args)]
+pub(super) struct MotionArguments {
     /// Inertia with added mass, command units per output unit per s^2
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     alpha: f64,
@@ -17,6 +18,18 @@ pub(super) struct AxisArguments {
     /// Quadratic drag, command units per (output unit per s)^2
     #[arg(long, value_name = "Q", default_value_t = 0.0, allow_negative_numbers = true)]
     beta_quadratic: f64,
+}
+
+impl MotionArguments {
+    pub(super) fn axis(&self) -> Result<DragAxis<f64>, PlantError> {
+        DragAxis::mixed(self.alpha, self.beta, self.beta_quadratic)
+    }
+}
+
+#[derive(Debug, Args)]
+pub(super) struct AxisArguments {
+    #[command(flatten)]
+    motion: MotionArguments,
     /// Constant disturbance, command units
     #[arg(long, value_name = "D", default_value_t = 0.0, allow_negative_numbers = true)]
     delta: f64,
@@ -33,8 +46,7 @@ pub(super) struct AxisArguments {
 
 impl AxisArguments {
     pub(super) fn axis(&self) -> Result<DragAxis<f64>, CommandError> {
-        let axis = DragAxis::mixed(self.alpha, self.beta, self.beta_quadratic)?;
-        Ok(axis.with_disturbance(self.delta)?.with_delay_s(self.delay)?)
+        Ok(self.motion.axis()?.with_disturbance(self.delta)?.with_delay_s(self.delay)?)
     }
 
     pub(super) fn relay(&self) -> Result<RelayHysteresis<f64>, CommandError> {

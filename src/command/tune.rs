@@ -5,13 +5,13 @@ use std::io::Write;
 use clap::Args;
 use serde_json::{Value, json};
 
+use super::axis::MotionArguments;
 use super::{CommandError, Outcome, write_json};
 use crate::control::{
     Answer, AxisIntervals, ControlError, Controller, Margins, OpenLoop, StepResponse, Structure, Tuning, WorstMargin,
     WorstMargins,
 };
 use crate::numeric::Interval;
-use crate::plant::DragAxis;
 
 /// Gains of a controller for alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay), and the margins that it has.
 ///
@@ -25,15 +25,8 @@ Examples:
   selfosc tune --alpha 0.033 --beta 0.01 --beta-quadratic 0.06 --delay 0.2 --bandwidth 0.8
   selfosc tune --alpha 7.5 --beta 3 --bandwidth 0.5 --structure ipd --alpha-interval 7,8 --beta-interval 2,4 --json")]
 pub(super) struct Arguments {
-    /// Inertia with added mass, command units per output unit per s^2
-    #[arg(long, value_name = "A", allow_negative_numbers = true)]
-    alpha: f64,
-    /// Linear drag, command units per output unit per s
-    #[arg(long, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
-    beta: f64,
-    /// Quadratic drag, command units per (output unit per s)^2
-    #[arg(long, value_name = "Q", default_value_t = 0.0, allow_negative_numbers = true)]
-    beta_quadratic: f64,
+    #[command(flatten)]
+    motion: MotionArguments,
     /// Bandwidth of the answer to the reference, rad/s
     #[arg(long, value_name = "W", allow_negative_numbers = true)]
     bandwidth: f64,
@@ -98,7 +91,7 @@ struct Tuned {
 
 impl Arguments {
     fn tuned(&self) -> Result<Tuned, ControlError> {
-        let axis = DragAxis::mixed(self.alpha, self.beta, self.beta_quadratic)?.with_delay_s(self.delay)?;
+        let axis = self.motion.axis()?.with_delay_s(self.delay)?;
         let tuning = Tuning::new(&axis, self.structure, self.bandwidth)?;
         let w = tuning.double_pole_rad_s();
         let controller = Controller::new(tuning.gains());
@@ -110,12 +103,12 @@ impl Arguments {
         let top_speed = self.top_speed.unwrap_or_else(|| response.top_speed());
         let poles = OpenLoop::new(&axis, tuning.gains(), 0.0)?.closed_loop_poles()?;
         let given = [self.alpha_interval, self.beta_interval, self.beta_quadratic_interval, self.delay_interval];
-        let worst = if given.iter().any(Option::is_some) || self.beta_quadratic > 0.0 {
+        let worst = if given.iter().any(Option::is_some) || axis.quadratic_drag() > 0.0 {
             let or_point = |interval: Option<Interval>, value| interval.unwrap_or(Interval::point(value));
             let intervals = AxisIntervals::at_speeds(
-                or_point(self.alpha_interval, self.alpha),
-                or_point(self.beta_interval, self.beta),
-                or_point(self.beta_quadratic_interval, self.beta_quadratic),
+                or_point(self.alpha_interval, axis.alpha()),
+                or_point(self.beta_interval, axis.linear_drag()),
+                or_point(self.beta_quadratic_interval, axis.quadratic_drag()),
                 top_speed,
                 or_point(self.delay_interval, self.delay),
             )?;
