@@ -116,6 +116,27 @@ impl<const N: usize> Jet<N> {
         (s, c)
     }
 
+    /// Two functions with these values and derivatives `slopes(f, g, g/u)` by this jet u: Bessel functions of orders 0 and 1.
+    pub(super) fn bessel(
+        &self,
+        values: [Interval; 2],
+        slopes: impl Fn(Interval, Interval, Interval) -> [Interval; 2],
+    ) -> [Self; 2] {
+        let [mut f, mut g] = values.map(Self::constant);
+        let mut by_u = [[Interval::ZERO; N]; 2];
+        let mut quotient = [Interval::ZERO; N];
+        let u = &self.coefficients;
+        for k in 0..N {
+            if k > 0 {
+                f.coefficients[k] = self.chain(k, |i| by_u[0][i]);
+                g.coefficients[k] = self.chain(k, |i| by_u[1][i]);
+            }
+            quotient[k] = (g.coefficients[k] - total((0..k).map(|j| quotient[j] * u[k - j]))) / u[0];
+            [by_u[0][k], by_u[1][k]] = slopes(f.coefficients[k], g.coefficients[k], quotient[k]);
+        }
+        [f, g]
+    }
+
     /// Sine and cosine, for the price of either.
     pub(crate) fn sin_cos(self) -> (Self, Self) {
         self.sine_and_cosine(self.value().sin(), self.value().cos(), -Interval::ONE)

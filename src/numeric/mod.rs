@@ -1,5 +1,6 @@
 //! The arithmetics: [`Real`] and [`Scalar`], and the numerical methods the rest stands on.
 
+mod bessel;
 #[cfg(feature = "std")]
 pub mod branch_and_bound;
 #[cfg(feature = "std")]

@@ -1,0 +1,147 @@
+//! Bessel functions of orders 0 and 1, for arguments that are not negative: by power series and by Hankel's expansions.
+//!
+//! The sums are cut off; each comes with a bound of the rest, which enclosures add and floats ignore.
+
+use core::array;
+
+use super::special::Special;
+use super::{Interval, Real};
+
+/// From where on Hankel's expansions serve, whose smallest term is about `exp(-2 x)`: above, below rounding for J; for I
+/// in floats, whose power series then costs more.
+const J_LARGE: f64 = 14.0;
+const I_LARGE: f64 = 24.0;
+/// A term this small, relative to the sum, is the last.
+const CUT: f64 = 1.4e-17;
+/// Terms of Hankel's expansions that are summed; the next two bound the rest.
+const TERMS: usize = 26;
+
+fn magnitude<T: Real>(x: T) -> f64 {
+    let (lower, upper) = x.bounds();
+    lower.abs().max(upper.abs())
+}
+
+/// `n! sum_k z^k/(k! (n + k)!)` for `n = order` and `n = order + 1`, z finite. Every ratio of terms is below one half when
+/// the sums end, so the rest is below the last term.
+fn normalised_series<T: Special>(z: T, order: f64) -> [T; 2] {
+    let size = magnitude(z);
+    let (mut low, mut high, mut term, mut k) = (T::one(), T::one(), T::one(), 0.0);
+    loop {
+        k += 1.0;
+        term = term * z / T::from_f64(k * (order + k));
+        low = low + term;
+        high = high + term * T::from_f64(order + 1.0) / T::from_f64(order + 1.0 + k);
+        let rest = magnitude(term);
+        // Two negations, so that NaN ends it.
+        if !(rest > CUT * magnitude(low) || 2.0 * size > (k + 1.0) * (order + k + 1.0)) {
+            return [low, high].map(|sum| sum.give_or_take(rest));
+        }
+    }
+}
+
+/// The terms `prod (4 order^2 - (2j - 1)^2)/(8 j x)` of Hankel's expansions (DLMF 10.17.1).
+fn hankel_terms<T: Real>(order: f64, x: T) -> [T; TERMS + 2] {
+    let inverse = T::one() / (T::from_f64(8.0) * x);
+    let (mut term, mut k) = (T::one(), 0.0);
+    array::from_fn(|_| {
+        let this = term;
+        k += 1.0;
+        let odd = 2.0 * k - 1.0;
+        term = term * inverse * T::from_f64(4.0 * order * order - odd * odd) / T::from_f64(k);
+        this
+    })
+}
+
+/// Sum of `(-1)^j terms[first + step j]` below `TERMS`.
+fn alternating<T: Real>(terms: &[T], first: usize, step: usize) -> T {
+    let last_first = terms[..TERMS].iter().skip(first).step_by(step).enumerate();
+    last_first.fold(T::zero(), |sum, (j, &term)| if j % 2 == 0 { sum + term } else { sum - term })
+}
+
+/// `exp(-x) [I_0(x), I_1(x)]` for `x >= 20`. For the rest: DLMF 10.34.2, 10.40.11 with `2 chi(26) exp(3 chi(1)/(4 x)) < 15`,
+/// and `2 exp(-2 x)` of the other exponential.
+fn large_i<T: Special>(x: T) -> [T; 2] {
+    let root = (T::two() * T::pi() * x).sqrt();
+    [0.0, 1.0].map(|order| {
+        let terms = hankel_terms(order, x);
+        alternating(&terms, 0, 1).give_or_take(15.0 * magnitude(terms[TERMS]) + 1e-17) / root
+    })
+}
+
+/// `exp(-x) [I_0(x), I_1(x)]` for `x >= 0`.
+pub(super) fn i_scaled(x: f64) -> [f64; 2] {
+    if x < I_LARGE {
+        let half = 0.5 * x;
+        let [zeroth, first] = normalised_series(half * half, 0.0);
+        let scale = libm::exp(-x);
+        [scale * zeroth, scale * half * first]
+    } else {
+        large_i(x)
+    }
+}
+
+/// `[C_0(z), C_1(z)]`, z bounded.
+///
+/// Where z is negative the terms cancel, the less the higher the order: the sums are taken at some order and carried down
+/// by `C_n = (n + 1) C_(n+1) + z C_(n+2)`, here for `n! C_n`.
+fn clifford(z: Interval) -> [Interval; 2] {
+    let order = if z.lower() < 0.0 { libm::floor(z.magnitude() / 4.0) } else { 0.0 };
+    let [mut low, mut high] = normalised_series(z, order);
+    let mut n = order;
+    while n > 0.0 {
+        n -= 1.0;
+        (low, high) = (low + z / Interval::point((n + 1.0) * (n + 2.0)) * high, low);
+    }
+    [low, high]
+}
+
+fn is_domain(x: Interval) -> bool {
+    x.is_bounded() && x.lower() >= 0.0
+}
+
+/// `[J_0(x), J_1(x)]` for `x >= 0`.
+pub(super) fn enclosed_j(x: Interval) -> [Interval; 2] {
+    if !is_domain(x) {
+        return [Interval::ENTIRE; 2];
+    }
+    let functions = if x.upper() < J_LARGE {
+        let half = x / Interval::two();
+        let [zeroth, first] = clifford(-half.square());
+        [zeroth, half * first]
+    } else {
+        large_j(x)
+    };
+    functions.map(|value| value.intersection(Interval::UNIT).unwrap_or(Interval::UNIT))
+}
+
+/// `J_n = sqrt(2/(pi x)) (P cos(w) - Q sin(w))`, `w = x - n pi/2 - pi/4`; on the positive axis the rest of either sum is
+/// below its first term left out (DLMF 10.17(iii)).
+fn large_j(x: Interval) -> [Interval; 2] {
+    let phase = x - Interval::PI / Interval::point(4.0);
+    let (sine, cosine) = (phase.sin(), phase.cos());
+    let scale = (Interval::two() / (Interval::PI * x)).sqrt();
+    let sums = |order| {
+        let terms = hankel_terms(order, x);
+        [0, 1].map(|first| alternating(&terms, first, 2).give_or_take(terms[TERMS + first].magnitude()))
+    };
+    let ([p0, q0], [p1, q1]) = (sums(0.0), sums(1.0));
+    [scale * (p0 * cosine - q0 * sine), scale * (p1 * sine + q1 * cosine)]
+}
+
+/// `exp(-x) [I_0(x), I_1(x)]` for `x >= 0`.
+pub(super) fn enclosed_i_scaled(x: Interval) -> [Interval; 2] {
+    if !is_domain(x) {
+        return [Interval::ENTIRE; 2];
+    }
+    if x.lower() < I_LARGE && x.upper() < 2.0 * I_LARGE {
+        let half = x / Interval::two();
+        let [zeroth, first] = clifford(half.square());
+        let scale = (-x).exp();
+        [scale * zeroth, scale * half * first]
+    } else if x.lower() < I_LARGE {
+        // Both fall or rise to less than one half and stay positive.
+        [Interval::UNIT.max(Interval::ZERO); 2]
+    } else {
+        large_i(x)
+    }
+}
