@@ -7,10 +7,13 @@ use core::array;
 use super::special::Special;
 use super::{Interval, Real};
 
-/// From where on Hankel's expansions serve, whose smallest term is about `exp(-2 x)`: above, below rounding for J; for I
-/// in floats, whose power series then costs more.
+/// From where on Hankel's expansions serve, whose smallest term is about `exp(-2 x)`: above, rounding prevails for J, and the
+/// power series of I costs more.
 const J_LARGE: f64 = 14.0;
 const I_LARGE: f64 = 24.0;
+/// From where on to [`J_LARGE`] the terms of the power series of J cancel too far; Taylor's series about the middle serves.
+const J_MIDDLE: f64 = 10.0;
+const MIDDLE: f64 = 12.0;
 /// A term this small, relative to the sum, is the last.
 const CUT: f64 = 1.4e-17;
 /// Terms of Hankel's expansions that are summed; the next two bound the rest.
@@ -21,20 +24,20 @@ fn magnitude<T: Real>(x: T) -> f64 {
     lower.abs().max(upper.abs())
 }
 
-/// `n! sum_k z^k/(k! (n + k)!)` for `n = order` and `n = order + 1`, z finite. Every ratio of terms is below one half when
-/// the sums end, so the rest is below the last term.
-fn normalised_series<T: Special>(z: T, order: f64) -> [T; 2] {
+/// `sum_k z^k/(k! (n + k)!)` for `n = 0` and `n = 1`, z finite: `[J_0(x), J_1(x) 2/x]` for `z = -x^2/4`, I for `x^2/4`. Every
+/// ratio of terms is below one half when the sums end, so the rest is below the last term.
+fn power_series<T: Special>(z: T) -> [T; 2] {
     let size = magnitude(z);
-    let (mut low, mut high, mut term, mut k) = (T::one(), T::one(), T::one(), 0.0);
+    let (mut zeroth, mut first, mut term, mut k) = (T::one(), T::one(), T::one(), 0.0);
     loop {
         k += 1.0;
-        term = term * z / T::from_f64(k * (order + k));
-        low = low + term;
-        high = high + term * T::from_f64(order + 1.0) / T::from_f64(order + 1.0 + k);
+        term = term * z / T::from_f64(k * k);
+        zeroth = zeroth + term;
+        first = first + term / T::from_f64(k + 1.0);
         let rest = magnitude(term);
-        // Two negations, so that NaN ends it.
-        if !(rest > CUT * magnitude(low) || 2.0 * size > (k + 1.0) * (order + k + 1.0)) {
-            return [low, high].map(|sum| sum.give_or_take(rest));
+        // Negated, so that NaN ends it.
+        if !(rest > CUT * magnitude(zeroth) || 2.0 * size > (k + 1.0) * (k + 1.0)) {
+            return [zeroth, first].map(|sum| sum.give_or_take(rest));
         }
     }
 }
@@ -72,27 +75,12 @@ fn large_i<T: Special>(x: T) -> [T; 2] {
 pub(super) fn i_scaled(x: f64) -> [f64; 2] {
     if x < I_LARGE {
         let half = 0.5 * x;
-        let [zeroth, first] = normalised_series(half * half, 0.0);
+        let [zeroth, first] = power_series(half * half);
         let scale = libm::exp(-x);
         [scale * zeroth, scale * half * first]
     } else {
         large_i(x)
     }
-}
-
-/// `[C_0(z), C_1(z)]`, z bounded.
-///
-/// Where z is negative the terms cancel, the less the higher the order: the sums are taken at some order and carried down
-/// by `C_n = (n + 1) C_(n+1) + z C_(n+2)`, here for `n! C_n`.
-fn clifford(z: Interval) -> [Interval; 2] {
-    let order = if z.lower() < 0.0 { libm::floor(z.magnitude() / 4.0) } else { 0.0 };
-    let [mut low, mut high] = normalised_series(z, order);
-    let mut n = order;
-    while n > 0.0 {
-        n -= 1.0;
-        (low, high) = (low + z / Interval::point((n + 1.0) * (n + 2.0)) * high, low);
-    }
-    [low, high]
 }
 
 fn is_domain(x: Interval) -> bool {
@@ -104,14 +92,42 @@ pub(super) fn enclosed_j(x: Interval) -> [Interval; 2] {
     if !is_domain(x) {
         return [Interval::ENTIRE; 2];
     }
-    let functions = if x.upper() < J_LARGE {
+    let functions = if x.upper() < J_MIDDLE {
         let half = x / Interval::two();
-        let [zeroth, first] = clifford(-half.square());
+        let [zeroth, first] = power_series(-half.square());
         [zeroth, half * first]
+    } else if x.lower() < J_MIDDLE {
+        [Interval::UNIT; 2]
+    } else if x.upper() < J_LARGE {
+        middle_j(x)
     } else {
         large_j(x)
     };
     functions.map(|value| value.intersection(Interval::UNIT).unwrap_or(Interval::UNIT))
+}
+
+/// For `10 <= x <= 14`: Taylor's series about [`MIDDLE`], by the recurrence that Bessel's equation gives its coefficients; no derivative of J_0 or
+/// J_1 is above one, so the rest is below `2^25/25!`, and J_1 is the derivative of -J_0.
+fn middle_j(x: Interval) -> [Interval; 2] {
+    let at = Interval::point(MIDDLE);
+    let h = x - at;
+    let mut coefficients = [Interval::ZERO; 26];
+    // J_0(12) and -J_1(12) lie above these doubles.
+    for (first, below) in coefficients.iter_mut().zip([0.047_689_310_796_833_535, 0.223_447_104_490_627_6_f64]) {
+        *first = Interval::point(below).hull(Interval::point(below.next_up()));
+    }
+    for k in 2..coefficients.len() {
+        let n = Interval::point(k as f64);
+        let older = if k > 2 { coefficients[k - 3] } else { Interval::ZERO };
+        let less = n - Interval::ONE;
+        coefficients[k] = -(less.square() * coefficients[k - 1] + at * coefficients[k - 2] + older) / (at * n * less);
+    }
+    let (mut value, mut slope) = (Interval::ZERO, Interval::ZERO);
+    for &coefficient in coefficients.iter().rev() {
+        slope = slope * h + value;
+        value = value * h + coefficient;
+    }
+    [value, -slope].map(|sum| sum.give_or_take(3e-18))
 }
 
 /// `J_n = sqrt(2/(pi x)) (P cos(w) - Q sin(w))`, `w = x - n pi/2 - pi/4`; on the positive axis the rest of either sum is
@@ -135,7 +151,7 @@ pub(super) fn enclosed_i_scaled(x: Interval) -> [Interval; 2] {
     }
     if x.lower() < I_LARGE && x.upper() < 2.0 * I_LARGE {
         let half = x / Interval::two();
-        let [zeroth, first] = clifford(half.square());
+        let [zeroth, first] = power_series(half.square());
         let scale = (-x).exp();
         [scale * zeroth, scale * half * first]
     } else if x.lower() < I_LARGE {

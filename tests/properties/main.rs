@@ -34,5 +34,6 @@ mod orbit_linear;
 mod paper;
 mod record;
 mod relay_certificate;
+mod special;
 mod tolerance;
 mod vehicle;

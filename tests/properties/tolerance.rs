@@ -51,6 +51,13 @@ pub(crate) const ENERGY_BALANCE: f64 = 1e-9;
 /// tangent), and proofs rely on enclosures not much wider than rounding.
 pub(crate) const ELEMENTARY_WIDTH_ULP: f64 = 20.0;
 
+/// Width of a Bessel function's enclosure (relative for I): J near 14, where the terms of its series are 1e4 times the sum
+/// and Hankel's expansion ends at 1e-12.
+pub(crate) const BESSEL_WIDTH: f64 = 1e-11;
+
+/// Relative rounding of a scaled modified Bessel function in floats: about seventy terms, an exponential, a square root.
+pub(crate) const BESSEL_FLOAT: f64 = 1e-14;
+
 /// Width wanted of an integral by rigorous quadrature; the integrands are of order one, and rounding alone costs 1e-14.
 pub(crate) const QUADRATURE_WIDTH: f64 = 1e-12;
 
