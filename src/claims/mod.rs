@@ -23,6 +23,7 @@ pub mod orbit_proofs;
 pub mod orbits;
 pub mod proof;
 pub mod relay;
+pub mod smooth;
 pub mod symmetry;
 pub mod theorems;
 pub mod thruster;
@@ -44,6 +45,10 @@ macro_rules! for_each_claim {
             kernels::KERNEL_BAND,
             fourier::DESCRIBING_FUNCTION,
             fourier::POLYNOMIAL,
+            smooth::SINE,
+            smooth::SINH,
+            smooth::ARCTAN,
+            smooth::TANH,
             fourier::ODD_HARMONICS,
             fourier::ODD_HARMONICS_HYSTERETIC,
             fourier::SINE_ABS_SINE,

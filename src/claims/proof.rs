@@ -7,8 +7,8 @@ use std::array;
 use std::sync::LazyLock;
 
 use super::single::Single;
-use super::{Evidence, Verdict};
-use crate::describing::{ClosedForm, DescribingFunction, KernelForm, KernelProof};
+use super::{Evidence, Verdict, smooth};
+use crate::describing::{ClosedForm, DescribingFunction, KernelForm, KernelProof, prove_band_from_the_middle};
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity, parameters};
 use crate::nonlinearity::{Branches, Kernel, Polynomial, RelayHysteresis, Sinusoid};
 use crate::numeric::branch_and_bound::{self, prove_positive};
@@ -28,6 +28,10 @@ pub const PROOFS: &[(&str, Proof)] = &[
     ("kernel-band", kernel_band),
     ("describing-function", describing_function),
     ("polynomial", polynomial),
+    ("sine", smooth::sine),
+    ("sinh", smooth::sinh),
+    ("arctan", smooth::arctan),
+    ("tanh", smooth::tanh),
     ("sine-abs-sine", sine_abs_sine),
     ("relay-q", relay_q),
     ("relay-p", relay_p),
@@ -51,7 +55,7 @@ const TOLERANCE: f64 = 1e-10;
 /// Cells of an identity of one variable.
 const CELLS: usize = 5000;
 
-fn undecided(spent: &str) -> Verdict {
+pub(super) fn undecided(spent: &str) -> Verdict {
     Verdict::Undecided { spent: spent.to_owned() }
 }
 
@@ -77,7 +81,7 @@ fn zeros(domain: &str, numbers: &[Interval], boxes: usize) -> Verdict {
 }
 
 /// A value that proves nothing, where a domain was left.
-fn unknown<T: Real>() -> T {
+pub(super) fn unknown<T: Real>() -> T {
     T::from_f64(f64::NAN)
 }
 
@@ -125,23 +129,18 @@ pub fn kernel_sign(factor: f64) -> Verdict {
     kernel(KernelForm::Sign, factor, "every breakpoint u in [-1, 1], mean, sine and cosine component, both branches")
 }
 
-/// Each end of a band, every ratio; and the code's rearranged sum over both ends, along lines of constant width.
+/// Each end of a band, every ratio; and the code's rearranged sum over both ends, over the plane of both.
 #[must_use]
 pub fn kernel_band(factor: f64) -> Verdict {
-    let of_width = |width: f64| {
-        identity(&format!("rearranged as coded, width/X = {width}, lower end u"), [-0.99, 0.99 - width], |lower| {
-            let one = Series::one();
-            let upper = lower + Series::from_f64(width);
-            let band = on_unit(Kernel::Band { origin: Series::zero(), lower, upper, slope: one });
-            let (above, below) = (on_unit(Kernel::ramp_above(lower, one)), on_unit(Kernel::ramp_above(upper, one)));
-            [lower + above.f0 - below.f0 - band.f0, above.p - below.p - band.p]
-        })
+    let rearranged = || match prove_band_from_the_middle(factor) {
+        Some(KernelProof { bound, cells }) => Verdict::Holds(Evidence::Proved {
+            domain: "rearranged as coded, both ends u in [-0.95, 0.95] but 1e-9 beyond 1/2".to_owned(),
+            bound,
+            boxes: cells,
+        }),
+        None => undecided("60000 cells for two ratios"),
     };
-    kernel(KernelForm::Band, factor, "each end u in [-1, 1], mean and sine component")
-        .and(|| of_width(0.1))
-        .and(|| of_width(0.5))
-        .and(|| of_width(0.9))
-        .and(|| of_width(1.4))
+    kernel(KernelForm::Band, factor, "each end u in [-1, 1], mean and sine component").and(rearranged)
 }
 
 /// Closed form of one kernel under a unit sinusoid.

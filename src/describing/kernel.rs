@@ -156,15 +156,12 @@ impl<T: Real> Arc<T> {
 #[inline]
 fn band<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
     let (bias, amplitude) = (sweep.bias(), sweep.amplitude());
-    let ramp = |at, side| arc(at, sweep, side, Arc::ramp).on(Branches::Both);
+    let ramp = |at, side| ramp(at, side, sweep);
     let line = || DescribingFunction { p: T::one(), ..flat(bias - origin) };
     let components = |df: DescribingFunction<T>| [df.f0, df.p];
-    let middle = || {
-        let centre = half::<T>() * ((lower - origin) + (upper - origin));
-        components(flat(centre) + from_the_middle(lower, upper, sweep))
-    };
+    let middle = || components(band_from_the_middle(origin, lower, upper, sweep));
     let wide = || components(line() + ramp(lower, Side::Below) - ramp(upper, Side::Above));
-    let near_maximum = || components(flat(lower - origin) + ramp(lower, Side::Above) - ramp(upper, Side::Above));
+    let near_maximum = || components(band_near_the_maximum(origin, lower, upper, sweep));
     let near_minimum = || components(flat(upper - origin) + ramp(lower, Side::Below) - ramp(upper, Side::Below));
 
     let near = half::<T>() * amplitude;
@@ -172,6 +169,34 @@ fn band<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> Describi
     let beside_maximum = || (bias - upper - near).select_all(inner, near_minimum);
     let [f0, p] = (lower - bias - near).select_all(beside_maximum, near_maximum);
     DescribingFunction { f0, p, q: T::zero() }
+}
+
+/// A unit ramp on both branches.
+#[inline]
+fn ramp<T: Real>(at: T, side: Side, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
+    arc(at, sweep, side, Arc::ramp).on(Branches::Both)
+}
+
+/// A band as its lower limit and a ramp from there, less a ramp from its upper limit.
+#[inline]
+pub(super) fn band_near_the_maximum<T: Real>(
+    origin: T,
+    lower: T,
+    upper: T,
+    sweep: &Sinusoid<T>,
+) -> DescribingFunction<T> {
+    flat(lower - origin) + ramp(lower, Side::Above, sweep) - ramp(upper, Side::Above, sweep)
+}
+
+/// A band as the middle of its limits, and the rest from there.
+#[inline]
+pub(super) fn band_from_the_middle<T: Real>(
+    origin: T,
+    lower: T,
+    upper: T,
+    sweep: &Sinusoid<T>,
+) -> DescribingFunction<T> {
+    flat(half::<T>() * ((lower - origin) + (upper - origin))) + from_the_middle(lower, upper, sweep)
 }
 
 /// A band, less the middle of its breakpoints, from the angles `a`, `b` at which the input passes its ends, by the tangents

@@ -8,8 +8,9 @@
 //! has square roots of nearly nothing, the values are compared on small cells instead, `I` by the mean value theorem.
 
 use super::DescribingFunction;
-use super::kernel::{Arc, constant};
-use crate::numeric::identity::{Series, cover, magnitude};
+use super::kernel::{Arc, band_from_the_middle, band_near_the_maximum, constant};
+use crate::nonlinearity::Sinusoid;
+use crate::numeric::identity::{Series, cover, magnitude, prove_zero_of_two};
 use crate::numeric::{Interval, Real};
 
 /// Length of either end on which values are compared, in radians: beyond, `cos(phi)` can be told from one.
@@ -44,6 +45,46 @@ pub struct KernelProof {
     pub bound: f64,
     /// Cells that the range of `acos(u)` was divided into.
     pub cells: usize,
+}
+
+/// Proves that a band from the middle, made false unless `factor` is one, is the difference of two ramps: for every pair of
+/// breakpoints within 0.95 of the bias, in units of the amplitude, but those from 0.5 to 0.5 + 1e-9 away from it. `None` if that is not
+/// shown to 1e-11.
+///
+/// ```
+/// use selfosc::describing::prove_band_from_the_middle;
+/// assert!(prove_band_from_the_middle(1.0).is_some_and(|proof| proof.bound < 1e-11));
+/// assert!(prove_band_from_the_middle(1.00001).is_none());
+/// ```
+#[must_use]
+pub fn prove_band_from_the_middle(factor: f64) -> Option<KernelProof> {
+    let mut whole = KernelProof { bound: 0.0, cells: 0 };
+    for lower in BREAKPOINTS {
+        for upper in BREAKPOINTS {
+            let proved = prove_zero_of_two(
+                |lower: Interval, upper| rearranged(lower, upper, factor),
+                |lower: Series, upper| rearranged(lower, upper, factor),
+                [lower, upper],
+                FROM_THE_MIDDLE,
+                BUDGET,
+            )?;
+            whole = KernelProof { bound: whole.bound.max(proved.bound), cells: whole.cells + proved.cells };
+        }
+    }
+    Some(whole)
+}
+
+/// Where the code takes one and the same formula for an angle; together `[-0.95, 0.95]` but for two gaps.
+const BREAKPOINTS: [[f64; 2]; 3] = [[-0.95, -0.5 - 1e-9], [-0.5, 0.5], [0.5 + 1e-9, 0.95]];
+/// Error allowed of a band.
+const FROM_THE_MIDDLE: f64 = 1e-11;
+
+/// The band, by the formula for the middle less that by ramps: mean and sine component.
+fn rearranged<T: Real>(lower: T, upper: T, factor: f64) -> [T; 2] {
+    let Ok(sweep) = Sinusoid::new(T::zero(), T::one()) else { return [T::from_f64(f64::NAN); 2] };
+    let middle = band_from_the_middle(T::zero(), lower, upper, &sweep) * T::from_f64(factor);
+    let ramps = band_near_the_maximum(T::zero(), lower, upper, &sweep);
+    [middle.f0 - ramps.f0, middle.p - ramps.p]
 }
 
 impl KernelForm {

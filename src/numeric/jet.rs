@@ -26,8 +26,10 @@ pub struct Jet<const N: usize> {
 impl<const N: usize> Jet<N> {
     /// The function that is `value` everywhere.
     #[must_use]
-    pub fn constant(value: Interval) -> Self {
-        Self::from_terms(|k, _| if k == 0 { value } else { Interval::ZERO })
+    pub const fn constant(value: Interval) -> Self {
+        let mut coefficients = [Interval::ZERO; N];
+        coefficients[0] = value;
+        Self { coefficients }
     }
 
     /// The variable itself, at every point of `at`.
@@ -276,6 +278,21 @@ impl<const N: usize> Real for Jet<N> {
             value => {
                 let values = |branch: [Self; M]| branch.map(|number| number.value());
                 value.select_all(|| values(below()), || values(above())).map(Self::kink)
+            }
+        }
+    }
+    fn prefer_all<const M: usize>(
+        self,
+        below: impl FnOnce() -> [Self; M],
+        above: impl FnOnce() -> [Self; M],
+    ) -> [Self; M] {
+        match self.value() {
+            value if value.is_positive() => above(),
+            value if value.upper() <= 0.0 => below(),
+            _ => {
+                let (below, above) = (below(), above());
+                let hull = |i: usize, k: usize| below[i].coefficients[k].hull(above[i].coefficients[k]);
+                array::from_fn(|i| Self { coefficients: array::from_fn(|k| hull(i, k)) })
             }
         }
     }

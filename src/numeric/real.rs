@@ -74,6 +74,17 @@ pub trait Real:
         below: impl FnOnce() -> [Self; N],
         above: impl FnOnce() -> [Self; N],
     ) -> [Self; N];
+    /// [`select_all`](Self::select_all) between two expressions of the same numbers, each the more accurate on its side of
+    /// zero. That they are the same, as functions, is for the caller to know: a jet that straddles zero stays smooth.
+    #[must_use]
+    #[inline]
+    fn prefer_all<const N: usize>(
+        self,
+        below: impl FnOnce() -> [Self; N],
+        above: impl FnOnce() -> [Self; N],
+    ) -> [Self; N] {
+        self.select_all(below, above)
+    }
     /// `self - sin(self)` for `self >= 0` without cancellation near zero, given `sine = sin(self)` found some other way.
     fn minus_sine(self, sine: Self) -> Self;
 
@@ -83,6 +94,13 @@ pub trait Real:
     fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
         let [selected] = self.select_all(|| [below()], || [above()]);
         selected
+    }
+    /// [`prefer_all`](Self::prefer_all) of one number.
+    #[must_use]
+    #[inline]
+    fn prefer(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
+        let [preferred] = self.prefer_all(|| [below()], || [above()]);
+        preferred
     }
     /// The reciprocal of [`pi`](Self::pi): dividing by a constant costs a division each time.
     #[must_use]
