@@ -55,64 +55,96 @@ pub fn prove_positive<const N: usize>(
     domain: [Interval; N],
     budget: usize,
 ) -> Verdict<N> {
+    divide(margin, domain, budget).0
+}
+
+/// [`prove_positive`], with the boxes that the domain was divided into: the lower half of a box, and all that became of it,
+/// before the upper one.
+pub(super) fn divide<const N: usize>(
+    margin: impl Fn(&[Interval; N]) -> Interval,
+    domain: [Interval; N],
+    budget: usize,
+) -> (Verdict<N>, Vec<[Interval; N]>) {
     let sizes = domain.map(Interval::width);
     let mut smallest = f64::INFINITY;
-    let mut boxes = 0;
-    let mut fresh = vec![domain];
+    let mut nodes = vec![Node { at: domain, halves: None }];
     let mut open = BinaryHeap::new();
-    loop {
-        for at in fresh.drain(..) {
-            boxes += 1;
-            let value = margin(&at);
+    let mut fresh = 0..1;
+    let verdict = loop {
+        for index in fresh {
+            let value = margin(&nodes[index].at);
             if value.is_positive() {
                 smallest = smallest.min(value.lower());
             } else {
-                open.push(Open { at, margin: value });
+                open.push(Open { index, margin: value });
             }
         }
-        let Some(Open { at, margin: value }) = open.pop() else {
-            return Verdict::Proved { margin: smallest, boxes };
+        let boxes = nodes.len();
+        let Some(Open { index, margin: value }) = open.pop() else {
+            break Verdict::Proved { margin: smallest, boxes };
         };
+        let at = nodes[index].at;
         let witness = at.map(Interval::midpoint);
         let at_witness = margin(&witness.map(Interval::point));
         if at_witness.upper() <= 0.0 {
-            return Verdict::Refuted { witness, margin: at_witness, boxes };
+            break Verdict::Refuted { witness, margin: at_witness, boxes };
         }
         let Some(halves) = halves(&at, &sizes).filter(|_| boxes + 2 <= budget) else {
-            return Verdict::Undecided { at, margin: value, boxes };
+            break Verdict::Undecided { at, margin: value, boxes };
         };
-        fresh.extend(halves);
+        nodes[index].halves = Some([boxes, boxes + 1]);
+        nodes.extend(halves.map(|at| Node { at, halves: None }));
+        fresh = boxes..boxes + 2;
+    };
+    (verdict, undivided(&nodes))
+}
+
+/// A box, and where its halves are.
+struct Node<const N: usize> {
+    at: [Interval; N],
+    halves: Option<[usize; 2]>,
+}
+
+/// The boxes without halves, in order, from the first node on.
+fn undivided<const N: usize>(nodes: &[Node<N>]) -> Vec<[Interval; N]> {
+    let (mut boxes, mut open) = (Vec::new(), vec![0]);
+    while let Some(node) = open.pop().and_then(|index: usize| nodes.get(index)) {
+        match node.halves {
+            Some([lower, upper]) => open.extend([upper, lower]),
+            None => boxes.push(node.at),
+        }
     }
+    boxes
 }
 
 /// A box on which the margin may not be positive; the heap yields the lowest bound first.
-struct Open<const N: usize> {
-    at: [Interval; N],
+struct Open {
+    index: usize,
     margin: Interval,
 }
 
-impl<const N: usize> Ord for Open<N> {
+impl Ord for Open {
     fn cmp(&self, other: &Self) -> Ordering {
         other.margin.lower().total_cmp(&self.margin.lower())
     }
 }
 
-impl<const N: usize> PartialOrd for Open<N> {
+impl PartialOrd for Open {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl<const N: usize> PartialEq for Open<N> {
+impl PartialEq for Open {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
-impl<const N: usize> Eq for Open<N> {}
+impl Eq for Open {}
 
 /// The box halved along its longest side, measured in `sizes`; `None` if that cannot be.
-pub(super) fn halves<const N: usize>(at: &[Interval; N], sizes: &[f64; N]) -> Option<[[Interval; N]; 2]> {
+fn halves<const N: usize>(at: &[Interval; N], sizes: &[f64; N]) -> Option<[[Interval; N]; 2]> {
     let share = |i: usize| if sizes[i] > 0.0 { at[i].width() / sizes[i] } else { 0.0 };
     let longest = (0..N).max_by(|&i, &j| share(i).total_cmp(&share(j)))?;
     let (lower, upper) = at[longest].bisect();

@@ -4,7 +4,7 @@ use selfosc::claims::method_bias::DragLaw;
 use selfosc::claims::orbit_proofs::{FALSEHOODS, THEOREMS};
 use selfosc::identify::iso::Oscillation;
 use selfosc::nonlinearity::RelayHysteresis;
-use selfosc::numeric::inequality::{Inequality, Proof, Proofs, Refusal, Search};
+use selfosc::numeric::inequality::{Cell, Inequality, Proof, Proofs, Refusal, Search, Side};
 use selfosc::numeric::{Gradient, Interval};
 use selfosc::orbit::theorem::BUDGET;
 use selfosc::orbit::{OrbitError, certify, force_left, limit_cycle, return_slope};
@@ -41,16 +41,11 @@ fn no_falsehood_is_proved() {
 #[test]
 fn corrupted_proofs_are_refused() {
     for (inequality, proof) in proofs() {
-        let missing = Proof { boxes: proof.boxes[1..].to_vec(), ..proof.clone() };
-        assert_eq!(inequality.check(&missing), Err(Refusal::NotCovered), "{}", inequality.id);
-        let mut moved = proof.clone();
-        let side = moved.boxes[0][0];
-        moved.boxes[0][0] = Interval::new(side.lower(), side.lower().midpoint(side.upper().min(1e3))).unwrap();
-        if !side.is_point() {
-            assert!(inequality.check(&moved).is_err(), "{}: a box cut in half", inequality.id);
+        // The bound is the lowest that is shown.
+        for bound in [proof.bound.next_up(), 10.0 * proof.bound.max(1.0)] {
+            let boast = Proof { bound, ..proof.clone() };
+            assert!(matches!(inequality.check(&boast), Err(Refusal::NotShown { .. })), "{}", inequality.id);
         }
-        let boast = Proof { bound: 10.0 * proof.bound.max(1.0), ..proof.clone() };
-        assert!(matches!(inequality.check(&boast), Err(Refusal::NotShown { .. })), "{}", inequality.id);
         let vacuous = Proof { bound: 0.0, ..proof.clone() };
         assert!(matches!(inequality.check(&vacuous), Err(Refusal::Bound { .. })));
         let other = Proof { inequality: "another".to_owned(), ..proof.clone() };
@@ -68,6 +63,80 @@ fn corrupted_proofs_are_refused() {
     ] {
         assert!(matches!(text.parse::<Proofs>(), Err(Refusal::Malformed { .. })), "{text}");
     }
+}
+
+/// `boxes` with one of them changed.
+fn with(boxes: &[Cell], index: usize, change: impl FnOnce(&mut Cell)) -> Vec<Cell> {
+    let mut boxes = boxes.to_vec();
+    change(&mut boxes[index]);
+    boxes
+}
+
+/// Wherever in the list: a box left out, given twice, a step too small, in another's place.
+#[test]
+fn boxes_that_do_not_make_up_the_domain_are_refused() {
+    for (inequality, proof) in proofs() {
+        let refused = |boxes: Vec<Cell>, what: &str| {
+            let found = inequality.check(&Proof { boxes, ..proof.clone() });
+            assert_eq!(found, Err(Refusal::NotCovered), "{}: {what}", inequality.id);
+        };
+        let count = proof.boxes.len();
+        for index in [0, count / 3, count / 2, count - 1] {
+            let mut boxes = proof.boxes.clone();
+            boxes.remove(index);
+            refused(boxes, "a box missing");
+            let mut boxes = proof.boxes.clone();
+            boxes.insert(index, boxes[index]);
+            refused(boxes, "a box twice");
+            for (i, side) in proof.boxes[index].into_iter().enumerate().filter(|(_, side)| !side.is_point()) {
+                let (lower, upper) = (side.lower(), side.upper());
+                let shrunk = [Interval::new(lower.next_up(), upper), Interval::new(lower, upper.next_down())];
+                for smaller in shrunk {
+                    refused(with(&proof.boxes, index, |at| at[i] = smaller.unwrap()), "a box too small by one step");
+                }
+            }
+        }
+        if count > 1 {
+            refused(proof.boxes.iter().rev().copied().collect(), "the order turned round");
+            let mut boxes = proof.boxes.clone();
+            boxes.swap(0, count - 1);
+            refused(boxes, "two boxes exchanged");
+        }
+        refused(Vec::new(), "no boxes");
+    }
+}
+
+/// The check asks for cuts, not for halves, and for as much of the domain as it states.
+#[test]
+fn any_cuts_will_do() {
+    const ANYWHERE: Inequality = Inequality {
+        id: "anywhere",
+        statement: "one is positive",
+        sides: [Side::new("x", 0.0, 3.0), Side::new("y", 0.0, 2.0), Side::NONE],
+        margin: |_| Interval::ONE,
+    };
+    let side = |lower, upper| Interval::new(lower, upper).unwrap();
+    let cell = |x: (f64, f64), y: (f64, f64)| [side(x.0, x.1), side(y.0, y.1), Interval::ZERO];
+    let check = |boxes: &[Cell]| {
+        let domain = ANYWHERE.domain().unwrap();
+        ANYWHERE.check(&Proof { inequality: "anywhere".to_owned(), domain, bound: 1.0, boxes: boxes.to_vec() })
+    };
+    let thirds = [cell((0.0, 1.0), (0.0, 2.0)), cell((1.0, 2.5), (0.0, 2.0)), cell((2.5, 3.0), (0.0, 2.0))];
+    assert_eq!(check(&thirds), Ok(()));
+    let nested = [
+        cell((0.0, 1.0), (0.0, 2.0)),
+        cell((1.0, 3.0), (0.0, 0.5)),
+        cell((1.0, 2.0), (0.5, 2.0)),
+        cell((2.0, 3.0), (0.5, 2.0)),
+    ];
+    assert_eq!(check(&nested), Ok(()));
+    let gap = with(&nested, 2, |at| at[1] = side(0.75, 2.0));
+    assert_eq!(check(&gap), Err(Refusal::NotCovered));
+    let beyond = with(&thirds, 2, |at| at[0] = side(2.5, 4.0));
+    assert_eq!(check(&beyond), Err(Refusal::NotCovered));
+    let overlap = with(&thirds, 2, |at| at[0] = side(2.0, 3.0));
+    assert_eq!(check(&overlap), Err(Refusal::NotCovered));
+    assert_eq!(check(&thirds[..2]), Err(Refusal::NotCovered));
 }
 
 /// Linear and quadratic drag, disturbance, delay, half-width; alpha and level are one.
