@@ -4,6 +4,7 @@ mod circular;
 mod exponential;
 mod real;
 mod rounding;
+mod series;
 #[cfg(test)]
 mod tests;
 
@@ -209,6 +210,29 @@ impl Interval {
         (0..=8).find(|&count| self == Self::from(f64::from(count)))
     }
 
+    /// The sum of products, of at most a hundred, with one step outwards for all their roundings.
+    #[inline]
+    pub(super) fn dot(pairs: impl Iterator<Item = (Self, Self)> + Clone) -> Self {
+        /// Between these neither overflow nor underflow matters.
+        const SIZES: core::ops::RangeInclusive<f64> = 1e-270..=1e300;
+        let smaller = |a: f64, b: f64| if b < a { b } else { a };
+        let (mut lower, mut minus_upper, mut size, mut roundings) = (0.0, 0.0, 0.0, 2.0);
+        for (a, b) in pairs.clone() {
+            let [p, q, r, s] = [a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi];
+            lower += smaller(smaller(p, q), smaller(r, s));
+            minus_upper += smaller(smaller(-p, -q), smaller(-r, -s));
+            size += a.magnitude() * b.magnitude();
+            roundings += 1.0;
+        }
+        // An infinite endpoint makes the size infinite, or NaN.
+        if !SIZES.contains(&size) {
+            return pairs.map(|(a, b)| a * b).reduce(|sum, term| sum + term).unwrap_or(Self::ZERO);
+        }
+        // Each term is rounded once as a product, and with each sum after it; the last difference too, and the size itself.
+        let error = roundings * (0.5 * f64::EPSILON) * size;
+        Self { lo: lower - error, hi: error - minus_upper }
+    }
+
     /// The values of an increasing function, from `at_point`: its enclosure at an endpoint, or its limit at an infinite one.
     #[inline]
     fn increasing(self, at_point: impl Fn(f64) -> Self) -> Self {
@@ -220,6 +244,13 @@ impl Interval {
             return at_lower;
         }
         Self { lo: at_lower.lo, hi: at_point(self.hi).hi }
+    }
+
+    /// [`increasing`](Self::increasing) by one enclosure over an interval so narrow that it comes out no wider than by its ends.
+    #[inline]
+    fn increasing_over(self, over: impl Fn(Self) -> Self) -> Self {
+        const NARROW: f64 = 4096.0 * f64::EPSILON;
+        if self.width() <= NARROW { over(self) } else { self.increasing(|end| over(Self::point(end))) }
     }
 }
 

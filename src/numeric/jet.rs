@@ -88,32 +88,41 @@ impl<const N: usize> Jet<N> {
         Self::from_terms(|k, _| if k == 0 { value } else { Interval::ENTIRE })
     }
 
-    /// Coefficient `k` of the integral of `slope u'`, `u` this jet; reads the slope's coefficients below `k`.
-    fn chain(&self, k: usize, slope: impl Fn(usize) -> Interval) -> Interval {
-        let terms = (1..=k).filter(|&j| self.coefficients[j] != Interval::ZERO);
-        total(terms.map(|j| integer(j) * self.coefficients[j] * slope(k - j))) / integer(k)
+    /// The coefficients of `t u'`, `u` this jet, up to the last that is not zero.
+    fn moving(&self) -> Moving<N> {
+        let mut terms = self.coefficients;
+        for (k, term) in terms.iter_mut().enumerate() {
+            *term = integer(k) * *term;
+        }
+        let zeros = terms.iter().rev().take_while(|&&term| term == Interval::ZERO).count();
+        Moving { terms, count: N - zeros }
     }
 
     /// The function of this jet with the given value and derivative.
     fn with_slope(&self, value: Interval, slope: &Self) -> Self {
-        Self::from_terms(|k, _| if k == 0 { value } else { self.chain(k, |i| slope.coefficients[i]) })
+        let moving = self.moving();
+        Self::from_terms(|k, _| if k == 0 { value } else { moving.integral(k, &slope.coefficients) })
     }
 
     /// `y` with `y' = (1 + sign y^2) u'`: tangent and hyperbolic tangent.
     fn tangent(&self, value: Interval, sign: Interval) -> Self {
-        let slope = |y: &[Interval], i: usize| {
-            let square = sign * convolution(y, y, i);
-            if i == 0 { Interval::ONE + square } else { square }
-        };
-        Self::from_terms(|k, y| if k == 0 { value } else { self.chain(k, |i| slope(y, i)) })
+        let (moving, mut slope) = (self.moving(), [Interval::ZERO; N]);
+        let mut y = Self::constant(value);
+        for k in 1..N {
+            let square = sign * convolution(&y.coefficients, &y.coefficients, k - 1);
+            slope[k - 1] = if k == 1 { Interval::ONE + square } else { square };
+            y.coefficients[k] = moving.integral(k, &slope);
+        }
+        y
     }
 
     /// `(s, c)` with `s' = c u'` and `c' = sign s u'`: circular and hyperbolic functions.
     fn sine_and_cosine(&self, sine: Interval, cosine: Interval, sign: Interval) -> (Self, Self) {
+        let moving = self.moving();
         let (mut s, mut c) = (Self::constant(sine), Self::constant(cosine));
         for k in 1..N {
-            s.coefficients[k] = self.chain(k, |i| c.coefficients[i]);
-            c.coefficients[k] = sign * self.chain(k, |i| s.coefficients[i]);
+            s.coefficients[k] = moving.integral(k, &c.coefficients);
+            c.coefficients[k] = sign * moving.integral(k, &s.coefficients);
         }
         (s, c)
     }
@@ -154,13 +163,32 @@ fn integer(k: usize) -> Interval {
     Interval::point(k as f64)
 }
 
-fn total(terms: impl Iterator<Item = Interval>) -> Interval {
-    terms.reduce(|sum, term| sum + term).unwrap_or(Interval::ZERO)
+/// What moves a jet: see [`Jet::moving`].
+struct Moving<const N: usize> {
+    terms: [Interval; N],
+    /// The terms from here on are zero.
+    count: usize,
+}
+
+impl<const N: usize> Moving<N> {
+    /// Coefficient `k` of the integral of `slope u'`; reads the slope's coefficients below `k`, or none if u is constant.
+    fn integral(&self, k: usize, slope: &[Interval]) -> Interval {
+        let last = k.min(self.count.max(1) - 1);
+        if last == 0 {
+            return Interval::ZERO;
+        }
+        dot(&self.terms[1..=last], &slope[k - last..k]) / integer(k)
+    }
+}
+
+/// The sum of products, the first with the last, the second with the last but one, and so on.
+fn dot(forward: &[Interval], backward: &[Interval]) -> Interval {
+    Interval::dot(forward.iter().copied().zip(backward.iter().rev().copied()))
 }
 
 /// Coefficient `k` of the product of two series.
 fn convolution(a: &[Interval], b: &[Interval], k: usize) -> Interval {
-    total((0..=k).map(|j| a[j] * b[k - j]))
+    dot(&a[..=k], &b[..=k])
 }
 
 impl<const N: usize> Neg for Jet<N> {
@@ -204,7 +232,7 @@ impl<const N: usize> Div for Jet<N> {
             return Self { coefficients: self.coefficients.map(|c| c / divisor.value()) };
         }
         let b = &divisor.coefficients;
-        Self::from_terms(|k, q| (self.coefficients[k] - total((0..k).map(|j| q[j] * b[k - j]))) / b[0])
+        Self::from_terms(|k, q| (self.coefficients[k] - dot(q, &b[1..=k])) / b[0])
     }
 }
 
@@ -244,17 +272,19 @@ impl<const N: usize> Real for Jet<N> {
         square
     }
     fn pow(self, exponent: Self) -> Self {
-        if let (Some(count), true) = (exponent.value().small_natural(), exponent.is_constant()) {
+        if self.is_constant() && exponent.is_constant() {
+            Self::constant(self.value().pow(exponent.value()))
+        } else if let (Some(count), true) = (exponent.value().small_natural(), exponent.is_constant()) {
             (0..count).fold(Self::one(), |power, _| power * self)
         } else if self.value().is_positive() && exponent.is_constant() {
-            // From x y' = exponent x' y.
+            // From x y' = exponent x' y: k x_0 y_k is the sum of ((exponent + 1) j - k) x_j y_(k - j).
             let (x, power) = (&self.coefficients, exponent.value());
+            let rates: [Interval; N] = array::from_fn(|j| (power + Interval::ONE) * integer(j));
             Self::from_terms(|k, y| match k {
                 0 => x[0].pow(power),
                 _ => {
-                    let moving = (1..=k).filter(|&j| x[j] != Interval::ZERO);
-                    let terms = moving.map(|j| (power * integer(j) - integer(k - j)) * x[j] * y[k - j]);
-                    total(terms) / (integer(k) * x[0])
+                    let weighted = (1..=k).map(|j| ((rates[j] - integer(k)) * x[j], y[k - j]));
+                    Interval::dot(weighted) / (integer(k) * x[0])
                 }
             })
         } else if self.value().is_positive() {
@@ -304,7 +334,7 @@ impl<const N: usize> Real for Jet<N> {
     fn sqrt(self) -> Self {
         Self::from_terms(|k, s| match k {
             0 => self.value().sqrt(),
-            _ => (self.coefficients[k] - total((1..k).map(|j| s[j] * s[k - j]))) / (Interval::two() * s[0]),
+            _ => (self.coefficients[k] - dot(&s[1..], &s[1..])) / (Interval::two() * s[0]),
         })
     }
     fn sin(self) -> Self {
@@ -326,7 +356,8 @@ impl<const N: usize> Real for Jet<N> {
         self.with_slope(self.value().atan(), &(Self::one() / (Self::one() + self.square())))
     }
     fn exp(self) -> Self {
-        Self::from_terms(|k, y| if k == 0 { self.value().exp() } else { self.chain(k, |i| y[i]) })
+        let moving = self.moving();
+        Self::from_terms(|k, y| if k == 0 { self.value().exp() } else { moving.integral(k, y) })
     }
     fn exp_m1(self) -> Self {
         self.with_slope(self.value().exp_m1(), &self.exp())

@@ -68,24 +68,30 @@ pub fn integrate<const M: usize>(
     let ends = array::from_fn(|i| at_start[i] * (start - from) + at_end[i] * (to - end));
     let sign = if end.precedes(start) { -Interval::ONE } else { Interval::ONE };
 
-    let negligible = width / 1024.0;
-    let first = Cell::new(integrand, start.hull(end), negligible);
-    let mut settled = [Interval::ZERO; M];
-    let mut open = vec![first];
-    let mut cells = 1;
-    while widths(settled, &open).iter().any(|&sum| sum > width) && cells + 2 <= budget {
-        let Some(widest) = widest(&open) else { break };
+    let whole = start.hull(end);
+    let (mut settled, mut cells) = ([Interval::ZERO; M], 1);
+    let mut open = vec![Cell::new(integrand, whole, width, false)];
+    while let Some(widest) = widest(&open) {
+        // A sum is formed only once no single cell is too wide.
+        let near = open[widest].width <= width;
+        if near && widths(settled, &open).iter().all(|&sum| sum <= width) {
+            break;
+        }
+        let parts = open[widest].parts(whole);
+        if cells + parts.len() > budget {
+            break;
+        }
+        cells += parts.len();
         let parent = open.swap_remove(widest);
-        let (left, right) = parent.domain.bisect();
-        let halves = [left, right].map(|half| Cell::new(integrand, half, negligible));
-        cells += 2;
+        let rough = parent.smoothness != Smoothness::Decided;
+        let parts: Vec<_> = parts.into_iter().map(|part| Cell::new(integrand, part, width, rough)).collect();
         // Where a smooth cell's halves are no better, rounding is all that is left.
-        let exhausted = parent.smooth && halves[0].width + halves[1].width > 0.9 * parent.width;
-        for half in halves {
-            if exhausted || half.width <= negligible || !half.divisible {
-                settled = add(settled, half.integrals);
+        let exhausted = !rough && parts.iter().map(|part| part.width).sum::<f64>() > 0.9 * parent.width;
+        for part in parts {
+            if exhausted || part.width <= width * NEGLIGIBLE || !part.divisible() {
+                settled = add(settled, part.integrals);
             } else {
-                open.push(half);
+                open.push(part);
             }
         }
     }
@@ -108,30 +114,69 @@ fn widest<const M: usize>(open: &[Cell<M>]) -> Option<usize> {
     numbered.max_by(|(_, a), (_, b)| a.width.total_cmp(&b.width)).map(|(index, _)| index)
 }
 
+/// Share of the wanted width that no cell is divided for.
+const NEGLIGIBLE: f64 = 1.0 / 1024.0;
+/// A cell whose remainder is this much wider than wanted has a singularity within or beside it.
+const SINGULAR: f64 = 1e30;
+/// Halvings towards a singularity, before the jets are asked again.
+const GRADES: usize = 3;
+
+/// What the jet over a cell says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Smoothness {
+    /// The integrals are by the jets.
+    Decided,
+    /// The cell is too long.
+    TooLong,
+    /// No division away from one point will do.
+    Singular,
+}
+
 /// Part of the domain, with what it contributes.
 struct Cell<const M: usize> {
     domain: Interval,
     integrals: [Interval; M],
     /// The largest width of a contribution.
     width: f64,
-    /// Whether the jet decided the piece.
-    smooth: bool,
-    divisible: bool,
+    smoothness: Smoothness,
 }
 
 impl<const M: usize> Cell<M> {
-    fn new(integrand: &impl Integrand<M>, domain: Interval, negligible: f64) -> Self {
+    /// By the jets, or by the range where they do not decide; by the range first where they did not on a larger cell.
+    fn new(integrand: &impl Integrand<M>, domain: Interval, wanted: f64, rough: bool) -> Self {
         let length = Interval::point(domain.upper()) - Interval::point(domain.lower());
-        let by_range = integrand.range(domain).map(|value| value * length);
-        let by_jet = if largest_width(&by_range) <= negligible { None } else { taylor(integrand, domain) };
-        let smooth = by_jet.is_some();
-        let integrals = by_jet.map_or(by_range, |by_jet| {
-            // Both hold, so the intersection is not empty.
-            array::from_fn(|i| by_jet[i].intersection(by_range[i]).unwrap_or(by_range[i]))
-        });
-        let middle = domain.midpoint();
-        let divisible = domain.lower() < middle && middle < domain.upper();
-        Self { domain, integrals, width: largest_width(&integrals), smooth, divisible }
+        let by_range = || integrand.range(domain).map(|value| value * length);
+        let of = |integrals: [Interval; M], smoothness| Self {
+            domain,
+            integrals,
+            width: largest_width(&integrals),
+            smoothness,
+        };
+        let first = rough.then(|| of(by_range(), Smoothness::TooLong));
+        if let Some(cell) = first.filter(|cell| cell.width <= wanted * NEGLIGIBLE) {
+            return cell;
+        }
+        taylor(integrand, domain, wanted).map_or_else(|why| of(by_range(), why), |found| of(found, Smoothness::Decided))
+    }
+
+    fn divisible(&self) -> bool {
+        let middle = self.domain.midpoint();
+        self.domain.lower() < middle && middle < self.domain.upper()
+    }
+
+    /// Halves; beside an end of the whole domain that is singular, halves of halves towards that end.
+    fn parts(&self, whole: Interval) -> Vec<Interval> {
+        let (at_start, at_end) = (self.domain.lower() <= whole.lower(), self.domain.upper() >= whole.upper());
+        let graded = self.smoothness == Smoothness::Singular && at_start != at_end;
+        let (mut rest, mut parts) = (self.domain, Vec::with_capacity(GRADES + 1));
+        for _ in 0..if graded { GRADES } else { 1 } {
+            let (left, right) = rest.bisect();
+            let part;
+            (part, rest) = if at_end { (left, right) } else { (right, left) };
+            parts.push(part);
+        }
+        parts.push(rest);
+        parts
     }
 }
 
@@ -139,23 +184,33 @@ fn largest_width<const M: usize>(integrals: &[Interval; M]) -> f64 {
     integrals.iter().map(|integral| integral.width()).fold(0.0, f64::max)
 }
 
-/// The integrals over a cell from the jets at its midpoint, with the coefficient of the whole cell as the last one.
-fn taylor<const M: usize>(integrand: &impl Integrand<M>, domain: Interval) -> Option<[Interval; M]> {
+/// The integrals over a cell from the jets at its midpoint, with the coefficient of the whole cell as the last one; unless
+/// that makes them wider than `wanted`.
+fn taylor<const M: usize>(
+    integrand: &impl Integrand<M>,
+    domain: Interval,
+    wanted: f64,
+) -> Result<[Interval; M], Smoothness> {
     let decided = |at| integrand.jet(Jet::variable(at)).filter(|jets| jets.iter().all(Jet::is_bounded));
-    let over_cell = decided(domain)?;
     let middle = Interval::point(domain.midpoint());
-    let at_middle = decided(middle)?;
     let (left, right) = (Interval::point(domain.lower()) - middle, Interval::point(domain.upper()) - middle);
     let (mut left_power, mut right_power) = (Interval::ONE, Interval::ONE);
-    let mut integrals = [Interval::ZERO; M];
-    for k in 0..=DEGREE {
+    // Of `(t - middle)^k` over the cell.
+    let weights: [Interval; DEGREE + 1] = array::from_fn(|k| {
         left_power *= left;
         right_power *= right;
-        let weight = (right_power - left_power) / Interval::point((k + 1) as f64);
-        let jets = if k == DEGREE { &over_cell } else { &at_middle };
-        for (integral, jet) in integrals.iter_mut().zip(jets) {
-            *integral += jet.coefficients()[k] * weight;
-        }
+        (right_power - left_power) / Interval::point((k + 1) as f64)
+    });
+    let over_cell = decided(domain).ok_or(Smoothness::Singular)?;
+    let rest = over_cell.map(|jet| jet.coefficients()[DEGREE] * weights[DEGREE]);
+    match largest_width(&rest) / wanted {
+        excess if excess <= 1.0 => {}
+        excess if excess <= SINGULAR => return Err(Smoothness::TooLong),
+        _ => return Err(Smoothness::Singular),
     }
-    Some(integrals)
+    let at_middle = decided(middle).ok_or(Smoothness::Singular)?;
+    Ok(array::from_fn(|i| {
+        let terms = at_middle[i].coefficients().iter().copied().zip(weights);
+        rest[i] + Interval::dot(terms.take(DEGREE))
+    }))
 }

@@ -3,6 +3,7 @@
 use core::f64::consts::FRAC_2_PI;
 
 use super::Interval;
+use super::series::Series;
 use crate::numeric::Real;
 
 /// `pi/2` as three numbers of 33 significant bits, whose products with a quarter count up to 2^20 are exact, and a rest.
@@ -15,27 +16,9 @@ const HALF_PI: Interval = Interval { lo: core::f64::consts::FRAC_PI_2, hi: core:
 /// Largest argument that is reduced; beyond it sine and cosine are only known to lie in `[-1, 1]`.
 const REDUCTION_LIMIT: f64 = 1_048_576.0;
 
-/// Coefficients of `r^3, r^5, ..., r^17` of the sine, and that of `r^19` as a bound of the alternating rest.
-pub(super) const SINE: [Interval; 9] = alternating(6.0, 3.0);
-/// Coefficients of `r^2, r^4, ..., r^16` of the cosine, and that of `r^18` as a bound of the alternating rest.
-pub(super) const COSINE: [Interval; 9] = alternating(2.0, 2.0);
-
-/// `-1/n!, +1/(n + 2)!, ...`; the rest of such a series lies between zero and its first omitted term while `r^2 < 6`.
-const fn alternating(mut factorial: f64, mut n: f64) -> [Interval; 9] {
-    let mut coefficients = [Interval::ZERO; 9];
-    let mut i = 0;
-    while i < coefficients.len() {
-        let Interval { mut lo, hi } = Interval::reciprocal(factorial);
-        if i + 1 == coefficients.len() {
-            lo = 0.0;
-        }
-        coefficients[i] = if i % 2 == 0 { Interval { lo: -hi, hi: -lo } } else { Interval { lo, hi } };
-        factorial *= (n + 1.0) * (n + 2.0);
-        n += 2.0;
-        i += 1;
-    }
-    coefficients
-}
+/// `(sin(r)/r - 1)/r^2` and `(cos(r) - 1)/r^2` by the square of r, for `|r| <= 1.2`.
+pub(super) const SINE: Series<7> = Series::of_factorials(3, 2, -1.0);
+pub(super) const COSINE: Series<7> = Series::of_factorials(2, 2, -1.0);
 
 /// `(k, r)` with `x = k pi/2 + r` and `|r| < 0.79`; `None` beyond the limit.
 fn reduce(x: f64) -> Option<(i32, Interval)> {
@@ -50,9 +33,10 @@ fn reduce(x: f64) -> Option<(i32, Interval)> {
 }
 
 /// What a series adds to its first term, in units of that.
-fn series([low @ .., rest]: &[Interval; 9], r: Interval) -> Interval {
+#[inline]
+fn series(series: &Series<7>, r: Interval) -> Interval {
     let square = r.square();
-    square * low.iter().rev().fold(*rest, |tail, &coefficient| coefficient + square * tail)
+    square * series.at(square)
 }
 
 /// `sin(k pi/2 + r)` for `|r| < 0.8`.
@@ -130,23 +114,22 @@ pub(super) fn complement(x: Interval) -> Interval {
 /// What an inverse sine or tangent can be.
 pub(super) const HALF_TURN: Interval = Interval { lo: -HALF_PI.hi, hi: HALF_PI.hi };
 
-fn asin_at(x: f64) -> Interval {
-    let sine = Interval::point(x);
-    angle(sine, complement(sine), libm::asin(x), HALF_TURN)
+fn asin_over(sine: Interval) -> Interval {
+    angle(sine, complement(sine), libm::asin(sine.midpoint()), HALF_TURN)
 }
 
-fn acos_at(x: f64) -> Interval {
-    let cosine = Interval::point(x);
-    angle(complement(cosine), cosine, libm::acos(x), Interval { lo: 0.0, hi: Interval::PI.hi })
+fn acos_over(cosine: Interval) -> Interval {
+    angle(complement(cosine), cosine, libm::acos(cosine.midpoint()), Interval { lo: 0.0, hi: Interval::PI.hi })
 }
 
-fn atan_at(x: f64) -> Interval {
-    let (sine, cosine) = if x.abs() <= 1.0 {
-        (Interval::point(x), Interval::ONE)
+fn atan_over(x: Interval) -> Interval {
+    let middle = x.midpoint();
+    let (sine, cosine) = if middle.abs() <= 1.0 {
+        (x, Interval::ONE)
     } else {
-        (Interval::point(1_f64.copysign(x)), Interval::ONE / Interval::point(x.abs()))
+        (Interval::point(1_f64.copysign(middle)), Interval::ONE / x.abs())
     };
-    angle(sine, cosine, libm::atan(x), HALF_TURN)
+    angle(sine, cosine, libm::atan(middle), HALF_TURN)
 }
 
 pub(super) fn sin(x: Interval) -> Interval {
@@ -167,16 +150,20 @@ pub(super) fn tan(x: Interval) -> Interval {
     }
 }
 
-/// `x - sin x`, which increases.
-pub(super) fn minus_sine(x: Interval) -> Interval {
-    x.increasing(|x| {
-        let x = Interval::point(x);
-        if x.magnitude() < 1.2 { -(x * series(&SINE, x)) } else { x - sin(x) }
-    })
+/// `x - sin x`, which increases; `difference` encloses it too.
+pub(super) fn minus_sine(x: Interval, difference: Interval) -> Interval {
+    /// From here on nothing cancels, and below the series holds.
+    const LIMIT: f64 = 1.2;
+    if x.lo >= LIMIT && difference.width() <= 64.0 * f64::EPSILON {
+        return difference;
+    }
+    let increasing = x.increasing_over(|x| if x.magnitude() < LIMIT { -(x * series(&SINE, x)) } else { x - sin(x) });
+    // Both enclose it, so they meet.
+    increasing.intersection(difference).unwrap_or(difference)
 }
 
 pub(super) fn asin(x: Interval) -> Interval {
-    if x.is_subset_of(Interval::UNIT) { x.increasing(asin_at) } else { Interval::ENTIRE }
+    if x.is_subset_of(Interval::UNIT) { x.increasing_over(asin_over) } else { Interval::ENTIRE }
 }
 
 pub(super) fn acos(x: Interval) -> Interval {
@@ -184,9 +171,9 @@ pub(super) fn acos(x: Interval) -> Interval {
         return Interval::ENTIRE;
     }
     // Negated to make it increasing.
-    (-x).increasing(|x| acos_at(-x))
+    (-x).increasing_over(|x| acos_over(-x))
 }
 
 pub(super) fn atan(x: Interval) -> Interval {
-    x.increasing(atan_at)
+    x.increasing_over(atan_over)
 }

@@ -3,6 +3,7 @@
 use core::f64::consts::LOG2_E;
 
 use super::Interval;
+use super::series::Series;
 use crate::numeric::Real;
 
 /// `ln 2 = LN_2_HIGH + LN_2_LOW`; the first has 32 significant bits, so that its product with an exponent is exact.
@@ -14,28 +15,12 @@ const TWO: Interval = Interval { lo: 2.0, hi: 2.0 };
 
 /// Largest argument that [`exp_m1_reduced`] is proved for.
 pub(super) const REDUCED_LIMIT: f64 = 0.36;
-/// `1/2! .. 1/13!`.
-pub(super) const EXP_COEFFICIENTS: [Interval; 12] = {
-    let mut coefficients = [Interval::ZERO; 12];
-    let mut factorial = 1.0;
-    let mut i = 0;
-    while i < coefficients.len() {
-        factorial *= (i + 2) as f64;
-        coefficients[i] = Interval::reciprocal(factorial);
-        i += 1;
-    }
-    coefficients
-};
-/// `exp(xi)/14!` for `|xi| <= 0.36`, as `0.69 < exp(-0.36)` and `exp(0.36) < 1.44`.
-pub(super) const EXP_REMAINDER: Interval = {
-    let factor = Interval::reciprocal(87_178_291_200.0);
-    Interval { lo: (0.69 * factor.lo).next_down(), hi: (1.44 * factor.hi).next_up() }
-};
+/// `(exp(r) - 1 - r)/r^2` for `|r| <= REDUCED_LIMIT`.
+pub(super) const EXP: Series<11> = Series::of_factorials(2, 1, 1.0);
 
-/// `exp(r) - 1 = r + r^2 (1/2! + r/3! + ... + r^11/13! + r^12 exp(xi)/14!)`, `|r| <= REDUCED_LIMIT`.
+/// `exp(r) - 1` for `|r| <= REDUCED_LIMIT`.
 fn exp_m1_reduced(r: Interval) -> Interval {
-    let tail = EXP_COEFFICIENTS.iter().rev().fold(EXP_REMAINDER, |tail, &coefficient| coefficient + r * tail);
-    r + r.square() * tail
+    r + r.square() * EXP.at(r)
 }
 
 /// `(k, r)` with `x = k ln 2 + r` and `|r| <= 0.35`, for `|x| <= 746`.

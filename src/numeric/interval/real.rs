@@ -104,8 +104,7 @@ impl Real for Interval {
         if difference.is_entire() {
             return difference;
         }
-        // Both enclose it, so they meet.
-        circular::minus_sine(self).intersection(difference).unwrap_or(difference)
+        circular::minus_sine(self, difference)
     }
     from_module!(circular: sin cos tan asin acos atan);
     from_module!(exponential: exp exp_m1 ln ln_1p sinh cosh tanh atanh);

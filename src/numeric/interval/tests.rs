@@ -6,7 +6,8 @@ mod oracle;
 use oracle::{Bracket, Down, Up, at, bracket};
 
 use super::circular::{COSINE, HALF_PI_PARTS, HALF_PI_REST, HALF_TURN, SINE, angle, complement};
-use super::exponential::{EXP_COEFFICIENTS, EXP_REMAINDER, LN_2_HIGH, LN_2_LOW, REDUCED_LIMIT, ln_1p_reduced};
+use super::exponential::{EXP, LN_2_HIGH, LN_2_LOW, REDUCED_LIMIT, ln_1p_reduced};
+use super::series::Series;
 use super::*;
 use crate::numeric::Real;
 
@@ -35,16 +36,12 @@ fn constants_are_enclosed() {
     }
 }
 
+/// Heads: the first two coefficients, from `1/n!` on.
 #[test]
 fn coefficients_are_enclosed() {
-    for (i, coefficient) in (2..).zip(EXP_COEFFICIENTS) {
-        let divisor = factorial(i);
-        assert_encloses(coefficient, &bracket!(divisor: at(1.0) / divisor));
-    }
-    for (series, first) in [(SINE, 3), (COSINE, 2)] {
-        for (i, coefficient) in (0..).zip(&series[..8]) {
-            let divisor = if i % 2 == 0 { -factorial(first + 2 * i) } else { factorial(first + 2 * i) };
-            assert_encloses(*coefficient, &bracket!(divisor: at(1.0) / divisor));
+    for (head, divisors) in [(EXP.head, [2.0, 6.0]), (SINE.head, [-6.0, 120.0]), (COSINE.head, [-2.0, 24.0])] {
+        for (coefficient, divisor) in head.into_iter().zip(divisors) {
+            assert_encloses(coefficient, &bracket!(divisor: at(1.0) / divisor));
         }
     }
 }
@@ -63,17 +60,24 @@ macro_rules! remainder {
     };
 }
 
+/// On a point, and on an interval that begins there.
+#[track_caller]
+fn assert_tail<const N: usize>(series: &Series<N>, x: f64, exact: &Bracket) {
+    assert_encloses(series.tail_at(Interval::point(x)), exact);
+    assert_encloses(series.tail_at(Interval { lo: x, hi: x + 0.01 }), exact);
+}
+
 #[test]
-fn remainders_of_series_are_enclosed() {
-    let signed =
-        |first: u32| (0..9).map(move |i| if i % 2 == 0 { factorial(first + 2 * i) } else { -factorial(first + 2 * i) });
-    for i in 1..=8_u32 {
-        for r in [f64::from(i) / 8.0, -f64::from(i) / 8.0] {
-            let x = r * REDUCED_LIMIT;
-            assert_encloses(EXP_REMAINDER, &remainder!(x, x.exp(), 0, 1, (0..14).map(factorial)));
-            let x = 0.8 * r;
-            assert_encloses(SINE[8], &remainder!(x, x.sin(), 1, 2, signed(1)));
-            assert_encloses(COSINE[8], &remainder!(x, x.cos(), 0, 2, signed(0)));
+fn tails_of_series_are_enclosed() {
+    for i in 1..=64_u32 {
+        for sign in [1.0, -1.0] {
+            let share = sign * f64::from(i) / 64.0;
+            let x = share * (REDUCED_LIMIT - 0.01);
+            assert_tail(&EXP, x, &remainder!(x, x.exp(), 0, 1, (0..4).map(factorial)));
+            // Its square is exact.
+            let r = 1.125 * share;
+            assert_tail(&SINE, r * r, &remainder!(r, r.sin(), 1, 2, [1.0, -6.0, 120.0]));
+            assert_tail(&COSINE, r * r, &remainder!(r, r.cos(), 0, 2, [1.0, -2.0, 24.0]));
         }
     }
 }
