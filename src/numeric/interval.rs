@@ -221,8 +221,10 @@ impl Interval {
             let [p, q, r, s] = [a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi];
             lower += smaller(smaller(p, q), smaller(r, s));
             minus_upper += smaller(smaller(-p, -q), smaller(-r, -s));
-            size += a.magnitude() * b.magnitude();
-            roundings += 1.0;
+            let largest = a.magnitude() * b.magnitude();
+            size += largest;
+            // Zero is exact.
+            roundings += if largest > 0.0 { 1.0 } else { 0.0 };
         }
         // An infinite endpoint makes the size infinite, or NaN.
         if !SIZES.contains(&size) {

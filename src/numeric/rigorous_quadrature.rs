@@ -32,10 +32,12 @@ pub struct Quadrature<const M: usize> {
     pub reached: bool,
 }
 
-/// Encloses the integrals from `from` to `to`, which may themselves be enclosures (of `2 pi`, say), by bisecting the widest
-/// contribution until each integral's width is at most `width`, or `budget` cells have been evaluated.
+/// Encloses the integrals from `from` to `to`, which may themselves be enclosures (of `2 pi`, say), by dividing the cell of the
+/// widest contribution until each integral's width is at most `width`, or `budget` cells have been evaluated. Cells are halved,
+/// and graded towards an end at which the derivatives grow without bound (a root of a power, say).
 ///
-/// The enclosure is sound in any case. A width near the rounding error of the sum is not reached.
+/// The enclosure is sound in any case: how cells are divided decides its width and the work. A width near the rounding error of
+/// the sum is not reached.
 ///
 /// ```
 /// use selfosc::numeric::rigorous_quadrature::{CellJet, Integrand, integrate};
@@ -72,9 +74,8 @@ pub fn integrate<const M: usize>(
     let (mut settled, mut cells) = ([Interval::ZERO; M], 1);
     let mut open = vec![Cell::new(integrand, whole, width, false)];
     while let Some(widest) = widest(&open) {
-        // A sum is formed only once no single cell is too wide.
-        let near = open[widest].width <= width;
-        if near && widths(settled, &open).iter().all(|&sum| sum <= width) {
+        // The sum is formed only once no single cell is too wide.
+        if open[widest].width <= width && largest_width(&total(settled, &open)) <= width {
             break;
         }
         let parts = open[widest].parts(whole);
@@ -95,8 +96,7 @@ pub fn integrate<const M: usize>(
             }
         }
     }
-    let inner = open.iter().fold(settled, |sum, cell| add(sum, cell.integrals));
-    let integrals = add(ends, inner.map(|integral| sign * integral));
+    let integrals = add(ends, total(settled, &open).map(|integral| sign * integral));
     Quadrature { integrals, cells, reached: integrals.iter().all(|integral| integral.width() <= width) }
 }
 
@@ -104,9 +104,9 @@ fn add<const M: usize>(a: [Interval; M], b: [Interval; M]) -> [Interval; M] {
     array::from_fn(|i| a[i] + b[i])
 }
 
-/// Estimates of the widths of the sums: they steer, and prove nothing.
-fn widths<const M: usize>(settled: [Interval; M], open: &[Cell<M>]) -> [f64; M] {
-    array::from_fn(|i| settled[i].width() + open.iter().map(|cell| cell.integrals[i].width()).sum::<f64>())
+/// What is settled and all open cells together.
+fn total<const M: usize>(settled: [Interval; M], open: &[Cell<M>]) -> [Interval; M] {
+    open.iter().fold(settled, |sum, cell| add(sum, cell.integrals))
 }
 
 fn widest<const M: usize>(open: &[Cell<M>]) -> Option<usize> {

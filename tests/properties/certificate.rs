@@ -98,6 +98,35 @@ fn known_integrals_are_enclosed() {
     check(kinked, &bracket!(one: at(0.375) * one));
 }
 
+/// A power that is singular at zero, wherever zero lies: `2/(1 + exponent)` over `[-1, 1]`, half of that on either side.
+#[test]
+fn cells_are_graded_towards_a_singular_end() {
+    for (exponent, most) in [(0.25, 90), (0.5, 80), (1.5, 60)] {
+        let power = formula!(|t| t.abs().pow(Real::from_f64(exponent)));
+        let exact = bracket!(exponent: at(1.0) / (at(1.0) + exponent));
+        let one = Interval::ONE;
+        for (from, to) in [(Interval::ZERO, one), (-one, Interval::ZERO), (one, Interval::ZERO)] {
+            let found = integrate(&power, from, to, QUADRATURE_WIDTH, 10_000);
+            let integral = if to.is_point() && from == one { -found.integrals[0] } else { found.integrals[0] };
+            assert!(found.reached && exact.lies_within(integral.bounds()), "{exponent}: {found:?}");
+            assert!(found.cells <= most, "{exponent}: {} cells", found.cells);
+        }
+        let both = integrate(&power, interval(-0.75, -0.75), interval(0.75, 0.75), QUADRATURE_WIDTH, 10_000);
+        let across =
+            bracket!(exponent: at(2.0) * ((at(1.0) + exponent.clone()) * at(0.75).ln()).exp() / (at(1.0) + exponent));
+        assert!(both.reached && across.lies_within(both.integrals[0].bounds()), "{exponent}: {both:?}");
+    }
+}
+
+/// A bounded jet says nothing while the cell spans many periods: dividing goes on. The mean of `sin^2` is a half.
+#[test]
+fn an_oscillation_is_resolved() {
+    let wave = formula!(|t| (t * Real::from_f64(40.0)).sin().square());
+    let found = around_the_circle(&wave, QUADRATURE_WIDTH, 10_000);
+    assert!(found.reached && found.integrals[0].contains(core::f64::consts::PI), "{found:?}");
+    assert!(found.integrals[0].intersection(Interval::PI).is_some() && found.cells < 1000, "{found:?}");
+}
+
 /// `1/(1 + x)`.
 fn one_over<T: Real>(x: T) -> T {
     T::one() / (T::one() + x)

@@ -205,14 +205,14 @@ fn check_elementary(cases: u32) {
         let arguments = argument(function.domain, function.edges);
         let other = argument(function.domain, function.edges);
         TestRunner::new(config(cases))
-            .run(&(arguments, other, 0.0..1.0, 0_usize..3), |(x, y, weight, choice): (f64, f64, f64, usize)| {
+            .run(&(arguments, other, 0.0..1.0, 0_usize..4), |(x, y, weight, choice): (f64, f64, f64, usize)| {
                 let (width, at_x) = check_point(function, x)?;
                 total.set(total.get() + width);
                 if width > widest.get().0 {
                     widest.set((width, x));
                 }
-                // A far second endpoint, a near one, or a very near one, kept in the domain.
-                let y = [y, x + weight * 4.0, x * (1.0 + weight * 1e-3)][choice];
+                // A far second endpoint, a near one, one nearer, or within a few roundings, kept in the domain.
+                let y = [y, x + weight * 4.0, x * (1.0 + weight * 1e-3), x * (1.0 + weight * 1e-14)][choice];
                 let (lo, hi) = (x.min(y).max(function.domain.0), x.max(y).min(function.domain.1));
                 let (range, inside) = (interval(lo, hi), (x + weight * (y - x)).clamp(lo, hi));
                 let enclosure = (function.interval)(range);
@@ -235,6 +235,25 @@ fn check_elementary(cases: u32) {
 #[test]
 fn elementary_functions_enclose_the_oracle() {
     check_elementary(300);
+}
+
+/// One evaluation over a narrow interval gives about what two at its ends would.
+#[test]
+fn narrow_intervals_give_narrow_enclosures() {
+    for function in ELEMENTARY.iter().filter(|function| ["asin", "acos", "atan", "minus_sine"].contains(&function.name))
+    {
+        for i in 1..1000 {
+            for width in [3e-16, 1e-14, 9e-13, 2e-12] {
+                let x = 0.001 * f64::from(i);
+                let at_end = |x: f64| (function.interval)(Interval::point(x));
+                let by_ends = at_end(x).hull(at_end(x + width));
+                let over = (function.interval)(interval(x, x + width));
+                assert!(over.intersection(by_ends).is_some(), "{}: {over}, {by_ends}", function.name);
+                let (found, expected) = (over.width(), 2.0 * by_ends.width());
+                assert!(found <= expected, "{} over {x}, {width} more: {found:e}, ends {expected:e}", function.name);
+            }
+        }
+    }
 }
 
 #[test]

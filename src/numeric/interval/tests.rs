@@ -82,6 +82,38 @@ fn tails_of_series_are_enclosed() {
     }
 }
 
+/// Sums of exact doubles, with terms that cancel, vanish, or leave the range of the quick way.
+#[test]
+fn sums_of_products_are_enclosed() {
+    let numbers = |seed: u32| (0..15).map(move |i| f64::from((seed * 7919 + i * 104_729) % 2003) / 1000.3 - 1.0);
+    for seed in 1..200 {
+        for scale in [1.0, 1e-140, 1e-200, 1e140, 1e160, 0.0] {
+            let pairs: Vec<_> = numbers(seed).zip(numbers(seed + 1000)).map(|(a, b)| (a * scale, b * scale)).collect();
+            let exact: Bracket = Bracket {
+                below: pairs.iter().fold(at(0.0), |sum, &(a, b)| {
+                    let (a, b): (Down, Down) = (at(a), at(b));
+                    sum + a * b
+                }),
+                above: pairs.iter().fold(at(0.0), |sum, &(a, b)| {
+                    let (a, b): (Up, Up) = (at(a), at(b));
+                    sum + a * b
+                }),
+            };
+            let points = pairs.iter().map(|&(a, b)| (Interval::point(a), Interval::point(b)));
+            let found = Interval::dot(points.clone());
+            assert_encloses(found, &exact);
+            let size: f64 = pairs.iter().map(|(a, b)| (a * b).abs()).sum();
+            assert!(found.width() <= 40.0 * f64::EPSILON * size + 1e-320, "{found}");
+            // Over intervals, every choice of elements.
+            let wide = points.map(|(a, b)| (a.hull(Interval::point(a.lo + 0.1 * scale)), b.hull(Interval::ZERO)));
+            assert_encloses(Interval::dot(wide), &exact);
+        }
+    }
+    let unknown = [(Interval::ENTIRE, Interval::ZERO), (Interval::ONE, Interval::ONE)];
+    assert!(Interval::dot(unknown.into_iter()).is_entire());
+    assert_eq!(Interval::dot(core::iter::empty()), Interval::ZERO);
+}
+
 /// What a bad library could return for `y`.
 fn guesses(y: f64) -> impl Iterator<Item = f64> {
     let relative =
@@ -99,7 +131,10 @@ fn a_wrong_guess_does_not_break_the_enclosure() {
         let thin = Interval::point(x);
         let upper_half_plane = Interval { lo: 0.0, hi: Interval::PI.hi };
         let (asin, acos, atan) = (bracket!(x: x.asin()), bracket!(x: x.acos()), bracket!(x: x.atan()));
+        // A narrow interval holds the value at each of its elements.
+        let narrow = thin.hull(Interval::point((x + 5e-13).min(1.0)));
         for guess in guesses(x.asin()) {
+            assert_encloses(angle(narrow, complement(narrow), guess, HALF_TURN), &asin);
             assert_encloses(angle(thin, complement(thin), guess, HALF_TURN), &asin);
         }
         for guess in guesses(x.acos()) {
