@@ -210,29 +210,25 @@ impl Interval {
         (0..=8).find(|&count| self == Self::from(f64::from(count)))
     }
 
-    /// The sum of products, of at most a hundred, with one step outwards for all their roundings.
+    /// The sum of products, of at most a thousand, rounded to nearest with one step outwards for all roundings.
     #[inline]
     pub(super) fn dot(pairs: impl Iterator<Item = (Self, Self)> + Clone) -> Self {
-        /// Between these neither overflow nor underflow matters.
+        /// Between these nothing overflows, and underflow adds up to less than `UNDERFLOW`.
         const SIZES: core::ops::RangeInclusive<f64> = 1e-270..=1e300;
+        const UNDERFLOW: f64 = 1e-300;
         let smaller = |a: f64, b: f64| if b < a { b } else { a };
-        let (mut lower, mut minus_upper, mut size, mut roundings) = (0.0, 0.0, 0.0, 2.0);
+        let (mut size, mut lower, mut minus_upper) = (0.0, Sum::default(), Sum::default());
         for (a, b) in pairs.clone() {
             let [p, q, r, s] = [a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi];
-            lower += smaller(smaller(p, q), smaller(r, s));
-            minus_upper += smaller(smaller(-p, -q), smaller(-r, -s));
-            let largest = a.magnitude() * b.magnitude();
-            size += largest;
-            // Zero is exact.
-            roundings += if largest > 0.0 { 1.0 } else { 0.0 };
+            lower.add(smaller(smaller(p, q), smaller(r, s)));
+            minus_upper.add(smaller(smaller(-p, -q), smaller(-r, -s)));
+            size += a.magnitude() * b.magnitude();
         }
         // An infinite endpoint makes the size infinite, or NaN.
         if !SIZES.contains(&size) {
             return pairs.map(|(a, b)| a * b).reduce(|sum, term| sum + term).unwrap_or(Self::ZERO);
         }
-        // Each term is rounded once as a product, and with each sum after it; the last difference too, and the size itself.
-        let error = roundings * (0.5 * f64::EPSILON) * size;
-        Self { lo: lower - error, hi: error - minus_upper }
+        Self { lo: lower.down() - UNDERFLOW, hi: UNDERFLOW - minus_upper.down() }
     }
 
     /// The values of an increasing function, from `at_point`: its enclosure at an endpoint, or its limit at an infinite one.
@@ -253,6 +249,28 @@ impl Interval {
     fn increasing_over(self, over: impl Fn(Self) -> Self) -> Self {
         const NARROW: f64 = 4096.0 * f64::EPSILON;
         if self.width() <= NARROW { over(self) } else { self.increasing(|end| over(Self::point(end))) }
+    }
+}
+
+/// A sum of rounded numbers.
+#[derive(Clone, Copy, Default)]
+struct Sum {
+    nearest: f64,
+    /// Of absolute values of the numbers and of the sums so far: each was rounded by half an epsilon of it at most.
+    rounded: f64,
+}
+
+impl Sum {
+    #[inline]
+    fn add(&mut self, term: f64) {
+        self.nearest += term;
+        self.rounded += term.abs() + self.nearest.abs();
+    }
+
+    /// A number below the sum of the unrounded numbers. The excess over a half is for this difference's rounding and `rounded`'s own.
+    #[inline]
+    fn down(self) -> f64 {
+        self.nearest - (0.501 * f64::EPSILON) * (self.rounded + self.nearest.abs())
     }
 }
 
