@@ -136,13 +136,13 @@ impl<const N: usize> Jet<N> {
         let [mut f, mut g] = values.map(Self::constant);
         let mut by_u = [[Interval::ZERO; N]; 2];
         let mut quotient = [Interval::ZERO; N];
-        let u = &self.coefficients;
+        let (u, moving) = (&self.coefficients, self.moving());
         for k in 0..N {
             if k > 0 {
-                f.coefficients[k] = self.chain(k, |i| by_u[0][i]);
-                g.coefficients[k] = self.chain(k, |i| by_u[1][i]);
+                f.coefficients[k] = moving.integral(k, &by_u[0]);
+                g.coefficients[k] = moving.integral(k, &by_u[1]);
             }
-            quotient[k] = (g.coefficients[k] - total((0..k).map(|j| quotient[j] * u[k - j]))) / u[0];
+            quotient[k] = (g.coefficients[k] - dot(&quotient[..k], &u[1..=k])) / u[0];
             [by_u[0][k], by_u[1][k]] = slopes(f.coefficients[k], g.coefficients[k], quotient[k]);
         }
         [f, g]

@@ -65,14 +65,14 @@ pub fn integrate<const M: usize>(
     budget: usize,
 ) -> Quadrature<M> {
     let (start, end) = (Interval::point(from.midpoint()), Interval::point(to.midpoint()));
+    let sign = if end.precedes(start) { -Interval::ONE } else { Interval::ONE };
     // What the endpoints' own widths contribute.
     let (at_start, at_end) = (integrand.range(from), integrand.range(to));
-    let ends = array::from_fn(|i| at_start[i] * (start - from) + at_end[i] * (to - end));
-    let sign = if end.precedes(start) { -Interval::ONE } else { Interval::ONE };
+    let mut settled = array::from_fn(|i| sign * (at_start[i] * (start - from) + at_end[i] * (to - end)));
 
     let whole = start.hull(end);
-    let (mut settled, mut cells) = ([Interval::ZERO; M], 1);
     let mut open = vec![Cell::new(integrand, whole, width, false)];
+    let mut cells = 1;
     while let Some(widest) = widest(&open) {
         // The sum is formed only once no single cell is too wide.
         if open[widest].width <= width && largest_width(&total(settled, &open)) <= width {
@@ -96,7 +96,7 @@ pub fn integrate<const M: usize>(
             }
         }
     }
-    let integrals = add(ends, total(settled, &open).map(|integral| sign * integral));
+    let integrals = total(settled, &open).map(|integral| sign * integral);
     Quadrature { integrals, cells, reached: integrals.iter().all(|integral| integral.width() <= width) }
 }
 
