@@ -82,6 +82,37 @@ fn tails_of_series_are_enclosed() {
     }
 }
 
+/// The exact sum of the products of doubles.
+fn exact_dot(pairs: &[(f64, f64)]) -> Bracket {
+    Bracket {
+        below: pairs.iter().fold(at(0.0), |sum, &(a, b)| {
+            let (a, b): (Down, Down) = (at(a), at(b));
+            sum + a * b
+        }),
+        above: pairs.iter().fold(at(0.0), |sum, &(a, b)| {
+            let (a, b): (Up, Up) = (at(a), at(b));
+            sum + a * b
+        }),
+    }
+}
+
+/// Products a little above one, or below minus one, that are rounded by nearly half a step, all down or all up; they
+/// cancel in pairs, so that the sums do not show how large they were.
+#[test]
+fn roundings_of_products_count() {
+    let products = (0..20_000_u32).map(|i| (1.0 + f64::from(i) * 1.23e-7, 1.0 + f64::from(i % 977) * 4.7e-5));
+    for side in [1.0, -1.0] {
+        let rounded = |(a, b): &(f64, f64)| side * a.mul_add(*b, -(a * b)) > 0.45 * f64::EPSILON;
+        let against = |(a, b): &(f64, f64)| side * a.mul_add(*b, -(a * b)) < -0.45 * f64::EPSILON;
+        let positive = products.clone().filter(rounded);
+        let negative = products.clone().filter(against).map(|(a, b)| (-a, b));
+        let pairs: Vec<_> = positive.zip(negative).take(10).flat_map(|(plus, minus)| [plus, minus]).collect();
+        assert_eq!(pairs.len(), 20);
+        let points = pairs.iter().map(|&(a, b)| (Interval::point(a), Interval::point(b)));
+        assert_encloses(Interval::dot(points), &exact_dot(&pairs));
+    }
+}
+
 /// Sums of exact doubles, with terms that cancel, vanish, or leave the range of the quick way.
 #[test]
 fn sums_of_products_are_enclosed() {
@@ -89,16 +120,7 @@ fn sums_of_products_are_enclosed() {
     for seed in 1..200 {
         for scale in [1.0, 1e-140, 1e-200, 1e140, 1e160, 0.0] {
             let pairs: Vec<_> = numbers(seed).zip(numbers(seed + 1000)).map(|(a, b)| (a * scale, b * scale)).collect();
-            let exact: Bracket = Bracket {
-                below: pairs.iter().fold(at(0.0), |sum, &(a, b)| {
-                    let (a, b): (Down, Down) = (at(a), at(b));
-                    sum + a * b
-                }),
-                above: pairs.iter().fold(at(0.0), |sum, &(a, b)| {
-                    let (a, b): (Up, Up) = (at(a), at(b));
-                    sum + a * b
-                }),
-            };
+            let exact = exact_dot(&pairs);
             let points = pairs.iter().map(|&(a, b)| (Interval::point(a), Interval::point(b)));
             let found = Interval::dot(points.clone());
             assert_encloses(found, &exact);
@@ -109,6 +131,13 @@ fn sums_of_products_are_enclosed() {
             assert_encloses(Interval::dot(wide), &exact);
         }
     }
+    // A product that underflows beside a large one that may be zero.
+    let lost = [(Interval { lo: 0.0, hi: 1.0 }, Interval { lo: 0.0, hi: 1e-200 }), (1e-162.into(), (-1e-163).into())];
+    assert_encloses(Interval::dot(lost.into_iter()), &exact_dot(&[(0.0, 0.0), (1e-162, -1e-163)]));
+    assert_encloses(
+        -Interval::dot(lost.into_iter().map(|(a, b)| (-a, b))),
+        &exact_dot(&[(0.0, 0.0), (1e-162, -1e-163)]),
+    );
     let unknown = [(Interval::ENTIRE, Interval::ZERO), (Interval::ONE, Interval::ONE)];
     assert!(Interval::dot(unknown.into_iter()).is_entire());
     assert_eq!(Interval::dot(core::iter::empty()), Interval::ZERO);
