@@ -139,6 +139,27 @@ impl<const N: usize> Jet<N> {
         [f, g]
     }
 
+    /// m and h with these values and m's slope, of which `m' = g`, `(1 - u^2) g' = p^2 m - (2p - 1) u g` and `h' = p m - u g` by
+    /// this jet u: moments of a power of a biased sine.
+    pub(super) fn power_moments(&self, [m, g, h]: [Interval; 3], p: Interval) -> [Self; 2] {
+        let [mut m, mut g, mut h] = [m, g, h].map(Self::constant);
+        let weight = (Self::one() - *self) * (Self::one() + *self);
+        let (mut weighted, mut by_u) = ([Interval::ZERO; N], [Interval::ZERO; N]);
+        let (square, odd) = (p.square(), Interval::two() * p - Interval::ONE);
+        for k in 0..N {
+            if k > 0 {
+                m.coefficients[k] = self.chain(k, |i| g.coefficients[i]);
+                h.coefficients[k] = self.chain(k, |i| by_u[i]);
+                let known = total((1..k).map(|j| weight.coefficients[j] * integer(k - j) * g.coefficients[k - j]));
+                g.coefficients[k] = (self.chain(k, |i| weighted[i]) - known / integer(k)) / weight.coefficients[0];
+            }
+            let product = convolution(&self.coefficients, &g.coefficients, k);
+            weighted[k] = square * m.coefficients[k] - odd * product;
+            by_u[k] = p * m.coefficients[k] - product;
+        }
+        [m, h]
+    }
+
     /// Sine and cosine, for the price of either.
     pub(crate) fn sin_cos(self) -> (Self, Self) {
         self.sine_and_cosine(self.value().sin(), self.value().cos(), -Interval::ONE)

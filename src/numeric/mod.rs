@@ -19,6 +19,7 @@ pub mod interval_matrix;
 mod jet;
 #[cfg(feature = "std")]
 pub mod quadrature;
+pub mod power;
 mod ratio;
 mod real;
 #[cfg(feature = "std")]
