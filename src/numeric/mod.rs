@@ -17,9 +17,9 @@ mod interval;
 #[cfg(feature = "std")]
 pub mod interval_matrix;
 mod jet;
+pub mod power;
 #[cfg(feature = "std")]
 pub mod quadrature;
-pub mod power;
 mod ratio;
 mod real;
 #[cfg(feature = "std")]

@@ -13,13 +13,17 @@ fn number(value: f64) -> Interval {
 
 /// The constants of an exponent.
 pub(super) fn of(exponent: f64) -> PowerMoments {
+    let pairs = Pairs { b: Known::NOT, d: Known::NOT, sides: [[Known::NOT; 2]; 2] };
+    let unknown = PowerMoments { exponent, slope_at_zero: Known::NOT, at_one: Known::NOT, pairs };
+    if exponent.is_nan() {
+        return unknown;
+    }
     let p = number(exponent);
     let root = Interval::PI.sqrt();
     let slope_at_zero = (p + Interval::ONE) * gamma_ratio((p + Interval::ONE) / Interval::two()) / root;
     let slope_at_zero = slope_at_zero.into();
-    if !(exponent < STEEP) {
-        let pairs = Pairs { b: Known::NOT, d: Known::NOT, sides: [[Known::NOT; 2]; 2] };
-        return PowerMoments { exponent, slope_at_zero, at_one: Known::NOT, pairs };
+    if exponent >= STEEP {
+        return PowerMoments { slope_at_zero, ..unknown };
     }
     let ratio = gamma_ratio(p);
     let growth = Interval::two().pow(p) / root;
@@ -63,15 +67,8 @@ fn first_of_a(at_one: Interval, p: Interval, order: f64) -> Interval {
 /// (5.11(ii)). The mean of `abs(sin)^(2x)` is this over `sqrt(pi)` (5.12.2).
 fn gamma_ratio(x: Interval) -> Interval {
     /// `B_2k/(2k (2k - 1))` as fractions; the one after them is below 0.03.
-    const SERIES: [(f64, f64); 7] = [
-        (1.0, 12.0),
-        (-1.0, 360.0),
-        (1.0, 1260.0),
-        (-1.0, 1680.0),
-        (1.0, 1188.0),
-        (-691.0, 360_360.0),
-        (1.0, 156.0),
-    ];
+    const SERIES: [(f64, f64); 7] =
+        [(1.0, 12.0), (-1.0, 360.0), (1.0, 1260.0), (-1.0, 1680.0), (1.0, 1188.0), (-691.0, 360_360.0), (1.0, 156.0)];
     const FAR: f64 = 10.0;
     let half = number(0.5);
     let (mut at, mut factor) = (x, Interval::ONE);

@@ -7,9 +7,11 @@
 mod constants;
 mod series;
 
-pub(crate) use series::{paired_step, step};
+pub(crate) use series::{INNER, OUTER, STEEP};
+#[cfg(feature = "std")]
+pub(crate) use series::{analytic_step, paired_step, step};
 
-use series::{INNER, Known, Moments, NEGLIGIBLE, OUTER, STEEP};
+use series::{Known, Moments, NEGLIGIBLE};
 
 use super::special::{Special, lift};
 use super::{Interval, Jet, Real, Scalar};
@@ -80,6 +82,10 @@ impl PowerMoments {
     fn of_any(&self, bias: Interval, amplitude: Interval) -> Found<Interval> {
         /// Relative width of a ratio that is known but for rounding.
         const THIN: f64 = 1e-14;
+        if self.exponent.is_nan() {
+            let [m, m_slope, h, h_slope] = [Interval::ENTIRE; 4];
+            return Found { beyond: false, moments: Moments { m, m_slope, h, h_slope } };
+        }
         if bias.is_negative() {
             let Found { beyond, moments } = self.of_any(-bias, amplitude);
             let moments = Moments { m: -moments.m, h_slope: -moments.h_slope, ..moments };

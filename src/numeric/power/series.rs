@@ -5,11 +5,11 @@ use crate::numeric::Interval;
 use crate::numeric::special::Special;
 
 /// The series about zero serves below, the one about infinity above; the one about one, with radius 2, between.
-pub(super) const INNER: f64 = 0.7;
-pub(super) const OUTER: f64 = 1.35;
+pub(crate) const INNER: f64 = 0.7;
+pub(crate) const OUTER: f64 = 1.35;
 /// Exponent from which on the two outer series converge fast enough up to `u = 1`, where their n-th term is about
 /// `n^(-p - 3/2)`; the series about one would cancel.
-pub(super) const STEEP: f64 = 8.0;
+pub(crate) const STEEP: f64 = 8.0;
 
 /// Share of a sum below which its terms are left out, or enclosed.
 pub(super) const NEGLIGIBLE: f64 = f64::EPSILON;
@@ -82,7 +82,8 @@ fn hypergeometric<T: Special>(a: T, b: T, c: f64, x: T, share: f64) -> [T; 2] {
     let s = (n * (1.0 + c - low - high) + c - low * high) / (n + c);
     let rest = 2.0 * n * size(term);
     let r = (n + 1.0) * (1.0 - x_most) + x_most * s;
-    let (rest, slope_rest) = if rest > 0.0 { (rest / (r - 1.0).max(0.0), rest * n / (r - 2.0).max(0.0)) } else { (0.0, 0.0) };
+    let (rest, slope_rest) =
+        if rest > 0.0 { (rest / (r - 1.0).max(0.0), rest * n / (r - 2.0).max(0.0)) } else { (0.0, 0.0) };
     [T::one() + x * sum.give_or_take(rest), slope.give_or_take(slope_rest)]
 }
 
@@ -225,9 +226,12 @@ mod tests {
                     let fine = of(NEGLIGIBLE);
                     for share in [1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10] {
                         let coarse = of(share);
-                        for (fine, coarse) in
-                            [(fine.m, coarse.m), (fine.h, coarse.h), (fine.m_slope, coarse.m_slope), (fine.h_slope, coarse.h_slope)]
-                        {
+                        for (fine, coarse) in [
+                            (fine.m, coarse.m),
+                            (fine.h, coarse.h),
+                            (fine.m_slope, coarse.m_slope),
+                            (fine.h_slope, coarse.h_slope),
+                        ] {
                             let case = format!("series {place}, exponent {exponent}, u {u}, share {share}");
                             let middle = Interval::point(fine.midpoint());
                             assert!(coarse.contains(middle.lower()), "{case}: {fine} not in {coarse}");
