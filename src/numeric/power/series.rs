@@ -206,10 +206,12 @@ mod tests {
     use super::*;
     use crate::numeric::Real;
 
+    type Series = fn(&PowerMoments, Interval, f64) -> Moments<Interval>;
+
     /// However early a series is cut, the bound of its rest covers what is missing, and is no more than some times that.
     #[test]
     fn what_is_cut_off_is_enclosed() {
-        let series: [(fn(&PowerMoments, Interval, f64) -> Moments<Interval>, &[f64]); 3] = [
+        let series: [(Series, &[f64]); 3] = [
             (|law, u, share| law.about_zero(u, share), &[0.1, 0.4, 0.7]),
             (|law, u, share| law.about_infinity(Interval::ONE / u, share), &[1.3, 1.9, 6.0]),
             (|law, u, share| law.about_one(u, (Interval::ONE - u) / Interval::two(), share), &[0.7, 0.9, 1.1, 1.3]),
