@@ -4,8 +4,23 @@ use super::series::{Known, STEEP, analytic_step};
 use super::{Pairs, PowerMoments};
 use crate::numeric::{Interval, Real};
 
+/// Argument from which on Stirling's series leaves less than rounding.
+const FAR: f64 = 10.0;
 /// Largest delta up to which `A_0 - B_0` is found by the logarithm of their ratio.
 const NEAR: f64 = 0.02;
+
+/// `zeta(2), zeta(3), ...`, to half a unit in the last place (DLMF table 25.2(i)).
+const ZETA: [f64; 9] = [
+    1.644_934_066_848_226_4,
+    1.202_056_903_159_594_2,
+    1.082_323_233_711_138_2,
+    1.036_927_755_143_37,
+    1.017_343_061_984_449,
+    1.008_349_277_381_922_8,
+    1.004_077_356_197_944_3,
+    1.002_008_392_826_082_2,
+    1.000_994_575_127_818_1,
+];
 
 fn number(value: f64) -> Interval {
     Interval::point(value)
@@ -20,12 +35,12 @@ pub(super) fn of(exponent: f64) -> PowerMoments {
     }
     let p = number(exponent);
     let root = Interval::PI.sqrt();
-    let slope_at_zero = (p + Interval::ONE) * gamma_ratio((p + Interval::ONE) / Interval::two()) / root;
+    let slope_at_zero = (p + Interval::ONE) * gamma_ratio((p + Interval::ONE) / Interval::two(), FAR) / root;
     let slope_at_zero = slope_at_zero.into();
     if exponent >= STEEP {
         return PowerMoments { slope_at_zero, ..unknown };
     }
-    let ratio = gamma_ratio(p);
+    let ratio = gamma_ratio(p, FAR);
     let growth = Interval::two().pow(p) / root;
     let at_one = growth * ratio;
     let (order, delta) = PowerMoments::order_and_delta::<Interval>(exponent);
@@ -64,21 +79,20 @@ fn first_of_a(at_one: Interval, p: Interval, order: f64) -> Interval {
 }
 
 /// `Gamma(x + 1/2)/Gamma(x + 1)` for `x >= 0`, by Stirling's series (DLMF 5.11.1), whose rest is below its first omitted term
-/// (5.11(ii)). The mean of `abs(sin)^(2x)` is this over `sqrt(pi)` (5.12.2).
-fn gamma_ratio(x: Interval) -> Interval {
+/// (5.11(ii)); from `far` on, which the argument is raised to by the functional equation. The mean of `abs(sin)^(2x)` is this over `sqrt(pi)` (5.12.2).
+fn gamma_ratio(x: Interval, far: f64) -> Interval {
     /// `B_2k/(2k (2k - 1))` as fractions; the one after them is below 0.03.
     const SERIES: [(f64, f64); 7] =
         [(1.0, 12.0), (-1.0, 360.0), (1.0, 1260.0), (-1.0, 1680.0), (1.0, 1188.0), (-691.0, 360_360.0), (1.0, 156.0)];
-    const FAR: f64 = 10.0;
     let half = number(0.5);
     let (mut at, mut factor) = (x, Interval::ONE);
-    while at.lower() < FAR {
+    while at.lower() < far {
         factor = factor * (at + Interval::ONE) / (at + half);
         at += Interval::ONE;
     }
     let stirling = |z: Interval| {
         let square = (Interval::ONE / z).square();
-        let start = Interval::symmetric(0.03) * square;
+        let start = Interval::symmetric(0.03);
         SERIES.iter().rev().fold(start, |sum, &(over, under)| number(over) / number(under) + sum * square) / z
     };
     let (low, high) = (at + half, at + Interval::ONE);
@@ -92,18 +106,6 @@ fn gamma_ratio(x: Interval) -> Interval {
 /// `16^delta Gamma(1+delta)^3/(Gamma(1-delta) Gamma(1+2 delta)^2) prod (1 + delta/k)`, k up to the order, by the series of
 /// `ln Gamma(1 + x)` (DLMF 5.7.3), of which Euler's constant cancels.
 fn log_ratio(delta: Interval, order: f64) -> Interval {
-    /// `zeta(2), zeta(3), ...`, to half a unit in the last place (DLMF table 25.2(i)).
-    const ZETA: [f64; 9] = [
-        1.644_934_066_848_226_4,
-        1.202_056_903_159_594_2,
-        1.082_323_233_711_138_2,
-        1.036_927_755_143_37,
-        1.017_343_061_984_449,
-        1.008_349_277_381_922_8,
-        1.004_077_356_197_944_3,
-        1.002_008_392_826_082_2,
-        1.000_994_575_127_818_1,
-    ];
     // Term k is below `7 (2 delta)^(k-1)/k`, so the terms left out add up to less than the ninth power after the last.
     let twice = 2.0 * delta.magnitude();
     let rest = ZETA.iter().fold(1.1 * twice, |power, _| power * twice);
@@ -122,4 +124,49 @@ fn log_ratio(delta: Interval, order: f64) -> Interval {
         k += 1.0;
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a series cut too early leaves out lies within the bound of its rest.
+    #[test]
+    fn rests_of_the_series_are_enclosed() {
+        for x in [0.0, 0.25, 0.5, 1.7, 2.0, 7.3] {
+            let fine = gamma_ratio(number(x), FAR);
+            assert!(fine.width() < 1e-14 * fine.magnitude(), "{fine}");
+            for far in [0.0, 1.0, 1.5, 2.5, 4.0] {
+                let coarse = gamma_ratio(number(x), far);
+                assert!(coarse.contains(fine.midpoint()), "{x}, from {far}: {fine} not in {coarse}");
+            }
+        }
+        // Whole and half-whole arguments in closed form (DLMF 5.4.6).
+        assert!(gamma_ratio(Interval::ZERO, FAR).intersection(Interval::PI.sqrt()).is_some());
+        assert!(gamma_ratio(number(0.5), FAR).intersection(Interval::two() / Interval::PI.sqrt()).is_some());
+    }
+
+    /// By the sum of the first thousand terms and the Euler-Maclaurin formula.
+    #[test]
+    fn the_zeta_function_is_right() {
+        for (zeta, s) in ZETA.into_iter().zip(2..) {
+            let size = 1000_f64;
+            let first: f64 = (1..1000).rev().map(|k| f64::from(k).powi(-s)).sum();
+            let rest = size.powi(1 - s) * (1.0 / f64::from(s - 1) + 0.5 / size + f64::from(s) / (12.0 * size * size));
+            assert!((first + rest - zeta).abs() < 2e-15, "{s}: {zeta}");
+        }
+    }
+
+    /// The logarithm's series, far beyond where it serves, against the ratio itself.
+    #[test]
+    fn the_logarithm_of_the_ratio_is_enclosed() {
+        for exponent in [0.3, 0.7, 0.75, 1.3, 1.7, 4.62, 6.31] {
+            let law = of(exponent);
+            let (order, delta) = PowerMoments::order_and_delta::<Interval>(exponent);
+            let ratio = first_of_a(law.at_one.get(), number(exponent), order) / law.pairs.b.get::<Interval>();
+            let (series, logarithm) = (log_ratio(delta, order), ratio.ln() / delta);
+            assert!(series.intersection(logarithm).is_some(), "{exponent}: {series} is not {logarithm}");
+            assert!(series.width() < 0.05, "{exponent}: {series}");
+        }
+    }
 }

@@ -33,7 +33,7 @@ impl Known {
     pub(super) const NOT: Self = Self { value: f64::NAN, error: f64::INFINITY };
 
     #[inline]
-    fn get<T: Special>(self) -> T {
+    pub(super) fn get<T: Special>(self) -> T {
         T::from_f64(self.value).give_or_take(self.error)
     }
 }
