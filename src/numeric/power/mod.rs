@@ -54,8 +54,7 @@ impl PowerMoments {
         constants::of(exponent)
     }
 
-    /// By how much half the exponent of the part of the series about one that is not analytic differs from a whole number:
-    /// `p + 1/2 = order + delta`.
+    /// `p + 1/2 = order + delta`, delta at most a half: the exponent of what is not analytic about one.
     fn order_and_delta<T: Real>(exponent: f64) -> (f64, T) {
         let whole = libm::floor(exponent);
         (whole + 1.0, T::from_f64(exponent - whole) - T::from_f64(0.5))
