@@ -39,6 +39,15 @@ fn closed_form(bencher: Bencher, characteristic: impl ClosedForm<Number = Interv
     bencher.bench_local(|| characteristic.describing_function(black_box(&sweep)));
 }
 
+/// Within the sweep, and where the sweep's end is near zero on either side: each series of the closed form.
+#[divan::bench(args = [(0.5, 0.2), (0.5, 0.95), (0.5, 1.05), (1.5, 0.2), (1.5, 0.95), (1.5, 1.05), (1.7, 0.2), (1.7, 0.95),
+    (1.7, 1.05), (2.0, 0.2), (2.0, 0.95), (2.0, 1.05), (3.0, 0.2), (3.0, 0.95), (3.0, 1.05), (1.7, 0.71), (1.7, 1.29)])]
+fn closed_power(bencher: Bencher, (exponent, bias): (f64, f64)) {
+    let power = Power::new(Interval::ONE, Interval::point(exponent)).unwrap();
+    let sweep = Sinusoid::new(Interval::point(bias), Interval::ONE).unwrap();
+    bencher.bench_local(|| power.describing_function(black_box(&sweep)));
+}
+
 #[divan::bench]
 fn closed_relay_hysteresis(bencher: Bencher) {
     let number = Interval::point;

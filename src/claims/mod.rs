@@ -21,6 +21,7 @@ pub mod method_bias;
 pub mod on_board;
 pub mod orbit_proofs;
 pub mod orbits;
+pub mod power_law;
 pub mod proof;
 pub mod relay;
 pub mod smooth;
@@ -45,6 +46,7 @@ macro_rules! for_each_claim {
             kernels::KERNEL_BAND,
             fourier::DESCRIBING_FUNCTION,
             fourier::POLYNOMIAL,
+            power_law::POWER_LAW,
             smooth::SINE,
             smooth::SINH,
             smooth::ARCTAN,

@@ -7,7 +7,7 @@ use std::array;
 use std::sync::LazyLock;
 
 use super::single::Single;
-use super::{Evidence, Verdict, smooth};
+use super::{Evidence, Verdict, power_law, smooth};
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm, KernelProof, prove_band_from_the_middle};
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity, parameters};
 use crate::nonlinearity::{Branches, Kernel, Polynomial, RelayHysteresis, Sinusoid};
@@ -28,6 +28,7 @@ pub const PROOFS: &[(&str, Proof)] = &[
     ("kernel-band", kernel_band),
     ("describing-function", describing_function),
     ("polynomial", polynomial),
+    ("power-law", power_law::power_law),
     ("sine", smooth::sine),
     ("sinh", smooth::sinh),
     ("arctan", smooth::arctan),
@@ -51,7 +52,7 @@ pub const PROOFS: &[(&str, Proof)] = &[
 ];
 
 /// Bound asked of an identity between numbers of order one.
-const TOLERANCE: f64 = 1e-10;
+pub(super) const TOLERANCE: f64 = 1e-10;
 /// Cells of an identity of one variable.
 const CELLS: usize = 5000;
 

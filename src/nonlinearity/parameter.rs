@@ -161,8 +161,8 @@ macro_rules! characteristic {
             $($(
                 #[doc = $content]
                 #[inline]
-                pub(crate) fn $computed(&self) -> $kind {
-                    self.$computed
+                pub(crate) fn $computed(&self) -> &$kind {
+                    &self.$computed
                 }
             )+)?
             $(

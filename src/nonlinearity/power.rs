@@ -1,7 +1,7 @@
 use super::parameter::characteristic;
 use super::{Branch, Characteristic, Sinusoid};
 use crate::numeric::Real;
-use crate::numeric::special::mean_power_of_sine;
+use crate::numeric::power::PowerMoments;
 
 characteristic! {
     /// Power law: `gain sgn(x) abs(x)^exponent`. Exponent 2 is quadratic drag, 1 a linear gain, 0 the ideal relay.
@@ -12,8 +12,8 @@ characteristic! {
         exponent: NonNegative,
     }
     computed {
-        /// Mean of `abs(sin)^(exponent + 1)` over a period.
-        mean_power: f64 = mean_power_of_sine(exponent.bounds().0 + 1.0),
+        /// What the exponent alone decides of the moments of its output.
+        moments: PowerMoments = PowerMoments::new(exponent.bounds()),
     }
 }
 

@@ -148,6 +148,30 @@ impl<const N: usize> Jet<N> {
         [f, g]
     }
 
+    /// m and h with these values and m's slope, of which `m' = g`, `(1 - u^2) g' = p^2 m - (2p - 1) u g` and `h' = p m - u g` by
+    /// this jet u: moments of a power of a biased sine.
+    pub(super) fn power_moments(&self, [m, g, h]: [Interval; 3], p: Interval) -> [Self; 2] {
+        let [mut m, mut g, mut h] = [m, g, h].map(Self::constant);
+        let weight = (Self::one() - *self) * (Self::one() + *self);
+        let (mut weighted, mut by_u, mut rates) = ([Interval::ZERO; N], [Interval::ZERO; N], [Interval::ZERO; N]);
+        let (square, odd) = (p.square(), Interval::two() * p - Interval::ONE);
+        let moving = self.moving();
+        for k in 0..N {
+            if k > 0 {
+                m.coefficients[k] = moving.integral(k, &g.coefficients);
+                h.coefficients[k] = moving.integral(k, &by_u);
+                let known = dot(&weight.coefficients[1..k], &rates[1..k]);
+                let rate = integer(k) * moving.integral(k, &weighted) - known;
+                g.coefficients[k] = rate / (integer(k) * weight.coefficients[0]);
+                rates[k] = rate / weight.coefficients[0];
+            }
+            let product = convolution(&self.coefficients, &g.coefficients, k);
+            weighted[k] = square * m.coefficients[k] - odd * product;
+            by_u[k] = p * m.coefficients[k] - product;
+        }
+        [m, h]
+    }
+
     /// Sine and cosine, for the price of either.
     pub(crate) fn sin_cos(self) -> (Self, Self) {
         self.sine_and_cosine(self.value().sin(), self.value().cos(), -Interval::ONE)

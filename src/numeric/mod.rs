@@ -17,6 +17,7 @@ mod interval;
 #[cfg(feature = "std")]
 pub mod interval_matrix;
 mod jet;
+pub mod power;
 #[cfg(feature = "std")]
 pub mod quadrature;
 mod ratio;

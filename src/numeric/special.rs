@@ -1,5 +1,6 @@
 //! Special functions of the smooth catalogue, in every arithmetic: values to a few units in the last place, or enclosures.
 
+use super::power::{self, PowerMoments};
 use super::{Interval, Jet, Real, Scalar, bessel};
 
 /// An arithmetic that has the special functions that the describing functions of smooth characteristics are made of.
@@ -23,6 +24,9 @@ pub trait Special: Real {
     fn bessel_j(self) -> [Self; 2];
     /// `exp(-x) [I_0(x), I_1(x)]`, domain `x >= 0`: they neither overflow nor vanish.
     fn bessel_i_scaled(self) -> [Self; 2];
+    /// `[<f(x)>, <sin f(x)>]` over a turn of the sine, for `x = bias + amplitude sin` and `f(x) = sgn(x) abs(x)^p`, p the
+    /// exponent of `law`; domain `amplitude > 0`.
+    fn power_moments(law: &PowerMoments, bias: Self, amplitude: Self) -> [Self; 2];
 }
 
 /// A function known at the real part of `x` by value and slope, carried over to the arithmetic of `x`: a float gets the
@@ -52,6 +56,9 @@ impl<T: Scalar> Special for T {
         let [zeroth, first] = bessel::i_scaled(x);
         [lift(self, zeroth, first - zeroth), lift(self, first, zeroth - odd_over(first, x) - first)]
     }
+    fn power_moments(law: &PowerMoments, bias: Self, amplitude: Self) -> [Self; 2] {
+        power::of_scalar(law, bias, amplitude)
+    }
 }
 
 impl Special for Interval {
@@ -63,6 +70,9 @@ impl Special for Interval {
     }
     fn bessel_i_scaled(self) -> [Self; 2] {
         bessel::enclosed_i_scaled(self)
+    }
+    fn power_moments(law: &PowerMoments, bias: Self, amplitude: Self) -> [Self; 2] {
+        power::of_interval(law, bias, amplitude)
     }
 }
 
@@ -77,20 +87,7 @@ impl<const N: usize> Special for Jet<N> {
         let values = self.value().bessel_i_scaled();
         self.bessel(values, |zeroth, first, quotient| [first - zeroth, zeroth - quotient - first])
     }
-}
-
-/// Mean of `abs(sin)^exponent` over a period, `Gamma((p + 1)/2)/(sqrt(pi) Gamma(p/2 + 1))` (DLMF 5.12.2), domain
-/// `exponent >= 0`.
-///
-/// ```
-/// use selfosc::numeric::special::mean_power_of_sine;
-/// assert!((mean_power_of_sine(2.0) - 0.5).abs() < 1e-15);
-/// ```
-#[must_use]
-pub fn mean_power_of_sine(exponent: f64) -> f64 {
-    let (a, b) = (0.5 * exponent + 0.5, 0.5 * exponent + 1.0);
-    // Beyond, the gamma function overflows.
-    let ratio =
-        if b < 170.0 { libm::tgamma(a) / libm::tgamma(b) } else { libm::exp(libm::lgamma(a) - libm::lgamma(b)) };
-    ratio / libm::sqrt(core::f64::consts::PI)
+    fn power_moments(law: &PowerMoments, bias: Self, amplitude: Self) -> [Self; 2] {
+        power::of_jet(law, bias, amplitude)
+    }
 }

@@ -32,6 +32,7 @@ mod orbit_certified;
 mod orbit_drag_axis;
 mod orbit_linear;
 mod paper;
+mod power_law;
 mod record;
 mod relay_certificate;
 mod special;

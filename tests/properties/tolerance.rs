@@ -204,3 +204,6 @@ pub(crate) const DENSE_EXACT: f64 = 1e-2;
 
 /// A pole near the crossover by a delay's Pade approximant of sixth order, whose phase is right to 1e-9 for `w delay` up to one.
 pub(crate) const PADE: f64 = 1e-6;
+
+/// What tanh-sinh quadrature in 42 digits leaves of an integral with an algebraic singularity, relative.
+pub(crate) const POWER_ORACLE: f64 = 1e-20;

@@ -1,0 +1,250 @@
+//! The three series, each one piece of code for floats and enclosures.
+
+use super::PowerMoments;
+use crate::numeric::Interval;
+use crate::numeric::special::Special;
+
+/// The series about zero serves below, the one about infinity above; the one about one, with radius 2, between.
+pub(crate) const INNER: f64 = 0.7;
+pub(crate) const OUTER: f64 = 1.3;
+/// Exponent from which on the two outer series converge fast enough up to `u = 1`, where their n-th term is about
+/// `n^(-p - 3/2)`; the series about one would cancel.
+pub(crate) const STEEP: f64 = 8.0;
+
+/// Share of a sum below which its terms are left out, or enclosed.
+pub(super) const NEGLIGIBLE: f64 = f64::EPSILON;
+
+/// m and h with their derivatives.
+pub(super) struct Moments<T> {
+    pub(super) m: T,
+    pub(super) m_slope: T,
+    pub(super) h: T,
+    pub(super) h_slope: T,
+}
+
+/// A constant and how far off it may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Known {
+    value: f64,
+    error: f64,
+}
+
+impl Known {
+    pub(super) const NOT: Self = Self { value: f64::NAN, error: f64::INFINITY };
+
+    #[inline]
+    pub(super) fn get<T: Special>(self) -> T {
+        T::from_f64(self.value).give_or_take(self.error)
+    }
+}
+
+impl From<Interval> for Known {
+    fn from(enclosure: Interval) -> Self {
+        Self { value: enclosure.midpoint(), error: enclosure.radius() }
+    }
+}
+
+#[inline]
+fn size<T: Special>(number: T) -> f64 {
+    let (lower, upper) = number.bounds();
+    lower.abs().max(upper.abs())
+}
+
+/// Numerator and denominator of the ratio of coefficient `n + 1` to coefficient n of `2F1(a, b; c; x)`.
+#[inline]
+pub(crate) fn step<T: Special>(a: T, b: T, c: f64, n: f64) -> [T; 2] {
+    [(a + T::from_f64(n)) * (b + T::from_f64(n)), T::from_f64((c + n) * (n + 1.0))]
+}
+
+/// `2F1(a, b; c; x)` and its derivative by x, for `0 <= x <= 1`, `a <= b < c` and `c - a - b > 1`; terms below a share of
+/// the derivative are left out.
+#[inline]
+fn hypergeometric<T: Special>(a: T, b: T, c: f64, x: T, share: f64) -> [T; 2] {
+    let ratio = |n: f64| {
+        let [numerator, denominator] = step(a, b, c, n);
+        numerator / denominator
+    };
+    // Up to the parameters' size the terms may still grow; the slope at zero is the first.
+    let (least, x_most) = (2_f64.max(-a.bounds().0), size(x).min(1.0));
+    let (mut sum, mut slope) = (T::zero(), T::zero());
+    // Term n over x.
+    let (mut term, mut n) = (ratio(0.0), 1.0);
+    while n * x_most * size(term) > share * size(sum) || (n < least && size(term) > 0.0) {
+        sum = sum + term;
+        slope = slope + T::from_f64(n) * term;
+        term = term * (ratio(n) * x);
+        n += 1.0;
+    }
+    // With `step = 1 - s/(k + 1)`, where s grows with k, and `r = (n + 1)(1 - x) + x s(n)`, term k over term k + 1 satisfies
+    // `term(k) (r - 1) <= k term(k) - (k + 1) term(k + 1)` and `k term(k) (r - 2) <= (k - 1) k term(k) - k (k + 1) term(k + 1)`:
+    // sums from n on telescope. Doubled for the rounding of this bound.
+    let (low, high) = (a.bounds().0, b.bounds().0);
+    let s = (n * (1.0 + c - low - high) + c - low * high) / (n + c);
+    let rest = 2.0 * n * size(term);
+    let r = (n + 1.0) * (1.0 - x_most) + x_most * s;
+    let (rest, slope_rest) =
+        if rest > 0.0 { (rest / (r - 1.0).max(0.0), rest * n / (r - 2.0).max(0.0)) } else { (0.0, 0.0) };
+    [T::one() + x * sum.give_or_take(rest), slope.give_or_take(slope_rest)]
+}
+
+impl PowerMoments {
+    /// `m = m'(0) u 2F1((1-p)/2, (1-p)/2; 3/2; u^2)`, every term positive; `m'(0) = (p + 1) <abs(sin)^(p+1)>`.
+    #[inline]
+    pub(super) fn about_zero<T: Special>(&self, u: T, share: f64) -> Moments<T> {
+        let a = T::from_f64(0.5) * (T::one() - T::from_f64(self.exponent));
+        let square = u.square();
+        let [sum, slope] = hypergeometric(a, a, 1.5, square, share);
+        let start = self.slope_at_zero.get::<T>();
+        let m_slope = start * (sum + T::two() * square * slope);
+        self.moments(u, start * u * sum, m_slope, (T::one() - square) * m_slope)
+    }
+
+    /// In `v = 1/u`, with `X^p` replaced by `abs(B)^p`: `m = 2F1(-p/2, (1-p)/2; 1; v^2)`, the binomial series, and
+    /// `(1 + p) h = p v m + (1 - v^2) m'`.
+    #[inline]
+    pub(super) fn about_infinity<T: Special>(&self, v: T, share: f64) -> Moments<T> {
+        let (p, half, square) = (T::from_f64(self.exponent), T::from_f64(0.5), v.square());
+        let [m, slope] = hypergeometric(-half * p, half * (T::one() - p), 1.0, square, share);
+        let twice = T::two() * slope;
+        let h_over_v = (p * m + (T::one() - square) * twice) / (T::one() + p);
+        Moments { m, m_slope: twice * v, h: v * h_over_v, h_slope: p * h_over_v - twice }
+    }
+
+    /// In `z = (1 - u)/2`: `m = alpha sum a_n z^n + c sum b_j z^(p + 1/2 + j)`, the exponents of the equation at `u = 1`.
+    ///
+    /// With `p + 1/2 = N + delta` the coefficients a_n from `n = N` on and c grow like `1/delta` and cancel; at `delta = 0` they
+    /// leave a logarithm. So terms of equal whole order are paired, `(A_j - B_j w abs(z)^delta)/delta`, and the recurrence runs
+    /// on `B_j` and on `D_j = (A_j - B_j)/delta`, which stays finite.
+    #[inline]
+    pub(super) fn about_one<T: Special>(&self, u: T, z: T, share: f64) -> Moments<T> {
+        let (p, half) = (T::from_f64(self.exponent), T::from_f64(0.5));
+        let (order, delta) = Self::order_and_delta::<T>(self.exponent);
+        // Derivatives by z; `over` is `(-z)^N/z`.
+        let (mut m, mut slope) = (T::zero(), T::zero());
+        let (mut term, mut over, mut n) = (self.at_one.get::<T>(), -T::one(), 0.0);
+        loop {
+            m = m + term;
+            n += 1.0;
+            if n >= order {
+                break;
+            }
+            let [numerator, denominator] = analytic_step(p, T::from_f64(n - 1.0));
+            let next = term * (numerator / denominator);
+            slope = slope + T::from_f64(n) * next;
+            term = next * z;
+            over = over * -z;
+        }
+        if size(z) <= 0.0 {
+            // By the equation itself, at the end of its range.
+            let smooth = self.exponent > 0.5;
+            let m_slope = if smooth { p * p * m / (T::two() * p - T::one()) } else { T::from_f64(f64::INFINITY) };
+            return self.moments(u, m, m_slope, T::zero());
+        }
+
+        let [weight, excess] = self.pairs.sides[usize::from(z.bounds().0 < 0.0)].map(Known::get::<T>);
+        let log = z.abs().ln();
+        let (power, level) = if delta.bounds() == (0.0, 0.0) {
+            (T::one(), log)
+        } else {
+            let growth = (delta * log).exp_m1();
+            (T::one() + growth, growth / delta)
+        };
+        let level = excess * power + level;
+        let weight = weight * power;
+        let (low, high) = m.bounds();
+        // An enclosure need not be narrower than rounding makes it.
+        let (reach, enough) = (size(over * z), share * size(m) + (high - low));
+        // Of `z^j (D_j - B_j level)`, of j times that, and of `z^j B_j`.
+        let (mut pairs, mut moving, mut tail) = (T::zero(), T::zero(), T::zero());
+        let (mut b, mut d, mut j) = (self.pairs.b.get::<T>(), self.pairs.d.get::<T>(), 0.0);
+        loop {
+            let pair = d - b * level;
+            (pairs, moving, tail) = (pairs + pair, moving + T::from_f64(j) * pair, tail + b);
+            // For `abs(z) <= 1/4`: B falls, D grows by at most `4 B/(j + 1/2)` a step, so that the slope's terms from the next on
+            // add up to less than this. Doubled for the rounding of this bound.
+            let rest = 2.0 * (order + j + 1.0) * (size(d) + size(b) * (size(level) + size(weight) + 4.0));
+            if !(rest * reach > enough) {
+                m = m + over * z * pairs.give_or_take(rest);
+                slope = slope + over * (T::from_f64(order) * pairs + moving - weight * tail).give_or_take(rest);
+                return self.moments(u, m, -half * slope, -T::two() * z * (T::one() - z) * slope);
+            }
+            j += 1.0;
+            [b, d] = paired_step(order, delta, j, [z * b, z * d]);
+        }
+    }
+
+    /// From m, its derivative, and `(1 - u^2) m'`.
+    #[inline]
+    fn moments<T: Special>(&self, u: T, m: T, m_slope: T, weighted_slope: T) -> Moments<T> {
+        let p = T::from_f64(self.exponent);
+        Moments { m, m_slope, h: (weighted_slope + p * u * m) / (T::one() + p), h_slope: p * m - u * m_slope }
+    }
+}
+
+/// Numerator and denominator of the ratio of coefficient `k + 1` to coefficient k of a series in `(1 - u)/2` that obeys the
+/// equation; k need not be whole.
+#[inline]
+pub(crate) fn analytic_step<T: Special>(p: T, k: T) -> [T; 2] {
+    let away = k - p;
+    [away * away, (away + T::from_f64(0.5)) * (k + T::one())]
+}
+
+/// `B_j` and `D_j = (A_j - B_j)/delta` from those before, where `A_j = A_(j-1) (j - 1/2 - delta)^2/((j - delta)(N + j))` and
+/// `B_j = B_(j-1) (j - 1/2)^2/((N + j + delta) j)`.
+#[inline]
+pub(crate) fn paired_step<T: Special>(order: f64, delta: T, j: f64, [b, d]: [T; 2]) -> [T; 2] {
+    let half_square = (j - 0.5) * (j - 0.5);
+    let (index, away) = (T::from_f64(j), T::from_f64(j - 0.5) - delta);
+    let of_b = (T::from_f64(order + j) + delta) * index;
+    let spread = T::from_f64(half_square * (2.0 * j + order)) - (T::from_f64(2.0 * j - 1.0) - delta) * of_b;
+    let b = b / of_b;
+    [b * T::from_f64(half_square), (d * away.square() + b * spread) / ((index - delta) * T::from_f64(order + j))]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::Real;
+
+    type Series = fn(&PowerMoments, Interval, f64) -> Moments<Interval>;
+
+    /// However early a series is cut, the bound of its rest covers what is missing, and is no more than some times that.
+    #[test]
+    fn what_is_cut_off_is_enclosed() {
+        let series: [(Series, &[f64]); 3] = [
+            (|law, u, share| law.about_zero(u, share), &[0.1, 0.4, 0.7]),
+            (|law, u, share| law.about_infinity(Interval::ONE / u, share), &[1.3, 1.9, 6.0]),
+            (|law, u, share| law.about_one(u, (Interval::ONE - u) / Interval::two(), share), &[0.7, 0.9, 1.1, 1.3]),
+        ];
+        let mut widest = 0_f64;
+        for (place, (value, at)) in series.into_iter().enumerate() {
+            for exponent in [0.0, 0.3, 0.5, 1.5, 1.513, 2.2, 3.49, 4.5, 6.7, 7.9, 8.1, 11.3] {
+                let law = PowerMoments::new((exponent, exponent));
+                let steep = exponent >= STEEP;
+                let ends: &[f64] = if steep { &[0.999, 1.0, 1.001] } else { &[] };
+                for &u in at.iter().chain(ends) {
+                    if (steep && place == 2) || (place == 0 && u > 1.0) || (place == 1 && u < 1.0) {
+                        continue;
+                    }
+                    let of = |share: f64| value(&law, Interval::point(u), share);
+                    let fine = of(NEGLIGIBLE);
+                    for share in [1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10] {
+                        let coarse = of(share);
+                        for (fine, coarse) in [
+                            (fine.m, coarse.m),
+                            (fine.h, coarse.h),
+                            (fine.m_slope, coarse.m_slope),
+                            (fine.h_slope, coarse.h_slope),
+                        ] {
+                            let case = format!("series {place}, exponent {exponent}, u {u}, share {share}");
+                            let middle = Interval::point(fine.midpoint());
+                            assert!(coarse.contains(middle.lower()), "{case}: {fine} not in {coarse}");
+                            widest = widest.max((coarse.width() / share) / size(fine.hull(Interval::ONE)));
+                        }
+                    }
+                }
+            }
+        }
+        assert!(widest < 1000.0, "{widest}");
+    }
+}
