@@ -5,7 +5,7 @@
 use divan::{Bencher, black_box};
 use selfosc::claims::proof::PROOFS;
 use selfosc::describing::{CATALOGUE, ClosedForm, Entry, KernelForm, certified};
-use selfosc::nonlinearity::{Backlash, DeadZone, Power, RelayHysteresis, Saturation, Sinusoid};
+use selfosc::nonlinearity::{Power, Sinusoid};
 use selfosc::numeric::rigorous_quadrature::CellJet;
 use selfosc::numeric::{Interval, Real};
 
@@ -19,7 +19,7 @@ fn quadrature(bencher: Bencher, name: &str) {
     let entry = Entry::find(name).unwrap();
     let example = entry.example().unwrap();
     let values: Vec<_> = example.values.iter().map(|&value| CellJet::from_f64(value)).collect();
-    let characteristic = entry.build_output(&values).unwrap();
+    let characteristic = entry.build(&values).unwrap();
     let number = CellJet::from_f64;
     let sweep = Sinusoid::new(number(0.2 * example.amplitude), number(example.amplitude)).unwrap();
     bencher.bench_local(|| certified(&*characteristic, black_box(&sweep)));
@@ -34,8 +34,15 @@ fn power_law(bencher: Bencher, exponent: f64) {
     bencher.bench_local(|| certified(&power, black_box(&sweep)));
 }
 
-fn closed_form(bencher: Bencher, characteristic: impl ClosedForm<Number = Interval>) {
-    let sweep = Sinusoid::new(Interval::point(0.1), Interval::ONE).unwrap();
+/// The same sweeps by the closed forms in intervals.
+#[divan::bench(args = CATALOGUE.iter().map(|entry| entry.name))]
+fn closed_form(bencher: Bencher, name: &str) {
+    let entry = Entry::find(name).unwrap();
+    let example = entry.example().unwrap();
+    let values: Vec<_> = example.values.iter().map(|&value| Interval::point(value)).collect();
+    let characteristic = entry.build(&values).unwrap();
+    let number = Interval::point;
+    let sweep = Sinusoid::new(number(0.2 * example.amplitude), number(example.amplitude)).unwrap();
     bencher.bench_local(|| characteristic.describing_function(black_box(&sweep)));
 }
 
@@ -46,27 +53,6 @@ fn closed_power(bencher: Bencher, (exponent, bias): (f64, f64)) {
     let power = Power::new(Interval::ONE, Interval::point(exponent)).unwrap();
     let sweep = Sinusoid::new(Interval::point(bias), Interval::ONE).unwrap();
     bencher.bench_local(|| power.describing_function(black_box(&sweep)));
-}
-
-#[divan::bench]
-fn closed_relay_hysteresis(bencher: Bencher) {
-    let number = Interval::point;
-    closed_form(bencher, RelayHysteresis::new(number(1.0), number(0.3), number(0.0)).unwrap());
-}
-
-#[divan::bench]
-fn closed_saturation(bencher: Bencher) {
-    closed_form(bencher, Saturation::new(Interval::ONE, Interval::point(0.3)).unwrap());
-}
-
-#[divan::bench]
-fn closed_dead_zone(bencher: Bencher) {
-    closed_form(bencher, DeadZone::new(Interval::ONE, Interval::point(0.3)).unwrap());
-}
-
-#[divan::bench]
-fn closed_backlash(bencher: Bencher) {
-    closed_form(bencher, Backlash::new(Interval::ONE, Interval::point(0.3)).unwrap());
 }
 
 #[divan::bench(sample_count = 3)]

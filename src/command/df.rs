@@ -142,7 +142,7 @@ fn enclose(
 ) -> Result<DescribingFunction<Interval>, CommandError> {
     let values: Vec<_> = values.iter().map(|&value| CellJet::from_f64(value)).collect();
     let sweep = Sinusoid::new(CellJet::from_f64(bias), CellJet::from_f64(amplitude))?;
-    Ok(certified(&*entry.build_output(&values)?, &sweep)?.enclosure)
+    Ok(certified(&*entry.build(&values)?, &sweep)?.enclosure)
 }
 
 fn list(as_json: bool, output: &mut impl Write) -> Result<Outcome, CommandError> {

@@ -1,16 +1,11 @@
 //! Every characteristic by name, as the command line and the generated pages know it.
 
 use super::{ClosedForm, Setting};
-use crate::nonlinearity::{
-    self, Catalogued, Characteristic, Domain, NonlinearityError, Parameter, every_characteristic,
-};
-use crate::numeric::{Real, Scalar};
+use crate::nonlinearity::{self, Catalogued, Domain, NonlinearityError, Parameter, every_characteristic};
+use crate::numeric::special::Special;
 
 /// A characteristic of the catalogue, in the arithmetic `T`.
 pub type Boxed<T> = Box<dyn ClosedForm<Number = T>>;
-
-/// The output of a characteristic of the catalogue, in the arithmetic `T`: intervals and jets have no closed form of all.
-pub type BoxedOutput<T> = Box<dyn Characteristic<Number = T>>;
 
 /// Why a name and its settings do not make a characteristic.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -168,7 +163,7 @@ macro_rules! catalogue {
         ),+];
 
         impl Entry {
-            /// The characteristic with these parameter values, in their arithmetic.
+            /// The characteristic with these parameter values, in their arithmetic: floats, dual numbers, intervals, jets.
             ///
             /// # Errors
             /// [`CatalogueError::Nonlinearity`] where a value is outside its domain.
@@ -182,20 +177,7 @@ macro_rules! catalogue {
             /// assert!((df.p - 1.0).abs() < 1e-15);
             /// # Ok::<(), Box<dyn std::error::Error>>(())
             /// ```
-            pub fn build<T: Scalar>(&self, values: &[T]) -> Result<Boxed<T>, CatalogueError> {
-                $(
-                    if self.name == <$type<T> as Catalogued<T>>::NAME {
-                        return Ok(Box::new(<$type<T>>::from_values(values)?));
-                    }
-                )+
-                Err(CatalogueError::UnknownName { name: self.name.to_owned(), known: String::new() })
-            }
-
-            /// The output alone, in any arithmetic: what [`certified`](super::certified()) takes.
-            ///
-            /// # Errors
-            /// As [`build`](Self::build).
-            pub fn build_output<T: Real>(&self, values: &[T]) -> Result<BoxedOutput<T>, CatalogueError> {
+            pub fn build<T: Special>(&self, values: &[T]) -> Result<Boxed<T>, CatalogueError> {
                 $(
                     if self.name == <$type<T> as Catalogued<T>>::NAME {
                         return Ok(Box::new(<$type<T>>::from_values(values)?));

@@ -38,7 +38,7 @@ mod tanh;
 mod two_tone;
 
 #[cfg(feature = "std")]
-pub use catalogue::{Boxed, BoxedOutput, CATALOGUE, CatalogueError, Entry};
+pub use catalogue::{Boxed, CATALOGUE, CatalogueError, Entry};
 #[cfg(feature = "std")]
 pub use certified::{Certified, certified};
 pub use closed_form::{ClosedForm, over_amplitudes};
