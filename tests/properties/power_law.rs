@@ -84,6 +84,27 @@ fn enclosures_contain_the_oracle_and_are_narrow() {
     });
 }
 
+/// The gain of a small amplitude is a slope: a small part of the output, and yet as accurate as the output.
+#[test]
+fn small_amplitudes_have_accurate_gains() {
+    for exponent in [0.25, 0.5, 1.0, 1.7, 2.0, 3.0, 5.333997326758241, 6.0, 8.1] {
+        for (bias, amplitude) in [(-9.630215489445458, 4.5552460014735084e-2), (3.0, 1e-4), (1.0, 0.2), (0.5, 1e-12)] {
+            let [f0, p] = at(exponent, bias, amplitude);
+            let power = Power::new(1.0, exponent).unwrap();
+            let df = power.describing_function(&Sinusoid::new(bias, amplitude).unwrap()).unwrap();
+            for (enclosed, floating) in [(f0, df.f0), (p, df.p)] {
+                let size = enclosed.magnitude();
+                assert!(enclosed.width() < tolerance::SUM * size, "{exponent} {bias} {amplitude}: {enclosed}");
+                let away = (enclosed.lower() - floating).max(floating - enclosed.upper());
+                assert!(
+                    away <= 4.0 * tolerance::ROUNDING * size,
+                    "{exponent} {bias} {amplitude}: {floating} {enclosed}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn enclosures_meet_the_quadrature() {
     EXPONENTS.into_par_iter().for_each(|exponent| {

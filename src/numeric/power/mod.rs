@@ -11,7 +11,7 @@ pub(crate) use series::{INNER, OUTER, STEEP};
 #[cfg(feature = "std")]
 pub(crate) use series::{analytic_step, paired_step, step};
 
-use series::{Known, Moments, NEGLIGIBLE};
+use series::{Known, Moments};
 
 use super::special::{Special, lift};
 use super::{Interval, Jet, Real, Scalar};
@@ -38,6 +38,9 @@ struct Pairs {
     sides: [[Known; 2]; 2],
 }
 
+/// Share of a sum below which its terms are enclosed together: what rounding makes of the sum's width anyway.
+const ENCLOSED: f64 = 1e-14;
+
 impl PowerMoments {
     /// Of the exponent between these bounds, `>= 0`. Only an exponent that is one number has moments that are known.
     ///
@@ -61,18 +64,18 @@ impl PowerMoments {
     }
 
     /// Which series serves, and what it gives; `bias >= 0`, neither number wider than rounding, nor their difference of
-    /// unknown sign.
+    /// unknown sign; terms below that share of a sum are left out, or enclosed.
     #[inline]
-    fn of_sweep<T: Special>(&self, bias: T, amplitude: T) -> Found<T> {
+    fn of_sweep<T: Special>(&self, bias: T, amplitude: T, share: f64) -> Found<T> {
         let (u, room) = (bias / amplitude, amplitude - bias);
         let at = u.bounds().0;
         let beyond = at > OUTER || (self.exponent >= STEEP && room.bounds().1 < 0.0);
         let moments = if beyond {
-            self.about_infinity(amplitude / bias, NEGLIGIBLE)
+            self.about_infinity(amplitude / bias, share)
         } else if at < INNER || self.exponent >= STEEP {
-            self.about_zero(u, NEGLIGIBLE)
+            self.about_zero(u, share)
         } else {
-            self.about_one(u, T::from_f64(0.5) * (room / amplitude), NEGLIGIBLE)
+            self.about_one(u, T::from_f64(0.5) * (room / amplitude), share)
         };
         Found { beyond, moments }
     }
@@ -93,7 +96,7 @@ impl PowerMoments {
         let (u, room) = (bias / amplitude, amplitude - bias);
         let decided = !room.contains_zero() || room == Interval::ZERO;
         if decided && bias.lower() >= 0.0 && u.width() <= THIN * (1.0 + u.lower()) {
-            return self.of_sweep(bias, amplitude);
+            return self.of_sweep(bias, amplitude, ENCLOSED);
         }
         let ([m, h], p) = (self.over(u), Interval::point(self.exponent));
         let m_slope = ((Interval::ONE + p) * h - p * u * m) / ((Interval::ONE - u) * (Interval::ONE + u));
@@ -107,7 +110,7 @@ impl PowerMoments {
             return [Interval::ENTIRE; 2];
         }
         let at = |u: f64| {
-            let Found { beyond, moments } = self.of_sweep(Interval::point(u.abs()), Interval::ONE);
+            let Found { beyond, moments } = self.of_sweep(Interval::point(u.abs()), Interval::ONE, ENCLOSED);
             let scale = Interval::point(if beyond { u.abs() } else { 1.0 }).pow(Interval::point(self.exponent));
             [if u < 0.0 { -moments.m } else { moments.m } * scale, moments.h * scale]
         };
@@ -128,7 +131,7 @@ struct Found<T> {
 pub(super) fn of_scalar<T: Scalar>(law: &PowerMoments, bias: T, amplitude: T) -> [T; 2] {
     let negative = bias < T::zero();
     let bias = if negative { -bias } else { bias };
-    let Found { beyond, moments } = law.of_sweep(bias.value(), amplitude.value());
+    let Found { beyond, moments } = law.of_sweep(bias.value(), amplitude.value(), f64::EPSILON);
     let (reference, ratio) = if beyond { (bias, amplitude / bias) } else { (amplitude, bias / amplitude) };
     let scale = reference.pow(T::from_f64(law.exponent));
     let mean = scale * lift(ratio, moments.m, moments.m_slope);
