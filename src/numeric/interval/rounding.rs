@@ -1,8 +1,8 @@
 //! Directed rounding of `+ - * / sqrt` from round-to-nearest arithmetic.
 //!
 //! IEEE 754 rounds these five correctly, so the exact result lies within one step of the rounded one. The sign of the
-//! rounding error, where it can be had without rounding (Knuth's two-sum; Dekker's product with Veltkamp's splitting),
-//! says on which side; where it cannot (near overflow and underflow) the step is taken in any case. An exact result is
+//! rounding error, where it can be had without rounding (Knuth's two-sum; products of the significands as integers), says
+//! on which side; where it cannot (near overflow and underflow) the step is taken in any case. An exact result is
 //! therefore kept, and `1 - u^2` does not fall below zero at `|u| = 1`.
 
 /// A rounded result with a number that has the sign of `exact - rounded`; NaN where the sign is not known.
@@ -59,7 +59,8 @@ pub(super) fn product(a: f64, b: f64) -> Rounded {
     if nearest == 0.0 {
         return Rounded::of_zero(nearest, false);
     }
-    Rounded { nearest, error: product_error(a, b, nearest) }
+    let excess = product_less(a, b, nearest);
+    Rounded { nearest, error: if nearest < 0.0 { -excess } else { excess } }
 }
 
 #[inline]
@@ -68,10 +69,8 @@ pub(super) fn quotient(a: f64, b: f64) -> Rounded {
     if nearest == 0.0 {
         return Rounded::of_zero(nearest, a == 0.0);
     }
-    // The remainder of a correctly rounded quotient is a double, and so is each step towards it.
-    let product = nearest * b;
-    let remainder = (a - product) - product_error(nearest, b, product);
-    Rounded { nearest, error: if b > 0.0 { remainder } else { -remainder } }
+    let excess = product_less(nearest, b, a);
+    Rounded { nearest, error: if nearest < 0.0 { excess } else { -excess } }
 }
 
 #[inline]
@@ -80,31 +79,24 @@ pub(super) fn square_root(a: f64) -> Rounded {
     if nearest == 0.0 {
         return Rounded { nearest: 0.0, error: 0.0 };
     }
-    let square = nearest * nearest;
-    Rounded { nearest, error: (a - square) - product_error(nearest, nearest, square) }
+    Rounded { nearest, error: -product_less(nearest, nearest, a) }
 }
 
-/// `a b - fl(a b)`, exact; NaN where a partial product could overflow or underflow.
+/// A number with the sign of `abs(a b) - abs(c)`, for a c so near `a b` that one is the other's rounding or that of a factor;
+/// NaN where one of the three is no normal number.
+///
+/// With significands of 53 bits as integers the difference is less than `2^62` in magnitude, so that its 64 last bits tell it.
 #[inline]
-fn product_error(a: f64, b: f64, product: f64) -> f64 {
-    /// Factors below it can be split without overflow.
-    const FACTOR_LIMIT: f64 = f64::from_bits((1023 + 990) << 52);
-    /// Products above it have an error whose last bit is a normal number.
-    const PRODUCT_LIMIT: f64 = f64::from_bits((1023 - 900) << 52);
-    let size = product.abs();
-    if !(size > PRODUCT_LIMIT && size < FACTOR_LIMIT && a.abs() < FACTOR_LIMIT && b.abs() < FACTOR_LIMIT) {
+fn product_less(a: f64, b: f64, c: f64) -> f64 {
+    let [a, b, c] = [a, b, c].map(f64::to_bits);
+    let exponent = |bits: u64| bits >> 52 & 0x7ff;
+    let significand = |bits: u64| bits & ((1 << 52) - 1) | 1 << 52;
+    // The exponents' biases cancel but for one.
+    let shift = exponent(c).wrapping_add(1075).wrapping_sub(exponent(a) + exponent(b));
+    let normal = |bits: u64| exponent(bits).wrapping_sub(1) < 2046;
+    // Another shift cannot be for such a c.
+    if !(normal(a) & normal(b) & normal(c) & (50..=54).contains(&shift)) {
         return f64::NAN;
     }
-    let (a_high, a_low) = split(a);
-    let (b_high, b_low) = split(b);
-    ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
-}
-
-/// A number as the sum of two of at most 26 significant bits, whose products are exact.
-#[inline]
-fn split(a: f64) -> (f64, f64) {
-    const SPLITTER: f64 = 134_217_729.0; // 2^27 + 1
-    let scaled = SPLITTER * a;
-    let high = scaled - (scaled - a);
-    (high, a - high)
+    significand(a).wrapping_mul(significand(b)).wrapping_sub(significand(c) << shift).cast_signed() as f64
 }
