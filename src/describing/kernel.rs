@@ -18,7 +18,7 @@ impl<T: Real> DescribingFunction<T> {
             Kernel::Line { slope } => Self { f0: sweep.bias(), p: T::one(), q: T::zero() } * slope,
             Kernel::Sign { at, level, branches } => Arc::above(at, sweep).sign().on(branches) * level,
             Kernel::Step { at, height, side, branches } => arc(at, sweep, side, Arc::step).on(branches) * height,
-            Kernel::Ramp { at, slope, side, branches } => arc(at, sweep, side, Arc::ramp).on(branches) * slope,
+            Kernel::Ramp { at, slope, side, branches } => ramp(at, side, branches, sweep) * slope,
             Kernel::Band { origin, lower, upper, slope } => band(origin, lower, upper, sweep) * slope,
         }
     }
@@ -54,7 +54,7 @@ fn arc<T: Real>(
     at: T,
     sweep: &Sinusoid<T>,
     side: Side,
-    kernel: fn(Arc<T>) -> DescribingFunction<T>,
+    kernel: impl FnOnce(Arc<T>) -> DescribingFunction<T>,
 ) -> DescribingFunction<T> {
     match side {
         Side::Above => kernel(Arc::above(at, sweep)),
@@ -137,14 +137,20 @@ impl<T: Real> Arc<T> {
         }
     }
 
-    /// `sin(phi) - phi cos(phi)` and `phi - sin(phi) cos(phi)` by way of `x - sin(x)`, which small arcs need.
-    pub(super) fn ramp(self) -> DescribingFunction<T> {
+    /// `sin(phi) - phi cos(phi)` and `phi - sin(phi) cos(phi)` by way of `x - sin(x)`, which small arcs need. The cosine
+    /// component only where the other branch does not take it away.
+    pub(super) fn ramp(self, branches: Branches) -> DescribingFunction<T> {
         let (phi, scale) = (self.phi(), half::<T>() * T::inverse_pi());
         let mean = phi * self.one_minus_u - phi.minus_sine(self.sine);
         DescribingFunction {
             f0: scale * self.amplitude * mean + half::<T>() * self.beyond,
             p: scale * half() * (phi + phi).minus_sine(T::two() * self.sine * self.u),
-            q: scale * self.one_minus_u.square() + constant(self.amplitude).q * self.beyond,
+            q: match branches {
+                Branches::Both => T::zero(),
+                Branches::Rising | Branches::Falling => {
+                    scale * self.one_minus_u.square() + constant(self.amplitude).q * self.beyond
+                }
+            },
         }
     }
 }
@@ -156,7 +162,7 @@ impl<T: Real> Arc<T> {
 #[inline]
 fn band<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
     let (bias, amplitude) = (sweep.bias(), sweep.amplitude());
-    let ramp = |at, side| ramp(at, side, sweep);
+    let ramp = |at, side| ramp(at, side, Branches::Both, sweep);
     let line = || DescribingFunction { p: T::one(), ..flat(bias - origin) };
     let components = |df: DescribingFunction<T>| [df.f0, df.p];
     let middle = || components(band_from_the_middle(origin, lower, upper, sweep));
@@ -171,10 +177,10 @@ fn band<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> Describi
     DescribingFunction { f0, p, q: T::zero() }
 }
 
-/// A unit ramp on both branches.
+/// A unit ramp.
 #[inline]
-fn ramp<T: Real>(at: T, side: Side, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
-    arc(at, sweep, side, Arc::ramp).on(Branches::Both)
+fn ramp<T: Real>(at: T, side: Side, branches: Branches, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
+    arc(at, sweep, side, |arc| arc.ramp(branches)).on(branches)
 }
 
 /// A band as its lower limit and a ramp from there, less a ramp from its upper limit.
@@ -185,7 +191,8 @@ pub(super) fn band_near_the_maximum<T: Real>(
     upper: T,
     sweep: &Sinusoid<T>,
 ) -> DescribingFunction<T> {
-    flat(lower - origin) + ramp(lower, Side::Above, sweep) - ramp(upper, Side::Above, sweep)
+    let ramp = |at| ramp(at, Side::Above, Branches::Both, sweep);
+    flat(lower - origin) + ramp(lower) - ramp(upper)
 }
 
 /// A band as the middle of its limits, and the rest from there.
@@ -206,18 +213,19 @@ fn from_the_middle<T: Real>(lower: T, upper: T, sweep: &Sinusoid<T>) -> Describi
     let (minimum, maximum) = (sweep.minimum(), sweep.maximum());
     let hold = |at: T| at.max(minimum).min(maximum);
     let cosine = |at: T| (at - minimum).max(T::zero()).sqrt() * (maximum - at).max(T::zero()).sqrt();
-    let overshoot = |at: T| half::<T>() * (at - maximum).max(minimum - at).max(T::zero());
+    let overshoot = |at: T| (at - maximum).max(minimum - at).max(T::zero());
     let (low, high) = (hold(lower), hold(upper));
-    let (sum, difference) = ((low + high) - T::two() * sweep.bias(), high - low);
+    let (sum, difference) = ((low + high) - (sweep.bias() + sweep.bias()), high - low);
     let cosines = cosine(low) + cosine(high);
     let (of_difference, of_sum) = (difference / cosines, sum / cosines);
     let (difference_squared, sum_squared) = (of_difference.square(), of_sum.square());
     let sine = of_difference * (T::one() - sum_squared) / ((T::one() + difference_squared) * (T::one() + sum_squared));
     let half_angle = of_difference.atan();
+    let share = T::inverse_pi() * (half_angle + sine);
     DescribingFunction {
-        f0: T::inverse_pi() * (sum * (of_difference - half_angle) - difference * of_sum.atan()) + overshoot(lower)
-            - overshoot(upper),
-        p: T::two() * T::inverse_pi() * (half_angle + sine),
+        f0: T::inverse_pi() * (sum * (of_difference - half_angle) - difference * of_sum.atan())
+            + half::<T>() * (overshoot(lower) - overshoot(upper)),
+        p: share + share,
         q: T::zero(),
     }
 }

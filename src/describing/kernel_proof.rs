@@ -9,7 +9,7 @@
 
 use super::DescribingFunction;
 use super::kernel::{Arc, band_from_the_middle, band_near_the_maximum, constant};
-use crate::nonlinearity::Sinusoid;
+use crate::nonlinearity::{Branches, Sinusoid};
 use crate::numeric::identity::{Series, cover, magnitude, prove_zero_of_two};
 use crate::numeric::{Interval, Real};
 
@@ -108,7 +108,7 @@ impl KernelForm {
         let half = T::from_f64(0.5);
         let DescribingFunction { f0, p, q } = match self {
             Self::Step => arc.step(),
-            Self::Ramp => arc.ramp(),
+            Self::Ramp => arc.ramp(Branches::Rising),
             Self::Sign => arc.sign(),
             // As a ramp on both branches would be; the straight parts cancel between the two ends of a band.
             Self::Band => DescribingFunction {

@@ -37,24 +37,23 @@ impl<T: Special> ClosedForm for Tanh<T> {
 /// `F_0` and `P` of `tanh(scale x)` by partial fractions.
 fn by_poles<T: Special>(scale: T, sweep: &Sinusoid<T>) -> (T, T) {
     let scaled = Scaled::new(scale, sweep);
-    let place = |n: f64, scaled: &Scaled<T>| Pole::new(T::pi() * T::from_f64(n), scaled);
-    let tail = f64::from(POLES);
-    let start = place(tail, &scaled);
-    let (mut mean, mut component) = (start.mean_beyond() / T::pi(), start.component_beyond() / T::pi());
+    let place = |n: f64| T::pi() * T::from_f64(n);
+    let c = place(f64::from(POLES));
+    let start = Pole::new(c, &scaled);
+    let (mut mean, mut component) = (T::inverse_pi() * start.mean_beyond(), T::inverse_pi() * start.component_beyond());
     for n in 0..POLES {
-        let pole = place(f64::from(n) + 0.5, &scaled);
+        let pole = Pole::new(place(f64::from(n) + 0.5), &scaled);
         (mean, component) = (mean + pole.mean(), component + pole.component().re);
     }
+    let four_bias = T::from_f64(4.0) * scaled.bias();
     for (node, weight) in RULE.map(|(node, weight)| (T::from_f64(node), T::from_f64(weight))) {
-        let (above, below) = (place(tail, &scaled.moved(node)), place(tail, &scaled.moved(-node)));
+        let (above, below) = (Pole::new(c, &scaled.moved(node)), Pole::new(c, &scaled.moved(-node)));
         // The difference of the real parts of 1/S, in which a small bias would cancel:
         // 4 i beta (c - i y)/(S_1 S_2 (S_1 + S_2)) with S_2 conjugate.
         let (a, b) = (above.root, below.root.conjugate());
         let product = a * b * (a + b);
         let size = product.re.square() + product.im.square();
-        let c = start.position.re;
-        let difference = T::from_f64(4.0) * scaled.bias() * (node * product.re + c * product.im) / size;
-        mean = mean + weight * difference;
+        mean = mean + weight * (four_bias * (node * product.re + c * product.im) / size);
         component = component + weight * (below.component().im - above.component().im);
     }
     (T::two() * mean.give_or_take(REST), T::from_f64(4.0) * scale * component.give_or_take(REST))

@@ -130,19 +130,25 @@ impl<T: Real, S: AsRef<[(T, T)]>> PiecewiseLinear for Polyline<T, S> {
     }
 
     /// Each segment is a band that counts from its end nearer the bias, so that a segment out of reach adds nothing and
-    /// takes no accuracy.
+    /// takes no accuracy. A level one is not reported.
     fn kernels(&self, sweep: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         let points = self.points();
         let (Some(&first), Some(&last)) = (points.first(), points.last()) else { return };
         let middle = sweep.bias().bounds().0;
         let anchor = points.iter().rev().find(|point| point.0.bounds().0 <= middle).unwrap_or(&first);
         report(Kernel::constant(anchor.1));
-        report(Kernel::ramp_below(first.0, -self.left_slope));
-        report(Kernel::ramp_above(last.0, self.right_slope));
+        if !self.left_slope.vanishes() {
+            report(Kernel::ramp_below(first.0, -self.left_slope));
+        }
+        if !self.right_slope.vanishes() {
+            report(Kernel::ramp_above(last.0, self.right_slope));
+        }
         for pair in points.windows(2) {
             let slope = slope(pair[0], pair[1]);
-            let nearer = if pair[0].0.bounds().0 < anchor.0.bounds().0 { pair[1].0 } else { pair[0].0 };
-            report(Kernel::Band { origin: nearer, lower: pair[0].0, upper: pair[1].0, slope });
+            if !slope.vanishes() {
+                let nearer = if pair[0].0.bounds().0 < anchor.0.bounds().0 { pair[1].0 } else { pair[0].0 };
+                report(Kernel::Band { origin: nearer, lower: pair[0].0, upper: pair[1].0, slope });
+            }
         }
     }
 }

@@ -332,7 +332,9 @@ impl Mul for Interval {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
-        if self.is_entire() || other.is_entire() {
+        if self.lo >= 0.0 && other.lo >= 0.0 {
+            Self { lo: product(self.lo, other.lo).down(), hi: product(self.hi, other.hi).up() }
+        } else if self.is_entire() || other.is_entire() {
             Self::ENTIRE
         } else if self.lo >= 0.0 {
             self.nonnegative_times(other)

@@ -27,6 +27,11 @@ pub trait Real:
     /// Lower and upper bound as f64: both the value itself for a point arithmetic, the real part for a dual number.
     fn bounds(self) -> (f64, f64);
 
+    /// Whether this is zero with all its derivatives, so that nothing it multiplies need be computed; `false` says nothing.
+    #[inline]
+    fn vanishes(self) -> bool {
+        false
+    }
     /// Absolute value.
     fn abs(self) -> Self;
     /// The smaller of two numbers.
@@ -195,6 +200,10 @@ macro_rules! float {
             #[inline]
             fn bounds(self) -> (f64, f64) {
                 (f64::from(self), f64::from(self))
+            }
+            #[inline]
+            fn vanishes(self) -> bool {
+                self == 0.0
             }
             #[inline]
             fn abs(self) -> Self {

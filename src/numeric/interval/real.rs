@@ -31,6 +31,10 @@ impl Real for Interval {
     fn bounds(self) -> (f64, f64) {
         (self.lo, self.hi)
     }
+    #[inline]
+    fn vanishes(self) -> bool {
+        self == Self::ZERO
+    }
     fn abs(self) -> Self {
         if self.is_entire() || self.lo >= 0.0 {
             self

@@ -5,38 +5,53 @@
 //! on which side; where it cannot (near overflow and underflow) the step is taken in any case. An exact result is
 //! therefore kept, and `1 - u^2` does not fall below zero at `|u| = 1`.
 
-/// A rounded result with a number that has the sign of `exact - rounded`; NaN where the sign is not known.
+/// A rounded result, and whether the exact one may lie above or below it.
 #[derive(Clone, Copy)]
 pub(super) struct Rounded {
     nearest: f64,
-    error: f64,
+    above: bool,
+    below: bool,
 }
 
 impl Rounded {
+    #[inline]
+    fn exact(nearest: f64) -> Self {
+        Self { nearest, above: false, below: false }
+    }
+
+    /// Zero, for a result that is not: it has that sign.
+    #[inline]
+    fn underflow(nearest: f64) -> Self {
+        Self { nearest, above: nearest.is_sign_positive(), below: nearest.is_sign_negative() }
+    }
+
+    /// From an integer with the sign of `abs(exact) - abs(nearest)`.
+    #[inline]
+    fn by_excess(nearest: f64, excess: Option<i64>) -> Self {
+        match excess {
+            Some(excess) => {
+                let error = if nearest < 0.0 { -excess } else { excess };
+                Self { nearest, above: error > 0, below: error < 0 }
+            }
+            None => Self { nearest, above: true, below: true },
+        }
+    }
+
     /// The largest number known not to lie above the exact result.
     #[inline]
     pub(super) fn down(self) -> f64 {
-        // As f64::next_down, but free of branches, as the error's sign is not to be foreseen. A zero is taken as negative,
-        // and the lower infinity stays.
-        let bits = match self.nearest.to_bits() {
-            0 => 1 << 63,
-            bits => bits,
-        };
-        let outward = if bits >> 63 == 0 { u64::MAX } else { 1 };
-        let stay = (self.error >= 0.0) | (self.nearest == f64::NEG_INFINITY);
-        f64::from_bits(bits.wrapping_add(if stay { 0 } else { outward }))
+        // As f64::next_down, but free of branches, as roundings are not to be foreseen. A zero with anything below it is
+        // negative, and the lower infinity stays.
+        let bits = self.nearest.to_bits();
+        let outward = if self.nearest.is_sign_negative() { 1 } else { u64::MAX };
+        let step = self.below & (self.nearest > f64::NEG_INFINITY);
+        f64::from_bits(bits.wrapping_add(if step { outward } else { 0 }))
     }
 
     /// The smallest number known not to lie below the exact result.
     #[inline]
     pub(super) fn up(self) -> f64 {
-        -Self { nearest: -self.nearest, error: -self.error }.down()
-    }
-
-    /// A result that underflowed to zero or is zero: its sign bit is the sign of the exact result.
-    #[inline]
-    fn of_zero(nearest: f64, exact: bool) -> Self {
-        Self { nearest, error: if exact { 0.0 } else { 1_f64.copysign(nearest) } }
+        -Self { nearest: -self.nearest, above: self.below, below: self.above }.down()
     }
 }
 
@@ -46,57 +61,52 @@ pub(super) fn sum(a: f64, b: f64) -> Rounded {
     let b_part = nearest - a;
     // An overflow makes an infinite difference here, hence NaN: the step is taken.
     let error = (a - (nearest - b_part)) + (b - b_part);
-    Rounded { nearest, error }
+    Rounded { nearest, above: !(error <= 0.0), below: !(error >= 0.0) }
 }
 
 /// With `0 * inf = 0`, as bounds of a set of real numbers need it.
 #[inline]
 pub(super) fn product(a: f64, b: f64) -> Rounded {
     if a == 0.0 || b == 0.0 {
-        return Rounded { nearest: 0.0, error: 0.0 };
+        return Rounded::exact(0.0);
     }
     let nearest = a * b;
-    if nearest == 0.0 {
-        return Rounded::of_zero(nearest, false);
-    }
-    let excess = product_less(a, b, nearest);
-    Rounded { nearest, error: if nearest < 0.0 { -excess } else { excess } }
+    if nearest == 0.0 { Rounded::underflow(nearest) } else { Rounded::by_excess(nearest, product_less(a, b, nearest)) }
 }
 
 #[inline]
 pub(super) fn quotient(a: f64, b: f64) -> Rounded {
     let nearest = a / b;
     if nearest == 0.0 {
-        return Rounded::of_zero(nearest, a == 0.0);
+        return if a == 0.0 { Rounded::exact(nearest) } else { Rounded::underflow(nearest) };
     }
-    let excess = product_less(nearest, b, a);
-    Rounded { nearest, error: if nearest < 0.0 { excess } else { -excess } }
+    Rounded::by_excess(nearest, product_less(nearest, b, a).map(i64::wrapping_neg))
 }
 
 #[inline]
 pub(super) fn square_root(a: f64) -> Rounded {
     let nearest = libm::sqrt(a);
     if nearest == 0.0 {
-        return Rounded { nearest: 0.0, error: 0.0 };
+        return Rounded::exact(0.0);
     }
-    Rounded { nearest, error: -product_less(nearest, nearest, a) }
+    Rounded::by_excess(nearest, product_less(nearest, nearest, a).map(i64::wrapping_neg))
 }
 
-/// A number with the sign of `abs(a b) - abs(c)`, for a c so near `a b` that one is the other's rounding or that of a factor;
-/// NaN where one of the three is no normal number.
+/// `abs(a b) - abs(c)` in units of its own, for a c that is `a b` rounded, or of which `a` is the rounded quotient or root;
+/// `None` where one of the three is no normal number.
 ///
-/// With significands of 53 bits as integers the difference is less than `2^62` in magnitude, so that its 64 last bits tell it.
+/// With significands of 53 bits as integers, the difference is below `2^62` in magnitude, so that its last 64 bits tell it.
 #[inline]
-fn product_less(a: f64, b: f64, c: f64) -> f64 {
+fn product_less(a: f64, b: f64, c: f64) -> Option<i64> {
     let [a, b, c] = [a, b, c].map(f64::to_bits);
     let exponent = |bits: u64| bits >> 52 & 0x7ff;
     let significand = |bits: u64| bits & ((1 << 52) - 1) | 1 << 52;
-    // The exponents' biases cancel but for one.
-    let shift = exponent(c).wrapping_add(1075).wrapping_sub(exponent(a) + exponent(b));
     let normal = |bits: u64| exponent(bits).wrapping_sub(1) < 2046;
-    // Another shift cannot be for such a c.
-    if !(normal(a) & normal(b) & normal(c) & (50..=54).contains(&shift)) {
-        return f64::NAN;
+    if !(normal(a) & normal(b) & normal(c)) {
+        return None;
     }
-    significand(a).wrapping_mul(significand(b)).wrapping_sub(significand(c) << shift).cast_signed() as f64
+    // 52 or 53: the exponents' biases cancel but for one.
+    let shift = (exponent(c) + 1075).wrapping_sub(exponent(a) + exponent(b));
+    let product = significand(a).wrapping_mul(significand(b));
+    Some(product.wrapping_sub(significand(c) << (shift & 63)).cast_signed())
 }
