@@ -75,6 +75,14 @@ pub(super) enum CommandError {
         /// What the system says.
         source: std::io::Error,
     },
+    /// A proof that cannot be opened.
+    #[error("cannot read {}: {source}; write the proofs with `selfosc verify --certificates DIR`", path.display())]
+    Certificate {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
     /// An id that no claim has.
     #[error("there is no claim `{id}`; the claims are: {known}")]
     UnknownClaim {

@@ -5,6 +5,7 @@
 
 mod axis;
 mod balance;
+mod certificates;
 mod df;
 mod error;
 mod identify;

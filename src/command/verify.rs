@@ -1,15 +1,13 @@
 //! `selfosc verify`: the claims, checked.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::{Value, json};
 
-use super::{CommandError, Outcome, write_json};
-use crate::claims::orbit_proofs::THEOREMS;
+use super::{CommandError, Outcome, certificates, write_json};
 use crate::claims::{Budget, CLAIMS, Claim, Evidence, Finding, Verdict};
-use crate::numeric::inequality::Proofs;
 
 /// Checks every claim of the theory, as printed and as corrected, and says on what evidence.
 ///
@@ -21,6 +19,8 @@ use crate::numeric::inequality::Proofs;
 Examples:
   selfosc verify
   selfosc verify --claim lemma-1 --claim lemma-2 --cases 100000 --seed 7
+  selfosc verify --certificates proofs
+  selfosc verify --check proofs
   selfosc verify --json")]
 pub(super) struct Arguments {
     /// Only this claim; repeat or list several
@@ -35,6 +35,9 @@ pub(super) struct Arguments {
     /// Writes the proofs of the orbit theorems to this folder, one file a theorem, with every box
     #[arg(long, value_name = "DIR")]
     certificates: Option<PathBuf>,
+    /// Checks such files, without searching for anything, in place of the claims
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["claims", "cases", "seed", "certificates", "json"])]
+    check: Option<PathBuf>,
     /// Prints one JSON document
     #[arg(long)]
     json: bool,
@@ -49,9 +52,12 @@ fn cases(text: &str) -> Result<usize, String> {
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
+    if let Some(folder) = &arguments.check {
+        return certificates::check(folder, output);
+    }
     let chosen = chosen(&arguments.claims)?;
     if let Some(folder) = &arguments.certificates {
-        write_certificates(folder)?;
+        certificates::write(folder)?;
     }
     let budget = Budget { cases: arguments.cases, seed: arguments.seed };
     let findings: Vec<(&Claim, Finding)> = chosen.into_iter().map(|claim| (claim, claim.check(budget))).collect();
@@ -62,22 +68,6 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     }
     let expected = findings.iter().all(|(_, finding)| finding.expected);
     Ok(if expected { Outcome::Done } else { Outcome::No })
-}
-
-/// One file `ID.proof` for each theorem that is proved.
-fn write_certificates(folder: &Path) -> Result<(), CommandError> {
-    let fault = |path: &Path| {
-        let path = path.to_owned();
-        |source| CommandError::Write { path, source }
-    };
-    std::fs::create_dir_all(folder).map_err(fault(folder))?;
-    for theorem in THEOREMS {
-        if let Ok(proofs) = theorem.prove() {
-            let path = folder.join(theorem.id).with_extension("proof");
-            std::fs::write(&path, Proofs(proofs).to_string()).map_err(fault(&path))?;
-        }
-    }
-    Ok(())
 }
 
 fn chosen(ids: &[String]) -> Result<Vec<&'static Claim>, CommandError> {

@@ -108,6 +108,12 @@ pub enum Refusal {
         /// What should be.
         expected: &'static str,
     },
+    /// No proof of what should be proved.
+    #[error("there is no proof of `{inequality}`")]
+    Missing {
+        /// What should be.
+        inequality: &'static str,
+    },
     /// A proof on another domain.
     #[error("the domain is not that of `{inequality}`")]
     Domain {

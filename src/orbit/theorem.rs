@@ -5,7 +5,7 @@
 //! that does not vanish, enclosed from the border on; so the open domain is covered, the neighbourhood of its border too.
 
 use super::closed_form::{force_left, quadratic_half_cycle, return_slope};
-use crate::numeric::inequality::{Cell, Inequality, Proof, Search, Side};
+use crate::numeric::inequality::{Cell, Inequality, Proof, Refusal, Search, Side};
 use crate::numeric::{Gradient, Interval, Jet, Real};
 
 /// A statement with the inequalities that it rests on.
@@ -33,6 +33,27 @@ impl Theorem {
             other => Err((*inequality, other)),
         };
         self.inequalities.iter().map(prove).collect()
+    }
+
+    /// Whether `proofs` show every inequality: by [`Inequality::check`], which searches nothing. Proofs of other inequalities
+    /// do not matter.
+    ///
+    /// ```
+    /// use selfosc::orbit::theorem::QUADRATIC;
+    /// let mut proofs = QUADRATIC.prove().map_err(|(inequality, _)| inequality.id)?;
+    /// assert!(QUADRATIC.check(&proofs).is_ok());
+    /// proofs.pop();
+    /// assert!(QUADRATIC.check(&proofs).is_err());
+    /// # Ok::<(), &str>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The first [`Refusal`].
+    pub fn check(&self, proofs: &[Proof]) -> Result<(), Refusal> {
+        self.inequalities.iter().try_for_each(|inequality| {
+            let found = proofs.iter().find(|proof| proof.inequality == inequality.id);
+            inequality.check(found.ok_or(Refusal::Missing { inequality: inequality.id })?)
+        })
     }
 }
 

@@ -54,6 +54,30 @@ fn verify() {
 const RELAY: [&str; 4] = ["df", "relay-hysteresis", "--set", "half_width=0.3"];
 const AXIS: [&str; 7] = ["predict", "--alpha", "1", "--beta", "1", "--relay", "1"];
 
+/// Written, read again, and refused with one box gone.
+#[test]
+fn certificates() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    done(&["verify", "--claim", "lemma-1", "--cases", "1", "--certificates", path]);
+    golden!("certificates", done(&["verify", "--check", path]));
+
+    let file = folder.path().join("orbit-linear.proof");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let last = text.trim_end().rfind('\n').unwrap();
+    std::fs::write(&file, &text[..=last]).unwrap();
+    let (status, answer, complaint) = output(&["verify", "--check", path]);
+    assert_eq!((status, complaint.as_str()), (Some(1), ""));
+    let refused: Vec<_> = answer.lines().filter(|line| line.contains("refused")).collect();
+    assert_eq!(refused.len(), 1, "{answer}");
+    assert!(refused[0].starts_with("orbit-linear ") && refused[0].contains("do not make up the domain"), "{refused:?}");
+
+    std::fs::remove_file(&file).unwrap();
+    let (status, _, complaint) = output(&["verify", "--check", path]);
+    assert_eq!(status, Some(2));
+    assert!(complaint.contains("orbit-linear.proof") && complaint.contains("--certificates"), "{complaint}");
+}
+
 fn with(first: &[&'static str], rest: &[&'static str]) -> Vec<&'static str> {
     first.iter().chain(rest).copied().collect()
 }
