@@ -1,7 +1,6 @@
 //! Power laws: the closed form is the integral, for every exponent and every bias.
 
 use super::claim::claim;
-use super::proof::{TOLERANCE, undecided};
 use super::{Budget, Case, Evidence, Printed, Verdict, sample, tolerance};
 use crate::describing::{ClosedForm, by_quadrature, certified};
 use crate::nonlinearity::{Power, Sinusoid};
@@ -49,15 +48,15 @@ const EXPONENTS: [f64; 9] = [0.0, 0.5, 1.0, 1.5, 1.7, 2.0, 2.5, 3.0, 8.5];
 #[must_use]
 pub fn power_law(factor: f64) -> Verdict {
     if !identities_hold() {
-        return undecided("identities of polynomials");
+        return Verdict::undecided("identities of polynomials");
     }
     let (mut bound, mut boxes) = (0.0_f64, 0);
     for exponent in EXPONENTS {
-        let Ok(error) = Law { exponent, factor }.error(&mut boxes) else { return undecided("quadrature") };
+        let Ok(error) = Law { exponent, factor }.error(&mut boxes) else { return Verdict::undecided("quadrature") };
         bound = bound.max(error);
     }
-    if bound > TOLERANCE {
-        return undecided("quadrature at four biases");
+    if bound > tolerance::PROOF {
+        return Verdict::undecided("quadrature at four biases");
     }
     let domain = "every bias; exponents 0, 1/2, 1, 3/2, 1.7, 2, 5/2, 3, 8.5; relative to the largest output";
     Verdict::Holds(Evidence::Proved { domain: domain.to_owned(), bound, boxes })

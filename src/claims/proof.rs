@@ -7,7 +7,7 @@ use std::array;
 use std::sync::LazyLock;
 
 use super::single::Single;
-use super::{Evidence, Verdict, power_law, smooth};
+use super::{Evidence, Verdict, power_law, smooth, tolerance};
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm, KernelProof, prove_band_from_the_middle};
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity, parameters};
 use crate::nonlinearity::{Branches, Kernel, Polynomial, RelayHysteresis, Sinusoid};
@@ -51,38 +51,32 @@ pub const PROOFS: &[(&str, Proof)] = &[
     ("zig-zag", zig_zag),
 ];
 
-/// Bound asked of an identity between numbers of order one.
-pub(super) const TOLERANCE: f64 = 1e-10;
 /// Cells of an identity of one variable.
 const CELLS: usize = 5000;
 
-pub(super) fn undecided(spent: &str) -> Verdict {
-    Verdict::Undecided { spent: spent.to_owned() }
-}
-
 /// That functions of one variable vanish from `from` to `to`, described by `domain`.
 fn identity<const M: usize>(domain: &str, [from, to]: [f64; 2], f: impl Fn(Series) -> [Series; M]) -> Verdict {
-    match prove_zero(f, from, to, TOLERANCE, CELLS) {
+    match prove_zero(f, from, to, tolerance::PROOF, CELLS) {
         Some(proved) => {
             let domain = format!("{domain} in [{from}, {to}]");
             Verdict::Holds(Evidence::Proved { domain, bound: proved.bound, boxes: proved.cells })
         }
-        None => undecided("an identity of one variable, 5000 cells"),
+        None => Verdict::undecided("an identity of one variable, 5000 cells"),
     }
 }
 
 /// That each number enclosed is zero to the tolerance.
 fn zeros(domain: &str, numbers: &[Interval], boxes: usize) -> Verdict {
     let bound = numbers.iter().map(|number| number.magnitude()).fold(0.0, f64::max);
-    if bound <= TOLERANCE {
+    if bound <= tolerance::PROOF {
         Verdict::Holds(Evidence::Proved { domain: domain.to_owned(), bound, boxes })
     } else {
-        undecided("one enclosure")
+        Verdict::undecided("one enclosure")
     }
 }
 
 /// A value that proves nothing, where a domain was left.
-pub(super) fn unknown<T: Real>() -> T {
+fn unknown<T: Real>() -> T {
     T::from_f64(f64::NAN)
 }
 
@@ -106,7 +100,7 @@ fn kernel(form: KernelForm, factor: f64, domain: &str) -> Verdict {
         Some(KernelProof { bound, cells }) => {
             Verdict::Holds(Evidence::Proved { domain: domain.to_owned(), bound, boxes: cells })
         }
-        None => undecided("60000 cells at most"),
+        None => Verdict::undecided("60000 cells at most"),
     }
 }
 
@@ -139,7 +133,7 @@ pub fn kernel_band(factor: f64) -> Verdict {
             bound,
             boxes: cells,
         }),
-        None => undecided("60000 cells for two ratios"),
+        None => Verdict::undecided("60000 cells for two ratios"),
     };
     kernel(KernelForm::Band, factor, "each end u in [-1, 1], mean and sine component").and(rearranged)
 }
@@ -164,7 +158,7 @@ pub fn describing_function(factor: f64) -> Verdict {
         .map(|form| kernel(form, factor, domain))
         .into_iter()
         .reduce(|all, next| all.and(|| next))
-        .unwrap_or_else(|| undecided("nothing"))
+        .unwrap_or_else(|| Verdict::undecided("nothing"))
 }
 
 /// Powers up to the ninth. The mean over twelve equally spaced angles is the mean over the circle for every trigonometric
@@ -274,11 +268,7 @@ pub fn quadratic_drag(factor: f64) -> Verdict {
 fn relay(level: Series, half_width: Series, bias: Series) -> DescribingFunction<Series> {
     let relay = RelayHysteresis::new(level, half_width, Series::zero());
     let df = relay.and_then(|relay| Ok((relay, Sinusoid::new(bias, Series::one())?)));
-    df.ok().and_then(|(relay, sweep)| relay.describing_function(&sweep).ok()).unwrap_or(DescribingFunction {
-        f0: unknown(),
-        p: unknown(),
-        q: unknown(),
-    })
+    df.ok().and_then(|(relay, sweep)| relay.describing_function(&sweep).ok()).unwrap_or_else(no_function)
 }
 
 /// The biases, over the amplitude, at which a whole formula is compared with the code in the half-width.
@@ -448,7 +438,7 @@ pub fn quantisation_zero(factor: f64) -> Verdict {
                 bound: 0.0,
                 boxes,
             }),
-            _ => undecided("20000 boxes"),
+            _ => Verdict::undecided("20000 boxes"),
         }
     };
     zeros("unbiased, no delay, X/x_a = sqrt(2)", &[slope(zero)], 1)

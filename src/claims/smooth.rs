@@ -4,15 +4,13 @@
 //! the real axis; the closed form less that finite sum vanishes, as an identity of two variables.
 
 use super::claim::claim;
-use super::proof::{undecided, unknown};
 use super::{Budget, Case, Evidence, Printed, Verdict, sample, tolerance};
 use crate::describing::{ClosedForm, by_quadrature};
 use crate::nonlinearity::{Arctan, Branch, NonlinearityError, Sine, Sinh, Sinusoid, Tanh};
 use crate::numeric::identity::{Series, prove_zero_of_two};
 use crate::numeric::{Interval, Real};
 
-/// Bound asked of the closed form less the finite mean, and of the finite mean less the integral.
-const TOLERANCE: f64 = 1e-10;
+/// Bound asked of the finite mean less the integral.
 const RULE: f64 = 1e-13;
 const CELLS: usize = 3000;
 
@@ -36,7 +34,7 @@ fn error<T: Real>(
     factor: f64,
 ) -> [T; 2] {
     let closed = Sinusoid::new(bias, amplitude).map(|sweep| (sweep, characteristic.describing_function(&sweep)));
-    let Ok((sweep, Ok(closed))) = closed else { return [unknown(); 2] };
+    let Ok((sweep, Ok(closed))) = closed else { return [T::from_f64(f64::NAN); 2] };
     let (mut mean, mut component) = (T::zero(), T::zero());
     for cosine in cosines.iter().map(|&cosine| number(cosine)) {
         let output = characteristic.output(bias + amplitude * cosine, Branch::Rising, &sweep);
@@ -61,13 +59,13 @@ impl<V: ClosedForm<Number = Interval>, S: ClosedForm<Number = Series>> Smooth<V,
     fn prove(&self, factor: f64, domain: [[f64; 2]; 2]) -> Verdict {
         let nodes = (1..200).find(|&nodes| self.rule_error(nodes, domain).upper() < RULE);
         let (Some(nodes), Ok(values), Ok(series), true) = (nodes, &self.values, &self.series, roots_agree()) else {
-            return undecided("means over 400 angles");
+            return Verdict::undecided("means over 400 angles");
         };
         let angle = |k: usize| Interval::PI * Interval::point(k as f64 + 0.5) / Interval::point(nodes as f64);
         let cosines: Vec<Interval> = (0..nodes).map(|k| angle(k).cos()).collect();
         let values = |bias, amplitude| error(values, &cosines, |number| number, [bias, amplitude], factor);
         let series = |bias, amplitude| error(series, &cosines, Series::constant, [bias, amplitude], factor);
-        match prove_zero_of_two(values, series, domain, TOLERANCE, CELLS) {
+        match prove_zero_of_two(values, series, domain, tolerance::PROOF, CELLS) {
             Some(proved) => {
                 let [bias, amplitude] = domain;
                 Verdict::Holds(Evidence::Proved {
@@ -79,7 +77,7 @@ impl<V: ClosedForm<Number = Interval>, S: ClosedForm<Number = Series>> Smooth<V,
                     boxes: proved.cells,
                 })
             }
-            None => undecided("an identity of two variables, 3000 cells"),
+            None => Verdict::undecided("an identity of two variables, 3000 cells"),
         }
     }
 }

@@ -1,5 +1,7 @@
-//! The tolerances of the sampled checks: each the smallest that its reason allows, relative to the scale of the quantity.
+//! The tolerances of the checks: each the smallest that its reason allows, relative to the scale of the quantity.
 
+/// Bound asked of a proof that numbers of order one are equal: what remainders of Taylor's series leave at little cost.
+pub const PROOF: f64 = 1e-10;
 /// Closed form against quadrature: the quadrature stops at 1e-13 of the integrand on each of at most a dozen pieces.
 pub const QUADRATURE: f64 = 2e-12;
 /// Two closed forms of one number: a few roundings of inverse sines and square roots.

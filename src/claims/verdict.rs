@@ -97,6 +97,11 @@ fn short(value: f64) -> String {
 }
 
 impl Verdict {
+    /// The budget ran out.
+    pub(super) fn undecided(spent: &str) -> Self {
+        Self::Undecided { spent: spent.to_owned() }
+    }
+
     /// One word, as the command prints it.
     #[must_use]
     pub fn word(&self) -> &'static str {

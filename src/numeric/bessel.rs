@@ -4,7 +4,6 @@
 
 use core::array;
 
-use super::special::Special;
 use super::{Interval, Real};
 
 /// From where on Hankel's expansions serve, whose smallest term is about `exp(-2 x)`: above, rounding prevails for J, and the
@@ -26,7 +25,7 @@ fn magnitude<T: Real>(x: T) -> f64 {
 
 /// `sum_k z^k/(k! (n + k)!)` for `n = 0` and `n = 1`, z finite: `[J_0(x), J_1(x) 2/x]` for `z = -x^2/4`, I for `x^2/4`. Every
 /// ratio of terms is below one half when the sums end, so the rest is below the last term.
-fn power_series<T: Special>(z: T) -> [T; 2] {
+fn power_series<T: Real>(z: T) -> [T; 2] {
     let size = magnitude(z);
     let (mut zeroth, mut first, mut term, mut k) = (T::one(), T::one(), T::one(), 0.0);
     loop {
@@ -63,7 +62,7 @@ fn alternating<T: Real>(terms: &[T], first: usize, step: usize) -> T {
 
 /// `exp(-x) [I_0(x), I_1(x)]` for `x >= 20`. For the rest: DLMF 10.34.2, 10.40.11 with `2 chi(26) exp(3 chi(1)/(4 x)) < 15`,
 /// and `2 exp(-2 x)` of the other exponential.
-fn large_i<T: Special>(x: T) -> [T; 2] {
+fn large_i<T: Real>(x: T) -> [T; 2] {
     let root = (T::two() * T::pi() * x).sqrt();
     [0.0, 1.0].map(|order| {
         let terms = hankel_terms(order, x);

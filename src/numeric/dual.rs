@@ -39,6 +39,9 @@ macro_rules! dual {
             ) -> [Self; M] {
                 if self.re > 0.0 { above() } else { below() }
             }
+            fn give_or_take(self, _: f64) -> Self {
+                self
+            }
             fn minus_sine(self, sine: Self) -> Self {
                 super::real::minus_sine(self, sine)
             }

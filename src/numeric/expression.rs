@@ -114,6 +114,9 @@ macro_rules! functions {
                     }
                 }
             }
+            fn give_or_take(self, _: f64) -> Self {
+                self
+            }
             fn minus_sine(self, sine: Self) -> Self {
                 self - sine
             }

@@ -171,6 +171,9 @@ impl<const N: usize> Real for Gradient<N> {
             }
         }
     }
+    fn give_or_take(self, error: f64) -> Self {
+        Self { value: self.value.give_or_take(error), ..self }
+    }
     fn minus_sine(self, sine: Self) -> Self {
         self.combine(sine, self.value.minus_sine(sine.value), Sub::sub)
     }

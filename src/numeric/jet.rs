@@ -350,6 +350,10 @@ impl<const N: usize> Real for Jet<N> {
             }
         }
     }
+    fn give_or_take(mut self, error: f64) -> Self {
+        self.coefficients[0] = self.coefficients[0].give_or_take(error);
+        self
+    }
     fn minus_sine(self, sine: Self) -> Self {
         let mut difference = self - sine;
         difference.coefficients[0] = self.value().minus_sine(sine.value());

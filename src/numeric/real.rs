@@ -90,6 +90,10 @@ pub trait Real:
     ) -> [Self; N] {
         self.select_all(below, above)
     }
+    /// This number, known but for an error of at most that magnitude: an enclosure contains what it may be, floats go on.
+    /// Of a jet or gradient the value alone is widened: it bounds every function that near the one with these derivatives.
+    #[must_use]
+    fn give_or_take(self, error: f64) -> Self;
     /// `self - sin(self)` for `self >= 0` without cancellation near zero, given `sine = sin(self)` found some other way.
     fn minus_sine(self, sine: Self) -> Self;
 
@@ -160,6 +164,13 @@ pub trait Scalar: Real + PartialOrd {
     }
 }
 
+/// A function known at the real part of `x` by value and slope, carried over to the arithmetic of `x`: a float gets the
+/// value, a dual number of first order its derivatives. An infinite slope becomes the largest number.
+pub(super) fn lift<T: Scalar>(x: T, value: f64, slope: f64) -> T {
+    let slope = slope.clamp(-f64::MAX, f64::MAX);
+    T::from_f64(value) + T::from_f64(slope) * (x - T::from_f64(x.value()))
+}
+
 /// `x - sin x`: the series below one, where the difference cancels; its first term left out is below 2e-17 of the sum.
 #[inline]
 pub(super) fn minus_sine<S: Scalar>(x: S, sine: S) -> S {
@@ -228,6 +239,10 @@ macro_rules! float {
                 above: impl FnOnce() -> [Self; N],
             ) -> [Self; N] {
                 if self > 0.0 { above() } else { below() }
+            }
+            #[inline]
+            fn give_or_take(self, _: f64) -> Self {
+                self
             }
             #[inline]
             fn minus_sine(self, sine: Self) -> Self {

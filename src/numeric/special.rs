@@ -1,6 +1,7 @@
 //! Special functions of the smooth catalogue, in every arithmetic: values to a few units in the last place, or enclosures.
 
 use super::power::{self, PowerMoments};
+use super::real::lift;
 use super::{Interval, Jet, Real, Scalar, bessel};
 
 /// An arithmetic that has the special functions that the describing functions of smooth characteristics are made of.
@@ -16,10 +17,6 @@ use super::{Interval, Jet, Real, Scalar, bessel};
 /// assert!(enclosed.contains(j0) && enclosed.width() < 1e-14);
 /// ```
 pub trait Special: Real {
-    /// This number, known but for an error of at most that magnitude: an enclosure contains what it may be, floats go on.
-    /// Of a jet the value alone is widened: it bounds every function that near the one with these derivatives.
-    #[must_use]
-    fn give_or_take(self, error: f64) -> Self;
     /// `[J_0(x), J_1(x)]`, domain `x >= 0`. An enclosure's width grows to 1e-11 about `x = 14`.
     fn bessel_j(self) -> [Self; 2];
     /// `exp(-x) [I_0(x), I_1(x)]`, domain `x >= 0`: they neither overflow nor vanish.
@@ -29,23 +26,12 @@ pub trait Special: Real {
     fn power_moments(law: &PowerMoments, bias: Self, amplitude: Self) -> [Self; 2];
 }
 
-/// A function known at the real part of `x` by value and slope, carried over to the arithmetic of `x`: a float gets the
-/// value, a dual number of first order its derivatives. An infinite slope becomes the largest number.
-pub(crate) fn lift<T: Scalar>(x: T, value: f64, slope: f64) -> T {
-    let slope = slope.clamp(-f64::MAX, f64::MAX);
-    T::from_f64(value) + T::from_f64(slope) * (x - T::from_f64(x.value()))
-}
-
 /// `f(x)/x` for an odd f with `f'(0) = 1/2`.
 fn odd_over(first: f64, x: f64) -> f64 {
     if x == 0.0 { 0.5 } else { first / x }
 }
 
 impl<T: Scalar> Special for T {
-    #[inline]
-    fn give_or_take(self, _: f64) -> Self {
-        self
-    }
     fn bessel_j(self) -> [Self; 2] {
         let x = self.value();
         let (zeroth, first) = (libm::j0(x), libm::j1(x));
@@ -62,9 +48,6 @@ impl<T: Scalar> Special for T {
 }
 
 impl Special for Interval {
-    fn give_or_take(self, error: f64) -> Self {
-        self + Self::symmetric(error)
-    }
     fn bessel_j(self) -> [Self; 2] {
         bessel::enclosed_j(self)
     }
@@ -77,9 +60,6 @@ impl Special for Interval {
 }
 
 impl<const N: usize> Special for Jet<N> {
-    fn give_or_take(self, error: f64) -> Self {
-        self + Self::constant(Interval::symmetric(error))
-    }
     fn bessel_j(self) -> [Self; 2] {
         self.bessel(self.value().bessel_j(), |zeroth, first, quotient| [-first, zeroth - quotient])
     }

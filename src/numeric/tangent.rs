@@ -181,6 +181,10 @@ impl<const N: usize> Real for Tangent<N> {
     ) -> [Self; M] {
         if self.value > 0.0 { above() } else { below() }
     }
+    #[inline]
+    fn give_or_take(self, _: f64) -> Self {
+        self
+    }
     fn minus_sine(self, sine: Self) -> Self {
         super::real::minus_sine(self, sine)
     }

@@ -103,6 +103,9 @@ impl Real for Interval {
             core::array::from_fn(|k| below[k].hull(above[k]))
         }
     }
+    fn give_or_take(self, error: f64) -> Self {
+        self + Self::symmetric(error)
+    }
     fn minus_sine(self, sine: Self) -> Self {
         let difference = self - sine;
         if difference.is_entire() {

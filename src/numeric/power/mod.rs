@@ -13,7 +13,7 @@ pub(crate) use series::{analytic_step, paired_step, step};
 
 use series::{Known, Moments};
 
-use super::special::{Special, lift};
+use super::real::lift;
 use super::{Interval, Jet, Real, Scalar};
 
 /// An exponent, with what the series need of it alone: constants of two gamma functions, enclosed once.
@@ -66,7 +66,7 @@ impl PowerMoments {
     /// Which series serves, and what it gives; `bias >= 0`, neither number wider than rounding, nor their difference of
     /// unknown sign; terms below that share of a sum are left out, or enclosed.
     #[inline]
-    fn of_sweep<T: Special>(&self, bias: T, amplitude: T, share: f64) -> Found<T> {
+    fn of_sweep<T: Real>(&self, bias: T, amplitude: T, share: f64) -> Found<T> {
         let (u, room) = (bias / amplitude, amplitude - bias);
         let at = u.bounds().0;
         let beyond = at > OUTER || (self.exponent >= STEEP && room.bounds().1 < 0.0);

@@ -1,8 +1,7 @@
 //! The three series, each one piece of code for floats and enclosures.
 
 use super::PowerMoments;
-use crate::numeric::Interval;
-use crate::numeric::special::Special;
+use crate::numeric::{Interval, Real};
 
 /// The series about zero serves below, the one about infinity above; the one about one, with radius 2, between.
 pub(crate) const INNER: f64 = 0.7;
@@ -30,7 +29,7 @@ impl Known {
     pub(super) const NOT: Self = Self { value: f64::NAN, error: f64::INFINITY };
 
     #[inline]
-    pub(super) fn get<T: Special>(self) -> T {
+    pub(super) fn get<T: Real>(self) -> T {
         T::from_f64(self.value).give_or_take(self.error)
     }
 }
@@ -42,21 +41,21 @@ impl From<Interval> for Known {
 }
 
 #[inline]
-fn size<T: Special>(number: T) -> f64 {
+fn size<T: Real>(number: T) -> f64 {
     let (lower, upper) = number.bounds();
     lower.abs().max(upper.abs())
 }
 
 /// Numerator and denominator of the ratio of coefficient `n + 1` to coefficient n of `2F1(a, b; c; x)`.
 #[inline]
-pub(crate) fn step<T: Special>(a: T, b: T, c: f64, n: f64) -> [T; 2] {
+pub(crate) fn step<T: Real>(a: T, b: T, c: f64, n: f64) -> [T; 2] {
     [(a + T::from_f64(n)) * (b + T::from_f64(n)), T::from_f64((c + n) * (n + 1.0))]
 }
 
 /// `2F1(a, b; c; x)` and its derivative by x, for `0 <= x <= 1`, `a <= b < c` and `c - a - b > 1`; terms below a share of
 /// the derivative are left out.
 #[inline]
-fn hypergeometric<T: Special>(a: T, b: T, c: f64, x: T, share: f64) -> [T; 2] {
+fn hypergeometric<T: Real>(a: T, b: T, c: f64, x: T, share: f64) -> [T; 2] {
     let ratio = |n: f64| {
         let [numerator, denominator] = step(a, b, c, n);
         numerator / denominator
@@ -87,7 +86,7 @@ fn hypergeometric<T: Special>(a: T, b: T, c: f64, x: T, share: f64) -> [T; 2] {
 impl PowerMoments {
     /// `m = m'(0) u 2F1((1-p)/2, (1-p)/2; 3/2; u^2)`, every term positive; `m'(0) = (p + 1) <abs(sin)^(p+1)>`.
     #[inline]
-    pub(super) fn about_zero<T: Special>(&self, u: T, share: f64) -> Moments<T> {
+    pub(super) fn about_zero<T: Real>(&self, u: T, share: f64) -> Moments<T> {
         let a = T::from_f64(0.5) * (T::one() - T::from_f64(self.exponent));
         let square = u.square();
         // The derivative counts no more than the square times it.
@@ -100,7 +99,7 @@ impl PowerMoments {
     /// In `v = 1/u`, with `X^p` replaced by `abs(B)^p`: `m = 2F1(-p/2, (1-p)/2; 1; v^2)`, the binomial series, and
     /// `(1 + p) h = p v m + (1 - v^2) m'`.
     #[inline]
-    pub(super) fn about_infinity<T: Special>(&self, v: T, share: f64) -> Moments<T> {
+    pub(super) fn about_infinity<T: Real>(&self, v: T, share: f64) -> Moments<T> {
         let (p, half, square) = (T::from_f64(self.exponent), T::from_f64(0.5), v.square());
         let [m, slope] = hypergeometric(-half * p, half * (T::one() - p), 1.0, square, share);
         let twice = T::two() * slope;
@@ -114,7 +113,7 @@ impl PowerMoments {
     /// leave a logarithm. So terms of equal whole order are paired, `(A_j - B_j w abs(z)^delta)/delta`, and the recurrence runs
     /// on `B_j` and on `D_j = (A_j - B_j)/delta`, which stays finite.
     #[inline]
-    pub(super) fn about_one<T: Special>(&self, u: T, z: T, share: f64) -> Moments<T> {
+    pub(super) fn about_one<T: Real>(&self, u: T, z: T, share: f64) -> Moments<T> {
         let (p, half) = (T::from_f64(self.exponent), T::from_f64(0.5));
         let (order, delta) = Self::order_and_delta::<T>(self.exponent);
         // Derivatives by z; `over` is `(-z)^N/z`.
@@ -171,7 +170,7 @@ impl PowerMoments {
 
     /// From m, its derivative, and `(1 - u^2) m'`.
     #[inline]
-    fn moments<T: Special>(&self, u: T, m: T, m_slope: T, weighted_slope: T) -> Moments<T> {
+    fn moments<T: Real>(&self, u: T, m: T, m_slope: T, weighted_slope: T) -> Moments<T> {
         let p = T::from_f64(self.exponent);
         Moments { m, m_slope, h: (weighted_slope + p * u * m) / (T::one() + p), h_slope: p * m - u * m_slope }
     }
@@ -180,7 +179,7 @@ impl PowerMoments {
 /// Numerator and denominator of the ratio of coefficient `k + 1` to coefficient k of a series in `(1 - u)/2` that obeys the
 /// equation; k need not be whole.
 #[inline]
-pub(crate) fn analytic_step<T: Special>(p: T, k: T) -> [T; 2] {
+pub(crate) fn analytic_step<T: Real>(p: T, k: T) -> [T; 2] {
     let away = k - p;
     [away * away, (away + T::from_f64(0.5)) * (k + T::one())]
 }
@@ -188,7 +187,7 @@ pub(crate) fn analytic_step<T: Special>(p: T, k: T) -> [T; 2] {
 /// `B_j` and `D_j = (A_j - B_j)/delta` from those before, where `A_j = A_(j-1) (j - 1/2 - delta)^2/((j - delta)(N + j))` and
 /// `B_j = B_(j-1) (j - 1/2)^2/((N + j + delta) j)`.
 #[inline]
-pub(crate) fn paired_step<T: Special>(order: f64, delta: T, j: f64, [b, d]: [T; 2]) -> [T; 2] {
+pub(crate) fn paired_step<T: Real>(order: f64, delta: T, j: f64, [b, d]: [T; 2]) -> [T; 2] {
     let half_square = (j - 0.5) * (j - 0.5);
     let (index, away) = (T::from_f64(j), T::from_f64(j - 0.5) - delta);
     let of_b = (T::from_f64(order + j) + delta) * index;
