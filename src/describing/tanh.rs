@@ -75,3 +75,21 @@ fn by_exponentials<T: Special>(scale: T, distance: T, sweep: &Sinusoid<T>) -> T 
         (twice, sign) = (twice + T::two(), -sign);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::RULE;
+
+    /// `integral (pi y)^(2k-1)/(exp(2 pi y) + 1) dy = (1 - 2^(1-2k)) pi^(2k-1) abs(B_2k)/(4k)` by Bernoulli's numbers.
+    #[test]
+    fn the_rule_has_the_moments_of_its_weight() {
+        let bernoulli = [1.0 / 6.0, 1.0 / 30.0, 1.0 / 42.0, 1.0 / 30.0, 5.0 / 66.0, 691.0 / 2730.0];
+        for (k, bernoulli) in (1..).zip(bernoulli) {
+            let power = 2 * k - 1;
+            let moment =
+                (1.0 - 0.5_f64.powi(power)) * core::f64::consts::PI.powi(power) * bernoulli / (4.0 * f64::from(k));
+            let sum: f64 = RULE.iter().map(|(node, weight)| weight * node.powi(power)).sum();
+            assert!((sum - moment).abs() < 1e-14 * moment, "degree {power}: {sum}, {moment}");
+        }
+    }
+}
