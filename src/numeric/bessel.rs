@@ -4,6 +4,7 @@
 
 use core::array;
 
+use super::real::magnitude;
 use super::{Interval, Real};
 
 /// From where on Hankel's expansions serve, whose smallest term is about `exp(-2 x)`: above, rounding prevails for J, and the
@@ -17,11 +18,6 @@ const MIDDLE: f64 = 12.0;
 const CUT: f64 = 1.4e-17;
 /// Terms of Hankel's expansions that are summed; the next two bound the rest.
 const TERMS: usize = 26;
-
-fn magnitude<T: Real>(x: T) -> f64 {
-    let (lower, upper) = x.bounds();
-    lower.abs().max(upper.abs())
-}
 
 /// `sum_k z^k/(k! (n + k)!)` for `n = 0` and `n = 1`, z finite: `[J_0(x), J_1(x) 2/x]` for `z = -x^2/4`, I for `x^2/4`. Every
 /// ratio of terms is below one half when the sums end, so the rest is below the last term.

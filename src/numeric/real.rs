@@ -104,13 +104,6 @@ pub trait Real:
         let [selected] = self.select_all(|| [below()], || [above()]);
         selected
     }
-    /// [`prefer_all`](Self::prefer_all) of one number.
-    #[must_use]
-    #[inline]
-    fn prefer(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
-        let [preferred] = self.prefer_all(|| [below()], || [above()]);
-        preferred
-    }
     /// The reciprocal of [`pi`](Self::pi): dividing by a constant costs a division each time.
     #[must_use]
     fn inverse_pi() -> Self {
@@ -162,6 +155,13 @@ pub trait Scalar: Real + PartialOrd {
     fn is_finite(self) -> bool {
         self.value().is_finite()
     }
+}
+
+/// The largest absolute value that `x` may have.
+#[inline]
+pub(super) fn magnitude<T: Real>(x: T) -> f64 {
+    let (lower, upper) = x.bounds();
+    lower.abs().max(upper.abs())
 }
 
 /// A function known at the real part of `x` by value and slope, carried over to the arithmetic of `x`: a float gets the

@@ -1,6 +1,7 @@
 //! The three series, each one piece of code for floats and enclosures.
 
 use super::PowerMoments;
+use crate::numeric::real::magnitude;
 use crate::numeric::{Interval, Real};
 
 /// The series about zero serves below, the one about infinity above; the one about one, with radius 2, between.
@@ -40,12 +41,6 @@ impl From<Interval> for Known {
     }
 }
 
-#[inline]
-fn size<T: Real>(number: T) -> f64 {
-    let (lower, upper) = number.bounds();
-    lower.abs().max(upper.abs())
-}
-
 /// Numerator and denominator of the ratio of coefficient `n + 1` to coefficient n of `2F1(a, b; c; x)`.
 #[inline]
 pub(crate) fn step<T: Real>(a: T, b: T, c: f64, n: f64) -> [T; 2] {
@@ -61,11 +56,11 @@ fn hypergeometric<T: Real>(a: T, b: T, c: f64, x: T, share: f64) -> [T; 2] {
         numerator / denominator
     };
     // Up to the parameters' size the terms may still grow; the slope at zero is the first.
-    let (least, x_most) = (2_f64.max(-a.bounds().0), size(x).min(1.0));
+    let (least, x_most) = (2_f64.max(-a.bounds().0), magnitude(x).min(1.0));
     let (mut sum, mut slope) = (T::zero(), T::zero());
     // Term n over x.
     let (mut term, mut n) = (ratio(0.0), 1.0);
-    while n * size(term) > share * size(sum) || (n < least && size(term) > 0.0) {
+    while n * magnitude(term) > share * magnitude(sum) || (n < least && magnitude(term) > 0.0) {
         sum = sum + term;
         slope = slope + T::from_f64(n) * term;
         term = term * (ratio(n) * x);
@@ -76,7 +71,7 @@ fn hypergeometric<T: Real>(a: T, b: T, c: f64, x: T, share: f64) -> [T; 2] {
     // sums from n on telescope. Doubled for the rounding of this bound.
     let (low, high) = (a.bounds().0, b.bounds().0);
     let s = (n * (1.0 + c - low - high) + c - low * high) / (n + c);
-    let rest = 2.0 * n * size(term);
+    let rest = 2.0 * n * magnitude(term);
     let r = (n + 1.0) * (1.0 - x_most) + x_most * s;
     let (rest, slope_rest) =
         if rest > 0.0 { (rest / (r - 1.0).max(0.0), rest * n / (r - 2.0).max(0.0)) } else { (0.0, 0.0) };
@@ -90,7 +85,7 @@ impl PowerMoments {
         let a = T::from_f64(0.5) * (T::one() - T::from_f64(self.exponent));
         let square = u.square();
         // The derivative counts no more than the square times it.
-        let [sum, slope] = hypergeometric(a, a, 1.5, square, share / size(square));
+        let [sum, slope] = hypergeometric(a, a, 1.5, square, share / magnitude(square));
         let start = self.slope_at_zero.get::<T>();
         let m_slope = start * (sum + T::two() * square * slope);
         self.moments(u, start * u * sum, m_slope, (T::one() - square) * m_slope)
@@ -131,7 +126,7 @@ impl PowerMoments {
             term = next * z;
             over = over * -z;
         }
-        if size(z) <= 0.0 {
+        if magnitude(z) <= 0.0 {
             // By the equation itself, at the end of its range.
             let smooth = self.exponent > 0.5;
             let m_slope = if smooth { p * p * m / (T::two() * p - T::one()) } else { T::from_f64(f64::INFINITY) };
@@ -148,7 +143,7 @@ impl PowerMoments {
         };
         let level = excess * power + level;
         let weight = weight * power;
-        let (reach, enough) = (size(over * z), share * size(m));
+        let (reach, enough) = (magnitude(over * z), share * magnitude(m));
         // Of `z^j (D_j - B_j level)`, of j times that, and of `z^j B_j`.
         let (mut pairs, mut moving, mut tail) = (T::zero(), T::zero(), T::zero());
         let (mut b, mut d, mut j) = (self.pairs.b.get::<T>(), self.pairs.d.get::<T>(), 0.0);
@@ -157,7 +152,8 @@ impl PowerMoments {
             (pairs, moving, tail) = (pairs + pair, moving + T::from_f64(j) * pair, tail + b);
             // For `abs(z) <= 1/4`: B falls, D grows by at most `4 B/(j + 1/2)` a step, so that the slope's terms from the next on
             // add up to less than this. Doubled for the rounding of this bound.
-            let rest = 2.0 * (order + j + 1.0) * (size(d) + size(b) * (size(level) + size(weight) + 4.0));
+            let rest =
+                2.0 * (order + j + 1.0) * (magnitude(d) + magnitude(b) * (magnitude(level) + magnitude(weight) + 4.0));
             if !(rest * reach > enough) {
                 m = m + over * z * pairs.give_or_take(rest);
                 slope = slope + over * (T::from_f64(order) * pairs + moving - weight * tail).give_or_take(rest);
@@ -234,7 +230,7 @@ mod tests {
                             let case = format!("series {place}, exponent {exponent}, u {u}, share {share}");
                             let middle = Interval::point(fine.midpoint());
                             assert!(coarse.contains(middle.lower()), "{case}: {fine} not in {coarse}");
-                            widest = widest.max((coarse.width() / share) / size(fine.hull(Interval::ONE)));
+                            widest = widest.max((coarse.width() / share) / magnitude(fine.hull(Interval::ONE)));
                         }
                     }
                 }
