@@ -6,8 +6,8 @@ use divan::{Bencher, black_box};
 use selfosc::claims::proof::PROOFS;
 use selfosc::describing::{CATALOGUE, ClosedForm, Entry, KernelForm, certified};
 use selfosc::nonlinearity::{Power, Sinusoid};
-use selfosc::numeric::rigorous_quadrature::CellJet;
 use selfosc::numeric::{Interval, Real};
+use selfosc::proof::rigorous_quadrature::CellJet;
 
 fn main() {
     divan::main();

@@ -7,9 +7,9 @@ use selfosc::identify::DragLaw;
 use selfosc::identify::exact::Cycle;
 use selfosc::identify::iso::Oscillation;
 use selfosc::identify::joint::{Delay, FeatureRow, fit_rows};
+use selfosc::identify::select::likelihood::Choice;
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::plant::DragAxis;
-use selfosc::select::likelihood::Choice;
 
 fn main() {
     divan::main();

@@ -3,9 +3,10 @@
 use std::hint::black_box;
 
 use divan::Bencher;
-use selfosc::numeric::enclosure::{around, krawczyk, newton};
-use selfosc::numeric::rigorous_quadrature::{CellJet, Integrand, integrate};
-use selfosc::numeric::{Gradient, Interval, Jet, Real};
+use selfosc::numeric::{Interval, Jet, Real};
+use selfosc::proof::Gradient;
+use selfosc::proof::enclosure::{around, krawczyk, newton};
+use selfosc::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
 
 fn main() {
     divan::main();

@@ -10,9 +10,9 @@ use rayon::prelude::*;
 
 use selfosc::experiment::{Columns, Experiment, Record, Sensor};
 use selfosc::identify::joint::{Delay, Parameter};
+use selfosc::identify::select::likelihood::Choice;
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::plant::DragAxis;
-use selfosc::select::likelihood::Choice;
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 

@@ -7,7 +7,7 @@ use std::io::Read;
 use selfosc::experiment::Columns;
 use selfosc::features::RecordFeatures;
 use selfosc::identify::joint::{Delay, Parameter};
-use selfosc::select::likelihood::Choice;
+use selfosc::identify::select::likelihood::Choice;
 
 /// Runs it; an error is a failure.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -11,10 +11,10 @@ use selfosc::control::{Answer, ControlError, Controller, FeedForward, Structure,
 use selfosc::experiment::{Record, Relay};
 use selfosc::features::RecordFeatures;
 use selfosc::identify::joint::{Delay, Parameter};
+use selfosc::identify::select::likelihood::Choice;
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::plant::DragAxis;
 use selfosc::report::{Figure, Mark, Panel};
-use selfosc::select::likelihood::Choice;
 use selfosc::vehicle::{
     Allocation, Axis, Compensation, DynamometerPoint, FittedSide, Simulation, State, ThrustSide, Thruster, ThrusterMap,
     VehicleError, pool_thrusters, pool_vehicle,

@@ -6,6 +6,8 @@
 
 pub mod numeric;
 
+pub mod proof;
+
 pub mod nonlinearity;
 
 pub mod describing;
@@ -21,9 +23,6 @@ pub mod experiment;
 pub mod features;
 
 pub mod identify;
-
-#[cfg(feature = "std")]
-pub mod select;
 
 pub mod on_board;
 

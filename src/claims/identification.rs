@@ -9,9 +9,9 @@ use super::claim::claim;
 use super::{Budget, Case, Draw, Hypothesis, Printed, Verdict, proof, sample, tolerance};
 use crate::describing::{DescribingFunction, by_quadrature};
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity, parameters};
+use crate::identify::select::pairwise::{Decision, decide, relative_spread_percent};
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
 use crate::numeric::quadrature::integrate;
-use crate::select::pairwise::{Decision, decide, relative_spread_percent};
 
 /// An axis on one tone: parameters, amplitude, angular frequency.
 struct Tone {

@@ -4,11 +4,12 @@ use super::claim::claim;
 use super::method_bias::DragLaw;
 use super::{Budget, Case, Evidence, Hypothesis, Printed, Verdict, Witness, sample};
 use crate::nonlinearity::RelayHysteresis;
-use crate::numeric::inequality::{Cell, Inequality, Search, Side};
-use crate::numeric::{Gradient, Interval, Real};
+use crate::numeric::{Interval, Real};
 use crate::orbit::theorem::{self, BUDGET, Theorem};
 use crate::orbit::{limit_cycle, return_slope};
 use crate::plant::DragAxis;
+use crate::proof::Gradient;
+use crate::proof::inequality::{Cell, Inequality, Search, Side};
 
 /// The verdict of a theorem's inequalities.
 pub(super) fn proved(theorem: &Theorem) -> Verdict {

@@ -5,8 +5,8 @@ use super::{Budget, Case, Evidence, Printed, Verdict, sample, tolerance};
 use crate::describing::{ClosedForm, by_quadrature, certified};
 use crate::nonlinearity::{Power, Sinusoid};
 use crate::numeric::power::{INNER, OUTER, STEEP, analytic_step, paired_step, step};
-use crate::numeric::rigorous_quadrature::CellJet;
 use crate::numeric::{Interval, Real};
+use crate::proof::rigorous_quadrature::CellJet;
 
 claim! {
     POWER_LAW = "power-law" "8" Identity

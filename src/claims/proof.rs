@@ -10,12 +10,13 @@ use super::single::Single;
 use super::{Evidence, Verdict, power_law, smooth, tolerance};
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm, KernelProof, prove_band_from_the_middle};
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity, parameters};
+use crate::identify::select::pairwise::relative_spread_percent;
 use crate::nonlinearity::{Branches, Kernel, Polynomial, RelayHysteresis, Sinusoid};
-use crate::numeric::branch_and_bound::{self, prove_positive};
-use crate::numeric::identity::{Series, prove_zero};
-use crate::numeric::rigorous_quadrature::{CellJet, Integrand, integrate};
-use crate::numeric::{Gradient, Interval, Real};
-use crate::select::pairwise::relative_spread_percent;
+use crate::numeric::{Interval, Real};
+use crate::proof::Gradient;
+use crate::proof::branch_and_bound::{self, prove_positive};
+use crate::proof::identity::{Series, prove_zero};
+use crate::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
 
 /// A proof, true of the factor one.
 pub type Proof = fn(f64) -> Verdict;

@@ -7,8 +7,8 @@ use super::claim::claim;
 use super::{Budget, Case, Evidence, Printed, Verdict, sample, tolerance};
 use crate::describing::{ClosedForm, by_quadrature};
 use crate::nonlinearity::{Arctan, Branch, NonlinearityError, Sine, Sinh, Sinusoid, Tanh};
-use crate::numeric::identity::{Series, prove_zero_of_two};
 use crate::numeric::{Interval, Real};
+use crate::proof::identity::{Series, prove_zero_of_two};
 
 /// Bound asked of the finite mean less the integral.
 const RULE: f64 = 1e-13;

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::{CommandError, Outcome};
 use crate::claims::orbit_proofs::THEOREMS;
-use crate::numeric::inequality::{Proofs, Refusal};
 use crate::orbit::theorem::Theorem;
+use crate::proof::inequality::{Proofs, Refusal};
 
 fn file(folder: &Path, theorem: &Theorem) -> PathBuf {
     folder.join(theorem.id).with_extension("proof")

@@ -10,8 +10,8 @@ use serde_json::json;
 use super::{CommandError, Outcome, write_file, write_json};
 use crate::describing::{CATALOGUE, DescribingFunction, Entry, Setting, by_quadrature, certified};
 use crate::nonlinearity::{Parameter, Sinusoid};
-use crate::numeric::rigorous_quadrature::CellJet;
 use crate::numeric::{Interval, Real};
+use crate::proof::rigorous_quadrature::CellJet;
 use crate::report::characteristics;
 
 /// The describing function F_0, P, Q of a characteristic at one bias and amplitude.

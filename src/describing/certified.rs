@@ -2,8 +2,8 @@
 
 use super::{DescribingError, DescribingFunction};
 use crate::nonlinearity::{Branch, Characteristic, Sinusoid};
-use crate::numeric::rigorous_quadrature::{CellJet, Integrand, integrate};
 use crate::numeric::{Interval, Jet, Real};
+use crate::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
 
 /// Width of each Fourier integral, relative to the largest output: what the result promises.
 const WIDTH: f64 = 4e-12;
@@ -35,7 +35,7 @@ pub struct Certified {
 /// ```
 /// use selfosc::describing::certified;
 /// use selfosc::nonlinearity::{Saturation, Sinusoid};
-/// use selfosc::numeric::{Real, rigorous_quadrature::CellJet};
+/// use selfosc::{numeric::Real, proof::rigorous_quadrature::CellJet};
 /// let number = CellJet::from_f64;
 /// let saturation = Saturation::new(number(2.0), number(0.7))?;
 /// let found = certified(&saturation, &Sinusoid::new(number(0.3), number(1.5))?)?;

@@ -10,8 +10,8 @@
 use super::DescribingFunction;
 use super::kernel::{Arc, band_from_the_middle, band_near_the_maximum, constant};
 use crate::nonlinearity::{Branches, Sinusoid};
-use crate::numeric::identity::{Series, cover, magnitude, prove_zero_of_two};
 use crate::numeric::{Interval, Real};
+use crate::proof::identity::{Series, cover, magnitude, prove_zero_of_two};
 
 /// Length of either end on which values are compared, in radians: beyond, `cos(phi)` can be told from one.
 const END: f64 = 3e-8;

@@ -10,6 +10,8 @@ pub mod iso;
 pub mod joint;
 mod reading;
 #[cfg(feature = "std")]
+pub mod select;
+#[cfg(feature = "std")]
 mod warning;
 
 pub use drag_law::DragLaw;

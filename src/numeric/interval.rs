@@ -212,7 +212,7 @@ impl Interval {
 
     /// The sum of products, of at most a thousand, rounded to nearest with one step outwards for all roundings.
     #[inline]
-    pub(super) fn dot(pairs: impl Iterator<Item = (Self, Self)> + Clone) -> Self {
+    pub(crate) fn dot(pairs: impl Iterator<Item = (Self, Self)> + Clone) -> Self {
         /// Between these nothing overflows, and underflow adds up to less than `UNDERFLOW`.
         const SIZES: core::ops::RangeInclusive<f64> = 1e-270..=1e300;
         const UNDERFLOW: f64 = 1e-300;

@@ -2,28 +2,16 @@
 
 mod bessel;
 #[cfg(feature = "std")]
-pub mod branch_and_bound;
-#[cfg(feature = "std")]
 mod dual;
-pub mod enclosure;
 #[cfg(feature = "std")]
 mod expression;
-mod gradient;
-#[cfg(feature = "std")]
-pub mod identity;
-#[cfg(feature = "std")]
-pub mod inequality;
 mod interval;
-#[cfg(feature = "std")]
-pub mod interval_matrix;
 mod jet;
 pub mod power;
 #[cfg(feature = "std")]
 pub mod quadrature;
 mod ratio;
 mod real;
-#[cfg(feature = "std")]
-pub mod rigorous_quadrature;
 mod root;
 #[cfg(feature = "std")]
 pub mod scan;
@@ -32,7 +20,6 @@ mod tangent;
 
 #[cfg(feature = "std")]
 pub use expression::Expression;
-pub use gradient::Gradient;
 pub use interval::Interval;
 pub use jet::Jet;
 pub use ratio::{

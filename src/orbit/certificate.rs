@@ -4,10 +4,11 @@ use super::drag_axis::{End, LimitCycle, solve};
 use super::half_cycle::{HalfCycle, Swing};
 use super::{OrbitError, limit_cycle};
 use crate::nonlinearity::RelayHysteresis;
-use crate::numeric::enclosure::{Roots, krawczyk};
-use crate::numeric::rigorous_quadrature::{CellJet, Integrand, integrate};
-use crate::numeric::{Gradient, Interval, Jet, Real};
+use crate::numeric::{Interval, Jet, Real};
 use crate::plant::{DragAxis, OneWay, PlantError};
+use crate::proof::Gradient;
+use crate::proof::enclosure::{Roots, krawczyk};
+use crate::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
 
 /// What is proved of the limit cycle of one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]

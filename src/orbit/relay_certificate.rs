@@ -4,10 +4,11 @@ use nalgebra::DMatrix;
 
 use super::relay_cycle::Levels;
 use super::{OrbitError, RelayLoop};
-use crate::numeric::enclosure::{Roots, newton};
-use crate::numeric::interval_matrix::{exponential, norm, solve};
-use crate::numeric::{Gradient, Interval};
+use crate::numeric::Interval;
 use crate::plant::StateSpace;
+use crate::proof::Gradient;
+use crate::proof::enclosure::{Roots, newton};
+use crate::proof::interval_matrix::{exponential, norm, solve};
 
 type Matrix = DMatrix<Interval>;
 

@@ -5,8 +5,9 @@
 //! that does not vanish, enclosed from the border on; so the open domain is covered, the neighbourhood of its border too.
 
 use super::closed_form::{force_left, quadratic_half_cycle, return_slope};
-use crate::numeric::inequality::{Cell, Inequality, Proof, Refusal, Search, Side};
-use crate::numeric::{Gradient, Interval, Jet, Real};
+use crate::numeric::{Interval, Jet, Real};
+use crate::proof::Gradient;
+use crate::proof::inequality::{Cell, Inequality, Proof, Refusal, Search, Side};
 
 /// A statement with the inequalities that it rests on.
 #[derive(Clone, Copy, Debug)]

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::PaperError;
 use super::table4::Yaw;
+use crate::identify::select::pairwise::{Decision, decide, relative_spread_percent};
 use crate::numeric::{Interval, Real};
-use crate::select::pairwise::{Decision, decide, relative_spread_percent};
 
 /// A criterion: the margin lambda of eq. 42.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 /// The order of the modules. Those in one row may not import each other.
 const ORDER: &[&[&str]] = &[
     &["numeric"],
+    &["proof"],
     &["nonlinearity"],
     &["describing"],
     &["plant"],
@@ -12,7 +13,6 @@ const ORDER: &[&[&str]] = &[
     &["experiment"],
     &["features"],
     &["identify"],
-    &["select"],
     &["on_board"],
     &["vehicle"],
     &["control"],

@@ -1,10 +1,11 @@
 //! Rigorous quadrature, root enclosure and branch and bound: true statements are proved, false ones are not.
 
 use quickcheck::quickcheck;
-use selfosc::numeric::branch_and_bound::{Verdict, prove_positive};
-use selfosc::numeric::enclosure::{Roots, around, krawczyk, newton};
-use selfosc::numeric::rigorous_quadrature::{CellJet, Integrand, Quadrature, integrate};
-use selfosc::numeric::{Gradient, Interval, Jet, Real};
+use selfosc::numeric::{Interval, Jet, Real};
+use selfosc::proof::Gradient;
+use selfosc::proof::branch_and_bound::{Verdict, prove_positive};
+use selfosc::proof::enclosure::{Roots, around, krawczyk, newton};
+use selfosc::proof::rigorous_quadrature::{CellJet, Integrand, Quadrature, integrate};
 
 use crate::oracle::{Bracket, Down, Up, at, bracket};
 use crate::tolerance::{JET_ROUNDING, QUADRATURE_WIDTH};

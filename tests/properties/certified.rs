@@ -6,8 +6,8 @@ use selfosc::claims::proof::PROOFS;
 use selfosc::claims::{Budget, Claim, Evidence, Verdict};
 use selfosc::describing::{CATALOGUE, DescribingError, DescribingFunction, Entry, KernelForm, certified};
 use selfosc::nonlinearity::{Custom, NonlinearityError, RelayHysteresis, Saturation, Sinusoid};
-use selfosc::numeric::rigorous_quadrature::CellJet;
 use selfosc::numeric::{Interval, Real};
+use selfosc::proof::rigorous_quadrature::CellJet;
 
 use crate::cases::case;
 use crate::fourier_oracle::{Big, big, definition, describing_function};

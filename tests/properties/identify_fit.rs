@@ -7,10 +7,10 @@ use rayon::prelude::*;
 use selfosc::experiment::{Experiment, Record, Sensor};
 use selfosc::identify::fit::{Between, Fit, RecordFit};
 use selfosc::identify::joint::{Delay, Parameter};
+use selfosc::identify::select::likelihood::Choice;
 use selfosc::identify::{DragLaw, IdentifyError, Warning};
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::plant::{DragAxis, State};
-use selfosc::select::likelihood::Choice;
 
 use crate::tolerance;
 

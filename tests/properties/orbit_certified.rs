@@ -4,11 +4,12 @@ use selfosc::claims::method_bias::DragLaw;
 use selfosc::claims::orbit_proofs::{FALSEHOODS, THEOREMS};
 use selfosc::identify::iso::Oscillation;
 use selfosc::nonlinearity::RelayHysteresis;
-use selfosc::numeric::inequality::{Cell, Inequality, Proof, Proofs, Refusal, Search, Side};
-use selfosc::numeric::{Gradient, Interval};
+use selfosc::numeric::Interval;
 use selfosc::orbit::theorem::BUDGET;
 use selfosc::orbit::{OrbitError, certify, force_left, limit_cycle, return_slope};
 use selfosc::plant::DragAxis;
+use selfosc::proof::Gradient;
+use selfosc::proof::inequality::{Cell, Inequality, Proof, Proofs, Refusal, Search, Side};
 
 use crate::tolerance::{CENTRAL_DIFFERENCE, ORBIT_ENCLOSURE, REFERENCE, ROUNDING};
 

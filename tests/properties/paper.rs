@@ -2,13 +2,13 @@
 
 use proptest::prelude::*;
 use selfosc::identify::iso::{Oscillation, amplitude_sensitivity};
+use selfosc::identify::select::pairwise::relative_spread_percent;
 use selfosc::numeric::{Expression, Interval, Real};
 use selfosc::paper::audit::{Group, audit};
 use selfosc::paper::figure15::{CRITERIA, Counts, Pairs, figure15};
 use selfosc::paper::fixtures::{read_statements, read_table4, statements};
 use selfosc::paper::table4::{PrintedTable, Table4, table4};
 use selfosc::paper::{PaperError, Printed, quantisation, relay_figures, table2, table3, thruster_figure};
-use selfosc::select::pairwise::relative_spread_percent;
 use selfosc::vehicle::{Axis, pool_vehicle};
 
 use crate::tolerance;

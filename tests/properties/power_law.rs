@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use rayon::prelude::*;
 use selfosc::describing::{ClosedForm, DescribingFunction, certified};
 use selfosc::nonlinearity::{Power, Sinusoid};
-use selfosc::numeric::rigorous_quadrature::CellJet;
 use selfosc::numeric::{Interval, Jet, Real};
+use selfosc::proof::rigorous_quadrature::CellJet;
 
 use crate::fourier_oracle::{big, definition, describing_function};
 use crate::tolerance;

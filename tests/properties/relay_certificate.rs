@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 use selfosc::nonlinearity::RelayHysteresis;
-use selfosc::numeric::{Interval, interval_matrix};
 use selfosc::orbit::{OrbitError, RelayLoop};
 use selfosc::plant::{StateSpace, TransferFunction};
+use selfosc::{numeric::Interval, proof::interval_matrix};
 
 use crate::tolerance;
 

@@ -11,8 +11,8 @@ use crate::experiment::{ExperimentError, Log, Record};
 use crate::features::{FeatureError, RecordFeatures, RelayLevels};
 use crate::identify::fit::{Fit, RecordFit};
 use crate::identify::joint::{Delay, Parameter};
+use crate::identify::select::likelihood::{Choice, fit_each};
 use crate::identify::{DragLaw, IdentifyError, Warning, exact, iso};
-use crate::select::likelihood::{Choice, fit_each};
 
 /// What to find, and what is known beforehand.
 #[derive(Clone, Copy, Debug, PartialEq)]

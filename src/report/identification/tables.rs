@@ -3,8 +3,8 @@
 use super::{Identification, Method, Model, Source};
 use crate::features::Spread;
 use crate::identify::joint::Estimate;
+use crate::identify::select::likelihood::DECIDED;
 use crate::report::{Cell, Table};
-use crate::select::likelihood::DECIDED;
 
 /// Digits that a measured number is shown with, after the first.
 const DIGITS: u8 = 3;

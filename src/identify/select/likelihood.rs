@@ -46,7 +46,7 @@ impl Choice {
     /// ```
     /// use selfosc::experiment::Experiment;
     /// use selfosc::identify::{DragLaw, joint::Delay};
-    /// use selfosc::select::likelihood::Choice;
+    /// use selfosc::identify::select::likelihood::Choice;
     /// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
     /// let axis = DragAxis::quadratic(1.0, 0.5)?;
     /// let record = Experiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().run(60.0)?;

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::Interval;
+use crate::numeric::Interval;
 
 /// Whether an inequality holds on a box, with the work spent.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +42,7 @@ pub enum Verdict<const N: usize> {
 /// `margin` must enclose the values over the box that it is given. An inequality with equality somewhere is undecided.
 ///
 /// ```
-/// use selfosc::numeric::branch_and_bound::{Verdict, prove_positive};
+/// use selfosc::proof::branch_and_bound::{Verdict, prove_positive};
 /// use selfosc::numeric::{Interval, Real};
 /// // x^2 - x + 0.3 has its minimum 0.05 at x = 1/2.
 /// let margin = |[x]: &[Interval; 1]| x.square() - *x + Interval::from_f64(0.3);

@@ -3,8 +3,8 @@
 use core::fmt;
 use core::str::FromStr;
 
-use super::Interval;
 use super::branch_and_bound;
+use crate::numeric::Interval;
 
 /// Unknowns of an inequality, used or not.
 pub const SIDES: usize = 3;

@@ -2,7 +2,8 @@
 
 use core::array;
 
-use super::{Gradient, Interval};
+use super::Gradient;
+use crate::numeric::Interval;
 
 /// What is known of the roots in a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,8 +37,9 @@ const GAIN: f64 = 0.9;
 /// It neither bisects nor searches: on a wide interval whose derivative straddles zero it is undecided.
 ///
 /// ```
-/// use selfosc::numeric::enclosure::{Roots, newton};
-/// use selfosc::numeric::{Gradient, Interval, Real};
+/// use selfosc::proof::enclosure::{Roots, newton};
+/// use selfosc::numeric::{Interval, Real};
+/// use selfosc::proof::Gradient;
 /// let start = Interval::new(1.0, 2.0).unwrap_or(Interval::ENTIRE);
 /// let found = newton(|x: Gradient<1>| x.square() - Gradient::two(), start, 20);
 /// let Roots::Unique { enclosure, .. } = found else { return };
@@ -66,8 +68,9 @@ pub fn newton(f: impl Fn(Gradient<1>) -> Gradient<1>, start: Interval, budget: u
 /// Start from a small box around a floating-point root (see [`around`]): a crude box is undecided.
 ///
 /// ```
-/// use selfosc::numeric::enclosure::{Roots, around, krawczyk};
-/// use selfosc::numeric::{Gradient, Real};
+/// use selfosc::proof::enclosure::{Roots, around, krawczyk};
+/// use selfosc::numeric::Real;
+/// use selfosc::proof::Gradient;
 /// let circle_and_line = |[x, y]: [Gradient<2>; 2]| [x.square() + y.square() - Gradient::one(), x - y];
 /// let found = krawczyk(circle_and_line, around([0.7071, 0.7071], 1e-3), 20);
 /// assert!(matches!(found, Roots::Unique { .. }));

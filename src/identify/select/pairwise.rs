@@ -7,7 +7,7 @@ use crate::numeric::Real;
 /// The factor `sqrt(2)` belongs to it: with it the paper's Fig. 15 comes out.
 ///
 /// ```
-/// use selfosc::select::pairwise::relative_spread_percent;
+/// use selfosc::identify::select::pairwise::relative_spread_percent;
 /// assert!((relative_spread_percent(1.0, 3.0) - 100.0 / 2f64.sqrt()).abs() < 1e-12);
 /// ```
 pub fn relative_spread_percent<T: Real>(first: T, second: T) -> T {
@@ -29,7 +29,7 @@ pub enum Decision {
 /// linear where it is the other way about. All in percent. Says nothing of how sure the decision is.
 ///
 /// ```
-/// use selfosc::select::pairwise::{Decision, decide};
+/// use selfosc::identify::select::pairwise::{Decision, decide};
 /// assert_eq!(decide(20.0, 5.0, 10.0), Decision::Quadratic);
 /// assert_eq!(decide(20.0, 15.0, 10.0), Decision::Undecided);
 /// ```

@@ -3,7 +3,7 @@
 use core::array;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Interval, Real};
+use crate::numeric::{Interval, Real};
 
 /// Enclosures of a function's value and of its `N` partial derivatives over a box.
 ///
@@ -11,7 +11,8 @@ use super::{Interval, Real};
 /// theorem holds across it; at a jump (`floor`, `select`), and outside a domain, everything is [`Interval::ENTIRE`].
 ///
 /// ```
-/// use selfosc::numeric::{Gradient, Interval, Real};
+/// use selfosc::numeric::{Interval, Real};
+/// use selfosc::proof::Gradient;
 /// let [x, y] = Gradient::variables([Interval::from_f64(3.0), Interval::from_f64(2.0)]);
 /// let product = x * y;
 /// assert_eq!(product.value(), Interval::from_f64(6.0));

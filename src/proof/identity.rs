@@ -6,7 +6,7 @@
 
 use std::array;
 
-use super::{Interval, Jet};
+use crate::numeric::{Interval, Jet};
 
 /// Coefficients of the jets; the last is not used, so that a [derivative](Jet::derivative) will do.
 const ORDER: usize = 16;
@@ -30,7 +30,7 @@ pub struct Vanishing {
 ///
 /// ```
 /// use selfosc::numeric::Real;
-/// use selfosc::numeric::identity::{Series, prove_zero};
+/// use selfosc::proof::identity::{Series, prove_zero};
 /// let pythagoras = |factor: f64| move |t: Series| [t.sin().square() + t.cos().square() - Series::from_f64(factor)];
 /// assert!(prove_zero(pythagoras(1.0), 0.0, 10.0, 1e-13, 1000).is_some());
 /// assert!(prove_zero(pythagoras(1.00001), 0.0, 10.0, 1e-13, 1000).is_none());
@@ -63,7 +63,7 @@ pub fn prove_zero<const M: usize>(
 ///
 /// ```
 /// use selfosc::numeric::Real;
-/// use selfosc::numeric::identity::prove_zero_of_two;
+/// use selfosc::proof::identity::prove_zero_of_two;
 /// fn addition<T: Real>(a: T, b: T, factor: f64) -> [T; 1] {
 ///     [(a + b).sin() - a.sin() * b.cos() - a.cos() * b.sin() * T::from_f64(factor)]
 /// }

@@ -2,7 +2,7 @@
 
 use core::array;
 
-use super::{Interval, Jet};
+use crate::numeric::{Interval, Jet};
 
 /// Degree of the Taylor polynomial whose remainder bounds a cell's integral; even, so that the remainder's weight is
 /// nonnegative.
@@ -40,7 +40,7 @@ pub struct Quadrature<const M: usize> {
 /// the sum is not reached.
 ///
 /// ```
-/// use selfosc::numeric::rigorous_quadrature::{CellJet, Integrand, integrate};
+/// use selfosc::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
 /// use selfosc::numeric::{Interval, Real};
 ///
 /// struct Rectified;

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 use num_traits::{One, Zero};
 
-use super::{Interval, Real};
+use crate::numeric::{Interval, Real};
 
 impl Zero for Interval {
     fn zero() -> Self {
@@ -35,7 +35,7 @@ pub fn norm(matrix: &DMatrix<Interval>) -> f64 {
 ///
 /// ```
 /// use nalgebra::dmatrix;
-/// use selfosc::numeric::{Interval, interval_matrix::exponential};
+/// use selfosc::{numeric::Interval, proof::interval_matrix::exponential};
 /// let turn = dmatrix![0.0, -1.0; 1.0, 0.0].map(Interval::point);
 /// let Some(rotation) = exponential(&turn) else { return };
 /// assert!(rotation[(1, 0)].contains(1f64.sin()) && rotation[(1, 0)].width() < 1e-14);
@@ -65,7 +65,7 @@ pub fn exponential(matrix: &DMatrix<Interval>) -> Option<DMatrix<Interval>> {
 ///
 /// ```
 /// use nalgebra::dmatrix;
-/// use selfosc::numeric::{Interval, interval_matrix::solve};
+/// use selfosc::{numeric::Interval, proof::interval_matrix::solve};
 /// let (a, b) = (dmatrix![2.0, 1.0; 1.0, 3.0].map(Interval::point), dmatrix![3.0; 5.0].map(Interval::point));
 /// assert!(solve(a, b).is_some_and(|x| x[0].contains(0.8) && x[1].contains(1.4)));
 /// ```
