@@ -36,6 +36,12 @@ pub mod claims;
 pub mod paper;
 
 #[cfg(feature = "command")]
-pub mod command;
-#[cfg(feature = "command")]
 pub mod report;
+
+#[cfg(feature = "std")]
+mod error;
+#[cfg(feature = "std")]
+pub use error::Error;
+
+#[cfg(feature = "command")]
+pub mod command;

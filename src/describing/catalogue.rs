@@ -2,7 +2,7 @@
 
 use super::{ClosedForm, Setting};
 use crate::nonlinearity::{self, Catalogued, Domain, NonlinearityError, Parameter, every_characteristic};
-use crate::numeric::special::Special;
+use crate::numeric::{OutOfDomain, special::Special};
 
 /// A characteristic of the catalogue, in the arithmetic `T`.
 pub type Boxed<T> = Box<dyn ClosedForm<Number = T>>;
@@ -40,7 +40,7 @@ pub enum CatalogueError {
         meaning: &'static str,
     },
     /// A number where points are wanted, or the other way round.
-    #[error("{characteristic}: {parameter} = {value} must be {required}")]
+    #[error("{characteristic}: {parameter} = {value} must be {required}; give it in that form")]
     Kind {
         /// Catalogue name.
         characteristic: &'static str,
@@ -70,6 +70,28 @@ pub enum CatalogueError {
     /// A parameter outside its domain.
     #[error(transparent)]
     Nonlinearity(#[from] NonlinearityError),
+}
+
+impl CatalogueError {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::UnknownName { .. } => "unknown-characteristic",
+            Self::UnknownParameter { .. } => "unknown-parameter",
+            Self::MissingParameter { .. } => "missing-parameter",
+            Self::Kind { .. } => "parameter-kind",
+            Self::Setting { .. } => "unreadable-setting",
+            Self::Page { .. } => "page",
+            Self::Nonlinearity(error) => error.code(),
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        if let Self::Nonlinearity(error) = self { error.out_of_domain() } else { None }
+    }
 }
 
 /// Name, parameters and page of a characteristic.

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{CATALOGUE, DescribingError, Entry};
-use crate::nonlinearity::{Domain, NonlinearityError, Parameter, Sinusoid};
+use crate::nonlinearity::{Domain, Parameter, Sinusoid, checked_amplitude};
 
 /// Parameter sets tried for each characteristic, how many of the best are refined, and in how many steps.
 const CANDIDATES: u32 = 600;
@@ -31,7 +31,7 @@ pub struct Fit {
 /// the best parameters; a fit says nothing of amplitudes outside the points'.
 ///
 /// # Errors
-/// [`NonlinearityError::Amplitude`] or [`DescribingError::NotFinite`] for a point that is not two finite numbers with a
+/// [`NonlinearityError::OutOfDomain`] or [`DescribingError::NotFinite`] for a point that is not two finite numbers with a
 /// positive amplitude.
 ///
 /// ```
@@ -47,9 +47,7 @@ pub struct Fit {
 /// ```
 pub fn fit(points: &[(f64, f64)], bias: f64) -> Result<Vec<Fit>, DescribingError> {
     for &(amplitude, p) in points {
-        if !(amplitude > 0.0 && amplitude.is_finite()) {
-            return Err(NonlinearityError::Amplitude { amplitude }.into());
-        }
+        checked_amplitude(amplitude)?;
         if !p.is_finite() {
             return Err(DescribingError::NotFinite { input: amplitude, output: p });
         }

@@ -3,7 +3,7 @@
 use core::ops::RangeInclusive;
 
 use super::{ClosedForm, DescribingError, DescribingFunction, over_amplitudes};
-use crate::nonlinearity::{NonlinearityError, Sinusoid};
+use crate::nonlinearity::{Sinusoid, checked_amplitude};
 
 /// Amplitudes at which a range is sampled, evenly in their logarithm.
 const SAMPLES: u32 = 1000;
@@ -27,7 +27,7 @@ pub struct Solution {
 /// closer together than that can be missed. Amplitudes without describing function are passed over.
 ///
 /// # Errors
-/// [`NonlinearityError::Amplitude`] unless both ends of the range are positive and finite.
+/// [`NonlinearityError::OutOfDomain`] unless both ends of the range are positive and finite.
 ///
 /// ```
 /// use selfosc::describing::amplitudes;
@@ -137,9 +137,7 @@ fn sampled(
 ) -> Result<Vec<Solution>, DescribingError> {
     let (from, to) = range.into_inner();
     for amplitude in [from, to] {
-        if !(amplitude > 0.0 && amplitude.is_finite()) {
-            return Err(NonlinearityError::Amplitude { amplitude }.into());
-        }
+        checked_amplitude(amplitude)?;
     }
     let amplitude = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(SAMPLES));
     let grid = (0..=SAMPLES).map(amplitude);

@@ -1,5 +1,6 @@
 //! The whole loop in simulation: axis, delays, relay, sensor.
 
+use crate::numeric::{Limit, domain};
 use std::collections::VecDeque;
 
 use rand::SeedableRng;
@@ -53,9 +54,9 @@ impl Experiment {
     /// A perfect sensor and a relay that watches all the time; starts at rest at zero.
     ///
     /// # Errors
-    /// [`ExperimentError::Setting`] unless the rate is positive and finite.
+    /// [`ExperimentError::OutOfDomain`] unless the rate is positive and finite.
     pub fn new(axis: DragAxis<f64>, relay: RelayHysteresis<f64>, rate_hz: f64) -> Result<Self, ExperimentError> {
-        require("rate in Hz", rate_hz, rate_hz > 0.0, "a finite number above 0")?;
+        domain::positive("rate", rate_hz, "Hz")?;
         let start = State { position: 0.0, velocity: 0.0 };
         Ok(Self { axis, relay, rate_hz, held: false, sensor: Sensor::default(), seed: 0, start })
     }
@@ -69,13 +70,11 @@ impl Experiment {
     /// The same experiment with another sensor.
     ///
     /// # Errors
-    /// [`ExperimentError::Setting`] unless all its numbers are finite, zero or more.
+    /// [`ExperimentError::OutOfDomain`] unless all its numbers are finite, zero or more.
     pub fn with_sensor(self, sensor: Sensor) -> Result<Self, ExperimentError> {
-        for (setting, value) in
-            [("sensor delay in s", sensor.delay_s), ("quantum", sensor.quantum), ("noise", sensor.noise)]
-        {
-            require(setting, value, value >= 0.0, "a finite number, 0 or more")?;
-        }
+        domain::non_negative("sensor delay", sensor.delay_s, "s")?;
+        domain::non_negative("quantum", sensor.quantum, "output units")?;
+        domain::non_negative("noise", sensor.noise, "output units")?;
         Ok(Self { sensor, ..self })
     }
 
@@ -88,10 +87,10 @@ impl Experiment {
     /// The same experiment from another state.
     ///
     /// # Errors
-    /// [`ExperimentError::Setting`] unless the state is finite.
+    /// [`ExperimentError::OutOfDomain`] unless the state is finite.
     pub fn from_state(self, start: State<f64>) -> Result<Self, ExperimentError> {
-        require("initial position", start.position, true, "a finite number")?;
-        require("initial velocity", start.velocity, true, "a finite number")?;
+        domain::finite("initial position", start.position, "output units")?;
+        domain::finite("initial velocity", start.velocity, "output units per s")?;
         Ok(Self { start, ..self })
     }
 
@@ -99,12 +98,14 @@ impl Experiment {
     /// positive.
     ///
     /// # Errors
-    /// [`ExperimentError::Setting`] for a duration that is not positive or has more than
+    /// [`ExperimentError::OutOfDomain`] for a duration that is not positive or has more than
     /// [`MOST_SAMPLES`](Self::MOST_SAMPLES) samples; [`ExperimentError::TooShort`].
     pub fn run(&self, duration_s: f64) -> Result<Record, ExperimentError> {
-        require("duration in s", duration_s, duration_s > 0.0, "a finite number above 0")?;
+        domain::positive("duration", duration_s, "s")?;
         let last = (duration_s * self.rate_hz + 1e-9).floor();
-        require("number of samples", last, last < Self::MOST_SAMPLES, "at most 1e8")?;
+        let remedy = "shorten the experiment or lower the rate";
+        let limit = Limit::AtMost(Self::MOST_SAMPLES - 1.0);
+        domain::require("number of samples", last, "", limit, remedy)?;
         let mut random = Pcg64Mcg::seed_from_u64(self.seed);
         let mut relay = Relay::new(self.relay, true);
         let mut motion = Motion::new(self.axis, self.start, relay.output());
@@ -112,7 +113,8 @@ impl Experiment {
             motion.seen_s = f64::INFINITY;
         } else {
             let half_width = self.relay.half_width();
-            require("half-width", half_width, half_width > 0.0, "above 0 for a relay that is not held")?;
+            let remedy = "give a half-width, or hold the relay between samples";
+            domain::require("half-width", half_width, "output units", Limit::Positive, remedy)?;
         }
         let (mut time, mut output, mut input) = (Vec::new(), Vec::new(), Vec::new());
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
@@ -211,8 +213,4 @@ impl Motion {
         self.seen_s = self.seen_s.max(until.min(self.stretches[count - 1].0));
         None
     }
-}
-
-fn require(setting: &'static str, value: f64, inside: bool, required: &'static str) -> Result<(), ExperimentError> {
-    if inside && value.is_finite() { Ok(()) } else { Err(ExperimentError::Setting { setting, value, required }) }
 }

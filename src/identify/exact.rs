@@ -5,8 +5,9 @@
 //! switching level to amplitude increases with the shape, so one equation in one unknown decides.
 
 use super::IdentifyError;
+use super::error::READ_AGAIN;
 use super::iso::Oscillation;
-use crate::numeric::{Scalar, increasing_root, minus_tanh};
+use crate::numeric::{Limit, Scalar, domain, increasing_root, minus_tanh};
 use crate::orbit::quadratic_speeds;
 use crate::plant::{DragAxis, OneWay};
 
@@ -71,7 +72,7 @@ impl<S: Scalar> Cycle<S> {
     /// ```
     ///
     /// # Errors
-    /// [`IdentifyError::Feature`] where a feature is not a number of the right kind, [`IdentifyError::NoOrbit`] where no
+    /// [`IdentifyError::OutOfDomain`] where a feature is not a number of the right kind, [`IdentifyError::NoOrbit`] where no
     /// orbit has this ratio of switching level to amplitude, [`IdentifyError::Unresolved`] where rounding hides the drag.
     pub fn linear_drag(&self) -> Result<DragAxis<S>, IdentifyError> {
         self.invert(|shape, shares| Some(Shape::linear(shape, shares)))
@@ -127,19 +128,15 @@ impl<S: Scalar> Cycle<S> {
     /// before the turn on the average of both sides; weak drag lets the ratio fall to zero and, with a delay, below.
     fn checked_ratio(&self) -> Result<S, IdentifyError> {
         let zero = S::zero();
-        let above = "a finite number above 0";
-        let not_below = "a finite number, 0 or more";
-        for (feature, value, inside, required) in [
-            ("relay level in command units", self.relay_level, self.relay_level > zero, above),
-            ("switching level in output units", self.switch_level, self.switch_level >= zero, not_below),
-            ("amplitude in output units", self.amplitude, self.amplitude > zero, above),
-            ("time with the positive command in seconds", self.time_positive_s, self.time_positive_s > zero, above),
-            ("time with the negative command in seconds", self.time_negative_s, self.time_negative_s > zero, above),
-            ("delay in seconds", self.delay_s, self.delay_s >= zero, not_below),
+        for (feature, value, unit, limit) in [
+            ("relay level", self.relay_level, "command units", Limit::Positive),
+            ("switching level", self.switch_level, "output units", Limit::NonNegative),
+            ("amplitude", self.amplitude, "output units", Limit::Positive),
+            ("time with the positive command", self.time_positive_s, "s", Limit::Positive),
+            ("time with the negative command", self.time_negative_s, "s", Limit::Positive),
+            ("delay", self.delay_s, "s", Limit::NonNegative),
         ] {
-            if !(inside && value.is_finite()) {
-                return Err(IdentifyError::Feature { feature, value: value.value(), required });
-            }
+            domain::require(feature, value, unit, limit, READ_AGAIN)?;
         }
         let ratio = self.switch_level / self.amplitude;
         let limit = S::one() - self.delay_s * (S::one() / self.time_positive_s + S::one() / self.time_negative_s);

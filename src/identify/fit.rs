@@ -17,6 +17,7 @@ mod start;
 pub use input::Between;
 pub use result::{FittedRecord, RecordFit};
 
+use crate::numeric::{Limit, domain};
 use rayon::prelude::*;
 
 use super::joint::Delay;
@@ -74,7 +75,7 @@ impl Fit {
     /// [autocorrelation](FittedRecord::autocorrelation) says whether it is.
     ///
     /// # Errors
-    /// [`IdentifyError::Feature`] for an output that never moves, and for a delay or step that is none; [`IdentifyError::TooFewEquations`],
+    /// [`IdentifyError::OutOfDomain`] for an output that never moves, and for a delay or step that is none; [`IdentifyError::TooFewEquations`],
     /// [`IdentifyError::Confounded`], [`IdentifyError::NotSettled`].
     pub fn records(&self, records: &[&Record]) -> Result<RecordFit, IdentifyError> {
         self.records_from(records, &[])
@@ -123,23 +124,18 @@ impl Fit {
     }
 
     fn check(&self, records: &[&Record]) -> Result<(), IdentifyError> {
-        let feature = |feature, value: f64| {
-            if value >= 0.0 && value.is_finite() {
-                return Ok(());
-            }
-            Err(IdentifyError::Feature { feature, value, required: "a finite number, 0 or more" })
-        };
         for record in records {
             let output = record.output();
             if output.iter().all(|value| *value == output[0]) {
-                return Err(IdentifyError::Feature { feature: "range of the output", value: 0.0, required: "above 0" });
+                let remedy = "choose the column that holds the measurement";
+                domain::require("range of the output", 0.0, "output units", Limit::Positive, remedy)?;
             }
         }
         if let Delay::KnownS(delay_s) = self.delay {
-            feature("delay in seconds", delay_s)?;
+            domain::non_negative("delay", delay_s, "s")?;
         }
         if let Some(quantum) = self.quantum {
-            feature("step of the sensor", quantum)?;
+            domain::non_negative("step of the sensor", quantum, "output units")?;
         }
         Ok(())
     }

@@ -4,9 +4,10 @@
 //! exact orbits give it.
 
 use super::IdentifyError;
+use super::error::READ_AGAIN;
 use crate::describing::{ClosedForm, DescribingFunction};
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
-use crate::numeric::Real;
+use crate::numeric::{Limit, Real, domain};
 
 /// What the method reads off a record: means over its cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,16 +49,10 @@ impl<T: Real> Oscillation<T> {
     ///
     /// # Errors
     /// [`IdentifyError::Describing`] where condition 40 is not met: repeat the experiment with a smaller half-width or a
-    /// higher level. [`IdentifyError::Feature`] where period or delay is not a number of the right kind.
+    /// higher level. [`IdentifyError::OutOfDomain`] where period or delay is not a number of the right kind.
     pub fn describing_function(&self) -> Result<DescribingFunction<T>, IdentifyError> {
-        let feature = |feature, value: T, holds: bool, required| {
-            if holds { Ok(()) } else { Err(IdentifyError::Feature { feature, value: value.bounds().0, required }) }
-        };
-        let (period, delay) = (self.period_s.bounds(), self.delay_s.bounds());
-        let finite = period.0 > 0.0 && period.1 < f64::INFINITY;
-        feature("period in seconds", self.period_s, finite, "a finite number above 0")?;
-        let finite = delay.0 >= 0.0 && delay.1 < f64::INFINITY;
-        feature("delay in seconds", self.delay_s, finite, "a finite number, 0 or more")?;
+        domain::require("period", self.period_s, "s", Limit::Positive, READ_AGAIN)?;
+        domain::non_negative("delay", self.delay_s, "s")?;
         let relay = RelayHysteresis::new(self.relay_level, self.switch_level, T::zero())?;
         let sweep = Sinusoid::new(self.bias, self.amplitude)?;
         Ok(relay.describing_function(&sweep)?.delayed(self.omega_rad_s() * self.delay_s))

@@ -78,6 +78,8 @@ pub use error::NonlinearityError;
 pub use kernel::{Branches, Kernel, Side};
 pub use parameter::{Catalogued, Domain, Parameter};
 pub use sinusoid::Sinusoid;
+#[cfg(feature = "std")]
+pub(crate) use sinusoid::checked_amplitude;
 
 use crate::numeric::Real;
 

@@ -1,7 +1,7 @@
 //! Named parameters: one declaration gives a characteristic its struct, its checks and its catalogue entry.
 
 use super::NonlinearityError;
-use crate::numeric::Real;
+use crate::numeric::{Real, domain};
 
 /// The numbers a parameter may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,16 +27,6 @@ impl Domain {
             Self::Points => "points x0:y0,x1:y1,... with growing x",
         }
     }
-
-    fn holds<T: Real>(self, value: T) -> bool {
-        let (lower, upper) = value.bounds();
-        let least = match self {
-            Self::Finite | Self::Points => lower > f64::NEG_INFINITY,
-            Self::NonNegative => lower >= 0.0,
-            Self::Positive => lower > 0.0,
-        };
-        least && upper < f64::INFINITY
-    }
 }
 
 /// Name, meaning, domain and default of one parameter.
@@ -54,11 +44,12 @@ pub struct Parameter {
 
 impl Parameter {
     pub(super) fn check<T: Real>(&self, characteristic: &'static str, value: T) -> Result<(), NonlinearityError> {
-        if self.domain.holds(value) {
-            return Ok(());
-        }
-        let (value, parameter, required) = (value.bounds().0, self.name, self.domain.words());
-        Err(NonlinearityError::Parameter { characteristic, parameter, value, required })
+        let checked = match self.domain {
+            Domain::Finite | Domain::Points => domain::finite(self.name, value, ""),
+            Domain::NonNegative => domain::non_negative(self.name, value, ""),
+            Domain::Positive => domain::positive(self.name, value, ""),
+        };
+        checked.map(drop).map_err(|fault| NonlinearityError::Parameter { characteristic, fault })
     }
 }
 

@@ -1,6 +1,7 @@
 //! The arithmetics: [`Real`] and [`Scalar`], and the numerical methods the rest stands on.
 
 mod bessel;
+pub(crate) mod domain;
 #[cfg(feature = "std")]
 mod dual;
 #[cfg(feature = "std")]
@@ -18,6 +19,7 @@ pub mod scan;
 pub mod special;
 mod tangent;
 
+pub use domain::{Limit, OutOfDomain};
 #[cfg(feature = "std")]
 pub use expression::Expression;
 pub use interval::Interval;

@@ -30,7 +30,7 @@ impl<T: Scalar> Outcome<T> {
     /// Parameters by the paper's method, for the whole delay of the loop. In the units of reading and command.
     ///
     /// # Errors
-    /// [`IdentifyError::Feature`] for a delay that is none.
+    /// [`IdentifyError::OutOfDomain`] for a delay that is none.
     pub fn iso(&self, delay_s: T) -> Result<Parameters<T>, IdentifyError> {
         Oscillation::of(&self.features, self.relay_level, delay_s).identify()
     }

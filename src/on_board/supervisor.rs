@@ -1,8 +1,9 @@
 //! The state machine: relay, time-outs, attempts, faults. What the cycles say, it is told.
 
 use super::sensor::Sensor;
-use super::{Fault, Protocol, ProtocolError};
+use super::{Fault, Protocol};
 use crate::experiment::Relay;
+use crate::numeric::OutOfDomain;
 use crate::numeric::Scalar;
 
 /// Where an experiment stands.
@@ -76,7 +77,7 @@ pub(crate) struct Supervisor<T> {
 }
 
 impl<T: Scalar> Supervisor<T> {
-    pub(crate) fn new(protocol: Protocol<T>) -> Result<Self, ProtocolError> {
+    pub(crate) fn new(protocol: Protocol<T>) -> Result<Self, OutOfDomain> {
         let protocol = protocol.checked()?;
         let relay = protocol.relay(protocol.relay_level, protocol.half_width)?;
         Ok(Self {

@@ -3,7 +3,7 @@
 use super::OrbitError;
 use super::half_cycle::{HalfCycle, Swing};
 use crate::nonlinearity::RelayHysteresis;
-use crate::numeric::{Real, Scalar};
+use crate::numeric::{Limit, Real, Scalar, domain};
 use crate::plant::DragAxis;
 
 /// The moment at which another command begins to act, delay included.
@@ -140,16 +140,15 @@ pub fn limit_cycle<S: Scalar>(axis: &DragAxis<S>, relay: &RelayHysteresis<S>) ->
 /// ```
 ///
 /// # Errors
-/// [`OrbitError::Speed`] unless `speed` is finite and zero or more; otherwise as [`limit_cycle`].
+/// [`OrbitError::OutOfDomain`] unless `speed` is finite and zero or more; otherwise as [`limit_cycle`].
 pub fn return_map<S: Scalar>(
     axis: &DragAxis<S>,
     relay: &RelayHysteresis<S>,
     speed: S,
 ) -> Result<Return<S>, OrbitError> {
     let [upward, downward] = HalfCycle::pair(axis, relay)?;
-    if !(speed >= S::zero() && speed.is_finite()) {
-        return Err(OrbitError::Speed { speed: speed.value() });
-    }
+    let remedy = "give the magnitude of the speed at the switching level";
+    domain::require("speed", speed, "output units per s", Limit::NonNegative, remedy)?;
     let unresolved = OrbitError::Unresolved { multiplier: f64::NAN };
     let mut point = Return { speed, derivative: S::one() };
     for (from, to) in [(upward, downward), (downward, upward)] {

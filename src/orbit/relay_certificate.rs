@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use super::relay_cycle::Levels;
 use super::{OrbitError, RelayLoop};
-use crate::numeric::Interval;
+use crate::numeric::{Interval, domain};
 use crate::plant::StateSpace;
 use crate::proof::Gradient;
 use crate::proof::enclosure::{Roots, newton};
@@ -52,13 +52,10 @@ impl RelayLoop {
     /// ```
     ///
     /// # Errors
-    /// [`OrbitError::Parameter`]; [`OrbitError::NotSymmetric`]; [`OrbitError::LongDelay`] where the delay exceeds the
+    /// [`OrbitError::OutOfDomain`]; [`OrbitError::NotSymmetric`]; [`OrbitError::LongDelay`] where the delay exceeds the
     /// half-period; [`OrbitError::NotProved`] where an enclosure stays too wide or the cycle is none.
     pub fn certify(&self, half_period_s: f64) -> Result<RelayCertificate, OrbitError> {
-        if !(half_period_s > 0.0 && half_period_s.is_finite()) {
-            let (quantity, required) = ("half_period_s", "finite and above 0");
-            return Err(OrbitError::Parameter { quantity, value: half_period_s, required });
-        }
+        domain::positive("half_period_s", half_period_s, "s")?;
         let (plant, levels) = (self.plant(), self.symmetric_levels()?);
         if plant.delay_s() >= half_period_s {
             return Err(OrbitError::LongDelay { delay_s: plant.delay_s(), half_period_s });

@@ -22,7 +22,7 @@ pub(crate) use transfer::product;
 
 #[cfg(feature = "std")]
 pub(crate) fn checked_delay(delay_s: f64) -> Result<f64, PlantError> {
-    if delay_s.is_finite() && delay_s >= 0.0 { Ok(delay_s) } else { Err(PlantError::Delay { delay_s }) }
+    Ok(crate::numeric::domain::non_negative("delay_s", delay_s, "s")?)
 }
 
 #[cfg(feature = "std")]

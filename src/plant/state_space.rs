@@ -61,7 +61,7 @@ impl StateSpace {
     /// The same plant behind a dead time, which replaces the one it had.
     ///
     /// # Errors
-    /// [`PlantError::Delay`] where the delay is negative or not finite.
+    /// [`PlantError::OutOfDomain`] where the delay is negative or not finite.
     pub fn with_delay(self, delay_s: f64) -> Result<Self, PlantError> {
         Ok(Self { delay_s: checked_delay(delay_s)?, ..self })
     }

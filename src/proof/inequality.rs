@@ -141,6 +141,22 @@ pub enum Refusal {
     NotCovered,
 }
 
+impl Refusal {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Malformed { .. } => "malformed-proof",
+            Self::Other { .. } => "other-proof",
+            Self::Missing { .. } => "missing-proof",
+            Self::Domain { .. } => "other-domain",
+            Self::Bound { .. } => "vacuous-bound",
+            Self::NotShown { .. } => "not-shown",
+            Self::NotCovered => "not-covered",
+        }
+    }
+}
+
 impl Inequality {
     /// The box, or `None` where a range is empty.
     #[must_use]

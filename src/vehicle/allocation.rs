@@ -1,8 +1,7 @@
 //! Forces on the vehicle by thrusts of its thrusters, and back.
 
 use super::VehicleError;
-use super::error::checked;
-use crate::numeric::{Real, Scalar};
+use crate::numeric::{Real, Scalar, domain};
 
 /// The allocation `forces = matrix * thrusts` with a right or least-squares inverse, both of fixed size.
 ///
@@ -41,7 +40,7 @@ impl<T: Scalar> Allocation<T, 2, 2> {
     /// # Errors
     /// An arm that is not positive.
     pub fn pair(arm_m: T) -> Result<Self, VehicleError> {
-        checked("lever arm (m)", "positive", arm_m, |d| d > T::zero())?;
+        domain::positive("lever arm", arm_m, "m")?;
         let (one, half) = (T::one(), T::from_f64(0.5));
         Ok(Self { matrix: [[one, one], [arm_m, -arm_m]], inverse: [[half, half / arm_m], [half, -half / arm_m]] })
     }
@@ -84,7 +83,7 @@ impl<const AXES: usize, const THRUSTERS: usize> Allocation<f64, AXES, THRUSTERS>
     /// they repeat each other), a matrix without rows or columns, and entries that are not finite.
     pub fn from_matrix(matrix: [[f64; THRUSTERS]; AXES]) -> Result<Self, VehicleError> {
         for &entry in matrix.iter().flatten() {
-            super::error::finite("entry of the allocation matrix", entry)?;
+            domain::finite("entry of the allocation matrix", entry, "")?;
         }
         if AXES == 0 || THRUSTERS == 0 {
             return Err(VehicleError::Count { what: "axes or thrusters", count: 0, needed: 1 });

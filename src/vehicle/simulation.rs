@@ -1,10 +1,11 @@
 //! Eq. 5 in time: thrusters with delays, a disturbance, fixed steps.
 
+use super::error::WHOLE;
+use crate::numeric::domain;
 use std::collections::VecDeque;
 
 use nalgebra::{Quaternion, SVector, Unit, UnitQuaternion, Vector3, Vector6};
 
-use super::error::{checked, finite};
 use super::kinematics::joined;
 use super::{Pose, Thruster, Vehicle, VehicleError};
 
@@ -29,10 +30,10 @@ impl MountedThruster {
         delay_s: f64,
     ) -> Result<Self, VehicleError> {
         for &coordinate in &position_m {
-            finite("position of a thruster (m)", coordinate)?;
+            domain::finite("position of a thruster", coordinate, "m")?;
         }
-        checked("length of a thruster's direction", "positive", direction.norm(), |length| length > 0.0)?;
-        checked("thruster delay (s)", ">= 0", delay_s, |delay| delay >= 0.0)?;
+        domain::positive("length of a thruster's direction", direction.norm(), "")?;
+        domain::non_negative("thruster delay", delay_s, "s")?;
         let direction = Unit::new_normalize(direction).into_inner();
         Ok(Self { thruster, column: joined(&direction, &position_m.cross(&direction)), delay_s })
     }
@@ -107,13 +108,14 @@ impl Simulation {
         step_s: f64,
         state: State,
     ) -> Result<Self, VehicleError> {
-        checked("integration step (s)", "positive", step_s, |step| step > 0.0)?;
+        domain::positive("integration step", step_s, "s")?;
         let pending = thrusters
             .iter()
             .map(|mounted| {
                 let steps = mounted.delay_s / step_s;
                 let whole = |s: f64| (s - s.round()).abs() < 1e-6;
-                checked("thruster delay in integration steps", "a whole number", steps, whole)?;
+                let remedy = "choose an integration step that divides the delay";
+                domain::require_that(whole(steps), "thruster delay", steps, "integration steps", WHOLE, remedy)?;
                 Ok(std::iter::repeat_n(0.0, steps.round() as usize).collect())
             })
             .collect::<Result<_, VehicleError>>()?;
@@ -159,7 +161,7 @@ impl Simulation {
             return Err(VehicleError::Count { what: "thruster commands", count, needed });
         }
         for &command in commands {
-            finite("thruster command", command)?;
+            domain::finite("thruster command", command, "command units")?;
         }
         let mut force = Vector6::zeros();
         for ((mounted, queue), &command) in self.thrusters.iter().zip(&mut self.pending).zip(commands) {

@@ -1,5 +1,7 @@
 //! The experiment on board, carried out on the model with six degrees of freedom.
 
+use super::error::WHOLE;
+use crate::numeric::{Limit, domain};
 use std::collections::VecDeque;
 
 use nalgebra::{Matrix4, Vector4, Vector6};
@@ -7,7 +9,6 @@ use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
-use super::error::checked;
 use super::{Axis, AxisParameters, Motion, Simulation, State, Vehicle, VehicleError};
 use crate::experiment::{Record, Sensor};
 use crate::on_board::{Coordinate, Experiment, Phase, Protocol};
@@ -112,10 +113,12 @@ impl Trial {
             Axis::Surge | Axis::Sway => protocol.coordinate == Coordinate::Speed,
         };
         let number = axis.index() as f64;
-        checked("axis of the trial", "observed by heading (yaw), position (heave), speed (others)", number, |_| fits)?;
-        checked("sensor delay (s)", ">= 0", sensor.delay_s, |delay| delay >= 0.0)?;
-        checked("quantum of the sensor", ">= 0", sensor.quantum, |quantum| quantum >= 0.0)?;
-        checked("noise of the sensor", ">= 0", sensor.noise, |noise| noise >= 0.0)?;
+        let limit = Limit::Words("observed by heading (yaw), position (heave), speed (others)");
+        let remedy = "give the protocol the coordinate of its axis";
+        domain::require_that(fits, "axis of the trial", number, "", limit, remedy)?;
+        domain::non_negative("sensor delay", sensor.delay_s, "s")?;
+        domain::non_negative("quantum of the sensor", sensor.quantum, "coordinate units")?;
+        domain::non_negative("noise of the sensor", sensor.noise, "coordinate units")?;
         Ok(Self { axis, protocol, sensor, seed: 0 })
     }
 
@@ -140,15 +143,13 @@ impl Trial {
         let steps = |quantity, time_s: f64| {
             let steps = time_s / simulation.step_s();
             let whole = |s: f64| (s - s.round()).abs() < 1e-6;
-            checked(quantity, "a whole number of integration steps", steps, whole).map(|s| s.round() as usize)
+            let remedy = "choose an integration step that divides it";
+            let checked = domain::require_that(whole(steps), quantity, steps, "integration steps", WHOLE, remedy);
+            checked.map(|steps| steps.round() as usize)
         };
-        let each = steps("sampling interval in integration steps", self.protocol.interval_s)?.max(1);
-        let late = steps("sensor delay in integration steps", self.sensor.delay_s)?;
-        let experiment = Experiment::new(self.protocol).map_err(|refusal| VehicleError::OutOfDomain {
-            quantity: refusal.setting,
-            requirement: refusal.required,
-            value: refusal.value,
-        })?;
+        let each = steps("sampling interval", self.protocol.interval_s)?.max(1);
+        let late = steps("sensor delay", self.sensor.delay_s)?;
+        let experiment = Experiment::new(self.protocol)?;
         let mut run =
             TrialRun { experiment, time_s: Vec::new(), position: Vec::new(), force: Vec::new(), states: Vec::new() };
         let mut random = Pcg64Mcg::seed_from_u64(self.seed);

@@ -241,7 +241,7 @@ fn refusals_name_the_feature() {
     };
     assert!(good.linear_drag().is_ok() && good.quadratic_drag().is_ok());
     let named = |cycle: Cycle<f64>| match cycle.quadratic_drag() {
-        Err(IdentifyError::Feature { feature, .. }) => feature.split(' ').next().unwrap().to_owned(),
+        Err(IdentifyError::OutOfDomain(fault)) => fault.quantity.split(' ').next().unwrap().to_owned(),
         other => panic!("{other:?}"),
     };
     assert_eq!(named(Cycle { relay_level: 0.0, ..good }), "relay");

@@ -250,7 +250,7 @@ fn what_cannot_be_told_is_refused() {
     let refused = fit(&measured, DragLaw::Linear, Delay::KnownS(5.0));
     assert!(matches!(refused, Err(IdentifyError::NoOrbit { .. })), "{refused:?}");
     let refused = fit(&measured, DragLaw::Linear, Delay::KnownS(f64::NAN));
-    assert!(matches!(refused, Err(IdentifyError::Feature { .. })), "{refused:?}");
+    assert!(matches!(refused, Err(IdentifyError::OutOfDomain { .. })), "{refused:?}");
     let row = |amplitude| Oscillation {
         relay_level: 1.0,
         switch_level: 1.0,
@@ -260,5 +260,5 @@ fn what_cannot_be_told_is_refused() {
         delay_s: 0.0,
     };
     assert!(FeatureRow::new(&row(2.0)).is_ok());
-    assert!(matches!(FeatureRow::new(&row(f64::NAN)), Err(IdentifyError::Feature { .. })));
+    assert!(matches!(FeatureRow::new(&row(f64::NAN)), Err(IdentifyError::OutOfDomain { .. })));
 }

@@ -13,6 +13,7 @@ mod claims;
 mod control;
 mod describing;
 mod difference;
+mod errors;
 mod examples;
 mod features;
 mod fourier_oracle;

@@ -153,7 +153,7 @@ fn rest_without_force_stays() {
 #[test]
 fn parameters_are_checked() {
     let named = |result: Result<DragAxis<f64>, PlantError>| match result {
-        Err(PlantError::Parameter { parameter, .. }) => parameter,
+        Err(PlantError::OutOfDomain(fault)) => fault.quantity,
         other => panic!("{other:?}"),
     };
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {

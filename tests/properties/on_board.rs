@@ -215,7 +215,7 @@ fn a_protocol_outside_its_domain_is_refused() {
         Protocol { factor: 1.0, ..good },
     ] {
         let refusal = Experiment::new(bad).unwrap_err();
-        assert!(refusal.to_string().contains(refusal.setting), "{bad:?}");
+        assert!(refusal.to_string().contains(refusal.quantity), "{bad:?}");
     }
 }
 
