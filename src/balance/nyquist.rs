@@ -21,7 +21,7 @@ pub(super) fn near(a: Complex<f64>, b: Complex<f64>) -> bool {
 /// apart. A pole on the imaginary axis leaves a gap.
 ///
 /// # Errors
-/// [`BalanceError::Range`]; [`BalanceError::TooManyPoints`] where a delay turns the curve too often.
+/// [`BalanceError::OutOfDomain`]; [`BalanceError::TooManyPoints`] where a delay turns the curve too often.
 ///
 /// ```
 /// use selfosc::balance::nyquist_locus;
@@ -44,7 +44,7 @@ pub fn nyquist_locus(
 /// most a tenth of its magnitude apart. Amplitudes without describing function, or where it vanishes, are left out.
 ///
 /// # Errors
-/// [`BalanceError::Range`], [`BalanceError::TooManyPoints`].
+/// [`BalanceError::OutOfDomain`], [`BalanceError::TooManyPoints`].
 pub fn negative_inverse_locus(
     describing: impl Fn(&Sinusoid<f64>) -> Result<DescribingFunction<f64>, DescribingError>,
     bias: f64,
