@@ -7,6 +7,7 @@ use crate::balance::BalanceError;
 use crate::control::ControlError;
 use crate::describing::{CatalogueError, DescribingError};
 use crate::experiment::ExperimentError;
+use crate::identify::Refusal;
 use crate::nonlinearity::NonlinearityError;
 use crate::orbit::OrbitError;
 use crate::plant::PlantError;
@@ -42,6 +43,9 @@ pub(super) enum CommandError {
     /// A controller that cannot be designed.
     #[error(transparent)]
     Control(#[from] ControlError),
+    /// A log that cannot be read, or settings that no method can meet.
+    #[error(transparent)]
+    Identify(#[from] Refusal),
     /// A table, a figure or a report that cannot be made.
     #[error(transparent)]
     Report(#[from] ReportError),
@@ -50,22 +54,6 @@ pub(super) enum CommandError {
     Usage {
         /// What contradicts what, and the remedy.
         reason: &'static str,
-    },
-    /// A file that cannot be opened.
-    #[error("cannot read {}: {source}; give the path of a log that you may read", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: std::io::Error,
-    },
-    /// A log that cannot be read.
-    #[error("{}: {source}", path.display())]
-    Log {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        source: ExperimentError,
     },
     /// A file that cannot be written.
     #[error("cannot write {}: {source}; choose a folder that you may write to", path.display())]

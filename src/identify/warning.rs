@@ -8,7 +8,8 @@ use super::joint::Parameter;
 use crate::features::Features;
 
 /// Something that would mislead. Ratios are plain numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(tag = "code", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Warning {
     /// The oscillation barely passes the switching level: inertia follows from a small difference.

@@ -12,7 +12,7 @@ use crate::plant::{DragAxis, State};
 const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 /// A model fitted to whole records.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RecordFit {
     law: DragLaw,
     between: Between,
@@ -25,7 +25,7 @@ pub struct RecordFit {
 }
 
 /// The model along one record.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct FittedRecord {
     /// The constant force during this record.
