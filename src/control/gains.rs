@@ -42,7 +42,11 @@ impl Structure {
 /// # Ok::<(), selfosc::control::ControlError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Parts<T>", bound(deserialize = "T: Scalar + serde::Deserialize<'de>")))]
+#[cfg_attr(
+    feature = "std",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Parts<T>", bound(deserialize = "T: Scalar + serde::Deserialize<'de>"))
+)]
 pub struct Gains<T> {
     structure: Structure,
     proportional: T,

@@ -3,6 +3,8 @@
 //! [`Session`] goes the whole way from logs to a conclusion; the methods stand beside it for who has features or records:
 //! [`iso`], [`exact`], [`fit`], [`joint`], and [`select`] for the drag law.
 
+#[cfg(feature = "std")]
+mod any_float;
 mod drag_law;
 mod error;
 pub mod exact;

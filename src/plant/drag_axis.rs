@@ -18,7 +18,11 @@ use crate::numeric::Real;
 /// # Ok::<(), selfosc::plant::PlantError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Parts<T>", bound(deserialize = "T: Real + serde::Deserialize<'de>")))]
+#[cfg_attr(
+    feature = "std",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Parts<T>", bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub struct DragAxis<T> {
     alpha: T,
     linear_drag: T,

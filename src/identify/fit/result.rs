@@ -20,6 +20,7 @@ pub struct RecordFit {
     estimates: [Estimate; SHARED],
     covariance: [[f64; SHARED]; SHARED],
     records: Vec<FittedRecord>,
+    #[serde(with = "crate::identify::any_float")]
     evidence: f64,
     parameters: usize,
 }

@@ -1,5 +1,5 @@
 //! Nonlinear least squares over parameters that are zero or more: Levenberg-Marquardt on the singular value
-//! decomposition.
+//! decomposition, bounds by an active set.
 
 use faer::Mat;
 

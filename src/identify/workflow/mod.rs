@@ -10,7 +10,9 @@ mod refusal;
 mod session;
 mod settings;
 
-pub use document::{Conclusion, DragChoice, DragVerdict, FeatureMeans, FeatureValues, Probabilities, RecordConclusion, Refused, Total};
+pub use document::{
+    Conclusion, DragChoice, DragVerdict, FeatureMeans, FeatureValues, Probabilities, RecordConclusion, Refused, Total,
+};
 pub use identification::{Caution, Identification, Source};
 pub use model::Model;
 pub use refusal::Refusal;

@@ -54,7 +54,8 @@ struct Entry {
 
 impl From<Model> for Entry {
     fn from(model: Model) -> Self {
-        let Model { method, record, drag, alpha, beta, beta_quadratic, delay_s, deltas, fit_percent, residual_rms } = model;
+        let Model { method, record, drag, alpha, beta, beta_quadratic, delay_s, deltas, fit_percent, residual_rms } =
+            model;
         let delta = single(&deltas);
         Self { method, drag, record, alpha, beta, beta_quadratic, delta, deltas, delay_s, fit_percent, residual_rms }
     }
@@ -62,7 +63,9 @@ impl From<Model> for Entry {
 
 impl From<Entry> for Model {
     fn from(entry: Entry) -> Self {
-        let Entry { method, drag, record, alpha, beta, beta_quadratic, deltas, delay_s, fit_percent, residual_rms, .. } = entry;
+        let Entry {
+            method, drag, record, alpha, beta, beta_quadratic, deltas, delay_s, fit_percent, residual_rms, ..
+        } = entry;
         Self { method, record, drag, alpha, beta, beta_quadratic, delay_s, deltas, fit_percent, residual_rms }
     }
 }

@@ -55,9 +55,8 @@ pub fn feature_table(source: &Source) -> Option<Table> {
     let f = &found.features;
     let title = format!("Features over {} steady cycles", f.cycles);
     let table = Table::new("features", &title, &["feature", "mean", "spread"]);
-    let row = |table: Table, name: &str, spread: &Spread<f64>| {
-        table.row([name.into(), cell(spread.mean), cell(spread.std)])
-    };
+    let row =
+        |table: Table, name: &str, spread: &Spread<f64>| table.row([name.into(), cell(spread.mean), cell(spread.std)]);
     let table = row(table, "amplitude X_m", &f.amplitude);
     let table = row(table, "bias x_0", &f.bias);
     let table = row(table, "period T (s)", &f.period_s);
@@ -148,16 +147,7 @@ fn comparison(found: &Identification) -> Table {
     let several = found.sources().len() > 1;
     let mut columns = vec!["method", "drag"];
     columns.extend(several.then_some("record"));
-    columns.extend([
-        "alpha",
-        "beta",
-        "beta_quadratic",
-        "delta",
-        "delay (s)",
-        "fit (%)",
-        "residual rms",
-        "probability",
-    ]);
+    columns.extend(["alpha", "beta", "beta_quadratic", "delta", "delay (s)", "fit (%)", "residual rms", "probability"]);
     let table = Table::new("methods", "Methods compared", &columns);
     found.models().iter().fold(table, |table, model| {
         let record = model.record.map_or("all", |index| &found.sources()[index].name);
