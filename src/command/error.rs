@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use crate::Error;
-use crate::experiment::ExperimentError;
 
 /// Why a subcommand could not answer.
 #[derive(Debug, thiserror::Error)]
@@ -20,22 +19,6 @@ pub(super) enum CommandError {
     Usage {
         /// What contradicts what, and the remedy.
         reason: &'static str,
-    },
-    /// A file that cannot be opened.
-    #[error("cannot read {}: {source}; give the path of a log that you may read", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: std::io::Error,
-    },
-    /// A log that cannot be read.
-    #[error("{}: {source}", path.display())]
-    Log {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        source: ExperimentError,
     },
     /// A file that cannot be written.
     #[error("cannot write {}: {source}; choose a folder that you may write to", path.display())]

@@ -54,11 +54,35 @@ impl Structure {
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "std",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Wanted<T>", bound(deserialize = "T: Scalar + serde::Deserialize<'de>"))
+)]
 pub struct Tuning<T> {
     axis: DragAxis<T>,
     bandwidth_rad_s: T,
     gains: Gains<T>,
     margins: Margins<T>,
+}
+
+/// What a written design was made for; it is made again, so that its margins are those of its gains.
+#[cfg(feature = "std")]
+#[derive(serde::Deserialize)]
+#[serde(bound(deserialize = "T: Scalar + serde::Deserialize<'de>"))]
+struct Wanted<T> {
+    axis: DragAxis<T>,
+    bandwidth_rad_s: T,
+    gains: Gains<T>,
+}
+
+#[cfg(feature = "std")]
+impl<T: Scalar> TryFrom<Wanted<T>> for Tuning<T> {
+    type Error = ControlError;
+
+    fn try_from(wanted: Wanted<T>) -> Result<Self, ControlError> {
+        Self::new(&wanted.axis, wanted.gains.structure(), wanted.bandwidth_rad_s)
+    }
 }
 
 impl<T: Scalar> Tuning<T> {

@@ -6,6 +6,7 @@ use crate::numeric::{Limit, Scalar, domain};
 /// On what the three actions of a controller act. The derivative always acts on the measurement, so that a step of the
 /// reference gives no kick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Structure {
     /// Proportional to the error; no integral.
     Pd,
@@ -40,12 +41,37 @@ impl Structure {
 /// # Ok::<(), selfosc::control::ControlError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "std",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Parts<T>", bound(deserialize = "T: Scalar + serde::Deserialize<'de>"))
+)]
 pub struct Gains<T> {
     structure: Structure,
     proportional: T,
     integral: T,
     derivative: T,
     filter_s: T,
+}
+
+/// Gains as they are written, not yet checked.
+#[cfg(feature = "std")]
+#[derive(serde::Deserialize)]
+struct Parts<T> {
+    structure: Structure,
+    proportional: T,
+    integral: T,
+    derivative: T,
+    filter_s: T,
+}
+
+#[cfg(feature = "std")]
+impl<T: Scalar> TryFrom<Parts<T>> for Gains<T> {
+    type Error = ControlError;
+
+    fn try_from(parts: Parts<T>) -> Result<Self, ControlError> {
+        Self::new(parts.structure, parts.proportional, parts.integral, parts.derivative, parts.filter_s)
+    }
 }
 
 impl<T: Scalar> Gains<T> {

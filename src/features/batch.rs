@@ -4,7 +4,7 @@ use super::{Cycle, Cycles, FeatureError, Features, Summary};
 use crate::experiment::Record;
 
 /// The two levels of a relay's command, as a record shows them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RelayLevels {
     /// Half the distance of the two levels, C.
     pub level: f64,
@@ -13,7 +13,7 @@ pub struct RelayLevels {
 }
 
 /// Features of a record, with what only the whole record tells.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct RecordFeatures {
     /// Means and spreads.

@@ -16,6 +16,7 @@ use crate::plant::{DragAxis, OneWay};
 /// The position counts by differences only, so a reference other than zero or an offset of the sensor has no effect; the
 /// disturbance comes from the times.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cycle<T> {
     /// Relay level C, in units of the command.
     pub relay_level: T,

@@ -1,9 +1,10 @@
 //! Maximum likelihood on whole records: linear, quadratic or mixed drag, disturbance, initial state, perhaps the delay.
 //!
-//! Between changes of the command the motion is in closed form, and dual numbers carry its derivatives. The record is cut
-//! into stretches whose beginnings are unknowns too until they fit together, so that a poor start does no harm; the
-//! equations are solved along this chain at a cost that grows with the samples only. Where the command changed at an
-//! unknown instant between two samples, the instant is estimated with the rest.
+//! Multiple shooting: the record is cut into stretches (shooting intervals) whose initial states are unknowns too until they
+//! are continuous, so that a poor start does no harm. Between changes of the command the motion is in closed form, and dual
+//! numbers carry its derivatives. Steps are those of the generalised Gauss-Newton method, condensed from stretch to stretch at
+//! a cost that grows with the samples only. Where the command changed at an unknown instant between two samples, the instant
+//! is estimated with the rest, and integrated out by Laplace's approximation where likelihoods are compared.
 
 mod chain;
 mod input;

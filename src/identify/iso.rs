@@ -11,6 +11,7 @@ use crate::numeric::{Limit, Real, domain};
 
 /// What the method reads off a record: means over its cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct Oscillation<T> {
     /// Relay level C, in units of the command.
     pub relay_level: T,
@@ -28,6 +29,7 @@ pub struct Oscillation<T> {
 
 /// Parameters of one axis under each drag law. The output in radians gives SI units of moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct Parameters<T> {
     /// Inertia with added mass, command units per output unit per second squared; the same under either law.
     pub alpha: T,
@@ -109,6 +111,7 @@ pub fn disturbance_from_times<T: Real>(relay_level: T, time_positive_s: T, time_
 /// Relative errors of the parameters per relative error of the amplitude (eqs. 37-39), for an unbiased oscillation without
 /// delay.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct AmplitudeSensitivity<T> {
     /// `(2 - r^2)/(r^2 - 1)` with `r = X_m/x_a` (eq. 37): zero at `r = sqrt(2)`, without bound as `r` falls to 1.
     pub alpha: T,

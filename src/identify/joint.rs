@@ -24,7 +24,8 @@ pub type Sensitive = DualSVec64<COUNT>;
 const COUNT: usize = 4;
 
 /// A parameter that all experiments share.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Parameter {
     /// Inertia with added mass alpha.
     Alpha,
@@ -37,12 +38,20 @@ pub enum Parameter {
 }
 
 /// What is done about the delay.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Delay {
     /// It is known, in seconds.
     KnownS(f64),
     /// It is estimated with the other parameters, zero or more.
     Estimated,
+}
+
+impl Default for Delay {
+    /// None: known to be zero.
+    fn default() -> Self {
+        Self::KnownS(0.0)
+    }
 }
 
 /// An experiment as the joint estimate sees it.
@@ -60,7 +69,8 @@ pub trait Experiment {
 }
 
 /// A value with what is known of its error.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(into = "Interval", try_from = "Interval")]
 pub struct Estimate {
     /// The value, in the units of the experiments.
     pub value: f64,
@@ -68,8 +78,36 @@ pub struct Estimate {
     pub spread: Option<Spread>,
 }
 
+/// An estimate as it is written: `{"value", "std", "low", "high"}`, the last three null together.
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Interval {
+    value: f64,
+    std: Option<f64>,
+    low: Option<f64>,
+    high: Option<f64>,
+}
+
+impl From<Estimate> for Interval {
+    fn from(Estimate { value, spread }: Estimate) -> Self {
+        let field = |of: fn(Spread) -> f64| spread.map(of);
+        Self { value, std: field(|s| s.std), low: field(|s| s.low), high: field(|s| s.high) }
+    }
+}
+
+impl TryFrom<Interval> for Estimate {
+    type Error = &'static str;
+
+    fn try_from(Interval { value, std, low, high }: Interval) -> Result<Self, Self::Error> {
+        match (std, low, high) {
+            (Some(std), Some(low), Some(high)) => Ok(Self { value, spread: Some(Spread { std, low, high }) }),
+            (None, None, None) => Ok(Self { value, spread: None }),
+            _ => Err("std, low and high of an estimate must be numbers or null together"),
+        }
+    }
+}
+
 /// Error of an estimate.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Spread {
     /// Standard deviation.
     pub std: f64,
@@ -83,7 +121,7 @@ pub struct Spread {
 ///
 /// Its intervals hold for residuals that are independent and of equal variance, and for a model that is true up to them: a
 /// wrong drag law shows as a larger residual, not as a wider interval.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Joint {
     law: DragLaw,
     axis: DragAxis<f64>,

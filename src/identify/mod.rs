@@ -1,5 +1,10 @@
 //! From an oscillation to a model of the vehicle.
+//!
+//! [`Session`] goes the whole way from logs to a conclusion; the methods stand beside it for who has features or records:
+//! [`iso`], [`exact`], [`fit`], [`joint`], and [`select`] for the drag law.
 
+#[cfg(feature = "std")]
+mod any_float;
 mod drag_law;
 mod error;
 pub mod exact;
@@ -13,8 +18,15 @@ mod reading;
 pub mod select;
 #[cfg(feature = "std")]
 mod warning;
+#[cfg(feature = "std")]
+mod workflow;
 
 pub use drag_law::DragLaw;
 pub use error::IdentifyError;
 #[cfg(feature = "std")]
 pub use warning::Warning;
+#[cfg(feature = "std")]
+pub use workflow::{
+    Caution, Conclusion, DragChoice, DragVerdict, FeatureMeans, FeatureValues, Identification, Method, Model,
+    Probabilities, RecordConclusion, Refusal, Refused, Session, Settings, SettingsError, Source, Stage, Total,
+};

@@ -8,6 +8,7 @@ use crate::plant::DragAxis;
 
 /// The moment at which another command begins to act, delay included.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct Switching<T> {
     /// Position x there; beyond the relay's half-width by the way made during the delay.
     pub position: T,
@@ -17,6 +18,7 @@ pub struct Switching<T> {
 
 /// A self-oscillation about the reference zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct LimitCycle<T> {
     /// Half the peak-to-peak range, X_m.

@@ -18,12 +18,38 @@ use crate::numeric::{Limit, Real, domain};
 /// # Ok::<(), selfosc::plant::PlantError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "std",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Parts<T>", bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub struct DragAxis<T> {
     alpha: T,
     linear_drag: T,
     quadratic_drag: T,
     disturbance: T,
     delay_s: T,
+}
+
+/// An axis as it is written, not yet checked.
+#[cfg(feature = "std")]
+#[derive(serde::Deserialize)]
+struct Parts<T> {
+    alpha: T,
+    linear_drag: T,
+    quadratic_drag: T,
+    disturbance: T,
+    delay_s: T,
+}
+
+#[cfg(feature = "std")]
+impl<T: Real> TryFrom<Parts<T>> for DragAxis<T> {
+    type Error = PlantError;
+
+    fn try_from(parts: Parts<T>) -> Result<Self, PlantError> {
+        let axis = Self::mixed(parts.alpha, parts.linear_drag, parts.quadratic_drag)?;
+        axis.with_disturbance(parts.disturbance)?.with_delay_s(parts.delay_s)
+    }
 }
 
 impl<T: Real> DragAxis<T> {

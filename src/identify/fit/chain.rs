@@ -1,4 +1,5 @@
-//! Linear least squares over a chain of stretches, from the last to the first: the cost grows with the samples only.
+//! Condensing of multiple shooting: block QR over a chain of stretches (shooting intervals), from the last to the first; the
+//! cost grows with the samples only.
 //!
 //! Each stretch has two unknowns of its own, the state at its beginning, and perhaps a third, the instant of an edge. What
 //! the stretches after it say about its end is a triangle of rows; these are carried to its beginning by the motion's own

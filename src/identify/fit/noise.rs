@@ -1,4 +1,4 @@
-//! The likelihood of a reading.
+//! The likelihood of a reading: Gaussian noise, interval-censored where the sensor rounds.
 
 use core::f64::consts::{LN_2, PI, SQRT_2};
 

@@ -12,7 +12,7 @@ use crate::plant::{DragAxis, State};
 const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 /// A model fitted to whole records.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RecordFit {
     law: DragLaw,
     between: Between,
@@ -20,12 +20,13 @@ pub struct RecordFit {
     estimates: [Estimate; SHARED],
     covariance: [[f64; SHARED]; SHARED],
     records: Vec<FittedRecord>,
+    #[serde(with = "crate::identify::any_float")]
     evidence: f64,
     parameters: usize,
 }
 
 /// The model along one record.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct FittedRecord {
     /// The constant force during this record.

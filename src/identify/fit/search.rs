@@ -1,4 +1,4 @@
-//! Gauss and Newton's method with the reading's own likelihood, over records cut into stretches.
+//! Generalised Gauss-Newton method by multiple shooting: each reading weighs by its own likelihood's curvature.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -302,7 +302,7 @@ impl<'a> Search<'a> {
         Start { between: self.between, shared: self.shared, disturbances }
     }
 
-    /// Logarithm of the likelihood with the uncertain instants integrated out: comparable between treatments of the input and
+    /// Logarithm of the likelihood with the uncertain instants integrated out (Laplace's approximation): comparable between treatments of the input and
     /// between drag laws.
     pub(super) fn evidence(&self) -> f64 {
         self.evidence
@@ -436,7 +436,7 @@ impl<'a> Search<'a> {
         [alpha, drag, drag / speed, delay_s.max(DELAY_SHARE * typical(|motion| motion.swing_s))]
     }
 
-    /// The step of the common unknowns, with drag and delay kept at zero or more.
+    /// The step of the common unknowns, with drag and delay kept at zero or more by an active set.
     fn bounded(&self, chains: &[(Chain, Vec<Option<usize>>)]) -> Result<Shared, IdentifyError> {
         let stacked = stack(chains.iter().map(|(chain, _)| chain));
         let mut fixed = self.fixed();

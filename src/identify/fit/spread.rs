@@ -1,6 +1,6 @@
-//! How sure a fit is.
+//! Covariance of the estimates.
 //!
-//! With Gaussian noise the inverse of the information says it. A rounding sensor is another matter: on a steady cycle its
+//! With Gaussian noise it is the inverse of the information. A rounding sensor is another matter: on a steady cycle its
 //! errors repeat from cycle to cycle, and do not average out. There the errors are drawn: the model's own readings on
 //! motions within about a step of the one fitted, pushed through the same linear equations.
 

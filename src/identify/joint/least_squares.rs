@@ -1,5 +1,5 @@
 //! Nonlinear least squares over parameters that are zero or more: Levenberg-Marquardt on the singular value
-//! decomposition.
+//! decomposition, bounds by an active set.
 
 use faer::Mat;
 
@@ -13,7 +13,11 @@ pub(super) struct Linearised<const N: usize> {
 }
 
 /// Where the search ended.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(bound(
+    serialize = "[f64; N]: serde::Serialize, [bool; N]: serde::Serialize, [[f64; N]; N]: serde::Serialize",
+    deserialize = "[f64; N]: serde::Deserialize<'de>, [bool; N]: serde::Deserialize<'de>, [[f64; N]; N]: serde::Deserialize<'de>"
+))]
 pub(super) struct Minimum<const N: usize> {
     pub(super) values: [f64; N],
     /// Estimated, and not on the bound zero.

@@ -14,10 +14,29 @@ pub const DECIDED: f64 = 19.0;
 pub const DECIDED_AGAINST_MIXED: f64 = 4.0;
 
 /// The laws fitted, and which of them the records speak for.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(try_from = "Parts")]
 pub struct Choice {
     fits: Vec<RecordFit>,
     probabilities: Vec<f64>,
+}
+
+/// A choice as it is written, not yet checked.
+#[derive(serde::Deserialize)]
+struct Parts {
+    fits: Vec<RecordFit>,
+    probabilities: Vec<f64>,
+}
+
+impl TryFrom<Parts> for Choice {
+    type Error = &'static str;
+
+    fn try_from(Parts { fits, probabilities }: Parts) -> Result<Self, Self::Error> {
+        if fits.is_empty() || fits.len() != probabilities.len() {
+            return Err("a choice needs a fit or more, and a probability for each");
+        }
+        Ok(Self { fits, probabilities })
+    }
 }
 
 /// Each of `laws` fitted to all records at once, in their order; the simple ones in parallel, then the mixed one, which contains

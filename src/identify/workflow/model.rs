@@ -1,50 +1,17 @@
 //! What one method found, in the same terms for all methods.
 
+use serde::{Deserialize, Serialize};
+
+use super::settings::Method;
 use crate::features::RelayLevels;
 use crate::identify::fit::RecordFit;
 use crate::identify::joint::{Estimate, Parameter};
 use crate::identify::{DragLaw, iso};
 use crate::plant::DragAxis;
 
-/// Ways from records to parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Method {
-    /// The paper's: the first harmonic of the mean cycle
-    Iso,
-    /// The exact limit cycle with the mean cycle's features
-    Exact,
-    /// Maximum likelihood on every sample, with intervals
-    Fit,
-    /// All of them
-    All,
-}
-
-impl Method {
-    /// Name on the command line and in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Iso => "iso",
-            Self::Exact => "exact",
-            Self::Fit => "fit",
-            Self::All => "all",
-        }
-    }
-
-    /// Whether `one` is asked for.
-    pub(super) fn has(self, one: Self) -> bool {
-        self == one || self == Self::All
-    }
-
-    /// Whether a fit is asked for.
-    #[must_use]
-    pub fn fits(self) -> bool {
-        self.has(Self::Fit)
-    }
-}
-
 /// What one method found under one drag law.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(into = "Entry", from = "Entry")]
 pub struct Model {
     /// The method.
     pub method: Method,
@@ -68,7 +35,53 @@ pub struct Model {
     pub residual_rms: Option<f64>,
 }
 
+/// A model in a document: the disturbance of a single record is at hand without counting records.
+#[derive(Serialize, Deserialize)]
+struct Entry {
+    method: Method,
+    drag: DragLaw,
+    record: Option<usize>,
+    alpha: Estimate,
+    beta: Option<Estimate>,
+    beta_quadratic: Option<Estimate>,
+    #[serde(skip_deserializing)]
+    delta: Option<Estimate>,
+    deltas: Vec<Estimate>,
+    delay_s: Estimate,
+    fit_percent: Option<f64>,
+    residual_rms: Option<f64>,
+}
+
+impl From<Model> for Entry {
+    fn from(model: Model) -> Self {
+        let Model { method, record, drag, alpha, beta, beta_quadratic, delay_s, deltas, fit_percent, residual_rms } =
+            model;
+        let delta = single(&deltas);
+        Self { method, drag, record, alpha, beta, beta_quadratic, delta, deltas, delay_s, fit_percent, residual_rms }
+    }
+}
+
+impl From<Entry> for Model {
+    fn from(entry: Entry) -> Self {
+        let Entry {
+            method, drag, record, alpha, beta, beta_quadratic, deltas, delay_s, fit_percent, residual_rms, ..
+        } = entry;
+        Self { method, record, drag, alpha, beta, beta_quadratic, delay_s, deltas, fit_percent, residual_rms }
+    }
+}
+
+/// The only one.
+fn single(deltas: &[Estimate]) -> Option<Estimate> {
+    if let [delta] = deltas { Some(*delta) } else { None }
+}
+
 impl Model {
+    /// The constant force, where the model is from one record.
+    #[must_use]
+    pub fn delta(&self) -> Option<Estimate> {
+        single(&self.deltas)
+    }
+
     pub(super) fn of_fit(fit: &RecordFit) -> Self {
         let law = fit.law();
         let (residual_rms, fit_percent) = pooled(fit);
