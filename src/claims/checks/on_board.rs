@@ -1,15 +1,15 @@
 //! The state machine of the experiment on board, every state of it over a lattice of readings and times.
 
-use super::Printed;
-use super::claim::claim;
-use super::machine::{Defect, Event, INTERVALS_S, Lattice, Machine, SOUND, explore};
+use super::machine::{Defect, Event, INTERVALS_S, LATTICES, Lattice, Machine, SOUND, explore};
+use super::{AsPrinted, claim};
 use crate::on_board::{Coordinate, Phase};
 
 claim! {
     ON_BOARD_ENDS = "on-board-ends" "of this project" Theorem
     "Whatever the samples, the experiment ends within its time, and until then one more sample may complete it"
     {
-        printed: Printed::Absent,
+        domain: LATTICES,
+        printed: AsPrinted::Absent,
         corrected: Some(|_| explore(Defect::None, ends)),
         // Its time over, it begins anew.
         falsified: |_| explore(Defect::Restarts, ends),
@@ -36,7 +36,8 @@ claim! {
     ON_BOARD_SWITCHES = "on-board-switches" "of this project" Theorem
     "Between two switchings the coordinate moves by both half-widths, at no more than its largest rate: no chattering"
     {
-        printed: Printed::Absent,
+        domain: LATTICES,
+        printed: AsPrinted::Absent,
         corrected: Some(|_| explore(Defect::None, switches)),
         // A relay without hysteresis.
         falsified: |_| explore(Defect::NoHysteresis, switches),
@@ -70,7 +71,8 @@ claim! {
     ON_BOARD_ABORT = "on-board-abort" "of this project" Theorem
     "From every state an abort gives the neutral command at once, and nothing but a restart changes that"
     {
-        printed: Printed::Absent,
+        domain: LATTICES,
+        printed: AsPrinted::Absent,
         corrected: Some(|_| explore(Defect::None, abort)),
         // Obeyed in the first attempt only.
         falsified: |_| explore(Defect::IgnoresAbort, abort),
@@ -92,7 +94,8 @@ claim! {
     ON_BOARD_LIMITS = "on-board-limits" "of this project" Theorem
     "The command is within its limits in every state, after every change of the relay too, and neutral unless running"
     {
-        printed: Printed::Absent,
+        domain: LATTICES,
+        printed: AsPrinted::Absent,
         corrected: Some(|_| explore(Defect::None, limits)),
         // The level raised without regard to the limits.
         falsified: |_| explore(Defect::Unclamped, limits),
@@ -112,7 +115,8 @@ claim! {
     ON_BOARD_FAULTS = "on-board-faults" "of this project" Theorem
     "A sample that a sound sensor and clock cannot have given is a fault by its name, a sound one is none, and faults stay"
     {
-        printed: Printed::Absent,
+        domain: LATTICES,
+        printed: AsPrinted::Absent,
         corrected: Some(|_| explore(Defect::None, faults)),
         // Goes on with the next sample after a fault.
         falsified: |_| explore(Defect::Forgives, faults),

@@ -2,17 +2,23 @@
 
 use core::f64::consts::PI;
 
-use super::claim::claim;
+use super::enclosure::{identity, no_function};
 use super::family::{not_odd, odd_hysteretic, odd_nondecreasing, output_scale, sweep, unbiased};
-use super::{Budget, Case, Draw, Hypothesis, Printed, Verdict, proof, sample, tolerance};
-use crate::describing::{Boxed, ClosedForm, by_quadrature, harmonic};
+use super::kernels::{BREAKPOINT, prove_kernel};
+use super::tone::{EVERY_AMPLITUDE, prove_sine_abs_sine};
+use super::{AsPrinted, Budget, Case, Distortion, Draw, Hypothesis, Part, Variable, Verdict, claim, sample, tolerance};
+use crate::describing::{Boxed, ClosedForm, KernelForm, by_quadrature, harmonic};
 use crate::nonlinearity::{Branch, Characteristic, NonlinearityError, Polynomial, Power, Sinusoid};
 use crate::numeric::quadrature::integrate;
+use crate::numeric::{Interval, Real};
+use crate::proof::identity::Series;
+use std::array;
 
 claim! {
     FOURIER_COEFFICIENTS = "fourier-coefficients" "7-11" Definition
     "The mean and first harmonic of eq. 10 leave the least mean square of the output" {
-        printed: Printed::Holds(|budget| least_square(budget, 1.0)),
+        domain: &[Part::whole("whole", "odd nondecreasing characteristics of the catalogue, every bias and amplitude")],
+        printed: AsPrinted::Holds(|budget| least_square(budget, 1.0)),
         corrected: None,
         // Halved coefficients, as from 1/(2 pi) in place of 1/pi.
         falsified: |budget| least_square(budget, 0.5),
@@ -61,9 +67,12 @@ fn mean_over_sweep(
 claim! {
     DESCRIBING_FUNCTION = "describing-function" "12-15" Definition
     "P and Q are the first-harmonic coefficients over the amplitude, F_0 the mean: closed form and integral agree" {
-        printed: Printed::Holds(|budget| closed_is_integral(budget, 1.0).backed_by(proof::describing_function)),
+        domain: &[BREAKPOINT, Part::whole("decomposition", "each member of the piecewise-linear catalogue is the sum of its kernels, every parameter"), Part::whole("beyond-the-sweep", "sweeps that end beyond a breakpoint")],
+        by_hand: &["height and amplitude are set to one by linearity and homogeneity", "the sides and branches follow from one by reflection"],
+        printed: AsPrinted::Holds(|budget| closed_is_integral(budget, 1.0)),
         corrected: None,
         falsified: |budget| closed_is_integral(budget, 1.000_01),
+        proof: Some(prove_describing_function),
         hypotheses: &[],
         depends: &["fourier-coefficients", "kernel-step", "kernel-ramp", "kernel-sign", "kernel-band"],
     }
@@ -92,9 +101,12 @@ fn closed_is_integral(budget: Budget, factor: f64) -> Verdict {
 claim! {
     POLYNOMIAL = "polynomial" "10" Identity
     "F_0 and P of a polynomial follow from its coefficients about the bias and the means of even powers of the sine" {
-        printed: Printed::Absent,
-        corrected: Some(|budget| polynomial_is_integral(budget, 1.0).backed_by(proof::polynomial)),
+        domain: &[Part::over("powers", "x^0 to x^9, every amplitude", const { &[Variable::number("bias/amplitude", f64::NEG_INFINITY, f64::INFINITY)] })],
+        by_hand: &["every amplitude by homogeneity", "the mean over twelve angles is the mean over the circle for degrees below twelve"],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| polynomial_is_integral(budget, 1.0)),
         falsified: |budget| polynomial_is_integral(budget, 1.000_01),
+        proof: Some(prove_polynomial),
         hypotheses: &[],
         depends: &["fourier-coefficients"],
     }
@@ -120,7 +132,8 @@ fn polynomial_is_integral(budget: Budget, factor: f64) -> Verdict {
 claim! {
     ODD_HARMONICS = "odd-harmonics" "Theorem 1" Theorem
     "An odd characteristic without memory under an unbiased sinusoid gives odd harmonics only" {
-        printed: Printed::Holds(|budget| even_vanish(budget, odd_nondecreasing, unbiased)),
+        domain: &[Part::whole("whole", "odd characteristics without memory, every amplitude")],
+        printed: AsPrinted::Holds(|budget| even_vanish(budget, odd_nondecreasing, unbiased)),
         corrected: None,
         falsified: |budget| even_vanish(budget, not_odd, unbiased),
         hypotheses: &[
@@ -134,7 +147,8 @@ claim! {
 claim! {
     ODD_HARMONICS_HYSTERETIC = "odd-harmonics-hysteretic" "Theorem 1, with memory" Theorem
     "Theorem 1 holds with memory when each branch is the other turned about the origin" {
-        printed: Printed::Absent,
+        domain: &[Part::whole("whole", "characteristics whose branches are each other's half-turn image, every amplitude")],
+        printed: AsPrinted::Absent,
         corrected: Some(|budget| even_vanish(budget, odd_hysteretic, unbiased)),
         falsified: |budget| even_vanish(budget, not_odd, unbiased),
         hypotheses: &[
@@ -167,9 +181,12 @@ fn even_vanish(budget: Budget, family: Family, sweep: Sweep) -> Verdict {
 claim! {
     SINE_ABS_SINE = "sine-abs-sine" "before 29" Identity
     "The first harmonic of sin abs(sin) is 8/(3 pi) sin; the next is the third, -8/(15 pi)" {
-        printed: Printed::Holds(|budget| sine_abs_sine(budget, 8.0 / (3.0 * PI)).backed_by(proof::sine_abs_sine)),
+        domain: &[EVERY_AMPLITUDE],
+        by_hand: &["every amplitude by homogeneity of degree two"],
+        printed: AsPrinted::Holds(|budget| sine_abs_sine(budget, 8.0 / (3.0 * PI))),
         corrected: None,
         falsified: |budget| sine_abs_sine(budget, 0.85),
+        proof: Some(prove_sine_abs_sine),
         hypotheses: &[],
         depends: &["describing-function"],
     }
@@ -194,5 +211,43 @@ fn sine_abs_sine(budget: Budget, first: f64) -> Verdict {
             ))
             .and(draw.equal(("cosine", cosine), 0.0, scale, tolerance::QUADRATURE))
             .and(draw.equal(("third", third), -8.0 / (15.0 * PI) * scale, scale, tolerance::QUADRATURE))
+    })
+}
+
+/// Every kernel. That the members of the catalogue are sums of kernels is not proved here.
+fn prove_describing_function(distortion: Distortion) -> Verdict {
+    let forms = [KernelForm::Step, KernelForm::Ramp, KernelForm::Sign, KernelForm::Band];
+    forms
+        .map(|form| prove_kernel(form, distortion, BREAKPOINT))
+        .into_iter()
+        .reduce(|all, next| all.and(|| next))
+        .unwrap_or_else(|| Verdict::undecided("nothing"))
+}
+
+/// Powers up to the ninth. The mean over twelve equally spaced angles is the mean over the circle for every trigonometric
+/// polynomial of degree below twelve, so the integral needs no antiderivative.
+fn prove_polynomial(distortion: Distortion) -> Verdict {
+    const COVERED: Part = Part::over("powers", "", const { &[Variable::number("bias/amplitude", -2.0, 2.0)] });
+    identity(COVERED, distortion, |bias, factor| {
+        let sweep = Sinusoid::new(bias, Series::one()).ok();
+        let nodes = (0..12).map(|k| Interval::point(f64::from(k)) * Interval::PI / Interval::point(6.0));
+        let sines: Vec<Series> = nodes.map(|angle| Series::constant(angle.sin())).collect();
+        let mut powers = vec![Series::one(); sines.len()];
+        let mut errors = [Series::zero(); 20];
+        for (degree, error) in errors.chunks_mut(2).enumerate() {
+            let monomial =
+                Polynomial::<_, 10>::new(array::from_fn(|k| Series::from_f64(f64::from(u8::from(k == degree)))));
+            let closed =
+                sweep.zip(monomial.ok()).and_then(|(sweep, monomial)| monomial.describing_function(&sweep).ok());
+            let closed = closed.unwrap_or_else(no_function) * factor;
+            let (mut mean, mut sine) = (Series::zero(), Series::zero());
+            for (power, &node) in powers.iter_mut().zip(&sines) {
+                (mean, sine) = (mean + *power, sine + *power * node);
+                *power = *power * (bias + node);
+            }
+            error[0] = closed.f0 - mean / Series::from_f64(12.0);
+            error[1] = closed.p - sine / Series::from_f64(6.0);
+        }
+        errors
     })
 }

@@ -1,8 +1,7 @@
 //! Exact limit cycles of a drag axis, and what the first-harmonic method makes of them.
 
-use super::claim::claim;
-use super::orbit_proofs::proved;
-use super::{Budget, Case, Draw, Hypothesis, Printed, Verdict, sample, tolerance};
+use super::orbit_proofs::{FALSE_DRAG, proved};
+use super::{AsPrinted, Budget, Case, Draw, Hypothesis, Part, Verdict, claim, sample, tolerance};
 use crate::balance::HarmonicBalance;
 use crate::describing::ClosedForm;
 use crate::identify::iso::{Oscillation, Parameters, disturbance_from_times};
@@ -31,6 +30,8 @@ const QUADRATIC: Family = Family {
     group: |alpha, drag, _| drag / alpha,
     drag_of: |parameters| parameters.beta_quadratic,
 };
+
+const EVERY_AXIS: Part = Part::whole("every-axis", "every alpha, beta, C, x_a > 0; every start");
 
 /// An axis with its relay.
 struct Loop {
@@ -62,16 +63,20 @@ impl Loop {
 claim! {
     ORBIT_QUADRATIC = "orbit-quadratic" "of this project" Theorem
     "Quadratic drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start" {
-        printed: Printed::Absent,
+        domain: &[EVERY_AXIS],
+        by_hand: &["the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles", "existence: the return map takes an interval into itself", "every start reaches the map's domain"],
+        printed: AsPrinted::Absent,
         corrected: Some(|budget| {
-            cross_checked(|| proved(&theorem::QUADRATIC), closed_form_orbit(budget, |l| {
+            closed_form_orbit(budget, |l| {
                 let (g, reach) = (l.drag * l.half_width / l.alpha, l.alpha / (2.0 * l.drag));
                 let amplitude = l.half_width + reach * orbit::quadratic_speeds(-(-4.0 * g).exp_m1(), 0.0)[0].ln_1p();
                 let period = 2.0 * l.alpha / (l.drag * l.level).sqrt() * orbit::quadratic_period(g);
                 (amplitude, period)
             }, &QUADRATIC)
-            .and(|| attracts(budget, &QUADRATIC)))
+            .and(|| attracts(budget, &QUADRATIC))
+            .backed_by(|| proved(&theorem::QUADRATIC, const { &[EVERY_AXIS] }))
         }),
+        theorem: Some((&theorem::QUADRATIC, &FALSE_DRAG)),
         // E = exp(-2 g) in place of exp(-4 g): the energy of a whole swing taken for half of it.
         falsified: |budget| closed_form_orbit(budget, |l| {
             let (g, reach) = (l.drag * l.half_width / l.alpha, l.alpha / (2.0 * l.drag));
@@ -89,11 +94,13 @@ claim! {
 claim! {
     ORBIT_LINEAR = "orbit-linear" "of this project" Theorem
     "Linear drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start" {
-        printed: Printed::Absent,
-        corrected: Some(|budget| cross_checked(
-            || proved(&theorem::LINEAR),
-            closed_form_orbit(budget, |l| linear_orbit(l, 4.0), &LINEAR).and(|| attracts(budget, &LINEAR)),
-        )),
+        domain: &[EVERY_AXIS],
+        by_hand: &["the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles", "existence: the return map takes an interval into itself", "every start reaches the map's domain"],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| closed_form_orbit(budget, |l| linear_orbit(l, 4.0), &LINEAR)
+            .and(|| attracts(budget, &LINEAR))
+            .backed_by(|| proved(&theorem::LINEAR, const { &[EVERY_AXIS] }))),
+        theorem: Some((&theorem::LINEAR, &FALSE_DRAG)),
         // z = beta T/(2 alpha).
         falsified: |budget| closed_form_orbit(budget, |l| linear_orbit(l, 2.0), &LINEAR),
         hypotheses: &[
@@ -102,11 +109,6 @@ claim! {
         ],
         depends: &[],
     }
-}
-
-/// The proof, unless the sampled check of the same statement fails: then something in the proof's algebra is wrong.
-fn cross_checked(proof: impl FnOnce() -> Verdict, sampled: Verdict) -> Verdict {
-    if sampled.holds() { proof() } else { sampled }
 }
 
 /// Amplitude and period from `z - tanh z = g`, solved by bisection in z.
@@ -197,7 +199,8 @@ fn delta(budget: Budget, linear: bool, quadratic: bool, sign: f64) -> Verdict {
 claim! {
     DELTA_FROM_TIMES = "delta-from-times" "32, delta = F_0" Theorem
     "delta = -C (t_plus - t_minus)/T is exact for any waveform and delay when drag is linear" {
-        printed: Printed::Refuted(|budget| delta(budget, true, true, 1.0)),
+        domain: &[Part::whole("whole", "every linear drag, disturbance below the level, delay")],
+        printed: AsPrinted::Refuted(|budget| delta(budget, true, true, 1.0)),
         corrected: Some(|budget| delta(budget, true, false, 1.0)),
         // T_H taken for the time at command +C.
         falsified: |budget| delta(budget, true, false, -1.0),
@@ -211,7 +214,8 @@ claim! {
 claim! {
     METHOD_BIAS = "method-bias" "of this project" Theorem
     "On symmetric orbits without delay the relative error of the method depends on one number g, whatever the parameters" {
-        printed: Printed::Absent,
+        domain: &[Part::whole("whole", "every alpha, drag, C, x_a > 0, no disturbance, no delay")],
+        printed: AsPrinted::Absent,
         corrected: Some(|budget| depends_on_g_alone(budget, &LINEAR, &LINEAR, 0.0)
             .and(|| depends_on_g_alone(budget, &QUADRATIC, &QUADRATIC, 0.0))),
         // The number of the other drag law.
@@ -261,7 +265,8 @@ fn depends_on_g_alone(budget: Budget, family: &Family, assumed: &Family, disturb
 claim! {
     BALANCE_CONVERGES = "balance-converges" "16-17, more harmonics" Theorem
     "With more harmonics the balance of an integrating plant under a relay comes ever closer to the exact orbit" {
-        printed: Printed::Absent,
+        domain: &[Part::whole("whole", "every lag and half-width")],
+        printed: AsPrinted::Absent,
         corrected: Some(|budget| balance_error(budget, [1, 5, 15], 0.2)),
         // Closer by a factor of a thousand for each fivefold of harmonics.
         falsified: |budget| balance_error(budget, [1, 5, 15], 1e-3),

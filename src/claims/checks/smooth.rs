@@ -3,8 +3,7 @@
 //! The integral is replaced by a mean over equally spaced angles, whose error is bounded because the output is analytic about
 //! the real axis; the closed form less that finite sum vanishes, as an identity of two variables.
 
-use super::claim::claim;
-use super::{Budget, Case, Evidence, Printed, Verdict, sample, tolerance};
+use super::{AsPrinted, Budget, Case, Distortion, Evidence, Part, Variable, Verdict, claim, sample, tolerance};
 use crate::describing::{ClosedForm, by_quadrature};
 use crate::nonlinearity::{Arctan, Branch, NonlinearityError, Sine, Sinh, Sinusoid, Tanh};
 use crate::numeric::{Interval, Real};
@@ -31,7 +30,7 @@ fn error<T: Real>(
     cosines: &[Interval],
     number: fn(Interval) -> T,
     [bias, amplitude]: [T; 2],
-    factor: f64,
+    factor: T,
 ) -> [T; 2] {
     let closed = Sinusoid::new(bias, amplitude).map(|sweep| (sweep, characteristic.describing_function(&sweep)));
     let Ok((sweep, Ok(closed))) = closed else { return [T::from_f64(f64::NAN); 2] };
@@ -40,7 +39,7 @@ fn error<T: Real>(
         let output = characteristic.output(bias + amplitude * cosine, Branch::Rising, &sweep);
         (mean, component) = (mean + output, component + output * cosine);
     }
-    let (factor, count) = (T::from_f64(factor), T::from_f64(cosines.len() as f64));
+    let count = T::from_f64(cosines.len() as f64);
     [factor * closed.f0 - mean / count, factor * amplitude * closed.p - T::two() * component / count]
 }
 
@@ -56,47 +55,54 @@ impl<V: ClosedForm<Number = Interval>, S: ClosedForm<Number = Series>> Smooth<V,
     }
 
     /// Over a box of bias and amplitude, both times the scale.
-    fn prove(&self, factor: f64, domain: [[f64; 2]; 2]) -> Verdict {
+    fn prove(&self, distortion: Distortion, domain: [[f64; 2]; 2]) -> Verdict {
         let nodes = (1..200).find(|&nodes| self.rule_error(nodes, domain).upper() < RULE);
         let (Some(nodes), Ok(values), Ok(series), true) = (nodes, &self.values, &self.series, roots_agree()) else {
             return Verdict::undecided("means over 400 angles");
         };
         let angle = |k: usize| Interval::PI * Interval::point(k as f64 + 0.5) / Interval::point(nodes as f64);
         let cosines: Vec<Interval> = (0..nodes).map(|k| angle(k).cos()).collect();
-        let values = |bias, amplitude| error(values, &cosines, |number| number, [bias, amplitude], factor);
-        let series = |bias, amplitude| error(series, &cosines, Series::constant, [bias, amplitude], factor);
+        let values = |bias, amplitude| {
+            error(values, &cosines, |number| number, [bias, amplitude], distortion.at(bias, domain[0]))
+        };
+        let series = |bias, amplitude| {
+            error(series, &cosines, Series::constant, [bias, amplitude], distortion.at(bias, domain[0]))
+        };
         match prove_zero_of_two(values, series, domain, tolerance::PROOF, CELLS) {
             Some(proved) => {
                 let [bias, amplitude] = domain;
-                Verdict::Holds(Evidence::Proved {
-                    domain: format!(
-                        "every gain and scale k; F_0 and X P, k B in {bias:?}, k X in {amplitude:?}, {} angles",
-                        2 * nodes
-                    ),
-                    bound: proved.bound + 2.0 * RULE,
-                    boxes: proved.cells,
-                })
+                let sides = vec![
+                    Variable::number("abs(k B)", bias[0], bias[1]),
+                    Variable::number("k X", amplitude[0], amplitude[1]),
+                ];
+                let part = Part { variables: sides.into(), ..Part::whole("every-sweep", "") };
+                Verdict::Holds(Evidence::identity(part, proved.bound + 2.0 * RULE, proved.cells))
             }
             None => Verdict::undecided("an identity of two variables, 3000 cells"),
         }
     }
 }
 
+/// For what each closed form here is stated.
+const EVERY: Part = Part::over(
+    "every-sweep",
+    "every gain and scale k, bias and amplitude; F_0 and X P",
+    const { &[Variable::number("abs(k B)", 0.0, f64::INFINITY), Variable::number("k X", 0.0, f64::INFINITY)] },
+);
+
 const UNIT: Interval = Interval::ONE;
 const ONE: Series = Series::constant(UNIT);
 
 /// `abs(sin(x + iy)) <= cosh y`.
-#[must_use]
-pub fn sine(factor: f64) -> Verdict {
+fn sine(distortion: Distortion) -> Verdict {
     Smooth { values: Sine::new(UNIT, UNIT), series: Sine::new(ONE, ONE), strip_rad: 0.9, magnitude: |_, y| y.cosh() }
-        .prove(factor, [[0.0, 3.0], [0.25, 3.0]])
+        .prove(distortion, [[0.0, 3.0], [0.25, 3.0]])
 }
 
 /// `abs(sinh(x + iy)) <= cosh x`.
-#[must_use]
-pub fn sinh(factor: f64) -> Verdict {
+fn sinh(distortion: Distortion) -> Verdict {
     Smooth { values: Sinh::new(UNIT, UNIT), series: Sinh::new(ONE, ONE), strip_rad: 0.9, magnitude: |x, _| x.cosh() }
-        .prove(factor, [[0.0, 2.0], [0.25, 3.0]])
+        .prove(distortion, [[0.0, 2.0], [0.25, 3.0]])
 }
 
 /// That both of the expressions that `describing::pole` chooses from give the same root: `(c^2 + u^2)(c^2 + l^2)` is
@@ -109,19 +115,17 @@ fn roots_agree() -> bool {
 }
 
 /// `abs(atan(x + iy)) <= pi/2 + atanh(abs(y))` for `abs(y) < 1`.
-#[must_use]
-pub fn arctan(factor: f64) -> Verdict {
+fn arctan(distortion: Distortion) -> Verdict {
     let magnitude = |_, y: Interval| Interval::PI / Interval::two() + y.atanh();
     Smooth { values: Arctan::new(UNIT, UNIT), series: Arctan::new(ONE, ONE), strip_rad: 0.3, magnitude }
-        .prove(factor, [[0.0, 3.0], [0.25, 3.0]])
+        .prove(distortion, [[0.0, 3.0], [0.25, 3.0]])
 }
 
 /// `abs(tanh(x + iy)) <= max(1, tan(abs(y)))` for `abs(y) < pi/2`. Both formulas that the code chooses from.
-#[must_use]
-pub fn tanh(factor: f64) -> Verdict {
+fn tanh(distortion: Distortion) -> Verdict {
     let magnitude = |_, y: Interval| y.tan().max(Interval::ONE);
     let tanh = Smooth { values: Tanh::new(UNIT, UNIT), series: Tanh::new(ONE, ONE), strip_rad: 0.45, magnitude };
-    tanh.prove(factor, [[0.0, 2.25], [0.25, 3.0]]).and(|| tanh.prove(factor, [[4.5, 5.5], [0.5, 2.0]]))
+    tanh.prove(distortion, [[0.0, 2.25], [0.25, 3.0]]).and(|| tanh.prove(distortion, [[4.5, 5.5], [0.5, 2.0]]))
 }
 
 /// Makes a characteristic from gain and scale.
@@ -151,9 +155,16 @@ macro_rules! smooth {
             claim! {
                 $constant = $id "10" Identity
                 $statement {
-                    printed: Printed::Absent,
-                    corrected: Some(|budget| closed_is_integral(budget, $type::new, 1.0).backed_by($proof)),
+                    printed: AsPrinted::Absent,
+                    corrected: Some(|budget| closed_is_integral(budget, $type::new, 1.0)),
                     falsified: |budget| closed_is_integral(budget, $type::new, 1.000_01),
+                    domain: &[EVERY],
+                    by_hand: &[
+                        "gain and scale are set to one by homogeneity",
+                        "negative biases by the parity of the characteristic",
+                        "the error of the finite mean by the bound for analytic functions (Trefethen, Weideman 2014)",
+                    ],
+                    proof: Some($proof),
                     hypotheses: &[],
                     depends: &["fourier-coefficients"],
                 }

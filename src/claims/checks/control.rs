@@ -1,7 +1,6 @@
 //! What controllers from an identified axis rest on.
 
-use super::claim::claim;
-use super::{Budget, Case, Draw, Hypothesis, Printed, Verdict, sample, tolerance};
+use super::{AsPrinted, Budget, Case, Draw, Hypothesis, Part, Verdict, claim, sample, tolerance};
 use crate::control::{Margins, OpenLoop, RelayTest, Structure, Tuning, UltimatePoint, critical_point};
 use crate::nonlinearity::RelayHysteresis;
 use crate::orbit::RelayLoop;
@@ -21,7 +20,8 @@ claim! {
     POLE_PLACEMENT = "pole-placement" "of this project" Identity
     "the gains of a design give the closed loop the double pole and the slow pole that the bandwidth asks for"
     {
-        printed: Printed::Absent,
+        domain: &[Part::whole("whole", "every axis and pair of poles")],
+        printed: AsPrinted::Absent,
         corrected: Some(|budget| poles(budget, 0.0, Tuning::double_pole_rad_s)),
         // The bandwidth taken for the pole.
         falsified: |budget| poles(budget, 0.0, Tuning::bandwidth_rad_s),
@@ -69,7 +69,8 @@ claim! {
     DELAY_MARGIN = "delay-margin" "of this project" Theorem
     "the least of phase above critical over frequency at the crossovers of gain is the delay that a stable loop bears"
     {
-        printed: Printed::Absent,
+        domain: &[Part::whole("whole", "every stable loop of an axis and its controller")],
+        printed: AsPrinted::Absent,
         corrected: Some(|budget| delay_margin(budget, |_, margins| margins.delay_s)),
         // The phase margin over the frequency of the pole.
         falsified: |budget| delay_margin(budget, |tuning, margins| margins.phase_rad / tuning.double_pole_rad_s()),
@@ -103,7 +104,8 @@ claim! {
     RELAY_ULTIMATE = "relay-ultimate" "of this project" Identity
     "for an integrator with dead time the relay oscillates with the ultimate period, and its describing function gives 8/pi^2 of the ultimate gain"
     {
-        printed: Printed::Absent,
+        domain: &[Part::whole("whole", "every gain, dead time and level")],
+        printed: AsPrinted::Absent,
         corrected: Some(|budget| relay_ultimate(budget, 8.0 / core::f64::consts::PI.powi(2), 0.0, 0.0)),
         // The describing function taken for exact.
         falsified: |budget| relay_ultimate(budget, 1.0, 0.0, 0.0),

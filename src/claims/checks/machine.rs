@@ -4,12 +4,18 @@
 
 use std::collections::{HashSet, VecDeque};
 
-use super::{Evidence, Verdict, Witness};
+use super::{Evidence, Part, Verdict, Witness};
 use crate::on_board::{Coordinate, Key, Observation, Observer, Phase, Protocol, Supervisor};
+
+const POSITION: Part = Part::whole("positions", "the machine on the lattice of positions -2 to 2 in steps of 1");
+const HEADING: Part = Part::whole("headings", "the machine on the lattice of headings 0 to 300 degrees in steps of 60");
+const SPEED: Part = Part::whole("speeds", "the machine on the lattice of speeds -1, 0, 1");
+/// The lattices of [`Lattice::all`]: readings and times off them are not spoken of.
+pub(super) const LATTICES: &[Part] = &[POSITION, HEADING, SPEED];
 
 /// A finite world: an experiment, and the samples that may come.
 pub(super) struct Lattice {
-    pub(super) name: &'static str,
+    pub(super) part: Part,
     pub(super) protocol: Protocol<f64>,
     pub(super) readings: &'static [f64],
 }
@@ -25,7 +31,7 @@ const OBSERVATIONS: [Observation; 4] =
     [Observation::Between, Observation::Unsteady, Observation::Steady, Observation::Condition40];
 
 impl Lattice {
-    fn of(name: &'static str, coordinate: Coordinate, half_width: f64, readings: &'static [f64]) -> Self {
+    fn of(part: Part, coordinate: Coordinate, half_width: f64, readings: &'static [f64]) -> Self {
         let protocol = Protocol {
             neutral_command: 0.5,
             lowest_command: -1.0,
@@ -40,20 +46,15 @@ impl Lattice {
             factor: 2.0,
             ..Protocol::new(coordinate, 1.0, half_width, 0.5)
         };
-        Self { name, protocol, readings }
+        Self { part, protocol, readings }
     }
 
     /// One for each kind of coordinate. All numbers are whole or halves: sums are exact.
     pub(super) fn all() -> [Self; 3] {
         [
-            Self::of("position in {-2, -1, 0, 1, 2}", Coordinate::Position, 1.0, &[-2.0, -1.0, 0.0, 1.0, 2.0]),
-            Self::of(
-                "heading in {0, 60, ..., 300} degrees",
-                Coordinate::HeadingDegrees,
-                60.0,
-                &[0.0, 60.0, 120.0, 180.0, 240.0, 300.0],
-            ),
-            Self::of("speed in {-1, 0, 1}", Coordinate::Speed, 1.0, &[-1.0, 0.0, 1.0]),
+            Self::of(POSITION, Coordinate::Position, 1.0, &[-2.0, -1.0, 0.0, 1.0, 2.0]),
+            Self::of(HEADING, Coordinate::HeadingDegrees, 60.0, &[0.0, 60.0, 120.0, 180.0, 240.0, 300.0]),
+            Self::of(SPEED, Coordinate::Speed, 1.0, &[-1.0, 0.0, 1.0]),
         ]
     }
 }
@@ -182,7 +183,7 @@ pub(super) fn explore(defect: Defect, property: Property) -> Verdict {
 
 fn explore_one(lattice: &Lattice, defect: Defect, property: Property) -> Verdict {
     let Some(start) = Machine::new(lattice, defect) else {
-        return Verdict::Undecided { spent: format!("{}: protocol refused", lattice.name) };
+        return Verdict::Undecided { spent: format!("{}: protocol refused", lattice.part.name) };
     };
     // State, the one before, and the event between.
     let mut states: Vec<(Machine, usize, Event)> = vec![(start, 0, Event::Abort)];
@@ -210,10 +211,12 @@ fn explore_one(lattice: &Lattice, defect: Defect, property: Property) -> Verdict
             }
         }
         if states.len() > MOST_STATES {
-            return Verdict::Undecided { spent: format!("{}: {} states and more to come", lattice.name, states.len()) };
+            return Verdict::Undecided {
+                spent: format!("{}: {} states and more to come", lattice.part.name, states.len()),
+            };
         }
     }
-    Verdict::Holds(Evidence::Exhausted { domain: lattice.name.to_owned(), states: states.len() })
+    Verdict::Holds(Evidence::exhausted(lattice.part.clone(), states.len()))
 }
 
 fn events<'a>(lattice: &'a Lattice, machine: &Machine) -> impl Iterator<Item = Event> + use<'a> {
@@ -259,5 +262,5 @@ fn witness(path: &[(Event, Machine)]) -> Witness {
         }
     }
     numbers.extend(path.last().map(|(_, machine)| ("command", machine.command)));
-    Witness { numbers }
+    Witness::new(numbers)
 }

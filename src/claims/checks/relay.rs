@@ -2,11 +2,14 @@
 
 use core::f64::consts::PI;
 
-use super::claim::claim;
-use super::{Budget, Case, Draw, Hypothesis, Printed, Verdict, proof, sample, tolerance};
-use crate::describing::{ClosedForm, DescribingFunction, bias_of_output, by_quadrature};
+use super::enclosure::{identity, no_function};
+use super::kernels::{BREAKPOINT, on_unit, prove_kernel};
+use super::{AsPrinted, Budget, Case, Distortion, Draw, Hypothesis, Part, Variable, Verdict, claim, sample, tolerance};
+use crate::describing::{ClosedForm, DescribingFunction, KernelForm, bias_of_output, by_quadrature};
 use crate::experiment::Relay;
-use crate::nonlinearity::{RelayHysteresis, Sinusoid};
+use crate::nonlinearity::{Branches, Kernel, RelayHysteresis, Sinusoid};
+use crate::numeric::Real;
+use crate::proof::identity::Series;
 
 /// A relay, an input that switches it, and the describing function by quadrature.
 struct Switching {
@@ -44,14 +47,16 @@ fn formula(
 claim! {
     RELAY_Q = "relay-q" "30" Identity
     "Q of a relay with hysteresis is -4 C x_a/(pi X^2), whatever the bias and the offset" {
-        printed: Printed::Holds(|budget| {
+        domain: &[BREAKPOINT, Part::over("term", "each term of the formula is the closed form of one switching level", const { &[Variable::number("u", -1.0, 1.0)] }), Part::over("sum", "the formula is the sum that the code makes, x_a + abs(x_0) <= X", const { &[Variable::number("x_a/X", 0.0, 1.0), Variable::number("abs(x_0)/X", 0.0, 1.0)] })],
+        by_hand: &["height and amplitude are set to one by linearity and homogeneity", "the sides and branches follow from one by reflection"],
+        printed: AsPrinted::Holds(|budget| {
             formula(budget, |df| df.q, |s| -4.0 * s.level * s.half_width / (PI * s.amplitude * s.amplitude), true)
-                .backed_by(proof::relay_q)
         }),
         corrected: None,
         falsified: |budget| {
             formula(budget, |df| df.q, |s| -4.0 * s.level * (s.half_width + s.bias) / (PI * s.amplitude * s.amplitude), true)
         },
+        proof: Some(prove_relay_q),
         hypotheses: &[Hypothesis { id: "switches-both-ways", counterexample: Some(formula_below_switching) }],
         depends: &["kernel-sign", "describing-function"],
     }
@@ -70,9 +75,12 @@ fn formula_below_switching(budget: Budget) -> Verdict {
 claim! {
     RELAY_P = "relay-p" "31" Identity
     "P of a relay with hysteresis is (2C/(pi X)) [sqrt(1 - ((x_a - x_0)/X)^2) + sqrt(1 - ((x_a + x_0)/X)^2)]" {
-        printed: Printed::Holds(|budget| formula(budget, |df| df.p, |s| in_phase(s, s.bias), true).backed_by(proof::relay_p)),
+        domain: &[BREAKPOINT, Part::over("term", "each term of the formula is the closed form of one switching level", const { &[Variable::number("u", -1.0, 1.0)] }), Part::over("sum", "the formula is the sum that the code makes, x_a + abs(x_0) <= X", const { &[Variable::number("x_a/X", 0.0, 1.0), Variable::number("abs(x_0)/X", 0.0, 1.0)] })],
+        by_hand: &["height and amplitude are set to one by linearity and homogeneity", "the sides and branches follow from one by reflection"],
+        printed: AsPrinted::Holds(|budget| formula(budget, |df| df.p, |s| in_phase(s, s.bias), true)),
         corrected: None,
         falsified: |budget| formula(budget, |df| df.p, |s| in_phase(s, 0.0), true),
+        proof: Some(prove_relay_p),
         hypotheses: &[Hypothesis { id: "switches-both-ways", counterexample: None }],
         depends: &["kernel-sign", "describing-function"],
     }
@@ -86,10 +94,13 @@ fn in_phase(s: &Switching, bias: f64) -> f64 {
 claim! {
     RELAY_F0 = "relay-f0" "32" Identity
     "The mean output is C (t_high - t_low)/T = (C/pi) [asin((x_a + e_0)/X) - asin((x_a - e_0)/X)], plus the offset" {
-        printed: Printed::Holds(|budget| mean_output(budget, 1.0).backed_by(proof::relay_f0)),
+        domain: &[BREAKPOINT, Part::over("term", "each term of the formula is the closed form of one switching level", const { &[Variable::number("u", -1.0, 1.0)] }), Part::over("sum", "the formula is the sum that the code makes, x_a + abs(x_0) <= X", const { &[Variable::number("x_a/X", 0.0, 1.0), Variable::number("abs(x_0)/X", 0.0, 1.0)] })],
+        by_hand: &["height and amplitude are set to one by linearity and homogeneity", "the sides and branches follow from one by reflection"],
+        printed: AsPrinted::Holds(|budget| mean_output(budget, 1.0)),
         corrected: None,
         // The times exchanged: the sign error that reading T_H as the time at command +C makes.
         falsified: |budget| mean_output(budget, -1.0),
+        proof: Some(prove_relay_f0),
         hypotheses: &[Hypothesis { id: "switches-both-ways", counterexample: None }],
         depends: &["kernel-sign", "describing-function"],
     }
@@ -117,9 +128,12 @@ fn mean_output(budget: Budget, sign: f64) -> Verdict {
 claim! {
     SECOND_QUADRANT = "second-quadrant" "section 4.1 (Goldfarb)" Statement
     "-G_N of the unbiased relay with hysteresis covers the second quadrant, and nothing else" {
-        printed: Printed::Holds(|budget| covers(budget, 0.5 * PI, PI).backed_by(proof::second_quadrant)),
+        domain: &[Part::over("covered", "each direction is that of some relay, every magnitude", const { &[Variable::new("angle", "rad", 1.570_796_326_794_896_6, 3.141_592_653_589_793)] }), Part::whole("nothing-else", "every relay and amplitude that switches it has its point in the quadrant")],
+        by_hand: &["every magnitude by choice of the level"],
+        printed: AsPrinted::Holds(|budget| covers(budget, 0.5 * PI, PI)),
         corrected: None,
         falsified: |budget| covers(budget, 0.5 * PI, 1.25 * PI),
+        proof: Some(prove_second_quadrant),
         hypotheses: &[],
         depends: &["relay-p", "relay-q"],
     }
@@ -149,7 +163,8 @@ fn covers(budget: Budget, from: f64, to: f64) -> Verdict {
 claim! {
     NOISE = "relay-noise" "section 4.1, in words" Statement
     "While the input moves one way, noise smaller than the half-width switches the relay at most once" {
-        printed: Printed::Refuted(|budget| switches_once(budget, 0.0, 10.0)),
+        domain: &[Part::whole("whole", "every half-width and smaller noise, inputs that move one way")],
+        printed: AsPrinted::Refuted(|budget| switches_once(budget, 0.0, 10.0)),
         corrected: Some(|budget| switches_once(budget, 0.0, 1.0)),
         falsified: |budget| switches_once(budget, 1.5, 2.0),
         hypotheses: &[
@@ -181,7 +196,8 @@ fn switches_once(budget: Budget, least: f64, most: f64) -> Verdict {
 claim! {
     SWITCHING_CONDITION = "switching-condition" "40" Identity
     "Eq. 31 has a value, and the relay oscillates, exactly when (x_a + abs(x_0))/X <= 1" {
-        printed: Printed::Holds(|budget| condition(budget, 1.0)),
+        domain: &[Part::whole("whole", "every half-width, bias and amplitude")],
+        printed: AsPrinted::Holds(|budget| condition(budget, 1.0)),
         corrected: None,
         falsified: |budget| condition(budget, 1.1),
         hypotheses: &[],
@@ -207,7 +223,8 @@ fn condition(budget: Budget, limit: f64) -> Verdict {
 claim! {
     SAMPLED_LEVEL = "sampled-level" "section 4.3" Statement
     "A sampled relay switches at x_a or beyond, at most one sample's motion beyond" {
-        printed: Printed::Holds(|budget| overshoot(budget, 0.0)),
+        domain: &[Part::whole("whole", "every half-width, phase and sampling interval")],
+        printed: AsPrinted::Holds(|budget| overshoot(budget, 0.0)),
         corrected: None,
         falsified: |budget| overshoot(budget, 0.01),
         hypotheses: &[],
@@ -231,5 +248,76 @@ fn overshoot(budget: Budget, least: f64) -> Verdict {
         }
         let level = draw.note("level", angle.sin());
         Case::margin(level - half_width * (1.0 + least)).and(Case::margin(half_width + step - level))
+    })
+}
+
+/// The biases, over the amplitude, at which a whole formula is compared with the code in the half-width.
+const BIASES: [f64; 2] = [0.0, 0.3];
+
+/// Describing function of the unit relay under a unit sinusoid, in closed form.
+pub(super) fn relay(level: Series, half_width: Series, bias: Series) -> DescribingFunction<Series> {
+    let relay = RelayHysteresis::new(level, half_width, Series::zero());
+    let df = relay.and_then(|relay| Ok((relay, Sinusoid::new(bias, Series::one())?)));
+    df.ok().and_then(|(relay, sweep)| relay.describing_function(&sweep).ok()).unwrap_or_else(no_function)
+}
+
+/// Proof of a printed formula in three parts: the closed form of a sign is its integral; the formula's term of one switching
+/// level, at the ratio u, is that closed form; the terms are put together as the code does.
+fn prove_printed(
+    distortion: Distortion,
+    term: impl Fn(Series) -> Series,
+    formula: impl Fn(Series, Series) -> Series,
+    component: fn(DescribingFunction<Series>) -> Series,
+) -> Verdict {
+    let of_bias = |bias: f64| {
+        let sides = vec![Variable::number("x_a/X", 0.0, 0.69), Variable::number("abs(x_0)/X", bias, bias)];
+        let part = Part { variables: sides.into(), ..Part::whole("sum", "") };
+        identity(part, distortion, |half_width, factor| {
+            let bias = Series::from_f64(bias);
+            let formula = formula(half_width, bias) * factor;
+            [formula - component(relay(Series::one(), half_width, bias))]
+        })
+    };
+    let of_level = || {
+        const COVERED: Part = Part::over("term", "", const { &[Variable::number("u", -0.9999, 0.9999)] });
+        identity(COVERED, distortion, |at, factor| {
+            let level = Kernel::Sign { at, level: Series::one(), branches: Branches::Rising };
+            [term(at) * factor - component(on_unit(level))]
+        })
+    };
+    prove_kernel(KernelForm::Sign, distortion, BREAKPOINT)
+        .and(of_level)
+        .and(|| of_bias(BIASES[0]))
+        .and(|| of_bias(BIASES[1]))
+}
+
+pub(super) fn root(distance: Series) -> Series {
+    (Series::one() - distance.square()).sqrt()
+}
+
+/// Eq. 30.
+fn prove_relay_q(distortion: Distortion) -> Verdict {
+    let term = |u| -(Series::two() * u / Series::pi());
+    prove_printed(distortion, term, |width, _| -(Series::from_f64(4.0) * width / Series::pi()), |df| df.q)
+}
+
+/// Eq. 31.
+fn prove_relay_p(distortion: Distortion) -> Verdict {
+    let term = |u| Series::two() / Series::pi() * root(u);
+    prove_printed(distortion, term, |width, bias| term(width - bias) + term(width + bias), |df| df.p)
+}
+
+/// Eq. 32.
+fn prove_relay_f0(distortion: Distortion) -> Verdict {
+    let term = |u: Series| -(u.asin() / Series::pi());
+    prove_printed(distortion, term, |width, bias| term(width - bias) - term(width + bias), |df| df.f0)
+}
+
+/// Each direction of the quadrant is that of some relay.
+fn prove_second_quadrant(distortion: Distortion) -> Verdict {
+    const COVERED: Part = Part::over("covered", "", const { &[Variable::new("angle", "rad", 1.58, 3.13)] });
+    identity(COVERED, distortion, |angle, factor| {
+        let df = relay(Series::pi() / Series::from_f64(4.0), (Series::pi() - angle).sin(), Series::zero());
+        [df.p + factor * angle.cos(), df.q + factor * angle.sin()]
     })
 }

@@ -7,7 +7,7 @@ use crate::orbit::quadratic_period;
 /// A drag law, with the coordinate that unrolls its orbits: `z` of `g = z - tanh z` for linear drag, `t` of
 /// `g = ln(cosh t)/2` for quadratic drag (`tanh t = y*`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DragLaw {
+pub enum SymmetricOrbit {
     /// Force proportional to speed, `g = x_a beta^2/(C alpha)`.
     Linear,
     /// Force proportional to speed squared, `g = x_a beta/alpha`.
@@ -42,7 +42,7 @@ struct Shape {
     share_rate: Interval,
 }
 
-impl DragLaw {
+impl SymmetricOrbit {
     /// The number `g` of a coordinate.
     #[must_use]
     pub fn group(self, coordinate: Interval) -> Interval {
@@ -73,8 +73,8 @@ impl DragLaw {
     /// or too large.
     ///
     /// ```
-    /// use selfosc::claims::method_bias::DragLaw;
-    /// let error = DragLaw::Linear.error_over(0.99, 1.01).ok_or("a range")?;
+    /// use selfosc::claims::method_bias::SymmetricOrbit;
+    /// let error = SymmetricOrbit::Linear.error_over(0.99, 1.01).ok_or("a range")?;
     /// assert!(error.alpha.lower() > -0.04 && error.alpha.upper() < -0.02);
     /// # Ok::<(), &str>(())
     /// ```
@@ -148,7 +148,7 @@ fn linear_shape(z: Interval) -> Shape {
         return Shape { alpha, period, share: z * share_rate, share_rate };
     }
     let amplitude = |z: Interval| z - z.tanh().ln_1p();
-    let share = increasing(z, |z| DragLaw::Linear.group(z) / amplitude(z));
+    let share = increasing(z, |z| SymmetricOrbit::Linear.group(z) / amplitude(z));
     Shape { alpha: increasing(z, amplitude) / z.square(), period, share, share_rate: share / z }
 }
 
@@ -164,7 +164,7 @@ fn quadratic_shape(t: Interval) -> Shape {
         let share_rate = ratio / two;
         return Shape { alpha, period, share: t * share_rate, share_rate };
     }
-    let share = increasing(t, |t| two * DragLaw::Quadratic.group(t) / t);
-    let period = two * increasing(t, |t| quadratic_period(DragLaw::Quadratic.group(t))) / t.sqrt();
+    let share = increasing(t, |t| two * SymmetricOrbit::Quadratic.group(t) / t);
+    let period = two * increasing(t, |t| quadratic_period(SymmetricOrbit::Quadratic.group(t))) / t.sqrt();
     Shape { alpha, period, share, share_rate: share / t }
 }

@@ -1,14 +1,14 @@
 //! From the controller's forces to thrust: eqs. 1-3 and 35, Fig. 11.
 
-use super::claim::claim;
-use super::{Budget, Case, Draw, Hypothesis, Printed, Verdict, sample, tolerance};
+use super::{AsPrinted, Budget, Case, Draw, Hypothesis, Part, Verdict, claim, sample, tolerance};
 use crate::vehicle::{Allocation, BilinearThruster, Compensation, ThrustSide, Thruster};
 
 claim! {
     THRUSTER_BILINEAR = "thruster-bilinear" "1" Identity
     "Thrust T_nn abs(n) n - T_nu abs(n) u_a and torque alike; each thrust has one rate that turns its way and does not brake"
     {
-        printed: Printed::Holds(|budget| bilinear(budget, 1.0, 1.0)),
+        domain: &[Part::whole("whole", "every pair of coefficients, speed of the water and thrust")],
+        printed: AsPrinted::Holds(|budget| bilinear(budget, 1.0, 1.0)),
         corrected: None,
         // Still water: the rate found without the ambient speed.
         falsified: |budget| bilinear(budget, 0.0, 1.0),
@@ -94,7 +94,8 @@ claim! {
     THRUSTER_AFFINE = "thruster-affine" "2" Identity
     "Thrust a abs(n) n + b n is odd and has one command, sgn(T) sqrt(abs(T)/a) where b = 0"
     {
-        printed: Printed::Holds(|budget| affine(budget, Commands::Turning, inverse)
+        domain: &[Part::whole("whole", "every pair of coefficients, command and thrust")],
+        printed: AsPrinted::Holds(|budget| affine(budget, Commands::Turning, inverse)
             .and(|| simplest(budget))),
         corrected: None,
         // The simplest thruster's inverse whatever b.
@@ -152,7 +153,8 @@ claim! {
     THRUSTER_ASYMMETRIC = "thruster-asymmetric" "3" Definition
     "Coefficients of their own for n > 0 and n <= 0; the sign of the thrust picks the side of the inverse"
     {
-        printed: Printed::Holds(|budget| asymmetric(budget, false)),
+        domain: &[Part::whole("whole", "every two pairs of coefficients, command and thrust")],
+        printed: AsPrinted::Holds(|budget| asymmetric(budget, false)),
         corrected: None,
         // The forward coefficients astern too.
         falsified: |budget| asymmetric(budget, true),
@@ -183,7 +185,8 @@ claim! {
     ALLOCATION = "allocation" "35" Identity
     "X = tau_1 + tau_2, N = d (tau_1 - tau_2); tau = (X +- N/d)/2 is its inverse"
     {
-        printed: Printed::Holds(|budget| allocation(budget, 1.0, 1.0)),
+        domain: &[Part::whole("whole", "every distance, force and moment")],
+        printed: AsPrinted::Holds(|budget| allocation(budget, 1.0, 1.0)),
         corrected: None,
         // The two thrusters exchanged.
         falsified: |budget| allocation(budget, -1.0, 1.0),
@@ -215,7 +218,8 @@ claim! {
     COMPENSATION = "compensation" "Fig. 11" Theorem
     "Inverse allocation, offset and inverse maps before the thrusters leave the force asked for, plus a constant"
     {
-        printed: Printed::Holds(|budget| compensation(budget, &Chain::INTACT)),
+        domain: &[Part::whole("whole", "every allocation, thruster and force")],
+        printed: AsPrinted::Holds(|budget| compensation(budget, &Chain::INTACT)),
         corrected: None,
         // The constant left out of account.
         falsified: |budget| compensation(budget, &Chain { bias: 0.0, ..Chain::INTACT }),

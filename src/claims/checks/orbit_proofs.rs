@@ -1,8 +1,7 @@
 //! Claims about exact orbits that are proved by enclosure.
 
-use super::claim::claim;
-use super::method_bias::DragLaw;
-use super::{Budget, Case, Evidence, Hypothesis, Printed, Verdict, Witness, sample};
+use super::method_bias::SymmetricOrbit;
+use super::{AsPrinted, Budget, Case, Domain, Evidence, Hypothesis, Part, Variable, Verdict, Witness, claim, sample};
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::{Interval, Real};
 use crate::orbit::theorem::{self, BUDGET, Theorem};
@@ -11,27 +10,24 @@ use crate::plant::DragAxis;
 use crate::proof::Gradient;
 use crate::proof::inequality::{Cell, Inequality, Search, Side};
 
-/// The verdict of a theorem's inequalities.
-pub(super) fn proved(theorem: &Theorem) -> Verdict {
+/// The verdict of a theorem's inequalities: they establish these parts.
+pub(super) fn proved(theorem: &Theorem, parts: &'static [Part]) -> Verdict {
     match theorem.prove() {
-        Ok(proofs) => Verdict::Holds(Evidence::Proved {
-            domain: theorem.domain.to_owned(),
-            bound: proofs.iter().map(|proof| proof.bound).fold(f64::INFINITY, f64::min),
-            boxes: proofs.iter().map(|proof| proof.boxes.len()).sum(),
-        }),
+        Ok(proofs) => {
+            let margin = proofs.iter().map(|proof| proof.bound).fold(f64::INFINITY, f64::min);
+            let boxes = proofs.iter().map(|proof| proof.boxes.len()).sum();
+            Verdict::Holds(Evidence::inequality(Domain::new(parts), margin, boxes))
+        }
         Err((inequality, search)) => failed(&inequality, search),
     }
 }
 
-/// The verdict of one inequality by itself.
+/// The verdict of one inequality by itself, which establishes no part of any claim.
 fn single(inequality: &Inequality) -> Verdict {
-    let search = inequality.prove(BUDGET);
-    match search {
-        Search::Proved(proof) => Verdict::Holds(Evidence::Proved {
-            domain: inequality.statement.to_owned(),
-            bound: proof.bound,
-            boxes: proof.boxes.len(),
-        }),
+    match inequality.prove(BUDGET) {
+        Search::Proved(proof) => {
+            Verdict::Holds(Evidence::inequality(Domain::default(), proof.bound, proof.boxes.len()))
+        }
         other => failed(inequality, other),
     }
 }
@@ -42,15 +38,24 @@ fn failed(inequality: &Inequality, search: Search) -> Verdict {
             let named = inequality.sides.iter().zip(witness).filter(|(side, _)| !side.name.is_empty());
             let mut numbers: Vec<_> = named.map(|(side, value)| (side.name, value)).collect();
             numbers.push(("margin", margin.midpoint()));
-            Verdict::Refuted(Witness { numbers })
+            Verdict::Refuted(Witness::new(numbers))
         }
         Search::Undecided { boxes, .. } => Verdict::Undecided { spent: format!("{boxes} boxes for {}", inequality.id) },
         Search::Proved(_) => Verdict::Undecided { spent: format!("{} alone", inequality.id) },
     }
 }
 
+/// What the theorems with a disturbance enclose of the disturbances below the level.
+const BELOW_095: Part = Part::over("every-axis", "", const { &[Variable::number("abs(delta)/C", 0.0, 0.95)] });
+const EXCESS: Part = Part::whole(
+    "excess",
+    "denominator less numerator of the slope grows with both drag forces, the denominator is below 4.1",
+);
+const EVERY_G: Part = Part::whole("every-g", "every g > 0");
+const UP_TO_TEN: Part = Part::whole("g-up-to-ten", "every alpha, drag, C, x_a > 0 with 0 < g <= 10, delta = 0");
+
 /// Negative drag, which feeds the motion.
-pub const FALSE_DRAG: Inequality = Inequality {
+pub(super) const FALSE_DRAG: Inequality = Inequality {
     id: "false-drag",
     statement: "the map contracts with drag of the wrong sign",
     margin: |at| {
@@ -62,7 +67,7 @@ pub const FALSE_DRAG: Inequality = Inequality {
 };
 
 /// A disturbance beyond the relay's level.
-pub const FALSE_BRAKING: Inequality = Inequality {
+const FALSE_BRAKING: Inequality = Inequality {
     id: "false-braking",
     statement: "the other command brakes whatever the disturbance",
     sides: [Side::new("mu", -1.5, 1.5), Side::new("drag", 0.0, 2.0), Side::NONE],
@@ -70,7 +75,7 @@ pub const FALSE_BRAKING: Inequality = Inequality {
 };
 
 /// Too small a denominator.
-pub const FALSE_DENOMINATOR: Inequality = Inequality {
+const FALSE_DENOMINATOR: Inequality = Inequality {
     id: "false-denominator",
     statement: "the slope's denominator is below 3.9",
     margin: |at| (theorem::DENOMINATOR.margin)(at) - Interval::point(0.2),
@@ -78,7 +83,7 @@ pub const FALSE_DENOMINATOR: Inequality = Inequality {
 };
 
 /// The other direction.
-pub const FALSE_OVERSHOOT_QUADRATIC: Inequality = Inequality {
+const FALSE_OVERSHOOT_QUADRATIC: Inequality = Inequality {
     id: "false-overshoot-quadratic",
     statement: "quadratic drag: the relative overshoot grows with g",
     margin: |at| -(theorem::QUADRATIC_OVERSHOOT_WEAK.margin)(at),
@@ -86,7 +91,7 @@ pub const FALSE_OVERSHOOT_QUADRATIC: Inequality = Inequality {
 };
 
 /// The other direction.
-pub const FALSE_OVERSHOOT_LINEAR: Inequality = Inequality {
+const FALSE_OVERSHOOT_LINEAR: Inequality = Inequality {
     id: "false-overshoot-linear",
     statement: "linear drag: the relative overshoot grows with g",
     margin: |at| -(theorem::LINEAR_OVERSHOOT_WEAK.margin)(at),
@@ -108,8 +113,11 @@ const BELOW_LEVEL: Hypothesis = Hypothesis { id: "disturbance-below-level", coun
 claim! {
     NO_EARLY_SWITCHING = "orbit-no-early-switching" "of this project" Theorem
     "Between two switchings the velocity changes sign once, beyond the relay's level: the command switches when the formulas say" {
-        printed: Printed::Absent,
-        corrected: Some(|_| proved(&theorem::NO_EARLY_SWITCHING)),
+        domain: &[Part::over("every-axis", "every mix of linear and quadratic drag, every speed below the terminal one", const { &[Variable::number("abs(delta)/C", 0.0, 1.0)] })],
+        by_hand: &["speeds stay below the terminal one", "a force that keeps its sign lets the velocity vanish once"],
+        printed: AsPrinted::Absent,
+        corrected: Some(|_| proved(&theorem::NO_EARLY_SWITCHING, const { &[BELOW_095] })),
+        theorem: Some((&theorem::NO_EARLY_SWITCHING, &FALSE_BRAKING)),
         falsified: |_| single(&FALSE_BRAKING),
         hypotheses: &[BELOW_LEVEL],
         depends: &[],
@@ -119,8 +127,11 @@ claim! {
 claim! {
     MULTIPLIER = "orbit-multiplier" "of this project" Theorem
     "Without delay 1 - m > 0.48 (d_1 + d_2): the multiplier m by the drag forces d_1, d_2 at the switchings over C" {
-        printed: Printed::Absent,
-        corrected: Some(|_| proved(&theorem::MULTIPLIER)),
+        domain: &[EXCESS, Part::whole("rate", "1 - m > 0.48 (d_1 + d_2)")],
+        by_hand: &["the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles", "the rate 2 of the growth"],
+        printed: AsPrinted::Absent,
+        corrected: Some(|_| proved(&theorem::MULTIPLIER, const { &[EXCESS] })),
+        theorem: Some((&theorem::MULTIPLIER, &FALSE_DENOMINATOR)),
         falsified: |_| single(&FALSE_DENOMINATOR),
         hypotheses: &[BELOW_LEVEL],
         depends: &["orbit-no-early-switching"],
@@ -130,8 +141,11 @@ claim! {
 claim! {
     QUADRATIC_DISTURBED = "orbit-quadratic-disturbed" "of this project" Theorem
     "Quadratic drag with a disturbance: one limit cycle, reached from every start" {
-        printed: Printed::Absent,
-        corrected: Some(|_| proved(&theorem::QUADRATIC_DISTURBED)),
+        domain: &[Part::over("every-axis", "every alpha, beta, C, x_a > 0; every start", const { &[Variable::number("abs(delta)/C", 0.0, 1.0)] })],
+        by_hand: &["the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles", "existence: the return map takes an interval into itself", "every start reaches the map's domain"],
+        printed: AsPrinted::Absent,
+        corrected: Some(|_| proved(&theorem::QUADRATIC_DISTURBED, const { &[BELOW_095] })),
+        theorem: Some((&theorem::QUADRATIC_DISTURBED, &FALSE_DRAG)),
         falsified: |_| single(&FALSE_DRAG),
         hypotheses: &[BELOW_LEVEL],
         depends: &["orbit-multiplier"],
@@ -141,8 +155,11 @@ claim! {
 claim! {
     LINEAR_DISTURBED = "orbit-linear-disturbed" "of this project" Theorem
     "Linear drag with a disturbance: one limit cycle, reached from every start" {
-        printed: Printed::Absent,
-        corrected: Some(|_| proved(&theorem::LINEAR_DISTURBED)),
+        domain: &[Part::over("every-axis", "every alpha, beta, C, x_a > 0; every start", const { &[Variable::number("abs(delta)/C", 0.0, 1.0)] })],
+        by_hand: &["the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles", "existence: the return map takes an interval into itself", "every start reaches the map's domain"],
+        printed: AsPrinted::Absent,
+        corrected: Some(|_| proved(&theorem::LINEAR_DISTURBED, const { &[BELOW_095] })),
+        theorem: Some((&theorem::LINEAR_DISTURBED, &FALSE_DRAG)),
         falsified: |_| single(&FALSE_DRAG),
         hypotheses: &[BELOW_LEVEL],
         depends: &["orbit-multiplier"],
@@ -152,8 +169,11 @@ claim! {
 claim! {
     AMPLITUDE_MONOTONE_QUADRATIC = "orbit-amplitude-monotone-quadratic" "of this project" Theorem
     "Quadratic drag: (X_m - x_a)/x_a falls as g grows, so that the amplitude identifies g" {
-        printed: Printed::Absent,
-        corrected: Some(|_| proved(&theorem::QUADRATIC_OVERSHOOT)),
+        domain: &[EVERY_G],
+        by_hand: &["the sign of the derivative is that of the inequality enclosed", "g is replaced by a coordinate in (0, 1)"],
+        printed: AsPrinted::Absent,
+        corrected: Some(|_| proved(&theorem::QUADRATIC_OVERSHOOT, const { &[EVERY_G] })),
+        theorem: Some((&theorem::QUADRATIC_OVERSHOOT, &FALSE_OVERSHOOT_QUADRATIC)),
         falsified: |_| single(&FALSE_OVERSHOOT_QUADRATIC),
         hypotheses: &[],
         depends: &["orbit-quadratic"],
@@ -163,8 +183,11 @@ claim! {
 claim! {
     AMPLITUDE_MONOTONE_LINEAR = "orbit-amplitude-monotone-linear" "of this project" Theorem
     "Linear drag: (X_m - x_a)/x_a falls as g grows, so that the amplitude identifies g" {
-        printed: Printed::Absent,
-        corrected: Some(|_| proved(&theorem::LINEAR_OVERSHOOT)),
+        domain: &[EVERY_G],
+        by_hand: &["the sign of the derivative is that of the inequality enclosed", "g is replaced by a coordinate in (0, 1)"],
+        printed: AsPrinted::Absent,
+        corrected: Some(|_| proved(&theorem::LINEAR_OVERSHOOT, const { &[EVERY_G] })),
+        theorem: Some((&theorem::LINEAR_OVERSHOOT, &FALSE_OVERSHOOT_LINEAR)),
         falsified: |_| single(&FALSE_OVERSHOOT_LINEAR),
         hypotheses: &[],
         depends: &["orbit-linear"],
@@ -178,7 +201,7 @@ macro_rules! within {
             id: $id,
             statement: concat!("the relative error is within ", stringify!($radius), " of ", stringify!($centre)),
             sides: [Side::new("coordinate", $from, $to), Side::NONE, Side::NONE],
-            margin: |at: &Cell| match DragLaw::$law.error(at[0]) {
+            margin: |at: &Cell| match SymmetricOrbit::$law.error(at[0]) {
                 Some(error) => Interval::point($radius) - (error.$part - Interval::point($centre)).abs(),
                 None => Interval::ENTIRE,
             },
@@ -195,7 +218,7 @@ macro_rules! curve {
         depends $orbit:literal and $monotone:literal
     ) => {
         #[doc = concat!("What `", $id, "` rests on.")]
-        pub const $theorem: Theorem = Theorem {
+        const $theorem: Theorem = Theorem {
             id: $id,
             domain: "every alpha, drag, C, x_a > 0 with 0 < g <= 10, delta = 0",
             inequalities: &[
@@ -207,12 +230,18 @@ macro_rules! curve {
             ],
         };
         #[doc = concat!("Too narrow a bound for `", $id, "`.")]
-pub const $false: Inequality = within!("false-bound": $law $part on 0.0 to $ten is 0.0, $wrong);
+const $false: Inequality = within!("false-bound": $law $part on 0.0 to $ten is 0.0, $wrong);
 
         claim! {
             $constant = $id "of this project" Theorem $name {
-                printed: Printed::Absent,
-                corrected: Some(|_| proved(&$theorem)),
+                printed: AsPrinted::Absent,
+                corrected: Some(|_| proved(&$theorem, const { &[UP_TO_TEN] })),
+                theorem: Some((&$theorem, &$false)),
+                domain: &[UP_TO_TEN],
+                by_hand: &[
+                    "the numbers in the statement are those of the ranges enclosed",
+                    "g grows with the coordinate that unrolls the orbit",
+                ],
                 falsified: |_| single(&$false),
                 hypotheses: &[],
                 depends: &[$orbit, "method-bias", $monotone],
@@ -248,32 +277,3 @@ curve! {
     Quadratic drag, ends 2.7 and 20.7, up_to_one 0.22, up_to_ten 0.36, too_small 0.3,
     at_zero 0.2158, at_one [2.68, -0.088], at_ten [20.68, -0.346], depends "orbit-quadratic" and "orbit-amplitude-monotone-quadratic"
 }
-
-/// All theorems that claims rest on, those of the method's error included.
-pub const THEOREMS: &[Theorem] = &[
-    theorem::QUADRATIC,
-    theorem::LINEAR,
-    theorem::QUADRATIC_DISTURBED,
-    theorem::LINEAR_DISTURBED,
-    theorem::NO_EARLY_SWITCHING,
-    theorem::MULTIPLIER,
-    theorem::QUADRATIC_OVERSHOOT,
-    theorem::LINEAR_OVERSHOOT,
-    ALPHA_LINEAR,
-    BETA_LINEAR,
-    ALPHA_QUADRATIC,
-    BETA_QUADRATIC,
-];
-
-/// Inequalities that are false.
-pub const FALSEHOODS: &[Inequality] = &[
-    FALSE_DRAG,
-    FALSE_BRAKING,
-    FALSE_DENOMINATOR,
-    FALSE_OVERSHOOT_QUADRATIC,
-    FALSE_OVERSHOOT_LINEAR,
-    FALSE_ALPHA_LINEAR,
-    FALSE_BETA_LINEAR,
-    FALSE_ALPHA_QUADRATIC,
-    FALSE_BETA_QUADRATIC,
-];

@@ -1,7 +1,6 @@
 //! Power laws: the closed form is the integral, for every exponent and every bias.
 
-use super::claim::claim;
-use super::{Budget, Case, Evidence, Printed, Verdict, sample, tolerance};
+use super::{AsPrinted, Budget, Case, Distortion, Evidence, Part, Verdict, claim, sample, tolerance};
 use crate::describing::{ClosedForm, by_quadrature, certified};
 use crate::nonlinearity::{Power, Sinusoid};
 use crate::numeric::power::{INNER, OUTER, STEEP, analytic_step, paired_step, step};
@@ -11,9 +10,12 @@ use crate::proof::rigorous_quadrature::CellJet;
 claim! {
     POWER_LAW = "power-law" "8" Identity
     "Mean and gain of sgn(x) abs(x)^p are the hypergeometric series about bias/amplitude 0, 1 and infinity" {
-        printed: Printed::Absent,
-        corrected: Some(|budget| closed_is_integral(budget, 1.0).backed_by(power_law)),
+        domain: &[LISTED, Part::whole("other-exponents", "every bias and amplitude; the other exponents of 0 or more")],
+        by_hand: &["moments and closed form solve one differential equation", "bounds of the growth of a solution from one point to the others"],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| closed_is_integral(budget, 1.0)),
         falsified: |budget| closed_is_integral(budget, 1.000_01),
+        proof: Some(power_law),
         hypotheses: &[],
         depends: &["fourier-coefficients"],
     }
@@ -40,26 +42,29 @@ fn closed_is_integral(budget: Budget, factor: f64) -> Verdict {
     })
 }
 
+const LISTED: Part =
+    Part::whole("listed-exponents", "every bias and amplitude; exponents 0, 1/2, 1, 3/2, 1.7, 2, 5/2, 3, 8.5");
+
 /// Exponents whose constants are compared; the identities hold for all.
 const EXPONENTS: [f64; 9] = [0.0, 0.5, 1.0, 1.5, 1.7, 2.0, 2.5, 3.0, 8.5];
 
 /// That code and integral obey one differential equation, by identities on integers; that they agree at a point of each
 /// series; and how far they can be apart elsewhere then.
-#[must_use]
-pub fn power_law(factor: f64) -> Verdict {
+fn power_law(distortion: Distortion) -> Verdict {
     if !identities_hold() {
         return Verdict::undecided("identities of polynomials");
     }
     let (mut bound, mut boxes) = (0.0_f64, 0);
     for exponent in EXPONENTS {
-        let Ok(error) = Law { exponent, factor }.error(&mut boxes) else { return Verdict::undecided("quadrature") };
+        let Ok(error) = Law { exponent, factor: distortion.factor() }.error(&mut boxes) else {
+            return Verdict::undecided("quadrature");
+        };
         bound = bound.max(error);
     }
     if bound > tolerance::PROOF {
         return Verdict::undecided("quadrature at four biases");
     }
-    let domain = "every bias; exponents 0, 1/2, 1, 3/2, 1.7, 2, 5/2, 3, 8.5; relative to the largest output";
-    Verdict::Holds(Evidence::Proved { domain: domain.to_owned(), bound, boxes })
+    Verdict::Holds(Evidence::identity(LISTED, bound, boxes))
 }
 
 fn number(value: f64) -> Interval {
