@@ -8,8 +8,8 @@ use crate::numeric::{Interval, Real};
 use crate::orbit::theorem::{self, BUDGET, Theorem};
 use crate::orbit::{limit_cycle, return_slope};
 use crate::plant::DragAxis;
-use crate::proof::Gradient;
-use crate::proof::inequality::{Cell, Inequality, Search, Side};
+use crate::proof::inequality::{Cell, Inequality, VARIABLES};
+use crate::proof::{Gradient, NotProved, Variable};
 
 /// The verdict of a theorem's inequalities.
 pub(super) fn proved(theorem: &Theorem) -> Verdict {
@@ -19,33 +19,33 @@ pub(super) fn proved(theorem: &Theorem) -> Verdict {
             bound: proofs.iter().map(|proof| proof.bound).fold(f64::INFINITY, f64::min),
             boxes: proofs.iter().map(|proof| proof.boxes.len()).sum(),
         }),
-        Err((inequality, search)) => failed(&inequality, search),
+        Err((inequality, why)) => failed(&inequality, why),
     }
 }
 
 /// The verdict of one inequality by itself.
 fn single(inequality: &Inequality) -> Verdict {
-    let search = inequality.prove(BUDGET);
-    match search {
-        Search::Proved(proof) => Verdict::Holds(Evidence::Proved {
+    match inequality.prove(BUDGET) {
+        Ok(proof) => Verdict::Holds(Evidence::Proved {
             domain: inequality.statement.to_owned(),
             bound: proof.bound,
             boxes: proof.boxes.len(),
         }),
-        other => failed(inequality, other),
+        Err(why) => failed(inequality, why),
     }
 }
 
-fn failed(inequality: &Inequality, search: Search) -> Verdict {
-    match search {
-        Search::Refuted { witness, margin } => {
-            let named = inequality.sides.iter().zip(witness).filter(|(side, _)| !side.name.is_empty());
+fn failed(inequality: &Inequality, why: NotProved<VARIABLES>) -> Verdict {
+    match why {
+        NotProved::Refuted { witness, value: margin, .. } => {
+            let named = inequality.variables.iter().zip(witness).filter(|(side, _)| !side.name.is_empty());
             let mut numbers: Vec<_> = named.map(|(side, value)| (side.name, value)).collect();
             numbers.push(("margin", margin.midpoint()));
             Verdict::Refuted(Witness { numbers })
         }
-        Search::Undecided { boxes, .. } => Verdict::Undecided { spent: format!("{boxes} boxes for {}", inequality.id) },
-        Search::Proved(_) => Verdict::Undecided { spent: format!("{} alone", inequality.id) },
+        NotProved::Undecided { boxes, .. } => {
+            Verdict::Undecided { spent: format!("{boxes} boxes for {}", inequality.id) }
+        }
     }
 }
 
@@ -65,7 +65,7 @@ pub const FALSE_DRAG: Inequality = Inequality {
 pub const FALSE_BRAKING: Inequality = Inequality {
     id: "false-braking",
     statement: "the other command brakes whatever the disturbance",
-    sides: [Side::new("mu", -1.5, 1.5), Side::new("drag", 0.0, 2.0), Side::NONE],
+    variables: [Variable::new("mu", -1.5, 1.5), Variable::new("drag", 0.0, 2.0), Variable::NONE],
     ..theorem::BRAKING
 };
 
@@ -177,7 +177,7 @@ macro_rules! within {
         Inequality {
             id: $id,
             statement: concat!("the relative error is within ", stringify!($radius), " of ", stringify!($centre)),
-            sides: [Side::new("coordinate", $from, $to), Side::NONE, Side::NONE],
+            variables: [Variable::new("coordinate", $from, $to), Variable::NONE, Variable::NONE],
             margin: |at: &Cell| match DragLaw::$law.error(at[0]) {
                 Some(error) => Interval::point($radius) - (error.$part - Interval::point($centre)).abs(),
                 None => Interval::ENTIRE,

@@ -8,15 +8,16 @@ use std::sync::LazyLock;
 
 use super::single::Single;
 use super::{Evidence, Verdict, power_law, smooth, tolerance};
-use crate::describing::{ClosedForm, DescribingFunction, KernelForm, KernelProof, prove_band_from_the_middle};
+use crate::describing::{ClosedForm, DescribingFunction, KernelForm, prove_changed_band};
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity, parameters};
 use crate::identify::select::pairwise::relative_spread_percent;
 use crate::nonlinearity::{Branches, Kernel, Polynomial, RelayHysteresis, Sinusoid};
+use crate::numeric::special::Special;
 use crate::numeric::{Interval, Real};
-use crate::proof::Gradient;
-use crate::proof::branch_and_bound::{self, prove_positive};
+use crate::proof::branch_and_bound::prove_positive;
 use crate::proof::identity::{Series, prove_zero};
 use crate::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
+use crate::proof::{Change, Gradient, NotProved, Proved};
 
 /// A proof, true of the factor one.
 pub type Proof = fn(f64) -> Verdict;
@@ -58,11 +59,11 @@ const CELLS: usize = 5000;
 /// That functions of one variable vanish from `from` to `to`, described by `domain`.
 fn identity<const M: usize>(domain: &str, [from, to]: [f64; 2], f: impl Fn(Series) -> [Series; M]) -> Verdict {
     match prove_zero(f, from, to, tolerance::PROOF, CELLS) {
-        Some(proved) => {
+        Ok(proved) => {
             let domain = format!("{domain} in [{from}, {to}]");
-            Verdict::Holds(Evidence::Proved { domain, bound: proved.bound, boxes: proved.cells })
+            Verdict::Holds(Evidence::Proved { domain, bound: proved.bound.value(), boxes: proved.boxes })
         }
-        None => Verdict::undecided("an identity of one variable, 5000 cells"),
+        Err(_) => Verdict::undecided("an identity of one variable, 5000 cells"),
     }
 }
 
@@ -81,28 +82,36 @@ fn unknown<T: Real>() -> T {
     T::from_f64(f64::NAN)
 }
 
-fn kernel(form: KernelForm, factor: f64, domain: &str) -> Verdict {
-    type Found = LazyLock<Option<KernelProof>>;
-    static STEP: Found = LazyLock::new(|| KernelForm::Step.prove(1.0));
-    static RAMP: Found = LazyLock::new(|| KernelForm::Ramp.prove(1.0));
-    static SIGN: Found = LazyLock::new(|| KernelForm::Sign.prove(1.0));
-    static BAND: Found = LazyLock::new(|| KernelForm::Band.prove(1.0));
-    let proved = if (factor - 1.0).abs() > 0.0 {
-        form.prove(factor)
-    } else {
-        match form {
-            KernelForm::Step => *STEP,
-            KernelForm::Ramp => *RAMP,
-            KernelForm::Sign => *SIGN,
-            KernelForm::Band => *BAND,
-        }
-    };
-    match proved {
-        Some(KernelProof { bound, cells }) => {
-            Verdict::Holds(Evidence::Proved { domain: domain.to_owned(), bound, boxes: cells })
-        }
-        None => Verdict::undecided("60000 cells at most"),
+/// A closed form times a factor.
+struct Times(f64);
+
+impl Change for Times {
+    fn apply<T: Special, const N: usize, const M: usize>(&self, _: [T; N], values: [T; M]) -> [T; M] {
+        values.map(|value| value * T::from_f64(self.0))
     }
+}
+
+fn kernel(form: KernelForm, factor: f64, domain: &str) -> Verdict {
+    type Found = LazyLock<Result<Proved<1>, NotProved<1>>>;
+    static STEP: Found = LazyLock::new(|| KernelForm::Step.prove());
+    static RAMP: Found = LazyLock::new(|| KernelForm::Ramp.prove());
+    static SIGN: Found = LazyLock::new(|| KernelForm::Sign.prove());
+    static BAND: Found = LazyLock::new(|| KernelForm::Band.prove());
+    let verdict = |proved: &Result<Proved<1>, _>| match proved {
+        Ok(Proved { bound, boxes, .. }) => {
+            Verdict::Holds(Evidence::Proved { domain: domain.to_owned(), bound: bound.value(), boxes: *boxes })
+        }
+        Err(_) => Verdict::undecided("60000 cells at most"),
+    };
+    if (factor - 1.0).abs() > 0.0 {
+        return verdict(&form.prove_changed(&Times(factor)));
+    }
+    verdict(match form {
+        KernelForm::Step => &STEP,
+        KernelForm::Ramp => &RAMP,
+        KernelForm::Sign => &SIGN,
+        KernelForm::Band => &BAND,
+    })
 }
 
 const BREAKPOINT: &str = "every breakpoint u in [-1, 1], mean, sine and cosine component, both sides and branches";
@@ -128,13 +137,13 @@ pub fn kernel_sign(factor: f64) -> Verdict {
 /// Each end of a band, every ratio; and the code's rearranged sum over both ends, over the plane of both.
 #[must_use]
 pub fn kernel_band(factor: f64) -> Verdict {
-    let rearranged = || match prove_band_from_the_middle(factor) {
-        Some(KernelProof { bound, cells }) => Verdict::Holds(Evidence::Proved {
+    let rearranged = || match prove_changed_band(&Times(factor)) {
+        Ok(parts) => Verdict::Holds(Evidence::Proved {
             domain: "rearranged as coded, both ends u in [-0.95, 0.95] but 1e-9 beyond 1/2".to_owned(),
-            bound,
-            boxes: cells,
+            bound: parts.iter().map(|part| part.bound.value()).fold(0.0, f64::max),
+            boxes: parts.iter().map(|part| part.boxes).sum(),
         }),
-        None => Verdict::undecided("60000 cells for two ratios"),
+        Err(_) => Verdict::undecided("60000 cells for two ratios"),
     };
     kernel(KernelForm::Band, factor, "each end u in [-1, 1], mean and sine component").and(rearranged)
 }
@@ -434,7 +443,7 @@ pub fn quantisation_zero(factor: f64) -> Verdict {
         let verdict =
             domain.map(|domain| prove_positive(|[ratio]| slope(*ratio) * Interval::point(sign), domain, 20_000));
         match verdict {
-            Some(branch_and_bound::Verdict::Proved { boxes, .. }) => Verdict::Holds(Evidence::Proved {
+            Some(Ok(Proved { boxes, .. })) => Verdict::Holds(Evidence::Proved {
                 domain: format!("sign of the slope, X/x_a in [{from}, {to}]"),
                 bound: 0.0,
                 boxes,

@@ -66,18 +66,18 @@ impl<V: ClosedForm<Number = Interval>, S: ClosedForm<Number = Series>> Smooth<V,
         let values = |bias, amplitude| error(values, &cosines, |number| number, [bias, amplitude], factor);
         let series = |bias, amplitude| error(series, &cosines, Series::constant, [bias, amplitude], factor);
         match prove_zero_of_two(values, series, domain, tolerance::PROOF, CELLS) {
-            Some(proved) => {
+            Ok(proved) => {
                 let [bias, amplitude] = domain;
                 Verdict::Holds(Evidence::Proved {
                     domain: format!(
                         "every gain and scale k; F_0 and X P, k B in {bias:?}, k X in {amplitude:?}, {} angles",
                         2 * nodes
                     ),
-                    bound: proved.bound + 2.0 * RULE,
-                    boxes: proved.cells,
+                    bound: proved.bound.value() + 2.0 * RULE,
+                    boxes: proved.boxes,
                 })
             }
-            None => Verdict::undecided("an identity of two variables, 3000 cells"),
+            Err(_) => Verdict::undecided("an identity of two variables, 3000 cells"),
         }
     }
 }

@@ -52,7 +52,7 @@ pub use incremental::incremental_gain;
 #[cfg(feature = "std")]
 pub use inverse::{Solution, amplitudes, nearest_amplitude};
 #[cfg(feature = "std")]
-pub use kernel_proof::{KernelForm, KernelProof, prove_band_from_the_middle};
+pub use kernel_proof::{KernelForm, prove_band_from_the_middle, prove_changed_band};
 #[cfg(feature = "std")]
 pub use quadrature::{by_quadrature, harmonic};
 pub use relay::bias_of_output;

@@ -11,6 +11,12 @@ pub mod inequality;
 #[cfg(feature = "std")]
 pub mod interval_matrix;
 #[cfg(feature = "std")]
+mod outcome;
+#[cfg(feature = "std")]
 pub mod rigorous_quadrature;
+mod statement;
 
 pub use gradient::Gradient;
+#[cfg(feature = "std")]
+pub use outcome::{Bound, NotProved, Proved, Variable};
+pub use statement::{Change, Statement, Unchanged};
