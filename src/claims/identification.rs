@@ -3,7 +3,6 @@
 use core::f64::consts::PI;
 
 use nalgebra::Complex;
-use num_dual::Dual64;
 
 use super::claim::claim;
 use super::{Budget, Case, Draw, Hypothesis, Printed, Verdict, proof, sample, tolerance};
@@ -12,6 +11,7 @@ use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity, param
 use crate::identify::select::pairwise::{Decision, decide, relative_spread_percent};
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
 use crate::numeric::quadrature::integrate;
+use crate::numeric::{Gradient, Real};
 
 /// An axis on one tone: parameters, amplitude, angular frequency.
 struct Tone {
@@ -214,17 +214,17 @@ fn rotation(budget: Budget, sign: f64) -> Verdict {
 
 /// Relative derivatives of (alpha, beta, beta_xx) by the relative amplitude, by dual numbers through the identification.
 fn derivatives(o: &Oscillation<f64>) -> Option<[f64; 3]> {
-    let constant = Dual64::from_re;
+    let constant = Gradient::<f64, 1>::from_f64;
     let dual = Oscillation {
         relay_level: constant(o.relay_level),
         switch_level: constant(o.switch_level),
-        amplitude: Dual64::new(o.amplitude, o.amplitude),
+        amplitude: Gradient::new(o.amplitude, [o.amplitude]),
         bias: constant(o.bias),
         period_s: constant(o.period_s),
         delay_s: constant(o.delay_s),
     };
     let found = dual.identify().ok()?;
-    Some([found.alpha, found.beta, found.beta_quadratic].map(|parameter| parameter.eps / parameter.re))
+    Some([found.alpha, found.beta, found.beta_quadratic].map(|parameter| parameter.slopes()[0] / parameter.value()))
 }
 
 /// One of eqs. 37-39 against the derivative.

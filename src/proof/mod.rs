@@ -3,7 +3,6 @@
 #[cfg(feature = "std")]
 pub mod branch_and_bound;
 pub mod enclosure;
-mod gradient;
 #[cfg(feature = "std")]
 pub mod identity;
 #[cfg(feature = "std")]
@@ -16,7 +15,9 @@ mod outcome;
 pub mod rigorous_quadrature;
 mod statement;
 
-pub use gradient::Gradient;
+/// Enclosures of a value and its partial derivatives over a box: rigorous Jacobians from the formulas themselves.
+pub type Gradient<const N: usize> = crate::numeric::Gradient<crate::numeric::Interval, N>;
+
 #[cfg(feature = "std")]
 pub use outcome::{Bound, NotProved, Proved, Variable};
 pub use statement::{Change, Statement, Unchanged};
