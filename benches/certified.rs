@@ -58,7 +58,7 @@ fn closed_power(bencher: Bencher, (exponent, bias): (f64, f64)) {
 #[divan::bench(sample_count = 3)]
 fn kernels(bencher: Bencher) {
     let forms = [KernelForm::Step, KernelForm::Ramp, KernelForm::Sign, KernelForm::Band];
-    bencher.bench_local(|| black_box(forms).map(|form| form.prove(1.0)));
+    bencher.bench_local(|| black_box(forms).map(|form| form.prove()));
 }
 
 #[divan::bench(sample_count = 3)]

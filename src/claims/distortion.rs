@@ -1,6 +1,8 @@
 //! False statements for the proofs: a proof that accepts one is wrong.
 
 use crate::numeric::Real;
+use crate::numeric::special::Special;
+use crate::proof::Change;
 
 /// What a formula is multiplied by before it is proved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,5 +48,13 @@ impl Distortion {
             }
             everywhere => T::from_f64(everywhere.factor()),
         }
+    }
+}
+
+/// Of functions of ratios between -1 and 1: near a share of the first one's range.
+impl Change for Distortion {
+    fn apply<T: Special, const N: usize, const M: usize>(&self, variables: [T; N], values: [T; M]) -> [T; M] {
+        let factor = variables.first().map_or_else(T::one, |&first| self.at(first, [-1.0, 1.0]));
+        values.map(|value| value * factor)
     }
 }

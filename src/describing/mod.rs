@@ -16,8 +16,6 @@ mod example;
 #[cfg(feature = "std")]
 mod fit;
 #[cfg(feature = "std")]
-mod incremental;
-#[cfg(feature = "std")]
 mod inverse;
 mod kernel;
 #[cfg(feature = "std")]
@@ -34,8 +32,6 @@ mod sine;
 #[cfg(feature = "std")]
 mod sketch;
 mod tanh;
-#[cfg(feature = "std")]
-mod two_tone;
 
 #[cfg(feature = "std")]
 pub use catalogue::{Boxed, CATALOGUE, CatalogueError, Entry};
@@ -48,18 +44,14 @@ pub use example::{Curve, Example};
 #[cfg(feature = "std")]
 pub use fit::{Fit, fit};
 #[cfg(feature = "std")]
-pub use incremental::incremental_gain;
-#[cfg(feature = "std")]
 pub use inverse::{Solution, amplitudes, nearest_amplitude};
 #[cfg(feature = "std")]
-pub use kernel_proof::{KernelForm, KernelProof, prove_band_from_the_middle};
+pub use kernel_proof::{KernelForm, prove_band_from_the_middle, prove_changed_band};
 #[cfg(feature = "std")]
 pub use quadrature::{by_quadrature, harmonic};
 pub use relay::bias_of_output;
 #[cfg(feature = "std")]
 pub use setting::Setting;
-#[cfg(feature = "std")]
-pub use two_tone::{TwoTone, two_tone};
 
 use core::ops::{Add, Mul, Sub};
 

@@ -8,17 +8,14 @@ mod least_squares;
 mod row;
 mod student;
 
-use nalgebra::{Const, U1};
-use num_dual::DualSVec64;
-
 use super::{DragLaw, IdentifyError};
-use crate::numeric::Real;
+use crate::numeric::Gradient;
 use crate::plant::DragAxis;
 use least_squares::{Linearised, Minimum, minimise};
 pub use row::{FeatureRow, fit_rows};
 
 /// A number with its derivatives with respect to the common parameters, in the order of [`Parameter`].
-pub type Sensitive = DualSVec64<COUNT>;
+pub type Sensitive = Gradient<f64, COUNT>;
 
 /// Number of common parameters.
 const COUNT: usize = 4;
@@ -161,15 +158,15 @@ pub fn fit<E: Experiment>(
 }
 
 fn linearise<E: Experiment>(experiments: &[E], values: &[f64; COUNT]) -> Result<Linearised<COUNT>, IdentifyError> {
-    let seed = |index: usize| Sensitive::from_f64(values[index]).derivative(index);
-    let axis = DragAxis::mixed(seed(0), seed(1), seed(2))?.with_delay_s(seed(3))?;
+    let [alpha, linear, quadratic, delay_s] = Gradient::variables(*values);
+    let axis = DragAxis::mixed(alpha, linear, quadratic)?.with_delay_s(delay_s)?;
     let mut residuals = Vec::new();
     for experiment in experiments {
         experiment.residuals(&axis, &mut residuals)?;
     }
     Ok(Linearised {
-        residuals: residuals.iter().map(|residual| residual.re).collect(),
-        jacobian: residuals.iter().map(|residual| residual.eps.unwrap_generic(Const, U1).into()).collect(),
+        residuals: residuals.iter().map(|residual| residual.value()).collect(),
+        jacobian: residuals.iter().map(|residual| residual.slopes()).collect(),
     })
 }
 

@@ -7,6 +7,7 @@ use super::{OrbitError, RelayLoop};
 use crate::numeric::{Interval, domain};
 use crate::plant::StateSpace;
 use crate::proof::Gradient;
+use crate::proof::branch_and_bound::{Visit, subdivide};
 use crate::proof::enclosure::{Roots, newton};
 use crate::proof::interval_matrix::{exponential, norm, solve};
 
@@ -193,21 +194,12 @@ impl Half {
 
     /// Cells on each of which the output is as it should be.
     fn cover(&self, swing: &Swing, from: f64, to: f64, holds: impl Fn(Interval) -> bool) -> Option<usize> {
-        let mut open: Vec<_> = Interval::new(from, to).into_iter().collect();
-        let mut cells = 0;
-        while let Some(cell) = open.pop() {
-            cells += 1;
+        let found = subdivide([Interval::new(from, to)?], CELLS, |&[cell]| {
             let middle = Interval::point(cell.midpoint());
-            let at_middle = self.read(&(self.flow(middle)? * &swing.start));
-            if !holds(at_middle + self.slope(swing, cell)? * (cell - middle)) {
-                if cells >= CELLS {
-                    return None;
-                }
-                let (left, right) = cell.bisect();
-                open.extend([right, left]);
-            }
-        }
-        Some(cells)
+            let (Some(flow), Some(slope)) = (self.flow(middle), self.slope(swing, cell)) else { return Visit::Stop };
+            Visit::settled(holds(self.read(&(flow * &swing.start)) + slope * (cell - middle)))
+        });
+        found.unsettled.is_none().then_some(found.boxes)
     }
 
     /// Half-periods after which the linearised return map is a contraction. A deviation moves the crossing, hence the end.

@@ -4,9 +4,14 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 use selfosc::claims::{CLAIMS, Verdict};
-use selfosc::describing::{CATALOGUE, DescribingError, DescribingFunction, Entry, KernelForm, certified};
+use selfosc::describing::{
+    CATALOGUE, DescribingError, DescribingFunction, Entry, KernelForm, certified, prove_band_from_the_middle,
+    prove_changed_band,
+};
 use selfosc::nonlinearity::{Custom, NonlinearityError, RelayHysteresis, Saturation, Sinusoid};
+use selfosc::numeric::special::Special;
 use selfosc::numeric::{Interval, Real};
+use selfosc::proof::Change;
 use selfosc::proof::rigorous_quadrature::CellJet;
 
 use crate::cases::case;
@@ -151,13 +156,41 @@ fn random_cases_agree_with_the_closed_form() {
     }
 }
 
+/// A false closed form.
+struct Times(f64);
+
+impl Change for Times {
+    fn apply<T: Special, const N: usize, const M: usize>(&self, _: [T; N], values: [T; M]) -> [T; M] {
+        values.map(|value| value * T::from_f64(self.0))
+    }
+}
+
+/// False by 1e-9 near one breakpoint only.
+struct Bump;
+
+impl Change for Bump {
+    fn apply<T: Special, const N: usize, const M: usize>(&self, at: [T; N], values: [T; M]) -> [T; M] {
+        let distance = (at[0] - T::from_f64(0.3)) * T::from_f64(50.0);
+        let bump = T::from_f64(1e-9) / (T::one() + distance.square());
+        values.map(|value| value + bump)
+    }
+}
+
+#[test]
+fn a_local_falsehood_is_not_proved() {
+    for form in [KernelForm::Step, KernelForm::Ramp, KernelForm::Sign, KernelForm::Band] {
+        assert!(form.prove_changed(&Bump).is_err(), "{form:?}");
+    }
+    assert!(prove_band_from_the_middle().is_ok() && prove_changed_band(&Bump).is_err());
+}
+
 #[test]
 fn kernels_are_proved_and_false_ones_are_not() {
     for form in [KernelForm::Step, KernelForm::Ramp, KernelForm::Sign, KernelForm::Band] {
-        let proof = form.prove(1.0).unwrap_or_else(|| panic!("{form:?} is not proved"));
-        assert!(proof.bound <= tolerance::CERTIFIED_WIDTH, "{form:?}: {proof:?}");
+        let proof = form.prove().unwrap_or_else(|why| panic!("{form:?}: {why}"));
+        assert!(proof.bound.value() <= tolerance::CERTIFIED_WIDTH, "{form:?}: {:?}", proof.bound);
         for factor in [1.000_01, 0.999_99] {
-            assert_eq!(form.prove(factor), None, "{form:?} times {factor}");
+            assert!(form.prove_changed(&Times(factor)).is_err(), "{form:?} times {factor}");
         }
     }
 }

@@ -8,15 +8,15 @@ use selfosc::numeric::Interval;
 use selfosc::orbit::theorem::BUDGET;
 use selfosc::orbit::{OrbitError, certify, force_left, limit_cycle, return_slope};
 use selfosc::plant::DragAxis;
-use selfosc::proof::Gradient;
-use selfosc::proof::inequality::{Cell, Inequality, Proof, Proofs, Refusal, Search, Side};
+use selfosc::proof::inequality::{Cell, Inequality, Proof, Proofs, Refusal};
+use selfosc::proof::{Extent, Gradient, NotProved};
 
 use crate::tolerance::{CENTRAL_DIFFERENCE, ORBIT_ENCLOSURE, REFERENCE, ROUNDING};
 
 fn proofs() -> Vec<(Inequality, Proof)> {
     let prove = |inequality: &Inequality| match inequality.prove(BUDGET) {
-        Search::Proved(proof) => (*inequality, proof),
-        other => panic!("{}: {other:?}", inequality.id),
+        Ok(proof) => (*inequality, proof),
+        Err(why) => panic!("{}: {why}", inequality.id),
     };
     CLAIMS.iter().filter_map(Claim::theorem).flat_map(|theorem| theorem.inequalities.iter().map(prove)).collect()
 }
@@ -35,7 +35,7 @@ fn every_theorem_is_proved_and_its_proof_survives_a_file() {
 fn no_falsehood_is_proved() {
     for inequality in CLAIMS.iter().filter_map(Claim::false_inequality) {
         let found = inequality.prove(BUDGET);
-        assert!(matches!(found, Search::Refuted { .. }), "{}: {found:?}", inequality.id);
+        assert!(matches!(found, Err(NotProved::Refuted { .. })), "{}: {found:?}", inequality.id);
     }
 }
 
@@ -113,7 +113,7 @@ fn any_cuts_will_do() {
     const ANYWHERE: Inequality = Inequality {
         id: "anywhere",
         statement: "one is positive",
-        sides: [Side::new("x", 0.0, 3.0), Side::new("y", 0.0, 2.0), Side::NONE],
+        variables: [Extent::new("x", 0.0, 3.0), Extent::new("y", 0.0, 2.0), Extent::NONE],
         margin: |_| Interval::ONE,
     };
     let side = |lower, upper| Interval::new(lower, upper).unwrap();

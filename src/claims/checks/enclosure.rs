@@ -17,8 +17,8 @@ pub(super) fn identity<const M: usize>(
 ) -> Verdict {
     let Some(&Variable { from, to, .. }) = part.variables.first() else { return Verdict::undecided("no variable") };
     match prove_zero(|x| f(x, distortion.at(x, [from, to])), from, to, tolerance::PROOF, CELLS) {
-        Some(proved) => Verdict::Holds(Evidence::identity(part, proved.bound, proved.cells)),
-        None => Verdict::undecided("an identity of one variable, 5000 cells"),
+        Ok(proved) => Verdict::Holds(Evidence::identity(part, proved.bound.value(), proved.boxes)),
+        Err(_) => Verdict::undecided("an identity of one variable, 5000 cells"),
     }
 }
 

@@ -3,12 +3,11 @@
 use super::enclosure::no_function;
 use super::single::Single;
 use super::{AsPrinted, Budget, Case, Distortion, Evidence, Part, Variable, Verdict, claim, sample, tolerance};
-use crate::describing::{
-    ClosedForm, DescribingFunction, KernelForm, KernelProof, by_quadrature, prove_band_from_the_middle,
-};
+use crate::describing::{ClosedForm, DescribingFunction, KernelForm, by_quadrature, prove_changed_band};
 use crate::nonlinearity::{Branches, Kernel, Side, Sinusoid};
 use crate::numeric::Real;
 use crate::proof::identity::Series;
+use crate::proof::{NotProved, Proved};
 use std::sync::LazyLock;
 
 /// Makes a kernel from a breakpoint, a second one above it, a side and branches.
@@ -103,21 +102,21 @@ claim! {
 }
 
 pub(super) fn prove_kernel(form: KernelForm, distortion: Distortion, part: Part) -> Verdict {
-    type Found = LazyLock<Option<KernelProof>>;
-    static STEP: Found = LazyLock::new(|| KernelForm::Step.prove(1.0));
-    static RAMP: Found = LazyLock::new(|| KernelForm::Ramp.prove(1.0));
-    static SIGN: Found = LazyLock::new(|| KernelForm::Sign.prove(1.0));
-    static BAND: Found = LazyLock::new(|| KernelForm::Band.prove(1.0));
-    let proved = match (distortion, form) {
-        (Distortion::None, KernelForm::Step) => *STEP,
-        (Distortion::None, KernelForm::Ramp) => *RAMP,
-        (Distortion::None, KernelForm::Sign) => *SIGN,
-        (Distortion::None, KernelForm::Band) => *BAND,
-        (distorted, form) => form.prove(distorted.factor()),
+    type Found = LazyLock<Result<Proved<1>, NotProved<1>>>;
+    static STEP: Found = LazyLock::new(|| KernelForm::Step.prove());
+    static RAMP: Found = LazyLock::new(|| KernelForm::Ramp.prove());
+    static SIGN: Found = LazyLock::new(|| KernelForm::Sign.prove());
+    static BAND: Found = LazyLock::new(|| KernelForm::Band.prove());
+    let verdict = |proved: &Result<Proved<1>, _>| match proved {
+        Ok(proved) => Verdict::Holds(Evidence::identity(part.clone(), proved.bound.value(), proved.boxes)),
+        Err(_) => Verdict::undecided("60000 cells at most"),
     };
-    match proved {
-        Some(KernelProof { bound, cells }) => Verdict::Holds(Evidence::identity(part, bound, cells)),
-        None => Verdict::undecided("60000 cells at most"),
+    match (distortion, form) {
+        (Distortion::None, KernelForm::Step) => verdict(&STEP),
+        (Distortion::None, KernelForm::Ramp) => verdict(&RAMP),
+        (Distortion::None, KernelForm::Sign) => verdict(&SIGN),
+        (Distortion::None, KernelForm::Band) => verdict(&BAND),
+        (distorted, form) => verdict(&form.prove_changed(&distorted)),
     }
 }
 
@@ -144,9 +143,13 @@ fn prove_kernel_band(distortion: Distortion) -> Verdict {
         "",
         const { &[Variable::number("u_lower", -0.95, 0.95), Variable::number("u_upper", -0.95, 0.95)] },
     );
-    let rearranged = || match prove_band_from_the_middle(distortion.factor()) {
-        Some(KernelProof { bound, cells }) => Verdict::Holds(Evidence::identity(COVERED, bound, cells)),
-        None => Verdict::undecided("60000 cells for two ratios"),
+    let rearranged = || match prove_changed_band(&distortion) {
+        Ok(parts) => {
+            let bound = parts.iter().map(|part| part.bound.value()).fold(0.0, f64::max);
+            let boxes = parts.iter().map(|part| part.boxes).sum();
+            Verdict::Holds(Evidence::identity(COVERED, bound, boxes))
+        }
+        Err(_) => Verdict::undecided("60000 cells for two ratios"),
     };
     prove_kernel(KernelForm::Band, distortion, BREAKPOINT).and(rearranged)
 }

@@ -7,8 +7,8 @@ use crate::numeric::{Interval, Real};
 use crate::orbit::theorem::{self, BUDGET, Theorem};
 use crate::orbit::{limit_cycle, return_slope};
 use crate::plant::DragAxis;
-use crate::proof::Gradient;
-use crate::proof::inequality::{Cell, Inequality, Search, Side};
+use crate::proof::inequality::{Cell, Inequality, VARIABLES};
+use crate::proof::{Extent, Gradient, NotProved};
 
 /// The verdict of a theorem's inequalities: they establish these parts.
 pub(super) fn proved(theorem: &Theorem, parts: &'static [Part]) -> Verdict {
@@ -18,30 +18,29 @@ pub(super) fn proved(theorem: &Theorem, parts: &'static [Part]) -> Verdict {
             let boxes = proofs.iter().map(|proof| proof.boxes.len()).sum();
             Verdict::Holds(Evidence::inequality(Domain::new(parts), margin, boxes))
         }
-        Err((inequality, search)) => failed(&inequality, search),
+        Err((inequality, why)) => failed(&inequality, why),
     }
 }
 
 /// The verdict of one inequality by itself, which establishes no part of any claim.
 fn single(inequality: &Inequality) -> Verdict {
     match inequality.prove(BUDGET) {
-        Search::Proved(proof) => {
-            Verdict::Holds(Evidence::inequality(Domain::default(), proof.bound, proof.boxes.len()))
-        }
-        other => failed(inequality, other),
+        Ok(proof) => Verdict::Holds(Evidence::inequality(Domain::default(), proof.bound, proof.boxes.len())),
+        Err(why) => failed(inequality, why),
     }
 }
 
-fn failed(inequality: &Inequality, search: Search) -> Verdict {
-    match search {
-        Search::Refuted { witness, margin } => {
-            let named = inequality.sides.iter().zip(witness).filter(|(side, _)| !side.name.is_empty());
+fn failed(inequality: &Inequality, why: NotProved<VARIABLES>) -> Verdict {
+    match why {
+        NotProved::Refuted { witness, value: margin, .. } => {
+            let named = inequality.variables.iter().zip(witness).filter(|(side, _)| !side.name.is_empty());
             let mut numbers: Vec<_> = named.map(|(side, value)| (side.name, value)).collect();
             numbers.push(("margin", margin.midpoint()));
             Verdict::Refuted(Witness::new(numbers))
         }
-        Search::Undecided { boxes, .. } => Verdict::Undecided { spent: format!("{boxes} boxes for {}", inequality.id) },
-        Search::Proved(_) => Verdict::Undecided { spent: format!("{} alone", inequality.id) },
+        NotProved::Undecided { boxes, .. } => {
+            Verdict::Undecided { spent: format!("{boxes} boxes for {}", inequality.id) }
+        }
     }
 }
 
@@ -70,7 +69,7 @@ pub(super) const FALSE_DRAG: Inequality = Inequality {
 const FALSE_BRAKING: Inequality = Inequality {
     id: "false-braking",
     statement: "the other command brakes whatever the disturbance",
-    sides: [Side::new("mu", -1.5, 1.5), Side::new("drag", 0.0, 2.0), Side::NONE],
+    variables: [Extent::new("mu", -1.5, 1.5), Extent::new("drag", 0.0, 2.0), Extent::NONE],
     ..theorem::BRAKING
 };
 
@@ -200,7 +199,7 @@ macro_rules! within {
         Inequality {
             id: $id,
             statement: concat!("the relative error is within ", stringify!($radius), " of ", stringify!($centre)),
-            sides: [Side::new("coordinate", $from, $to), Side::NONE, Side::NONE],
+            variables: [Extent::new("coordinate", $from, $to), Extent::NONE, Extent::NONE],
             margin: |at: &Cell| match SymmetricOrbit::$law.error(at[0]) {
                 Some(error) => Interval::point($radius) - (error.$part - Interval::point($centre)).abs(),
                 None => Interval::ENTIRE,

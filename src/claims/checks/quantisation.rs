@@ -1,31 +1,29 @@
 //! What an error of the amplitude does to the parameters: eqs. 37-39.
 
-use num_dual::Dual64;
-
 use super::enclosure::{identity, unknown, zeros};
 use super::identification::oscillation;
 use super::{
     AsPrinted, Budget, Case, Distortion, Evidence, Hypothesis, Part, Variable, Verdict, claim, sample, tolerance,
 };
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity};
-use crate::numeric::{Interval, Real};
-use crate::proof::Gradient;
-use crate::proof::branch_and_bound::{self, prove_positive};
+use crate::numeric::{self, Interval, Real};
+use crate::proof::branch_and_bound::prove_positive;
 use crate::proof::identity::Series;
+use crate::proof::{Gradient, Proved};
 
-/// Relative derivatives of (alpha, beta, beta_xx) by the relative amplitude, by dual numbers through the identification.
+/// Relative derivatives of (alpha, beta, beta_xx) by the relative amplitude, by first derivatives through the identification.
 fn derivatives(o: &Oscillation<f64>) -> Option<[f64; 3]> {
-    let constant = Dual64::from_re;
+    let constant = numeric::Gradient::<f64, 1>::from_f64;
     let dual = Oscillation {
         relay_level: constant(o.relay_level),
         switch_level: constant(o.switch_level),
-        amplitude: Dual64::new(o.amplitude, o.amplitude),
+        amplitude: numeric::Gradient::new(o.amplitude, [o.amplitude]),
         bias: constant(o.bias),
         period_s: constant(o.period_s),
         delay_s: constant(o.delay_s),
     };
     let found = dual.identify().ok()?;
-    Some([found.alpha, found.beta, found.beta_quadratic].map(|parameter| parameter.eps / parameter.re))
+    Some([found.alpha, found.beta, found.beta_quadratic].map(|parameter| parameter.slopes()[0] / parameter.value()))
 }
 
 /// One of eqs. 37-39 against the derivative.
@@ -181,8 +179,8 @@ fn prove_quantisation_zero(distortion: Distortion) -> Verdict {
         let verdict =
             domain.map(|domain| prove_positive(|[ratio]| slope(*ratio) * Interval::point(sign), domain, 20_000));
         match verdict {
-            Some(branch_and_bound::Verdict::Proved { boxes, margin }) => {
-                Verdict::Holds(Evidence::inequality(part.into(), margin, boxes))
+            Some(Ok(Proved { boxes, bound, .. })) => {
+                Verdict::Holds(Evidence::inequality(part.into(), bound.value(), boxes))
             }
             _ => Verdict::undecided("20000 boxes"),
         }

@@ -69,16 +69,16 @@ impl<V: ClosedForm<Number = Interval>, S: ClosedForm<Number = Series>> Smooth<V,
             error(series, &cosines, Series::constant, [bias, amplitude], distortion.at(bias, domain[0]))
         };
         match prove_zero_of_two(values, series, domain, tolerance::PROOF, CELLS) {
-            Some(proved) => {
+            Ok(proved) => {
                 let [bias, amplitude] = domain;
                 let sides = vec![
                     Variable::number("abs(k B)", bias[0], bias[1]),
                     Variable::number("k X", amplitude[0], amplitude[1]),
                 ];
                 let part = Part { variables: sides.into(), ..Part::whole("every-sweep", "") };
-                Verdict::Holds(Evidence::identity(part, proved.bound + 2.0 * RULE, proved.cells))
+                Verdict::Holds(Evidence::identity(part, proved.bound.value() + 2.0 * RULE, proved.boxes))
             }
-            None => Verdict::undecided("an identity of two variables, 3000 cells"),
+            Err(_) => Verdict::undecided("an identity of two variables, 3000 cells"),
         }
     }
 }
