@@ -37,5 +37,5 @@ pub mod paper;
 
 #[cfg(feature = "command")]
 pub mod command;
-#[cfg(feature = "command")]
+#[cfg(feature = "report")]
 pub mod report;

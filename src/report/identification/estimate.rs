@@ -7,7 +7,8 @@ use crate::identify::{DragLaw, iso};
 use crate::plant::DragAxis;
 
 /// Ways from records to parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "command", derive(clap::ValueEnum))]
 pub enum Method {
     /// The paper's: the first harmonic of the mean cycle
     Iso,
