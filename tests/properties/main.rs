@@ -35,6 +35,7 @@ mod paper;
 mod power_law;
 mod record;
 mod relay_certificate;
+mod sampling;
 mod special;
 mod tolerance;
 mod vehicle;
