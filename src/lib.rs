@@ -39,3 +39,8 @@ pub mod paper;
 pub mod command;
 #[cfg(feature = "report")]
 pub mod report;
+
+/// The Rust blocks of the README, compiled and run as tests.
+#[cfg(all(doctest, feature = "std"))]
+#[doc = include_str!("../README.md")]
+struct Readme;
