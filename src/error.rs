@@ -72,6 +72,6 @@ umbrella! {
     "A vehicle, a thruster or a demand on them." Vehicle(crate::vehicle::VehicleError) numbers;
     "No controller." Control(crate::control::ControlError) numbers;
     "A part of the paper that cannot be regenerated." Paper(crate::paper::PaperError) numbers;
-    #[cfg(feature = "command")]
+    #[cfg(feature = "report")]
     "No report." Report(crate::report::ReportError) numbers;
 }

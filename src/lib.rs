@@ -36,6 +36,8 @@ pub mod claims;
 pub mod paper;
 
 #[cfg(feature = "command")]
+pub mod command;
+#[cfg(feature = "report")]
 pub mod report;
 
 #[cfg(feature = "std")]
@@ -43,5 +45,7 @@ mod error;
 #[cfg(feature = "std")]
 pub use error::Error;
 
-#[cfg(feature = "command")]
-pub mod command;
+/// The Rust blocks of the README, compiled and run as tests.
+#[cfg(all(doctest, feature = "std"))]
+#[doc = include_str!("../README.md")]
+struct Readme;

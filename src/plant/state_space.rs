@@ -1,5 +1,6 @@
 //! Linear plants in state space, and their exact flow under a constant input.
 
+use nalgebra::linalg::{Schur, balancing::balance_parlett_reinsch};
 use nalgebra::{Complex, DMatrix, DVector, RowDVector};
 
 use super::transfer::companion;
@@ -161,7 +162,10 @@ impl Flow {
     }
 }
 
-/// Eigenvalues of a square matrix.
+/// Steps of the QR algorithm allowed for each eigenvalue; two or three are usual.
+const SWEEPS_PER_ORDER: usize = 100;
+
+/// Eigenvalues of a square matrix: balanced, then by the QR algorithm.
 ///
 /// # Errors
 /// [`PlantError::Eigenvalues`] where the iteration does not converge.
@@ -171,5 +175,9 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, PlantErro
     if matrix.iter().any(|value| !value.is_finite()) {
         return Err(failed);
     }
-    faer::Mat::from_fn(order, order, |row, column| matrix[(row, column)]).eigenvalues().map_err(|_| failed)
+    let mut balanced = matrix.clone();
+    // Coefficients of a companion matrix span decades: without this its small eigenvalues drown.
+    balance_parlett_reinsch(&mut balanced);
+    let schur = Schur::try_new(balanced, f64::EPSILON, SWEEPS_PER_ORDER * order).ok_or(failed)?;
+    Ok(schur.complex_eigenvalues().iter().copied().collect())
 }

@@ -243,7 +243,7 @@ fn a_memory_that_would_have_to_know_more_is_an_error() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(crate::sampling::config(48))]
 
     /// Against the phase crossovers of the plant, found by counting signs on a fine grid, and the inverse of the gain.
     #[test]

@@ -1,6 +1,5 @@
 //! Rigorous quadrature, root enclosure and branch and bound: true statements are proved, false ones are not.
 
-use quickcheck::quickcheck;
 use selfosc::numeric::{Interval, Jet, Real};
 use selfosc::proof::branch_and_bound::prove_positive;
 use selfosc::proof::enclosure::{Roots, around, krawczyk, newton};
@@ -8,6 +7,7 @@ use selfosc::proof::rigorous_quadrature::{CellJet, Integrand, Quadrature, integr
 use selfosc::proof::{Bound, Gradient, NotProved};
 
 use crate::oracle::{Bracket, Down, Up, at, bracket};
+use crate::sampling::seeded;
 use crate::tolerance::{JET_ROUNDING, QUADRATURE_WIDTH};
 
 fn interval(lo: f64, hi: f64) -> Interval {
@@ -315,9 +315,10 @@ fn krawczyk_proves_what_is_true_only() {
     assert!(enclosure.iter().all(|side| (*side - side.cos()).contains_zero() && side.width() < 1e-14));
 }
 
-quickcheck! {
-    /// Newton on `(x - a)(x^2 + 1)` finds `a` where it lies inside, and claims no root where it lies outside.
-    fn newton_finds_the_root_that_is_there(position: f64) -> bool {
+/// Newton on `(x - a)(x^2 + 1)` finds `a` where it lies inside, and claims no root where it lies outside.
+#[test]
+fn newton_finds_the_root_that_is_there() {
+    fn holds(position: f64) -> bool {
         let a = (position % 4.0) + 0.0;
         if !a.is_finite() {
             return true;
@@ -329,6 +330,7 @@ quickcheck! {
             Roots::Undecided { remaining, .. } => remaining.contains(a) || !(1.0..=2.0).contains(&a),
         }
     }
+    seeded().quickcheck(holds as fn(_) -> bool);
 }
 
 #[test]

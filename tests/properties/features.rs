@@ -90,7 +90,7 @@ fn experiment(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(crate::sampling::config(64))]
 
     /// The same samples one by one: the same numbers.
     #[test]

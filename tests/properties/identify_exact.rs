@@ -91,7 +91,7 @@ fn loops_with(delay: impl Strategy<Value = f64>) -> impl Strategy<Value = Loop> 
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(crate::sampling::config(2000))]
 
     #[test]
     fn inversion_returns_the_parameters(case in loops()) {
@@ -196,7 +196,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(crate::sampling::config(64))]
 
     /// From a dense record, simulated, through its features: both laws, with and without disturbance and delay, whether the relay is
     /// held or watches all the time.

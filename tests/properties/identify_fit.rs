@@ -63,7 +63,7 @@ fn law() -> impl Strategy<Value = DragLaw> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(crate::sampling::config(24))]
 
     /// Without noise the parameters come back, with or without disturbance and delay, whether the relay was held or its instants are not in the log.
     #[test]
@@ -88,7 +88,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(12))]
+    #![proptest_config(crate::sampling::config(12))]
 
     /// The mixed law contains the simple ones: it never ends less likely, from noisy or rounded readings of any of the three.
     #[test]
@@ -362,7 +362,7 @@ fn a_record_without_motion_is_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(crate::sampling::config(64))]
 
     /// Whatever the record, a result or a refusal.
     #[test]

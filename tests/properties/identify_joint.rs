@@ -131,7 +131,7 @@ fn no_neighbour_fits_table_4_better() {
 const PLAN: [(f64, f64); 6] = [(2.0, 10.0), (4.0, 20.0), (8.0, 8.0), (8.0, 30.0), (16.0, 15.0), (16.0, 30.0)];
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(crate::sampling::config(200))]
 
     #[test]
     fn exact_rows_return_the_vehicle(

@@ -36,6 +36,7 @@ mod paper;
 mod power_law;
 mod record;
 mod relay_certificate;
+mod sampling;
 mod session;
 mod special;
 mod tolerance;

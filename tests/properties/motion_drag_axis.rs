@@ -60,7 +60,7 @@ fn assert_same(value: State<f64>, expected: State<f64>, scales: (f64, f64)) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1000, max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { max_shrink_iters: 200, ..crate::sampling::config(1000) })]
 
     #[test]
     fn agrees_with_integration(start in starts(), duration in 1e-3..20.0) {

@@ -97,7 +97,7 @@ fn fault<T: Scalar>(run: &Run<T>) -> Fault {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(crate::sampling::config(64))]
 
     /// The last attempt's samples as a record: the same features, and parameters, to the last bit.
     #[test]
@@ -289,7 +289,7 @@ fn no_sequence_of_samples_leaves_the_limits() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(256))]
+    #![proptest_config(crate::sampling::config(256))]
 
     /// Any bits at all for readings and times.
     #[test]

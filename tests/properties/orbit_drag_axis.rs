@@ -91,7 +91,7 @@ fn assert_close(what: &str, value: f64, expected: f64, scale: f64, tolerance: f6
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, max_shrink_iters: 100, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { max_shrink_iters: 100, ..crate::sampling::config(400) })]
 
     #[test]
     fn agrees_with_integration(case in loops(1e-3..1e2)) {

@@ -237,7 +237,7 @@ fn bad_ranges_are_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(crate::sampling::config(24))]
 
     #[test]
     fn symmetric_orbits_meet_tsypkins_condition(

@@ -162,7 +162,7 @@ fn a_held_loop_agrees_with_small_steps() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(32))]
+    #![proptest_config(crate::sampling::config(32))]
 
     /// A relay that watches all the time settles on the exact limit cycle; its delay may be on either way.
     #[test]

@@ -106,7 +106,7 @@ fn jets_hold_the_derivatives() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(crate::sampling::config(60))]
 
     #[test]
     fn bessel_functions_are_enclosed(x in prop_oneof![0.0..20.0, 20.0..250.0]) {

@@ -39,7 +39,7 @@ fn start(angles: selfosc::vehicle::EulerAngles, nu: Vector6<f64>) -> State {
 }
 
 proptest! {
-    #![proptest_config(super::config(24))]
+    #![proptest_config(crate::sampling::recorded(24))]
 
     #[test]
     fn energy_is_kept_account_of(parameters in parameters(), angles in angles(), nu in vector6(1.0), tau in vector6(5.0)) {
