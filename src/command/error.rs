@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use crate::Error;
+use crate::error::Error;
 use crate::experiment::ExperimentError;
 
 /// Why a subcommand could not answer.
