@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use crate::Error;
+use crate::error::Error;
 
 /// Why a subcommand could not answer.
 #[derive(Debug, thiserror::Error)]

@@ -131,7 +131,7 @@ pub(crate) fn positive<T: Real>(quantity: &'static str, value: T, unit: &'static
 
 /// The value, where it is finite and zero or more.
 pub(crate) fn non_negative<T: Real>(quantity: &'static str, value: T, unit: &'static str) -> Result<T, OutOfDomain> {
-    require(quantity, value, unit, Limit::NonNegative, "check its sign, or give 0")
+    require(quantity, value, unit, Limit::NonNegative, "check its sign and where it comes from")
 }
 
 /// Nothing, where both ends of the range are above zero and in order.

@@ -14,17 +14,7 @@ use selfosc::plant::DragAxis;
 use selfosc::vehicle::Thruster;
 
 /// Codes that several enums give, each for one and the same reason.
-const SHARED: [&str; 9] = [
-    "out-of-domain",
-    "below-switching",
-    "condition-40",
-    "gap",
-    "no-convergence",
-    "not-converged",
-    "not-finite",
-    "saturated",
-    "time-order",
-];
+const SHARED: [&str; 6] = ["below-switching", "condition-40", "gap", "not-finite", "out-of-domain", "time-order"];
 
 fn sources(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
@@ -43,10 +33,14 @@ fn every_error_has_codes_of_its_own() {
     let mut owners: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for path in sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src")) {
         let (source, file) = (std::fs::read_to_string(&path).unwrap(), path.display().to_string());
-        let found = codes(&source);
+        // The error above all passes on what it wraps.
+        let found = if source.contains("pub enum Error {") { Vec::new() } else { codes(&source) };
         let errors = source.matches("thiserror::Error)]").count();
-        let one_reason = source.contains("pub struct OutOfDomain") || source.contains("enum CommandError");
-        assert!(one_reason || found.len() >= errors, "{file}: an error without `code`");
+        let apart = ["pub struct OutOfDomain", "enum CommandError", "pub enum Error {"];
+        assert!(
+            apart.iter().any(|name| source.contains(name)) || found.len() >= errors,
+            "{file}: an error without `code`"
+        );
         for code in found.into_iter().flatten() {
             assert!(!code.is_empty() && code.split('-').all(|word| !word.is_empty()), "{file}: {code:?}");
             assert!(code.chars().all(|c| c == '-' || c.is_ascii_lowercase() || c.is_ascii_digit()), "{file}: {code:?}");
@@ -55,7 +49,7 @@ fn every_error_has_codes_of_its_own() {
     }
     assert!(owners.len() > 80, "{}", owners.len());
     for (code, files) in &owners {
-        assert!(files.len() == 1 || SHARED.contains(&code.as_str()), "{code} in {files:?}");
+        assert_eq!(files.len() > 1, SHARED.contains(&code.as_str()), "{code} in {files:?}");
     }
     for code in ["feature", "setting", "no-orbit", "condition-40", "not-a-relay", "unequal-columns", "overtime"] {
         assert!(owners.contains_key(code), "scripts know `{code}`");
