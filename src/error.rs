@@ -13,7 +13,7 @@ macro_rules! umbrella {
         /// use selfosc::{nonlinearity::RelayHysteresis, orbit::limit_cycle, plant::DragAxis};
         /// fn period_s(alpha: f64) -> Result<f64, selfosc::Error> {
         ///     let axis = DragAxis::linear(alpha, 0.1)?;
-        ///     Ok(limit_cycle(&axis, &RelayHysteresis::new(1.0, 0.2, 0.0)?)?.period_s())
+        ///     Ok(limit_cycle(&axis, &RelayHysteresis::new(1.0, 0.2, 0.0)?)?.period_s)
         /// }
         /// let error = period_s(-1.0).unwrap_err();
         /// assert_eq!(error.code(), "out-of-domain");
