@@ -194,7 +194,9 @@ impl Half {
 
     /// Cells on each of which the output is as it should be.
     fn cover(&self, swing: &Swing, from: f64, to: f64, holds: impl Fn(Interval) -> bool) -> Option<usize> {
-        let found = subdivide([Interval::new(from, to)?], CELLS, |&[cell]| {
+        // The ends overlap: nothing lies between them.
+        let Some(between) = Interval::new(from, to) else { return (from > to).then_some(0) };
+        let found = subdivide([between], CELLS, |&[cell]| {
             let middle = Interval::point(cell.midpoint());
             let (Some(flow), Some(slope)) = (self.flow(middle), self.slope(swing, cell)) else { return Visit::Stop };
             Visit::settled(holds(self.read(&(flow * &swing.start)) + slope * (cell - middle)))
