@@ -1,0 +1,2 @@
+//! Writes records.
+fn main() {}
