@@ -105,7 +105,8 @@ impl Segment {
 pub struct History {
     segments: Vec<Segment>,
     rate_limit: Option<f64>,
-    target: f64,
+    /// Time and target of every order, the first from ever.
+    orders: Vec<(f64, f64)>,
 }
 
 impl History {
@@ -113,7 +114,7 @@ impl History {
     #[must_use]
     pub fn new(value: f64, rate_limit: Option<f64>) -> Self {
         let first = Segment { begin_s: f64::NEG_INFINITY, value, slope: 0.0 };
-        Self { segments: vec![first], rate_limit, target: value }
+        Self { segments: vec![first], rate_limit, orders: vec![(f64::NEG_INFINITY, value)] }
     }
 
     /// The segments, in the order of time.
@@ -132,10 +133,10 @@ impl History {
 
     /// An order at a time not before any earlier one.
     pub fn order(&mut self, time_s: f64, target: f64) {
-        if target == self.target {
+        if target == self.target() {
             return;
         }
-        self.target = target;
+        self.orders.push((time_s, target));
         let value = self.at(time_s);
         self.segments.retain(|segment| segment.begin_s < time_s);
         match self.rate_limit {
@@ -152,6 +153,19 @@ impl History {
     /// The order in force.
     #[must_use]
     pub fn target(&self) -> f64 {
-        self.target
+        self.orders[self.orders.len() - 1].1
+    }
+
+    /// Time and target of every order; the first holds from ever.
+    #[must_use]
+    pub fn orders(&self) -> &[(f64, f64)] {
+        &self.orders
+    }
+
+    /// What another actuator makes of the same orders.
+    pub(crate) fn of(orders: &[(f64, f64)], rate_limit: Option<f64>) -> Self {
+        let mut history = Self::new(orders[0].1, rate_limit);
+        orders[1..].iter().for_each(|(time_s, target)| history.order(*time_s, *target));
+        history
     }
 }

@@ -6,7 +6,7 @@ use crate::integrate::{Motion, STEP_S, Stop};
 use crate::random::Random;
 use crate::scenario::{Logged, Scenario};
 use crate::sensor::{Logger, Reader};
-use crate::vehicle::{FILTER, POSITION, SPEED};
+use crate::vehicle::{FILTER, POSITION, SPEED, State};
 
 /// A log as a tool gets it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,6 +34,8 @@ pub struct Run {
     pub path: ForcePath,
     /// For each sample of the record, the time since the start of the simulation at which the position was as read.
     pub instant_s: Vec<f64>,
+    /// Time and state at the first look that belongs to the record.
+    pub(crate) begin: (f64, State),
     /// The position behind the sensor's filter then.
     pub position: Vec<f64>,
     /// The speed then.
@@ -78,6 +80,7 @@ impl Scenario {
             (0..=all).map(|tick| tick as f64 * interval_s + sensor.irregular_s * clock.uniform(-1.0, 1.0)).collect();
         let ticks: Vec<f64> = ticks.into_iter().map(|tick_s| tick_s.max(0.0) + sensor.latency_s).collect();
         let mut looked = 0;
+        let mut begin = (0.0, start);
         for (tick, tick_s) in ticks.iter().copied().enumerate() {
             // Everything that the sensor looks at up to this tick, then the tick itself.
             while looked < ticks.len() && ticks[looked] - sensor.latency_s <= tick_s {
@@ -88,6 +91,9 @@ impl Scenario {
                 }
                 let state = motion.state();
                 let shown = if sensor.filter_s > 0.0 { state[FILTER] } else { state[POSITION] };
+                if looked as u64 == before {
+                    begin = (look_s, *state);
+                }
                 seen.push_back((look_s, shown, state[SPEED]));
                 looked += 1;
                 if sensor.latency_s == 0.0 {
@@ -121,6 +127,6 @@ impl Scenario {
             speed.push(moving);
         }
         let path = motion.into_path();
-        Run { scenario: self.clone(), seed, record, history, path, instant_s, position, speed }
+        Run { scenario: self.clone(), seed, record, history, path, instant_s, begin, position, speed }
     }
 }

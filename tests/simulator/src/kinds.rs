@@ -66,6 +66,11 @@ impl core::fmt::Debug for Kind {
     }
 }
 
+/// No kind has such a name.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no kind has `{0}` in its name: list them with `cargo run -p selfosc-simulator -- kinds`")]
+pub struct UnknownKind(String);
+
 /// One case: what a tool is given, and the truth.
 #[derive(Clone, Debug)]
 pub struct Case {
@@ -105,6 +110,18 @@ impl Kind {
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::all().into_iter().find(|kind| kind.name == name)
+    }
+
+    /// The kind of this name, or else every kind whose name contains it.
+    ///
+    /// # Errors
+    /// Says so where there is none.
+    pub fn matching(name: &str) -> Result<Vec<Self>, UnknownKind> {
+        if let Some(kind) = Self::named(name) {
+            return Ok(vec![kind]);
+        }
+        let found: Vec<Self> = Self::all().into_iter().filter(|kind| kind.name.contains(name)).collect();
+        if found.is_empty() { Err(UnknownKind(name.to_owned())) } else { Ok(found) }
     }
 
     /// The case of a seed. Draws that hardly oscillate (a force that outweighs the thrust) are drawn anew, as are those
