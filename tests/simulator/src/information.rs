@@ -103,17 +103,15 @@ impl Case {
         add(&mut all, scenario.sensor.filter_s, 1.0, |s| &mut s.sensor.filter_s);
         let lags: [fn(&mut Scenario) -> &mut Lag; 2] =
             [|s| &mut s.vehicle.actuator.motor, |s| &mut s.vehicle.actuator.thrust];
-        for (lag, place) in [actuator.motor, actuator.thrust].into_iter().zip(lags) {
+        // Two equal lags in a row are told apart by their order alone: one time constant for both.
+        let both = actuator.motor == actuator.thrust;
+        let distinct = if both { 1 } else { 2 };
+        for (lag, place) in [actuator.motor, actuator.thrust].into_iter().zip(lags).take(distinct) {
             let parts: usize = match lag {
                 Lag::None => 0,
                 Lag::First { .. } => 1,
                 Lag::Second { .. } => 2,
             };
-            // Two lags in a row are told apart by their order alone: one time constant for both.
-            let both = actuator.motor == actuator.thrust && actuator.motor != Lag::None;
-            if both && lag == actuator.thrust && all.iter().any(|unknown: &Unknown| unknown.step == 1e-5) {
-                continue;
-            }
             for part in 0..parts {
                 let change = move |scenario: &mut Scenario, _: &mut State, by: f64| {
                     let places = if both { &lags[..] } else { core::slice::from_ref(&place) };
