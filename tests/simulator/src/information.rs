@@ -282,3 +282,47 @@ impl Run {
         covariance
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::command::Commander;
+    use crate::sensor::Sensor;
+    use crate::vehicle::{Drag, Force, Vehicle};
+
+    /// The spread of positions over many paths of the force is the covariance computed from one.
+    #[test]
+    fn covariance_of_a_random_force_is_that_of_many_runs() {
+        let forces = [
+            Force { walk: 0.02, ..Force::default() },
+            Force { ornstein_uhlenbeck: 0.02, ornstein_uhlenbeck_time_s: 2.0, ..Force::default() },
+        ];
+        for force in forces {
+            let drag = Drag { linear: 0.3, quadratic: 0.2, ..Drag::default() };
+            let scenario = Scenario {
+                vehicle: Vehicle { drag, stiffness: 0.2, force, ..Vehicle::default() },
+                commander: Commander::Sequence { changes: vec![(0.0, 1.0), (3.0, -1.0)] },
+                sensor: Sensor { rate_hz: 1.0, ..Sensor::default() },
+                logged: Logged::Order,
+                duration_s: 8.0,
+                lead_s: 0.0,
+                first_stamp_s: 0.0,
+                position: 0.0,
+                speed: 0.0,
+                starts_high: true,
+            };
+            let still =
+                Scenario { vehicle: Vehicle { force: Force::default(), ..scenario.vehicle }, ..scenario.clone() };
+            let nominal = still.run(0).position;
+            let Errors::Coloured(expected) = scenario.run(0).error_covariance() else { panic!("a random force") };
+            let runs: Vec<Vec<f64>> = (0..2000).map(|seed| scenario.run(seed).position).collect();
+            for (i, j) in [(8, 8), (5, 5), (4, 8)] {
+                let product = |run: &Vec<f64>| (run[i] - nominal[i]) * (run[j] - nominal[j]);
+                let found = runs.iter().map(product).sum::<f64>() / runs.len() as f64;
+                // Four standard deviations of a variance from 2000 runs are 13 %.
+                let ratio = found / expected[(i, j)];
+                assert!((ratio - 1.0).abs() < 0.13, "{force:?} {i} {j}: {ratio}");
+            }
+        }
+    }
+}
