@@ -41,7 +41,7 @@ pub struct Sensor {
     pub stamp_step_s: f64,
     /// Share of samples missing at random.
     pub missing_share: f64,
-    /// Mean time between gaps in s.
+    /// Mean time between gaps in s, beyond the second that passes at least; zero for no gaps.
     pub gap_every_s: f64,
     /// Length of a gap in s.
     pub gap_s: f64,
@@ -173,7 +173,7 @@ impl<'a> Logger<'a> {
         let missing = self.random.chance(sensor.missing_share);
         if time_s >= self.next_gap_s {
             self.gap_until_s = time_s + sensor.gap_s;
-            self.next_gap_s = self.gap_until_s + Self::wait(sensor, &mut self.random);
+            self.next_gap_s = self.gap_until_s + 1.0 + Self::wait(sensor, &mut self.random);
         }
         let stamp_s = time_s + late_s;
         let step_s = sensor.stamp_step_s;

@@ -255,7 +255,7 @@ impl Vehicle {
     /// Which way a vehicle at rest sets off: nowhere, while Coulomb friction holds it.
     pub(crate) fn departure(&self, state: &State, acting: &Acting) -> Direction {
         let push = self.push(state, acting);
-        if push.abs() <= self.drag.coulomb { Direction::Held } else { Direction::of(push) }
+        if self.drag.coulomb > 0.0 && push.abs() <= self.drag.coulomb { Direction::Held } else { Direction::of(push) }
     }
 
     /// Derivative of the state, moving in a known direction.

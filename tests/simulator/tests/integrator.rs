@@ -260,7 +260,7 @@ fn linear_parts_together() {
 fn ideal(vehicle: Vehicle, half_width: f64) -> Run {
     let commander = Commander::Relay { levels: vec![(0.0, 1.0)], half_width, centre: 0.0, ideal: true };
     let sensor = Sensor { rate_hz: 500.0, ..Sensor::default() };
-    Scenario { commander, sensor, duration_s: 100.0, ..scenario(vehicle, &[]) }.run(1)
+    Scenario { commander, sensor, duration_s: 300.0, ..scenario(vehicle, &[]) }.run(1)
 }
 
 /// Period between the last two upward switchings, from the command's history, and the largest position between samples.
