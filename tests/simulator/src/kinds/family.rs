@@ -8,6 +8,11 @@ fn any(r: &mut Random) -> Plan {
     Plan::new(r, Law::Any).any_sensor(r)
 }
 
+/// Errors of the readings that are rounding alone.
+fn rounded(r: &mut Random, mut change: impl FnMut(&mut Vehicle)) -> Plan {
+    Plan::new(r, Law::Any).rounded(1.0).with(|s| change(&mut s.vehicle))
+}
+
 fn vehicle(r: &mut Random, mut change: impl FnMut(&mut Vehicle)) -> Plan {
     any(r).with(|s| change(&mut s.vehicle))
 }
@@ -104,6 +109,13 @@ pub(super) const KINDS: &[(&str, fn(&mut Random) -> Plan)] = &[
     ("delay given 0.1 for 0.2", |r| any(r).with(|s| s.vehicle.actuator.delay_s = 0.2).delay_wrong(-0.1)),
     ("delay given 0.3 for 0.2", |r| any(r).with(|s| s.vehicle.actuator.delay_s = 0.2).delay_wrong(0.1)),
     ("heading stamped 0.1 s late", |r| any(r).with(|s| s.sensor.latency_s = 0.1).delay_wrong(-0.1)),
+    ("rounding alone, stiffness 0.02 C/rad", |r| rounded(r, |v| v.stiffness = 0.02)),
+    ("rounding alone, lag 0.1 s", |r| rounded(r, |v| v.actuator.thrust = Lag::First { tau_s: 0.1 })),
+    ("rounding alone, linear and cubic", |r| Plan::new(r, Law::Cubic).rounded(1.0)),
+    ("rounding alone, current 0.05 C, 40 s", |r| {
+        let current = sine(r);
+        rounded(r, |v| v.force = current)
+    }),
     ("lag 0.2 s, stiffness 0.05 C/rad", |r| lag(r, 0.2).with(|s| s.vehicle.stiffness = 0.05)),
     ("lag 0.2 s, random-walk force 0.02", |r| lag(r, 0.2).with(|s| s.vehicle.force = walk(0.02))),
     ("lag 0.2 s, 10 % missing", |r| lag(r, 0.2).with(|s| s.sensor.missing_share = 0.1)),

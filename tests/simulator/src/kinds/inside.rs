@@ -5,6 +5,16 @@ use crate::plan::{DEGREE, Law, Plan, Wanted};
 use crate::random::Random;
 use crate::scenario::Logged;
 
+/// Every law, 0.1 to 2 degrees, 5 to 20 Hz, 20 to 60 s: a record that is its own bound of errors.
+fn rounding_alone(r: &mut Random) -> Plan {
+    let law = r.pick(&[Law::Linear, Law::Quadratic, Law::Mixed, Law::Unstable]);
+    let (degrees, rate_hz, duration_s) = (r.log_uniform(0.1, 2.0), r.pick(&[5.0, 10.0, 20.0]), r.uniform(20.0, 60.0));
+    Plan::new(r, law).rounded(degrees).with(|s| {
+        s.sensor.rate_hz = rate_hz;
+        s.duration_s = duration_s;
+    })
+}
+
 pub(super) const KINDS: &[(&str, fn(&mut Random) -> Plan)] = &[
     ("linear, 1 degree", |r| Plan::new(r, Law::Linear).rounded(1.0)),
     ("linear, noise", |r| Plan::new(r, Law::Linear).noisy(0.5)),
@@ -73,6 +83,8 @@ pub(super) const KINDS: &[(&str, fn(&mut Random) -> Plan)] = &[
         })
     }),
     ("irregular samples", |r| Plan::new(r, Law::Any).any_sensor(r).with(|s| s.sensor.irregular_s = 0.03)),
+    ("rounding alone", rounding_alone),
+    ("rounding alone, delay unknown", |r| rounding_alone(r).delay_unknown()),
     ("wrapped heading", |r| {
         let plan = Plan::new(r, Law::Any).any_sensor(r);
         plan.with(|s| {
