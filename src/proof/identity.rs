@@ -30,7 +30,6 @@ pub type Series = Jet<ORDER>;
 ///
 /// # Errors
 /// [`NotProved`], because it is false or because the functions are not smooth enough.
-#[must_use]
 pub fn prove_zero<const M: usize>(
     f: impl Fn(Series) -> [Series; M],
     from: f64,
@@ -82,7 +81,6 @@ fn range<const N: usize>([from, to]: [f64; 2]) -> Result<Interval, NotProved<N>>
 ///
 /// # Errors
 /// [`NotProved::Undecided`], because it is false or because the functions are not smooth enough.
-#[must_use]
 pub fn prove_zero_of_two<const M: usize>(
     values: impl Fn(Interval, Interval) -> [Interval; M],
     series: impl Fn(Series, Series) -> [Series; M],
