@@ -136,32 +136,35 @@ fn identified<T: Real>(amplitude: T) -> Parameters<T> {
         .unwrap_or(Parameters { alpha: unknown(), beta: unknown(), beta_quadratic: unknown(), disturbance: unknown() })
 }
 
-/// `X dp/dX = sensitivity p` for one of the parameters.
+/// `X dp/dX = sensitivity p` for one of the parameters, times the power of X by which it falls: the bound is then relative,
+/// and a millionth is seen where the parameter is small, too.
 fn prove_sensitivity(
     distortion: Distortion,
+    degree: i32,
     read: fn(Parameters<Series>) -> Series,
     printed: fn(Series) -> Series,
 ) -> Verdict {
     const COVERED: Part = Part::over("ratio", "", const { &[Variable::number("X/x_a", 1.001, 100.0)] });
     identity(COVERED, distortion, |amplitude, factor| {
         let parameter = read(identified(amplitude));
-        [amplitude * parameter.derivative() - factor * printed(amplitude) * parameter]
+        let weight = (0..degree).fold(Series::one(), |weight, _| weight * amplitude);
+        [weight * (amplitude * parameter.derivative() - factor * printed(amplitude) * parameter)]
     })
 }
 
 /// Eq. 37.
 fn prove_quantisation_alpha(distortion: Distortion) -> Verdict {
-    prove_sensitivity(distortion, |found| found.alpha, |r| amplitude_sensitivity(r).alpha)
+    prove_sensitivity(distortion, 1, |found| found.alpha, |r| amplitude_sensitivity(r).alpha)
 }
 
 /// Eq. 38.
 fn prove_quantisation_beta(distortion: Distortion) -> Verdict {
-    prove_sensitivity(distortion, |found| found.beta, |r| amplitude_sensitivity(r).beta)
+    prove_sensitivity(distortion, 2, |found| found.beta, |r| amplitude_sensitivity(r).beta)
 }
 
 /// Eq. 39.
 fn prove_quantisation_beta_xx(distortion: Distortion) -> Verdict {
-    prove_sensitivity(distortion, |found| found.beta_quadratic, |r| amplitude_sensitivity(r).beta_quadratic)
+    prove_sensitivity(distortion, 3, |found| found.beta_quadratic, |r| amplitude_sensitivity(r).beta_quadratic)
 }
 
 /// Where the slope of alpha vanishes, and on which side it has which sign.
