@@ -44,7 +44,13 @@ const NO_DELAY: &str = "no-delay";
 claim! {
     QUANTISATION_ALPHA = "quantisation-alpha" "37" Identity
     "dalpha/alpha = [(2 - r^2)/(r^2 - 1)] dX/X with r = X_m/x_a" {
-        domain: &[Part::over("ratio", "no delay; the ratio of amplitude and half-width", const { &[Variable::number("X/x_a", 1.0, f64::INFINITY)] })],
+        domain: &[
+            Part::over(
+                "ratio",
+                "no delay; the ratio of amplitude and half-width",
+                const { &[Variable::number("X/x_a", 1.0, f64::INFINITY)] },
+            ),
+        ],
         by_hand: &["level, half-width and frequency are set to one by homogeneity"],
         printed: AsPrinted::Holds(|budget| sensitivity(budget, 0, false, false, 1.0)),
         corrected: None,
@@ -61,8 +67,17 @@ claim! {
 claim! {
     QUANTISATION_BETA = "quantisation-beta" "38" Identity
     "dbeta/beta = -2 dX/X" {
-        domain: &[Part::over("ratio", "no delay; the ratio of amplitude and half-width", const { &[Variable::number("X/x_a", 1.0, f64::INFINITY)] })],
-        by_hand: &["level, half-width and frequency are set to one by homogeneity", "every bias: beta does not depend on it"],
+        domain: &[
+            Part::over(
+                "ratio",
+                "no delay; the ratio of amplitude and half-width",
+                const { &[Variable::number("X/x_a", 1.0, f64::INFINITY)] },
+            ),
+        ],
+        by_hand: &[
+            "level, half-width and frequency are set to one by homogeneity",
+            "every bias: beta does not depend on it",
+        ],
         printed: AsPrinted::Holds(|budget| sensitivity(budget, 1, true, false, 1.0)),
         corrected: None,
         falsified: |budget| sensitivity(budget, 1, true, false, 1.001),
@@ -75,8 +90,17 @@ claim! {
 claim! {
     QUANTISATION_BETA_XX = "quantisation-beta-xx" "39" Identity
     "dbeta_xx/beta_xx = -3 dX/X" {
-        domain: &[Part::over("ratio", "no delay; the ratio of amplitude and half-width", const { &[Variable::number("X/x_a", 1.0, f64::INFINITY)] })],
-        by_hand: &["level, half-width and frequency are set to one by homogeneity", "every bias: beta_xx does not depend on it"],
+        domain: &[
+            Part::over(
+                "ratio",
+                "no delay; the ratio of amplitude and half-width",
+                const { &[Variable::number("X/x_a", 1.0, f64::INFINITY)] },
+            ),
+        ],
+        by_hand: &[
+            "level, half-width and frequency are set to one by homogeneity",
+            "every bias: beta_xx does not depend on it",
+        ],
         printed: AsPrinted::Holds(|budget| sensitivity(budget, 2, true, false, 1.0)),
         corrected: None,
         falsified: |budget| sensitivity(budget, 2, true, false, 1.001),
@@ -89,7 +113,19 @@ claim! {
 claim! {
     QUANTISATION_ZERO = "quantisation-zero" "after 37" Theorem
     "At X_m = sqrt(2) x_a alpha is insensitive, to first order, to an error of the amplitude" {
-        domain: &[ZERO, Part::over("positive-below", "the slope is positive below", const { &[Variable::number("X/x_a", 1.0, 1.414_213_562_373_095)] }), Part::over("negative-above", "the slope is negative above", const { &[Variable::number("X/x_a", 1.414_213_562_373_095_1, f64::INFINITY)] })],
+        domain: &[
+            ZERO,
+            Part::over(
+                "positive-below",
+                "the slope is positive below",
+                const { &[Variable::number("X/x_a", 1.0, core::f64::consts::SQRT_2)] },
+            ),
+            Part::over(
+                "negative-above",
+                "the slope is negative above",
+                const { &[Variable::number("X/x_a", core::f64::consts::SQRT_2, f64::INFINITY)] },
+            ),
+        ],
         by_hand: &["level, half-width and frequency are set to one by homogeneity"],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| {
