@@ -17,7 +17,9 @@ use std::array;
 claim! {
     FOURIER_COEFFICIENTS = "fourier-coefficients" "7-11" Definition
     "The mean and first harmonic of eq. 10 leave the least mean square of the output" {
-        domain: &[Part::whole("whole", "odd nondecreasing characteristics of the catalogue, every bias and amplitude")],
+        domain: &[
+            Part::whole("whole", "odd nondecreasing characteristics of the catalogue, every bias and amplitude"),
+        ],
         printed: AsPrinted::Holds(|budget| least_square(budget, 1.0)),
         corrected: None,
         // Halved coefficients, as from 1/(2 pi) in place of 1/pi.
@@ -67,8 +69,18 @@ fn mean_over_sweep(
 claim! {
     DESCRIBING_FUNCTION = "describing-function" "12-15" Definition
     "P and Q are the first-harmonic coefficients over the amplitude, F_0 the mean: closed form and integral agree" {
-        domain: &[BREAKPOINT, Part::whole("decomposition", "each member of the piecewise-linear catalogue is the sum of its kernels, every parameter"), Part::whole("beyond-the-sweep", "sweeps that end beyond a breakpoint")],
-        by_hand: &["height and amplitude are set to one by linearity and homogeneity", "the sides and branches follow from one by reflection"],
+        domain: &[
+            BREAKPOINT,
+            Part::whole(
+                "decomposition",
+                "each member of the piecewise-linear catalogue is the sum of its kernels, every parameter",
+            ),
+            Part::whole("beyond-the-sweep", "sweeps that end beyond a breakpoint"),
+        ],
+        by_hand: &[
+            "height and amplitude are set to one by linearity and homogeneity",
+            "the sides and branches follow from one by reflection",
+        ],
         printed: AsPrinted::Holds(|budget| closed_is_integral(budget, 1.0)),
         corrected: None,
         falsified: |budget| closed_is_integral(budget, 1.000_01),
@@ -101,8 +113,17 @@ fn closed_is_integral(budget: Budget, factor: f64) -> Verdict {
 claim! {
     POLYNOMIAL = "polynomial" "10" Identity
     "F_0 and P of a polynomial follow from its coefficients about the bias and the means of even powers of the sine" {
-        domain: &[Part::over("powers", "x^0 to x^9, every amplitude", const { &[Variable::number("bias/amplitude", f64::NEG_INFINITY, f64::INFINITY)] })],
-        by_hand: &["every amplitude by homogeneity", "the mean over twelve angles is the mean over the circle for degrees below twelve"],
+        domain: &[
+            Part::over(
+                "powers",
+                "x^0 to x^9, every amplitude",
+                const { &[Variable::number("bias/amplitude", f64::NEG_INFINITY, f64::INFINITY)] },
+            ),
+        ],
+        by_hand: &[
+            "every amplitude by homogeneity",
+            "the mean over twelve angles is the mean over the circle for degrees below twelve",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| polynomial_is_integral(budget, 1.0)),
         falsified: |budget| polynomial_is_integral(budget, 1.000_01),
@@ -147,7 +168,9 @@ claim! {
 claim! {
     ODD_HARMONICS_HYSTERETIC = "odd-harmonics-hysteretic" "Theorem 1, with memory" Theorem
     "Theorem 1 holds with memory when each branch is the other turned about the origin" {
-        domain: &[Part::whole("whole", "characteristics whose branches are each other's half-turn image, every amplitude")],
+        domain: &[
+            Part::whole("whole", "characteristics whose branches are each other's half-turn image, every amplitude"),
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| even_vanish(budget, odd_hysteretic, unbiased)),
         falsified: |budget| even_vanish(budget, not_odd, unbiased),

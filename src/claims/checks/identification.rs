@@ -31,7 +31,13 @@ pub(super) fn oscillation(draw: &mut Draw, biased: bool, delayed: bool) -> Oscil
 claim! {
     TABLE_3 = "table-3" "Table 3" Identity
     "Eqs. 27 and 29 with 30 and 31 put in are Table 3" {
-        domain: &[Part::over("table", "every C, X, w > 0 with x_a + abs(x_0) <= X", const { &[Variable::number("x_a/X", 0.0, 1.0), Variable::number("abs(x_0)/X", 0.0, 1.0)] })],
+        domain: &[
+            Part::over(
+                "table",
+                "every C, X, w > 0 with x_a + abs(x_0) <= X",
+                const { &[Variable::number("x_a/X", 0.0, 1.0), Variable::number("abs(x_0)/X", 0.0, 1.0)] },
+            ),
+        ],
         by_hand: &["level, amplitude and frequency are set to one by homogeneity"],
         printed: AsPrinted::Holds(|budget| table_3(budget, 1.5)),
         corrected: None,
@@ -73,7 +79,14 @@ fn table_3(budget: Budget, quadratic_factor: f64) -> Verdict {
 claim! {
     DELAY_ROTATION = "delay-rotation" "33-34" Identity
     "A delay turns the describing function by -w T_d: lengths stay, delays add, a negative one undoes" {
-        domain: &[Part::over("rotation", "every P and Q, one turn of the phase", const { &[Variable::new("phase", "rad", 0.0, 6.283_185_307_179_586)] }), Part::whole("delays-add", "two delays in turn are their sum")],
+        domain: &[
+            Part::over(
+                "rotation",
+                "every P and Q, one turn of the phase",
+                const { &[Variable::new("phase", "rad", 0.0, core::f64::consts::TAU)] },
+            ),
+            Part::whole("delays-add", "two delays in turn are their sum"),
+        ],
         by_hand: &["every P and Q by linearity", "phases beyond one turn repeat"],
         printed: AsPrinted::Holds(|budget| rotation(budget, -1.0)),
         corrected: None,
@@ -110,7 +123,13 @@ fn rotation(budget: Budget, sign: f64) -> Verdict {
 claim! {
     RELATIVE_SPREAD = "relative-spread" "41" Definition
     "The relative spread of two values is their sample standard deviation over their mean" {
-        domain: &[Part::over("ratio", "two values of one sign", const { &[Variable::number("v_2/v_1", 0.0, f64::INFINITY)] })],
+        domain: &[
+            Part::over(
+                "ratio",
+                "two values of one sign",
+                const { &[Variable::number("v_2/v_1", 0.0, f64::INFINITY)] },
+            ),
+        ],
         by_hand: &["one value is set to one by homogeneity"],
         printed: AsPrinted::Holds(|budget| spread(budget, 1.0)),
         corrected: None,
@@ -164,7 +183,19 @@ fn decision(budget: Budget, rule: fn(f64, f64, f64) -> Decision) -> Verdict {
 claim! {
     ZIG_ZAG = "zig-zag" "introduction" Identity
     "Nomoto's T r' + r = K delta_R is the drag axis alpha = T/K, beta = 1/K" {
-        domain: &[Part::over("response", "every ship of Nomoto's first order, unit rudder", const { &[Variable::new("time", "s", 0.0, f64::INFINITY), Variable::new("T", "s", 0.0, f64::INFINITY), Variable::new("K", "1/s", 0.0, f64::INFINITY)] })],
+        domain: &[
+            Part::over(
+                "response",
+                "every ship of Nomoto's first order, unit rudder",
+                const {
+                    &[
+                        Variable::new("time", "s", 0.0, f64::INFINITY),
+                        Variable::new("T", "s", 0.0, f64::INFINITY),
+                        Variable::new("K", "1/s", 0.0, f64::INFINITY),
+                    ]
+                },
+            ),
+        ],
         printed: AsPrinted::Holds(|budget| nomoto(budget, |gain| 1.0 / gain)),
         corrected: None,
         falsified: |budget| nomoto(budget, |gain| gain),

@@ -49,7 +49,10 @@ claim! {
     KERNEL_STEP = "kernel-step" "10" Identity
     "Mean, sine and cosine component of a step are acos(u)/(2 pi), sqrt(1 - u^2)/pi and (1 - u)/pi on a branch" {
         domain: &[BREAKPOINT],
-        by_hand: &["height and amplitude are set to one by linearity and homogeneity", "the sides and branches follow from one by reflection"],
+        by_hand: &[
+            "height and amplitude are set to one by linearity and homogeneity",
+            "the sides and branches follow from one by reflection",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| closed_is_integral(budget, STEP, 1.0)),
         falsified: |budget| closed_is_integral(budget, STEP, 1.000_01),
@@ -63,7 +66,10 @@ claim! {
     KERNEL_RAMP = "kernel-ramp" "10" Identity
     "Mean, sine and cosine component of a ramp are the closed forms in u for every breakpoint" {
         domain: &[BREAKPOINT],
-        by_hand: &["height and amplitude are set to one by linearity and homogeneity", "the sides and branches follow from one by reflection"],
+        by_hand: &[
+            "height and amplitude are set to one by linearity and homogeneity",
+            "the sides and branches follow from one by reflection",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| closed_is_integral(budget, RAMP, 1.0)),
         falsified: |budget| closed_is_integral(budget, RAMP, 1.000_01),
@@ -77,7 +83,10 @@ claim! {
     KERNEL_SIGN = "kernel-sign" "10" Identity
     "Mean, sine and cosine component of a sign are -asin(u)/pi, 2 sqrt(1 - u^2)/pi and -2 u/pi on a branch" {
         domain: &[BREAKPOINT],
-        by_hand: &["height and amplitude are set to one by linearity and homogeneity", "the sides and branches follow from one by reflection"],
+        by_hand: &[
+            "height and amplitude are set to one by linearity and homogeneity",
+            "the sides and branches follow from one by reflection",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| closed_is_integral(budget, SIGN, 1.0)),
         falsified: |budget| closed_is_integral(budget, SIGN, 1.000_01),
@@ -90,8 +99,18 @@ claim! {
 claim! {
     KERNEL_BAND = "kernel-band" "10" Identity
     "Mean and sine component of a held input are differences of one function of each end" {
-        domain: &[BREAKPOINT, Part::over("as-coded", "the sum over both ends as the code rearranges it", const { &[Variable::number("u_lower", -1.0, 1.0), Variable::number("u_upper", -1.0, 1.0)] })],
-        by_hand: &["height and amplitude are set to one by linearity and homogeneity", "the sides and branches follow from one by reflection"],
+        domain: &[
+            BREAKPOINT,
+            Part::over(
+                "as-coded",
+                "the sum over both ends as the code rearranges it",
+                const { &[Variable::number("u_lower", -1.0, 1.0), Variable::number("u_upper", -1.0, 1.0)] },
+            ),
+        ],
+        by_hand: &[
+            "height and amplitude are set to one by linearity and homogeneity",
+            "the sides and branches follow from one by reflection",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| closed_is_integral(budget, BAND, 1.0)),
         falsified: |budget| closed_is_integral(budget, BAND, 1.000_01),

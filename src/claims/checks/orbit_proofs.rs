@@ -112,7 +112,13 @@ const BELOW_LEVEL: Hypothesis = Hypothesis { id: "disturbance-below-level", coun
 claim! {
     NO_EARLY_SWITCHING = "orbit-no-early-switching" "of this project" Theorem
     "Between two switchings the velocity changes sign once, beyond the relay's level: the command switches when the formulas say" {
-        domain: &[Part::over("every-axis", "every mix of linear and quadratic drag, every speed below the terminal one", const { &[Variable::number("abs(delta)/C", 0.0, 1.0)] })],
+        domain: &[
+            Part::over(
+                "every-axis",
+                "every mix of linear and quadratic drag, every speed below the terminal one",
+                const { &[Variable::number("abs(delta)/C", 0.0, 1.0)] },
+            ),
+        ],
         by_hand: &["speeds stay below the terminal one", "a force that keeps its sign lets the velocity vanish once"],
         printed: AsPrinted::Absent,
         corrected: Some(|_| proved(&theorem::NO_EARLY_SWITCHING, const { &[BELOW_095] })),
@@ -127,7 +133,10 @@ claim! {
     MULTIPLIER = "orbit-multiplier" "of this project" Theorem
     "Without delay 1 - m > 0.48 (d_1 + d_2): the multiplier m by the drag forces d_1, d_2 at the switchings over C" {
         domain: &[EXCESS, Part::whole("rate", "1 - m > 0.48 (d_1 + d_2)")],
-        by_hand: &["the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles", "the rate 2 of the growth"],
+        by_hand: &[
+            "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
+            "the rate 2 of the growth",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|_| proved(&theorem::MULTIPLIER, const { &[EXCESS] })),
         theorem: Some((&theorem::MULTIPLIER, &FALSE_DENOMINATOR)),
@@ -140,8 +149,18 @@ claim! {
 claim! {
     QUADRATIC_DISTURBED = "orbit-quadratic-disturbed" "of this project" Theorem
     "Quadratic drag with a disturbance: one limit cycle, reached from every start" {
-        domain: &[Part::over("every-axis", "every alpha, beta, C, x_a > 0; every start", const { &[Variable::number("abs(delta)/C", 0.0, 1.0)] })],
-        by_hand: &["the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles", "existence: the return map takes an interval into itself", "every start reaches the map's domain"],
+        domain: &[
+            Part::over(
+                "every-axis",
+                "every alpha, beta, C, x_a > 0; every start",
+                const { &[Variable::number("abs(delta)/C", 0.0, 1.0)] },
+            ),
+        ],
+        by_hand: &[
+            "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
+            "existence: the return map takes an interval into itself",
+            "every start reaches the map's domain",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|_| proved(&theorem::QUADRATIC_DISTURBED, const { &[BELOW_095] })),
         theorem: Some((&theorem::QUADRATIC_DISTURBED, &FALSE_DRAG)),
@@ -154,8 +173,18 @@ claim! {
 claim! {
     LINEAR_DISTURBED = "orbit-linear-disturbed" "of this project" Theorem
     "Linear drag with a disturbance: one limit cycle, reached from every start" {
-        domain: &[Part::over("every-axis", "every alpha, beta, C, x_a > 0; every start", const { &[Variable::number("abs(delta)/C", 0.0, 1.0)] })],
-        by_hand: &["the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles", "existence: the return map takes an interval into itself", "every start reaches the map's domain"],
+        domain: &[
+            Part::over(
+                "every-axis",
+                "every alpha, beta, C, x_a > 0; every start",
+                const { &[Variable::number("abs(delta)/C", 0.0, 1.0)] },
+            ),
+        ],
+        by_hand: &[
+            "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
+            "existence: the return map takes an interval into itself",
+            "every start reaches the map's domain",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|_| proved(&theorem::LINEAR_DISTURBED, const { &[BELOW_095] })),
         theorem: Some((&theorem::LINEAR_DISTURBED, &FALSE_DRAG)),
@@ -169,7 +198,10 @@ claim! {
     AMPLITUDE_MONOTONE_QUADRATIC = "orbit-amplitude-monotone-quadratic" "of this project" Theorem
     "Quadratic drag: (X_m - x_a)/x_a falls as g grows, so that the amplitude identifies g" {
         domain: &[EVERY_G],
-        by_hand: &["the sign of the derivative is that of the inequality enclosed", "g is replaced by a coordinate in (0, 1)"],
+        by_hand: &[
+            "the sign of the derivative is that of the inequality enclosed",
+            "g is replaced by a coordinate in (0, 1)",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|_| proved(&theorem::QUADRATIC_OVERSHOOT, const { &[EVERY_G] })),
         theorem: Some((&theorem::QUADRATIC_OVERSHOOT, &FALSE_OVERSHOOT_QUADRATIC)),
@@ -183,7 +215,10 @@ claim! {
     AMPLITUDE_MONOTONE_LINEAR = "orbit-amplitude-monotone-linear" "of this project" Theorem
     "Linear drag: (X_m - x_a)/x_a falls as g grows, so that the amplitude identifies g" {
         domain: &[EVERY_G],
-        by_hand: &["the sign of the derivative is that of the inequality enclosed", "g is replaced by a coordinate in (0, 1)"],
+        by_hand: &[
+            "the sign of the derivative is that of the inequality enclosed",
+            "g is replaced by a coordinate in (0, 1)",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|_| proved(&theorem::LINEAR_OVERSHOOT, const { &[EVERY_G] })),
         theorem: Some((&theorem::LINEAR_OVERSHOOT, &FALSE_OVERSHOOT_LINEAR)),

@@ -64,7 +64,11 @@ claim! {
     ORBIT_QUADRATIC = "orbit-quadratic" "of this project" Theorem
     "Quadratic drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start" {
         domain: &[EVERY_AXIS],
-        by_hand: &["the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles", "existence: the return map takes an interval into itself", "every start reaches the map's domain"],
+        by_hand: &[
+            "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
+            "existence: the return map takes an interval into itself",
+            "every start reaches the map's domain",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| {
             closed_form_orbit(budget, |l| {
@@ -95,7 +99,11 @@ claim! {
     ORBIT_LINEAR = "orbit-linear" "of this project" Theorem
     "Linear drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start" {
         domain: &[EVERY_AXIS],
-        by_hand: &["the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles", "existence: the return map takes an interval into itself", "every start reaches the map's domain"],
+        by_hand: &[
+            "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
+            "existence: the return map takes an interval into itself",
+            "every start reaches the map's domain",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| closed_form_orbit(budget, |l| linear_orbit(l, 4.0), &LINEAR)
             .and(|| attracts(budget, &LINEAR))

@@ -10,8 +10,14 @@ use crate::proof::rigorous_quadrature::CellJet;
 claim! {
     POWER_LAW = "power-law" "8" Identity
     "Mean and gain of sgn(x) abs(x)^p are the hypergeometric series about bias/amplitude 0, 1 and infinity" {
-        domain: &[LISTED, Part::whole("other-exponents", "every bias and amplitude; the other exponents of 0 or more")],
-        by_hand: &["moments and closed form solve one differential equation", "bounds of the growth of a solution from one point to the others"],
+        domain: &[
+            LISTED,
+            Part::whole("other-exponents", "every bias and amplitude; the other exponents of 0 or more"),
+        ],
+        by_hand: &[
+            "moments and closed form solve one differential equation",
+            "bounds of the growth of a solution from one point to the others",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| closed_is_integral(budget, 1.0)),
         falsified: |budget| closed_is_integral(budget, 1.000_01),

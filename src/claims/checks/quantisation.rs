@@ -42,7 +42,13 @@ const NO_DELAY: &str = "no-delay";
 claim! {
     QUANTISATION_ALPHA = "quantisation-alpha" "37" Identity
     "dalpha/alpha = [(2 - r^2)/(r^2 - 1)] dX/X with r = X_m/x_a" {
-        domain: &[Part::over("ratio", "no delay; the ratio of amplitude and half-width", const { &[Variable::number("X/x_a", 1.0, f64::INFINITY)] })],
+        domain: &[
+            Part::over(
+                "ratio",
+                "no delay; the ratio of amplitude and half-width",
+                const { &[Variable::number("X/x_a", 1.0, f64::INFINITY)] },
+            ),
+        ],
         by_hand: &["level, half-width and frequency are set to one by homogeneity"],
         printed: AsPrinted::Holds(|budget| sensitivity(budget, 0, false, false, 1.0)),
         corrected: None,
@@ -59,8 +65,17 @@ claim! {
 claim! {
     QUANTISATION_BETA = "quantisation-beta" "38" Identity
     "dbeta/beta = -2 dX/X" {
-        domain: &[Part::over("ratio", "no delay; the ratio of amplitude and half-width", const { &[Variable::number("X/x_a", 1.0, f64::INFINITY)] })],
-        by_hand: &["level, half-width and frequency are set to one by homogeneity", "every bias: beta does not depend on it"],
+        domain: &[
+            Part::over(
+                "ratio",
+                "no delay; the ratio of amplitude and half-width",
+                const { &[Variable::number("X/x_a", 1.0, f64::INFINITY)] },
+            ),
+        ],
+        by_hand: &[
+            "level, half-width and frequency are set to one by homogeneity",
+            "every bias: beta does not depend on it",
+        ],
         printed: AsPrinted::Holds(|budget| sensitivity(budget, 1, true, false, 1.0)),
         corrected: None,
         falsified: |budget| sensitivity(budget, 1, true, false, 1.001),
@@ -73,8 +88,17 @@ claim! {
 claim! {
     QUANTISATION_BETA_XX = "quantisation-beta-xx" "39" Identity
     "dbeta_xx/beta_xx = -3 dX/X" {
-        domain: &[Part::over("ratio", "no delay; the ratio of amplitude and half-width", const { &[Variable::number("X/x_a", 1.0, f64::INFINITY)] })],
-        by_hand: &["level, half-width and frequency are set to one by homogeneity", "every bias: beta_xx does not depend on it"],
+        domain: &[
+            Part::over(
+                "ratio",
+                "no delay; the ratio of amplitude and half-width",
+                const { &[Variable::number("X/x_a", 1.0, f64::INFINITY)] },
+            ),
+        ],
+        by_hand: &[
+            "level, half-width and frequency are set to one by homogeneity",
+            "every bias: beta_xx does not depend on it",
+        ],
         printed: AsPrinted::Holds(|budget| sensitivity(budget, 2, true, false, 1.0)),
         corrected: None,
         falsified: |budget| sensitivity(budget, 2, true, false, 1.001),
@@ -87,7 +111,19 @@ claim! {
 claim! {
     QUANTISATION_ZERO = "quantisation-zero" "after 37" Theorem
     "At X_m = sqrt(2) x_a alpha is insensitive, to first order, to an error of the amplitude" {
-        domain: &[ZERO, Part::over("positive-below", "the slope is positive below", const { &[Variable::number("X/x_a", 1.0, 1.414_213_562_373_095)] }), Part::over("negative-above", "the slope is negative above", const { &[Variable::number("X/x_a", 1.414_213_562_373_095_1, f64::INFINITY)] })],
+        domain: &[
+            ZERO,
+            Part::over(
+                "positive-below",
+                "the slope is positive below",
+                const { &[Variable::number("X/x_a", 1.0, core::f64::consts::SQRT_2)] },
+            ),
+            Part::over(
+                "negative-above",
+                "the slope is negative above",
+                const { &[Variable::number("X/x_a", core::f64::consts::SQRT_2, f64::INFINITY)] },
+            ),
+        ],
         by_hand: &["level, half-width and frequency are set to one by homogeneity"],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| {
@@ -134,32 +170,35 @@ fn identified<T: Real>(amplitude: T) -> Parameters<T> {
         .unwrap_or(Parameters { alpha: unknown(), beta: unknown(), beta_quadratic: unknown(), disturbance: unknown() })
 }
 
-/// `X dp/dX = sensitivity p` for one of the parameters.
+/// `X dp/dX = sensitivity p` for one of the parameters, times the power of X by which it falls: the bound is then relative,
+/// and a millionth is seen where the parameter is small, too.
 fn prove_sensitivity(
     distortion: Distortion,
+    degree: i32,
     read: fn(Parameters<Series>) -> Series,
     printed: fn(Series) -> Series,
 ) -> Verdict {
     const COVERED: Part = Part::over("ratio", "", const { &[Variable::number("X/x_a", 1.001, 100.0)] });
     identity(COVERED, distortion, |amplitude, factor| {
         let parameter = read(identified(amplitude));
-        [amplitude * parameter.derivative() - factor * printed(amplitude) * parameter]
+        let weight = (0..degree).fold(Series::one(), |weight, _| weight * amplitude);
+        [weight * (amplitude * parameter.derivative() - factor * printed(amplitude) * parameter)]
     })
 }
 
 /// Eq. 37.
 fn prove_quantisation_alpha(distortion: Distortion) -> Verdict {
-    prove_sensitivity(distortion, |found| found.alpha, |r| amplitude_sensitivity(r).alpha)
+    prove_sensitivity(distortion, 1, |found| found.alpha, |r| amplitude_sensitivity(r).alpha)
 }
 
 /// Eq. 38.
 fn prove_quantisation_beta(distortion: Distortion) -> Verdict {
-    prove_sensitivity(distortion, |found| found.beta, |r| amplitude_sensitivity(r).beta)
+    prove_sensitivity(distortion, 2, |found| found.beta, |r| amplitude_sensitivity(r).beta)
 }
 
 /// Eq. 39.
 fn prove_quantisation_beta_xx(distortion: Distortion) -> Verdict {
-    prove_sensitivity(distortion, |found| found.beta_quadratic, |r| amplitude_sensitivity(r).beta_quadratic)
+    prove_sensitivity(distortion, 3, |found| found.beta_quadratic, |r| amplitude_sensitivity(r).beta_quadratic)
 }
 
 /// Where the slope of alpha vanishes, and on which side it has which sign.

@@ -47,8 +47,23 @@ fn formula(
 claim! {
     RELAY_Q = "relay-q" "30" Identity
     "Q of a relay with hysteresis is -4 C x_a/(pi X^2), whatever the bias and the offset" {
-        domain: &[BREAKPOINT, Part::over("term", "each term of the formula is the closed form of one switching level", const { &[Variable::number("u", -1.0, 1.0)] }), Part::over("sum", "the formula is the sum that the code makes, x_a + abs(x_0) <= X", const { &[Variable::number("x_a/X", 0.0, 1.0), Variable::number("abs(x_0)/X", 0.0, 1.0)] })],
-        by_hand: &["height and amplitude are set to one by linearity and homogeneity", "the sides and branches follow from one by reflection"],
+        domain: &[
+            BREAKPOINT,
+            Part::over(
+                "term",
+                "each term of the formula is the closed form of one switching level",
+                const { &[Variable::number("u", -1.0, 1.0)] },
+            ),
+            Part::over(
+                "sum",
+                "the formula is the sum that the code makes, x_a + abs(x_0) <= X",
+                const { &[Variable::number("x_a/X", 0.0, 1.0), Variable::number("abs(x_0)/X", 0.0, 1.0)] },
+            ),
+        ],
+        by_hand: &[
+            "height and amplitude are set to one by linearity and homogeneity",
+            "the sides and branches follow from one by reflection",
+        ],
         printed: AsPrinted::Holds(|budget| {
             formula(budget, |df| df.q, |s| -4.0 * s.level * s.half_width / (PI * s.amplitude * s.amplitude), true)
         }),
@@ -75,8 +90,23 @@ fn formula_below_switching(budget: Budget) -> Verdict {
 claim! {
     RELAY_P = "relay-p" "31" Identity
     "P of a relay with hysteresis is (2C/(pi X)) [sqrt(1 - ((x_a - x_0)/X)^2) + sqrt(1 - ((x_a + x_0)/X)^2)]" {
-        domain: &[BREAKPOINT, Part::over("term", "each term of the formula is the closed form of one switching level", const { &[Variable::number("u", -1.0, 1.0)] }), Part::over("sum", "the formula is the sum that the code makes, x_a + abs(x_0) <= X", const { &[Variable::number("x_a/X", 0.0, 1.0), Variable::number("abs(x_0)/X", 0.0, 1.0)] })],
-        by_hand: &["height and amplitude are set to one by linearity and homogeneity", "the sides and branches follow from one by reflection"],
+        domain: &[
+            BREAKPOINT,
+            Part::over(
+                "term",
+                "each term of the formula is the closed form of one switching level",
+                const { &[Variable::number("u", -1.0, 1.0)] },
+            ),
+            Part::over(
+                "sum",
+                "the formula is the sum that the code makes, x_a + abs(x_0) <= X",
+                const { &[Variable::number("x_a/X", 0.0, 1.0), Variable::number("abs(x_0)/X", 0.0, 1.0)] },
+            ),
+        ],
+        by_hand: &[
+            "height and amplitude are set to one by linearity and homogeneity",
+            "the sides and branches follow from one by reflection",
+        ],
         printed: AsPrinted::Holds(|budget| formula(budget, |df| df.p, |s| in_phase(s, s.bias), true)),
         corrected: None,
         falsified: |budget| formula(budget, |df| df.p, |s| in_phase(s, 0.0), true),
@@ -94,8 +124,23 @@ fn in_phase(s: &Switching, bias: f64) -> f64 {
 claim! {
     RELAY_F0 = "relay-f0" "32" Identity
     "The mean output is C (t_high - t_low)/T = (C/pi) [asin((x_a + e_0)/X) - asin((x_a - e_0)/X)], plus the offset" {
-        domain: &[BREAKPOINT, Part::over("term", "each term of the formula is the closed form of one switching level", const { &[Variable::number("u", -1.0, 1.0)] }), Part::over("sum", "the formula is the sum that the code makes, x_a + abs(x_0) <= X", const { &[Variable::number("x_a/X", 0.0, 1.0), Variable::number("abs(x_0)/X", 0.0, 1.0)] })],
-        by_hand: &["height and amplitude are set to one by linearity and homogeneity", "the sides and branches follow from one by reflection"],
+        domain: &[
+            BREAKPOINT,
+            Part::over(
+                "term",
+                "each term of the formula is the closed form of one switching level",
+                const { &[Variable::number("u", -1.0, 1.0)] },
+            ),
+            Part::over(
+                "sum",
+                "the formula is the sum that the code makes, x_a + abs(x_0) <= X",
+                const { &[Variable::number("x_a/X", 0.0, 1.0), Variable::number("abs(x_0)/X", 0.0, 1.0)] },
+            ),
+        ],
+        by_hand: &[
+            "height and amplitude are set to one by linearity and homogeneity",
+            "the sides and branches follow from one by reflection",
+        ],
         printed: AsPrinted::Holds(|budget| mean_output(budget, 1.0)),
         corrected: None,
         // The times exchanged: the sign error that reading T_H as the time at command +C makes.
@@ -128,7 +173,14 @@ fn mean_output(budget: Budget, sign: f64) -> Verdict {
 claim! {
     SECOND_QUADRANT = "second-quadrant" "section 4.1 (Goldfarb)" Statement
     "-G_N of the unbiased relay with hysteresis covers the second quadrant, and nothing else" {
-        domain: &[Part::over("covered", "each direction is that of some relay, every magnitude", const { &[Variable::new("angle", "rad", 1.570_796_326_794_896_6, 3.141_592_653_589_793)] }), Part::whole("nothing-else", "every relay and amplitude that switches it has its point in the quadrant")],
+        domain: &[
+            Part::over(
+                "covered",
+                "each direction is that of some relay, every magnitude",
+                const { &[Variable::new("angle", "rad", 0.5 * PI, PI)] },
+            ),
+            Part::whole("nothing-else", "every relay and amplitude that switches it has its point in the quadrant"),
+        ],
         by_hand: &["every magnitude by choice of the level"],
         printed: AsPrinted::Holds(|budget| covers(budget, 0.5 * PI, PI)),
         corrected: None,

@@ -9,7 +9,12 @@ use crate::numeric::quadrature::integrate;
 claim! {
     LEMMA_1 = "lemma-1" "Lemma 1" Lemma
     "Odd, nondecreasing and not zero on the whole sweep: the mean output has the sign of the bias, and vanishes with it" {
-        domain: &[Part::whole("whole", "odd nondecreasing characteristics without memory that do not vanish on the sweep, every bias and amplitude")],
+        domain: &[
+            Part::whole(
+                "whole",
+                "odd nondecreasing characteristics without memory that do not vanish on the sweep, every bias and amplitude",
+            ),
+        ],
         printed: AsPrinted::Refuted(|budget| vanishes_only_unbiased(budget, |x| x * x * x - 2.0 * x)),
         corrected: Some(mean_has_sign_of_bias),
         falsified: |budget| vanishes_only_unbiased(budget, |x| (3.0 * x).sin()),
