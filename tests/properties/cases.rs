@@ -12,14 +12,19 @@ pub(crate) struct Case {
 }
 
 impl Case {
-    /// The sweep ends next to a kink, where its last bits decide.
+    /// The sweep ends next to a kink, just inside or just outside of it, where its last bits decide.
     pub(crate) fn on_edge(&self) -> bool {
         let mut on_edge = false;
         let (low, high) = (self.sweep.minimum(), self.sweep.maximum());
-        self.characteristic.kinks(&self.sweep, &mut |kink| {
-            let near = 1e-5 * (low.abs() + high.abs() + kink.abs());
-            on_edge |= (kink - low).abs() < near || (kink - high).abs() < near;
-        });
+        // A characteristic reports the kinks within a sweep only: a wider one has those outside.
+        let margin = 3e-5 * (low.abs() + high.abs());
+        let wider = Sinusoid::new(self.sweep.bias(), self.sweep.amplitude() + margin);
+        for sweep in [Some(self.sweep), wider.ok()].into_iter().flatten() {
+            self.characteristic.kinks(&sweep, &mut |kink| {
+                let near = 1e-5 * (low.abs() + high.abs() + kink.abs());
+                on_edge |= (kink - low).abs() < near || (kink - high).abs() < near;
+            });
+        }
         on_edge
     }
 }

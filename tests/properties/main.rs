@@ -11,6 +11,7 @@ mod certificate;
 mod certified;
 mod claims;
 mod control;
+mod decompositions;
 mod describing;
 mod difference;
 mod errors;
