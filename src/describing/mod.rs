@@ -37,21 +37,27 @@ mod tanh;
 pub use catalogue::{Boxed, CATALOGUE, CatalogueError, Entry};
 #[cfg(feature = "std")]
 pub use certified::{Certified, certified};
-pub use closed_form::{ClosedForm, over_amplitudes};
+pub use closed_form::ClosedForm;
 pub use error::DescribingError;
-#[cfg(feature = "std")]
-pub use example::{Curve, Example};
 #[cfg(feature = "std")]
 pub use fit::{Fit, fit};
 #[cfg(feature = "std")]
 pub use inverse::{Solution, amplitudes, nearest_amplitude};
 #[cfg(feature = "std")]
-pub use kernel_proof::{KernelForm, prove_band_from_the_middle, prove_changed_band};
-#[cfg(feature = "std")]
-pub use quadrature::{by_quadrature, harmonic};
-pub use relay::bias_of_output;
+pub use quadrature::by_quadrature;
 #[cfg(feature = "std")]
 pub use setting::Setting;
+
+internal! {
+    use closed_form::{over_amplitudes};
+    #[cfg(feature = "std")]
+    use example::{Curve, Example};
+    #[cfg(feature = "std")]
+    use kernel_proof::{KernelForm, prove_band_from_the_middle, prove_changed_band};
+    #[cfg(feature = "std")]
+    use quadrature::{harmonic};
+    use relay::{bias_of_output};
+}
 
 use core::ops::{Add, Mul, Sub};
 

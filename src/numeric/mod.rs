@@ -8,26 +8,33 @@ mod gradient;
 mod interval;
 mod jet;
 mod minimum;
-pub mod power;
-#[cfg(feature = "std")]
-pub mod quadrature;
 mod ratio;
 mod real;
 mod root;
-#[cfg(feature = "std")]
-pub mod scan;
-pub mod special;
+
+internal! {
+    mod power;
+    #[cfg(feature = "std")]
+    mod quadrature;
+    #[cfg(feature = "std")]
+    mod scan;
+    mod special;
+}
 
 pub use domain::{Limit, OutOfDomain};
-#[cfg(feature = "std")]
-pub use expression::Expression;
-pub use gradient::{Component, Gradient};
 pub use interval::Interval;
-pub use jet::Jet;
-pub use minimum::golden_section;
-pub use ratio::{
-    atanh_root_ratio, cosh_root, cosh_root_difference, exp_m1_ratio, ln_1p_ratio, minus_ln_1p, minus_tanh,
-    sinh_root_difference, sinh_root_ratio,
-};
 pub use real::{Real, Scalar};
-pub use root::increasing_root;
+pub use special::Special;
+
+internal! {
+    #[cfg(feature = "std")]
+    use expression::{Expression};
+    use gradient::{Component, Gradient};
+    use jet::{Jet};
+    use minimum::{golden_section};
+    use ratio::{
+        atanh_root_ratio, cosh_root, cosh_root_difference, exp_m1_ratio, ln_1p_ratio, minus_ln_1p, minus_tanh,
+        sinh_root_difference, sinh_root_ratio,
+    };
+    use root::{increasing_root};
+}
