@@ -178,6 +178,13 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, PlantErro
     let mut balanced = matrix.clone();
     // Coefficients of a companion matrix span decades: without this its small eigenvalues drown.
     balance_parlett_reinsch(&mut balanced);
-    let schur = Schur::try_new(balanced, f64::EPSILON, SWEEPS_PER_ORDER * order).ok_or(failed)?;
-    Ok(schur.complex_eigenvalues().iter().copied().collect())
+    let spectrum = |matrix: DMatrix<f64>, shift: f64| {
+        let schur = Schur::try_new(matrix, f64::EPSILON, SWEEPS_PER_ORDER * order)?;
+        Some(schur.complex_eigenvalues().iter().map(|value| value - shift).collect())
+    };
+    // The iteration measures what is left below the diagonal by the diagonal, which a chain of integrators does not have: a
+    // shift by the matrix' size gives it one.
+    let size = balanced.norm();
+    let shifted = || spectrum(&balanced + DMatrix::identity(order, order) * size, size);
+    spectrum(balanced.clone(), 0.0).or_else(shifted).ok_or(failed)
 }

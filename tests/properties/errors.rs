@@ -14,7 +14,8 @@ use selfosc::plant::DragAxis;
 use selfosc::vehicle::Thruster;
 
 /// Codes that several enums give, each for one and the same reason.
-const SHARED: [&str; 6] = ["below-switching", "condition-40", "gap", "not-finite", "out-of-domain", "time-order"];
+const SHARED: [&str; 7] =
+    ["below-switching", "condition-40", "gap", "not-finite", "out-of-domain", "time-order", "unreadable"];
 
 fn sources(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());

@@ -311,3 +311,16 @@ proptest! {
         prop_assert!(!decays(1.1 * largest.re));
     }
 }
+
+/// Chains of integrators have no size on their diagonal for the QR algorithm to measure by.
+#[test]
+fn integrators_have_their_eigenvalues_at_zero() {
+    for order in 1..=5 {
+        let mut denominator = vec![0.0; order + 1];
+        denominator[0] = 1.0;
+        let poles = TransferFunction::new(&[1.0], &denominator).unwrap().poles().unwrap();
+        // A defect of order n turns rounding into its n-th root.
+        let rounding = (16.0 * f64::EPSILON).powf(1.0 / order as f64);
+        assert!(poles.len() == order && poles.iter().all(|pole| pole.norm() < rounding), "{poles:?}");
+    }
+}
