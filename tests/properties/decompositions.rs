@@ -13,8 +13,8 @@ fn judge(matrix: &DMatrix<f64>) -> faer::Mat<f64> {
 }
 
 /// Distance to the nearest matrix that has this eigenvalue, relative to the norm: the smallest singular value of `A - z I`,
-/// written in real numbers.
-fn backward_error(matrix: &DMatrix<f64>, z: Complex<f64>) -> f64 {
+/// written in real numbers. `None` where the judge's own iteration does not converge, once in some ten thousand.
+fn backward_error(matrix: &DMatrix<f64>, z: Complex<f64>) -> Option<f64> {
     let n = matrix.nrows();
     let shifted = DMatrix::from_fn(2 * n, 2 * n, |i, j| {
         let entry = if i / n == j / n { matrix[(i % n, j % n)] } else { 0.0 };
@@ -26,7 +26,8 @@ fn backward_error(matrix: &DMatrix<f64>, z: Complex<f64>) -> f64 {
         };
         entry - shift
     });
-    judge(&shifted).singular_values().unwrap().into_iter().fold(f64::INFINITY, f64::min) / matrix.norm()
+    let singular = judge(&shifted).singular_values().ok()?;
+    Some(singular.into_iter().fold(f64::INFINITY, f64::min) / matrix.norm())
 }
 
 fn square() -> impl Strategy<Value = DMatrix<f64>> {
@@ -38,7 +39,9 @@ fn square() -> impl Strategy<Value = DMatrix<f64>> {
 /// The pseudo-inverse by singular values, where rows or columns are far from dependent.
 fn check_allocation<const AXES: usize, const THRUSTERS: usize>(entries: &[f64]) -> Result<(), TestCaseError> {
     let matrix: [[f64; THRUSTERS]; AXES] = std::array::from_fn(|i| std::array::from_fn(|j| entries[THRUSTERS * i + j]));
-    let svd = faer::Mat::from_fn(AXES, THRUSTERS, |i, j| matrix[i][j]).svd().unwrap();
+    let svd = faer::Mat::from_fn(AXES, THRUSTERS, |i, j| matrix[i][j]).svd();
+    prop_assume!(svd.is_ok());
+    let svd = svd.unwrap();
     let singular = svd.S().column_vector();
     let condition = singular[0] / singular[AXES.min(THRUSTERS) - 1];
     prop_assume!(condition < 100.0);
@@ -72,10 +75,12 @@ proptest! {
         let sum: Complex<f64> = found.iter().sum();
         prop_assert!((sum - matrix.trace()).norm() <= DECOMPOSITION * matrix.norm() * found.len() as f64);
         for &value in &found {
-            prop_assert!(backward_error(&matrix, value) <= DECOMPOSITION, "{matrix} {value}");
+            let Some(error) = backward_error(&matrix, value) else { continue };
+            prop_assert!(error <= DECOMPOSITION, "{matrix} {value}");
         }
         // False variant: a number as far off as the matrix is large.
-        prop_assert!(backward_error(&matrix, Complex::new(2.0 * matrix.norm(), 0.0)) > 0.5);
+        let far = backward_error(&matrix, Complex::new(2.0 * matrix.norm(), 0.0));
+        prop_assert!(far.is_none_or(|error| error > 0.5));
     }
 
     /// Real poles a factor of three or more apart, over many decades: the companion matrix must be balanced.

@@ -118,6 +118,8 @@ fn enclosures_meet_the_quadrature() {
 }
 
 proptest! {
+    #![proptest_config(crate::sampling::config(256))]
+
     #[test]
     fn any_exponent_meets_the_quadrature(exponent in 0.0..9.0, bias in -3.0..3.0, amplitude in 0.3..2.0) {
         let closed = at(exponent, bias, amplitude);

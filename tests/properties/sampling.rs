@@ -10,7 +10,9 @@ const USUAL: u32 = 256;
 pub(crate) fn config(cases: u32) -> Config {
     let default = Config::default();
     let scaled = (u64::from(cases) * u64::from(default.cases)).div_ceil(USUAL.into());
-    Config { cases: u32::try_from(scaled).unwrap_or(u32::MAX), ..default }
+    let cases = u32::try_from(scaled).unwrap_or(u32::MAX);
+    // As many may fall outside a property's assumptions.
+    Config { cases, max_global_rejects: default.max_global_rejects.max(cases), ..default }
 }
 
 /// The same, with failing cases kept beside the tests.
