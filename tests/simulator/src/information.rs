@@ -180,7 +180,7 @@ impl Run {
             &scenario.vehicle,
             scenario.sensor.filter_s,
             state,
-            self.path.clone(),
+            self.path.with_sine_of(scenario.vehicle.force),
             STEP_S,
             Self::span_s(&scenario),
         );
