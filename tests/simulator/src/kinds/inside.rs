@@ -1,5 +1,6 @@
 //! Kinds inside the plain model.
 
+use super::Entry;
 use crate::command::Commander;
 use crate::plan::{DEGREE, Law, Plan, Wanted};
 use crate::random::Random;
@@ -25,7 +26,7 @@ fn locked(r: &mut Random) -> Plan {
     Plan { wanted: Wanted::Locked, ..plan }
 }
 
-pub(super) const KINDS: &[(&str, fn(&mut Random) -> Plan)] = &[
+pub(super) const KINDS: &[Entry] = &[
     ("linear, 1 degree", |r| Plan::new(r, Law::Linear).rounded(1.0)),
     ("linear, noise", |r| Plan::new(r, Law::Linear).noisy(0.5)),
     ("linear, noise, delay unknown", |r| Plan::new(r, Law::Linear).noisy(0.5).delay_unknown()),
