@@ -24,6 +24,12 @@ impl ForcePath {
         Self { force, random, parts, knots: vec![parts[1] + force.tether * parts[2]] }
     }
 
+    /// The same random part, beside a sine of other numbers.
+    pub(crate) fn with_sine_of(&self, force: Force) -> Self {
+        let Force { sine, sine_period_s, sine_phase_rad, .. } = force;
+        Self { force: Force { sine, sine_period_s, sine_phase_rad, ..self.force }, ..self.clone() }
+    }
+
     fn is_random(&self) -> bool {
         self.force.walk > 0.0 || self.force.ornstein_uhlenbeck > 0.0 || self.force.tether > 0.0
     }

@@ -3,7 +3,8 @@
 //! The motion is replayed with its commands as they were given, under parameters changed a little; errors of the readings are
 //! taken as Gaussian with the covariance that they have (a rounding as white noise of a twelfth of its square), a random force
 //! through the motion linearised along the way. The drag law, the terms, and which samples are outliers are known to this fit:
-//! a tool that is not told can hardly reach it. It is a yardstick of widths, not a bound for rounded records.
+//! a tool that is not told can hardly reach it. It knows the instants of the switchings, too, even those between samples.
+//! It is a yardstick of widths, not a bound for rounded records.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
@@ -180,7 +181,7 @@ impl Run {
             &scenario.vehicle,
             scenario.sensor.filter_s,
             state,
-            self.path.clone(),
+            self.path.with_sine_of(scenario.vehicle.force),
             STEP_S,
             Self::span_s(&scenario),
         );

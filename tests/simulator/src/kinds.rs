@@ -14,6 +14,9 @@ use crate::random::Random;
 use crate::scenario::Logged;
 use crate::truth::{Known, Truth};
 
+/// A name, and how to draw a case.
+type Entry = (&'static str, fn(&mut Random) -> Plan);
+
 /// Seeds below this are for development; reports are made with seeds from here on, which nobody looks at before.
 pub const FIRST_REPORT_SEED: u64 = 1_000_000;
 
@@ -95,7 +98,7 @@ impl Kind {
     /// Every kind, by group.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        let groups: [(Group, &[(&'static str, fn(&mut Random) -> Plan)]); 5] = [
+        let groups: [(Group, &[Entry]); 5] = [
             (Group::Inside, inside::KINDS),
             (Group::Family, family::KINDS),
             (Group::Outside, outside::KINDS),

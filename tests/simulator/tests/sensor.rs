@@ -104,7 +104,7 @@ fn missing_samples_gaps_and_stamps() {
     let gaps = run.record.time_s.windows(2).filter(|pair| pair[1] - pair[0] > 0.15).count() as f64;
     assert!((gaps / (2000.0 / 9.7) - 1.0).abs() < 0.2, "{gaps}");
     let longest = run.record.time_s.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-    assert!((0.7..=0.9).contains(&longest), "{longest}");
+    assert!((0.75..0.95).contains(&longest), "{longest}");
     let run = drifting(Sensor { late_s: 0.03, ..Sensor::default() });
     let late: Vec<f64> = run.record.time_s.iter().zip(&run.instant_s).map(|(stamp, instant)| stamp - instant).collect();
     assert!(late.iter().all(|late| (-1e-9..0.03).contains(late)));

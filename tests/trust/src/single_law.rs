@@ -1,7 +1,7 @@
 //! The baseline: maximum likelihood under linear, quadratic and mixed drag, the likeliest law taken.
 //!
-//! It has no terms and no verdict of its own. An answer counts as doubtful where a warning stands beside it, other than that
-//! the methods disagree.
+//! It has no terms and no verdict of its own. An answer counts as doubtful where a warning says that the record contradicts the
+//! model (a lag, coloured residuals); warnings of a wide interval or of confounded parameters do not.
 
 use std::borrow::Cow;
 
@@ -53,12 +53,14 @@ fn answer(fit: &RecordFit, records: &[&Record], delay: Delay) -> Answer {
         Delay::Estimated => None,
     };
     let warnings = Warning::of_fit(fit, free.as_ref());
+    let contradicts =
+        |warning: &Warning| matches!(warning, Warning::ActuatorLag { .. } | Warning::ColouredResiduals { .. });
     let drag =
         |present: bool, parameter| if present { interval(fit.estimate(parameter)) } else { Interval::exact(0.0) };
     let alpha = fit.estimate(Parameter::Alpha);
     let law: DragLaw = fit.law();
     Answer {
-        trust: if warnings.is_empty() { Trust::Good } else { Trust::Doubtful },
+        trust: if warnings.iter().any(contradicts) { Trust::Doubtful } else { Trust::Good },
         reasons: warnings.iter().map(|warning| Cow::Borrowed(warning.code())).collect(),
         alpha: alpha.spread.map(|_| interval(alpha)),
         beta: Some(drag(law.has_linear(), Parameter::LinearDrag)),

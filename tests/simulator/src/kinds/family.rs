@@ -1,5 +1,6 @@
 //! Kinds with terms of the model family.
 
+use super::Entry;
 use crate::plan::{DEGREE, Law, Plan};
 use crate::random::Random;
 use crate::vehicle::{Force, Lag, Vehicle};
@@ -52,7 +53,7 @@ const NONE: Force = Force {
 
 const COLOURED: Force = Force { ornstein_uhlenbeck: 0.05, ornstein_uhlenbeck_time_s: 5.0, ..NONE };
 
-pub(super) const KINDS: &[(&str, fn(&mut Random) -> Plan)] = &[
+pub(super) const KINDS: &[Entry] = &[
     ("lag 0.05 s", |r| lag(r, 0.05)),
     ("lag 0.1 s", |r| lag(r, 0.1)),
     ("lag 0.2 s", |r| lag(r, 0.2)),

@@ -1,5 +1,6 @@
 //! Kinds inside the plain model.
 
+use super::Entry;
 use crate::command::Commander;
 use crate::plan::{DEGREE, Law, Plan, Wanted};
 use crate::random::Random;
@@ -15,7 +16,17 @@ fn rounding_alone(r: &mut Random) -> Plan {
     })
 }
 
-pub(super) const KINDS: &[(&str, fn(&mut Random) -> Plan)] = &[
+/// Without a constant force a relay sampled on rounded readings ends in cycles that repeat sample for sample: both halves last
+/// the same whole number of samples, and nothing drifts.
+fn locked(r: &mut Random) -> Plan {
+    let plan = Plan::new(r, Law::Any).rounded(1.0).with(|s| {
+        s.lead_s = 20.0;
+        s.vehicle.delta = 0.0;
+    });
+    Plan { wanted: Wanted::Locked, ..plan }
+}
+
+pub(super) const KINDS: &[Entry] = &[
     ("linear, 1 degree", |r| Plan::new(r, Law::Linear).rounded(1.0)),
     ("linear, noise", |r| Plan::new(r, Law::Linear).noisy(0.5)),
     ("linear, noise, delay unknown", |r| Plan::new(r, Law::Linear).noisy(0.5).delay_unknown()),
@@ -41,13 +52,11 @@ pub(super) const KINDS: &[(&str, fn(&mut Random) -> Plan)] = &[
     ("20 Hz", |r| Plan::new(r, Law::Any).any_sensor(r).with(|s| s.sensor.rate_hz = 20.0)),
     ("20 s", |r| Plan::new(r, Law::Any).any_sensor(r).with(|s| s.duration_s = 20.0)),
     ("200 s", |r| Plan::new(r, Law::Any).any_sensor(r).with(|s| s.duration_s = 200.0)),
-    ("locked cycles", |r| {
-        let plan = Plan::new(r, Law::Any).rounded(1.0).with(|s| s.lead_s = 20.0);
-        Plan { wanted: Wanted::Locked, ..plan }
-    }),
-    ("locked cycles, delay unknown", |r| {
-        let plan = Plan::new(r, Law::Any).rounded(1.0).delay_unknown().with(|s| s.lead_s = 20.0);
-        Plan { wanted: Wanted::Locked, ..plan }
+    ("locked cycles", locked),
+    ("locked cycles, delay unknown", |r| locked(r).delay_unknown()),
+    ("partly locked cycles", |r| {
+        let delta = r.uniform(-0.005, 0.005);
+        Plan { wanted: Wanted::Any, ..locked(r) }.with(|s| s.vehicle.delta = delta)
     }),
     ("ideal relay", |r| {
         Plan::new(r, Law::Any).any_sensor(r).with(|s| {

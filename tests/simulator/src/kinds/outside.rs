@@ -1,5 +1,6 @@
 //! Kinds whose structure the model family has not.
 
+use super::Entry;
 use crate::plan::{DEGREE, Law, Plan};
 use crate::random::Random;
 use crate::vehicle::{Force, Lag, Memory, Vehicle};
@@ -16,7 +17,7 @@ fn second_order(r: &mut Random, zeta: f64) -> Plan {
     vehicle(r, |v| v.actuator.thrust = Lag::Second { omega_rad_s: 12.0, zeta })
 }
 
-pub(super) const KINDS: &[(&str, fn(&mut Random) -> Plan)] = &[
+pub(super) const KINDS: &[Entry] = &[
     ("sensor filter 0.2 s", |r| any(r).with(|s| s.sensor.filter_s = 0.2)),
     ("sensor filter 0.5 s, delay unknown", |r| any(r).with(|s| s.sensor.filter_s = 0.5).delay_unknown()),
     ("second-order lag, 12 rad/s, damping 0.7", |r| second_order(r, 0.7)),
@@ -81,10 +82,10 @@ pub(super) const KINDS: &[(&str, fn(&mut Random) -> Plan)] = &[
             v.drag.coulomb = 0.05;
         })
     }),
-    ("sensor filter 0.2 s, lag 0.2 s", |r| {
+    ("sensor filter 0.3 s, lag 0.15 s", |r| {
         any(r).with(|s| {
-            s.sensor.filter_s = 0.2;
-            s.vehicle.actuator.thrust = Lag::First { tau_s: 0.2 };
+            s.sensor.filter_s = 0.3;
+            s.vehicle.actuator.thrust = Lag::First { tau_s: 0.15 };
         })
     }),
     ("outliers 1 %, stiffness 0.05 C/rad, 10 % missing", |r| {

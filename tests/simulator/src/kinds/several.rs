@@ -3,6 +3,7 @@
 //! Where thrust is not the command, alpha is the one in units of the nominal thrust: the mean of both sides, unit slope beyond
 //! a dead zone, the larger level's thrust under an exponent.
 
+use super::Entry;
 use crate::plan::{Law, Plan};
 use crate::random::Random;
 use crate::scenario::Scenario;
@@ -26,7 +27,7 @@ fn apart(r: &mut Random, ratio: f64) -> Plan {
     any(r).again(r, |s| s.vehicle.alpha *= ratio)
 }
 
-pub(super) const KINDS: &[(&str, fn(&mut Random) -> Plan)] = &[
+pub(super) const KINDS: &[Entry] = &[
     ("two records", |r| any(r).again(r, |_| ())),
     ("two records of two levels", |r| any(r).again(r, at(0.5, 0.8))),
     ("two records of two levels, delay unknown", |r| any(r).again(r, at(0.5, 0.8)).delay_unknown()),

@@ -1,10 +1,10 @@
 //! Kinds of which one level of the command cannot tell: thrust is another function of the command than the identity, and
 //! every parameter comes out in its scale.
 
+use super::Entry;
 use crate::plan::{Law, Plan};
-use crate::random::Random;
 
-pub(super) const KINDS: &[(&str, fn(&mut Random) -> Plan)] = &[
+pub(super) const KINDS: &[Entry] = &[
     ("dead zone 0.15 C, one level", |r| {
         Plan::new(r, Law::Any).any_sensor(r).with(|s| s.vehicle.actuator.dead_zone = 0.15)
     }),
