@@ -31,7 +31,7 @@ pub struct Fit {
 /// the best parameters; a fit says nothing of amplitudes outside the points'.
 ///
 /// # Errors
-/// [`NonlinearityError::OutOfDomain`] or [`DescribingError::NotFinite`] for a point that is not two finite numbers with a
+/// [`NonlinearityError::OutOfDomain`](crate::nonlinearity::NonlinearityError::OutOfDomain) or [`DescribingError::NotFinite`] for a point that is not two finite numbers with a
 /// positive amplitude.
 ///
 /// ```

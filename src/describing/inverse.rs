@@ -28,7 +28,7 @@ pub struct Solution {
 /// closer together than that can be missed. Amplitudes without describing function are passed over.
 ///
 /// # Errors
-/// [`NonlinearityError::OutOfDomain`] unless both ends of the range are positive and finite.
+/// [`NonlinearityError::OutOfDomain`](crate::nonlinearity::NonlinearityError::OutOfDomain) unless both ends of the range are positive and finite.
 ///
 /// ```
 /// use selfosc::describing::amplitudes;
