@@ -1,7 +1,7 @@
 //! Benchmarks of the identification.
 
 use divan::{Bencher, black_box};
-use selfosc::experiment::{Experiment, Record, Sensor};
+use selfosc::experiment::{Record, Sensor, SimulatedExperiment};
 use selfosc::features::RecordFeatures;
 use selfosc::identify::DragLaw;
 use selfosc::identify::exact::Cycle;
@@ -61,7 +61,7 @@ fn record(duration_s: f64, rounded: bool) -> Option<Record> {
     } else {
         Sensor { noise: 0.01, ..Sensor::default() }
     };
-    Experiment::new(axis, relay, 100.0).ok()?.held().with_sensor(sensor).ok()?.run(duration_s).ok()
+    SimulatedExperiment::new(axis, relay, 100.0).ok()?.held().with_sensor(sensor).ok()?.run(duration_s).ok()
 }
 
 /// From the record to the paper's parameters.

@@ -18,4 +18,4 @@ pub use log::{Columns, Log};
 pub use record::Record;
 pub use relay::Relay;
 #[cfg(feature = "std")]
-pub use simulation::{Experiment, Sensor};
+pub use simulation::{Sensor, SimulatedExperiment};

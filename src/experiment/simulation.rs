@@ -29,15 +29,15 @@ pub struct Sensor {
 /// time sees the coordinate itself, delayed but without noise and rounding.
 ///
 /// ```
-/// use selfosc::experiment::Experiment;
+/// use selfosc::experiment::SimulatedExperiment;
 /// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
 /// let axis = DragAxis::quadratic(1.0, 0.5)?;
-/// let record = Experiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.run(60.0)?;
+/// let record = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.run(60.0)?;
 /// assert_eq!(record.samples(), 601);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Experiment {
+pub struct SimulatedExperiment {
     axis: DragAxis<f64>,
     relay: RelayHysteresis<f64>,
     rate_hz: f64,
@@ -47,7 +47,7 @@ pub struct Experiment {
     start: State<f64>,
 }
 
-impl Experiment {
+impl SimulatedExperiment {
     /// The most samples a simulation may have.
     pub const MOST_SAMPLES: f64 = 1e8;
 

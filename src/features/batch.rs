@@ -61,11 +61,11 @@ impl RecordFeatures {
     /// [`FeatureError`] that names why the record is not usable.
     ///
     /// ```
-    /// use selfosc::experiment::Experiment;
+    /// use selfosc::experiment::SimulatedExperiment;
     /// use selfosc::features::RecordFeatures;
     /// use selfosc::{nonlinearity::RelayHysteresis, orbit::limit_cycle, plant::DragAxis};
     /// let (axis, relay) = (DragAxis::quadratic(1.0, 0.5)?, RelayHysteresis::new(1.0, 0.3, 0.0)?);
-    /// let found = RecordFeatures::of(&Experiment::new(axis, relay, 100.0)?.run(60.0)?)?;
+    /// let found = RecordFeatures::of(&SimulatedExperiment::new(axis, relay, 100.0)?.run(60.0)?)?;
     /// let exact = limit_cycle(&axis, &relay)?;
     /// assert!((found.features.amplitude.mean - exact.amplitude).abs() < 1e-3 * exact.amplitude);
     /// # Ok::<(), Box<dyn core::error::Error>>(())

@@ -29,14 +29,14 @@ use search::{Search, Start};
 /// What to fit, and what is known.
 ///
 /// ```
-/// use selfosc::experiment::{Experiment, Sensor};
+/// use selfosc::experiment::{SimulatedExperiment, Sensor};
 /// use selfosc::identify::fit::Fit;
 /// use selfosc::identify::joint::{Delay, Parameter};
 /// use selfosc::identify::DragLaw;
 /// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
 /// let axis = DragAxis::quadratic(1.0, 0.5)?.with_delay_s(0.1)?;
 /// let sensor = Sensor { quantum: 0.02, ..Sensor::default() };
-/// let record = Experiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().with_sensor(sensor)?.run(60.0)?;
+/// let record = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().with_sensor(sensor)?.run(60.0)?;
 /// let fit = Fit::new(DragLaw::Quadratic, Delay::KnownS(0.1)).records(&[&record])?;
 /// let alpha = fit.estimate(Parameter::Alpha);
 /// assert!((alpha.value - 1.0).abs() < 0.03);

@@ -1,7 +1,7 @@
 //! Orbit inversion: the parameters that made an orbit come back from its features.
 
 use proptest::prelude::*;
-use selfosc::experiment::Experiment;
+use selfosc::experiment::SimulatedExperiment;
 use selfosc::features::RecordFeatures;
 use selfosc::identify::IdentifyError;
 use selfosc::identify::exact::Cycle;
@@ -210,7 +210,7 @@ proptest! {
         let axis = case.axis(case.parameters());
         let relay = RelayHysteresis::new(1.0, half_width, 0.0).unwrap();
         let period_s = limit_cycle(&axis, &relay).unwrap().period_s;
-        let experiment = Experiment::new(axis, relay, 4000.0 / period_s).unwrap();
+        let experiment = SimulatedExperiment::new(axis, relay, 4000.0 / period_s).unwrap();
         let record = if held { experiment.held() } else { experiment }.run(25.0 * period_s).unwrap();
         let found = RecordFeatures::of(&record).unwrap();
         let cycle = Cycle::of(&found.features, found.relay.level, delay_s);

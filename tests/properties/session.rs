@@ -1,7 +1,7 @@
 //! From samples to a conclusion by the library alone, and results that survive being written.
 
 use selfosc::control::{Gains, Structure, Tuning};
-use selfosc::experiment::{Columns, Experiment, Log, Record};
+use selfosc::experiment::{Columns, Log, Record, SimulatedExperiment};
 use selfosc::features::{Features, RecordFeatures};
 use selfosc::identify::fit::RecordFit;
 use selfosc::identify::joint::{Delay, FeatureRow, Joint, Parameter, fit_rows};
@@ -24,7 +24,7 @@ fn relay(level: f64) -> RelayHysteresis<f64> {
 }
 
 fn record(level: f64) -> Record {
-    Experiment::new(axis(), relay(level), 10.0).unwrap().held().run(50.0).unwrap()
+    SimulatedExperiment::new(axis(), relay(level), 10.0).unwrap().held().run(50.0).unwrap()
 }
 
 /// Two records, every method, estimated delay.

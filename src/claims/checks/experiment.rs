@@ -6,7 +6,7 @@ use nalgebra::Complex;
 
 use super::{AsPrinted, Budget, Case, Draw, Hypothesis, Part, Verdict, claim, sample, tolerance};
 use crate::describing::ClosedForm;
-use crate::experiment::{Experiment, Record, Sensor};
+use crate::experiment::{Record, Sensor, SimulatedExperiment};
 use crate::features::RecordFeatures;
 use crate::identify::iso::{Oscillation, disturbance_from_times};
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
@@ -65,7 +65,7 @@ fn delays_add(budget: Budget, factor: f64, fraction: f64, kinds: usize) -> Verdi
         let (late, held) = (1 + draw.index("samples_less_one", 5), draw.index("watching", kinds) == 0);
         let delay_s = draw.note("delay_s", (late as f64 + fraction) / RATE_HZ);
         let run = |input_s: f64, sensor_s: f64| -> Option<Record> {
-            let experiment = Experiment::new(axis.with_delay_s(input_s).ok()?, relay, RATE_HZ).ok()?;
+            let experiment = SimulatedExperiment::new(axis.with_delay_s(input_s).ok()?, relay, RATE_HZ).ok()?;
             let sensor = Sensor { delay_s: sensor_s, ..Sensor::default() };
             let experiment = experiment.with_sensor(sensor).ok()?;
             if held { experiment.held() } else { experiment }.run(30.0).ok()
@@ -214,7 +214,7 @@ fn procedure(budget: Budget, samples: f64, delay: f64, condition_40: (f64, f64))
             return Case::Skipped;
         }
         let start = State { position: cycle.lower_switch.position, velocity: cycle.lower_switch.velocity };
-        let record = Experiment::new(case.axis, case.relay, samples / cycle.period_s)
+        let record = SimulatedExperiment::new(case.axis, case.relay, samples / cycle.period_s)
             .and_then(|experiment| experiment.from_state(start))
             .and_then(|experiment| experiment.run(5.0 * cycle.period_s));
         let Ok(record) = record else { return Case::truth(false) };

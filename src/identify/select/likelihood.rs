@@ -63,12 +63,12 @@ impl Choice {
     /// The first error where no law could be fitted.
     ///
     /// ```
-    /// use selfosc::experiment::Experiment;
+    /// use selfosc::experiment::SimulatedExperiment;
     /// use selfosc::identify::{DragLaw, joint::Delay};
     /// use selfosc::identify::select::likelihood::Choice;
     /// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
     /// let axis = DragAxis::quadratic(1.0, 0.5)?;
-    /// let record = Experiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().run(60.0)?;
+    /// let record = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().run(60.0)?;
     /// let choice = Choice::among_all(&[&record], Delay::KnownS(0.0))?;
     /// assert_eq!(choice.decision(), Some(DragLaw::Quadratic));
     /// # Ok::<(), Box<dyn core::error::Error>>(())

@@ -41,9 +41,9 @@ impl fmt::Display for Stage {
 /// # let folder = std::env::temp_dir().join(format!("selfosc-session-{}", std::process::id()));
 /// # std::fs::create_dir_all(&folder)?;
 /// # let path = folder.join("log.csv");
-/// # use selfosc::{experiment::Experiment, nonlinearity::RelayHysteresis, plant::DragAxis};
+/// # use selfosc::{experiment::SimulatedExperiment, nonlinearity::RelayHysteresis, plant::DragAxis};
 /// # let axis = DragAxis::quadratic(1.0, 0.5)?;
-/// # let simulated = Experiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().run(60.0)?;
+/// # let simulated = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().run(60.0)?;
 /// # let samples = simulated.time_s().iter().zip(simulated.output()).zip(simulated.input());
 /// # let lines: String = samples.map(|((time, output), input)| format!("{time},{output},{input}\n")).collect();
 /// # std::fs::write(&path, format!("time_s,output,input\n{lines}"))?;
