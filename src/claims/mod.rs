@@ -18,7 +18,7 @@ mod sampling;
 #[doc(hidden)]
 pub mod tolerance;
 
-pub use evidence::{Domain, Evidence, Part, Variable, Verdict, Witness, Word};
+pub use evidence::{ClaimDomain, ClaimPart, ClaimVariable, Evidence, Verdict, Witness, Word};
 pub use registry::{AsPrinted, Checker, Claim, Finding, Hypothesis, Kind, verify};
 pub use sampling::Budget;
 

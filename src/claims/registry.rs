@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use super::distortion::Distortion;
-use super::{Budget, CLAIMS, Domain, Part, Verdict, Word};
+use super::{Budget, CLAIMS, ClaimDomain, ClaimPart, Verdict, Word};
 use crate::orbit::theorem::Theorem;
 use crate::proof::inequality::Inequality;
 
@@ -76,7 +76,7 @@ pub struct Claim {
     /// The statement that holds, in one line.
     pub statement: &'static str,
     /// For what it is stated, in parts.
-    pub domain: &'static [Part],
+    pub domain: &'static [ClaimPart],
     /// Steps of its proof that no program checks.
     pub by_hand: &'static [&'static str],
     /// As printed.
@@ -103,7 +103,7 @@ pub struct Finding {
     /// Name of the claim.
     pub id: Cow<'static, str>,
     /// For what the claim is stated.
-    pub domain: Domain,
+    pub domain: ClaimDomain,
     /// Steps of its proof that no program checks.
     pub by_hand: Vec<Cow<'static, str>>,
     /// As printed; `None` where the paper does not say it.
@@ -209,7 +209,7 @@ impl Claim {
             && corrected.as_ref().is_none_or(Verdict::holds);
         Finding {
             id: Cow::Borrowed(self.id),
-            domain: Domain::new(self.domain),
+            domain: ClaimDomain::new(self.domain),
             by_hand: self.by_hand.iter().copied().map(Cow::Borrowed).collect(),
             printed,
             corrected,

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use selfosc::claims::{
-    AsPrinted, Budget, CLAIMS, Claim, Domain, Evidence, Finding, Part, Variable, Verdict, Witness, Word,
+    AsPrinted, Budget, CLAIMS, Claim, ClaimDomain, ClaimPart, ClaimVariable, Evidence, Finding, Verdict, Witness, Word,
 };
 
 /// The claim's verdicts are the stated ones, its false variant is refuted, and so is the statement without each
@@ -99,7 +99,7 @@ fn items<'a>(claim: &'a Claim, heading: &str) -> Vec<&'a str> {
 #[test]
 fn files_list_the_parts_of_the_domain_and_the_steps_by_hand() {
     for claim in CLAIMS {
-        let part = |part: &Part| {
+        let part = |part: &ClaimPart| {
             let sides: Vec<_> = part.variables.iter().map(ToString::to_string).collect();
             let semicolon = if sides.is_empty() { "" } else { "; " };
             format!("`{}`: {}{semicolon}{}", part.name, part.text, sides.join(", "))
@@ -111,30 +111,31 @@ fn files_list_the_parts_of_the_domain_and_the_steps_by_hand() {
 }
 
 /// Parts with one side `x` between two ends.
-fn boxes(ends: &[[f64; 2]]) -> Domain {
-    let part = |[from, to]: &[f64; 2]| Part {
-        variables: vec![Variable::number("x", *from, *to)].into(),
-        ..Part::whole("part", "")
+fn boxes(ends: &[[f64; 2]]) -> ClaimDomain {
+    let part = |[from, to]: &[f64; 2]| ClaimPart {
+        variables: vec![ClaimVariable::number("x", *from, *to)].into(),
+        ..ClaimPart::whole("part", "")
     };
-    Domain { parts: ends.iter().map(part).collect() }
+    ClaimDomain { parts: ends.iter().map(part).collect() }
 }
 
 #[test]
 fn words_follow_from_the_domains() {
-    let word =
-        |claimed: &Domain, proved: Domain| Verdict::Holds(Evidence { proved, ..Evidence::default() }).word(claimed);
+    let word = |claimed: &ClaimDomain, proved: ClaimDomain| {
+        Verdict::Holds(Evidence { proved, ..Evidence::default() }).word(claimed)
+    };
     let claimed = boxes(&[[0.0, 1.0]]);
     assert_eq!(word(&claimed, boxes(&[[0.0, 1.0]])), Word::Proved);
     assert_eq!(word(&claimed, boxes(&[[0.5, 2.0], [-1.0, 0.5]])), Word::Proved);
     assert_eq!(word(&claimed, boxes(&[[0.0, 0.4], [0.5, 1.0]])), Word::ProvedInPart);
     assert_eq!(word(&claimed, boxes(&[[0.0, 1.0_f64.next_down()]])), Word::ProvedInPart);
-    assert_eq!(word(&claimed, Domain::default()), Word::Sampled);
+    assert_eq!(word(&claimed, ClaimDomain::default()), Word::Sampled);
     assert_eq!(word(&boxes(&[[0.0, f64::INFINITY]]), boxes(&[[0.0, 1e300]])), Word::ProvedInPart);
     // A claim without a domain is never proved, nor is another part's proof of use.
-    assert_eq!(word(&Domain::default(), boxes(&[[0.0, 1.0]])), Word::ProvedInPart);
-    assert_eq!(word(&Part::whole("other", "").into(), boxes(&[[0.0, 1.0]])), Word::ProvedInPart);
+    assert_eq!(word(&ClaimDomain::default(), boxes(&[[0.0, 1.0]])), Word::ProvedInPart);
+    assert_eq!(word(&ClaimPart::whole("other", "").into(), boxes(&[[0.0, 1.0]])), Word::ProvedInPart);
     // A proof at one value of a variable that the claim leaves open restricts it.
-    assert_eq!(word(&Part::whole("part", "").into(), boxes(&[[0.0, 1.0]])), Word::ProvedInPart);
+    assert_eq!(word(&ClaimPart::whole("part", "").into(), boxes(&[[0.0, 1.0]])), Word::ProvedInPart);
     let exhausted = Evidence { exhausted: boxes(&[[0.0, 1.0]]), ..Evidence::default() };
     assert_eq!(Verdict::Holds(exhausted).word(&claimed), Word::Exhausted);
 }
@@ -142,9 +143,9 @@ fn words_follow_from_the_domains() {
 /// A square with a hole is not a square; four strips about a hole and its filling are.
 #[test]
 fn boxes_of_two_variables_cover() {
-    let part = |[x, y]: [[f64; 2]; 2]| Part {
-        variables: vec![Variable::number("x", x[0], x[1]), Variable::new("y", "s", y[0], y[1])].into(),
-        ..Part::whole("square", "")
+    let part = |[x, y]: [[f64; 2]; 2]| ClaimPart {
+        variables: vec![ClaimVariable::number("x", x[0], x[1]), ClaimVariable::new("y", "s", y[0], y[1])].into(),
+        ..ClaimPart::whole("square", "")
     };
     let square = part([[0.0, 3.0], [0.0, 3.0]]);
     let mut parts = vec![
@@ -157,8 +158,8 @@ fn boxes_of_two_variables_cover() {
     parts.insert(1, part([[0.9, 2.1], [0.9, 2.1]]));
     assert!(square.is_covered_by(&parts));
     // Another unit is another variable.
-    let metres = vec![Variable::number("x", 0.0, 3.0), Variable::new("y", "m", 0.0, 3.0)];
-    assert!(!square.is_covered_by(&[Part { variables: metres.into(), ..Part::whole("square", "") }]));
+    let metres = vec![ClaimVariable::number("x", 0.0, 3.0), ClaimVariable::new("y", "m", 0.0, 3.0)];
+    assert!(!square.is_covered_by(&[ClaimPart { variables: metres.into(), ..ClaimPart::whole("square", "") }]));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What controllers from an identified axis rest on.
 
-use super::{AsPrinted, Budget, Case, Draw, Hypothesis, Part, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::control::{Margins, OpenLoop, RelayTest, Structure, Tuning, UltimatePoint, critical_point};
 use crate::nonlinearity::RelayHysteresis;
 use crate::orbit::RelayLoop;
@@ -20,7 +20,7 @@ claim! {
     POLE_PLACEMENT = "pole-placement" "of this project" Identity
     "the gains of a design give the closed loop the double pole and the slow pole that the bandwidth asks for"
     {
-        domain: &[Part::whole("whole", "every axis and pair of poles")],
+        domain: &[ClaimPart::whole("whole", "every axis and pair of poles")],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| poles(budget, 0.0, Tuning::double_pole_rad_s)),
         // The bandwidth taken for the pole.
@@ -69,7 +69,7 @@ claim! {
     DELAY_MARGIN = "delay-margin" "of this project" Theorem
     "the least of phase above critical over frequency at the crossovers of gain is the delay that a stable loop bears"
     {
-        domain: &[Part::whole("whole", "every stable loop of an axis and its controller")],
+        domain: &[ClaimPart::whole("whole", "every stable loop of an axis and its controller")],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| delay_margin(budget, |_, margins| margins.delay_s)),
         // The phase margin over the frequency of the pole.
@@ -104,7 +104,7 @@ claim! {
     RELAY_ULTIMATE = "relay-ultimate" "of this project" Identity
     "for an integrator with dead time the relay oscillates with the ultimate period, and its describing function gives 8/pi^2 of the ultimate gain"
     {
-        domain: &[Part::whole("whole", "every gain, dead time and level")],
+        domain: &[ClaimPart::whole("whole", "every gain, dead time and level")],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| relay_ultimate(budget, 8.0 / core::f64::consts::PI.powi(2), 0.0, 0.0)),
         // The describing function taken for exact.

@@ -1,6 +1,6 @@
 //! What the proofs have in common: identities of one variable, numbers that vanish.
 
-use super::{Distortion, Evidence, Part, Variable, Verdict, tolerance};
+use super::{ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, tolerance};
 use crate::describing::DescribingFunction;
 use crate::numeric::{Interval, Real};
 use crate::proof::identity::{Series, prove_zero};
@@ -11,11 +11,13 @@ const CELLS: usize = 5000;
 /// That functions of one variable vanish between the ends of the part's first side. They take the variable and what the
 /// statement is multiplied by, one where it is to be proved.
 pub(super) fn identity<const M: usize>(
-    part: Part,
+    part: ClaimPart,
     distortion: Distortion,
     f: impl Fn(Series, Series) -> [Series; M],
 ) -> Verdict {
-    let Some(&Variable { from, to, .. }) = part.variables.first() else { return Verdict::undecided("no variable") };
+    let Some(&ClaimVariable { from, to, .. }) = part.variables.first() else {
+        return Verdict::undecided("no variable");
+    };
     match prove_zero(|x| f(x, distortion.at(x, [from, to])), from, to, tolerance::PROOF, CELLS) {
         Ok(proved) => Verdict::Holds(Evidence::identity(part, proved.bound.value(), proved.boxes)),
         Err(_) => Verdict::undecided("an identity of one variable, 5000 cells"),
@@ -23,7 +25,7 @@ pub(super) fn identity<const M: usize>(
 }
 
 /// That each number enclosed is zero to the tolerance.
-pub(super) fn zeros(part: Part, numbers: &[Interval], boxes: usize) -> Verdict {
+pub(super) fn zeros(part: ClaimPart, numbers: &[Interval], boxes: usize) -> Verdict {
     let bound = numbers.iter().map(|number| number.magnitude()).fold(0.0, f64::max);
     if bound <= tolerance::PROOF {
         Verdict::Holds(Evidence::identity(part, bound, boxes))

@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use nalgebra::Complex;
 
-use super::{AsPrinted, Budget, Case, Draw, Hypothesis, Part, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::describing::ClosedForm;
 use crate::experiment::{Record, Sensor, SimulatedExperiment};
 use crate::features::RecordFeatures;
@@ -44,7 +44,7 @@ claim! {
     DELAYS_ADD = "delays-add" "36" Theorem
     "A delay T_d before the axis and one after it are one delay 2 T_d before it: the same record, T_d later"
     {
-        domain: &[Part::whole("whole", "every axis and delay")],
+        domain: &[ClaimPart::whole("whole", "every axis and delay")],
         printed: AsPrinted::Holds(|budget| delays_add(budget, 2.0, 0.0, 2)),
         corrected: None,
         // One of the two forgotten.
@@ -88,7 +88,7 @@ claim! {
     HEAVE = "heave" "43" Theorem
     "In heave weight less buoyancy acts as the disturbance: with linear drag the switching times give tau_ZE + W - B"
     {
-        domain: &[Part::whole("whole", "every axis with linear drag, weight and buoyancy")],
+        domain: &[ClaimPart::whole("whole", "every axis with linear drag, weight and buoyancy")],
         printed: AsPrinted::Holds(|budget| heave(budget, 1.0, &Heave::ASSUMED)),
         corrected: None,
         // Buoyancy less weight.
@@ -139,7 +139,7 @@ claim! {
     SURGE = "surge" "44" Theorem
     "The relay fed with minus the integral of the speed makes surge oscillate as yaw does"
     {
-        domain: &[Part::whole("whole", "every axis, level and half-width")],
+        domain: &[ClaimPart::whole("whole", "every axis, level and half-width")],
         printed: AsPrinted::Holds(|budget| surge(budget, |state| state[1])),
         corrected: None,
         // The integral with its own sign.
@@ -185,7 +185,7 @@ claim! {
     PROCEDURE = "procedure" "section 4.3, procedure" Statement
     "Means over the cycles of a dense record, through condition 40 and Table 3, give what the exact limit cycle's features give"
     {
-        domain: &[Part::whole("whole", "every axis whose oscillation meets condition 40")],
+        domain: &[ClaimPart::whole("whole", "every axis whose oscillation meets condition 40")],
         printed: AsPrinted::Holds(|budget| procedure(budget, 1000.0, 1.0, CLEAR)),
         corrected: None,
         // The delay left out.
@@ -245,7 +245,7 @@ claim! {
     HARMONIC_BALANCE = "harmonic-balance" "16-17" Theorem
     "With a linear plant 1 + N G(jw) = 0 on the true orbit, N being the relay's true gain there and not the sinusoid's"
     {
-        domain: &[Part::whole("whole", "every linear plant on its exact periodic motion")],
+        domain: &[ClaimPart::whole("whole", "every linear plant on its exact periodic motion")],
         printed: AsPrinted::Refuted(|budget| balance(budget, Gain::OfSinusoid, 1.0)),
         corrected: Some(|budget| balance(budget, Gain::OfOrbit, 1.0)),
         // The delay left out of the plant.

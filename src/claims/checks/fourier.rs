@@ -6,7 +6,9 @@ use super::enclosure::{identity, no_function};
 use super::family::{not_odd, odd_hysteretic, odd_nondecreasing, output_scale, sweep, unbiased};
 use super::kernels::{BREAKPOINT, prove_kernel};
 use super::tone::{EVERY_AMPLITUDE, prove_sine_abs_sine};
-use super::{AsPrinted, Budget, Case, Distortion, Draw, Hypothesis, Part, Variable, Verdict, claim, sample, tolerance};
+use super::{
+    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance,
+};
 use crate::describing::{Boxed, ClosedForm, KernelForm, by_quadrature, harmonic};
 use crate::nonlinearity::{Branch, Characteristic, NonlinearityError, Polynomial, Power, Sinusoid};
 use crate::numeric::quadrature::integrate;
@@ -18,7 +20,7 @@ claim! {
     FOURIER_COEFFICIENTS = "fourier-coefficients" "7-11" Definition
     "The mean and first harmonic of eq. 10 leave the least mean square of the output" {
         domain: &[
-            Part::whole("whole", "odd nondecreasing characteristics of the catalogue, every bias and amplitude"),
+            ClaimPart::whole("whole", "odd nondecreasing characteristics of the catalogue, every bias and amplitude"),
         ],
         printed: AsPrinted::Holds(|budget| least_square(budget, 1.0)),
         corrected: None,
@@ -71,11 +73,11 @@ claim! {
     "P and Q are the first-harmonic coefficients over the amplitude, F_0 the mean: closed form and integral agree" {
         domain: &[
             BREAKPOINT,
-            Part::whole(
+            ClaimPart::whole(
                 "decomposition",
                 "each member of the piecewise-linear catalogue is the sum of its kernels, every parameter",
             ),
-            Part::whole("beyond-the-sweep", "sweeps that end beyond a breakpoint"),
+            ClaimPart::whole("beyond-the-sweep", "sweeps that end beyond a breakpoint"),
         ],
         by_hand: &[
             "height and amplitude are set to one by linearity and homogeneity",
@@ -114,10 +116,10 @@ claim! {
     POLYNOMIAL = "polynomial" "10" Identity
     "F_0 and P of a polynomial follow from its coefficients about the bias and the means of even powers of the sine" {
         domain: &[
-            Part::over(
+            ClaimPart::over(
                 "powers",
                 "x^0 to x^9, every amplitude",
-                const { &[Variable::number("bias/amplitude", f64::NEG_INFINITY, f64::INFINITY)] },
+                const { &[ClaimVariable::number("bias/amplitude", f64::NEG_INFINITY, f64::INFINITY)] },
             ),
         ],
         by_hand: &[
@@ -153,7 +155,7 @@ fn polynomial_is_integral(budget: Budget, factor: f64) -> Verdict {
 claim! {
     ODD_HARMONICS = "odd-harmonics" "Theorem 1" Theorem
     "An odd characteristic without memory under an unbiased sinusoid gives odd harmonics only" {
-        domain: &[Part::whole("whole", "odd characteristics without memory, every amplitude")],
+        domain: &[ClaimPart::whole("whole", "odd characteristics without memory, every amplitude")],
         printed: AsPrinted::Holds(|budget| even_vanish(budget, odd_nondecreasing, unbiased)),
         corrected: None,
         falsified: |budget| even_vanish(budget, not_odd, unbiased),
@@ -169,7 +171,7 @@ claim! {
     ODD_HARMONICS_HYSTERETIC = "odd-harmonics-hysteretic" "Theorem 1, with memory" Theorem
     "Theorem 1 holds with memory when each branch is the other turned about the origin" {
         domain: &[
-            Part::whole("whole", "characteristics whose branches are each other's half-turn image, every amplitude"),
+            ClaimPart::whole("whole", "characteristics whose branches are each other's half-turn image, every amplitude"),
         ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| even_vanish(budget, odd_hysteretic, unbiased)),
@@ -250,7 +252,8 @@ fn prove_describing_function(distortion: Distortion) -> Verdict {
 /// Powers up to the ninth. The mean over twelve equally spaced angles is the mean over the circle for every trigonometric
 /// polynomial of degree below twelve, so the integral needs no antiderivative.
 fn prove_polynomial(distortion: Distortion) -> Verdict {
-    const COVERED: Part = Part::over("powers", "", const { &[Variable::number("bias/amplitude", -2.0, 2.0)] });
+    const COVERED: ClaimPart =
+        ClaimPart::over("powers", "", const { &[ClaimVariable::number("bias/amplitude", -2.0, 2.0)] });
     identity(COVERED, distortion, |bias, factor| {
         let sweep = Sinusoid::new(bias, Series::one()).ok();
         let nodes = (0..12).map(|k| Interval::point(f64::from(k)) * Interval::PI / Interval::point(6.0));

@@ -8,7 +8,7 @@ use nalgebra::Complex;
 
 use super::enclosure::identity;
 use super::relay::{relay, root};
-use super::{AsPrinted, Budget, Case, Distortion, Draw, Part, Variable, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Verdict, claim, sample, tolerance};
 use crate::describing::{DescribingFunction, by_quadrature};
 use crate::identify::iso::{Oscillation, parameters};
 use crate::identify::select::pairwise::{Decision, decide, relative_spread_percent};
@@ -32,10 +32,10 @@ claim! {
     TABLE_3 = "table-3" "Table 3" Identity
     "Eqs. 27 and 29 with 30 and 31 put in are Table 3" {
         domain: &[
-            Part::over(
+            ClaimPart::over(
                 "table",
                 "every C, X, w > 0 with x_a + abs(x_0) <= X",
-                const { &[Variable::number("x_a/X", 0.0, 1.0), Variable::number("abs(x_0)/X", 0.0, 1.0)] },
+                const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
             ),
         ],
         by_hand: &["level, amplitude and frequency are set to one by homogeneity"],
@@ -80,12 +80,12 @@ claim! {
     DELAY_ROTATION = "delay-rotation" "33-34" Identity
     "A delay turns the describing function by -w T_d: lengths stay, delays add, a negative one undoes" {
         domain: &[
-            Part::over(
+            ClaimPart::over(
                 "rotation",
                 "every P and Q, one turn of the phase",
-                const { &[Variable::new("phase", "rad", 0.0, core::f64::consts::TAU)] },
+                const { &[ClaimVariable::new("phase", "rad", 0.0, core::f64::consts::TAU)] },
             ),
-            Part::whole("delays-add", "two delays in turn are their sum"),
+            ClaimPart::whole("delays-add", "two delays in turn are their sum"),
         ],
         by_hand: &["every P and Q by linearity", "phases beyond one turn repeat"],
         printed: AsPrinted::Holds(|budget| rotation(budget, -1.0)),
@@ -124,10 +124,10 @@ claim! {
     RELATIVE_SPREAD = "relative-spread" "41" Definition
     "The relative spread of two values is their sample standard deviation over their mean" {
         domain: &[
-            Part::over(
+            ClaimPart::over(
                 "ratio",
                 "two values of one sign",
-                const { &[Variable::number("v_2/v_1", 0.0, f64::INFINITY)] },
+                const { &[ClaimVariable::number("v_2/v_1", 0.0, f64::INFINITY)] },
             ),
         ],
         by_hand: &["one value is set to one by homogeneity"],
@@ -154,7 +154,7 @@ fn spread(budget: Budget, degrees_of_freedom: f64) -> Verdict {
 claim! {
     DRAG_DECISION = "drag-decision" "42" Definition
     "The drag law is the one whose coefficient spreads less, by more than the margin" {
-        domain: &[Part::whole("whole", "every pair of spreads and threshold")],
+        domain: &[ClaimPart::whole("whole", "every pair of spreads and threshold")],
         printed: AsPrinted::Holds(|budget| decision(budget, decide)),
         corrected: None,
         // The paper's two names of the laws exchanged.
@@ -184,14 +184,14 @@ claim! {
     ZIG_ZAG = "zig-zag" "introduction" Identity
     "Nomoto's T r' + r = K delta_R is the drag axis alpha = T/K, beta = 1/K" {
         domain: &[
-            Part::over(
+            ClaimPart::over(
                 "response",
                 "every ship of Nomoto's first order, unit rudder",
                 const {
                     &[
-                        Variable::new("time", "s", 0.0, f64::INFINITY),
-                        Variable::new("T", "s", 0.0, f64::INFINITY),
-                        Variable::new("K", "1/s", 0.0, f64::INFINITY),
+                        ClaimVariable::new("time", "s", 0.0, f64::INFINITY),
+                        ClaimVariable::new("T", "s", 0.0, f64::INFINITY),
+                        ClaimVariable::new("K", "1/s", 0.0, f64::INFINITY),
                     ]
                 },
             ),
@@ -220,8 +220,8 @@ fn nomoto(budget: Budget, drag: fn(f64) -> f64) -> Verdict {
 /// Table 3.
 fn prove_table_3(distortion: Distortion) -> Verdict {
     let of_bias = |bias: f64| {
-        let sides = vec![Variable::number("x_a/X", 0.0, 0.69), Variable::number("abs(x_0)/X", bias, bias)];
-        let part = Part { variables: sides.into(), ..Part::whole("table", "") };
+        let sides = vec![ClaimVariable::number("x_a/X", 0.0, 0.69), ClaimVariable::number("abs(x_0)/X", bias, bias)];
+        let part = ClaimPart { variables: sides.into(), ..ClaimPart::whole("table", "") };
         identity(part, distortion, |width, factor| {
             let bias = Series::from_f64(bias);
             let found = parameters(relay(Series::one(), width, bias), Series::one(), Series::one());
@@ -239,7 +239,8 @@ fn prove_table_3(distortion: Distortion) -> Verdict {
 
 /// Turning is multiplication by `exp(-j phase)`, and turning back undoes it.
 fn prove_delay_rotation(distortion: Distortion) -> Verdict {
-    const COVERED: Part = Part::over("rotation", "", const { &[Variable::new("phase", "rad", 0.0, 6.5)] });
+    const COVERED: ClaimPart =
+        ClaimPart::over("rotation", "", const { &[ClaimVariable::new("phase", "rad", 0.0, 6.5)] });
     identity(COVERED, distortion, |phase, factor| {
         let (one, none) = (Series::one(), Series::zero());
         let (cosine, sine) = (factor * phase.cos(), factor * phase.sin());
@@ -261,7 +262,7 @@ fn prove_delay_rotation(distortion: Distortion) -> Verdict {
 
 /// Eq. 41 squared.
 fn prove_relative_spread(distortion: Distortion) -> Verdict {
-    const COVERED: Part = Part::over("ratio", "", const { &[Variable::number("v_2/v_1", 0.01, 100.0)] });
+    const COVERED: ClaimPart = ClaimPart::over("ratio", "", const { &[ClaimVariable::number("v_2/v_1", 0.01, 100.0)] });
     identity(COVERED, distortion, |second, factor| {
         let first = Series::one();
         let mean = (first + second) / Series::two();
@@ -273,14 +274,14 @@ fn prove_relative_spread(distortion: Distortion) -> Verdict {
 
 /// Nomoto's response to a step of the rudder; all but the time's ratio to T scales out.
 fn prove_zig_zag(distortion: Distortion) -> Verdict {
-    const COVERED: Part = Part::over(
+    const COVERED: ClaimPart = ClaimPart::over(
         "response",
         "",
         const {
             &[
-                Variable::new("time", "s", 0.0, 60.0),
-                Variable::new("T", "s", 2.0, 2.0),
-                Variable::new("K", "1/s", 0.5, 0.5),
+                ClaimVariable::new("time", "s", 0.0, 60.0),
+                ClaimVariable::new("T", "s", 2.0, 2.0),
+                ClaimVariable::new("K", "1/s", 0.5, 0.5),
             ]
         },
     );

@@ -2,7 +2,9 @@
 
 use super::enclosure::no_function;
 use super::single::Single;
-use super::{AsPrinted, Budget, Case, Distortion, Evidence, Part, Variable, Verdict, claim, sample, tolerance};
+use super::{
+    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, claim, sample, tolerance,
+};
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm, by_quadrature, prove_changed_band};
 use crate::nonlinearity::{Branches, Kernel, Side, Sinusoid};
 use crate::numeric::Real;
@@ -34,10 +36,10 @@ fn closed_is_integral(budget: Budget, make: Make, factor: f64) -> Verdict {
 }
 
 /// Every ratio on the sweep.
-pub(super) const BREAKPOINT: Part = Part::over(
+pub(super) const BREAKPOINT: ClaimPart = ClaimPart::over(
     "closed-form",
     "every breakpoint on the sweep, mean, sine and cosine component, both sides and branches",
-    const { &[Variable::number("u", -1.0, 1.0)] },
+    const { &[ClaimVariable::number("u", -1.0, 1.0)] },
 );
 
 const STEP: Make = |at, _, side, branches| Kernel::Step { at, height: 1.0, side, branches };
@@ -101,10 +103,10 @@ claim! {
     "Mean and sine component of a held input are differences of one function of each end" {
         domain: &[
             BREAKPOINT,
-            Part::over(
+            ClaimPart::over(
                 "as-coded",
                 "the sum over both ends as the code rearranges it",
-                const { &[Variable::number("u_lower", -1.0, 1.0), Variable::number("u_upper", -1.0, 1.0)] },
+                const { &[ClaimVariable::number("u_lower", -1.0, 1.0), ClaimVariable::number("u_upper", -1.0, 1.0)] },
             ),
         ],
         by_hand: &[
@@ -120,7 +122,7 @@ claim! {
     }
 }
 
-pub(super) fn prove_kernel(form: KernelForm, distortion: Distortion, part: Part) -> Verdict {
+pub(super) fn prove_kernel(form: KernelForm, distortion: Distortion, part: ClaimPart) -> Verdict {
     type Found = LazyLock<Result<Proved<1>, NotProved<1>>>;
     static STEP: Found = LazyLock::new(|| KernelForm::Step.prove());
     static RAMP: Found = LazyLock::new(|| KernelForm::Ramp.prove());
@@ -157,10 +159,10 @@ fn prove_kernel_sign(distortion: Distortion) -> Verdict {
 /// Each end of a band, every ratio; and the code's rearranged sum over both ends, over the plane of both.
 fn prove_kernel_band(distortion: Distortion) -> Verdict {
     // But for slits 1e-9 wide beyond 1/2, which is one more reason why the part is not covered.
-    const COVERED: Part = Part::over(
+    const COVERED: ClaimPart = ClaimPart::over(
         "as-coded",
         "",
-        const { &[Variable::number("u_lower", -0.95, 0.95), Variable::number("u_upper", -0.95, 0.95)] },
+        const { &[ClaimVariable::number("u_lower", -0.95, 0.95), ClaimVariable::number("u_upper", -0.95, 0.95)] },
     );
     let rearranged = || match prove_changed_band(&distortion) {
         Ok(parts) => {

@@ -4,18 +4,20 @@
 
 use std::collections::{HashSet, VecDeque};
 
-use super::{Evidence, Part, Verdict, Witness};
+use super::{ClaimPart, Evidence, Verdict, Witness};
 use crate::on_board::{Coordinate, Key, Observation, Observer, Phase, Protocol, Supervisor};
 
-const POSITION: Part = Part::whole("positions", "the machine on the lattice of positions -2 to 2 in steps of 1");
-const HEADING: Part = Part::whole("headings", "the machine on the lattice of headings 0 to 300 degrees in steps of 60");
-const SPEED: Part = Part::whole("speeds", "the machine on the lattice of speeds -1, 0, 1");
+const POSITION: ClaimPart =
+    ClaimPart::whole("positions", "the machine on the lattice of positions -2 to 2 in steps of 1");
+const HEADING: ClaimPart =
+    ClaimPart::whole("headings", "the machine on the lattice of headings 0 to 300 degrees in steps of 60");
+const SPEED: ClaimPart = ClaimPart::whole("speeds", "the machine on the lattice of speeds -1, 0, 1");
 /// The lattices of [`Lattice::all`]: readings and times off them are not spoken of.
-pub(super) const LATTICES: &[Part] = &[POSITION, HEADING, SPEED];
+pub(super) const LATTICES: &[ClaimPart] = &[POSITION, HEADING, SPEED];
 
 /// A finite world: an experiment, and the samples that may come.
 pub(super) struct Lattice {
-    pub(super) part: Part,
+    pub(super) part: ClaimPart,
     pub(super) protocol: Protocol<f64>,
     pub(super) readings: &'static [f64],
 }
@@ -31,7 +33,7 @@ const OBSERVATIONS: [Observation; 4] =
     [Observation::Between, Observation::Unsteady, Observation::Steady, Observation::Condition40];
 
 impl Lattice {
-    fn of(part: Part, coordinate: Coordinate, half_width: f64, readings: &'static [f64]) -> Self {
+    fn of(part: ClaimPart, coordinate: Coordinate, half_width: f64, readings: &'static [f64]) -> Self {
         let protocol = Protocol {
             neutral_command: 0.5,
             lowest_command: -1.0,

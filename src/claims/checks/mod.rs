@@ -1,7 +1,7 @@
 //! The claims by topic, each with its checks: cases drawn, proofs, false variants.
 
 use super::distortion::Distortion;
-use super::evidence::{Domain, Evidence, Part, Variable, Verdict, Witness};
+use super::evidence::{ClaimDomain, ClaimPart, ClaimVariable, Evidence, Verdict, Witness};
 use super::registry::{AsPrinted, Hypothesis, claim};
 use super::sampling::{Budget, Case, Draw, sample};
 use super::tolerance;

@@ -1,7 +1,10 @@
 //! Claims about exact orbits that are proved by enclosure.
 
 use super::method_bias::SymmetricOrbit;
-use super::{AsPrinted, Budget, Case, Domain, Evidence, Hypothesis, Part, Variable, Verdict, Witness, claim, sample};
+use super::{
+    AsPrinted, Budget, Case, ClaimDomain, ClaimPart, ClaimVariable, Evidence, Hypothesis, Verdict, Witness, claim,
+    sample,
+};
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::{Interval, Real};
 use crate::orbit::theorem::{self, BUDGET, Theorem};
@@ -11,12 +14,12 @@ use crate::proof::inequality::{Cell, Inequality, VARIABLES};
 use crate::proof::{Extent, Gradient, NotProved};
 
 /// The verdict of a theorem's inequalities: they establish these parts.
-pub(super) fn proved(theorem: &Theorem, parts: &'static [Part]) -> Verdict {
+pub(super) fn proved(theorem: &Theorem, parts: &'static [ClaimPart]) -> Verdict {
     match theorem.prove() {
         Ok(proofs) => {
             let margin = proofs.iter().map(|proof| proof.bound).fold(f64::INFINITY, f64::min);
             let boxes = proofs.iter().map(|proof| proof.boxes.len()).sum();
-            Verdict::Holds(Evidence::inequality(Domain::new(parts), margin, boxes))
+            Verdict::Holds(Evidence::inequality(ClaimDomain::new(parts), margin, boxes))
         }
         Err((inequality, why)) => failed(&inequality, why),
     }
@@ -25,7 +28,7 @@ pub(super) fn proved(theorem: &Theorem, parts: &'static [Part]) -> Verdict {
 /// The verdict of one inequality by itself, which establishes no part of any claim.
 fn single(inequality: &Inequality) -> Verdict {
     match inequality.prove(BUDGET) {
-        Ok(proof) => Verdict::Holds(Evidence::inequality(Domain::default(), proof.bound, proof.boxes.len())),
+        Ok(proof) => Verdict::Holds(Evidence::inequality(ClaimDomain::default(), proof.bound, proof.boxes.len())),
         Err(why) => failed(inequality, why),
     }
 }
@@ -45,13 +48,15 @@ fn failed(inequality: &Inequality, why: NotProved<VARIABLES>) -> Verdict {
 }
 
 /// What the theorems with a disturbance enclose of the disturbances below the level.
-const BELOW_095: Part = Part::over("every-axis", "", const { &[Variable::number("abs(delta)/C", 0.0, 0.95)] });
-const EXCESS: Part = Part::whole(
+const BELOW_095: ClaimPart =
+    ClaimPart::over("every-axis", "", const { &[ClaimVariable::number("abs(delta)/C", 0.0, 0.95)] });
+const EXCESS: ClaimPart = ClaimPart::whole(
     "excess",
     "denominator less numerator of the slope grows with both drag forces, the denominator is below 4.1",
 );
-const EVERY_G: Part = Part::whole("every-g", "every g > 0");
-const UP_TO_TEN: Part = Part::whole("g-up-to-ten", "every alpha, drag, C, x_a > 0 with 0 < g <= 10, delta = 0");
+const EVERY_G: ClaimPart = ClaimPart::whole("every-g", "every g > 0");
+const UP_TO_TEN: ClaimPart =
+    ClaimPart::whole("g-up-to-ten", "every alpha, drag, C, x_a > 0 with 0 < g <= 10, delta = 0");
 
 /// Negative drag, which feeds the motion.
 pub(super) const FALSE_DRAG: Inequality = Inequality {
@@ -113,10 +118,10 @@ claim! {
     NO_EARLY_SWITCHING = "orbit-no-early-switching" "of this project" Theorem
     "Between two switchings the velocity changes sign once, beyond the relay's level: the command switches when the formulas say" {
         domain: &[
-            Part::over(
+            ClaimPart::over(
                 "every-axis",
                 "every mix of linear and quadratic drag, every speed below the terminal one",
-                const { &[Variable::number("abs(delta)/C", 0.0, 1.0)] },
+                const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] },
             ),
         ],
         by_hand: &["speeds stay below the terminal one", "a force that keeps its sign lets the velocity vanish once"],
@@ -132,7 +137,7 @@ claim! {
 claim! {
     MULTIPLIER = "orbit-multiplier" "of this project" Theorem
     "Without delay 1 - m > 0.48 (d_1 + d_2): the multiplier m by the drag forces d_1, d_2 at the switchings over C" {
-        domain: &[EXCESS, Part::whole("rate", "1 - m > 0.48 (d_1 + d_2)")],
+        domain: &[EXCESS, ClaimPart::whole("rate", "1 - m > 0.48 (d_1 + d_2)")],
         by_hand: &[
             "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
             "the rate 2 of the growth",
@@ -150,10 +155,10 @@ claim! {
     QUADRATIC_DISTURBED = "orbit-quadratic-disturbed" "of this project" Theorem
     "Quadratic drag with a disturbance: one limit cycle, reached from every start" {
         domain: &[
-            Part::over(
+            ClaimPart::over(
                 "every-axis",
                 "every alpha, beta, C, x_a > 0; every start",
-                const { &[Variable::number("abs(delta)/C", 0.0, 1.0)] },
+                const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] },
             ),
         ],
         by_hand: &[
@@ -174,10 +179,10 @@ claim! {
     LINEAR_DISTURBED = "orbit-linear-disturbed" "of this project" Theorem
     "Linear drag with a disturbance: one limit cycle, reached from every start" {
         domain: &[
-            Part::over(
+            ClaimPart::over(
                 "every-axis",
                 "every alpha, beta, C, x_a > 0; every start",
-                const { &[Variable::number("abs(delta)/C", 0.0, 1.0)] },
+                const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] },
             ),
         ],
         by_hand: &[

@@ -1,7 +1,7 @@
 //! Exact limit cycles of a drag axis, and what the first-harmonic method makes of them.
 
 use super::orbit_proofs::{FALSE_DRAG, proved};
-use super::{AsPrinted, Budget, Case, Draw, Hypothesis, Part, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::balance::HarmonicBalance;
 use crate::describing::ClosedForm;
 use crate::identify::iso::{Oscillation, Parameters, disturbance_from_times};
@@ -31,7 +31,7 @@ const QUADRATIC: Family = Family {
     drag_of: |parameters| parameters.beta_quadratic,
 };
 
-const EVERY_AXIS: Part = Part::whole("every-axis", "every alpha, beta, C, x_a > 0; every start");
+const EVERY_AXIS: ClaimPart = ClaimPart::whole("every-axis", "every alpha, beta, C, x_a > 0; every start");
 
 /// An axis with its relay.
 struct Loop {
@@ -207,7 +207,7 @@ fn delta(budget: Budget, linear: bool, quadratic: bool, sign: f64) -> Verdict {
 claim! {
     DELTA_FROM_TIMES = "delta-from-times" "32, delta = F_0" Theorem
     "delta = -C (t_plus - t_minus)/T is exact for any waveform and delay when drag is linear" {
-        domain: &[Part::whole("whole", "every linear drag, disturbance below the level, delay")],
+        domain: &[ClaimPart::whole("whole", "every linear drag, disturbance below the level, delay")],
         printed: AsPrinted::Refuted(|budget| delta(budget, true, true, 1.0)),
         corrected: Some(|budget| delta(budget, true, false, 1.0)),
         // T_H taken for the time at command +C.
@@ -222,7 +222,7 @@ claim! {
 claim! {
     METHOD_BIAS = "method-bias" "of this project" Theorem
     "On symmetric orbits without delay the relative error of the method depends on one number g, whatever the parameters" {
-        domain: &[Part::whole("whole", "every alpha, drag, C, x_a > 0, no disturbance, no delay")],
+        domain: &[ClaimPart::whole("whole", "every alpha, drag, C, x_a > 0, no disturbance, no delay")],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| depends_on_g_alone(budget, &LINEAR, &LINEAR, 0.0)
             .and(|| depends_on_g_alone(budget, &QUADRATIC, &QUADRATIC, 0.0))),
@@ -273,7 +273,7 @@ fn depends_on_g_alone(budget: Budget, family: &Family, assumed: &Family, disturb
 claim! {
     BALANCE_CONVERGES = "balance-converges" "16-17, more harmonics" Theorem
     "With more harmonics the balance of an integrating plant under a relay comes ever closer to the exact orbit" {
-        domain: &[Part::whole("whole", "every lag and half-width")],
+        domain: &[ClaimPart::whole("whole", "every lag and half-width")],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| balance_error(budget, [1, 5, 15], 0.2)),
         // Closer by a factor of a thousand for each fivefold of harmonics.

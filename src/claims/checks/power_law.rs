@@ -1,6 +1,6 @@
 //! Power laws: the closed form is the integral, for every exponent and every bias.
 
-use super::{AsPrinted, Budget, Case, Distortion, Evidence, Part, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Evidence, Verdict, claim, sample, tolerance};
 use crate::describing::{ClosedForm, by_quadrature, certified};
 use crate::nonlinearity::{Power, Sinusoid};
 use crate::numeric::power::{INNER, OUTER, STEEP, analytic_step, paired_step, step};
@@ -12,7 +12,7 @@ claim! {
     "Mean and gain of sgn(x) abs(x)^p are the hypergeometric series about bias/amplitude 0, 1 and infinity" {
         domain: &[
             LISTED,
-            Part::whole("other-exponents", "every bias and amplitude; the other exponents of 0 or more"),
+            ClaimPart::whole("other-exponents", "every bias and amplitude; the other exponents of 0 or more"),
         ],
         by_hand: &[
             "moments and closed form solve one differential equation",
@@ -48,8 +48,8 @@ fn closed_is_integral(budget: Budget, factor: f64) -> Verdict {
     })
 }
 
-const LISTED: Part =
-    Part::whole("listed-exponents", "every bias and amplitude; exponents 0, 1/2, 1, 3/2, 1.7, 2, 5/2, 3, 8.5");
+const LISTED: ClaimPart =
+    ClaimPart::whole("listed-exponents", "every bias and amplitude; exponents 0, 1/2, 1, 3/2, 1.7, 2, 5/2, 3, 8.5");
 
 /// Exponents whose constants are compared; the identities hold for all.
 const EXPONENTS: [f64; 9] = [0.0, 0.5, 1.0, 1.5, 1.7, 2.0, 2.5, 3.0, 8.5];

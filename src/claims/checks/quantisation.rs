@@ -3,7 +3,8 @@
 use super::enclosure::{identity, unknown, zeros};
 use super::identification::oscillation;
 use super::{
-    AsPrinted, Budget, Case, Distortion, Evidence, Hypothesis, Part, Variable, Verdict, claim, sample, tolerance,
+    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Evidence, Hypothesis, Verdict, claim, sample,
+    tolerance,
 };
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity};
 use crate::numeric::{self, Interval, Real};
@@ -43,10 +44,10 @@ claim! {
     QUANTISATION_ALPHA = "quantisation-alpha" "37" Identity
     "dalpha/alpha = [(2 - r^2)/(r^2 - 1)] dX/X with r = X_m/x_a" {
         domain: &[
-            Part::over(
+            ClaimPart::over(
                 "ratio",
                 "no delay; the ratio of amplitude and half-width",
-                const { &[Variable::number("X/x_a", 1.0, f64::INFINITY)] },
+                const { &[ClaimVariable::number("X/x_a", 1.0, f64::INFINITY)] },
             ),
         ],
         by_hand: &["level, half-width and frequency are set to one by homogeneity"],
@@ -66,10 +67,10 @@ claim! {
     QUANTISATION_BETA = "quantisation-beta" "38" Identity
     "dbeta/beta = -2 dX/X" {
         domain: &[
-            Part::over(
+            ClaimPart::over(
                 "ratio",
                 "no delay; the ratio of amplitude and half-width",
-                const { &[Variable::number("X/x_a", 1.0, f64::INFINITY)] },
+                const { &[ClaimVariable::number("X/x_a", 1.0, f64::INFINITY)] },
             ),
         ],
         by_hand: &[
@@ -89,10 +90,10 @@ claim! {
     QUANTISATION_BETA_XX = "quantisation-beta-xx" "39" Identity
     "dbeta_xx/beta_xx = -3 dX/X" {
         domain: &[
-            Part::over(
+            ClaimPart::over(
                 "ratio",
                 "no delay; the ratio of amplitude and half-width",
-                const { &[Variable::number("X/x_a", 1.0, f64::INFINITY)] },
+                const { &[ClaimVariable::number("X/x_a", 1.0, f64::INFINITY)] },
             ),
         ],
         by_hand: &[
@@ -113,15 +114,15 @@ claim! {
     "At X_m = sqrt(2) x_a alpha is insensitive, to first order, to an error of the amplitude" {
         domain: &[
             ZERO,
-            Part::over(
+            ClaimPart::over(
                 "positive-below",
                 "the slope is positive below",
-                const { &[Variable::number("X/x_a", 1.0, core::f64::consts::SQRT_2)] },
+                const { &[ClaimVariable::number("X/x_a", 1.0, core::f64::consts::SQRT_2)] },
             ),
-            Part::over(
+            ClaimPart::over(
                 "negative-above",
                 "the slope is negative above",
-                const { &[Variable::number("X/x_a", core::f64::consts::SQRT_2, f64::INFINITY)] },
+                const { &[ClaimVariable::number("X/x_a", core::f64::consts::SQRT_2, f64::INFINITY)] },
             ),
         ],
         by_hand: &["level, half-width and frequency are set to one by homogeneity"],
@@ -178,7 +179,7 @@ fn prove_sensitivity(
     read: fn(Parameters<Series>) -> Series,
     printed: fn(Series) -> Series,
 ) -> Verdict {
-    const COVERED: Part = Part::over("ratio", "", const { &[Variable::number("X/x_a", 1.001, 100.0)] });
+    const COVERED: ClaimPart = ClaimPart::over("ratio", "", const { &[ClaimVariable::number("X/x_a", 1.001, 100.0)] });
     identity(COVERED, distortion, |amplitude, factor| {
         let parameter = read(identified(amplitude));
         let weight = (0..degree).fold(Series::one(), |weight, _| weight * amplitude);
@@ -202,18 +203,20 @@ fn prove_quantisation_beta_xx(distortion: Distortion) -> Verdict {
 }
 
 /// Where the slope of alpha vanishes, and on which side it has which sign.
-const ZERO: Part = Part::whole("zero", "the slope vanishes at X/x_a = sqrt(2), unbiased, no delay");
+const ZERO: ClaimPart = ClaimPart::whole("zero", "the slope vanishes at X/x_a = sqrt(2), unbiased, no delay");
 
 /// The slope of alpha: zero at the root of two, positive below, negative above.
 fn prove_quantisation_zero(distortion: Distortion) -> Verdict {
-    const BELOW: Part = Part::over("positive-below", "", const { &[Variable::number("X/x_a", 1.001, 1.4)] });
-    const ABOVE: Part = Part::over("negative-above", "", const { &[Variable::number("X/x_a", 1.43, 100.0)] });
+    const BELOW: ClaimPart =
+        ClaimPart::over("positive-below", "", const { &[ClaimVariable::number("X/x_a", 1.001, 1.4)] });
+    const ABOVE: ClaimPart =
+        ClaimPart::over("negative-above", "", const { &[ClaimVariable::number("X/x_a", 1.43, 100.0)] });
     let slope = |ratio: Interval| {
         let [amplitude] = Gradient::variables([ratio]);
         identified(amplitude).alpha.slopes()[0]
     };
     let zero = Interval::two().sqrt() * Interval::point(distortion.factor());
-    let sign = |part: Part, sign: f64| {
+    let sign = |part: ClaimPart, sign: f64| {
         let domain = part.variables.first().and_then(|side| Interval::new(side.from, side.to)).map(|domain| [domain]);
         let verdict =
             domain.map(|domain| prove_positive(|[ratio]| slope(*ratio) * Interval::point(sign), domain, 20_000));

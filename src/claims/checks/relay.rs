@@ -4,7 +4,9 @@ use core::f64::consts::PI;
 
 use super::enclosure::{identity, no_function};
 use super::kernels::{BREAKPOINT, on_unit, prove_kernel};
-use super::{AsPrinted, Budget, Case, Distortion, Draw, Hypothesis, Part, Variable, Verdict, claim, sample, tolerance};
+use super::{
+    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance,
+};
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm, bias_of_output, by_quadrature};
 use crate::experiment::Relay;
 use crate::nonlinearity::{Branches, Kernel, RelayHysteresis, Sinusoid};
@@ -49,15 +51,15 @@ claim! {
     "Q of a relay with hysteresis is -4 C x_a/(pi X^2), whatever the bias and the offset" {
         domain: &[
             BREAKPOINT,
-            Part::over(
+            ClaimPart::over(
                 "term",
                 "each term of the formula is the closed form of one switching level",
-                const { &[Variable::number("u", -1.0, 1.0)] },
+                const { &[ClaimVariable::number("u", -1.0, 1.0)] },
             ),
-            Part::over(
+            ClaimPart::over(
                 "sum",
                 "the formula is the sum that the code makes, x_a + abs(x_0) <= X",
-                const { &[Variable::number("x_a/X", 0.0, 1.0), Variable::number("abs(x_0)/X", 0.0, 1.0)] },
+                const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
             ),
         ],
         by_hand: &[
@@ -92,15 +94,15 @@ claim! {
     "P of a relay with hysteresis is (2C/(pi X)) [sqrt(1 - ((x_a - x_0)/X)^2) + sqrt(1 - ((x_a + x_0)/X)^2)]" {
         domain: &[
             BREAKPOINT,
-            Part::over(
+            ClaimPart::over(
                 "term",
                 "each term of the formula is the closed form of one switching level",
-                const { &[Variable::number("u", -1.0, 1.0)] },
+                const { &[ClaimVariable::number("u", -1.0, 1.0)] },
             ),
-            Part::over(
+            ClaimPart::over(
                 "sum",
                 "the formula is the sum that the code makes, x_a + abs(x_0) <= X",
-                const { &[Variable::number("x_a/X", 0.0, 1.0), Variable::number("abs(x_0)/X", 0.0, 1.0)] },
+                const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
             ),
         ],
         by_hand: &[
@@ -126,15 +128,15 @@ claim! {
     "The mean output is C (t_high - t_low)/T = (C/pi) [asin((x_a + e_0)/X) - asin((x_a - e_0)/X)], plus the offset" {
         domain: &[
             BREAKPOINT,
-            Part::over(
+            ClaimPart::over(
                 "term",
                 "each term of the formula is the closed form of one switching level",
-                const { &[Variable::number("u", -1.0, 1.0)] },
+                const { &[ClaimVariable::number("u", -1.0, 1.0)] },
             ),
-            Part::over(
+            ClaimPart::over(
                 "sum",
                 "the formula is the sum that the code makes, x_a + abs(x_0) <= X",
-                const { &[Variable::number("x_a/X", 0.0, 1.0), Variable::number("abs(x_0)/X", 0.0, 1.0)] },
+                const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
             ),
         ],
         by_hand: &[
@@ -174,12 +176,12 @@ claim! {
     SECOND_QUADRANT = "second-quadrant" "section 4.1 (Goldfarb)" Statement
     "-G_N of the unbiased relay with hysteresis covers the second quadrant, and nothing else" {
         domain: &[
-            Part::over(
+            ClaimPart::over(
                 "covered",
                 "each direction is that of some relay, every magnitude",
-                const { &[Variable::new("angle", "rad", 0.5 * PI, PI)] },
+                const { &[ClaimVariable::new("angle", "rad", 0.5 * PI, PI)] },
             ),
-            Part::whole("nothing-else", "every relay and amplitude that switches it has its point in the quadrant"),
+            ClaimPart::whole("nothing-else", "every relay and amplitude that switches it has its point in the quadrant"),
         ],
         by_hand: &["every magnitude by choice of the level"],
         printed: AsPrinted::Holds(|budget| covers(budget, 0.5 * PI, PI)),
@@ -215,7 +217,7 @@ fn covers(budget: Budget, from: f64, to: f64) -> Verdict {
 claim! {
     NOISE = "relay-noise" "section 4.1, in words" Statement
     "While the input moves one way, noise smaller than the half-width switches the relay at most once" {
-        domain: &[Part::whole("whole", "every half-width and smaller noise, inputs that move one way")],
+        domain: &[ClaimPart::whole("whole", "every half-width and smaller noise, inputs that move one way")],
         printed: AsPrinted::Refuted(|budget| switches_once(budget, 0.0, 10.0)),
         corrected: Some(|budget| switches_once(budget, 0.0, 1.0)),
         falsified: |budget| switches_once(budget, 1.5, 2.0),
@@ -248,7 +250,7 @@ fn switches_once(budget: Budget, least: f64, most: f64) -> Verdict {
 claim! {
     SWITCHING_CONDITION = "switching-condition" "40" Identity
     "Eq. 31 has a value, and the relay oscillates, exactly when (x_a + abs(x_0))/X <= 1" {
-        domain: &[Part::whole("whole", "every half-width, bias and amplitude")],
+        domain: &[ClaimPart::whole("whole", "every half-width, bias and amplitude")],
         printed: AsPrinted::Holds(|budget| condition(budget, 1.0)),
         corrected: None,
         falsified: |budget| condition(budget, 1.1),
@@ -275,7 +277,7 @@ fn condition(budget: Budget, limit: f64) -> Verdict {
 claim! {
     SAMPLED_LEVEL = "sampled-level" "section 4.3" Statement
     "A sampled relay switches at x_a or beyond, at most one sample's motion beyond" {
-        domain: &[Part::whole("whole", "every half-width, phase and sampling interval")],
+        domain: &[ClaimPart::whole("whole", "every half-width, phase and sampling interval")],
         printed: AsPrinted::Holds(|budget| overshoot(budget, 0.0)),
         corrected: None,
         falsified: |budget| overshoot(budget, 0.01),
@@ -322,8 +324,8 @@ fn prove_printed(
     component: fn(DescribingFunction<Series>) -> Series,
 ) -> Verdict {
     let of_bias = |bias: f64| {
-        let sides = vec![Variable::number("x_a/X", 0.0, 0.69), Variable::number("abs(x_0)/X", bias, bias)];
-        let part = Part { variables: sides.into(), ..Part::whole("sum", "") };
+        let sides = vec![ClaimVariable::number("x_a/X", 0.0, 0.69), ClaimVariable::number("abs(x_0)/X", bias, bias)];
+        let part = ClaimPart { variables: sides.into(), ..ClaimPart::whole("sum", "") };
         identity(part, distortion, |half_width, factor| {
             let bias = Series::from_f64(bias);
             let formula = formula(half_width, bias) * factor;
@@ -331,7 +333,8 @@ fn prove_printed(
         })
     };
     let of_level = || {
-        const COVERED: Part = Part::over("term", "", const { &[Variable::number("u", -0.9999, 0.9999)] });
+        const COVERED: ClaimPart =
+            ClaimPart::over("term", "", const { &[ClaimVariable::number("u", -0.9999, 0.9999)] });
         identity(COVERED, distortion, |at, factor| {
             let level = Kernel::Sign { at, level: Series::one(), branches: Branches::Rising };
             [term(at) * factor - component(on_unit(level))]
@@ -367,7 +370,8 @@ fn prove_relay_f0(distortion: Distortion) -> Verdict {
 
 /// Each direction of the quadrant is that of some relay.
 fn prove_second_quadrant(distortion: Distortion) -> Verdict {
-    const COVERED: Part = Part::over("covered", "", const { &[Variable::new("angle", "rad", 1.58, 3.13)] });
+    const COVERED: ClaimPart =
+        ClaimPart::over("covered", "", const { &[ClaimVariable::new("angle", "rad", 1.58, 3.13)] });
     identity(COVERED, distortion, |angle, factor| {
         let df = relay(Series::pi() / Series::from_f64(4.0), (Series::pi() - angle).sin(), Series::zero());
         [df.p + factor * angle.cos(), df.q + factor * angle.sin()]

@@ -3,7 +3,9 @@
 //! The integral is replaced by a mean over equally spaced angles, whose error is bounded because the output is analytic about
 //! the real axis; the closed form less that finite sum vanishes, as an identity of two variables.
 
-use super::{AsPrinted, Budget, Case, Distortion, Evidence, Part, Variable, Verdict, claim, sample, tolerance};
+use super::{
+    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, claim, sample, tolerance,
+};
 use crate::describing::{ClosedForm, by_quadrature};
 use crate::nonlinearity::{Arctan, Branch, NonlinearityError, Sine, Sinh, Sinusoid, Tanh};
 use crate::numeric::{Interval, Real};
@@ -72,10 +74,10 @@ impl<V: ClosedForm<Number = Interval>, S: ClosedForm<Number = Series>> Smooth<V,
             Ok(proved) => {
                 let [bias, amplitude] = domain;
                 let sides = vec![
-                    Variable::number("abs(k B)", bias[0], bias[1]),
-                    Variable::number("k X", amplitude[0], amplitude[1]),
+                    ClaimVariable::number("abs(k B)", bias[0], bias[1]),
+                    ClaimVariable::number("k X", amplitude[0], amplitude[1]),
                 ];
-                let part = Part { variables: sides.into(), ..Part::whole("every-sweep", "") };
+                let part = ClaimPart { variables: sides.into(), ..ClaimPart::whole("every-sweep", "") };
                 Verdict::Holds(Evidence::identity(part, proved.bound.value() + 2.0 * RULE, proved.boxes))
             }
             Err(_) => Verdict::undecided("an identity of two variables, 3000 cells"),
@@ -84,10 +86,10 @@ impl<V: ClosedForm<Number = Interval>, S: ClosedForm<Number = Series>> Smooth<V,
 }
 
 /// For what each closed form here is stated.
-const EVERY: Part = Part::over(
+const EVERY: ClaimPart = ClaimPart::over(
     "every-sweep",
     "every gain and scale k, bias and amplitude; F_0 and X P",
-    const { &[Variable::number("abs(k B)", 0.0, f64::INFINITY), Variable::number("k X", 0.0, f64::INFINITY)] },
+    const { &[ClaimVariable::number("abs(k B)", 0.0, f64::INFINITY), ClaimVariable::number("k X", 0.0, f64::INFINITY)] },
 );
 
 const UNIT: Interval = Interval::ONE;

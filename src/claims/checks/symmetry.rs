@@ -1,7 +1,7 @@
 //! When the mean output vanishes: the paper's lemmas on odd and other characteristics.
 
 use super::family::{mean_of, odd_nondecreasing, output_scale, sweep};
-use super::{AsPrinted, Budget, Case, Hypothesis, Part, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::describing::ClosedForm;
 use crate::nonlinearity::{DeadZone, Sinusoid};
 use crate::numeric::quadrature::integrate;
@@ -10,7 +10,7 @@ claim! {
     LEMMA_1 = "lemma-1" "Lemma 1" Lemma
     "Odd, nondecreasing and not zero on the whole sweep: the mean output has the sign of the bias, and vanishes with it" {
         domain: &[
-            Part::whole(
+            ClaimPart::whole(
                 "whole",
                 "odd nondecreasing characteristics without memory that do not vanish on the sweep, every bias and amplitude",
             ),
@@ -92,7 +92,7 @@ fn inside_the_dead_zone(budget: Budget) -> Verdict {
 claim! {
     LEMMA_2 = "lemma-2" "Lemma 2" Lemma
     "With an even part of one sign the mean output cannot vanish without bias; nondecreasing, only with one of the other sign" {
-        domain: &[Part::whole("whole", "characteristics with an even part of one sign, every amplitude")],
+        domain: &[ClaimPart::whole("whole", "characteristics with an even part of one sign, every amplitude")],
         printed: AsPrinted::Refuted(|budget| unbiased_mean_is_not_zero(budget, |x, even| x + even * (x * x - 0.5))),
         corrected: Some(|budget| even_part_decides(budget, |x, even| x * x * x + x + even * (1.0 + (-x * x).exp()))),
         falsified: |budget| even_part_decides(budget, |x, even| x + even * (x * x - 0.5)),

@@ -1,6 +1,6 @@
 //! Theorems 2 and 3: when the self-oscillations of a closed loop are symmetric, on exact orbits and on the first harmonic.
 
-use super::{AsPrinted, Budget, Case, Draw, Hypothesis, Part, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::describing::by_quadrature;
 use crate::nonlinearity::{Custom, RelayHysteresis, Sinusoid};
 use crate::orbit::{RelayLoop, RelayOrbit};
@@ -90,7 +90,7 @@ fn odd_and_astatic_without_bias(budget: Budget) -> Verdict {
 claim! {
     THEOREM_2 = "theorem-2" "Theorem 2" Theorem
     "Odd, nondecreasing and not zero on the sweep: symmetric about any constant reference if the process integrates, and about none but zero if not" {
-        domain: &[Part::whole("whole", "every integrating plant under a symmetric relay")],
+        domain: &[ClaimPart::whole("whole", "every integrating plant under a symmetric relay")],
         printed: AsPrinted::Refuted(odd_and_astatic_without_bias),
         corrected: Some(|budget| {
             symmetric(budget, &Loop { integrating: true, offset: false, referred: true })
@@ -126,7 +126,7 @@ fn not_odd_and_astatic_with_bias(budget: Budget) -> Verdict {
 claim! {
     THEOREM_3 = "theorem-3" "Theorem 3" Theorem
     "Integrating process: an even part of one sign makes the self-oscillations asymmetric; an odd nondecreasing characteristic keeps them symmetric" {
-        domain: &[Part::whole("whole", "every integrating plant under a relay with offset levels")],
+        domain: &[ClaimPart::whole("whole", "every integrating plant under a relay with offset levels")],
         printed: AsPrinted::Refuted(not_odd_and_astatic_with_bias),
         corrected: Some(|budget| {
             asymmetric(budget, &Loop { integrating: true, offset: true, referred: true })

@@ -1,13 +1,13 @@
 //! From the controller's forces to thrust: eqs. 1-3 and 35, Fig. 11.
 
-use super::{AsPrinted, Budget, Case, Draw, Hypothesis, Part, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::vehicle::{Allocation, BilinearThruster, Compensation, ThrustSide, Thruster};
 
 claim! {
     THRUSTER_BILINEAR = "thruster-bilinear" "1" Identity
     "Thrust T_nn abs(n) n - T_nu abs(n) u_a and torque alike; each thrust has one rate that turns its way and does not brake"
     {
-        domain: &[Part::whole("whole", "every pair of coefficients, speed of the water and thrust")],
+        domain: &[ClaimPart::whole("whole", "every pair of coefficients, speed of the water and thrust")],
         printed: AsPrinted::Holds(|budget| bilinear(budget, 1.0, 1.0)),
         corrected: None,
         // Still water: the rate found without the ambient speed.
@@ -94,7 +94,7 @@ claim! {
     THRUSTER_AFFINE = "thruster-affine" "2" Identity
     "Thrust a abs(n) n + b n is odd and has one command, sgn(T) sqrt(abs(T)/a) where b = 0"
     {
-        domain: &[Part::whole("whole", "every pair of coefficients, command and thrust")],
+        domain: &[ClaimPart::whole("whole", "every pair of coefficients, command and thrust")],
         printed: AsPrinted::Holds(|budget| affine(budget, Commands::Turning, inverse)
             .and(|| simplest(budget))),
         corrected: None,
@@ -153,7 +153,7 @@ claim! {
     THRUSTER_ASYMMETRIC = "thruster-asymmetric" "3" Definition
     "Coefficients of their own for n > 0 and n <= 0; the sign of the thrust picks the side of the inverse"
     {
-        domain: &[Part::whole("whole", "every two pairs of coefficients, command and thrust")],
+        domain: &[ClaimPart::whole("whole", "every two pairs of coefficients, command and thrust")],
         printed: AsPrinted::Holds(|budget| asymmetric(budget, false)),
         corrected: None,
         // The forward coefficients astern too.
@@ -185,7 +185,7 @@ claim! {
     ALLOCATION = "allocation" "35" Identity
     "X = tau_1 + tau_2, N = d (tau_1 - tau_2); tau = (X +- N/d)/2 is its inverse"
     {
-        domain: &[Part::whole("whole", "every distance, force and moment")],
+        domain: &[ClaimPart::whole("whole", "every distance, force and moment")],
         printed: AsPrinted::Holds(|budget| allocation(budget, 1.0, 1.0)),
         corrected: None,
         // The two thrusters exchanged.
@@ -218,7 +218,7 @@ claim! {
     COMPENSATION = "compensation" "Fig. 11" Theorem
     "Inverse allocation, offset and inverse maps before the thrusters leave the force asked for, plus a constant"
     {
-        domain: &[Part::whole("whole", "every allocation, thruster and force")],
+        domain: &[ClaimPart::whole("whole", "every allocation, thruster and force")],
         printed: AsPrinted::Holds(|budget| compensation(budget, &Chain::INTACT)),
         corrected: None,
         // The constant left out of account.

@@ -3,14 +3,14 @@
 use core::f64::consts::PI;
 
 use super::enclosure::zeros;
-use super::{AsPrinted, Budget, Distortion, Draw, Hypothesis, Part, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::describing::DescribingFunction;
 use crate::identify::iso::{Parameters, parameters};
 use crate::numeric::quadrature::integrate as by_quadrature;
 use crate::numeric::{Interval, Real};
 use crate::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
 
-const TONE: Part = Part::whole("every-tone", "every alpha, beta_1, beta_2, X, w > 0");
+const TONE: ClaimPart = ClaimPart::whole("every-tone", "every alpha, beta_1, beta_2, X, w > 0");
 
 /// The step of each proof here that scales the tone to one.
 const SCALING: &str =
@@ -160,7 +160,8 @@ fn ratio(numerator: f64, denominator: f64) -> Interval {
 }
 
 /// For what eq. 24 is stated.
-pub(super) const EVERY_AMPLITUDE: Part = Part::whole("every-amplitude", "first and third harmonic, every amplitude");
+pub(super) const EVERY_AMPLITUDE: ClaimPart =
+    ClaimPart::whole("every-amplitude", "first and third harmonic, every amplitude");
 
 /// First and third harmonic.
 pub(super) fn prove_sine_abs_sine(distortion: Distortion) -> Verdict {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
 
-use super::{AsPrinted, Budget, Case, Draw, Hypothesis, Part, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::vehicle::{Axis, EulerAngles, Pose, Vehicle, VehicleParameters};
 
 /// A vector with entries up to `bound`.
@@ -27,7 +27,7 @@ claim! {
     KINEMATICS = "kinematics" "4" Identity
     "J1 is a rotation, J2 the inverse of the matrix from Euler rates to body rates; both agree with quaternions"
     {
-        domain: &[Part::whole("whole", "every attitude short of a vertical one, every rate")],
+        domain: &[ClaimPart::whole("whole", "every attitude short of a vertical one, every rate")],
         printed: AsPrinted::Holds(|budget| kinematics(budget, EulerAngles::rate_matrix)),
         corrected: None,
         // Body rates taken for Euler rates.
@@ -114,7 +114,7 @@ claim! {
     SIX_AXES = "six-axes" "5" Identity
     "M is symmetric positive definite, C(nu) does no work, D(nu) takes energy, and eq. 5 balances"
     {
-        domain: &[Part::whole("whole", "every positive definite inertia, every velocity")],
+        domain: &[ClaimPart::whole("whole", "every positive definite inertia, every velocity")],
         printed: AsPrinted::Holds(|budget| structure(budget, |_| {}, |coriolis| coriolis)),
         corrected: None,
         // One block of C with the wrong sign.
@@ -170,7 +170,7 @@ claim! {
     UNCOUPLED_AXIS = "uncoupled-axis" "6, Table 2" Theorem
     "Of a symmetric, level vehicle whose other axes are at rest, an axis accelerates by eq. 5 as by eq. 6"
     {
-        domain: &[Part::whole("whole", "every vehicle of Table 2's form, every axis and velocity")],
+        domain: &[ClaimPart::whole("whole", "every vehicle of Table 2's form, every axis and velocity")],
         printed: AsPrinted::Holds(|budget| reduction(budget, &Assumed::ALL)),
         corrected: None,
         // Inertia without the water's.

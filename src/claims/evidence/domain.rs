@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// A variable of a box, between two ends. In a claim an end may be open or infinite; what a proof covers is closed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Variable {
+pub struct ClaimVariable {
     /// Name, a quotient where only a quotient matters.
     pub name: Cow<'static, str>,
     /// Unit; 1 for a pure number.
@@ -37,7 +37,7 @@ macro_rules! end {
 end!(lower_end, f64::NEG_INFINITY);
 end!(upper_end, f64::INFINITY);
 
-impl Variable {
+impl ClaimVariable {
     /// A pure number between two ends.
     #[must_use]
     pub const fn number(name: &'static str, from: f64, to: f64) -> Self {
@@ -51,7 +51,7 @@ impl Variable {
     }
 }
 
-impl fmt::Display for Variable {
+impl fmt::Display for ClaimVariable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, unit, from, to } = self;
         let unit = if unit == "1" { "" } else { unit };
@@ -66,16 +66,16 @@ impl fmt::Display for Variable {
 
 /// A part of a domain: with variables a box of them, without variables all that its text says.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Part {
+pub struct ClaimPart {
     /// Short name: a claim's part and what is proved of it have the same.
     pub name: Cow<'static, str>,
     /// What it consists of, in one line.
     pub text: Cow<'static, str>,
     /// Sides of the box; empty where the part is covered whole or not at all.
-    pub variables: Cow<'static, [Variable]>,
+    pub variables: Cow<'static, [ClaimVariable]>,
 }
 
-impl Part {
+impl ClaimPart {
     /// A part that is covered whole or not at all.
     #[must_use]
     pub const fn whole(name: &'static str, text: &'static str) -> Self {
@@ -84,7 +84,7 @@ impl Part {
 
     /// A box.
     #[must_use]
-    pub const fn over(name: &'static str, text: &'static str, variables: &'static [Variable]) -> Self {
+    pub const fn over(name: &'static str, text: &'static str, variables: &'static [ClaimVariable]) -> Self {
         Self { name: Cow::Borrowed(name), text: Cow::Borrowed(text), variables: Cow::Borrowed(variables) }
     }
 
@@ -102,7 +102,7 @@ impl Part {
         covered(whole, &sides)
     }
 
-    fn place(&self, side: &Variable) -> Option<usize> {
+    fn place(&self, side: &ClaimVariable) -> Option<usize> {
         self.variables.iter().position(|mine| mine.name == side.name && mine.unit == side.unit)
     }
 
@@ -148,7 +148,7 @@ fn covered(whole: Vec<[f64; 2]>, boxes: &[Vec<[f64; 2]>]) -> bool {
 }
 
 /// `text`, then the sides.
-impl fmt::Display for Part {
+impl fmt::Display for ClaimPart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.name)?;
         for (place, side) in self.variables.iter().enumerate() {
@@ -161,15 +161,15 @@ impl fmt::Display for Part {
 /// The parts of a statement's domain, or those of them that are established.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Domain {
+pub struct ClaimDomain {
     /// The parts.
-    pub parts: Cow<'static, [Part]>,
+    pub parts: Cow<'static, [ClaimPart]>,
 }
 
-impl Domain {
+impl ClaimDomain {
     /// Of parts known when the program is built.
     #[must_use]
-    pub const fn new(parts: &'static [Part]) -> Self {
+    pub const fn new(parts: &'static [ClaimPart]) -> Self {
         Self { parts: Cow::Borrowed(parts) }
     }
 
@@ -191,13 +191,13 @@ impl Domain {
     }
 }
 
-impl From<Part> for Domain {
-    fn from(part: Part) -> Self {
+impl From<ClaimPart> for ClaimDomain {
+    fn from(part: ClaimPart) -> Self {
         Self { parts: Cow::Owned(vec![part]) }
     }
 }
 
-impl fmt::Display for Domain {
+impl fmt::Display for ClaimDomain {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (place, part) in self.parts.iter().enumerate() {
             write!(f, "{}{part}", if place == 0 { "" } else { "; " })?;

@@ -4,6 +4,6 @@ mod domain;
 mod verdict;
 mod witness;
 
-pub use domain::{Domain, Part, Variable};
+pub use domain::{ClaimDomain, ClaimPart, ClaimVariable};
 pub use verdict::{Evidence, Verdict, Word};
 pub use witness::Witness;

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Domain, Part, Witness};
+use super::{ClaimDomain, ClaimPart, Witness};
 
 /// The answer to "does this hold?".
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,9 +25,9 @@ pub enum Verdict {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Evidence {
     /// Enclosed: true of every point of these parts.
-    pub proved: Domain,
+    pub proved: ClaimDomain,
     /// Finite models of which every state was visited: true of each of them, and said of nothing else.
-    pub exhausted: Domain,
+    pub exhausted: ClaimDomain,
     /// Cases drawn that meet the hypotheses, or states visited.
     pub cases: Option<usize>,
     /// Boxes that the proved parts were divided into.
@@ -44,15 +44,15 @@ impl Evidence {
         Self { cases: Some(cases), margin: Some(margin), ..Self::default() }
     }
     /// An identity, enclosed.
-    pub(crate) fn identity(part: Part, residual_bound: f64, boxes: usize) -> Self {
+    pub(crate) fn identity(part: ClaimPart, residual_bound: f64, boxes: usize) -> Self {
         Self { proved: part.into(), boxes: Some(boxes), residual_bound: Some(residual_bound), ..Self::default() }
     }
     /// An inequality, enclosed.
-    pub(crate) fn inequality(proved: Domain, margin: f64, boxes: usize) -> Self {
+    pub(crate) fn inequality(proved: ClaimDomain, margin: f64, boxes: usize) -> Self {
         Self { proved, boxes: Some(boxes), margin: Some(margin), ..Self::default() }
     }
     /// Every state of a finite model.
-    pub(crate) fn exhausted(part: Part, states: usize) -> Self {
+    pub(crate) fn exhausted(part: ClaimPart, states: usize) -> Self {
         Self { exhausted: part.into(), cases: Some(states), ..Self::default() }
     }
 
@@ -135,14 +135,14 @@ impl Verdict {
 
     /// The word, by comparison of the domain that is claimed with the parts that are established.
     #[must_use]
-    pub fn word(&self, claimed: &Domain) -> Word {
+    pub fn word(&self, claimed: &ClaimDomain) -> Word {
         let evidence = match self {
             Self::Holds(evidence) => evidence,
             Self::Refuted(_) => return Word::Refuted,
             Self::Undecided { .. } => return Word::Undecided,
         };
         let all = claimed.parts.len();
-        let within = |domain: &Domain| !all.eq(&0) && claimed.covered_by(domain).len() == all;
+        let within = |domain: &ClaimDomain| all > 0 && claimed.covered_by(domain).len() == all;
         if within(&evidence.proved) {
             Word::Proved
         } else if within(&evidence.proved.clone().union(evidence.exhausted.clone())) {
