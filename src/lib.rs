@@ -82,6 +82,7 @@ pub mod claims;
 pub mod paper;
 
 #[cfg(feature = "command")]
+#[doc(hidden)]
 pub mod command;
 #[cfg(feature = "report")]
 pub mod report;

@@ -1,7 +1,7 @@
 //! Every characteristic by name, as the command line and the generated pages know it.
 
 use super::{ClosedForm, Setting};
-use crate::nonlinearity::{self, Catalogued, Domain, NonlinearityError, Parameter, every_characteristic};
+use crate::nonlinearity::{self, Catalogued, NonlinearityError, ParameterDomain, ParameterSpec, every_characteristic};
 use crate::numeric::{OutOfDomain, special::Special};
 
 /// A characteristic of the catalogue, in the arithmetic `T`.
@@ -100,7 +100,7 @@ pub struct Entry {
     /// Name on the command line.
     pub name: &'static str,
     /// Its parameters, in the order in which [`Entry::build`] takes their values.
-    pub parameters: &'static [Parameter],
+    pub parameters: &'static [ParameterSpec],
     /// Pairs of parameters of which the first has to be below the second.
     pub ordered: &'static [(&'static str, &'static str)],
     /// Its page, Markdown: formula, domain, limits, source.
@@ -146,7 +146,7 @@ impl Entry {
                 parameter: parameter.name,
                 meaning: parameter.meaning,
             })?;
-            if matches!(value, Setting::Points(_)) != (parameter.domain == Domain::Points) {
+            if matches!(value, Setting::Points(_)) != (parameter.domain == ParameterDomain::Points) {
                 let (characteristic, required) = (self.name, parameter.domain.words());
                 return Err(CatalogueError::Kind { characteristic, parameter: parameter.name, value, required });
             }
@@ -158,10 +158,12 @@ impl Entry {
     /// The opposite of [`values`](Self::values): each parameter with its setting.
     #[must_use]
     pub fn settings(&self, values: &[f64]) -> Vec<(&'static str, Setting)> {
-        let setting = |(place, parameter): (usize, &Parameter)| {
+        let setting = |(place, parameter): (usize, &ParameterSpec)| {
             let values = values.get(place..)?;
             let setting = match parameter.domain {
-                Domain::Points => Setting::Points(values.chunks_exact(2).map(|point| (point[0], point[1])).collect()),
+                ParameterDomain::Points => {
+                    Setting::Points(values.chunks_exact(2).map(|point| (point[0], point[1])).collect())
+                }
                 _ => Setting::Number(*values.first()?),
             };
             Some((parameter.name, setting))

@@ -40,7 +40,7 @@ pub use certified::{Certified, certified};
 pub use closed_form::ClosedForm;
 pub use error::DescribingError;
 #[cfg(feature = "std")]
-pub use fit::{Fit, fit};
+pub use fit::{FittedCharacteristic, fit};
 #[cfg(feature = "std")]
 pub use inverse::{Solution, amplitudes, nearest_amplitude};
 #[cfg(feature = "std")]

@@ -7,7 +7,7 @@ use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
-use super::{ExperimentError, Record, Relay};
+use super::{ExperimentError, Record, RelayState};
 use crate::nonlinearity::RelayHysteresis;
 use crate::plant::{DragAxis, State};
 
@@ -107,7 +107,7 @@ impl SimulatedExperiment {
         let limit = Limit::AtMost(Self::MOST_SAMPLES - 1.0);
         domain::require("number of samples", last, "", limit, remedy)?;
         let mut random = Pcg64Mcg::seed_from_u64(self.seed);
-        let mut relay = Relay::new(self.relay, true);
+        let mut relay = RelayState::new(self.relay, true);
         let mut motion = Motion::new(self.axis, self.start, relay.output());
         if self.held {
             motion.seen_s = f64::INFINITY;
@@ -139,7 +139,7 @@ impl SimulatedExperiment {
     }
 
     /// Switches a relay that watches all the time, up to the time `until`.
-    fn watch(&self, relay: &mut Relay<f64>, motion: &mut Motion, until: f64) {
+    fn watch(&self, relay: &mut RelayState<f64>, motion: &mut Motion, until: f64) {
         let level = self.relay.half_width();
         loop {
             // The positive command lasts until x rises past the level, the negative one until it falls past it.

@@ -17,7 +17,7 @@ use crate::plant::{DragAxis, OneWay};
 /// disturbance comes from the times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
-pub struct Cycle<T> {
+pub struct MeanCycle<T> {
     /// Relay level C, in units of the command.
     pub relay_level: T,
     /// Level x_a* in units of the output: half the distance between the positions at which the command was *given*
@@ -34,7 +34,7 @@ pub struct Cycle<T> {
     pub delay_s: T,
 }
 
-impl<S: Scalar> Cycle<S> {
+impl<S: Scalar> MeanCycle<S> {
     /// The cycle with equal times under both commands, as without a disturbance; the bias is not used.
     pub fn symmetric(oscillation: &Oscillation<S>) -> Self {
         let half_period = oscillation.period_s / S::two();
@@ -56,11 +56,11 @@ impl<S: Scalar> Cycle<S> {
     /// `-C (t_plus - t_minus)/T`.
     ///
     /// ```
-    /// use selfosc::identify::exact::Cycle;
+    /// use selfosc::identify::exact::MeanCycle;
     /// use selfosc::{nonlinearity::RelayHysteresis, orbit::limit_cycle, plant::DragAxis};
     /// let axis = DragAxis::linear(2.0f64, 0.7)?.with_disturbance(0.1)?.with_delay_s(0.2)?;
     /// let orbit = limit_cycle(&axis, &RelayHysteresis::new(1.0, 0.3, 0.0)?)?;
-    /// let cycle = Cycle {
+    /// let cycle = MeanCycle {
     ///     relay_level: 1.0,
     ///     switch_level: 0.3,
     ///     amplitude: orbit.amplitude,
@@ -86,12 +86,12 @@ impl<S: Scalar> Cycle<S> {
     /// As [`linear_drag`](Self::linear_drag).
     ///
     /// ```
-    /// use selfosc::identify::{exact::Cycle, iso::Oscillation};
+    /// use selfosc::identify::{exact::MeanCycle, iso::Oscillation};
     /// // Row 7 of Table 4, in its own units: degrees and 1e-2 N m.
     /// let row = Oscillation {
     ///     relay_level: 8.23, switch_level: 6.58, amplitude: 26.36, bias: 3.8, period_s: 2.69, delay_s: 0.2,
     /// };
-    /// let axis = Cycle::symmetric(&row).quadratic_drag()?;
+    /// let axis = MeanCycle::symmetric(&row).quadratic_drag()?;
     /// assert!(axis.alpha() > 0.0 && axis.quadratic_drag() > 0.0 && axis.linear_drag() == 0.0);
     /// # Ok::<(), selfosc::identify::IdentifyError>(())
     /// ```

@@ -104,7 +104,7 @@ pub fn parameters<T: Real>(df: DescribingFunction<T>, amplitude: T, omega_rad_s:
 
 /// Disturbance `delta = -C (t_plus - t_minus)/T` from the times per period at command `+C` and `-C` (eq. 32 in this
 /// project's signs), in command units. Exact for any waveform when drag is linear; not so when it is quadratic.
-pub fn disturbance_from_times<T: Real>(relay_level: T, time_positive_s: T, time_negative_s: T) -> T {
+pub(crate) fn disturbance_from_times<T: Real>(relay_level: T, time_positive_s: T, time_negative_s: T) -> T {
     -crate::describing::bias_of_output(relay_level, time_positive_s, time_negative_s)
 }
 

@@ -15,7 +15,7 @@ use least_squares::{Linearised, Minimum, minimise};
 pub use row::{FeatureRow, fit_rows};
 
 /// A number with its derivatives with respect to the common parameters, in the order of [`Parameter`].
-pub type Sensitive = Gradient<f64, COUNT>;
+pub(crate) type Sensitive = Gradient<f64, COUNT>;
 
 /// Number of common parameters.
 const COUNT: usize = 4;
@@ -56,7 +56,7 @@ impl Default for Delay {
 /// Parameters that belong to this experiment alone (a disturbance, an initial state) are its own affair: it gives
 /// residuals in which they are already at their best values, with derivatives from which their directions are projected
 /// out.
-pub trait Experiment {
+pub(crate) trait Experiment {
     /// Appends the residuals of this experiment under `axis`, whose disturbance is zero, divided by their standard
     /// deviations up to a factor common to all experiments.
     ///
@@ -72,7 +72,7 @@ pub struct Estimate {
     /// The value, in the units of the experiments.
     pub value: f64,
     /// Its error; `None` for a value that was given, or that ended on its bound zero.
-    pub spread: Option<Spread>,
+    pub spread: Option<ConfidenceInterval>,
 }
 
 /// An estimate as it is written: `{"value", "std", "low", "high"}`, the last three null together.
@@ -86,7 +86,7 @@ struct Interval {
 
 impl From<Estimate> for Interval {
     fn from(Estimate { value, spread }: Estimate) -> Self {
-        let field = |of: fn(Spread) -> f64| spread.map(of);
+        let field = |of: fn(ConfidenceInterval) -> f64| spread.map(of);
         Self { value, std: field(|s| s.std), low: field(|s| s.low), high: field(|s| s.high) }
     }
 }
@@ -96,7 +96,9 @@ impl TryFrom<Interval> for Estimate {
 
     fn try_from(Interval { value, std, low, high }: Interval) -> Result<Self, Self::Error> {
         match (std, low, high) {
-            (Some(std), Some(low), Some(high)) => Ok(Self { value, spread: Some(Spread { std, low, high }) }),
+            (Some(std), Some(low), Some(high)) => {
+                Ok(Self { value, spread: Some(ConfidenceInterval { std, low, high }) })
+            }
             (None, None, None) => Ok(Self { value, spread: None }),
             _ => Err("std, low and high of an estimate must be numbers or null together"),
         }
@@ -105,7 +107,7 @@ impl TryFrom<Interval> for Estimate {
 
 /// Error of an estimate.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Spread {
+pub struct ConfidenceInterval {
     /// Standard deviation.
     pub std: f64,
     /// Lower end of the 95 % interval (Student's t), not below zero.
@@ -133,7 +135,7 @@ pub struct Joint {
 /// # Errors
 /// [`IdentifyError::TooFewEquations`], [`IdentifyError::Confounded`] where the experiments cannot tell the parameters
 /// apart, [`IdentifyError::NotSettled`], or the first experiment's error where the start itself has no answer.
-pub fn fit<E: Experiment>(
+pub(crate) fn fit<E: Experiment>(
     experiments: &[E],
     law: DragLaw,
     delay: Delay,
@@ -191,7 +193,7 @@ impl Joint {
         let spread = self.minimum.free[index].then(|| {
             let std = self.minimum.covariance[index][index].sqrt();
             let reach = std * student::quantile_95(self.degrees_of_freedom());
-            Spread { std, low: (value - reach).max(0.0), high: value + reach }
+            ConfidenceInterval { std, low: (value - reach).max(0.0), high: value + reach }
         });
         Estimate { value, spread }
     }

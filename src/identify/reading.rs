@@ -1,6 +1,6 @@
 //! From measured features to what the methods take.
 
-use super::exact::Cycle;
+use super::exact::MeanCycle;
 use super::iso::Oscillation;
 use crate::features::Features;
 use crate::numeric::Scalar;
@@ -33,7 +33,7 @@ impl<S: Scalar> Oscillation<S> {
     }
 }
 
-impl<S: Scalar> Cycle<S> {
+impl<S: Scalar> MeanCycle<S> {
     /// The means over steady cycles, with the level of the relay and the delay of the loop.
     pub fn of(features: &Features<S>, relay_level: S, delay_s: S) -> Self {
         Self {

@@ -1,6 +1,6 @@
 use super::{Branch, Kernel, NonlinearityError, PiecewiseLinear, Sinusoid};
 #[cfg(feature = "std")]
-use super::{Catalogued, Domain, Parameter};
+use super::{Catalogued, ParameterDomain, ParameterSpec};
 use crate::numeric::{Limit, Real, domain};
 
 #[doc = super::parameter::document!("piecewise-linear")]
@@ -73,23 +73,23 @@ impl<T: Real, S: AsRef<[(T, T)]>> Polyline<T, S> {
 #[cfg(feature = "std")]
 impl<T: Real> Catalogued<T> for Polyline<T, Vec<(T, T)>> {
     const NAME: &'static str = "piecewise-linear";
-    const PARAMETERS: &'static [Parameter] = &[
-        Parameter {
+    const PARAMETERS: &'static [ParameterSpec] = &[
+        ParameterSpec {
             name: "left_slope",
             meaning: "Slope before the first point, output units per input unit.",
-            domain: Domain::Finite,
+            domain: ParameterDomain::Finite,
             default: None,
         },
-        Parameter {
+        ParameterSpec {
             name: "right_slope",
             meaning: "Slope after the last point, output units per input unit.",
-            domain: Domain::Finite,
+            domain: ParameterDomain::Finite,
             default: None,
         },
-        Parameter {
+        ParameterSpec {
             name: "points",
             meaning: "Points input:output, separated by commas, in input and output units.",
-            domain: Domain::Points,
+            domain: ParameterDomain::Points,
             default: None,
         },
     ];

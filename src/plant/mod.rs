@@ -12,9 +12,13 @@ mod transfer;
 pub use drag_axis::DragAxis;
 pub use error::PlantError;
 pub use motion::State;
-pub use one_way::{OneWay, Passage};
+internal! { use one_way::{OneWay, Passage}; }
 #[cfg(feature = "std")]
-pub use state_space::{Flow, StateSpace, eigenvalues};
+pub use state_space::StateSpace;
+internal! {
+    #[cfg(feature = "std")]
+    use state_space::{Flow, eigenvalues};
+}
 #[cfg(feature = "std")]
 pub use transfer::TransferFunction;
 #[cfg(feature = "std")]

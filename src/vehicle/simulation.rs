@@ -53,14 +53,14 @@ impl MountedThruster {
 
 /// Where the vehicle is and how it moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct State {
+pub struct BodyState {
     /// Position and attitude.
     pub pose: Pose,
     /// Velocity in body axes.
     pub nu: Vector6<f64>,
 }
 
-impl State {
+impl BodyState {
     /// At rest at the origin, heading north.
     #[must_use]
     pub fn at_rest() -> Self {
@@ -77,9 +77,9 @@ type Column = SVector<f64, 13>;
 /// speed with quadratic drag reverses or the disturbance is not smooth; compare with half the step for its size.
 ///
 /// ```
-/// # use selfosc::vehicle::{Simulation, State, VehicleError, pool_thrusters, pool_vehicle};
+/// # use selfosc::vehicle::{Simulation, BodyState, VehicleError, pool_thrusters, pool_vehicle};
 /// # use nalgebra::Vector6;
-/// let mut pool = Simulation::new(pool_vehicle()?, pool_thrusters()?.to_vec(), 0.01, State::at_rest())?;
+/// let mut pool = Simulation::new(pool_vehicle()?, pool_thrusters()?.to_vec(), 0.01, BodyState::at_rest())?;
 /// for _ in 0..300 {
 ///     pool.step(&[60.0, 60.0, 0.0], |_| Vector6::zeros())?;
 /// }
@@ -93,7 +93,7 @@ pub struct Simulation {
     step_s: f64,
     /// Commands under way to each thruster, the next to act first.
     pending: Vec<VecDeque<f64>>,
-    state: State,
+    state: BodyState,
     steps: u32,
 }
 
@@ -106,7 +106,7 @@ impl Simulation {
         vehicle: Vehicle,
         thrusters: Vec<MountedThruster>,
         step_s: f64,
-        state: State,
+        state: BodyState,
     ) -> Result<Self, VehicleError> {
         domain::positive("integration step", step_s, "s")?;
         let pending = thrusters
@@ -130,7 +130,7 @@ impl Simulation {
 
     /// The state now.
     #[must_use]
-    pub fn state(&self) -> &State {
+    pub fn state(&self) -> &BodyState {
         &self.state
     }
 
@@ -154,7 +154,7 @@ impl Simulation {
     pub fn step(
         &mut self,
         commands: &[f64],
-        disturbance: impl Fn(&State) -> Vector6<f64>,
+        disturbance: impl Fn(&BodyState) -> Vector6<f64>,
     ) -> Result<Vector6<f64>, VehicleError> {
         let (count, needed) = (commands.len(), self.thrusters.len());
         if count != needed {
@@ -201,9 +201,9 @@ fn pack(position: &Vector3<f64>, quaternion: &[f64], nu: &Vector6<f64>) -> Colum
 }
 
 /// The quaternion comes back to unit length, from which a step moves it by the method's error only.
-fn unpack(column: &Column) -> State {
+fn unpack(column: &Column) -> BodyState {
     let quaternion = Quaternion::from(column.fixed_rows::<4>(3).into_owned());
-    State {
+    BodyState {
         pose: Pose {
             position_m: column.fixed_rows::<3>(0).into_owned(),
             attitude: UnitQuaternion::new_normalize(quaternion),

@@ -9,7 +9,7 @@ use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
-use super::{Axis, AxisParameters, Motion, Simulation, State, Vehicle, VehicleError};
+use super::{Axis, AxisParameters, BodyState, Motion, Simulation, Vehicle, VehicleError};
 use crate::experiment::{Record, Sensor};
 use crate::on_board::{Coordinate, Experiment, Phase, Protocol};
 
@@ -17,7 +17,7 @@ use crate::on_board::{Coordinate, Experiment, Phase, Protocol};
 /// sway by the integral of their speed (eq. 44).
 ///
 /// ```
-/// # use selfosc::vehicle::{Allocation, Axis, Compensation, Simulation, State, Trial, pool_thrusters, pool_vehicle};
+/// # use selfosc::vehicle::{Allocation, Axis, Compensation, Simulation, BodyState, Trial, pool_thrusters, pool_vehicle};
 /// # use nalgebra::Vector6;
 /// use selfosc::experiment::Sensor;
 /// use selfosc::identify::DragLaw;
@@ -28,7 +28,7 @@ use crate::on_board::{Coordinate, Experiment, Phase, Protocol};
 /// // A compass of one degree, read 0.1 s late; the thrusters are 0.1 s late too.
 /// let compass = Sensor { delay_s: 0.1, quantum: 1f64.to_radians(), noise: 0.0 };
 /// let protocol = Protocol { resolution: compass.quantum, ..Protocol::new(Coordinate::HeadingRad, 0.06, 0.3, 0.1) };
-/// let pool = Simulation::new(pool_vehicle()?, thrusters.to_vec(), 0.01, State::at_rest())?;
+/// let pool = Simulation::new(pool_vehicle()?, thrusters.to_vec(), 0.01, BodyState::at_rest())?;
 /// let run = Trial::new(Axis::Yaw, protocol, compass)?.run(
 ///     pool,
 ///     |moment, _| chain.commands(&[0.0, moment]).map(|[port, starboard]| vec![port, starboard, 0.0]),
@@ -60,7 +60,7 @@ pub struct TrialRun {
     /// Force or moment asked for on the axis.
     pub force: Vec<f64>,
     /// The vehicle's true state at each sample.
-    pub states: Vec<State>,
+    pub states: Vec<BodyState>,
 }
 
 impl TrialRun {
@@ -137,8 +137,8 @@ impl Trial {
     pub fn run(
         &self,
         mut simulation: Simulation,
-        commands: impl Fn(f64, &State) -> Result<Vec<f64>, VehicleError>,
-        disturbance: impl Fn(f64, &State) -> Vector6<f64>,
+        commands: impl Fn(f64, &BodyState) -> Result<Vec<f64>, VehicleError>,
+        disturbance: impl Fn(f64, &BodyState) -> Vector6<f64>,
     ) -> Result<TrialRun, VehicleError> {
         let steps = |quantity, time_s: f64| {
             let steps = time_s / simulation.step_s();
@@ -179,7 +179,7 @@ impl Trial {
     }
 
     /// What the sensor is to measure.
-    fn observe(&self, state: &State) -> f64 {
+    fn observe(&self, state: &BodyState) -> f64 {
         match self.axis {
             Axis::Yaw => {
                 let heading_rad = state.pose.attitude.euler_angles().2;

@@ -2,7 +2,7 @@
 
 use rand::{Rng, RngExt};
 use selfosc::describing::{Boxed, Entry};
-use selfosc::nonlinearity::{Domain, Sinusoid};
+use selfosc::nonlinearity::{ParameterDomain, Sinusoid};
 
 /// A characteristic on a sweep that it admits.
 pub(crate) struct Case {
@@ -44,9 +44,9 @@ pub(crate) fn values(entry: &Entry, rng: &mut impl Rng) -> Vec<f64> {
     for parameter in entry.parameters {
         let size = small(rng, -1.5, 1.5);
         match parameter.domain {
-            Domain::Positive => values.push(size),
+            ParameterDomain::Positive => values.push(size),
             // An exponent is dimensionless: within what drag laws and springs have, and somewhat beyond.
-            Domain::NonNegative if parameter.name == "exponent" => {
+            ParameterDomain::NonNegative if parameter.name == "exponent" => {
                 let exponent = rng.random_range(0.05..12.0);
                 let near: f64 = rng.random_range(0..=24).into();
                 let near = 0.5 * near + sign(rng) * small(rng, 2.0, 16.0);
@@ -57,9 +57,9 @@ pub(crate) fn values(entry: &Entry, rng: &mut impl Rng) -> Vec<f64> {
                     _ => rng.random_range(1..=24u32) as f64 / 2.0,
                 });
             }
-            Domain::NonNegative => values.push(if rng.random_range(0..20) == 0 { 0.0 } else { size }),
-            Domain::Finite => values.push(sign(rng) * size),
-            Domain::Points => {
+            ParameterDomain::NonNegative => values.push(if rng.random_range(0..20) == 0 { 0.0 } else { size }),
+            ParameterDomain::Finite => values.push(sign(rng) * size),
+            ParameterDomain::Points => {
                 let mut x = -rng.random_range(0.0..3.0);
                 for _ in 0..rng.random_range(1..7) {
                     values.extend([x, rng.random_range(-2.0..2.0)]);

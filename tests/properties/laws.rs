@@ -9,7 +9,7 @@ use selfosc::describing::{
     CATALOGUE, ClosedForm, Entry, Setting, amplitudes, by_quadrature, fit, nearest_amplitude, over_amplitudes,
 };
 use selfosc::nonlinearity::{
-    Affine, Branch, Characteristic, Domain, Polyline, Power, Relay, RelayHysteresis, Saturation, Sinusoid, Sum,
+    Affine, Branch, Characteristic, ParameterDomain, Polyline, Power, Relay, RelayHysteresis, Saturation, Sinusoid, Sum,
 };
 use selfosc::numeric::Gradient;
 
@@ -295,7 +295,7 @@ fn the_characteristic_comes_back_from_points_of_its_gain() {
     let grid: Vec<f64> = (1..=16).map(|k| 0.3 * f64::from(k)).collect();
     let mut missed = Vec::new();
     for entry in CATALOGUE {
-        if entry.parameters.iter().any(|parameter| parameter.domain == Domain::Points) {
+        if entry.parameters.iter().any(|parameter| parameter.domain == ParameterDomain::Points) {
             continue;
         }
         let example = entry.example().unwrap();
@@ -370,7 +370,7 @@ fn settings_are_read_and_written_back() {
 fn every_page_is_complete_and_its_sketch_is_true() {
     for entry in CATALOGUE {
         for heading in
-            ["**Output.**", "**Describing function**", "**Domain.**", "**Limits.**", "**Source.**", "Sketch: "]
+            ["**Output.**", "**Describing function**", "**ParameterDomain.**", "**Limits.**", "**Source.**", "Sketch: "]
         {
             assert!(entry.page.contains(heading), "spec/characteristics/{}.md lacks {heading}", entry.name);
         }

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use selfosc::experiment::Record;
 use selfosc::features::RecordFeatures;
 use selfosc::identify::DragLaw;
-use selfosc::identify::exact::Cycle;
+use selfosc::identify::exact::MeanCycle;
 use selfosc::identify::iso::Oscillation;
 use selfosc::numeric::Scalar;
 use selfosc::on_board::{Coordinate, Experiment, Fault, Outcome, Phase, Protocol};
@@ -122,7 +122,7 @@ proptest! {
         let delay_s = INTERVAL_S * late as f64;
         let parameters = Oscillation::of(&batch.features, batch.relay.level, delay_s).identify();
         prop_assert_eq!(outcome.iso(delay_s), parameters);
-        let cycle = Cycle::of(&batch.features, batch.relay.level, delay_s);
+        let cycle = MeanCycle::of(&batch.features, batch.relay.level, delay_s);
         prop_assert_eq!(outcome.exact(DragLaw::Linear, delay_s), cycle.linear_drag());
         prop_assert_eq!(outcome.exact(DragLaw::Quadratic, delay_s), cycle.quadratic_drag());
     }

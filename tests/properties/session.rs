@@ -72,8 +72,8 @@ fn what_the_methods_give_comes_back() {
     let oscillation = iso::Oscillation::of(&features.features, features.relay.level, 0.1);
     comes_back::<iso::Oscillation<f64>>(&oscillation);
     comes_back::<iso::Parameters<f64>>(&oscillation.identify().unwrap());
-    let cycle = exact::Cycle::of(&features.features, features.relay.level, 0.1);
-    comes_back::<exact::Cycle<f64>>(&cycle);
+    let cycle = exact::MeanCycle::of(&features.features, features.relay.level, 0.1);
+    comes_back::<exact::MeanCycle<f64>>(&cycle);
     comes_back::<DragAxis<f64>>(&cycle.quadratic_drag().unwrap());
     comes_back::<LimitCycle<f64>>(&limit_cycle(&axis(), &relay(1.0)).unwrap());
     let tuning = Tuning::new(&DragAxis::linear(1.0, 0.4).unwrap(), Structure::Pid, 2.0).unwrap();

@@ -8,7 +8,7 @@ use super::{
     AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance,
 };
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm, bias_of_output, by_quadrature};
-use crate::experiment::Relay;
+use crate::experiment::RelayState;
 use crate::nonlinearity::{Branches, Kernel, RelayHysteresis, Sinusoid};
 use crate::numeric::Real;
 use crate::proof::identity::Series;
@@ -234,7 +234,7 @@ fn switches_once(budget: Budget, least: f64, most: f64) -> Verdict {
         let half_width = draw.uniform("half_width", 0.1, 1.0);
         let noise = half_width * draw.uniform("noise_over_half_width", least, most);
         let Ok(relay) = RelayHysteresis::new(1.0, half_width, 0.0) else { return Case::Skipped };
-        let mut relay = Relay::new(relay, false);
+        let mut relay = RelayState::new(relay, false);
         let (mut switchings, mut high) = (0, false);
         for step in -500..=500 {
             let input = f64::from(step) / 500.0 * (half_width + noise + 0.1);
@@ -292,7 +292,7 @@ fn overshoot(budget: Budget, least: f64) -> Verdict {
         let (half_width, step) = (draw.uniform("half_width", 0.05, 0.95), draw.uniform("step_rad", 0.001, 0.5));
         let start = draw.uniform("phase_rad", -0.5 * PI, -0.5 * PI + step);
         let Ok(relay) = RelayHysteresis::new(1.0, half_width, 0.0) else { return Case::Skipped };
-        let mut relay = Relay::new(relay, false);
+        let mut relay = RelayState::new(relay, false);
         let mut angle = start;
         while angle < 0.5 * PI && relay.step(angle.sin()) < 0.0 {
             angle += step;

@@ -2,7 +2,7 @@
 
 use super::{Delay, Experiment, Joint, Sensitive, fit};
 use crate::identify::error::READ_AGAIN;
-use crate::identify::exact::Cycle;
+use crate::identify::exact::MeanCycle;
 use crate::identify::iso::Oscillation;
 use crate::identify::{DragLaw, IdentifyError};
 use crate::nonlinearity::RelayHysteresis;
@@ -36,8 +36,8 @@ impl FeatureRow {
         Ok(Self { relay: RelayHysteresis::new(relay_level, switch_level, 0.0)?, amplitude, period_s })
     }
 
-    fn cycle(&self, delay_s: f64) -> Cycle<f64> {
-        Cycle {
+    fn cycle(&self, delay_s: f64) -> MeanCycle<f64> {
+        MeanCycle {
             relay_level: self.relay.level(),
             switch_level: self.relay.half_width(),
             amplitude: self.amplitude,

@@ -127,8 +127,8 @@ impl<'a> Found<'a> {
             }
         }
         if self.settings.method.includes(Method::Exact) {
-            let of_record = exact::Cycle::of(features, relay.level, delay_s);
-            let cycle = exact::Cycle { switch_level, ..of_record };
+            let of_record = exact::MeanCycle::of(features, relay.level, delay_s);
+            let cycle = exact::MeanCycle { switch_level, ..of_record };
             for (law, axis) in [(DragLaw::Linear, cycle.linear_drag()), (DragLaw::Quadratic, cycle.quadratic_drag())] {
                 attempts.push((Method::Exact, law, axis.map(|axis| Model::of_exact(law, &axis, relay, record))));
             }

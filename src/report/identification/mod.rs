@@ -3,7 +3,7 @@
 mod figures;
 mod tables;
 
-pub use tables::{feature_table, model_tables, summary, verdict};
+pub(crate) use tables::{feature_table, model_tables, summary, verdict};
 
 use super::{Document, Section};
 use crate::identify::{Identification, Source};

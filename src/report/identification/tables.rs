@@ -22,7 +22,7 @@ fn value(estimate: Option<Estimate>) -> Cell {
 
 /// One sentence on size and cycles.
 #[must_use]
-pub fn summary(source: &Source) -> String {
+pub(crate) fn summary(source: &Source) -> String {
     let record = &source.log.record;
     let cycles = source.features.as_ref().map_or_else(String::new, |found| {
         format!(", {} steady cycles after {} of start-up", found.features.cycles, found.features.start_up_cycles)
@@ -50,7 +50,7 @@ pub(super) fn output_label(source: &Source) -> &'static str {
 
 /// Means over the steady cycles.
 #[must_use]
-pub fn feature_table(source: &Source) -> Option<Table> {
+pub(crate) fn feature_table(source: &Source) -> Option<Table> {
     let found = source.features.as_ref()?;
     let f = &found.features;
     let title = format!("Features over {} steady cycles", f.cycles);
@@ -99,7 +99,7 @@ pub(super) fn cycle_table(source: &Source) -> Option<Table> {
 
 /// The drag law in one sentence.
 #[must_use]
-pub fn verdict(found: &Identification) -> String {
+pub(crate) fn verdict(found: &Identification) -> String {
     match (found.choice(), found.likeliest_fit(), found.law_given()) {
         (Some((Some(law), confidence)), ..) => {
             format!("Drag is {}, with probability {confidence:.3} among the laws fitted.", law.name())
@@ -115,7 +115,7 @@ pub fn verdict(found: &Identification) -> String {
 }
 
 /// The likeliest fit with its intervals, then every method.
-pub fn model_tables(found: &Identification) -> impl Iterator<Item = Table> + use<> {
+pub(crate) fn model_tables(found: &Identification) -> impl Iterator<Item = Table> + use<> {
     let chosen = found.likeliest_fit().map(|fit| fit.law());
     let fit = found.models().iter().find(|model| model.method == Method::Fit && Some(model.drag) == chosen);
     fit.map(|model| parameter_table(found, model)).into_iter().chain([comparison(found)])
