@@ -8,10 +8,10 @@ use crate::identify::joint::Delay;
 use crate::identify::{DragLaw, IdentifyError};
 
 /// Odds against each other law from which a law counts as recognised: 95 %.
-pub const DECIDED: f64 = 19.0;
+pub(crate) const DECIDED: f64 = 19.0;
 /// Odds of a simple law against the mixed one from which the simple one counts: the mixed law explains whatever the simple one
 /// does, so that no record speaks against it by more than the charge for its parameter.
-pub const DECIDED_AGAINST_MIXED: f64 = 4.0;
+pub(crate) const DECIDED_AGAINST_MIXED: f64 = 4.0;
 
 /// The laws fitted, and which of them the records speak for.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
