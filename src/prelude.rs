@@ -6,7 +6,7 @@
 //! let relay = RelayHysteresis::new(1.0, 0.3, 0.0)?;
 //! let cycle = limit_cycle(&axis, &relay)?;
 //! let gain = relay.describing_function(&Sinusoid::new(0.0, cycle.amplitude)?)?;
-//! assert!(cycle.period_s() > 0.0 && gain.p > 0.0);
+//! assert!(cycle.period_s > 0.0 && gain.p > 0.0);
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 

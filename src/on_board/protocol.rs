@@ -30,7 +30,7 @@ pub enum Coordinate {
 /// };
 /// assert!(Experiment::new(protocol).is_ok());
 /// assert!(Experiment::new(Protocol { highest_command: 0.05, ..protocol }).is_err());
-/// # Ok::<(), selfosc::on_board::OutOfDomain>(())
+/// # Ok::<(), selfosc::numeric::OutOfDomain>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Protocol<T> {

@@ -370,7 +370,7 @@ fn settings_are_read_and_written_back() {
 fn every_page_is_complete_and_its_sketch_is_true() {
     for entry in CATALOGUE {
         for heading in
-            ["**Output.**", "**Describing function**", "**ParameterDomain.**", "**Limits.**", "**Source.**", "Sketch: "]
+            ["**Output.**", "**Describing function**", "**Domain.**", "**Limits.**", "**Source.**", "Sketch: "]
         {
             assert!(entry.page.contains(heading), "spec/characteristics/{}.md lacks {heading}", entry.name);
         }
