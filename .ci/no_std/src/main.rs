@@ -70,6 +70,12 @@ pub extern "C" fn memcpy(to: *mut u8, _from: *const u8, _count: usize) -> *mut u
     to
 }
 
+/// The same for filling.
+#[unsafe(no_mangle)]
+pub extern "C" fn memset(to: *mut u8, _value: i32, _count: usize) -> *mut u8 {
+    to
+}
+
 /// Entry point in place of the C runtime's; never runs.
 #[unsafe(no_mangle)]
 pub extern "C" fn _start() -> ! {
