@@ -1,0 +1,128 @@
+//! One estimate from all models tried, weighted by how likely they make the record for their number of parameters.
+
+use super::model::{Model, Parameter};
+use super::scoring::{self, Fitted};
+use super::search::{Found, PRICE};
+use crate::identify::joint::{Estimate, Spread};
+
+/// A model's word on one parameter: normal, or a point where it has no such parameter.
+#[derive(Clone, Copy, Debug)]
+struct Component {
+    weight: f64,
+    mean: f64,
+    std: f64,
+}
+
+/// Intervals of terms that were chosen by the record are wider by this.
+pub(super) const CHOSEN: f64 = 1.15;
+
+/// Standard deviations of the structural parameters of a model, zero for those not estimated; `None` where the record leaves
+/// some of them open.
+pub(super) fn deviations(fitted: &Fitted, free: &[usize]) -> Option<[f64; Parameter::COUNT]> {
+    let mut deviations = [0.0; Parameter::COUNT];
+    for index in free {
+        let mut unit = [0.0; Parameter::COUNT];
+        unit[*index] = 1.0;
+        let (column, _) = scoring::solve(&fitted.score.structure_information, &unit, free, 1e-10)?;
+        let place = free.iter().position(|other| other == index)?;
+        deviations[*index] = column[place].sqrt();
+    }
+    Some(deviations)
+}
+
+/// The models of an average with their weights and their deviations.
+pub(super) struct Average<'a> {
+    pub(super) members: Vec<(f64, &'a Fitted, [f64; Parameter::COUNT])>,
+}
+
+impl<'a> Average<'a> {
+    /// `movable` names the parameters of a model that are not on a bound.
+    pub(super) fn new(found: &'a Found, movable: impl Fn(&Fitted) -> Vec<usize>) -> Self {
+        let value = |fitted: &Fitted| fitted.log_likelihood - 0.5 * PRICE * fitted.model.freedom() as f64;
+        let top = value(&found.tried[found.best]);
+        let mut members: Vec<(f64, &Fitted, [f64; Parameter::COUNT])> = Vec::new();
+        for fitted in &found.tried {
+            let weight = (value(fitted) - top).exp();
+            if weight < 1e-3 {
+                continue;
+            }
+            // The same model reached twice counts once, the likelier time.
+            if let Some(same) = members.iter_mut().find(|(_, other, _)| same_terms(&other.model, &fitted.model)) {
+                if fitted.log_likelihood <= same.1.log_likelihood {
+                    continue;
+                }
+                if let Some(deviations) = deviations(fitted, &movable(fitted)) {
+                    *same = (weight, fitted, deviations);
+                }
+                continue;
+            }
+            if let Some(deviations) = deviations(fitted, &movable(fitted)) {
+                members.push((weight, fitted, deviations));
+            }
+        }
+        let sum: f64 = members.iter().map(|member| member.0).sum();
+        for member in &mut members {
+            member.0 /= sum;
+        }
+        Self { members }
+    }
+
+    /// The estimate of a parameter; its interval is wider than the mixture's by `factor`.
+    pub(super) fn estimate(&self, parameter: Parameter, factor: f64) -> Option<Estimate> {
+        let index = parameter as usize;
+        let components: Vec<Component> = self
+            .members
+            .iter()
+            .map(|(weight, fitted, deviations)| Component {
+                weight: *weight,
+                mean: fitted.model.values[index],
+                std: factor * deviations[index],
+            })
+            .collect();
+        let mean: f64 = components.iter().map(|c| c.weight * c.mean).sum();
+        let variance: f64 = components.iter().map(|c| c.weight * (c.std.powi(2) + (c.mean - mean).powi(2))).sum();
+        let std = variance.sqrt();
+        if !mean.is_finite() || !std.is_finite() {
+            return None;
+        }
+        let spread = (std > 0.0).then(|| Spread { std, low: quantile(&components, 0.025), high: quantile(&components, 0.975) });
+        Some(Estimate { value: mean, spread })
+    }
+
+    /// Weight of the models for which something holds.
+    pub(super) fn share(&self, holds: impl Fn(&Model) -> bool) -> f64 {
+        self.members.iter().filter(|member| holds(&member.1.model)).map(|member| member.0).sum()
+    }
+}
+
+fn same_terms(a: &Model, b: &Model) -> bool {
+    (a.free, a.noise_free, a.switching, a.clock) == (b.free, b.noise_free, b.switching, b.clock)
+}
+
+/// Where a mixture of normal distributions and points reaches a probability.
+fn quantile(components: &[Component], probability: f64) -> f64 {
+    let below = |x: f64| -> f64 {
+        let share = |c: &Component| {
+            if c.std > 0.0 {
+                0.5 * libm::erfc((c.mean - x) / (c.std * core::f64::consts::SQRT_2))
+            } else if x >= c.mean {
+                1.0
+            } else {
+                0.0
+            }
+        };
+        components.iter().map(|c| c.weight * share(c)).sum()
+    };
+    let ends = components.iter().map(|c| (c.mean - 9.0 * c.std, c.mean + 9.0 * c.std));
+    let (mut low, mut high) =
+        ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), end| (low.min(end.0), high.max(end.1)));
+    for _ in 0..100 {
+        let middle = f64::midpoint(low, high);
+        if below(middle) < probability {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    f64::midpoint(low, high)
+}

@@ -1,0 +1,248 @@
+//! Which terms a record has: from inertia and drag alone, the term that makes it likeliest joins, until none is worth it;
+//! then those that are no longer needed leave. Every model tried is kept for the average.
+
+use std::sync::OnceLock;
+
+use rayon::prelude::*;
+
+use super::filter;
+use super::model::{Clock, Model, Noise, Parameter, Switching};
+use super::observations::{self, Observations};
+use super::scoring::{Fitted, climb, climb_within};
+use super::start::{self, Start};
+use super::term::Term;
+use crate::experiment::Record;
+use crate::identify::DragLaw;
+
+/// Twice the gain in log-likelihood from which on a term joins.
+pub(super) const JOINS: f64 = 7.0;
+/// What a parameter costs in an average, in twice the log-likelihood.
+pub(super) const PRICE: f64 = 4.0;
+/// The most terms that a model gets.
+const MOST_TERMS: usize = 6;
+
+/// What is known before the record is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Known {
+    pub(super) delay_s: Option<f64>,
+    pub(super) law: Option<DragLaw>,
+}
+
+/// All readings of one record.
+pub(super) struct Search<'a> {
+    record: &'a Record,
+    known: Known,
+    clocks: Vec<Clock>,
+    readings: [OnceLock<Observations>; 4],
+    unseen_s: f64,
+}
+
+/// What the search found.
+pub(super) struct Found {
+    /// Each model once, in the order in which they were tried.
+    pub(super) tried: Vec<Fitted>,
+    /// Number of the best of them.
+    pub(super) best: usize,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(record: &'a Record, known: Known) -> Self {
+        let clocks =
+            if observations::grid(record).is_some() { vec![Clock::Stamps, Clock::Grid] } else { vec![Clock::Stamps] };
+        Self { record, known, clocks, readings: [const { OnceLock::new() }; 4], unseen_s: 0.0 }
+    }
+
+    pub(super) fn observations(&self, model: &Model) -> &Observations {
+        self.reading(model.clock, model.switching)
+    }
+
+    fn reading(&self, clock: Clock, switching: Switching) -> &Observations {
+        let index = 2 * usize::from(clock == Clock::Grid) + usize::from(switching == Switching::Between);
+        self.readings[index].get_or_init(|| {
+            let mut observations = Observations::new(self.record, clock, switching);
+            observations.skip(self.unseen_s);
+            observations
+        })
+    }
+
+    fn climb(&self, model: Model) -> Option<Fitted> {
+        climb(self.observations(&model), model)
+    }
+
+    /// The likeliest of several starts, climbed from.
+    fn climb_from(&self, starts: Vec<Model>) -> Option<Fitted> {
+        let value = |model: &Model| filter::run(self.observations(model), model, false).map(|pass| pass.log_likelihood);
+        let valued = starts.into_iter().filter_map(|model| Some((value(&model)?, model)));
+        let (_, best) = valued.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        self.climb(best)
+    }
+
+    /// A model that follows the record by a white force of free intensity, then one without it.
+    fn approach(&mut self) -> Option<Fitted> {
+        let mut first = Observations::new(self.record, Clock::Stamps, Switching::AtSamples);
+        let start = start::start(&first, self.known.delay_s).unwrap_or_else(|| rough(&first, self.known.delay_s));
+        let most = 0.25 * first.swing_s;
+        self.unseen_s = (1.3 * start.delay_s + 0.05 * first.swing_s).clamp(0.0, most.max(self.known.delay_s.unwrap_or(0.0)));
+        first.skip(self.unseen_s);
+        let mut model = self.model(&first, &start);
+        let speed = first.span / first.swing_s;
+        model.set_noise(Noise::Tracking, (0.2 * speed).powi(2) / first.swing_s, true);
+        if std::env::var("DBG").is_ok() { eprintln!("start {start:?} unseen {}", self.unseen_s); }
+        let followed = climb_within(&first, model, 15)?;
+        if std::env::var("DBG").is_ok() { eprintln!("followed {:?} it {} ll {}", followed.model, followed.iterations,followed.log_likelihood); }
+        let mut model = followed.model;
+        model.set_noise(Noise::Tracking, 0.0, false);
+        model.set_noise(Noise::White, 2.0 * model.size(Noise::White), true);
+        Some(climb(&first, model)?)
+    }
+
+    fn model(&self, observations: &Observations, start: &Start) -> Model {
+        let mut model = Model {
+            values: [0.0; Parameter::COUNT],
+            free: [false; Parameter::COUNT],
+            noise: [f64::NEG_INFINITY; Noise::COUNT],
+            noise_free: [false; Noise::COUNT],
+            switching: Switching::AtSamples,
+            clock: Clock::Stamps,
+        };
+        let law = self.known.law.unwrap_or(DragLaw::Mixed);
+        let drag = start.linear + start.quadratic * observations.fastest;
+        let (linear, quadratic) = match law {
+            DragLaw::Mixed => (start.linear, start.quadratic),
+            DragLaw::Linear => (drag, 0.0),
+            DragLaw::Quadratic => (0.0, drag / observations.fastest),
+        };
+        model.set(Parameter::Alpha, start.alpha, true);
+        model.set(Parameter::LinearDrag, linear, law.has_linear());
+        model.set(Parameter::QuadraticDrag, quadratic, law.has_quadratic());
+        model.set(Parameter::Disturbance, start.disturbance, true);
+        model.set(Parameter::DelayS, start.delay_s, self.known.delay_s.is_none());
+        let at_s = observations.time_s[observations.first];
+        let (position, velocity) = start::state_near(observations, at_s, 0.08 * observations.swing_s);
+        model.set(Parameter::Position, position, true);
+        model.set(Parameter::Velocity, velocity, true);
+        let step = self.record.quantum().unwrap_or(0.0);
+        let span = observations.span;
+        model.set_noise(Noise::White, (step * step / 12.0).max(1e-4 * span * span), true);
+        model
+    }
+
+    /// The whole search.
+    pub(super) fn run(mut self) -> Option<(Self, Found)> {
+        let first = self.approach()?;
+        let mut tried = vec![first];
+        let mut others = Vec::new();
+        for clock in &self.clocks {
+            for switching in [Switching::AtSamples, Switching::Between] {
+                if (*clock, switching) != (tried[0].model.clock, tried[0].model.switching) {
+                    others.push(Model { clock: *clock, switching, ..tried[0].model.clone() });
+                }
+            }
+        }
+        tried.extend(others.into_par_iter().filter_map(|model| self.climb(model)).collect::<Vec<_>>());
+        let mut best = self.best(&tried);
+        for _ in 0..MOST_TERMS {
+            let current = tried[best].clone();
+            let mut moves: Vec<(Vec<Model>, f64)> = Vec::new();
+            let observations = self.observations(&current.model);
+            for term in Term::ALL {
+                if term == Term::Delay && self.known.delay_s.is_none() {
+                    continue;
+                }
+                if term.applies(&current.model, observations) {
+                    moves.push((term.starts(&current.model, observations), term.freedom() as f64));
+                }
+            }
+            let swaps = self.swaps(&current.model);
+            moves.extend(swaps.into_iter().map(|model| (vec![model], 0.0)));
+            let ends: Vec<(Fitted, f64)> = moves
+                .into_par_iter()
+                .filter_map(|(starts, freedom)| Some((self.climb_from(starts)?, freedom)))
+                .collect();
+            let gain = |(end, freedom): &(Fitted, f64)| {
+                2.0 * (end.log_likelihood - current.log_likelihood) - (JOINS - PRICE) * freedom.min(1.0) - PRICE * freedom
+            };
+            let joined = ends.iter().enumerate().map(|(index, end)| (index, gain(end))).max_by(|a, b| a.1.total_cmp(&b.1));
+            let worth = joined.filter(|(_, gain)| *gain > 0.0).map(|(index, _)| tried.len() + index);
+            tried.extend(ends.into_iter().map(|(end, _)| end));
+            match worth {
+                Some(index) => best = index,
+                None => break,
+            }
+        }
+        // Leave out what is no longer needed, drag terms too.
+        loop {
+            let current = tried[best].clone();
+            let ends: Vec<Fitted> =
+                self.smaller(&current.model).into_par_iter().filter_map(|model| self.climb(model)).collect();
+            tried.extend(ends);
+            let next = self.best_among(&tried, |model| model.freedom() < current.model.freedom());
+            let worth = next.filter(|index| {
+                let lost = 2.0 * (current.log_likelihood - tried[*index].log_likelihood);
+                lost < PRICE * (current.model.freedom() - tried[*index].model.freedom()) as f64
+            });
+            match worth {
+                Some(index) => best = index,
+                None => break,
+            }
+        }
+        best = self.best(&tried);
+        Some((self, Found { tried, best }))
+    }
+
+    fn swaps(&self, model: &Model) -> Vec<Model> {
+        let mut swaps = Vec::new();
+        let switching =
+            if model.switching == Switching::Between { Switching::AtSamples } else { Switching::Between };
+        swaps.push(Model { switching, ..model.clone() });
+        if self.clocks.len() > 1 {
+            let clock = if model.clock == Clock::Grid { Clock::Stamps } else { Clock::Grid };
+            swaps.push(Model { clock, ..model.clone() });
+        }
+        swaps
+    }
+
+    /// Models with one term less.
+    fn smaller(&self, model: &Model) -> Vec<Model> {
+        let mut smaller: Vec<Model> = Term::ALL
+            .into_iter()
+            .filter(|term| term.is_in(model) && (*term != Term::Delay || self.known.delay_s.is_some()))
+            .map(|term| term.without(model, self.known.delay_s))
+            .collect();
+        if self.known.law.is_none() {
+            let drags = [Parameter::LinearDrag, Parameter::QuadraticDrag];
+            let kept = drags.iter().filter(|drag| model.is_free(**drag)).count()
+                + usize::from(model.is_free(Parameter::CubicDrag));
+            for drag in drags.into_iter().filter(|drag| kept > 1 && model.is_free(*drag)) {
+                let mut less = model.clone();
+                less.set(drag, 0.0, false);
+                smaller.push(less);
+            }
+        }
+        smaller
+    }
+
+    fn best(&self, tried: &[Fitted]) -> usize {
+        self.best_among(tried, |_| true).unwrap_or(0)
+    }
+
+    fn best_among(&self, tried: &[Fitted], admitted: impl Fn(&Model) -> bool) -> Option<usize> {
+        let value = |fitted: &Fitted| 2.0 * fitted.log_likelihood - PRICE * fitted.model.freedom() as f64;
+        let admitted = tried.iter().enumerate().filter(|(_, fitted)| admitted(&fitted.model));
+        admitted.max_by(|a, b| value(a.1).total_cmp(&value(b.1))).map(|(index, _)| index)
+    }
+}
+
+/// Orders of magnitude where noise makes equations without sense.
+fn rough(observations: &Observations, delay_s: Option<f64>) -> Start {
+    let speed = observations.fastest.max(observations.span / observations.swing_s);
+    let force = 0.5 * observations.range;
+    Start {
+        alpha: 0.3 * force * observations.swing_s / speed,
+        linear: 0.15 * force / speed,
+        quadratic: 0.15 * force / (speed * speed),
+        disturbance: 0.0,
+        delay_s: delay_s.unwrap_or(0.05 * observations.swing_s),
+        misfit: f64::INFINITY,
+    }
+}
