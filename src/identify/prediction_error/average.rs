@@ -89,6 +89,11 @@ impl<'a> Average<'a> {
         Some(Estimate { value: mean, spread })
     }
 
+    /// Share of one model.
+    pub(super) fn weight(&self, fitted: &Fitted) -> f64 {
+        self.members.iter().find(|member| core::ptr::eq(member.1, fitted)).map_or(0.0, |member| member.0)
+    }
+
     /// Weight of the models for which something holds.
     pub(super) fn share(&self, holds: impl Fn(&Model) -> bool) -> f64 {
         self.members.iter().filter(|member| holds(&member.1.model)).map(|member| member.0).sum()

@@ -2,24 +2,28 @@
 //! are those that make its innovations likeliest, of the motion and of what disturbs it together.
 
 mod actuator;
+mod answer;
 mod average;
 mod filter;
 mod model;
 mod motion;
 mod observations;
+mod residuals;
 mod scoring;
 mod search;
 mod start;
 mod term;
 
+pub use answer::{Answer, Candidate, Reason, Reported, Trust};
 pub use model::{Clock, Parameter, Switching};
 pub use term::Term;
 
-use super::joint::{Delay, Estimate};
+use super::joint::{Delay, Estimate, Spread};
 use super::{DragLaw, IdentifyError};
 use crate::experiment::Record;
 use average::{Average, CHOSEN};
-use search::{Known, Search};
+use scoring::Fitted;
+use search::{Found, Known, Search};
 
 /// What to estimate, and what is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,55 +32,137 @@ pub struct Estimator {
     law: Option<DragLaw>,
 }
 
-/// Answer
-#[derive(Clone, Debug)]
-pub struct Answer {
-    /// Estimates
-    pub estimates: Vec<(Parameter, Option<Estimate>)>,
-    /// Terms
-    pub terms: Vec<Term>,
-    /// Dump
-    pub dump: String,
-    /// weights sum
-    pub count: f64,
-}
+/// Half the interval's width over the value from which on an answer is of no use.
+const TOO_WIDE: f64 = 0.5;
+/// Weight of a drag law's models below which the other laws are settled.
+const DISTINGUISHABLE: f64 = 0.05;
 
 impl Estimator {
-    /// a
+    /// The drag law is found; the delay is estimated, or given and checked.
     #[must_use]
     pub fn new(delay: Delay) -> Self {
         Self { delay, law: None }
     }
 
-    /// a
+    /// The drag law is known.
+    #[must_use]
+    pub fn with_law(self, law: DragLaw) -> Self {
+        Self { law: Some(law), ..self }
+    }
+
+    /// The answer to one record.
+    ///
     /// # Errors
-    /// a
+    /// [`IdentifyError::Feature`] for an output or a command that never changes, [`IdentifyError::NotSettled`] where no model follows the record.
     pub fn record(&self, record: &Record) -> Result<Answer, IdentifyError> {
+        for (feature, values) in [("range of the output", record.output()), ("range of the command", record.input())] {
+            if values.iter().all(|value| *value == values[0]) {
+                return Err(IdentifyError::Feature { feature, value: 0.0, required: "above 0" });
+            }
+        }
         let delay_s = match self.delay {
             Delay::KnownS(delay_s) => Some(delay_s),
             Delay::Estimated => None,
         };
+        let known = Known { delay_s, law: self.law };
         let (search, found) =
-            Search::new(record, Known { delay_s, law: self.law }).run().ok_or(IdentifyError::NotSettled { steps: 0, rms: f64::NAN })?;
-        let best = &found.tried[found.best];
-        let average = Average::new(&found, |fitted| {
-            scoring::movable(&fitted.model, &fitted.score, search.observations(&fitted.model))
+            Search::new(record, known).run().ok_or(IdentifyError::NotSettled { steps: 0, rms: f64::NAN })?;
+        Ok(conclude(&search, &found, known))
+    }
+}
+
+fn terms_of(fitted: &Fitted, known: Known) -> Vec<Term> {
+    let has = |term: &Term| term.is_in(&fitted.model) && (*term != Term::Delay || known.delay_s.is_some());
+    Term::ALL.into_iter().filter(has).collect()
+}
+
+/// The answer from all models tried.
+fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
+    let best = &found.tried[found.best];
+    let observations = search.observations(&best.model);
+    let average = Average::new(found, |fitted| {
+        scoring::movable(&fitted.model, &fitted.score, search.observations(&fitted.model))
+    });
+    let terms = terms_of(best, known);
+    let mut reasons: Vec<Reason> = Vec::new();
+    for term in &terms {
+        reasons.push(match (term, known.delay_s) {
+            (Term::Delay, Some(given_s)) => {
+                Reason::DelayContradicted { given_s, found_s: best.model.value(Parameter::DelayS) }
+            }
+            _ => Reason::Term(*term),
         });
-        let terms: Vec<Term> = Term::ALL.into_iter().filter(|term| term.is_in(&best.model)).collect();
-        let factor = if terms.is_empty() { 1.0 } else { CHOSEN };
-        let count = search.observations(&best.model).count();
-        let freedom = best.model.freedom() as f64;
-        let factor = factor * (count / (count - freedom).max(1.0)).sqrt();
-        let estimates = Parameter::ALL.into_iter().map(|p| (p, average.estimate(p, factor))).collect();
-        let mut dump = String::new();
-        for f in &found.tried {
-            let t: Vec<_> = Term::ALL.into_iter().filter(|term| term.is_in(&f.model)).map(Term::name).collect();
-            dump += &format!(
-                "{:9.3} {:?} {:?} L{} Q{} it {} settled {} alpha {:.5} delay {:.4} noise {:?} {}\n",
-                f.log_likelihood, f.model.switching, f.model.clock, f.model.is_free(Parameter::LinearDrag), f.model.is_free(Parameter::QuadraticDrag),
-                f.iterations, f.settled, f.model.values[0], f.model.values[6], f.model.noise.iter().map(|x|(x*10.0).round()/10.0).collect::<Vec<_>>(), t.join(",")
-            );
+    }
+    let count = observations.count();
+    let spare = (count - best.model.freedom() as f64).max(1.0);
+    let mut factor = (count / spare).sqrt() * residuals::student(spare) / residuals::NORMAL;
+    if !terms.is_empty() {
+        factor *= CHOSEN;
+    }
+    let tests = residuals::Tests::of(best, observations);
+    reasons.extend(tests.reasons());
+    factor *= tests.factor();
+    let exact = |parameter: Parameter| Estimate { value: best.model.value(parameter), spread: None };
+    let estimate = |parameter: Parameter| average.estimate(parameter, factor).unwrap_or_else(|| exact(parameter));
+    let present = |parameter: Parameter| best.model.is_free(parameter).then(|| estimate(parameter));
+    let alpha = estimate(Parameter::Alpha);
+    let relative = |Spread { low, high, .. }: Spread| 0.5 * (high - low) / alpha.value.abs();
+    match alpha.spread.map(relative) {
+        Some(relative) if relative < TOO_WIDE => {}
+        relative => reasons.push(Reason::TooWide { relative: relative.unwrap_or(f64::INFINITY) }),
+    }
+    if !best.settled {
+        reasons.push(Reason::NotSettled);
+    }
+    reasons.sort_by_key(|reason| core::cmp::Reverse(reason.trust()));
+    let trust = reasons.iter().map(|reason| reason.trust()).max().unwrap_or(Trust::Good);
+    let share = |parameter: Parameter| average.share(|model| model.is_free(parameter));
+    let drag = match (share(Parameter::LinearDrag), share(Parameter::QuadraticDrag)) {
+        (_, quadratic) if quadratic < DISTINGUISHABLE => DragLaw::Linear,
+        (linear, _) if linear < DISTINGUISHABLE => DragLaw::Quadratic,
+        _ => DragLaw::Mixed,
+    };
+    let not_negative = |mut estimate: Estimate| {
+        if let Some(spread) = &mut estimate.spread {
+            (spread.low, spread.high) = (spread.low.max(0.0), spread.high.max(0.0));
         }
-        Ok(Answer { estimates, terms, dump, count })
+        estimate
+    };
+    let reported = Reported {
+        drag,
+        terms,
+        alpha,
+        linear_drag: estimate(Parameter::LinearDrag),
+        quadratic_drag: estimate(Parameter::QuadraticDrag),
+        cubic_drag: present(Parameter::CubicDrag),
+        stiffness: present(Parameter::Stiffness),
+        lag_s: present(Parameter::LagS).map(not_negative),
+        ramp_s: present(Parameter::RampS).map(not_negative),
+        disturbance: vec![estimate(Parameter::Disturbance)],
+        delay_s: not_negative(estimate(Parameter::DelayS)),
+        trust,
+        reasons,
+    };
+    let mut candidates: Vec<Candidate> = found.tried.iter().map(|fitted| candidate(fitted, &average, known)).collect();
+    let value = |c: &Candidate| c.log_likelihood - 0.5 * search::PRICE * c.freedom as f64;
+    candidates.sort_by(|a, b| value(b).total_cmp(&value(a)));
+    let seen = observations.time_s[observations.first..].iter();
+    let innovations = seen.zip(&best.pass.innovations).map(|(t, innovation)| (*t, innovation.standardised())).collect();
+    Answer { reported, candidates, innovations, effective_samples: count }
+}
+
+fn candidate(fitted: &Fitted, average: &Average<'_>, known: Known) -> Candidate {
+    let model = &fitted.model;
+    Candidate {
+        drag: [model.is_free(Parameter::LinearDrag), model.is_free(Parameter::QuadraticDrag)],
+        terms: terms_of(fitted, known),
+        switching: model.switching,
+        clock: model.clock,
+        log_likelihood: fitted.log_likelihood,
+        freedom: model.freedom(),
+        weight: average.weight(fitted),
+        values: model.values,
+        settled: fitted.settled,
+        iterations: fitted.iterations,
     }
 }

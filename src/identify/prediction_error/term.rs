@@ -59,6 +59,22 @@ impl Term {
         }
     }
 
+    /// What a record with the term shows, as the beginning of a sentence.
+    pub(super) fn finding(self) -> &'static str {
+        match self {
+            Self::Lag => "the actuator follows the command with a lag",
+            Self::RateLimit => "the actuator follows the command at a limited rate",
+            Self::Stiffness => "a restoring force acts",
+            Self::CubicDrag => "drag grows with the cube of the speed",
+            Self::Delay => "the delay is another than the one given",
+            Self::ProcessForce => "a force acts that changes with time",
+            Self::ProcessForceMemory => "that force returns to its mean",
+            Self::ColouredNoise => "errors of the readings are alike from sample to sample",
+            Self::StampJitter => "the time stamps err at random",
+            Self::SwitchJitter => "the command acts at instants that err at random",
+        }
+    }
+
     /// The structural parameter that the term consists of, where it is one.
     fn parameter(self) -> Option<Parameter> {
         match self {
