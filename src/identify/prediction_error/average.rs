@@ -16,6 +16,9 @@ struct Component {
 /// Intervals of terms that were chosen by the record are wider by this.
 pub(super) const CHOSEN: f64 = 1.15;
 
+/// Twice the log-likelihood that each parameter more has to gain for a model to count.
+const IDLE: f64 = 1.0;
+
 /// Standard deviations of the structural parameters of a model, zero for those not estimated; `None` where the record leaves
 /// some of them open.
 pub(super) fn deviations(fitted: &Fitted, free: &[usize]) -> Option<[f64; Parameter::COUNT]> {
@@ -60,6 +63,17 @@ impl<'a> Average<'a> {
                 members.push((weight, fitted, deviations));
             }
         }
+        // A model that hardly gains on one that it contains only says what a parameter without effect leaves open.
+        let idle = |(_, fitted, _): &(f64, &Fitted, [f64; Parameter::COUNT])| {
+            members.iter().any(|(_, other, _)| {
+                let added = fitted.model.freedom() as f64 - other.model.freedom() as f64;
+                contains(&fitted.model, &other.model)
+                    && 2.0 * (fitted.log_likelihood - other.log_likelihood) < IDLE * added
+            })
+        };
+        let idle: Vec<bool> = members.iter().map(idle).collect();
+        let mut keep = idle.iter().map(|idle| !idle);
+        members.retain(|_| keep.next().unwrap_or(true));
         let sum: f64 = members.iter().map(|member| member.0).sum();
         for member in &mut members {
             member.0 /= sum;
@@ -98,6 +112,15 @@ impl<'a> Average<'a> {
     pub(super) fn share(&self, holds: impl Fn(&Model) -> bool) -> f64 {
         self.members.iter().filter(|member| holds(&member.1.model)).map(|member| member.0).sum()
     }
+}
+
+/// Whether the first model has all that the second has, and more.
+fn contains(a: &Model, b: &Model) -> bool {
+    let covers = |a: &[bool], b: &[bool]| a.iter().zip(b).all(|(a, b)| *a || !*b);
+    (a.switching, a.clock) == (b.switching, b.clock)
+        && a.freedom() > b.freedom()
+        && covers(&a.free, &b.free)
+        && covers(&a.noise_free, &b.noise_free)
 }
 
 fn same_terms(a: &Model, b: &Model) -> bool {

@@ -158,16 +158,32 @@ fn switchings(time_s: &[f64], input: &[f64], interval_s: f64, switching: Switchi
     (pieces, kicks)
 }
 
-/// Pieces of a command that moves: held from sample to sample, or on straight lines between them.
+/// Pieces of a command that moves: held from sample to sample, or on straight lines between them with a corner where the lines
+/// before and after an interval meet within it.
 fn moved(time_s: &[f64], input: &[f64], switching: Switching) -> Vec<Piece> {
-    let piece = |k: usize| {
-        let slope = match switching {
-            Switching::Between if k + 1 < input.len() => (input[k + 1] - input[k]) / (time_s[k + 1] - time_s[k]),
-            _ => 0.0,
-        };
-        Piece { begin_s: time_s[k], value: input[k], slope }
-    };
-    (0..input.len()).map(piece).collect()
+    let last = input.len() - 1;
+    let slope = |k: usize| (input[k + 1] - input[k]) / (time_s[k + 1] - time_s[k]);
+    let mut pieces = Vec::with_capacity(2 * input.len());
+    for k in 0..=last {
+        let (begin_s, value) = (time_s[k], input[k]);
+        if switching == Switching::AtSamples || k == last {
+            pieces.push(Piece { begin_s, value, slope: 0.0 });
+            continue;
+        }
+        let interval = time_s[k + 1] - begin_s;
+        let corner = (k > 0 && k + 1 < last).then(|| {
+            let (before, after) = (slope(k - 1), slope(k + 1));
+            (before, after, (input[k + 1] - value - after * interval) / (before - after))
+        });
+        match corner {
+            Some((before, after, at)) if at > 1e-3 * interval && at < 0.999 * interval => {
+                pieces.push(Piece { begin_s, value, slope: before });
+                pieces.push(Piece { begin_s: begin_s + at, value: value + before * at, slope: after });
+            }
+            _ => pieces.push(Piece { begin_s, value, slope: slope(k) }),
+        }
+    }
+    pieces
 }
 
 /// Half cycles that repeat reading for reading, by their mirror image too, are one experiment made several times: each reading
