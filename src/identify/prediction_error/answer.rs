@@ -96,7 +96,7 @@ impl Reason {
     #[must_use]
     pub fn trust(self) -> Trust {
         match self {
-            Self::HalvesDisagree { .. } | Self::TooWide { .. } | Self::NotSettled => Trust::Doubtful,
+            Self::TooWide { .. } | Self::NotSettled => Trust::Doubtful,
             _ => Trust::Widened,
         }
     }
@@ -113,7 +113,7 @@ impl core::fmt::Display for Reason {
             Self::HalvesDisagree { probability } => write!(
                 f,
                 "the two halves of the record want different parameters (by chance once in {:.0} records): the vehicle \
-                 changed, or a structure is at work that no term has",
+                 changed, or a structure is at work that no term has; the interval of the inertia holds both",
                 1.0 / probability.max(1e-9)
             ),
             Self::RepeatingMisfit { ratio } => write!(

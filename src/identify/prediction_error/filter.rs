@@ -17,7 +17,7 @@ pub(super) const PARTS: usize = 8;
 /// The longest step, in time constants of the motion.
 const LONGEST_STEP: f64 = 0.3;
 /// Steps per sample beyond which a motion is faster than the record can show.
-const MOST_STEPS: f64 = 64.0;
+const MOST_STEPS: f64 = 12.0;
 
 type Vector = [f64; 4];
 type Square = [[f64; 4]; 4];

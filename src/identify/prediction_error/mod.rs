@@ -105,7 +105,11 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     let exact = |parameter: Parameter| Estimate { value: best.model.value(parameter), spread: None };
     let estimate = |parameter: Parameter| average.estimate(parameter, factor).unwrap_or_else(|| exact(parameter));
     let present = |parameter: Parameter| best.model.is_free(parameter).then(|| estimate(parameter));
-    let alpha = estimate(Parameter::Alpha);
+    let mut alpha = estimate(Parameter::Alpha);
+    if let Some(spread) = &mut alpha.spread {
+        (spread.low, spread.high) = (spread.low - tests.apart, spread.high + tests.apart);
+        spread.std = spread.std.hypot(tests.apart);
+    }
     let relative = |Spread { low, high, .. }: Spread| 0.5 * (high - low) / alpha.value.abs();
     match alpha.spread.map(relative) {
         Some(relative) if relative < TOO_WIDE => {}

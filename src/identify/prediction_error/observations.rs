@@ -115,9 +115,13 @@ pub(super) fn grid(record: &Record) -> Option<Vec<f64>> {
         let step = nt / nn;
         (mean_t - step * mean_n, step)
     };
+    // The grid's phase follows the stamps slowly, so that one late stamp does not count as two steps.
+    let (mut phase, mut number) = (time[0], 0.0);
     let mut numbers = vec![0.0];
-    for pair in time.windows(2) {
-        numbers.push(numbers[numbers.len() - 1] + ((pair[1] - pair[0]) / interval).round().max(1.0));
+    for t in &time[1..] {
+        number = ((t - phase) / interval).round().max(number + 1.0);
+        phase += 0.1 * (t - phase - number * interval);
+        numbers.push(number);
     }
     let (mut begin, mut step) = fit(&numbers);
     for _ in 0..3 {

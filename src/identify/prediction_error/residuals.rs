@@ -20,6 +20,8 @@ pub(super) fn student(freedom: f64) -> f64 {
 pub(super) struct Tests {
     /// Probability by chance that the halves disagree as much.
     halves: f64,
+    /// Half the difference of the inertias that they want.
+    pub(super) apart: f64,
     repeating: f64,
     coloured: f64,
 }
@@ -31,8 +33,10 @@ const NAMED: f64 = 4.0;
 
 impl Tests {
     pub(super) fn of(fitted: &Fitted, observations: &Observations) -> Self {
+        let (halves, apart) = halves(fitted, observations).unwrap_or((1.0, 0.0));
         Self {
-            halves: halves(fitted, observations).unwrap_or(1.0),
+            halves,
+            apart: if halves < DISAGREE { apart } else { 0.0 },
             repeating: 0.0,
             coloured: 0.0,
         }
@@ -60,7 +64,7 @@ impl Tests {
 
 /// Probability that the scores of the two halves differ so much by chance: a score test of constant parameters (Nyblom 1989
 /// with one known instant).
-fn halves(fitted: &Fitted, observations: &Observations) -> Option<f64> {
+fn halves(fitted: &Fitted, observations: &Observations) -> Option<(f64, f64)> {
     let free: Vec<usize> = scoring::movable(&fitted.model, &fitted.score, observations)
         .into_iter()
         .filter(|index| *index != Parameter::Position as usize && *index != Parameter::Velocity as usize)
@@ -87,7 +91,8 @@ fn halves(fitted: &Fitted, observations: &Observations) -> Option<f64> {
     let apart = c1.solve(&first) - c2.solve(&second);
     let covariance = c1.inverse() + c2.inverse();
     let statistic = apart.dot(&covariance.cholesky()?.solve(&apart));
-    Some(chi_square_tail(statistic, n as f64))
+    let inertia = free.iter().position(|index| *index == Parameter::Alpha as usize);
+    Some((chi_square_tail(statistic, n as f64), inertia.map_or(0.0, |index| 0.5 * apart[index].abs())))
 }
 
 /// Probability that a chi-square variable exceeds a value (Wilson and Hilferty's cube root).

@@ -22,6 +22,8 @@ pub(super) struct Fitted {
 const MOST_STEPS: usize = 40;
 /// A step that promises to gain less ends the search.
 const NEGLIGIBLE_GAIN: f64 = 2e-3;
+/// A search that ran out of steps counts as at rest where the structure promises less than this.
+const NEARLY_SETTLED: f64 = 0.1;
 /// The largest change of a logarithm in one step.
 const LARGEST_LOG_STEP: f64 = 1.5;
 
@@ -140,6 +142,12 @@ pub(super) fn climb_within(observations: &Observations, mut model: Model, most_s
                 }
             }
         }
+    }
+    if !settled {
+        let score = pass.score();
+        let structure = movable(&model, &score, observations);
+        let promised = solve(&score.structure_information, &score.structure, &structure, 1e-6);
+        settled = promised.is_some_and(|(_, gain)| gain < NEARLY_SETTLED);
     }
     Some(Fitted { log_likelihood: pass.log_likelihood, score: pass.score(), pass, model, settled, iterations: steps })
 }

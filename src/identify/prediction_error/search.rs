@@ -16,10 +16,27 @@ use crate::identify::DragLaw;
 
 /// Twice the gain in log-likelihood from which on a term joins.
 pub(super) const JOINS: f64 = 7.0;
+/// The same for a term that takes the place of another.
+const EXCHANGES: f64 = 0.5;
+/// Terms that a record confuses: the first's place may be taken by the second.
+const RIVALS: [(Term, Term); 8] = [
+    (Term::RateLimit, Term::Lag),
+    (Term::Lag, Term::RateLimit),
+    (Term::Delay, Term::Lag),
+    (Term::Delay, Term::RateLimit),
+    (Term::Lag, Term::Delay),
+    (Term::RateLimit, Term::Delay),
+    (Term::ProcessForce, Term::ColouredNoise),
+    (Term::ColouredNoise, Term::ProcessForce),
+];
 /// What a parameter costs in an average, in twice the log-likelihood.
 pub(super) const PRICE: f64 = 4.0;
 /// The most terms that a model gets.
-const MOST_TERMS: usize = 6;
+const MOST_TERMS: usize = 8;
+
+/// Steps while a white force carries a poor start along, and those that follow without it.
+const FOLLOWING: usize = 12;
+const APPROACHING: usize = 12;
 
 /// What is known before the record is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,23 +94,27 @@ impl<'a> Search<'a> {
         self.climb(best)
     }
 
-    /// A model that follows the record by a white force of free intensity, then one without it.
+    /// From each start a model that follows the record by a white force of free intensity, then one without it; the likeliest.
     fn approach(&mut self) -> Option<Fitted> {
         let mut first = Observations::new(self.record, Clock::Stamps, Switching::AtSamples);
-        let start = start::start(&first, self.known.delay_s).unwrap_or_else(|| rough(&first, self.known.delay_s));
-        let most = 0.25 * first.swing_s;
-        self.unseen_s = (1.3 * start.delay_s + 0.05 * first.swing_s).clamp(0.0, most.max(self.known.delay_s.unwrap_or(0.0)));
+        let mut starts = start::starts(&first, self.known.delay_s);
+        starts.push(rough(&first, self.known.delay_s));
+        let likely = starts.iter().min_by(|a, b| a.misfit.total_cmp(&b.misfit)).map_or(0.0, |start| start.delay_s);
+        let (short, long) = (0.05 * first.swing_s, 0.25 * first.swing_s);
+        self.unseen_s = (1.3 * likely + short).min(long).max(self.known.delay_s.map_or(0.0, |known| known + short));
         first.skip(self.unseen_s);
-        let mut model = self.model(&first, &start);
         let speed = first.span / first.swing_s;
-        model.set_noise(Noise::Tracking, (0.2 * speed).powi(2) / first.swing_s, true);
-        if std::env::var("DBG").is_ok() { eprintln!("start {start:?} unseen {}", self.unseen_s); }
-        let followed = climb_within(&first, model, 15)?;
-        if std::env::var("DBG").is_ok() { eprintln!("followed {:?} it {} ll {}", followed.model, followed.iterations,followed.log_likelihood); }
-        let mut model = followed.model;
-        model.set_noise(Noise::Tracking, 0.0, false);
-        model.set_noise(Noise::White, 2.0 * model.size(Noise::White), true);
-        Some(climb(&first, model)?)
+        let follow = |start: &Start| {
+            let mut model = self.model(&first, start);
+            model.set_noise(Noise::Tracking, (0.2 * speed).powi(2) / first.swing_s, true);
+            let mut model = climb_within(&first, model, FOLLOWING)?.model;
+            model.set_noise(Noise::Tracking, 0.0, false);
+            model.set_noise(Noise::White, 2.0 * model.size(Noise::White), true);
+            climb_within(&first, model, APPROACHING)
+        };
+        let ends: Vec<Fitted> = starts.par_iter().filter_map(follow).collect();
+        let best = ends.into_iter().max_by(|a, b| a.log_likelihood.total_cmp(&b.log_likelihood))?;
+        if best.settled { Some(best) } else { climb(&first, best.model) }
     }
 
     fn model(&self, observations: &Observations, start: &Start) -> Model {
@@ -155,12 +176,22 @@ impl<'a> Search<'a> {
             }
             let swaps = self.swaps(&current.model);
             moves.extend(swaps.into_iter().map(|model| (vec![model], 0.0)));
+            for (out, term) in RIVALS {
+                let known = self.known.delay_s;
+                let estimated = |term: &Term| *term == Term::Delay && known.is_none();
+                if out.is_in(&current.model) && !estimated(&out) && !estimated(&term) {
+                    let less = out.without(&current.model, known);
+                    if term.applies(&less, observations) {
+                        moves.push((term.starts(&less, observations), 0.0));
+                    }
+                }
+            }
             let ends: Vec<(Fitted, f64)> = moves
                 .into_par_iter()
                 .filter_map(|(starts, freedom)| Some((self.climb_from(starts)?, freedom)))
                 .collect();
             let gain = |(end, freedom): &(Fitted, f64)| {
-                2.0 * (end.log_likelihood - current.log_likelihood) - (JOINS - PRICE) * freedom.min(1.0) - PRICE * freedom
+                2.0 * (end.log_likelihood - current.log_likelihood) - if *freedom > 0.0 { JOINS - PRICE + PRICE * freedom } else { EXCHANGES }
             };
             let joined = ends.iter().enumerate().map(|(index, end)| (index, gain(end))).max_by(|a, b| a.1.total_cmp(&b.1));
             let worth = joined.filter(|(_, gain)| *gain > 0.0).map(|(index, _)| tried.len() + index);

@@ -19,17 +19,25 @@ pub(super) struct Start {
     pub(super) misfit: f64,
 }
 
-/// Delays tried, in swings.
-const DELAYS: usize = 16;
+/// Longest delay tried, in swings.
 const LONGEST_DELAY: f64 = 0.6;
+/// Delays tried, in swings: inertia and delay turn the phase alike, so that one equation's misfit does not choose between them.
+const DELAYS: [&[f64]; 4] = [&[0.0, 0.03, 0.06], &[0.1, 0.14, 0.18], &[0.23, 0.28, 0.33], &[0.4, 0.5, LONGEST_DELAY]];
 
-/// The best of all delays, or that of the known delay.
-pub(super) fn start(observations: &Observations, delay_s: Option<f64>) -> Option<Start> {
+/// The best start of each range of delays, or that of the known delay.
+pub(super) fn starts(observations: &Observations, delay_s: Option<f64>) -> Vec<Start> {
     let rows = Rows::new(observations);
-    let tried = |index: usize| LONGEST_DELAY * observations.swing_s * index as f64 / (DELAYS - 1) as f64;
-    let delays: Vec<f64> = delay_s.map_or_else(|| (0..DELAYS).map(tried).collect(), |known| vec![known]);
-    let starts = delays.iter().filter_map(|delay_s| rows.solve(observations, *delay_s));
-    starts.min_by(|a, b| a.misfit.total_cmp(&b.misfit))
+    let best = |delays: &mut dyn Iterator<Item = f64>| {
+        let starts = delays.filter_map(|delay_s| rows.solve(observations, delay_s));
+        starts.min_by(|a, b| a.misfit.total_cmp(&b.misfit))
+    };
+    match delay_s {
+        Some(known) => best(&mut core::iter::once(known)).into_iter().collect(),
+        None => {
+            let range = |parts: &&[f64]| best(&mut parts.iter().map(|part| part * observations.swing_s));
+            DELAYS.iter().filter_map(range).collect()
+        }
+    }
 }
 
 /// The integrals that do not depend on the delay.
