@@ -390,12 +390,24 @@ impl<'a> Filter<'a> {
         }
     }
 
+    /// The force jumps at an instant that is off by a random d of known variance: velocity is off by `-jump d / alpha`, and
+    /// position by `jump d^2 / (2 alpha)`, whose mean is known and whose variance is that of evenly spread d.
     fn kick(&mut self, jump: f64, variance_s2: f64) {
-        let per_second = (jump / self.dynamics.alpha).powi(2);
-        self.covariance[1][1] += per_second * (variance_s2 + self.sizes.switch);
-        for (noise, _, derivative) in &mut self.sensitivities.noise {
+        let per_second = jump / self.dynamics.alpha;
+        let variance = variance_s2 + self.sizes.switch;
+        self.covariance[1][1] += per_second * per_second * variance;
+        self.state[0] += 0.5 * per_second * variance;
+        self.covariance[0][0] += 0.2 * (per_second * variance).powi(2);
+        for (noise, column, derivative) in &mut self.sensitivities.noise {
             if *noise == Noise::SwitchJitter {
-                derivative[1][1] += per_second * self.sizes.switch;
+                derivative[1][1] += per_second * per_second * self.sizes.switch;
+                column[0] += 0.5 * per_second * self.sizes.switch;
+                derivative[0][0] += 0.4 * per_second * per_second * variance * self.sizes.switch;
+            }
+        }
+        for (parameter, column) in &mut self.sensitivities.structure {
+            if *parameter == Parameter::Alpha {
+                column[0] -= 0.5 * per_second * variance / self.dynamics.alpha;
             }
         }
     }

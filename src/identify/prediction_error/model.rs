@@ -94,6 +94,15 @@ pub enum Switching {
     Between,
 }
 
+impl Switching {
+    pub(super) fn other(self) -> Self {
+        match self {
+            Self::AtSamples => Self::Between,
+            Self::Between => Self::AtSamples,
+        }
+    }
+}
+
 /// Which clock the samples have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Clock {

@@ -172,6 +172,12 @@ impl<'a> Search<'a> {
                 }
                 if term.applies(&current.model, observations) {
                     moves.push((term.starts(&current.model, observations), term.freedom() as f64));
+                    // Instants left to chance may hide a structure, and a structure may look like such instants.
+                    if observations.switched && term.is_structural() {
+                        let mut starts = term.starts(&current.model, observations);
+                        starts.iter_mut().for_each(|start| start.switching = start.switching.other());
+                        moves.push((starts, term.freedom() as f64));
+                    }
                 }
             }
             let swaps = self.swaps(&current.model);
@@ -223,9 +229,7 @@ impl<'a> Search<'a> {
 
     fn swaps(&self, model: &Model) -> Vec<Model> {
         let mut swaps = Vec::new();
-        let switching =
-            if model.switching == Switching::Between { Switching::AtSamples } else { Switching::Between };
-        swaps.push(Model { switching, ..model.clone() });
+        swaps.push(Model { switching: model.switching.other(), ..model.clone() });
         if self.clocks.len() > 1 {
             let clock = if model.clock == Clock::Grid { Clock::Stamps } else { Clock::Grid };
             swaps.push(Model { clock, ..model.clone() });

@@ -87,6 +87,11 @@ impl Term {
         }
     }
 
+    /// Whether the term belongs to the motion rather than to what is random.
+    pub(super) fn is_structural(self) -> bool {
+        self.parameter().is_some()
+    }
+
     fn noises(self) -> &'static [Noise] {
         match self {
             Self::ProcessForce => &[Noise::Force],
