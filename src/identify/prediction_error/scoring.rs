@@ -95,7 +95,7 @@ pub(super) fn climb_within(observations: &Observations, mut model: Model, most_s
     let mut steps = 0;
     while steps < most_steps {
         steps += 1;
-        let score = pass.score();
+        let (score, log_likelihood) = (pass.score(), pass.log_likelihood);
         let structure = movable(&model, &score, observations);
         let noise: Vec<usize> = (0..Noise::COUNT).filter(|i| model.noise_free[*i]).collect();
         let moved = solve(&score.structure_information, &score.structure, &structure, damping)
@@ -104,36 +104,44 @@ pub(super) fn climb_within(observations: &Observations, mut model: Model, most_s
             damping = (10.0 * damping).max(1e-6);
             continue;
         };
-        let mut next = model.clone();
-        for (index, step) in structure.iter().zip(by_structure) {
-            let (low, high) = bounds(Parameter::ALL[*index], observations);
-            let value = model.values[*index];
-            // Inertia changes by its half at most.
-            let step = if *index == Parameter::Alpha as usize { step.clamp(-0.5 * value, value) } else { step };
-            next.values[*index] = (value + step).clamp(low, high);
-        }
-        for (index, step) in noise.iter().zip(by_noise) {
-            let (low, high) = noise_bounds(Noise::ALL[*index], observations);
-            next.noise[*index] =
-                (model.noise[*index] + step.clamp(-LARGEST_LOG_STEP, LARGEST_LOG_STEP)).clamp(low, high);
-        }
         if gain + noise_gain < 2.0 * NEGLIGIBLE_GAIN && damping <= 1e-2 {
             settled = true;
             break;
         }
-        match filter::run(observations, &next, true) {
-            Some(better) if better.log_likelihood > pass.log_likelihood => {
-                let gained = better.log_likelihood - pass.log_likelihood;
+        let moved = |with_structure: bool, with_noise: bool| {
+            let mut next = model.clone();
+            for (index, step) in structure.iter().zip(&by_structure).filter(|_| with_structure) {
+                let (low, high) = bounds(Parameter::ALL[*index], observations);
+                let value = model.values[*index];
+                // Inertia changes by its half at most.
+                let step = if *index == Parameter::Alpha as usize { step.clamp(-0.5 * value, value) } else { *step };
+                next.values[*index] = (value + step).clamp(low, high);
+            }
+            for (index, step) in noise.iter().zip(&by_noise).filter(|_| with_noise) {
+                let (low, high) = noise_bounds(Noise::ALL[*index], observations);
+                next.noise[*index] =
+                    (model.noise[*index] + step.clamp(-LARGEST_LOG_STEP, LARGEST_LOG_STEP)).clamp(low, high);
+            }
+            let pass = filter::run(observations, &next, true)?;
+            (pass.log_likelihood > log_likelihood).then_some((next, pass))
+        };
+        // Far from the maximum the two blocks of the information are not independent: each alone may still gain.
+        let several = noise.len() > 1;
+        let better = moved(true, true)
+            .or_else(|| several.then(|| moved(true, false))?)
+            .or_else(|| several.then(|| moved(false, true))?);
+        match better {
+            Some((next, better)) => {
+                let gained = better.log_likelihood - log_likelihood;
                 pass = better;
                 model = next;
-                damping *= if damping > 1e-3 { 0.1 } else { 0.3 };
-                damping = damping.max(1e-9);
+                damping = (damping * if damping > 1e-3 { 0.1 } else { 0.3 }).max(1e-9);
                 if gained < 0.1 * NEGLIGIBLE_GAIN {
                     settled = true;
                     break;
                 }
             }
-            _ => {
+            None => {
                 damping = (damping * 10.0).max(1e-3);
                 if damping > 1e5 {
                     // The predictor's gradient is not quite that of the likelihood: no step improves it any more.

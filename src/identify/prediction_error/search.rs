@@ -161,51 +161,23 @@ impl<'a> Search<'a> {
             }
         }
         tried.extend(others.into_par_iter().filter_map(|model| self.climb(model)).collect::<Vec<_>>());
-        let mut best = self.best(&tried);
-        for _ in 0..MOST_TERMS {
-            let current = tried[best].clone();
-            let mut moves: Vec<(Vec<Model>, f64)> = Vec::new();
-            let observations = self.observations(&current.model);
-            for term in Term::ALL {
-                if term == Term::Delay && self.known.delay_s.is_none() {
-                    continue;
-                }
-                if term.applies(&current.model, observations) {
-                    moves.push((term.starts(&current.model, observations), term.freedom() as f64));
-                    // Instants left to chance may hide a structure, and a structure may look like such instants.
-                    if observations.switched && term.is_structural() {
-                        let mut starts = term.starts(&current.model, observations);
-                        starts.iter_mut().for_each(|start| start.switching = start.switching.other());
-                        moves.push((starts, term.freedom() as f64));
-                    }
-                }
-            }
-            let swaps = self.swaps(&current.model);
-            moves.extend(swaps.into_iter().map(|model| (vec![model], 0.0)));
-            for (out, term) in RIVALS {
-                let known = self.known.delay_s;
-                let estimated = |term: &Term| *term == Term::Delay && known.is_none();
-                if out.is_in(&current.model) && !estimated(&out) && !estimated(&term) {
-                    let less = out.without(&current.model, known);
-                    if term.applies(&less, observations) {
-                        moves.push((term.starts(&less, observations), 0.0));
-                    }
-                }
-            }
-            let ends: Vec<(Fitted, f64)> = moves
-                .into_par_iter()
-                .filter_map(|(starts, freedom)| Some((self.climb_from(starts)?, freedom)))
-                .collect();
-            let gain = |(end, freedom): &(Fitted, f64)| {
-                2.0 * (end.log_likelihood - current.log_likelihood) - if *freedom > 0.0 { JOINS - PRICE + PRICE * freedom } else { EXCHANGES }
-            };
-            let joined = ends.iter().enumerate().map(|(index, end)| (index, gain(end))).max_by(|a, b| a.1.total_cmp(&b.1));
-            let worth = joined.filter(|(_, gain)| *gain > 0.0).map(|(index, _)| tried.len() + index);
-            tried.extend(ends.into_iter().map(|(end, _)| end));
-            match worth {
-                Some(index) => best = index,
-                None => break,
-            }
+        let start = self.best(&tried);
+        // Noise and process force can hide a structure: where they come first, the structure alone is tried too.
+        let mut best = self.grow(&mut tried, start, |_| true);
+        let first = tried[start].model.freedom();
+        let structural = |fitted: &Fitted| {
+            let has = |term: &Term| term.is_in(&fitted.model) && (*term != Term::Delay || self.known.delay_s.is_some());
+            Term::ALL.into_iter().filter(has).all(Term::is_structural)
+        };
+        let noisy = Term::ALL.into_iter().any(|term| term.is_in(&tried[best].model) && !term.is_structural());
+        let worth = tried[start].log_likelihood + 0.5 * JOINS;
+        let alone = tried.iter().enumerate().filter(|(_, fitted)| structural(fitted) && fitted.log_likelihood > worth);
+        let alone = alone.filter(|(_, fitted)| fitted.model.freedom() > first);
+        let alone = alone.max_by(|a, b| a.1.log_likelihood.total_cmp(&b.1.log_likelihood)).map(|(index, _)| index);
+        if let Some(alone) = alone.filter(|_| noisy) {
+            let grown = self.grow(&mut tried, alone, Term::is_structural);
+            self.grow(&mut tried, grown, |_| true);
+            best = self.best(&tried);
         }
         // Leave out what is no longer needed, drag terms too.
         loop {
@@ -225,6 +197,61 @@ impl<'a> Search<'a> {
         }
         best = self.best(&tried);
         Some((self, Found { tried, best }))
+    }
+
+    /// The best term joins, time and again; returns the number of the last model.
+    fn grow(&self, tried: &mut Vec<Fitted>, from: usize, admitted: impl Fn(Term) -> bool) -> usize {
+        let mut best = from;
+        for _ in 0..MOST_TERMS {
+            let current = tried[best].clone();
+            let ends: Vec<(Fitted, f64)> = self
+                .moves(&current.model, &admitted)
+                .into_par_iter()
+                .filter_map(|(starts, freedom)| Some((self.climb_from(starts)?, freedom)))
+                .collect();
+            let gain = |(end, freedom): &(Fitted, f64)| {
+                let price = if *freedom > 0.0 { JOINS - PRICE + PRICE * freedom } else { EXCHANGES };
+                2.0 * (end.log_likelihood - current.log_likelihood) - price
+            };
+            let joined = ends.iter().enumerate().map(|(index, end)| (index, gain(end)));
+            let joined = joined.max_by(|a, b| a.1.total_cmp(&b.1));
+            let worth = joined.filter(|(_, gain)| *gain > 0.0).map(|(index, _)| tried.len() + index);
+            tried.extend(ends.into_iter().map(|(end, _)| end));
+            match worth {
+                Some(index) => best = index,
+                None => break,
+            }
+        }
+        best
+    }
+
+    /// Starts of the models one step from a model, with the number of parameters that the step adds.
+    fn moves(&self, model: &Model, admitted: &impl Fn(Term) -> bool) -> Vec<(Vec<Model>, f64)> {
+        let mut moves: Vec<(Vec<Model>, f64)> = Vec::new();
+        let observations = self.observations(model);
+        let known = self.known.delay_s;
+        let estimated = |term: Term| term == Term::Delay && known.is_none();
+        for term in Term::ALL.into_iter().filter(|term| admitted(*term) && !estimated(*term)) {
+            if term.applies(model, observations) {
+                moves.push((term.starts(model, observations), term.freedom() as f64));
+                // Instants left to chance may hide a structure, and a structure may look like such instants.
+                if observations.switched && term.is_structural() {
+                    let mut starts = term.starts(model, observations);
+                    starts.iter_mut().for_each(|start| start.switching = start.switching.other());
+                    moves.push((starts, term.freedom() as f64));
+                }
+            }
+        }
+        moves.extend(self.swaps(model).into_iter().map(|model| (vec![model], 0.0)));
+        for (out, term) in RIVALS {
+            if out.is_in(model) && !estimated(out) && !estimated(term) && admitted(term) {
+                let less = out.without(model, known);
+                if term.applies(&less, observations) {
+                    moves.push((term.starts(&less, observations), 0.0));
+                }
+            }
+        }
+        moves
     }
 
     fn swaps(&self, model: &Model) -> Vec<Model> {
