@@ -72,8 +72,7 @@ impl Actuator {
                 stretches.push(stretch(begin_s + delay_s, input, by_ramp));
             });
         } else {
-            stretches
-                .extend(pieces.iter().map(|p| stretch(p.begin_s + delay_s, [p.value, p.slope], [0.0; 2])));
+            stretches.extend(pieces.iter().map(|p| stretch(p.begin_s + delay_s, [p.value, p.slope], [0.0; 2])));
         }
         let mut actuator = Self { lag_s, stretches };
         for index in 0..actuator.stretches.len() {
@@ -123,7 +122,12 @@ impl Actuator {
     }
 
     /// Stops after `from_s`, in order of time, those of `kicks` among them.
-    pub(super) fn stops(&self, from_s: f64, kicks: impl Iterator<Item = (f64, Stop)>, refine: bool) -> Vec<(f64, Stop)> {
+    pub(super) fn stops(
+        &self,
+        from_s: f64,
+        kicks: impl Iterator<Item = (f64, Stop)>,
+        refine: bool,
+    ) -> Vec<(f64, Stop)> {
         let mut stops: Vec<(f64, Stop)> = Vec::with_capacity(2 * self.stretches.len());
         for stretch in &self.stretches[1..] {
             stops.push((stretch.begin_s, Stop::Stretch { jump: stretch.jump }));

@@ -105,7 +105,9 @@ impl Reason {
 impl core::fmt::Display for Reason {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match *self {
-            Self::Term(term) => write!(f, "{}; it is estimated with the rest, and the intervals allow for the choice", term.finding()),
+            Self::Term(term) => {
+                write!(f, "{}; it is estimated with the rest, and the intervals allow for the choice", term.finding())
+            }
             Self::DelayContradicted { given_s, found_s } => write!(
                 f,
                 "the record has a delay of {found_s:.3} s, not the {given_s} s given: the estimates are those with the delay found"
@@ -192,6 +194,8 @@ pub struct Candidate {
     pub weight: f64,
     /// Its structural parameters.
     pub values: [f64; Parameter::COUNT],
+    /// Their standard deviations; zero for those not estimated, infinite where the record leaves them open.
+    pub deviations: [f64; Parameter::COUNT],
     /// Whether its search came to rest.
     pub settled: bool,
     /// Steps of the search.

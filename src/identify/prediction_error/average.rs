@@ -14,10 +14,14 @@ struct Component {
 }
 
 /// Intervals of terms that were chosen by the record are wider by this.
-pub(super) const CHOSEN: f64 = 1.15;
+pub(super) const CHOSEN: f64 = 1.25;
 
-/// Twice the log-likelihood that each parameter more has to gain for a model to count.
+/// Twice the log-likelihood that each parameter more has to gain for a model to count. A structure that the record hardly
+/// shows moves the inertia, so that it counts sooner.
 const IDLE: f64 = 1.0;
+const IDLE_STRUCTURE: f64 = 0.25;
+/// The structures meant.
+const SUBTLE: [Parameter; 4] = [Parameter::Stiffness, Parameter::CubicDrag, Parameter::LagS, Parameter::RampS];
 
 /// Standard deviations of the structural parameters of a model, zero for those not estimated; `None` where the record leaves
 /// some of them open.
@@ -66,9 +70,8 @@ impl<'a> Average<'a> {
         // A model that hardly gains on one that it contains only says what a parameter without effect leaves open.
         let idle = |(_, fitted, _): &(f64, &Fitted, [f64; Parameter::COUNT])| {
             members.iter().any(|(_, other, _)| {
-                let added = fitted.model.freedom() as f64 - other.model.freedom() as f64;
                 contains(&fitted.model, &other.model)
-                    && 2.0 * (fitted.log_likelihood - other.log_likelihood) < IDLE * added
+                    && 2.0 * (fitted.log_likelihood - other.log_likelihood) < least_gain(&fitted.model, &other.model)
             })
         };
         let idle: Vec<bool> = members.iter().map(idle).collect();
@@ -99,7 +102,8 @@ impl<'a> Average<'a> {
         if !mean.is_finite() || !std.is_finite() {
             return None;
         }
-        let spread = (std > 0.0).then(|| Spread { std, low: quantile(&components, 0.025), high: quantile(&components, 0.975) });
+        let spread =
+            (std > 0.0).then(|| Spread { std, low: quantile(&components, 0.025), high: quantile(&components, 0.975) });
         Some(Estimate { value: mean, spread })
     }
 
@@ -121,6 +125,13 @@ fn contains(a: &Model, b: &Model) -> bool {
         && a.freedom() > b.freedom()
         && covers(&a.free, &b.free)
         && covers(&a.noise_free, &b.noise_free)
+}
+
+/// What the first model has to gain over the second, which it contains.
+fn least_gain(more: &Model, less: &Model) -> f64 {
+    let added = more.freedom() - less.freedom();
+    let subtle = SUBTLE.iter().filter(|parameter| more.is_free(**parameter) && !less.is_free(**parameter)).count();
+    IDLE_STRUCTURE * subtle as f64 + IDLE * added.saturating_sub(subtle) as f64
 }
 
 fn same_terms(a: &Model, b: &Model) -> bool {

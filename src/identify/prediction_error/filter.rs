@@ -225,6 +225,14 @@ pub(super) fn run(observations: &Observations, model: &Model, derivatives: bool)
             }
         }
         let weight = observations.weight[sample];
+        let done = (sample + 1 - first) * PARTS / (samples - first);
+        if weight == 0.0 {
+            innovations.push(Innovation { error: 0.0, variance: 1.0 });
+            if derivatives && done > parts.len() {
+                parts.push(core::mem::replace(&mut part, Score::zero()));
+            }
+            continue;
+        }
         let innovation = filter.observe(observations.output[sample], weight, &mut part);
         if !(innovation.variance > 0.0 && innovation.error.abs() < 1e3 * observations.span) {
             return None;
@@ -232,7 +240,6 @@ pub(super) fn run(observations: &Observations, model: &Model, derivatives: bool)
         log_likelihood -=
             0.5 * weight * (core::f64::consts::TAU.ln() + innovation.variance.ln() + innovation.standardised().powi(2));
         innovations.push(innovation);
-        let done = (sample + 1 - first) * PARTS / (samples - first);
         if derivatives && done > parts.len() {
             parts.push(core::mem::replace(&mut part, Score::zero()));
         }
@@ -301,7 +308,8 @@ impl<'a> Filter<'a> {
             velocity: before[1],
             acceleration: self.dynamics.acceleration(before[0], before[1], forces[0].value + offset),
         };
-        self.state = [step.end.position, step.end.velocity, transition.force * before[2], transition.colour * before[3]];
+        self.state =
+            [step.end.position, step.end.velocity, transition.force * before[2], transition.colour * before[3]];
         for (parameter, column) in &mut self.sensitivities.structure {
             let driven = driven(*parameter, alpha, &step, &begin, &forces);
             *column = transition.apply(column);
@@ -325,7 +333,8 @@ impl<'a> Filter<'a> {
             (q[1][2], q[2][1]) = (0.5 * intensity * h2 / alpha, 0.5 * intensity * h2 / alpha);
             (q[0][2], q[2][0]) = (intensity * h3 / (6.0 * alpha), intensity * h3 / (6.0 * alpha));
             q[1][1] = intensity * h3 / (3.0 * alpha * alpha);
-            (q[0][1], q[1][0]) = (intensity * h2 * h2 / (8.0 * alpha * alpha), intensity * h2 * h2 / (8.0 * alpha * alpha));
+            (q[0][1], q[1][0]) =
+                (intensity * h2 * h2 / (8.0 * alpha * alpha), intensity * h2 * h2 / (8.0 * alpha * alpha));
             q[0][0] = intensity * h2 * h3 / (20.0 * alpha * alpha);
             q
         };
@@ -450,7 +459,8 @@ impl<'a> Filter<'a> {
                 Noise::StampJitter => stamp,
                 _ => 0.0,
             };
-            let variance_by = seen_by[0] + seen_by[3] + direct;
+            let speed_by = 2.0 * self.sizes.stamp * self.state[1] * column[1];
+            let variance_by = seen_by[0] + seen_by[3] + direct + speed_by;
             let error_by = -(column[0] + column[3]);
             *slope = (*noise as usize, error_by, variance_by);
             for row in 0..4 {
@@ -458,9 +468,8 @@ impl<'a> Filter<'a> {
             }
             for row in 0..4 {
                 for other in 0..4 {
-                    derivative[row][other] += gain[row] * gain[other] * variance_by
-                        - seen_by[row] * gain[other]
-                        - gain[row] * seen_by[other];
+                    derivative[row][other] +=
+                        gain[row] * gain[other] * variance_by - seen_by[row] * gain[other] - gain[row] * seen_by[other];
                 }
             }
         }

@@ -13,6 +13,8 @@ mod scoring;
 mod search;
 mod start;
 mod term;
+#[cfg(test)]
+mod tests;
 
 pub use answer::{Answer, Candidate, Reason, Reported, Trust};
 pub use model::{Clock, Parameter, Switching};
@@ -99,6 +101,9 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     if !terms.is_empty() {
         factor *= CHOSEN;
     }
+    if observations.outliers > 0 {
+        reasons.push(Reason::Outliers { count: observations.outliers });
+    }
     let tests = residuals::Tests::of(best, observations);
     reasons.extend(tests.reasons());
     factor *= tests.factor();
@@ -147,7 +152,8 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
         trust,
         reasons,
     };
-    let mut candidates: Vec<Candidate> = found.tried.iter().map(|fitted| candidate(fitted, &average, known)).collect();
+    let mut candidates: Vec<Candidate> =
+        found.tried.iter().map(|fitted| candidate(fitted, &average, known, search)).collect();
     let value = |c: &Candidate| c.log_likelihood - 0.5 * search::PRICE * c.freedom as f64;
     candidates.sort_by(|a, b| value(b).total_cmp(&value(a)));
     let seen = observations.time_s[observations.first..].iter();
@@ -155,7 +161,9 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     Answer { reported, candidates, innovations, effective_samples: count }
 }
 
-fn candidate(fitted: &Fitted, average: &Average<'_>, known: Known) -> Candidate {
+fn candidate(fitted: &Fitted, average: &Average<'_>, known: Known, search: &Search<'_>) -> Candidate {
+    let movable = scoring::movable(&fitted.model, &fitted.score, search.observations(&fitted.model));
+    let deviations = average::deviations(fitted, &movable).unwrap_or([f64::INFINITY; Parameter::COUNT]);
     let model = &fitted.model;
     Candidate {
         drag: [model.is_free(Parameter::LinearDrag), model.is_free(Parameter::QuadraticDrag)],
@@ -166,6 +174,7 @@ fn candidate(fitted: &Fitted, average: &Average<'_>, known: Known) -> Candidate 
         freedom: model.freedom(),
         weight: average.weight(fitted),
         values: model.values,
+        deviations,
         settled: fitted.settled,
         iterations: fitted.iterations,
     }

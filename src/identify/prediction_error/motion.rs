@@ -47,7 +47,8 @@ impl Dynamics {
 
     /// The fastest rate of the motion up to a speed, per s.
     pub(super) fn rate(&self, speed: f64) -> f64 {
-        let damping = (self.linear.abs() + (2.0 * self.quadratic.abs() + 3.0 * self.cubic.abs() * speed) * speed) / self.alpha;
+        let damping =
+            (self.linear.abs() + (2.0 * self.quadratic.abs() + 3.0 * self.cubic.abs() * speed) * speed) / self.alpha;
         damping + (self.stiffness.abs() / self.alpha).sqrt()
     }
 

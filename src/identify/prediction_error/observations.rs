@@ -27,6 +27,8 @@ pub(super) struct Observations {
     pub(super) switched: bool,
     /// First sample that the filter sees: before it acts a command that is not in the record.
     pub(super) first: usize,
+    /// Readings left out, of weight zero.
+    pub(super) outliers: usize,
     /// Largest less least command.
     pub(super) range: f64,
     /// Largest less least output.
@@ -66,9 +68,25 @@ impl Observations {
         let reach = (swing_s / (6.0 * interval_s)).max(1.0) as usize;
         let speed = |k: usize| ((output[k + reach] - output[k]) / (time_s[k + reach] - time_s[k])).abs();
         let fastest = (0..output.len().saturating_sub(reach)).map(speed).fold(0.0, f64::max);
-        let weight = if switched { weights(&output, input) } else { vec![1.0; output.len()] };
+        let mut weight = if switched { weights(&output, input) } else { vec![1.0; output.len()] };
+        let outliers = outliers(record);
+        outliers.iter().for_each(|sample| weight[*sample] = 0.0);
         let (range, span) = (extent(input), extent(&output));
-        Self { time_s, output, weight, pieces, kicks, switched, first: 0, range, span, fastest, interval_s, swing_s }
+        Self {
+            time_s,
+            output,
+            weight,
+            pieces,
+            kicks,
+            switched,
+            first: 0,
+            outliers: outliers.len(),
+            range,
+            span,
+            fastest,
+            interval_s,
+            swing_s,
+        }
     }
 
     pub(super) fn duration_s(&self) -> f64 {
@@ -225,6 +243,47 @@ fn weights(output: &[f64], input: &[f64]) -> Vec<f64> {
         }
     }
     weight
+}
+
+/// Readings further from the line through their neighbours than this many robust standard deviations are left out.
+const FAR: f64 = 6.0;
+/// A record with a larger share of them has no outliers but another noise.
+const MOST_OUTLIERS: f64 = 0.1;
+
+/// Readings far from the line through their neighbours, the farthest first, each with those before it left out.
+fn outliers(record: &Record) -> Vec<usize> {
+    let (time, output) = (record.time_s(), record.output());
+    let off = |a: usize, b: usize, c: usize| {
+        let part = (time[b] - time[a]) / (time[c] - time[a]);
+        output[b] - output[a] - part * (output[c] - output[a])
+    };
+    let mut sizes: Vec<f64> = (1..output.len() - 1).map(|k| off(k - 1, k, k + 1).abs()).collect();
+    let middle = sizes.len() / 2;
+    let typical = 1.483 * *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let limit = (FAR * typical).max(3.0 * record.quantum().unwrap_or(0.0));
+    let mut kept: Vec<usize> = (0..output.len()).collect();
+    loop {
+        let size = |place: usize| {
+            if place == 0 || place + 1 >= kept.len() {
+                return 0.0;
+            }
+            let (a, b, c) = (kept[place - 1], kept[place], kept[place + 1]);
+            if time[c] - time[a] > 4.5 * record.interval_s() { 0.0 } else { off(a, b, c).abs() }
+        };
+        let far = |place: usize| {
+            let here = size(place);
+            here > limit && here >= size(place - 1) && here > size(place + 1)
+        };
+        let out: Vec<usize> = (1..kept.len() - 1).filter(|place| far(*place)).map(|place| kept[place]).collect();
+        if out.is_empty() {
+            break;
+        }
+        kept.retain(|sample| out.binary_search(sample).is_err());
+        if ((output.len() - kept.len()) as f64) > MOST_OUTLIERS * output.len() as f64 {
+            return Vec::new();
+        }
+    }
+    (0..output.len()).filter(|sample| kept.binary_search(sample).is_err()).collect()
 }
 
 /// A record's characteristic time: that between crossings of its mean.

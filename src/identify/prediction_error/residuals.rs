@@ -34,12 +34,7 @@ const NAMED: f64 = 4.0;
 impl Tests {
     pub(super) fn of(fitted: &Fitted, observations: &Observations) -> Self {
         let (halves, apart) = halves(fitted, observations).unwrap_or((1.0, 0.0));
-        Self {
-            halves,
-            apart: if halves < DISAGREE { apart } else { 0.0 },
-            repeating: 0.0,
-            coloured: 0.0,
-        }
+        Self { halves, apart: if halves < DISAGREE { apart } else { 0.0 }, repeating: 0.0, coloured: 0.0 }
     }
 
     pub(super) fn reasons(&self) -> Vec<Reason> {

@@ -19,11 +19,14 @@ pub(super) struct Fitted {
 }
 
 /// Steps of one search.
-const MOST_STEPS: usize = 40;
+pub(super) const MOST_STEPS: usize = 40;
 /// A step that promises to gain less ends the search.
 const NEGLIGIBLE_GAIN: f64 = 2e-3;
 /// A search that ran out of steps counts as at rest where the structure promises less than this.
 const NEARLY_SETTLED: f64 = 0.1;
+/// Steps before a search may be given up, and how many times as much as it promises is thought possible.
+const PATIENCE: usize = 3;
+const OPTIMISM: f64 = 2.0;
 /// The largest change of a logarithm in one step.
 const LARGEST_LOG_STEP: f64 = 1.5;
 
@@ -83,7 +86,17 @@ pub(super) fn climb(observations: &Observations, start: Model) -> Option<Fitted>
 }
 
 /// As [`climb`], with a limit of the steps.
-pub(super) fn climb_within(observations: &Observations, mut model: Model, most_steps: usize) -> Option<Fitted> {
+pub(super) fn climb_within(observations: &Observations, start: Model, most_steps: usize) -> Option<Fitted> {
+    climb_beyond(observations, start, most_steps, f64::NEG_INFINITY)
+}
+
+/// As [`climb_within`]; the search is given up once it does not promise to pass a log-likelihood.
+pub(super) fn climb_beyond(
+    observations: &Observations,
+    mut model: Model,
+    most_steps: usize,
+    worth: f64,
+) -> Option<Fitted> {
     for parameter in Parameter::ALL.into_iter().filter(|p| model.free[*p as usize]) {
         let (low, high) = bounds(parameter, observations);
         let value = &mut model.values[parameter as usize];
@@ -98,14 +111,21 @@ pub(super) fn climb_within(observations: &Observations, mut model: Model, most_s
         let (score, log_likelihood) = (pass.score(), pass.log_likelihood);
         let structure = movable(&model, &score, observations);
         let noise: Vec<usize> = (0..Noise::COUNT).filter(|i| model.noise_free[*i]).collect();
-        let moved = solve(&score.structure_information, &score.structure, &structure, damping)
-            .zip(solve(&score.noise_information, &score.noise, &noise, damping.max(1e-4)));
+        let moved = solve(&score.structure_information, &score.structure, &structure, damping).zip(solve(
+            &score.noise_information,
+            &score.noise,
+            &noise,
+            damping.max(1e-4),
+        ));
         let Some(((by_structure, gain), (by_noise, noise_gain))) = moved else {
             damping = (10.0 * damping).max(1e-6);
             continue;
         };
         if gain + noise_gain < 2.0 * NEGLIGIBLE_GAIN && damping <= 1e-2 {
             settled = true;
+            break;
+        }
+        if steps > PATIENCE && log_likelihood + OPTIMISM * 0.5 * (gain + noise_gain) < worth {
             break;
         }
         let moved = |with_structure: bool, with_noise: bool| {

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::filter;
 use super::model::{Clock, Model, Noise, Parameter, Switching};
 use super::observations::{self, Observations};
-use super::scoring::{Fitted, climb, climb_within};
+use super::scoring::{Fitted, MOST_STEPS, climb, climb_beyond, climb_within};
 use super::start::{self, Start};
 use super::term::Term;
 use crate::experiment::Record;
@@ -34,6 +34,8 @@ pub(super) const PRICE: f64 = 4.0;
 /// The most terms that a model gets.
 const MOST_TERMS: usize = 8;
 
+/// A model that does not promise to gain as much in log-likelihood is not followed to its end.
+const WORTH_FOLLOWING: f64 = 0.1;
 /// Steps while a white force carries a poor start along, and those that follow without it.
 const FOLLOWING: usize = 12;
 const APPROACHING: usize = 12;
@@ -87,11 +89,11 @@ impl<'a> Search<'a> {
     }
 
     /// The likeliest of several starts, climbed from.
-    fn climb_from(&self, starts: Vec<Model>) -> Option<Fitted> {
+    fn climb_from(&self, starts: Vec<Model>, worth: f64) -> Option<Fitted> {
         let value = |model: &Model| filter::run(self.observations(model), model, false).map(|pass| pass.log_likelihood);
         let valued = starts.into_iter().filter_map(|model| Some((value(&model)?, model)));
         let (_, best) = valued.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        self.climb(best)
+        climb_beyond(self.observations(&best), best, MOST_STEPS, worth)
     }
 
     /// From each start a model that follows the record by a white force of free intensity, then one without it; the likeliest.
@@ -207,7 +209,9 @@ impl<'a> Search<'a> {
             let ends: Vec<(Fitted, f64)> = self
                 .moves(&current.model, &admitted)
                 .into_par_iter()
-                .filter_map(|(starts, freedom)| Some((self.climb_from(starts)?, freedom)))
+                .filter_map(|(starts, freedom)| {
+                    Some((self.climb_from(starts, current.log_likelihood + WORTH_FOLLOWING)?, freedom))
+                })
                 .collect();
             let gain = |(end, freedom): &(Fitted, f64)| {
                 let price = if *freedom > 0.0 { JOINS - PRICE + PRICE * freedom } else { EXCHANGES };

@@ -106,8 +106,14 @@ impl Rows {
             let misfit = (square / (rows - columns.len()) as f64).sqrt();
             let [alpha, linear, quadratic, disturbance] = values;
             let drag = linear + quadratic * observations.fastest;
-            (alpha > 0.0 && drag > 0.0 && quadratic >= 0.0 && misfit.is_finite())
-                .then_some(Start { alpha, linear, quadratic, disturbance, delay_s, misfit })
+            (alpha > 0.0 && drag > 0.0 && quadratic >= 0.0 && misfit.is_finite()).then_some(Start {
+                alpha,
+                linear,
+                quadratic,
+                disturbance,
+                delay_s,
+                misfit,
+            })
         });
         solved.min_by(|a, b| a.misfit.total_cmp(&b.misfit))
     }
