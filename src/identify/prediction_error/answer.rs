@@ -41,20 +41,10 @@ pub enum Reason {
         /// Found, in s.
         found_s: f64,
     },
-    /// The two halves of the record want parameters that differ by more than chance allows.
+    /// The two halves of the record want parameters that differ by more than chance allows; the interval of the inertia holds both.
     HalvesDisagree {
         /// Probability of so much by chance.
         probability: f64,
-    },
-    /// The innovations repeat from swing to swing: a structure that no term has.
-    RepeatingMisfit {
-        /// Mean square of the repeating part over what chance allows.
-        ratio: f64,
-    },
-    /// The innovations are alike from sample to sample after all terms.
-    ColouredInnovations {
-        /// Mean square of their correlations over what chance allows.
-        ratio: f64,
     },
     /// Readings far from all others were left out.
     Outliers {
@@ -83,8 +73,6 @@ impl Reason {
             Self::Term(term) => term.name(),
             Self::DelayContradicted { .. } => "delay-contradicted",
             Self::HalvesDisagree { .. } => "halves-disagree",
-            Self::RepeatingMisfit { .. } => "repeating-misfit",
-            Self::ColouredInnovations { .. } => "coloured-innovations",
             Self::Outliers { .. } => "outliers",
             Self::TooWide { .. } => "too-wide",
             Self::NotSettled => "not-settled",
@@ -117,16 +105,6 @@ impl core::fmt::Display for Reason {
                 "the two halves of the record want different parameters (by chance once in {:.0} records): the vehicle \
                  changed, or a structure is at work that no term has; the interval of the inertia holds both",
                 1.0 / probability.max(1e-9)
-            ),
-            Self::RepeatingMisfit { ratio } => write!(
-                f,
-                "what the model leaves repeats from swing to swing, {ratio:.1} times as much as chance allows; the intervals \
-                 are wider for it"
-            ),
-            Self::ColouredInnovations { ratio } => write!(
-                f,
-                "what the model leaves is alike from sample to sample, {ratio:.1} times as much as chance allows; the \
-                 intervals are wider for it"
             ),
             Self::Outliers { count } => write!(f, "{count} readings far from all others were left out"),
             Self::TooWide { relative } => write!(

@@ -1,5 +1,16 @@
-//! Prediction-error estimation: an extended Kalman filter predicts each reading from those before it, and the parameters
-//! are those that make its innovations likeliest, of the motion and of what disturbs it together.
+//! Prediction-error estimation: a Kalman filter predicts each reading from those before it, and the estimates are the
+//! parameters, of the motion and of what disturbs it together, that make its innovations likeliest.
+//!
+//! The vehicle is
+//! `alpha x'' + (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + k x = a(t - T_d) + delta + w(t)`, `tau a' = u - a`, `y = x + e`,
+//! a continuous-discrete stochastic state-space model (Jazwinski 1970; Kristensen, Madsen and Jorgensen 2004; Ljung 1999,
+//! chapter 7). Inertia, drag, disturbance and white noise are always there. A lag, a limited rate, a restoring force, cubic
+//! drag, another delay than the one given, a process force, coloured noise, and instants that err are terms: each is tried,
+//! and joins where the record is enough likelier for it. All models tried are averaged, so that an interval allows for the
+//! choice among them too.
+//!
+//! What it does not guarantee: a term near its threshold of detection may be left out, and a structure that no term has may
+//! pass for one of them. The scale of the thrust cannot be seen in records of one level: all parameters are in its units.
 
 mod actuator;
 mod answer;
@@ -11,6 +22,7 @@ mod observations;
 mod residuals;
 mod scoring;
 mod search;
+mod several;
 mod start;
 mod term;
 #[cfg(test)]
@@ -18,7 +30,10 @@ mod tests;
 
 pub use answer::{Answer, Candidate, Reason, Reported, Trust};
 pub use model::{Clock, Parameter, Switching};
+pub use several::Several;
 pub use term::Term;
+
+use rayon::prelude::*;
 
 use super::joint::{Delay, Estimate, Spread};
 use super::{DragLaw, IdentifyError};
@@ -28,6 +43,21 @@ use scoring::Fitted;
 use search::{Found, Known, Search};
 
 /// What to estimate, and what is known.
+///
+/// ```
+/// use selfosc::experiment::{Experiment, Sensor};
+/// use selfosc::identify::joint::Delay;
+/// use selfosc::identify::prediction_error::{Estimator, Trust};
+/// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
+/// let axis = DragAxis::quadratic(1.0, 0.5)?.with_delay_s(0.1)?;
+/// let sensor = Sensor { quantum: 0.02, ..Sensor::default() };
+/// let record = Experiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().with_sensor(sensor)?.run(60.0)?;
+/// let reported = Estimator::new(Delay::KnownS(0.1)).record(&record)?.reported;
+/// assert_ne!(reported.trust, Trust::Doubtful);
+/// let spread = reported.alpha.spread.expect("an estimate with its error");
+/// assert!(spread.low < 1.0 && 1.0 < spread.high);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimator {
     delay: Delay,
@@ -73,6 +103,21 @@ impl Estimator {
     }
 }
 
+impl Estimator {
+    /// The answer to several records of one vehicle: each on its own, then together, with a test whether they agree.
+    ///
+    /// # Errors
+    /// As [`record`](Self::record), of the first record that has no answer; [`IdentifyError::TooFewEquations`] without records.
+    pub fn records(&self, records: &[&Record]) -> Result<Several, IdentifyError> {
+        if records.is_empty() {
+            return Err(IdentifyError::TooFewEquations { equations: 0, parameters: Parameter::COUNT });
+        }
+        let answers: Result<Vec<Answer>, IdentifyError> =
+            records.par_iter().map(|record| self.record(record)).collect();
+        answers.map(Several::of)
+    }
+}
+
 fn terms_of(fitted: &Fitted, known: Known) -> Vec<Term> {
     let has = |term: &Term| term.is_in(&fitted.model) && (*term != Term::Delay || known.delay_s.is_some());
     Term::ALL.into_iter().filter(has).collect()
@@ -106,7 +151,6 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     }
     let tests = residuals::Tests::of(best, observations);
     reasons.extend(tests.reasons());
-    factor *= tests.factor();
     let exact = |parameter: Parameter| Estimate { value: best.model.value(parameter), spread: None };
     let estimate = |parameter: Parameter| average.estimate(parameter, factor).unwrap_or_else(|| exact(parameter));
     let present = |parameter: Parameter| best.model.is_free(parameter).then(|| estimate(parameter));

@@ -1,4 +1,4 @@
-//! Tests of what a model leaves: do the halves of the record agree, do innovations repeat or correlate.
+//! Tests of what a model leaves: do the halves of the record agree.
 
 use super::answer::Reason;
 use super::model::Parameter;
@@ -22,19 +22,14 @@ pub(super) struct Tests {
     halves: f64,
     /// Half the difference of the inertias that they want.
     pub(super) apart: f64,
-    repeating: f64,
-    coloured: f64,
 }
 
 /// Below this probability the halves disagree.
 const DISAGREE: f64 = 1e-4;
-/// Standard scores above which a misfit is named.
-const NAMED: f64 = 4.0;
-
 impl Tests {
     pub(super) fn of(fitted: &Fitted, observations: &Observations) -> Self {
         let (halves, apart) = halves(fitted, observations).unwrap_or((1.0, 0.0));
-        Self { halves, apart: if halves < DISAGREE { apart } else { 0.0 }, repeating: 0.0, coloured: 0.0 }
+        Self { halves, apart: if halves < DISAGREE { apart } else { 0.0 } }
     }
 
     pub(super) fn reasons(&self) -> Vec<Reason> {
@@ -42,18 +37,7 @@ impl Tests {
         if self.halves < DISAGREE {
             reasons.push(Reason::HalvesDisagree { probability: self.halves });
         }
-        if self.repeating > NAMED {
-            reasons.push(Reason::RepeatingMisfit { ratio: self.repeating });
-        }
-        if self.coloured > NAMED {
-            reasons.push(Reason::ColouredInnovations { ratio: self.coloured });
-        }
         reasons
-    }
-
-    /// By how much the intervals widen.
-    pub(super) fn factor(&self) -> f64 {
-        1.0
     }
 }
 
@@ -91,7 +75,7 @@ fn halves(fitted: &Fitted, observations: &Observations) -> Option<(f64, f64)> {
 }
 
 /// Probability that a chi-square variable exceeds a value (Wilson and Hilferty's cube root).
-fn chi_square_tail(value: f64, freedom: f64) -> f64 {
+pub(super) fn chi_square_tail(value: f64, freedom: f64) -> f64 {
     let spread = 2.0 / (9.0 * freedom);
     let z = ((value / freedom).cbrt() - 1.0 + spread) / spread.sqrt();
     0.5 * libm::erfc(z / core::f64::consts::SQRT_2)
