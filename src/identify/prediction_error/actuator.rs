@@ -112,10 +112,6 @@ impl Actuator {
         }
     }
 
-    pub(super) fn stretches(&self) -> usize {
-        self.stretches.len()
-    }
-
     /// The stretch that a time lies in.
     pub(super) fn stretch_at(&self, time_s: f64) -> usize {
         self.stretches.partition_point(|stretch| stretch.begin_s <= time_s).saturating_sub(1)

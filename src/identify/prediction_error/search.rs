@@ -36,6 +36,9 @@ const MOST_TERMS: usize = 8;
 
 /// A model that does not promise to gain as much in log-likelihood is not followed to its end.
 const WORTH_FOLLOWING: f64 = 0.1;
+/// Samples of a longer record in which terms are looked for first, and how many of the models found there go on.
+const LONGEST_SEARCHED: usize = 6000;
+const CONTINUED: usize = 4;
 /// Steps while a white force carries a poor start along, and those that follow without it.
 const FOLLOWING: usize = 12;
 const APPROACHING: usize = 12;
@@ -119,6 +122,50 @@ impl<'a> Search<'a> {
         if best.settled { Some(best) } else { climb(&first, best.model) }
     }
 
+    fn is_long(&self) -> bool {
+        self.record.samples() > LONGEST_SEARCHED
+    }
+
+    /// The model without terms under every reading of clock and switchings.
+    fn plain(&mut self) -> Option<Vec<Fitted>> {
+        let mut tried = vec![self.approach()?];
+        let mut others = Vec::new();
+        for clock in &self.clocks {
+            for switching in [Switching::AtSamples, Switching::Between] {
+                if (*clock, switching) != (tried[0].model.clock, tried[0].model.switching) {
+                    others.push(Model { clock: *clock, switching, ..tried[0].model.clone() });
+                }
+            }
+        }
+        tried.extend(others.into_par_iter().filter_map(|model| self.climb(model)).collect::<Vec<_>>());
+        Some(tried)
+    }
+
+    /// The likeliest models of the beginning of a long record, fitted to all of it.
+    fn continued(&mut self) -> Option<Vec<Fitted>> {
+        let part = |values: &[f64]| values[..LONGEST_SEARCHED].to_vec();
+        let record = self.record;
+        let head = Record::new(part(record.time_s()), part(record.output()), part(record.input())).ok()?;
+        let (search, mut found) = Search::new(&head, self.known).run()?;
+        self.unseen_s = search.unseen_s;
+        let value = |fitted: &Fitted| fitted.log_likelihood - 0.5 * PRICE * fitted.model.freedom() as f64;
+        found.tried.sort_by(|a, b| value(b).total_cmp(&value(a)));
+        let mut models: Vec<Model> = Vec::new();
+        for Fitted { model, .. } in found.tried {
+            let same = |other: &Model| {
+                (other.free, other.noise_free, other.switching) == (model.free, model.noise_free, model.switching)
+            };
+            if !models.iter().any(same) {
+                models.push(model);
+            }
+            if models.len() == CONTINUED {
+                break;
+            }
+        }
+        let tried: Vec<Fitted> = models.into_par_iter().filter_map(|model| self.climb(model)).collect();
+        (!tried.is_empty()).then_some(tried)
+    }
+
     fn model(&self, observations: &Observations, start: &Start) -> Model {
         let mut model = Model {
             values: [0.0; Parameter::COUNT],
@@ -152,17 +199,7 @@ impl<'a> Search<'a> {
 
     /// The whole search.
     pub(super) fn run(mut self) -> Option<(Self, Found)> {
-        let first = self.approach()?;
-        let mut tried = vec![first];
-        let mut others = Vec::new();
-        for clock in &self.clocks {
-            for switching in [Switching::AtSamples, Switching::Between] {
-                if (*clock, switching) != (tried[0].model.clock, tried[0].model.switching) {
-                    others.push(Model { clock: *clock, switching, ..tried[0].model.clone() });
-                }
-            }
-        }
-        tried.extend(others.into_par_iter().filter_map(|model| self.climb(model)).collect::<Vec<_>>());
+        let mut tried = if self.is_long() { self.continued()? } else { self.plain()? };
         let start = self.best(&tried);
         // Noise and process force can hide a structure: where they come first, the structure alone is tried too.
         let mut best = self.grow(&mut tried, start, |_| true);
@@ -239,12 +276,15 @@ impl<'a> Search<'a> {
             if term.applies(model, observations) {
                 moves.push((term.starts(model, observations), term.freedom() as f64));
                 // Instants left to chance may hide a structure, and a structure may look like such instants.
-                if observations.switched && term.is_structural() {
+                if observations.switched && term.is_structural() && !self.is_long() {
                     let mut starts = term.starts(model, observations);
                     starts.iter_mut().for_each(|start| start.switching = start.switching.other());
                     moves.push((starts, term.freedom() as f64));
                 }
             }
+        }
+        if self.is_long() {
+            return moves;
         }
         moves.extend(self.swaps(model).into_iter().map(|model| (vec![model], 0.0)));
         for (out, term) in RIVALS {
