@@ -482,10 +482,12 @@ impl<'a> Filter<'a> {
             }
         }
         if self.stochastic {
-            for row in 0..4 {
-                self.state[row] += gain[row] * error;
-                for column in 0..4 {
-                    self.covariance[row][column] -= seen[row] * gain[column];
+            for (state, gain) in self.state.iter_mut().zip(gain) {
+                *state += gain * error;
+            }
+            for (row, seen) in self.covariance.iter_mut().zip(seen) {
+                for (value, gain) in row.iter_mut().zip(gain) {
+                    *value -= seen * gain;
                 }
             }
         }
