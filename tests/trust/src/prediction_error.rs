@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use selfosc::experiment::Record;
 use selfosc::identify::joint::{Delay, Estimate};
 use selfosc::identify::prediction_error::{self, Estimator, Reason, Reported};
-use selfosc_simulator::answer::{Answer, Interval, Trust};
+use selfosc_simulator::answer::{Answer, Trust};
 use selfosc_simulator::kinds::Case;
 
 use crate::reading::{interval, record};
