@@ -13,6 +13,8 @@ pub mod fit;
 pub mod iso;
 #[cfg(feature = "std")]
 pub mod joint;
+#[cfg(feature = "std")]
+pub mod prediction_error;
 mod reading;
 #[cfg(feature = "std")]
 pub mod select;
