@@ -3,7 +3,7 @@
 use super::model::{Model, Parameter};
 use super::scoring::{self, Fitted};
 use super::search::{Found, PRICE};
-use crate::identify::joint::{Estimate, Spread};
+use crate::identify::joint::{Estimate, ConfidenceInterval};
 
 /// A model's word on one parameter: normal, or a point where it has no such parameter.
 #[derive(Clone, Copy, Debug)]
@@ -103,7 +103,7 @@ impl<'a> Average<'a> {
             return None;
         }
         let spread =
-            (std > 0.0).then(|| Spread { std, low: quantile(&components, 0.025), high: quantile(&components, 0.975) });
+            (std > 0.0).then(|| ConfidenceInterval { std, low: quantile(&components, 0.025), high: quantile(&components, 0.975) });
         Some(Estimate { value: mean, spread })
     }
 

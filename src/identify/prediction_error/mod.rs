@@ -35,9 +35,10 @@ pub use term::Term;
 
 use rayon::prelude::*;
 
-use super::joint::{Delay, Estimate, Spread};
+use super::joint::{ConfidenceInterval, Delay, Estimate};
 use super::{DragLaw, IdentifyError};
 use crate::experiment::Record;
+use crate::numeric::{Limit, domain};
 use average::{Average, CHOSEN};
 use scoring::Fitted;
 use search::{Found, Known, Search};
@@ -85,11 +86,12 @@ impl Estimator {
     /// The answer to one record.
     ///
     /// # Errors
-    /// [`IdentifyError::Feature`] for an output or a command that never changes, [`IdentifyError::NotSettled`] where no model follows the record.
+    /// [`IdentifyError::OutOfDomain`] for an output or a command that never changes, [`IdentifyError::NotSettled`] where no model follows the record.
     pub fn record(&self, record: &Record) -> Result<Answer, IdentifyError> {
         for (feature, values) in [("range of the output", record.output()), ("range of the command", record.input())] {
             if values.iter().all(|value| *value == values[0]) {
-                return Err(IdentifyError::Feature { feature, value: 0.0, required: "above 0" });
+                let remedy = "choose a column that changes";
+                domain::require(feature, 0.0, "units of the column", Limit::Positive, remedy)?;
             }
         }
         let delay_s = match self.delay {
@@ -98,7 +100,7 @@ impl Estimator {
         };
         let known = Known { delay_s, law: self.law };
         let (search, found) =
-            Search::new(record, known).run().ok_or(IdentifyError::NotSettled { steps: 0, rms: f64::NAN })?;
+            Search::new(record, known).run().ok_or(IdentifyError::NotSettled { steps: 0, rms: deviation(record.output()) })?;
         Ok(conclude(&search, &found, known))
     }
 }
@@ -159,7 +161,7 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
         (spread.low, spread.high) = (spread.low - tests.apart, spread.high + tests.apart);
         spread.std = spread.std.hypot(tests.apart);
     }
-    let relative = |Spread { low, high, .. }: Spread| 0.5 * (high - low) / alpha.value.abs();
+    let relative = |ConfidenceInterval { low, high, .. }: ConfidenceInterval| 0.5 * (high - low) / alpha.value.abs();
     match alpha.spread.map(relative) {
         Some(relative) if relative < TOO_WIDE => {}
         relative => reasons.push(Reason::TooWide { relative: relative.unwrap_or(f64::INFINITY) }),
@@ -222,4 +224,12 @@ fn candidate(fitted: &Fitted, average: &Average<'_>, known: Known, search: &Sear
         settled: fitted.settled,
         iterations: fitted.iterations,
     }
+}
+
+/// Root mean square about the mean: what is left where no model follows.
+#[allow(clippy::cast_precision_loss, reason = "a count of samples")]
+fn deviation(values: &[f64]) -> f64 {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt()
 }

@@ -6,7 +6,7 @@
 use super::answer::{Answer, Reason, Reported, Trust};
 use super::residuals::{NORMAL, chi_square_tail};
 use crate::identify::DragLaw;
-use crate::identify::joint::{Estimate, Spread};
+use crate::identify::joint::{Estimate, ConfidenceInterval};
 
 /// Below this probability records disagree.
 const DISAGREE: f64 = 0.01;
@@ -21,13 +21,13 @@ pub struct Several {
 }
 
 /// Half the width of an interval in normal standard deviations: also right where it is no normal one.
-fn deviation(spread: Spread) -> f64 {
+fn deviation(spread: ConfidenceInterval) -> f64 {
     0.5 * (spread.high - spread.low) / NORMAL
 }
 
 /// Estimates of one number together, and the scatter between them beyond chance.
 fn pooled(estimates: &[Estimate]) -> (Estimate, Option<f64>) {
-    let known: Vec<(f64, f64, Spread)> =
+    let known: Vec<(f64, f64, ConfidenceInterval)> =
         estimates.iter().filter_map(|e| e.spread.map(|spread| (e.value, deviation(spread), spread))).collect();
     if known.len() < estimates.len() || known.iter().any(|(_, std, _)| *std <= 0.0) {
         return (
@@ -46,9 +46,9 @@ fn pooled(estimates: &[Estimate]) -> (Estimate, Option<f64>) {
         let between = (values.map(|v| (v - value).powi(2)).sum::<f64>() / freedom).sqrt();
         let low = known.iter().map(|(.., spread)| spread.low).fold(f64::INFINITY, f64::min);
         let high = known.iter().map(|(.., spread)| spread.high).fold(f64::NEG_INFINITY, f64::max);
-        return (Estimate { value, spread: Some(Spread { std: between.hypot(std), low, high }) }, Some(between));
+        return (Estimate { value, spread: Some(ConfidenceInterval { std: between.hypot(std), low, high }) }, Some(between));
     }
-    (Estimate { value: mean, spread: Some(Spread { std, low: mean - NORMAL * std, high: mean + NORMAL * std }) }, None)
+    (Estimate { value: mean, spread: Some(ConfidenceInterval { std, low: mean - NORMAL * std, high: mean + NORMAL * std }) }, None)
 }
 
 impl Several {

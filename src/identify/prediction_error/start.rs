@@ -1,8 +1,7 @@
 //! Where the search begins: the equation of motion under smooth weights, solved by linear least squares for each of several
 //! delays (modulating functions, Shinbrot 1957): derivatives fall on the weights, so that noise is not differentiated.
 
-use faer::Mat;
-use faer::prelude::SolveLstsq;
+use nalgebra::{DMatrix, DVector};
 
 use super::actuator::Piece;
 use super::observations::Observations;
@@ -91,11 +90,11 @@ impl Rows {
             if rows < columns.len() + 2 {
                 return None;
             }
-            let matrix = Mat::from_fn(rows, columns.len(), |row, column| self.integrals[row][columns[column]]);
-            let solution = matrix.qr().solve_lstsq(Mat::from_fn(rows, 1, |row, _| right[row]));
+            let matrix = DMatrix::from_fn(rows, columns.len(), |row, column| self.integrals[row][columns[column]]);
+            let solution = least_squares(matrix, DVector::from_fn(rows, |row, _| right[row]));
             let mut values = [0.0; 4];
             for (index, column) in columns.iter().enumerate() {
-                values[*column] = solution[(index, 0)];
+                values[*column] = solution[index];
             }
             let square: f64 = self
                 .integrals
@@ -144,8 +143,17 @@ pub(super) fn state_near(observations: &Observations, at_s: f64, reach_s: f64) -
     let Observations { time_s, output, .. } = observations;
     let from = time_s.partition_point(|t| *t < at_s - reach_s).min(time_s.len() - 4);
     let to = time_s.partition_point(|t| *t <= at_s + reach_s).max(from + 4).min(time_s.len());
-    let matrix = Mat::from_fn(to - from, 3, |row, power| ((time_s[from + row] - at_s) / reach_s).powi(power as i32));
-    let solution = matrix.qr().solve_lstsq(Mat::from_fn(to - from, 1, |row, _| output[from + row] - output[from]));
-    let (offset, slope) = (solution[(0, 0)], solution[(1, 0)] / reach_s);
+    let matrix = DMatrix::from_fn(to - from, 3, |row, power| ((time_s[from + row] - at_s) / reach_s).powi(power as i32));
+    let solution = least_squares(matrix, DVector::from_fn(to - from, |row, _| output[from + row] - output[from]));
+    let (offset, slope) = (solution[0], solution[1] / reach_s);
     if offset.is_finite() && slope.is_finite() { (output[from] + offset, slope) } else { (output[from], 0.0) }
+}
+
+/// The solution of least squares by QR; not a number where the equations are singular, which the callers take for no answer.
+fn least_squares(matrix: DMatrix<f64>, mut right: DVector<f64>) -> DVector<f64> {
+    let unknowns = matrix.ncols();
+    let qr = matrix.qr();
+    qr.q_tr_mul(&mut right);
+    let solution = qr.unpack_r().solve_upper_triangular(&right.rows(0, unknowns));
+    solution.unwrap_or_else(|| DVector::repeat(unknowns, f64::NAN))
 }
