@@ -254,7 +254,9 @@ impl RelayLoop {
     }
 }
 
-/// Newton's method with difference quotients, kept near the cell it starts from.
+/// Newton's method with difference quotients for two unknowns, kept near the cell it starts from. Apart from
+/// [`increasing_root`](crate::numeric::increasing_root), which needs one unknown and a bracket; from the balance's own, because
+/// a start that leaves its cell is dropped here, not damped.
 fn newton(
     miss: impl Fn(Vector2<f64>) -> Option<Vector2<f64>>,
     start: Vector2<f64>,
