@@ -66,7 +66,8 @@ fn last_sample<T: Scalar>(bencher: Bencher<'_, '_>) {
 fn identification<T: Scalar>(bencher: Bencher<'_, '_>, law: DragLaw) {
     let number = T::from_f64;
     let mut experiment =
-        Experiment::new(Protocol::new(Coordinate::Position, number(1.0), number(0.5), number(50.0), number(0.1))).unwrap();
+        Experiment::new(Protocol::new(Coordinate::Position, number(1.0), number(0.5), number(50.0), number(0.1)))
+            .unwrap();
     for sample in 0..1000 {
         let angle = f64::from(sample) * core::f64::consts::TAU / 40.0;
         experiment.step(number(angle.sin()), number(0.1 * f64::from(sample)));

@@ -52,8 +52,7 @@ fn protocol<T: Scalar>(random: &mut Random) -> Protocol<T> {
     let half_width = if coordinate == Coordinate::HeadingDegrees { 15.0 } else { 0.3 };
     let largest_excursion = half_width * random.between(1.5, 20.0);
     let neutral = random.between(-0.5, 0.5);
-    let protocol =
-        Protocol::new(coordinate, number(1.0), number(half_width), number(largest_excursion), number(0.1));
+    let protocol = Protocol::new(coordinate, number(1.0), number(half_width), number(largest_excursion), number(0.1));
     Protocol {
         neutral_command: number(neutral),
         lowest_command: number(neutral - 1.0 - random.between(0.0, 2.0)),
@@ -87,8 +86,7 @@ fn experiment<T: Scalar>(random: &mut Random, seen: &mut Seen) {
         let reading = if strikes(random) { random.any() } else { plain + noise * scale * random.between(-1.0, 1.0) };
         let at_s = if strikes(random) { random.any() } else { time_s };
         let tick = random.below(10) == 0;
-        let step =
-            if tick { experiment.tick(number(at_s)) } else { experiment.step(number(reading), number(at_s)) };
+        let step = if tick { experiment.tick(number(at_s)) } else { experiment.step(number(reading), number(at_s)) };
         seen.steps += 1;
         let command = step.command;
         assert!(command >= protocol.lowest_command && command <= protocol.highest_command, "{protocol:?} {step:?}");

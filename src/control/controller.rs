@@ -147,7 +147,6 @@ impl<T: Scalar> Controller<T> {
         self.command = self.clamp(T::zero());
     }
 
-
     /// The next command, given the reference, the measurement, and the time since the step before (s), good or not. The first
     /// step after a start has no speed to go by.
     pub fn step(&mut self, reference: T, measurement: T, dt_s: T) -> Step<T> {

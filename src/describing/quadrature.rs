@@ -94,5 +94,9 @@ pub fn harmonic(
 
 pub(super) fn settled(quadrature: Quadrature) -> Result<f64, DescribingError> {
     let Quadrature { value, estimate, tolerance, cells } = quadrature;
-    if estimate <= tolerance && value.is_finite() { Ok(value) } else { Err(DescribingError::Quadrature { estimate, tolerance, cells }) }
+    if estimate <= tolerance && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(DescribingError::Quadrature { estimate, tolerance, cells })
+    }
 }

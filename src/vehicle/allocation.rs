@@ -95,14 +95,9 @@ impl<const AXES: usize, const THRUSTERS: usize> Allocation<f64, AXES, THRUSTERS>
         // The tall one of the matrix and its transpose, by QR with column pivoting: `A P = Q R`.
         let wide = AXES < THRUSTERS;
         let needed = AXES.min(THRUSTERS);
-        let tall =
-            nalgebra::DMatrix::from_fn(
-                AXES.max(THRUSTERS),
-                needed,
-                |i, j| {
-                    if wide { matrix[j][i] / size } else { matrix[i][j] / size }
-                },
-            );
+        let tall = nalgebra::DMatrix::from_fn(AXES.max(THRUSTERS), needed, |i, j| {
+            if wide { matrix[j][i] / size } else { matrix[i][j] / size }
+        });
         let (q, r, order) = tall.col_piv_qr().unpack();
         let rank = r.diagonal().iter().filter(|pivot| pivot.abs() > r[(0, 0)].abs() * Self::RANK_TOLERANCE).count();
         let deficient = VehicleError::RankDeficient { what: "the allocation matrix", rank, needed };

@@ -41,7 +41,7 @@ pub(crate) fn values(entry: &Entry, rng: &mut impl Rng) -> Vec<f64> {
         match parameter.domain {
             Domain::Positive => values.push(size),
             // An exponent is dimensionless: within what drag laws and springs have, and somewhat beyond.
-            Domain::NonNegative if parameter.name == "exponent" => {
+            Domain::Exponent => {
                 let exponent = rng.random_range(0.05..12.0);
                 let near: f64 = rng.random_range(0..=24).into();
                 let near = 0.5 * near + sign(rng) * small(rng, 2.0, 16.0);

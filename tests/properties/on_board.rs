@@ -142,7 +142,8 @@ fn irregular(time_s: f64) -> f64 {
 fn shaken(range: f64) -> impl Fn(f64, &State<f64>) -> f64 {
     move |time_s, state| {
         let sample = (time_s / INTERVAL_S).round();
-        state.position + range * (2.0 * (0.618_033_988_75 * sample + 0.5 * (0.414_213_562 * sample).fract()).fract() - 1.0)
+        state.position
+            + range * (2.0 * (0.618_033_988_75 * sample + 0.5 * (0.414_213_562 * sample).fract()).fract() - 1.0)
     }
 }
 
@@ -169,7 +170,10 @@ fn every_fault_has_a_name() {
     expect("wrong-way", run(protocol(), calm(), |_, state| -state.position));
     let degrees = Protocol { coordinate: Coordinate::HeadingDegrees, ..protocol() };
     expect("range", run(degrees, calm(), broken(1.0, 1e17)));
-    expect("no-motion", run(protocol(), calm(), |time_s, _| if (time_s / INTERVAL_S).round() % 2.0 > 0.5 { 0.01 } else { 0.0 }));
+    expect(
+        "no-motion",
+        run(protocol(), calm(), |time_s, _| if (time_s / INTERVAL_S).round() % 2.0 > 0.5 { 0.01 } else { 0.0 }),
+    );
     expect("noise", run(Protocol { factor: 1.1, largest_rate: 1e3, ..protocol() }, calm(), shaken(2.0)));
     // Cycles that come as they like.
     let jitter = |time_s: f64, _: &State<f64>| irregular(time_s);
@@ -460,9 +464,14 @@ fn a_fault_is_named_before_it_does_harm() {
         let reversed = harm::<T>(calm, -1.0, plain);
         // Two half-widths, and a little for the delay; at the first level.
         assert_eq!(reversed.code, "wrong-way");
-        assert!(reversed.excursion < 1.5 && reversed.drove_s < 5.0 && reversed.strongest == 1.0, "{}", reversed.excursion);
+        assert!(
+            reversed.excursion < 1.5 && reversed.drove_s < 5.0 && reversed.strongest == 1.0,
+            "{}",
+            reversed.excursion
+        );
 
-        let toggling = harm::<T>(calm, 1.0, |time_s, _| if (time_s / INTERVAL_S).round() % 2.0 > 0.5 { 0.01 } else { 0.0 });
+        let toggling =
+            harm::<T>(calm, 1.0, |time_s, _| if (time_s / INTERVAL_S).round() % 2.0 > 0.5 { 0.01 } else { 0.0 });
         assert_eq!(toggling.code, "no-motion");
         // The patience, and never at a higher level.
         assert!(toggling.drove_s < 20.2 && toggling.strongest == 1.0);
@@ -522,7 +531,9 @@ fn a_blocked_driver_is_noticed_by_the_clock() {
         assert_eq!((waiting.tick(number(9.0)).command, waiting.phase()), (T::zero(), Phase::Running));
         let mut driven = fresh;
         assert_eq!(driven.step(number(0.0), number(1.0)).command, number(1.0));
-        for (ticks, code) in [(vec![1.0, 1.25, 1.5, 1.501], "gap"), (vec![f64::NAN], "not-finite"), (vec![0.9], "time-order")] {
+        for (ticks, code) in
+            [(vec![1.0, 1.25, 1.5, 1.501], "gap"), (vec![f64::NAN], "not-finite"), (vec![0.9], "time-order")]
+        {
             let mut experiment = driven;
             let (last, sound) = ticks.split_last().unwrap();
             for time_s in sound {

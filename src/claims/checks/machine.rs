@@ -65,9 +65,15 @@ impl Lattice {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Event {
     Abort,
-    Sample { reading: f64, interval_s: f64, observation: Observation },
+    Sample {
+        reading: f64,
+        interval_s: f64,
+        observation: Observation,
+    },
     /// A timer asks, this long after the last sample.
-    Tick { age_s: f64 },
+    Tick {
+        age_s: f64,
+    },
 }
 
 /// What a machine has been broken by, so that a claim fails.

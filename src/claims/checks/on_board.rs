@@ -64,8 +64,8 @@ fn switches(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)
         let moved = (position - before).abs();
         let measured = protocol.coordinate != Coordinate::Speed;
         let slow = !measured || moved <= protocol.largest_rate * (after.time_s - machine.time_s);
-        let dwelt = !(up || down)
-            || machine.switched_s().is_none_or(|since_s| after.time_s - since_s >= protocol.dwell_s);
+        let dwelt =
+            !(up || down) || machine.switched_s().is_none_or(|since_s| after.time_s - since_s >= protocol.dwell_s);
         if !(crossed && slow && dwelt) {
             return Err(Some(index));
         }

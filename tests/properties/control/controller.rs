@@ -225,8 +225,7 @@ fn lost_readings_do_not_multiply_the_speed() {
 fn a_hold_ends_at_the_neutral_command() {
     fn ends<T: selfosc::numeric::Scalar>() {
         let number = T::from_f64;
-        let gains =
-            Gains::new(Structure::Pid, number(1.0), number(0.5), number(0.5), number(0.125)).unwrap();
+        let gains = Gains::new(Structure::Pid, number(1.0), number(0.5), number(0.5), number(0.125)).unwrap();
         let fresh = Controller::new(&gains).with_longest_hold(number(0.5), number(0.25)).unwrap();
         for (reference, measurement, dt) in
             [(1.0, f64::NAN, 0.125), (f64::INFINITY, 0.0, 0.125), (1.0, 0.0, f64::NAN), (1.0, 0.0, -1.0)]
