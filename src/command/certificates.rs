@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::{CommandError, Outcome};
+use super::{CommandError, Outcome, files};
 use crate::claims::{CLAIMS, Claim};
 use crate::orbit::theorem::Theorem;
 use crate::proof::inequality::{Proofs, Refusal};
@@ -18,15 +18,10 @@ fn file(folder: &Path, theorem: &Theorem) -> PathBuf {
 
 /// One file `ID.proof` for each theorem that is proved.
 pub(super) fn write(folder: &Path) -> Result<(), CommandError> {
-    let fault = |path: &Path| {
-        let path = path.to_owned();
-        |source| CommandError::Write { path, source }
-    };
-    std::fs::create_dir_all(folder).map_err(fault(folder))?;
+    std::fs::create_dir_all(folder).map_err(|source| CommandError::Write { path: folder.to_owned(), source })?;
     for theorem in theorems() {
         if let Ok(proofs) = theorem.prove() {
-            let path = file(folder, theorem);
-            std::fs::write(&path, Proofs(proofs).to_string()).map_err(fault(&path))?;
+            files::write(&file(folder, theorem), &Proofs(proofs).to_string())?;
         }
     }
     Ok(())
@@ -37,9 +32,7 @@ pub(super) fn check(folder: &Path, output: &mut impl Write) -> Result<Outcome, C
     let width = theorems().map(|theorem| theorem.id.len()).max().unwrap_or(0);
     let mut outcome = Outcome::Done;
     for theorem in theorems() {
-        let path = file(folder, theorem);
-        let text = std::fs::read_to_string(&path).map_err(|source| CommandError::Certificate { path, source })?;
-        let checked = text.parse().and_then(|Proofs(proofs)| {
+        let checked = files::read(&file(folder, theorem))?.parse().and_then(|Proofs(proofs)| {
             theorem.check(&proofs)?;
             Ok::<usize, Refusal>(proofs.iter().map(|proof| proof.boxes.len()).sum())
         });

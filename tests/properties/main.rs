@@ -16,6 +16,7 @@ mod describing;
 mod difference;
 mod errors;
 mod examples;
+mod extremes;
 mod features;
 mod fourier_oracle;
 mod fuzz;
