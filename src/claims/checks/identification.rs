@@ -2,13 +2,15 @@
 
 use crate::numeric::Real;
 use crate::proof::identity::Series;
+use crate::proof::polynomial::{Rational, decided};
 use core::f64::consts::PI;
 
 use nalgebra::Complex;
 
+use super::algebra::number;
 use super::enclosure::identity;
 use super::relay::{relay, root};
-use super::{AsPrinted, Budget, Case, Distortion, Draw, Part, Variable, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, Distortion, Draw, Evidence, Part, Variable, Verdict, claim, sample, tolerance};
 use crate::describing::{DescribingFunction, by_quadrature};
 use crate::identify::iso::{Oscillation, parameters};
 use crate::identify::select::pairwise::{Decision, decide, relative_spread_percent};
@@ -151,14 +153,23 @@ fn spread(budget: Budget, degrees_of_freedom: f64) -> Verdict {
     })
 }
 
+const DRAG_DECISION_WHOLE: Part = Part::whole(
+    "whole",
+    "every pair of spreads and threshold, zero or more",
+);
+
 claim! {
     DRAG_DECISION = "drag-decision" "42" Definition
     "The drag law is the one whose coefficient spreads less, by more than the margin" {
-        domain: &[Part::whole("whole", "every pair of spreads and threshold")],
+        domain: &[DRAG_DECISION_WHOLE],
+        by_hand: &[
+            "three outcomes, each with its comparisons, are all there are",
+        ],
         printed: AsPrinted::Holds(|budget| decision(budget, decide)),
         corrected: None,
         // The paper's two names of the laws exchanged.
         falsified: |budget| decision(budget, |linear, quadratic, margin| decide(quadratic, linear, margin)),
+        proof: Some(prove_decision),
         hypotheses: &[],
         depends: &["relative-spread"],
     }
@@ -290,4 +301,28 @@ fn prove_zig_zag(distortion: Distortion) -> Verdict {
         let (alpha, beta) = (time_constant / gain, factor / gain);
         [alpha * rate.derivative() + beta * rate - Series::one()]
     })
+}
+
+/// The code's comparisons, read off: each outcome comes with those that define it, and with no other.
+fn prove_decision(distortion: Distortion) -> Verdict {
+    let factor = number(distortion.factor());
+    let mut cases = 0;
+    for point in [[9.0, 2.0, 3.0], [2.0, 9.0, 3.0], [4.0, 5.0, 3.0]] {
+        let (decision, comparisons) = decided(point, |[linear, quadratic, margin]| decide(linear, quadratic, margin));
+        let [above, below] = decided(point, |[linear, quadratic, margin]: [Rational; 3]| {
+            [linear - quadratic - factor * margin, -factor * margin - (linear - quadratic)]
+        })
+        .0;
+        // By how much the difference exceeds the margin, then by how much it falls short of its negative.
+        let defining = match decision {
+            Decision::Quadratic => vec![(above, true)],
+            Decision::Linear => vec![(above, false), (-below, false)],
+            Decision::Undecided => vec![(above, false), (-below, true)],
+        };
+        if comparisons != defining {
+            return Verdict::undecided("the comparisons of three cases");
+        }
+        cases += 1;
+    }
+    Verdict::Holds(Evidence::identity(DRAG_DECISION_WHOLE, 0.0, cases))
 }

@@ -2,6 +2,7 @@
 
 use core::f64::consts::PI;
 
+use super::algebra::{exactly, number};
 use super::enclosure::{identity, no_function};
 use super::kernels::{BREAKPOINT, on_unit, prove_kernel};
 use super::{AsPrinted, Budget, Case, Distortion, Draw, Hypothesis, Part, Variable, Verdict, claim, sample, tolerance};
@@ -9,6 +10,7 @@ use crate::describing::{ClosedForm, DescribingFunction, KernelForm, bias_of_outp
 use crate::experiment::Relay;
 use crate::nonlinearity::{Branches, Kernel, RelayHysteresis, Sinusoid};
 use crate::numeric::Real;
+use crate::proof::polynomial::Rational;
 use crate::proof::identity::Series;
 
 /// A relay, an input that switches it, and the describing function by quadrature.
@@ -245,13 +247,23 @@ fn switches_once(budget: Budget, least: f64, most: f64) -> Verdict {
     })
 }
 
+const SWITCHING_CONDITION_WHOLE: Part = Part::whole(
+    "whole",
+    "every half-width, bias and amplitude",
+);
+
 claim! {
     SWITCHING_CONDITION = "switching-condition" "40" Identity
     "Eq. 31 has a value, and the relay oscillates, exactly when (x_a + abs(x_0))/X <= 1" {
-        domain: &[Part::whole("whole", "every half-width, bias and amplitude")],
+        domain: &[SWITCHING_CONDITION_WHOLE],
+        by_hand: &[
+            "a root has a value where its radicand is zero or more",
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
+        ],
         printed: AsPrinted::Holds(|budget| condition(budget, 1.0)),
         corrected: None,
         falsified: |budget| condition(budget, 1.1),
+        proof: Some(prove_switching_condition),
         hypotheses: &[],
         depends: &["relay-p"],
     }
@@ -372,4 +384,15 @@ fn prove_second_quadrant(distortion: Distortion) -> Verdict {
         let df = relay(Series::pi() / Series::from_f64(4.0), (Series::pi() - angle).sin(), Series::zero());
         [df.p + factor * angle.cos(), df.q + factor * angle.sin()]
     })
+}
+
+/// The larger of the two distances that eq. 31 takes roots of is the least amplitude that the relay asks for.
+fn prove_switching_condition(distortion: Distortion) -> Verdict {
+    let functions = |[half_width, bias]: [Rational; 2], factor: Rational| {
+        let relay = RelayHysteresis::new(number(1.0), half_width, number(0.0)).ok()?;
+        let farther = (half_width - bias).abs().max((half_width + bias).abs());
+        Some([farther - factor * relay.least_amplitude(bias)])
+    };
+    let points = [[0.5, 0.2], [0.5, -0.2], [0.2, 0.5], [0.2, -0.5]];
+    exactly(SWITCHING_CONDITION_WHOLE, distortion, &points, functions)
 }
