@@ -32,7 +32,7 @@ mod tests {
     /// Proofs that take no subdivision, or one of a second: each holds, covers what is claimed, and no false variant of it holds.
     #[test]
     fn exact_proofs_hold_and_false_ones_do_not() {
-        const IDS: [&str; 17] = [
+        const IDS: [&str; 26] = [
             "fourier-coefficients",
             "odd-harmonics",
             "odd-harmonics-hysteretic",
@@ -50,6 +50,15 @@ mod tests {
             "compensation",
             "pole-placement",
             "relay-ultimate",
+            "relay-p",
+            "relay-q",
+            "table-3",
+            "relative-spread",
+            "zig-zag",
+            "polynomial",
+            "quantisation-alpha",
+            "quantisation-beta",
+            "quantisation-beta-xx",
         ];
         let failures = IDS.iter().filter_map(|id| {
             let claim = Claim::find(id)?;

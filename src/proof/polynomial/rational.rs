@@ -5,7 +5,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use std::cell::RefCell;
 
 use super::ring::{Polynomial, Symbol};
-use crate::numeric::{Real, Scalar};
+use crate::numeric::{Component, Real, Scalar};
 
 /// A rational function of the statement's variables, with its value at a point of their range.
 ///
@@ -57,6 +57,38 @@ fn at_point(symbol: Symbol) -> f64 {
     }
 }
 
+/// Whether a polynomial is zero once squares of square roots are what the roots are of; it is asked of the even and of the odd
+/// powers of each root, the last root first: the argument of a root knows earlier ones only. `None` where coefficients leave their
+/// range.
+fn vanishes(polynomial: &Polynomial, calls: usize) -> Option<bool> {
+    if polynomial.is_zero() {
+        return Some(true);
+    }
+    let Some(place) = calls.checked_sub(1) else { return Some(false) };
+    let powers = polynomial.in_powers_of(Symbol::Call(place));
+    let radicand = CALLS.with_borrow(|calls| {
+        calls.get(place).filter(|call| call.name == SQRT).and_then(|call| call.arguments.first().and_then(|x| x.fraction))
+    });
+    let Some((numerator, denominator)) = radicand else {
+        return Some(powers.iter().map(|power| vanishes(power, place)).collect::<Option<Vec<_>>>()?.into_iter().all(|zero| zero));
+    };
+    let mut all = true;
+    for odd in [0, 1] {
+        // Sum of c_k (n/d)^k, times d to the highest power.
+        let mut sum = Polynomial::number(0);
+        let mut scale = Polynomial::number(1);
+        for power in powers.iter().skip(odd).step_by(2).rev() {
+            sum = sum.times(numerator)?.plus(1, &power.times(&scale)?)?;
+            scale = scale.times(denominator)?;
+        }
+        all &= vanishes(&sum, place)?;
+    }
+    Some(all)
+}
+
+/// The name of the one function of which more is known.
+const SQRT: &str = "sqrt";
+
 /// Fractions of a power of two up to this are numbers; other constants are indeterminates.
 const SHORT: f64 = 1024.0;
 
@@ -64,7 +96,8 @@ impl Rational {
     /// Whether this is zero whatever the variables are; `false` where that is not known.
     #[must_use]
     pub fn is_zero(self) -> bool {
-        self.fraction.is_some_and(|(numerator, _)| numerator.is_zero())
+        let calls = CALLS.with_borrow(Vec::len);
+        self.fraction.is_some_and(|(numerator, _)| vanishes(numerator, calls).unwrap_or(false))
     }
 
     fn of(numerator: Polynomial, denominator: Polynomial, value: f64) -> Self {
@@ -127,9 +160,6 @@ impl Rational {
         }
     }
 
-    fn unknown() -> Self {
-        Self { fraction: None, value: f64::NAN }
-    }
 }
 
 impl Add for Rational {
@@ -234,21 +264,21 @@ impl Real for Rational {
         match self.positive() {
             Some(true) => self,
             Some(false) => -self,
-            None => Self::unknown(),
+            None => Self::UNKNOWN,
         }
     }
     fn min(self, other: Self) -> Self {
         match self.partial_cmp(&other) {
             Some(Ordering::Greater) => other,
             Some(_) => self,
-            None => Self::unknown(),
+            None => Self::UNKNOWN,
         }
     }
     fn max(self, other: Self) -> Self {
         match self.partial_cmp(&other) {
             Some(Ordering::Less) => other,
             Some(_) => self,
-            None => Self::unknown(),
+            None => Self::UNKNOWN,
         }
     }
     /// Of a square, the side that is positive at the point, which is written down.
@@ -258,7 +288,7 @@ impl Real for Rational {
             let value = root.value(&at_point) / denominator.value(&at_point);
             Some(Self::of(root, denominator.clone(), value))
         });
-        root.map_or_else(|| Self::call("sqrt", &[self], self.value.sqrt()), Self::abs)
+        root.map_or_else(|| Self::call(SQRT, &[self], self.value.sqrt()), Self::abs)
     }
     functions! {
         sin: Some(0.0), cos: Some(1.0), tan: Some(0.0), asin: Some(0.0), atan: Some(0.0), exp: Some(1.0),
@@ -276,11 +306,11 @@ impl Real for Rational {
         match self.positive() {
             Some(true) => above(),
             Some(false) => below(),
-            None => [Self::unknown(); N],
+            None => [Self::UNKNOWN; N],
         }
     }
     fn give_or_take(self, error: f64) -> Self {
-        if error == 0.0 { self } else { Self::unknown() }
+        if error == 0.0 { self } else { Self::UNKNOWN }
     }
     fn minus_sine(self, sine: Self) -> Self {
         self - sine
@@ -290,5 +320,32 @@ impl Real for Rational {
 impl Scalar for Rational {
     fn epsilon() -> Self {
         Self::from_f64(f64::EPSILON)
+    }
+}
+
+/// Derivatives of formulas are formulas.
+impl Component for Rational {
+    const UNKNOWN: Self = Self { fraction: None, value: f64::NAN };
+
+    fn sign(self) -> Option<bool> {
+        self.positive()
+    }
+    fn precedes_or_equals(self, other: Self) -> Option<bool> {
+        self.partial_cmp(&other).map(|order| order != Ordering::Greater)
+    }
+    fn either(self, other: Self) -> Self {
+        if self == other { self } else { Self::UNKNOWN }
+    }
+    fn slope_of_abs(self) -> Self {
+        match self.positive() {
+            Some(positive) if !self.is_zero() => Self::from_f64(if positive { 1.0 } else { -1.0 }),
+            _ => Self::UNKNOWN,
+        }
+    }
+    fn exp_from_exp_m1(self, _: Self) -> Self {
+        self.exp()
+    }
+    fn floor_is_constant(self) -> bool {
+        false
     }
 }

@@ -137,6 +137,18 @@ impl Polynomial {
         rest.is_zero().then_some(root)
     }
 
+    /// The coefficients of the powers of a symbol, from the zeroth on.
+    pub(super) fn in_powers_of(&self, symbol: Symbol) -> Vec<Self> {
+        let mut powers: Vec<Self> = Vec::new();
+        for (monomial, &coefficient) in &self.0 {
+            let power = monomial.0.iter().find(|(other, _)| *other == symbol).map_or(0, |&(_, power)| power as usize);
+            let rest = Monomial(monomial.0.iter().copied().filter(|(other, _)| *other != symbol).collect());
+            powers.resize_with(powers.len().max(power + 1), || Self(BTreeMap::new()));
+            powers[power].0.insert(rest, coefficient);
+        }
+        powers
+    }
+
     /// What all terms of both have in common, as a number and powers, divided out of both.
     pub(super) fn reduced(self, other: Self) -> (Self, Self) {
         let terms = || self.0.iter().chain(&other.0);
