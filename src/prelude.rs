@@ -24,9 +24,9 @@ pub use crate::identify::DragLaw;
 #[cfg(feature = "std")]
 pub use crate::identify::{Identification, Session, Settings};
 pub use crate::nonlinearity::*;
+pub use crate::orbit::{LimitCycle, limit_cycle};
 #[cfg(feature = "std")]
 pub use crate::orbit::{RelayLoop, certify};
-pub use crate::orbit::{LimitCycle, limit_cycle};
 pub use crate::plant::DragAxis;
 #[cfg(feature = "std")]
 pub use crate::plant::{StateSpace, TransferFunction};

@@ -164,7 +164,11 @@ fn unchecked<T: Scalar>(axis: &DragAxis<T>, structure: Structure, bandwidth: T) 
     [proportional, integral, derivative, filter]
 }
 
-pub(crate) fn place<T: Scalar>(axis: &DragAxis<T>, structure: Structure, bandwidth: T) -> Result<Gains<T>, ControlError> {
+pub(crate) fn place<T: Scalar>(
+    axis: &DragAxis<T>,
+    structure: Structure,
+    bandwidth: T,
+) -> Result<Gains<T>, ControlError> {
     let [proportional, integral, derivative, filter] = unchecked(axis, structure, bandwidth);
     let gives = proportional > T::zero() && proportional.is_finite() && filter.is_finite();
     let limit = Limit::Words("such that the gains are neither 0 nor beyond the largest number");

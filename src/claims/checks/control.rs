@@ -6,8 +6,8 @@ use crate::control::{
     Margins, OpenLoop, RelayTest, Structure, Tuning, UltimatePoint, critical_point, double_pole, place,
 };
 use crate::nonlinearity::RelayHysteresis;
-use crate::orbit::RelayLoop;
 use crate::numeric::Real;
+use crate::orbit::RelayLoop;
 use crate::plant::{DragAxis, StateSpace, TransferFunction};
 use crate::proof::polynomial::Rational;
 
@@ -21,10 +21,7 @@ fn design(draw: &mut Draw, delay_s: f64) -> Option<Tuning<f64>> {
     Tuning::new(&axis, structure, bandwidth).ok()
 }
 
-const POLE_PLACEMENT_WHOLE: Part = Part::whole(
-    "whole",
-    "every axis, structure and bandwidth that the design accepts",
-);
+const POLE_PLACEMENT_WHOLE: Part = Part::whole("whole", "every axis, structure and bandwidth that the design accepts");
 
 claim! {
     POLE_PLACEMENT = "pole-placement" "of this project" Identity
@@ -114,10 +111,7 @@ fn delay_margin(budget: Budget, margin: DelayMargin) -> Verdict {
     })
 }
 
-const RELAY_ULTIMATE_WHOLE: Part = Part::whole(
-    "whole",
-    "every gain, dead time and level",
-);
+const RELAY_ULTIMATE_WHOLE: Part = Part::whole("whole", "every gain, dead time and level");
 
 claim! {
     RELAY_ULTIMATE = "relay-ultimate" "of this project" Identity

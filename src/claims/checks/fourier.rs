@@ -3,6 +3,7 @@
 use core::f64::consts::PI;
 
 use super::algebra::{exactly, number};
+use super::enclosure::{identity, no_function};
 use super::family::{not_odd, odd_hysteretic, odd_nondecreasing, output_scale, sweep, unbiased};
 use super::kernels::{BREAKPOINT, prove_kernel};
 use super::tone::{EVERY_AMPLITUDE, prove_sine_abs_sine};
@@ -12,14 +13,13 @@ use crate::nonlinearity::{
     Branch, Characteristic, NonlinearityError, Polynomial, Power, RelayDeadZone, RelayHysteresis, Sinusoid,
 };
 use crate::numeric::quadrature::integrate;
-use crate::numeric::Real;
+use crate::numeric::{Interval, Real};
+use crate::proof::identity::Series;
 use crate::proof::polynomial::Rational;
 use std::array;
 
-const FOURIER_COEFFICIENTS_WHOLE: Part = Part::whole(
-    "whole",
-    "every output with a mean square, every mean, sine and cosine in place of the coefficients",
-);
+const FOURIER_COEFFICIENTS_WHOLE: Part =
+    Part::whole("whole", "every output with a mean square, every mean, sine and cosine in place of the coefficients");
 
 claim! {
     FOURIER_COEFFICIENTS = "fourier-coefficients" "7-11" Definition
@@ -130,6 +130,7 @@ claim! {
             ),
         ],
         by_hand: &[
+            "every amplitude by homogeneity",
             "the mean over twelve angles is the mean over the circle for degrees below twelve",
         ],
         printed: AsPrinted::Absent,
@@ -276,26 +277,28 @@ fn prove_describing_function(distortion: Distortion) -> Verdict {
 /// Powers up to the ninth. The mean over twelve equally spaced angles is the mean over the circle for every trigonometric
 /// polynomial of degree below twelve, so the integral needs no antiderivative.
 fn prove_polynomial(distortion: Distortion) -> Verdict {
-    const COVERED: Part = Part::whole("powers", "");
-    exactly(COVERED, distortion, &[[0.3, 0.7]], |[bias, amplitude]: [Rational; 2], factor: Rational| {
-        let sweep = Sinusoid::new(bias, amplitude).ok()?;
-        let (none, half, three) = (number(0.0), number(0.5), number(3.0).sqrt() * number(0.5));
-        let quarter = [none, half, three, number(1.0), three, half];
-        let sines = quarter.into_iter().chain(quarter.map(|sine| -sine));
-        let mut powers: Vec<[Rational; 2]> = sines.map(|sine| [sine, number(1.0)]).collect();
-        let mut errors = [none; 20];
+    const COVERED: Part = Part::over("powers", "", const { &[Variable::number("bias/amplitude", -2.0, 2.0)] });
+    identity(COVERED, distortion, |bias, factor| {
+        let sweep = Sinusoid::new(bias, Series::one()).ok();
+        let nodes = (0..12).map(|k| Interval::point(f64::from(k)) * Interval::PI / Interval::point(6.0));
+        let sines: Vec<Series> = nodes.map(|angle| Series::constant(angle.sin())).collect();
+        let mut powers = vec![Series::one(); sines.len()];
+        let mut errors = [Series::zero(); 20];
         for (degree, error) in errors.chunks_mut(2).enumerate() {
-            let monomial = Polynomial::<_, 10>::new(array::from_fn(|k| number(f64::from(u8::from(k == degree))))).ok()?;
-            let closed = monomial.describing_function(&sweep).ok()? * factor;
-            let (mut mean, mut by_sine) = (none, none);
-            for [sine, power] in &mut powers {
-                (mean, by_sine) = (mean + *power, by_sine + *power * *sine);
-                *power = *power * (bias + amplitude * *sine);
+            let monomial =
+                Polynomial::<_, 10>::new(array::from_fn(|k| Series::from_f64(f64::from(u8::from(k == degree)))));
+            let closed =
+                sweep.zip(monomial.ok()).and_then(|(sweep, monomial)| monomial.describing_function(&sweep).ok());
+            let closed = closed.unwrap_or_else(no_function) * factor;
+            let (mut mean, mut sine) = (Series::zero(), Series::zero());
+            for (power, &node) in powers.iter_mut().zip(&sines) {
+                (mean, sine) = (mean + *power, sine + *power * node);
+                *power = *power * (bias + node);
             }
-            error[0] = closed.f0 - mean / number(12.0);
-            error[1] = closed.p * amplitude - by_sine / number(6.0);
+            error[0] = closed.f0 - mean / Series::from_f64(12.0);
+            error[1] = closed.p - sine / Series::from_f64(6.0);
         }
-        Some(errors)
+        errors
     })
 }
 
@@ -318,7 +321,8 @@ fn prove_least_square(distortion: Distortion) -> Verdict {
 /// Without memory: the relay with a dead zone stands for what `odd` means of the code's outputs.
 fn prove_odd_harmonics(distortion: Distortion) -> Verdict {
     let half_turn = |[level, half_width, x]: [Rational; 3], factor: Rational| {
-        let (relay, sweep) = (RelayDeadZone::new(level, half_width).ok()?, Sinusoid::new(number(0.0), number(9.0)).ok()?);
+        let (relay, sweep) =
+            (RelayDeadZone::new(level, half_width).ok()?, Sinusoid::new(number(0.0), number(9.0)).ok()?);
         Some([relay.output(x, Branch::Rising, &sweep) + factor * relay.output(-x, Branch::Falling, &sweep)])
     };
     let points = [[1.0, 0.5, 2.0], [1.0, 0.5, -2.0], [1.0, 0.5, 0.2], [1.0, 0.5, -0.2]];

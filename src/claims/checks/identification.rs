@@ -158,10 +158,7 @@ fn spread(budget: Budget, degrees_of_freedom: f64) -> Verdict {
     })
 }
 
-const DRAG_DECISION_WHOLE: Part = Part::whole(
-    "whole",
-    "every pair of spreads and threshold, zero or more",
-);
+const DRAG_DECISION_WHOLE: Part = Part::whole("whole", "every pair of spreads and threshold, zero or more");
 
 claim! {
     DRAG_DECISION = "drag-decision" "42" Definition

@@ -206,10 +206,7 @@ fn delta(budget: Budget, linear: bool, quadratic: bool, sign: f64) -> Verdict {
     })
 }
 
-const DELTA_FROM_TIMES_WHOLE: Part = Part::whole(
-    "whole",
-    "every linear drag, disturbance below the level, delay",
-);
+const DELTA_FROM_TIMES_WHOLE: Part = Part::whole("whole", "every linear drag, disturbance below the level, delay");
 
 claim! {
     DELTA_FROM_TIMES = "delta-from-times" "32, delta = F_0" Theorem

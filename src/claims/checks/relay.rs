@@ -10,8 +10,8 @@ use crate::describing::{ClosedForm, DescribingFunction, KernelForm, bias_of_outp
 use crate::experiment::Relay;
 use crate::nonlinearity::{Branches, Kernel, RelayHysteresis, Sinusoid};
 use crate::numeric::Real;
-use crate::proof::polynomial::Rational;
 use crate::proof::identity::Series;
+use crate::proof::polynomial::Rational;
 
 /// A relay, an input that switches it, and the describing function by quadrature.
 struct Switching {
@@ -249,10 +249,7 @@ fn switches_once(budget: Budget, least: f64, most: f64) -> Verdict {
     })
 }
 
-const SWITCHING_CONDITION_WHOLE: Part = Part::whole(
-    "whole",
-    "every half-width, bias and amplitude",
-);
+const SWITCHING_CONDITION_WHOLE: Part = Part::whole("whole", "every half-width, bias and amplitude");
 
 claim! {
     SWITCHING_CONDITION = "switching-condition" "40" Identity
@@ -363,16 +360,8 @@ pub(super) fn root<T: Real>(distance: T) -> T {
 
 /// Half-widths and biases, over the amplitude, in each case of sign: which of the two is the larger, the bias's sign, and whether a
 /// level lies in the middle half of the sweep, where the code goes another way.
-pub(super) const SWITCHINGS: [[f64; 2]; 8] = [
-    [0.3, 0.1],
-    [0.3, -0.1],
-    [0.1, 0.3],
-    [0.1, -0.3],
-    [0.625, 0.25],
-    [0.625, -0.25],
-    [0.25, 0.625],
-    [0.25, -0.625],
-];
+pub(super) const SWITCHINGS: [[f64; 2]; 8] =
+    [[0.3, 0.1], [0.3, -0.1], [0.1, 0.3], [0.1, -0.3], [0.625, 0.25], [0.625, -0.25], [0.25, 0.625], [0.25, -0.625]];
 
 /// [`prove_printed`] where the formula is a rational function, or one of the roots that the code takes: exactly, whatever
 /// half-width and bias.

@@ -6,10 +6,7 @@ use crate::numeric::Real;
 use crate::proof::polynomial::Rational;
 use crate::vehicle::{Allocation, BilinearThruster, Compensation, ThrustSide, Thruster};
 
-const THRUSTER_BILINEAR_WHOLE: Part = Part::whole(
-    "whole",
-    "every pair of coefficients, speed of the water and thrust",
-);
+const THRUSTER_BILINEAR_WHOLE: Part = Part::whole("whole", "every pair of coefficients, speed of the water and thrust");
 
 claim! {
     THRUSTER_BILINEAR = "thruster-bilinear" "1" Identity
@@ -103,10 +100,7 @@ impl Commands {
     }
 }
 
-const THRUSTER_AFFINE_WHOLE: Part = Part::whole(
-    "whole",
-    "every pair of coefficients, command and thrust",
-);
+const THRUSTER_AFFINE_WHOLE: Part = Part::whole("whole", "every pair of coefficients, command and thrust");
 
 claim! {
     THRUSTER_AFFINE = "thruster-affine" "2" Identity
@@ -172,10 +166,7 @@ fn falling(budget: Budget) -> Verdict {
     })
 }
 
-const THRUSTER_ASYMMETRIC_WHOLE: Part = Part::whole(
-    "whole",
-    "every two pairs of coefficients, command and thrust",
-);
+const THRUSTER_ASYMMETRIC_WHOLE: Part = Part::whole("whole", "every two pairs of coefficients, command and thrust");
 
 claim! {
     THRUSTER_ASYMMETRIC = "thruster-asymmetric" "3" Definition
@@ -214,10 +205,7 @@ fn asymmetric(budget: Budget, forward_only: bool) -> Verdict {
     })
 }
 
-const ALLOCATION_WHOLE: Part = Part::whole(
-    "whole",
-    "every distance, force and moment",
-);
+const ALLOCATION_WHOLE: Part = Part::whole("whole", "every distance, force and moment");
 
 claim! {
     ALLOCATION = "allocation" "35" Identity
@@ -253,10 +241,8 @@ fn allocation(budget: Budget, sign: f64, arm_factor: f64) -> Verdict {
     })
 }
 
-const COMPENSATION_WHOLE: Part = Part::whole(
-    "whole",
-    "every pair of thrusters at a distance from the axis, every thruster, force and moment",
-);
+const COMPENSATION_WHOLE: Part =
+    Part::whole("whole", "every pair of thrusters at a distance from the axis, every thruster, force and moment");
 
 claim! {
     COMPENSATION = "compensation" "Fig. 11" Theorem
@@ -352,7 +338,12 @@ fn prove_bilinear(distortion: Distortion) -> Verdict {
         ])
     };
     let at = |ambient, rate| [0.5, 0.3, 0.2, 0.1, ambient, rate, 9.0];
-    exactly(THRUSTER_BILINEAR_WHOLE, distortion, &[at(2.0, 3.0), at(-2.0, 3.0), at(2.0, -3.0), at(-2.0, -3.0)], functions)
+    exactly(
+        THRUSTER_BILINEAR_WHOLE,
+        distortion,
+        &[at(2.0, 3.0), at(-2.0, 3.0), at(2.0, -3.0), at(-2.0, -3.0)],
+        functions,
+    )
 }
 
 /// Eq. 2 at a command, and the commands found for the thrusts there: what must vanish on one side.
@@ -449,7 +440,6 @@ fn prove_compensation(distortion: Distortion) -> Verdict {
     let point = |[a, b]: [f64; 2], [c, d]: [f64; 2], dead| [0.5, 0.25, a, b, 1.0, 4.0, c, d, dead, 5.0];
     let (both, falling, bending) = ([0.5, 0.3], [0.5, -0.3], [-0.001, 0.5]);
     let laws = [both, falling, bending];
-    let points: Vec<_> =
-        laws.iter().flat_map(|&one| laws.iter().map(move |&other| point(one, other, 1.25))).collect();
+    let points: Vec<_> = laws.iter().flat_map(|&one| laws.iter().map(move |&other| point(one, other, 1.25))).collect();
     exactly(COMPENSATION_WHOLE, distortion, &points, functions)
 }
