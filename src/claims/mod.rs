@@ -6,7 +6,7 @@
 //! ```
 //! use selfosc::claims::{Budget, Word, verify};
 //! let findings = verify(&["lemma-1"], Budget { cases: 50, seed: 1 }).map_err(|id| format!("no claim {id}"))?;
-//! assert_eq!(findings[0].word(), Word::Sampled);
+//! assert_eq!(findings[0].word(), Word::Proved);
 //! # Ok::<(), String>(())
 //! ```
 

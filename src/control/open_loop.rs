@@ -220,7 +220,7 @@ impl<T: Scalar> OpenLoop<T> {
 
     /// Numerator and denominator without the delay, in descending powers of s, common factors cancelled.
     #[cfg(feature = "std")]
-    pub(super) fn polynomials(&self) -> (Vec<T>, Vec<T>) {
+    pub(crate) fn polynomials(&self) -> (Vec<T>, Vec<T>) {
         let [n0, n1, n2] = self.numerator;
         let (zero, one, f) = (T::zero(), T::one(), self.filter_s);
         let mut numerator = vec![n2, n1, n0];

@@ -12,6 +12,8 @@ pub mod interval_matrix;
 #[cfg(feature = "std")]
 mod outcome;
 #[cfg(feature = "std")]
+pub mod polynomial;
+#[cfg(feature = "std")]
 pub mod rigorous_quadrature;
 mod statement;
 
