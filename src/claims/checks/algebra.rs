@@ -1,6 +1,6 @@
 //! What the exact proofs have in common: identities of rational functions, case by case.
 
-use super::{Distortion, Evidence, ClaimPart, Verdict};
+use super::{ClaimPart, Distortion, Evidence, Verdict};
 use crate::proof::polynomial::{Rational, prove_identity};
 
 /// That functions of the code vanish identically in the cases in which the points lie. They take the variables and what the

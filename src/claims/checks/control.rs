@@ -1,7 +1,7 @@
 //! What controllers from an identified axis rest on.
 
 use super::algebra::{exactly, number};
-use super::{AsPrinted, Budget, Case, Distortion, Draw, Hypothesis, ClaimPart, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::control::{
     Margins, OpenLoop, RelayTest, Structure, Tuning, UltimatePoint, critical_point, double_pole, place,
 };
@@ -21,7 +21,8 @@ fn design(draw: &mut Draw, delay_s: f64) -> Option<Tuning<f64>> {
     Tuning::new(&axis, structure, bandwidth).ok()
 }
 
-const POLE_PLACEMENT_WHOLE: ClaimPart = ClaimPart::whole("whole", "every axis, structure and bandwidth that the design accepts");
+const POLE_PLACEMENT_WHOLE: ClaimPart =
+    ClaimPart::whole("whole", "every axis, structure and bandwidth that the design accepts");
 
 claim! {
     POLE_PLACEMENT = "pole-placement" "of this project" Identity

@@ -20,8 +20,10 @@ use crate::proof::identity::Series;
 use crate::proof::polynomial::Rational;
 use std::array;
 
-const FOURIER_COEFFICIENTS_WHOLE: ClaimPart =
-    ClaimPart::whole("whole", "every output with a mean square, every mean, sine and cosine in place of the coefficients");
+const FOURIER_COEFFICIENTS_WHOLE: ClaimPart = ClaimPart::whole(
+    "whole",
+    "every output with a mean square, every mean, sine and cosine in place of the coefficients",
+);
 
 claim! {
     FOURIER_COEFFICIENTS = "fourier-coefficients" "7-11" Definition

@@ -10,7 +10,9 @@ use nalgebra::Complex;
 use super::algebra::{exactly, number};
 use super::enclosure::identity;
 use super::relay::{SWITCHINGS, relay, root};
-use super::{AsPrinted, Budget, Case, Distortion, Draw, Evidence, ClaimPart, ClaimVariable, Verdict, claim, sample, tolerance};
+use super::{
+    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Evidence, Verdict, claim, sample, tolerance,
+};
 use crate::describing::{DescribingFunction, by_quadrature};
 use crate::identify::iso::{Oscillation, parameters};
 use crate::identify::select::pairwise::{Decision, decide, relative_spread_percent};

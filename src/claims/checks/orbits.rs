@@ -2,7 +2,7 @@
 
 use super::algebra::exactly;
 use super::orbit_proofs::{FALSE_DRAG, proved};
-use super::{AsPrinted, Budget, Case, Distortion, Draw, Hypothesis, ClaimPart, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::balance::HarmonicBalance;
 use crate::describing::ClosedForm;
 use crate::identify::iso::{Oscillation, Parameters, disturbance_from_times};
@@ -206,7 +206,8 @@ fn delta(budget: Budget, linear: bool, quadratic: bool, sign: f64) -> Verdict {
     })
 }
 
-const DELTA_FROM_TIMES_WHOLE: ClaimPart = ClaimPart::whole("whole", "every linear drag, disturbance below the level, delay");
+const DELTA_FROM_TIMES_WHOLE: ClaimPart =
+    ClaimPart::whole("whole", "every linear drag, disturbance below the level, delay");
 
 claim! {
     DELTA_FROM_TIMES = "delta-from-times" "32, delta = F_0" Theorem

@@ -7,7 +7,7 @@
 
 use super::kernels::{BREAKPOINT, prove_kernel};
 use super::single::Single;
-use super::{Distortion, ClaimDomain, Evidence, ClaimPart, Verdict};
+use super::{ClaimDomain, ClaimPart, Distortion, Evidence, Verdict};
 use crate::describing::{ClosedForm, KernelForm};
 use crate::nonlinearity::{Branches, Kernel, Side, Sinusoid};
 use crate::numeric::{Interval, Real};

@@ -2,7 +2,7 @@
 
 use super::family::{mean_of, odd_nondecreasing, output_scale, sweep};
 use super::step::by_steps;
-use super::{AsPrinted, Budget, Case, Distortion, Hypothesis, ClaimPart, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::describing::ClosedForm;
 use crate::nonlinearity::{DeadZone, Sinusoid};
 use crate::numeric::quadrature::integrate;

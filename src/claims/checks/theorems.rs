@@ -2,7 +2,7 @@
 
 use super::algebra::{exactly, number};
 use super::step::by_steps;
-use super::{AsPrinted, Budget, Case, Distortion, Draw, Hypothesis, ClaimPart, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::describing::{bias_of_output, by_quadrature};
 use crate::nonlinearity::{Custom, RelayHysteresis, Sinusoid};
 use crate::orbit::{RelayLoop, RelayOrbit};

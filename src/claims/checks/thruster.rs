@@ -1,12 +1,13 @@
 //! From the controller's forces to thrust: eqs. 1-3 and 35, Fig. 11.
 
 use super::algebra::{exactly, number};
-use super::{AsPrinted, Budget, Case, Distortion, Draw, Hypothesis, ClaimPart, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::numeric::Real;
 use crate::proof::polynomial::Rational;
 use crate::vehicle::{Allocation, BilinearThruster, Compensation, ThrustSide, Thruster};
 
-const THRUSTER_BILINEAR_WHOLE: ClaimPart = ClaimPart::whole("whole", "every pair of coefficients, speed of the water and thrust");
+const THRUSTER_BILINEAR_WHOLE: ClaimPart =
+    ClaimPart::whole("whole", "every pair of coefficients, speed of the water and thrust");
 
 claim! {
     THRUSTER_BILINEAR = "thruster-bilinear" "1" Identity
@@ -166,7 +167,8 @@ fn falling(budget: Budget) -> Verdict {
     })
 }
 
-const THRUSTER_ASYMMETRIC_WHOLE: ClaimPart = ClaimPart::whole("whole", "every two pairs of coefficients, command and thrust");
+const THRUSTER_ASYMMETRIC_WHOLE: ClaimPart =
+    ClaimPart::whole("whole", "every two pairs of coefficients, command and thrust");
 
 claim! {
     THRUSTER_ASYMMETRIC = "thruster-asymmetric" "3" Definition
