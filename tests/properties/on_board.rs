@@ -477,7 +477,8 @@ fn a_fault_is_named_before_it_does_harm() {
         // The patience, and never at a higher level.
         assert!(toggling.drove_s < 20.2 && toggling.strongest == 1.0);
 
-        let noisy = harm::<T>(Protocol { largest_rate: 1e3, largest_excursion: 20.0, factor: 1.1, ..calm }, 1.0, shaken(2.0));
+        let noisy =
+            harm::<T>(Protocol { largest_rate: 1e3, largest_excursion: 20.0, factor: 1.1, ..calm }, 1.0, shaken(2.0));
         assert_eq!(noisy.code, "noise");
         // Not sooner than the dwell of four intervals, and never at a higher level.
         assert!(noisy.shortest_s > 3.9 * INTERVAL_S && noisy.strongest == 1.0, "{}", noisy.shortest_s);
