@@ -24,7 +24,7 @@ pub mod theorem;
 mod tsypkin;
 
 #[cfg(feature = "std")]
-pub use certificate::{Certificate, certify};
+pub use certificate::{Certificate, Starts, certify};
 pub use closed_form::{
     force_left, linear_amplitude_excess, linear_half_cycle, linear_half_width, quadratic_half_cycle, quadratic_period,
     quadratic_speeds, return_slope,
