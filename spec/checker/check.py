@@ -110,21 +110,23 @@ def check_inequality(item, form, variables, own):
     require(used == [variable[0] for variable in variables], f"{name}: other variables")
     domain = pairs(item["domain"], len(used))
     require(domain == [(lower, upper) for _, lower, upper in variables], f"{name}: another domain")
-    formulas = [own]
+    bound = arb(item["bound"])
+    # Constants of an expression are rounded to doubles, those of the table are not.
+    formulas = [(own, bound - AGREEMENT)]
     if form["kind"] != "enclosed":
         require(item["expression"] is not None, f"{name}: no expression")
         tree = parse(item["expression"])
         require(names(tree) <= set(used) | {"pi"}, f"{name}: the expression has other variables")
         printed = lambda *at: evaluate(tree, dict(zip(used, at)))
         require(agree(form, printed, own, domain), f"{name}: the expression is not the formula")
-        formulas.append(printed)
-    require(item["bound"] > 0.0, f"{name}: the bound is not above zero")
+        formulas.append((printed, bound))
+    require(bound > AGREEMENT, f"{name}: the bound is not above zero")
     boxes = [pairs(box, len(used)) for box in item["boxes"]]
     require(covered(domain, boxes), f"{name}: the boxes do not cover the domain")
     for box in boxes:
         sides = [Range(arb(lower), arb(upper)) for lower, upper in box]
-        for formula in formulas:
-            require(shown(form, formula, sides, item["bound"]), f"{name}: not at least {item['bound']} on {box}")
+        for formula, least in formulas:
+            require(shown(form, formula, sides, least), f"{name}: not at least {item['bound']} on {box}")
     return len(boxes)
 
 

@@ -15,20 +15,22 @@ fn file(folder: &Path, claim: &Claim) -> PathBuf {
     folder.join(format!("{}.json", claim.id))
 }
 
-/// One file `ID.json` for each theorem that is proved.
-pub(super) fn write(folder: &Path) -> Result<(), CommandError> {
+/// One file `ID.json` for each theorem; the answer is no where one is not proved.
+pub(super) fn write(folder: &Path) -> Result<Outcome, CommandError> {
     let fault = |path: &Path| {
         let path = path.to_owned();
         |source| CommandError::Write { path, source }
     };
     std::fs::create_dir_all(folder).map_err(fault(folder))?;
+    let mut outcome = Outcome::Done;
     for claim in theorems() {
-        if let Some(certificate) = Certificate::of(claim) {
-            let path = file(folder, claim);
-            std::fs::write(&path, certificate.to_string()).map_err(fault(&path))?;
+        let path = file(folder, claim);
+        match Certificate::of(claim) {
+            Some(certificate) => std::fs::write(&path, certificate.to_string()).map_err(fault(&path))?,
+            None => outcome = Outcome::No,
         }
     }
-    Ok(())
+    Ok(outcome)
 }
 
 /// A line for each theorem: accepted, or why not.

@@ -293,7 +293,8 @@ impl TryFrom<[Option<f64>; 2]> for Interval {
     type Error = &'static str;
 
     fn try_from([lo, hi]: [Option<f64>; 2]) -> Result<Self, Self::Error> {
-        Self::new(lo.unwrap_or(f64::NEG_INFINITY), hi.unwrap_or(f64::INFINITY)).ok_or("the ends of an interval in order")
+        Self::new(lo.unwrap_or(f64::NEG_INFINITY), hi.unwrap_or(f64::INFINITY))
+            .ok_or("the ends of an interval in order")
     }
 }
 

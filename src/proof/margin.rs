@@ -139,14 +139,15 @@ fn slope(of: Formula, by: usize, at: &Cell) -> Interval {
 /// By Taylor's theorem at zero, the last coefficient between zero and the points of `at`; it says nothing unless the lower ones
 /// are zero.
 fn over_power(of: Formula, order: usize, at: &Cell) -> Interval {
-    let along = |first: Interval| {
-        let mut variables = at.map(Series::constant);
-        variables[0] = Series::variable(first);
-        *(of.series)(variables).coefficients()
-    };
-    let at_zero = along(Interval::ZERO);
-    match along(at[0].hull(Interval::ZERO)).get(order) {
-        Some(&last) if at_zero[..order].iter().all(|lower| *lower == Interval::ZERO) => last,
+    let mut at_zero = *at;
+    at_zero[0] = Interval::ZERO;
+    // Derivatives, whose operations keep an exact zero; sums of products in a jet round.
+    let zero = (of.curvature)(Curvature::variables(Gradient::variables(at_zero)));
+    let lower = [zero.value().value(), zero.slopes()[0].value(), zero.slopes()[0].slopes()[0]];
+    let mut variables = at.map(Series::constant);
+    variables[0] = Series::variable(at[0].hull(Interval::ZERO));
+    match (lower.get(..order), (of.series)(variables).coefficients().get(order)) {
+        (Some(lower), Some(&last)) if lower.iter().all(|value| *value == Interval::ZERO) => last,
         _ => Interval::ENTIRE,
     }
 }

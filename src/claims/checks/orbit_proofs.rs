@@ -47,10 +47,8 @@ fn failed(inequality: &Inequality, why: NotProved<VARIABLES>) -> Verdict {
 
 /// What the theorems with a disturbance enclose of the disturbances below the level.
 const BELOW_095: Part = Part::over("every-axis", "", const { &[Variable::number("abs(delta)/C", 0.0, 0.95)] });
-const EXCESS: Part = Part::whole(
-    "excess",
-    "denominator less numerator of the slope grows with both drag forces, at a rate above 1.99",
-);
+const EXCESS: Part =
+    Part::whole("excess", "denominator less numerator of the slope grows with both drag forces, at a rate above 1.99");
 const RATE: Part = Part::whole("rate", "1 - m > 0.48 (d_1 + d_2)");
 const EVERY_G: Part = Part::whole("every-g", "every g > 0");
 const UP_TO_TEN: Part = Part::whole("g-up-to-ten", "every alpha, drag, C, x_a > 0 with 0 < g <= 10, delta = 0");
