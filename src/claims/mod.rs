@@ -10,6 +10,7 @@
 //! # Ok::<(), String>(())
 //! ```
 
+mod certificate;
 mod checks;
 mod distortion;
 mod evidence;
@@ -18,6 +19,7 @@ mod sampling;
 #[doc(hidden)]
 pub mod tolerance;
 
+pub use certificate::{Certificate, Shown};
 pub use evidence::{ClaimDomain, ClaimPart, ClaimVariable, Evidence, Verdict, Witness, Word};
 pub use registry::{AsPrinted, Checker, Claim, Finding, Hypothesis, Kind, verify};
 pub use sampling::Budget;
