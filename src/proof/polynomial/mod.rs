@@ -124,7 +124,7 @@ mod tests {
     fn nothing_is_proved_where_arithmetic_ends() {
         let huge = |[a]: [Rational; 1]| {
             let square = |x: Rational| x * x;
-            let large = square(square(square(number(1e12) * a + number(1.0))));
+            let large = square(square(square(square(number(1000.0) * a + number(1.0)))));
             Some([large - large])
         };
         assert!(!holds([1.0], huge));
