@@ -229,7 +229,18 @@ pub(super) fn minus_sine(x: Interval, difference: Interval) -> Interval {
     increasing.intersection(difference).unwrap_or(difference)
 }
 
+/// Up to here the inverse functions are their argument but for its cube, far below its rounding.
+const SMALL: f64 = 1.0 / 134_217_728.0; // 2^-27
+
+/// The argument's cube, and what lies between it and zero: `x <= asin x <= x + x^3` and `x - x^3 <= atan x <= x` for `0 <= x <= 1/2`.
+fn up_to_cube(x: Interval) -> Interval {
+    (x * x.square()).hull(Interval::ZERO)
+}
+
 pub(super) fn asin(x: Interval) -> Interval {
+    if x.magnitude() <= SMALL {
+        return x.increasing(|end| Interval::point(end) + up_to_cube(Interval::point(end)));
+    }
     if x.is_subset_of(Interval::UNIT) { x.increasing_over(asin_over) } else { Interval::ENTIRE }
 }
 
@@ -242,5 +253,8 @@ pub(super) fn acos(x: Interval) -> Interval {
 }
 
 pub(super) fn atan(x: Interval) -> Interval {
+    if x.magnitude() <= SMALL {
+        return x.increasing(|end| Interval::point(end) - up_to_cube(Interval::point(end)));
+    }
     x.increasing_over(atan_over)
 }
