@@ -199,7 +199,20 @@ fn large_angles_are_enclosed() {
         let found = Interval::point(angle).sin();
         assert!(found.lower() <= sine && sine <= found.upper(), "{angle}: {sine} not in {found}");
     }
+    for (angle, cosine) in NEXT_TO_QUARTERS {
+        let found = Interval::point(angle).cos();
+        assert!(found.lower() <= cosine && cosine <= found.upper(), "{angle}: {cosine} not in {found}");
+    }
 }
+
+/// Doubles next to odd multiples of a quarter turn, with their cosines: these show what is left of the reduction's last bits.
+const NEXT_TO_QUARTERS: [(f64, f64); 5] = [
+    (8380002.053909924, -2.202293541700382e-10),
+    (8380005.195502577, 3.41771364300162e-10),
+    (8380008.337095231, -4.633133744302859e-10),
+    (8380011.478687885, -3.4646719005506876e-10),
+    (6588402.029050122, -4.391400636077328e-10),
+];
 
 /// Angles beyond a million radians, with their sines rounded to doubles.
 const LARGE_ANGLES: [(f64, f64); 12] = [

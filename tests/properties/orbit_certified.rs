@@ -48,7 +48,7 @@ fn certificates_that_say_something_else_are_refused() {
     assert_eq!(refused(|c| c.claim = "lemma-1".to_owned()), "malformed-proof");
     assert_eq!(refused(|c| c.inequalities[0].expression = Some("mu".to_owned())), "other-statement");
     assert_eq!(refused(|c| c.inequalities[0].form = Form::Value), "other-statement");
-    assert_eq!(refused(|c| c.inequalities[6].proof.boxes.truncate(1)), "not-covered");
+    assert_eq!(refused(|c| c.inequalities[2].proof.boxes.truncate(1)), "not-covered");
     assert_eq!(refused(|c| c.inequalities[5].proof.bound *= 10.0), "not-shown");
     assert_eq!(refused(|c| drop(c.inequalities.pop())), "other-statement");
     for text in ["", "[]", r#"{"format":1}"#, &certificate.to_string().replace("[-1.0,1.0]", "[1.0,-1.0]")] {
@@ -181,7 +181,8 @@ fn enclosures_of_one_axis_are_narrow_and_hold_the_orbit() {
     for case in AXES {
         let (axis, relay) = build(case);
         let proof = certify(&axis, &relay).unwrap();
-        assert!(proof.unique && proof.attracting);
+        // The ideal relay with a delay has faster oscillations too.
+        assert_eq!([proof.unique, proof.attracting], [case[4] > 0.0; 2], "{case:?}");
         let (cycle, enclosure) = (limit_cycle(&axis, &relay).unwrap(), proof.enclosure);
         // Rounding of the floating-point cycle grows as its multiplier nears one.
         let allowed = ORBIT_ENCLOSURE / (1.0 - cycle.multiplier);
