@@ -50,9 +50,8 @@ impl<T: Scalar> Experiment<T> {
     /// Any values at all may come: what a sound sensor and clock cannot have said is a fault, upon which, as after the end and
     /// after an abort, the command is neutral until [`restart`](Self::restart).
     pub fn step(&mut self, reading: T, time_s: T) -> Step<T> {
-        let protocol = *self.supervisor.protocol();
         let relay_level = self.supervisor.relay_level();
-        self.supervisor.step(reading, time_s, &mut Judge { steadiness: &mut self.steadiness, protocol, relay_level })
+        self.supervisor.step(reading, time_s, &mut Judge { steadiness: &mut self.steadiness, relay_level })
     }
 
     /// The command at a time at which there is no reading: for a timer beside a driver that may block, which would otherwise

@@ -44,9 +44,9 @@ pub(crate) enum Observation {
 /// Whoever looks at the cycles.
 pub(crate) trait Observer<T> {
     /// Forgets all cycles: an attempt with other relay parameters begins.
-    fn begin(&mut self);
+    fn begin(&mut self, protocol: &Protocol<T>);
     /// Takes a sample with the command given upon it.
-    fn sample(&mut self, time_s: T, position: T, command: T) -> Observation;
+    fn sample(&mut self, protocol: &Protocol<T>, time_s: T, position: T, command: T) -> Observation;
 }
 
 /// Why an attempt failed.
@@ -257,7 +257,7 @@ impl<T: Scalar> Supervisor<T> {
         self.in_place(sensor.position())?;
         self.in_time(time_s)?;
         let command = self.switch(sensor.position(), time_s);
-        match observer.sample(time_s, sensor.position(), command) {
+        match observer.sample(&self.protocol, time_s, sensor.position(), command) {
             _ if self.early >= MOST_EARLY => self.retry(Failure::Noise, time_s, observer),
             Observation::Steady => {
                 self.phase = Phase::Done;
@@ -323,7 +323,7 @@ impl<T: Scalar> Supervisor<T> {
             self.extent = (position, position);
         }
         self.attempt += 1;
-        observer.begin();
+        observer.begin(&self.protocol);
         Ok(())
     }
 }

@@ -113,8 +113,8 @@ pub(super) struct Machine {
 struct Says(Observation);
 
 impl Observer<f64> for Says {
-    fn begin(&mut self) {}
-    fn sample(&mut self, _: f64, _: f64, _: f64) -> Observation {
+    fn begin(&mut self, _: &Protocol<f64>) {}
+    fn sample(&mut self, _: &Protocol<f64>, _: f64, _: f64, _: f64) -> Observation {
         self.0
     }
 }
