@@ -1,5 +1,7 @@
 //! From an oscillation to a model of the vehicle.
 
+#[cfg(feature = "std")]
+pub mod bounded;
 mod drag_law;
 mod error;
 pub mod exact;
