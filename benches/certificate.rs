@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a benchmark may panic")]
 
 use divan::{Bencher, black_box};
-use selfosc::claims::orbit_proofs::THEOREMS;
+use selfosc::claims::{CLAIMS, Claim};
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::orbit::certify;
 use selfosc::orbit::theorem::Theorem;
@@ -13,11 +13,11 @@ fn main() {
 }
 
 fn theorem(id: &str) -> &'static Theorem {
-    THEOREMS.iter().find(|theorem| theorem.id == id).unwrap()
+    CLAIMS.iter().filter_map(Claim::theorem).find(|theorem| theorem.id == id).unwrap()
 }
 
 fn ids() -> impl Iterator<Item = &'static str> {
-    THEOREMS.iter().map(|theorem| theorem.id)
+    CLAIMS.iter().filter_map(Claim::theorem).map(|theorem| theorem.id)
 }
 
 #[divan::bench(args = ids())]

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a benchmark may panic")]
 
 use divan::{Bencher, black_box};
-use selfosc::claims::proof::PROOFS;
+use selfosc::claims::{CLAIMS, Claim};
 use selfosc::describing::{CATALOGUE, ClosedForm, Entry, KernelForm, certified};
 use selfosc::nonlinearity::{Power, Sinusoid};
 use selfosc::numeric::{Interval, Real};
@@ -58,10 +58,10 @@ fn closed_power(bencher: Bencher, (exponent, bias): (f64, f64)) {
 #[divan::bench(sample_count = 3)]
 fn kernels(bencher: Bencher) {
     let forms = [KernelForm::Step, KernelForm::Ramp, KernelForm::Sign, KernelForm::Band];
-    bencher.bench_local(|| black_box(forms).map(|form| form.prove(1.0)));
+    bencher.bench_local(|| black_box(forms).map(|form| form.prove()));
 }
 
 #[divan::bench(sample_count = 3)]
 fn proofs(bencher: Bencher) {
-    bencher.bench_local(|| PROOFS.iter().filter(|(_, proof)| proof(black_box(1.0)).holds()).count());
+    bencher.bench_local(|| CLAIMS.iter().filter_map(Claim::prove).filter(|proof| black_box(proof).holds()).count());
 }

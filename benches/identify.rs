@@ -1,10 +1,10 @@
 //! Benchmarks of the identification.
 
 use divan::{Bencher, black_box};
-use selfosc::experiment::{Experiment, Record, Sensor};
+use selfosc::experiment::{Record, Sensor, SimulatedExperiment};
 use selfosc::features::RecordFeatures;
 use selfosc::identify::DragLaw;
-use selfosc::identify::exact::Cycle;
+use selfosc::identify::exact::MeanCycle;
 use selfosc::identify::iso::Oscillation;
 use selfosc::identify::joint::{Delay, FeatureRow, fit_rows};
 use selfosc::identify::select::likelihood::Choice;
@@ -16,7 +16,7 @@ fn main() {
 }
 
 /// Row 7 of Table 4, with a disturbance.
-const CYCLE: Cycle<f64> = Cycle {
+const CYCLE: MeanCycle<f64> = MeanCycle {
     relay_level: 8.23,
     switch_level: 6.58,
     amplitude: 26.36,
@@ -61,7 +61,7 @@ fn record(duration_s: f64, rounded: bool) -> Option<Record> {
     } else {
         Sensor { noise: 0.01, ..Sensor::default() }
     };
-    Experiment::new(axis, relay, 100.0).ok()?.held().with_sensor(sensor).ok()?.run(duration_s).ok()
+    SimulatedExperiment::new(axis, relay, 100.0).ok()?.held().with_sensor(sensor).ok()?.run(duration_s).ok()
 }
 
 /// From the record to the paper's parameters.

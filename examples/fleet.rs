@@ -8,7 +8,7 @@ use std::fs::File;
 
 use rayon::prelude::*;
 
-use selfosc::experiment::{Columns, Experiment, Record, Sensor};
+use selfosc::experiment::{Columns, Record, Sensor, SimulatedExperiment};
 use selfosc::identify::joint::{Delay, Parameter};
 use selfosc::identify::select::likelihood::Choice;
 use selfosc::nonlinearity::RelayHysteresis;
@@ -52,6 +52,6 @@ fn logged(path: &str) -> Result<Record, Failure> {
 fn simulated(number: u64) -> Result<Record, Failure> {
     let axis = DragAxis::quadratic(0.5 + 0.01 * (number % 100) as f64, 0.5)?.with_delay_s(0.1)?;
     let sensor = Sensor { quantum: 1f64.to_radians(), ..Sensor::default() };
-    let experiment = Experiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held();
+    let experiment = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held();
     Ok(experiment.with_sensor(sensor)?.with_seed(number).run(60.0)?)
 }

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use nalgebra::Vector6;
 use selfosc::control::{Answer, ControlError, Controller, FeedForward, Structure, Tuning};
-use selfosc::experiment::{Record, Relay};
+use selfosc::experiment::{Record, RelayState};
 use selfosc::features::RecordFeatures;
 use selfosc::identify::joint::{Delay, Parameter};
 use selfosc::identify::select::likelihood::Choice;
@@ -16,8 +16,8 @@ use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::plant::DragAxis;
 use selfosc::report::{Figure, Mark, Panel};
 use selfosc::vehicle::{
-    Allocation, Axis, Compensation, DynamometerPoint, FittedSide, Simulation, State, ThrustSide, Thruster, ThrusterMap,
-    VehicleError, pool_thrusters, pool_vehicle,
+    Allocation, Axis, BodyState, Compensation, DynamometerPoint, FittedSide, Simulation, ThrustSide, Thruster,
+    ThrusterMap, VehicleError, pool_thrusters, pool_vehicle,
 };
 
 type Failure = Box<dyn std::error::Error>;
@@ -86,7 +86,7 @@ pub fn run(folder: &Path) -> Result<Session, Failure> {
     let chain = Compensation::new(Allocation::pair(0.08)?, [thruster; 2]);
 
     println!("2. In the pool: a relay in the heading loop.");
-    let mut relay = Relay::new(RelayHysteresis::new(0.08, 0.35, 0.0)?, true);
+    let mut relay = RelayState::new(RelayHysteresis::new(0.08, 0.35, 0.0)?, true);
     let run = sail(&chain, &thruster, 60.0, |heading| relay.step(-heading))?;
     let record = Record::new(run.time_s.clone(), run.heading_rad.clone(), run.moment.clone())?;
     let features = RecordFeatures::of(&record)?.features;
@@ -190,7 +190,7 @@ fn sail(
     mut law: impl FnMut(f64) -> f64,
 ) -> Result<Run, Failure> {
     let mut pool =
-        Simulation::new(pool_vehicle()?, pool_thrusters()?.to_vec(), INTERVAL_S / STEPS as f64, State::at_rest())?;
+        Simulation::new(pool_vehicle()?, pool_thrusters()?.to_vec(), INTERVAL_S / STEPS as f64, BodyState::at_rest())?;
     let mut run = Run { time_s: Vec::new(), heading_rad: Vec::new(), moment: Vec::new(), true_heading_rad: Vec::new() };
     let tether = Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, TETHER);
     let (mut heading, mut seen, mut owed) = (0.0, 0.0, [0.0; 2]);
@@ -236,7 +236,7 @@ fn record_figure(run: &Run, model: &[f64], first: usize) -> Figure {
         .with("identified model", Mark::Line, series(&run.time_s[first..], model, degrees));
     let moment =
         Panel::new("time / s", "moment asked for / (N m)").with("", Mark::Line, series(&run.time_s, &run.moment, 1.0));
-    Figure { name: "relay-experiment", title: "Relay experiment".to_owned(), panels: vec![heading, moment] }
+    Figure { name: "relay-experiment", title: "RelayState experiment".to_owned(), panels: vec![heading, moment] }
 }
 
 fn step_figure(before: &Run, after: &Run) -> Figure {

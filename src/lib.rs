@@ -1,12 +1,58 @@
 //! Self-oscillations under a relay: describing functions, exact limit cycles, identification of vehicles from them, and
 //! the theory behind it as executable claims.
 //!
+//! | job | start with |
+//! |---|---|
+//! | describe a characteristic | [`nonlinearity`], [`describing::ClosedForm`] |
+//! | predict an oscillation | [`orbit::limit_cycle`], [`orbit::RelayLoop`], [`balance::HarmonicBalance`] |
+//! | identify a vehicle from logs | `identify::Session` (with the feature `std`) |
+//! | tune a controller for it | [`control::Tuning`] |
+//! | verify the theory | `claims::verify` (with the feature `std`) |
+//!
+//! [`prelude`] has the names that these jobs need. Without the feature `std` the library neither allocates nor panics on
+//! input; [`on_board`] runs the whole experiment there.
+//!
 //! Data flows one way, and the modules stand below in that order.
+//!
+//! # Features
+//!
+//! | feature | adds |
+//! |---|---|
+//! | `std` | records and logs, fits, certificates, claims, the paper |
+//! | `report` | figures and pages |
+//! | `command` (default) | the command `selfosc` |
+//! | `internals` | what the tests of this package reach into: no promise, nothing documented |
 #![cfg_attr(not(feature = "std"), no_std)]
+// What only tests reach is public with the feature `internals` and is checked there.
+#![cfg_attr(not(feature = "internals"), allow(dead_code, unreachable_pub, unused_imports))]
+// Public pages may name what stands behind them.
+#![allow(rustdoc::private_intra_doc_links)]
+
+/// Declares what only this crate and its tests use: public with the feature `internals`, which promises nothing.
+macro_rules! internal {
+    ($($(#[$attribute:meta])* mod $name:ident;)+) => { $(
+        $(#[$attribute])*
+        #[cfg(feature = "internals")]
+        #[doc(hidden)]
+        pub mod $name;
+        $(#[$attribute])*
+        #[cfg(not(feature = "internals"))]
+        pub(crate) mod $name;
+    )+ };
+    ($($(#[$attribute:meta])* use $module:ident::{$($name:ident),+ $(,)?};)+) => { $(
+        $(#[$attribute])*
+        #[cfg(feature = "internals")]
+        #[doc(hidden)]
+        pub use $module::{$($name),+};
+        $(#[$attribute])*
+        #[cfg(not(feature = "internals"))]
+        pub(crate) use $module::{$($name),+};
+    )+ };
+}
 
 pub mod numeric;
 
-pub mod proof;
+internal! { mod proof; }
 
 pub mod nonlinearity;
 
@@ -36,6 +82,19 @@ pub mod claims;
 pub mod paper;
 
 #[cfg(feature = "command")]
+#[doc(hidden)]
 pub mod command;
-#[cfg(feature = "command")]
+#[cfg(feature = "report")]
 pub mod report;
+
+pub mod prelude;
+
+#[cfg(feature = "std")]
+mod error;
+#[cfg(feature = "std")]
+pub use error::Error;
+
+/// The Rust blocks of the README, compiled and run as tests.
+#[cfg(all(doctest, feature = "std"))]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -2,6 +2,7 @@
 
 use crate::describing::DescribingError;
 use crate::nonlinearity::NonlinearityError;
+use crate::numeric::OutOfDomain;
 use crate::plant::PlantError;
 
 /// Why a harmonic balance cannot be computed. That there is no intersection is not an error but an empty answer.
@@ -17,26 +18,14 @@ pub enum BalanceError {
     /// The characteristic or its input is at fault.
     #[error(transparent)]
     Nonlinearity(#[from] NonlinearityError),
-    /// A range that is empty or not positive.
-    #[error("the range of {quantity} from {from} to {to} must be finite, above 0 and ascending")]
-    Range {
-        /// Amplitude or frequency.
-        quantity: &'static str,
-        /// Lower end.
-        from: f64,
-        /// Upper end.
-        to: f64,
-    },
-    /// A bias, reference or disturbance that is not a number.
-    #[error("{quantity} = {value} must be a finite number")]
-    NotFinite {
-        /// What it is.
-        quantity: &'static str,
-        /// The value given.
-        value: f64,
-    },
+    /// A bias, reference, disturbance or range outside its domain.
+    #[error(transparent)]
+    OutOfDomain(#[from] OutOfDomain),
     /// A curve that winds too much for its range.
-    #[error("the curve over {quantity} from {from} to {to} needs more than {limit} points; narrow the range")]
+    #[error(
+        "the curve over {quantity} from {from} to {to} needs more than {limit} points; give a range that begins later or ends \
+         earlier"
+    )]
     TooManyPoints {
         /// Amplitude or frequency.
         quantity: &'static str,
@@ -48,7 +37,7 @@ pub enum BalanceError {
         limit: usize,
     },
     /// A number of harmonics out of range.
-    #[error("{order} harmonics asked for; 1 to {limit} are possible")]
+    #[error("{order} harmonics asked for, 1 to {limit} are possible; give a number in that range")]
     Order {
         /// The number asked for.
         order: usize,
@@ -56,7 +45,10 @@ pub enum BalanceError {
         limit: usize,
     },
     /// Newton's method did not settle with more harmonics.
-    #[error("no balance found with {order} harmonics: the residual stays at {residual} of the amplitude")]
+    #[error(
+        "no balance found with {order} harmonics: the residual stays at {residual} of the amplitude; \
+         give another number of harmonics"
+    )]
     NotConverged {
         /// Number of harmonics.
         order: usize,
@@ -66,7 +58,7 @@ pub enum BalanceError {
     /// A characteristic with memory whose input turns inside a period where the memory acts.
     #[error(
         "the input turns at {input} within the range where the characteristic has memory; \
-         its output there is not known from the input's range alone"
+         its output there is not known from the input's range alone; give fewer harmonics, or simulate"
     )]
     TurnsInMemory {
         /// Input value of the turning point.
@@ -89,4 +81,34 @@ pub enum BalanceError {
         /// Half-width of the hysteresis, in position units.
         half_width: f64,
     },
+}
+
+impl BalanceError {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Plant(error) => error.code(),
+            Self::Describing(error) => error.code(),
+            Self::Nonlinearity(error) => error.code(),
+            Self::OutOfDomain(_) => "out-of-domain",
+            Self::TooManyPoints { .. } => "too-many-points",
+            Self::Order { .. } => "harmonics",
+            Self::NotConverged { .. } => "no-balance",
+            Self::TurnsInMemory { .. } => "turns-in-memory",
+            Self::NoAxisBalance { .. } => "no-axis-balance",
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        match self {
+            Self::Plant(error) => error.out_of_domain(),
+            Self::Describing(error) => error.out_of_domain(),
+            Self::Nonlinearity(error) => error.out_of_domain(),
+            Self::OutOfDomain(fault) => Some(fault),
+            _ => None,
+        }
+    }
 }

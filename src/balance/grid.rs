@@ -3,6 +3,7 @@
 use core::ops::RangeInclusive;
 
 use super::BalanceError;
+use crate::numeric::domain;
 
 /// Points in a decade before refinement.
 const PER_DECADE: f64 = 24.0;
@@ -20,12 +21,15 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    pub(super) fn new(quantity: &'static str, range: &RangeInclusive<f64>) -> Result<Self, BalanceError> {
-        let (from, to) = (*range.start(), *range.end());
-        if !(from > 0.0 && from < to && to.is_finite()) {
-            return Err(BalanceError::Range { quantity, from, to });
-        }
-        Ok(Self { quantity, range: range.clone() })
+    /// Amplitudes of the characteristic's input.
+    pub(super) fn amplitude(range: &RangeInclusive<f64>) -> Result<Self, BalanceError> {
+        domain::ascending(["lowest amplitude", "highest amplitude"], range, "input units")?;
+        Ok(Self { quantity: "amplitude", range: range.clone() })
+    }
+    /// Frequencies, rad/s.
+    pub(super) fn frequency(range: &RangeInclusive<f64>) -> Result<Self, BalanceError> {
+        domain::ascending(["lowest frequency", "highest frequency"], range, "rad/s")?;
+        Ok(Self { quantity: "frequency", range: range.clone() })
     }
 
     /// Samples `curve`; halves every gap between two points that are not `close`, and every edge of its domain.

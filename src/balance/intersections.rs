@@ -10,7 +10,7 @@ use super::grid::Axis;
 use super::nyquist::near;
 use crate::describing::{DescribingError, DescribingFunction};
 use crate::nonlinearity::Sinusoid;
-use crate::numeric::scan;
+use crate::numeric::{domain, scan};
 use crate::plant::TransferFunction;
 
 /// Loop gain below which no oscillation can be near: the curve is not refined there.
@@ -109,28 +109,30 @@ where
     /// With another condition on the bias.
     ///
     /// # Errors
-    /// [`BalanceError::NotFinite`].
+    /// [`BalanceError::OutOfDomain`].
     pub fn with_bias(self, bias: Bias) -> Result<Self, BalanceError> {
         let numbers = match bias {
-            Bias::Fixed(bias) => [("bias", bias), ("bias", bias)],
-            Bias::Loop { reference, disturbance } => [("reference", reference), ("disturbance", disturbance)],
+            Bias::Fixed(bias) => [("bias", bias, "input units"); 2],
+            Bias::Loop { reference, disturbance } => {
+                [("reference", reference, "output units"), ("disturbance", disturbance, "plant input units")]
+            }
         };
-        match numbers.into_iter().find(|(_, value)| !value.is_finite()) {
-            Some((quantity, value)) => Err(BalanceError::NotFinite { quantity, value }),
-            None => Ok(Self { bias, ..self }),
+        for (quantity, value, unit) in numbers {
+            domain::finite(quantity, value, unit)?;
         }
+        Ok(Self { bias, ..self })
     }
     /// Within these amplitudes of the characteristic's input and these frequencies, rad/s.
     ///
     /// # Errors
-    /// [`BalanceError::Range`] unless both ranges are positive, finite and ascending.
+    /// [`BalanceError::OutOfDomain`] unless both ranges are positive, finite and ascending.
     pub fn within(
         self,
         amplitude: RangeInclusive<f64>,
         omega_rad_s: RangeInclusive<f64>,
     ) -> Result<Self, BalanceError> {
-        Axis::new("amplitude", &amplitude)?;
-        Axis::new("frequency", &omega_rad_s)?;
+        Axis::amplitude(&amplitude)?;
+        Axis::frequency(&omega_rad_s)?;
         Ok(Self { amplitude, omega_rad_s, ..self })
     }
     /// The range of frequencies searched, rad/s.
@@ -153,8 +155,8 @@ where
     /// an amplitude below switching.
     pub fn intersections(&self) -> Result<Vec<Intersection>, BalanceError> {
         let failure = Cell::new(None);
-        let amplitude = Axis::new("amplitude", &self.amplitude)?;
-        let omega = Axis::new("frequency", &self.omega_rad_s)?;
+        let amplitude = Axis::amplitude(&self.amplitude)?;
+        let omega = Axis::frequency(&self.omega_rad_s)?;
         let response = |omega: f64| self.plant.response(omega).ok();
 
         let coarse = omega.sample(response, |_, _| true)?;

@@ -21,7 +21,7 @@ pub(super) fn near(a: Complex<f64>, b: Complex<f64>) -> bool {
 /// apart. A pole on the imaginary axis leaves a gap.
 ///
 /// # Errors
-/// [`BalanceError::Range`]; [`BalanceError::TooManyPoints`] where a delay turns the curve too often.
+/// [`BalanceError::OutOfDomain`]; [`BalanceError::TooManyPoints`] where a delay turns the curve too often.
 ///
 /// ```
 /// use selfosc::balance::nyquist_locus;
@@ -36,7 +36,7 @@ pub fn nyquist_locus(
     plant: &TransferFunction,
     omega_rad_s: RangeInclusive<f64>,
 ) -> Result<Vec<(f64, Complex<f64>)>, BalanceError> {
-    let points = Axis::new("frequency", &omega_rad_s)?.sample(|w| plant.response(w).ok(), |a, b| near(*a, *b))?;
+    let points = Axis::frequency(&omega_rad_s)?.sample(|w| plant.response(w).ok(), |a, b| near(*a, *b))?;
     Ok(points.into_iter().filter_map(|(omega, response)| Some((omega, response?))).collect())
 }
 
@@ -44,7 +44,7 @@ pub fn nyquist_locus(
 /// most a tenth of its magnitude apart. Amplitudes without describing function, or where it vanishes, are left out.
 ///
 /// # Errors
-/// [`BalanceError::Range`], [`BalanceError::TooManyPoints`].
+/// [`BalanceError::OutOfDomain`], [`BalanceError::TooManyPoints`].
 pub fn negative_inverse_locus(
     describing: impl Fn(&Sinusoid<f64>) -> Result<DescribingFunction<f64>, DescribingError>,
     bias: f64,
@@ -54,6 +54,6 @@ pub fn negative_inverse_locus(
         let df = describing(&Sinusoid::new(bias, amplitude).ok()?).ok()?;
         Some(-Complex::new(df.p, df.q).inv()).filter(|value| value.is_finite())
     };
-    let points = Axis::new("amplitude", &amplitude)?.sample(value, |a, b| near(*a, *b))?;
+    let points = Axis::amplitude(&amplitude)?.sample(value, |a, b| near(*a, *b))?;
     Ok(points.into_iter().filter_map(|(amplitude, value)| Some((amplitude, value?))).collect())
 }

@@ -3,10 +3,12 @@
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
+use serde::{Deserialize, Serialize};
+
 use super::{Evidence, Verdict, Witness};
 
 /// How many cases to draw, and from which seed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Budget {
     /// Cases for each checker.
     pub cases: usize,
@@ -22,45 +24,51 @@ impl Default for Budget {
 
 /// Numbers of one case, with the names they are reported under.
 #[derive(Debug)]
-pub struct Draw {
+pub(crate) struct Draw {
     generator: Pcg64,
     drawn: Vec<(&'static str, f64)>,
 }
 
 impl Draw {
     /// Uniform on `[from, to)`.
-    pub fn uniform(&mut self, name: &'static str, from: f64, to: f64) -> f64 {
+    pub(crate) fn uniform(&mut self, name: &'static str, from: f64, to: f64) -> f64 {
         let value = self.generator.random_range(from..to);
         self.note(name, value)
     }
     /// Uniform in the logarithm on `[from, to)`, both positive.
-    pub fn log_uniform(&mut self, name: &'static str, from: f64, to: f64) -> f64 {
+    pub(crate) fn log_uniform(&mut self, name: &'static str, from: f64, to: f64) -> f64 {
         let value = self.generator.random_range(from.ln()..to.ln()).exp();
         self.note(name, value)
     }
     /// Uniform on `[from, to)`, too many of a kind to be shown in a witness.
-    pub fn unrecorded(&mut self, from: f64, to: f64) -> f64 {
+    pub(crate) fn unrecorded(&mut self, from: f64, to: f64) -> f64 {
         self.generator.random_range(from..to)
     }
     /// A whole number of `0..count`.
-    pub fn index(&mut self, name: &'static str, count: usize) -> usize {
+    pub(crate) fn index(&mut self, name: &'static str, count: usize) -> usize {
         let value = self.generator.random_range(0..count);
         self.note(name, value as f64);
         value
     }
     /// Adds a number that follows from the drawn ones to what a witness shows.
-    pub fn note(&mut self, name: &'static str, value: f64) -> f64 {
+    pub(crate) fn note(&mut self, name: &'static str, value: f64) -> f64 {
         self.drawn.push((name, value));
         value
     }
     /// The two sides of an equation, equal to `tolerance` relative to `scale`.
-    pub fn equal(&mut self, (name, value): (&'static str, f64), expected: f64, scale: f64, tolerance: f64) -> Case {
+    pub(crate) fn equal(
+        &mut self,
+        (name, value): (&'static str, f64),
+        expected: f64,
+        scale: f64,
+        tolerance: f64,
+    ) -> Case {
         self.note(name, value);
         self.note("expected", expected);
         Case::margin(1.0 - (value - expected).abs() / (tolerance * scale.abs()))
     }
     /// `lesser <= greater`; the margin is the gap relative to `scale`.
-    pub fn at_most(&mut self, lesser: (&'static str, f64), greater: (&'static str, f64), scale: f64) -> Case {
+    pub(crate) fn at_most(&mut self, lesser: (&'static str, f64), greater: (&'static str, f64), scale: f64) -> Case {
         self.note(lesser.0, lesser.1);
         self.note(greater.0, greater.1);
         Case::margin((greater.1 - lesser.1) / scale.abs())
@@ -69,7 +77,7 @@ impl Draw {
 
 /// What one case says.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Case {
+pub(crate) enum Case {
     /// The hypotheses do not hold: it does not count.
     Skipped,
     /// The statement holds with this margin, or fails where the margin is negative or no number.
@@ -78,18 +86,15 @@ pub enum Case {
 
 impl Case {
     /// By margin: below zero, or no number, fails.
-    #[must_use]
-    pub fn margin(margin: f64) -> Self {
+    pub(crate) fn margin(margin: f64) -> Self {
         Self::Counted(margin)
     }
     /// By truth.
-    #[must_use]
-    pub fn truth(holds: bool) -> Self {
+    pub(crate) fn truth(holds: bool) -> Self {
         Self::Counted(if holds { 1.0 } else { -1.0 })
     }
     /// Both, by the smaller margin.
-    #[must_use]
-    pub fn and(self, other: Self) -> Self {
+    pub(crate) fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::Counted(a), Self::Counted(b)) => Self::Counted(if a.is_nan() || b >= a { a } else { b }),
             _ => Self::Skipped,
@@ -99,7 +104,7 @@ impl Case {
 
 /// Draws until `budget.cases` cases have counted: refuted by the first that fails, undecided where the hypotheses are met
 /// too rarely.
-pub fn sample(budget: Budget, mut case: impl FnMut(&mut Draw) -> Case) -> Verdict {
+pub(crate) fn sample(budget: Budget, mut case: impl FnMut(&mut Draw) -> Case) -> Verdict {
     let mut draw = Draw { generator: Pcg64::seed_from_u64(budget.seed), drawn: Vec::new() };
     let (mut counted, mut worst) = (0, f64::INFINITY);
     let tries = 100 * budget.cases;
@@ -114,11 +119,11 @@ pub fn sample(budget: Budget, mut case: impl FnMut(&mut Draw) -> Case) -> Verdic
                 counted += 1;
                 worst = worst.min(margin);
             }
-            Case::Counted(_) => return Verdict::Refuted(Witness { numbers: draw.drawn }),
+            Case::Counted(_) => return Verdict::Refuted(Witness::new(draw.drawn)),
         }
     }
     if counted < budget.cases || counted == 0 {
         return Verdict::Undecided { spent: format!("{counted} of {} cases in {tries} draws", budget.cases) };
     }
-    Verdict::Holds(Evidence::Sampled { cases: counted, margin: worst })
+    Verdict::Holds(Evidence::sampled(counted, worst))
 }

@@ -4,9 +4,13 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::{CommandError, Outcome};
-use crate::claims::orbit_proofs::THEOREMS;
+use crate::claims::{CLAIMS, Claim};
 use crate::orbit::theorem::Theorem;
 use crate::proof::inequality::{Proofs, Refusal};
+
+fn theorems() -> impl Iterator<Item = &'static Theorem> {
+    CLAIMS.iter().filter_map(Claim::theorem)
+}
 
 fn file(folder: &Path, theorem: &Theorem) -> PathBuf {
     folder.join(theorem.id).with_extension("proof")
@@ -19,7 +23,7 @@ pub(super) fn write(folder: &Path) -> Result<(), CommandError> {
         |source| CommandError::Write { path, source }
     };
     std::fs::create_dir_all(folder).map_err(fault(folder))?;
-    for theorem in THEOREMS {
+    for theorem in theorems() {
         if let Ok(proofs) = theorem.prove() {
             let path = file(folder, theorem);
             std::fs::write(&path, Proofs(proofs).to_string()).map_err(fault(&path))?;
@@ -30,9 +34,9 @@ pub(super) fn write(folder: &Path) -> Result<(), CommandError> {
 
 /// A line for each theorem: accepted, or why not.
 pub(super) fn check(folder: &Path, output: &mut impl Write) -> Result<Outcome, CommandError> {
-    let width = THEOREMS.iter().map(|theorem| theorem.id.len()).max().unwrap_or(0);
+    let width = theorems().map(|theorem| theorem.id.len()).max().unwrap_or(0);
     let mut outcome = Outcome::Done;
-    for theorem in THEOREMS {
+    for theorem in theorems() {
         let path = file(folder, theorem);
         let text = std::fs::read_to_string(&path).map_err(|source| CommandError::Certificate { path, source })?;
         let checked = text.parse().and_then(|Proofs(proofs)| {

@@ -9,7 +9,7 @@ use serde_json::json;
 
 use super::{CommandError, Outcome, write_file, write_json};
 use crate::describing::{CATALOGUE, DescribingFunction, Entry, Setting, by_quadrature, certified};
-use crate::nonlinearity::{Parameter, Sinusoid};
+use crate::nonlinearity::{ParameterSpec, Sinusoid};
 use crate::numeric::{Interval, Real};
 use crate::proof::rigorous_quadrature::CellJet;
 use crate::report::characteristics;
@@ -147,7 +147,7 @@ fn enclose(
 
 fn list(as_json: bool, output: &mut impl Write) -> Result<Outcome, CommandError> {
     if as_json {
-        let parameter = |p: &Parameter| json!({ "name": p.name, "meaning": p.meaning, "domain": p.domain.words(), "default": p.default });
+        let parameter = |p: &ParameterSpec| json!({ "name": p.name, "meaning": p.meaning, "domain": p.domain.words(), "default": p.default });
         let entry =
             |e: &Entry| json!({ "name": e.name, "parameters": e.parameters.iter().map(parameter).collect::<Vec<_>>() });
         write_json(output, &CATALOGUE.iter().map(entry).collect::<Vec<_>>())?;

@@ -3,14 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use crate::balance::BalanceError;
-use crate::control::ControlError;
-use crate::describing::{CatalogueError, DescribingError};
-use crate::experiment::ExperimentError;
-use crate::nonlinearity::NonlinearityError;
-use crate::orbit::OrbitError;
-use crate::plant::PlantError;
-use crate::report::ReportError;
+use crate::error::Error;
 
 /// Why a subcommand could not answer.
 #[derive(Debug, thiserror::Error)]
@@ -18,54 +11,14 @@ pub(super) enum CommandError {
     /// Standard output cannot be written.
     #[error("cannot write the answer: {0}; free the output or redirect it elsewhere")]
     Output(#[from] std::io::Error),
-    /// A name or a setting that the catalogue does not take.
-    #[error("{0}\n  `selfosc df --list` shows every characteristic with its parameters")]
-    Catalogue(#[from] CatalogueError),
-    /// No describing function for this input.
-    #[error(transparent)]
-    Describing(#[from] DescribingError),
-    /// A bad amplitude or bias.
-    #[error(transparent)]
-    Nonlinearity(#[from] NonlinearityError),
-    /// A plant that is none.
-    #[error(transparent)]
-    Plant(#[from] PlantError),
-    /// An experiment that cannot be simulated, or a log that cannot be read.
-    #[error(transparent)]
-    Experiment(#[from] ExperimentError),
-    /// A loop without a limit cycle, where one is needed.
-    #[error("no limit cycle: {0}")]
-    Orbit(#[from] OrbitError),
-    /// Harmonic balance without an answer.
-    #[error(transparent)]
-    Balance(#[from] BalanceError),
-    /// A controller that cannot be designed.
-    #[error(transparent)]
-    Control(#[from] ControlError),
-    /// A table, a figure or a report that cannot be made.
-    #[error(transparent)]
-    Report(#[from] ReportError),
+    /// What the library refuses.
+    #[error("{}", in_context(.0))]
+    Library(Error),
     /// Arguments that contradict each other.
     #[error("{reason}")]
     Usage {
         /// What contradicts what, and the remedy.
         reason: &'static str,
-    },
-    /// A file that cannot be opened.
-    #[error("cannot read {}: {source}; give the path of a log that you may read", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: std::io::Error,
-    },
-    /// A log that cannot be read.
-    #[error("{}: {source}", path.display())]
-    Log {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        source: ExperimentError,
     },
     /// A file that cannot be written.
     #[error("cannot write {}: {source}; choose a folder that you may write to", path.display())]
@@ -97,5 +50,22 @@ impl CommandError {
     /// All of them are input that cannot be used.
     pub(super) fn status(&self) -> ExitCode {
         ExitCode::from(2)
+    }
+}
+
+impl<E: Into<Error>> From<E> for CommandError {
+    fn from(error: E) -> Self {
+        Self::Library(error.into())
+    }
+}
+
+/// The error in the words of a subcommand.
+fn in_context(error: &Error) -> String {
+    match error {
+        Error::Catalogue(_) => {
+            format!("{error}\n  `selfosc df --list` shows every characteristic with its parameters")
+        }
+        Error::Orbit(_) => format!("no limit cycle: {error}"),
+        _ => error.to_string(),
     }
 }

@@ -1,20 +1,18 @@
 //! `selfosc identify`: from logs to a model with its errors.
 
-use std::fs::{self, File};
+use std::fs;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
-use serde_json::{Map, Value, json};
 
 use super::{CommandError, Outcome, write_json};
-use crate::experiment::{Columns, ExperimentError, Log};
-use crate::features::RecordFeatures;
-use crate::identify::DragLaw;
-use crate::identify::joint::{Delay, Estimate};
-use crate::report::identification::{Identification, Method, Model, Refusal, Settings};
+use crate::experiment::Columns;
+use crate::identify::joint::Delay;
+use crate::identify::{self, DragLaw, Identification, Refusal, Refused, Session, Settings, SettingsError};
+use crate::report::identification as page;
 
 /// A vehicle's inertia, drag, disturbance and delay from logs of relay experiments, with 95 % intervals.
 ///
@@ -95,6 +93,30 @@ impl Drag {
     }
 }
 
+/// Ways from records to parameters
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Method {
+    /// The paper's: the first harmonic of the mean cycle
+    Iso,
+    /// The exact limit cycle with the mean cycle's features
+    Exact,
+    /// Maximum likelihood on every sample, with intervals
+    Fit,
+    /// All of them
+    All,
+}
+
+impl From<Method> for identify::Method {
+    fn from(method: Method) -> Self {
+        match method {
+            Method::Iso => Self::Iso,
+            Method::Exact => Self::Exact,
+            Method::Fit => Self::Fit,
+            Method::All => Self::All,
+        }
+    }
+}
+
 fn positive(text: &str) -> Result<f64, String> {
     let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
     value.ok_or_else(|| "must be a finite number above 0".to_owned())
@@ -109,31 +131,16 @@ fn delay(text: &str) -> Result<Delay, String> {
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
-    let settings = arguments.settings()?;
-    // Drawn on standard error, and only where that is a terminal.
-    let progress = ProgressBar::new_spinner();
-    progress.enable_steady_tick(Duration::from_millis(100));
-    let logs = arguments.read(output);
-    let identify = |logs| Identification::of(logs, &settings, |stage| progress.set_message(stage));
-    let found = logs.map(|logs| logs.and_then(identify));
-    progress.finish_and_clear();
-    let found = match found? {
+    let found = match arguments.identify() {
         Ok(found) => found,
-        Err(refusal) if arguments.json => {
-            write_json(output, &refused(refusal.code(), &refusal))?;
-            return Ok(Outcome::No);
-        }
-        Err(refusal) => {
-            writeln!(output, "refused ({}): {refusal}", refusal.code())?;
-            return Ok(Outcome::No);
-        }
+        Err(refusal) => return arguments.refuse(refusal, output),
     };
     if let Some(path) = &arguments.report {
-        let html = found.document().html()?;
+        let html = page::document(&found).html()?;
         fs::write(path, html).map_err(|source| CommandError::Write { path: path.clone(), source })?;
     }
     if arguments.json {
-        write_json(output, &document(&found))?;
+        write_json(output, &found.conclusion())?;
     } else {
         show(&found, output)?;
         if let Some(path) = &arguments.report {
@@ -144,169 +151,78 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
 }
 
 impl Arguments {
-    fn settings(&self) -> Result<Settings, CommandError> {
-        let usage = |reason| Err(CommandError::Usage { reason });
-        let drag = self.drag.law();
-        if !self.method.fits() {
-            if drag == Some(DragLaw::Mixed) {
-                return usage("only the fit knows mixed drag; use --method fit, or another --drag");
-            }
-            if self.delay == Delay::Estimated {
-                return usage("only the fit estimates a delay; use --method fit or all, or give the delay in seconds");
-            }
-        }
-        Ok(Settings {
-            method: self.method,
-            drag,
+    fn identify(&self) -> Result<Identification, Refusal> {
+        let settings = self.settings();
+        settings.check()?;
+        // Drawn on standard error, and only where that is a terminal.
+        let progress = ProgressBar::new_spinner();
+        progress.enable_steady_tick(Duration::from_millis(100));
+        let session = Session::new(settings).with_columns(self.columns());
+        let session = self.logs.iter().try_fold(session, Session::log);
+        let found = session.and_then(|session| session.identify_with(|stage| progress.set_message(stage.to_string())));
+        progress.finish_and_clear();
+        found
+    }
+
+    fn settings(&self) -> Settings {
+        Settings {
+            method: self.method.into(),
+            drag: self.drag.law(),
             delay: self.delay,
             relay_level: self.relay,
             half_width: self.half_width,
-        })
+        }
     }
 
-    /// Every log; the reason where one was read but holds no record.
-    fn read(&self, output: &mut impl Write) -> Result<Result<Vec<(String, Log)>, Refusal>, CommandError> {
-        let columns = Columns {
+    fn columns(&self) -> Columns {
+        Columns {
             time: self.time.clone(),
             output: self.output.clone(),
             input: self.input.clone(),
             degrees: self.degrees,
             wrap: self.wrap,
-        };
-        let mut logs = Vec::with_capacity(self.logs.len());
-        for path in &self.logs {
-            let name = path.display().to_string();
-            let file = File::open(path).map_err(|source| CommandError::Read { path: path.clone(), source })?;
-            match columns.read(file) {
-                Ok(log) => logs.push((name, log)),
-                Err(source) if is_bad_record(&source) => return Ok(Err(Refusal::Record { name, source })),
-                Err(source) => return Err(self.unreadable(path, source, output)?),
+        }
+    }
+
+    fn refuse(&self, refusal: Refusal, output: &mut impl Write) -> Result<Outcome, CommandError> {
+        let usage = |reason| Err(CommandError::Usage { reason });
+        match refusal {
+            Refusal::Settings(SettingsError::MixedNeedsFit) => {
+                return usage("only the fit knows mixed drag; use --method fit, or another --drag");
             }
+            Refusal::Settings(SettingsError::DelayNeedsFit) => {
+                return usage("only the fit estimates a delay; use --method fit or all, or give the delay in seconds");
+            }
+            Refusal::Settings(_) | Refusal::File { .. } => return Err(refusal.into()),
+            _ => {}
         }
-        Ok(Ok(logs))
-    }
-
-    /// A script gets its document even where the status says unreadable.
-    fn unreadable(
-        &self,
-        path: &Path,
-        source: ExperimentError,
-        output: &mut impl Write,
-    ) -> Result<CommandError, CommandError> {
-        let code = source.code();
-        let error = CommandError::Log { path: path.to_owned(), source };
+        // A script gets its document even where the status says unreadable.
         if self.json {
-            write_json(output, &refused(code, &error))?;
+            write_json(output, &Refused::from(&refusal))?;
         }
-        Ok(error)
+        if refusal.is_usage() {
+            return Err(refusal.into());
+        }
+        if !self.json {
+            writeln!(output, "refused ({}): {refusal}", refusal.code())?;
+        }
+        Ok(Outcome::No)
     }
-}
-
-/// Whether the file was read, and what it holds makes no record.
-fn is_bad_record(error: &ExperimentError) -> bool {
-    !matches!(error, ExperimentError::Unreadable { line: 0, .. })
-}
-
-fn refused(code: &str, reason: &impl ToString) -> Value {
-    json!({ "refused": { "code": code, "text": reason.to_string() } })
 }
 
 fn show(found: &Identification, output: &mut impl Write) -> Result<(), CommandError> {
-    for source in &found.sources {
-        writeln!(output, "{}\n", source.summary())?;
-        if let Some(table) = source.feature_table() {
+    for source in found.sources() {
+        writeln!(output, "{}\n", page::summary(source))?;
+        if let Some(table) = page::feature_table(source) {
             writeln!(output, "{}", table.text())?;
         }
     }
-    for table in found.model_tables() {
+    for table in page::model_tables(found) {
         writeln!(output, "{}", table.text())?;
     }
-    writeln!(output, "{}", found.verdict())?;
-    for caution in &found.cautions {
+    writeln!(output, "{}", page::verdict(found))?;
+    for caution in found.cautions() {
         writeln!(output, "warning: {}: {}", caution.code, caution.text)?;
     }
     Ok(())
-}
-
-fn document(found: &Identification) -> Value {
-    let records: Vec<Value> = found
-        .sources
-        .iter()
-        .map(|source| {
-            json!({
-                "file": source.name,
-                "samples": source.log.record.samples(),
-                "duration_s": source.log.record.duration_s(),
-                "cycles_used": source.features.as_ref().map(|found| found.features.cycles),
-                "features": source.features.as_ref().map(features),
-            })
-        })
-        .collect();
-    let used: Vec<u32> = found.sources.iter().filter_map(|s| Some(s.features.as_ref()?.features.cycles)).collect();
-    let (drag, confidence) = match found.choice() {
-        Some((law, confidence)) => (Some(law.map_or("undecided", DragLaw::name)), Some(confidence)),
-        None => (found.law_given().map(DragLaw::name), None),
-    };
-    let probabilities: Option<Map<String, Value>> =
-        found.fits.as_ref().filter(|_| confidence.is_some()).map(|fits| {
-            DragLaw::ALL.iter().map(|law| (law.name().to_owned(), json!(fits.probability(*law)))).collect()
-        });
-    let warnings: Vec<Value> =
-        found.cautions.iter().map(|caution| json!({ "code": caution.code, "text": caution.text })).collect();
-    json!({
-        "record": {
-            "samples": found.sources.iter().map(|source| source.log.record.samples()).sum::<usize>(),
-            "duration_s": found.sources.iter().map(|source| source.log.record.duration_s()).sum::<f64>(),
-            "cycles_used": (!used.is_empty()).then(|| used.iter().sum::<u32>()),
-        },
-        "features": if let [source] = &found.sources[..] { json!(source.features.as_ref().map(features)) } else { Value::Null },
-        "estimates": found.models.iter().map(model).collect::<Vec<_>>(),
-        "choice": { "drag": drag, "confidence": confidence, "probabilities": probabilities },
-        "warnings": warnings,
-        "records": records,
-    })
-}
-
-/// Means, with the spreads over cycles beside them.
-fn features(found: &RecordFeatures) -> Value {
-    let f = &found.features;
-    let named = [
-        ("amplitude", f.amplitude),
-        ("bias", f.bias),
-        ("period_s", f.period_s),
-        ("switch_level", f.switch_level),
-        ("time_positive_s", f.time_positive_s),
-        ("time_negative_s", f.time_negative_s),
-    ];
-    let mut fields: Map<String, Value> = named.iter().map(|(name, s)| ((*name).to_owned(), json!(s.mean))).collect();
-    fields.insert("relay".to_owned(), json!(found.relay.level));
-    fields.insert("std".to_owned(), named.iter().map(|(name, s)| ((*name).to_owned(), json!(s.std))).collect());
-    Value::Object(fields)
-}
-
-fn model(model: &Model) -> Value {
-    let deltas: Vec<Value> = model.deltas.iter().map(|delta| estimate(Some(*delta))).collect();
-    json!({
-        "method": model.method.name(),
-        "drag": model.drag.name(),
-        "record": model.record,
-        "alpha": estimate(Some(model.alpha)),
-        "beta": estimate(model.beta),
-        "beta_quadratic": estimate(model.beta_quadratic),
-        "delta": if let [delta] = &deltas[..] { delta.clone() } else { Value::Null },
-        "deltas": deltas,
-        "delay_s": estimate(Some(model.delay_s)),
-        "fit_percent": model.fit_percent,
-        "residual_rms": model.residual_rms,
-    })
-}
-
-fn estimate(estimate: Option<Estimate>) -> Value {
-    let Some(Estimate { value, spread }) = estimate else { return Value::Null };
-    json!({
-        "value": value,
-        "std": spread.map(|spread| spread.std),
-        "low": spread.map(|spread| spread.low),
-        "high": spread.map(|spread| spread.high),
-    })
 }

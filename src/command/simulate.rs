@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::axis::AxisArguments;
 use super::{CommandError, Outcome, write_json};
-use crate::experiment::{Experiment, Sensor};
+use crate::experiment::{Sensor, SimulatedExperiment};
 use crate::orbit::limit_cycle;
 
 /// A record of a relay experiment as CSV: time_s,output,input.
@@ -50,7 +50,8 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     let (axis, relay) = (arguments.axis.axis()?, arguments.axis.relay()?);
     let duration_s = arguments.cycles * limit_cycle(&axis, &relay)?.period_s;
     let sensor = Sensor { delay_s: 0.0, quantum: arguments.quantum, noise: arguments.noise };
-    let experiment = Experiment::new(axis, relay, arguments.rate)?.with_sensor(sensor)?.with_seed(arguments.seed);
+    let experiment =
+        SimulatedExperiment::new(axis, relay, arguments.rate)?.with_sensor(sensor)?.with_seed(arguments.seed);
     let experiment = if arguments.hold { experiment.held() } else { experiment };
     let record = experiment.run(duration_s)?;
     let scale = if arguments.degrees { 1f64.to_degrees() } else { 1.0 };

@@ -7,13 +7,14 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use super::{CommandError, Outcome, certificates, write_json};
-use crate::claims::{Budget, CLAIMS, Claim, Evidence, Finding, Verdict};
+use crate::claims::{Budget, CLAIMS, Claim, Evidence, Finding, Verdict, Word};
 
 /// Checks every claim of the theory, as printed and as corrected, and says on what evidence.
 ///
-/// Sampled means true of every case drawn; proved means enclosed over the whole stated domain. A claim that the paper
-/// states and that is false as printed is refuted with the numbers that refute it. Exit status 1 when a verdict is not the
-/// one that the claim's file states.
+/// Proved means enclosed over the whole domain as stated, proved-in-part over the parts named, exhausted that every state of
+/// a finite model was visited, sampled no more than true of every case drawn. A claim that the paper states and that is false
+/// as printed is refuted with the numbers that refute it. Steps of a proof that no program checks are counted. Exit status 1
+/// when a verdict is not the one that the claim's file states, or a declared proof does not succeed.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -83,35 +84,35 @@ fn chosen(ids: &[String]) -> Result<Vec<&'static Claim>, CommandError> {
     ids.iter().map(find).collect()
 }
 
-/// One word for a verdict, or for the lack of one.
-fn word(verdict: Option<&Verdict>) -> &'static str {
-    verdict.map_or("not-applicable", Verdict::word)
-}
-
-/// The verdict that carries the claim: of the corrected statement where there is one.
-fn carrying(finding: &Finding) -> Option<&Verdict> {
-    finding.corrected.as_ref().or(finding.printed.as_ref())
-}
-
+/// What was found of the parts that are established, then the numbers, in the order of the fields.
 fn evidence(finding: &Finding) -> String {
-    match carrying(finding) {
-        Some(Verdict::Holds(Evidence::Proved { domain, bound, boxes })) => {
-            format!("{domain}: bound {bound:.1e}, {boxes} boxes")
-        }
-        Some(Verdict::Holds(Evidence::Exhausted { domain, states })) => format!("{domain}: all {states} states"),
-        Some(Verdict::Holds(Evidence::Sampled { cases, margin })) => format!("{cases} cases, margin {margin:.2}"),
-        Some(Verdict::Refuted(witness)) => format!("refuted by {witness}"),
-        Some(Verdict::Undecided { spent }) => spent.clone(),
-        None => String::new(),
-    }
+    let evidence = match finding.carrying() {
+        Some(Verdict::Holds(evidence)) => evidence,
+        Some(Verdict::Refuted(witness)) => return format!("refuted by {witness}"),
+        Some(Verdict::Undecided { spent }) => return spent.clone(),
+        None => return String::new(),
+    };
+    let Evidence { proved, exhausted, cases, boxes, residual_bound, margin } = evidence;
+    let mut said = Vec::new();
+    said.extend((!proved.parts.is_empty()).then(|| format!("on {proved}")));
+    said.extend((!exhausted.parts.is_empty()).then(|| format!("all states of {exhausted}")));
+    said.extend(residual_bound.map(|bound| format!("residual {bound:.1e}")));
+    said.extend(boxes.map(|boxes| format!("{boxes} boxes")));
+    said.extend(cases.map(|cases| format!("{cases} cases")));
+    said.extend(margin.map(|margin| {
+        format!("margin {}", if margin < 0.01 { format!("{margin:.1e}") } else { format!("{margin:.2}") })
+    }));
+    let by_hand = finding.by_hand.len();
+    said.extend((by_hand > 0).then(|| format!("{by_hand} by hand")));
+    said.join(", ")
 }
 
 fn table(findings: &[(&Claim, Finding)], output: &mut impl Write) -> Result<(), CommandError> {
     let width = findings.iter().map(|(claim, _)| claim.id.len()).max().unwrap_or(0);
     writeln!(output, "{:width$}  {:14}  {:14}  evidence", "claim", "as printed", "as corrected")?;
+    let short = |word: Word| if word == Word::NotApplicable { "-" } else { word.as_str() };
     for (claim, finding) in findings {
-        let (printed, corrected) = (word(finding.printed.as_ref()), word(finding.corrected.as_ref()));
-        let (printed, corrected) = (printed.replace("not-applicable", "-"), corrected.replace("not-applicable", "-"));
+        let (printed, corrected) = (short(finding.as_printed()), short(finding.as_corrected()));
         writeln!(output, "{:width$}  {printed:14}  {corrected:14}  {}", claim.id, evidence(finding))?;
         if let Some(Verdict::Refuted(witness)) = &finding.printed {
             writeln!(output, "{:width$}  as printed, refuted by {witness}", "")?;
@@ -120,63 +121,74 @@ fn table(findings: &[(&Claim, Finding)], output: &mut impl Write) -> Result<(), 
             writeln!(output, "{:width$}  NOT AS STATED in spec/claims/{}.md", "", claim.id)?;
         }
     }
-    let count = |word: &str| findings.iter().filter(|(_, f)| carrying(f).is_some_and(|v| v.word() == word)).count();
-    let refuted = findings.iter().filter(|(_, f)| f.printed.as_ref().is_some_and(Verdict::is_refuted)).count();
-    let wrong = findings.iter().filter(|(_, f)| !f.expected).count();
-    writeln!(
-        output,
-        "\n{} claims: {} proved, {} sampled; {refuted} refuted as printed; {wrong} not as stated",
-        findings.len(),
-        count("proved"),
-        count("sampled"),
-    )?;
+    let words = [Word::Proved, Word::ProvedInPart, Word::Exhausted, Word::Sampled];
+    let words = words.map(|word| format!("{} {word}", count(findings, word))).join(", ");
+    let (refuted, wrong) = (refuted_as_printed(findings), not_as_stated(findings));
+    let claims = findings.len();
+    writeln!(output, "\n{claims} claims: {words}; {refuted} refuted as printed; {wrong} not as stated")?;
     Ok(())
+}
+
+fn count(findings: &[(&Claim, Finding)], word: Word) -> usize {
+    findings.iter().filter(|(_, finding)| finding.word() == word).count()
+}
+
+fn refuted_as_printed(findings: &[(&Claim, Finding)]) -> usize {
+    findings.iter().filter(|(_, finding)| finding.as_printed() == Word::Refuted).count()
+}
+
+fn not_as_stated(findings: &[(&Claim, Finding)]) -> usize {
+    findings.iter().filter(|(_, finding)| !finding.expected).count()
 }
 
 fn document(findings: &[(&Claim, Finding)]) -> Value {
     let claim = |(claim, finding): &(&Claim, Finding)| {
-        let (cases, margin) = match carrying(finding) {
-            Some(Verdict::Holds(Evidence::Sampled { cases, margin })) => (json!(cases), json!(margin)),
-            Some(Verdict::Holds(Evidence::Proved { boxes, bound, .. })) => (json!(boxes), json!(bound)),
-            Some(Verdict::Holds(Evidence::Exhausted { states, .. })) => (json!(states), Value::Null),
-            _ => (Value::Null, Value::Null),
+        let found = match finding.carrying() {
+            Some(Verdict::Holds(evidence)) => evidence.clone(),
+            _ => Evidence::default(),
         };
         let witness = [&finding.printed, &finding.corrected].into_iter().flatten().find_map(|verdict| match verdict {
             Verdict::Refuted(witness) => Some(witness),
             _ => None,
         });
         let witness = witness.map(|witness| {
-            witness
-                .numbers
-                .iter()
-                .map(|(name, value)| ((*name).to_owned(), json!(value)))
-                .collect::<serde_json::Map<_, _>>()
+            let numbers = witness.numbers.iter().map(|(name, value)| (name.clone().into_owned(), json!(value)));
+            numbers.collect::<serde_json::Map<_, _>>()
         });
+        let proof = !found.proved.parts.is_empty();
+        let established: Vec<_> = found.proved.parts.iter().chain(found.exhausted.parts.iter()).collect();
+        let parts = finding.domain.parts.iter().map(|part| json!({ "part": part.name, "text": part.text }));
         json!({
             "id": claim.id,
             "equation": claim.equation,
             "kind": claim.kind.word(),
             "statement": claim.statement,
-            "as_printed": word(finding.printed.as_ref()),
-            "as_corrected": word(finding.corrected.as_ref()),
+            "as_printed": finding.as_printed(),
+            "as_corrected": finding.as_corrected(),
             "evidence": evidence(finding),
-            "cases": cases,
-            "margin": margin,
+            "cases": found.cases,
+            "boxes": found.boxes,
+            "residual_bound": found.residual_bound,
+            "margin": found.margin,
+            "by_hand": proof.then_some(&finding.by_hand),
+            "domain": parts.collect::<Vec<_>>(),
+            "established": established,
             "witness": witness,
             "as_stated": finding.expected,
         })
     };
-    let count = |word: &str| findings.iter().filter(|(_, f)| carrying(f).is_some_and(|v| v.word() == word)).count();
     json!({
         "claims": findings.iter().map(claim).collect::<Vec<_>>(),
         "summary": {
             "claims": findings.len(),
-            "proved": count("proved"),
-            "sampled": count("sampled"),
-            "undecided": count("undecided"),
-            "refuted": count("refuted"),
-            "refuted_as_printed": findings.iter().filter(|(_, f)| f.printed.as_ref().is_some_and(Verdict::is_refuted)).count(),
-            "not_as_stated": findings.iter().filter(|(_, f)| !f.expected).count(),
+            "proved": count(findings, Word::Proved),
+            "proved_in_part": count(findings, Word::ProvedInPart),
+            "exhausted": count(findings, Word::Exhausted),
+            "sampled": count(findings, Word::Sampled),
+            "undecided": count(findings, Word::Undecided),
+            "refuted": count(findings, Word::Refuted),
+            "refuted_as_printed": refuted_as_printed(findings),
+            "not_as_stated": not_as_stated(findings),
         },
     })
 }

@@ -1,9 +1,8 @@
 //! The controller as it runs: one step for each measurement.
 
-use super::error::checked;
 use super::reference::{FeedForward, Guided};
 use super::{ControlError, Gains, Structure};
-use crate::numeric::Scalar;
+use crate::numeric::{Limit, Scalar, domain};
 
 /// A controller with its memory. No allocation; a step costs a few dozen operations.
 ///
@@ -78,10 +77,11 @@ impl<T: Scalar> Controller<T> {
     /// The same with limits on the command. Starts anew.
     ///
     /// # Errors
-    /// [`ControlError::Parameter`] unless `lower < upper`, both finite.
+    /// [`ControlError::OutOfDomain`] unless `lower < upper`, both finite.
     pub fn with_limits(self, lower: T, upper: T) -> Result<Self, ControlError> {
-        checked("lower limit of the command", lower, true, "finite")?;
-        checked("upper limit of the command", upper, upper > lower, "finite and above the lower one")?;
+        domain::finite("lower limit of the command", lower, "command units")?;
+        let limit = Limit::Above(lower.value());
+        domain::require("upper limit of the command", upper, "command units", limit, "give the lower limit first")?;
         let limited = Self { limits: Some((lower, upper)), memory: None, ..self };
         Ok(Self { command: limited.clamp(T::zero()), ..limited })
     }
@@ -90,9 +90,9 @@ impl<T: Scalar> Controller<T> {
     /// Errors take the short way, and readings may jump by whole turns. Starts anew.
     ///
     /// # Errors
-    /// [`ControlError::Parameter`] unless the turn is positive and finite.
+    /// [`ControlError::OutOfDomain`] unless the turn is positive and finite.
     pub fn on_circle(self, turn: T) -> Result<Self, ControlError> {
-        checked("length of a turn", turn, turn > T::zero(), "a finite number above 0")?;
+        domain::positive("length of a turn", turn, "output units")?;
         Ok(Self { turn: Some(turn), memory: None, ..self })
     }
 

@@ -1,8 +1,7 @@
 //! Gains from an identified axis and a requested bandwidth, by pole placement.
 
-use super::error::checked;
 use super::{ControlError, Gains, Margins, OpenLoop, Structure};
-use crate::numeric::Scalar;
+use crate::numeric::{Limit, Scalar, domain};
 use crate::plant::DragAxis;
 
 /// The filter on the derivative is this much faster than the closed loop's double pole.
@@ -55,11 +54,35 @@ impl Structure {
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "std",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Wanted<T>", bound(deserialize = "T: Scalar + serde::Deserialize<'de>"))
+)]
 pub struct Tuning<T> {
     axis: DragAxis<T>,
     bandwidth_rad_s: T,
     gains: Gains<T>,
     margins: Margins<T>,
+}
+
+/// What a written design was made for; it is made again, so that its margins are those of its gains.
+#[cfg(feature = "std")]
+#[derive(serde::Deserialize)]
+#[serde(bound(deserialize = "T: Scalar + serde::Deserialize<'de>"))]
+struct Wanted<T> {
+    axis: DragAxis<T>,
+    bandwidth_rad_s: T,
+    gains: Gains<T>,
+}
+
+#[cfg(feature = "std")]
+impl<T: Scalar> TryFrom<Wanted<T>> for Tuning<T> {
+    type Error = ControlError;
+
+    fn try_from(wanted: Wanted<T>) -> Result<Self, ControlError> {
+        Self::new(&wanted.axis, wanted.gains.structure(), wanted.bandwidth_rad_s)
+    }
 }
 
 impl<T: Scalar> Tuning<T> {
@@ -72,12 +95,11 @@ impl<T: Scalar> Tuning<T> {
     /// Designs for an axis at rest, and checks the margins there, delay and filter included.
     ///
     /// # Errors
-    /// [`ControlError::Parameter`] unless the bandwidth is positive and finite; [`ControlError::Overdamped`] below the
+    /// [`ControlError::OutOfDomain`] unless the bandwidth is positive and finite; [`ControlError::Overdamped`] below the
     /// bandwidth at which drag alone damps more than the design; [`ControlError::TooFast`] above that at which the
     /// margins fall below the least ones; [`ControlError::NoBandwidth`] where the two leave none.
     pub fn new(axis: &DragAxis<T>, structure: Structure, bandwidth_rad_s: T) -> Result<Self, ControlError> {
-        let zero = T::zero();
-        checked("bandwidth in rad/s", bandwidth_rad_s, bandwidth_rad_s > zero, "a finite number above 0")?;
+        domain::positive("bandwidth", bandwidth_rad_s, "rad/s")?;
         let least = least_bandwidth(axis, structure);
         if bandwidth_rad_s < least {
             let (bandwidth_rad_s, least_rad_s) = (bandwidth_rad_s.value(), least.value());
@@ -145,7 +167,8 @@ fn unchecked<T: Scalar>(axis: &DragAxis<T>, structure: Structure, bandwidth: T) 
 fn place<T: Scalar>(axis: &DragAxis<T>, structure: Structure, bandwidth: T) -> Result<Gains<T>, ControlError> {
     let [proportional, integral, derivative, filter] = unchecked(axis, structure, bandwidth);
     let gives = proportional > T::zero() && proportional.is_finite() && filter.is_finite();
-    checked("bandwidth in rad/s", bandwidth, gives, "such that the gains are within the range of the arithmetic")?;
+    let limit = Limit::Words("such that the gains are neither 0 nor beyond the largest number");
+    domain::require_that(gives, "bandwidth", bandwidth, "rad/s", limit, "check the units of inertia and bandwidth")?;
     // Rounding at the least bandwidth itself.
     Gains::new(structure, proportional, integral, derivative.max(T::zero()), filter)
 }

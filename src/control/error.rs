@@ -1,5 +1,6 @@
 //! Why there is no controller.
 
+use crate::numeric::OutOfDomain;
 use crate::plant::PlantError;
 
 /// A refusal of the control layer: which number, which limit, what to do.
@@ -7,15 +8,8 @@ use crate::plant::PlantError;
 #[non_exhaustive]
 pub enum ControlError {
     /// A parameter outside its domain.
-    #[error("{parameter} = {value} must be {required}; give it such a value")]
-    Parameter {
-        /// Name of the parameter, with its unit.
-        parameter: &'static str,
-        /// The value given.
-        value: f64,
-        /// What it has to be.
-        required: &'static str,
-    },
+    #[error(transparent)]
+    OutOfDomain(#[from] OutOfDomain),
     /// A plant that is none.
     #[error(transparent)]
     Plant(#[from] PlantError),
@@ -110,15 +104,30 @@ pub enum ControlError {
     },
 }
 
-/// The value, or the error that names it, where it is not finite or not `inside` its domain.
-pub(super) fn checked<S: crate::numeric::Scalar>(
-    parameter: &'static str,
-    value: S,
-    inside: bool,
-    required: &'static str,
-) -> Result<S, ControlError> {
-    if inside && value.is_finite() {
-        return Ok(value);
+impl ControlError {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::OutOfDomain(_) => "out-of-domain",
+            Self::Plant(error) => error.code(),
+            Self::Overdamped { .. } => "overdamped",
+            Self::TooFast { .. } => "too-fast",
+            Self::NoBandwidth { .. } => "no-bandwidth",
+            Self::Unstable { .. } => "unstable",
+            Self::BelowSwitching { .. } => "below-switching",
+            Self::OnePhase { .. } => "one-phase",
+            Self::NoCriticalPoint { .. } => "no-critical-point",
+        }
     }
-    Err(ControlError::Parameter { parameter, value: value.value(), required })
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        match self {
+            Self::OutOfDomain(fault) => Some(fault),
+            Self::Plant(error) => error.out_of_domain(),
+            _ => None,
+        }
+    }
 }

@@ -1,12 +1,12 @@
 //! The gains of a controller.
 
 use super::ControlError;
-use super::error::checked;
-use crate::numeric::Scalar;
+use crate::numeric::{Limit, Scalar, domain};
 
 /// On what the three actions of a controller act. The derivative always acts on the measurement, so that a step of the
 /// reference gives no kick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Structure {
     /// Proportional to the error; no integral.
     Pd,
@@ -41,6 +41,11 @@ impl Structure {
 /// # Ok::<(), selfosc::control::ControlError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "std",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Parts<T>", bound(deserialize = "T: Scalar + serde::Deserialize<'de>"))
+)]
 pub struct Gains<T> {
     structure: Structure,
     proportional: T,
@@ -49,12 +54,32 @@ pub struct Gains<T> {
     filter_s: T,
 }
 
+/// Gains as they are written, not yet checked.
+#[cfg(feature = "std")]
+#[derive(serde::Deserialize)]
+struct Parts<T> {
+    structure: Structure,
+    proportional: T,
+    integral: T,
+    derivative: T,
+    filter_s: T,
+}
+
+#[cfg(feature = "std")]
+impl<T: Scalar> TryFrom<Parts<T>> for Gains<T> {
+    type Error = ControlError;
+
+    fn try_from(parts: Parts<T>) -> Result<Self, ControlError> {
+        Self::new(parts.structure, parts.proportional, parts.integral, parts.derivative, parts.filter_s)
+    }
+}
+
 impl<T: Scalar> Gains<T> {
     /// Gains as they are. `filter_s` is the time constant of the filter on the derivative, zero where speed itself is
     /// measured.
     ///
     /// # Errors
-    /// [`ControlError::Parameter`] unless the proportional gain is positive, the others zero or more, all finite; and
+    /// [`ControlError::OutOfDomain`] unless the proportional gain is positive, the others zero or more, all finite; and
     /// for an integral gain of a PD, or none of an I-PD.
     pub fn new(
         structure: Structure,
@@ -63,15 +88,19 @@ impl<T: Scalar> Gains<T> {
         derivative: T,
         filter_s: T,
     ) -> Result<Self, ControlError> {
-        let zero = T::zero();
-        checked("proportional gain", proportional, proportional > zero, "a finite number above 0")?;
+        domain::positive("proportional gain", proportional, "command per output unit")?;
         match structure {
-            Structure::Pd => checked("integral gain of a PD controller", integral, integral == zero, "0")?,
-            Structure::Pid => checked("integral gain", integral, integral >= zero, "a finite number, 0 or more")?,
-            Structure::Ipd => checked("integral gain of an I-PD controller", integral, integral > zero, "above 0")?,
+            Structure::Pd => {
+                let remedy = "give 0, or choose a structure with an integral";
+                domain::require("integral gain of a PD controller", integral, "", Limit::Within(0.0, 0.0), remedy)?
+            }
+            Structure::Pid => domain::non_negative("integral gain", integral, "command per output unit and s")?,
+            Structure::Ipd => {
+                domain::positive("integral gain of an I-PD controller", integral, "command per output unit and s")?
+            }
         };
-        checked("derivative gain", derivative, derivative >= zero, "a finite number, 0 or more")?;
-        checked("time constant of the filter in s", filter_s, filter_s >= zero, "a finite number, 0 or more")?;
+        domain::non_negative("derivative gain", derivative, "command per output unit per s")?;
+        domain::non_negative("time constant of the filter", filter_s, "s")?;
         Ok(Self { structure, proportional, integral, derivative, filter_s })
     }
 

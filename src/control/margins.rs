@@ -7,6 +7,7 @@ use crate::numeric::Scalar;
 ///
 /// All crossovers count, and the worst is given. They belong to the linear loop; they say nothing of saturation.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct Margins<T> {
     /// The gain may grow by less than this factor, above 1; `None` where any growth is borne.
     pub gain: Option<T>,

@@ -2,7 +2,7 @@
 
 use super::roots::{Few, Polynomial, horner, positive_roots, product};
 use super::{ControlError, Gains};
-use crate::numeric::{Scalar, increasing_root};
+use crate::numeric::{Scalar, domain, increasing_root};
 use crate::plant::DragAxis;
 
 /// Phase crossovers looked at in one loop.
@@ -38,9 +38,9 @@ impl<T: Scalar> OpenLoop<T> {
     /// ```
     ///
     /// # Errors
-    /// [`ControlError::Parameter`] unless the speed is finite.
+    /// [`ControlError::OutOfDomain`] unless the speed is finite.
     pub fn new(axis: &DragAxis<T>, gains: &Gains<T>, speed: T) -> Result<Self, ControlError> {
-        super::error::checked("speed in 1/s", speed, true, "finite")?;
+        domain::finite("speed", speed, "output units per s")?;
         let slope = axis.linear_drag() + T::two() * axis.quadratic_drag() * speed.abs();
         Ok(Self::linear(axis.alpha(), slope, axis.delay_s(), gains))
     }

@@ -1,8 +1,7 @@
 //! From a jump of the reference to a motion that the vehicle can follow, and the force that it takes.
 
 use super::ControlError;
-use super::error::checked;
-use crate::numeric::Scalar;
+use crate::numeric::{Scalar, domain};
 use crate::plant::DragAxis;
 
 /// A reference model with two equal poles and a top speed, and the feed-forward of inertia, drag and disturbance along
@@ -39,12 +38,11 @@ impl<T: Scalar> FeedForward<T> {
     /// its speed.
     ///
     /// # Errors
-    /// [`ControlError::Parameter`] unless pace and top speed are positive and finite.
+    /// [`ControlError::OutOfDomain`] unless pace and top speed are positive and finite.
     pub fn new(axis: &DragAxis<T>, pace_rad_s: T, top_speed: Option<T>) -> Result<Self, ControlError> {
-        let zero = T::zero();
-        checked("pace of the reference in rad/s", pace_rad_s, pace_rad_s > zero, "a finite number above 0")?;
+        domain::positive("pace of the reference", pace_rad_s, "rad/s")?;
         if let Some(speed) = top_speed {
-            checked("top speed of the reference in 1/s", speed, speed > zero, "a finite number above 0")?;
+            domain::positive("top speed of the reference", speed, "output units per s")?;
         }
         Ok(Self { axis: *axis, pace_rad_s, top_speed })
     }

@@ -1,8 +1,8 @@
 //! The answer to a step of the reference: simulated on an axis, and its figures.
 
+use crate::numeric::{Limit, domain};
 use std::collections::VecDeque;
 
-use super::error::checked;
 use super::{ControlError, Controller};
 use crate::plant::{DragAxis, State};
 
@@ -80,7 +80,7 @@ impl StepResponse {
     /// From rest at zero, the reference at `size` (m, or rad) from the first sample on.
     ///
     /// # Errors
-    /// [`ControlError::Parameter`] unless the size is finite and not zero, rate and duration positive and finite with
+    /// [`ControlError::OutOfDomain`] unless the size is finite and not zero, rate and duration positive and finite with
     /// at most [`MOST_SAMPLES`](Self::MOST_SAMPLES) samples, in the delay too.
     pub fn simulate(
         axis: &DragAxis<f64>,
@@ -89,12 +89,19 @@ impl StepResponse {
         rate_hz: f64,
         duration_s: f64,
     ) -> Result<Self, ControlError> {
-        checked("size of the step", size, size != 0.0, "a finite number other than 0")?;
-        checked("rate in Hz", rate_hz, rate_hz > 0.0, "a finite number above 0")?;
+        domain::require("size of the step", size, "output units", Limit::NonZero, "give the step of the reference")?;
+        domain::positive("rate", rate_hz, "Hz")?;
         let steps = duration_s * rate_hz;
-        checked("duration in samples", steps, (0.0..=Self::MOST_SAMPLES).contains(&steps), "from 0 to 1e7")?;
+        let limit = Limit::Within(0.0, Self::MOST_SAMPLES);
+        domain::require("duration", steps, "samples", limit, "shorten the response or lower its rate")?;
         let late = axis.delay_s() * rate_hz;
-        checked("delay in samples", late, late <= Self::MOST_SAMPLES, "at most 1e7")?;
+        domain::require(
+            "delay",
+            late,
+            "samples",
+            Limit::AtMost(Self::MOST_SAMPLES),
+            "shorten the delay or lower the rate",
+        )?;
         let interval_s = 1.0 / rate_hz;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
         let (whole, last) = (late.floor() as usize, steps.floor() as usize);

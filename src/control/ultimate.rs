@@ -2,10 +2,9 @@
 //! function.
 
 use super::ControlError;
-use super::error::checked;
 use crate::describing::ClosedForm;
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
-use crate::numeric::Scalar;
+use crate::numeric::{Limit, Scalar, domain};
 
 /// The gain at which proportional control oscillates for ever, and the period of that.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,10 +43,10 @@ impl<T: Scalar> UltimatePoint<T> {
     /// From gain and period (s).
     ///
     /// # Errors
-    /// [`ControlError::Parameter`] unless both are positive and finite.
+    /// [`ControlError::OutOfDomain`] unless both are positive and finite.
     pub fn new(gain: T, period_s: T) -> Result<Self, ControlError> {
-        checked("ultimate gain", gain, gain > T::zero(), "a finite number above 0")?;
-        checked("ultimate period in s", period_s, period_s > T::zero(), "a finite number above 0")?;
+        domain::positive("ultimate gain", gain, "command per output unit")?;
+        domain::positive("ultimate period", period_s, "s")?;
         Ok(Self { gain, period_s })
     }
     /// K_u, command per output.
@@ -66,7 +65,7 @@ impl<T: Scalar> UltimatePoint<T> {
     /// zero half-width.
     ///
     /// # Errors
-    /// [`ControlError::OnePhase`]; [`ControlError::Parameter`] where the line leads to no positive frequency.
+    /// [`ControlError::OnePhase`]; [`ControlError::OutOfDomain`] where the line leads to no positive frequency.
     pub fn between(first: &FrequencyPoint<T>, second: &FrequencyPoint<T>) -> Result<Self, ControlError> {
         let turned = second.angle_above_critical - first.angle_above_critical;
         if !(turned.abs() > T::from_f64(16.0) * T::epsilon()) {
@@ -78,7 +77,8 @@ impl<T: Scalar> UltimatePoint<T> {
         let line = |from: T, to: T| from + share * (to - from);
         let omega = line(first.omega_rad_s, second.omega_rad_s);
         let magnitude = line(first.magnitude.ln(), second.magnitude.ln()).exp();
-        checked("ultimate frequency in rad/s", omega, omega > T::zero(), "above 0: repeat with smaller half-widths")?;
+        let remedy = "repeat the experiments with smaller half-widths";
+        domain::require("ultimate frequency", omega, "rad/s", Limit::Positive, remedy)?;
         Self::new(T::one() / magnitude, T::two() * T::pi() / omega)
     }
 }
@@ -100,16 +100,15 @@ impl<T: Scalar> RelayTest<T> {
     /// | `exp(-s)/s` | -18.9 % (`8/pi^2`) | exact |
     ///
     /// # Errors
-    /// [`ControlError::Parameter`] for a level, half-width, amplitude or period outside its domain;
+    /// [`ControlError::OutOfDomain`] for a level, half-width, amplitude or period outside its domain;
     /// [`ControlError::BelowSwitching`] where condition 40 fails.
     pub fn point(&self) -> Result<FrequencyPoint<T>, ControlError> {
         let zero = T::zero();
-        let above = "a finite number above 0";
-        checked("relay level", self.level, self.level > zero, above)?;
-        checked("half-width", self.half_width, self.half_width >= zero, "a finite number, 0 or more")?;
-        checked("amplitude", self.amplitude, self.amplitude > zero, above)?;
-        checked("bias", self.bias, true, "finite")?;
-        checked("period in s", self.period_s, self.period_s > zero, above)?;
+        domain::positive("relay level", self.level, "command units")?;
+        domain::non_negative("half-width", self.half_width, "output units")?;
+        domain::positive("amplitude", self.amplitude, "output units")?;
+        domain::finite("bias", self.bias, "output units")?;
+        domain::positive("period", self.period_s, "s")?;
         let below = ControlError::BelowSwitching {
             amplitude: self.amplitude.value(),
             bias: self.bias.value(),
@@ -166,7 +165,7 @@ impl<T: Scalar> RelayTest<T> {
 /// ```
 ///
 /// # Errors
-/// [`ControlError::NoCriticalPoint`]; [`ControlError::Parameter`] unless `0 < from < to`, both finite.
+/// [`ControlError::NoCriticalPoint`]; [`ControlError::OutOfDomain`] unless `0 < from < to`, both finite.
 #[cfg(feature = "std")]
 pub fn critical_point(
     plant: &crate::plant::TransferFunction,
@@ -175,8 +174,8 @@ pub fn critical_point(
     use crate::numeric::scan;
     const POINTS: i32 = 2000;
     let (from, to) = omega_rad_s.into_inner();
-    checked("lowest frequency in rad/s", from, from > 0.0, "a finite number above 0")?;
-    checked("highest frequency in rad/s", to, to > from, "finite and above the lowest")?;
+    domain::positive("lowest frequency", from, "rad/s")?;
+    domain::require("highest frequency", to, "rad/s", Limit::Above(from), "give the range with the lower end first")?;
     let ratio = (to / from).powf(1.0 / f64::from(POINTS));
     let mut nodes = vec![from];
     while let Some(&last) = nodes.last().filter(|last| **last < to && nodes.len() < 1_000_000) {

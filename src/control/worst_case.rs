@@ -1,8 +1,7 @@
 //! Margins over intervals of the parameters.
 
-use super::error::checked;
 use super::{ControlError, Gains, OpenLoop};
-use crate::numeric::Interval;
+use crate::numeric::{Interval, domain};
 
 /// Intervals that an identification gives for an axis.
 ///
@@ -51,16 +50,16 @@ impl AxisIntervals {
     /// Intervals of inertia, slope of drag and delay.
     ///
     /// # Errors
-    /// [`ControlError::Parameter`] unless inertia is above zero, drag and delay zero or more, all bounded.
+    /// [`ControlError::OutOfDomain`] unless inertia is above zero, drag and delay zero or more, all bounded.
     pub fn new(alpha: Interval, drag: Interval, delay_s: Interval) -> Result<Self, ControlError> {
-        checked("inertia's lower bound", alpha.lower(), alpha.lower() > 0.0, "a finite number above 0")?;
-        checked("inertia's upper bound", alpha.upper(), true, "finite")?;
-        for (lower, upper, interval) in [
-            ("drag's lower bound", "drag's upper bound", drag),
-            ("delay's lower bound", "delay's upper bound", delay_s),
+        domain::positive("inertia's lower bound", alpha.lower(), "F s^2/x")?;
+        domain::finite("inertia's upper bound", alpha.upper(), "F s^2/x")?;
+        for (lower, upper, interval, unit) in [
+            ("drag's lower bound", "drag's upper bound", drag, "F s/x"),
+            ("delay's lower bound", "delay's upper bound", delay_s, "s"),
         ] {
-            checked(lower, interval.lower(), interval.lower() >= 0.0, "a finite number, 0 or more")?;
-            checked(upper, interval.upper(), true, "finite")?;
+            domain::non_negative(lower, interval.lower(), unit)?;
+            domain::finite(upper, interval.upper(), unit)?;
         }
         Ok(Self { alpha, drag, delay_s })
     }
@@ -77,9 +76,9 @@ impl AxisIntervals {
         top_speed: f64,
         delay_s: Interval,
     ) -> Result<Self, ControlError> {
-        checked("top speed in 1/s", top_speed, top_speed >= 0.0, "a finite number, 0 or more")?;
+        domain::non_negative("top speed", top_speed, "output units per s")?;
         let lowest = quadratic_drag.lower();
-        checked("quadratic drag's lower bound", lowest, lowest >= 0.0, "a finite number, 0 or more")?;
+        domain::non_negative("quadratic drag's lower bound", lowest, "F s^2/x^2")?;
         let speeds = Interval::new(0.0, top_speed).unwrap_or(Interval::ENTIRE);
         Self::new(alpha, linear_drag + Interval::point(2.0) * quadratic_drag * speeds, delay_s)
     }

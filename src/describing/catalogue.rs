@@ -1,8 +1,8 @@
 //! Every characteristic by name, as the command line and the generated pages know it.
 
 use super::{ClosedForm, Setting};
-use crate::nonlinearity::{self, Catalogued, Domain, NonlinearityError, Parameter, every_characteristic};
-use crate::numeric::special::Special;
+use crate::nonlinearity::{self, Catalogued, NonlinearityError, ParameterDomain, ParameterSpec, every_characteristic};
+use crate::numeric::{OutOfDomain, special::Special};
 
 /// A characteristic of the catalogue, in the arithmetic `T`.
 pub type Boxed<T> = Box<dyn ClosedForm<Number = T>>;
@@ -40,7 +40,7 @@ pub enum CatalogueError {
         meaning: &'static str,
     },
     /// A number where points are wanted, or the other way round.
-    #[error("{characteristic}: {parameter} = {value} must be {required}")]
+    #[error("{characteristic}: {parameter} = {value} must be {required}; give it in that form")]
     Kind {
         /// Catalogue name.
         characteristic: &'static str,
@@ -72,13 +72,35 @@ pub enum CatalogueError {
     Nonlinearity(#[from] NonlinearityError),
 }
 
+impl CatalogueError {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::UnknownName { .. } => "unknown-characteristic",
+            Self::UnknownParameter { .. } => "unknown-parameter",
+            Self::MissingParameter { .. } => "missing-parameter",
+            Self::Kind { .. } => "parameter-kind",
+            Self::Setting { .. } => "unreadable-setting",
+            Self::Page { .. } => "page",
+            Self::Nonlinearity(error) => error.code(),
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        if let Self::Nonlinearity(error) = self { error.out_of_domain() } else { None }
+    }
+}
+
 /// Name, parameters and page of a characteristic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
     /// Name on the command line.
     pub name: &'static str,
     /// Its parameters, in the order in which [`Entry::build`] takes their values.
-    pub parameters: &'static [Parameter],
+    pub parameters: &'static [ParameterSpec],
     /// Pairs of parameters of which the first has to be below the second.
     pub ordered: &'static [(&'static str, &'static str)],
     /// Its page, Markdown: formula, domain, limits, source.
@@ -124,7 +146,7 @@ impl Entry {
                 parameter: parameter.name,
                 meaning: parameter.meaning,
             })?;
-            if matches!(value, Setting::Points(_)) != (parameter.domain == Domain::Points) {
+            if matches!(value, Setting::Points(_)) != (parameter.domain == ParameterDomain::Points) {
                 let (characteristic, required) = (self.name, parameter.domain.words());
                 return Err(CatalogueError::Kind { characteristic, parameter: parameter.name, value, required });
             }
@@ -136,10 +158,12 @@ impl Entry {
     /// The opposite of [`values`](Self::values): each parameter with its setting.
     #[must_use]
     pub fn settings(&self, values: &[f64]) -> Vec<(&'static str, Setting)> {
-        let setting = |(place, parameter): (usize, &Parameter)| {
+        let setting = |(place, parameter): (usize, &ParameterSpec)| {
             let values = values.get(place..)?;
             let setting = match parameter.domain {
-                Domain::Points => Setting::Points(values.chunks_exact(2).map(|point| (point[0], point[1])).collect()),
+                ParameterDomain::Points => {
+                    Setting::Points(values.chunks_exact(2).map(|point| (point[0], point[1])).collect())
+                }
                 _ => Setting::Number(*values.first()?),
             };
             Some((parameter.name, setting))

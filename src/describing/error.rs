@@ -1,6 +1,7 @@
 //! Why there is no describing function.
 
 use crate::nonlinearity::NonlinearityError;
+use crate::numeric::OutOfDomain;
 
 /// Why a describing function cannot be given. Values are in the caller's input and output units.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -12,7 +13,7 @@ pub enum DescribingError {
     /// Quadrature ran out of cells before the error estimate met the tolerance.
     #[error(
         "quadrature stopped at an estimated error of {estimate} (limit {tolerance}) after {cells} cells; \
-         name the input values at which the function has kinks"
+         give the input values at which the characteristic has kinks, a smaller amplitude, or a smoother characteristic"
     )]
     Quadrature {
         /// Estimated error of the integral.
@@ -31,7 +32,10 @@ pub enum DescribingError {
         output: f64,
     },
     /// No closed form for this case.
-    #[error("{characteristic}: no closed form with bias = {bias} and exponent = {exponent}; use quadrature")]
+    #[error(
+        "{characteristic}: no closed form with bias = {bias} and exponent = {exponent}; \
+         give a bias of 0, an exponent with a closed form, or compute by quadrature"
+    )]
     NoClosedForm {
         /// Catalogue name of the characteristic.
         characteristic: &'static str,
@@ -40,4 +44,29 @@ pub enum DescribingError {
         /// Exponent of the power law.
         exponent: f64,
     },
+}
+
+impl DescribingError {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Nonlinearity(error) => error.code(),
+            Self::Quadrature { .. } => "quadrature",
+            Self::NotFinite { .. } => "output-not-finite",
+            Self::NoClosedForm { .. } => "no-closed-form",
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        if let Self::Nonlinearity(error) = self { error.out_of_domain() } else { None }
+    }
+}
+
+impl From<OutOfDomain> for DescribingError {
+    fn from(fault: OutOfDomain) -> Self {
+        Self::Nonlinearity(fault.into())
+    }
 }

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{CATALOGUE, DescribingError, Entry};
-use crate::nonlinearity::{Domain, NonlinearityError, Parameter, Sinusoid};
+use crate::nonlinearity::{ParameterDomain, ParameterSpec, Sinusoid, checked_amplitude};
 
 /// Parameter sets tried for each characteristic, how many of the best are refined, and in how many steps.
 const CANDIDATES: u32 = 600;
@@ -12,7 +12,7 @@ const STEPS: usize = 200;
 
 /// A characteristic fitted to the points.
 #[derive(Clone, Debug)]
-pub struct Fit {
+pub struct FittedCharacteristic {
     /// The characteristic.
     pub entry: &'static Entry,
     /// Its parameter values, as [`Entry::build`] takes them.
@@ -31,7 +31,7 @@ pub struct Fit {
 /// the best parameters; a fit says nothing of amplitudes outside the points'.
 ///
 /// # Errors
-/// [`NonlinearityError::Amplitude`] or [`DescribingError::NotFinite`] for a point that is not two finite numbers with a
+/// [`NonlinearityError::OutOfDomain`](crate::nonlinearity::NonlinearityError::OutOfDomain) or [`DescribingError::NotFinite`] for a point that is not two finite numbers with a
 /// positive amplitude.
 ///
 /// ```
@@ -45,23 +45,21 @@ pub struct Fit {
 /// assert!(ranked.iter().take(3).any(|fit| fit.entry.name == "saturation" && fit.residual < 1e-9));
 /// # Ok::<(), selfosc::describing::DescribingError>(())
 /// ```
-pub fn fit(points: &[(f64, f64)], bias: f64) -> Result<Vec<Fit>, DescribingError> {
+pub fn fit(points: &[(f64, f64)], bias: f64) -> Result<Vec<FittedCharacteristic>, DescribingError> {
     for &(amplitude, p) in points {
-        if !(amplitude > 0.0 && amplitude.is_finite()) {
-            return Err(NonlinearityError::Amplitude { amplitude }.into());
-        }
+        checked_amplitude(amplitude)?;
         if !p.is_finite() {
             return Err(DescribingError::NotFinite { input: amplitude, output: p });
         }
     }
-    let mut fits: Vec<Fit> = CATALOGUE.iter().filter_map(|entry| best(entry, points, bias)).collect();
+    let mut fits: Vec<FittedCharacteristic> = CATALOGUE.iter().filter_map(|entry| best(entry, points, bias)).collect();
     fits.sort_by(|a, b| a.residual.total_cmp(&b.residual));
     Ok(fits)
 }
 
 /// A parameter as the search sees it: of one sign by its logarithm.
-fn value(parameter: &Parameter, searched: f64) -> f64 {
-    if parameter.domain == Domain::Finite { searched } else { searched.exp() }
+fn value(parameter: &ParameterSpec, searched: f64) -> f64 {
+    if parameter.domain == ParameterDomain::Finite { searched } else { searched.exp() }
 }
 
 fn values(entry: &Entry, searched: &DVector<f64>) -> Vec<f64> {
@@ -78,8 +76,8 @@ fn residuals(entry: &Entry, searched: &DVector<f64>, points: &[(f64, f64)], bias
     points.iter().map(residual).collect::<Option<Vec<_>>>().map(DVector::from_vec)
 }
 
-fn best(entry: &'static Entry, points: &[(f64, f64)], bias: f64) -> Option<Fit> {
-    if entry.parameters.iter().any(|parameter| parameter.domain == Domain::Points) {
+fn best(entry: &'static Entry, points: &[(f64, f64)], bias: f64) -> Option<FittedCharacteristic> {
+    if entry.parameters.iter().any(|parameter| parameter.domain == ParameterDomain::Points) {
         return None;
     }
     let candidates = (0..CANDIDATES).filter_map(|number| {
@@ -95,7 +93,12 @@ fn best(entry: &'static Entry, points: &[(f64, f64)], bias: f64) -> Option<Fit> 
     let largest = jacobian.amax();
     let parameters = jacobian.column_iter().filter(|column| column.amax() > 1e-9 * largest).count();
     let freedom = points.len().checked_sub(parameters).filter(|&freedom| freedom > 0)?;
-    Some(Fit { entry, values: values(entry, &searched), parameters, residual: (sum / freedom as f64).sqrt() })
+    Some(FittedCharacteristic {
+        entry,
+        values: values(entry, &searched),
+        parameters,
+        residual: (sum / freedom as f64).sqrt(),
+    })
 }
 
 /// A parameter set: sizes spread evenly in their logarithm over those that the points suggest for inputs, outputs and
@@ -106,13 +109,13 @@ fn candidate(entry: &Entry, points: &[(f64, f64)], number: u32) -> DVector<f64> 
     let sizes = sizes.filter(|size| *size > 0.0).map(f64::ln);
     let (low, high) =
         sizes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), size| (low.min(size), high.max(size)));
-    let size = |(place, parameter): (usize, &Parameter)| {
+    let size = |(place, parameter): (usize, &ParameterSpec)| {
         let fraction = (f64::from(number) * STEPS[place % STEPS.len()].sqrt()).fract();
         let size = low - 1.0 + (high - low + 2.0) * fraction;
         match (parameter.domain, parameter.default) {
-            (Domain::Finite, Some(0.0)) => 0.0,
-            (Domain::Finite, _) if number % 3 == 2 => -size.exp(),
-            (Domain::Finite, _) => size.exp(),
+            (ParameterDomain::Finite, Some(0.0)) => 0.0,
+            (ParameterDomain::Finite, _) if number % 3 == 2 => -size.exp(),
+            (ParameterDomain::Finite, _) => size.exp(),
             _ => size,
         }
     };
@@ -140,7 +143,9 @@ const REACH: f64 = 7.0;
 fn descend(entry: &Entry, start: DVector<f64>, points: &[(f64, f64)], bias: f64) -> Option<(DVector<f64>, f64)> {
     let within = |trial: &DVector<f64>| {
         let moves = entry.parameters.iter().zip(trial.iter().zip(start.iter()));
-        moves.into_iter().all(|(parameter, (x, from))| parameter.domain == Domain::Finite || (x - from).abs() <= REACH)
+        moves
+            .into_iter()
+            .all(|(parameter, (x, from))| parameter.domain == ParameterDomain::Finite || (x - from).abs() <= REACH)
     };
     let (mut searched, mut damping) = (start.clone(), 1e-3);
     let mut residual = residuals(entry, &searched, points, bias)?;

@@ -3,11 +3,12 @@
 use core::ops::RangeInclusive;
 
 use super::{ClosedForm, DescribingError, DescribingFunction, over_amplitudes};
-use crate::nonlinearity::{NonlinearityError, Sinusoid};
+use crate::nonlinearity::{Sinusoid, checked_amplitude};
+use crate::numeric::golden_section;
 
 /// Amplitudes at which a range is sampled, evenly in their logarithm.
 const SAMPLES: u32 = 1000;
-/// Steps of bisection or golden section: more than a float has bits.
+/// Steps of bisection: more than a float has bits.
 const STEPS: u32 = 80;
 /// Relative difference at which a crossing counts as one, not as a jump over the value.
 const CROSSED: f64 = 1e-9;
@@ -27,7 +28,7 @@ pub struct Solution {
 /// closer together than that can be missed. Amplitudes without describing function are passed over.
 ///
 /// # Errors
-/// [`NonlinearityError::Amplitude`] unless both ends of the range are positive and finite.
+/// [`NonlinearityError::OutOfDomain`](crate::nonlinearity::NonlinearityError::OutOfDomain) unless both ends of the range are positive and finite.
 ///
 /// ```
 /// use selfosc::describing::amplitudes;
@@ -137,9 +138,7 @@ fn sampled(
 ) -> Result<Vec<Solution>, DescribingError> {
     let (from, to) = range.into_inner();
     for amplitude in [from, to] {
-        if !(amplitude > 0.0 && amplitude.is_finite()) {
-            return Err(NonlinearityError::Amplitude { amplitude }.into());
-        }
+        checked_amplitude(amplitude)?;
     }
     let amplitude = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(SAMPLES));
     let grid = (0..=SAMPLES).map(amplitude);
@@ -154,17 +153,14 @@ fn minimum(
     solve: &impl Fn(f64) -> Result<Solution, DescribingError>,
     cost: impl Fn(Solution) -> f64,
 ) -> Solution {
-    let golden = 0.5 * (5f64.sqrt() - 1.0);
-    let (mut from, mut to) = (low.amplitude, high.amplitude);
     let mut best = if cost(low) < cost(high) { low } else { high };
-    for _ in 0..STEPS {
-        let (left, right) = (to - golden * (to - from), from + golden * (to - from));
-        let (Ok(left), Ok(right)) = (solve(left), solve(right)) else { break };
-        let nearer = if cost(left) < cost(right) { left } else { right };
-        if cost(nearer) < cost(best) {
-            best = nearer;
+    let seen = |amplitude| {
+        let solution = solve(amplitude).ok()?;
+        if cost(solution) < cost(best) {
+            best = solution;
         }
-        if cost(left) < cost(right) { to = right.amplitude } else { from = left.amplitude }
-    }
+        Some(cost(solution))
+    };
+    golden_section(seen, low.amplitude, high.amplitude, 0.0);
     best
 }

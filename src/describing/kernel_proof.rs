@@ -10,8 +10,11 @@
 use super::DescribingFunction;
 use super::kernel::{Arc, band_from_the_middle, band_near_the_maximum, constant};
 use crate::nonlinearity::{Branches, Sinusoid};
+use crate::numeric::special::Special;
 use crate::numeric::{Interval, Real};
-use crate::proof::identity::{Series, cover, magnitude, prove_zero_of_two};
+use crate::proof::branch_and_bound::{Subdivision, Visit, subdivide};
+use crate::proof::identity::{Series, magnitude, prove_zero_of_two};
+use crate::proof::{Bound, Change, NotProved, Proved, Statement, Unchanged};
 
 /// Length of either end on which values are compared, in radians: beyond, `cos(phi)` can be told from one.
 const END: f64 = 3e-8;
@@ -21,6 +24,8 @@ const AT_END: f64 = 8e-12;
 const SLOPE: f64 = 1e-13;
 /// A cell shorter than this, on which no derivative is known, holds a decision of the code between two of its formulas.
 const TRAP: f64 = 1e-14;
+/// The largest bound that is called a proof.
+const LARGEST: f64 = 1e-11;
 /// Cells of one kernel; a true closed form takes up to fifteen thousand, nearly all at the ends.
 const BUDGET: usize = 60_000;
 
@@ -38,40 +43,34 @@ pub enum KernelForm {
     Band,
 }
 
-/// What was proved of a kernel: for unit height or slope, unit amplitude, and every breakpoint on the sweep.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct KernelProof {
-    /// Mean, sine and cosine component differ by no more than this from the integrals.
-    pub bound: f64,
-    /// Cells that the range of `acos(u)` was divided into.
-    pub cells: usize,
-}
-
-/// Proves that a band from the middle, made false unless `factor` is one, is the difference of two ramps: for every pair of
-/// breakpoints within 0.95 of the bias, in units of the amplitude, but those from 0.5 to 0.5 + 1e-9 away from it. `None` if that is not
-/// shown to 1e-11.
+/// Proves that the formula for a band from the middle is the difference of two ramps: for every pair of breakpoints within
+/// 0.95 of the bias, in units of the amplitude, but those from 0.5 to 0.5 + 1e-9 away from it. One proof for each of the nine
+/// rectangles on which the code takes one and the same formula.
 ///
 /// ```
 /// use selfosc::describing::prove_band_from_the_middle;
-/// assert!(prove_band_from_the_middle(1.0).is_some_and(|proof| proof.bound < 1e-11));
-/// assert!(prove_band_from_the_middle(1.00001).is_none());
+/// assert!(prove_band_from_the_middle()?.iter().all(|proved| proved.bound.value() < 1e-11));
+/// # Ok::<(), selfosc::proof::NotProved<2>>(())
 /// ```
-#[must_use]
-pub fn prove_band_from_the_middle(factor: f64) -> Option<KernelProof> {
-    let mut whole = KernelProof { bound: 0.0, cells: 0 };
-    for lower in BREAKPOINTS {
-        for upper in BREAKPOINTS {
-            let proved = prove_zero_of_two(
-                |lower: Interval, upper| rearranged(lower, upper, factor),
-                |lower: Series, upper| rearranged(lower, upper, factor),
-                [lower, upper],
-                FROM_THE_MIDDLE,
-                BUDGET,
-            )?;
-            whole = KernelProof { bound: whole.bound.max(proved.bound), cells: whole.cells + proved.cells };
-        }
-    }
-    Some(whole)
+///
+/// # Errors
+/// [`NotProved`], if that is not shown to 1e-11.
+pub fn prove_band_from_the_middle() -> Result<Vec<Proved<2>>, NotProved<2>> {
+    prove_changed_band(&Unchanged)
+}
+
+/// [`prove_band_from_the_middle`] of a changed formula: for tests, which hand it a false one.
+///
+/// # Errors
+/// [`NotProved`].
+#[doc(hidden)]
+pub fn prove_changed_band(change: &impl Change) -> Result<Vec<Proved<2>>, NotProved<2>> {
+    let band = Band(change);
+    let pairs = BREAKPOINTS.into_iter().flat_map(|lower| BREAKPOINTS.map(|upper| [lower, upper]));
+    let prove = |domain| {
+        prove_zero_of_two(|a, b| band.at([a, b]), |a: Series, b| band.at([a, b]), domain, FROM_THE_MIDDLE, BUDGET)
+    };
+    pairs.map(prove).collect()
 }
 
 /// Where the code takes one and the same formula for an angle; together `[-0.95, 0.95]` but for two gaps.
@@ -80,27 +79,43 @@ const BREAKPOINTS: [[f64; 2]; 3] = [[-0.95, -0.5 - 1e-9], [-0.5, 0.5], [0.5 + 1e
 const FROM_THE_MIDDLE: f64 = 1e-11;
 
 /// The band, by the formula for the middle less that by ramps: mean and sine component.
-fn rearranged<T: Real>(lower: T, upper: T, factor: f64) -> [T; 2] {
-    let Ok(sweep) = Sinusoid::new(T::zero(), T::one()) else { return [T::from_f64(f64::NAN); 2] };
-    let middle = band_from_the_middle(T::zero(), lower, upper, &sweep) * T::from_f64(factor);
-    let ramps = band_near_the_maximum(T::zero(), lower, upper, &sweep);
-    [middle.f0 - ramps.f0, middle.p - ramps.p]
+struct Band<'a, C>(&'a C);
+
+impl<C: Change> Statement<2, 2> for Band<'_, C> {
+    fn at<T: Special>(&self, [lower, upper]: [T; 2]) -> [T; 2] {
+        let Ok(sweep) = Sinusoid::new(T::zero(), T::one()) else { return [T::from_f64(f64::NAN); 2] };
+        let middle = band_from_the_middle(T::zero(), lower, upper, &sweep);
+        let [mean, sine] = self.0.apply([lower, upper], [middle.f0, middle.p]);
+        let ramps = band_near_the_maximum(T::zero(), lower, upper, &sweep);
+        [mean - ramps.f0, sine - ramps.p]
+    }
 }
 
 impl KernelForm {
-    /// Encloses closed form times `factor` less integral for all `abs(u) <= 1`; `None` if no bound below 1e-11 is found,
-    /// as for any factor but one.
+    /// Bounds closed form less integral, for mean, sine and cosine component and every breakpoint on the sweep: unit height or
+    /// slope, unit amplitude. The domain is that of the angle `acos(u)`, in radians.
     ///
     /// Proves the formulas as real functions. Their rounding in floating point is not in the bound.
     ///
     /// ```
     /// use selfosc::describing::KernelForm;
-    /// assert!(KernelForm::Ramp.prove(1.0).is_some_and(|proof| proof.bound < 1e-11));
-    /// assert!(KernelForm::Ramp.prove(1.00001).is_none());
+    /// assert!(KernelForm::Ramp.prove()?.bound.value() < 1e-11);
+    /// # Ok::<(), selfosc::proof::NotProved<1>>(())
     /// ```
-    #[must_use]
-    pub fn prove(self, factor: f64) -> Option<KernelProof> {
-        Scaled { form: self, factor }.prove()
+    ///
+    /// # Errors
+    /// [`NotProved`], if no bound below 1e-11 is found.
+    pub fn prove(self) -> Result<Proved<1>, NotProved<1>> {
+        self.prove_changed(&Unchanged)
+    }
+
+    /// [`prove`](Self::prove) of a changed closed form, as a function of the ratio u: for tests, which hand it a false one.
+    ///
+    /// # Errors
+    /// [`NotProved`].
+    #[doc(hidden)]
+    pub fn prove_changed(self, change: &impl Change) -> Result<Proved<1>, NotProved<1>> {
+        Claimed { form: self, change }.prove()
     }
 
     /// The closed form by the code that computes.
@@ -144,29 +159,28 @@ impl KernelForm {
     }
 }
 
-/// A closed form, made false unless the factor is one.
-#[derive(Clone, Copy)]
-struct Scaled {
+/// A closed form and its change, of which the proof is made.
+struct Claimed<'a, C> {
     form: KernelForm,
-    factor: f64,
+    change: &'a C,
 }
 
-impl Scaled {
+impl<C: Change> Claimed<'_, C> {
     /// By the arc of half-width phi; its distances from the turning points without cancellation.
-    fn value<T: Real>(self, phi: T) -> [T; 3] {
+    fn value<T: Special>(&self, phi: T) -> [T; 3] {
         let half = phi / T::two();
         let (near, far) = (T::two() * half.sin().square(), T::two() * half.cos().square());
-        self.form.value(Arc::new(phi.cos(), near, far, T::one())).map(|part| part * T::from_f64(self.factor))
+        self.change.apply([phi.cos()], self.form.value(Arc::new(phi.cos(), near, far, T::one())))
     }
 
-    fn prove(self) -> Option<KernelProof> {
+    fn prove(&self) -> Result<Proved<1>, NotProved<1>> {
         let begin = Interval::point(END);
         let end = Interval::point(core::f64::consts::PI - END);
-        let near = self.end(self.form.start(), Interval::ZERO, Interval::ZERO.hull(begin))?;
+        let (near_bound, near) = self.end(self.form.start(), Interval::ZERO, Interval::ZERO.hull(begin))?;
         // At the seam itself, where nothing is as wide as a cell.
         let seam = self.error(self.form.start(), Interval::ZERO, begin);
-        let between = self.between(begin.hull(end))?;
-        let far = self.end(self.value(end), end, end.hull(Interval::PI))?;
+        let (between_bound, between) = self.between(begin.hull(end))?;
+        let (far_bound, far) = self.end(self.value(end), end, end.hull(Interval::PI))?;
         // The breakpoint at the minimum: the kernel is then the constant one.
         let whole = match self.form {
             KernelForm::Step => {
@@ -176,36 +190,46 @@ impl Scaled {
             _ => 0.0,
         };
         let up = |sum: f64| sum.next_up();
-        let bound = near.bound.max(up(up(up(seam + between.bound) + far.bound) + whole));
-        let cells = near.cells + between.cells + far.cells;
-        (bound <= 1e-11).then_some(KernelProof { bound, cells })
+        let bound = near_bound.max(up(up(up(seam + between_bound) + far_bound) + whole));
+        let boxes = near.boxes + between.boxes + far.boxes;
+        let domain = [Interval::ZERO.hull(Interval::PI)];
+        if !(bound <= LARGEST) {
+            return Err(NotProved::Undecided { at: domain, boxes });
+        }
+        let parts = [near.parts, between.parts, far.parts].concat();
+        Ok(Proved { bound: Bound::Residual(bound), domain, parts, boxes })
     }
 
     /// Closed form less integral on a cell, from the integral's value at an anchor.
-    fn error(self, anchor: [Interval; 3], at: Interval, cell: Interval) -> f64 {
+    fn error(&self, anchor: [Interval; 3], at: Interval, cell: Interval) -> f64 {
         let grown = self.form.slope(at.hull(cell)).map(|slope| slope * (cell - at));
         largest(difference(difference(self.value(cell), anchor), grown))
     }
 
-    fn end(self, anchor: [Interval; 3], at: Interval, domain: Interval) -> Option<KernelProof> {
+    fn end(
+        &self,
+        anchor: [Interval; 3],
+        at: Interval,
+        domain: Interval,
+    ) -> Result<(f64, Subdivision<1>), NotProved<1>> {
         let mut bound = 0.0_f64;
-        let cells = cover(domain, BUDGET, |cell| {
+        let found = subdivide([domain], BUDGET, |&[cell]| {
             let error = self.error(anchor, at, cell);
             if error <= AT_END {
                 bound = bound.max(error);
             }
-            Some(error <= AT_END)
-        })?;
-        Some(KernelProof { bound, cells })
+            Visit::settled(error <= AT_END)
+        });
+        Ok((bound, found.complete()?))
     }
 
     /// The integral of the derivatives' difference.
-    fn between(self, domain: Interval) -> Option<KernelProof> {
+    fn between(&self, domain: Interval) -> Result<(f64, Subdivision<1>), NotProved<1>> {
         let mismatch = |phi: Series| difference(self.value(phi).map(|part| part.derivative()), self.form.slope(phi));
         let mut sum = Interval::ZERO;
-        let cells = cover(domain, BUDGET, |cell| {
+        let found = subdivide([domain], BUDGET, |&[cell]| {
             let length = Interval::point(cell.upper()) - Interval::point(cell.lower());
-            let slope = magnitude(&mismatch, cell)?;
+            let Some(slope) = magnitude(&mismatch, cell) else { return Visit::Stop };
             let settled = slope <= SLOPE;
             if settled {
                 sum += Interval::point(slope) * length;
@@ -214,9 +238,9 @@ impl Scaled {
                 let closed = self.value(cell).map(|part| part.width()).into_iter().fold(0.0, f64::max);
                 sum = sum + Interval::point(closed) + length * Interval::point(largest(self.form.slope(cell)));
             }
-            Some(settled || cell.width() < TRAP)
-        })?;
-        Some(KernelProof { bound: sum.upper(), cells })
+            Visit::settled(settled || cell.width() < TRAP)
+        });
+        Ok((sum.upper(), found.complete()?))
     }
 }
 

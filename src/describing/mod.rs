@@ -16,8 +16,6 @@ mod example;
 #[cfg(feature = "std")]
 mod fit;
 #[cfg(feature = "std")]
-mod incremental;
-#[cfg(feature = "std")]
 mod inverse;
 mod kernel;
 #[cfg(feature = "std")]
@@ -34,32 +32,32 @@ mod sine;
 #[cfg(feature = "std")]
 mod sketch;
 mod tanh;
-#[cfg(feature = "std")]
-mod two_tone;
 
 #[cfg(feature = "std")]
 pub use catalogue::{Boxed, CATALOGUE, CatalogueError, Entry};
 #[cfg(feature = "std")]
 pub use certified::{Certified, certified};
-pub use closed_form::{ClosedForm, over_amplitudes};
+pub use closed_form::ClosedForm;
 pub use error::DescribingError;
 #[cfg(feature = "std")]
-pub use example::{Curve, Example};
-#[cfg(feature = "std")]
-pub use fit::{Fit, fit};
-#[cfg(feature = "std")]
-pub use incremental::incremental_gain;
+pub use fit::{FittedCharacteristic, fit};
 #[cfg(feature = "std")]
 pub use inverse::{Solution, amplitudes, nearest_amplitude};
 #[cfg(feature = "std")]
-pub use kernel_proof::{KernelForm, KernelProof, prove_band_from_the_middle};
-#[cfg(feature = "std")]
-pub use quadrature::{by_quadrature, harmonic};
-pub use relay::bias_of_output;
+pub use quadrature::by_quadrature;
 #[cfg(feature = "std")]
 pub use setting::Setting;
-#[cfg(feature = "std")]
-pub use two_tone::{TwoTone, two_tone};
+
+internal! {
+    use closed_form::{over_amplitudes};
+    #[cfg(feature = "std")]
+    use example::{Curve, Example};
+    #[cfg(feature = "std")]
+    use kernel_proof::{KernelForm, prove_band_from_the_middle, prove_changed_band};
+    #[cfg(feature = "std")]
+    use quadrature::{harmonic};
+    use relay::{bias_of_output};
+}
 
 use core::ops::{Add, Mul, Sub};
 

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use crate::nonlinearity::NonlinearityError;
+use crate::numeric::OutOfDomain;
 
 /// Where in a record something is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -137,15 +138,8 @@ pub enum ExperimentError {
         reason: String,
     },
     /// A setting of a simulated experiment outside its domain.
-    #[error("{setting} = {value} must be {required}; give it such a value")]
-    Setting {
-        /// Name and unit.
-        setting: &'static str,
-        /// The value given.
-        value: f64,
-        /// What it has to be.
-        required: &'static str,
-    },
+    #[error(transparent)]
+    OutOfDomain(#[from] OutOfDomain),
     /// The relay of a simulated experiment is not one.
     #[error(transparent)]
     Relay(#[from] NonlinearityError),
@@ -168,8 +162,18 @@ impl ExperimentError {
             Self::Blank { .. } => "blank-cell",
             Self::NotANumber { .. } => "not-a-number",
             Self::Unreadable { .. } => "unreadable",
-            Self::Setting { .. } => "setting",
+            Self::OutOfDomain(_) => "setting",
             Self::Relay(_) => "relay",
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        match self {
+            Self::OutOfDomain(fault) => Some(fault),
+            Self::Relay(error) => error.out_of_domain(),
+            _ => None,
         }
     }
 }

@@ -23,7 +23,8 @@ const INPUT: &[&str] = &["command", "input", "u"];
 /// assert!((log.record.output()[19] - 374f64.to_radians()).abs() < 1e-12);
 /// # Ok::<(), selfosc::experiment::ExperimentError>(())
 /// ```
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Columns {
     /// Name of the time column, in seconds; by default the first of `time_s`, `time`, `t`.
     pub time: Option<String>,
@@ -39,7 +40,7 @@ pub struct Columns {
 }
 
 /// A log that has been read.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Log {
     /// The record, angles in radians.
     pub record: Record,
@@ -49,6 +50,14 @@ pub struct Log {
     pub unwrapped: usize,
     /// Names of the columns read: time, output, input.
     pub columns: [String; 3],
+}
+
+/// Samples that were never in a file: the output as it is, columns by their first names.
+impl From<Record> for Log {
+    fn from(record: Record) -> Self {
+        let columns = ["time_s", "output", "input"].map(str::to_owned);
+        Self { record, degrees: false, unwrapped: 0, columns }
+    }
 }
 
 impl Columns {

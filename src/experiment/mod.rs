@@ -16,6 +16,6 @@ pub use error::{ExperimentError, Place};
 pub use log::{Columns, Log};
 #[cfg(feature = "std")]
 pub use record::Record;
-pub use relay::Relay;
+pub use relay::RelayState;
 #[cfg(feature = "std")]
-pub use simulation::{Experiment, Sensor};
+pub use simulation::{Sensor, SimulatedExperiment};

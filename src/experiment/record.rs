@@ -13,12 +13,30 @@ use super::{ExperimentError, Place};
 /// assert!(Record::new(time.clone(), vec![0.0; 20], vec![1.0; 20]).is_ok());
 /// assert!(Record::new(time.into_iter().rev().collect(), vec![0.0; 20], vec![1.0; 20]).is_err());
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(try_from = "Samples")]
 pub struct Record {
     time_s: Vec<f64>,
     output: Vec<f64>,
     input: Vec<f64>,
+    #[serde(skip_serializing)]
     interval_s: f64,
+}
+
+/// A record as it is written, not yet checked.
+#[derive(serde::Deserialize)]
+struct Samples {
+    time_s: Vec<f64>,
+    output: Vec<f64>,
+    input: Vec<f64>,
+}
+
+impl TryFrom<Samples> for Record {
+    type Error = ExperimentError;
+
+    fn try_from(samples: Samples) -> Result<Self, ExperimentError> {
+        Self::new(samples.time_s, samples.output, samples.input)
+    }
 }
 
 impl Record {

@@ -6,21 +6,21 @@ use crate::numeric::Scalar;
 /// A relay with hysteresis that remembers which of its two outputs it has.
 ///
 /// ```
-/// use selfosc::experiment::Relay;
+/// use selfosc::experiment::RelayState;
 /// use selfosc::nonlinearity::RelayHysteresis;
-/// let mut relay = Relay::new(RelayHysteresis::new(1.0, 0.2, 0.0)?, false);
+/// let mut relay = RelayState::new(RelayHysteresis::new(1.0, 0.2, 0.0)?, false);
 /// assert_eq!(relay.step(0.1), -1.0);
 /// assert_eq!(relay.step(0.3), 1.0);
 /// assert_eq!(relay.step(-0.1), 1.0);
 /// # Ok::<(), selfosc::nonlinearity::NonlinearityError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Relay<T> {
+pub struct RelayState<T> {
     characteristic: RelayHysteresis<T>,
     high: bool,
 }
 
-impl<T: Scalar> Relay<T> {
+impl<T: Scalar> RelayState<T> {
     /// A relay at its high or low output.
     pub fn new(characteristic: RelayHysteresis<T>, high: bool) -> Self {
         Self { characteristic, high }

@@ -1,12 +1,13 @@
 //! The whole loop in simulation: axis, delays, relay, sensor.
 
+use crate::numeric::{Limit, domain};
 use std::collections::VecDeque;
 
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
-use super::{ExperimentError, Record, Relay};
+use super::{ExperimentError, Record, RelayState};
 use crate::nonlinearity::RelayHysteresis;
 use crate::plant::{DragAxis, State};
 
@@ -28,15 +29,15 @@ pub struct Sensor {
 /// time sees the coordinate itself, delayed but without noise and rounding.
 ///
 /// ```
-/// use selfosc::experiment::Experiment;
+/// use selfosc::experiment::SimulatedExperiment;
 /// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
 /// let axis = DragAxis::quadratic(1.0, 0.5)?;
-/// let record = Experiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.run(60.0)?;
+/// let record = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.run(60.0)?;
 /// assert_eq!(record.samples(), 601);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Experiment {
+pub struct SimulatedExperiment {
     axis: DragAxis<f64>,
     relay: RelayHysteresis<f64>,
     rate_hz: f64,
@@ -46,16 +47,16 @@ pub struct Experiment {
     start: State<f64>,
 }
 
-impl Experiment {
+impl SimulatedExperiment {
     /// The most samples a simulation may have.
     pub const MOST_SAMPLES: f64 = 1e8;
 
     /// A perfect sensor and a relay that watches all the time; starts at rest at zero.
     ///
     /// # Errors
-    /// [`ExperimentError::Setting`] unless the rate is positive and finite.
+    /// [`ExperimentError::OutOfDomain`] unless the rate is positive and finite.
     pub fn new(axis: DragAxis<f64>, relay: RelayHysteresis<f64>, rate_hz: f64) -> Result<Self, ExperimentError> {
-        require("rate in Hz", rate_hz, rate_hz > 0.0, "a finite number above 0")?;
+        domain::positive("rate", rate_hz, "Hz")?;
         let start = State { position: 0.0, velocity: 0.0 };
         Ok(Self { axis, relay, rate_hz, held: false, sensor: Sensor::default(), seed: 0, start })
     }
@@ -69,13 +70,11 @@ impl Experiment {
     /// The same experiment with another sensor.
     ///
     /// # Errors
-    /// [`ExperimentError::Setting`] unless all its numbers are finite, zero or more.
+    /// [`ExperimentError::OutOfDomain`] unless all its numbers are finite, zero or more.
     pub fn with_sensor(self, sensor: Sensor) -> Result<Self, ExperimentError> {
-        for (setting, value) in
-            [("sensor delay in s", sensor.delay_s), ("quantum", sensor.quantum), ("noise", sensor.noise)]
-        {
-            require(setting, value, value >= 0.0, "a finite number, 0 or more")?;
-        }
+        domain::non_negative("sensor delay", sensor.delay_s, "s")?;
+        domain::non_negative("quantum", sensor.quantum, "output units")?;
+        domain::non_negative("noise", sensor.noise, "output units")?;
         Ok(Self { sensor, ..self })
     }
 
@@ -88,10 +87,10 @@ impl Experiment {
     /// The same experiment from another state.
     ///
     /// # Errors
-    /// [`ExperimentError::Setting`] unless the state is finite.
+    /// [`ExperimentError::OutOfDomain`] unless the state is finite.
     pub fn from_state(self, start: State<f64>) -> Result<Self, ExperimentError> {
-        require("initial position", start.position, true, "a finite number")?;
-        require("initial velocity", start.velocity, true, "a finite number")?;
+        domain::finite("initial position", start.position, "output units")?;
+        domain::finite("initial velocity", start.velocity, "output units per s")?;
         Ok(Self { start, ..self })
     }
 
@@ -99,20 +98,23 @@ impl Experiment {
     /// positive.
     ///
     /// # Errors
-    /// [`ExperimentError::Setting`] for a duration that is not positive or has more than
+    /// [`ExperimentError::OutOfDomain`] for a duration that is not positive or has more than
     /// [`MOST_SAMPLES`](Self::MOST_SAMPLES) samples; [`ExperimentError::TooShort`].
     pub fn run(&self, duration_s: f64) -> Result<Record, ExperimentError> {
-        require("duration in s", duration_s, duration_s > 0.0, "a finite number above 0")?;
+        domain::positive("duration", duration_s, "s")?;
         let last = (duration_s * self.rate_hz + 1e-9).floor();
-        require("number of samples", last, last < Self::MOST_SAMPLES, "at most 1e8")?;
+        let remedy = "shorten the experiment or lower the rate";
+        let limit = Limit::AtMost(Self::MOST_SAMPLES - 1.0);
+        domain::require("number of samples", last, "", limit, remedy)?;
         let mut random = Pcg64Mcg::seed_from_u64(self.seed);
-        let mut relay = Relay::new(self.relay, true);
+        let mut relay = RelayState::new(self.relay, true);
         let mut motion = Motion::new(self.axis, self.start, relay.output());
         if self.held {
             motion.seen_s = f64::INFINITY;
         } else {
             let half_width = self.relay.half_width();
-            require("half-width", half_width, half_width > 0.0, "above 0 for a relay that is not held")?;
+            let remedy = "give a half-width, or hold the relay between samples";
+            domain::require("half-width", half_width, "output units", Limit::Positive, remedy)?;
         }
         let (mut time, mut output, mut input) = (Vec::new(), Vec::new(), Vec::new());
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
@@ -137,7 +139,7 @@ impl Experiment {
     }
 
     /// Switches a relay that watches all the time, up to the time `until`.
-    fn watch(&self, relay: &mut Relay<f64>, motion: &mut Motion, until: f64) {
+    fn watch(&self, relay: &mut RelayState<f64>, motion: &mut Motion, until: f64) {
         let level = self.relay.half_width();
         loop {
             // The positive command lasts until x rises past the level, the negative one until it falls past it.
@@ -211,8 +213,4 @@ impl Motion {
         self.seen_s = self.seen_s.max(until.min(self.stretches[count - 1].0));
         None
     }
-}
-
-fn require(setting: &'static str, value: f64, inside: bool, required: &'static str) -> Result<(), ExperimentError> {
-    if inside && value.is_finite() { Ok(()) } else { Err(ExperimentError::Setting { setting, value, required }) }
 }

@@ -4,7 +4,7 @@ use super::{Cycle, Cycles, FeatureError, Features, Summary};
 use crate::experiment::Record;
 
 /// The two levels of a relay's command, as a record shows them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RelayLevels {
     /// Half the distance of the two levels, C.
     pub level: f64,
@@ -13,7 +13,7 @@ pub struct RelayLevels {
 }
 
 /// Features of a record, with what only the whole record tells.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct RecordFeatures {
     /// Means and spreads.
@@ -61,11 +61,11 @@ impl RecordFeatures {
     /// [`FeatureError`] that names why the record is not usable.
     ///
     /// ```
-    /// use selfosc::experiment::Experiment;
+    /// use selfosc::experiment::SimulatedExperiment;
     /// use selfosc::features::RecordFeatures;
     /// use selfosc::{nonlinearity::RelayHysteresis, orbit::limit_cycle, plant::DragAxis};
     /// let (axis, relay) = (DragAxis::quadratic(1.0, 0.5)?, RelayHysteresis::new(1.0, 0.3, 0.0)?);
-    /// let found = RecordFeatures::of(&Experiment::new(axis, relay, 100.0)?.run(60.0)?)?;
+    /// let found = RecordFeatures::of(&SimulatedExperiment::new(axis, relay, 100.0)?.run(60.0)?)?;
     /// let exact = limit_cycle(&axis, &relay)?;
     /// assert!((found.features.amplitude.mean - exact.amplitude).abs() < 1e-3 * exact.amplitude);
     /// # Ok::<(), Box<dyn core::error::Error>>(())

@@ -5,6 +5,7 @@ use crate::numeric::Scalar;
 
 /// One cycle: from one change of the command to positive to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cycle<S> {
     /// When it began, in s.
     pub begin_s: S,

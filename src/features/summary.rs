@@ -5,6 +5,7 @@ use crate::numeric::Scalar;
 
 /// Mean and sample standard deviation over cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct Spread<S> {
     /// Mean.
     pub mean: S,
@@ -14,6 +15,7 @@ pub struct Spread<S> {
 
 /// What a relay experiment shows, as means over its steady cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Features<S> {
     /// Cycles that the means are over.

@@ -2,6 +2,7 @@
 
 /// How the drag force depends on speed v.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum DragLaw {
     /// Force proportional to v (the paper's constant drag coefficient).
     Linear,

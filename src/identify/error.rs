@@ -2,6 +2,7 @@
 
 use crate::describing::DescribingError;
 use crate::nonlinearity::NonlinearityError;
+use crate::numeric::OutOfDomain;
 use crate::orbit::OrbitError;
 use crate::plant::PlantError;
 
@@ -9,16 +10,9 @@ use crate::plant::PlantError;
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum IdentifyError {
-    /// A feature that is not a number of the right kind.
-    #[error("{feature} = {value} must be {required}; read it off the record again")]
-    Feature {
-        /// Name and unit of the feature.
-        feature: &'static str,
-        /// The value given, in that unit.
-        value: f64,
-        /// What it has to be.
-        required: &'static str,
-    },
+    /// A feature or setting outside its domain.
+    #[error(transparent)]
+    OutOfDomain(#[from] OutOfDomain),
     /// No orbit of a drag axis has these features.
     #[error(
         "switching level over amplitude is {ratio}, but orbits with these times and this delay have it below {limit} \
@@ -33,7 +27,7 @@ pub enum IdentifyError {
     },
     /// The features are those of an orbit whose drag is lost in rounding.
     #[error(
-        "switching level over amplitude is {ratio}, too near its limits for this arithmetic to tell the drag; repeat \
+        "switching level over amplitude is {ratio}, too near its limits to tell the drag; repeat \
          the experiment with another half-width"
     )]
     Unresolved {
@@ -102,7 +96,7 @@ impl IdentifyError {
     #[must_use]
     pub fn code(&self) -> &'static str {
         match self {
-            Self::Feature { .. } => "feature",
+            Self::OutOfDomain(_) => "feature",
             Self::NoOrbit { .. } => "no-orbit",
             Self::Unresolved { .. } => "unresolved",
             Self::TooFewEquations { .. } => "too-few-equations",
@@ -114,6 +108,18 @@ impl IdentifyError {
             Self::Describing(_) => "condition-40",
         }
     }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        match self {
+            Self::OutOfDomain(fault) => Some(fault),
+            Self::Orbit(error) => error.out_of_domain(),
+            Self::Plant(error) => error.out_of_domain(),
+            Self::Describing(error) => error.out_of_domain(),
+            _ => None,
+        }
+    }
 }
 
 impl From<NonlinearityError> for IdentifyError {
@@ -121,3 +127,6 @@ impl From<NonlinearityError> for IdentifyError {
         Self::Describing(error.into())
     }
 }
+
+/// What to do about a feature that is none.
+pub(super) const READ_AGAIN: &str = "read it off the record again";

@@ -5,8 +5,9 @@
 //! switching level to amplitude increases with the shape, so one equation in one unknown decides.
 
 use super::IdentifyError;
+use super::error::READ_AGAIN;
 use super::iso::Oscillation;
-use crate::numeric::{Scalar, increasing_root, minus_tanh};
+use crate::numeric::{Limit, Scalar, domain, increasing_root, minus_tanh};
 use crate::orbit::quadratic_speeds;
 use crate::plant::{DragAxis, OneWay};
 
@@ -15,7 +16,8 @@ use crate::plant::{DragAxis, OneWay};
 /// The position counts by differences only, so a reference other than zero or an offset of the sensor has no effect; the
 /// disturbance comes from the times.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cycle<T> {
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
+pub struct MeanCycle<T> {
     /// Relay level C, in units of the command.
     pub relay_level: T,
     /// Level x_a* in units of the output: half the distance between the positions at which the command was *given*
@@ -32,7 +34,7 @@ pub struct Cycle<T> {
     pub delay_s: T,
 }
 
-impl<S: Scalar> Cycle<S> {
+impl<S: Scalar> MeanCycle<S> {
     /// The cycle with equal times under both commands, as without a disturbance; the bias is not used.
     pub fn symmetric(oscillation: &Oscillation<S>) -> Self {
         let half_period = oscillation.period_s / S::two();
@@ -54,11 +56,11 @@ impl<S: Scalar> Cycle<S> {
     /// `-C (t_plus - t_minus)/T`.
     ///
     /// ```
-    /// use selfosc::identify::exact::Cycle;
+    /// use selfosc::identify::exact::MeanCycle;
     /// use selfosc::{nonlinearity::RelayHysteresis, orbit::limit_cycle, plant::DragAxis};
     /// let axis = DragAxis::linear(2.0f64, 0.7)?.with_disturbance(0.1)?.with_delay_s(0.2)?;
     /// let orbit = limit_cycle(&axis, &RelayHysteresis::new(1.0, 0.3, 0.0)?)?;
-    /// let cycle = Cycle {
+    /// let cycle = MeanCycle {
     ///     relay_level: 1.0,
     ///     switch_level: 0.3,
     ///     amplitude: orbit.amplitude,
@@ -71,7 +73,7 @@ impl<S: Scalar> Cycle<S> {
     /// ```
     ///
     /// # Errors
-    /// [`IdentifyError::Feature`] where a feature is not a number of the right kind, [`IdentifyError::NoOrbit`] where no
+    /// [`IdentifyError::OutOfDomain`] where a feature is not a number of the right kind, [`IdentifyError::NoOrbit`] where no
     /// orbit has this ratio of switching level to amplitude, [`IdentifyError::Unresolved`] where rounding hides the drag.
     pub fn linear_drag(&self) -> Result<DragAxis<S>, IdentifyError> {
         self.invert(|shape, shares| Some(Shape::linear(shape, shares)))
@@ -84,12 +86,12 @@ impl<S: Scalar> Cycle<S> {
     /// As [`linear_drag`](Self::linear_drag).
     ///
     /// ```
-    /// use selfosc::identify::{exact::Cycle, iso::Oscillation};
+    /// use selfosc::identify::{exact::MeanCycle, iso::Oscillation};
     /// // Row 7 of Table 4, in its own units: degrees and 1e-2 N m.
     /// let row = Oscillation {
     ///     relay_level: 8.23, switch_level: 6.58, amplitude: 26.36, bias: 3.8, period_s: 2.69, delay_s: 0.2,
     /// };
-    /// let axis = Cycle::symmetric(&row).quadratic_drag()?;
+    /// let axis = MeanCycle::symmetric(&row).quadratic_drag()?;
     /// assert!(axis.alpha() > 0.0 && axis.quadratic_drag() > 0.0 && axis.linear_drag() == 0.0);
     /// # Ok::<(), selfosc::identify::IdentifyError>(())
     /// ```
@@ -127,19 +129,15 @@ impl<S: Scalar> Cycle<S> {
     /// before the turn on the average of both sides; weak drag lets the ratio fall to zero and, with a delay, below.
     fn checked_ratio(&self) -> Result<S, IdentifyError> {
         let zero = S::zero();
-        let above = "a finite number above 0";
-        let not_below = "a finite number, 0 or more";
-        for (feature, value, inside, required) in [
-            ("relay level in command units", self.relay_level, self.relay_level > zero, above),
-            ("switching level in output units", self.switch_level, self.switch_level >= zero, not_below),
-            ("amplitude in output units", self.amplitude, self.amplitude > zero, above),
-            ("time with the positive command in seconds", self.time_positive_s, self.time_positive_s > zero, above),
-            ("time with the negative command in seconds", self.time_negative_s, self.time_negative_s > zero, above),
-            ("delay in seconds", self.delay_s, self.delay_s >= zero, not_below),
+        for (feature, value, unit, limit) in [
+            ("relay level", self.relay_level, "command units", Limit::Positive),
+            ("switching level", self.switch_level, "output units", Limit::NonNegative),
+            ("amplitude", self.amplitude, "output units", Limit::Positive),
+            ("time with the positive command", self.time_positive_s, "s", Limit::Positive),
+            ("time with the negative command", self.time_negative_s, "s", Limit::Positive),
+            ("delay", self.delay_s, "s", Limit::NonNegative),
         ] {
-            if !(inside && value.is_finite()) {
-                return Err(IdentifyError::Feature { feature, value: value.value(), required });
-            }
+            domain::require(feature, value, unit, limit, READ_AGAIN)?;
         }
         let ratio = self.switch_level / self.amplitude;
         let limit = S::one() - self.delay_s * (S::one() / self.time_positive_s + S::one() / self.time_negative_s);

@@ -1,9 +1,10 @@
 //! Maximum likelihood on whole records: linear, quadratic or mixed drag, disturbance, initial state, perhaps the delay.
 //!
-//! Between changes of the command the motion is in closed form, and dual numbers carry its derivatives. The record is cut
-//! into stretches whose beginnings are unknowns too until they fit together, so that a poor start does no harm; the
-//! equations are solved along this chain at a cost that grows with the samples only. Where the command changed at an
-//! unknown instant between two samples, the instant is estimated with the rest.
+//! Multiple shooting: the record is cut into stretches (shooting intervals) whose initial states are unknowns too until they
+//! are continuous, so that a poor start does no harm. Between changes of the command the motion is in closed form, and dual
+//! numbers carry its derivatives. Steps are those of the generalised Gauss-Newton method, condensed from stretch to stretch at
+//! a cost that grows with the samples only. Where the command changed at an unknown instant between two samples, the instant
+//! is estimated with the rest, and integrated out by Laplace's approximation where likelihoods are compared.
 
 mod chain;
 mod input;
@@ -17,6 +18,7 @@ mod start;
 pub use input::Between;
 pub use result::{FittedRecord, RecordFit};
 
+use crate::numeric::{Limit, domain};
 use rayon::prelude::*;
 
 use super::joint::Delay;
@@ -27,14 +29,14 @@ use search::{Search, Start};
 /// What to fit, and what is known.
 ///
 /// ```
-/// use selfosc::experiment::{Experiment, Sensor};
+/// use selfosc::experiment::{SimulatedExperiment, Sensor};
 /// use selfosc::identify::fit::Fit;
 /// use selfosc::identify::joint::{Delay, Parameter};
 /// use selfosc::identify::DragLaw;
 /// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
 /// let axis = DragAxis::quadratic(1.0, 0.5)?.with_delay_s(0.1)?;
 /// let sensor = Sensor { quantum: 0.02, ..Sensor::default() };
-/// let record = Experiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().with_sensor(sensor)?.run(60.0)?;
+/// let record = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().with_sensor(sensor)?.run(60.0)?;
 /// let fit = Fit::new(DragLaw::Quadratic, Delay::KnownS(0.1)).records(&[&record])?;
 /// let alpha = fit.estimate(Parameter::Alpha);
 /// assert!((alpha.value - 1.0).abs() < 0.03);
@@ -74,7 +76,7 @@ impl Fit {
     /// [autocorrelation](FittedRecord::autocorrelation) says whether it is.
     ///
     /// # Errors
-    /// [`IdentifyError::Feature`] for an output that never moves, and for a delay or step that is none; [`IdentifyError::TooFewEquations`],
+    /// [`IdentifyError::OutOfDomain`] for an output that never moves, and for a delay or step that is none; [`IdentifyError::TooFewEquations`],
     /// [`IdentifyError::Confounded`], [`IdentifyError::NotSettled`].
     pub fn records(&self, records: &[&Record]) -> Result<RecordFit, IdentifyError> {
         self.records_from(records, &[])
@@ -123,23 +125,18 @@ impl Fit {
     }
 
     fn check(&self, records: &[&Record]) -> Result<(), IdentifyError> {
-        let feature = |feature, value: f64| {
-            if value >= 0.0 && value.is_finite() {
-                return Ok(());
-            }
-            Err(IdentifyError::Feature { feature, value, required: "a finite number, 0 or more" })
-        };
         for record in records {
             let output = record.output();
             if output.iter().all(|value| *value == output[0]) {
-                return Err(IdentifyError::Feature { feature: "range of the output", value: 0.0, required: "above 0" });
+                let remedy = "choose the column that holds the measurement";
+                domain::require("range of the output", 0.0, "output units", Limit::Positive, remedy)?;
             }
         }
         if let Delay::KnownS(delay_s) = self.delay {
-            feature("delay in seconds", delay_s)?;
+            domain::non_negative("delay", delay_s, "s")?;
         }
         if let Some(quantum) = self.quantum {
-            feature("step of the sensor", quantum)?;
+            domain::non_negative("step of the sensor", quantum, "output units")?;
         }
         Ok(())
     }

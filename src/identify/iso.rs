@@ -4,12 +4,14 @@
 //! exact orbits give it.
 
 use super::IdentifyError;
+use super::error::READ_AGAIN;
 use crate::describing::{ClosedForm, DescribingFunction};
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
-use crate::numeric::Real;
+use crate::numeric::{Limit, Real, domain};
 
 /// What the method reads off a record: means over its cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct Oscillation<T> {
     /// Relay level C, in units of the command.
     pub relay_level: T,
@@ -27,6 +29,7 @@ pub struct Oscillation<T> {
 
 /// Parameters of one axis under each drag law. The output in radians gives SI units of moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct Parameters<T> {
     /// Inertia with added mass, command units per output unit per second squared; the same under either law.
     pub alpha: T,
@@ -48,16 +51,10 @@ impl<T: Real> Oscillation<T> {
     ///
     /// # Errors
     /// [`IdentifyError::Describing`] where condition 40 is not met: repeat the experiment with a smaller half-width or a
-    /// higher level. [`IdentifyError::Feature`] where period or delay is not a number of the right kind.
+    /// higher level. [`IdentifyError::OutOfDomain`] where period or delay is not a number of the right kind.
     pub fn describing_function(&self) -> Result<DescribingFunction<T>, IdentifyError> {
-        let feature = |feature, value: T, holds: bool, required| {
-            if holds { Ok(()) } else { Err(IdentifyError::Feature { feature, value: value.bounds().0, required }) }
-        };
-        let (period, delay) = (self.period_s.bounds(), self.delay_s.bounds());
-        let finite = period.0 > 0.0 && period.1 < f64::INFINITY;
-        feature("period in seconds", self.period_s, finite, "a finite number above 0")?;
-        let finite = delay.0 >= 0.0 && delay.1 < f64::INFINITY;
-        feature("delay in seconds", self.delay_s, finite, "a finite number, 0 or more")?;
+        domain::require("period", self.period_s, "s", Limit::Positive, READ_AGAIN)?;
+        domain::non_negative("delay", self.delay_s, "s")?;
         let relay = RelayHysteresis::new(self.relay_level, self.switch_level, T::zero())?;
         let sweep = Sinusoid::new(self.bias, self.amplitude)?;
         Ok(relay.describing_function(&sweep)?.delayed(self.omega_rad_s() * self.delay_s))
@@ -107,13 +104,14 @@ pub fn parameters<T: Real>(df: DescribingFunction<T>, amplitude: T, omega_rad_s:
 
 /// Disturbance `delta = -C (t_plus - t_minus)/T` from the times per period at command `+C` and `-C` (eq. 32 in this
 /// project's signs), in command units. Exact for any waveform when drag is linear; not so when it is quadratic.
-pub fn disturbance_from_times<T: Real>(relay_level: T, time_positive_s: T, time_negative_s: T) -> T {
+pub(crate) fn disturbance_from_times<T: Real>(relay_level: T, time_positive_s: T, time_negative_s: T) -> T {
     -crate::describing::bias_of_output(relay_level, time_positive_s, time_negative_s)
 }
 
 /// Relative errors of the parameters per relative error of the amplitude (eqs. 37-39), for an unbiased oscillation without
 /// delay.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct AmplitudeSensitivity<T> {
     /// `(2 - r^2)/(r^2 - 1)` with `r = X_m/x_a` (eq. 37): zero at `r = sqrt(2)`, without bound as `r` falls to 1.
     pub alpha: T,

@@ -8,23 +8,21 @@ mod least_squares;
 mod row;
 mod student;
 
-use nalgebra::{Const, U1};
-use num_dual::DualSVec64;
-
 use super::{DragLaw, IdentifyError};
-use crate::numeric::Real;
+use crate::numeric::Gradient;
 use crate::plant::DragAxis;
 use least_squares::{Linearised, Minimum, minimise};
 pub use row::{FeatureRow, fit_rows};
 
 /// A number with its derivatives with respect to the common parameters, in the order of [`Parameter`].
-pub type Sensitive = DualSVec64<COUNT>;
+pub(crate) type Sensitive = Gradient<f64, COUNT>;
 
 /// Number of common parameters.
 const COUNT: usize = 4;
 
 /// A parameter that all experiments share.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Parameter {
     /// Inertia with added mass alpha.
     Alpha,
@@ -37,7 +35,8 @@ pub enum Parameter {
 }
 
 /// What is done about the delay.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Delay {
     /// It is known, in seconds.
     KnownS(f64),
@@ -45,12 +44,19 @@ pub enum Delay {
     Estimated,
 }
 
+impl Default for Delay {
+    /// None: known to be zero.
+    fn default() -> Self {
+        Self::KnownS(0.0)
+    }
+}
+
 /// An experiment as the joint estimate sees it.
 ///
 /// Parameters that belong to this experiment alone (a disturbance, an initial state) are its own affair: it gives
 /// residuals in which they are already at their best values, with derivatives from which their directions are projected
 /// out.
-pub trait Experiment {
+pub(crate) trait Experiment {
     /// Appends the residuals of this experiment under `axis`, whose disturbance is zero, divided by their standard
     /// deviations up to a factor common to all experiments.
     ///
@@ -60,17 +66,48 @@ pub trait Experiment {
 }
 
 /// A value with what is known of its error.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(into = "Interval", try_from = "Interval")]
 pub struct Estimate {
     /// The value, in the units of the experiments.
     pub value: f64,
     /// Its error; `None` for a value that was given, or that ended on its bound zero.
-    pub spread: Option<Spread>,
+    pub spread: Option<ConfidenceInterval>,
+}
+
+/// An estimate as it is written: `{"value", "std", "low", "high"}`, the last three null together.
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Interval {
+    value: f64,
+    std: Option<f64>,
+    low: Option<f64>,
+    high: Option<f64>,
+}
+
+impl From<Estimate> for Interval {
+    fn from(Estimate { value, spread }: Estimate) -> Self {
+        let field = |of: fn(ConfidenceInterval) -> f64| spread.map(of);
+        Self { value, std: field(|s| s.std), low: field(|s| s.low), high: field(|s| s.high) }
+    }
+}
+
+impl TryFrom<Interval> for Estimate {
+    type Error = &'static str;
+
+    fn try_from(Interval { value, std, low, high }: Interval) -> Result<Self, Self::Error> {
+        match (std, low, high) {
+            (Some(std), Some(low), Some(high)) => {
+                Ok(Self { value, spread: Some(ConfidenceInterval { std, low, high }) })
+            }
+            (None, None, None) => Ok(Self { value, spread: None }),
+            _ => Err("std, low and high of an estimate must be numbers or null together"),
+        }
+    }
 }
 
 /// Error of an estimate.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spread {
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct ConfidenceInterval {
     /// Standard deviation.
     pub std: f64,
     /// Lower end of the 95 % interval (Student's t), not below zero.
@@ -83,7 +120,7 @@ pub struct Spread {
 ///
 /// Its intervals hold for residuals that are independent and of equal variance, and for a model that is true up to them: a
 /// wrong drag law shows as a larger residual, not as a wider interval.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Joint {
     law: DragLaw,
     axis: DragAxis<f64>,
@@ -98,7 +135,7 @@ pub struct Joint {
 /// # Errors
 /// [`IdentifyError::TooFewEquations`], [`IdentifyError::Confounded`] where the experiments cannot tell the parameters
 /// apart, [`IdentifyError::NotSettled`], or the first experiment's error where the start itself has no answer.
-pub fn fit<E: Experiment>(
+pub(crate) fn fit<E: Experiment>(
     experiments: &[E],
     law: DragLaw,
     delay: Delay,
@@ -123,15 +160,15 @@ pub fn fit<E: Experiment>(
 }
 
 fn linearise<E: Experiment>(experiments: &[E], values: &[f64; COUNT]) -> Result<Linearised<COUNT>, IdentifyError> {
-    let seed = |index: usize| Sensitive::from_f64(values[index]).derivative(index);
-    let axis = DragAxis::mixed(seed(0), seed(1), seed(2))?.with_delay_s(seed(3))?;
+    let [alpha, linear, quadratic, delay_s] = Gradient::variables(*values);
+    let axis = DragAxis::mixed(alpha, linear, quadratic)?.with_delay_s(delay_s)?;
     let mut residuals = Vec::new();
     for experiment in experiments {
         experiment.residuals(&axis, &mut residuals)?;
     }
     Ok(Linearised {
-        residuals: residuals.iter().map(|residual| residual.re).collect(),
-        jacobian: residuals.iter().map(|residual| residual.eps.unwrap_generic(Const, U1).into()).collect(),
+        residuals: residuals.iter().map(|residual| residual.value()).collect(),
+        jacobian: residuals.iter().map(|residual| residual.slopes()).collect(),
     })
 }
 
@@ -156,7 +193,7 @@ impl Joint {
         let spread = self.minimum.free[index].then(|| {
             let std = self.minimum.covariance[index][index].sqrt();
             let reach = std * student::quantile_95(self.degrees_of_freedom());
-            Spread { std, low: (value - reach).max(0.0), high: value + reach }
+            ConfidenceInterval { std, low: (value - reach).max(0.0), high: value + reach }
         });
         Estimate { value, spread }
     }

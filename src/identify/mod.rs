@@ -1,5 +1,11 @@
 //! From an oscillation to a model of the vehicle.
+//!
+//! [`Session`] goes the whole way from logs to a conclusion; the methods stand beside it for who has features or records:
+//! [`iso`], [`exact`], [`fit`], [`joint`], and [`select`] for the drag law. What a record proves about a model, without any
+//! assumption on the distribution of errors, is in `bounded`.
 
+#[cfg(feature = "std")]
+mod any_float;
 #[cfg(feature = "std")]
 pub mod bounded;
 mod drag_law;
@@ -15,8 +21,15 @@ mod reading;
 pub mod select;
 #[cfg(feature = "std")]
 mod warning;
+#[cfg(feature = "std")]
+mod workflow;
 
 pub use drag_law::DragLaw;
 pub use error::IdentifyError;
 #[cfg(feature = "std")]
 pub use warning::Warning;
+#[cfg(feature = "std")]
+pub use workflow::{
+    Caution, Conclusion, DragChoice, DragVerdict, FeatureMeans, FeatureValues, Identification, Method, Model,
+    Probabilities, RecordConclusion, Refusal, Refused, Session, Settings, SettingsError, Source, Stage, Total,
+};

@@ -7,13 +7,15 @@ use super::iso;
 use super::joint::Parameter;
 use crate::features::Features;
 
-/// Something that would mislead. Ratios are plain numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Something that would mislead. Ratios are plain numbers; one to an estimate of zero is infinite, and written as text in JSON.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(tag = "code", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Warning {
     /// The oscillation barely passes the switching level: inertia follows from a small difference.
     IllConditioned {
         /// Switching level with magnitude of the bias, over amplitude.
+        #[serde(with = "super::any_float")]
         ratio: f64,
     },
     /// The interval of a parameter is wider than its value.
@@ -21,6 +23,7 @@ pub enum Warning {
         /// The parameter.
         parameter: Parameter,
         /// Width of the interval over the value.
+        #[serde(with = "super::any_float")]
         ratio: f64,
     },
     /// Delay and inertia cannot be told apart.
@@ -45,6 +48,7 @@ pub enum Warning {
         /// The parameter.
         parameter: Parameter,
         /// Value by the paper's method over that of the fit.
+        #[serde(with = "super::any_float")]
         ratio: f64,
     },
 }

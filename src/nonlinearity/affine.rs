@@ -1,7 +1,7 @@
 //! A characteristic between linear gains and offsets.
 
 use super::{Branch, Characteristic, NonlinearityError, Sinusoid};
-use crate::numeric::Real;
+use crate::numeric::{Limit, Real, domain};
 
 /// `output_gain F(input_gain x + input_offset) + output_offset`, F being another characteristic: it scaled, in series with
 /// a linear gain, or moved.
@@ -50,16 +50,9 @@ impl<T: Real, C: Characteristic<Number = T>> Affine<T, C> {
     /// # Errors
     /// [`NonlinearityError::Parameter`] where the gain is zero or not finite.
     pub fn after_gain(self, gain: T) -> Result<Self, NonlinearityError> {
-        let (lower, upper) = gain.bounds();
-        if lower > f64::NEG_INFINITY && upper < f64::INFINITY && (lower > 0.0 || upper < 0.0) {
-            return Ok(Self { input_gain: self.input_gain * gain, ..self });
-        }
-        Err(NonlinearityError::Parameter {
-            characteristic: "series connection",
-            parameter: "gain",
-            value: lower,
-            required: "a finite number other than 0",
-        })
+        domain::require("gain", gain, "", Limit::NonZero, "give the gain in front of the characteristic")
+            .map_err(|fault| NonlinearityError::Parameter { characteristic: "series connection", fault })?;
+        Ok(Self { input_gain: self.input_gain * gain, ..self })
     }
 
     /// The characteristic inside.
@@ -69,7 +62,7 @@ impl<T: Real, C: Characteristic<Number = T>> Affine<T, C> {
     /// What the characteristic inside sees of a sweep; a negative gain mirrors it about its bias.
     ///
     /// # Errors
-    /// [`NonlinearityError::Amplitude`], [`NonlinearityError::Bias`] where the product overflows or underflows.
+    /// [`NonlinearityError::OutOfDomain`] where the product overflows or underflows.
     pub fn inner_sweep(&self, sweep: &Sinusoid<T>) -> Result<Sinusoid<T>, NonlinearityError> {
         Sinusoid::new(self.inner_input(sweep.bias()), sweep.amplitude() * self.input_gain.abs())
     }

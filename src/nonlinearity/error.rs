@@ -1,21 +1,22 @@
 //! What can be wrong with a characteristic or its input.
 
+use crate::numeric::OutOfDomain;
+
 /// Why a characteristic cannot be built or has no periodic output. Values are in the caller's input and output units.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NonlinearityError {
     /// A parameter outside its domain.
-    #[error("{characteristic}: {parameter} = {value} must be {required}; give it such a value")]
+    #[error("{characteristic}: {fault}")]
     Parameter {
         /// Catalogue name of the characteristic.
         characteristic: &'static str,
-        /// Name of the parameter.
-        parameter: &'static str,
-        /// The value given.
-        value: f64,
-        /// What the parameter has to be.
-        required: &'static str,
+        /// The parameter, its value and its domain.
+        fault: OutOfDomain,
     },
+    /// An amplitude or bias outside its domain.
+    #[error(transparent)]
+    OutOfDomain(#[from] OutOfDomain),
     /// Two parameters in the wrong order.
     #[error(
         "{characteristic}: {lesser} = {lesser_value} must be below {greater} = {greater_value}; exchange or separate them"
@@ -31,18 +32,6 @@ pub enum NonlinearityError {
         greater: &'static str,
         /// Its value.
         greater_value: f64,
-    },
-    /// An amplitude that is not a positive number.
-    #[error("amplitude = {amplitude} must be a finite number above 0; give the amplitude X of x = B + X sin(theta)")]
-    Amplitude {
-        /// The amplitude given.
-        amplitude: f64,
-    },
-    /// A bias that is not a number.
-    #[error("bias = {bias} must be a finite number; give the bias B of x = B + X sin(theta)")]
-    Bias {
-        /// The bias given.
-        bias: f64,
     },
     /// The input never reaches a switching level, so that the output does not oscillate (the paper's condition 40).
     #[error(
@@ -74,4 +63,26 @@ pub enum NonlinearityError {
         /// The limit.
         limit: f64,
     },
+}
+
+impl NonlinearityError {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Parameter { .. } | Self::OutOfDomain(_) => "out-of-domain",
+            Self::Order { .. } => "parameter-order",
+            Self::BelowSwitching { .. } => "below-switching",
+            Self::Treads { .. } => "too-many-treads",
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        match self {
+            Self::Parameter { fault, .. } | Self::OutOfDomain(fault) => Some(fault),
+            _ => None,
+        }
+    }
 }

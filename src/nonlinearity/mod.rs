@@ -76,8 +76,10 @@ pub use affine::Affine;
 pub use custom::{Custom, Sum};
 pub use error::NonlinearityError;
 pub use kernel::{Branches, Kernel, Side};
-pub use parameter::{Catalogued, Domain, Parameter};
+pub use parameter::{Catalogued, ParameterDomain, ParameterSpec};
 pub use sinusoid::Sinusoid;
+#[cfg(feature = "std")]
+pub(crate) use sinusoid::checked_amplitude;
 
 use crate::numeric::Real;
 

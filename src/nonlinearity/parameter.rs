@@ -1,11 +1,11 @@
 //! Named parameters: one declaration gives a characteristic its struct, its checks and its catalogue entry.
 
 use super::NonlinearityError;
-use crate::numeric::Real;
+use crate::numeric::{Real, domain};
 
 /// The numbers a parameter may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Domain {
+pub enum ParameterDomain {
     /// Any finite number.
     Finite,
     /// A finite number, zero or more.
@@ -16,7 +16,7 @@ pub enum Domain {
     Points,
 }
 
-impl Domain {
+impl ParameterDomain {
     /// In words, as error messages and help texts have it.
     #[must_use]
     pub fn words(self) -> &'static str {
@@ -27,38 +27,29 @@ impl Domain {
             Self::Points => "points x0:y0,x1:y1,... with growing x",
         }
     }
-
-    fn holds<T: Real>(self, value: T) -> bool {
-        let (lower, upper) = value.bounds();
-        let least = match self {
-            Self::Finite | Self::Points => lower > f64::NEG_INFINITY,
-            Self::NonNegative => lower >= 0.0,
-            Self::Positive => lower > 0.0,
-        };
-        least && upper < f64::INFINITY
-    }
 }
 
 /// Name, meaning, domain and default of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameter {
+pub struct ParameterSpec {
     /// The name used in `--set name=value`.
     pub name: &'static str,
     /// Meaning and unit.
     pub meaning: &'static str,
     /// The numbers it may be.
-    pub domain: Domain,
+    pub domain: ParameterDomain,
     /// The value when none is given; `None` where the user has to choose.
     pub default: Option<f64>,
 }
 
-impl Parameter {
+impl ParameterSpec {
     pub(super) fn check<T: Real>(&self, characteristic: &'static str, value: T) -> Result<(), NonlinearityError> {
-        if self.domain.holds(value) {
-            return Ok(());
-        }
-        let (value, parameter, required) = (value.bounds().0, self.name, self.domain.words());
-        Err(NonlinearityError::Parameter { characteristic, parameter, value, required })
+        let checked = match self.domain {
+            ParameterDomain::Finite | ParameterDomain::Points => domain::finite(self.name, value, ""),
+            ParameterDomain::NonNegative => domain::non_negative(self.name, value, ""),
+            ParameterDomain::Positive => domain::positive(self.name, value, ""),
+        };
+        checked.map(drop).map_err(|fault| NonlinearityError::Parameter { characteristic, fault })
     }
 }
 
@@ -67,7 +58,7 @@ pub trait Catalogued<T>: Sized {
     /// Name in the catalogue and on the command line.
     const NAME: &'static str;
     /// Its parameters, in the order of [`from_values`](Self::from_values).
-    const PARAMETERS: &'static [Parameter];
+    const PARAMETERS: &'static [ParameterSpec];
     /// Pairs of parameters of which the first has to be below the second.
     const ORDERED: &'static [(&'static str, &'static str)];
     /// Its page `spec/characteristics/<name>.md`: formula, domain, source, limits.
@@ -176,11 +167,11 @@ macro_rules! characteristic {
 
         impl<T: $crate::numeric::Real> super::Catalogued<T> for $type<T> {
             const NAME: &'static str = $name;
-            const PARAMETERS: &'static [super::Parameter] = &[$(
-                super::Parameter {
+            const PARAMETERS: &'static [super::ParameterSpec] = &[$(
+                super::ParameterSpec {
                     name: stringify!($parameter),
                     meaning: $meaning.trim_ascii(),
-                    domain: super::Domain::$domain,
+                    domain: super::ParameterDomain::$domain,
                     default: characteristic!(@default $($default)?),
                 }
             ),+];

@@ -1,7 +1,7 @@
 use super::{Branch, Kernel, NonlinearityError, PiecewiseLinear, Sinusoid};
 #[cfg(feature = "std")]
-use super::{Catalogued, Domain, Parameter};
-use crate::numeric::Real;
+use super::{Catalogued, ParameterDomain, ParameterSpec};
+use crate::numeric::{Limit, Real, domain};
 
 #[doc = super::parameter::document!("piecewise-linear")]
 ///
@@ -31,20 +31,15 @@ impl<T: Real, S: AsRef<[(T, T)]>> Polyline<T, S> {
     /// ```
     pub fn new(points: S, left_slope: T, right_slope: T) -> Result<Self, NonlinearityError> {
         let characteristic = "piecewise-linear";
-        let fault = |parameter, value, required| {
-            Err(NonlinearityError::Parameter { characteristic, parameter, value, required })
-        };
-        let finite = |number: T| number.bounds().0 > f64::NEG_INFINITY && number.bounds().1 < f64::INFINITY;
+        let fault = |fault| NonlinearityError::Parameter { characteristic, fault };
         let all = points.as_ref();
-        if all.is_empty() {
-            return fault("points", 0.0, "one point x:y or more");
-        }
+        let given = T::from_f64(all.len() as f64);
+        domain::require("number of points", given, "", Limit::AtLeast(1.0), "give one point x:y or more")
+            .map_err(fault)?;
         let slopes = [("left_slope", left_slope), ("right_slope", right_slope)];
         let coordinates = all.iter().flat_map(|&(x, y)| [("points", x), ("points", y)]);
         for (parameter, number) in slopes.into_iter().chain(coordinates) {
-            if !finite(number) {
-                return fault(parameter, number.bounds().0, "finite");
-            }
+            domain::finite(parameter, number, "").map_err(fault)?;
         }
         for pair in all.windows(2) {
             let (previous, next) = (("an input of points", pair[0].0), ("the next input", pair[1].0));
@@ -78,23 +73,23 @@ impl<T: Real, S: AsRef<[(T, T)]>> Polyline<T, S> {
 #[cfg(feature = "std")]
 impl<T: Real> Catalogued<T> for Polyline<T, Vec<(T, T)>> {
     const NAME: &'static str = "piecewise-linear";
-    const PARAMETERS: &'static [Parameter] = &[
-        Parameter {
+    const PARAMETERS: &'static [ParameterSpec] = &[
+        ParameterSpec {
             name: "left_slope",
             meaning: "Slope before the first point, output units per input unit.",
-            domain: Domain::Finite,
+            domain: ParameterDomain::Finite,
             default: None,
         },
-        Parameter {
+        ParameterSpec {
             name: "right_slope",
             meaning: "Slope after the last point, output units per input unit.",
-            domain: Domain::Finite,
+            domain: ParameterDomain::Finite,
             default: None,
         },
-        Parameter {
+        ParameterSpec {
             name: "points",
             meaning: "Points input:output, separated by commas, in input and output units.",
-            domain: Domain::Points,
+            domain: ParameterDomain::Points,
             default: None,
         },
     ];

@@ -1,4 +1,4 @@
-use super::{Branch, Catalogued, Characteristic, Domain, NonlinearityError, Parameter, Sinusoid};
+use super::{Branch, Catalogued, Characteristic, NonlinearityError, ParameterDomain, ParameterSpec, Sinusoid};
 use crate::numeric::Real;
 
 /// Names of the coefficients, in the order of the powers they go with.
@@ -39,15 +39,15 @@ impl<T: Real, const N: usize> Polynomial<T, N> {
 }
 
 impl<T, const N: usize> Polynomial<T, N> {
-    const fn parameter(name: &'static str) -> Parameter {
+    const fn parameter(name: &'static str) -> ParameterSpec {
         let meaning = "Coefficient of that power of x, in output units over input units to the power.";
-        Parameter { name, meaning, domain: Domain::Finite, default: Some(0.0) }
+        ParameterSpec { name, meaning, domain: ParameterDomain::Finite, default: Some(0.0) }
     }
 }
 
 impl<T: Real> Catalogued<T> for Polynomial<T> {
     const NAME: &'static str = "polynomial";
-    const PARAMETERS: &'static [Parameter] = &{
+    const PARAMETERS: &'static [ParameterSpec] = &{
         let mut parameters = [Self::parameter(""); 10];
         let mut power = 0;
         while power < NAMES.len() {

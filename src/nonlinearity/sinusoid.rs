@@ -1,7 +1,7 @@
 //! The biased one-tone input of eq. 7.
 
 use super::NonlinearityError;
-use crate::numeric::Real;
+use crate::numeric::{Limit, OutOfDomain, Real, domain};
 
 /// The input `x = bias + amplitude sin(theta)` (eq. 7), in the characteristic's input units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,8 +12,7 @@ pub struct Sinusoid<T> {
 
 impl<T: Real> Sinusoid<T> {
     /// # Errors
-    /// [`NonlinearityError::Amplitude`] unless the amplitude is positive and finite; [`NonlinearityError::Bias`] unless
-    /// the bias is finite.
+    /// [`NonlinearityError::OutOfDomain`] unless the amplitude is positive and finite, and the bias finite.
     ///
     /// ```
     /// use selfosc::nonlinearity::Sinusoid;
@@ -21,14 +20,9 @@ impl<T: Real> Sinusoid<T> {
     /// assert!(Sinusoid::new(0.1, -1.0).is_err());
     /// ```
     pub fn new(bias: T, amplitude: T) -> Result<Self, NonlinearityError> {
-        let (least, most) = amplitude.bounds();
-        if !(least > 0.0 && most < f64::INFINITY) {
-            return Err(NonlinearityError::Amplitude { amplitude: least });
-        }
-        let (lower, upper) = bias.bounds();
-        if !(lower > f64::NEG_INFINITY && upper < f64::INFINITY) {
-            return Err(NonlinearityError::Bias { bias: lower });
-        }
+        checked_amplitude(amplitude)?;
+        let remedy = "give the bias B of x = B + X sin(theta)";
+        domain::require("bias", bias, "input units", Limit::Finite, remedy)?;
         Ok(Self { bias, amplitude })
     }
 
@@ -52,4 +46,10 @@ impl<T: Real> Sinusoid<T> {
     pub fn minimum(&self) -> T {
         self.bias - self.amplitude
     }
+}
+
+/// The amplitude, where a sinusoid can have it.
+pub(crate) fn checked_amplitude<T: Real>(amplitude: T) -> Result<T, OutOfDomain> {
+    let remedy = "give the amplitude X of x = B + X sin(theta)";
+    domain::require("amplitude", amplitude, "input units", Limit::Positive, remedy)
 }

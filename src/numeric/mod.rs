@@ -1,31 +1,40 @@
 //! The arithmetics: [`Real`] and [`Scalar`], and the numerical methods the rest stands on.
 
 mod bessel;
-#[cfg(feature = "std")]
-mod dual;
+pub(crate) mod domain;
 #[cfg(feature = "std")]
 mod expression;
+mod gradient;
 mod interval;
 mod jet;
-pub mod power;
-#[cfg(feature = "std")]
-pub mod quadrature;
+mod minimum;
 mod ratio;
 mod real;
 mod root;
-#[cfg(feature = "std")]
-pub mod scan;
-pub mod special;
-mod tangent;
 
-#[cfg(feature = "std")]
-pub use expression::Expression;
+internal! {
+    mod power;
+    #[cfg(feature = "std")]
+    mod quadrature;
+    #[cfg(feature = "std")]
+    mod scan;
+    mod special;
+}
+
+pub use domain::{Limit, OutOfDomain};
 pub use interval::Interval;
-pub use jet::Jet;
-pub use ratio::{
-    atanh_root_ratio, cosh_root, cosh_root_difference, exp_m1_ratio, ln_1p_ratio, minus_ln_1p, minus_tanh,
-    sinh_root_difference, sinh_root_ratio,
-};
 pub use real::{Real, Scalar};
-pub use root::increasing_root;
-pub use tangent::Tangent;
+pub use special::Special;
+
+internal! {
+    #[cfg(feature = "std")]
+    use expression::{Expression};
+    use gradient::{Component, Gradient};
+    use jet::{Jet};
+    use minimum::{golden_section};
+    use ratio::{
+        atanh_root_ratio, cosh_root, cosh_root_difference, exp_m1_ratio, ln_1p_ratio, minus_ln_1p, minus_tanh,
+        sinh_root_difference, sinh_root_ratio,
+    };
+    use root::{increasing_root};
+}

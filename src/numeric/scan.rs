@@ -1,5 +1,7 @@
 //! Roots of a function of one variable from samples: sees what the samples resolve, and proves nothing.
 
+use super::golden_section;
+
 /// A function of one variable that may be undefined in places.
 type Partial<'a> = &'a mut dyn FnMut(f64) -> Option<f64>;
 
@@ -94,21 +96,19 @@ fn in_run(f: Partial, samples: &[(f64, f64)], found: &mut Vec<f64>) {
     }
 }
 
+/// Share of an interval down to which a pair of roots in it is sought.
+const PAIR: f64 = 3e-13;
+
 /// A point of the other sign, sought by golden sections towards the least of `sign f`.
-fn crossing_between(f: Partial, mut from: f64, mut to: f64, sign: f64) -> Option<(f64, f64)> {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    for _ in 0..60 {
-        let (left, right) = (to - GOLDEN * (to - from), from + GOLDEN * (to - from));
-        let (at_left, at_right) = (sign * finite(f, left)?, sign * finite(f, right)?);
-        if at_left < 0.0 {
-            return Some((left, sign * at_left));
-        }
-        if at_right < 0.0 {
-            return Some((right, sign * at_right));
-        }
-        if at_left < at_right { to = right } else { from = left }
-    }
-    None
+fn crossing_between(f: Partial, from: f64, to: f64, sign: f64) -> Option<(f64, f64)> {
+    let mut crossing = None;
+    let positive = |x| {
+        let value = finite(f, x)?;
+        crossing = (sign * value < 0.0).then_some((x, value));
+        crossing.is_none().then_some(sign * value)
+    };
+    golden_section(positive, from, to, PAIR * (to - from));
+    crossing
 }
 
 /// Chandrupatla's method: inverse quadratic interpolation where it is safe, else bisection.

@@ -2,8 +2,8 @@
 
 use super::steadiness::{Judge, Steadiness};
 use super::supervisor::Supervisor;
-use super::{Outcome, Phase, Protocol, ProtocolError, Step};
-use crate::numeric::Scalar;
+use super::{Outcome, Phase, Protocol, Step};
+use crate::numeric::{OutOfDomain, Scalar};
 
 /// A relay experiment that runs sample by sample.
 ///
@@ -40,8 +40,8 @@ impl<T: Scalar> Experiment<T> {
     /// An experiment that starts with its first sample.
     ///
     /// # Errors
-    /// [`ProtocolError`] that names the number of the protocol that is outside its domain.
-    pub fn new(protocol: Protocol<T>) -> Result<Self, ProtocolError> {
+    /// [`OutOfDomain`] that names the number of the protocol that is outside its domain.
+    pub fn new(protocol: Protocol<T>) -> Result<Self, OutOfDomain> {
         Ok(Self { supervisor: Supervisor::new(protocol)?, steadiness: Steadiness::new(&protocol) })
     }
 
@@ -64,7 +64,7 @@ impl<T: Scalar> Experiment<T> {
     ///
     /// # Errors
     /// None in practice: the protocol was accepted before.
-    pub fn restart(&mut self) -> Result<(), ProtocolError> {
+    pub fn restart(&mut self) -> Result<(), OutOfDomain> {
         *self = Self::new(*self.supervisor.protocol())?;
         Ok(())
     }

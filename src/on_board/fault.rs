@@ -1,17 +1,5 @@
 //! Why an experiment was not accepted, or was broken off.
 
-/// A protocol with a number outside its domain.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{setting} = {value} must be {required}; change the protocol")]
-pub struct ProtocolError {
-    /// Name and unit of the setting.
-    pub setting: &'static str,
-    /// The value given.
-    pub value: f64,
-    /// What it has to be.
-    pub required: &'static str,
-}
-
 /// Why a running experiment was broken off. Values are in the units of the [`Protocol`](super::Protocol), as f64 whatever the arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]

@@ -23,7 +23,7 @@ mod steadiness;
 mod supervisor;
 
 pub use experiment::Experiment;
-pub use fault::{Fault, ProtocolError};
+pub use fault::Fault;
 pub use outcome::Outcome;
 pub use protocol::{Coordinate, Protocol};
 #[cfg(feature = "std")]

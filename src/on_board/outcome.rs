@@ -1,7 +1,7 @@
 //! What a finished experiment found.
 
 use crate::features::Features;
-use crate::identify::exact::Cycle;
+use crate::identify::exact::MeanCycle;
 use crate::identify::iso::{Oscillation, Parameters};
 use crate::identify::{DragLaw, IdentifyError};
 use crate::numeric::Scalar;
@@ -30,7 +30,7 @@ impl<T: Scalar> Outcome<T> {
     /// Parameters by the paper's method, for the whole delay of the loop. In the units of reading and command.
     ///
     /// # Errors
-    /// [`IdentifyError::Feature`] for a delay that is none.
+    /// [`IdentifyError::OutOfDomain`] for a delay that is none.
     pub fn iso(&self, delay_s: T) -> Result<Parameters<T>, IdentifyError> {
         Oscillation::of(&self.features, self.relay_level, delay_s).identify()
     }
@@ -39,9 +39,9 @@ impl<T: Scalar> Outcome<T> {
     /// drag: that answers as linear drag does.
     ///
     /// # Errors
-    /// Those of [`Cycle::linear_drag`].
+    /// Those of [`MeanCycle::linear_drag`].
     pub fn exact(&self, law: DragLaw, delay_s: T) -> Result<DragAxis<T>, IdentifyError> {
-        let cycle = Cycle::of(&self.features, self.relay_level, delay_s);
+        let cycle = MeanCycle::of(&self.features, self.relay_level, delay_s);
         match law {
             DragLaw::Quadratic => cycle.quadratic_drag(),
             DragLaw::Linear | DragLaw::Mixed => cycle.linear_drag(),

@@ -1,8 +1,7 @@
 //! What is to be done, and within which limits.
 
-use super::ProtocolError;
 use crate::nonlinearity::RelayHysteresis;
-use crate::numeric::Scalar;
+use crate::numeric::{Limit, OutOfDomain, Scalar, domain};
 
 /// What the sensor measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -31,7 +30,7 @@ pub enum Coordinate {
 /// };
 /// assert!(Experiment::new(protocol).is_ok());
 /// assert!(Experiment::new(Protocol { highest_command: 0.05, ..protocol }).is_err());
-/// # Ok::<(), selfosc::on_board::ProtocolError>(())
+/// # Ok::<(), selfosc::numeric::OutOfDomain>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Protocol<T> {
@@ -115,57 +114,54 @@ impl<T: Scalar> Protocol<T> {
     }
 
     /// The relay of an attempt.
-    pub(super) fn relay(&self, level: T, half_width: T) -> Result<RelayHysteresis<T>, ProtocolError> {
+    pub(super) fn relay(&self, level: T, half_width: T) -> Result<RelayHysteresis<T>, OutOfDomain> {
         let relay = RelayHysteresis::new(level, half_width, self.neutral_command).ok();
-        relay.filter(|relay| relay.half_width() > T::zero()).ok_or(ProtocolError {
-            setting: "half-width in coordinate units",
+        relay.filter(|relay| relay.half_width() > T::zero()).ok_or(OutOfDomain {
+            quantity: "half-width",
             value: half_width.value(),
-            required: "a finite number above 0",
+            unit: COORDINATE,
+            limit: Limit::Positive,
+            remedy: CHANGE,
         })
     }
 
     /// The same, where every number is in its domain.
-    pub(super) fn checked(self) -> Result<Self, ProtocolError> {
-        let zero = T::zero();
+    pub(super) fn checked(self) -> Result<Self, OutOfDomain> {
         let level_fits = self.relay_level <= self.largest_level();
         let unchanged_fits = self.unchanged_s > self.interval_s && self.unchanged_s < self.patience_s;
-        const ABOVE: &str = "a finite number above 0";
-        for (setting, value, inside, required) in [
-            ("reference in coordinate units", self.reference, true, "a finite number"),
-            ("neutral command", self.neutral_command, true, "a finite number"),
-            ("lowest command", self.lowest_command, true, "a finite number"),
-            ("highest command", self.highest_command, true, "a finite number"),
-            ("relay level in command units", self.relay_level, self.relay_level > zero, ABOVE),
-            (
-                "relay level in command units",
-                self.relay_level,
-                level_fits,
-                "within the limits about the neutral command",
-            ),
-            ("half-width in coordinate units", self.half_width, self.half_width > zero, ABOVE),
-            ("sampling interval in s", self.interval_s, self.interval_s > zero, ABOVE),
-            ("resolution of the reading", self.resolution, self.resolution >= zero, "a finite number, 0 or more"),
-            ("largest rate per s", self.largest_rate, self.largest_rate > zero, ABOVE),
-            ("time of one reading in s", self.unchanged_s, unchanged_fits, "above the interval and below the patience"),
-            ("patience in s", self.patience_s, self.patience_s < self.duration_s, "shorter than the experiment"),
-            ("duration in s", self.duration_s, self.duration_s > zero, ABOVE),
-            ("spread of cycles", self.spread, self.spread > zero, ABOVE),
-            ("factor between attempts", self.factor, self.factor > T::one(), "a finite number above 1"),
+        let within = Limit::Words("within the limits about the neutral command");
+        let stuck = Limit::Words("above the interval and below the patience");
+        let shorter = Limit::Words("shorter than the experiment");
+        for (quantity, value, unit, inside, limit) in [
+            ("reference", self.reference, COORDINATE, true, Limit::Finite),
+            ("neutral command", self.neutral_command, COMMAND, true, Limit::Finite),
+            ("lowest command", self.lowest_command, COMMAND, true, Limit::Finite),
+            ("highest command", self.highest_command, COMMAND, true, Limit::Finite),
+            ("relay level", self.relay_level, COMMAND, true, Limit::Positive),
+            ("relay level", self.relay_level, COMMAND, level_fits, within),
+            ("half-width", self.half_width, COORDINATE, true, Limit::Positive),
+            ("sampling interval", self.interval_s, "s", true, Limit::Positive),
+            ("resolution of the reading", self.resolution, COORDINATE, true, Limit::NonNegative),
+            ("largest rate", self.largest_rate, "coordinate units per s", true, Limit::Positive),
+            ("time of one reading", self.unchanged_s, "s", unchanged_fits, stuck),
+            ("patience", self.patience_s, "s", self.patience_s < self.duration_s, shorter),
+            ("duration", self.duration_s, "s", true, Limit::Positive),
+            ("spread of cycles", self.spread, "", true, Limit::Positive),
+            ("factor between attempts", self.factor, "", true, Limit::Above(1.0)),
         ] {
-            if !(inside && value.is_finite()) {
-                return Err(ProtocolError { setting, value: value.value(), required });
-            }
+            domain::require_that(inside, quantity, value, unit, limit, CHANGE)?;
         }
-        for (setting, value, least) in [
+        for (quantity, value, least) in [
             ("cycles alike", self.cycles, 2),
             ("cycles of an attempt", self.most_cycles, self.cycles),
             ("attempts", self.attempts, 1),
         ] {
-            if value < least {
-                let required = "2 or more alike, at least as many in an attempt, 1 attempt or more";
-                return Err(ProtocolError { setting, value: f64::from(value), required });
-            }
+            domain::require(quantity, f64::from(value), "", Limit::AtLeast(f64::from(least)), CHANGE)?;
         }
         Ok(self)
     }
 }
+
+const COORDINATE: &str = "coordinate units";
+const COMMAND: &str = "command units";
+const CHANGE: &str = "change the protocol";

@@ -1,8 +1,9 @@
 //! The state machine: relay, time-outs, attempts, faults. What the cycles say, it is told.
 
 use super::sensor::Sensor;
-use super::{Fault, Protocol, ProtocolError};
-use crate::experiment::Relay;
+use super::{Fault, Protocol};
+use crate::experiment::RelayState;
+use crate::numeric::OutOfDomain;
 use crate::numeric::Scalar;
 
 /// Where an experiment stands.
@@ -65,7 +66,7 @@ pub(crate) type Key = (&'static str, [u64; 5], Option<[u64; 4]>, [u8; 2]);
 pub(crate) struct Supervisor<T> {
     protocol: Protocol<T>,
     phase: Phase,
-    relay: Relay<T>,
+    relay: RelayState<T>,
     /// `None` before the first sample.
     sensor: Option<Sensor<T>>,
     started_s: T,
@@ -76,13 +77,13 @@ pub(crate) struct Supervisor<T> {
 }
 
 impl<T: Scalar> Supervisor<T> {
-    pub(crate) fn new(protocol: Protocol<T>) -> Result<Self, ProtocolError> {
+    pub(crate) fn new(protocol: Protocol<T>) -> Result<Self, OutOfDomain> {
         let protocol = protocol.checked()?;
         let relay = protocol.relay(protocol.relay_level, protocol.half_width)?;
         Ok(Self {
             protocol,
             phase: Phase::Running,
-            relay: Relay::new(relay, false),
+            relay: RelayState::new(relay, false),
             sensor: None,
             started_s: T::zero(),
             switched_s: T::zero(),
@@ -164,7 +165,7 @@ impl<T: Scalar> Supervisor<T> {
             None => {
                 let first = Sensor::first(&self.protocol, reading, time_s)?;
                 (self.started_s, self.switched_s) = (time_s, time_s);
-                self.relay = Relay::new(*self.relay.characteristic(), first.position() <= self.protocol.reference);
+                self.relay = RelayState::new(*self.relay.characteristic(), first.position() <= self.protocol.reference);
                 first
             }
         };
@@ -222,7 +223,7 @@ impl<T: Scalar> Supervisor<T> {
         };
         let high = self.relay.output() > self.protocol.neutral_command;
         let relay = self.protocol.relay(level, width).map_err(|_| Fault::NotConverged { half_width: width.value() })?;
-        self.relay = Relay::new(relay, high);
+        self.relay = RelayState::new(relay, high);
         (self.switched_s, self.cycles) = (time_s, 0);
         self.attempt += 1;
         observer.begin();

@@ -3,11 +3,12 @@
 use super::OrbitError;
 use super::half_cycle::{HalfCycle, Swing};
 use crate::nonlinearity::RelayHysteresis;
-use crate::numeric::{Real, Scalar};
+use crate::numeric::{Limit, Real, Scalar, domain};
 use crate::plant::DragAxis;
 
 /// The moment at which another command begins to act, delay included.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct Switching<T> {
     /// Position x there; beyond the relay's half-width by the way made during the delay.
     pub position: T,
@@ -17,6 +18,7 @@ pub struct Switching<T> {
 
 /// A self-oscillation about the reference zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct LimitCycle<T> {
     /// Half the peak-to-peak range, X_m.
@@ -140,16 +142,15 @@ pub fn limit_cycle<S: Scalar>(axis: &DragAxis<S>, relay: &RelayHysteresis<S>) ->
 /// ```
 ///
 /// # Errors
-/// [`OrbitError::Speed`] unless `speed` is finite and zero or more; otherwise as [`limit_cycle`].
+/// [`OrbitError::OutOfDomain`] unless `speed` is finite and zero or more; otherwise as [`limit_cycle`].
 pub fn return_map<S: Scalar>(
     axis: &DragAxis<S>,
     relay: &RelayHysteresis<S>,
     speed: S,
 ) -> Result<Return<S>, OrbitError> {
     let [upward, downward] = HalfCycle::pair(axis, relay)?;
-    if !(speed >= S::zero() && speed.is_finite()) {
-        return Err(OrbitError::Speed { speed: speed.value() });
-    }
+    let remedy = "give the magnitude of the speed at the switching level";
+    domain::require("speed", speed, "output units per s", Limit::NonNegative, remedy)?;
     let unresolved = OrbitError::Unresolved { multiplier: f64::NAN };
     let mut point = Return { speed, derivative: S::one() };
     for (from, to) in [(upward, downward), (downward, upward)] {

@@ -1,5 +1,6 @@
 //! Why there is no limit cycle.
 
+use crate::numeric::OutOfDomain;
 #[cfg(feature = "std")]
 use crate::plant::PlantError;
 
@@ -35,41 +36,20 @@ pub enum OrbitError {
     NoHysteresis,
     /// Rounding hides the limit cycle: drag too weak for the arithmetic, or numbers beyond its range.
     #[error(
-        "multiplier {multiplier} is one within rounding, or numbers overflow: this arithmetic cannot resolve the limit \
-         cycle; use a wider one, scale the units, or give more drag or hysteresis"
+        "multiplier {multiplier} is one within rounding, or numbers overflow, so that the limit cycle cannot be told; give \
+         more drag or hysteresis, or other units in which the numbers are near 1"
     )]
     Unresolved {
         /// Multiplier of the return map where the search ended; NaN after an overflow.
         multiplier: f64,
     },
-    /// A speed at which the axis cannot cross a switching level.
-    #[error(
-        "speed = {speed} must be a finite number, 0 or more; give the magnitude of the speed at the switching level"
-    )]
-    Speed {
-        /// The speed given, in position units per second.
-        speed: f64,
-    },
-    /// A reference, disturbance or tolerance that is not usable.
-    #[error("{quantity} = {value} must be {required}")]
-    Parameter {
-        /// What it is.
-        quantity: &'static str,
-        /// The value given.
-        value: f64,
-        /// What it has to be.
-        required: &'static str,
-    },
-    /// A range of periods that is empty or not positive.
-    #[error("the range of periods from {from_s} s to {to_s} s must be finite, above 0 and ascending")]
-    Range {
-        /// Lower end, s.
-        from_s: f64,
-        /// Upper end, s.
-        to_s: f64,
-    },
+    /// A speed, reference, disturbance, tolerance or range of periods outside its domain.
+    #[error(transparent)]
+    OutOfDomain(#[from] OutOfDomain),
     /// A range of periods that takes too many samples.
-    #[error("the range of periods from {from_s} s to {to_s} s needs more than {limit} samples; narrow it")]
+    #[error(
+        "the range of periods from {from_s} s to {to_s} s needs more than {limit} samples; give a range that begins later or ends earlier"
+    )]
     TooManySamples {
         /// Lower end, s.
         from_s: f64,
@@ -109,13 +89,19 @@ pub enum OrbitError {
         half_period_s: f64,
     },
     /// Extrema too close to each other to be told apart.
-    #[error("the output between two switchings needs more than {limit} pieces to isolate its extrema")]
+    #[error(
+        "the output between two switchings needs more than {limit} pieces to isolate its extrema; give units \
+         of time and output in which the numbers are near 1, or a plant without nearly equal modes"
+    )]
     TooManyPieces {
         /// The most there may be.
         limit: usize,
     },
     /// A step size that shrank to nothing.
-    #[error("the step at t = {time_s} s fell to {step_s} s; the right side is not smooth there or not finite")]
+    #[error(
+        "the step at t = {time_s} s fell to {step_s} s; the right side is not smooth there or not finite; \
+         correct it, or loosen the tolerances"
+    )]
     StepTooSmall {
         /// Time, s.
         time_s: f64,
@@ -130,4 +116,38 @@ pub enum OrbitError {
         /// Steps taken.
         steps: usize,
     },
+}
+
+impl OrbitError {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            #[cfg(feature = "std")]
+            Self::Plant(error) => error.code(),
+            Self::OutOfDomain(_) => "out-of-domain",
+            Self::Drift { .. } => "drifts-away",
+            Self::NoDrag => "no-drag",
+            Self::NoHysteresis => "no-hysteresis",
+            Self::Unresolved { .. } => "orbit-unresolved",
+            Self::TooManySamples { .. } => "too-many-samples",
+            Self::NotSymmetric { .. } => "not-symmetric",
+            Self::LongDelay { .. } => "long-delay",
+            Self::NotProved { .. } => "not-proved",
+            Self::TooManyPieces { .. } => "too-many-pieces",
+            Self::StepTooSmall { .. } => "step-too-small",
+            Self::TooManySteps { .. } => "too-many-steps",
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        match self {
+            #[cfg(feature = "std")]
+            Self::Plant(error) => error.out_of_domain(),
+            Self::OutOfDomain(fault) => Some(fault),
+            _ => None,
+        }
+    }
 }

@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 
 use super::OrbitError;
 use crate::nonlinearity::RelayHysteresis;
-use crate::numeric::scan;
+use crate::numeric::{Limit, domain, scan};
 
 /// A system that is smooth between events. What has happened so far is its own state.
 pub trait EventSystem {
@@ -45,12 +45,16 @@ impl Integrator {
     /// Error per step relative to the state and absolute; at most `steps` steps.
     ///
     /// # Errors
-    /// [`OrbitError::Parameter`] unless both tolerances are at least 1e-15 and finite.
+    /// [`OrbitError::OutOfDomain`] unless both tolerances are at least 1e-15 and finite.
     pub fn new(relative: f64, absolute: f64, steps: usize) -> Result<Self, OrbitError> {
         for (quantity, value) in [("relative tolerance", relative), ("absolute tolerance", absolute)] {
-            if !(value >= 1e-15 && value.is_finite()) {
-                return Err(OrbitError::Parameter { quantity, value, required: "finite and at least 1e-15" });
-            }
+            domain::require(
+                quantity,
+                value,
+                "",
+                Limit::AtLeast(1e-15),
+                "give a larger one: rounding hides smaller errors",
+            )?;
         }
         Ok(Self { relative, absolute, steps })
     }
@@ -232,7 +236,7 @@ impl<F: Fn(&[f64], f64, &mut [f64]), G: Fn(&[f64]) -> f64> RelayFeedback<F, G> {
     /// Begins with the command positive, at the plant too.
     ///
     /// # Errors
-    /// [`OrbitError::Parameter`] unless reference and delay are finite and the delay is not negative.
+    /// [`OrbitError::OutOfDomain`] unless reference and delay are finite and the delay is not negative.
     pub fn new(
         rate: F,
         output: G,
@@ -240,9 +244,7 @@ impl<F: Fn(&[f64], f64, &mut [f64]), G: Fn(&[f64]) -> f64> RelayFeedback<F, G> {
         reference: f64,
         delay_s: f64,
     ) -> Result<Self, OrbitError> {
-        if !reference.is_finite() {
-            return Err(OrbitError::Parameter { quantity: "reference", value: reference, required: "finite" });
-        }
+        domain::finite("reference", reference, "output units")?;
         let delay_s = crate::plant::checked_delay(delay_s)?;
         let high = relay.offset() + relay.level();
         Ok(Self { rate, output, relay, reference, delay_s, command: 1.0, input: high, arrivals: VecDeque::new() })

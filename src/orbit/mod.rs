@@ -9,8 +9,6 @@ mod error;
 mod extrema;
 mod half_cycle;
 #[cfg(feature = "std")]
-pub mod integrate;
-#[cfg(feature = "std")]
 mod relay_certificate;
 #[cfg(feature = "std")]
 mod relay_cycle;
@@ -19,17 +17,11 @@ mod relay_linear;
 #[cfg(feature = "std")]
 mod relay_multiplier;
 #[cfg(feature = "std")]
-pub mod theorem;
-#[cfg(feature = "std")]
 mod tsypkin;
 
 #[cfg(feature = "std")]
 pub use certificate::{Certificate, certify};
-pub use closed_form::{
-    force_left, linear_amplitude_excess, linear_half_cycle, linear_half_width, quadratic_half_cycle, quadratic_period,
-    quadratic_speeds, return_slope,
-};
-pub use drag_axis::{LimitCycle, Return, Switching, limit_cycle, return_map};
+pub use drag_axis::{LimitCycle, Switching, limit_cycle};
 pub use error::OrbitError;
 #[cfg(feature = "std")]
 pub use relay_certificate::RelayCertificate;
@@ -37,3 +29,17 @@ pub use relay_certificate::RelayCertificate;
 pub use relay_linear::{RelayLoop, RelayOrbit};
 #[cfg(feature = "std")]
 pub use tsypkin::tsypkin_locus;
+
+internal! {
+    #[cfg(feature = "std")]
+    mod integrate;
+    #[cfg(feature = "std")]
+    mod theorem;
+}
+internal! {
+    use closed_form::{
+        force_left, linear_amplitude_excess, linear_half_cycle, linear_half_width, quadratic_half_cycle,
+        quadratic_period, quadratic_speeds, return_slope,
+    };
+    use drag_axis::{Return, return_map};
+}

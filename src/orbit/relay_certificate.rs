@@ -4,9 +4,10 @@ use nalgebra::DMatrix;
 
 use super::relay_cycle::Levels;
 use super::{OrbitError, RelayLoop};
-use crate::numeric::Interval;
+use crate::numeric::{Interval, domain};
 use crate::plant::StateSpace;
 use crate::proof::Gradient;
+use crate::proof::branch_and_bound::{Visit, subdivide};
 use crate::proof::enclosure::{Roots, newton};
 use crate::proof::interval_matrix::{exponential, norm, solve};
 
@@ -52,13 +53,10 @@ impl RelayLoop {
     /// ```
     ///
     /// # Errors
-    /// [`OrbitError::Parameter`]; [`OrbitError::NotSymmetric`]; [`OrbitError::LongDelay`] where the delay exceeds the
+    /// [`OrbitError::OutOfDomain`]; [`OrbitError::NotSymmetric`]; [`OrbitError::LongDelay`] where the delay exceeds the
     /// half-period; [`OrbitError::NotProved`] where an enclosure stays too wide or the cycle is none.
     pub fn certify(&self, half_period_s: f64) -> Result<RelayCertificate, OrbitError> {
-        if !(half_period_s > 0.0 && half_period_s.is_finite()) {
-            let (quantity, required) = ("half_period_s", "finite and above 0");
-            return Err(OrbitError::Parameter { quantity, value: half_period_s, required });
-        }
+        domain::positive("half_period_s", half_period_s, "s")?;
         let (plant, levels) = (self.plant(), self.symmetric_levels()?);
         if plant.delay_s() >= half_period_s {
             return Err(OrbitError::LongDelay { delay_s: plant.delay_s(), half_period_s });
@@ -196,21 +194,14 @@ impl Half {
 
     /// Cells on each of which the output is as it should be.
     fn cover(&self, swing: &Swing, from: f64, to: f64, holds: impl Fn(Interval) -> bool) -> Option<usize> {
-        let mut open: Vec<_> = Interval::new(from, to).into_iter().collect();
-        let mut cells = 0;
-        while let Some(cell) = open.pop() {
-            cells += 1;
+        // The ends overlap: nothing lies between them.
+        let Some(between) = Interval::new(from, to) else { return (from > to).then_some(0) };
+        let found = subdivide([between], CELLS, |&[cell]| {
             let middle = Interval::point(cell.midpoint());
-            let at_middle = self.read(&(self.flow(middle)? * &swing.start));
-            if !holds(at_middle + self.slope(swing, cell)? * (cell - middle)) {
-                if cells >= CELLS {
-                    return None;
-                }
-                let (left, right) = cell.bisect();
-                open.extend([right, left]);
-            }
-        }
-        Some(cells)
+            let (Some(flow), Some(slope)) = (self.flow(middle), self.slope(swing, cell)) else { return Visit::Stop };
+            Visit::settled(holds(self.read(&(flow * &swing.start)) + slope * (cell - middle)))
+        });
+        found.unsettled.is_none().then_some(found.boxes)
     }
 
     /// Half-periods after which the linearised return map is a contraction. A deviation moves the crossing, hence the end.

@@ -10,7 +10,7 @@ use super::extrema::Extrema;
 use super::relay_cycle::{Cycle, Levels};
 use super::relay_multiplier::multipliers;
 use crate::nonlinearity::RelayHysteresis;
-use crate::numeric::scan;
+use crate::numeric::{domain, scan};
 use crate::plant::StateSpace;
 
 /// The most samples a scan over periods takes.
@@ -52,16 +52,16 @@ impl RelayLoop {
     /// A constant reference, in output units. On an integrating plant it shifts the cycle and does nothing else.
     ///
     /// # Errors
-    /// [`OrbitError::Parameter`] unless it is finite.
+    /// [`OrbitError::OutOfDomain`] unless it is finite.
     pub fn with_reference(self, reference: f64) -> Result<Self, OrbitError> {
-        Ok(Self { reference: finite("reference", reference)?, ..self })
+        Ok(Self { reference: domain::finite("reference", reference, "output units")?, ..self })
     }
     /// A constant disturbance at the plant's input, in input units.
     ///
     /// # Errors
-    /// [`OrbitError::Parameter`] unless it is finite.
+    /// [`OrbitError::OutOfDomain`] unless it is finite.
     pub fn with_disturbance(self, disturbance: f64) -> Result<Self, OrbitError> {
-        Ok(Self { disturbance: finite("disturbance", disturbance)?, ..self })
+        Ok(Self { disturbance: domain::finite("disturbance", disturbance, "input units")?, ..self })
     }
 
     /// All limit cycles with one switching each way in a period of the stated range, shortest first.
@@ -74,7 +74,7 @@ impl RelayLoop {
     /// rounding to more than 1e-9 of the cycle.
     ///
     /// # Errors
-    /// [`OrbitError::Drift`] where an integrating plant cannot have one; [`OrbitError::Range`],
+    /// [`OrbitError::Drift`] where an integrating plant cannot have one; [`OrbitError::OutOfDomain`],
     /// [`OrbitError::TooManySamples`], [`OrbitError::TooManyPieces`], [`OrbitError::Plant`].
     pub fn orbits(&self, period_s: RangeInclusive<f64>) -> Result<Vec<RelayOrbit>, OrbitError> {
         let nodes = self.nodes(&period_s)?;
@@ -143,9 +143,7 @@ impl RelayLoop {
     /// Periods to look at: steps of 2 %, less where the delay or an oscillation of the plant turns faster.
     fn nodes(&self, period_s: &RangeInclusive<f64>) -> Result<Vec<f64>, OrbitError> {
         let (from_s, to_s) = (*period_s.start(), *period_s.end());
-        if !(from_s > 0.0 && from_s < to_s && to_s.is_finite()) {
-            return Err(OrbitError::Range { from_s, to_s });
-        }
+        domain::ascending(["shortest period", "longest period"], period_s, "s")?;
         let fastest = self.plant.poles()?.iter().map(|pole| pole.im.abs()).fold(0.0, f64::max);
         let (delay, mut nodes, mut period) = (self.plant.delay_s(), Vec::new(), from_s);
         while period < to_s {
@@ -254,10 +252,6 @@ impl RelayLoop {
             multipliers: multipliers.unwrap_or_default(),
         }))
     }
-}
-
-fn finite(quantity: &'static str, value: f64) -> Result<f64, OrbitError> {
-    if value.is_finite() { Ok(value) } else { Err(OrbitError::Parameter { quantity, value, required: "finite" }) }
 }
 
 /// Newton's method with difference quotients, kept near the cell it starts from.

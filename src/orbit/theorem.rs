@@ -6,8 +6,8 @@
 
 use super::closed_form::{force_left, quadratic_half_cycle, return_slope};
 use crate::numeric::{Interval, Jet, Real};
-use crate::proof::Gradient;
-use crate::proof::inequality::{Cell, Inequality, Proof, Refusal, Search, Side};
+use crate::proof::inequality::{Cell, Inequality, Proof, Refusal, VARIABLES};
+use crate::proof::{Extent, Gradient, NotProved};
 
 /// A statement with the inequalities that it rests on.
 #[derive(Clone, Copy, Debug)]
@@ -27,12 +27,9 @@ impl Theorem {
     /// Proofs of all inequalities, or the first search that does not end in one.
     ///
     /// # Errors
-    /// The search that failed, with the inequality.
-    pub fn prove(&self) -> Result<Vec<Proof>, (Inequality, Search)> {
-        let prove = |inequality: &Inequality| match inequality.prove(BUDGET) {
-            Search::Proved(proof) => Ok(proof),
-            other => Err((*inequality, other)),
-        };
+    /// The inequality that is not proved, and why.
+    pub fn prove(&self) -> Result<Vec<Proof>, (Inequality, NotProved<VARIABLES>)> {
+        let prove = |inequality: &Inequality| inequality.prove(BUDGET).map_err(|why| (*inequality, why));
         self.inequalities.iter().map(prove).collect()
     }
 
@@ -58,9 +55,9 @@ impl Theorem {
     }
 }
 
-const NONE: Side = Side::NONE;
+const NONE: Extent = Extent::NONE;
 /// Disturbance over relay level: what the theorems with disturbance cover.
-const MU: Side = Side::new("mu", -0.95, 0.95);
+const MU: Extent = Extent::new("mu", -0.95, 0.95);
 /// Up to here a multiple zero at zero is divided out.
 const NEAR_ZERO: f64 = 0.05;
 /// From here on a border at one is treated by itself.
@@ -72,15 +69,15 @@ fn excess(at: &Cell) -> Gradient<2> {
     denominator - numerator
 }
 
-const MU_ALL: Side = Side::new("mu", -1.0, 1.0);
-const DRAG_1: Side = Side::new("d_1", 0.0, 2.0);
-const DRAG_2: Side = Side::new("d_2", 0.0, 2.0);
+const MU_ALL: Extent = Extent::new("mu", -1.0, 1.0);
+const DRAG_1: Extent = Extent::new("d_1", 0.0, 2.0);
+const DRAG_2: Extent = Extent::new("d_2", 0.0, 2.0);
 
 /// With no drag the excess is zero, so it is positive where there is drag.
 pub const EXCESS_FIRST: Inequality = Inequality {
     id: "excess-first",
     statement: "the excess of the slope's denominator over its numerator grows with the drag at the upper switching",
-    sides: [MU_ALL, DRAG_1, DRAG_2],
+    variables: [MU_ALL, DRAG_1, DRAG_2],
     margin: |at| excess(at).slopes()[0],
 };
 
@@ -88,7 +85,7 @@ pub const EXCESS_FIRST: Inequality = Inequality {
 pub const EXCESS_SECOND: Inequality = Inequality {
     id: "excess-second",
     statement: "the excess of the slope's denominator over its numerator grows with the drag at the lower switching",
-    sides: [MU_ALL, DRAG_1, DRAG_2],
+    variables: [MU_ALL, DRAG_1, DRAG_2],
     margin: |at| excess(at).slopes()[1],
 };
 
@@ -102,7 +99,7 @@ fn denominator(at: &Cell) -> Interval {
 pub const DENOMINATOR: Inequality = Inequality {
     id: "denominator",
     statement: "the slope's denominator is below 4.1",
-    sides: [MU_ALL, Side::new("d_1 over its force", 0.0, 1.0), Side::new("d_2 over its force", 0.0, 1.0)],
+    variables: [MU_ALL, Extent::new("d_1 over its force", 0.0, 1.0), Extent::new("d_2 over its force", 0.0, 1.0)],
     margin: |at| Interval::point(4.1) - denominator(at),
 };
 
@@ -110,7 +107,7 @@ pub const DENOMINATOR: Inequality = Inequality {
 pub const FORCE_SLOW: Inequality = Inequality {
     id: "force-slow",
     statement: "drag leaves force up to half the terminal speed",
-    sides: [Side::new("speed", 0.0, 0.5), Side::new("linear share", 0.0, 1.0), NONE],
+    variables: [Extent::new("speed", 0.0, 0.5), Extent::new("linear share", 0.0, 1.0), NONE],
     margin: |at| force_left(at[0], at[1]),
 };
 
@@ -118,7 +115,7 @@ pub const FORCE_SLOW: Inequality = Inequality {
 pub const FORCE_FAST: Inequality = Inequality {
     id: "force-fast",
     statement: "the force that drag leaves falls from half the terminal speed to all of it",
-    sides: [Side::new("speed", 0.5, 1.0), Side::new("linear share", 0.0, 1.0), NONE],
+    variables: [Extent::new("speed", 0.5, 1.0), Extent::new("linear share", 0.0, 1.0), NONE],
     margin: |at| {
         let [speed] = Gradient::variables([at[0]]);
         -force_left(speed, Gradient::constant(at[1])).slopes()[0]
@@ -129,7 +126,7 @@ pub const FORCE_FAST: Inequality = Inequality {
 pub const BRAKING: Inequality = Inequality {
     id: "braking",
     statement: "the other command brakes at every speed",
-    sides: [MU, Side::new("drag", 0.0, 2.0), NONE],
+    variables: [MU, Extent::new("drag", 0.0, 2.0), NONE],
     margin: |at| Interval::ONE - at[0] + at[1],
 };
 
@@ -137,7 +134,7 @@ pub const BRAKING: Inequality = Inequality {
 pub const QUADRATIC_NEXT: Inequality = Inequality {
     id: "quadratic-next",
     statement: "quadratic drag: the next switching speed grows with the gap 1 - exp(-4 g)",
-    sides: [MU, Side::new("y", 0.0, 2.0), Side::new("gap", 0.0, 1.0)],
+    variables: [MU, Extent::new("y", 0.0, 2.0), Extent::new("gap", 0.0, 1.0)],
     margin: |at| {
         let [gap] = Gradient::variables([at[2]]);
         quadratic_half_cycle(Gradient::constant(at[1]), gap, Gradient::constant(Interval::ONE + at[0])).slopes()[0]
@@ -158,7 +155,7 @@ fn logarithmic_term(at: Interval) -> Interval {
 pub const LINEAR_WIDTH_SHORT: Inequality = Inequality {
     id: "linear-width-short",
     statement: "linear drag: z - tanh z over z^3 is positive for z <= 1/2",
-    sides: [Side::new("z", 0.0, 0.5), NONE, NONE],
+    variables: [Extent::new("z", 0.0, 0.5), NONE, NONE],
     margin: |at| last_coefficient(at[0], |z: Jet<4>| z - z.tanh()),
 };
 
@@ -166,7 +163,7 @@ pub const LINEAR_WIDTH_SHORT: Inequality = Inequality {
 pub const LINEAR_WIDTH_LONG: Inequality = Inequality {
     id: "linear-width-long",
     statement: "linear drag: z - tanh z grows for z >= 1/2",
-    sides: [Side::new("z", 0.5, f64::INFINITY), NONE, NONE],
+    variables: [Extent::new("z", 0.5, f64::INFINITY), NONE, NONE],
     margin: |at| at[0].tanh().square(),
 };
 
@@ -179,7 +176,7 @@ fn quadratic_overshoot<T: Real>(r: T) -> T {
 pub const QUADRATIC_OVERSHOOT_WEAK: Inequality = Inequality {
     id: "quadratic-overshoot-weak",
     statement: "quadratic drag: the derivative of the relative overshoot, over y*^2 near zero, keeps its sign for y* <= 0.9",
-    sides: [Side::new("y*", 0.0, NEAR_ONE), NONE, NONE],
+    variables: [Extent::new("y*", 0.0, NEAR_ONE), NONE, NONE],
     margin: |at| {
         if at[0].upper() > NEAR_ZERO {
             quadratic_overshoot(at[0])
@@ -193,7 +190,7 @@ pub const QUADRATIC_OVERSHOOT_WEAK: Inequality = Inequality {
 pub const QUADRATIC_OVERSHOOT_STRONG: Inequality = Inequality {
     id: "quadratic-overshoot-strong",
     statement: "quadratic drag: the derivative of the relative overshoot keeps its sign for y* >= 0.9",
-    sides: [Side::new("y*", NEAR_ONE, 1.0), NONE, NONE],
+    variables: [Extent::new("y*", NEAR_ONE, 1.0), NONE, NONE],
     margin: |at| (Interval::ONE + at[0]) * at[0].ln_1p() - logarithmic_term(at[0]),
 };
 
@@ -206,7 +203,7 @@ fn linear_overshoot<T: Real>(t: T) -> T {
 pub const LINEAR_OVERSHOOT_WEAK: Inequality = Inequality {
     id: "linear-overshoot-weak",
     statement: "linear drag: the derivative of the relative overshoot, over tanh^3 z near zero, keeps its sign for tanh z <= 0.9",
-    sides: [Side::new("tanh z", 0.0, NEAR_ONE), NONE, NONE],
+    variables: [Extent::new("tanh z", 0.0, NEAR_ONE), NONE, NONE],
     margin: |at| {
         if at[0].upper() > NEAR_ZERO {
             linear_overshoot(at[0])
@@ -220,7 +217,7 @@ pub const LINEAR_OVERSHOOT_WEAK: Inequality = Inequality {
 pub const LINEAR_OVERSHOOT_STRONG: Inequality = Inequality {
     id: "linear-overshoot-strong",
     statement: "linear drag: the derivative of the relative overshoot keeps its sign for tanh z >= 0.9",
-    sides: [Side::new("tanh z", NEAR_ONE, 1.0), NONE, NONE],
+    variables: [Extent::new("tanh z", NEAR_ONE, 1.0), NONE, NONE],
     margin: |at| {
         let (t, rest) = (at[0], Interval::ONE - at[0]);
         let inverse = (rest * t.ln_1p() + logarithmic_term(t)) / Interval::two();

@@ -3,6 +3,7 @@
 use crate::experiment::ExperimentError;
 use crate::identify::IdentifyError;
 use crate::nonlinearity::NonlinearityError;
+use crate::numeric::OutOfDomain;
 use crate::plant::PlantError;
 use crate::vehicle::VehicleError;
 
@@ -75,4 +76,36 @@ pub enum PaperError {
     /// A thruster outside its domain.
     #[error(transparent)]
     Vehicle(#[from] VehicleError),
+}
+
+impl PaperError {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Cell { .. } => "fixture-cell",
+            Self::Row { .. } => "fixture-row",
+            Self::Missing { .. } => "fixture-missing",
+            Self::Experiment { cause, .. } => cause.code(),
+            Self::Identify(error) => error.code(),
+            Self::Nonlinearity(error) => error.code(),
+            Self::NoQuadraticFit { .. } => "no-quadratic-fit",
+            Self::Plant(error) => error.code(),
+            Self::Simulation(error) => error.code(),
+            Self::Vehicle(error) => error.code(),
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        match self {
+            Self::Experiment { cause: error, .. } | Self::Identify(error) => error.out_of_domain(),
+            Self::Nonlinearity(error) => error.out_of_domain(),
+            Self::Plant(error) => error.out_of_domain(),
+            Self::Simulation(error) => error.out_of_domain(),
+            Self::Vehicle(error) => error.out_of_domain(),
+            _ => None,
+        }
+    }
 }

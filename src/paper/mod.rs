@@ -21,16 +21,19 @@
 pub mod audit;
 mod error;
 pub mod figure15;
-pub mod fixtures;
-pub mod joint;
 mod printed;
-pub mod quantisation;
-pub mod relay_figures;
-pub mod response_figures;
 pub mod table2;
 pub mod table3;
 pub mod table4;
-pub mod thruster_figure;
 
 pub use error::PaperError;
 pub use printed::Printed;
+
+internal! {
+    mod fixtures;
+    mod joint;
+    mod quantisation;
+    mod relay_figures;
+    mod response_figures;
+    mod thruster_figure;
+}

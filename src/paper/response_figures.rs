@@ -3,7 +3,7 @@
 use super::PaperError;
 use super::joint::JointRow;
 use super::relay_figures::Curve;
-use crate::experiment::{Experiment, Record, Sensor};
+use crate::experiment::{SimulatedExperiment, Record, Sensor};
 use crate::nonlinearity::RelayHysteresis;
 use crate::plant::DragAxis;
 
@@ -62,7 +62,7 @@ fn response(joint: &[JointRow], half_width_deg: f64) -> Result<Response, PaperEr
     let axis = axis.with_disturbance(DISTURBANCE)?.with_delay_s(ONE_WAY_S)?;
     let sensor = Sensor { delay_s: ONE_WAY_S, quantum: 1.0, noise: 0.0 };
     let relay = RelayHysteresis::new(LEVEL, half_width_deg, 0.0)?;
-    let record = Experiment::new(axis, relay, RATE_HZ)?.with_sensor(sensor)?.held().run(DURATION_S)?;
+    let record = SimulatedExperiment::new(axis, relay, RATE_HZ)?.with_sensor(sensor)?.held().run(DURATION_S)?;
     Ok(marked(&record, half_width_deg))
 }
 

@@ -1,7 +1,7 @@
 //! One degree of freedom of an underwater vehicle: inertia, drag, a constant disturbance and a delay.
 
 use super::PlantError;
-use crate::numeric::Real;
+use crate::numeric::{Limit, Real, domain};
 
 /// The axis `alpha x'' + beta_1 x' + beta_2 |x'| x' = u(t - T_d) + delta` (eq. 6 and Table 2; eq. 36 with the delay).
 ///
@@ -18,6 +18,11 @@ use crate::numeric::Real;
 /// # Ok::<(), selfosc::plant::PlantError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "std",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Parts<T>", bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub struct DragAxis<T> {
     alpha: T,
     linear_drag: T,
@@ -26,18 +31,38 @@ pub struct DragAxis<T> {
     delay_s: T,
 }
 
+/// An axis as it is written, not yet checked.
+#[cfg(feature = "std")]
+#[derive(serde::Deserialize)]
+struct Parts<T> {
+    alpha: T,
+    linear_drag: T,
+    quadratic_drag: T,
+    disturbance: T,
+    delay_s: T,
+}
+
+#[cfg(feature = "std")]
+impl<T: Real> TryFrom<Parts<T>> for DragAxis<T> {
+    type Error = PlantError;
+
+    fn try_from(parts: Parts<T>) -> Result<Self, PlantError> {
+        let axis = Self::mixed(parts.alpha, parts.linear_drag, parts.quadratic_drag)?;
+        axis.with_disturbance(parts.disturbance)?.with_delay_s(parts.delay_s)
+    }
+}
+
 impl<T: Real> DragAxis<T> {
     /// Linear and quadratic drag together; no disturbance, no delay.
     ///
     /// # Errors
-    /// [`PlantError::Parameter`] unless `alpha > 0` and both drag coefficients are zero or more, all finite.
+    /// [`PlantError::OutOfDomain`] unless `alpha > 0` and both drag coefficients are zero or more, all finite.
     pub fn mixed(alpha: T, linear_drag: T, quadratic_drag: T) -> Result<Self, PlantError> {
-        check("alpha", alpha, "F s^2/x", alpha.bounds().0 > 0.0, "a finite number above 0")?;
-        for (parameter, value, unit) in
-            [("linear_drag", linear_drag, "F s/x"), ("quadratic_drag", quadratic_drag, "F s^2/x^2")]
-        {
-            check(parameter, value, unit, value.bounds().0 >= 0.0, "a finite number, 0 or more")?;
-        }
+        let remedy = "give the inertia with added mass";
+        domain::require("alpha", alpha, "F s^2/x", Limit::Positive, remedy)?;
+        let remedy = "drag takes energy out: check its sign, or give 0";
+        domain::require("linear_drag", linear_drag, "F s/x", Limit::NonNegative, remedy)?;
+        domain::require("quadratic_drag", quadratic_drag, "F s^2/x^2", Limit::NonNegative, remedy)?;
         Ok(Self { alpha, linear_drag, quadratic_drag, disturbance: T::zero(), delay_s: T::zero() })
     }
 
@@ -60,18 +85,18 @@ impl<T: Real> DragAxis<T> {
     /// The same axis under the constant force `disturbance`, in F.
     ///
     /// # Errors
-    /// [`PlantError::Parameter`] unless it is finite.
+    /// [`PlantError::OutOfDomain`] unless it is finite.
     pub fn with_disturbance(self, disturbance: T) -> Result<Self, PlantError> {
-        check("disturbance", disturbance, "F", true, "a finite number")?;
+        domain::finite("disturbance", disturbance, "F")?;
         Ok(Self { disturbance, ..self })
     }
 
     /// The same axis with the delay `delay_s`, in s.
     ///
     /// # Errors
-    /// [`PlantError::Parameter`] unless it is finite and zero or more.
+    /// [`PlantError::OutOfDomain`] unless it is finite and zero or more.
     pub fn with_delay_s(self, delay_s: T) -> Result<Self, PlantError> {
-        check("delay_s", delay_s, "s", delay_s.bounds().0 >= 0.0, "a finite number, 0 or more")?;
+        domain::non_negative("delay_s", delay_s, "s")?;
         Ok(Self { delay_s, ..self })
     }
 
@@ -100,19 +125,4 @@ impl<T: Real> DragAxis<T> {
     pub fn delay_s(&self) -> T {
         self.delay_s
     }
-}
-
-/// The parameter, or the error that names it, where it is not finite or not `inside` its domain.
-fn check<T: Real>(
-    parameter: &'static str,
-    value: T,
-    unit: &'static str,
-    inside: bool,
-    required: &'static str,
-) -> Result<(), PlantError> {
-    let (lower, upper) = value.bounds();
-    if inside && lower > f64::NEG_INFINITY && upper < f64::INFINITY {
-        return Ok(());
-    }
-    Err(PlantError::Parameter { parameter, value: lower, unit, required })
 }

@@ -1,21 +1,14 @@
 //! What can be wrong with a plant.
 
+use crate::numeric::OutOfDomain;
+
 /// Why a plant cannot be built. Values are in the caller's units.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlantError {
     /// A parameter outside its domain.
-    #[error("{parameter} = {value} {unit} must be {required}; give it such a value")]
-    Parameter {
-        /// Name of the parameter.
-        parameter: &'static str,
-        /// The value given.
-        value: f64,
-        /// Its unit, for a force F or torque acting on a coordinate x.
-        unit: &'static str,
-        /// What the parameter has to be.
-        required: &'static str,
-    },
+    #[error(transparent)]
+    OutOfDomain(#[from] OutOfDomain),
     /// A polynomial without coefficients.
     #[error("the {polynomial} has no coefficients; give them in descending powers of s")]
     NoCoefficients {
@@ -58,12 +51,6 @@ pub enum PlantError {
         /// The common degree.
         degree: usize,
     },
-    /// A delay that is negative or not a number.
-    #[error("delay = {delay_s} s must be a finite number, 0 or more")]
-    Delay {
-        /// The delay given.
-        delay_s: f64,
-    },
     /// An order of Padé approximant that is not available.
     #[error("a Pade approximant of order {order} is not available; use 1 to {limit}")]
     PadeOrder {
@@ -98,4 +85,30 @@ pub enum PlantError {
         /// Order of the matrix.
         order: usize,
     },
+}
+
+impl PlantError {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::OutOfDomain(_) => "out-of-domain",
+            Self::NoCoefficients { .. } => "no-coefficients",
+            Self::NotFinite { .. } => "entry-not-finite",
+            Self::LeadingZero { .. } => "leading-zero",
+            Self::CommonFactor => "common-factor",
+            Self::Improper { .. } => "improper",
+            Self::NotStrictlyProper { .. } => "not-strictly-proper",
+            Self::PadeOrder { .. } => "pade-order",
+            Self::Shape { .. } => "matrix-shape",
+            Self::PoleAt { .. } => "pole-at-frequency",
+            Self::Eigenvalues { .. } => "eigenvalues",
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        if let Self::OutOfDomain(fault) = self { Some(fault) } else { None }
+    }
 }

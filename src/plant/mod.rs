@@ -12,9 +12,13 @@ mod transfer;
 pub use drag_axis::DragAxis;
 pub use error::PlantError;
 pub use motion::State;
-pub use one_way::{OneWay, Passage};
+internal! { use one_way::{OneWay, Passage}; }
 #[cfg(feature = "std")]
-pub use state_space::{Flow, StateSpace, eigenvalues};
+pub use state_space::StateSpace;
+internal! {
+    #[cfg(feature = "std")]
+    use state_space::{Flow, eigenvalues};
+}
 #[cfg(feature = "std")]
 pub use transfer::TransferFunction;
 #[cfg(feature = "std")]
@@ -22,7 +26,7 @@ pub(crate) use transfer::product;
 
 #[cfg(feature = "std")]
 pub(crate) fn checked_delay(delay_s: f64) -> Result<f64, PlantError> {
-    if delay_s.is_finite() && delay_s >= 0.0 { Ok(delay_s) } else { Err(PlantError::Delay { delay_s }) }
+    Ok(crate::numeric::domain::non_negative("delay_s", delay_s, "s")?)
 }
 
 #[cfg(feature = "std")]

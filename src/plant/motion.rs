@@ -5,6 +5,7 @@ use crate::numeric::{Real, Scalar};
 
 /// Position (m, or rad) and velocity (per s) of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct State<T> {
     /// Position x.
     pub position: T,

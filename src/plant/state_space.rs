@@ -1,5 +1,6 @@
 //! Linear plants in state space, and their exact flow under a constant input.
 
+use nalgebra::linalg::{Schur, balancing::balance_parlett_reinsch};
 use nalgebra::{Complex, DMatrix, DVector, RowDVector};
 
 use super::transfer::companion;
@@ -61,7 +62,7 @@ impl StateSpace {
     /// The same plant behind a dead time, which replaces the one it had.
     ///
     /// # Errors
-    /// [`PlantError::Delay`] where the delay is negative or not finite.
+    /// [`PlantError::OutOfDomain`] where the delay is negative or not finite.
     pub fn with_delay(self, delay_s: f64) -> Result<Self, PlantError> {
         Ok(Self { delay_s: checked_delay(delay_s)?, ..self })
     }
@@ -161,7 +162,10 @@ impl Flow {
     }
 }
 
-/// Eigenvalues of a square matrix.
+/// Steps of the QR algorithm allowed for each eigenvalue; two or three are usual.
+const SWEEPS_PER_ORDER: usize = 100;
+
+/// Eigenvalues of a square matrix: balanced, then by the QR algorithm.
 ///
 /// # Errors
 /// [`PlantError::Eigenvalues`] where the iteration does not converge.
@@ -171,5 +175,16 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, PlantErro
     if matrix.iter().any(|value| !value.is_finite()) {
         return Err(failed);
     }
-    faer::Mat::from_fn(order, order, |row, column| matrix[(row, column)]).eigenvalues().map_err(|_| failed)
+    let mut balanced = matrix.clone();
+    // Coefficients of a companion matrix span decades: without this its small eigenvalues drown.
+    balance_parlett_reinsch(&mut balanced);
+    let spectrum = |matrix: DMatrix<f64>, shift: f64| {
+        let schur = Schur::try_new(matrix, f64::EPSILON, SWEEPS_PER_ORDER * order)?;
+        Some(schur.complex_eigenvalues().iter().map(|value| value - shift).collect())
+    };
+    // The iteration measures what is left below the diagonal by the diagonal, which a chain of integrators does not have: a
+    // shift by the matrix' size gives it one.
+    let size = balanced.norm();
+    let shifted = || spectrum(&balanced + DMatrix::identity(order, order) * size, size);
+    spectrum(balanced.clone(), 0.0).or_else(shifted).ok_or(failed)
 }

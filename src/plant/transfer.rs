@@ -52,7 +52,7 @@ impl TransferFunction {
     /// The same plant behind a dead time, which replaces the one it had.
     ///
     /// # Errors
-    /// [`PlantError::Delay`] where the delay is negative or not finite.
+    /// [`PlantError::OutOfDomain`] where the delay is negative or not finite.
     pub fn with_delay(self, delay_s: f64) -> Result<Self, PlantError> {
         Ok(Self { delay_s: checked_delay(delay_s)?, ..self })
     }
@@ -61,7 +61,7 @@ impl TransferFunction {
     /// agrees to `order` well past `w delay = 1`.
     ///
     /// # Errors
-    /// [`PlantError::PadeOrder`] outside 1 to 10, [`PlantError::Delay`] unless the delay is finite and not negative.
+    /// [`PlantError::PadeOrder`] outside 1 to 10, [`PlantError::OutOfDomain`] unless the delay is finite and not negative.
     pub fn pade(delay_s: f64, order: usize) -> Result<Self, PlantError> {
         if !(1..=PADE_LIMIT).contains(&order) {
             return Err(PlantError::PadeOrder { order, limit: PADE_LIMIT });

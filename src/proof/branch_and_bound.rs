@@ -1,102 +1,140 @@
-//! Inequalities proved over a whole box by subdivision.
+//! Branch and bound over boxes: the driver of every proof by subdivision, and inequalities proved by it.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
+use super::outcome::{Bound, NotProved, Proved};
 use crate::numeric::Interval;
 
-/// Whether an inequality holds on a box, with the work spent.
+/// What becomes of a box that was looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Verdict<const N: usize> {
-    /// It holds everywhere.
-    Proved {
-        /// A positive lower bound of the margin on the whole box.
-        margin: f64,
-        /// Boxes evaluated.
-        boxes: usize,
+pub enum Visit {
+    /// Nothing is left to do on it.
+    Settled,
+    /// It is halved, boxes of the least rank first; along that side, or the longest compared with the domain's.
+    Divide {
+        /// Of equal ranks, the box made last comes first, and a lower half before the upper one.
+        rank: f64,
+        /// Side to be halved.
+        along: Option<usize>,
     },
-    /// It fails at `witness`.
-    Refuted {
-        /// A point of the box.
-        witness: [f64; N],
-        /// The margin there, nowhere positive.
-        margin: Interval,
-        /// Boxes evaluated.
-        boxes: usize,
-    },
-    /// The budget did not suffice, or the margin on some box cannot be told from zero by subdivision.
-    Undecided {
-        /// A box that was not decided.
-        at: [Interval; N],
-        /// The margin on it.
-        margin: Interval,
-        /// Boxes evaluated.
-        boxes: usize,
-    },
+    /// The search ends here: no division helps.
+    Stop,
 }
 
-/// Decides whether `margin > 0` everywhere on the bounded box `domain`: the box with the lowest bound is halved first,
-/// along the side that is longest compared with the domain's. Evaluates `margin` on at most `budget` boxes, and once at
-/// the midpoint of each that is halved.
-///
-/// `margin` must enclose the values over the box that it is given. An inequality with equality somewhere is undecided.
-///
-/// ```
-/// use selfosc::proof::branch_and_bound::{Verdict, prove_positive};
-/// use selfosc::numeric::{Interval, Real};
-/// // x^2 - x + 0.3 has its minimum 0.05 at x = 1/2.
-/// let margin = |[x]: &[Interval; 1]| x.square() - *x + Interval::from_f64(0.3);
-/// let verdict = prove_positive(margin, [Interval::UNIT], 1000);
-/// assert!(matches!(verdict, Verdict::Proved { margin, .. } if margin < 0.05));
-/// ```
-#[must_use]
-pub fn prove_positive<const N: usize>(
-    margin: impl Fn(&[Interval; N]) -> Interval,
-    domain: [Interval; N],
-    budget: usize,
-) -> Verdict<N> {
-    divide(margin, domain, budget).0
+impl Visit {
+    /// Settled, or else halved along the longest side, from left to right.
+    #[must_use]
+    pub const fn settled(settled: bool) -> Self {
+        if settled { Self::Settled } else { Self::Divide { rank: 0.0, along: None } }
+    }
 }
 
-/// [`prove_positive`], with the boxes that the domain was divided into: the lower half of a box, and all that became of it,
-/// before the upper one.
-pub(super) fn divide<const N: usize>(
-    margin: impl Fn(&[Interval; N]) -> Interval,
+/// How a subdivision ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Subdivision<const N: usize> {
+    /// A box that is not settled, because a visit stopped there, the budget was spent or nothing was left to halve; `None`
+    /// where all are settled.
+    pub unsettled: Option<[Interval; N]>,
+    /// Boxes visited.
+    pub boxes: usize,
+    /// The boxes that make up the domain: a lower half, and all that became of it, before the upper one.
+    pub parts: Vec<[Interval; N]>,
+}
+
+impl<const N: usize> Subdivision<N> {
+    /// The subdivision, if all boxes are settled.
+    ///
+    /// # Errors
+    /// [`NotProved::Undecided`] with the box that is not.
+    pub fn complete(self) -> Result<Self, NotProved<N>> {
+        self.unsettled.map_or(Ok(()), |at| Err(NotProved::Undecided { at, boxes: self.boxes }))?;
+        Ok(self)
+    }
+
+    /// A proof, if all boxes are settled.
+    pub(super) fn proved(self, domain: [Interval; N], bound: Bound) -> Result<Proved<N>, NotProved<N>> {
+        let Self { parts, boxes, .. } = self.complete()?;
+        Ok(Proved { bound, domain, parts, boxes })
+    }
+}
+
+/// Divides `domain` until `visit` has settled every box; visits at most `budget` boxes.
+///
+/// Rank zero throughout goes through the domain from its lower end; the lower bound of what shall be positive, as a rank,
+/// is best-first search.
+pub fn subdivide<const N: usize>(
     domain: [Interval; N],
     budget: usize,
-) -> (Verdict<N>, Vec<[Interval; N]>) {
+    mut visit: impl FnMut(&[Interval; N]) -> Visit,
+) -> Subdivision<N> {
     let sizes = domain.map(Interval::width);
-    let mut smallest = f64::INFINITY;
     let mut nodes = vec![Node { at: domain, halves: None }];
     let mut open = BinaryHeap::new();
     let mut fresh = 0..1;
-    let verdict = loop {
+    let unsettled = 'search: loop {
         for index in fresh {
-            let value = margin(&nodes[index].at);
-            if value.is_positive() {
-                smallest = smallest.min(value.lower());
-            } else {
-                open.push(Open { index, margin: value });
+            match visit(&nodes[index].at) {
+                Visit::Settled => {}
+                Visit::Divide { rank, along } => open.push(Open { rank, index, along }),
+                Visit::Stop => break 'search Some(nodes[index].at),
             }
         }
-        let boxes = nodes.len();
-        let Some(Open { index, margin: value }) = open.pop() else {
-            break Verdict::Proved { margin: smallest, boxes };
-        };
-        let at = nodes[index].at;
-        let witness = at.map(Interval::midpoint);
-        let at_witness = margin(&witness.map(Interval::point));
-        if at_witness.upper() <= 0.0 {
-            break Verdict::Refuted { witness, margin: at_witness, boxes };
-        }
-        let Some(halves) = halves(&at, &sizes).filter(|_| boxes + 2 <= budget) else {
-            break Verdict::Undecided { at, margin: value, boxes };
+        let Some(Open { index, along, .. }) = open.pop() else { break None };
+        let (at, boxes) = (nodes[index].at, nodes.len());
+        let side = along.or_else(|| longest(&at, &sizes));
+        let Some(halves) = side.and_then(|side| halves(&at, side)).filter(|_| boxes + 2 <= budget) else {
+            break Some(at);
         };
         nodes[index].halves = Some([boxes, boxes + 1]);
         nodes.extend(halves.map(|at| Node { at, halves: None }));
         fresh = boxes..boxes + 2;
     };
-    (verdict, undivided(&nodes))
+    Subdivision { unsettled, boxes: nodes.len(), parts: undivided(&nodes) }
+}
+
+/// Proves `margin > 0` everywhere on the bounded box `domain`, best-first: the box with the lowest bound is halved first,
+/// along the side that is longest compared with the domain's. Evaluates `margin` on at most `budget` boxes, and once at
+/// the midpoint of each on which it is not positive.
+///
+/// `margin` must enclose the values over the box that it is given.
+///
+/// ```
+/// use selfosc::proof::{Bound, branch_and_bound::prove_positive};
+/// use selfosc::numeric::{Interval, Real};
+/// // x^2 - x + 0.3 has its minimum 0.05 at x = 1/2.
+/// let margin = |[x]: &[Interval; 1]| x.square() - *x + Interval::from_f64(0.3);
+/// let proved = prove_positive(margin, [Interval::UNIT], 1000)?;
+/// assert!(matches!(proved.bound, Bound::Margin(margin) if margin < 0.05));
+/// # Ok::<(), selfosc::proof::NotProved<1>>(())
+/// ```
+///
+/// # Errors
+/// [`NotProved`]. An inequality with equality somewhere is undecided.
+pub fn prove_positive<const N: usize>(
+    margin: impl Fn(&[Interval; N]) -> Interval,
+    domain: [Interval; N],
+    budget: usize,
+) -> Result<Proved<N>, NotProved<N>> {
+    let (mut smallest, mut refuted) = (f64::INFINITY, None);
+    let found = subdivide(domain, budget, |at| {
+        let value = margin(at);
+        if value.is_positive() {
+            smallest = smallest.min(value.lower());
+            return Visit::Settled;
+        }
+        let witness = at.map(Interval::midpoint);
+        let at_witness = margin(&witness.map(Interval::point));
+        if at_witness.upper() <= 0.0 {
+            refuted = Some((witness, at_witness));
+            return Visit::Stop;
+        }
+        Visit::Divide { rank: value.lower(), along: None }
+    });
+    match refuted {
+        Some((witness, value)) => Err(NotProved::Refuted { witness, value, boxes: found.boxes }),
+        None => found.proved(domain, Bound::Margin(smallest)),
+    }
 }
 
 /// A box, and where its halves are.
@@ -117,15 +155,23 @@ fn undivided<const N: usize>(nodes: &[Node<N>]) -> Vec<[Interval; N]> {
     boxes
 }
 
-/// A box on which the margin may not be positive; the heap yields the lowest bound first.
+/// A box that waits to be halved; the heap yields the lowest rank first.
 struct Open {
+    rank: f64,
     index: usize,
-    margin: Interval,
+    along: Option<usize>,
+}
+
+impl Open {
+    /// Place among boxes of one rank. Lower halves have odd indices, their upper ones the next.
+    const fn turn(&self) -> usize {
+        if self.index % 2 == 1 { self.index + 1 } else { self.index.saturating_sub(1) }
+    }
 }
 
 impl Ord for Open {
     fn cmp(&self, other: &Self) -> Ordering {
-        other.margin.lower().total_cmp(&self.margin.lower())
+        other.rank.total_cmp(&self.rank).then(self.turn().cmp(&other.turn()))
     }
 }
 
@@ -143,17 +189,21 @@ impl PartialEq for Open {
 
 impl Eq for Open {}
 
-/// The box halved along its longest side, measured in `sizes`; `None` if that cannot be.
-fn halves<const N: usize>(at: &[Interval; N], sizes: &[f64; N]) -> Option<[[Interval; N]; 2]> {
+/// The longest side, measured in `sizes`.
+fn longest<const N: usize>(at: &[Interval; N], sizes: &[f64; N]) -> Option<usize> {
     let share = |i: usize| if sizes[i] > 0.0 { at[i].width() / sizes[i] } else { 0.0 };
-    let longest = (0..N).max_by(|&i, &j| share(i).total_cmp(&share(j)))?;
-    let (lower, upper) = at[longest].bisect();
-    if !at[longest].is_bounded() || lower.is_point() || upper.is_point() {
+    (0..N).max_by(|&i, &j| share(i).total_cmp(&share(j)))
+}
+
+/// The box halved along a side; `None` if that cannot be.
+fn halves<const N: usize>(at: &[Interval; N], side: usize) -> Option<[[Interval; N]; 2]> {
+    let (lower, upper) = at[side].bisect();
+    if !at[side].is_bounded() || lower.is_point() || upper.is_point() {
         return None;
     }
-    Some([lower, upper].map(|side| {
-        let mut half = *at;
-        half[longest] = side;
-        half
+    Some([lower, upper].map(|half| {
+        let mut part = *at;
+        part[side] = half;
+        part
     }))
 }

@@ -42,7 +42,7 @@ const GAIN: f64 = 0.9;
 /// use selfosc::proof::Gradient;
 /// let start = Interval::new(1.0, 2.0).unwrap_or(Interval::ENTIRE);
 /// let found = newton(|x: Gradient<1>| x.square() - Gradient::two(), start, 20);
-/// let Roots::Unique { enclosure, .. } = found else { return };
+/// let Roots::Unique { enclosure, .. } = found else { panic!("{found:?}") };
 /// assert!(enclosure.contains(2_f64.sqrt()) && enclosure.width() < 1e-15);
 /// ```
 #[must_use]

@@ -6,6 +6,8 @@
 
 use std::array;
 
+use super::branch_and_bound::{Visit, subdivide};
+use super::outcome::{Bound, NotProved, Proved};
 use crate::numeric::{Interval, Jet};
 
 /// Coefficients of the jets; the last is not used, so that a [derivative](Jet::derivative) will do.
@@ -14,17 +16,7 @@ const ORDER: usize = 16;
 /// The jet a function is asked for.
 pub type Series = Jet<ORDER>;
 
-/// What [`prove_zero`] proved.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Vanishing {
-    /// No value is larger than this in magnitude.
-    pub bound: f64,
-    /// Cells that the interval was divided into.
-    pub cells: usize,
-}
-
-/// Proves that `M` functions stay within `tolerance` of zero from `from` to `to`; `None` if that was not proved with
-/// `budget` cells, because it is false or because the functions are not smooth enough.
+/// Proves that `M` functions stay within `tolerance` of zero from `from` to `to`, on at most `budget` cells.
 ///
 /// A kink (`abs`, `min`, `select`) is allowed where the values near it are within the tolerance anyway.
 ///
@@ -32,31 +24,39 @@ pub struct Vanishing {
 /// use selfosc::numeric::Real;
 /// use selfosc::proof::identity::{Series, prove_zero};
 /// let pythagoras = |factor: f64| move |t: Series| [t.sin().square() + t.cos().square() - Series::from_f64(factor)];
-/// assert!(prove_zero(pythagoras(1.0), 0.0, 10.0, 1e-13, 1000).is_some());
-/// assert!(prove_zero(pythagoras(1.00001), 0.0, 10.0, 1e-13, 1000).is_none());
+/// assert!(prove_zero(pythagoras(1.0), 0.0, 10.0, 1e-13, 1000).is_ok());
+/// assert!(prove_zero(pythagoras(1.00001), 0.0, 10.0, 1e-13, 1000).is_err());
 /// ```
-#[must_use]
+///
+/// # Errors
+/// [`NotProved`], because it is false or because the functions are not smooth enough.
 pub fn prove_zero<const M: usize>(
     f: impl Fn(Series) -> [Series; M],
     from: f64,
     to: f64,
     tolerance: f64,
     budget: usize,
-) -> Option<Vanishing> {
+) -> Result<Proved<1>, NotProved<1>> {
+    let domain = [range([from, to])?];
     let mut bound = 0.0_f64;
-    let cells = cover(Interval::new(from, to)?, budget, |cell| {
+    let found = subdivide(domain, budget, |&[cell]| {
         let by_range = f(Jet::constant(cell)).map(|jet| jet.value().magnitude());
-        let value = magnitude(&f, cell)?.min(by_range.into_iter().fold(0.0, f64::max));
+        let Some(value) = magnitude(&f, cell) else { return Visit::Stop };
+        let value = value.min(by_range.into_iter().fold(0.0, f64::max));
         if value <= tolerance {
             bound = bound.max(value);
         }
-        Some(value <= tolerance)
-    })?;
-    Some(Vanishing { bound, cells })
+        Visit::settled(value <= tolerance)
+    });
+    found.proved(domain, Bound::Residual(bound))
 }
 
-/// Proves that `M` functions of two variables stay within `tolerance` of zero on the rectangle `domain`; `None` if that was
-/// not proved with `budget` cells. `values` and `series` are the same functions in two arithmetics.
+fn range<const N: usize>([from, to]: [f64; 2]) -> Result<Interval, NotProved<N>> {
+    Interval::new(from, to).ok_or(NotProved::Undecided { at: [Interval::ENTIRE; N], boxes: 0 })
+}
+
+/// Proves that `M` functions of two variables stay within `tolerance` of zero on the rectangle `domain`, on at most `budget`
+/// cells. `values` and `series` are the same functions in two arithmetics.
 ///
 /// The functions have to be smooth on the closed rectangle. On a cell they are interpolated at Chebyshev nodes in both
 /// variables; the remainders are bounded by the last coefficients of jets over the whole cell.
@@ -76,54 +76,45 @@ pub fn prove_zero<const M: usize>(
 ///         1000,
 ///     )
 /// };
-/// assert!(prove(1.0).is_some() && prove(1.00001).is_none());
+/// assert!(prove(1.0).is_ok() && prove(1.00001).is_err());
 /// ```
-#[must_use]
+///
+/// # Errors
+/// [`NotProved::Undecided`], because it is false or because the functions are not smooth enough.
 pub fn prove_zero_of_two<const M: usize>(
     values: impl Fn(Interval, Interval) -> [Interval; M],
     series: impl Fn(Series, Series) -> [Series; M],
     domain: [[f64; 2]; 2],
     tolerance: f64,
     budget: usize,
-) -> Option<Vanishing> {
-    let [first, second] = domain.map(|[from, to]| Interval::new(from, to));
-    let mut open = vec![[first?, second?]];
-    let (mut bound, mut cells) = (0.0_f64, 0);
-    while let Some([a, b]) = open.pop() {
-        cells += 1;
-        let last = |jets: [Series; M]| largest(jets.map(|jet| jet.coefficients()[NODES]));
+) -> Result<Proved<2>, NotProved<2>> {
+    let domain = [range(domain[0])?, range(domain[1])?];
+    let last = |jets: [Series; M]| largest(jets.map(|jet| jet.coefficients()[NODES]));
+    let mut bound = 0.0_f64;
+    let found = subdivide(domain, budget, |&[a, b]| {
         let (across_a, across_b) = (node_polynomial(a), node_polynomial(b));
         let rest_a = |b| LEBESGUE * across_a * last(series(Series::variable(a), Series::constant(b)));
         let rest_b = |a| across_b * last(series(Series::constant(a), Series::variable(b)));
-        let rests = [rest_a(b), rest_b(a)];
-        if rests[0] + rests[1] <= 0.5 * tolerance {
-            let (nodes_a, nodes_b) = (chebyshev(a)?, chebyshev(b)?);
+        let rests = rest_a(b) + rest_b(a);
+        if rests <= 0.5 * tolerance {
+            let (Some(nodes_a), Some(nodes_b)) = (chebyshev(a), chebyshev(b)) else { return Visit::Stop };
             let pairs = nodes_a.iter().flat_map(|&a| nodes_b.iter().map(move |&b| (a, b)));
             let at_nodes = pairs.map(|(a, b)| largest(values(a, b))).fold(0.0, f64::max);
-            let sum = LEBESGUE * LEBESGUE * at_nodes + rests[0] + rests[1];
+            let sum = LEBESGUE * LEBESGUE * at_nodes + rests;
             // A cell's nodes settle it: smaller cells have no smaller values.
             if sum > tolerance {
-                return None;
+                return Visit::Stop;
             }
             bound = bound.max(sum);
-            continue;
+            return Visit::Settled;
         }
         // A remainder that is too large on a line already calls for shorter lines; one that is not, for fewer of them.
         let along_a = rest_a(Interval::point(b.midpoint())) > 0.25 * tolerance;
         let along_b = rest_b(Interval::point(a.midpoint())) > 0.25 * tolerance;
         let halve_a = if along_a == along_b { across_a >= across_b } else { along_a };
-        if cells >= budget {
-            return None;
-        }
-        if halve_a {
-            let (lower, upper) = a.bisect();
-            open.extend([[lower, b], [upper, b]]);
-        } else {
-            let (lower, upper) = b.bisect();
-            open.extend([[a, lower], [a, upper]]);
-        }
-    }
-    Some(Vanishing { bound, cells })
+        Visit::Divide { rank: 0.0, along: Some(usize::from(!halve_a)) }
+    });
+    found.proved(domain, Bound::Residual(bound))
 }
 
 /// Nodes of an interpolation.
@@ -149,29 +140,6 @@ fn chebyshev(interval: Interval) -> Option<[Interval; NODES]> {
 /// `1e-12 h` add less than a thousandth to it.
 fn node_polynomial(interval: Interval) -> f64 {
     2.002 * (0.25 * interval.width()).powi(NODES as i32)
-}
-
-/// Divides `domain` from left to right until `settled` says that each cell is done; `None` where it gives up, a cell
-/// cannot be halved, or `budget` cells do not suffice.
-pub(crate) fn cover(
-    domain: Interval,
-    budget: usize,
-    mut settled: impl FnMut(Interval) -> Option<bool>,
-) -> Option<usize> {
-    let mut open = vec![domain];
-    let mut cells = 0;
-    while let Some(cell) = open.pop() {
-        cells += 1;
-        if settled(cell)? {
-            continue;
-        }
-        let (left, right) = cell.bisect();
-        if cells >= budget || left.is_point() || right.is_point() {
-            return None;
-        }
-        open.extend([right, left]);
-    }
-    Some(cells)
 }
 
 /// A bound of the magnitudes of `f` on a cell, infinite where `f` is not smooth; `None` where `f` is far from zero at the

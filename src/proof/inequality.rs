@@ -3,36 +3,15 @@
 use core::fmt;
 use core::str::FromStr;
 
-use super::branch_and_bound;
+use super::branch_and_bound::prove_positive;
+use super::outcome::{Extent, NotProved};
 use crate::numeric::Interval;
 
 /// Unknowns of an inequality, used or not.
-pub const SIDES: usize = 3;
+pub const VARIABLES: usize = 3;
 
 /// A box: one interval for each unknown.
-pub type Cell = [Interval; SIDES];
-
-/// The range of one unknown.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Side {
-    /// Name in the statement; empty where the inequality has fewer unknowns.
-    pub name: &'static str,
-    /// Lower end.
-    pub lower: f64,
-    /// Upper end, possibly infinite: then the inequality must come out without subdivision.
-    pub upper: f64,
-}
-
-impl Side {
-    /// Takes the place of an unknown that there is not.
-    pub const NONE: Self = Self { name: "", lower: 0.0, upper: 0.0 };
-
-    /// An unknown with its range.
-    #[must_use]
-    pub const fn new(name: &'static str, lower: f64, upper: f64) -> Self {
-        Self { name, lower, upper }
-    }
-}
+pub type Cell = [Interval; VARIABLES];
 
 /// `margin > 0` for every point of a box.
 #[derive(Clone, Copy, Debug)]
@@ -42,30 +21,9 @@ pub struct Inequality {
     /// What is positive.
     pub statement: &'static str,
     /// The box.
-    pub sides: [Side; SIDES],
+    pub variables: [Extent; VARIABLES],
     /// An enclosure of the margin over a part of the box.
     pub margin: fn(&Cell) -> Interval,
-}
-
-/// What a search for a proof found.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Search {
-    /// A proof.
-    Proved(Proof),
-    /// A point at which the margin is not positive.
-    Refuted {
-        /// The point.
-        witness: [f64; SIDES],
-        /// The margin there.
-        margin: Interval,
-    },
-    /// The budget was spent.
-    Undecided {
-        /// A box that was not decided.
-        at: Cell,
-        /// Boxes evaluated.
-        boxes: usize,
-    },
 }
 
 /// A proof: boxes that cuts divide the domain into, on each of which interval arithmetic alone shows the inequality.
@@ -141,25 +99,39 @@ pub enum Refusal {
     NotCovered,
 }
 
+impl Refusal {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Malformed { .. } => "malformed-proof",
+            Self::Other { .. } => "other-proof",
+            Self::Missing { .. } => "missing-proof",
+            Self::Domain { .. } => "other-domain",
+            Self::Bound { .. } => "vacuous-bound",
+            Self::NotShown { .. } => "not-shown",
+            Self::NotCovered => "not-covered",
+        }
+    }
+}
+
 impl Inequality {
     /// The box, or `None` where a range is empty.
     #[must_use]
     pub fn domain(&self) -> Option<Cell> {
-        let [a, b, c] = self.sides.map(|side| Interval::new(side.lower, side.upper));
+        let [a, b, c] = self.variables.map(|variable| Interval::new(variable.lower, variable.upper));
         Some([a?, b?, c?])
     }
 
     /// Searches for a proof by subdivision, on at most `budget` boxes.
-    #[must_use]
-    pub fn prove(&self, budget: usize) -> Search {
-        let Some(domain) = self.domain() else { return Search::Undecided { at: [Interval::ENTIRE; SIDES], boxes: 0 } };
-        match branch_and_bound::divide(self.margin, domain, budget) {
-            (branch_and_bound::Verdict::Proved { margin, .. }, boxes) => {
-                Search::Proved(Proof { inequality: self.id.to_owned(), domain, bound: margin, boxes })
-            }
-            (branch_and_bound::Verdict::Refuted { witness, margin, .. }, _) => Search::Refuted { witness, margin },
-            (branch_and_bound::Verdict::Undecided { at, boxes, .. }, _) => Search::Undecided { at, boxes },
-        }
+    ///
+    /// # Errors
+    /// [`NotProved`].
+    pub fn prove(&self, budget: usize) -> Result<Proof, NotProved<VARIABLES>> {
+        let domain = self.domain().ok_or(NotProved::Undecided { at: [Interval::ENTIRE; VARIABLES], boxes: 0 })?;
+        let proved = prove_positive(self.margin, domain, budget)?;
+        let bound = proved.bound.value();
+        Ok(Proof { inequality: self.id.to_owned(), domain, bound, boxes: proved.parts })
     }
 
     /// Whether `proof` shows this inequality: by evaluation on the boxes listed, and by their making up the domain. Searches
@@ -204,10 +176,10 @@ fn tile(domain: &Cell, boxes: &[Cell]) -> bool {
 
 /// The union of two boxes that differ in one side alone, in which the second continues the first.
 fn join(before: &Cell, after: &Cell) -> Option<Cell> {
-    let cut = (0..SIDES).find(|&i| before[i] != after[i])?;
+    let cut = (0..VARIABLES).find(|&i| before[i] != after[i])?;
     let mut whole = *after;
     whole[cut] = before[cut].hull(after[cut]);
-    let others_agree = (cut + 1..SIDES).all(|i| before[i] == after[i]);
+    let others_agree = (cut + 1..VARIABLES).all(|i| before[i] == after[i]);
     (others_agree && before[cut].upper() == after[cut].lower()).then_some(whole)
 }
 
@@ -246,7 +218,7 @@ impl FromStr for Proofs {
             let fault = || Refusal::Malformed { line: index + 1, text: line.to_owned() };
             let (item, rest) = line.split_once(' ').ok_or_else(fault)?;
             if item == "inequality" {
-                let domain = [Interval::ENTIRE; SIDES];
+                let domain = [Interval::ENTIRE; VARIABLES];
                 proofs.push(Proof { inequality: rest.to_owned(), domain, bound: 0.0, boxes: Vec::new() });
                 continue;
             }

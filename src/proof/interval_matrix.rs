@@ -37,7 +37,7 @@ pub fn norm(matrix: &DMatrix<Interval>) -> f64 {
 /// use nalgebra::dmatrix;
 /// use selfosc::{numeric::Interval, proof::interval_matrix::exponential};
 /// let turn = dmatrix![0.0, -1.0; 1.0, 0.0].map(Interval::point);
-/// let Some(rotation) = exponential(&turn) else { return };
+/// let Some(rotation) = exponential(&turn) else { panic!("not enclosed") };
 /// assert!(rotation[(1, 0)].contains(1f64.sin()) && rotation[(1, 0)].width() < 1e-14);
 /// ```
 #[must_use]

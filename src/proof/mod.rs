@@ -3,7 +3,6 @@
 #[cfg(feature = "std")]
 pub mod branch_and_bound;
 pub mod enclosure;
-mod gradient;
 #[cfg(feature = "std")]
 pub mod identity;
 #[cfg(feature = "std")]
@@ -11,6 +10,14 @@ pub mod inequality;
 #[cfg(feature = "std")]
 pub mod interval_matrix;
 #[cfg(feature = "std")]
+mod outcome;
+#[cfg(feature = "std")]
 pub mod rigorous_quadrature;
+mod statement;
 
-pub use gradient::Gradient;
+/// Enclosures of a value and its partial derivatives over a box: rigorous Jacobians from the formulas themselves.
+pub type Gradient<const N: usize> = crate::numeric::Gradient<crate::numeric::Interval, N>;
+
+#[cfg(feature = "std")]
+pub use outcome::{Bound, Extent, NotProved, Proved};
+pub use statement::{Change, Statement, Unchanged};

@@ -1,9 +1,10 @@
 //! Why there is no report.
 
+use crate::numeric::OutOfDomain;
 use crate::paper::PaperError;
 
 /// Why there is no report.
-#[derive(Debug, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReportError {
     /// The data are not to be had.
@@ -28,4 +29,27 @@ pub enum ReportError {
         /// What is wrong.
         reason: String,
     },
+}
+
+impl ReportError {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Paper(error) => error.code(),
+            Self::Catalogue(error) => error.code(),
+            Self::Figure { .. } => "figure",
+            Self::Table { .. } => "table",
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        match self {
+            Self::Paper(error) => error.out_of_domain(),
+            Self::Catalogue(error) => error.out_of_domain(),
+            _ => None,
+        }
+    }
 }

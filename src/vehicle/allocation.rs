@@ -1,8 +1,7 @@
 //! Forces on the vehicle by thrusts of its thrusters, and back.
 
 use super::VehicleError;
-use super::error::checked;
-use crate::numeric::{Real, Scalar};
+use crate::numeric::{Real, Scalar, domain};
 
 /// The allocation `forces = matrix * thrusts` with a right or least-squares inverse, both of fixed size.
 ///
@@ -41,7 +40,7 @@ impl<T: Scalar> Allocation<T, 2, 2> {
     /// # Errors
     /// An arm that is not positive.
     pub fn pair(arm_m: T) -> Result<Self, VehicleError> {
-        checked("lever arm (m)", "positive", arm_m, |d| d > T::zero())?;
+        domain::positive("lever arm", arm_m, "m")?;
         let (one, half) = (T::one(), T::from_f64(0.5));
         Ok(Self { matrix: [[one, one], [arm_m, -arm_m]], inverse: [[half, half / arm_m], [half, -half / arm_m]] })
     }
@@ -74,7 +73,7 @@ impl<T: Scalar, const AXES: usize, const THRUSTERS: usize> Allocation<T, AXES, T
 
 #[cfg(feature = "std")]
 impl<const AXES: usize, const THRUSTERS: usize> Allocation<f64, AXES, THRUSTERS> {
-    /// Smallest singular value, relative to the largest, that still counts as rank.
+    /// Smallest pivot, relative to the largest, that still counts as rank.
     const RANK_TOLERANCE: f64 = 1e-10;
 
     /// The allocation of a matrix, a row for each axis, with its pseudo-inverse.
@@ -84,22 +83,31 @@ impl<const AXES: usize, const THRUSTERS: usize> Allocation<f64, AXES, THRUSTERS>
     /// they repeat each other), a matrix without rows or columns, and entries that are not finite.
     pub fn from_matrix(matrix: [[f64; THRUSTERS]; AXES]) -> Result<Self, VehicleError> {
         for &entry in matrix.iter().flatten() {
-            super::error::finite("entry of the allocation matrix", entry)?;
+            domain::finite("entry of the allocation matrix", entry, "")?;
         }
         if AXES == 0 || THRUSTERS == 0 {
             return Err(VehicleError::Count { what: "axes or thrusters", count: 0, needed: 1 });
         }
-        let svd = faer::Mat::from_fn(AXES, THRUSTERS, |i, j| matrix[i][j])
-            .svd()
-            .map_err(|_| VehicleError::NoConvergence { what: "the singular values of the allocation matrix" })?;
-        let singular_values = svd.S().column_vector();
-        let largest = singular_values.iter().copied().fold(0.0, f64::max);
-        let rank = singular_values.iter().filter(|&&value| value > largest * Self::RANK_TOLERANCE).count();
+        // The tall one of the matrix and its transpose, by QR with column pivoting: `A P = Q R`.
+        let wide = AXES < THRUSTERS;
         let needed = AXES.min(THRUSTERS);
+        let tall =
+            nalgebra::DMatrix::from_fn(
+                AXES.max(THRUSTERS),
+                needed,
+                |i, j| {
+                    if wide { matrix[j][i] } else { matrix[i][j] }
+                },
+            );
+        let (q, r, order) = tall.col_piv_qr().unpack();
+        let rank = r.diagonal().iter().filter(|pivot| pivot.abs() > r[(0, 0)].abs() * Self::RANK_TOLERANCE).count();
+        let deficient = VehicleError::RankDeficient { what: "the allocation matrix", rank, needed };
         if rank < needed {
-            return Err(VehicleError::RankDeficient { what: "the allocation matrix", rank, needed });
+            return Err(deficient);
         }
-        let inverse = svd.pseudoinverse();
-        Ok(Self { matrix, inverse: core::array::from_fn(|i| core::array::from_fn(|j| inverse[(i, j)])) })
+        let mut inverse = r.solve_upper_triangular(&q.transpose()).ok_or(deficient)?;
+        order.inv_permute_rows(&mut inverse);
+        let entry = |i: usize, j: usize| if wide { inverse[(j, i)] } else { inverse[(i, j)] };
+        Ok(Self { matrix, inverse: core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j))) })
     }
 }

@@ -1,8 +1,7 @@
 //! Thrust and torque of a propeller in moving water.
 
 use super::VehicleError;
-use super::error::{checked, finite};
-use crate::numeric::{Real, Scalar};
+use crate::numeric::{Real, Scalar, domain};
 
 /// A propeller in water that moves along its axis (eq. 1): `T = T_nn abs(n) n - T_nu abs(n) u_a`, torque alike.
 ///
@@ -36,10 +35,10 @@ impl<T: Scalar> BilinearThruster<T> {
     /// `T_nn`, `Q_nn` or the largest rate not positive; `T_nu` or `Q_nu` negative; numbers that are not finite.
     pub fn new(thrust: (T, T), torque: (T, T), largest_rate: T) -> Result<Self, VehicleError> {
         for (name, value) in [("T_nn", thrust.0), ("Q_nn", torque.0), ("largest rate of revolution", largest_rate)] {
-            checked(name, "positive", value, |v| v > T::zero())?;
+            domain::positive(name, value, "")?;
         }
         for (name, value) in [("T_nu", thrust.1), ("Q_nu", torque.1)] {
-            checked(name, ">= 0", value, |v| v >= T::zero())?;
+            domain::non_negative(name, value, "")?;
         }
         Ok(Self { thrust: thrust.into(), torque: torque.into(), largest_rate })
     }
@@ -66,8 +65,8 @@ impl<T: Scalar> BilinearThruster<T> {
     /// # Errors
     /// [`VehicleError::Saturated`] when the rate would exceed the largest; inputs that are not finite.
     pub fn rate(&self, thrust_n: T, ambient_speed_m_s: T) -> Result<T, VehicleError> {
-        finite("thrust (N)", thrust_n)?;
-        finite("ambient water speed (m/s)", ambient_speed_m_s)?;
+        domain::finite("thrust", thrust_n, "N")?;
+        domain::finite("ambient water speed", ambient_speed_m_s, "m/s")?;
         let sign = if thrust_n < T::zero() {
             -T::one()
         } else if thrust_n > T::zero() {

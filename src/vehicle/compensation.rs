@@ -1,8 +1,7 @@
 //! The a-priori compensation (Fig. 11): what makes allocation, thruster map and dead zone vanish for the controller.
 
-use super::error::{checked, finite};
 use super::{Allocation, Thruster, VehicleError};
-use crate::numeric::Scalar;
+use crate::numeric::{Limit, Scalar, domain};
 
 /// Inverse allocation, a constant thrust offset, inverse thruster maps, in this order.
 ///
@@ -49,7 +48,7 @@ impl<T: Scalar, const AXES: usize, const THRUSTERS: usize> Compensation<T, AXES,
         largest_forces: [T; AXES],
     ) -> Result<Self, VehicleError> {
         for &force in &largest_forces {
-            checked("largest force of the compensation", ">= 0", force, |f| f >= T::zero())?;
+            domain::non_negative("largest force of the compensation", force, "N, N m")?;
         }
         // What the forces can ask of a thruster, either way.
         let swing = allocation.inverse().map(|row| {
@@ -57,7 +56,13 @@ impl<T: Scalar, const AXES: usize, const THRUSTERS: usize> Compensation<T, AXES,
         });
         let mut scale = T::zero();
         for ((thruster, &along), &swing) in thrusters.iter().zip(&direction).zip(&swing) {
-            checked("offset direction", "different from zero", along, |a| a.abs() > T::zero())?;
+            domain::require(
+                "offset direction",
+                along,
+                "N",
+                Limit::NonZero,
+                "choose a direction that turns every thruster",
+            )?;
             let side = if along < T::zero() { thruster.backward() } else { thruster.forward() };
             scale = scale.max((swing + side.smallest_thrust_n()) / along.abs());
         }
@@ -124,7 +129,7 @@ impl<T: Scalar, const AXES: usize, const THRUSTERS: usize> Compensation<T, AXES,
         invert: impl Fn(&Thruster<T>, T) -> Result<T, VehicleError>,
     ) -> Result<[T; THRUSTERS], VehicleError> {
         for &force in forces {
-            finite("force or moment (N, N m)", force)?;
+            domain::finite("force or moment", force, "N, N m")?;
         }
         let thrusts_n = self.allocation.thrusts(forces);
         let mut commands = [T::zero(); THRUSTERS];

@@ -1,9 +1,9 @@
 //! Motion in six degrees of freedom (eq. 5).
 
+use crate::numeric::domain;
 use nalgebra::{Cholesky, Matrix3, Matrix6, U6, UnitQuaternion, Vector3, Vector6};
 
 use super::VehicleError;
-use super::error::{checked, finite};
 use super::kinematics::{halves, joined};
 
 /// Acceleration of gravity by convention, m/s^2.
@@ -63,14 +63,14 @@ impl Vehicle {
     /// drag that could drive.
     pub fn new(parameters: VehicleParameters) -> Result<Self, VehicleError> {
         let p = &parameters;
-        checked("mass (kg)", "positive", p.mass_kg, |m| m > 0.0)?;
-        checked("buoyancy (N)", ">= 0", p.buoyancy_n, |b| b >= 0.0)?;
+        domain::positive("mass", p.mass_kg, "kg")?;
+        domain::non_negative("buoyancy", p.buoyancy_n, "N")?;
         for &drag in &p.quadratic_drag {
-            checked("quadratic drag", ">= 0", drag, |d| d >= 0.0)?;
+            domain::non_negative("quadratic drag", drag, "N s^2/m^2, N m s^2")?;
         }
         let matrices = p.inertia_kg_m2.iter().chain(&p.added_mass).chain(&p.linear_drag);
         for &entry in matrices.chain(&p.centre_of_gravity_m).chain(&p.centre_of_buoyancy_m) {
-            finite("entry of a vehicle matrix or centre", entry)?;
+            domain::finite("entry of a vehicle matrix or centre", entry, "")?;
         }
         let rigid_body_mass = rigid_body_mass(p);
         symmetric("the rigid-body inertia", &rigid_body_mass)?;

@@ -1,5 +1,7 @@
 //! What can be wrong with a vehicle, a thruster or a demand on them.
 
+use crate::numeric::OutOfDomain;
+
 /// A refusal of the vehicle layer: which number, which limit, what to do.
 ///
 /// Thrusters are counted from 0 in the order of their chain; a thruster used alone is number 0.
@@ -7,15 +9,8 @@
 #[non_exhaustive]
 pub enum VehicleError {
     /// A parameter or an input outside its domain.
-    #[error("{quantity} is {value}: it must be {requirement}")]
-    OutOfDomain {
-        /// What the number means, with its unit.
-        quantity: &'static str,
-        /// The domain.
-        requirement: &'static str,
-        /// The number given.
-        value: f64,
-    },
+    #[error(transparent)]
+    OutOfDomain(#[from] OutOfDomain),
     /// Thrust that is negative or falls as the command grows: no inverse.
     #[error(
         "thrust {thrust_at_dead_zone_n} N with slope {slope_at_dead_zone} at the dead zone {dead_zone}, slope {slope_at_limit} at \
@@ -149,23 +144,33 @@ impl VehicleError {
             other => other,
         }
     }
-}
 
-/// The number, if it satisfies `valid` and is finite.
-pub(super) fn checked<T: crate::numeric::Scalar>(
-    quantity: &'static str,
-    requirement: &'static str,
-    value: T,
-    valid: impl FnOnce(T) -> bool,
-) -> Result<T, VehicleError> {
-    if value.is_finite() && valid(value) {
-        Ok(value)
-    } else {
-        Err(VehicleError::OutOfDomain { quantity, requirement, value: value.value() })
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::OutOfDomain(_) => "out-of-domain",
+            Self::NotMonotone { .. } => "thrust-not-monotone",
+            Self::Saturated { .. } => "thrust-too-large",
+            Self::InDeadZone { .. } => "thrust-in-dead-zone",
+            Self::RankDeficient { .. } => "rank-deficient",
+            Self::Count { .. } => "count",
+            Self::ThrustAgainstCommand { .. } => "thrust-against-command",
+            Self::DeadZoneUnclear { .. } => "dead-zone-unclear",
+            Self::PitchSingular { .. } => "pitch-singular",
+            Self::Indefinite { .. } => "indefinite",
+            Self::Diverged { .. } => "diverged",
+            Self::NoConvergence { .. } => "no-convergence",
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        if let Self::OutOfDomain(fault) = self { Some(fault) } else { None }
     }
 }
 
-/// The number, if it is finite.
-pub(super) fn finite<T: crate::numeric::Scalar>(quantity: &'static str, value: T) -> Result<T, VehicleError> {
-    checked(quantity, "finite", value, |_| true)
-}
+/// What a duration in integration steps has to be.
+#[cfg(feature = "std")]
+pub(super) const WHOLE: crate::numeric::Limit = crate::numeric::Limit::Words("a whole number");

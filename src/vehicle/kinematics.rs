@@ -1,5 +1,6 @@
 //! Body velocity to motion over the ground (eq. 4), by Euler angles and by quaternions.
 
+use crate::numeric::domain;
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3, Vector4, Vector6};
 
 use super::VehicleError;
@@ -31,7 +32,7 @@ impl EulerAngles {
     /// [`VehicleError::PitchSingular`] near pitch = +-90 degrees, where it has no bound; angles that are not finite.
     pub fn rate_matrix(&self) -> Result<Matrix3<f64>, VehicleError> {
         for angle in [self.roll_rad, self.pitch_rad, self.yaw_rad] {
-            super::error::finite("Euler angle (rad)", angle)?;
+            domain::finite("Euler angle", angle, "rad")?;
         }
         let (sin_roll, cos_roll) = self.roll_rad.sin_cos();
         let (sin_pitch, cos_pitch) = self.pitch_rad.sin_cos();

@@ -1,8 +1,8 @@
 //! Allocation within thrust limits.
 
+use crate::numeric::{Limit, domain};
 use nalgebra::{DMatrix, DVector};
 
-use super::error::{checked, finite};
 use super::{Allocation, VehicleError};
 
 /// Weighted least squares within bounds: the thrusts that minimise `|W (B tau - forces)|^2 + effort |tau|^2` subject to
@@ -67,13 +67,14 @@ impl<const AXES: usize, const THRUSTERS: usize> LimitedAllocation<AXES, THRUSTER
         effort: f64,
     ) -> Result<Self, VehicleError> {
         for &weight in &weights {
-            checked("axis weight", "positive", weight, |w| w > 0.0)?;
+            domain::positive("axis weight", weight, "")?;
         }
         for &(lower, upper) in &limits_n {
-            finite("lower thrust limit (N)", lower)?;
-            checked("upper thrust limit (N)", "above the lower limit", upper, |u| u > lower)?;
+            domain::finite("lower thrust limit", lower, "N")?;
+            let remedy = "give the limits astern first, then ahead";
+            domain::require("upper thrust limit", upper, "N", Limit::Above(lower), remedy)?;
         }
-        checked("effort weight", "positive", effort, |e| e > 0.0)?;
+        domain::positive("effort weight", effort, "")?;
         let matrix = allocation.matrix();
         let stacked = DMatrix::from_fn(AXES + THRUSTERS, THRUSTERS, |i, j| match i.checked_sub(AXES) {
             None => weights[i] * matrix[i][j],
@@ -94,7 +95,8 @@ impl<const AXES: usize, const THRUSTERS: usize> LimitedAllocation<AXES, THRUSTER
     pub fn thrusts(&self, forces: &[f64; AXES]) -> Result<LimitedThrusts<AXES, THRUSTERS>, VehicleError> {
         for (&force, &weight) in forces.iter().zip(&self.weights) {
             let squares = |f: f64| (weight * f).powi(2).is_finite();
-            checked("force or moment (N, N m)", "small enough for its weighted square", force, squares)?;
+            let limit = Limit::Words("small enough for its weighted square");
+            domain::require_that(squares(force), "force or moment", force, "N, N m", limit, "ask for less")?;
         }
         let target =
             DVector::from_fn(AXES + THRUSTERS, |i, _| if i < AXES { self.weights[i] * forces[i] } else { 0.0 });

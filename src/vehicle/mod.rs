@@ -46,7 +46,11 @@ pub use allocation::Allocation;
 pub use bilinear_thruster::BilinearThruster;
 pub use compensation::Compensation;
 #[cfg(feature = "std")]
-pub use dynamics::{STANDARD_GRAVITY, Vehicle, VehicleParameters, coriolis};
+pub use dynamics::{Vehicle, VehicleParameters};
+internal! {
+    #[cfg(feature = "std")]
+    use dynamics::{STANDARD_GRAVITY, coriolis};
+}
 pub use error::VehicleError;
 #[cfg(feature = "std")]
 pub use kinematics::{EulerAngles, Pose};
@@ -57,7 +61,7 @@ pub use pool_vehicle::{pool_thrusters, pool_vehicle};
 #[cfg(feature = "std")]
 pub use reduction::{Axis, AxisParameters, Motion, Neglected};
 #[cfg(feature = "std")]
-pub use simulation::{MountedThruster, Simulation, State};
+pub use simulation::{BodyState, MountedThruster, Simulation};
 pub use thruster::{Delivered, ThrustSide, Thruster};
 #[cfg(feature = "std")]
 pub use thruster_map::{DynamometerPoint, FittedSide, ThrusterMap};

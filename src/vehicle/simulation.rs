@@ -1,10 +1,11 @@
 //! Eq. 5 in time: thrusters with delays, a disturbance, fixed steps.
 
+use super::error::WHOLE;
+use crate::numeric::domain;
 use std::collections::VecDeque;
 
 use nalgebra::{Quaternion, SVector, Unit, UnitQuaternion, Vector3, Vector6};
 
-use super::error::{checked, finite};
 use super::kinematics::joined;
 use super::{Pose, Thruster, Vehicle, VehicleError};
 
@@ -29,10 +30,10 @@ impl MountedThruster {
         delay_s: f64,
     ) -> Result<Self, VehicleError> {
         for &coordinate in &position_m {
-            finite("position of a thruster (m)", coordinate)?;
+            domain::finite("position of a thruster", coordinate, "m")?;
         }
-        checked("length of a thruster's direction", "positive", direction.norm(), |length| length > 0.0)?;
-        checked("thruster delay (s)", ">= 0", delay_s, |delay| delay >= 0.0)?;
+        domain::positive("length of a thruster's direction", direction.norm(), "")?;
+        domain::non_negative("thruster delay", delay_s, "s")?;
         let direction = Unit::new_normalize(direction).into_inner();
         Ok(Self { thruster, column: joined(&direction, &position_m.cross(&direction)), delay_s })
     }
@@ -52,14 +53,14 @@ impl MountedThruster {
 
 /// Where the vehicle is and how it moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct State {
+pub struct BodyState {
     /// Position and attitude.
     pub pose: Pose,
     /// Velocity in body axes.
     pub nu: Vector6<f64>,
 }
 
-impl State {
+impl BodyState {
     /// At rest at the origin, heading north.
     #[must_use]
     pub fn at_rest() -> Self {
@@ -76,9 +77,9 @@ type Column = SVector<f64, 13>;
 /// speed with quadratic drag reverses or the disturbance is not smooth; compare with half the step for its size.
 ///
 /// ```
-/// # use selfosc::vehicle::{Simulation, State, VehicleError, pool_thrusters, pool_vehicle};
+/// # use selfosc::vehicle::{Simulation, BodyState, VehicleError, pool_thrusters, pool_vehicle};
 /// # use nalgebra::Vector6;
-/// let mut pool = Simulation::new(pool_vehicle()?, pool_thrusters()?.to_vec(), 0.01, State::at_rest())?;
+/// let mut pool = Simulation::new(pool_vehicle()?, pool_thrusters()?.to_vec(), 0.01, BodyState::at_rest())?;
 /// for _ in 0..300 {
 ///     pool.step(&[60.0, 60.0, 0.0], |_| Vector6::zeros())?;
 /// }
@@ -92,7 +93,7 @@ pub struct Simulation {
     step_s: f64,
     /// Commands under way to each thruster, the next to act first.
     pending: Vec<VecDeque<f64>>,
-    state: State,
+    state: BodyState,
     steps: u32,
 }
 
@@ -105,15 +106,16 @@ impl Simulation {
         vehicle: Vehicle,
         thrusters: Vec<MountedThruster>,
         step_s: f64,
-        state: State,
+        state: BodyState,
     ) -> Result<Self, VehicleError> {
-        checked("integration step (s)", "positive", step_s, |step| step > 0.0)?;
+        domain::positive("integration step", step_s, "s")?;
         let pending = thrusters
             .iter()
             .map(|mounted| {
                 let steps = mounted.delay_s / step_s;
                 let whole = |s: f64| (s - s.round()).abs() < 1e-6;
-                checked("thruster delay in integration steps", "a whole number", steps, whole)?;
+                let remedy = "choose an integration step that divides the delay";
+                domain::require_that(whole(steps), "thruster delay", steps, "integration steps", WHOLE, remedy)?;
                 Ok(std::iter::repeat_n(0.0, steps.round() as usize).collect())
             })
             .collect::<Result<_, VehicleError>>()?;
@@ -128,7 +130,7 @@ impl Simulation {
 
     /// The state now.
     #[must_use]
-    pub fn state(&self) -> &State {
+    pub fn state(&self) -> &BodyState {
         &self.state
     }
 
@@ -152,14 +154,14 @@ impl Simulation {
     pub fn step(
         &mut self,
         commands: &[f64],
-        disturbance: impl Fn(&State) -> Vector6<f64>,
+        disturbance: impl Fn(&BodyState) -> Vector6<f64>,
     ) -> Result<Vector6<f64>, VehicleError> {
         let (count, needed) = (commands.len(), self.thrusters.len());
         if count != needed {
             return Err(VehicleError::Count { what: "thruster commands", count, needed });
         }
         for &command in commands {
-            finite("thruster command", command)?;
+            domain::finite("thruster command", command, "command units")?;
         }
         let mut force = Vector6::zeros();
         for ((mounted, queue), &command) in self.thrusters.iter().zip(&mut self.pending).zip(commands) {
@@ -199,9 +201,9 @@ fn pack(position: &Vector3<f64>, quaternion: &[f64], nu: &Vector6<f64>) -> Colum
 }
 
 /// The quaternion comes back to unit length, from which a step moves it by the method's error only.
-fn unpack(column: &Column) -> State {
+fn unpack(column: &Column) -> BodyState {
     let quaternion = Quaternion::from(column.fixed_rows::<4>(3).into_owned());
-    State {
+    BodyState {
         pose: Pose {
             position_m: column.fixed_rows::<3>(0).into_owned(),
             attitude: UnitQuaternion::new_normalize(quaternion),

@@ -1,8 +1,7 @@
 //! Thrust by command in still water, with dead zone, saturation and a propeller that differs forward and backward.
 
 use super::VehicleError;
-use super::error::{checked, finite};
-use crate::numeric::Scalar;
+use crate::numeric::{Limit, Scalar, domain};
 
 /// One direction of rotation: thrust `a n^2 + b n` for command magnitudes `n` from the dead zone to the limit.
 ///
@@ -24,12 +23,13 @@ impl<T: Scalar> ThrustSide<T> {
     /// between them: `linear < 0` is right only with a dead zone that hides it, `quadratic < 0` only with a limit that ends
     /// before the vertex.
     pub fn new(quadratic: T, linear: T, dead_zone: T, limit: T) -> Result<Self, VehicleError> {
-        finite("quadratic thrust coefficient (N per squared command)", quadratic)?;
-        finite("linear thrust coefficient (N per command)", linear)?;
-        checked("dead zone (command)", ">= 0", dead_zone, |d| d >= T::zero())?;
-        checked("largest command", "above the dead zone", limit, |l| l > dead_zone)?;
+        domain::finite("quadratic thrust coefficient", quadratic, "N per squared command")?;
+        domain::finite("linear thrust coefficient", linear, "N per command")?;
+        domain::non_negative("dead zone", dead_zone, "command units")?;
+        let remedy = "give magnitudes, the dead zone first";
+        domain::require("largest command", limit, "command units", Limit::Above(dead_zone.value()), remedy)?;
         let side = Self { quadratic, linear, dead_zone, limit };
-        finite("thrust at the largest command (N)", side.curve(limit))?;
+        domain::finite("thrust at the largest command", side.curve(limit), "N")?;
         // The slope is linear in the command, so its ends decide.
         let (first, last) = (side.slope(dead_zone), side.slope(limit));
         let starts_forward = quadratic * dead_zone + linear >= T::zero();
@@ -164,7 +164,7 @@ impl<T: Scalar> Thruster<T> {
     /// [`VehicleError::Saturated`] above the largest thrust of that side, [`VehicleError::InDeadZone`] between none and the
     /// smallest, and a thrust that is not finite.
     pub fn command(&self, thrust_n: T) -> Result<T, VehicleError> {
-        finite("thrust (N)", thrust_n)?;
+        domain::finite("thrust", thrust_n, "N")?;
         let (side, sign) = self.side(thrust_n);
         let magnitude = thrust_n.abs();
         if magnitude > side.largest_thrust_n() {
@@ -186,7 +186,7 @@ impl<T: Scalar> Thruster<T> {
     /// # Errors
     /// A thrust that is not finite.
     pub fn command_clamped(&self, thrust_n: T) -> Result<Delivered<T>, VehicleError> {
-        finite("thrust (N)", thrust_n)?;
+        domain::finite("thrust", thrust_n, "N")?;
         let (side, sign) = self.side(thrust_n);
         let magnitude = thrust_n.abs();
         let (smallest, largest) = (side.smallest_thrust_n(), side.largest_thrust_n());

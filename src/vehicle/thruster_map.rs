@@ -1,8 +1,8 @@
 //! A thruster identified from dynamometer points (Fig. 9).
 
+use crate::numeric::domain;
 use nalgebra::{Matrix2, Vector2};
 
-use super::error::{checked, finite};
 use super::{ThrustSide, Thruster, VehicleError};
 
 /// One reading of the dynamometer.
@@ -112,10 +112,10 @@ fn require(what: &'static str, count: usize, needed: usize) -> Result<(), Vehicl
 
 /// Points ahead and astern, each checked.
 fn sides(points: &[DynamometerPoint], standing_n: f64) -> Result<(Side, Side), VehicleError> {
-    checked("thrust of a standing propeller (N)", ">= 0", standing_n, |t| t >= 0.0)?;
+    domain::non_negative("thrust of a standing propeller", standing_n, "N")?;
     for (index, &DynamometerPoint { command, thrust_n }) in points.iter().enumerate() {
-        finite("command of a dynamometer point", command)?;
-        finite("thrust of a dynamometer point (N)", thrust_n)?;
+        domain::finite("command of a dynamometer point", command, "command units")?;
+        domain::finite("thrust of a dynamometer point", thrust_n, "N")?;
         if thrust_n.abs() > standing_n && thrust_n * command <= 0.0 {
             return Err(VehicleError::ThrustAgainstCommand { index, command, thrust_n });
         }

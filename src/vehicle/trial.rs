@@ -1,5 +1,7 @@
 //! The experiment on board, carried out on the model with six degrees of freedom.
 
+use super::error::WHOLE;
+use crate::numeric::{Limit, domain};
 use std::collections::VecDeque;
 
 use nalgebra::{Matrix4, Vector4, Vector6};
@@ -7,8 +9,7 @@ use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
-use super::error::checked;
-use super::{Axis, AxisParameters, Motion, Simulation, State, Vehicle, VehicleError};
+use super::{Axis, AxisParameters, BodyState, Motion, Simulation, Vehicle, VehicleError};
 use crate::experiment::{Record, Sensor};
 use crate::on_board::{Coordinate, Experiment, Phase, Protocol};
 
@@ -16,7 +17,7 @@ use crate::on_board::{Coordinate, Experiment, Phase, Protocol};
 /// sway by the integral of their speed (eq. 44).
 ///
 /// ```
-/// # use selfosc::vehicle::{Allocation, Axis, Compensation, Simulation, State, Trial, pool_thrusters, pool_vehicle};
+/// # use selfosc::vehicle::{Allocation, Axis, Compensation, Simulation, BodyState, Trial, pool_thrusters, pool_vehicle};
 /// # use nalgebra::Vector6;
 /// use selfosc::experiment::Sensor;
 /// use selfosc::identify::DragLaw;
@@ -27,7 +28,7 @@ use crate::on_board::{Coordinate, Experiment, Phase, Protocol};
 /// // A compass of one degree, read 0.1 s late; the thrusters are 0.1 s late too.
 /// let compass = Sensor { delay_s: 0.1, quantum: 1f64.to_radians(), noise: 0.0 };
 /// let protocol = Protocol { resolution: compass.quantum, ..Protocol::new(Coordinate::HeadingRad, 0.06, 0.3, 0.1) };
-/// let pool = Simulation::new(pool_vehicle()?, thrusters.to_vec(), 0.01, State::at_rest())?;
+/// let pool = Simulation::new(pool_vehicle()?, thrusters.to_vec(), 0.01, BodyState::at_rest())?;
 /// let run = Trial::new(Axis::Yaw, protocol, compass)?.run(
 ///     pool,
 ///     |moment, _| chain.commands(&[0.0, moment]).map(|[port, starboard]| vec![port, starboard, 0.0]),
@@ -59,7 +60,7 @@ pub struct TrialRun {
     /// Force or moment asked for on the axis.
     pub force: Vec<f64>,
     /// The vehicle's true state at each sample.
-    pub states: Vec<State>,
+    pub states: Vec<BodyState>,
 }
 
 impl TrialRun {
@@ -112,10 +113,12 @@ impl Trial {
             Axis::Surge | Axis::Sway => protocol.coordinate == Coordinate::Speed,
         };
         let number = axis.index() as f64;
-        checked("axis of the trial", "observed by heading (yaw), position (heave), speed (others)", number, |_| fits)?;
-        checked("sensor delay (s)", ">= 0", sensor.delay_s, |delay| delay >= 0.0)?;
-        checked("quantum of the sensor", ">= 0", sensor.quantum, |quantum| quantum >= 0.0)?;
-        checked("noise of the sensor", ">= 0", sensor.noise, |noise| noise >= 0.0)?;
+        let limit = Limit::Words("observed by heading (yaw), position (heave), speed (others)");
+        let remedy = "give the protocol the coordinate of its axis";
+        domain::require_that(fits, "axis of the trial", number, "", limit, remedy)?;
+        domain::non_negative("sensor delay", sensor.delay_s, "s")?;
+        domain::non_negative("quantum of the sensor", sensor.quantum, "coordinate units")?;
+        domain::non_negative("noise of the sensor", sensor.noise, "coordinate units")?;
         Ok(Self { axis, protocol, sensor, seed: 0 })
     }
 
@@ -134,21 +137,19 @@ impl Trial {
     pub fn run(
         &self,
         mut simulation: Simulation,
-        commands: impl Fn(f64, &State) -> Result<Vec<f64>, VehicleError>,
-        disturbance: impl Fn(f64, &State) -> Vector6<f64>,
+        commands: impl Fn(f64, &BodyState) -> Result<Vec<f64>, VehicleError>,
+        disturbance: impl Fn(f64, &BodyState) -> Vector6<f64>,
     ) -> Result<TrialRun, VehicleError> {
         let steps = |quantity, time_s: f64| {
             let steps = time_s / simulation.step_s();
             let whole = |s: f64| (s - s.round()).abs() < 1e-6;
-            checked(quantity, "a whole number of integration steps", steps, whole).map(|s| s.round() as usize)
+            let remedy = "choose an integration step that divides it";
+            let checked = domain::require_that(whole(steps), quantity, steps, "integration steps", WHOLE, remedy);
+            checked.map(|steps| steps.round() as usize)
         };
-        let each = steps("sampling interval in integration steps", self.protocol.interval_s)?.max(1);
-        let late = steps("sensor delay in integration steps", self.sensor.delay_s)?;
-        let experiment = Experiment::new(self.protocol).map_err(|refusal| VehicleError::OutOfDomain {
-            quantity: refusal.setting,
-            requirement: refusal.required,
-            value: refusal.value,
-        })?;
+        let each = steps("sampling interval", self.protocol.interval_s)?.max(1);
+        let late = steps("sensor delay", self.sensor.delay_s)?;
+        let experiment = Experiment::new(self.protocol)?;
         let mut run =
             TrialRun { experiment, time_s: Vec::new(), position: Vec::new(), force: Vec::new(), states: Vec::new() };
         let mut random = Pcg64Mcg::seed_from_u64(self.seed);
@@ -178,7 +179,7 @@ impl Trial {
     }
 
     /// What the sensor is to measure.
-    fn observe(&self, state: &State) -> f64 {
+    fn observe(&self, state: &BodyState) -> f64 {
         match self.axis {
             Axis::Yaw => {
                 let heading_rad = state.pose.attitude.euler_angles().2;

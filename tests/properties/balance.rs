@@ -7,6 +7,7 @@ use proptest::prelude::*;
 use selfosc::balance::{BalanceError, Bias, HarmonicBalance, Intersection, negative_inverse_locus, nyquist_locus};
 use selfosc::describing::{ClosedForm, by_quadrature};
 use selfosc::nonlinearity::{Backlash, Custom, Relay, RelayDeadZone, RelayHysteresis, Saturation, Sinusoid};
+use selfosc::numeric::Limit;
 use selfosc::orbit::integrate::{EventSystem, Integrator};
 use selfosc::orbit::{RelayLoop, tsypkin_locus};
 use selfosc::plant::{StateSpace, TransferFunction};
@@ -113,8 +114,9 @@ fn errors_have_their_numbers() {
     let plant = transfer(&[1.0], &[1.0, 1.0, 0.0]);
     let relay = RelayHysteresis::new(1.0, 0.2, 0.0).unwrap();
     let balance = || HarmonicBalance::new(&plant, |sweep| relay.describing_function(sweep)).unwrap();
-    assert!(matches!(balance().within(1.0..=0.5, 0.1..=1.0), Err(BalanceError::Range { quantity: "amplitude", .. })));
-    assert!(matches!(balance().with_bias(Bias::Fixed(f64::NAN)), Err(BalanceError::NotFinite { .. })));
+    let Err(BalanceError::OutOfDomain(fault)) = balance().within(1.0..=0.5, 0.1..=1.0) else { panic!("accepted") };
+    assert_eq!((fault.quantity, fault.value, fault.limit), ("highest amplitude", 0.5, Limit::Above(1.0)));
+    assert!(matches!(balance().with_bias(Bias::Fixed(f64::NAN)), Err(BalanceError::OutOfDomain(_))));
     let first = balance().intersections().unwrap()[0];
     assert!(matches!(balance().with_harmonics(&relay, &first, 0), Err(BalanceError::Order { order: 0, .. })));
     // A describing function that fails other than below switching is not taken for an empty answer.
@@ -241,7 +243,7 @@ fn a_memory_that_would_have_to_know_more_is_an_error() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(crate::sampling::config(48))]
 
     /// Against the phase crossovers of the plant, found by counting signs on a fine grid, and the inverse of the gain.
     #[test]

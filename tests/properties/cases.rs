@@ -2,7 +2,7 @@
 
 use rand::{Rng, RngExt};
 use selfosc::describing::{Boxed, Entry};
-use selfosc::nonlinearity::{Domain, Sinusoid};
+use selfosc::nonlinearity::{ParameterDomain, Sinusoid};
 
 /// A characteristic on a sweep that it admits.
 pub(crate) struct Case {
@@ -12,14 +12,19 @@ pub(crate) struct Case {
 }
 
 impl Case {
-    /// The sweep ends next to a kink, where its last bits decide.
+    /// The sweep ends next to a kink, just inside or just outside of it, where its last bits decide.
     pub(crate) fn on_edge(&self) -> bool {
         let mut on_edge = false;
         let (low, high) = (self.sweep.minimum(), self.sweep.maximum());
-        self.characteristic.kinks(&self.sweep, &mut |kink| {
-            let near = 1e-5 * (low.abs() + high.abs() + kink.abs());
-            on_edge |= (kink - low).abs() < near || (kink - high).abs() < near;
-        });
+        // A characteristic reports the kinks within a sweep only: a wider one has those outside.
+        let margin = 3e-5 * (low.abs() + high.abs());
+        let wider = Sinusoid::new(self.sweep.bias(), self.sweep.amplitude() + margin);
+        for sweep in [Some(self.sweep), wider.ok()].into_iter().flatten() {
+            self.characteristic.kinks(&sweep, &mut |kink| {
+                let near = 1e-5 * (low.abs() + high.abs() + kink.abs());
+                on_edge |= (kink - low).abs() < near || (kink - high).abs() < near;
+            });
+        }
         on_edge
     }
 }
@@ -39,9 +44,9 @@ pub(crate) fn values(entry: &Entry, rng: &mut impl Rng) -> Vec<f64> {
     for parameter in entry.parameters {
         let size = small(rng, -1.5, 1.5);
         match parameter.domain {
-            Domain::Positive => values.push(size),
+            ParameterDomain::Positive => values.push(size),
             // An exponent is dimensionless: within what drag laws and springs have, and somewhat beyond.
-            Domain::NonNegative if parameter.name == "exponent" => {
+            ParameterDomain::NonNegative if parameter.name == "exponent" => {
                 let exponent = rng.random_range(0.05..12.0);
                 let near: f64 = rng.random_range(0..=24).into();
                 let near = 0.5 * near + sign(rng) * small(rng, 2.0, 16.0);
@@ -52,9 +57,9 @@ pub(crate) fn values(entry: &Entry, rng: &mut impl Rng) -> Vec<f64> {
                     _ => rng.random_range(1..=24u32) as f64 / 2.0,
                 });
             }
-            Domain::NonNegative => values.push(if rng.random_range(0..20) == 0 { 0.0 } else { size }),
-            Domain::Finite => values.push(sign(rng) * size),
-            Domain::Points => {
+            ParameterDomain::NonNegative => values.push(if rng.random_range(0..20) == 0 { 0.0 } else { size }),
+            ParameterDomain::Finite => values.push(sign(rng) * size),
+            ParameterDomain::Points => {
                 let mut x = -rng.random_range(0.0..3.0);
                 for _ in 0..rng.random_range(1..7) {
                     values.extend([x, rng.random_range(-2.0..2.0)]);

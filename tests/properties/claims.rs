@@ -1,10 +1,12 @@
-//! One test a claim, and the traceability between the claims and their files, both ways.
-#![allow(non_snake_case, reason = "a test is named after its claim's constant")]
+//! Every claim checked, and the traceability between the claims and their files, both ways.
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use selfosc::claims::{Budget, CLAIMS, Claim, Printed};
+use rayon::prelude::*;
+use selfosc::claims::{
+    AsPrinted, Budget, CLAIMS, Claim, ClaimDomain, ClaimPart, ClaimVariable, Evidence, Finding, Verdict, Witness, Word,
+};
 
 /// The claim's verdicts are the stated ones, its false variant is refuted, and so is the statement without each
 /// hypothesis that has a counterexample.
@@ -23,17 +25,10 @@ fn check(claim: &Claim) {
     }
 }
 
-macro_rules! one_test_each {
-    ($($module:ident::$constant:ident),+ $(,)?) => {
-        $(
-            #[test]
-            fn $constant() {
-                check(&selfosc::claims::$module::$constant);
-            }
-        )+
-    };
+#[test]
+fn every_claim_is_as_stated_and_its_false_variant_is_refuted() {
+    CLAIMS.par_iter().for_each(check);
 }
-selfosc::for_each_claim!(one_test_each);
 
 /// The value of a line `key: value` in the header of a claim's file.
 fn header<'a>(claim: &'a Claim, key: &str) -> &'a str {
@@ -50,9 +45,9 @@ fn list(text: &str) -> Vec<&str> {
 fn headers_say_what_the_registry_says() {
     for claim in CLAIMS {
         let printed = match claim.printed {
-            Printed::Holds(_) => "holds",
-            Printed::Refuted(_) => "refuted",
-            Printed::Absent => "not-applicable",
+            AsPrinted::Holds(_) => "holds",
+            AsPrinted::Refuted(_) => "refuted",
+            AsPrinted::Absent => "not-applicable",
         };
         let corrected = if claim.corrected.is_some() { "holds" } else { "not-applicable" };
         let hypotheses: Vec<_> = claim.hypotheses.iter().map(|hypothesis| hypothesis.id).collect();
@@ -60,6 +55,8 @@ fn headers_say_what_the_registry_says() {
         assert_eq!(header(claim, "equation"), claim.equation, "{}", claim.id);
         assert_eq!(header(claim, "printed"), printed, "{}", claim.id);
         assert_eq!(header(claim, "corrected"), corrected, "{}", claim.id);
+        let parts: Vec<_> = claim.domain.iter().map(|part| part.name.as_ref()).collect();
+        assert_eq!(list(header(claim, "domain")), parts, "{}", claim.id);
         assert_eq!(list(header(claim, "hypotheses")), hypotheses, "{}", claim.id);
         assert_eq!(list(header(claim, "depends")), claim.depends, "{}", claim.id);
     }
@@ -91,4 +88,94 @@ fn every_file_has_a_claim_and_every_dependency_exists_before_it() {
             assert!(CLAIMS[..place].iter().any(|earlier| earlier.id == *dependency), "{}: {dependency}", claim.id);
         }
     }
+}
+
+/// The items under a heading of a claim's file.
+fn items<'a>(claim: &'a Claim, heading: &str) -> Vec<&'a str> {
+    let Some((_, after)) = claim.spec.split_once(&format!("**{heading}**\n\n")) else { return Vec::new() };
+    after.lines().map_while(|line| line.strip_prefix("- ")).collect()
+}
+
+#[test]
+fn files_list_the_parts_of_the_domain_and_the_steps_by_hand() {
+    for claim in CLAIMS {
+        let part = |part: &ClaimPart| {
+            let sides: Vec<_> = part.variables.iter().map(ToString::to_string).collect();
+            let semicolon = if sides.is_empty() { "" } else { "; " };
+            format!("`{}`: {}{semicolon}{}", part.name, part.text, sides.join(", "))
+        };
+        let parts: Vec<_> = claim.domain.iter().map(part).collect();
+        assert_eq!(items(claim, "Domain"), parts, "{}", claim.id);
+        assert_eq!(items(claim, "Steps by hand"), claim.by_hand, "{}", claim.id);
+    }
+}
+
+/// Parts with one side `x` between two ends.
+fn boxes(ends: &[[f64; 2]]) -> ClaimDomain {
+    let part = |[from, to]: &[f64; 2]| ClaimPart {
+        variables: vec![ClaimVariable::number("x", *from, *to)].into(),
+        ..ClaimPart::whole("part", "")
+    };
+    ClaimDomain { parts: ends.iter().map(part).collect() }
+}
+
+#[test]
+fn words_follow_from_the_domains() {
+    let word = |claimed: &ClaimDomain, proved: ClaimDomain| {
+        Verdict::Holds(Evidence { proved, ..Evidence::default() }).word(claimed)
+    };
+    let claimed = boxes(&[[0.0, 1.0]]);
+    assert_eq!(word(&claimed, boxes(&[[0.0, 1.0]])), Word::Proved);
+    assert_eq!(word(&claimed, boxes(&[[0.5, 2.0], [-1.0, 0.5]])), Word::Proved);
+    assert_eq!(word(&claimed, boxes(&[[0.0, 0.4], [0.5, 1.0]])), Word::ProvedInPart);
+    assert_eq!(word(&claimed, boxes(&[[0.0, 1.0_f64.next_down()]])), Word::ProvedInPart);
+    assert_eq!(word(&claimed, ClaimDomain::default()), Word::Sampled);
+    assert_eq!(word(&boxes(&[[0.0, f64::INFINITY]]), boxes(&[[0.0, 1e300]])), Word::ProvedInPart);
+    // A claim without a domain is never proved, nor is another part's proof of use.
+    assert_eq!(word(&ClaimDomain::default(), boxes(&[[0.0, 1.0]])), Word::ProvedInPart);
+    assert_eq!(word(&ClaimPart::whole("other", "").into(), boxes(&[[0.0, 1.0]])), Word::ProvedInPart);
+    // A proof at one value of a variable that the claim leaves open restricts it.
+    assert_eq!(word(&ClaimPart::whole("part", "").into(), boxes(&[[0.0, 1.0]])), Word::ProvedInPart);
+    let exhausted = Evidence { exhausted: boxes(&[[0.0, 1.0]]), ..Evidence::default() };
+    assert_eq!(Verdict::Holds(exhausted).word(&claimed), Word::Exhausted);
+}
+
+/// A square with a hole is not a square; four strips about a hole and its filling are.
+#[test]
+fn boxes_of_two_variables_cover() {
+    let part = |[x, y]: [[f64; 2]; 2]| ClaimPart {
+        variables: vec![ClaimVariable::number("x", x[0], x[1]), ClaimVariable::new("y", "s", y[0], y[1])].into(),
+        ..ClaimPart::whole("square", "")
+    };
+    let square = part([[0.0, 3.0], [0.0, 3.0]]);
+    let mut parts = vec![
+        part([[0.0, 3.0], [0.0, 1.0]]),
+        part([[0.0, 3.0], [2.0, 3.0]]),
+        part([[0.0, 1.0], [1.0, 2.0]]),
+        part([[2.0, 3.0], [1.0, 2.0]]),
+    ];
+    assert!(!square.is_covered_by(&parts));
+    parts.insert(1, part([[0.9, 2.1], [0.9, 2.1]]));
+    assert!(square.is_covered_by(&parts));
+    // Another unit is another variable.
+    let metres = vec![ClaimVariable::number("x", 0.0, 3.0), ClaimVariable::new("y", "m", 0.0, 3.0)];
+    assert!(!square.is_covered_by(&[ClaimPart { variables: metres.into(), ..ClaimPart::whole("square", "") }]));
+}
+
+#[test]
+fn findings_go_through_json() {
+    fn plain<T: Send + Sync + Clone + serde::Serialize + serde::de::DeserializeOwned + PartialEq + std::fmt::Debug>(
+        x: &T,
+    ) {
+        let text = serde_json::to_string(x).unwrap();
+        assert_eq!(&serde_json::from_str::<T>(&text).unwrap(), x, "{text}");
+    }
+    for id in ["relay-q", "sine", "lemma-1", "on-board-abort", "quantisation-alpha", "orbit-linear"] {
+        let finding: Finding = Claim::find(id).unwrap().check(Budget { cases: 5, seed: 2 });
+        plain(&finding);
+        plain(&finding.domain);
+    }
+    plain(&Witness { numbers: vec![("x".into(), 0.1), ("y".into(), -3e300)] });
+    plain(&Word::ProvedInPart);
+    plain(&boxes(&[[f64::NEG_INFINITY, f64::INFINITY]]));
 }

@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use selfosc::experiment::Experiment;
+use selfosc::experiment::SimulatedExperiment;
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::plant::DragAxis;
 
@@ -28,7 +28,7 @@ mod true_in_the_paper;
 #[test]
 fn pool_log() {
     let (axis, relay) = (DragAxis::quadratic(1.0, 0.5).unwrap(), RelayHysteresis::new(1.0, 0.3, 0.0).unwrap());
-    let record = Experiment::new(axis, relay, 20.0).unwrap().run(60.0).unwrap();
+    let record = SimulatedExperiment::new(axis, relay, 20.0).unwrap().run(60.0).unwrap();
     let rows = record.time_s().iter().zip(record.output()).zip(record.input());
     let lines: String = rows.map(|((time, output), input)| format!("{time},{output},{input}\n")).collect();
     pool_log::identify(format!("time_s,output,input\n{lines}").as_bytes()).unwrap();

@@ -11,9 +11,9 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use selfosc::experiment::Columns;
 use selfosc::features::RecordFeatures;
-use selfosc::identify::DragLaw;
 use selfosc::identify::joint::Delay;
-use selfosc::report::identification::{Identification, Method, Settings};
+use selfosc::identify::{DragLaw, Identification, Method, Session, Settings};
+use selfosc::report::identification;
 
 const CORPUS: [&[u8]; 6] = [
     include_bytes!("../../fixtures/corpus/noisy.csv"),
@@ -133,14 +133,16 @@ fn identify(log: &[u8], columns: &Columns, settings: &Settings) -> bool {
     if let Err(refused) = RecordFeatures::of(&log.record) {
         assert!(!refused.to_string().contains("NaN"), "{refused}");
     }
-    match Identification::of(vec![("log".to_owned(), log)], settings, |_| {}) {
+    match Session::new(*settings).record("log", log).identify() {
         Ok(found) => {
-            for model in &found.models {
+            for model in found.models() {
                 assert!(model.alpha.value.is_finite() && model.alpha.value > 0.0, "{model:?}");
                 let spread = model.alpha.spread;
                 assert!(spread.is_none_or(|s| s.std >= 0.0 && s.low <= s.high), "{model:?}");
             }
-            assert!(!found.document().html().unwrap().contains("NaN"));
+            assert!(!identification::document(&found).html().unwrap().contains("NaN"));
+            let written = serde_json::to_string(&found).unwrap();
+            assert_eq!(serde_json::from_str::<Identification>(&written).unwrap(), found);
             true
         }
         Err(refused) => {

@@ -1,13 +1,13 @@
 //! Orbit inversion: the parameters that made an orbit come back from its features.
 
-use num_dual::Dual64;
 use proptest::prelude::*;
-use selfosc::experiment::Experiment;
+use selfosc::experiment::SimulatedExperiment;
 use selfosc::features::RecordFeatures;
 use selfosc::identify::IdentifyError;
-use selfosc::identify::exact::Cycle;
+use selfosc::identify::exact::MeanCycle;
 use selfosc::identify::iso::Oscillation;
 use selfosc::nonlinearity::RelayHysteresis;
+use selfosc::numeric::Gradient;
 use selfosc::numeric::Scalar;
 use selfosc::orbit::{LimitCycle, limit_cycle};
 use selfosc::plant::DragAxis;
@@ -41,8 +41,8 @@ impl Loop {
         limit_cycle(&self.axis(parameters), &relay).unwrap()
     }
 
-    fn cycle<S: Scalar>(&self, orbit: &LimitCycle<S>) -> Cycle<S> {
-        Cycle {
+    fn cycle<S: Scalar>(&self, orbit: &LimitCycle<S>) -> MeanCycle<S> {
+        MeanCycle {
             relay_level: S::from_f64(self.level),
             switch_level: S::from_f64(self.half_width),
             amplitude: orbit.amplitude,
@@ -52,7 +52,7 @@ impl Loop {
         }
     }
 
-    fn invert<S: Scalar>(&self, cycle: &Cycle<S>) -> Result<[S; 3], IdentifyError> {
+    fn invert<S: Scalar>(&self, cycle: &MeanCycle<S>) -> Result<[S; 3], IdentifyError> {
         let axis = if self.quadratic { cycle.quadratic_drag()? } else { cycle.linear_drag()? };
         let drag = if self.quadratic { axis.quadratic_drag() } else { axis.linear_drag() };
         Ok([axis.alpha(), drag, axis.disturbance()])
@@ -91,7 +91,7 @@ fn loops_with(delay: impl Strategy<Value = f64>) -> impl Strategy<Value = Loop> 
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(crate::sampling::config(2000))]
 
     #[test]
     fn inversion_returns_the_parameters(case in loops()) {
@@ -103,7 +103,7 @@ proptest! {
     fn a_constant_added_to_the_position_has_no_effect(case in loops(), shift in -1.0..1.0f64) {
         let orbit = case.orbit(case.parameters());
         let (maximum, minimum) = (orbit.maximum + shift * case.half_width, orbit.minimum + shift * case.half_width);
-        let cycle = Cycle { amplitude: 0.5 * (maximum - minimum), ..case.cycle(&orbit) };
+        let cycle = MeanCycle { amplitude: 0.5 * (maximum - minimum), ..case.cycle(&orbit) };
         prop_assert!(case.error(case.invert(&cycle).unwrap()) <= tolerance::INVERSION);
     }
 
@@ -112,7 +112,7 @@ proptest! {
     fn the_acting_level_needs_no_delay(case in loops()) {
         let orbit = case.orbit(case.parameters());
         let acting = 0.5 * (orbit.upper_switch.position - orbit.lower_switch.position);
-        let cycle = Cycle { switch_level: acting, delay_s: 0.0, ..case.cycle(&orbit) };
+        let cycle = MeanCycle { switch_level: acting, delay_s: 0.0, ..case.cycle(&orbit) };
         prop_assert!(case.error(case.invert(&cycle).unwrap()) <= tolerance::INVERSION);
     }
 
@@ -121,7 +121,7 @@ proptest! {
     fn the_acting_level_with_the_delay_is_wrong(case in loops_with(log_uniform(1e-3, 1.5))) {
         let orbit = case.orbit(case.parameters());
         let acting = 0.5 * (orbit.upper_switch.position - orbit.lower_switch.position);
-        let cycle = Cycle { switch_level: acting, ..case.cycle(&orbit) };
+        let cycle = MeanCycle { switch_level: acting, ..case.cycle(&orbit) };
         let wrong = case.invert(&cycle).map(|found| case.error(found));
         prop_assert!(wrong.is_err() || wrong.unwrap() > 1e3 * tolerance::INVERSION);
     }
@@ -132,13 +132,13 @@ proptest! {
         let parameters = case.parameters();
         for seed in 0..3 {
             let scale = if seed == 2 { case.level } else { parameters[seed] };
-            let mut duals = parameters.map(Dual64::from_re);
-            duals[seed] = Dual64::new(parameters[seed], scale);
+            let mut duals = parameters.map(Gradient::<f64, 1>::constant);
+            duals[seed] = Gradient::new(parameters[seed], [scale]);
             let found = case.invert(&case.cycle(&case.orbit(duals))).unwrap();
             for (index, found) in found.into_iter().enumerate() {
                 let scale = if index == 2 { case.level } else { parameters[index] };
                 let expected = if index == seed { 1.0 } else { 0.0 };
-                let error = (found.eps / scale - expected).abs();
+                let error = (found.slopes()[0] / scale - expected).abs();
                 prop_assert!(error <= tolerance::INVERSION_DERIVATIVE, "{case:?}: {seed} to {index} off by {error:e}");
             }
         }
@@ -152,11 +152,11 @@ proptest! {
     ) {
         let times = [share * period, (1.0 - share) * period];
         let limit = 1.0 - delay_share / share - delay_share / (1.0 - share);
-        let with = |ratio: f64| Cycle {
+        let with = |ratio: f64| MeanCycle {
             relay_level: level, switch_level: ratio * amplitude, amplitude,
             time_positive_s: times[0], time_negative_s: times[1], delay_s: delay_share * period,
         };
-        let invert = |cycle: Cycle<f64>| if quadratic { cycle.quadratic_drag() } else { cycle.linear_drag() };
+        let invert = |cycle: MeanCycle<f64>| if quadratic { cycle.quadratic_drag() } else { cycle.linear_drag() };
         let cycle = with(part * limit);
         let axis = invert(cycle).unwrap();
         let orbit = limit_cycle(&axis, &RelayHysteresis::new(level, cycle.switch_level, 0.0).unwrap()).unwrap();
@@ -173,7 +173,7 @@ proptest! {
     fn closed_forms_of_the_symmetric_orbit(
         level in 0.1..10.0f64, half_width in 0.1..10.0f64, ratio in 0.1..10.0f64, period in 0.1..10.0f64,
     ) {
-        let cycle = Cycle::symmetric(&Oscillation {
+        let cycle = MeanCycle::symmetric(&Oscillation {
             relay_level: level, switch_level: half_width, amplitude: half_width * (1.0 + ratio), bias: 0.0,
             period_s: period, delay_s: 0.0,
         });
@@ -196,7 +196,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(crate::sampling::config(64))]
 
     /// From a dense record, simulated, through its features: both laws, with and without disturbance and delay, whether the relay is
     /// held or watches all the time.
@@ -210,10 +210,10 @@ proptest! {
         let axis = case.axis(case.parameters());
         let relay = RelayHysteresis::new(1.0, half_width, 0.0).unwrap();
         let period_s = limit_cycle(&axis, &relay).unwrap().period_s;
-        let experiment = Experiment::new(axis, relay, 4000.0 / period_s).unwrap();
+        let experiment = SimulatedExperiment::new(axis, relay, 4000.0 / period_s).unwrap();
         let record = if held { experiment.held() } else { experiment }.run(25.0 * period_s).unwrap();
         let found = RecordFeatures::of(&record).unwrap();
-        let cycle = Cycle::of(&found.features, found.relay.level, delay_s);
+        let cycle = MeanCycle::of(&found.features, found.relay.level, delay_s);
         let error = case.error(case.invert(&cycle).unwrap());
         prop_assert!(error < tolerance::DENSE_EXACT, "{case:?}: {error}");
     }
@@ -231,7 +231,7 @@ fn single_precision() {
 
 #[test]
 fn refusals_name_the_feature() {
-    let good = Cycle {
+    let good = MeanCycle {
         relay_level: 1.0,
         switch_level: 0.3,
         amplitude: 1.0,
@@ -240,20 +240,20 @@ fn refusals_name_the_feature() {
         delay_s: 0.0,
     };
     assert!(good.linear_drag().is_ok() && good.quadratic_drag().is_ok());
-    let named = |cycle: Cycle<f64>| match cycle.quadratic_drag() {
-        Err(IdentifyError::Feature { feature, .. }) => feature.split(' ').next().unwrap().to_owned(),
+    let named = |cycle: MeanCycle<f64>| match cycle.quadratic_drag() {
+        Err(IdentifyError::OutOfDomain(fault)) => fault.quantity.split(' ').next().unwrap().to_owned(),
         other => panic!("{other:?}"),
     };
-    assert_eq!(named(Cycle { relay_level: 0.0, ..good }), "relay");
-    assert_eq!(named(Cycle { switch_level: -0.1, ..good }), "switching");
-    assert_eq!(named(Cycle { amplitude: f64::NAN, ..good }), "amplitude");
-    assert_eq!(named(Cycle { time_positive_s: 0.0, ..good }), "time");
-    assert_eq!(named(Cycle { time_negative_s: f64::INFINITY, ..good }), "time");
-    assert_eq!(named(Cycle { delay_s: -0.1, ..good }), "delay");
-    let no_orbit = |cycle: Cycle<f64>| matches!(cycle.linear_drag(), Err(IdentifyError::NoOrbit { .. }));
-    assert!(no_orbit(Cycle { switch_level: 0.0, ..good }));
-    assert!(no_orbit(Cycle { switch_level: 1.0, ..good }));
-    assert!(no_orbit(Cycle { delay_s: 0.8, ..good }));
-    let hidden = Cycle { switch_level: 1e-30, ..good };
+    assert_eq!(named(MeanCycle { relay_level: 0.0, ..good }), "relay");
+    assert_eq!(named(MeanCycle { switch_level: -0.1, ..good }), "switching");
+    assert_eq!(named(MeanCycle { amplitude: f64::NAN, ..good }), "amplitude");
+    assert_eq!(named(MeanCycle { time_positive_s: 0.0, ..good }), "time");
+    assert_eq!(named(MeanCycle { time_negative_s: f64::INFINITY, ..good }), "time");
+    assert_eq!(named(MeanCycle { delay_s: -0.1, ..good }), "delay");
+    let no_orbit = |cycle: MeanCycle<f64>| matches!(cycle.linear_drag(), Err(IdentifyError::NoOrbit { .. }));
+    assert!(no_orbit(MeanCycle { switch_level: 0.0, ..good }));
+    assert!(no_orbit(MeanCycle { switch_level: 1.0, ..good }));
+    assert!(no_orbit(MeanCycle { delay_s: 0.8, ..good }));
+    let hidden = MeanCycle { switch_level: 1e-30, ..good };
     assert!(matches!(hidden.quadratic_drag(), Err(IdentifyError::Unresolved { .. })));
 }

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
-use selfosc::experiment::{Experiment, Record, Sensor};
+use selfosc::experiment::{Record, Sensor, SimulatedExperiment};
 use selfosc::identify::fit::{Between, Fit, RecordFit};
 use selfosc::identify::joint::{Delay, Parameter};
 use selfosc::identify::select::likelihood::Choice;
@@ -40,9 +40,9 @@ impl Drawn {
         Self { axis, half_width, seed }
     }
 
-    fn experiment(&self, sensor: Sensor) -> Experiment {
+    fn experiment(&self, sensor: Sensor) -> SimulatedExperiment {
         let relay = RelayHysteresis::new(1.0, self.half_width, 0.0).unwrap();
-        Experiment::new(self.axis, relay, 10.0).unwrap().with_sensor(sensor).unwrap().with_seed(self.seed)
+        SimulatedExperiment::new(self.axis, relay, 10.0).unwrap().with_sensor(sensor).unwrap().with_seed(self.seed)
     }
 
     /// Relative error of the parameters that the law has, and the same in standard deviations.
@@ -63,7 +63,7 @@ fn law() -> impl Strategy<Value = DragLaw> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(crate::sampling::config(24))]
 
     /// Without noise the parameters come back, with or without disturbance and delay, whether the relay was held or its instants are not in the log.
     #[test]
@@ -88,7 +88,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(12))]
+    #![proptest_config(crate::sampling::config(12))]
 
     /// The mixed law contains the simple ones: it never ends less likely, from noisy or rounded readings of any of the three.
     #[test]
@@ -96,7 +96,7 @@ proptest! {
         let sensor = if rounded { rounding() } else { noisy() };
         let relay = RelayHysteresis::new(1.0, Drawn::new(law, seed).half_width, 0.0).unwrap();
         let drawn = Drawn::new(law, seed);
-        let experiment = Experiment::new(drawn.axis, relay, rate_hz).unwrap().with_sensor(sensor).unwrap().with_seed(seed);
+        let experiment = SimulatedExperiment::new(drawn.axis, relay, rate_hz).unwrap().with_sensor(sensor).unwrap().with_seed(seed);
         let record = if held { experiment.held() } else { experiment }.run(40.0).unwrap();
         let delay = Delay::KnownS(0.1);
         let choice = Choice::among_all(&[&record], delay).unwrap();
@@ -282,7 +282,7 @@ fn several_records_share_the_vehicle() {
     let record = |half_width: f64, disturbance: f64, seed: u64| {
         let axis = axis.with_disturbance(disturbance).unwrap();
         let relay = RelayHysteresis::new(1.0, half_width, 0.0).unwrap();
-        Experiment::new(axis, relay, 10.0)
+        SimulatedExperiment::new(axis, relay, 10.0)
             .unwrap()
             .held()
             .with_sensor(noisy())
@@ -362,7 +362,7 @@ fn a_record_without_motion_is_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(crate::sampling::config(64))]
 
     /// Whatever the record, a result or a refusal.
     #[test]

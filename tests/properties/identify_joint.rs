@@ -131,7 +131,7 @@ fn no_neighbour_fits_table_4_better() {
 const PLAN: [(f64, f64); 6] = [(2.0, 10.0), (4.0, 20.0), (8.0, 8.0), (8.0, 30.0), (16.0, 15.0), (16.0, 30.0)];
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(crate::sampling::config(200))]
 
     #[test]
     fn exact_rows_return_the_vehicle(
@@ -250,7 +250,7 @@ fn what_cannot_be_told_is_refused() {
     let refused = fit(&measured, DragLaw::Linear, Delay::KnownS(5.0));
     assert!(matches!(refused, Err(IdentifyError::NoOrbit { .. })), "{refused:?}");
     let refused = fit(&measured, DragLaw::Linear, Delay::KnownS(f64::NAN));
-    assert!(matches!(refused, Err(IdentifyError::Feature { .. })), "{refused:?}");
+    assert!(matches!(refused, Err(IdentifyError::OutOfDomain { .. })), "{refused:?}");
     let row = |amplitude| Oscillation {
         relay_level: 1.0,
         switch_level: 1.0,
@@ -260,5 +260,5 @@ fn what_cannot_be_told_is_refused() {
         delay_s: 0.0,
     };
     assert!(FeatureRow::new(&row(2.0)).is_ok());
-    assert!(matches!(FeatureRow::new(&row(f64::NAN)), Err(IdentifyError::Feature { .. })));
+    assert!(matches!(FeatureRow::new(&row(f64::NAN)), Err(IdentifyError::OutOfDomain { .. })));
 }

@@ -1,10 +1,11 @@
 //! Intervals enclose what exact arithmetic gives.
 
 use proptest::prelude::*;
-use proptest::test_runner::{FileFailurePersistence, TestRunner};
+use proptest::test_runner::TestRunner;
 use selfosc::numeric::{Interval, Real};
 
 use crate::oracle::{Bracket, Down, Up, at, bracket};
+use crate::sampling::recorded;
 use crate::tolerance::ELEMENTARY_WIDTH_ULP;
 
 /// An elementary function with its oracle and the arguments it is defined for.
@@ -144,14 +145,8 @@ fn interval(lo: f64, hi: f64) -> Interval {
 }
 
 fn config(cases: u32) -> ProptestConfig {
-    ProptestConfig {
-        cases,
-        // Narrow domains keep few of the powers of two.
-        max_local_rejects: u32::MAX,
-        source_file: Some(file!()),
-        failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))),
-        ..ProptestConfig::default()
-    }
+    // Narrow domains keep few of the powers of two.
+    ProptestConfig { max_local_rejects: u32::MAX, source_file: Some(file!()), ..recorded(cases) }
 }
 
 /// Numbers of a domain: evenly spread, of every magnitude, and close to the edges.

@@ -1,21 +1,21 @@
 //! Laws that every describing function obeys, and the catalogue's own: a page, a sketch and a definition for every entry.
 
 use approx::assert_relative_eq;
-use num_dual::Dual64;
 use proptest::prelude::*;
 use quickcheck::TestResult;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use selfosc::describing::{
-    CATALOGUE, ClosedForm, Entry, Setting, amplitudes, by_quadrature, fit, incremental_gain, nearest_amplitude,
-    over_amplitudes, two_tone,
+    CATALOGUE, ClosedForm, Entry, Setting, amplitudes, by_quadrature, fit, nearest_amplitude, over_amplitudes,
 };
 use selfosc::nonlinearity::{
-    Affine, Branch, Characteristic, Domain, Polyline, Power, Relay, RelayHysteresis, Saturation, Sinusoid, Sum, Tanh,
+    Affine, Branch, Characteristic, ParameterDomain, Polyline, Power, Relay, RelayHysteresis, Saturation, Sinusoid, Sum,
 };
+use selfosc::numeric::Gradient;
 
 use crate::cases::{Case, case};
 use crate::fourier_oracle::MEMORY;
+use crate::sampling::seeded;
 use crate::tolerance;
 
 const ODD: [&str; 16] = [
@@ -164,34 +164,54 @@ proptest! {
         if MEMORY.contains(&entry.name) {
             return Ok(());
         }
-        let values: Vec<Dual64> = case.values.iter().copied().map(Dual64::from).collect();
-        let characteristic = entry.build::<Dual64>(&values).unwrap();
-        let sweep = Sinusoid::new(Dual64::from(0.0), Dual64::new(amplitude, 1.0)).unwrap();
+        let values: Vec<Gradient<f64, 1>> = case.values.iter().copied().map(Gradient::<f64, 1>::constant).collect();
+        let characteristic = entry.build::<Gradient<f64, 1>>(&values).unwrap();
+        let sweep = Sinusoid::new(Gradient::<f64, 1>::constant(0.0), Gradient::new(amplitude, [1.0])).unwrap();
         let p = characteristic.describing_function(&sweep).unwrap().p;
-        if let Ok(gain) = incremental_gain(&*characteristic, 0.0, amplitude) {
-            let expected = p.re + 0.5 * amplitude * p.eps;
-            let scale = p.re.abs() + (amplitude * p.eps).abs() + gain.abs();
+        let biased = Sinusoid::new(Gradient::new(0.0, [1.0]), Gradient::<f64, 1>::constant(amplitude)).unwrap();
+        if let Ok(slope) = characteristic.describing_function(&biased) {
+            let gain = slope.f0.slopes()[0];
+            prop_assume!(gain.is_finite());
+            let expected = p.value() + 0.5 * amplitude * p.slopes()[0];
+            let scale = p.value().abs() + (amplitude * p.slopes()[0]).abs() + gain.abs();
             prop_assert!((gain - expected).abs() <= 1e-9 * scale, "{} {:?} at {amplitude}: {gain} {expected}", entry.name, case.values);
         }
     }
 
     #[test]
     fn f32_is_f64_rounded(index in 0..CATALOGUE.len(), seed: u64) {
-        let (entry, case) = drawn(index, seed);
-        let narrow = |x: f64| x as f32;
-        let values: Vec<f32> = case.values.iter().copied().map(narrow).collect();
-        let Ok(characteristic) = entry.build::<f32>(&values) else { return Ok(()) };
-        let wide: Vec<f64> = values.iter().copied().map(f64::from).collect();
-        let (bias, amplitude) = (narrow(case.sweep.bias()), narrow(case.sweep.amplitude()));
-        let single = characteristic.describing_function(&Sinusoid::new(bias, amplitude).unwrap());
-        let double = entry.build(&wide).unwrap().describing_function(&Sinusoid::new(bias.into(), amplitude.into()).unwrap());
-        if let (Ok(single), Ok(double), false) = (single, double, case.on_edge()) {
-            let largest = outputs(&case).into_iter().fold(0.0, |l: f64, (_, y, _)| l.max(y.abs())) * 1.01;
-            let slack = 1e-3 * largest;
-            prop_assert!((f64::from(single.f0) - double.f0).abs() <= slack, "{} {single:?} {double:?}", entry.name);
-            prop_assert!((f64::from(single.p * amplitude) - double.p * f64::from(amplitude)).abs() <= slack, "{} {single:?} {double:?}", entry.name);
-        }
+        single_precision(index, seed)?;
     }
+}
+
+/// A sweep that rounding moves across a level, and powers that vanish in f32.
+#[test]
+fn f32_is_f64_rounded_where_it_was_not() {
+    for (index, seed) in
+        [(10, 2_112_855_135_587_263_561), (11, 5_321_435_615_994_547_702), (11, 12_124_979_454_433_191_532)]
+    {
+        single_precision(index, seed).unwrap();
+    }
+}
+
+fn single_precision(index: usize, seed: u64) -> Result<(), TestCaseError> {
+    let (entry, case) = drawn(index, seed);
+    let narrow = |x: f64| x as f32;
+    let values: Vec<f32> = case.values.iter().copied().map(narrow).collect();
+    let Ok(characteristic) = entry.build::<f32>(&values) else { return Ok(()) };
+    let wide: Vec<f64> = values.iter().copied().map(f64::from).collect();
+    let (bias, amplitude) = (narrow(case.sweep.bias()), narrow(case.sweep.amplitude()));
+    let single = characteristic.describing_function(&Sinusoid::new(bias, amplitude).unwrap());
+    let double =
+        entry.build(&wide).unwrap().describing_function(&Sinusoid::new(bias.into(), amplitude.into()).unwrap());
+    if let (Ok(single), Ok(double), false) = (single, double, case.on_edge()) {
+        let largest = outputs(&case).into_iter().fold(0.0, |l: f64, (_, y, _)| l.max(y.abs())) * 1.01;
+        let slack = 1e-3 * largest + tolerance::SINGLE_UNDERFLOW;
+        let first = f64::from(single.p * amplitude) - double.p * f64::from(amplitude);
+        prop_assert!((f64::from(single.f0) - double.f0).abs() <= slack, "{} {single:?} {double:?}", entry.name);
+        prop_assert!(first.abs() <= slack, "{} {single:?} {double:?}", entry.name);
+    }
+    Ok(())
 }
 
 /// A borrowed characteristic.
@@ -217,16 +237,21 @@ impl ClosedForm for Shared<'_> {
     }
 }
 
-quickcheck::quickcheck! {
-    fn sums_add(level: f64, slope: f64, breakpoint: f64, bias: f64, amplitude: f64) -> TestResult {
+#[test]
+fn sums_add() {
+    fn holds(level: f64, slope: f64, breakpoint: f64, bias: f64, amplitude: f64) -> TestResult {
         // Of a size at which nothing overflows: infinity less infinity adds to nothing.
         let [level, slope, breakpoint, bias, amplitude] = [level, slope, breakpoint, bias, amplitude].map(|x| x % 1e3);
         let (Ok(relay), Ok(saturation), Ok(sweep)) =
-            (Relay::new(level), Saturation::new(slope, breakpoint), Sinusoid::new(bias, amplitude)) else { return TestResult::discard() };
+            (Relay::new(level), Saturation::new(slope, breakpoint), Sinusoid::new(bias, amplitude))
+        else {
+            return TestResult::discard();
+        };
         let (a, b) = (relay.describing_function(&sweep).unwrap(), saturation.describing_function(&sweep).unwrap());
         let sum = Sum(relay, saturation).describing_function(&sweep).unwrap();
         TestResult::from_bool(sum.p == a.p + b.p && sum.f0 == a.f0 + b.f0)
     }
+    seeded().quickcheck(holds as fn(_, _, _, _, _) -> TestResult);
 }
 
 #[test]
@@ -246,52 +271,6 @@ fn small_amplitudes_have_the_linear_gain() {
         let characteristic = entry(name).build(&entry(name).values(&settings).unwrap()).unwrap();
         let df = characteristic.describing_function(&Sinusoid::new(0.0, 1e-9).unwrap()).unwrap();
         assert_relative_eq!(df.p, gain, max_relative = 1e-15);
-    }
-}
-
-/// Complete elliptic integrals K and E by the arithmetic-geometric mean.
-fn elliptic(k: f64) -> (f64, f64) {
-    let (mut a, mut b, mut sum, mut power) = (1.0, (1.0 - k * k).sqrt(), 0.5 * k * k, 1.0);
-    for _ in 0..30 {
-        let c = 0.5 * (a - b);
-        (a, b) = (0.5 * (a + b), (a * b).sqrt());
-        sum += power * c * c;
-        power *= 2.0;
-    }
-    let first = std::f64::consts::FRAC_PI_2 / a;
-    (first, first * (1.0 - sum))
-}
-
-#[test]
-fn two_tones_through_a_relay_are_elliptic_integrals() {
-    let relay = Relay::new(1.0).unwrap();
-    for ratio in [0.01, 0.3, 0.8, 0.99] {
-        let gains = two_tone(&relay, 0.0, 2.0, 2.0 * ratio).unwrap();
-        let (k, e) = elliptic(ratio);
-        let factor = 8.0 / (std::f64::consts::PI.powi(2) * 2.0);
-        assert_relative_eq!(gains.first.p, factor * e, max_relative = 1e-11);
-        assert_relative_eq!(
-            gains.second,
-            factor * (e - (1.0 - ratio * ratio) * k) / (ratio * ratio),
-            max_relative = 1e-10
-        );
-        let exchanged = two_tone(&relay, 0.0, 2.0 * ratio, 2.0).unwrap();
-        assert_relative_eq!(gains.first.p, exchanged.second, max_relative = 1e-10);
-        assert_relative_eq!(gains.second, exchanged.first.p, max_relative = 1e-10);
-    }
-}
-
-#[test]
-fn two_tones_are_exchangeable() {
-    let saturation = Saturation::new(1.5, 0.6).unwrap();
-    let tanh = Tanh::new(1.0, 2.0).unwrap();
-    let characteristics: [&dyn ClosedForm<Number = f64>; 2] = [&saturation, &tanh];
-    for characteristic in characteristics {
-        let (ab, ba) =
-            (two_tone(characteristic, 0.2, 1.0, 0.7).unwrap(), two_tone(characteristic, 0.2, 0.7, 1.0).unwrap());
-        assert_relative_eq!(ab.first.f0, ba.first.f0, max_relative = 1e-11);
-        assert_relative_eq!(ab.first.p, ba.second, max_relative = 1e-11);
-        assert_relative_eq!(ab.second, ba.first.p, max_relative = 1e-11);
     }
 }
 
@@ -316,7 +295,7 @@ fn the_characteristic_comes_back_from_points_of_its_gain() {
     let grid: Vec<f64> = (1..=16).map(|k| 0.3 * f64::from(k)).collect();
     let mut missed = Vec::new();
     for entry in CATALOGUE {
-        if entry.parameters.iter().any(|parameter| parameter.domain == Domain::Points) {
+        if entry.parameters.iter().any(|parameter| parameter.domain == ParameterDomain::Points) {
             continue;
         }
         let example = entry.example().unwrap();

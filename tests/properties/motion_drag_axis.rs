@@ -1,7 +1,7 @@
 //! Closed-form motion of a drag axis: against an integrator, against itself, and in its limits.
 
-use num_dual::Dual64;
 use proptest::prelude::*;
+use selfosc::numeric::Gradient;
 use selfosc::numeric::Real;
 use selfosc::plant::{DragAxis, PlantError, State};
 
@@ -60,7 +60,7 @@ fn assert_same(value: State<f64>, expected: State<f64>, scales: (f64, f64)) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1000, max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { max_shrink_iters: 200, ..crate::sampling::config(1000) })]
 
     #[test]
     fn agrees_with_integration(start in starts(), duration in 1e-3..20.0) {
@@ -120,16 +120,16 @@ proptest! {
             let (axis, state, input) = Start::build(numbers);
             axis.advance(state, input, duration)
         };
-        let mut dual = numbers.map(Dual64::from);
-        let mut time = Dual64::from(duration);
-        *(if which < 5 { &mut dual[which] } else { &mut time }) =
-            (if which < 5 { dual[which] } else { time }).derivative();
+        let mut dual = numbers.map(Gradient::<f64, 1>::constant);
+        let mut time = Gradient::<f64, 1>::constant(duration);
+        let varied = if which < 5 { &mut dual[which] } else { &mut time };
+        *varied = Gradient::new(varied.value(), [1.0]);
         let (axis, state, input) = Start::build(dual);
         let end = axis.advance(state, input, time);
         let (way, speed) = scales(Start(numbers), duration + 1.0);
         let tolerance = tolerance::DIFFERENCE * (1.0 + duration);
         let values: [(_, _, Part); 2] =
-            [(end.position.eps, way, |end| end.position), (end.velocity.eps, speed, |end| end.velocity)];
+            [(end.position.slopes()[0], way, |end| end.position), (end.velocity.slopes()[0], speed, |end| end.velocity)];
         for (value, scale, of) in values {
             let tolerance = tolerance * scale * (1.0 + scale);
             let difference = five_point(step, tolerance, |h| of(run(h)));
@@ -153,7 +153,7 @@ fn rest_without_force_stays() {
 #[test]
 fn parameters_are_checked() {
     let named = |result: Result<DragAxis<f64>, PlantError>| match result {
-        Err(PlantError::Parameter { parameter, .. }) => parameter,
+        Err(PlantError::OutOfDomain(fault)) => fault.quantity,
         other => panic!("{other:?}"),
     };
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {

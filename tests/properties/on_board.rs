@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use selfosc::experiment::Record;
 use selfosc::features::RecordFeatures;
 use selfosc::identify::DragLaw;
-use selfosc::identify::exact::Cycle;
+use selfosc::identify::exact::MeanCycle;
 use selfosc::identify::iso::Oscillation;
 use selfosc::numeric::Scalar;
 use selfosc::on_board::{Coordinate, Experiment, Fault, Outcome, Phase, Protocol};
@@ -97,7 +97,7 @@ fn fault<T: Scalar>(run: &Run<T>) -> Fault {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(crate::sampling::config(64))]
 
     /// The last attempt's samples as a record: the same features, and parameters, to the last bit.
     #[test]
@@ -122,7 +122,7 @@ proptest! {
         let delay_s = INTERVAL_S * late as f64;
         let parameters = Oscillation::of(&batch.features, batch.relay.level, delay_s).identify();
         prop_assert_eq!(outcome.iso(delay_s), parameters);
-        let cycle = Cycle::of(&batch.features, batch.relay.level, delay_s);
+        let cycle = MeanCycle::of(&batch.features, batch.relay.level, delay_s);
         prop_assert_eq!(outcome.exact(DragLaw::Linear, delay_s), cycle.linear_drag());
         prop_assert_eq!(outcome.exact(DragLaw::Quadratic, delay_s), cycle.quadratic_drag());
     }
@@ -215,7 +215,7 @@ fn a_protocol_outside_its_domain_is_refused() {
         Protocol { factor: 1.0, ..good },
     ] {
         let refusal = Experiment::new(bad).unwrap_err();
-        assert!(refusal.to_string().contains(refusal.setting), "{bad:?}");
+        assert!(refusal.to_string().contains(refusal.quantity), "{bad:?}");
     }
 }
 
@@ -289,7 +289,7 @@ fn no_sequence_of_samples_leaves_the_limits() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(256))]
+    #![proptest_config(crate::sampling::config(256))]
 
     /// Any bits at all for readings and times.
     #[test]

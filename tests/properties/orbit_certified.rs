@@ -1,24 +1,24 @@
 //! Proofs about exact orbits: they exist, they can be checked again, and nothing false passes.
 
-use selfosc::claims::method_bias::DragLaw;
-use selfosc::claims::orbit_proofs::{FALSEHOODS, THEOREMS};
+use selfosc::claims::method_bias::SymmetricOrbit;
+use selfosc::claims::{CLAIMS, Claim};
 use selfosc::identify::iso::Oscillation;
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::numeric::Interval;
 use selfosc::orbit::theorem::BUDGET;
 use selfosc::orbit::{OrbitError, certify, force_left, limit_cycle, return_slope};
 use selfosc::plant::DragAxis;
-use selfosc::proof::Gradient;
-use selfosc::proof::inequality::{Cell, Inequality, Proof, Proofs, Refusal, Search, Side};
+use selfosc::proof::inequality::{Cell, Inequality, Proof, Proofs, Refusal};
+use selfosc::proof::{Extent, Gradient, NotProved};
 
 use crate::tolerance::{CENTRAL_DIFFERENCE, ORBIT_ENCLOSURE, REFERENCE, ROUNDING};
 
 fn proofs() -> Vec<(Inequality, Proof)> {
     let prove = |inequality: &Inequality| match inequality.prove(BUDGET) {
-        Search::Proved(proof) => (*inequality, proof),
-        other => panic!("{}: {other:?}", inequality.id),
+        Ok(proof) => (*inequality, proof),
+        Err(why) => panic!("{}: {why}", inequality.id),
     };
-    THEOREMS.iter().flat_map(|theorem| theorem.inequalities.iter().map(prove)).collect()
+    CLAIMS.iter().filter_map(Claim::theorem).flat_map(|theorem| theorem.inequalities.iter().map(prove)).collect()
 }
 
 #[test]
@@ -33,9 +33,9 @@ fn every_theorem_is_proved_and_its_proof_survives_a_file() {
 
 #[test]
 fn no_falsehood_is_proved() {
-    for inequality in FALSEHOODS {
+    for inequality in CLAIMS.iter().filter_map(Claim::false_inequality) {
         let found = inequality.prove(BUDGET);
-        assert!(matches!(found, Search::Refuted { .. }), "{}: {found:?}", inequality.id);
+        assert!(matches!(found, Err(NotProved::Refuted { .. })), "{}: {found:?}", inequality.id);
     }
 }
 
@@ -113,7 +113,7 @@ fn any_cuts_will_do() {
     const ANYWHERE: Inequality = Inequality {
         id: "anywhere",
         statement: "one is positive",
-        sides: [Side::new("x", 0.0, 3.0), Side::new("y", 0.0, 2.0), Side::NONE],
+        variables: [Extent::new("x", 0.0, 3.0), Extent::new("y", 0.0, 2.0), Extent::NONE],
         margin: |_| Interval::ONE,
     };
     let side = |lower, upper| Interval::new(lower, upper).unwrap();
@@ -235,8 +235,8 @@ fn slope_formula_is_the_multiplier() {
 #[test]
 fn method_errors_are_enclosed() {
     for g in [1e-6, 1e-3, 0.1, 1.0, 3.0, 10.0, 50.0] {
-        for law in [DragLaw::Linear, DragLaw::Quadratic] {
-            let drag = if law == DragLaw::Linear { [1.0, 0.0] } else { [0.0, 1.0] };
+        for law in [SymmetricOrbit::Linear, SymmetricOrbit::Quadratic] {
+            let drag = if law == SymmetricOrbit::Linear { [1.0, 0.0] } else { [0.0, 1.0] };
             let (axis, relay) = build([drag[0], drag[1], 0.0, 0.0, g]);
             let cycle = limit_cycle(&axis, &relay).unwrap();
             let read = Oscillation {
@@ -248,7 +248,7 @@ fn method_errors_are_enclosed() {
                 delay_s: 0.0,
             };
             let found = read.identify().unwrap();
-            let errors = [found.alpha, if law == DragLaw::Linear { found.beta } else { found.beta_quadratic }];
+            let errors = [found.alpha, if law == SymmetricOrbit::Linear { found.beta } else { found.beta_quadratic }];
             let enclosed = law.error_over(g, g).unwrap();
             for (error, interval) in errors.into_iter().zip([enclosed.alpha, enclosed.drag]) {
                 let off = (interval - Interval::point(error - 1.0)).magnitude();
@@ -258,17 +258,19 @@ fn method_errors_are_enclosed() {
             assert!(enclosed.alpha.is_subset_of(over.alpha) && enclosed.drag.is_subset_of(over.drag));
         }
     }
-    assert!(DragLaw::Linear.error_over(-1.0, 1.0).is_none() && DragLaw::Linear.error_over(2.0, 1.0).is_none());
+    assert!(
+        SymmetricOrbit::Linear.error_over(-1.0, 1.0).is_none() && SymmetricOrbit::Linear.error_over(2.0, 1.0).is_none()
+    );
 }
 
 /// The coordinates at which the curves are proved enclose the values of `g` that the claims name.
 #[test]
 fn coordinates_bracket_the_stated_groups() {
     for (law, from, to, g) in [
-        (DragLaw::Linear, 1.95, 1.97, 1.0),
-        (DragLaw::Linear, 10.99, 11.0, 10.0),
-        (DragLaw::Quadratic, 2.68, 2.7, 1.0),
-        (DragLaw::Quadratic, 20.68, 20.7, 10.0),
+        (SymmetricOrbit::Linear, 1.95, 1.97, 1.0),
+        (SymmetricOrbit::Linear, 10.99, 11.0, 10.0),
+        (SymmetricOrbit::Quadratic, 2.68, 2.7, 1.0),
+        (SymmetricOrbit::Quadratic, 20.68, 20.7, 10.0),
     ] {
         let [lower, upper] = [from, to].map(|coordinate| law.group(Interval::point(coordinate)));
         assert!(lower.upper() < g && g < lower.hull(upper).upper() && upper.lower() > g, "{law:?} {g}");

@@ -230,14 +230,14 @@ fn short_excursions_past_a_guard() {
 #[test]
 fn bad_ranges_are_refused() {
     let base = RelayLoop::new(lags(&[1.0, 1.0], false, 0.0), relay(0.1, 0.0));
-    assert!(matches!(base.orbits(1.0..=1.0), Err(OrbitError::Range { .. })));
-    assert!(matches!(base.orbits(-1.0..=1.0), Err(OrbitError::Range { .. })));
+    assert!(matches!(base.orbits(1.0..=1.0), Err(OrbitError::OutOfDomain(_))));
+    assert!(matches!(base.orbits(-1.0..=1.0), Err(OrbitError::OutOfDomain(_))));
     let delayed = RelayLoop::new(lags(&[1.0, 1.0], false, 1e6), relay(0.1, 0.0));
     assert!(matches!(delayed.orbits(1e-3..=1.0), Err(OrbitError::TooManySamples { .. })));
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(crate::sampling::config(24))]
 
     #[test]
     fn symmetric_orbits_meet_tsypkins_condition(
@@ -309,5 +309,18 @@ proptest! {
         let decays = |multiplier: f64| (ratio.unwrap_or(0.0) / multiplier - 1.0).abs() < tolerance::DECAY;
         prop_assert!(decays(largest.re), "{ratio:?} {largest}");
         prop_assert!(!decays(1.1 * largest.re));
+    }
+}
+
+/// Chains of integrators have no size on their diagonal for the QR algorithm to measure by.
+#[test]
+fn integrators_have_their_eigenvalues_at_zero() {
+    for order in 1..=5 {
+        let mut denominator = vec![0.0; order + 1];
+        denominator[0] = 1.0;
+        let poles = TransferFunction::new(&[1.0], &denominator).unwrap().poles().unwrap();
+        // A defect of order n turns rounding into its n-th root.
+        let rounding = (16.0 * f64::EPSILON).powf(1.0 / order as f64);
+        assert!(poles.len() == order && poles.iter().all(|pole| pole.norm() < rounding), "{poles:?}");
     }
 }

@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use proptest::prelude::*;
-use selfosc::experiment::{Columns, Experiment, Record, Sensor};
+use selfosc::experiment::{Columns, Record, Sensor, SimulatedExperiment};
 use selfosc::features::RecordFeatures;
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::orbit::limit_cycle;
@@ -151,7 +151,8 @@ fn a_held_loop_agrees_with_small_steps() {
         let axis = DragAxis::mixed(1.0, linear, quadratic).unwrap().with_disturbance(disturbance).unwrap();
         let axis = axis.with_delay_s(0.13).unwrap();
         let sensor = Sensor { delay_s: 0.07, quantum: 0.01, noise: 0.0 };
-        let experiment = Experiment::new(axis, RelayHysteresis::new(1.0, 0.25, 0.0).unwrap(), 10.0).unwrap().held();
+        let experiment =
+            SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.25, 0.0).unwrap(), 10.0).unwrap().held();
         let record = experiment.with_sensor(sensor).unwrap().run(30.0).unwrap();
         let other = by_small_steps(&axis, 1.0, 0.25, &sensor, record.samples());
         // Readings at the edge of a step may fall on either side of it; the loop must not part ways.
@@ -162,7 +163,7 @@ fn a_held_loop_agrees_with_small_steps() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(32))]
+    #![proptest_config(crate::sampling::config(32))]
 
     /// A relay that watches all the time settles on the exact limit cycle; its delay may be on either way.
     #[test]
@@ -175,7 +176,7 @@ proptest! {
         let exact = limit_cycle(&axis.with_delay_s(delay_s).unwrap(), &relay).unwrap();
         let sensor = Sensor { delay_s: sensed * delay_s, ..Sensor::default() };
         let axis = axis.with_delay_s((1.0 - sensed) * delay_s).unwrap();
-        let experiment = Experiment::new(axis, relay, 200.0).unwrap().with_sensor(sensor).unwrap();
+        let experiment = SimulatedExperiment::new(axis, relay, 200.0).unwrap().with_sensor(sensor).unwrap();
         let found = RecordFeatures::of(&experiment.run(40.0 * exact.period_s).unwrap()).unwrap();
         let last = found.cycles.last().unwrap();
         assert_relative_eq!(last.amplitude(), exact.amplitude, max_relative = tolerance::DENSE_FEATURE);

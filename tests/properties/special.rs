@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use selfosc::numeric::special::Special;
-use selfosc::numeric::{Interval, Jet, Tangent};
+use selfosc::numeric::{Gradient, Interval, Jet};
 
 use crate::fourier_oracle::Big;
 use crate::tolerance;
@@ -106,7 +106,7 @@ fn jets_hold_the_derivatives() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(crate::sampling::config(60))]
 
     #[test]
     fn bessel_functions_are_enclosed(x in prop_oneof![0.0..20.0, 20.0..250.0]) {
@@ -116,7 +116,7 @@ proptest! {
     /// Derivatives carried by dual numbers lie in the jet's coefficient.
     #[test]
     fn slopes_are_the_jets(x in 0.1..60.0) {
-        let [at] = Tangent::variables([x]);
+        let [at] = Gradient::variables([x]);
         let jet = Jet::<2>::variable(Interval::point(x));
         let floats = at.bessel_j().into_iter().chain(at.bessel_i_scaled());
         for (float, jet) in floats.zip(jet.bessel_j().into_iter().chain(jet.bessel_i_scaled())) {

@@ -207,3 +207,18 @@ pub(crate) const PADE: f64 = 1e-6;
 
 /// What tanh-sinh quadrature in 42 digits leaves of an integral with an algebraic singularity, relative.
 pub(crate) const POWER_ORACLE: f64 = 1e-20;
+
+/// Two decompositions of one matrix of order ten or less, relative to its norm: some tens of roundings, and as many again.
+pub(crate) const DECOMPOSITION: f64 = 1e-13;
+
+/// Poles a factor of three or more apart, relative: rounding of the coefficients times the condition of a root, about
+/// `prod (1 + r)/(1 - r)` over the ratios, up to some 30, times the dozens of roundings of a decomposition of a balanced matrix.
+pub(crate) const SEPARATE_POLES: f64 = 1e-10;
+
+/// Width of a Taylor step with a remainder of eleventh degree, relative, over a cell at most a twentieth as long as the way to
+/// the next singularity: `(1/20)^11` is 5e-15, and the intervals of the remainder's coefficient are too wide by a thousand and
+/// more. (At a tenth, the remainder alone reaches this.)
+pub(crate) const TAYLOR_STEP: f64 = 1e-9;
+
+/// What f32 loses of a power of a small number: below this it keeps fewer digits, and in the end none.
+pub(crate) const SINGLE_UNDERFLOW: f64 = f32::MIN_POSITIVE as f64;

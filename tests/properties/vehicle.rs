@@ -9,14 +9,3 @@ mod simulation;
 mod thruster;
 mod thruster_map;
 mod trial;
-
-use proptest::test_runner::{Config, FileFailurePersistence};
-
-/// Failing cases are kept beside the tests.
-pub(crate) fn config(cases: u32) -> Config {
-    Config {
-        cases,
-        failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))),
-        ..Config::default()
-    }
-}

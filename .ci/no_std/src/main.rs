@@ -7,7 +7,7 @@ use core::panic::PanicInfo;
 
 use selfosc::control::{Controller, RelayTest, Rule, Structure, Tuning};
 use selfosc::describing::ClosedForm;
-use selfosc::experiment::Relay;
+use selfosc::experiment::RelayState;
 use selfosc::identify::DragLaw;
 use selfosc::identify::iso::Oscillation;
 use selfosc::nonlinearity::{Catalogued, RelayHysteresis, Sinusoid};
@@ -24,7 +24,7 @@ fn panic(_: &PanicInfo) -> ! {
 fn exercise<T: Scalar>() -> Option<T> {
     let number = |value: f64| black_box(T::from_f64(value));
     let characteristic = RelayHysteresis::from_values(&[number(8.23), number(6.58), number(0.0)]).ok()?;
-    let output = Relay::new(characteristic, false).step(number(7.0));
+    let output = RelayState::new(characteristic, false).step(number(7.0));
     let df = characteristic.describing_function(&Sinusoid::new(number(3.8), number(26.36)).ok()?).ok()?;
     let oscillation = Oscillation {
         relay_level: number(8.23),

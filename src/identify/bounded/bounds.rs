@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// The answer to whether a record contradicts a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Verdict {
+pub enum Consistency {
     /// A parameter of the model meets every reading: the witness.
     Consistent,
     /// None in the search box does.
@@ -14,7 +14,7 @@ pub enum Verdict {
     Undecided,
 }
 
-impl Verdict {
+impl Consistency {
     /// Name in JSON and in reports.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -96,7 +96,7 @@ impl core::fmt::Display for Quantity {
 
 /// A quantity with an enclosure of what it can be, in the units of the records.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Range {
+pub struct QuantityRange {
     /// Which.
     pub quantity: Quantity,
     /// Not less than this.
@@ -107,7 +107,7 @@ pub struct Range {
 
 /// One parameter of the model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Point {
+pub struct Parameters {
     /// Its quantities; each record's state is at the first sample that the model covers.
     pub values: Vec<(Quantity, f64)>,
     /// The largest misfit of a reading, over its largest error.
@@ -135,15 +135,15 @@ pub struct Contradicting {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bounds {
     /// The answer.
-    pub verdict: Verdict,
+    pub verdict: Consistency,
     /// Where parameters were looked for, in the coordinates of the search.
-    pub search_box: Vec<Range>,
+    pub search_box: Vec<QuantityRange>,
     /// What is left; empty where refuted.
-    pub bounds: Vec<Range>,
+    pub bounds: Vec<QuantityRange>,
     /// A parameter whose motion, enclosed in intervals, meets every reading.
-    pub witness: Option<Point>,
+    pub witness: Option<Parameters>,
     /// The parameter found with the least largest misfit: no error of the sensor below `misfit` times the one taken is known to do.
-    pub nearest: Option<Point>,
+    pub nearest: Option<Parameters>,
     /// Largest error of a reading that was taken, by record: half the sensor's step and what was given besides.
     pub error: Vec<f64>,
     /// The error is to be multiplied by at least the first, at most the second, for the model to be consistent.

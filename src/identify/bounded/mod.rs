@@ -29,8 +29,8 @@ mod trajectory;
 mod weak;
 mod witness;
 
-pub use bounds::{Bounds, Contradicting, Point, Quantity, Range, Verdict};
-pub use settings::{Delay, Settings, Switching};
+pub use bounds::{Bounds, Contradicting, Parameters, Quantity, QuantityRange, Consistency};
+pub use settings::{DelayBound, BoundedModel, SwitchedWhen};
 
 use super::IdentifyError;
 use crate::experiment::Record;
@@ -50,20 +50,20 @@ const GOOD: f64 = 0.97;
 /// ```
 /// use selfosc::experiment::{Experiment, Sensor};
 /// use selfosc::identify::DragLaw;
-/// use selfosc::identify::bounded::{Delay, Quantity, Settings, Verdict, enclose};
+/// use selfosc::identify::bounded::{DelayBound, Quantity, BoundedModel, Consistency, enclose};
 /// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
 /// let axis = DragAxis::linear(1.0, 0.5)?;
 /// let sensor = Sensor { quantum: 0.02, ..Sensor::default() };
 /// let record = Experiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().with_sensor(sensor)?.run(20.0)?;
-/// let found = enclose(&[&record], &Settings::new(DragLaw::Linear, Delay::KnownS(0.0)))?;
-/// assert_eq!(found.verdict, Verdict::Consistent);
+/// let found = enclose(&[&record], &BoundedModel::new(DragLaw::Linear, DelayBound::KnownS(0.0)))?;
+/// assert_eq!(found.verdict, Consistency::Consistent);
 /// assert!(found.of(Quantity::Alpha).is_some_and(|[low, high]| low <= 1.0 && 1.0 <= high));
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// [`IdentifyError::Feature`] for settings that are none, a record without a switching, and a sensor without an error.
-pub fn enclose(records: &[&Record], settings: &Settings) -> Result<Bounds, IdentifyError> {
+/// [`IdentifyError::OutOfDomain`] for settings that are none, a record without a switching, and a sensor without an error.
+pub fn enclose(records: &[&Record], settings: &BoundedModel) -> Result<Bounds, IdentifyError> {
     let setup = Setup::new(records, settings)?;
     let mut search = Search::new(&setup);
     let division = search.search(setup.search.clone(), settings.budget);
@@ -80,7 +80,7 @@ pub fn enclose(records: &[&Record], settings: &Settings) -> Result<Bounds, Ident
 }
 
 /// The answer, from what division left; `wide` is where the search began.
-fn conclude(wide: &Setup, mut search: Search<'_>, mut division: Division, settings: &Settings) -> Bounds {
+fn conclude(wide: &Setup, mut search: Search<'_>, mut division: Division, settings: &BoundedModel) -> Bounds {
     let mut answer = Answer::default();
     answer.try_nearest(&mut search, &division);
     if answer.witness().is_some() {

@@ -1,6 +1,6 @@
 //! From what division left to the answer.
 
-use super::bounds::{Bounds, Contradicting, Point, Quantity, Range, Verdict};
+use super::bounds::{Bounds, Contradicting, Parameters, Quantity, QuantityRange, Consistency};
 use super::contract::{Linear, Origin};
 use super::divide::{Division, Then};
 use super::field::Term;
@@ -112,16 +112,16 @@ impl Answer {
 
     pub(super) fn into_bounds(self, wide: &Setup, mut search: Search<'_>, division: &Division) -> Bounds {
         let verdict = if self.witness().is_some() {
-            Verdict::Consistent
+            Consistency::Consistent
         } else if division.kept.is_empty() {
-            Verdict::Refuted
+            Consistency::Refuted
         } else {
-            Verdict::Undecided
+            Consistency::Undecided
         };
         let bounds = ranges(&mut search, division);
-        let least = if verdict == Verdict::Refuted { 1.0 } else { least_misfit(&mut search, division) };
-        let point = |tried: &Tried| Point { values: values(search.setup, &tried.at), misfit: tried.misfit };
-        let contradicting = if verdict == Verdict::Refuted {
+        let least = if verdict == Consistency::Refuted { 1.0 } else { least_misfit(&mut search, division) };
+        let point = |tried: &Tried| Parameters { values: values(search.setup, &tried.at), misfit: tried.misfit };
+        let contradicting = if verdict == Consistency::Refuted {
             let last = empties(division).filter(|empty| empty.method == Method::Chain).last();
             last.or_else(|| empties(division).last()).map(|empty| contradiction(&search, empty)).unwrap_or_default()
         } else {
@@ -189,8 +189,8 @@ fn values(setup: &Setup, at: &[f64]) -> Vec<(Quantity, f64)> {
 }
 
 /// Enclosures over all that is left.
-fn ranges(search: &mut Search<'_>, division: &Division) -> Vec<Range> {
-    let mut all: Vec<Range> = Vec::new();
+fn ranges(search: &mut Search<'_>, division: &Division) -> Vec<QuantityRange> {
+    let mut all: Vec<QuantityRange> = Vec::new();
     for kept in &division.kept {
         let mut at = kept.at.clone();
         let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
@@ -208,9 +208,9 @@ fn ranges(search: &mut Search<'_>, division: &Division) -> Vec<Range> {
     all
 }
 
-fn box_ranges(search: &Search<'_>, at: &[Interval], linear: Option<&Linear>) -> Vec<Range> {
+fn box_ranges(search: &Search<'_>, at: &[Interval], linear: Option<&Linear>) -> Vec<QuantityRange> {
     let (setup, layout) = (search.setup, &search.setup.layout);
-    let range = |quantity, side: Interval| Range { quantity, low: side.lower(), high: side.upper() };
+    let range = |quantity, side: Interval| QuantityRange { quantity, low: side.lower(), high: side.upper() };
     let gain = at[0];
     let mut ranges = vec![range(Quantity::Alpha, Interval::ONE / gain)];
     let ratio = |parts: &[(usize, f64)]| over_gain(at, linear, parts);

@@ -7,7 +7,7 @@ use crate::identify::DragLaw;
 /// What is known of the whole delay of the loop.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Delay {
+pub enum DelayBound {
     /// It is this, in s.
     KnownS(f64),
     /// It lies between these two, in s.
@@ -19,7 +19,7 @@ pub enum Delay {
 /// When a logged change of the command happened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Switching {
+pub enum SwitchedWhen {
     /// At the sample with which the new value is logged.
     #[default]
     AtSamples,
@@ -30,15 +30,14 @@ pub enum Switching {
 /// A model and a sensor, for [`enclose`](super::enclose).
 ///
 /// ```
-/// use selfosc::identify::bounded::{Delay, Settings};
+/// use selfosc::identify::bounded::{DelayBound, BoundedModel};
 /// use selfosc::identify::DragLaw;
-/// let settings = Settings { error: 0.01, ..Settings::new(DragLaw::Mixed, Delay::Unknown) };
+/// let settings = BoundedModel { error: 0.01, ..BoundedModel::new(DragLaw::Mixed, DelayBound::Unknown) };
 /// assert!(!settings.cubic);
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Settings {
+pub struct BoundedModel {
     /// The drag law.
-    #[serde(with = "law_name")]
     pub law: DragLaw,
     /// Whether the part of the drag proportional to speed may be negative, as a fit over a small range of speeds may have it.
     pub either_sign: bool,
@@ -49,9 +48,9 @@ pub struct Settings {
     /// The force follows the command with a first-order lag.
     pub lag: bool,
     /// What is known of the delay.
-    pub delay: Delay,
+    pub delay: DelayBound,
     /// When the command changed.
-    pub switching: Switching,
+    pub switching: SwitchedWhen,
     /// Step of the sensor, zero for none; found in the record if not given.
     pub quantum: Option<f64>,
     /// Largest error of a reading besides half a step, in units of the output.
@@ -66,11 +65,11 @@ pub struct Settings {
     pub budget: usize,
 }
 
-impl Settings {
+impl BoundedModel {
     /// A drag law and what is known of the delay; a perfect sensor but for its step, which is found in the record; the command
     /// switched at samples; inertia over four decades.
     #[must_use]
-    pub fn new(law: DragLaw, delay: Delay) -> Self {
+    pub fn new(law: DragLaw, delay: DelayBound) -> Self {
         Self {
             law,
             either_sign: false,
@@ -78,7 +77,7 @@ impl Settings {
             stiffness: false,
             lag: false,
             delay,
-            switching: Switching::AtSamples,
+            switching: SwitchedWhen::AtSamples,
             quantum: None,
             error: 0.0,
             jitter_s: 0.0,
@@ -86,23 +85,5 @@ impl Settings {
             reach: 100.0,
             budget: 3000,
         }
-    }
-}
-
-/// A drag law by its name.
-mod law_name {
-    use serde::{Deserialize, Deserializer, Serializer, de::Error};
-
-    use crate::identify::DragLaw;
-
-    #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
-    pub(super) fn serialize<S: Serializer>(law: &DragLaw, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(law.name())
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<DragLaw, D::Error> {
-        let name = String::deserialize(deserializer)?;
-        let found = DragLaw::ALL.into_iter().find(|law| law.name() == name);
-        found.ok_or_else(|| D::Error::custom(format!("no drag law is called {name}")))
     }
 }

@@ -1,13 +1,13 @@
 //! From records and settings to constraints and a box to search.
 
-use super::bounds::{Quantity, Range};
+use super::bounds::{Quantity, QuantityRange};
 use super::command::Command;
 use super::field::Term;
 use super::problem::{Layout, Readings, Window};
-use super::settings::{Delay, Settings, Switching};
+use super::settings::{DelayBound, BoundedModel, SwitchedWhen};
 use crate::experiment::Record;
 use crate::identify::IdentifyError;
-use crate::numeric::Interval;
+use crate::numeric::{Interval, Limit, OutOfDomain};
 
 /// Room for what rounding did to a reading on its way into the file, in steps of the sensor.
 const READING: f64 = 1e-9;
@@ -37,8 +37,8 @@ pub(super) struct Setup {
     pub(super) search: Vec<Interval>,
 }
 
-fn refuse(feature: &'static str, value: f64, required: &'static str) -> IdentifyError {
-    IdentifyError::Feature { feature, value, required }
+fn refuse(quantity: &'static str, value: f64, unit: &'static str, limit: Limit, remedy: &'static str) -> IdentifyError {
+    OutOfDomain { quantity, value, unit, limit, remedy }.into()
 }
 
 fn interval(low: f64, high: f64) -> Interval {
@@ -81,27 +81,28 @@ impl Scales {
     }
 }
 
-impl Settings {
+impl BoundedModel {
     fn check(&self) -> Result<(), IdentifyError> {
-        for (feature, value) in [
-            ("largest error of a reading", self.error),
-            ("largest error of a stamp in s", self.jitter_s),
-            ("step of the sensor", self.quantum.unwrap_or(0.0)),
+        for (quantity, value, unit) in [
+            ("largest error of a reading", self.error, "output"),
+            ("largest error of a stamp", self.jitter_s, "s"),
+            ("step of the sensor", self.quantum.unwrap_or(0.0), "output"),
         ] {
-            if !(value >= 0.0 && value.is_finite()) {
-                return Err(refuse(feature, value, "a finite number, 0 or more"));
+            if !Limit::NonNegative.holds(value) {
+                return Err(refuse(quantity, value, unit, Limit::NonNegative, "give the sensor's largest error"));
             }
         }
         if !(self.reach > 1.0 && self.reach <= 1e6) {
-            return Err(refuse("reach of the search", self.reach, "above 1, at most 1e6"));
+            let limit = Limit::Within(1.0, 1e6);
+            return Err(refuse("reach of the search", self.reach, "", limit, "100 looks through four decades"));
         }
         let delays = match self.delay {
-            Delay::KnownS(delay_s) => [delay_s; 2],
-            Delay::WithinS(range) => range,
-            Delay::Unknown => [0.0; 2],
+            DelayBound::KnownS(delay_s) => [delay_s; 2],
+            DelayBound::WithinS(range) => range,
+            DelayBound::Unknown => [0.0; 2],
         };
         if !(delays[0] >= 0.0 && delays[0] <= delays[1] && delays[1].is_finite()) {
-            return Err(refuse("delay in seconds", delays[0], "0 or more, the lower bound first"));
+            return Err(refuse("least delay", delays[0], "s", Limit::NonNegative, "give the lower bound of the delay first"));
         }
         Ok(())
     }
@@ -125,29 +126,27 @@ impl Settings {
 
 impl Setup {
     /// # Errors
-    /// [`IdentifyError::Feature`] that names what is missing.
-    pub(super) fn new(records: &[&Record], settings: &Settings) -> Result<Self, IdentifyError> {
+    /// [`IdentifyError::OutOfDomain`] that names what is missing.
+    pub(super) fn new(records: &[&Record], settings: &BoundedModel) -> Result<Self, IdentifyError> {
         settings.check()?;
         if records.is_empty() {
-            return Err(refuse("number of records", 0.0, "1 or more"));
+            return Err(refuse("number of records", 0.0, "", Limit::AtLeast(1.0), "give a record"));
         }
         let mut readings = Vec::new();
         for record in records {
             let quantum = settings.quantum.or_else(|| record.quantum()).unwrap_or(0.0);
             let error = 0.5 * quantum * (1.0 + READING) + settings.error;
             if error <= 0.0 {
-                return Err(refuse(
-                    "largest error of a reading",
-                    error,
-                    "above 0: the record shows no step of its sensor, so give one or the other",
-                ));
+                let remedy = "the record shows no step of its sensor: give its step, or its largest error";
+                return Err(refuse("largest error of a reading", error, "output", Limit::Positive, remedy));
             }
-            let command = Command::of(record, settings.switching == Switching::Anywhere);
+            let command = Command::of(record, settings.switching == SwitchedWhen::Anywhere);
             if command.largest() <= 0.0 {
-                return Err(refuse("largest command", 0.0, "above 0"));
+                return Err(refuse("largest command", 0.0, "force", Limit::Positive, "choose the column of the command"));
             }
             if command.edges() == 0 {
-                return Err(refuse("switchings of the command", 0.0, "1 or more"));
+                let remedy = "give a record in which the command changes";
+                return Err(refuse("switchings of the command", 0.0, "", Limit::AtLeast(1.0), remedy));
             }
             readings.push(Readings {
                 time_s: record.time_s().to_vec(),
@@ -160,9 +159,9 @@ impl Setup {
         let scales: Vec<Scales> = readings.iter().map(Scales::of).collect();
         let swing_s = scales.iter().map(|scale| scale.swing_s).fold(f64::INFINITY, f64::min);
         let delay = match settings.delay {
-            Delay::KnownS(delay_s) => Interval::point(delay_s),
-            Delay::WithinS([low, high]) => interval(low, high),
-            Delay::Unknown => interval(0.0, swing_s),
+            DelayBound::KnownS(delay_s) => Interval::point(delay_s),
+            DelayBound::WithinS([low, high]) => interval(low, high),
+            DelayBound::Unknown => interval(0.0, swing_s),
         };
         let both = settings.law.has_linear() && settings.law.has_quadratic() || settings.cubic;
         let speed = scales.iter().map(|scale| scale.speed).sum::<f64>() / scales.len() as f64;
@@ -213,7 +212,7 @@ impl Setup {
     }
 
     /// Windows of every record, from where every command that acts is in the log.
-    fn lay(readings: &[Readings], settings: &Settings, delay: Interval) -> Result<Layout, IdentifyError> {
+    fn lay(readings: &[Readings], settings: &BoundedModel, delay: Interval) -> Result<Layout, IdentifyError> {
         let mut windows = Vec::new();
         let mut instants = Vec::new();
         for (record, readings) in readings.iter().enumerate() {
@@ -221,7 +220,8 @@ impl Setup {
             let begin = Interval::point(readings.time_s[0]) + delay;
             let first = readings.time_s.partition_point(|time| *time < begin.upper());
             if samples < first + 3 * FEWEST {
-                return Err(refuse("longest delay in seconds", delay.upper(), "well within the record"));
+                let remedy = "give a longer record, or bound the delay";
+                return Err(refuse("longest delay", delay.upper(), "s", Limit::Words("well within the record"), remedy));
             }
             let swings = (readings.command.edges() + 1) as f64;
             let count = (WINDOWS_PER_SWING * swings).ceil().clamp(2.0, MOST_WINDOWS as f64);
@@ -229,7 +229,7 @@ impl Setup {
             let count = (count as usize).min(most).max(1);
             let nodes: Vec<usize> = (0..=count).map(|index| first + (samples - 1 - first) * index / count).collect();
             windows.extend(nodes.windows(2).map(|pair| Window { record, first: pair[0], last: pair[1] }));
-            instants.push(if settings.switching == Switching::Anywhere { readings.command.edges() } else { 0 });
+            instants.push(if settings.switching == SwitchedWhen::Anywhere { readings.command.edges() } else { 0 });
         }
         let delayed = !delay.is_point();
         Ok(Layout::new(settings.terms(), delayed, instants, windows))
@@ -252,7 +252,7 @@ impl Setup {
     }
 
     /// The same constraints with the parameters known to lie in `at`: a shorter delay leaves more readings.
-    pub(super) fn narrowed(&self, settings: &Settings, at: &[Interval]) -> Result<Self, IdentifyError> {
+    pub(super) fn narrowed(&self, settings: &BoundedModel, at: &[Interval]) -> Result<Self, IdentifyError> {
         let Some(place) = self.layout.delay() else { return Ok(self.clone()) };
         let mut setup = self.clone();
         setup.layout = Self::lay(&self.records, settings, at[place])?;
@@ -266,9 +266,9 @@ impl Setup {
     }
 
     /// A box of parameters in words.
-    pub(super) fn ranges(&self, at: &[Interval]) -> Vec<Range> {
-        let range = |quantity, side: Interval| Range { quantity, low: side.lower(), high: side.upper() };
-        let mut ranges: Vec<Range> = Vec::new();
+    pub(super) fn ranges(&self, at: &[Interval]) -> Vec<QuantityRange> {
+        let range = |quantity, side: Interval| QuantityRange { quantity, low: side.lower(), high: side.upper() };
+        let mut ranges: Vec<QuantityRange> = Vec::new();
         for (place, term) in self.layout.terms().iter().enumerate() {
             let quantity = match term {
                 Term::Gain => Quantity::Gain,

@@ -3,7 +3,8 @@
 use crate::experiment::Record;
 
 /// What the command does between two samples of the log.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Between {
     /// It changes at the sample with which its new value is logged: the relay worked on that very sample.
     AtSamples,

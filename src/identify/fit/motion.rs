@@ -2,7 +2,9 @@
 
 use super::input::Edge;
 use crate::identify::IdentifyError;
-use crate::numeric::{Real, Scalar, Tangent};
+use crate::numeric::{self, Real, Scalar};
+
+type Partials = numeric::Gradient<f64, 4>;
 use crate::plant::{DragAxis, State};
 
 /// Unknowns of a stretch: instant of its uncertain edge, state at its beginning, disturbance, then what is common to all.
@@ -68,11 +70,11 @@ impl Flow {
         let [alpha, linear, quadratic, _] = self.shared;
         let force = (self.input + self.disturbance) / alpha;
         let [speed, drive, linear, quadratic] =
-            Tangent::variables([self.velocity.value, force, linear / alpha, quadratic / alpha]);
-        let axis = DragAxis::mixed(Tangent::one(), linear, quadratic)?;
-        let state = State { position: Tangent::zero(), velocity: speed };
+            Partials::variables([self.velocity.value, force, linear / alpha, quadratic / alpha]);
+        let axis = DragAxis::mixed(Partials::one(), linear, quadratic)?;
+        let state = State { position: Partials::zero(), velocity: speed };
         let duration = time.value - self.now.value;
-        let end = axis.advance(state, drive, Tangent::from_f64(duration));
+        let end = axis.advance(state, drive, Partials::from_f64(duration));
         let speed = end.velocity.value();
         let acceleration = force - (linear.value() + quadratic.value() * speed.abs()) * speed;
         let position = self.sensitive(end.position, speed, time);
@@ -84,7 +86,7 @@ impl Flow {
     }
 
     /// By the chain rule from the flow's own variables and its rate to the unknowns.
-    fn sensitive(&self, number: Tangent<4>, rate: f64, time: &Sensitive) -> Sensitive {
+    fn sensitive(&self, number: Partials, rate: f64, time: &Sensitive) -> Sensitive {
         let [by_speed, by_drive, by_linear, by_quadratic] = number.slopes();
         let [alpha, linear, quadratic, _] = self.shared;
         let mut gradient = self.velocity.gradient.map(|slope| by_speed * slope);

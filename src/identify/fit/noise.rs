@@ -1,6 +1,8 @@
-//! The likelihood of a reading.
+//! The likelihood of a reading: Gaussian noise, interval-censored where the sensor rounds.
 
 use core::f64::consts::{LN_2, PI, SQRT_2};
+
+use crate::numeric::golden_section;
 
 /// How a reading differs from the output: Gaussian noise, then perhaps rounding to whole steps.
 ///
@@ -59,28 +61,13 @@ impl Noise {
 
     /// The standard deviation, between `least` and `most`, under which the residuals are likeliest.
     pub(super) fn likeliest_std(residuals: &[f64], quantum: f64, least: f64, most: f64) -> f64 {
-        let golden = 0.5 * (5f64.sqrt() - 1.0);
         let cost = |ln: f64| -> f64 {
             let noise = Self { std: ln.exp(), quantum };
             -residuals.iter().map(|residual| noise.likelihood(*residual).log).sum::<f64>()
         };
-        let (mut low, mut high) = (least.ln(), most.max(2.0 * least).ln());
-        let mut inner = [high - golden * (high - low), low + golden * (high - low)];
-        let mut costs = inner.map(cost);
-        while high - low > 0.01 * LN_2 {
-            if costs[0] < costs[1] {
-                high = inner[1];
-                (inner[1], costs[1]) = (inner[0], costs[0]);
-                inner[0] = high - golden * (high - low);
-                costs[0] = cost(inner[0]);
-            } else {
-                low = inner[0];
-                (inner[0], costs[0]) = (inner[1], costs[1]);
-                inner[1] = low + golden * (high - low);
-                costs[1] = cost(inner[1]);
-            }
-        }
-        f64::midpoint(low, high).exp()
+        let (low, high) = (least.ln(), most.max(2.0 * least).ln());
+        golden_section(|ln| Some(cost(ln)), low, high, 0.01 * LN_2)
+            .map_or(least, |[low, high]| f64::midpoint(low, high).exp())
     }
 }
 

@@ -4,7 +4,7 @@ use super::input::Between;
 use super::motion::SHARED;
 use super::search::{Linearised, Search, Start};
 use super::spread::Covariance;
-use crate::identify::joint::{Estimate, Parameter, Spread};
+use crate::identify::joint::{ConfidenceInterval, Estimate, Parameter};
 use crate::identify::{DragLaw, IdentifyError};
 use crate::plant::{DragAxis, State};
 
@@ -12,7 +12,7 @@ use crate::plant::{DragAxis, State};
 const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 /// A model fitted to whole records.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RecordFit {
     law: DragLaw,
     between: Between,
@@ -20,12 +20,13 @@ pub struct RecordFit {
     estimates: [Estimate; SHARED],
     covariance: [[f64; SHARED]; SHARED],
     records: Vec<FittedRecord>,
+    #[serde(with = "crate::identify::any_float")]
     evidence: f64,
     parameters: usize,
 }
 
 /// The model along one record.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct FittedRecord {
     /// The constant force during this record.
@@ -94,7 +95,7 @@ impl Search<'_> {
         let estimate = |k: usize| {
             let spread = (fixed[k].is_none() && self.shared[k] > 0.0)
                 .then(|| spread(self.shared[k], covariance.shared[k][k].sqrt()))
-                .map(|spread| Spread { low: spread.low.max(0.0), ..spread });
+                .map(|spread| ConfidenceInterval { low: spread.low.max(0.0), ..spread });
             Estimate { value: self.shared[k], spread }
         };
         let estimates = [estimate(0), estimate(1), estimate(2), estimate(3)];
@@ -141,15 +142,15 @@ impl Search<'_> {
     }
 }
 
-fn spread(value: f64, std: f64) -> Spread {
-    Spread { std, low: value - NORMAL_95 * std, high: value + NORMAL_95 * std }
+fn spread(value: f64, std: f64) -> ConfidenceInterval {
+    ConfidenceInterval { std, low: value - NORMAL_95 * std, high: value + NORMAL_95 * std }
 }
 
 /// With so much more variance, and not below `least`.
 fn wider(estimate: Estimate, variance: f64, least: f64) -> Estimate {
-    let wider = |before: Spread| {
+    let wider = |before: ConfidenceInterval| {
         let after = spread(estimate.value, (before.std * before.std + variance).sqrt());
-        Spread { low: after.low.max(least), ..after }
+        ConfidenceInterval { low: after.low.max(least), ..after }
     };
     Estimate { spread: estimate.spread.map(wider), ..estimate }
 }

@@ -1,6 +1,6 @@
-//! Gauss and Newton's method with the reading's own likelihood, over records cut into stretches.
+//! Generalised Gauss-Newton method by multiple shooting: each reading weighs by its own likelihood's curvature.
 
-use faer::Mat;
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::chain::{Chain, Link, OWN, solve_shared, weighted};
@@ -189,7 +189,7 @@ impl<'a> Motion<'a> {
         let output = self.record.output();
         let mut links = Vec::with_capacity(self.stretches.len());
         for (index, rows) in linearised.rows.iter().enumerate() {
-            let mut block = Mat::zeros(rows.len() + 1, UNKNOWNS + 1 + sides);
+            let mut block = DMatrix::zeros(rows.len() + 1, UNKNOWNS + 1 + sides);
             for (row, (sample, model)) in rows.iter().enumerate() {
                 let likelihood = self.noise.likelihood(output[*sample] - model.value);
                 let weight = likelihood.information.sqrt();
@@ -302,7 +302,7 @@ impl<'a> Search<'a> {
         Start { between: self.between, shared: self.shared, disturbances }
     }
 
-    /// Logarithm of the likelihood with the uncertain instants integrated out: comparable between treatments of the input and
+    /// Logarithm of the likelihood with the uncertain instants integrated out (Laplace's approximation): comparable between treatments of the input and
     /// between drag laws.
     pub(super) fn evidence(&self) -> f64 {
         self.evidence
@@ -436,12 +436,12 @@ impl<'a> Search<'a> {
         [alpha, drag, drag / speed, delay_s.max(DELAY_SHARE * typical(|motion| motion.swing_s))]
     }
 
-    /// The step of the common unknowns, with drag and delay kept at zero or more.
+    /// The step of the common unknowns, with drag and delay kept at zero or more by an active set.
     fn bounded(&self, chains: &[(Chain, Vec<Option<usize>>)]) -> Result<Shared, IdentifyError> {
         let stacked = stack(chains.iter().map(|(chain, _)| chain));
         let mut fixed = self.fixed();
         loop {
-            let (solutions, _) = solve_shared(stacked.as_ref(), &fixed)?;
+            let (solutions, _) = solve_shared(&stacked, &fixed)?;
             let step = solutions[0];
             let below = (1..SHARED).find(|k| fixed[*k].is_none() && self.shared[*k] + step[*k] < 0.0);
             let Some(below) = below else { return Ok(step) };
@@ -451,10 +451,10 @@ impl<'a> Search<'a> {
 }
 
 /// The common unknowns' rows of all records.
-pub(super) fn stack<'a>(chains: impl Iterator<Item = &'a Chain> + Clone) -> Mat<f64> {
+pub(super) fn stack<'a>(chains: impl Iterator<Item = &'a Chain> + Clone) -> DMatrix<f64> {
     let blocks: Vec<_> = chains.map(Chain::shared).collect();
     let columns = blocks.first().map_or(SHARED + 1, |block| block.ncols());
-    Mat::from_fn(SHARED * blocks.len(), columns, |row, column| blocks[row / SHARED][(row % SHARED, column)])
+    DMatrix::from_fn(SHARED * blocks.len(), columns, |row, column| blocks[row / SHARED][(row % SHARED, column)])
 }
 
 const _: () = assert!(COMMON + SHARED == UNKNOWNS && DISTURBANCE + 1 == COMMON);

@@ -1,10 +1,9 @@
-//! How sure a fit is.
+//! Covariance of the estimates.
 //!
-//! With Gaussian noise the inverse of the information says it. A rounding sensor is another matter: on a steady cycle its
+//! With Gaussian noise it is the inverse of the information. A rounding sensor is another matter: on a steady cycle its
 //! errors repeat from cycle to cycle, and do not average out. There the errors are drawn: the model's own readings on
 //! motions within about a step of the one fitted, pushed through the same linear equations.
 
-use faer::Mat;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
@@ -66,7 +65,7 @@ fn unit(
         .map(|(motion, rows)| Chain::new(&motion.links(rows, 0, |_, _| Vec::new(), Vec::new)))
         .collect();
     let stacked = stack(chains.iter());
-    let (_, triangle) = solve_shared(stacked.as_ref(), fixed)?;
+    let (_, triangle) = solve_shared(&stacked, fixed)?;
     let free: Vec<usize> = (0..SHARED).filter(|k| fixed[*k].is_none()).collect();
     let mut errors = Errors::new();
     // Columns of the inverse triangle, each carried on to the disturbances.
@@ -125,8 +124,8 @@ fn drawn(
         };
         chains.push(Chain::new(&motion.links(rows, DRAWS, side, prior)));
     }
-    let stacked: Mat<f64> = stack(chains.iter());
-    let (solutions, _) = solve_shared(stacked.as_ref(), fixed)?;
+    let stacked = stack(chains.iter());
+    let (solutions, _) = solve_shared(&stacked, fixed)?;
     let mut errors = Errors::new();
     for (side, common) in solutions.into_iter().enumerate().skip(1) {
         let mut own = Vec::with_capacity(chains.len());

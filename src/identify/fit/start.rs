@@ -1,7 +1,6 @@
 //! Where the search starts: parameters from weighted integrals of the record, states from its neighbourhood.
 
-use faer::Mat;
-use faer::prelude::SolveLstsq;
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use crate::experiment::Record;
 use crate::identify::DragLaw;
@@ -73,9 +72,11 @@ pub(super) fn parameters(record: &Record, law: DragLaw, delay_s: f64) -> Option<
     if equations.len() < 4 {
         return None;
     }
-    let matrix = Mat::from_fn(equations.len(), 3, |row, column| equations[row][column]);
-    let right = Mat::from_fn(equations.len(), 1, |row, _| equations[row][3]);
-    let solution = matrix.qr().solve_lstsq(&right);
+    let qr = DMatrix::from_fn(equations.len(), 3, |row, column| equations[row][column]).qr();
+    let mut right = DVector::from_fn(equations.len(), |row, _| equations[row][3]);
+    qr.q_tr_mul(&mut right);
+    // Singular equations say nothing: the fallback below takes over.
+    let solution = qr.unpack_r().solve_upper_triangular(&right.rows(0, 3)).unwrap_or_else(|| DVector::zeros(3));
     let force = 0.5 * input.iter().map(|value| value.abs()).fold(0.0, f64::max);
     let span =
         output.iter().copied().fold(f64::NEG_INFINITY, f64::max) - output.iter().copied().fold(f64::INFINITY, f64::min);
@@ -85,8 +86,8 @@ pub(super) fn parameters(record: &Record, law: DragLaw, delay_s: f64) -> Option<
     let or = |value: f64, fallback: f64| {
         if value > 0.02 * fallback && value < 50.0 * fallback { value } else { 0.3 * fallback }
     };
-    let disturbance = solution[(2, 0)].clamp(-force, force);
-    Some([or(solution[(0, 0)], fallback[0]), or(solution[(1, 0)], fallback[1]), disturbance])
+    let disturbance = solution[2].clamp(-force, force);
+    Some([or(solution[0], fallback[0]), or(solution[1], fallback[1]), disturbance])
 }
 
 /// State at a time from the parabola of least squares through the samples within `reach_s`.
@@ -108,8 +109,8 @@ pub(super) fn state_near(record: &Record, at_s: f64, reach_s: f64) -> State<f64>
             power *= s;
         }
     }
-    let moments = nalgebra::Matrix3::new(t[0], t[1], t[2], t[1], t[2], t[3], t[2], t[3], t[4]);
-    match moments.lu().solve(&nalgebra::Vector3::from(m)) {
+    let moments = Matrix3::new(t[0], t[1], t[2], t[1], t[2], t[3], t[2], t[3], t[4]);
+    match moments.lu().solve(&Vector3::from(m)) {
         Some(line) => State { position: offset + line[0], velocity: line[1] / reach },
         None => State { position: output[from], velocity: 0.0 },
     }

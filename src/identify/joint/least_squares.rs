@@ -1,7 +1,7 @@
-//! Nonlinear least squares over parameters that are zero or more: Levenberg-Marquardt on the singular value
-//! decomposition.
+//! Nonlinear least squares over parameters that are zero or more: Levenberg-Marquardt on the QR decomposition, bounds by an
+//! active set.
 
-use faer::Mat;
+use nalgebra::{DMatrix, DVector};
 
 use crate::identify::IdentifyError;
 
@@ -13,7 +13,11 @@ pub(super) struct Linearised<const N: usize> {
 }
 
 /// Where the search ended.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(bound(
+    serialize = "[f64; N]: serde::Serialize, [bool; N]: serde::Serialize, [[f64; N]; N]: serde::Serialize",
+    deserialize = "[f64; N]: serde::Deserialize<'de>, [bool; N]: serde::Deserialize<'de>, [[f64; N]; N]: serde::Deserialize<'de>"
+))]
 pub(super) struct Minimum<const N: usize> {
     pub(super) values: [f64; N],
     /// Estimated, and not on the bound zero.
@@ -89,14 +93,12 @@ fn count(flags: &[bool]) -> usize {
     flags.iter().filter(|&&flag| flag).count()
 }
 
-/// The free part of a Jacobian, decomposed.
+/// The free part of a Jacobian `J = Q R`, decomposed.
 struct Decomposed<const N: usize> {
     columns: Vec<usize>,
-    singular: Vec<f64>,
-    /// Right singular vectors, one for each singular value.
-    directions: Vec<[f64; N]>,
-    /// Components of the residuals along the left singular vectors.
-    components: Vec<f64>,
+    triangle: DMatrix<f64>,
+    /// The residuals turned, `Q^T r`.
+    turned: DVector<f64>,
     /// Length of the part of the residuals that the parameters can change.
     reachable: f64,
 }
@@ -109,52 +111,67 @@ impl<const N: usize> Linearised<N> {
 
     fn decompose(&self, unit: &[f64; N], free: &[bool; N]) -> Result<Decomposed<N>, IdentifyError> {
         let columns: Vec<usize> = (0..N).filter(|&j| free[j]).collect();
-        let matrix =
-            Mat::from_fn(self.residuals.len(), columns.len(), |i, j| self.jacobian[i][columns[j]] * unit[columns[j]]);
-        let svd = matrix.thin_svd().map_err(|_| IdentifyError::Confounded { ratio: f64::NAN })?;
-        let (left, right) = (svd.U(), svd.V());
-        let rank = 0..columns.len();
-        let components: Vec<f64> =
-            rank.clone().map(|k| self.residuals.iter().enumerate().map(|(i, r)| left[(i, k)] * r).sum()).collect();
-        let mut directions = vec![[0.0; N]; columns.len()];
-        for k in rank.clone() {
-            for (j, &column) in columns.iter().enumerate() {
-                directions[k][column] = right[(j, k)];
-            }
+        let qr = DMatrix::from_fn(self.residuals.len(), columns.len(), |i, j| {
+            self.jacobian[i][columns[j]] * unit[columns[j]]
+        })
+        .qr();
+        let mut turned = DVector::from_column_slice(&self.residuals);
+        qr.q_tr_mul(&mut turned);
+        turned.resize_vertically_mut(columns.len(), 0.0);
+        let (triangle, reachable) = (qr.unpack_r(), turned.norm());
+        if triangle.iter().any(|entry| !entry.is_finite()) || !reachable.is_finite() {
+            return Err(IdentifyError::Confounded { ratio: f64::NAN });
         }
-        let reachable = sum_of_squares(&components).sqrt();
-        Ok(Decomposed { columns, singular: rank.map(|k| svd.S()[k]).collect(), directions, components, reachable })
+        Ok(Decomposed { columns, triangle, turned, reachable })
     }
 }
 
-impl<const N: usize> Decomposed<N> {
-    fn largest(&self) -> f64 {
-        self.singular.iter().copied().fold(0.0, f64::max)
-    }
+/// Square of the largest singular value: the largest eigenvalue of `M^T M`, which rounding hardly touches.
+fn largest_squared(matrix: &DMatrix<f64>) -> f64 {
+    matrix.tr_mul(matrix).symmetric_eigenvalues().max()
+}
 
-    /// The damped step, in the units of the search.
+impl<const N: usize> Decomposed<N> {
+    /// The damped step, in the units of the search: least squares of `R s = -Q^T r` above `sqrt(damping) s = 0`.
     fn step(&self, damping: f64) -> [f64; N] {
-        let damping = damping * self.largest().powi(2);
         let mut step = [0.0; N];
-        for ((&singular, direction), component) in self.singular.iter().zip(&self.directions).zip(&self.components) {
-            let factor = -component * singular / (singular * singular + damping);
-            for &column in &self.columns {
-                step[column] += factor * direction[column];
+        let count = self.columns.len();
+        if count == 0 {
+            return step;
+        }
+        let weight = (damping * largest_squared(&self.triangle)).sqrt();
+        let mut stacked = self.triangle.clone().resize_vertically(2 * count, 0.0);
+        stacked.view_mut((count, 0), (count, count)).fill_diagonal(weight);
+        let mut right = (-&self.turned).resize_vertically(2 * count, 0.0);
+        let qr = stacked.qr();
+        qr.q_tr_mul(&mut right);
+        if let Some(solution) = qr.unpack_r().solve_upper_triangular(&right.rows(0, count)) {
+            for (&column, &value) in self.columns.iter().zip(&solution) {
+                step[column] = value;
             }
         }
         step
     }
 
     fn covariance(&self, variance: f64, unit: &[f64; N]) -> Result<[[f64; N]; N], IdentifyError> {
-        let smallest = self.singular.iter().copied().fold(f64::INFINITY, f64::min);
-        let ratio = smallest / self.largest();
+        let mut covariance = [[0.0; N]; N];
+        let count = self.columns.len();
+        if count == 0 {
+            return Ok(covariance);
+        }
+        let inverse = self.triangle.solve_upper_triangular(&DMatrix::identity(count, count));
+        let inverse = inverse.filter(|inverse| inverse.iter().all(|entry| entry.is_finite()));
+        let Some(inverse) = inverse else { return Err(IdentifyError::Confounded { ratio: 0.0 }) };
+        let ratio = (largest_squared(&self.triangle) * largest_squared(&inverse)).sqrt().recip();
         if ratio.is_nan() || ratio <= RANK {
             return Err(IdentifyError::Confounded { ratio });
         }
-        let entry = |i: usize, j: usize| {
-            let sum = self.singular.iter().zip(&self.directions).map(|(s, v)| v[i] * v[j] / (s * s)).sum::<f64>();
-            variance * sum * unit[i] * unit[j]
-        };
-        Ok(std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))))
+        let information = &inverse * inverse.transpose();
+        for (i, &row) in self.columns.iter().enumerate() {
+            for (j, &column) in self.columns.iter().enumerate() {
+                covariance[row][column] = variance * information[(i, j)] * unit[row] * unit[column];
+            }
+        }
+        Ok(covariance)
     }
 }

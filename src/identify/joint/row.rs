@@ -1,11 +1,12 @@
 //! An experiment that is known by its features only.
 
 use super::{Delay, Experiment, Joint, Sensitive, fit};
-use crate::identify::exact::Cycle;
+use crate::identify::error::READ_AGAIN;
+use crate::identify::exact::MeanCycle;
 use crate::identify::iso::Oscillation;
 use crate::identify::{DragLaw, IdentifyError};
 use crate::nonlinearity::RelayHysteresis;
-use crate::numeric::Real;
+use crate::numeric::{Limit, Real, domain};
 use crate::orbit::limit_cycle;
 use crate::plant::DragAxis;
 
@@ -26,19 +27,17 @@ impl FeatureRow {
     /// Relay level C, switching level x_a*, amplitude X_m and period T of `oscillation`; its bias and delay are not used.
     ///
     /// # Errors
-    /// [`IdentifyError::Feature`] or [`IdentifyError::Describing`] where one of them is not a number of the right kind.
+    /// [`IdentifyError::OutOfDomain`] or [`IdentifyError::Describing`] where one of them is not a number of the right kind.
     pub fn new(oscillation: &Oscillation<f64>) -> Result<Self, IdentifyError> {
         let Oscillation { relay_level, switch_level, amplitude, period_s, .. } = *oscillation;
-        for (feature, value) in [("amplitude in output units", amplitude), ("period in seconds", period_s)] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(IdentifyError::Feature { feature, value, required: "a finite number above 0" });
-            }
+        for (feature, value, unit) in [("amplitude", amplitude, "output units"), ("period", period_s, "s")] {
+            domain::require(feature, value, unit, Limit::Positive, READ_AGAIN)?;
         }
         Ok(Self { relay: RelayHysteresis::new(relay_level, switch_level, 0.0)?, amplitude, period_s })
     }
 
-    fn cycle(&self, delay_s: f64) -> Cycle<f64> {
-        Cycle {
+    fn cycle(&self, delay_s: f64) -> MeanCycle<f64> {
+        MeanCycle {
             relay_level: self.relay.level(),
             switch_level: self.relay.half_width(),
             amplitude: self.amplitude,

@@ -8,16 +8,35 @@ use crate::identify::joint::Delay;
 use crate::identify::{DragLaw, IdentifyError};
 
 /// Odds against each other law from which a law counts as recognised: 95 %.
-pub const DECIDED: f64 = 19.0;
+pub(crate) const DECIDED: f64 = 19.0;
 /// Odds of a simple law against the mixed one from which the simple one counts: the mixed law explains whatever the simple one
 /// does, so that no record speaks against it by more than the charge for its parameter.
-pub const DECIDED_AGAINST_MIXED: f64 = 4.0;
+pub(crate) const DECIDED_AGAINST_MIXED: f64 = 4.0;
 
 /// The laws fitted, and which of them the records speak for.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(try_from = "Parts")]
 pub struct Choice {
     fits: Vec<RecordFit>,
     probabilities: Vec<f64>,
+}
+
+/// A choice as it is written, not yet checked.
+#[derive(serde::Deserialize)]
+struct Parts {
+    fits: Vec<RecordFit>,
+    probabilities: Vec<f64>,
+}
+
+impl TryFrom<Parts> for Choice {
+    type Error = &'static str;
+
+    fn try_from(Parts { fits, probabilities }: Parts) -> Result<Self, Self::Error> {
+        if fits.is_empty() || fits.len() != probabilities.len() {
+            return Err("a choice needs a fit or more, and a probability for each");
+        }
+        Ok(Self { fits, probabilities })
+    }
 }
 
 /// Each of `laws` fitted to all records at once, in their order; the simple ones in parallel, then the mixed one, which contains
@@ -44,12 +63,12 @@ impl Choice {
     /// The first error where no law could be fitted.
     ///
     /// ```
-    /// use selfosc::experiment::Experiment;
+    /// use selfosc::experiment::SimulatedExperiment;
     /// use selfosc::identify::{DragLaw, joint::Delay};
     /// use selfosc::identify::select::likelihood::Choice;
     /// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
     /// let axis = DragAxis::quadratic(1.0, 0.5)?;
-    /// let record = Experiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().run(60.0)?;
+    /// let record = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().run(60.0)?;
     /// let choice = Choice::among_all(&[&record], Delay::KnownS(0.0))?;
     /// assert_eq!(choice.decision(), Some(DragLaw::Quadratic));
     /// # Ok::<(), Box<dyn core::error::Error>>(())

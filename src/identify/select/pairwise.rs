@@ -16,6 +16,7 @@ pub fn relative_spread_percent<T: Real>(first: T, second: T) -> T {
 
 /// What a pair of experiments says of the drag law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Decision {
     /// Force proportional to speed.
     Linear,

@@ -1,71 +1,70 @@
 //! A record with its model.
 
-use super::Source;
+use super::tables::output_label;
+use crate::identify::Source;
 use crate::identify::fit::{Between, FittedRecord, RecordFit};
 use crate::report::{Figure, Mark, Panel};
 
 /// Samples that a figure shows: more than these cannot be told apart on a page.
 const SHOWN: usize = 1500;
 
-impl Source {
-    /// Record with model, residuals, and phase portrait.
-    pub(super) fn figures(&self, fitted: Option<(&RecordFit, &FittedRecord)>) -> Vec<Figure> {
-        let samples = self.log.record.samples();
-        let from = samples.saturating_sub(SHOWN);
-        let part = if from > 0 { format!(", the last {SHOWN} of {samples} samples") } else { String::new() };
-        let mut figures = vec![self.record_figure(fitted, from, &part)];
-        if let Some((_, fitted)) = fitted {
-            figures.push(self.residual_figure(fitted, from, &part));
-        }
-        figures.push(self.phase_figure(fitted.map(|(_, fitted)| fitted), from, &part));
-        figures
+/// Record with model, residuals, and phase portrait.
+pub(super) fn figures(source: &Source, fitted: Option<(&RecordFit, &FittedRecord)>) -> Vec<Figure> {
+    let samples = source.log.record.samples();
+    let from = samples.saturating_sub(SHOWN);
+    let part = if from > 0 { format!(", the last {SHOWN} of {samples} samples") } else { String::new() };
+    let mut figures = vec![record_figure(source, fitted, from, &part)];
+    if let Some((_, fitted)) = fitted {
+        figures.push(residual_figure(source, fitted, from, &part));
     }
+    figures.push(phase_figure(source, fitted.map(|(_, fitted)| fitted), from, &part));
+    figures
+}
 
-    fn record_figure(&self, fitted: Option<(&RecordFit, &FittedRecord)>, from: usize, part: &str) -> Figure {
-        let record = &self.log.record;
-        let points = |values: &[f64]| pairs(&record.time_s()[from..], &values[from..]);
-        // The model lies on top, where dense readings would hide it.
-        let mut output =
-            Panel::new("time (s)", self.output_label()).with("readings", Mark::Points, points(record.output()));
-        if let Some((_, fitted)) = fitted {
-            let (time, model) = shown(self, fitted, &fitted.output, from);
-            output = output.with("model", Mark::Line, pairs(time, model));
-        }
-        let evenly = fitted.is_some_and(|(fit, _)| matches!(fit.between(), Between::Evenly | Between::Bent));
-        let command = points(record.input());
-        let command = if evenly { command } else { held(&command) };
-        let input = Panel::new("time (s)", "command").with("command", Mark::Line, command);
-        Figure { name: "record", title: format!("Record and fitted model{part}"), panels: vec![output, input] }
+fn record_figure(source: &Source, fitted: Option<(&RecordFit, &FittedRecord)>, from: usize, part: &str) -> Figure {
+    let record = &source.log.record;
+    let points = |values: &[f64]| pairs(&record.time_s()[from..], &values[from..]);
+    // The model lies on top, where dense readings would hide it.
+    let mut output =
+        Panel::new("time (s)", output_label(source)).with("readings", Mark::Points, points(record.output()));
+    if let Some((_, fitted)) = fitted {
+        let (time, model) = shown(source, fitted, &fitted.output, from);
+        output = output.with("model", Mark::Line, pairs(time, model));
     }
+    let evenly = fitted.is_some_and(|(fit, _)| matches!(fit.between(), Between::Evenly | Between::Bent));
+    let command = points(record.input());
+    let command = if evenly { command } else { held(&command) };
+    let input = Panel::new("time (s)", "command").with("command", Mark::Line, command);
+    Figure { name: "record", title: format!("Record and fitted model{part}"), panels: vec![output, input] }
+}
 
-    fn residual_figure(&self, fitted: &FittedRecord, from: usize, part: &str) -> Figure {
-        let (time, residuals) = shown(self, fitted, &fitted.residuals, from);
-        let ends = [time.first(), time.last()].into_iter().flatten();
-        let panel = Panel::new("time (s)", &format!("residual of {}", self.output_label()))
-            .with("readings less model", Mark::Points, pairs(time, residuals))
-            .with("", Mark::Dashed, ends.map(|time| (*time, 0.0)));
-        Figure { name: "residuals", title: format!("Residuals{part}"), panels: vec![panel] }
-    }
+fn residual_figure(source: &Source, fitted: &FittedRecord, from: usize, part: &str) -> Figure {
+    let (time, residuals) = shown(source, fitted, &fitted.residuals, from);
+    let ends = [time.first(), time.last()].into_iter().flatten();
+    let panel = Panel::new("time (s)", &format!("residual of {}", output_label(source)))
+        .with("readings less model", Mark::Points, pairs(time, residuals))
+        .with("", Mark::Dashed, ends.map(|time| (*time, 0.0)));
+    Figure { name: "residuals", title: format!("Residuals{part}"), panels: vec![panel] }
+}
 
-    fn phase_figure(&self, fitted: Option<&FittedRecord>, from: usize, part: &str) -> Figure {
-        let record = &self.log.record;
-        let rate = if self.log.degrees { "rate of change (rad/s)" } else { "rate of change (output per s)" };
-        let reach = self.reach();
-        let readings = speeds(&record.time_s()[from..], &record.output()[from..], reach);
-        let mut panel = Panel::new(self.output_label(), rate).with("readings, by differences", Mark::Points, readings);
-        if let Some(fitted) = fitted {
-            let (time, model) = shown(self, fitted, &fitted.output, from);
-            panel = panel.with("model", Mark::Line, speeds(time, model, 1));
-        }
-        Figure { name: "phase", title: format!("Phase portrait{part}"), panels: vec![panel] }
+fn phase_figure(source: &Source, fitted: Option<&FittedRecord>, from: usize, part: &str) -> Figure {
+    let record = &source.log.record;
+    let rate = if source.log.degrees { "rate of change (rad/s)" } else { "rate of change (output per s)" };
+    let reach = reach(source);
+    let readings = speeds(&record.time_s()[from..], &record.output()[from..], reach);
+    let mut panel = Panel::new(output_label(source), rate).with("readings, by differences", Mark::Points, readings);
+    if let Some(fitted) = fitted {
+        let (time, model) = shown(source, fitted, &fitted.output, from);
+        panel = panel.with("model", Mark::Line, speeds(time, model, 1));
     }
+    Figure { name: "phase", title: format!("Phase portrait{part}"), panels: vec![panel] }
+}
 
-    /// Samples on either side of one over which rounding does not drown its rate: up to a fortieth of the period.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most the number of samples")]
-    fn reach(&self) -> usize {
-        let period_s = self.features.as_ref().map_or(0.0, |found| found.features.period_s.mean);
-        (period_s / (40.0 * self.log.record.interval_s())).max(1.0) as usize
-    }
+/// Samples on either side of one over which rounding does not drown its rate: up to a fortieth of the period.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most the number of samples")]
+fn reach(source: &Source) -> usize {
+    let period_s = source.features.as_ref().map_or(0.0, |found| found.features.period_s.mean);
+    (period_s / (40.0 * source.log.record.interval_s())).max(1.0) as usize
 }
 
 /// Times and values of the model from sample `from` on.

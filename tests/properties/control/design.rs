@@ -5,8 +5,8 @@ use proptest::prelude::*;
 use selfosc::control::{ControlError, Structure, Tuning};
 use selfosc::plant::{DragAxis, TransferFunction};
 
+use crate::sampling::recorded;
 use crate::tolerance::{DOUBLE_POLE, MARGIN, ROUNDING_MARGIN};
-use crate::vehicle::config;
 
 const STRUCTURES: [(Structure, f64); 3] = [(Structure::Pd, 0.0), (Structure::Pid, 0.1), (Structure::Ipd, 1.0)];
 
@@ -27,7 +27,7 @@ fn characteristic(tuning: &Tuning<f64>) -> Vec<f64> {
 }
 
 proptest! {
-    #![proptest_config(config(256))]
+    #![proptest_config(recorded(256))]
 
     #[test]
     fn poles_are_the_requested_ones((structure, slow) in structure(), alpha in 1e-3..1e3_f64, share in 0.0..0.9_f64, quadratic in 0.0..10.0_f64, bandwidth in 1e-3..10.0_f64) {

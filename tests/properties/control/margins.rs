@@ -5,8 +5,8 @@ use selfosc::control::{ControlError, Controller, Gains, OpenLoop, StepResponse, 
 use selfosc::plant::DragAxis;
 
 use super::oracle::{Case, case};
+use crate::sampling::recorded;
 use crate::tolerance::{MARGIN, PADE, ROUNDING_MARGIN, SINGLE};
-use crate::vehicle::config;
 
 /// Gain, reduction (infinite for none), phase, delay.
 fn computed(case: &Case) -> Result<[f64; 4], ControlError> {
@@ -16,7 +16,7 @@ fn computed(case: &Case) -> Result<[f64; 4], ControlError> {
 }
 
 proptest! {
-    #![proptest_config(config(256))]
+    #![proptest_config(recorded(256))]
 
     #[test]
     fn response_is_that_of_the_blocks(case in case(), omega in 0.01..50.0_f64) {
@@ -35,7 +35,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(config(24))]
+    #![proptest_config(recorded(24))]
 
     #[test]
     fn margins_are_those_of_a_sweep(case in case()) {

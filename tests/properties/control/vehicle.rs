@@ -4,7 +4,7 @@
 use nalgebra::Vector6;
 use selfosc::control::{Answer, Controller, Structure, Tuning};
 use selfosc::plant::DragAxis;
-use selfosc::vehicle::{Axis, Simulation, State, pool_thrusters, pool_vehicle};
+use selfosc::vehicle::{Axis, BodyState, Simulation, pool_thrusters, pool_vehicle};
 
 const INTERVAL_S: f64 = 0.1;
 const STEP_M: f64 = 2.0;
@@ -15,7 +15,7 @@ const READING: f64 = 0.0025;
 fn dive(mut controller: Controller<f64>) -> Answer {
     let thrusters = pool_thrusters().unwrap();
     let vertical = *thrusters[2].thruster();
-    let mut pool = Simulation::new(pool_vehicle().unwrap(), thrusters.to_vec(), 0.01, State::at_rest()).unwrap();
+    let mut pool = Simulation::new(pool_vehicle().unwrap(), thrusters.to_vec(), 0.01, BodyState::at_rest()).unwrap();
     let (mut time_s, mut depth_m) = (Vec::new(), Vec::new());
     for sample in 0..600 {
         let depth = pool.state().pose.position_m.z;

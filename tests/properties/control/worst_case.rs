@@ -5,7 +5,7 @@ use selfosc::control::{AxisIntervals, ControlError, OpenLoop, Structure, Tuning,
 use selfosc::numeric::Interval;
 use selfosc::plant::DragAxis;
 
-use crate::vehicle::config;
+use crate::sampling::recorded;
 
 fn around(value: f64, share: f64) -> Interval {
     Interval::new(value * (1.0 - share), value * (1.0 + share)).unwrap()
@@ -17,7 +17,7 @@ fn list(margin: &WorstMargin) -> [f64; 4] {
 }
 
 proptest! {
-    #![proptest_config(config(24))]
+    #![proptest_config(recorded(24))]
 
     #[test]
     fn nothing_inside_is_worse(

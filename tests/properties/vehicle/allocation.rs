@@ -40,7 +40,7 @@ fn thruster() -> Thruster<f64> {
 }
 
 proptest! {
-    #![proptest_config(super::config(256))]
+    #![proptest_config(crate::sampling::recorded(256))]
 
     #[test]
     fn the_pair_is_the_matrix_of_eq_35(arm in 0.01..1.0_f64, forces in uniform2(unit())) {

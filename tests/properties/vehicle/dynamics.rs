@@ -40,7 +40,7 @@ fn half_flipped(mut matrix: Matrix6<f64>) -> Matrix6<f64> {
 }
 
 proptest! {
-    #![proptest_config(super::config(256))]
+    #![proptest_config(crate::sampling::recorded(256))]
 
     #[test]
     fn rigid_body_inertia_is_that_of_its_points(points in points(), nu in vector6(2.0)) {

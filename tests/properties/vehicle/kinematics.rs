@@ -35,7 +35,7 @@ fn rate_by_angles(angles: &EulerAngles, rates: &Vector3<f64>) -> Vector4<f64> {
 }
 
 proptest! {
-    #![proptest_config(super::config(256))]
+    #![proptest_config(crate::sampling::recorded(256))]
 
     #[test]
     fn both_forms_agree(angles in angles(), nu in vector6(2.0)) {

@@ -29,7 +29,7 @@ fn uncoupled_vehicle(mut parameters: VehicleParameters) -> Vehicle {
 }
 
 proptest! {
-    #![proptest_config(super::config(256))]
+    #![proptest_config(crate::sampling::recorded(256))]
 
     #[test]
     fn an_axis_and_what_it_neglects_are_eq_5(

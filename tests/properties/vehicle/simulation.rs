@@ -3,7 +3,7 @@
 use nalgebra::{Vector3, Vector6};
 use proptest::prelude::*;
 use selfosc::vehicle::{
-    MountedThruster, Pose, STANDARD_GRAVITY, Simulation, State, Thruster, Vehicle, VehicleError, VehicleParameters,
+    BodyState, MountedThruster, Pose, STANDARD_GRAVITY, Simulation, Thruster, Vehicle, VehicleError, VehicleParameters,
     pool_thrusters, pool_vehicle,
 };
 
@@ -34,12 +34,12 @@ fn simpson(values: &[f64]) -> f64 {
     values.iter().enumerate().map(|(i, value)| weight(i) * value).sum::<f64>() * STEP_S / 3.0
 }
 
-fn start(angles: selfosc::vehicle::EulerAngles, nu: Vector6<f64>) -> State {
-    State { pose: Pose::new(Vector3::new(0.0, 0.0, 1.0), angles), nu }
+fn start(angles: selfosc::vehicle::EulerAngles, nu: Vector6<f64>) -> BodyState {
+    BodyState { pose: Pose::new(Vector3::new(0.0, 0.0, 1.0), angles), nu }
 }
 
 proptest! {
-    #![proptest_config(super::config(24))]
+    #![proptest_config(crate::sampling::recorded(24))]
 
     #[test]
     fn energy_is_kept_account_of(parameters in parameters(), angles in angles(), nu in vector6(1.0), tau in vector6(5.0)) {
@@ -73,7 +73,7 @@ proptest! {
             ..parameters
         };
         let vehicle = Vehicle::new(free).unwrap();
-        let momentum = |state: &State| {
+        let momentum = |state: &BodyState| {
             let both = vehicle.mass() * state.nu;
             let linear = state.pose.attitude * Vector3::new(both[0], both[1], both[2]);
             let about_body = state.pose.attitude * Vector3::new(both[3], both[4], both[5]);
@@ -89,7 +89,7 @@ proptest! {
         prop_assert!((linear_end - linear).norm() < ENERGY_BALANCE * scale);
         prop_assert!((angular_end - angular).norm() < ENERGY_BALANCE * scale);
         // False variant: momentum in body axes is not kept.
-        let body = |state: &State| (vehicle.mass() * state.nu).fixed_rows::<3>(0).into_owned();
+        let body = |state: &BodyState| (vehicle.mass() * state.nu).fixed_rows::<3>(0).into_owned();
         let turned = (body(simulation.state()) - body(&start(angles, nu))).norm();
         prop_assert!(turned > ENERGY_BALANCE * scale);
     }
@@ -120,7 +120,8 @@ fn the_method_is_of_fourth_order() {
 #[test]
 fn commands_act_after_the_delay() {
     let mut pool =
-        Simulation::new(pool_vehicle().unwrap(), pool_thrusters().unwrap().to_vec(), 0.01, State::at_rest()).unwrap();
+        Simulation::new(pool_vehicle().unwrap(), pool_thrusters().unwrap().to_vec(), 0.01, BodyState::at_rest())
+            .unwrap();
     let forces: Vec<_> = (0..12).map(|_| pool.step(&[100.0, -100.0, 0.0], |_| Vector6::zeros()).unwrap()).collect();
     assert!(forces[..10].iter().all(|force| force.amax() == 0.0));
     // Eq. 35: X = tau_1 + tau_2, N = d (tau_1 - tau_2); 2.5 N ahead, 1.8 N astern at command 100.
@@ -140,7 +141,7 @@ fn a_steady_run_ahead_has_the_speed_of_its_drag() {
     parameters.centre_of_buoyancy_m = level(0.0);
     parameters.buoyancy_n = parameters.mass_kg * STANDARD_GRAVITY;
     let vehicle = Vehicle::new(parameters).unwrap();
-    let mut pool = Simulation::new(vehicle, pool_thrusters().unwrap().to_vec(), 0.01, State::at_rest()).unwrap();
+    let mut pool = Simulation::new(vehicle, pool_thrusters().unwrap().to_vec(), 0.01, BodyState::at_rest()).unwrap();
     for _ in 0..3000 {
         pool.step(&[100.0, 100.0, 0.0], |_| Vector6::zeros()).unwrap();
     }
@@ -150,8 +151,9 @@ fn a_steady_run_ahead_has_the_speed_of_its_drag() {
 
 #[test]
 fn what_cannot_be_simulated_is_refused() {
-    let new =
-        |step_s| Simulation::new(pool_vehicle().unwrap(), pool_thrusters().unwrap().to_vec(), step_s, State::at_rest());
+    let new = |step_s| {
+        Simulation::new(pool_vehicle().unwrap(), pool_thrusters().unwrap().to_vec(), step_s, BodyState::at_rest())
+    };
     assert!(matches!(new(0.03), Err(VehicleError::OutOfDomain { .. })), "0.1 s is no whole number of 0.03 s");
     assert!(new(0.0).is_err() && new(f64::NAN).is_err() && new(0.02).is_ok());
     let mut pool = new(0.01).unwrap();

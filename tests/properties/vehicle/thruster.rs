@@ -38,7 +38,7 @@ fn thrust_error(thruster: &Thruster<f64>, thrust: f64, inverse: impl Fn(f64) -> 
 }
 
 proptest! {
-    #![proptest_config(super::config(512))]
+    #![proptest_config(crate::sampling::recorded(512))]
 
     #[test]
     fn thrust_survives_inverse_and_map(thruster in thruster(), fraction in 0.0..=1.0_f64, ahead: bool) {

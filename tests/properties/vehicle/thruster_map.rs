@@ -25,7 +25,7 @@ fn reference() -> Thruster<f64> {
 }
 
 proptest! {
-    #![proptest_config(super::config(128))]
+    #![proptest_config(crate::sampling::recorded(128))]
 
     #[test]
     fn a_thruster_without_noise_is_found(

@@ -9,7 +9,7 @@ use selfosc::identify::joint::{Delay, Parameter};
 use selfosc::on_board::{Coordinate, Phase, Protocol};
 use selfosc::plant::DragAxis;
 use selfosc::vehicle::{
-    Allocation, Axis, AxisParameters, Compensation, MountedThruster, STANDARD_GRAVITY, Simulation, State, Trial,
+    Allocation, Axis, AxisParameters, BodyState, Compensation, MountedThruster, STANDARD_GRAVITY, Simulation, Trial,
     TrialRun, Vehicle, VehicleError, VehicleParameters, pool_thrusters, pool_vehicle,
 };
 
@@ -48,7 +48,7 @@ impl Setup {
         let horizontal = [*thrusters[0].thruster(), *thrusters[1].thruster()];
         let pair = Compensation::new(Allocation::pair(0.08).unwrap(), horizontal);
         let single = Compensation::new(Allocation::single(), [single]);
-        let commands = |force: f64, state: &State| -> Result<Vec<f64>, VehicleError> {
+        let commands = |force: f64, state: &BodyState| -> Result<Vec<f64>, VehicleError> {
             Ok(match self.axis {
                 Axis::Yaw => pair.commands(&[0.0, force]).map(|[port, starboard]| vec![port, starboard, 0.0, 0.0])?,
                 Axis::Surge => {
@@ -75,7 +75,7 @@ impl Setup {
             ..Protocol::new(self.coordinate, level, self.half_width, 0.1)
         };
         let sensor = Sensor { delay_s: 0.1, quantum: self.quantum, noise: 0.5 * self.quantum };
-        let pool = Simulation::new(vehicle.clone(), thrusters, 0.01, State::at_rest()).unwrap();
+        let pool = Simulation::new(vehicle.clone(), thrusters, 0.01, BodyState::at_rest()).unwrap();
         let run = Trial::new(self.axis, protocol, sensor)
             .unwrap()
             .with_seed((1000.0 * (level + tether)) as u64)
@@ -105,7 +105,7 @@ fn parameters(truth: &AxisParameters) -> [(Parameter, f64); 3] {
 
 /// Work done by drag over a run, by the true speeds.
 fn work(run: &TrialRun, axis: Axis, drag: &DragAxis<f64>) -> f64 {
-    let power = |state: &State| {
+    let power = |state: &BodyState| {
         let speed = state.nu[axis.index()].abs();
         (drag.linear_drag() + drag.quadratic_drag() * speed) * speed * speed
     };
@@ -207,10 +207,11 @@ fn a_trial_refuses_what_does_not_fit() {
     let compass = Sensor { delay_s: 0.1, quantum: 0.0, noise: 0.0 };
     let protocol = Protocol::new(Coordinate::HeadingRad, 0.06, 0.3, 0.1);
     let pool = |step_s| {
-        Simulation::new(pool_vehicle().unwrap(), pool_thrusters().unwrap().to_vec(), step_s, State::at_rest()).unwrap()
+        Simulation::new(pool_vehicle().unwrap(), pool_thrusters().unwrap().to_vec(), step_s, BodyState::at_rest())
+            .unwrap()
     };
-    let still = |_: f64, _: &State| Ok(vec![0.0; 3]);
-    let calm = |_: f64, _: &State| Vector6::zeros();
+    let still = |_: f64, _: &BodyState| Ok(vec![0.0; 3]);
+    let calm = |_: f64, _: &BodyState| Vector6::zeros();
     assert!(Trial::new(Axis::Heave, protocol, compass).is_err());
     assert!(Trial::new(Axis::Yaw, protocol, Sensor { noise: -0.1, ..compass }).is_err());
     assert!(Trial::new(Axis::Yaw, protocol, Sensor { delay_s: -0.1, ..compass }).is_err());

@@ -1,0 +1,150 @@
+//! What controllers from an identified axis rest on.
+
+use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use crate::control::{Margins, OpenLoop, RelayTest, Structure, Tuning, UltimatePoint, critical_point};
+use crate::nonlinearity::RelayHysteresis;
+use crate::orbit::RelayLoop;
+use crate::plant::{DragAxis, StateSpace, TransferFunction};
+
+/// A design for any axis whose drag it can bear.
+fn design(draw: &mut Draw, delay_s: f64) -> Option<Tuning<f64>> {
+    let structure = [Structure::Pd, Structure::Pid, Structure::Ipd][draw.index("structure", 3)];
+    let (alpha, bandwidth) = (draw.log_uniform("alpha", 1e-3, 1e3), draw.log_uniform("bandwidth_rad_s", 1e-2, 1e1));
+    let w = bandwidth / structure.bandwidth_ratio();
+    let drag = draw.uniform("drag_share", 0.0, 1.5) * alpha * w;
+    let axis = DragAxis::linear(alpha, drag).ok()?.with_delay_s(draw.note("delay_s", delay_s / w)).ok()?;
+    Tuning::new(&axis, structure, bandwidth).ok()
+}
+
+claim! {
+    POLE_PLACEMENT = "pole-placement" "of this project" Identity
+    "the gains of a design give the closed loop the double pole and the slow pole that the bandwidth asks for"
+    {
+        domain: &[ClaimPart::whole("whole", "every axis and pair of poles")],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| poles(budget, 0.0, Tuning::double_pole_rad_s)),
+        // The bandwidth taken for the pole.
+        falsified: |budget| poles(budget, 0.0, Tuning::bandwidth_rad_s),
+        hypotheses: &[Hypothesis {
+            id: "no-delay",
+            counterexample: Some(|budget| poles(budget, 0.05, Tuning::double_pole_rad_s)),
+        }],
+        depends: &[],
+    }
+}
+
+/// The characteristic function `D(s) + N(s) exp(-s delay)` and its slope vanish at the double pole, it alone at the
+/// slow one.
+fn poles(budget: Budget, delay: f64, double_pole: fn(&Tuning<f64>) -> f64) -> Verdict {
+    sample(budget, |draw| {
+        let Some(tuning) = design(draw, delay) else { return Case::Skipped };
+        let (axis, gains, w) = (tuning.axis(), tuning.gains(), double_pole(&tuning));
+        let (alpha, drag, f) = (axis.alpha(), axis.linear_drag(), gains.filter_s());
+        let (kp, ki, kd) = (gains.proportional(), gains.integral(), gains.derivative());
+        // Over s^2, so that the size of the terms does not vanish with the slow pole.
+        let terms = |s: f64| {
+            let late = (-s * axis.delay_s()).exp();
+            let axis_terms = [alpha * f * s * s, (alpha + drag * f) * s, drag];
+            let fed_back = [kd + kp * f, (kp + ki * f) / s, ki / (s * s)];
+            (axis_terms.iter().sum::<f64>() + late * fed_back.iter().sum::<f64>(), fed_back[1].abs() + drag)
+        };
+        let mut vanishes = |name, s: f64| {
+            let (value, size) = terms(s);
+            draw.equal((name, value), 0.0, size, tolerance::CANCELLING)
+        };
+        let double = vanishes("double_pole", -w);
+        // A double root keeps its sign on either side, and grows as the square.
+        let near = |s: f64| terms(s).0 / terms(s).1;
+        let (before, after) = (near(-w * (1.0 + 1e-4)), near(-w * (1.0 - 1e-4)));
+        let double = double.and(Case::truth(before.abs().max(after.abs()) < 1e-6));
+        let slow = match gains.structure() {
+            Structure::Pd | Structure::Ipd => double,
+            Structure::Pid => vanishes("slow_pole", -0.1 * w),
+        };
+        double.and(slow)
+    })
+}
+
+claim! {
+    DELAY_MARGIN = "delay-margin" "of this project" Theorem
+    "the least of phase above critical over frequency at the crossovers of gain is the delay that a stable loop bears"
+    {
+        domain: &[ClaimPart::whole("whole", "every stable loop of an axis and its controller")],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| delay_margin(budget, |_, margins| margins.delay_s)),
+        // The phase margin over the frequency of the pole.
+        falsified: |budget| delay_margin(budget, |tuning, margins| margins.phase_rad / tuning.double_pole_rad_s()),
+        hypotheses: &[],
+        depends: &[],
+    }
+}
+
+type DelayMargin = fn(&Tuning<f64>, &Margins<f64>) -> f64;
+
+fn delay_margin(budget: Budget, margin: DelayMargin) -> Verdict {
+    sample(budget, |draw| {
+        let delay = draw.uniform("delay_share", 0.0, 0.2);
+        let Some(tuning) = design(draw, delay) else { return Case::Skipped };
+        let (axis, gains, w) = (tuning.axis(), tuning.gains(), tuning.margins().crossover_rad_s);
+        let more_s = draw.note("more_s", margin(&tuning, tuning.margins()));
+        let with = |share: f64| {
+            let late = axis.with_delay_s(axis.delay_s() + share * more_s).ok()?;
+            OpenLoop::new(&late, gains, 0.0).ok()
+        };
+        let (Some(less), Some(critical), Some(more)) = (with(0.999), with(1.0), with(1.001)) else {
+            return Case::Skipped;
+        };
+        let (re, im) = critical.response(w);
+        let on_axis = draw.equal(("distance_to_critical", (re + 1.0).hypot(im)), 0.0, 1.0, tolerance::CANCELLING);
+        on_axis.and(Case::truth(less.unstable_poles() == 0 && more.unstable_poles() == 2))
+    })
+}
+
+claim! {
+    RELAY_ULTIMATE = "relay-ultimate" "of this project" Identity
+    "for an integrator with dead time the relay oscillates with the ultimate period, and its describing function gives 8/pi^2 of the ultimate gain"
+    {
+        domain: &[ClaimPart::whole("whole", "every gain, dead time and level")],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| relay_ultimate(budget, 8.0 / core::f64::consts::PI.powi(2), 0.0, 0.0)),
+        // The describing function taken for exact.
+        falsified: |budget| relay_ultimate(budget, 1.0, 0.0, 0.0),
+        hypotheses: &[
+            Hypothesis {
+                id: "no-hysteresis",
+                counterexample: Some(|budget| relay_ultimate(budget, 8.0 / core::f64::consts::PI.powi(2), 0.1, 0.0)),
+            },
+            Hypothesis {
+                id: "no-lag",
+                counterexample: Some(|budget| relay_ultimate(budget, 8.0 / core::f64::consts::PI.powi(2), 0.0, 0.1)),
+            },
+        ],
+        depends: &[],
+    }
+}
+
+/// The exact oscillation of `gain exp(-s delay)/(s (lag s + 1))` against its critical point.
+fn relay_ultimate(budget: Budget, share: f64, hysteresis: f64, lag: f64) -> Verdict {
+    sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
+        let (gain, delay_s) = (draw.log_uniform("gain", 1e-2, 1e2), draw.log_uniform("delay_s", 1e-1, 1e1));
+        let (level, lag_s) = (draw.log_uniform("level", 1e-2, 1e2), draw.note("lag_s", lag * delay_s));
+        let half_width = draw.note("half_width", hysteresis * level * gain * delay_s);
+        let found = || -> Option<(UltimatePoint<f64>, UltimatePoint<f64>)> {
+            let denominator = if lag > 0.0 { vec![lag_s, 1.0, 0.0] } else { vec![1.0, 0.0] };
+            let process = TransferFunction::new(&[gain], &denominator).ok()?.with_delay(delay_s).ok()?;
+            let truth = critical_point(&process, 0.1 / delay_s..=10.0 / delay_s).ok()?;
+            let relay = RelayHysteresis::new(level, half_width, 0.0).ok()?;
+            let relay_loop = RelayLoop::new(StateSpace::realise(&process).ok()?, relay);
+            let orbits = relay_loop.symmetric_orbits(2.0 * delay_s..=10.0 * delay_s).ok()?;
+            let orbit = orbits.last()?;
+            let (amplitude, period_s) = (orbit.amplitude(), orbit.period_s());
+            let test = RelayTest { level, half_width, amplitude, bias: 0.0, period_s };
+            Some((test.ultimate().ok()?, truth))
+        };
+        let Some((found, truth)) = found() else { return Case::truth(false) };
+        let period =
+            draw.equal(("period_s", found.period_s()), truth.period_s(), truth.period_s(), tolerance::CANCELLING);
+        let expected = share * truth.gain();
+        period.and(draw.equal(("ultimate_gain", found.gain()), expected, expected, tolerance::CANCELLING))
+    })
+}

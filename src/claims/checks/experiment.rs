@@ -1,0 +1,344 @@
+//! The experiment around the axis: eqs. 36, 43 and 44, the procedure, and the harmonic balance on true orbits (eqs. 16-17).
+
+use core::f64::consts::PI;
+
+use nalgebra::Complex;
+
+use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use crate::describing::ClosedForm;
+use crate::experiment::{Record, Sensor, SimulatedExperiment};
+use crate::features::RecordFeatures;
+use crate::identify::iso::{Oscillation, disturbance_from_times};
+use crate::nonlinearity::{RelayHysteresis, Sinusoid};
+use crate::numeric::quadrature::integrate;
+use crate::orbit::integrate::{Integrator, RelayFeedback};
+use crate::orbit::{LimitCycle, RelayLoop, RelayOrbit, limit_cycle};
+use crate::plant::{DragAxis, State, StateSpace, TransferFunction};
+
+/// An axis with drag of either kind, a disturbance and a delay, under its relay.
+struct Loop {
+    axis: DragAxis<f64>,
+    relay: RelayHysteresis<f64>,
+}
+
+impl Loop {
+    /// Drag of the kinds stated, disturbances up to half the level, delays up to `longest_s`.
+    fn draw(draw: &mut Draw, (linear, quadratic): (bool, bool), longest_s: f64) -> Option<Self> {
+        let mut drag = |name, present| if present { draw.log_uniform(name, 0.2, 3.0) } else { 0.0 };
+        let (linear, quadratic) = (drag("linear_drag", linear), drag("quadratic_drag", quadratic));
+        let (alpha, level) = (draw.log_uniform("alpha", 0.3, 3.0), draw.uniform("level", 0.5, 2.0));
+        let disturbance = level * draw.uniform("disturbance_over_level", -0.5, 0.5);
+        let delay_s = if longest_s > 0.0 { draw.uniform("delay_s", 0.0, longest_s) } else { 0.0 };
+        let axis = DragAxis::mixed(alpha, linear, quadratic).ok()?;
+        let axis = axis.with_disturbance(disturbance).ok()?.with_delay_s(delay_s).ok()?;
+        let relay = RelayHysteresis::new(level, draw.log_uniform("half_width", 0.1, 1.0), 0.0).ok()?;
+        Some(Self { axis, relay })
+    }
+
+    fn cycle(&self) -> Option<LimitCycle<f64>> {
+        limit_cycle(&self.axis, &self.relay).ok()
+    }
+}
+
+claim! {
+    DELAYS_ADD = "delays-add" "36" Theorem
+    "A delay T_d before the axis and one after it are one delay 2 T_d before it: the same record, T_d later"
+    {
+        domain: &[ClaimPart::whole("whole", "every axis and delay")],
+        printed: AsPrinted::Holds(|budget| delays_add(budget, 2.0, 0.0, 2)),
+        corrected: None,
+        // One of the two forgotten.
+        falsified: |budget| delays_add(budget, 1.0, 0.0, 2),
+        hypotheses: &[
+            Hypothesis { id: "whole-samples", counterexample: Some(|budget| delays_add(budget, 2.0, 0.5, 1)) },
+        ],
+        depends: &[],
+    }
+}
+
+/// Two simulations from rest, the one with sensor and input delay of a whole number of samples and a `fraction`, the other
+/// with `factor` times the delay at the input; the relay held, or (of `kinds` = 2) else watching all the time.
+fn delays_add(budget: Budget, factor: f64, fraction: f64, kinds: usize) -> Verdict {
+    const RATE_HZ: f64 = 20.0;
+    sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
+        let Some(Loop { axis, relay }) = Loop::draw(draw, (true, true), 0.0) else { return Case::Skipped };
+        let (late, held) = (1 + draw.index("samples_less_one", 5), draw.index("watching", kinds) == 0);
+        let delay_s = draw.note("delay_s", (late as f64 + fraction) / RATE_HZ);
+        let run = |input_s: f64, sensor_s: f64| -> Option<Record> {
+            let experiment = SimulatedExperiment::new(axis.with_delay_s(input_s).ok()?, relay, RATE_HZ).ok()?;
+            let sensor = Sensor { delay_s: sensor_s, ..Sensor::default() };
+            let experiment = experiment.with_sensor(sensor).ok()?;
+            if held { experiment.held() } else { experiment }.run(30.0).ok()
+        };
+        let (Some(apart), Some(joined)) = (run(delay_s, delay_s), run(factor * delay_s, 0.0)) else {
+            return Case::truth(false);
+        };
+        let reached = joined.output().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let distance = |(x, y): (&f64, &f64)| (x - y).abs();
+        let outputs = apart.output()[late..].iter().zip(joined.output()).map(distance).fold(0.0, f64::max);
+        let commands = apart.input()[late..].iter().zip(joined.input()).map(distance).fold(0.0, f64::max);
+        // Readings between samples cannot be compared; the commands' pattern can.
+        let same = Case::truth(draw.note("difference_of_commands", commands) == 0.0);
+        let compared = if fraction == 0.0 { outputs } else { 0.0 };
+        same.and(draw.equal(("difference_of_readings", compared), 0.0, reached, tolerance::CANCELLING))
+    })
+}
+
+claim! {
+    HEAVE = "heave" "43" Theorem
+    "In heave weight less buoyancy acts as the disturbance: with linear drag the switching times give tau_ZE + W - B"
+    {
+        domain: &[ClaimPart::whole("whole", "every axis with linear drag, weight and buoyancy")],
+        printed: AsPrinted::Holds(|budget| heave(budget, 1.0, &Heave::ASSUMED)),
+        corrected: None,
+        // Buoyancy less weight.
+        falsified: |budget| heave(budget, -1.0, &Heave::ASSUMED),
+        hypotheses: &[
+            Hypothesis { id: "level", counterexample: Some(|budget| heave(budget, 1.0, &Heave { tilt_rad: 0.3, ..Heave::ASSUMED })) },
+            Hypothesis { id: "linear-drag", counterexample: Some(|budget| heave(budget, 1.0, &Heave { quadratic: 20.0, ..Heave::ASSUMED })) },
+            Hypothesis { id: "within-relay", counterexample: Some(|budget| heave(budget, 1.0, &Heave { surplus: 3.0, ..Heave::ASSUMED })) },
+        ],
+        depends: &["uncoupled-axis", "delta-from-times"],
+    }
+}
+
+/// What heave is under.
+struct Heave {
+    tilt_rad: f64,
+    quadratic: f64,
+    /// Largest `tau_ZE + W - B` over the relay's level.
+    surplus: f64,
+}
+
+impl Heave {
+    const ASSUMED: Self = Self { tilt_rad: 0.0, quadratic: 0.0, surplus: 0.8 };
+}
+
+/// The disturbance found from the limit cycle, against weight, buoyancy and external force.
+fn heave(budget: Budget, sign: f64, under: &Heave) -> Verdict {
+    sample(budget, |draw| {
+        let (weight, level) = (draw.uniform("weight_n", 20.0, 60.0), draw.uniform("level_n", 1.0, 3.0));
+        let external = 0.1 * level * draw.uniform("external_over_tenth_of_level", -1.0, 1.0);
+        let buoyancy = weight + level * draw.uniform("buoyancy_over_weight_over_level", 0.3, under.surplus - 0.1);
+        // Along the body's own axis a tilted vehicle feels only a part.
+        let felt = (weight - buoyancy) * under.tilt_rad.cos().powi(2) + external;
+        let axis = DragAxis::mixed(draw.uniform("alpha", 5.0, 10.0), draw.uniform("drag", 1.0, 5.0), under.quadratic);
+        let axis = axis.and_then(|axis| axis.with_disturbance(felt)).and_then(|axis| axis.with_delay_s(0.2));
+        let (Ok(axis), Ok(relay)) = (axis, RelayHysteresis::new(level, draw.uniform("half_width_m", 0.1, 0.5), 0.0))
+        else {
+            return Case::Skipped;
+        };
+        let Ok(cycle) = limit_cycle(&axis, &relay) else { return Case::truth(false) };
+        let found = disturbance_from_times(level, cycle.time_positive_s, cycle.time_negative_s);
+        let expected = sign * (external + weight - buoyancy);
+        draw.equal(("disturbance_n", found), expected, level, tolerance::CANCELLING)
+    })
+}
+
+claim! {
+    SURGE = "surge" "44" Theorem
+    "The relay fed with minus the integral of the speed makes surge oscillate as yaw does"
+    {
+        domain: &[ClaimPart::whole("whole", "every axis, level and half-width")],
+        printed: AsPrinted::Holds(|budget| surge(budget, |state| state[1])),
+        corrected: None,
+        // The integral with its own sign.
+        falsified: |budget| surge(budget, |state| -state[1]),
+        hypotheses: &[Hypothesis { id: "integrated", counterexample: Some(|budget| surge(budget, |state| state[0])) }],
+        depends: &["uncoupled-axis"],
+    }
+}
+
+/// The speed's own first-order equation and an integrator, integrated step by step, against the limit cycle of eq. 36.
+fn surge(budget: Budget, measured: fn(&[f64]) -> f64) -> Verdict {
+    sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
+        let Some(case) = Loop::draw(draw, (true, true), 0.5) else { return Case::Skipped };
+        let Some(cycle) = case.cycle() else { return Case::truth(false) };
+        let axis = case.axis;
+        let rate = move |state: &[f64], input: f64, rate: &mut [f64]| {
+            let drag = (axis.linear_drag() + axis.quadratic_drag() * state[0].abs()) * state[0];
+            (rate[0], rate[1]) = ((input + axis.disturbance() - drag) / axis.alpha(), state[0]);
+        };
+        // Where the positive command has just arrived, on the cycle.
+        let start = vec![cycle.lower_switch.velocity, cycle.lower_switch.position];
+        let (Ok(mut feedback), Ok(integrator)) = (
+            RelayFeedback::new(rate, measured, case.relay, 0.0, axis.delay_s()),
+            Integrator::new(1e-11, 1e-13, 100_000),
+        ) else {
+            return Case::Skipped;
+        };
+        let mut maximum = f64::NEG_INFINITY;
+        let observe = |_, state: &[f64]| maximum = maximum.max(state[1]);
+        let Ok(events) = integrator.run(&mut feedback, start, 2.5 * cycle.period_s, observe) else {
+            return Case::truth(false);
+        };
+        let switchings: Vec<f64> = events.iter().filter(|event| event.index == 0).map(|event| event.time_s).collect();
+        let &[rising, falling, next, ..] = switchings.as_slice() else { return Case::truth(false) };
+        let scale = cycle.period_s;
+        draw.equal(("period_s", next - rising), cycle.period_s, scale, tolerance::INTEGRATED)
+            .and(draw.equal(("time_negative_s", falling - rising), cycle.time_negative_s, scale, tolerance::INTEGRATED))
+            .and(Case::truth(maximum <= cycle.maximum + tolerance::INTEGRATED * cycle.amplitude))
+    })
+}
+
+claim! {
+    PROCEDURE = "procedure" "section 4.3, procedure" Statement
+    "Means over the cycles of a dense record, through condition 40 and Table 3, give what the exact limit cycle's features give"
+    {
+        domain: &[ClaimPart::whole("whole", "every axis whose oscillation meets condition 40")],
+        printed: AsPrinted::Holds(|budget| procedure(budget, 1000.0, 1.0, CLEAR)),
+        corrected: None,
+        // The delay left out.
+        falsified: |budget| procedure(budget, 1000.0, 0.0, CLEAR),
+        hypotheses: &[
+            Hypothesis { id: "dense", counterexample: Some(|budget| procedure(budget, 20.0, 1.0, CLEAR)) },
+            Hypothesis {
+                id: "clear-of-condition-40",
+                counterexample: Some(|budget| procedure(budget, 1000.0, 1.0, (0.97, 1.0))),
+            },
+        ],
+        depends: &["table-3", "delay-rotation", "switching-condition"],
+    }
+}
+
+/// `(x_a + abs(x_0))/X_m`, from and to, where eq. 31 is far from the end of its domain.
+const CLEAR: (f64, f64) = (0.0, 0.8);
+
+/// Parameters from a simulated record with so many samples in a period, against those from the limit cycle.
+fn procedure(budget: Budget, samples: f64, delay: f64, condition_40: (f64, f64)) -> Verdict {
+    sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
+        let Some(case) = Loop::draw(draw, (true, true), 0.3) else { return Case::Skipped };
+        let Some(cycle) = case.cycle() else { return Case::truth(false) };
+        let share = (case.relay.half_width() + cycle.bias.abs()) / cycle.amplitude;
+        if !(condition_40.0..condition_40.1).contains(&share) {
+            return Case::Skipped;
+        }
+        let start = State { position: cycle.lower_switch.position, velocity: cycle.lower_switch.velocity };
+        let record = SimulatedExperiment::new(case.axis, case.relay, samples / cycle.period_s)
+            .and_then(|experiment| experiment.from_state(start))
+            .and_then(|experiment| experiment.run(5.0 * cycle.period_s));
+        let Ok(record) = record else { return Case::truth(false) };
+        let Ok(found) = RecordFeatures::of(&record) else { return Case::truth(false) };
+        let exact = Oscillation {
+            relay_level: case.relay.level(),
+            switch_level: case.relay.half_width(),
+            amplitude: cycle.amplitude,
+            bias: cycle.bias,
+            period_s: cycle.period_s,
+            delay_s: case.axis.delay_s(),
+        };
+        let measured = Oscillation::of(&found.features, found.relay.level, delay * case.axis.delay_s());
+        let (Ok(exact), Ok(measured)) = (exact.identify(), measured.identify()) else { return Case::Skipped };
+        // One sample's motion is a share of the amplitude; the level it is read at is smaller.
+        let ratio = cycle.amplitude / case.relay.half_width();
+        let mut equal =
+            |name, value: f64, expected: f64| draw.equal((name, value), expected, expected * ratio, tolerance::SAMPLED);
+        equal("alpha", measured.alpha, exact.alpha).and(equal("beta", measured.beta, exact.beta)).and(equal(
+            "beta_xx",
+            measured.beta_quadratic,
+            exact.beta_quadratic,
+        ))
+    })
+}
+
+claim! {
+    HARMONIC_BALANCE = "harmonic-balance" "16-17" Theorem
+    "With a linear plant 1 + N G(jw) = 0 on the true orbit, N being the relay's true gain there and not the sinusoid's"
+    {
+        domain: &[ClaimPart::whole("whole", "every linear plant on its exact periodic motion")],
+        printed: AsPrinted::Refuted(|budget| balance(budget, Gain::OfSinusoid, 1.0)),
+        corrected: Some(|budget| balance(budget, Gain::OfOrbit, 1.0)),
+        // The delay left out of the plant.
+        falsified: |budget| balance(budget, Gain::OfOrbit, 0.0),
+        hypotheses: &[Hypothesis { id: "linear-plant", counterexample: Some(quadratic_balance) }],
+        depends: &["fourier-coefficients", "describing-function"],
+    }
+}
+
+/// Which gain the relay is given.
+#[derive(Clone, Copy)]
+enum Gain {
+    /// Describing function at the orbit's amplitude.
+    OfSinusoid,
+    /// First harmonic of the command over that of the relay's input, on the orbit.
+    OfOrbit,
+}
+
+/// First harmonic `X_1` of `x(t)` over one period, as `(2/T) integral of x exp(-jwt)`, by pieces that are smooth.
+fn first_harmonic(x: impl Fn(f64) -> f64, ends: &[f64], period_s: f64) -> Complex<f64> {
+    let omega = 2.0 * PI / period_s;
+    let part = |weight: fn(f64) -> f64| -> f64 {
+        let piece = |pair: &[f64]| integrate(|t| x(t) * weight(omega * t), pair[0], pair[1], 1e-13, 200).value;
+        ends.windows(2).map(piece).sum::<f64>() * 2.0 / period_s
+    };
+    Complex::new(part(f64::cos), -part(f64::sin))
+}
+
+/// First harmonic of a square wave `+-level` that steps up at time `on_s`, the times at either level equal.
+fn square_wave(level: f64, omega: f64, on_s: f64) -> Complex<f64> {
+    Complex::new(0.0, -4.0 * level / PI) * Complex::new(0.0, -omega * on_s).exp()
+}
+
+/// A plant with or without integrator, three poles and a delay, in a symmetric oscillation.
+fn oscillating(draw: &mut Draw) -> Option<(TransferFunction, RelayHysteresis<f64>, RelayOrbit)> {
+    let (a, b) = (draw.log_uniform("first_pole_rad_s", 0.3, 3.0), draw.log_uniform("second_pole_rad_s", 0.3, 3.0));
+    let c = if draw.index("integrating", 2) == 1 { 0.0 } else { draw.log_uniform("third_pole_rad_s", 0.1, 1.0) };
+    let denominator = [1.0, a + b + c, a * b + b * c + c * a, a * b * c];
+    let plant = TransferFunction::new(&[1.0], &denominator).ok()?;
+    let delay_s = draw.uniform("delay_s", 0.1, 1.0);
+    let plant = plant.with_delay(delay_s).ok()?;
+    let relay =
+        RelayHysteresis::new(draw.uniform("level", 0.5, 2.0), draw.uniform("half_width", 0.0, 0.1), 0.0).ok()?;
+    let orbits = RelayLoop::new(StateSpace::realise(&plant).ok()?, relay).symmetric_orbits(1.5..=40.0).ok()?;
+    Some((plant, relay, orbits.into_iter().next()?))
+}
+
+fn balance(budget: Budget, gain: Gain, delay: f64) -> Verdict {
+    sample(Budget { cases: budget.cases.min(100), ..budget }, |draw| {
+        let Some((plant, relay, orbit)) = oscillating(draw) else { return Case::Skipped };
+        let period_s = draw.note("period_s", orbit.period_s());
+        let (omega, delay_s) = (2.0 * PI / period_s, plant.delay_s());
+        let sine = match gain {
+            Gain::OfOrbit => {
+                let ends = [0.0, orbit.time_positive_s(), period_s];
+                let output = first_harmonic(|t| orbit.output(t), &ends, period_s);
+                // The plant's input steps up at time zero, the command a delay before; the relay sees minus the output.
+                Some(square_wave(relay.level(), omega, -delay_s) / -output)
+            }
+            Gain::OfSinusoid => {
+                let df = Sinusoid::new(0.0, orbit.amplitude()).ok().and_then(|s| relay.describing_function(&s).ok());
+                df.map(|df| Complex::new(df.p, df.q))
+            }
+        };
+        let plant = plant.with_delay(delay * delay_s).and_then(|plant| plant.response(omega));
+        let (Some(sine), Ok(response)) = (sine, plant) else { return Case::truth(false) };
+        draw.equal(("one_plus_n_g", (sine * response + 1.0).norm()), 0.0, 1.0, tolerance::CANCELLING)
+    })
+}
+
+/// Quadratic drag with the linear drag that takes as much from the first harmonic.
+fn quadratic_balance(budget: Budget) -> Verdict {
+    sample(budget, |draw| {
+        let Some(case) = Loop::draw(draw, (false, true), 0.0) else { return Case::Skipped };
+        let (axis, level) = (case.axis, case.relay.level());
+        let Some((axis, cycle)) =
+            axis.with_disturbance(0.0).ok().and_then(|axis| Some((axis, limit_cycle(&axis, &case.relay).ok()?)))
+        else {
+            return Case::Skipped;
+        };
+        let at = |switch: crate::orbit::Switching<f64>| State { position: switch.position, velocity: switch.velocity };
+        let (half, period_s) = (cycle.time_positive_s, cycle.period_s);
+        let position = |t: f64| {
+            let falling = axis.advance(at(cycle.upper_switch), -level, (t - half).max(0.0));
+            let rising = axis.advance(at(cycle.lower_switch), level, t.min(half));
+            if t < half { rising.position } else { falling.position }
+        };
+        // From rest to rest the motion is smooth; the ends cut it there too.
+        let omega = 2.0 * PI / period_s;
+        let output = first_harmonic(position, &[0.0, half, period_s], period_s);
+        let drag = 8.0 / (3.0 * PI) * axis.quadratic_drag() * output.norm() * omega;
+        let response = Complex::new(-axis.alpha() * omega * omega, drag * omega).inv();
+        let gain = square_wave(level, omega, 0.0) / -output;
+        draw.equal(("one_plus_n_g", (gain * response + 1.0).norm()), 0.0, 1.0, tolerance::CANCELLING)
+    })
+}

@@ -1,0 +1,279 @@
+//! Fourier coefficients, describing functions, parity.
+
+use core::f64::consts::PI;
+
+use super::enclosure::{identity, no_function};
+use super::family::{not_odd, odd_hysteretic, odd_nondecreasing, output_scale, sweep, unbiased};
+use super::kernels::{BREAKPOINT, prove_kernel};
+use super::tone::{EVERY_AMPLITUDE, prove_sine_abs_sine};
+use super::{
+    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance,
+};
+use crate::describing::{Boxed, ClosedForm, KernelForm, by_quadrature, harmonic};
+use crate::nonlinearity::{Branch, Characteristic, NonlinearityError, Polynomial, Power, Sinusoid};
+use crate::numeric::quadrature::integrate;
+use crate::numeric::{Interval, Real};
+use crate::proof::identity::Series;
+use std::array;
+
+claim! {
+    FOURIER_COEFFICIENTS = "fourier-coefficients" "7-11" Definition
+    "The mean and first harmonic of eq. 10 leave the least mean square of the output" {
+        domain: &[
+            ClaimPart::whole("whole", "odd nondecreasing characteristics of the catalogue, every bias and amplitude"),
+        ],
+        printed: AsPrinted::Holds(|budget| least_square(budget, 1.0)),
+        corrected: None,
+        // Halved coefficients, as from 1/(2 pi) in place of 1/pi.
+        falsified: |budget| least_square(budget, 0.5),
+        hypotheses: &[],
+        depends: &[],
+    }
+}
+
+/// Parseval: the mean square of the remainder is that of the output less the share of each harmonic.
+fn least_square(budget: Budget, factor: f64) -> Verdict {
+    sample(budget, |draw| {
+        let (Ok(characteristic), Ok(sweep)) = (odd_nondecreasing(draw), sweep(draw)) else { return Case::Skipped };
+        let (Ok((mean, _)), Ok((sine, cosine))) =
+            (harmonic(&*characteristic, &sweep, 0), harmonic(&*characteristic, &sweep, 1))
+        else {
+            return Case::Skipped;
+        };
+        let (sine, cosine) = (factor * sine, factor * cosine);
+        let square = |remainder: &dyn Fn(f64, f64) -> f64| mean_over_sweep(&*characteristic, &sweep, remainder);
+        let whole = square(&|_, y| y * y);
+        let left = square(&|theta, y| (y - mean - sine * theta.sin() - cosine * theta.cos()).powi(2));
+        let expected = whole - mean * mean - 0.5 * (sine * sine + cosine * cosine);
+        draw.equal(("mean_square_left", left), expected, whole + 1e-9, tolerance::QUADRATURE)
+    })
+}
+
+/// Mean of `of(theta, output)` over one period of the input.
+fn mean_over_sweep(
+    characteristic: &(impl Characteristic<Number = f64> + ?Sized),
+    sweep: &Sinusoid<f64>,
+    of: &dyn Fn(f64, f64) -> f64,
+) -> f64 {
+    let mut angles = vec![-0.5 * PI, 0.5 * PI];
+    characteristic.kinks(sweep, &mut |x| angles.push(((x - sweep.bias()) / sweep.amplitude()).clamp(-1.0, 1.0).asin()));
+    angles.sort_by(f64::total_cmp);
+    let half = |branch: Branch, theta: fn(f64) -> f64| {
+        let integrand = |angle: f64| {
+            let x = sweep.bias() + sweep.amplitude() * angle.sin();
+            of(theta(angle), characteristic.output(x, branch, sweep))
+        };
+        angles.windows(2).map(|piece| integrate(integrand, piece[0], piece[1], 1e-13, 1000).value).sum::<f64>()
+    };
+    (half(Branch::Rising, |angle| angle) + half(Branch::Falling, |angle| PI - angle)) / (2.0 * PI)
+}
+
+claim! {
+    DESCRIBING_FUNCTION = "describing-function" "12-15" Definition
+    "P and Q are the first-harmonic coefficients over the amplitude, F_0 the mean: closed form and integral agree" {
+        domain: &[
+            BREAKPOINT,
+            ClaimPart::whole(
+                "decomposition",
+                "each member of the piecewise-linear catalogue is the sum of its kernels, every parameter",
+            ),
+            ClaimPart::whole("beyond-the-sweep", "sweeps that end beyond a breakpoint"),
+        ],
+        by_hand: &[
+            "height and amplitude are set to one by linearity and homogeneity",
+            "the sides and branches follow from one by reflection",
+        ],
+        printed: AsPrinted::Holds(|budget| closed_is_integral(budget, 1.0)),
+        corrected: None,
+        falsified: |budget| closed_is_integral(budget, 1.000_01),
+        proof: Some(prove_describing_function),
+        hypotheses: &[],
+        depends: &["fourier-coefficients", "kernel-step", "kernel-ramp", "kernel-sign", "kernel-band"],
+    }
+}
+
+fn closed_is_integral(budget: Budget, factor: f64) -> Verdict {
+    sample(budget, |draw| {
+        let family = [odd_nondecreasing, odd_hysteretic, not_odd][draw.index("kind", 3)];
+        let (Ok(characteristic), Ok(sweep)) = (family(draw), sweep(draw)) else { return Case::Skipped };
+        let (Ok(closed), Ok(integral)) =
+            (characteristic.describing_function(&sweep), by_quadrature(&*characteristic, &sweep))
+        else {
+            return Case::Skipped;
+        };
+        let (scale, amplitude) = (output_scale(&*characteristic, &sweep).max(1e-3), sweep.amplitude());
+        let mut equal =
+            |name, closed: f64, integral| draw.equal((name, closed * factor), integral, scale, tolerance::QUADRATURE);
+        equal("f0", closed.f0, integral.f0).and(equal("y_p1", closed.p * amplitude, integral.p * amplitude)).and(equal(
+            "y_q1",
+            closed.q * amplitude,
+            integral.q * amplitude,
+        ))
+    })
+}
+
+claim! {
+    POLYNOMIAL = "polynomial" "10" Identity
+    "F_0 and P of a polynomial follow from its coefficients about the bias and the means of even powers of the sine" {
+        domain: &[
+            ClaimPart::over(
+                "powers",
+                "x^0 to x^9, every amplitude",
+                const { &[ClaimVariable::number("bias/amplitude", f64::NEG_INFINITY, f64::INFINITY)] },
+            ),
+        ],
+        by_hand: &[
+            "every amplitude by homogeneity",
+            "the mean over twelve angles is the mean over the circle for degrees below twelve",
+        ],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| polynomial_is_integral(budget, 1.0)),
+        falsified: |budget| polynomial_is_integral(budget, 1.000_01),
+        proof: Some(prove_polynomial),
+        hypotheses: &[],
+        depends: &["fourier-coefficients"],
+    }
+}
+
+fn polynomial_is_integral(budget: Budget, factor: f64) -> Verdict {
+    const NAMES: [&str; 5] = ["c0", "c1", "c2", "c3", "c4"];
+    sample(budget, |draw| {
+        let polynomial = Polynomial::new(NAMES.map(|name| draw.uniform(name, -1.0, 1.0)));
+        let (Ok(polynomial), Ok(sweep)) = (polynomial, sweep(draw)) else { return Case::Skipped };
+        let (Ok(closed), Ok(integral)) = (polynomial.describing_function(&sweep), by_quadrature(&polynomial, &sweep))
+        else {
+            return Case::Skipped;
+        };
+        let scale = output_scale(&polynomial, &sweep).max(1e-3);
+        let mut equal =
+            |name, closed: f64, integral| draw.equal((name, closed * factor), integral, scale, tolerance::QUADRATURE);
+        let amplitude = sweep.amplitude();
+        equal("f0", closed.f0, integral.f0).and(equal("y_p1", closed.p * amplitude, integral.p * amplitude))
+    })
+}
+
+claim! {
+    ODD_HARMONICS = "odd-harmonics" "Theorem 1" Theorem
+    "An odd characteristic without memory under an unbiased sinusoid gives odd harmonics only" {
+        domain: &[ClaimPart::whole("whole", "odd characteristics without memory, every amplitude")],
+        printed: AsPrinted::Holds(|budget| even_vanish(budget, odd_nondecreasing, unbiased)),
+        corrected: None,
+        falsified: |budget| even_vanish(budget, not_odd, unbiased),
+        hypotheses: &[
+            Hypothesis { id: "odd", counterexample: Some(|budget| even_vanish(budget, not_odd, unbiased)) },
+            Hypothesis { id: "unbiased", counterexample: Some(|budget| even_vanish(budget, odd_nondecreasing, sweep)) },
+        ],
+        depends: &["fourier-coefficients"],
+    }
+}
+
+claim! {
+    ODD_HARMONICS_HYSTERETIC = "odd-harmonics-hysteretic" "Theorem 1, with memory" Theorem
+    "Theorem 1 holds with memory when each branch is the other turned about the origin" {
+        domain: &[
+            ClaimPart::whole("whole", "characteristics whose branches are each other's half-turn image, every amplitude"),
+        ],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| even_vanish(budget, odd_hysteretic, unbiased)),
+        falsified: |budget| even_vanish(budget, not_odd, unbiased),
+        hypotheses: &[
+            Hypothesis { id: "branches-odd", counterexample: Some(|budget| even_vanish(budget, not_odd, unbiased)) },
+            Hypothesis { id: "unbiased", counterexample: Some(|budget| even_vanish(budget, odd_hysteretic, sweep)) },
+        ],
+        depends: &["odd-harmonics"],
+    }
+}
+
+/// Draws a characteristic.
+type Family = fn(&mut Draw) -> Result<Boxed<f64>, NonlinearityError>;
+/// Draws an input.
+type Sweep = fn(&mut Draw) -> Result<Sinusoid<f64>, NonlinearityError>;
+
+/// Harmonics 0, 2, 4, 6 are zero to the accuracy of quadrature.
+fn even_vanish(budget: Budget, family: Family, sweep: Sweep) -> Verdict {
+    sample(budget, |draw| {
+        let (Ok(characteristic), Ok(sweep)) = (family(draw), sweep(draw)) else { return Case::Skipped };
+        let scale = output_scale(&*characteristic, &sweep).max(1e-3);
+        let mut case = Case::truth(true);
+        for order in [0, 2, 4, 6] {
+            let Ok((sine, cosine)) = harmonic(&*characteristic, &sweep, order) else { return Case::Skipped };
+            case = case.and(draw.equal(("even_harmonic", sine.hypot(cosine)), 0.0, scale, tolerance::QUADRATURE));
+        }
+        case
+    })
+}
+
+claim! {
+    SINE_ABS_SINE = "sine-abs-sine" "before 29" Identity
+    "The first harmonic of sin abs(sin) is 8/(3 pi) sin; the next is the third, -8/(15 pi)" {
+        domain: &[EVERY_AMPLITUDE],
+        by_hand: &["every amplitude by homogeneity of degree two"],
+        printed: AsPrinted::Holds(|budget| sine_abs_sine(budget, 8.0 / (3.0 * PI))),
+        corrected: None,
+        falsified: |budget| sine_abs_sine(budget, 0.85),
+        proof: Some(prove_sine_abs_sine),
+        hypotheses: &[],
+        depends: &["describing-function"],
+    }
+}
+
+/// By quadrature and by the gamma-function form of the power law, for any amplitude.
+fn sine_abs_sine(budget: Budget, first: f64) -> Verdict {
+    sample(budget, |draw| {
+        let (Ok(square), Ok(sweep)) = (Power::new(1.0, 2.0), unbiased(draw)) else { return Case::Skipped };
+        let (Ok(closed), Ok((sine, cosine)), Ok((third, _))) =
+            (square.describing_function(&sweep), harmonic(&square, &sweep, 1), harmonic(&square, &sweep, 3))
+        else {
+            return Case::Skipped;
+        };
+        let scale = sweep.amplitude() * sweep.amplitude();
+        draw.equal(("first", sine), first * scale, scale, tolerance::QUADRATURE)
+            .and(draw.equal(
+                ("first_by_gamma", closed.p * sweep.amplitude()),
+                first * scale,
+                scale,
+                tolerance::ROUNDING,
+            ))
+            .and(draw.equal(("cosine", cosine), 0.0, scale, tolerance::QUADRATURE))
+            .and(draw.equal(("third", third), -8.0 / (15.0 * PI) * scale, scale, tolerance::QUADRATURE))
+    })
+}
+
+/// Every kernel. That the members of the catalogue are sums of kernels is not proved here.
+fn prove_describing_function(distortion: Distortion) -> Verdict {
+    let forms = [KernelForm::Step, KernelForm::Ramp, KernelForm::Sign, KernelForm::Band];
+    forms
+        .map(|form| prove_kernel(form, distortion, BREAKPOINT))
+        .into_iter()
+        .reduce(|all, next| all.and(|| next))
+        .unwrap_or_else(|| Verdict::undecided("nothing"))
+}
+
+/// Powers up to the ninth. The mean over twelve equally spaced angles is the mean over the circle for every trigonometric
+/// polynomial of degree below twelve, so the integral needs no antiderivative.
+fn prove_polynomial(distortion: Distortion) -> Verdict {
+    const COVERED: ClaimPart =
+        ClaimPart::over("powers", "", const { &[ClaimVariable::number("bias/amplitude", -2.0, 2.0)] });
+    identity(COVERED, distortion, |bias, factor| {
+        let sweep = Sinusoid::new(bias, Series::one()).ok();
+        let nodes = (0..12).map(|k| Interval::point(f64::from(k)) * Interval::PI / Interval::point(6.0));
+        let sines: Vec<Series> = nodes.map(|angle| Series::constant(angle.sin())).collect();
+        let mut powers = vec![Series::one(); sines.len()];
+        let mut errors = [Series::zero(); 20];
+        for (degree, error) in errors.chunks_mut(2).enumerate() {
+            let monomial =
+                Polynomial::<_, 10>::new(array::from_fn(|k| Series::from_f64(f64::from(u8::from(k == degree)))));
+            let closed =
+                sweep.zip(monomial.ok()).and_then(|(sweep, monomial)| monomial.describing_function(&sweep).ok());
+            let closed = closed.unwrap_or_else(no_function) * factor;
+            let (mut mean, mut sine) = (Series::zero(), Series::zero());
+            for (power, &node) in powers.iter_mut().zip(&sines) {
+                (mean, sine) = (mean + *power, sine + *power * node);
+                *power = *power * (bias + node);
+            }
+            error[0] = closed.f0 - mean / Series::from_f64(12.0);
+            error[1] = closed.p - sine / Series::from_f64(6.0);
+        }
+        errors
+    })
+}

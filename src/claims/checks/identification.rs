@@ -1,0 +1,294 @@
+//! From the first harmonic to parameters: eqs. 21-29, 33-34, Table 3, 37-39, 41-42, the zig-zag test.
+
+use crate::numeric::Real;
+use crate::proof::identity::Series;
+use core::f64::consts::PI;
+
+use nalgebra::Complex;
+
+use super::enclosure::identity;
+use super::relay::{relay, root};
+use super::{AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Verdict, claim, sample, tolerance};
+use crate::describing::{DescribingFunction, by_quadrature};
+use crate::identify::iso::{Oscillation, parameters};
+use crate::identify::select::pairwise::{Decision, decide, relative_spread_percent};
+use crate::nonlinearity::{RelayHysteresis, Sinusoid};
+
+/// Features of an oscillation that meets condition 40, with room to differentiate.
+pub(super) fn oscillation(draw: &mut Draw, biased: bool, delayed: bool) -> Oscillation<f64> {
+    let switch_level = draw.uniform("switch_level", 0.1, 1.0);
+    let bias = if biased { draw.uniform("bias", -0.5, 0.5) * switch_level } else { 0.0 };
+    Oscillation {
+        relay_level: draw.uniform("relay_level", 0.5, 2.0),
+        switch_level,
+        amplitude: draw.uniform("amplitude_ratio", 1.05, 4.0) * (switch_level + bias.abs()),
+        bias,
+        period_s: draw.uniform("period_s", 1.0, 8.0),
+        delay_s: if delayed { draw.uniform("delay_s", 0.05, 0.3) } else { 0.0 },
+    }
+}
+
+claim! {
+    TABLE_3 = "table-3" "Table 3" Identity
+    "Eqs. 27 and 29 with 30 and 31 put in are Table 3" {
+        domain: &[
+            ClaimPart::over(
+                "table",
+                "every C, X, w > 0 with x_a + abs(x_0) <= X",
+                const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
+            ),
+        ],
+        by_hand: &["level, amplitude and frequency are set to one by homogeneity"],
+        printed: AsPrinted::Holds(|budget| table_3(budget, 1.5)),
+        corrected: None,
+        falsified: |budget| table_3(budget, 3.0 * PI / 8.0),
+        proof: Some(prove_table_3),
+        hypotheses: &[],
+        depends: &["linear-drag", "quadratic-drag", "relay-p", "relay-q"],
+    }
+}
+
+/// Table 3's own expressions against eqs. 27 and 29 of a gain by quadrature.
+fn table_3(budget: Budget, quadratic_factor: f64) -> Verdict {
+    sample(budget, |draw| {
+        let o = oscillation(draw, true, false);
+        let (Ok(relay), Ok(sweep)) =
+            (RelayHysteresis::new(o.relay_level, o.switch_level, 0.0), Sinusoid::new(o.bias, o.amplitude))
+        else {
+            return Case::Skipped;
+        };
+        let Ok(gain) = by_quadrature(&relay, &sweep) else { return Case::Skipped };
+        let omega = o.omega_rad_s();
+        let composed = parameters(gain, o.amplitude, omega);
+        let (level, width, amplitude) = (o.relay_level, o.switch_level, o.amplitude);
+        let root = |distance: f64| (1.0 - (distance / amplitude).powi(2)).sqrt();
+        let alpha = 2.0 * level / (PI * omega * omega * amplitude) * (root(width - o.bias) + root(width + o.bias));
+        let beta = 4.0 * level * width / (PI * omega * amplitude * amplitude);
+        let beta_xx = quadratic_factor * level * width / (omega * omega * amplitude.powi(3));
+        let mut equal = |name, written: f64, composed: f64| {
+            draw.equal((name, written), composed, composed.abs().max(1e-3), tolerance::CANCELLING)
+        };
+        equal("alpha", alpha, composed.alpha).and(equal("beta", beta, composed.beta)).and(equal(
+            "beta_xx",
+            beta_xx,
+            composed.beta_quadratic,
+        ))
+    })
+}
+
+claim! {
+    DELAY_ROTATION = "delay-rotation" "33-34" Identity
+    "A delay turns the describing function by -w T_d: lengths stay, delays add, a negative one undoes" {
+        domain: &[
+            ClaimPart::over(
+                "rotation",
+                "every P and Q, one turn of the phase",
+                const { &[ClaimVariable::new("phase", "rad", 0.0, core::f64::consts::TAU)] },
+            ),
+            ClaimPart::whole("delays-add", "two delays in turn are their sum"),
+        ],
+        by_hand: &["every P and Q by linearity", "phases beyond one turn repeat"],
+        printed: AsPrinted::Holds(|budget| rotation(budget, -1.0)),
+        corrected: None,
+        falsified: |budget| rotation(budget, 1.0),
+        proof: Some(prove_delay_rotation),
+        hypotheses: &[],
+        depends: &["describing-function"],
+    }
+}
+
+fn rotation(budget: Budget, sign: f64) -> Verdict {
+    sample(budget, |draw| {
+        let (p, q) = (draw.uniform("p", -3.0, 3.0), draw.uniform("q", -3.0, 3.0));
+        let (one, two) = (draw.uniform("phase_rad", 0.0, 6.0), draw.uniform("second_phase_rad", 0.0, 6.0));
+        let gain = DescribingFunction { f0: 0.0, p, q };
+        let turned = gain.delayed(one);
+        let expected = Complex::new(p, q) * Complex::new(0.0, sign * one).exp();
+        let scale = p.hypot(q) + 1e-3;
+        let both = turned.delayed(two);
+        let at_once = gain.delayed(one + two);
+        let back = turned.delayed(-one);
+        let mut equal =
+            |name, value: f64, expected: f64| draw.equal((name, value), expected, scale, tolerance::ROUNDING);
+        equal("p_turned", turned.p, expected.re)
+            .and(equal("q_turned", turned.q, expected.im))
+            .and(equal("length", turned.p.hypot(turned.q), p.hypot(q)))
+            .and(equal("p_in_two", both.p, at_once.p))
+            .and(equal("q_in_two", both.q, at_once.q))
+            .and(equal("p_back", back.p, p))
+            .and(equal("q_back", back.q, q))
+    })
+}
+
+claim! {
+    RELATIVE_SPREAD = "relative-spread" "41" Definition
+    "The relative spread of two values is their sample standard deviation over their mean" {
+        domain: &[
+            ClaimPart::over(
+                "ratio",
+                "two values of one sign",
+                const { &[ClaimVariable::number("v_2/v_1", 0.0, f64::INFINITY)] },
+            ),
+        ],
+        by_hand: &["one value is set to one by homogeneity"],
+        printed: AsPrinted::Holds(|budget| spread(budget, 1.0)),
+        corrected: None,
+        // Over n in place of n - 1.
+        falsified: |budget| spread(budget, 2.0),
+        proof: Some(prove_relative_spread),
+        hypotheses: &[],
+        depends: &[],
+    }
+}
+
+fn spread(budget: Budget, degrees_of_freedom: f64) -> Verdict {
+    sample(budget, |draw| {
+        let values = [draw.uniform("first", 0.1, 10.0), draw.uniform("second", 0.1, 10.0)];
+        let mean = 0.5 * (values[0] + values[1]);
+        let square: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+        let expected = (square / degrees_of_freedom).sqrt() / mean * 100.0;
+        draw.equal(("spread", relative_spread_percent(values[0], values[1])), expected, 100.0, tolerance::ROUNDING)
+    })
+}
+
+claim! {
+    DRAG_DECISION = "drag-decision" "42" Definition
+    "The drag law is the one whose coefficient spreads less, by more than the margin" {
+        domain: &[ClaimPart::whole("whole", "every pair of spreads and threshold")],
+        printed: AsPrinted::Holds(|budget| decision(budget, decide)),
+        corrected: None,
+        // The paper's two names of the laws exchanged.
+        falsified: |budget| decision(budget, |linear, quadratic, margin| decide(quadratic, linear, margin)),
+        hypotheses: &[],
+        depends: &["relative-spread"],
+    }
+}
+
+fn decision(budget: Budget, rule: fn(f64, f64, f64) -> Decision) -> Verdict {
+    sample(budget, |draw| {
+        let (linear, quadratic) =
+            (draw.uniform("spread_linear", 0.0, 30.0), draw.uniform("spread_quadratic", 0.0, 30.0));
+        let (margin, wider) = (draw.uniform("margin", 0.0, 10.0), draw.uniform("wider", 0.0, 10.0));
+        let by_distance = match (linear - quadratic).abs() > margin {
+            false => Decision::Undecided,
+            true if quadratic < linear => Decision::Quadratic,
+            true => Decision::Linear,
+        };
+        let decided = rule(linear, quadratic, margin);
+        let reserved = rule(linear, quadratic, margin + wider);
+        Case::truth(decided == by_distance && (reserved == decided || reserved == Decision::Undecided))
+    })
+}
+
+claim! {
+    ZIG_ZAG = "zig-zag" "introduction" Identity
+    "Nomoto's T r' + r = K delta_R is the drag axis alpha = T/K, beta = 1/K" {
+        domain: &[
+            ClaimPart::over(
+                "response",
+                "every ship of Nomoto's first order, unit rudder",
+                const {
+                    &[
+                        ClaimVariable::new("time", "s", 0.0, f64::INFINITY),
+                        ClaimVariable::new("T", "s", 0.0, f64::INFINITY),
+                        ClaimVariable::new("K", "1/s", 0.0, f64::INFINITY),
+                    ]
+                },
+            ),
+        ],
+        printed: AsPrinted::Holds(|budget| nomoto(budget, |gain| 1.0 / gain)),
+        corrected: None,
+        falsified: |budget| nomoto(budget, |gain| gain),
+        proof: Some(prove_zig_zag),
+        hypotheses: &[],
+        depends: &[],
+    }
+}
+
+/// Turning rate under a constant rudder: Nomoto's `K d (1 - exp(-t/T))` satisfies the axis's equation.
+fn nomoto(budget: Budget, drag: fn(f64) -> f64) -> Verdict {
+    sample(budget, |draw| {
+        let (time_constant, gain) = (draw.uniform("time_constant_s", 0.5, 20.0), draw.uniform("gain_per_s", 0.05, 0.9));
+        let (rudder, t) = (draw.uniform("rudder_rad", -0.4, 0.4), draw.uniform("time_s", 0.0, 30.0));
+        let decay = (-t / time_constant).exp();
+        let (rate, acceleration) = (gain * rudder * (1.0 - decay), gain * rudder * decay / time_constant);
+        let moment = time_constant / gain * acceleration + drag(gain) * rate;
+        draw.equal(("moment", moment), rudder, rudder.abs() + 1e-3, tolerance::ROUNDING)
+    })
+}
+
+/// Table 3.
+fn prove_table_3(distortion: Distortion) -> Verdict {
+    let of_bias = |bias: f64| {
+        let sides = vec![ClaimVariable::number("x_a/X", 0.0, 0.69), ClaimVariable::number("abs(x_0)/X", bias, bias)];
+        let part = ClaimPart { variables: sides.into(), ..ClaimPart::whole("table", "") };
+        identity(part, distortion, |width, factor| {
+            let bias = Series::from_f64(bias);
+            let found = parameters(relay(Series::one(), width, bias), Series::one(), Series::one());
+            let pi = Series::pi();
+            let alpha = Series::two() / pi * (root(width - bias) + root(width + bias));
+            [
+                factor * alpha - found.alpha,
+                factor * Series::from_f64(4.0) * width / pi - found.beta,
+                factor * Series::from_f64(1.5) * width - found.beta_quadratic,
+            ]
+        })
+    };
+    of_bias(0.0).and(|| of_bias(0.3))
+}
+
+/// Turning is multiplication by `exp(-j phase)`, and turning back undoes it.
+fn prove_delay_rotation(distortion: Distortion) -> Verdict {
+    const COVERED: ClaimPart =
+        ClaimPart::over("rotation", "", const { &[ClaimVariable::new("phase", "rad", 0.0, 6.5)] });
+    identity(COVERED, distortion, |phase, factor| {
+        let (one, none) = (Series::one(), Series::zero());
+        let (cosine, sine) = (factor * phase.cos(), factor * phase.sin());
+        let real = DescribingFunction { f0: none, p: one, q: none };
+        let imaginary = DescribingFunction { f0: none, p: none, q: one };
+        let (turned, other) = (real.delayed(phase), imaginary.delayed(phase));
+        let back = turned.delayed(-phase);
+        [
+            turned.p - cosine,
+            turned.q + sine,
+            other.p - sine,
+            other.q - cosine,
+            turned.p.square() + turned.q.square() - one,
+            back.p - one,
+            back.q,
+        ]
+    })
+}
+
+/// Eq. 41 squared.
+fn prove_relative_spread(distortion: Distortion) -> Verdict {
+    const COVERED: ClaimPart = ClaimPart::over("ratio", "", const { &[ClaimVariable::number("v_2/v_1", 0.01, 100.0)] });
+    identity(COVERED, distortion, |second, factor| {
+        let first = Series::one();
+        let mean = (first + second) / Series::two();
+        let square = (first - mean).square() + (second - mean).square();
+        let spread = relative_spread_percent(first, second) / Series::from_f64(100.0);
+        [factor * square / mean.square() - spread.square()]
+    })
+}
+
+/// Nomoto's response to a step of the rudder; all but the time's ratio to T scales out.
+fn prove_zig_zag(distortion: Distortion) -> Verdict {
+    const COVERED: ClaimPart = ClaimPart::over(
+        "response",
+        "",
+        const {
+            &[
+                ClaimVariable::new("time", "s", 0.0, 60.0),
+                ClaimVariable::new("T", "s", 2.0, 2.0),
+                ClaimVariable::new("K", "1/s", 0.5, 0.5),
+            ]
+        },
+    );
+    identity(COVERED, distortion, |t, factor| {
+        let (time_constant, gain) = (Series::two(), Series::from_f64(0.5));
+        let rate = gain * (Series::one() - (-t / time_constant).exp());
+        let (alpha, beta) = (time_constant / gain, factor / gain);
+        [alpha * rate.derivative() + beta * rate - Series::one()]
+    })
+}

@@ -1,0 +1,268 @@
+//! The on-board state machine as a transition system, and its exhaustive exploration.
+//!
+//! The machine is explored with whatever an observer of cycles may say at whatever sample: a superset of what happens.
+
+use std::collections::{HashSet, VecDeque};
+
+use super::{ClaimPart, Evidence, Verdict, Witness};
+use crate::on_board::{Coordinate, Key, Observation, Observer, Phase, Protocol, Supervisor};
+
+const POSITION: ClaimPart =
+    ClaimPart::whole("positions", "the machine on the lattice of positions -2 to 2 in steps of 1");
+const HEADING: ClaimPart =
+    ClaimPart::whole("headings", "the machine on the lattice of headings 0 to 300 degrees in steps of 60");
+const SPEED: ClaimPart = ClaimPart::whole("speeds", "the machine on the lattice of speeds -1, 0, 1");
+/// The lattices of [`Lattice::all`]: readings and times off them are not spoken of.
+pub(super) const LATTICES: &[ClaimPart] = &[POSITION, HEADING, SPEED];
+
+/// A finite world: an experiment, and the samples that may come.
+pub(super) struct Lattice {
+    pub(super) part: ClaimPart,
+    pub(super) protocol: Protocol<f64>,
+    pub(super) readings: &'static [f64],
+}
+
+/// Times between samples in s: sound ones, a gap, a clock that stands, runs backwards or fails.
+pub(super) const INTERVALS_S: [f64; 6] = [1.0, 2.0, 3.0, 0.0, -1.0, f64::NAN];
+/// How many of them are sound.
+pub(super) const SOUND: usize = 2;
+/// Readings that come besides the lattice's.
+const BROKEN: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+/// What an observer may say.
+const OBSERVATIONS: [Observation; 4] =
+    [Observation::Between, Observation::Unsteady, Observation::Steady, Observation::Condition40];
+
+impl Lattice {
+    fn of(part: ClaimPart, coordinate: Coordinate, half_width: f64, readings: &'static [f64]) -> Self {
+        let protocol = Protocol {
+            neutral_command: 0.5,
+            lowest_command: -1.0,
+            highest_command: 2.5,
+            interval_s: 0.5,
+            largest_rate: 2.0 * half_width,
+            unchanged_s: 2.0,
+            patience_s: 3.0,
+            duration_s: 6.0,
+            cycles: 2,
+            most_cycles: 2,
+            factor: 2.0,
+            ..Protocol::new(coordinate, 1.0, half_width, 0.5)
+        };
+        Self { part, protocol, readings }
+    }
+
+    /// One for each kind of coordinate. All numbers are whole or halves: sums are exact.
+    pub(super) fn all() -> [Self; 3] {
+        [
+            Self::of(POSITION, Coordinate::Position, 1.0, &[-2.0, -1.0, 0.0, 1.0, 2.0]),
+            Self::of(HEADING, Coordinate::HeadingDegrees, 60.0, &[0.0, 60.0, 120.0, 180.0, 240.0, 300.0]),
+            Self::of(SPEED, Coordinate::Speed, 1.0, &[-1.0, 0.0, 1.0]),
+        ]
+    }
+}
+
+/// What can befall the machine.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Event {
+    Abort,
+    Sample { reading: f64, interval_s: f64, observation: Observation },
+}
+
+/// What a machine has been broken by, so that a claim fails.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Defect {
+    None,
+    /// Begins anew where its time is over.
+    Restarts,
+    /// Follows the sign of the coordinate.
+    NoHysteresis,
+    /// Raises the level without regard to the limits.
+    Unclamped,
+    /// Obeys in the first attempt only.
+    IgnoresAbort,
+    /// Goes on after a fault.
+    Forgives,
+}
+
+/// The machine under its clock.
+#[derive(Clone, Copy)]
+pub(super) struct Machine {
+    supervisor: Supervisor<f64>,
+    defect: Defect,
+    /// Command upon the last event.
+    pub(super) command: f64,
+    /// Time of the last sample; the first has time zero.
+    pub(super) time_s: f64,
+    /// Last reading and since when it has been the same, once there was one.
+    pub(super) seen: Option<(f64, f64)>,
+}
+
+/// An observer that says what it is told to.
+struct Says(Observation);
+
+impl Observer<f64> for Says {
+    fn begin(&mut self) {}
+    fn sample(&mut self, _: f64, _: f64, _: f64) -> Observation {
+        self.0
+    }
+}
+
+impl Machine {
+    fn new(lattice: &Lattice, defect: Defect) -> Option<Self> {
+        let supervisor = Supervisor::new(lattice.protocol).ok()?;
+        Some(Self { supervisor, defect, command: supervisor.command(), time_s: 0.0, seen: None })
+    }
+
+    pub(super) fn phase(&self) -> Phase {
+        self.supervisor.phase()
+    }
+    pub(super) fn position(&self) -> Option<f64> {
+        self.supervisor.position()
+    }
+    pub(super) fn half_width(&self) -> f64 {
+        self.supervisor.half_width()
+    }
+    pub(super) fn running(&self) -> bool {
+        self.phase() == Phase::Running
+    }
+
+    /// The machine after an event.
+    pub(super) fn after(mut self, event: Event) -> Self {
+        match event {
+            Event::Abort => {
+                if self.defect != Defect::IgnoresAbort || self.supervisor.attempt() == 1 {
+                    self.supervisor.abort();
+                }
+            }
+            Event::Sample { reading, interval_s, observation } => {
+                // A first sample has none before it.
+                self.time_s = if self.seen.is_some() { self.time_s + interval_s } else { 0.0 };
+                let _ = self.supervisor.step(reading, self.time_s, &mut Says(observation));
+                let over = matches!(self.phase(), Phase::Failed(fault) if fault.code() == "overtime");
+                let forgiven = self.defect == Defect::Forgives && matches!(self.phase(), Phase::Failed(_));
+                if (over && self.defect == Defect::Restarts || forgiven)
+                    && let Ok(fresh) = Supervisor::new(*self.supervisor.protocol())
+                {
+                    self.supervisor = fresh;
+                    let _ = self.supervisor.step(reading, self.time_s, &mut Says(observation));
+                }
+                let since = self.seen.filter(|(before, _)| *before == reading).map_or(self.time_s, |(_, since)| since);
+                self.seen = Some((reading, since));
+            }
+        }
+        self.command = self.answer();
+        self
+    }
+
+    /// What the machine commands now, spoilt by its defect.
+    fn answer(&self) -> f64 {
+        let (command, protocol) = (self.supervisor.command(), self.supervisor.protocol());
+        let Some(position) = self.position().filter(|_| self.running()) else { return command };
+        let raised = protocol.relay_level * protocol.factor.powi(i32::from(self.supervisor.attempt()) - 1);
+        let with = |level: f64, positive: bool| protocol.neutral_command + if positive { level } else { -level };
+        match self.defect {
+            Defect::NoHysteresis => with(self.supervisor.relay_level(), position < 0.0),
+            Defect::Unclamped => with(raised, command > protocol.neutral_command),
+            _ => command,
+        }
+    }
+}
+
+/// What must hold of a machine and of all its successors; the successor that shows that it does not, or none for the machine.
+pub(super) type Property = fn(&Lattice, &Machine, &[(Event, Machine)]) -> Result<(), Option<usize>>;
+
+/// States beyond this are not waited for.
+const MOST_STATES: usize = 3_000_000;
+
+/// Every reachable state of every lattice, breadth first, so that a witness is as short as can be.
+pub(super) fn explore(defect: Defect, property: Property) -> Verdict {
+    Lattice::all()
+        .iter()
+        .map(|lattice| explore_one(lattice, defect, property))
+        .reduce(|a, b| a.and(|| b))
+        .unwrap_or(Verdict::Undecided { spent: "no lattice".to_owned() })
+}
+
+fn explore_one(lattice: &Lattice, defect: Defect, property: Property) -> Verdict {
+    let Some(start) = Machine::new(lattice, defect) else {
+        return Verdict::Undecided { spent: format!("{}: protocol refused", lattice.part.name) };
+    };
+    // State, the one before, and the event between.
+    let mut states: Vec<(Machine, usize, Event)> = vec![(start, 0, Event::Abort)];
+    let mut visited: HashSet<Key> = HashSet::from([start.supervisor.key()]);
+    let mut waiting = VecDeque::from([0]);
+    let mut successors = Vec::new();
+    while let Some(index) = waiting.pop_front() {
+        let machine = states[index].0;
+        successors.clear();
+        successors.extend(events(lattice, &machine).map(|event| (event, machine.after(event))));
+        if let Err(offender) = property(lattice, &machine, &successors) {
+            let mut path = Vec::from_iter(offender.map(|offender| successors[offender]));
+            let mut at = index;
+            while at != 0 {
+                path.push((states[at].2, states[at].0));
+                at = states[at].1;
+            }
+            path.reverse();
+            return Verdict::Refuted(witness(&path));
+        }
+        for &(event, next) in &successors {
+            if visited.insert(next.supervisor.key()) {
+                waiting.push_back(states.len());
+                states.push((next, index, event));
+            }
+        }
+        if states.len() > MOST_STATES {
+            return Verdict::Undecided {
+                spent: format!("{}: {} states and more to come", lattice.part.name, states.len()),
+            };
+        }
+    }
+    Verdict::Holds(Evidence::exhausted(lattice.part.clone(), states.len()))
+}
+
+fn events<'a>(lattice: &'a Lattice, machine: &Machine) -> impl Iterator<Item = Event> + use<'a> {
+    // The first sample's interval means nothing.
+    let (sound, unsound) =
+        if machine.seen.is_some() { INTERVALS_S.split_at(SOUND) } else { (&INTERVALS_S[..1], &INTERVALS_S[..0]) };
+    let sample = |reading, interval_s, observation| Event::Sample { reading, interval_s, observation };
+    let good = lattice.readings.iter().flat_map(move |&reading| {
+        sound.iter().flat_map(move |&interval_s| OBSERVATIONS.map(|says| sample(reading, interval_s, says)))
+    });
+    // A sample that is refused is not observed.
+    let late = unsound.iter().map(move |&interval_s| sample(lattice.readings[0], interval_s, OBSERVATIONS[0]));
+    let broken = BROKEN.into_iter().map(move |reading| sample(reading, INTERVALS_S[0], OBSERVATIONS[0]));
+    good.chain(late).chain(broken).chain([Event::Abort])
+}
+
+/// Names of the numbers of a path, by its steps.
+macro_rules! steps {
+    ($($step:literal)+) => {
+        const STEPS: &[[&str; 4]] = &[$([
+            concat!("reading_", $step),
+            concat!("after_s_", $step),
+            concat!("cycles_say_", $step),
+            concat!("abort_", $step),
+        ]),+];
+    };
+}
+steps!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16);
+
+/// The samples of a path, and the command at its end. `cycles_say` is 1 where a cycle ended, 2 where they are steady, 3 where
+/// condition 40 is not met.
+fn witness(path: &[(Event, Machine)]) -> Witness {
+    let mut numbers = Vec::new();
+    for ((event, _), [reading_name, interval_name, observation_name, abort]) in path.iter().zip(STEPS) {
+        match *event {
+            Event::Abort => numbers.push((*abort, 1.0)),
+            Event::Sample { reading, interval_s, observation } => {
+                numbers.extend([(*reading_name, reading), (*interval_name, interval_s)]);
+                if observation != Observation::Between {
+                    numbers.push((*observation_name, f64::from(observation as u8)));
+                }
+            }
+        }
+    }
+    numbers.extend(path.last().map(|(_, machine)| ("command", machine.command)));
+    Witness::new(numbers)
+}

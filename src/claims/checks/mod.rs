@@ -1,0 +1,31 @@
+//! The claims by topic, each with its checks: cases drawn, proofs, false variants.
+
+use super::distortion::Distortion;
+use super::evidence::{ClaimDomain, ClaimPart, ClaimVariable, Evidence, Verdict, Witness};
+use super::registry::{AsPrinted, Hypothesis, claim};
+use super::sampling::{Budget, Case, Draw, sample};
+use super::tolerance;
+
+mod enclosure;
+mod family;
+mod machine;
+mod single;
+
+pub(super) mod control;
+pub(super) mod experiment;
+pub(super) mod fourier;
+pub(super) mod identification;
+pub(super) mod kernels;
+pub mod method_bias;
+pub(super) mod on_board;
+pub(super) mod orbit_proofs;
+pub(super) mod orbits;
+pub(super) mod power_law;
+pub(super) mod quantisation;
+pub(super) mod relay;
+pub(super) mod smooth;
+pub(super) mod symmetry;
+pub(super) mod theorems;
+pub(super) mod thruster;
+pub(super) mod tone;
+pub(super) mod vehicle;

@@ -1,0 +1,318 @@
+//! Claims about exact orbits that are proved by enclosure.
+
+use super::method_bias::SymmetricOrbit;
+use super::{
+    AsPrinted, Budget, Case, ClaimDomain, ClaimPart, ClaimVariable, Evidence, Hypothesis, Verdict, Witness, claim,
+    sample,
+};
+use crate::nonlinearity::RelayHysteresis;
+use crate::numeric::{Interval, Real};
+use crate::orbit::theorem::{self, BUDGET, Theorem};
+use crate::orbit::{limit_cycle, return_slope};
+use crate::plant::DragAxis;
+use crate::proof::inequality::{Cell, Inequality, VARIABLES};
+use crate::proof::{Extent, Gradient, NotProved};
+
+/// The verdict of a theorem's inequalities: they establish these parts.
+pub(super) fn proved(theorem: &Theorem, parts: &'static [ClaimPart]) -> Verdict {
+    match theorem.prove() {
+        Ok(proofs) => {
+            let margin = proofs.iter().map(|proof| proof.bound).fold(f64::INFINITY, f64::min);
+            let boxes = proofs.iter().map(|proof| proof.boxes.len()).sum();
+            Verdict::Holds(Evidence::inequality(ClaimDomain::new(parts), margin, boxes))
+        }
+        Err((inequality, why)) => failed(&inequality, why),
+    }
+}
+
+/// The verdict of one inequality by itself, which establishes no part of any claim.
+fn single(inequality: &Inequality) -> Verdict {
+    match inequality.prove(BUDGET) {
+        Ok(proof) => Verdict::Holds(Evidence::inequality(ClaimDomain::default(), proof.bound, proof.boxes.len())),
+        Err(why) => failed(inequality, why),
+    }
+}
+
+fn failed(inequality: &Inequality, why: NotProved<VARIABLES>) -> Verdict {
+    match why {
+        NotProved::Refuted { witness, value: margin, .. } => {
+            let named = inequality.variables.iter().zip(witness).filter(|(side, _)| !side.name.is_empty());
+            let mut numbers: Vec<_> = named.map(|(side, value)| (side.name, value)).collect();
+            numbers.push(("margin", margin.midpoint()));
+            Verdict::Refuted(Witness::new(numbers))
+        }
+        NotProved::Undecided { boxes, .. } => {
+            Verdict::Undecided { spent: format!("{boxes} boxes for {}", inequality.id) }
+        }
+    }
+}
+
+/// What the theorems with a disturbance enclose of the disturbances below the level.
+const BELOW_095: ClaimPart =
+    ClaimPart::over("every-axis", "", const { &[ClaimVariable::number("abs(delta)/C", 0.0, 0.95)] });
+const EXCESS: ClaimPart = ClaimPart::whole(
+    "excess",
+    "denominator less numerator of the slope grows with both drag forces, the denominator is below 4.1",
+);
+const EVERY_G: ClaimPart = ClaimPart::whole("every-g", "every g > 0");
+const UP_TO_TEN: ClaimPart =
+    ClaimPart::whole("g-up-to-ten", "every alpha, drag, C, x_a > 0 with 0 < g <= 10, delta = 0");
+
+/// Negative drag, which feeds the motion.
+pub(super) const FALSE_DRAG: Inequality = Inequality {
+    id: "false-drag",
+    statement: "the map contracts with drag of the wrong sign",
+    margin: |at| {
+        let drags = Gradient::variables([at[1], at[2]]).map(|drag: Gradient<2>| -drag);
+        let [numerator, denominator] = return_slope(Gradient::constant(at[0]), drags);
+        (denominator - numerator).slopes()[0]
+    },
+    ..theorem::EXCESS_FIRST
+};
+
+/// A disturbance beyond the relay's level.
+const FALSE_BRAKING: Inequality = Inequality {
+    id: "false-braking",
+    statement: "the other command brakes whatever the disturbance",
+    variables: [Extent::new("mu", -1.5, 1.5), Extent::new("drag", 0.0, 2.0), Extent::NONE],
+    ..theorem::BRAKING
+};
+
+/// Too small a denominator.
+const FALSE_DENOMINATOR: Inequality = Inequality {
+    id: "false-denominator",
+    statement: "the slope's denominator is below 3.9",
+    margin: |at| (theorem::DENOMINATOR.margin)(at) - Interval::point(0.2),
+    ..theorem::DENOMINATOR
+};
+
+/// The other direction.
+const FALSE_OVERSHOOT_QUADRATIC: Inequality = Inequality {
+    id: "false-overshoot-quadratic",
+    statement: "quadratic drag: the relative overshoot grows with g",
+    margin: |at| -(theorem::QUADRATIC_OVERSHOOT_WEAK.margin)(at),
+    ..theorem::QUADRATIC_OVERSHOOT_WEAK
+};
+
+/// The other direction.
+const FALSE_OVERSHOOT_LINEAR: Inequality = Inequality {
+    id: "false-overshoot-linear",
+    statement: "linear drag: the relative overshoot grows with g",
+    margin: |at| -(theorem::LINEAR_OVERSHOOT_WEAK.margin)(at),
+    ..theorem::LINEAR_OVERSHOOT_WEAK
+};
+
+/// A disturbance above the level leaves no limit cycle.
+fn beyond_the_level(budget: Budget) -> Verdict {
+    sample(budget, |draw| {
+        let (level, share) = (draw.uniform("level", 0.1, 1.0), draw.uniform("disturbance_over_level", 1.0, 2.0));
+        let axis = DragAxis::mixed(1.0, 0.5, 0.5).and_then(|axis| axis.with_disturbance(share * level));
+        let (Ok(axis), Ok(relay)) = (axis, RelayHysteresis::new(level, 0.2, 0.0)) else { return Case::Skipped };
+        Case::truth(limit_cycle(&axis, &relay).is_ok())
+    })
+}
+
+const BELOW_LEVEL: Hypothesis = Hypothesis { id: "disturbance-below-level", counterexample: Some(beyond_the_level) };
+
+claim! {
+    NO_EARLY_SWITCHING = "orbit-no-early-switching" "of this project" Theorem
+    "Between two switchings the velocity changes sign once, beyond the relay's level: the command switches when the formulas say" {
+        domain: &[
+            ClaimPart::over(
+                "every-axis",
+                "every mix of linear and quadratic drag, every speed below the terminal one",
+                const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] },
+            ),
+        ],
+        by_hand: &["speeds stay below the terminal one", "a force that keeps its sign lets the velocity vanish once"],
+        printed: AsPrinted::Absent,
+        corrected: Some(|_| proved(&theorem::NO_EARLY_SWITCHING, const { &[BELOW_095] })),
+        theorem: Some((&theorem::NO_EARLY_SWITCHING, &FALSE_BRAKING)),
+        falsified: |_| single(&FALSE_BRAKING),
+        hypotheses: &[BELOW_LEVEL],
+        depends: &[],
+    }
+}
+
+claim! {
+    MULTIPLIER = "orbit-multiplier" "of this project" Theorem
+    "Without delay 1 - m > 0.48 (d_1 + d_2): the multiplier m by the drag forces d_1, d_2 at the switchings over C" {
+        domain: &[EXCESS, ClaimPart::whole("rate", "1 - m > 0.48 (d_1 + d_2)")],
+        by_hand: &[
+            "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
+            "the rate 2 of the growth",
+        ],
+        printed: AsPrinted::Absent,
+        corrected: Some(|_| proved(&theorem::MULTIPLIER, const { &[EXCESS] })),
+        theorem: Some((&theorem::MULTIPLIER, &FALSE_DENOMINATOR)),
+        falsified: |_| single(&FALSE_DENOMINATOR),
+        hypotheses: &[BELOW_LEVEL],
+        depends: &["orbit-no-early-switching"],
+    }
+}
+
+claim! {
+    QUADRATIC_DISTURBED = "orbit-quadratic-disturbed" "of this project" Theorem
+    "Quadratic drag with a disturbance: one limit cycle, reached from every start" {
+        domain: &[
+            ClaimPart::over(
+                "every-axis",
+                "every alpha, beta, C, x_a > 0; every start",
+                const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] },
+            ),
+        ],
+        by_hand: &[
+            "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
+            "existence: the return map takes an interval into itself",
+            "every start reaches the map's domain",
+        ],
+        printed: AsPrinted::Absent,
+        corrected: Some(|_| proved(&theorem::QUADRATIC_DISTURBED, const { &[BELOW_095] })),
+        theorem: Some((&theorem::QUADRATIC_DISTURBED, &FALSE_DRAG)),
+        falsified: |_| single(&FALSE_DRAG),
+        hypotheses: &[BELOW_LEVEL],
+        depends: &["orbit-multiplier"],
+    }
+}
+
+claim! {
+    LINEAR_DISTURBED = "orbit-linear-disturbed" "of this project" Theorem
+    "Linear drag with a disturbance: one limit cycle, reached from every start" {
+        domain: &[
+            ClaimPart::over(
+                "every-axis",
+                "every alpha, beta, C, x_a > 0; every start",
+                const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] },
+            ),
+        ],
+        by_hand: &[
+            "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
+            "existence: the return map takes an interval into itself",
+            "every start reaches the map's domain",
+        ],
+        printed: AsPrinted::Absent,
+        corrected: Some(|_| proved(&theorem::LINEAR_DISTURBED, const { &[BELOW_095] })),
+        theorem: Some((&theorem::LINEAR_DISTURBED, &FALSE_DRAG)),
+        falsified: |_| single(&FALSE_DRAG),
+        hypotheses: &[BELOW_LEVEL],
+        depends: &["orbit-multiplier"],
+    }
+}
+
+claim! {
+    AMPLITUDE_MONOTONE_QUADRATIC = "orbit-amplitude-monotone-quadratic" "of this project" Theorem
+    "Quadratic drag: (X_m - x_a)/x_a falls as g grows, so that the amplitude identifies g" {
+        domain: &[EVERY_G],
+        by_hand: &[
+            "the sign of the derivative is that of the inequality enclosed",
+            "g is replaced by a coordinate in (0, 1)",
+        ],
+        printed: AsPrinted::Absent,
+        corrected: Some(|_| proved(&theorem::QUADRATIC_OVERSHOOT, const { &[EVERY_G] })),
+        theorem: Some((&theorem::QUADRATIC_OVERSHOOT, &FALSE_OVERSHOOT_QUADRATIC)),
+        falsified: |_| single(&FALSE_OVERSHOOT_QUADRATIC),
+        hypotheses: &[],
+        depends: &["orbit-quadratic"],
+    }
+}
+
+claim! {
+    AMPLITUDE_MONOTONE_LINEAR = "orbit-amplitude-monotone-linear" "of this project" Theorem
+    "Linear drag: (X_m - x_a)/x_a falls as g grows, so that the amplitude identifies g" {
+        domain: &[EVERY_G],
+        by_hand: &[
+            "the sign of the derivative is that of the inequality enclosed",
+            "g is replaced by a coordinate in (0, 1)",
+        ],
+        printed: AsPrinted::Absent,
+        corrected: Some(|_| proved(&theorem::LINEAR_OVERSHOOT, const { &[EVERY_G] })),
+        theorem: Some((&theorem::LINEAR_OVERSHOOT, &FALSE_OVERSHOOT_LINEAR)),
+        falsified: |_| single(&FALSE_OVERSHOOT_LINEAR),
+        hypotheses: &[],
+        depends: &["orbit-linear"],
+    }
+}
+
+/// One error of the method: its distance from `centre` is below `radius` on a range of the coordinate.
+macro_rules! within {
+    ($id:literal: $law:ident $part:ident on $from:literal to $to:literal is $centre:expr, $radius:literal) => {
+        Inequality {
+            id: $id,
+            statement: concat!("the relative error is within ", stringify!($radius), " of ", stringify!($centre)),
+            variables: [Extent::new("coordinate", $from, $to), Extent::NONE, Extent::NONE],
+            margin: |at: &Cell| match SymmetricOrbit::$law.error(at[0]) {
+                Some(error) => Interval::point($radius) - (error.$part - Interval::point($centre)).abs(),
+                None => Interval::ENTIRE,
+            },
+        }
+    };
+}
+
+/// A curve of the method's error: uniform bounds, and where it passes.
+macro_rules! curve {
+    (
+        $constant:ident, $theorem:ident, $false:ident: $id:literal, $name:literal, $law:ident $part:ident,
+        ends $one:literal and $ten:literal, up_to_one $small:literal, up_to_ten $large:literal, too_small $wrong:literal,
+        at_zero $zero:literal, at_one [$one_from:literal, $one_value:expr], at_ten [$ten_from:literal, $ten_value:expr],
+        depends $orbit:literal and $monotone:literal
+    ) => {
+        #[doc = concat!("What `", $id, "` rests on.")]
+        const $theorem: Theorem = Theorem {
+            id: $id,
+            domain: "every alpha, drag, C, x_a > 0 with 0 < g <= 10, delta = 0",
+            inequalities: &[
+        within!("up-to-one": $law $part on 0.0 to $one is 0.0, $small),
+        within!("up-to-ten": $law $part on 0.0 to $ten is 0.0, $large),
+        within!("at-zero": $law $part on 0.0 to 0.01 is $zero, 0.002),
+        within!("at-one": $law $part on $one_from to $one is $one_value, 0.006),
+        within!("at-ten": $law $part on $ten_from to $ten is $ten_value, 0.006),
+            ],
+        };
+        #[doc = concat!("Too narrow a bound for `", $id, "`.")]
+const $false: Inequality = within!("false-bound": $law $part on 0.0 to $ten is 0.0, $wrong);
+
+        claim! {
+            $constant = $id "of this project" Theorem $name {
+                printed: AsPrinted::Absent,
+                corrected: Some(|_| proved(&$theorem, const { &[UP_TO_TEN] })),
+                theorem: Some((&$theorem, &$false)),
+                domain: &[UP_TO_TEN],
+                by_hand: &[
+                    "the numbers in the statement are those of the ranges enclosed",
+                    "g grows with the coordinate that unrolls the orbit",
+                ],
+                falsified: |_| single(&$false),
+                hypotheses: &[],
+                depends: &[$orbit, "method-bias", $monotone],
+            }
+        }
+    };
+}
+
+curve! {
+    BIAS_ALPHA_LINEAR, ALPHA_LINEAR, FALSE_ALPHA_LINEAR: "method-bias-alpha-linear",
+    "Linear drag: the method's error of alpha is +3.2 % as g goes to 0, -3 % at 1, +47 % at 10, below 5 % for g <= 1",
+    Linear alpha, ends 1.97 and 11.0, up_to_one 0.05, up_to_ten 0.48, too_small 0.4,
+    at_zero 0.032, at_one [1.95, -0.03], at_ten [10.99, 0.47], depends "orbit-linear" and "orbit-amplitude-monotone-linear"
+}
+
+curve! {
+    BIAS_BETA_LINEAR, BETA_LINEAR, FALSE_BETA_LINEAR: "method-bias-beta-linear",
+    "Linear drag: the method's error of beta is +8 % as g goes to 0, -4 % at 1, -16 % at 10, below 17 % up to there",
+    Linear drag, ends 1.97 and 11.0, up_to_one 0.09, up_to_ten 0.17, too_small 0.1,
+    at_zero 0.0808, at_one [1.95, -0.041], at_ten [10.99, -0.16], depends "orbit-linear" and "orbit-amplitude-monotone-linear"
+}
+
+curve! {
+    BIAS_ALPHA_QUADRATIC, ALPHA_QUADRATIC, FALSE_ALPHA_QUADRATIC: "method-bias-alpha-quadratic",
+    "Quadratic drag: the method's error of alpha is +3.2 % as g goes to 0, -6.5 % at 1, +52 % at 10",
+    Quadratic alpha, ends 2.7 and 20.7, up_to_one 0.08, up_to_ten 0.53, too_small 0.4,
+    at_zero 0.032, at_one [2.68, -0.065], at_ten [20.68, 0.52], depends "orbit-quadratic" and "orbit-amplitude-monotone-quadratic"
+}
+
+curve! {
+    BIAS_BETA_QUADRATIC, BETA_QUADRATIC, FALSE_BETA_QUADRATIC: "method-bias-beta-quadratic",
+    "Quadratic drag: the method's error of beta_xx is +22 % as g goes to 0, -9 % at 1, -35 % at 10, below 36 % up to there",
+    Quadratic drag, ends 2.7 and 20.7, up_to_one 0.22, up_to_ten 0.36, too_small 0.3,
+    at_zero 0.2158, at_one [2.68, -0.088], at_ten [20.68, -0.346], depends "orbit-quadratic" and "orbit-amplitude-monotone-quadratic"
+}

@@ -1,0 +1,313 @@
+//! Exact limit cycles of a drag axis, and what the first-harmonic method makes of them.
+
+use super::orbit_proofs::{FALSE_DRAG, proved};
+use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use crate::balance::HarmonicBalance;
+use crate::describing::ClosedForm;
+use crate::identify::iso::{Oscillation, Parameters, disturbance_from_times};
+use crate::nonlinearity::RelayHysteresis;
+use crate::orbit::{self, LimitCycle, RelayLoop, limit_cycle, return_map, theorem};
+use crate::plant::{DragAxis, PlantError, StateSpace, TransferFunction};
+
+/// A drag law of one coefficient.
+struct Family {
+    law: fn(alpha: f64, drag: f64) -> Result<DragAxis<f64>, PlantError>,
+    /// The number `g` that everything depends on, over the half-width.
+    group: fn(alpha: f64, drag: f64, level: f64) -> f64,
+    drag_of: fn(&Parameters<f64>) -> f64,
+}
+
+/// Force proportional to speed: `g = x_a beta^2/(C alpha)`.
+const LINEAR: Family = Family {
+    law: DragAxis::linear,
+    group: |alpha, drag, level| drag * drag / (level * alpha),
+    drag_of: |parameters| parameters.beta,
+};
+
+/// Force proportional to speed squared: `g = x_a beta/alpha`.
+const QUADRATIC: Family = Family {
+    law: DragAxis::quadratic,
+    group: |alpha, drag, _| drag / alpha,
+    drag_of: |parameters| parameters.beta_quadratic,
+};
+
+const EVERY_AXIS: ClaimPart = ClaimPart::whole("every-axis", "every alpha, beta, C, x_a > 0; every start");
+
+/// An axis with its relay.
+struct Loop {
+    alpha: f64,
+    drag: f64,
+    level: f64,
+    half_width: f64,
+    axis: DragAxis<f64>,
+    relay: RelayHysteresis<f64>,
+}
+
+impl Loop {
+    /// From its four numbers; `None` where one is out of range.
+    fn new(family: &Family, alpha: f64, drag: f64, level: f64, half_width: f64) -> Option<Self> {
+        let axis = (family.law)(alpha, drag).ok()?;
+        let relay = RelayHysteresis::new(level, half_width, 0.0).ok()?;
+        Some(Self { alpha, drag, level, half_width, axis, relay })
+    }
+
+    /// Any scale, and `g` anywhere in six decades.
+    fn draw(draw: &mut Draw, family: &Family) -> Option<Self> {
+        let (alpha, drag) = (draw.log_uniform("alpha", 1e-2, 1e2), draw.log_uniform("drag", 1e-2, 1e2));
+        let (level, g) = (draw.log_uniform("level", 1e-2, 1e2), draw.log_uniform("g", 1e-4, 1e2));
+        let half_width = draw.note("half_width", g / (family.group)(alpha, drag, level));
+        Self::new(family, alpha, drag, level, half_width)
+    }
+}
+
+claim! {
+    ORBIT_QUADRATIC = "orbit-quadratic" "of this project" Theorem
+    "Quadratic drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start" {
+        domain: &[EVERY_AXIS],
+        by_hand: &[
+            "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
+            "existence: the return map takes an interval into itself",
+            "every start reaches the map's domain",
+        ],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| {
+            closed_form_orbit(budget, |l| {
+                let (g, reach) = (l.drag * l.half_width / l.alpha, l.alpha / (2.0 * l.drag));
+                let amplitude = l.half_width + reach * orbit::quadratic_speeds(-(-4.0 * g).exp_m1(), 0.0)[0].ln_1p();
+                let period = 2.0 * l.alpha / (l.drag * l.level).sqrt() * orbit::quadratic_period(g);
+                (amplitude, period)
+            }, &QUADRATIC)
+            .and(|| attracts(budget, &QUADRATIC))
+            .backed_by(|| proved(&theorem::QUADRATIC, const { &[EVERY_AXIS] }))
+        }),
+        theorem: Some((&theorem::QUADRATIC, &FALSE_DRAG)),
+        // E = exp(-2 g) in place of exp(-4 g): the energy of a whole swing taken for half of it.
+        falsified: |budget| closed_form_orbit(budget, |l| {
+            let (g, reach) = (l.drag * l.half_width / l.alpha, l.alpha / (2.0 * l.drag));
+            let amplitude = l.half_width + reach * (-(-2.0 * g).exp_m1()).sqrt().ln_1p();
+            (amplitude, 2.0 * l.alpha / (l.drag * l.level).sqrt() * orbit::quadratic_period(0.5 * g))
+        }, &QUADRATIC),
+        hypotheses: &[
+            Hypothesis { id: "drag-positive", counterexample: Some(without_drag) },
+            Hypothesis { id: "half-width-positive", counterexample: Some(without_hysteresis) },
+        ],
+        depends: &[],
+    }
+}
+
+claim! {
+    ORBIT_LINEAR = "orbit-linear" "of this project" Theorem
+    "Linear drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start" {
+        domain: &[EVERY_AXIS],
+        by_hand: &[
+            "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
+            "existence: the return map takes an interval into itself",
+            "every start reaches the map's domain",
+        ],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| closed_form_orbit(budget, |l| linear_orbit(l, 4.0), &LINEAR)
+            .and(|| attracts(budget, &LINEAR))
+            .backed_by(|| proved(&theorem::LINEAR, const { &[EVERY_AXIS] }))),
+        theorem: Some((&theorem::LINEAR, &FALSE_DRAG)),
+        // z = beta T/(2 alpha).
+        falsified: |budget| closed_form_orbit(budget, |l| linear_orbit(l, 2.0), &LINEAR),
+        hypotheses: &[
+            Hypothesis { id: "drag-positive", counterexample: Some(without_drag) },
+            Hypothesis { id: "half-width-positive", counterexample: Some(without_hysteresis) },
+        ],
+        depends: &[],
+    }
+}
+
+/// Amplitude and period from `z - tanh z = g`, solved by bisection in z.
+fn linear_orbit(l: &Loop, quarter: f64) -> (f64, f64) {
+    let g = l.half_width * l.drag * l.drag / (l.level * l.alpha);
+    let (mut low, mut high) = (0.0, g + 1.0 + (3.0 * g).cbrt());
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if orbit::linear_half_width(middle) < g { low = middle } else { high = middle }
+    }
+    let reach = l.level * l.alpha / (l.drag * l.drag);
+    (l.half_width + reach * orbit::linear_amplitude_excess(low), quarter * low * l.alpha / l.drag)
+}
+
+/// The general path through Newton's method gives what the closed form of the symmetric case gives.
+fn closed_form_orbit(budget: Budget, orbit: fn(&Loop) -> (f64, f64), family: &Family) -> Verdict {
+    sample(budget, |draw| {
+        let Some(case) = Loop::draw(draw, family) else { return Case::Skipped };
+        let Ok(cycle) = limit_cycle(&case.axis, &case.relay) else { return Case::truth(false) };
+        let (amplitude, period_s) = orbit(&case);
+        draw.equal(("amplitude", cycle.amplitude), amplitude, amplitude, tolerance::CANCELLING)
+            .and(draw.equal(("period_s", cycle.period_s), period_s, period_s, tolerance::CANCELLING))
+            .and(draw.equal(("bias", cycle.bias), 0.0, amplitude, tolerance::CANCELLING))
+    })
+}
+
+/// From any speed the return map moves towards the cycle's and never past it, with a slope in (0, 1) at the cycle.
+fn attracts(budget: Budget, family: &Family) -> Verdict {
+    sample(budget, |draw| {
+        let Some(case) = Loop::draw(draw, family) else { return Case::Skipped };
+        let Ok(cycle) = limit_cycle(&case.axis, &case.relay) else { return Case::truth(false) };
+        let fixed = cycle.upper_switch.velocity;
+        let start = fixed * draw.log_uniform("start_over_fixed", 1e-3, 1e3);
+        if (start / fixed - 1.0).abs() < 1e-4 {
+            return Case::Skipped;
+        }
+        let Ok(next) = return_map(&case.axis, &case.relay, start) else { return Case::truth(false) };
+        // The share of the distance that is left after one period.
+        let left = draw.note("left", (next.speed - fixed) / (start - fixed));
+        let contracts = (0.0..1.0).contains(&cycle.multiplier);
+        // Where drag is weak and the start is far off the share is one within rounding.
+        Case::truth(contracts && left > -tolerance::CANCELLING && left < 1.0 + tolerance::CANCELLING)
+    })
+}
+
+/// Without drag there is no limit cycle.
+fn without_drag(budget: Budget) -> Verdict {
+    no_cycle(budget, 0.0, 0.2)
+}
+
+/// Without hysteresis (and without delay) there is none either.
+fn without_hysteresis(budget: Budget) -> Verdict {
+    no_cycle(budget, 1.0, 0.0)
+}
+
+fn no_cycle(budget: Budget, drag: f64, half_width: f64) -> Verdict {
+    sample(budget, |draw| {
+        let level = draw.uniform("level", 0.1, 1.0);
+        let (drag, half_width) = (draw.note("drag", drag), draw.note("half_width", half_width));
+        let (Ok(axis), Ok(relay)) = (DragAxis::linear(1.0, drag), RelayHysteresis::new(level, half_width, 0.0)) else {
+            return Case::Skipped;
+        };
+        Case::truth(limit_cycle(&axis, &relay).is_ok())
+    })
+}
+
+/// A loop with a disturbance, and its orbit.
+fn disturbed(draw: &mut Draw, linear: bool, quadratic: bool) -> Option<(f64, f64, LimitCycle<f64>)> {
+    let coefficient = |draw: &mut Draw, name, on: bool| if on { draw.log_uniform(name, 0.1, 10.0) } else { 0.0 };
+    let drag = (coefficient(draw, "linear_drag", linear), coefficient(draw, "quadratic_drag", quadratic));
+    let level = draw.uniform("level", 0.5, 2.0);
+    let share = draw.uniform("disturbance_over_level", 0.1, 0.8);
+    let (half_width, delay_s) = (draw.log_uniform("half_width", 0.05, 2.0), draw.uniform("delay_s", 0.0, 0.5));
+    let axis = DragAxis::mixed(1.0, drag.0, drag.1).ok()?;
+    let axis = axis.with_disturbance(share * level).ok()?.with_delay_s(delay_s).ok()?;
+    let relay = RelayHysteresis::new(level, half_width, 0.0).ok()?;
+    Some((level, share * level, limit_cycle(&axis, &relay).ok()?))
+}
+
+fn delta(budget: Budget, linear: bool, quadratic: bool, sign: f64) -> Verdict {
+    sample(budget, |draw| {
+        let Some((level, delta, cycle)) = disturbed(draw, linear, quadratic) else { return Case::truth(false) };
+        let found = sign * disturbance_from_times(level, cycle.time_positive_s, cycle.time_negative_s);
+        draw.equal(("delta_found", found), delta, level, tolerance::CANCELLING)
+    })
+}
+
+claim! {
+    DELTA_FROM_TIMES = "delta-from-times" "32, delta = F_0" Theorem
+    "delta = -C (t_plus - t_minus)/T is exact for any waveform and delay when drag is linear" {
+        domain: &[ClaimPart::whole("whole", "every linear drag, disturbance below the level, delay")],
+        printed: AsPrinted::Refuted(|budget| delta(budget, true, true, 1.0)),
+        corrected: Some(|budget| delta(budget, true, false, 1.0)),
+        // T_H taken for the time at command +C.
+        falsified: |budget| delta(budget, true, false, -1.0),
+        hypotheses: &[
+            Hypothesis { id: "linear-drag", counterexample: Some(|budget| delta(budget, false, true, 1.0)) },
+        ],
+        depends: &["relay-f0"],
+    }
+}
+
+claim! {
+    METHOD_BIAS = "method-bias" "of this project" Theorem
+    "On symmetric orbits without delay the relative error of the method depends on one number g, whatever the parameters" {
+        domain: &[ClaimPart::whole("whole", "every alpha, drag, C, x_a > 0, no disturbance, no delay")],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| depends_on_g_alone(budget, &LINEAR, &LINEAR, 0.0)
+            .and(|| depends_on_g_alone(budget, &QUADRATIC, &QUADRATIC, 0.0))),
+        // The number of the other drag law.
+        falsified: |budget| depends_on_g_alone(budget, &LINEAR, &Family { group: QUADRATIC.group, ..LINEAR }, 0.0),
+        hypotheses: &[Hypothesis {
+            id: "no-disturbance",
+            counterexample: Some(|budget| depends_on_g_alone(budget, &LINEAR, &LINEAR, 0.5)),
+        }],
+        depends: &["orbit-linear", "orbit-quadratic", "table-3"],
+    }
+}
+
+/// Relative errors (alpha, drag) of the method on the exact orbit of a loop, with a disturbance as a share of the level.
+fn method_errors(case: &Loop, family: &Family, disturbance: f64) -> Option<[f64; 2]> {
+    let cycle = limit_cycle(&case.axis.with_disturbance(disturbance * case.level).ok()?, &case.relay).ok()?;
+    let read = Oscillation {
+        relay_level: case.level,
+        switch_level: case.half_width,
+        amplitude: cycle.amplitude,
+        bias: cycle.bias,
+        period_s: cycle.period_s,
+        delay_s: 0.0,
+    };
+    let found = read.identify().ok()?;
+    Some([found.alpha / case.alpha - 1.0, (family.drag_of)(&found) / case.drag - 1.0])
+}
+
+/// The method's errors on a drawn loop, disturbed, equal those on the loop of unit parameters whose half-width is `g` as
+/// `assumed` has it.
+fn depends_on_g_alone(budget: Budget, family: &Family, assumed: &Family, disturbance: f64) -> Verdict {
+    sample(budget, |draw| {
+        let Some(case) = Loop::draw(draw, family) else { return Case::Skipped };
+        let g = case.half_width * (assumed.group)(case.alpha, case.drag, case.level);
+        let unit = Loop::new(family, 1.0, 1.0, 1.0, g);
+        let share = draw.uniform("disturbance_over_level", 0.5, 1.0) * disturbance;
+        let errors = method_errors(&case, family, share).zip(unit.and_then(|unit| method_errors(&unit, family, 0.0)));
+        let Some((drawn, unit)) = errors else { return Case::truth(false) };
+        draw.equal(("alpha_error", drawn[0]), unit[0], 1.0, tolerance::CANCELLING).and(draw.equal(
+            ("drag_error", drawn[1]),
+            unit[1],
+            1.0,
+            tolerance::CANCELLING,
+        ))
+    })
+}
+
+claim! {
+    BALANCE_CONVERGES = "balance-converges" "16-17, more harmonics" Theorem
+    "With more harmonics the balance of an integrating plant under a relay comes ever closer to the exact orbit" {
+        domain: &[ClaimPart::whole("whole", "every lag and half-width")],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| balance_error(budget, [1, 5, 15], 0.2)),
+        // Closer by a factor of a thousand for each fivefold of harmonics.
+        falsified: |budget| balance_error(budget, [1, 5, 15], 1e-3),
+        hypotheses: &[],
+        depends: &["theorem-2"],
+    }
+}
+
+/// Relative errors of the period with ever more harmonics: each at most `factor` times the one before.
+fn balance_error(budget: Budget, orders: [usize; 3], factor: f64) -> Verdict {
+    sample(Budget { cases: budget.cases.div_ceil(200), ..budget }, |draw| {
+        let (lag_s, half_width) = (draw.log_uniform("lag_s", 0.3, 3.0), draw.uniform("half_width", 0.05, 0.5));
+        let errors = balance_errors(lag_s, half_width, orders);
+        let Some([first, some, many]) = errors else { return Case::Skipped };
+        for (name, error) in [("first", first), ("some", some), ("many", many)] {
+            draw.note(name, error);
+        }
+        Case::margin(1.0 - some / (factor * first)).and(Case::margin(1.0 - many / (factor * some)))
+    })
+}
+
+/// Of `1/(s (lag s + 1))` under a unit relay.
+fn balance_errors(lag_s: f64, half_width: f64, orders: [usize; 3]) -> Option<[f64; 3]> {
+    let plant = TransferFunction::new(&[1.0], &[lag_s, 1.0, 0.0]).ok()?;
+    let relay = RelayHysteresis::new(1.0, half_width, 0.0).ok()?;
+    let orbits = RelayLoop::new(StateSpace::realise(&plant).ok()?, relay).symmetric_orbits(0.01..=1000.0).ok()?;
+    let exact = orbits.first()?.period_s();
+    let balance = HarmonicBalance::new(&plant, |sweep| relay.describing_function(sweep)).ok()?;
+    let first = *balance.intersections().ok()?.first()?;
+    let error = |order| {
+        let found = balance.with_harmonics(&relay, &first, order).ok()?;
+        Some((core::f64::consts::TAU / found.omega_rad_s() / exact - 1.0).abs())
+    };
+    let [a, b, c] = orders.map(error);
+    Some([a?, b?, c?])
+}

@@ -1,0 +1,231 @@
+//! What an error of the amplitude does to the parameters: eqs. 37-39.
+
+use super::enclosure::{identity, unknown, zeros};
+use super::identification::oscillation;
+use super::{
+    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Evidence, Hypothesis, Verdict, claim, sample,
+    tolerance,
+};
+use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity};
+use crate::numeric::{self, Interval, Real};
+use crate::proof::branch_and_bound::prove_positive;
+use crate::proof::identity::Series;
+use crate::proof::{Gradient, Proved};
+
+/// Relative derivatives of (alpha, beta, beta_xx) by the relative amplitude, by first derivatives through the identification.
+fn derivatives(o: &Oscillation<f64>) -> Option<[f64; 3]> {
+    let constant = numeric::Gradient::<f64, 1>::from_f64;
+    let dual = Oscillation {
+        relay_level: constant(o.relay_level),
+        switch_level: constant(o.switch_level),
+        amplitude: numeric::Gradient::new(o.amplitude, [o.amplitude]),
+        bias: constant(o.bias),
+        period_s: constant(o.period_s),
+        delay_s: constant(o.delay_s),
+    };
+    let found = dual.identify().ok()?;
+    Some([found.alpha, found.beta, found.beta_quadratic].map(|parameter| parameter.slopes()[0] / parameter.value()))
+}
+
+/// One of eqs. 37-39 against the derivative.
+fn sensitivity(budget: Budget, index: usize, biased: bool, delayed: bool, factor: f64) -> Verdict {
+    sample(budget, |draw| {
+        let o = oscillation(draw, biased, delayed);
+        let Some(derivatives) = derivatives(&o) else { return Case::Skipped };
+        let printed = amplitude_sensitivity(o.amplitude / o.switch_level);
+        let printed = [printed.alpha, printed.beta, printed.beta_quadratic][index];
+        draw.equal(("printed", factor * printed), derivatives[index], 1.0 + printed.abs(), tolerance::CANCELLING)
+    })
+}
+
+const NO_DELAY: &str = "no-delay";
+
+claim! {
+    QUANTISATION_ALPHA = "quantisation-alpha" "37" Identity
+    "dalpha/alpha = [(2 - r^2)/(r^2 - 1)] dX/X with r = X_m/x_a" {
+        domain: &[
+            ClaimPart::over(
+                "ratio",
+                "no delay; the ratio of amplitude and half-width",
+                const { &[ClaimVariable::number("X/x_a", 1.0, f64::INFINITY)] },
+            ),
+        ],
+        by_hand: &["level, half-width and frequency are set to one by homogeneity"],
+        printed: AsPrinted::Holds(|budget| sensitivity(budget, 0, false, false, 1.0)),
+        corrected: None,
+        falsified: |budget| sensitivity(budget, 0, false, false, 1.001),
+        proof: Some(prove_quantisation_alpha),
+        hypotheses: &[
+            Hypothesis { id: "unbiased", counterexample: Some(|budget| sensitivity(budget, 0, true, false, 1.0)) },
+            Hypothesis { id: NO_DELAY, counterexample: Some(|budget| sensitivity(budget, 0, false, true, 1.0)) },
+        ],
+        depends: &["table-3"],
+    }
+}
+
+claim! {
+    QUANTISATION_BETA = "quantisation-beta" "38" Identity
+    "dbeta/beta = -2 dX/X" {
+        domain: &[
+            ClaimPart::over(
+                "ratio",
+                "no delay; the ratio of amplitude and half-width",
+                const { &[ClaimVariable::number("X/x_a", 1.0, f64::INFINITY)] },
+            ),
+        ],
+        by_hand: &[
+            "level, half-width and frequency are set to one by homogeneity",
+            "every bias: beta does not depend on it",
+        ],
+        printed: AsPrinted::Holds(|budget| sensitivity(budget, 1, true, false, 1.0)),
+        corrected: None,
+        falsified: |budget| sensitivity(budget, 1, true, false, 1.001),
+        proof: Some(prove_quantisation_beta),
+        hypotheses: &[Hypothesis { id: NO_DELAY, counterexample: Some(|budget| sensitivity(budget, 1, true, true, 1.0)) }],
+        depends: &["table-3"],
+    }
+}
+
+claim! {
+    QUANTISATION_BETA_XX = "quantisation-beta-xx" "39" Identity
+    "dbeta_xx/beta_xx = -3 dX/X" {
+        domain: &[
+            ClaimPart::over(
+                "ratio",
+                "no delay; the ratio of amplitude and half-width",
+                const { &[ClaimVariable::number("X/x_a", 1.0, f64::INFINITY)] },
+            ),
+        ],
+        by_hand: &[
+            "level, half-width and frequency are set to one by homogeneity",
+            "every bias: beta_xx does not depend on it",
+        ],
+        printed: AsPrinted::Holds(|budget| sensitivity(budget, 2, true, false, 1.0)),
+        corrected: None,
+        falsified: |budget| sensitivity(budget, 2, true, false, 1.001),
+        proof: Some(prove_quantisation_beta_xx),
+        hypotheses: &[Hypothesis { id: NO_DELAY, counterexample: Some(|budget| sensitivity(budget, 2, true, true, 1.0)) }],
+        depends: &["table-3"],
+    }
+}
+
+claim! {
+    QUANTISATION_ZERO = "quantisation-zero" "after 37" Theorem
+    "At X_m = sqrt(2) x_a alpha is insensitive, to first order, to an error of the amplitude" {
+        domain: &[
+            ZERO,
+            ClaimPart::over(
+                "positive-below",
+                "the slope is positive below",
+                const { &[ClaimVariable::number("X/x_a", 1.0, core::f64::consts::SQRT_2)] },
+            ),
+            ClaimPart::over(
+                "negative-above",
+                "the slope is negative above",
+                const { &[ClaimVariable::number("X/x_a", core::f64::consts::SQRT_2, f64::INFINITY)] },
+            ),
+        ],
+        by_hand: &["level, half-width and frequency are set to one by homogeneity"],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| {
+            zero_at(budget, core::f64::consts::SQRT_2, false, false)
+        }),
+        falsified: |budget| zero_at(budget, 1.5, false, false),
+        proof: Some(prove_quantisation_zero),
+        hypotheses: &[
+            Hypothesis {
+                id: "unbiased",
+                counterexample: Some(|budget| zero_at(budget, core::f64::consts::SQRT_2, true, false)),
+            },
+            Hypothesis {
+                id: NO_DELAY,
+                counterexample: Some(|budget| zero_at(budget, core::f64::consts::SQRT_2, false, true)),
+            },
+        ],
+        depends: &["quantisation-alpha"],
+    }
+}
+
+/// The derivative of alpha vanishes at `ratio`, is positive below and negative above.
+fn zero_at(budget: Budget, ratio: f64, biased: bool, delayed: bool) -> Verdict {
+    sample(budget, |draw| {
+        let base = oscillation(draw, biased, delayed);
+        let slope = |ratio: f64| {
+            let at =
+                Oscillation { amplitude: ratio * base.switch_level, bias: 0.8 * (ratio - 1.0) * base.bias, ..base };
+            derivatives(&at).map(|derivatives| derivatives[0])
+        };
+        let (Some(here), Some(below), Some(above)) = (slope(ratio), slope(0.99 * ratio), slope(1.01 * ratio)) else {
+            return Case::Skipped;
+        };
+        draw.equal(("slope", here), 0.0, 1.0, tolerance::CANCELLING).and(Case::truth(below > 0.0 && above < 0.0))
+    })
+}
+
+/// What is identified from an unbiased oscillation of that amplitude, half-width, level and angular frequency one.
+fn identified<T: Real>(amplitude: T) -> Parameters<T> {
+    let (one, zero) = (T::one(), T::zero());
+    let period_s = T::two() * T::pi();
+    Oscillation { relay_level: one, switch_level: one, amplitude, bias: zero, period_s, delay_s: zero }
+        .identify()
+        .unwrap_or(Parameters { alpha: unknown(), beta: unknown(), beta_quadratic: unknown(), disturbance: unknown() })
+}
+
+/// `X dp/dX = sensitivity p` for one of the parameters, times the power of X by which it falls: the bound is then relative,
+/// and a millionth is seen where the parameter is small, too.
+fn prove_sensitivity(
+    distortion: Distortion,
+    degree: i32,
+    read: fn(Parameters<Series>) -> Series,
+    printed: fn(Series) -> Series,
+) -> Verdict {
+    const COVERED: ClaimPart = ClaimPart::over("ratio", "", const { &[ClaimVariable::number("X/x_a", 1.001, 100.0)] });
+    identity(COVERED, distortion, |amplitude, factor| {
+        let parameter = read(identified(amplitude));
+        let weight = (0..degree).fold(Series::one(), |weight, _| weight * amplitude);
+        [weight * (amplitude * parameter.derivative() - factor * printed(amplitude) * parameter)]
+    })
+}
+
+/// Eq. 37.
+fn prove_quantisation_alpha(distortion: Distortion) -> Verdict {
+    prove_sensitivity(distortion, 1, |found| found.alpha, |r| amplitude_sensitivity(r).alpha)
+}
+
+/// Eq. 38.
+fn prove_quantisation_beta(distortion: Distortion) -> Verdict {
+    prove_sensitivity(distortion, 2, |found| found.beta, |r| amplitude_sensitivity(r).beta)
+}
+
+/// Eq. 39.
+fn prove_quantisation_beta_xx(distortion: Distortion) -> Verdict {
+    prove_sensitivity(distortion, 3, |found| found.beta_quadratic, |r| amplitude_sensitivity(r).beta_quadratic)
+}
+
+/// Where the slope of alpha vanishes, and on which side it has which sign.
+const ZERO: ClaimPart = ClaimPart::whole("zero", "the slope vanishes at X/x_a = sqrt(2), unbiased, no delay");
+
+/// The slope of alpha: zero at the root of two, positive below, negative above.
+fn prove_quantisation_zero(distortion: Distortion) -> Verdict {
+    const BELOW: ClaimPart =
+        ClaimPart::over("positive-below", "", const { &[ClaimVariable::number("X/x_a", 1.001, 1.4)] });
+    const ABOVE: ClaimPart =
+        ClaimPart::over("negative-above", "", const { &[ClaimVariable::number("X/x_a", 1.43, 100.0)] });
+    let slope = |ratio: Interval| {
+        let [amplitude] = Gradient::variables([ratio]);
+        identified(amplitude).alpha.slopes()[0]
+    };
+    let zero = Interval::two().sqrt() * Interval::point(distortion.factor());
+    let sign = |part: ClaimPart, sign: f64| {
+        let domain = part.variables.first().and_then(|side| Interval::new(side.from, side.to)).map(|domain| [domain]);
+        let verdict =
+            domain.map(|domain| prove_positive(|[ratio]| slope(*ratio) * Interval::point(sign), domain, 20_000));
+        match verdict {
+            Some(Ok(Proved { boxes, bound, .. })) => {
+                Verdict::Holds(Evidence::inequality(part.into(), bound.value(), boxes))
+            }
+            _ => Verdict::undecided("20000 boxes"),
+        }
+    };
+    zeros(ZERO, &[slope(zero)], 1).and(|| sign(BELOW, 1.0)).and(|| sign(ABOVE, -1.0))
+}

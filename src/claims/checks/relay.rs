@@ -1,0 +1,379 @@
+//! The relay with hysteresis: eqs. 30-32 and what the paper says of it in words.
+
+use core::f64::consts::PI;
+
+use super::enclosure::{identity, no_function};
+use super::kernels::{BREAKPOINT, on_unit, prove_kernel};
+use super::{
+    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance,
+};
+use crate::describing::{ClosedForm, DescribingFunction, KernelForm, bias_of_output, by_quadrature};
+use crate::experiment::RelayState;
+use crate::nonlinearity::{Branches, Kernel, RelayHysteresis, Sinusoid};
+use crate::numeric::Real;
+use crate::proof::identity::Series;
+
+/// A relay, an input that switches it, and the describing function by quadrature.
+struct Switching {
+    level: f64,
+    half_width: f64,
+    offset: f64,
+    bias: f64,
+    amplitude: f64,
+    integral: DescribingFunction<f64>,
+}
+
+fn switching(draw: &mut Draw) -> Option<Switching> {
+    let (level, half_width) = (draw.uniform("level", 0.1, 3.0), draw.uniform("half_width", 0.0, 2.0));
+    let (offset, bias) = (draw.uniform("offset", -1.0, 1.0), draw.uniform("bias", -2.0, 2.0));
+    let amplitude = draw.note("amplitude", (half_width + bias.abs()) * 1.0001) + draw.uniform("excess", 0.0, 3.0);
+    let relay = RelayHysteresis::new(level, half_width, offset).ok()?;
+    let integral = by_quadrature(&relay, &Sinusoid::new(bias, amplitude).ok()?).ok()?;
+    Some(Switching { level, half_width, offset, bias, amplitude, integral })
+}
+
+/// A formula for a part of the describing function against its integral.
+fn formula(
+    budget: Budget,
+    part: fn(&DescribingFunction<f64>) -> f64,
+    formula: fn(&Switching) -> f64,
+    gain: bool,
+) -> Verdict {
+    sample(budget, |draw| {
+        let Some(case) = switching(draw) else { return Case::Skipped };
+        let scale = (case.level + case.offset.abs()) / if gain { case.amplitude } else { 1.0 };
+        draw.equal(("formula", formula(&case)), part(&case.integral), scale, tolerance::QUADRATURE)
+    })
+}
+
+claim! {
+    RELAY_Q = "relay-q" "30" Identity
+    "Q of a relay with hysteresis is -4 C x_a/(pi X^2), whatever the bias and the offset" {
+        domain: &[
+            BREAKPOINT,
+            ClaimPart::over(
+                "term",
+                "each term of the formula is the closed form of one switching level",
+                const { &[ClaimVariable::number("u", -1.0, 1.0)] },
+            ),
+            ClaimPart::over(
+                "sum",
+                "the formula is the sum that the code makes, x_a + abs(x_0) <= X",
+                const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
+            ),
+        ],
+        by_hand: &[
+            "height and amplitude are set to one by linearity and homogeneity",
+            "the sides and branches follow from one by reflection",
+        ],
+        printed: AsPrinted::Holds(|budget| {
+            formula(budget, |df| df.q, |s| -4.0 * s.level * s.half_width / (PI * s.amplitude * s.amplitude), true)
+        }),
+        corrected: None,
+        falsified: |budget| {
+            formula(budget, |df| df.q, |s| -4.0 * s.level * (s.half_width + s.bias) / (PI * s.amplitude * s.amplitude), true)
+        },
+        proof: Some(prove_relay_q),
+        hypotheses: &[Hypothesis { id: "switches-both-ways", counterexample: Some(formula_below_switching) }],
+        depends: &["kernel-sign", "describing-function"],
+    }
+}
+
+/// Below the switching amplitude the output is constant: its Q is zero, the formula's is not.
+fn formula_below_switching(budget: Budget) -> Verdict {
+    sample(budget, |draw| {
+        let half_width = draw.uniform("half_width", 0.5, 1.0);
+        let amplitude = draw.uniform("amplitude", 0.1, 0.5);
+        let formula = -4.0 * half_width / (PI * amplitude * amplitude);
+        draw.equal(("formula", formula), 0.0, 1.0, tolerance::ROUNDING)
+    })
+}
+
+claim! {
+    RELAY_P = "relay-p" "31" Identity
+    "P of a relay with hysteresis is (2C/(pi X)) [sqrt(1 - ((x_a - x_0)/X)^2) + sqrt(1 - ((x_a + x_0)/X)^2)]" {
+        domain: &[
+            BREAKPOINT,
+            ClaimPart::over(
+                "term",
+                "each term of the formula is the closed form of one switching level",
+                const { &[ClaimVariable::number("u", -1.0, 1.0)] },
+            ),
+            ClaimPart::over(
+                "sum",
+                "the formula is the sum that the code makes, x_a + abs(x_0) <= X",
+                const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
+            ),
+        ],
+        by_hand: &[
+            "height and amplitude are set to one by linearity and homogeneity",
+            "the sides and branches follow from one by reflection",
+        ],
+        printed: AsPrinted::Holds(|budget| formula(budget, |df| df.p, |s| in_phase(s, s.bias), true)),
+        corrected: None,
+        falsified: |budget| formula(budget, |df| df.p, |s| in_phase(s, 0.0), true),
+        proof: Some(prove_relay_p),
+        hypotheses: &[Hypothesis { id: "switches-both-ways", counterexample: None }],
+        depends: &["kernel-sign", "describing-function"],
+    }
+}
+
+fn in_phase(s: &Switching, bias: f64) -> f64 {
+    let root = |distance: f64| (1.0 - (distance / s.amplitude).powi(2)).sqrt();
+    2.0 * s.level / (PI * s.amplitude) * (root(s.half_width - bias) + root(s.half_width + bias))
+}
+
+claim! {
+    RELAY_F0 = "relay-f0" "32" Identity
+    "The mean output is C (t_high - t_low)/T = (C/pi) [asin((x_a + e_0)/X) - asin((x_a - e_0)/X)], plus the offset" {
+        domain: &[
+            BREAKPOINT,
+            ClaimPart::over(
+                "term",
+                "each term of the formula is the closed form of one switching level",
+                const { &[ClaimVariable::number("u", -1.0, 1.0)] },
+            ),
+            ClaimPart::over(
+                "sum",
+                "the formula is the sum that the code makes, x_a + abs(x_0) <= X",
+                const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
+            ),
+        ],
+        by_hand: &[
+            "height and amplitude are set to one by linearity and homogeneity",
+            "the sides and branches follow from one by reflection",
+        ],
+        printed: AsPrinted::Holds(|budget| mean_output(budget, 1.0)),
+        corrected: None,
+        // The times exchanged: the sign error that reading T_H as the time at command +C makes.
+        falsified: |budget| mean_output(budget, -1.0),
+        proof: Some(prove_relay_f0),
+        hypotheses: &[Hypothesis { id: "switches-both-ways", counterexample: None }],
+        depends: &["kernel-sign", "describing-function"],
+    }
+}
+
+fn mean_output(budget: Budget, sign: f64) -> Verdict {
+    sample(budget, |draw| {
+        let Some(s) = switching(draw) else { return Case::Skipped };
+        let angle = |distance: f64| (distance / s.amplitude).asin();
+        let (rising, falling) = (angle(s.half_width - s.bias), angle(s.half_width + s.bias));
+        let by_angle = s.level / PI * (falling - rising) + s.offset;
+        // High from the rising crossing to the falling one: as a share of one turn.
+        let high = PI - rising + falling;
+        let by_time = sign * bias_of_output(s.level, high, 2.0 * PI - high) + s.offset;
+        let scale = s.level + s.offset.abs();
+        draw.equal(("by_angle", by_angle), s.integral.f0, scale, tolerance::QUADRATURE).and(draw.equal(
+            ("by_time", by_time),
+            s.integral.f0,
+            scale,
+            tolerance::QUADRATURE,
+        ))
+    })
+}
+
+claim! {
+    SECOND_QUADRANT = "second-quadrant" "section 4.1 (Goldfarb)" Statement
+    "-G_N of the unbiased relay with hysteresis covers the second quadrant, and nothing else" {
+        domain: &[
+            ClaimPart::over(
+                "covered",
+                "each direction is that of some relay, every magnitude",
+                const { &[ClaimVariable::new("angle", "rad", 0.5 * PI, PI)] },
+            ),
+            ClaimPart::whole("nothing-else", "every relay and amplitude that switches it has its point in the quadrant"),
+        ],
+        by_hand: &["every magnitude by choice of the level"],
+        printed: AsPrinted::Holds(|budget| covers(budget, 0.5 * PI, PI)),
+        corrected: None,
+        falsified: |budget| covers(budget, 0.5 * PI, 1.25 * PI),
+        proof: Some(prove_second_quadrant),
+        hypotheses: &[],
+        depends: &["relay-p", "relay-q"],
+    }
+}
+
+/// Each point at an angle between the two is -G_N of some relay and amplitude, and each -G_N lies at such an angle.
+fn covers(budget: Budget, from: f64, to: f64) -> Verdict {
+    sample(budget, |draw| {
+        let (angle, magnitude) = (draw.uniform("angle", from, to), draw.log_uniform("magnitude", 1e-3, 1e3));
+        // -G_N = (4C/(pi X)) exp(j (pi - asin(x_a/X))): choose X = 1.
+        let (half_width, level) = ((PI - angle).sin(), 0.25 * PI * magnitude);
+        let gain = |level: f64, half_width: f64, amplitude: f64| {
+            let sweep = Sinusoid::new(0.0, amplitude).ok()?;
+            RelayHysteresis::new(level, half_width, 0.0).ok()?.describing_function(&sweep).ok()
+        };
+        let Some(reached) = gain(level, half_width, 1.0) else { return Case::truth(false) };
+        let hit = (-reached.p - magnitude * angle.cos()).hypot(-reached.q - magnitude * angle.sin());
+        let covered = draw.equal(("distance", hit), 0.0, magnitude, tolerance::ROUNDING);
+        let (width, excess) = (draw.uniform("half_width", 0.0, 2.0), draw.uniform("excess", 0.0, 2.0));
+        match gain(level, width, width + excess + 1e-9) {
+            Some(any) => covered.and(Case::truth(-any.p <= 0.0 && -any.q >= 0.0)),
+            None => Case::Skipped,
+        }
+    })
+}
+
+claim! {
+    NOISE = "relay-noise" "section 4.1, in words" Statement
+    "While the input moves one way, noise smaller than the half-width switches the relay at most once" {
+        domain: &[ClaimPart::whole("whole", "every half-width and smaller noise, inputs that move one way")],
+        printed: AsPrinted::Refuted(|budget| switches_once(budget, 0.0, 10.0)),
+        corrected: Some(|budget| switches_once(budget, 0.0, 1.0)),
+        falsified: |budget| switches_once(budget, 1.5, 2.0),
+        hypotheses: &[
+            Hypothesis { id: "noise-below-half-width", counterexample: Some(|budget| switches_once(budget, 1.5, 2.0)) },
+        ],
+        depends: &[],
+    }
+}
+
+/// A slow ramp through both levels with noise between the given shares of the half-width: exactly one switching.
+fn switches_once(budget: Budget, least: f64, most: f64) -> Verdict {
+    sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
+        let half_width = draw.uniform("half_width", 0.1, 1.0);
+        let noise = half_width * draw.uniform("noise_over_half_width", least, most);
+        let Ok(relay) = RelayHysteresis::new(1.0, half_width, 0.0) else { return Case::Skipped };
+        let mut relay = RelayState::new(relay, false);
+        let (mut switchings, mut high) = (0, false);
+        for step in -500..=500 {
+            let input = f64::from(step) / 500.0 * (half_width + noise + 0.1);
+            let disturbed = input + noise * draw.unrecorded(-1.0, 1.0);
+            let now = relay.step(disturbed) > 0.0;
+            switchings += usize::from(now != high);
+            high = now;
+        }
+        Case::truth(draw.note("switchings", switchings as f64) == 1.0)
+    })
+}
+
+claim! {
+    SWITCHING_CONDITION = "switching-condition" "40" Identity
+    "Eq. 31 has a value, and the relay oscillates, exactly when (x_a + abs(x_0))/X <= 1" {
+        domain: &[ClaimPart::whole("whole", "every half-width, bias and amplitude")],
+        printed: AsPrinted::Holds(|budget| condition(budget, 1.0)),
+        corrected: None,
+        falsified: |budget| condition(budget, 1.1),
+        hypotheses: &[],
+        depends: &["relay-p"],
+    }
+}
+
+fn condition(budget: Budget, limit: f64) -> Verdict {
+    sample(budget, |draw| {
+        let (half_width, bias) = (draw.uniform("half_width", 0.0, 2.0), draw.uniform("bias", -1.0, 1.0));
+        let amplitude = draw.uniform("amplitude", 0.1, 4.0);
+        let meets = (half_width + bias.abs()) / amplitude <= limit;
+        let radicands = [half_width - bias, half_width + bias].map(|distance| 1.0 - (distance / amplitude).powi(2));
+        let (Ok(relay), Ok(sweep)) = (RelayHysteresis::new(1.0, half_width, 0.0), Sinusoid::new(bias, amplitude))
+        else {
+            return Case::Skipped;
+        };
+        let real = radicands.iter().all(|radicand| *radicand >= 0.0);
+        Case::truth(meets == real && meets == relay.describing_function(&sweep).is_ok())
+    })
+}
+
+claim! {
+    SAMPLED_LEVEL = "sampled-level" "section 4.3" Statement
+    "A sampled relay switches at x_a or beyond, at most one sample's motion beyond" {
+        domain: &[ClaimPart::whole("whole", "every half-width, phase and sampling interval")],
+        printed: AsPrinted::Holds(|budget| overshoot(budget, 0.0)),
+        corrected: None,
+        falsified: |budget| overshoot(budget, 0.01),
+        hypotheses: &[],
+        depends: &[],
+    }
+}
+
+/// The level at which a sampled relay switches up on a sinusoid, against `x_a (1 + least)` and `x_a` plus one step.
+fn overshoot(budget: Budget, least: f64) -> Verdict {
+    sample(budget, |draw| {
+        let (half_width, step) = (draw.uniform("half_width", 0.05, 0.95), draw.uniform("step_rad", 0.001, 0.5));
+        let start = draw.uniform("phase_rad", -0.5 * PI, -0.5 * PI + step);
+        let Ok(relay) = RelayHysteresis::new(1.0, half_width, 0.0) else { return Case::Skipped };
+        let mut relay = RelayState::new(relay, false);
+        let mut angle = start;
+        while angle < 0.5 * PI && relay.step(angle.sin()) < 0.0 {
+            angle += step;
+        }
+        if angle >= 0.5 * PI {
+            return Case::Skipped;
+        }
+        let level = draw.note("level", angle.sin());
+        Case::margin(level - half_width * (1.0 + least)).and(Case::margin(half_width + step - level))
+    })
+}
+
+/// The biases, over the amplitude, at which a whole formula is compared with the code in the half-width.
+const BIASES: [f64; 2] = [0.0, 0.3];
+
+/// Describing function of the unit relay under a unit sinusoid, in closed form.
+pub(super) fn relay(level: Series, half_width: Series, bias: Series) -> DescribingFunction<Series> {
+    let relay = RelayHysteresis::new(level, half_width, Series::zero());
+    let df = relay.and_then(|relay| Ok((relay, Sinusoid::new(bias, Series::one())?)));
+    df.ok().and_then(|(relay, sweep)| relay.describing_function(&sweep).ok()).unwrap_or_else(no_function)
+}
+
+/// Proof of a printed formula in three parts: the closed form of a sign is its integral; the formula's term of one switching
+/// level, at the ratio u, is that closed form; the terms are put together as the code does.
+fn prove_printed(
+    distortion: Distortion,
+    term: impl Fn(Series) -> Series,
+    formula: impl Fn(Series, Series) -> Series,
+    component: fn(DescribingFunction<Series>) -> Series,
+) -> Verdict {
+    let of_bias = |bias: f64| {
+        let sides = vec![ClaimVariable::number("x_a/X", 0.0, 0.69), ClaimVariable::number("abs(x_0)/X", bias, bias)];
+        let part = ClaimPart { variables: sides.into(), ..ClaimPart::whole("sum", "") };
+        identity(part, distortion, |half_width, factor| {
+            let bias = Series::from_f64(bias);
+            let formula = formula(half_width, bias) * factor;
+            [formula - component(relay(Series::one(), half_width, bias))]
+        })
+    };
+    let of_level = || {
+        const COVERED: ClaimPart =
+            ClaimPart::over("term", "", const { &[ClaimVariable::number("u", -0.9999, 0.9999)] });
+        identity(COVERED, distortion, |at, factor| {
+            let level = Kernel::Sign { at, level: Series::one(), branches: Branches::Rising };
+            [term(at) * factor - component(on_unit(level))]
+        })
+    };
+    prove_kernel(KernelForm::Sign, distortion, BREAKPOINT)
+        .and(of_level)
+        .and(|| of_bias(BIASES[0]))
+        .and(|| of_bias(BIASES[1]))
+}
+
+pub(super) fn root(distance: Series) -> Series {
+    (Series::one() - distance.square()).sqrt()
+}
+
+/// Eq. 30.
+fn prove_relay_q(distortion: Distortion) -> Verdict {
+    let term = |u| -(Series::two() * u / Series::pi());
+    prove_printed(distortion, term, |width, _| -(Series::from_f64(4.0) * width / Series::pi()), |df| df.q)
+}
+
+/// Eq. 31.
+fn prove_relay_p(distortion: Distortion) -> Verdict {
+    let term = |u| Series::two() / Series::pi() * root(u);
+    prove_printed(distortion, term, |width, bias| term(width - bias) + term(width + bias), |df| df.p)
+}
+
+/// Eq. 32.
+fn prove_relay_f0(distortion: Distortion) -> Verdict {
+    let term = |u: Series| -(u.asin() / Series::pi());
+    prove_printed(distortion, term, |width, bias| term(width - bias) - term(width + bias), |df| df.f0)
+}
+
+/// Each direction of the quadrant is that of some relay.
+fn prove_second_quadrant(distortion: Distortion) -> Verdict {
+    const COVERED: ClaimPart =
+        ClaimPart::over("covered", "", const { &[ClaimVariable::new("angle", "rad", 1.58, 3.13)] });
+    identity(COVERED, distortion, |angle, factor| {
+        let df = relay(Series::pi() / Series::from_f64(4.0), (Series::pi() - angle).sin(), Series::zero());
+        [df.p + factor * angle.cos(), df.q + factor * angle.sin()]
+    })
+}

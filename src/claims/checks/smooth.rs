@@ -1,0 +1,184 @@
+//! Smooth characteristics: closed form equals integral, over boxes of bias and amplitude.
+//!
+//! The integral is replaced by a mean over equally spaced angles, whose error is bounded because the output is analytic about
+//! the real axis; the closed form less that finite sum vanishes, as an identity of two variables.
+
+use super::{
+    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, claim, sample, tolerance,
+};
+use crate::describing::{ClosedForm, by_quadrature};
+use crate::nonlinearity::{Arctan, Branch, NonlinearityError, Sine, Sinh, Sinusoid, Tanh};
+use crate::numeric::{Interval, Real};
+use crate::proof::identity::{Series, prove_zero_of_two};
+
+/// Bound asked of the finite mean less the integral.
+const RULE: f64 = 1e-13;
+const CELLS: usize = 3000;
+
+/// A characteristic of unit gain and scale in two arithmetics, with what is known of its output off the real axis.
+struct Smooth<V, S> {
+    values: Result<V, NonlinearityError>,
+    series: Result<S, NonlinearityError>,
+    /// Half-width of the strip of complex angles that is used.
+    strip_rad: f64,
+    /// Bound of the output's magnitude where the input's real part is within `real` of zero and its imaginary part within
+    /// `imaginary`.
+    magnitude: fn(real: Interval, imaginary: Interval) -> Interval,
+}
+
+/// Closed form, made false unless the factor is one, less the mean over the angles with these cosines: mean and component.
+fn error<T: Real>(
+    characteristic: &impl ClosedForm<Number = T>,
+    cosines: &[Interval],
+    number: fn(Interval) -> T,
+    [bias, amplitude]: [T; 2],
+    factor: T,
+) -> [T; 2] {
+    let closed = Sinusoid::new(bias, amplitude).map(|sweep| (sweep, characteristic.describing_function(&sweep)));
+    let Ok((sweep, Ok(closed))) = closed else { return [T::from_f64(f64::NAN); 2] };
+    let (mut mean, mut component) = (T::zero(), T::zero());
+    for cosine in cosines.iter().map(|&cosine| number(cosine)) {
+        let output = characteristic.output(bias + amplitude * cosine, Branch::Rising, &sweep);
+        (mean, component) = (mean + output, component + output * cosine);
+    }
+    let count = T::from_f64(cosines.len() as f64);
+    [factor * closed.f0 - mean / count, factor * amplitude * closed.p - T::two() * component / count]
+}
+
+impl<V: ClosedForm<Number = Interval>, S: ClosedForm<Number = Series>> Smooth<V, S> {
+    /// Bound of the error of a mean over `2 nodes` equally spaced angles: `2 M/(exp(2 nodes a) - 1)` for a function below M
+    /// where the angle's imaginary part is within a (Trefethen, Weideman 2014, theorem 3.2).
+    fn rule_error(&self, nodes: usize, [bias, amplitude]: [[f64; 2]; 2]) -> Interval {
+        let (strip, largest) = (Interval::point(self.strip_rad), Interval::point(amplitude[1]));
+        let reach = Interval::point(bias[0].abs().max(bias[1].abs()));
+        let output = (self.magnitude)(reach + largest * strip.cosh(), largest * strip.sinh());
+        let angles = Interval::point((2 * nodes) as f64);
+        Interval::two() * output * strip.cosh() / (angles * strip).exp_m1()
+    }
+
+    /// Over a box of bias and amplitude, both times the scale.
+    fn prove(&self, distortion: Distortion, domain: [[f64; 2]; 2]) -> Verdict {
+        let nodes = (1..200).find(|&nodes| self.rule_error(nodes, domain).upper() < RULE);
+        let (Some(nodes), Ok(values), Ok(series), true) = (nodes, &self.values, &self.series, roots_agree()) else {
+            return Verdict::undecided("means over 400 angles");
+        };
+        let angle = |k: usize| Interval::PI * Interval::point(k as f64 + 0.5) / Interval::point(nodes as f64);
+        let cosines: Vec<Interval> = (0..nodes).map(|k| angle(k).cos()).collect();
+        let values = |bias, amplitude| {
+            error(values, &cosines, |number| number, [bias, amplitude], distortion.at(bias, domain[0]))
+        };
+        let series = |bias, amplitude| {
+            error(series, &cosines, Series::constant, [bias, amplitude], distortion.at(bias, domain[0]))
+        };
+        match prove_zero_of_two(values, series, domain, tolerance::PROOF, CELLS) {
+            Ok(proved) => {
+                let [bias, amplitude] = domain;
+                let sides = vec![
+                    ClaimVariable::number("abs(k B)", bias[0], bias[1]),
+                    ClaimVariable::number("k X", amplitude[0], amplitude[1]),
+                ];
+                let part = ClaimPart { variables: sides.into(), ..ClaimPart::whole("every-sweep", "") };
+                Verdict::Holds(Evidence::identity(part, proved.bound.value() + 2.0 * RULE, proved.boxes))
+            }
+            Err(_) => Verdict::undecided("an identity of two variables, 3000 cells"),
+        }
+    }
+}
+
+/// For what each closed form here is stated.
+const EVERY: ClaimPart = ClaimPart::over(
+    "every-sweep",
+    "every gain and scale k, bias and amplitude; F_0 and X P",
+    const { &[ClaimVariable::number("abs(k B)", 0.0, f64::INFINITY), ClaimVariable::number("k X", 0.0, f64::INFINITY)] },
+);
+
+const UNIT: Interval = Interval::ONE;
+const ONE: Series = Series::constant(UNIT);
+
+/// `abs(sin(x + iy)) <= cosh y`.
+fn sine(distortion: Distortion) -> Verdict {
+    Smooth { values: Sine::new(UNIT, UNIT), series: Sine::new(ONE, ONE), strip_rad: 0.9, magnitude: |_, y| y.cosh() }
+        .prove(distortion, [[0.0, 3.0], [0.25, 3.0]])
+}
+
+/// `abs(sinh(x + iy)) <= cosh x`.
+fn sinh(distortion: Distortion) -> Verdict {
+    Smooth { values: Sinh::new(UNIT, UNIT), series: Sinh::new(ONE, ONE), strip_rad: 0.9, magnitude: |x, _| x.cosh() }
+        .prove(distortion, [[0.0, 2.0], [0.25, 3.0]])
+}
+
+/// That both of the expressions that `describing::pole` chooses from give the same root: `(c^2 + u^2)(c^2 + l^2)` is
+/// `(c^2 - u l)^2 + c^2 (u + l)^2`, as polynomials of degree 4, 2, 2 are that agree on 5 by 3 by 3 points.
+fn roots_agree() -> bool {
+    (0_i64..45).all(|k| {
+        let (c, u, l) = (k / 9, k / 3 % 3, k % 3);
+        (c * c + u * u) * (c * c + l * l) == (c * c - u * l).pow(2) + (c * (u + l)).pow(2)
+    })
+}
+
+/// `abs(atan(x + iy)) <= pi/2 + atanh(abs(y))` for `abs(y) < 1`.
+fn arctan(distortion: Distortion) -> Verdict {
+    let magnitude = |_, y: Interval| Interval::PI / Interval::two() + y.atanh();
+    Smooth { values: Arctan::new(UNIT, UNIT), series: Arctan::new(ONE, ONE), strip_rad: 0.3, magnitude }
+        .prove(distortion, [[0.0, 3.0], [0.25, 3.0]])
+}
+
+/// `abs(tanh(x + iy)) <= max(1, tan(abs(y)))` for `abs(y) < pi/2`. Both formulas that the code chooses from.
+fn tanh(distortion: Distortion) -> Verdict {
+    let magnitude = |_, y: Interval| y.tan().max(Interval::ONE);
+    let tanh = Smooth { values: Tanh::new(UNIT, UNIT), series: Tanh::new(ONE, ONE), strip_rad: 0.45, magnitude };
+    tanh.prove(distortion, [[0.0, 2.25], [0.25, 3.0]]).and(|| tanh.prove(distortion, [[4.5, 5.5], [0.5, 2.0]]))
+}
+
+/// Makes a characteristic from gain and scale.
+type Make<C> = fn(f64, f64) -> Result<C, NonlinearityError>;
+
+/// Closed form times `factor` against quadrature, gains and biases of either sign.
+fn closed_is_integral<C: ClosedForm<Number = f64>>(budget: Budget, make: Make<C>, factor: f64) -> Verdict {
+    sample(budget, |draw| {
+        let characteristic = make(draw.uniform("gain", -2.0, 2.0), draw.uniform("scale", 0.2, 2.0));
+        let sweep = Sinusoid::new(draw.uniform("bias", -2.0, 2.0), draw.uniform("amplitude", 0.1, 2.0));
+        let (Ok(characteristic), Ok(sweep)) = (characteristic, sweep) else { return Case::Skipped };
+        let closed = characteristic.describing_function(&sweep);
+        let (Ok(closed), Ok(integral)) = (closed, by_quadrature(&characteristic, &sweep)) else { return Case::Skipped };
+        let [low, high] =
+            [sweep.minimum(), sweep.maximum()].map(|x| characteristic.output(x, Branch::Rising, &sweep).abs());
+        let (scale, amplitude) = (low.max(high).max(1e-3), sweep.amplitude());
+        let mut equal =
+            |name, closed: f64, integral| draw.equal((name, closed * factor), integral, scale, tolerance::QUADRATURE);
+        equal("f0", closed.f0, integral.f0).and(equal("y_p1", closed.p * amplitude, integral.p * amplitude))
+    })
+}
+
+/// One line a claim: constant, id, statement, constructor and proof.
+macro_rules! smooth {
+    ($($constant:ident = $id:literal $statement:literal, $type:ident $proof:ident;)+) => {
+        $(
+            claim! {
+                $constant = $id "10" Identity
+                $statement {
+                    printed: AsPrinted::Absent,
+                    corrected: Some(|budget| closed_is_integral(budget, $type::new, 1.0)),
+                    falsified: |budget| closed_is_integral(budget, $type::new, 1.000_01),
+                    domain: &[EVERY],
+                    by_hand: &[
+                        "gain and scale are set to one by homogeneity",
+                        "negative biases by the parity of the characteristic",
+                        "the error of the finite mean by the bound for analytic functions (Trefethen, Weideman 2014)",
+                    ],
+                    proof: Some($proof),
+                    hypotheses: &[],
+                    depends: &["fourier-coefficients"],
+                }
+            }
+        )+
+    };
+}
+
+smooth! {
+    SINE = "sine" "F_0 and P of a sine are Bessel functions J of the amplitude, times sine and cosine of the bias", Sine sine;
+    SINH = "sinh" "F_0 and P of a hyperbolic sine are Bessel functions I of the amplitude, times sinh and cosh of the bias",
+        Sinh sinh;
+    ARCTAN = "arctan" "F_0 and P of an arc tangent follow from one complex square root", Arctan arctan;
+    TANH = "tanh" "F_0 and P of a hyperbolic tangent are sums over its poles, or over exponentials on one side", Tanh tanh;
+}

@@ -1,0 +1,152 @@
+//! When the mean output vanishes: the paper's lemmas on odd and other characteristics.
+
+use super::family::{mean_of, odd_nondecreasing, output_scale, sweep};
+use super::{AsPrinted, Budget, Case, ClaimPart, Hypothesis, Verdict, claim, sample, tolerance};
+use crate::describing::ClosedForm;
+use crate::nonlinearity::{DeadZone, Sinusoid};
+use crate::numeric::quadrature::integrate;
+
+claim! {
+    LEMMA_1 = "lemma-1" "Lemma 1" Lemma
+    "Odd, nondecreasing and not zero on the whole sweep: the mean output has the sign of the bias, and vanishes with it" {
+        domain: &[
+            ClaimPart::whole(
+                "whole",
+                "odd nondecreasing characteristics without memory that do not vanish on the sweep, every bias and amplitude",
+            ),
+        ],
+        printed: AsPrinted::Refuted(|budget| vanishes_only_unbiased(budget, |x| x * x * x - 2.0 * x)),
+        corrected: Some(mean_has_sign_of_bias),
+        falsified: |budget| vanishes_only_unbiased(budget, |x| (3.0 * x).sin()),
+        hypotheses: &[
+            Hypothesis { id: "odd", counterexample: Some(|budget| vanishes_only_unbiased(budget, |x| x + 0.5)) },
+            Hypothesis { id: "nondecreasing", counterexample: Some(|budget| vanishes_only_unbiased(budget, f64::sin)) },
+            Hypothesis { id: "not-zero-on-sweep", counterexample: Some(inside_the_dead_zone) },
+        ],
+        depends: &["fourier-coefficients"],
+    }
+}
+
+/// Looks for a bias other than zero at which the mean output of `function` vanishes.
+fn vanishes_only_unbiased(budget: Budget, function: fn(f64) -> f64) -> Verdict {
+    sample(budget, |draw| {
+        let amplitude = draw.uniform("amplitude", 0.5, 1.5);
+        let (mut from, mut to) = (draw.uniform("from", -4.0, -0.1), draw.uniform("to", 0.1, 4.0));
+        if draw.index("side", 2) == 0 {
+            to = -0.05
+        } else {
+            from = 0.05
+        }
+        let mean = |bias| mean_of(function, bias, amplitude);
+        let scale = function(from - amplitude).abs().max(function(to + amplitude).abs());
+        match bisect(mean, from, to) {
+            Some(bias) => draw.at_most(("bias", bias.abs()), ("mean", mean(bias).abs()), scale),
+            None => Case::truth(true),
+        }
+    })
+}
+
+/// A zero of `f` between two points of opposite sign.
+fn bisect(f: impl Fn(f64) -> f64, mut from: f64, mut to: f64) -> Option<f64> {
+    let start = f(from);
+    if start * f(to) > 0.0 {
+        return None;
+    }
+    for _ in 0..80 {
+        let middle = 0.5 * (from + to);
+        if start * f(middle) > 0.0 { from = middle } else { to = middle }
+    }
+    Some(0.5 * (from + to))
+}
+
+/// Strictly: the mean is on the bias's side of zero.
+fn mean_has_sign_of_bias(budget: Budget) -> Verdict {
+    sample(budget, |draw| {
+        let (Ok(characteristic), Ok(sweep)) = (odd_nondecreasing(draw), sweep(draw)) else { return Case::Skipped };
+        let Ok(df) = characteristic.describing_function(&sweep) else { return Case::Skipped };
+        let scale = output_scale(&*characteristic, &sweep);
+        // Constant or zero over the sweep and its mirror image, and a bias lost in rounding: no hypothesis, no case.
+        if scale == 0.0 || sweep.bias().abs() < 1e-6 * sweep.amplitude() {
+            return Case::Skipped;
+        }
+        let signed = draw.note("f0", df.f0) * sweep.bias().signum();
+        let unbiased = Sinusoid::new(0.0, sweep.amplitude()).map(|sweep| characteristic.describing_function(&sweep));
+        let Ok(Ok(unbiased)) = unbiased else { return Case::Skipped };
+        let zero = draw.equal(("f0_unbiased", unbiased.f0), 0.0, scale, tolerance::ROUNDING);
+        zero.and(if signed > 0.0 { Case::margin(signed / scale) } else { Case::truth(false) })
+    })
+}
+
+/// A biased sweep within a dead zone has mean zero.
+fn inside_the_dead_zone(budget: Budget) -> Verdict {
+    sample(budget, |draw| {
+        let (bias, amplitude) = (draw.uniform("bias", 0.1, 1.0), draw.uniform("amplitude", 0.1, 1.0));
+        let half_width = draw.note("half_width", bias + amplitude + 0.1);
+        let (Ok(dead_zone), Ok(sweep)) = (DeadZone::new(1.0, half_width), Sinusoid::new(bias, amplitude)) else {
+            return Case::Skipped;
+        };
+        dead_zone.describing_function(&sweep).map_or(Case::Skipped, |df| Case::truth(draw.note("f0", df.f0) != 0.0))
+    })
+}
+
+claim! {
+    LEMMA_2 = "lemma-2" "Lemma 2" Lemma
+    "With an even part of one sign the mean output cannot vanish without bias; nondecreasing, only with one of the other sign" {
+        domain: &[ClaimPart::whole("whole", "characteristics with an even part of one sign, every amplitude")],
+        printed: AsPrinted::Refuted(|budget| unbiased_mean_is_not_zero(budget, |x, even| x + even * (x * x - 0.5))),
+        corrected: Some(|budget| even_part_decides(budget, |x, even| x * x * x + x + even * (1.0 + (-x * x).exp()))),
+        falsified: |budget| even_part_decides(budget, |x, even| x + even * (x * x - 0.5)),
+        hypotheses: &[
+            Hypothesis {
+                id: "even-part-of-one-sign",
+                counterexample: Some(|budget| unbiased_mean_is_not_zero(budget, |x, even| x + even * (x * x - 0.5))),
+            },
+            Hypothesis {
+                id: "even-part-not-zero",
+                counterexample: Some(|budget| unbiased_mean_is_not_zero(budget, |x, _| x)),
+            },
+            Hypothesis {
+                id: "nondecreasing",
+                counterexample: Some(|budget| even_part_decides(budget, |x, even| even - x)),
+            },
+        ],
+        depends: &["lemma-1"],
+    }
+}
+
+/// A function with an even part whose size is the second argument.
+type WithEvenPart = fn(f64, f64) -> f64;
+
+/// Mean of `function` over a sinusoid of amplitude `amplitude`.
+fn mean(function: WithEvenPart, even: f64, bias: f64, amplitude: f64) -> f64 {
+    let integrand = |angle: f64| function(bias + amplitude * angle.sin(), even);
+    integrate(integrand, -core::f64::consts::FRAC_PI_2, core::f64::consts::FRAC_PI_2, 1e-14, 1000).value
+        / core::f64::consts::PI
+}
+
+/// Unbiased unit sweep: the mean output is not zero.
+fn unbiased_mean_is_not_zero(budget: Budget, function: WithEvenPart) -> Verdict {
+    sample(budget, |draw| {
+        let even = draw.uniform("even", 0.1, 1.0);
+        let f0 = draw.note("f0", mean(function, even, 0.0, 1.0));
+        Case::margin(f0.abs() - tolerance::QUADRATURE)
+    })
+}
+
+/// Not zero without bias, and zero only at a bias of the sign opposite to the even part's.
+fn even_part_decides(budget: Budget, function: WithEvenPart) -> Verdict {
+    sample(budget, |draw| {
+        let even = draw.uniform("even", -1.0, 1.0);
+        let amplitude = draw.uniform("amplitude", 0.2, 2.0);
+        if even.abs() < 1e-3 {
+            return Case::Skipped;
+        }
+        let f0 = |bias| mean(function, even, bias, amplitude);
+        let unbiased = draw.note("f0", f0(0.0)).abs() - tolerance::QUADRATURE;
+        let opposite = match bisect(f0, -5.0, 5.0) {
+            Some(bias) => Case::margin(-draw.note("bias", bias) * even.signum()),
+            None => Case::truth(true),
+        };
+        Case::margin(unbiased).and(opposite)
+    })
+}

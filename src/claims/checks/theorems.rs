@@ -1,0 +1,145 @@
+//! Theorems 2 and 3: when the self-oscillations of a closed loop are symmetric, on exact orbits and on the first harmonic.
+
+use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use crate::describing::by_quadrature;
+use crate::nonlinearity::{Custom, RelayHysteresis, Sinusoid};
+use crate::orbit::{RelayLoop, RelayOrbit};
+use crate::plant::{StateSpace, TransferFunction};
+
+/// Closed loops are dear: a hundredth of the cases that a formula gets.
+fn few(budget: Budget) -> Budget {
+    Budget { cases: budget.cases.div_ceil(100), ..budget }
+}
+
+/// A plant with lags, with or without an integrator, under a relay whose levels may be offset.
+struct Loop {
+    integrating: bool,
+    offset: bool,
+    referred: bool,
+}
+
+impl Loop {
+    /// Its exact orbits with one switching each way, and the reference.
+    fn orbits(&self, draw: &mut Draw) -> Option<(Vec<RelayOrbit>, f64)> {
+        let (first, second) = (draw.log_uniform("first_lag_s", 0.3, 3.0), draw.log_uniform("second_lag_s", 0.3, 3.0));
+        let lags = [first * second, first + second, 1.0];
+        let denominator = if self.integrating { vec![lags[0], lags[1], 1.0, 0.0] } else { lags.to_vec() };
+        let plant = StateSpace::realise(&TransferFunction::new(&[1.0], &denominator).ok()?).ok()?;
+        let offset = if self.offset { draw.uniform("offset", 0.1, 0.5) } else { 0.0 };
+        let reference = if self.referred { draw.uniform("reference", 0.1, 0.4) } else { 0.0 };
+        let relay = RelayHysteresis::new(1.0, draw.uniform("half_width", 0.1, 0.3), offset).ok()?;
+        let lap = first + second;
+        let found =
+            RelayLoop::new(plant, relay).with_reference(reference).ok()?.orbits(0.1 * lap..=100.0 * lap).ok()?;
+        (!found.is_empty()).then_some((found, reference))
+    }
+}
+
+/// Equal times at both commands, and the output's middle on the reference where the plant integrates.
+fn symmetry(draw: &mut Draw, orbit: &RelayOrbit, centre: f64) -> Case {
+    let (period, amplitude) = (orbit.period_s(), orbit.amplitude());
+    let skew = orbit.time_positive_s() - orbit.time_negative_s();
+    draw.equal(("time_difference_s", skew), 0.0, period, tolerance::CANCELLING).and(draw.equal(
+        ("middle", orbit.bias()),
+        centre,
+        amplitude,
+        tolerance::CANCELLING,
+    ))
+}
+
+/// Every orbit is symmetric.
+fn symmetric(budget: Budget, family: &Loop) -> Verdict {
+    sample(few(budget), |draw| {
+        let Some((orbits, reference)) = family.orbits(draw) else { return Case::Skipped };
+        let centre = if family.integrating { reference } else { 0.0 };
+        orbits.iter().fold(Case::truth(true), |case, orbit| case.and(symmetry(draw, orbit, centre)))
+    })
+}
+
+/// No orbit is symmetric: the margin is the least difference of times, as a share of the period.
+fn asymmetric(budget: Budget, family: &Loop) -> Verdict {
+    sample(few(budget), |draw| {
+        let Some((orbits, _)) = family.orbits(draw) else { return Case::Skipped };
+        let skew = |orbit: &RelayOrbit| {
+            (orbit.time_positive_s() - orbit.time_negative_s()).abs() / orbit.period_s() - tolerance::CANCELLING
+        };
+        Case::margin(draw.note("least_skew", orbits.iter().map(skew).fold(f64::INFINITY, f64::min)))
+    })
+}
+
+/// The first harmonic of `function` balances `gain/(s (s + 1)^2)`, which turns the phase over at 1 rad/s with half its gain,
+/// at this bias and amplitude: residuals of `F_0 = 0` and of `1 + P G = 0`.
+fn residual(function: fn(f64) -> f64, gain: f64, bias: f64, amplitude: f64) -> Option<f64> {
+    let sweep = Sinusoid::new(bias, amplitude).ok()?;
+    let df = by_quadrature(&Custom::new(|x: f64, _| function(x), &[]), &sweep).ok()?;
+    Some(df.f0.abs().max((1.0 - 0.5 * gain * df.p).abs()))
+}
+
+/// An oscillation with bias balances an astatic process and `x^3 - 2x`, which is odd: the bias solves `F_0 = 0`, the
+/// amplitude `1 + P G = 0`. And a static process with reference zero oscillates symmetrically.
+fn odd_and_astatic_without_bias(budget: Budget) -> Verdict {
+    sample(budget, |draw| {
+        let gain = draw.uniform("gain", 1.0, 5.0);
+        let amplitude = draw.note("amplitude", ((4.0 - 2.0 / gain) / 3.75).sqrt());
+        let bias = draw.note("bias", (2.0 - 1.5 * amplitude * amplitude).sqrt());
+        let balanced = residual(|x| x * x * x - 2.0 * x, gain, bias, amplitude);
+        balanced.map_or(Case::Skipped, |left| Case::margin(draw.note("residual", left) - tolerance::QUADRATURE))
+    })
+}
+
+claim! {
+    THEOREM_2 = "theorem-2" "Theorem 2" Theorem
+    "Odd, nondecreasing and not zero on the sweep: symmetric about any constant reference if the process integrates, and about none but zero if not" {
+        domain: &[ClaimPart::whole("whole", "every integrating plant under a symmetric relay")],
+        printed: AsPrinted::Refuted(odd_and_astatic_without_bias),
+        corrected: Some(|budget| {
+            symmetric(budget, &Loop { integrating: true, offset: false, referred: true })
+                .and(|| asymmetric(budget, &Loop { integrating: false, offset: false, referred: true }))
+        }),
+        // A reference that does not matter without an integrator either.
+        falsified: |budget| symmetric(budget, &Loop { integrating: false, offset: false, referred: true }),
+        hypotheses: &[
+            Hypothesis {
+                id: "integrating",
+                counterexample: Some(|budget| symmetric(budget, &Loop { integrating: false, offset: false, referred: true })),
+            },
+            Hypothesis {
+                id: "odd",
+                counterexample: Some(|budget| symmetric(budget, &Loop { integrating: true, offset: true, referred: true })),
+            },
+            Hypothesis { id: "nondecreasing", counterexample: Some(odd_and_astatic_without_bias) },
+            Hypothesis { id: "not-zero-on-sweep", counterexample: None },
+        ],
+        depends: &["lemma-1"],
+    }
+}
+
+/// `x + x^2 - 1/2` is not odd, and balances an astatic process of gain 2 without bias at amplitude 1.
+fn not_odd_and_astatic_with_bias(budget: Budget) -> Verdict {
+    sample(budget, |draw| {
+        let (gain, bias, amplitude) = (draw.note("gain", 2.0), draw.note("bias", 0.0), draw.note("amplitude", 1.0));
+        let balanced = residual(|x| x + x * x - 0.5, gain, bias, amplitude);
+        balanced.map_or(Case::Skipped, |left| Case::margin(draw.note("residual", left) - tolerance::QUADRATURE))
+    })
+}
+
+claim! {
+    THEOREM_3 = "theorem-3" "Theorem 3" Theorem
+    "Integrating process: an even part of one sign makes the self-oscillations asymmetric; an odd nondecreasing characteristic keeps them symmetric" {
+        domain: &[ClaimPart::whole("whole", "every integrating plant under a relay with offset levels")],
+        printed: AsPrinted::Refuted(not_odd_and_astatic_with_bias),
+        corrected: Some(|budget| {
+            asymmetric(budget, &Loop { integrating: true, offset: true, referred: true })
+                .and(|| symmetric(budget, &Loop { integrating: true, offset: false, referred: true }))
+        }),
+        falsified: |budget| asymmetric(budget, &Loop { integrating: true, offset: false, referred: true }),
+        hypotheses: &[
+            Hypothesis {
+                id: "integrating",
+                counterexample: Some(|budget| symmetric(budget, &Loop { integrating: false, offset: false, referred: true })),
+            },
+            Hypothesis { id: "even-part-of-one-sign", counterexample: Some(not_odd_and_astatic_with_bias) },
+        ],
+        depends: &["lemma-2", "theorem-2"],
+    }
+}

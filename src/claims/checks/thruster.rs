@@ -1,0 +1,291 @@
+//! From the controller's forces to thrust: eqs. 1-3 and 35, Fig. 11.
+
+use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use crate::vehicle::{Allocation, BilinearThruster, Compensation, ThrustSide, Thruster};
+
+claim! {
+    THRUSTER_BILINEAR = "thruster-bilinear" "1" Identity
+    "Thrust T_nn abs(n) n - T_nu abs(n) u_a and torque alike; each thrust has one rate that turns its way and does not brake"
+    {
+        domain: &[ClaimPart::whole("whole", "every pair of coefficients, speed of the water and thrust")],
+        printed: AsPrinted::Holds(|budget| bilinear(budget, 1.0, 1.0)),
+        corrected: None,
+        // Still water: the rate found without the ambient speed.
+        falsified: |budget| bilinear(budget, 0.0, 1.0),
+        hypotheses: &[
+            Hypothesis { id: "not-braking", counterexample: Some(|budget| bilinear(budget, 1.0, 0.0)) },
+        ],
+        depends: &[],
+    }
+}
+
+/// Eq. 1 and back, the inverse told `seen` of the ambient speed; rates from `least` braking rates upwards.
+fn bilinear(budget: Budget, seen: f64, least: f64) -> Verdict {
+    const LARGEST_RATE: f64 = 40.0;
+    sample(budget, |draw| {
+        let mut pair =
+            |names: [&'static str; 2]| (draw.log_uniform(names[0], 1e-3, 1e-1), draw.log_uniform(names[1], 1e-3, 1e-1));
+        let (thrust, torque) = (pair(["t_nn", "t_nu"]), pair(["q_nn", "q_nu"]));
+        let ambient = draw.uniform("ambient_speed_m_s", -2.0, 2.0);
+        let Ok(thruster) = BilinearThruster::new(thrust, torque, LARGEST_RATE) else { return Case::Skipped };
+        let rate = draw.uniform("rate", -LARGEST_RATE, LARGEST_RATE);
+        if rate.abs() < least * 1.01 * thrust.1 * ambient.abs() / thrust.0 {
+            return Case::Skipped;
+        }
+        let eq_1 = |(by_rate, by_speed): (f64, f64)| by_rate * rate.abs() * rate - by_speed * rate.abs() * ambient;
+        let scale = |(by_rate, by_speed): (f64, f64)| (by_rate * rate * rate) + by_speed * (rate * ambient).abs();
+        let Ok(back) = thruster.rate(thruster.thrust(rate, ambient), seen * ambient) else { return Case::truth(false) };
+        draw.equal(("thrust_n", thruster.thrust(rate, ambient)), eq_1(thrust), scale(thrust), tolerance::ROUNDING)
+            .and(draw.equal(
+                ("torque_n_m", thruster.torque(rate, ambient)),
+                eq_1(torque),
+                scale(torque),
+                tolerance::ROUNDING,
+            ))
+            .and(draw.equal(("rate_found", back), rate, LARGEST_RATE, tolerance::CANCELLING))
+    })
+}
+
+/// One direction of a thruster: thrust grows from zero.
+#[derive(Clone, Copy)]
+struct Curve {
+    quadratic: f64,
+    linear: f64,
+    dead_zone: f64,
+    limit: f64,
+}
+
+impl Curve {
+    fn draw(draw: &mut Draw, simplest: bool) -> Self {
+        let (quadratic, dead_zone) = (draw.log_uniform("a", 1e-5, 1e-3), draw.uniform("dead_zone", 5.0, 30.0));
+        let linear = if simplest { 0.0 } else { draw.log_uniform("b", 1e-3, 1e-1) };
+        Self { quadratic, linear, dead_zone, limit: draw.uniform("limit", 100.0, 200.0) }
+    }
+
+    fn side(&self) -> Option<ThrustSide<f64>> {
+        ThrustSide::new(self.quadratic, self.linear, self.dead_zone, self.limit).ok()
+    }
+
+    /// Eq. 2.
+    fn thrust(&self, command: f64) -> f64 {
+        self.quadratic * command.abs() * command + self.linear * command
+    }
+}
+
+/// Where commands are drawn from.
+#[derive(Clone, Copy)]
+enum Commands {
+    Turning,
+    Standing,
+    Beyond,
+}
+
+impl Commands {
+    fn draw(self, draw: &mut Draw, curve: &Curve) -> f64 {
+        match self {
+            Self::Turning => draw.uniform("command", curve.dead_zone, curve.limit),
+            Self::Standing => draw.uniform("command", 0.1, curve.dead_zone),
+            Self::Beyond => draw.uniform("command", 1.01 * curve.limit, 2.0 * curve.limit),
+        }
+    }
+}
+
+claim! {
+    THRUSTER_AFFINE = "thruster-affine" "2" Identity
+    "Thrust a abs(n) n + b n is odd and has one command, sgn(T) sqrt(abs(T)/a) where b = 0"
+    {
+        domain: &[ClaimPart::whole("whole", "every pair of coefficients, command and thrust")],
+        printed: AsPrinted::Holds(|budget| affine(budget, Commands::Turning, inverse)
+            .and(|| simplest(budget))),
+        corrected: None,
+        // The simplest thruster's inverse whatever b.
+        falsified: |budget| affine(budget, Commands::Turning, |curve, thrust| {
+            (thrust.abs() / curve.quadratic).sqrt().copysign(thrust)
+        }),
+        hypotheses: &[
+            Hypothesis { id: "turning", counterexample: Some(|budget| affine(budget, Commands::Standing, inverse)) },
+            Hypothesis { id: "within-limit", counterexample: Some(|budget| affine(budget, Commands::Beyond, inverse)) },
+            Hypothesis { id: "thrust-grows", counterexample: Some(falling) },
+        ],
+        depends: &[],
+    }
+}
+
+fn inverse(curve: &Curve, thrust_n: f64) -> f64 {
+    curve.side().and_then(|side| Thruster::asymmetric(side, side).command(thrust_n).ok()).unwrap_or(f64::NAN)
+}
+
+/// Eq. 2 both ways, and back by `inverse`.
+fn affine(budget: Budget, commands: Commands, inverse: fn(&Curve, f64) -> f64) -> Verdict {
+    sample(budget, |draw| {
+        let curve = Curve::draw(draw, false);
+        let command = commands.draw(draw, &curve);
+        let Ok(thruster) = Thruster::affine(curve.quadratic, curve.linear, curve.dead_zone, curve.limit) else {
+            return Case::Skipped;
+        };
+        let thrust = curve.thrust(command);
+        draw.equal(("thrust_n", thruster.thrust(command)), thrust, thrust, tolerance::ROUNDING)
+            .and(draw.equal(("thrust_astern_n", thruster.thrust(-command)), -thrust, thrust, tolerance::ROUNDING))
+            .and(draw.equal(("command_found", inverse(&curve, thrust)), command, command, tolerance::ROUNDING))
+            .and(draw.equal(("command_astern", inverse(&curve, -thrust)), -command, command, tolerance::ROUNDING))
+    })
+}
+
+fn simplest(budget: Budget) -> Verdict {
+    sample(budget, |draw| {
+        let curve = Curve::draw(draw, true);
+        let thrust = curve.thrust(Commands::Turning.draw(draw, &curve));
+        let root = (thrust / curve.quadratic).sqrt();
+        draw.equal(("command_found", inverse(&curve, -thrust)), -root, root, tolerance::ROUNDING)
+    })
+}
+
+/// A thrust that falls before the limit has two commands: such a thruster is refused.
+fn falling(budget: Budget) -> Verdict {
+    sample(budget, |draw| {
+        let mut curve = Curve::draw(draw, false);
+        curve.quadratic = draw.note("a", -0.6 * curve.linear / curve.limit);
+        Case::truth(curve.side().is_some())
+    })
+}
+
+claim! {
+    THRUSTER_ASYMMETRIC = "thruster-asymmetric" "3" Definition
+    "Coefficients of their own for n > 0 and n <= 0; the sign of the thrust picks the side of the inverse"
+    {
+        domain: &[ClaimPart::whole("whole", "every two pairs of coefficients, command and thrust")],
+        printed: AsPrinted::Holds(|budget| asymmetric(budget, false)),
+        corrected: None,
+        // The forward coefficients astern too.
+        falsified: |budget| asymmetric(budget, true),
+        hypotheses: &[],
+        depends: &["thruster-affine"],
+    }
+}
+
+fn asymmetric(budget: Budget, forward_only: bool) -> Verdict {
+    sample(budget, |draw| {
+        let (ahead, astern) = (Curve::draw(draw, false), Curve::draw(draw, false));
+        let (Some(forward), Some(backward)) = (ahead.side(), astern.side()) else { return Case::Skipped };
+        let thruster = Thruster::asymmetric(forward, if forward_only { forward } else { backward });
+        let mut case = Case::truth(thruster.thrust(0.0) == 0.0);
+        for (curve, sign) in [(ahead, 1.0), (astern, -1.0)] {
+            let command = sign * Commands::Turning.draw(draw, &curve);
+            let thrust = curve.thrust(command);
+            let found = thruster.command(thrust).unwrap_or(f64::NAN);
+            case = case
+                .and(draw.equal(("thrust_n", thruster.thrust(command)), thrust, thrust, tolerance::ROUNDING))
+                .and(draw.equal(("command_found", found), command, command, tolerance::ROUNDING));
+        }
+        case
+    })
+}
+
+claim! {
+    ALLOCATION = "allocation" "35" Identity
+    "X = tau_1 + tau_2, N = d (tau_1 - tau_2); tau = (X +- N/d)/2 is its inverse"
+    {
+        domain: &[ClaimPart::whole("whole", "every distance, force and moment")],
+        printed: AsPrinted::Holds(|budget| allocation(budget, 1.0, 1.0)),
+        corrected: None,
+        // The two thrusters exchanged.
+        falsified: |budget| allocation(budget, -1.0, 1.0),
+        hypotheses: &[Hypothesis { id: "arm-positive", counterexample: Some(|budget| allocation(budget, 1.0, 0.0)) }],
+        depends: &[],
+    }
+}
+
+fn allocation(budget: Budget, sign: f64, arm_factor: f64) -> Verdict {
+    sample(budget, |draw| {
+        let arm = draw.log_uniform("arm_m", 0.01, 1.0) * arm_factor;
+        let (port, starboard) = (draw.uniform("port_n", -5.0, 5.0), draw.uniform("starboard_n", -5.0, 5.0));
+        let Ok(pair) = Allocation::pair(arm) else { return Case::truth(false) };
+        let [ahead, turning] = pair.forces(&[port, starboard]);
+        let [port_found, starboard_found] = pair.thrusts(&[ahead, turning]);
+        let split = 0.5 * (ahead + turning / arm);
+        let mut equal = |name, value: f64, expected: f64, scale: f64| {
+            draw.equal((name, value), expected, scale, tolerance::ROUNDING)
+        };
+        equal("x_n", ahead, port + starboard, 5.0)
+            .and(equal("n_n_m", turning, sign * arm * (port - starboard), 5.0 * arm))
+            .and(equal("port_split_n", split, port, 5.0))
+            .and(equal("port_found_n", port_found, port, 5.0))
+            .and(equal("starboard_found_n", starboard_found, starboard, 5.0))
+    })
+}
+
+claim! {
+    COMPENSATION = "compensation" "Fig. 11" Theorem
+    "Inverse allocation, offset and inverse maps before the thrusters leave the force asked for, plus a constant"
+    {
+        domain: &[ClaimPart::whole("whole", "every allocation, thruster and force")],
+        printed: AsPrinted::Holds(|budget| compensation(budget, &Chain::INTACT)),
+        corrected: None,
+        // The constant left out of account.
+        falsified: |budget| compensation(budget, &Chain { bias: 0.0, ..Chain::INTACT }),
+        hypotheses: &[
+            Hypothesis {
+                id: "same-thrusters",
+                counterexample: Some(|budget| compensation(budget, &Chain { actual: 0.95, ..Chain::INTACT })),
+            },
+            Hypothesis {
+                id: "within-limits",
+                counterexample: Some(|budget| compensation(budget, &Chain { reach: 20.0, ..Chain::INTACT })),
+            },
+            Hypothesis {
+                id: "outside-dead-zone",
+                counterexample: Some(|budget| compensation(budget, &Chain { offset: false, ..Chain::INTACT })),
+            },
+        ],
+        depends: &["allocation", "thruster-asymmetric"],
+    }
+}
+
+/// A compensated vehicle, and what is wrong with it.
+struct Chain {
+    /// Thrust of the real thrusters over that of the ones compensated for.
+    actual: f64,
+    /// Moments asked for over the largest the offset is made for.
+    reach: f64,
+    /// Whether the offset stands against the dead zone.
+    offset: bool,
+    /// How much of the constant is accounted for.
+    bias: f64,
+}
+
+impl Chain {
+    const INTACT: Self = Self { actual: 1.0, reach: 1.0, offset: true, bias: 1.0 };
+}
+
+/// A pair of thrusters with a dead zone, both turning ahead, asked for moments about the vertical; clamped where it must be.
+fn compensation(budget: Budget, chain: &Chain) -> Verdict {
+    const ARM_M: f64 = 0.08;
+    const LARGEST_N_M: f64 = 0.1;
+    sample(budget, |draw| {
+        let (ahead, astern) = (Curve::draw(draw, false), Curve::draw(draw, false));
+        let thruster = |factor: f64| {
+            let scaled = |curve: Curve| {
+                Curve { quadratic: factor * curve.quadratic, linear: factor * curve.linear, ..curve }.side()
+            };
+            Some(Thruster::asymmetric(scaled(ahead)?, scaled(astern)?))
+        };
+        let (Some(known), Some(actual), Ok(pair)) = (thruster(1.0), thruster(chain.actual), Allocation::pair(ARM_M))
+        else {
+            return Case::Skipped;
+        };
+        let made = if chain.offset {
+            Compensation::against_dead_zone(pair, [known; 2], [1.0, 1.0], [0.0, LARGEST_N_M])
+        } else {
+            Ok(Compensation::new(pair, [known; 2]))
+        };
+        // Too weak a thruster for offset and moment together.
+        let Ok(compensation) = made else { return Case::Skipped };
+        let moment = chain.reach * draw.uniform("moment_n_m", -LARGEST_N_M, LARGEST_N_M);
+        let Ok(commands) = compensation.commands_clamped(&[0.0, moment]) else { return Case::truth(false) };
+        let ([ahead_n, turning_n_m], bias) =
+            (compensation.delivered(&commands, &[actual; 2]), compensation.bias_forces());
+        let scale = bias[0].abs() + moment.abs() / ARM_M;
+        draw.equal(("turning_n_m", turning_n_m), moment + chain.bias * bias[1], ARM_M * scale, tolerance::ROUNDING)
+            .and(draw.equal(("ahead_n", ahead_n), chain.bias * bias[0], scale, tolerance::ROUNDING))
+    })
+}

@@ -1,0 +1,193 @@
+//! What a check found, and the word for it.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::{ClaimDomain, ClaimPart, Witness};
+
+/// The answer to "does this hold?".
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// It holds, as far as the evidence goes.
+    Holds(Evidence),
+    /// It does not, and here is the case.
+    Refuted(Witness),
+    /// The budget ran out first, or a proof did not succeed.
+    Undecided {
+        /// What was tried.
+        spent: String,
+    },
+}
+
+/// Why a statement is believed. A number that means nothing for the way it was checked is `None`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Evidence {
+    /// Enclosed: true of every point of these parts.
+    pub proved: ClaimDomain,
+    /// Finite models of which every state was visited: true of each of them, and said of nothing else.
+    pub exhausted: ClaimDomain,
+    /// Cases drawn that meet the hypotheses, or states visited.
+    pub cases: Option<usize>,
+    /// Boxes that the proved parts were divided into.
+    pub boxes: Option<usize>,
+    /// An identity's sides differ by no more than this on the proved parts.
+    pub residual_bound: Option<f64>,
+    /// Smallest margin: of an inequality over the proved parts, else of the cases drawn, where 1 is exact and 0 the limit.
+    pub margin: Option<f64>,
+}
+
+impl Evidence {
+    /// Cases drawn. They cover no part of a domain, however many they are.
+    pub(crate) fn sampled(cases: usize, margin: f64) -> Self {
+        Self { cases: Some(cases), margin: Some(margin), ..Self::default() }
+    }
+    /// An identity, enclosed.
+    pub(crate) fn identity(part: ClaimPart, residual_bound: f64, boxes: usize) -> Self {
+        Self { proved: part.into(), boxes: Some(boxes), residual_bound: Some(residual_bound), ..Self::default() }
+    }
+    /// An inequality, enclosed.
+    pub(crate) fn inequality(proved: ClaimDomain, margin: f64, boxes: usize) -> Self {
+        Self { proved, boxes: Some(boxes), margin: Some(margin), ..Self::default() }
+    }
+    /// Every state of a finite model.
+    pub(crate) fn exhausted(part: ClaimPart, states: usize) -> Self {
+        Self { exhausted: part.into(), cases: Some(states), ..Self::default() }
+    }
+
+    /// That of two statements together: each part belongs to what was established of it.
+    fn with(self, other: Self) -> Self {
+        fn both<T>(a: Option<T>, b: Option<T>, join: fn(T, T) -> T) -> Option<T> {
+            match (a, b) {
+                (Some(a), Some(b)) => Some(join(a, b)),
+                (one, other) => one.or(other),
+            }
+        }
+        Self {
+            proved: self.proved.union(other.proved),
+            exhausted: self.exhausted.union(other.exhausted),
+            cases: both(self.cases, other.cases, |a, b| a + b),
+            boxes: both(self.boxes, other.boxes, |a, b| a + b),
+            residual_bound: both(self.residual_bound, other.residual_bound, f64::max),
+            margin: both(self.margin, other.margin, f64::min),
+        }
+    }
+}
+
+/// One word for a verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Word {
+    /// Enclosed on the whole domain as stated.
+    Proved,
+    /// Enclosed on a part of it.
+    ProvedInPart,
+    /// Every state of a finite model was visited, and these models are the whole domain as stated.
+    Exhausted,
+    /// True of every case drawn.
+    Sampled,
+    /// False, with a witness.
+    Refuted,
+    /// Neither.
+    Undecided,
+    /// There is no such statement.
+    NotApplicable,
+}
+
+impl Word {
+    /// Every word.
+    pub const ALL: [Self; 7] = [
+        Self::Proved,
+        Self::ProvedInPart,
+        Self::Exhausted,
+        Self::Sampled,
+        Self::Refuted,
+        Self::Undecided,
+        Self::NotApplicable,
+    ];
+
+    /// As the command prints it.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Proved => "proved",
+            Self::ProvedInPart => "proved-in-part",
+            Self::Exhausted => "exhausted",
+            Self::Sampled => "sampled",
+            Self::Refuted => "refuted",
+            Self::Undecided => "undecided",
+            Self::NotApplicable => "not-applicable",
+        }
+    }
+}
+
+impl fmt::Display for Word {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.as_str())
+    }
+}
+
+impl Verdict {
+    pub(crate) fn undecided(spent: &str) -> Self {
+        Self::Undecided { spent: spent.to_owned() }
+    }
+
+    /// The word, by comparison of the domain that is claimed with the parts that are established.
+    #[must_use]
+    pub fn word(&self, claimed: &ClaimDomain) -> Word {
+        let evidence = match self {
+            Self::Holds(evidence) => evidence,
+            Self::Refuted(_) => return Word::Refuted,
+            Self::Undecided { .. } => return Word::Undecided,
+        };
+        let all = claimed.parts.len();
+        let within = |domain: &ClaimDomain| all > 0 && claimed.covered_by(domain).len() == all;
+        if within(&evidence.proved) {
+            Word::Proved
+        } else if within(&evidence.proved.clone().union(evidence.exhausted.clone())) {
+            Word::Exhausted
+        } else if evidence.proved.parts.is_empty() && evidence.exhausted.parts.is_empty() {
+            Word::Sampled
+        } else {
+            Word::ProvedInPart
+        }
+    }
+
+    /// Whether it holds, as far as the evidence goes.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        matches!(self, Self::Holds(_))
+    }
+
+    /// Whether it is refuted.
+    #[must_use]
+    pub fn is_refuted(&self) -> bool {
+        matches!(self, Self::Refuted(_))
+    }
+
+    /// Sampled and proved: refuted by either, undecided unless both hold. The margin is then that of the proof where it has one.
+    pub(crate) fn backed_by(self, proof: impl FnOnce() -> Self) -> Self {
+        match (self, proof) {
+            (Self::Holds(sampled), proof) => match proof() {
+                Self::Holds(proved) => {
+                    let margin = proved.margin.or(sampled.margin);
+                    Self::Holds(Evidence { margin, ..sampled.with(proved) })
+                }
+                failed => failed,
+            },
+            (failed, _) => failed,
+        }
+    }
+
+    /// Both: the first that fails, else the evidence of both.
+    pub(crate) fn and(self, other: impl FnOnce() -> Self) -> Self {
+        match self {
+            Self::Holds(mine) => match other() {
+                Self::Holds(theirs) => Self::Holds(mine.with(theirs)),
+                failed => failed,
+            },
+            failed => failed,
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! A case that refutes.
+
+use std::borrow::Cow;
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// A case that refutes, as numbers that a reader can put in again.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Witness {
+    /// Names and values, SI units unless the name says otherwise. A value that is no number is null in JSON.
+    #[serde(with = "numbers")]
+    pub numbers: Vec<(Cow<'static, str>, f64)>,
+}
+
+/// A number that JSON cannot hold is null, and comes back as no number.
+mod numbers {
+    use std::borrow::Cow;
+
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    type Named<T> = (Cow<'static, str>, T);
+
+    pub(super) fn serialize<S: Serializer>(numbers: &[Named<f64>], to: S) -> Result<S::Ok, S::Error> {
+        to.collect_seq(numbers.iter().map(|(name, value)| (name, value.is_finite().then_some(value))))
+    }
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Named<f64>>, D::Error> {
+        let numbers = Vec::<Named<Option<f64>>>::deserialize(from)?;
+        Ok(numbers.into_iter().map(|(name, value)| (name, value.unwrap_or(f64::NAN))).collect())
+    }
+}
+
+impl Witness {
+    pub(crate) fn new(numbers: impl IntoIterator<Item = (&'static str, f64)>) -> Self {
+        Self { numbers: numbers.into_iter().map(|(name, value)| (Cow::Borrowed(name), value)).collect() }
+    }
+}
+
+impl fmt::Display for Witness {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (place, (name, value)) in self.numbers.iter().enumerate() {
+            let separator = if place == 0 { "" } else { ", " };
+            write!(f, "{separator}{name} = {}", short(*value))?;
+        }
+        Ok(())
+    }
+}
+
+/// Six digits, and no more of them than there are.
+fn short(value: f64) -> String {
+    let rounded = format!("{value:.6e}").parse::<f64>().unwrap_or(value);
+    if rounded != 0.0 && !(1e-4..1e6).contains(&rounded.abs()) { format!("{rounded:e}") } else { rounded.to_string() }
+}

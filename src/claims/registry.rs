@@ -1,0 +1,269 @@
+//! What a claim is.
+
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
+
+use super::distortion::Distortion;
+use super::{Budget, CLAIMS, ClaimDomain, ClaimPart, Verdict, Word};
+use crate::orbit::theorem::Theorem;
+use crate::proof::inequality::Inequality;
+
+/// A checker: the same budget gives the same verdict.
+pub type Checker = fn(Budget) -> Verdict;
+
+/// A proof of a statement, or of a false one next to it.
+pub(crate) type Prover = fn(Distortion) -> Verdict;
+
+/// What sort of statement a claim is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Fixes a meaning; the check is that the code means it.
+    Definition,
+    /// An equation between two expressions.
+    Identity,
+    /// A lemma of the paper.
+    Lemma,
+    /// A theorem, of the paper or of this project.
+    Theorem,
+    /// Something the paper says in words.
+    Statement,
+}
+
+impl Kind {
+    /// One lower-case word.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Definition => "definition",
+            Self::Identity => "identity",
+            Self::Lemma => "lemma",
+            Self::Theorem => "theorem",
+            Self::Statement => "statement",
+        }
+    }
+}
+
+/// The statement as the paper has it.
+#[derive(Clone, Copy, Debug)]
+pub enum AsPrinted {
+    /// It holds.
+    Holds(Checker),
+    /// It does not: the checker finds a witness.
+    Refuted(Checker),
+    /// The paper does not say it.
+    Absent,
+}
+
+/// A hypothesis, and whether the statement needs it.
+#[derive(Clone, Copy, Debug)]
+pub struct Hypothesis {
+    /// Short name.
+    pub id: &'static str,
+    /// Refutes the statement by a case that violates this hypothesis and no other; `None` where no such case is known.
+    pub counterexample: Option<Checker>,
+}
+
+/// A definition, lemma, theorem or identity with its checkers.
+#[derive(Clone, Copy, Debug)]
+pub struct Claim {
+    /// Name: that of its file in `spec/claims`, and of `verify --claim`.
+    pub id: &'static str,
+    /// Where the paper has it, or whence it comes.
+    pub equation: &'static str,
+    /// Its sort.
+    pub kind: Kind,
+    /// The statement that holds, in one line.
+    pub statement: &'static str,
+    /// For what it is stated, in parts.
+    pub domain: &'static [ClaimPart],
+    /// Steps of its proof that no program checks.
+    pub by_hand: &'static [&'static str],
+    /// As printed.
+    pub printed: AsPrinted,
+    /// As corrected; `None` where the print needs no correction.
+    pub corrected: Option<Checker>,
+    /// A statement close to this one and false: its checker must refute it, which shows that checkers can.
+    pub falsified: Checker,
+    /// The proof by enclosure that it declares; the statement is undecided where that does not succeed.
+    pub(crate) proof: Option<Prover>,
+    /// The inequalities that its checker proves, and a false one among them.
+    pub(crate) theorem: Option<(&'static Theorem, &'static Inequality)>,
+    /// What the statement that holds assumes.
+    pub hypotheses: &'static [Hypothesis],
+    /// Claims it rests on, by id.
+    pub depends: &'static [&'static str],
+    /// Its file.
+    pub spec: &'static str,
+}
+
+/// The verdicts on one claim, with what they are to be compared with.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Finding {
+    /// Name of the claim.
+    pub id: Cow<'static, str>,
+    /// For what the claim is stated.
+    pub domain: ClaimDomain,
+    /// Steps of its proof that no program checks.
+    pub by_hand: Vec<Cow<'static, str>>,
+    /// As printed; `None` where the paper does not say it.
+    pub printed: Option<Verdict>,
+    /// As corrected; `None` where the print needs no correction.
+    pub corrected: Option<Verdict>,
+    /// Whether each verdict is the expected one, and each declared proof succeeded.
+    pub expected: bool,
+}
+
+impl Finding {
+    /// The verdict on the statement that is to hold: as corrected where there is a correction, else as printed.
+    #[must_use]
+    pub fn carrying(&self) -> Option<&Verdict> {
+        self.corrected.as_ref().or(self.printed.as_ref())
+    }
+
+    /// The word for the statement that is to hold.
+    #[must_use]
+    pub fn word(&self) -> Word {
+        self.word_of(self.carrying())
+    }
+
+    /// The word for the statement as printed.
+    #[must_use]
+    pub fn as_printed(&self) -> Word {
+        self.word_of(self.printed.as_ref())
+    }
+
+    /// The word for the statement as corrected.
+    #[must_use]
+    pub fn as_corrected(&self) -> Word {
+        self.word_of(self.corrected.as_ref())
+    }
+
+    fn word_of(&self, verdict: Option<&Verdict>) -> Word {
+        verdict.map_or(Word::NotApplicable, |verdict| verdict.word(&self.domain))
+    }
+}
+
+/// Checks the claims of these ids, or every one where none is given, in the order of the ids.
+///
+/// # Errors
+/// The first id that no claim has.
+pub fn verify<'a>(ids: &[&'a str], budget: Budget) -> Result<Vec<Finding>, &'a str> {
+    if ids.is_empty() {
+        return Ok(CLAIMS.iter().map(|claim| claim.check(budget)).collect());
+    }
+    let claims = ids.iter().map(|id| Claim::find(id).ok_or(*id)).collect::<Result<Vec<_>, _>>()?;
+    Ok(claims.into_iter().map(|claim| claim.check(budget)).collect())
+}
+
+impl Claim {
+    /// What [`claim!`] leaves out.
+    pub(crate) const BLANK: Self = Self {
+        id: "",
+        equation: "",
+        kind: Kind::Statement,
+        statement: "",
+        domain: &[],
+        by_hand: &[],
+        printed: AsPrinted::Absent,
+        corrected: None,
+        falsified: |_| Verdict::Undecided { spent: String::new() },
+        proof: None,
+        theorem: None,
+        hypotheses: &[],
+        depends: &[],
+        spec: "",
+    };
+
+    /// The claim of that id.
+    #[must_use]
+    pub fn find(id: &str) -> Option<&'static Self> {
+        CLAIMS.iter().find(|claim| claim.id == id)
+    }
+
+    /// Runs the checkers of the statement, printed and corrected, each from its own stream of cases, and the proof of the
+    /// statement that is to hold.
+    ///
+    /// ```
+    /// use selfosc::claims::{Budget, Claim};
+    /// let finding = Claim::find("lemma-1").ok_or("no such claim")?.check(Budget { cases: 50, seed: 1 });
+    /// assert!(finding.printed.is_some_and(|verdict| verdict.is_refuted()));
+    /// assert!(finding.corrected.is_some_and(|verdict| verdict.holds()));
+    /// # Ok::<(), &str>(())
+    /// ```
+    #[must_use]
+    pub fn check(&self, budget: Budget) -> Finding {
+        let budget = self.stream(budget);
+        let proved = |sampled: Verdict| match self.proof {
+            Some(proof) => sampled.backed_by(|| proof(Distortion::None)),
+            None => sampled,
+        };
+        let (printed, as_printed) = match self.printed {
+            AsPrinted::Holds(checker) if self.corrected.is_none() => (Some(proved(checker(budget))), true),
+            AsPrinted::Holds(checker) => (Some(checker(budget)), true),
+            AsPrinted::Refuted(checker) => (Some(checker(budget)), false),
+            AsPrinted::Absent => (None, true),
+        };
+        let corrected = self.corrected.map(|checker| proved(checker(budget)));
+        let expected = printed.as_ref().is_none_or(|v| if as_printed { v.holds() } else { v.is_refuted() })
+            && corrected.as_ref().is_none_or(Verdict::holds);
+        Finding {
+            id: Cow::Borrowed(self.id),
+            domain: ClaimDomain::new(self.domain),
+            by_hand: self.by_hand.iter().copied().map(Cow::Borrowed).collect(),
+            printed,
+            corrected,
+            expected,
+        }
+    }
+
+    /// The declared proof by itself.
+    #[must_use]
+    pub fn prove(&self) -> Option<Verdict> {
+        self.proof.map(|proof| proof(Distortion::None))
+    }
+
+    /// The declared proof on false statements next to this one, each with its name: the formula off by a factor everywhere, and
+    /// by a millionth on a thousandth of the domain. None may succeed.
+    pub fn prove_falsehoods(&self) -> impl Iterator<Item = (String, Verdict)> {
+        let proof = self.proof;
+        Distortion::FALSE.into_iter().filter_map(move |false_one| Some((format!("{false_one:?}"), proof?(false_one))))
+    }
+
+    /// The inequalities that the claim rests on.
+    #[must_use]
+    pub fn theorem(&self) -> Option<&'static Theorem> {
+        self.theorem.map(|(theorem, _)| theorem)
+    }
+
+    /// A false inequality next to those of [`Self::theorem`], which the search must refute.
+    #[must_use]
+    pub fn false_inequality(&self) -> Option<&'static Inequality> {
+        self.theorem.map(|(_, false_one)| false_one)
+    }
+
+    /// The budget with a seed of this claim's own, so that its cases do not depend on what else is run.
+    #[must_use]
+    pub fn stream(&self, budget: Budget) -> Budget {
+        let hash =
+            self.id.bytes().fold(budget.seed, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3));
+        Budget { seed: hash, ..budget }
+    }
+}
+
+/// Declares a claim's constant, with its file: a missing file fails the build.
+macro_rules! claim {
+    ($constant:ident = $id:literal $equation:literal $kind:ident $statement:literal { $($field:ident: $value:expr),+ $(,)? }) => {
+        #[doc = $statement]
+        pub(in crate::claims) const $constant: $crate::claims::Claim = $crate::claims::Claim {
+            id: $id,
+            equation: $equation,
+            kind: $crate::claims::Kind::$kind,
+            statement: $statement,
+            spec: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/spec/claims/", $id, ".md")),
+            $($field: $value,)+
+            ..$crate::claims::Claim::BLANK
+        };
+    };
+}
+pub(in crate::claims) use claim;

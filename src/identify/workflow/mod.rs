@@ -1,0 +1,20 @@
+//! The whole way from logs to a conclusion: reading, features, every method asked for, the drag law chosen, what to beware of.
+//!
+//! [`Session`] takes logs or samples and gives an [`Identification`]; [`Conclusion`] is its JSON document.
+
+mod document;
+mod identification;
+mod methods;
+mod model;
+mod refusal;
+mod session;
+mod settings;
+
+pub use document::{
+    Conclusion, DragChoice, DragVerdict, FeatureMeans, FeatureValues, Probabilities, RecordConclusion, Refused, Total,
+};
+pub use identification::{Caution, Identification, Source};
+pub use model::Model;
+pub use refusal::Refusal;
+pub use session::{Session, Stage};
+pub use settings::{Method, Settings, SettingsError};

@@ -1,0 +1,190 @@
+//! From logs to an identification.
+
+use core::fmt;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use super::identification::{Caution, Identification, Source};
+use super::methods::Found;
+use super::refusal::Refusal;
+use super::settings::{Method, Settings};
+use crate::experiment::{Columns, Log, Record};
+use crate::features::{FeatureError, RecordFeatures, RelayLevels};
+use crate::identify::Warning;
+
+/// What an identification is at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Stage {
+    /// Cycles are looked for.
+    Cycles,
+    /// The drag laws are fitted.
+    Fit,
+    /// The delay is checked.
+    Delay,
+}
+
+impl fmt::Display for Stage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Cycles => "looking for cycles",
+            Self::Fit => "fitting the drag laws",
+            Self::Delay => "checking the delay",
+        })
+    }
+}
+
+/// One vehicle to be identified: settings, and its records, which are fitted jointly.
+///
+/// ```
+/// # let folder = std::env::temp_dir().join(format!("selfosc-session-{}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// # let path = folder.join("log.csv");
+/// # use selfosc::{experiment::SimulatedExperiment, nonlinearity::RelayHysteresis, plant::DragAxis};
+/// # let axis = DragAxis::quadratic(1.0, 0.5)?;
+/// # let simulated = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().run(60.0)?;
+/// # let samples = simulated.time_s().iter().zip(simulated.output()).zip(simulated.input());
+/// # let lines: String = samples.map(|((time, output), input)| format!("{time},{output},{input}\n")).collect();
+/// # std::fs::write(&path, format!("time_s,output,input\n{lines}"))?;
+/// let found = selfosc::identify::Session::default().log(&path)?.identify()?;
+/// let model = found.reported().ok_or("no fit")?;
+/// println!("{} drag, inertia {:.4}", model.drag.name(), model.alpha.value);
+/// # assert!((model.alpha.value - 1.0).abs() < 0.01 && model.drag.name() == "quadratic");
+/// # std::fs::remove_dir_all(&folder)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Several logs, samples in memory and any reader go into the same session; parameters are common, the disturbance is each
+/// record's own:
+///
+/// ```no_run
+/// use selfosc::identify::{Method, Session, Settings, joint::Delay};
+/// # let (time_s, output, input, upload) = (vec![], vec![], vec![], std::io::empty());
+/// let settings = Settings { method: Method::Fit, delay: Delay::Estimated, ..Settings::default() };
+/// let session = Session::new(settings)
+///     .log("weak.csv")?
+///     .log("strong.csv")?
+///     .reader("upload", upload)?
+///     .samples("memory", time_s, output, input)?;
+/// let found = session.identify_with(|stage| eprintln!("{stage}"))?;
+/// let json = serde_json::to_string(&found.conclusion())?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Session {
+    settings: Settings,
+    columns: Columns,
+    logs: Vec<(String, Log)>,
+}
+
+impl Session {
+    /// Without records.
+    #[must_use]
+    pub fn new(settings: Settings) -> Self {
+        Self { settings, ..Self::default() }
+    }
+
+    /// Which columns to read from the logs that follow, and how.
+    #[must_use]
+    pub fn with_columns(self, columns: Columns) -> Self {
+        Self { columns, ..self }
+    }
+
+    /// Adds the log in a file.
+    ///
+    /// # Errors
+    /// [`Refusal::File`] where it cannot be opened, [`Refusal::Record`] where it holds no record.
+    pub fn log(self, path: impl AsRef<Path>) -> Result<Self, Refusal> {
+        let name = path.as_ref().display().to_string();
+        match File::open(path) {
+            Ok(file) => self.reader(name, file),
+            Err(error) => Err(Refusal::File { name, reason: error.to_string() }),
+        }
+    }
+
+    /// Adds the log that a reader gives, under a name for messages.
+    ///
+    /// # Errors
+    /// [`Refusal::Record`] where it cannot be read or holds no record.
+    pub fn reader(self, name: impl Into<String>, source: impl Read) -> Result<Self, Refusal> {
+        let name = name.into();
+        match self.columns.read(source) {
+            Ok(log) => Ok(self.record(name, log)),
+            Err(source) => Err(Refusal::Record { name, source }),
+        }
+    }
+
+    /// Adds samples: times in s, outputs (angles in rad), and the command logged with each, under a name for messages.
+    ///
+    /// # Errors
+    /// [`Refusal::Record`] where they make no record.
+    pub fn samples(
+        self,
+        name: impl Into<String>,
+        time_s: Vec<f64>,
+        output: Vec<f64>,
+        input: Vec<f64>,
+    ) -> Result<Self, Refusal> {
+        let name = name.into();
+        match Record::new(time_s, output, input) {
+            Ok(record) => Ok(self.record(name, record)),
+            Err(source) => Err(Refusal::Record { name, source }),
+        }
+    }
+
+    /// Adds a record or a log that is there already, under a name for messages.
+    #[must_use]
+    pub fn record(mut self, name: impl Into<String>, record: impl Into<Log>) -> Self {
+        self.logs.push((name.into(), record.into()));
+        self
+    }
+
+    /// Identifies the vehicle: by the fit from all records at once, by the other methods from each record.
+    ///
+    /// # Errors
+    /// [`Refusal`] for settings and records that cannot be used; the fit alone takes records without a steady oscillation.
+    pub fn identify(self) -> Result<Identification, Refusal> {
+        self.identify_with(|_| {})
+    }
+
+    /// As [`identify`](Self::identify); `progress` hears what comes next.
+    ///
+    /// # Errors
+    /// As [`identify`](Self::identify).
+    pub fn identify_with(self, progress: impl Fn(Stage)) -> Result<Identification, Refusal> {
+        self.settings.check()?;
+        progress(Stage::Cycles);
+        let mut cautions = Vec::new();
+        let mut sources = Vec::with_capacity(self.logs.len());
+        for (name, log) in self.logs {
+            sources.push(source(name, log, &self.settings, &mut cautions)?);
+        }
+        Ok(Found::new(&self.settings, sources, cautions).by_all_methods(progress)?)
+    }
+}
+
+/// The record in the units wanted, with its features.
+fn source(name: String, mut log: Log, settings: &Settings, cautions: &mut Vec<Caution>) -> Result<Source, Refusal> {
+    let refused = |source| Refusal::Features { name: name.clone(), source };
+    if let Some(level) = settings.relay_level {
+        let scale = level / RelayLevels::of(&log.record).map_err(refused)?.level;
+        let input = log.record.input().iter().map(|command| command * scale).collect();
+        log.record = Record::new(log.record.time_s().to_vec(), log.record.output().to_vec(), input)
+            .map_err(|source| Refusal::Record { name: name.clone(), source })?;
+    }
+    let features = match (RecordFeatures::of(&log.record), settings.method) {
+        (Ok(features), _) => {
+            cautions.extend(Warning::of_features(&features.features).into_iter().map(Caution::from));
+            Some(features)
+        }
+        (Err(error @ FeatureError::ConstantInput { .. }), _) => return Err(refused(error)),
+        // The fit needs neither a relay nor a steady oscillation; that the other methods do is worth a word.
+        (Err(error), Method::Fit) | (Err(error @ FeatureError::NotARelay { .. }), Method::All) => {
+            cautions.push(Caution { code: error.code().into(), text: format!("{name}: {error}") });
+            None
+        }
+        (Err(error), _) => return Err(refused(error)),
+    };
+    Ok(Source { name, log, features })
+}

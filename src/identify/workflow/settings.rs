@@ -1,0 +1,118 @@
+//! What to find, and what is known beforehand.
+
+use serde::{Deserialize, Serialize};
+
+use crate::identify::DragLaw;
+use crate::identify::joint::Delay;
+use crate::numeric::domain::require;
+use crate::numeric::{Limit, OutOfDomain};
+
+/// Ways from records to parameters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// The paper's: the first harmonic of the mean cycle.
+    Iso,
+    /// The exact limit cycle with the mean cycle's features.
+    Exact,
+    /// Maximum likelihood on every sample, with intervals.
+    Fit,
+    /// All of them.
+    #[default]
+    All,
+}
+
+impl Method {
+    /// Name on the command line and in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Iso => "iso",
+            Self::Exact => "exact",
+            Self::Fit => "fit",
+            Self::All => "all",
+        }
+    }
+
+    /// Whether `one` is asked for.
+    #[must_use]
+    pub fn includes(self, one: Self) -> bool {
+        self == one || self == Self::All
+    }
+}
+
+/// What to find, and what is known beforehand. The default is that of the command: every method, every drag law, no delay.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Settings {
+    /// Methods to use.
+    pub method: Method,
+    /// The drag law, if it is known; else every law that a method has.
+    pub drag: Option<DragLaw>,
+    /// Delay of the whole loop.
+    pub delay: Delay,
+    /// Relay level in the units wanted, above 0, if the log has the command in others.
+    pub relay_level: Option<f64>,
+    /// Level at which the command switched, in output units, above 0, if it is not to be read off the record.
+    pub half_width: Option<f64>,
+}
+
+/// Settings that contradict each other or are no numbers of the right kind.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SettingsError {
+    /// Mixed drag without the fit.
+    #[error("only the fit knows mixed drag; use the method fit, or another drag law")]
+    MixedNeedsFit,
+    /// An estimated delay without the fit.
+    #[error("only the fit estimates a delay; use the method fit or all, or give the delay in seconds")]
+    DelayNeedsFit,
+    /// A level outside its domain.
+    #[error(transparent)]
+    OutOfDomain(#[from] OutOfDomain),
+}
+
+impl SettingsError {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::MixedNeedsFit => "mixed-needs-fit",
+            Self::DelayNeedsFit => "delay-needs-fit",
+            Self::OutOfDomain(_) => "out-of-domain",
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        match self {
+            Self::OutOfDomain(fault) => Some(fault),
+            Self::MixedNeedsFit | Self::DelayNeedsFit => None,
+        }
+    }
+}
+
+impl Settings {
+    /// Whether a method asked for can do what is asked. The delay's own value is checked by the methods.
+    ///
+    /// # Errors
+    /// [`SettingsError`] with the remedy.
+    pub fn check(&self) -> Result<(), SettingsError> {
+        if !self.method.includes(Method::Fit) {
+            if self.drag == Some(DragLaw::Mixed) {
+                return Err(SettingsError::MixedNeedsFit);
+            }
+            if self.delay == Delay::Estimated {
+                return Err(SettingsError::DelayNeedsFit);
+            }
+        }
+        let levels =
+            [("relay level", self.relay_level, "command units"), ("half-width", self.half_width, "output units")];
+        for (quantity, level, unit) in levels {
+            let remedy = "leave it out to have it read off the record";
+            level.map_or(Ok(()), |level| require(quantity, level, unit, Limit::Positive, remedy).map(|_| ()))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,148 @@
+//! The one error of a number outside its domain, and the checks that give it.
+
+use core::fmt;
+
+use super::Real;
+
+/// A number outside its domain: what it is, what it has to be, and what to do.
+///
+/// ```
+/// use selfosc::nonlinearity::Sinusoid;
+/// let fault = *Sinusoid::new(0.0, -1.0).unwrap_err().out_of_domain().unwrap();
+/// assert_eq!((fault.quantity, fault.value), ("amplitude", -1.0));
+/// assert!(fault.to_string().starts_with("amplitude is -1 (input units): must be a finite number above 0; "));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{quantity} is {value}{}: must be {limit}; {remedy}", Unit(.unit))]
+pub struct OutOfDomain {
+    /// Name of the quantity.
+    pub quantity: &'static str,
+    /// The value given, in `unit`: the lower bound of an interval.
+    pub value: f64,
+    /// Unit of the value; empty where it has none.
+    pub unit: &'static str,
+    /// What the value has to be, in the same unit.
+    pub limit: Limit,
+    /// What to do.
+    pub remedy: &'static str,
+}
+
+/// What a number has to be. Not a number and infinity are within none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Limit {
+    /// Any finite number.
+    Finite,
+    /// Above zero.
+    Positive,
+    /// Zero or more.
+    NonNegative,
+    /// Other than zero.
+    NonZero,
+    /// Above this number.
+    Above(f64),
+    /// This number or more.
+    AtLeast(f64),
+    /// This number or less.
+    AtMost(f64),
+    /// Between two numbers, both included.
+    Within(f64, f64),
+    /// A condition that takes words.
+    Words(&'static str),
+}
+
+impl Limit {
+    /// Whether the value, or all of an interval, is finite and within the limit. What takes words is for the caller to check.
+    pub(crate) fn holds<T: Real>(self, value: T) -> bool {
+        let (lower, upper) = value.bounds();
+        let inside = match self {
+            Self::Finite | Self::Words(_) => true,
+            Self::Positive => lower > 0.0,
+            Self::NonNegative => lower >= 0.0,
+            Self::NonZero => lower > 0.0 || upper < 0.0,
+            Self::Above(least) => lower > least,
+            Self::AtLeast(least) => lower >= least,
+            Self::AtMost(most) => upper <= most,
+            Self::Within(least, most) => lower >= least && upper <= most,
+        };
+        inside && lower > f64::NEG_INFINITY && upper < f64::INFINITY
+    }
+}
+
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Finite => write!(f, "a finite number"),
+            Self::Positive => write!(f, "a finite number above 0"),
+            Self::NonNegative => write!(f, "a finite number, 0 or more"),
+            Self::NonZero => write!(f, "a finite number other than 0"),
+            Self::Above(least) => write!(f, "a finite number above {least}"),
+            Self::AtLeast(least) => write!(f, "a finite number, {least} or more"),
+            Self::AtMost(most) => write!(f, "a finite number, {most} or less"),
+            Self::Within(least, most) => write!(f, "a number from {least} to {most}"),
+            Self::Words(words) => write!(f, "{words}"),
+        }
+    }
+}
+
+struct Unit<'a>(&'a str);
+
+impl fmt::Display for Unit<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0.is_empty() { Ok(()) } else { write!(f, " ({})", self.0) }
+    }
+}
+
+/// The value, where `inside` is true and `limit` holds.
+pub(crate) fn require_that<T: Real>(
+    inside: bool,
+    quantity: &'static str,
+    value: T,
+    unit: &'static str,
+    limit: Limit,
+    remedy: &'static str,
+) -> Result<T, OutOfDomain> {
+    if inside && limit.holds(value) {
+        return Ok(value);
+    }
+    Err(OutOfDomain { quantity, value: value.bounds().0, unit, limit, remedy })
+}
+
+/// The value, where `limit` holds.
+pub(crate) fn require<T: Real>(
+    quantity: &'static str,
+    value: T,
+    unit: &'static str,
+    limit: Limit,
+    remedy: &'static str,
+) -> Result<T, OutOfDomain> {
+    require_that(true, quantity, value, unit, limit, remedy)
+}
+
+/// The value, where it is finite.
+pub(crate) fn finite<T: Real>(quantity: &'static str, value: T, unit: &'static str) -> Result<T, OutOfDomain> {
+    require(quantity, value, unit, Limit::Finite, "check where it comes from")
+}
+
+/// The value, where it is finite and above zero.
+pub(crate) fn positive<T: Real>(quantity: &'static str, value: T, unit: &'static str) -> Result<T, OutOfDomain> {
+    require(quantity, value, unit, Limit::Positive, "check its sign and where it comes from")
+}
+
+/// The value, where it is finite and zero or more.
+pub(crate) fn non_negative<T: Real>(quantity: &'static str, value: T, unit: &'static str) -> Result<T, OutOfDomain> {
+    require(quantity, value, unit, Limit::NonNegative, "check its sign and where it comes from")
+}
+
+/// Nothing, where both ends of the range are above zero and in order.
+#[cfg(feature = "std")]
+pub(crate) fn ascending(
+    [lowest, highest]: [&'static str; 2],
+    range: &core::ops::RangeInclusive<f64>,
+    unit: &'static str,
+) -> Result<(), OutOfDomain> {
+    let (from, to) = (*range.start(), *range.end());
+    let remedy = "give a range above 0 with its lower end first";
+    require(lowest, from, unit, Limit::Positive, remedy)?;
+    require(highest, to, unit, Limit::Above(from), remedy).map(drop)
+}

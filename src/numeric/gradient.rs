@@ -1,0 +1,361 @@
+//! Forward-mode automatic differentiation of first order: a value with its partial derivatives, over floats and intervals.
+
+use core::array;
+use core::cmp::Ordering;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::{Interval, Real, Scalar};
+
+/// A number that a gradient can be made of: what its comparisons say of derivatives.
+pub trait Component: Real + PartialEq {
+    /// The derivative where a function may jump: nothing is known of it.
+    const UNKNOWN: Self;
+    /// Whether the number is positive; `None` where it may be and may not.
+    fn sign(self) -> Option<bool>;
+    /// Whether the number is less than another, or equal; `None` where either may be less.
+    fn precedes_or_equals(self, other: Self) -> Option<bool>;
+    /// Contains both.
+    #[must_use]
+    fn either(self, other: Self) -> Self;
+    /// The derivative of [`abs`](Real::abs) here.
+    #[must_use]
+    fn slope_of_abs(self) -> Self;
+    /// `exp(self)`, given `exp(self) - 1`.
+    #[must_use]
+    fn exp_from_exp_m1(self, exp_m1: Self) -> Self;
+    /// Whether [`floor`](Real::floor) is constant here.
+    fn floor_is_constant(self) -> bool;
+}
+
+impl Component for f64 {
+    const UNKNOWN: Self = Self::NAN;
+    #[inline]
+    fn sign(self) -> Option<bool> {
+        Some(self > 0.0)
+    }
+    #[inline]
+    fn precedes_or_equals(self, other: Self) -> Option<bool> {
+        Some(!(other < self))
+    }
+    #[inline]
+    fn either(self, _: Self) -> Self {
+        self
+    }
+    #[inline]
+    fn slope_of_abs(self) -> Self {
+        if self < 0.0 { -1.0 } else { 1.0 }
+    }
+    #[inline]
+    fn exp_from_exp_m1(self, exp_m1: Self) -> Self {
+        exp_m1 + 1.0
+    }
+    #[inline]
+    fn floor_is_constant(self) -> bool {
+        true
+    }
+}
+
+impl Component for Interval {
+    const UNKNOWN: Self = Self::ENTIRE;
+    fn sign(self) -> Option<bool> {
+        match self {
+            value if value.is_positive() => Some(true),
+            value if value.upper() <= 0.0 => Some(false),
+            _ => None,
+        }
+    }
+    fn precedes_or_equals(self, other: Self) -> Option<bool> {
+        match (self, other) {
+            (a, b) if a.precedes(b) => Some(true),
+            (a, b) if b.precedes(a) => Some(false),
+            _ => None,
+        }
+    }
+    fn either(self, other: Self) -> Self {
+        self.hull(other)
+    }
+    fn slope_of_abs(self) -> Self {
+        match self {
+            value if value.is_positive() => Self::ONE,
+            value if value.is_negative() => -Self::ONE,
+            _ => Self::UNIT,
+        }
+    }
+    fn exp_from_exp_m1(self, _: Self) -> Self {
+        // The sum would cancel for large negative numbers.
+        self.exp()
+    }
+    fn floor_is_constant(self) -> bool {
+        self.floor().is_point()
+    }
+}
+
+/// A value with its `N` partial derivatives, all of them always there: of floats for inner loops and sensitivities, of
+/// [intervals](Interval) for enclosures over a box, as interval Newton and the mean value form ask for.
+///
+/// At a kink (`abs`, `min`, `max` of values that may coincide) the derivatives of floats are those of one side; those of
+/// intervals enclose both sides, so the mean value theorem holds across it. At a jump that an interval straddles (`floor`,
+/// `select`), and outside a domain, its derivatives are [`Interval::ENTIRE`].
+///
+/// Two are equal, and floats in order, by their values.
+///
+/// ```
+/// use selfosc::numeric::{Gradient, Interval, Real};
+/// let [x, y] = Gradient::variables([3.0, 2.0]);
+/// assert_eq!((x * y).slopes(), [2.0, 3.0]);
+/// assert_eq!(y.square().ln().slopes(), [0.0, 1.0]);
+/// let [x] = Gradient::variables([Interval::from_f64(3.0)]);
+/// assert_eq!(x.square().slopes(), [Interval::from_f64(6.0)]);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Gradient<T, const N: usize> {
+    value: T,
+    slopes: [T; N],
+}
+
+impl<T: Component, const N: usize> Gradient<T, N> {
+    /// A value with these derivatives.
+    #[must_use]
+    pub const fn new(value: T, slopes: [T; N]) -> Self {
+        Self { value, slopes }
+    }
+
+    /// The function that is `value` everywhere.
+    #[must_use]
+    #[inline]
+    pub fn constant(value: T) -> Self {
+        Self { value, slopes: [T::zero(); N] }
+    }
+
+    /// The variables themselves, at a point or over a box.
+    #[must_use]
+    pub fn variables(at: [T; N]) -> [Self; N] {
+        array::from_fn(|i| {
+            let mut variable = Self::constant(at[i]);
+            variable.slopes[i] = T::one();
+            variable
+        })
+    }
+
+    /// The value.
+    #[must_use]
+    pub const fn value(&self) -> T {
+        self.value
+    }
+
+    /// The partial derivatives.
+    #[must_use]
+    pub const fn slopes(&self) -> [T; N] {
+        self.slopes
+    }
+
+    /// The chain rule: a function of this one, given that function's `value` and derivative `slope` at (or over)
+    /// [`value`](Self::value), for functions that are known by an integral.
+    #[must_use]
+    #[inline]
+    pub fn chain(mut self, value: T, slope: T) -> Self {
+        self.value = value;
+        for inner in &mut self.slopes {
+            *inner = *inner * slope;
+        }
+        self
+    }
+
+    /// The value of a function that may be discontinuous there, so that no derivative says anything.
+    const fn jump(value: T) -> Self {
+        Self { value, slopes: [T::UNKNOWN; N] }
+    }
+
+    #[inline]
+    fn combine(mut self, other: Self, value: T, slope: impl Fn(T, T) -> T) -> Self {
+        self.value = value;
+        for (inner, other) in self.slopes.iter_mut().zip(other.slopes) {
+            *inner = slope(*inner, other);
+        }
+        self
+    }
+
+    fn is_constant(&self) -> bool {
+        self.slopes == [T::zero(); N]
+    }
+}
+
+impl<T: PartialEq, const N: usize> PartialEq for Gradient<T, N> {
+    fn eq(&self, other: &Self) -> bool {
+        self.value == other.value
+    }
+}
+
+impl<T: PartialOrd, const N: usize> PartialOrd for Gradient<T, N> {
+    #[inline]
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.value.partial_cmp(&other.value)
+    }
+}
+
+impl<const N: usize> Scalar for Gradient<f64, N> {
+    fn epsilon() -> Self {
+        Self::from_f64(f64::EPSILON)
+    }
+}
+
+impl<T: Component, const N: usize> Neg for Gradient<T, N> {
+    type Output = Self;
+    #[inline]
+    fn neg(self) -> Self {
+        self.chain(-self.value, -T::one())
+    }
+}
+
+impl<T: Component, const N: usize> Add for Gradient<T, N> {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        self.combine(other, self.value + other.value, Add::add)
+    }
+}
+
+impl<T: Component, const N: usize> Sub for Gradient<T, N> {
+    type Output = Self;
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        self.combine(other, self.value - other.value, Sub::sub)
+    }
+}
+
+impl<T: Component, const N: usize> Mul for Gradient<T, N> {
+    type Output = Self;
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "the product rule")]
+    #[inline]
+    fn mul(self, other: Self) -> Self {
+        self.combine(other, self.value * other.value, |a, b| a * other.value + b * self.value)
+    }
+}
+
+impl<T: Component, const N: usize> Div for Gradient<T, N> {
+    type Output = Self;
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "the quotient rule")]
+    #[inline]
+    fn div(self, divisor: Self) -> Self {
+        let quotient = self.value / divisor.value;
+        self.combine(divisor, quotient, |a, b| (a - b * quotient) / divisor.value)
+    }
+}
+
+/// Functions of one variable: value, and derivative in terms of the argument `x` and the value `y`.
+macro_rules! functions {
+    ($($name:ident: |$x:ident, $y:ident| $slope:expr;)+) => {
+        $(
+            #[inline]
+            fn $name(self) -> Self {
+                let $x = self.value;
+                let $y = $x.$name();
+                self.chain($y, $slope)
+            }
+        )+
+    };
+}
+
+impl<T: Component, const N: usize> Real for Gradient<T, N> {
+    #[inline]
+    fn from_f64(value: f64) -> Self {
+        Self::constant(T::from_f64(value))
+    }
+    fn pi() -> Self {
+        Self::constant(T::pi())
+    }
+    fn inverse_pi() -> Self {
+        Self::constant(T::inverse_pi())
+    }
+    #[inline]
+    fn bounds(self) -> (f64, f64) {
+        self.value.bounds()
+    }
+    #[inline]
+    fn abs(self) -> Self {
+        self.chain(self.value.abs(), self.value.slope_of_abs())
+    }
+    #[inline]
+    fn min(self, other: Self) -> Self {
+        match self.value.precedes_or_equals(other.value) {
+            Some(true) => self,
+            Some(false) => other,
+            None => self.combine(other, self.value.min(other.value), T::either),
+        }
+    }
+    #[inline]
+    fn max(self, other: Self) -> Self {
+        match (-self.value).precedes_or_equals(-other.value) {
+            Some(true) => self,
+            Some(false) => other,
+            None => self.combine(other, self.value.max(other.value), T::either),
+        }
+    }
+    #[inline]
+    fn square(self) -> Self {
+        self.chain(self.value.square(), T::two() * self.value)
+    }
+    fn pow(self, exponent: Self) -> Self {
+        let (base, power) = (self.value, self.value.pow(exponent.value));
+        let by_base = self.chain(power, exponent.value * base.pow(exponent.value - T::one()));
+        // A constant exponent needs no logarithm of a base that may be zero.
+        if exponent.is_constant() {
+            return by_base;
+        }
+        let by_exponent = exponent.chain(power, power * base.ln());
+        by_base.combine(by_exponent, power, Add::add)
+    }
+    fn floor(self) -> Self {
+        let floor = self.value.floor();
+        if self.value.floor_is_constant() { Self::constant(floor) } else { Self::jump(floor) }
+    }
+    #[inline]
+    fn select_all<const M: usize>(
+        self,
+        below: impl FnOnce() -> [Self; M],
+        above: impl FnOnce() -> [Self; M],
+    ) -> [Self; M] {
+        match self.value.sign() {
+            Some(true) => above(),
+            Some(false) => below(),
+            None => {
+                let values = |branch: [Self; M]| branch.map(|number| number.value);
+                self.value.select_all(|| values(below()), || values(above())).map(Self::jump)
+            }
+        }
+    }
+    #[inline]
+    fn give_or_take(self, error: f64) -> Self {
+        Self { value: self.value.give_or_take(error), ..self }
+    }
+    fn minus_sine(self, sine: Self) -> Self {
+        // 1 - cos x without cancellation.
+        let slope = T::two() * (self.value / T::two()).sin().square();
+        self.chain(self.value.minus_sine(sine.value), slope)
+    }
+    #[inline]
+    fn sqrt(self) -> Self {
+        // A constant zero has derivative zero; the chain rule would make it infinity times zero.
+        if self.value == T::zero() && self.is_constant() {
+            return self;
+        }
+        let root = self.value.sqrt();
+        self.chain(root, T::one() / (T::two() * root))
+    }
+    functions! {
+        sin: |x, y| x.cos();
+        cos: |x, y| -x.sin();
+        tan: |x, y| T::one() + y.square();
+        asin: |x, y| T::one() / (T::one() - x.square()).sqrt();
+        acos: |x, y| -T::one() / (T::one() - x.square()).sqrt();
+        atan: |x, y| T::one() / (T::one() + x.square());
+        exp: |x, y| y;
+        exp_m1: |x, y| x.exp_from_exp_m1(y);
+        ln: |x, y| T::one() / x;
+        ln_1p: |x, y| T::one() / (T::one() + x);
+        sinh: |x, y| x.cosh();
+        cosh: |x, y| x.sinh();
+        tanh: |x, y| T::one() - y.square();
+        atanh: |x, y| T::one() / (T::one() - x.square());
+    }
+}
