@@ -284,7 +284,8 @@ fn least_misfit(search: &mut Search<'_>, division: &Division) -> f64 {
         let mut at = kept.at.clone();
         let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
         let Ok(Some(linear)) = search.chained(&mut at, centre) else { return 0.0 };
-        let (linear, misfit) = search.with_misfit(&linear);
+        let (mut linear, misfit) = search.with_misfit(&linear);
+        linear.deviations[misfit] = Interval::new(-1.0, 1.0).unwrap_or(Interval::ENTIRE);
         let places: Vec<usize> = (0..=misfit).collect();
         let programme = Programme::of(&linear.rows, &linear.deviations, &places);
         let objective = [(misfit, -1.0)];

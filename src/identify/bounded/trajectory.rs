@@ -9,6 +9,8 @@ use crate::numeric::Interval;
 const MOST_STEPS: usize = 2000;
 /// Length of a step against the equation's fastest rate.
 const STEP: f64 = 0.3;
+/// The same for a single point, of which nothing but a narrow enclosure is wanted.
+const POINT_STEP: f64 = 0.1;
 /// The same for a step by the rates' ranges.
 const CRUDE: f64 = 0.2;
 /// How often a step is made shorter before the motion is given up.
@@ -81,7 +83,7 @@ fn advance_point(field: &Field, start: Triple, u: Interval, h: Interval) -> Opti
             return Some([state, passed]);
         }
         let mut part = left;
-        let longest = STEP / field.fastest(state[VELOCITY]);
+        let longest = POINT_STEP / field.fastest(state[VELOCITY]);
         if longest < part.lower() {
             part = Interval::point(longest);
         }
@@ -190,7 +192,8 @@ impl Way<'_> {
                 return Some(());
             }
             let mut part = left;
-            let longest = STEP / self.drive.fields.over.fastest(self.state.over[VELOCITY]);
+            let step = if self.unknowns.by.is_empty() { POINT_STEP } else { STEP };
+            let longest = step / self.drive.fields.over.fastest(self.state.over[VELOCITY]);
             if longest < part.lower() {
                 part = Interval::point(longest);
             }
