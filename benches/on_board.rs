@@ -16,7 +16,7 @@ fn main() {
 /// An experiment that goes on for long.
 fn running<T: Scalar>(coordinate: Coordinate) -> Experiment<T> {
     let number = T::from_f64;
-    let protocol = Protocol::new(coordinate, number(1.0), number(0.5), number(0.1));
+    let protocol = Protocol::new(coordinate, number(1.0), number(0.5), number(50.0), number(0.1));
     Experiment::new(Protocol { cycles: 200, most_cycles: 250, duration_s: number(1e6), ..protocol }).unwrap()
 }
 
@@ -46,7 +46,7 @@ fn last_sample<T: Scalar>(bencher: Bencher<'_, '_>) {
     let number = T::from_f64;
     let reading = |sample: u32| number((f64::from(sample) * core::f64::consts::TAU / 40.0).sin());
     let time_s = |sample: u32| number(0.1 * f64::from(sample));
-    let protocol = Protocol::new(Coordinate::Position, number(1.0), number(0.5), number(0.1));
+    let protocol = Protocol::new(Coordinate::Position, number(1.0), number(0.5), number(50.0), number(0.1));
     let (mut experiment, mut sample) = (Experiment::new(protocol).unwrap(), 0);
     let before = loop {
         let before = experiment;
@@ -66,7 +66,8 @@ fn last_sample<T: Scalar>(bencher: Bencher<'_, '_>) {
 fn identification<T: Scalar>(bencher: Bencher<'_, '_>, law: DragLaw) {
     let number = T::from_f64;
     let mut experiment =
-        Experiment::new(Protocol::new(Coordinate::Position, number(1.0), number(0.5), number(0.1))).unwrap();
+        Experiment::new(Protocol::new(Coordinate::Position, number(1.0), number(0.5), number(50.0), number(0.1)))
+            .unwrap();
     for sample in 0..1000 {
         let angle = f64::from(sample) * core::f64::consts::TAU / 40.0;
         experiment.step(number(angle.sin()), number(0.1 * f64::from(sample)));

@@ -1,4 +1,4 @@
-//! Harmonic balance with more than the first harmonic.
+//! Harmonic balance with more than the first harmonic (Galerkin's method), by damped Newton iteration.
 
 use core::f64::consts::PI;
 
@@ -124,6 +124,8 @@ where
         Ok(pack(bias, omega, &harmonics))
     }
 
+    /// Newton's method with backtracking on the residual's norm. Its own loop: a step counts
+    /// only if it lessens that norm, and what is left when none does is reported; the first harmonic alone stops by its steps.
     fn settle(
         &self,
         characteristic: &(impl Characteristic<Number = f64> + ?Sized),

@@ -265,7 +265,8 @@ where
     }
 
     /// A solution near `at` and the derivatives there, by logarithm of amplitude, bias over amplitude, logarithm of
-    /// frequency.
+    /// frequency: damped Newton. Its own loop, since amplitude and frequency may at most halve or double in a step and the
+    /// describing function may be undefined beyond it.
     fn newton(&self, mut at: Vector3<f64>) -> Option<(Vector3<f64>, Matrix3<f64>)> {
         let mut last = f64::INFINITY;
         for _ in 0..60 {

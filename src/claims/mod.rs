@@ -6,10 +6,11 @@
 //! ```
 //! use selfosc::claims::{Budget, Word, verify};
 //! let findings = verify(&["lemma-1"], Budget { cases: 50, seed: 1 }).map_err(|id| format!("no claim {id}"))?;
-//! assert_eq!(findings[0].word(), Word::Sampled);
+//! assert_eq!(findings[0].word(), Word::Proved);
 //! # Ok::<(), String>(())
 //! ```
 
+mod certificate;
 mod checks;
 mod distortion;
 mod evidence;
@@ -18,6 +19,7 @@ mod sampling;
 #[doc(hidden)]
 pub mod tolerance;
 
+pub use certificate::{Certificate, Shown};
 pub use evidence::{ClaimDomain, ClaimPart, ClaimVariable, Evidence, Verdict, Witness, Word};
 pub use registry::{AsPrinted, Checker, Claim, Finding, Hypothesis, Kind, verify};
 pub use sampling::Budget;
@@ -101,4 +103,5 @@ pub const CLAIMS: &[Claim] = &[
     checks::on_board::ON_BOARD_ABORT,
     checks::on_board::ON_BOARD_LIMITS,
     checks::on_board::ON_BOARD_FAULTS,
+    checks::on_board::ON_BOARD_EXCURSION,
 ];

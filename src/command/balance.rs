@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use super::{CommandError, Outcome, write_file, write_json};
+use super::{CommandError, Outcome, files, write_json};
 use crate::balance::{Bias, HarmonicBalance};
 use crate::describing::{Entry, Setting};
 use crate::plant::TransferFunction;
@@ -58,7 +58,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     if let Some(path) = &arguments.svg {
         let describing = |sweep: &_| characteristic.describing_function(sweep);
         let figure = nyquist(&plant, balance.omega_rad_s(), describing, arguments.bias, &found)?;
-        write_file(path, &figure.svg()?)?;
+        files::write(path, &figure.svg()?)?;
     }
     if arguments.json {
         let intersection = |found: &crate::balance::Intersection| json!({ "amplitude": found.amplitude, "omega_rad_s": found.omega_rad_s, "stable": found.stable });

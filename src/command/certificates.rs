@@ -1,52 +1,54 @@
-//! The proofs of the orbit theorems as files: written after a search, checked without one.
+//! Certificates as files: written after a search, checked without one.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::{CommandError, Outcome};
-use crate::claims::{CLAIMS, Claim};
-use crate::orbit::theorem::Theorem;
-use crate::proof::inequality::{Proofs, Refusal};
+use super::{CommandError, Outcome, files};
+use crate::claims::{CLAIMS, Certificate, Claim};
+use crate::proof::inequality::Refusal;
 
-fn theorems() -> impl Iterator<Item = &'static Theorem> {
-    CLAIMS.iter().filter_map(Claim::theorem)
+fn theorems() -> impl Iterator<Item = &'static Claim> {
+    CLAIMS.iter().filter(|claim| claim.theorem().is_some())
 }
 
-fn file(folder: &Path, theorem: &Theorem) -> PathBuf {
-    folder.join(theorem.id).with_extension("proof")
+fn file(folder: &Path, claim: &Claim) -> PathBuf {
+    folder.join(format!("{}.json", claim.id))
 }
 
-/// One file `ID.proof` for each theorem that is proved.
-pub(super) fn write(folder: &Path) -> Result<(), CommandError> {
-    let fault = |path: &Path| {
-        let path = path.to_owned();
-        |source| CommandError::Write { path, source }
-    };
-    std::fs::create_dir_all(folder).map_err(fault(folder))?;
-    for theorem in theorems() {
-        if let Ok(proofs) = theorem.prove() {
-            let path = file(folder, theorem);
-            std::fs::write(&path, Proofs(proofs).to_string()).map_err(fault(&path))?;
+/// One file `ID.json` for each theorem; the answer is no where one is not proved.
+pub(super) fn write(folder: &Path) -> Result<Outcome, CommandError> {
+    std::fs::create_dir_all(folder).map_err(|source| CommandError::Write { path: folder.to_owned(), source })?;
+    let mut outcome = Outcome::Done;
+    for claim in theorems() {
+        let path = file(folder, claim);
+        match Certificate::of(claim) {
+            Some(certificate) => files::write(&path, &certificate.to_string())?,
+            None => outcome = Outcome::No,
         }
     }
-    Ok(())
+    Ok(outcome)
 }
 
 /// A line for each theorem: accepted, or why not.
 pub(super) fn check(folder: &Path, output: &mut impl Write) -> Result<Outcome, CommandError> {
-    let width = theorems().map(|theorem| theorem.id.len()).max().unwrap_or(0);
+    let width = theorems().map(|claim| claim.id.len()).max().unwrap_or(0);
     let mut outcome = Outcome::Done;
-    for theorem in theorems() {
-        let path = file(folder, theorem);
-        let text = std::fs::read_to_string(&path).map_err(|source| CommandError::Certificate { path, source })?;
-        let checked = text.parse().and_then(|Proofs(proofs)| {
-            theorem.check(&proofs)?;
-            Ok::<usize, Refusal>(proofs.iter().map(|proof| proof.boxes.len()).sum())
+    for claim in theorems() {
+        let text = files::read(&file(folder, claim))?;
+        let checked = text.parse().and_then(|certificate: Certificate| {
+            if certificate.claim != claim.id {
+                return Err(Refusal::Other { found: certificate.claim, expected: claim.id });
+            }
+            certificate.check()?;
+            Ok(certificate)
         });
         match checked {
-            Ok(boxes) => writeln!(output, "{:width$}  accepted  {boxes} boxes; {}", theorem.id, theorem.domain)?,
+            Ok(certificate) => {
+                let boxes: usize = certificate.inequalities.iter().map(|shown| shown.proof.boxes.len()).sum();
+                writeln!(output, "{:width$}  accepted  {boxes} boxes; {}", claim.id, certificate.domain)?;
+            }
             Err(refusal) => {
-                writeln!(output, "{:width$}  refused   {refusal}", theorem.id)?;
+                writeln!(output, "{:width$}  refused   {refusal}", claim.id)?;
                 outcome = Outcome::No;
             }
         }

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 use serde_json::json;
 
-use super::{CommandError, Outcome, write_file, write_json};
+use super::{CommandError, Outcome, files, write_json};
 use crate::describing::{CATALOGUE, DescribingFunction, Entry, Setting, by_quadrature, certified};
 use crate::nonlinearity::{ParameterSpec, Sinusoid};
 use crate::numeric::{Interval, Real};
@@ -92,7 +92,7 @@ struct Enclosure {
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let (Some(name), Some(amplitude), false) = (&arguments.name, arguments.amplitude, arguments.list) else {
         if let Some(path) = &arguments.page {
-            write_file(path, &characteristics()?.html()?)?;
+            files::write(path, &characteristics()?.html()?)?;
         }
         return list(arguments.json, output);
     };

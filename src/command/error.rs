@@ -28,6 +28,12 @@ pub(super) enum CommandError {
         /// What the system says.
         source: std::io::Error,
     },
+    /// A file that would be replaced by what is made from it.
+    #[error("{} is one of the logs; choose another name for the report", path.display())]
+    OutputIsInput {
+        /// The file.
+        path: PathBuf,
+    },
     /// A proof that cannot be opened.
     #[error("cannot read {}: {source}; write the proofs with `selfosc verify --certificates DIR`", path.display())]
     Certificate {

@@ -1,6 +1,5 @@
 //! `selfosc identify`: from logs to a model with its errors.
 
-use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -8,7 +7,7 @@ use std::time::Duration;
 use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
 
-use super::{CommandError, Outcome, write_json};
+use super::{CommandError, Outcome, files, write_json};
 use crate::experiment::Columns;
 use crate::identify::joint::Delay;
 use crate::identify::{self, DragLaw, Identification, Refusal, Refused, Session, Settings, SettingsError};
@@ -131,13 +130,16 @@ fn delay(text: &str) -> Result<Delay, String> {
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
+    if let Some(path) = &arguments.report {
+        files::distinct(path, &arguments.logs)?;
+    }
     let found = match arguments.identify() {
         Ok(found) => found,
         Err(refusal) => return arguments.refuse(refusal, output),
     };
     if let Some(path) = &arguments.report {
         let html = page::document(&found).html()?;
-        fs::write(path, html).map_err(|source| CommandError::Write { path: path.clone(), source })?;
+        files::write(path, &html)?;
     }
     if arguments.json {
         write_json(output, &found.conclusion())?;

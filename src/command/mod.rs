@@ -8,10 +8,12 @@ mod balance;
 mod certificates;
 mod df;
 mod error;
+mod files;
 mod identify;
 mod predict;
 mod reproduce;
 mod simulate;
+mod terminal;
 mod tune;
 mod verify;
 
@@ -60,7 +62,7 @@ enum Outcome {
 #[must_use]
 pub fn run() -> ExitCode {
     let command = Command::parse();
-    let mut output = io::BufWriter::new(io::stdout().lock());
+    let mut output = terminal::Shown(io::BufWriter::new(io::stdout().lock()));
     let outcome = match &command.action {
         Action::Reproduce(arguments) => reproduce::run(arguments, &mut output),
         Action::Verify(arguments) => verify::run(arguments, &mut output),
@@ -78,15 +80,10 @@ pub fn run() -> ExitCode {
         Err(CommandError::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
             drop(output);
-            let _ = writeln!(io::stderr(), "selfosc: {error}");
+            let _ = writeln!(terminal::Shown(io::stderr()), "selfosc: {error}");
             error.status()
         }
     }
-}
-
-/// Writes a file, or says which one cannot be written.
-fn write_file(path: &std::path::Path, content: &str) -> Result<(), CommandError> {
-    std::fs::write(path, content).map_err(|source| CommandError::Write { path: path.to_owned(), source })
 }
 
 /// Writes one JSON document and a line end.

@@ -65,6 +65,7 @@ fn certificate(proof: &Certificate) -> serde_json::Value {
     json!({
         "unique": proof.unique,
         "attracting": proof.attracting,
+        "starts": proof.starts,
         "enclosure": {
             "amplitude": bounds(cycle.amplitude),
             "bias": bounds(cycle.bias),
@@ -98,8 +99,16 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         let balance = balance
             .map(|found| json!({ "amplitude": found.amplitude, "bias": found.bias, "period_s": found.period_s() }));
         // Without a proof the exact cycle stands as computed.
-        let proof = certify(&axis, &relay).ok().as_ref().map(certificate);
-        write_json(output, &json!({ "harmonic_balance": balance, "exact": exact, "certificate": proof }))?;
+        let proof = certify(&axis, &relay);
+        let refused = proof.as_ref().err().map(|why| json!({ "code": why.code(), "text": why.to_string() }));
+        let certificate = proof.as_ref().ok().map(certificate);
+        let document = json!({
+            "harmonic_balance": balance,
+            "exact": exact,
+            "certificate": certificate,
+            "certificate_refused": refused,
+        });
+        write_json(output, &document)?;
         return Ok(Outcome::Done);
     }
     let approximate = |part: fn(&AxisOscillation) -> f64| {

@@ -8,7 +8,7 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 use serde_json::{Map, Value, json};
 
-use super::{CommandError, Outcome, write_json};
+use super::{CommandError, Outcome, files, write_json};
 use crate::paper::audit::Group;
 use crate::report::paper::{PARTS, Part, Reproduction};
 
@@ -78,16 +78,12 @@ fn show(reproduction: &Reproduction, parts: &[&Part], output: &mut impl Write) -
 
 /// Every file of these parts; how many there are.
 fn write_files(reproduction: &Reproduction, parts: &[&'static Part], folder: &Path) -> Result<usize, CommandError> {
-    let failed = |path: &Path| {
-        let path = path.to_owned();
-        move |source| CommandError::Write { path, source }
-    };
-    fs::create_dir_all(folder).map_err(failed(folder))?;
+    fs::create_dir_all(folder).map_err(|source| CommandError::Write { path: folder.to_owned(), source })?;
     let mut count = 0;
     let mut write = |name: &str, extension: &str, content: &str| {
         let path = folder.join(format!("{name}.{extension}"));
         count += 1;
-        fs::write(&path, content).map_err(failed(&path))
+        files::write(&path, content)
     };
     let mut sections = Vec::new();
     for part in parts {

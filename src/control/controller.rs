@@ -9,7 +9,8 @@ use crate::numeric::{Limit, Scalar, domain};
 /// The derivative acts on the measurement through a filter that is stable for every interval. An integral that drives
 /// the command past a limit is led back (back-calculation with the time constant `sqrt(K_d/K_i)`, `K_p/K_i` without
 /// derivative; Astrom and Hagglund). What is not a number changes nothing: the command is held, and the [`Fault`]
-/// named; how long to accept that is the caller's decision.
+/// named. The time goes on meanwhile: the next good measurement is met with the whole time since the last one.
+/// [`with_longest_hold`](Controller::with_longest_hold) sets how long a command may be held before it is a neutral one.
 ///
 /// ```
 /// use selfosc::control::{Controller, Structure, Tuning};
@@ -28,8 +29,13 @@ pub struct Controller<T> {
     limits: Option<(T, T)>,
     turn: Option<T>,
     feed_forward: Option<FeedForward<T>>,
+    /// The longest hold in s, and the command after it.
+    stale: Option<(T, T)>,
     command: T,
     memory: Option<Memory<T>>,
+    /// Time since the last good step, and the time that step took, in s.
+    held_s: T,
+    dt_s: T,
 }
 
 /// What a controller remembers of the past.
@@ -71,7 +77,18 @@ pub enum Fault {
 impl<T: Scalar> Controller<T> {
     /// Without limits, on a line, without feed-forward; the command is zero before the first step.
     pub fn new(gains: &Gains<T>) -> Self {
-        Self { gains: *gains, limits: None, turn: None, feed_forward: None, command: T::zero(), memory: None }
+        let zero = T::zero();
+        Self {
+            gains: *gains,
+            limits: None,
+            turn: None,
+            feed_forward: None,
+            stale: None,
+            command: zero,
+            memory: None,
+            held_s: zero,
+            dt_s: zero,
+        }
     }
 
     /// The same with limits on the command. Starts anew.
@@ -102,31 +119,72 @@ impl<T: Scalar> Controller<T> {
         Self { feed_forward: Some(feed_forward), memory: None, ..self }
     }
 
+    /// The same that holds a command for no longer than `hold_s` without a good step. After that it gives `neutral_command`, cut to
+    /// the limits, and starts anew with the next good step. An interval that is no number counts as the last good one did.
+    ///
+    /// ```
+    /// use selfosc::control::{Controller, Gains, Structure};
+    /// let gains = Gains::new(Structure::Pd, 1.0, 0.0, 0.5, 0.1)?;
+    /// let mut depth = Controller::new(&gains).with_longest_hold(0.5, 0.0)?;
+    /// let held = depth.step(1.0, 0.0, 0.2).command;
+    /// assert_eq!(depth.step(1.0, f64::NAN, 0.2).command, held);
+    /// assert_eq!(depth.step(1.0, f64::NAN, 0.2).command, held);
+    /// assert_eq!(depth.step(1.0, f64::NAN, 0.2).command, 0.0); // 0.6 s since the last measurement
+    /// # Ok::<(), selfosc::control::ControlError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ControlError::OutOfDomain`] unless the time is zero or more and both are finite.
+    pub fn with_longest_hold(self, hold_s: T, neutral_command: T) -> Result<Self, ControlError> {
+        domain::non_negative("longest hold", hold_s, "s")?;
+        domain::finite("neutral command", neutral_command, "command units")?;
+        Ok(Self { stale: Some((hold_s, neutral_command)), ..self })
+    }
+
     /// Forgets everything but its settings.
     pub fn reset(&mut self) {
-        self.memory = None;
+        (self.memory, self.held_s) = (None, T::zero());
         self.command = self.clamp(T::zero());
     }
 
-    /// The next command, given the reference, the measurement, and the time since the step before (s). The first step
-    /// after a start has no speed to go by.
+    /// The next command, given the reference, the measurement, and the time since the step before (s), good or not. The first
+    /// step after a start has no speed to go by.
     pub fn step(&mut self, reference: T, measurement: T, dt_s: T) -> Step<T> {
+        let sound = dt_s > T::zero() && dt_s.is_finite();
+        // Time that the last good step does not know of.
+        let passed_s = self.held_s + if sound { dt_s } else { self.dt_s };
         let fault = if !measurement.is_finite() {
             Fault::Measurement
         } else if !reference.is_finite() {
             Fault::Reference
-        } else if !(dt_s > T::zero() && dt_s.is_finite()) {
+        } else if !sound {
             Fault::Interval
         } else {
-            let (wanted, memory) = self.wanted(reference, measurement, dt_s);
+            // A start knows of no time before.
+            let step_s = if self.memory.is_some() { passed_s } else { dt_s };
+            let (wanted, memory) = self.wanted(reference, measurement, step_s);
             let command = self.clamp(wanted);
-            if let Some(memory) = self.led_back(memory, command - wanted, dt_s).filter(|_| wanted.is_finite()) {
+            if let Some(memory) = self.led_back(memory, command - wanted, step_s).filter(|_| wanted.is_finite()) {
                 (self.command, self.memory) = (command, Some(memory));
+                (self.held_s, self.dt_s) = (T::zero(), dt_s);
                 return Step { command, limited: command != wanted, fault: None };
             }
             Fault::Overflow
         };
+        self.hold(passed_s);
         Step { command: self.command, limited: false, fault: Some(fault) }
+    }
+
+    /// Goes on without a good step, until that has been for too long.
+    fn hold(&mut self, passed_s: T) {
+        self.held_s = passed_s;
+        let stale = self.stale.filter(|(hold_s, _)| !(passed_s <= *hold_s));
+        if stale.is_some() || !passed_s.is_finite() {
+            self.memory = None;
+        }
+        if let Some((_, neutral_command)) = stale {
+            self.command = self.clamp(neutral_command);
+        }
     }
 
     /// The command without limits, and the memory that it leaves.

@@ -11,7 +11,7 @@ impl Structure {
     /// The slow pole of the closed loop as a share of the double one. An integral action ten times slower than the
     /// rest is the marine craft literature's choice (Fossen, *Handbook of Marine Craft Hydrodynamics and Motion
     /// Control*, PID by pole placement); I-PD takes all three poles together.
-    fn slow_pole(self) -> f64 {
+    pub(crate) fn slow_pole(self) -> f64 {
         match self {
             Self::Pd => 0.0,
             Self::Pid => 0.1,
@@ -146,7 +146,7 @@ impl<T: Scalar> Tuning<T> {
     }
 }
 
-fn double_pole<T: Scalar>(structure: Structure, bandwidth: T) -> T {
+pub(crate) fn double_pole<T: Scalar>(structure: Structure, bandwidth: T) -> T {
     bandwidth / T::from_f64(structure.bandwidth_ratio())
 }
 
@@ -164,7 +164,11 @@ fn unchecked<T: Scalar>(axis: &DragAxis<T>, structure: Structure, bandwidth: T) 
     [proportional, integral, derivative, filter]
 }
 
-fn place<T: Scalar>(axis: &DragAxis<T>, structure: Structure, bandwidth: T) -> Result<Gains<T>, ControlError> {
+pub(crate) fn place<T: Scalar>(
+    axis: &DragAxis<T>,
+    structure: Structure,
+    bandwidth: T,
+) -> Result<Gains<T>, ControlError> {
     let [proportional, integral, derivative, filter] = unchecked(axis, structure, bandwidth);
     let gives = proportional > T::zero() && proportional.is_finite() && filter.is_finite();
     let limit = Limit::Words("such that the gains are neither 0 nor beyond the largest number");

@@ -31,6 +31,8 @@ mod worst_case;
 
 pub use controller::{Controller, Fault, Step};
 pub use design::Tuning;
+#[cfg(feature = "std")]
+pub(crate) use design::{double_pole, place};
 pub use error::ControlError;
 pub use gains::{Gains, Structure};
 pub use margins::Margins;

@@ -38,11 +38,19 @@ impl<T: Scalar> OpenLoop<T> {
     /// ```
     ///
     /// # Errors
-    /// [`ControlError::OutOfDomain`] unless the speed is finite.
+    /// [`ControlError::OutOfDomain`] unless the speed is finite, and where squares of the loop's coefficients, divided by the
+    /// inertia, are not.
     pub fn new(axis: &DragAxis<T>, gains: &Gains<T>, speed: T) -> Result<Self, ControlError> {
         domain::finite("speed", speed, "output units per s")?;
         let slope = axis.linear_drag() + T::two() * axis.quadratic_drag() * speed.abs();
-        Ok(Self::linear(axis.alpha(), slope, axis.delay_s(), gains))
+        let open_loop = Self::linear(axis.alpha(), slope, axis.delay_s(), gains);
+        for square in open_loop.numerator_squared() {
+            domain::representable("squared gain over inertia", square, "")?;
+        }
+        for square in open_loop.denominator_squared() {
+            domain::representable("squared drag over inertia, or filter", square, "")?;
+        }
+        Ok(open_loop)
     }
 
     /// The loop about an axis with linear drag.
@@ -212,7 +220,7 @@ impl<T: Scalar> OpenLoop<T> {
 
     /// Numerator and denominator without the delay, in descending powers of s, common factors cancelled.
     #[cfg(feature = "std")]
-    pub(super) fn polynomials(&self) -> (Vec<T>, Vec<T>) {
+    pub(crate) fn polynomials(&self) -> (Vec<T>, Vec<T>) {
         let [n0, n1, n2] = self.numerator;
         let (zero, one, f) = (T::zero(), T::one(), self.filter_s);
         let mut numerator = vec![n2, n1, n0];

@@ -100,8 +100,8 @@ impl<T: Scalar> RelayTest<T> {
     /// | `exp(-s)/s` | -18.9 % (`8/pi^2`) | exact |
     ///
     /// # Errors
-    /// [`ControlError::OutOfDomain`] for a level, half-width, amplitude or period outside its domain;
-    /// [`ControlError::BelowSwitching`] where condition 40 fails.
+    /// [`ControlError::OutOfDomain`] for a level, half-width, amplitude or period outside its domain, and for a result that the
+    /// arithmetic cannot represent; [`ControlError::BelowSwitching`] where condition 40 fails.
     pub fn point(&self) -> Result<FrequencyPoint<T>, ControlError> {
         let zero = T::zero();
         domain::positive("relay level", self.level, "command units")?;
@@ -121,10 +121,11 @@ impl<T: Scalar> RelayTest<T> {
         // -1/N has the angle pi less that of N, which is a lag.
         let lag = T::pi() / T::two() - (n.p / -n.q).atan();
         let angle_above_critical = if n.q < zero { lag } else { zero };
+        let frequency = T::two() * T::pi() / self.period_s;
         Ok(FrequencyPoint {
-            omega_rad_s: T::two() * T::pi() / self.period_s,
-            magnitude: T::one() / size,
-            angle_above_critical,
+            omega_rad_s: domain::representable("frequency of the oscillation", frequency, "rad/s")?,
+            magnitude: domain::representable("gain of the process", T::one() / size, "output per command units")?,
+            angle_above_critical: domain::representable("angle of the process", angle_above_critical, "rad")?,
         })
     }
 

@@ -22,6 +22,8 @@ pub struct WorstMargins {
     pub met: WorstMargin,
     /// Boxes that the intervals were divided into.
     pub boxes: usize,
+    /// Whether bound and worst case agree to 1 %. Otherwise the work was cut short: the bound holds, but may lie far below.
+    pub converged: bool,
 }
 
 /// The four margins, without the place where each is met; fields as in [`Margins`](super::Margins).
@@ -39,6 +41,8 @@ pub struct WorstMargin {
 
 /// Boxes that are looked at before the bound is left as it is.
 const BUDGET: usize = 20_000;
+/// Crossovers of phase, likewise: with a delay one box may have very many.
+const CROSSOVERS: usize = 1_000_000;
 /// Bound and worst case are brought this near, relative.
 const GAP: f64 = 0.01;
 const TURN: f64 = core::f64::consts::TAU;
@@ -88,7 +92,8 @@ impl AxisIntervals {
     /// Branch and bound: on a box, the phase at each frequency is lowest at greatest inertia, least drag and longest
     /// delay, and the magnitude largest at least inertia and drag, so that the extreme curves bound every loop of the
     /// box; their crossovers are complete (see [`OpenLoop::margins`]), and boxes are halved until bound and worst case
-    /// agree to 1 % or the budget of 20 000 is spent. Floating point, not interval arithmetic: the bound is sure up to
+    /// agree to 1 % or the budget of 20 000 boxes and a million crossovers is spent, which [`WorstMargins::converged`] tells.
+    /// Floating point, not interval arithmetic: the bound is sure up to
     /// rounding. Parameters are taken to be constant; a slope of drag that moves with the speed is covered only as far
     /// as it moves slowly.
     ///
@@ -110,21 +115,26 @@ impl AxisIntervals {
         let mut met = self.corners().try_fold([f64::INFINITY; 4], |worst, corner| {
             Ok::<_, ControlError>(lesser(worst, scores(&corner.middle(gains))?))
         })?;
-        let (mut at_least, mut boxes) = ([f64::INFINITY; 4], 0);
+        let (mut at_least, mut boxes, mut crossovers, mut converged) = ([f64::INFINITY; 4], 0, 0, true);
         let mut open = vec![*self];
         while let Some(part) = open.pop() {
             boxes += 1;
             met = lesser(met, scores(&part.middle(gains))?);
-            let bound = part.bound(gains, met[0]);
+            let (bound, looked_at) = part.bound(gains, met[0]);
+            crossovers += looked_at;
             let near = bound.iter().zip(&met).all(|(bound, met)| *bound >= met * (1.0 - GAP));
-            match part.halves(self).filter(|_| !near && boxes + open.len() < BUDGET) {
+            let affordable = boxes + open.len() < BUDGET && crossovers < CROSSOVERS;
+            match part.halves(self).filter(|_| !near && affordable) {
                 Some(halves) => open.extend(halves),
-                None => at_least = lesser(at_least, bound),
+                None => {
+                    at_least = lesser(at_least, bound);
+                    converged &= near;
+                }
             }
         }
         // A case is a bound too, where rounding puts it below.
         let at_least = lesser(at_least, met);
-        Ok(WorstMargins { at_least: at_least.into(), met: met.into(), boxes })
+        Ok(WorstMargins { at_least: at_least.into(), met: met.into(), boxes, converged })
     }
 
     /// The loop at the middle of the intervals.
@@ -158,8 +168,8 @@ impl AxisIntervals {
         Some(halves)
     }
 
-    /// Scores that no axis of the box falls below; gain margins above twice `gain_met` are of no interest.
-    fn bound(&self, gains: &Gains<f64>, gain_met: f64) -> Scores {
+    /// Scores that no axis of the box falls below, and the crossovers of phase looked at; gain margins above twice `gain_met` are of no interest.
+    fn bound(&self, gains: &Gains<f64>, gain_met: f64) -> (Scores, usize) {
         let at = |alpha, drag, delay_s| OpenLoop::linear(alpha, drag, delay_s, gains);
         let ends = |interval: Interval| (interval.lower(), interval.upper());
         let ((light, heavy), (slick, rough), (short, long)) = (ends(self.alpha), ends(self.drag), ends(self.delay_s));
@@ -170,8 +180,8 @@ impl AxisIntervals {
             leading: at(light, rough, short),
         };
         let [phase_rad, delay_s] = curves.at_unit_gain();
-        let [gain, reduction] = curves.at_critical_phase(0.5 / gain_met);
-        [gain, reduction, phase_rad, delay_s]
+        let ([gain, reduction], crossovers) = curves.at_critical_phase(0.5 / gain_met);
+        ([gain, reduction, phase_rad, delay_s], crossovers)
     }
 }
 
@@ -203,8 +213,8 @@ impl Curves {
     }
 
     /// Least factors on the gain where some loop of the box has a critical phase; magnitudes below `small` do not
-    /// matter.
-    fn at_critical_phase(&self, small: f64) -> [f64; 2] {
+    /// matter. And how many crossovers of phase there are.
+    fn at_critical_phase(&self, small: f64) -> ([f64; 2], usize) {
         let mut nodes = vec![0.0];
         for curve in [&self.lagging, &self.leading] {
             curve.phase_crossovers(|omega| {
@@ -212,6 +222,7 @@ impl Curves {
                 self.largest.magnitude_bound(omega) > small
             });
         }
+        let crossovers = nodes.len();
         let turns = |curve: &OpenLoop<f64>, omega| curve.angle_above_critical(omega) / TURN;
         let critical = |omega| turns(&self.leading, omega).floor() >= turns(&self.lagging, omega).ceil();
         let mut worst = [f64::INFINITY; 2];
@@ -225,7 +236,7 @@ impl Curves {
                 worst = [1.0; 2];
             }
         }
-        worst
+        (worst, crossovers)
     }
 }
 

@@ -59,14 +59,6 @@ pub enum CatalogueError {
         /// The part that is no number.
         part: String,
     },
-    /// A line of a characteristic's page that cannot be read.
-    #[error("page of {characteristic}: {fault}; correct spec/characteristics/{characteristic}.md")]
-    Page {
-        /// Catalogue name.
-        characteristic: &'static str,
-        /// What is wrong.
-        fault: &'static str,
-    },
     /// A parameter outside its domain.
     #[error(transparent)]
     Nonlinearity(#[from] NonlinearityError),
@@ -82,7 +74,6 @@ impl CatalogueError {
             Self::MissingParameter { .. } => "missing-parameter",
             Self::Kind { .. } => "parameter-kind",
             Self::Setting { .. } => "unreadable-setting",
-            Self::Page { .. } => "page",
             Self::Nonlinearity(error) => error.code(),
         }
     }

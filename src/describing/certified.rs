@@ -1,4 +1,4 @@
-//! Enclosures of describing functions by rigorous quadrature of the output: no antiderivative, no closed form.
+//! Enclosures of describing functions by rigorous quadrature (Taylor models) of the output: no antiderivative, no closed form.
 
 use super::{DescribingError, DescribingFunction};
 use crate::nonlinearity::{Branch, Characteristic, Sinusoid};

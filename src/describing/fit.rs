@@ -1,4 +1,4 @@
-//! Which characteristic has a measured gain: every one of the catalogue fitted to points of P over amplitude, and ranked.
+//! Which characteristic has a measured gain, by Levenberg-Marquardt from several starts: every one of the catalogue fitted to points of P over amplitude, and ranked.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -3,8 +3,8 @@
 use core::ops::RangeInclusive;
 
 use super::{ClosedForm, DescribingError, DescribingFunction, over_amplitudes};
-use crate::nonlinearity::{Sinusoid, checked_amplitude};
-use crate::numeric::golden_section;
+use crate::nonlinearity::{NonlinearityError, Sinusoid, checked_amplitude};
+use crate::numeric::{domain, golden_section};
 
 /// Amplitudes at which a range is sampled, evenly in their logarithm.
 const SAMPLES: u32 = 1000;
@@ -107,18 +107,26 @@ pub fn nearest_amplitude(
     (p, q): (f64, f64),
     range: RangeInclusive<f64>,
 ) -> Result<(Solution, f64), DescribingError> {
+    domain::finite("wanted gain, in phase", p, "").map_err(NonlinearityError::from)?;
+    domain::finite("wanted gain, in quadrature", q, "").map_err(NonlinearityError::from)?;
     let largest = *range.end();
     let distance = |solution: Solution| (solution.df.p - p).hypot(solution.df.q - q);
     let solve = |amplitude| at(characteristic, bias, amplitude);
     let samples = sampled(characteristic, bias, range)?;
     let order = |a: &usize, b: &usize| distance(samples[*a]).total_cmp(&distance(samples[*b]));
     let Some(best) = (0..samples.len()).min_by(order) else {
-        return solve(largest).map(|solution| (solution, distance(solution)));
+        return solve(largest).and_then(|solution| measured(solution, distance(solution)));
     };
     let (low, high) = (samples[best.saturating_sub(1)], samples[(best + 1).min(samples.len() - 1)]);
     let refined = minimum(low, high, &solve, distance);
     let nearest = if distance(refined) < distance(samples[best]) { refined } else { samples[best] };
-    Ok((nearest, distance(nearest)))
+    measured(nearest, distance(nearest))
+}
+
+/// A solution and its distance, where that is a number.
+fn measured(solution: Solution, distance: f64) -> Result<(Solution, f64), DescribingError> {
+    let distance = domain::representable("distance of the gains", distance, "output units over input units");
+    Ok((solution, distance.map_err(NonlinearityError::from)?))
 }
 
 fn at(
@@ -140,7 +148,11 @@ fn sampled(
     for amplitude in [from, to] {
         checked_amplitude(amplitude)?;
     }
-    let amplitude = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(SAMPLES));
+    let amplitude = |k: u32| {
+        let share = f64::from(k) / f64::from(SAMPLES);
+        let ratio = to / from;
+        if ratio.is_finite() { from * ratio.powf(share) } else { from.powf(1.0 - share) * to.powf(share) }
+    };
     let grid = (0..=SAMPLES).map(amplitude);
     let results = over_amplitudes(characteristic, bias, grid.clone());
     Ok(grid.zip(results).filter_map(|(amplitude, df)| Some(Solution { amplitude, df: df.ok()? })).collect())

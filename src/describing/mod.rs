@@ -29,8 +29,6 @@ mod relay;
 #[cfg(feature = "std")]
 mod setting;
 mod sine;
-#[cfg(feature = "std")]
-mod sketch;
 mod tanh;
 
 #[cfg(feature = "std")]

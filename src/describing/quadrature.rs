@@ -35,7 +35,7 @@ pub fn by_quadrature(
     let (f0, _) = harmonic(characteristic, sweep, 0)?;
     let (sine, cosine) = harmonic(characteristic, sweep, 1)?;
     let amplitude = sweep.amplitude();
-    Ok(DescribingFunction { f0, p: sine / amplitude, q: cosine / amplitude })
+    super::closed_form::finite(DescribingFunction { f0, p: sine / amplitude, q: cosine / amplitude }, sweep)
 }
 
 /// Coefficients `(Y_Pk, Y_Qk)` of `sin(k theta)` and `cos(k theta)` in the output, `k = order` (eq. 10); for order zero
@@ -87,10 +87,16 @@ pub fn harmonic(
             }
         }
     }
-    Ok(if order == 0 { (cosine / (2.0 * PI), 0.0) } else { (sine / PI, cosine / PI) })
+    let (sine, cosine) = if order == 0 { (cosine / (2.0 * PI), 0.0) } else { (sine / PI, cosine / PI) };
+    super::closed_form::finite(DescribingFunction { f0: 0.0, p: sine, q: cosine }, sweep)?;
+    Ok((sine, cosine))
 }
 
 pub(super) fn settled(quadrature: Quadrature) -> Result<f64, DescribingError> {
     let Quadrature { value, estimate, tolerance, cells } = quadrature;
-    if estimate <= tolerance { Ok(value) } else { Err(DescribingError::Quadrature { estimate, tolerance, cells }) }
+    if estimate <= tolerance && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(DescribingError::Quadrature { estimate, tolerance, cells })
+    }
 }

@@ -129,6 +129,12 @@ pub enum ExperimentError {
         /// What stands there, cut to a readable length.
         text: String,
     },
+    /// More than is read.
+    #[error("longer than {limit_mib} MiB; cut the log to the experiment, or thin it out")]
+    TooLong {
+        /// What is read at most, MiB.
+        limit_mib: u64,
+    },
     /// The reader failed.
     #[error("line {line}: {reason}; make every line as the header says")]
     Unreadable {
@@ -161,6 +167,7 @@ impl ExperimentError {
             Self::UnknownColumn { .. } => "unknown-column",
             Self::Blank { .. } => "blank-cell",
             Self::NotANumber { .. } => "not-a-number",
+            Self::TooLong { .. } => "too-long",
             Self::Unreadable { .. } => "unreadable",
             Self::OutOfDomain(_) => "setting",
             Self::Relay(_) => "relay",

@@ -61,16 +61,21 @@ impl From<Record> for Log {
 }
 
 impl Columns {
+    /// Most bytes of a log; hours of a fast sensor have fewer.
+    pub const LONGEST: u64 = 256 << 20;
+
     /// Reads a log: a header line, then a line for each sample. The delimiter (comma, semicolon, tabulator, blanks) is seen
     /// from the header; with any but the comma, a decimal comma is understood. Lines that start with `#` are comments.
     ///
     /// # Errors
     /// [`ExperimentError`] with line and value; nothing is repaired but whole turns of an angle.
-    pub fn read(&self, mut source: impl Read) -> Result<Log, ExperimentError> {
+    pub fn read(&self, source: impl Read) -> Result<Log, ExperimentError> {
         let mut bytes = Vec::new();
-        source
-            .read_to_end(&mut bytes)
-            .map_err(|error| ExperimentError::Unreadable { line: 0, reason: error.to_string() })?;
+        let length = source.take(Self::LONGEST + 1).read_to_end(&mut bytes);
+        let length = length.map_err(|error| ExperimentError::Unreadable { line: 0, reason: error.to_string() })?;
+        if length as u64 > Self::LONGEST {
+            return Err(ExperimentError::TooLong { limit_mib: Self::LONGEST >> 20 });
+        }
         let text = String::from_utf8_lossy(&bytes);
         self.parse(text.trim_start_matches('\u{feff}'))
     }

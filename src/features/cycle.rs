@@ -63,10 +63,13 @@ impl<S: Scalar> Cycle<S> {
 pub struct Cycles<S> {
     threshold: S,
     positive: Option<bool>,
-    /// Beginning of the cycle and the level there, once there was a change to positive.
-    begin: Option<S>,
+    /// Whether there was a change to positive, and one to negative since.
+    begun: bool,
+    turned: bool,
+    /// Time of the change to positive.
+    begin_s: S,
     /// Change to negative: time and level.
-    change: Option<(S, S)>,
+    change: (S, S),
     recent: Recent<S>,
     maximum: Peak<S>,
     minimum: Peak<S>,
@@ -81,8 +84,10 @@ impl<S: Scalar> Cycles<S> {
         Self {
             threshold,
             positive: None,
-            begin: None,
-            change: None,
+            begun: false,
+            turned: false,
+            begin_s: S::zero(),
+            change: (S::zero(), S::zero()),
             recent: Recent::new(),
             maximum: Peak::new(),
             minimum: Peak::new(),
@@ -111,16 +116,15 @@ impl<S: Scalar> Cycles<S> {
         self.positive = Some(positive);
         let mut complete = None;
         if changed {
-            self.switchings += 1;
+            self.switchings = self.switchings.saturating_add(1);
             self.last_change_s = time_s;
             if positive {
                 complete = self.complete(time_s, output);
-                self.begin = Some(time_s);
-                self.change = None;
+                (self.begun, self.turned, self.begin_s) = (true, false, time_s);
                 // The positive command lasts from the upswing's beginning: the minimum lies after its start.
                 self.minimum = Peak::new();
             } else {
-                self.change = Some((time_s, output));
+                (self.turned, self.change) = (true, (time_s, output));
                 self.maximum = Peak::new();
             }
         }
@@ -131,8 +135,10 @@ impl<S: Scalar> Cycles<S> {
     }
 
     fn complete(&self, time_s: S, output: S) -> Option<Cycle<S>> {
-        let begin_s = self.begin?;
-        let (change_s, upper_level) = self.change?;
+        if !(self.begun && self.turned) {
+            return None;
+        }
+        let (begin_s, (change_s, upper_level)) = (self.begin_s, self.change);
         let period_s = time_s - begin_s;
         // A parabola is true to a sinusoid's peak for about a twelfth of the period on either side.
         let reach = period_s / S::from_f64(12.0);

@@ -46,14 +46,17 @@ impl<S: Scalar> Peak<S> {
         let newest = signed(recent.0[REACH]);
         self.count = (self.count + 1).min(WINDOW as u8);
         let valid = usize::from(self.valid);
-        if valid == 0 || newest.1 > self.around[usize::from(self.top)].1 {
+        let top = self.around.get(usize::from(self.top)).filter(|_| valid > 0);
+        if top.is_none_or(|top| newest.1 > top.1) {
             let before = usize::from(self.count - 1).min(REACH);
-            for (place, sample) in self.around.iter_mut().zip(&recent.0[REACH - before..]) {
+            for (place, sample) in self.around.iter_mut().zip(recent.0.iter().skip(REACH - before)) {
                 *place = signed(*sample);
             }
             (self.top, self.valid) = (before as u8, before as u8 + 1);
-        } else if valid <= usize::from(self.top) + REACH {
-            self.around[valid] = newest;
+        } else if valid <= usize::from(self.top) + REACH
+            && let Some(place) = self.around.get_mut(valid)
+        {
+            *place = newest;
             self.valid += 1;
         }
     }
@@ -61,23 +64,21 @@ impl<S: Scalar> Peak<S> {
     /// Value of the peak; `None` before the first sample. Samples further than `reach_s` from the largest are left out.
     pub(super) fn value(&self, reach_s: S) -> Option<S> {
         let (top, valid) = (usize::from(self.top), usize::from(self.valid));
-        let samples = &self.around[..valid];
+        let samples = self.around.get(..valid)?;
         let &(origin, largest) = samples.get(top)?;
-        let near = |index: &usize| (samples[*index].0 - origin).abs() <= reach_s;
+        let near = |index: &usize| samples.get(*index).is_some_and(|(time, _)| (*time - origin).abs() <= reach_s);
         // The nearest neighbours always count.
         let first = (0..top).find(near).unwrap_or(top).min(top.saturating_sub(1));
         let last = (top + 1..valid).rev().find(near).unwrap_or(top).max((top + 1).min(valid - 1));
-        Some(vertex(&samples[first..=last], largest).unwrap_or(largest))
+        Some(samples.get(first..=last).and_then(|near| vertex(near, largest)).unwrap_or(largest))
     }
 }
 
 /// Height of the parabola of least squares at its vertex; `None` where it has none among the samples.
 fn vertex<S: Scalar>(samples: &[(S, S)], offset: S) -> Option<S> {
-    if samples.len() < 3 {
-        return None;
-    }
-    let width = (samples[samples.len() - 1].0 - samples[0].0) / S::two();
-    let middle = samples[0].0 + width;
+    let [(begin, _), _, .., (end, _)] = samples else { return None };
+    let width = (*end - *begin) / S::two();
+    let middle = *begin + width;
     // Moments of the scaled times and values; the middle makes the odd ones small.
     let (mut t, mut m) = ([S::zero(); 5], [S::zero(); 3]);
     for &(time, value) in samples {

@@ -70,10 +70,10 @@ impl<S: Scalar> Moments<S> {
 pub struct Summary<S> {
     cycles: u32,
     start_up: u32,
-    /// Amplitude and period of the cycle before.
-    previous: Option<[S; 2]>,
-    /// Amplitude and middle of the first steady cycle.
-    first: Option<[S; 2]>,
+    /// Amplitude and period of the cycle before, once there was one.
+    previous: [S; 2],
+    /// Amplitude and middle of the first steady cycle, once there was one.
+    first: [S; 2],
     run: Run<S>,
     /// Amplitude, bias, reference, period, level, time positive, time negative.
     moments: [Moments<S>; 7],
@@ -151,8 +151,8 @@ impl<S: Scalar> Summary<S> {
         Self {
             cycles: 0,
             start_up: 0,
-            previous: None,
-            first: None,
+            previous: [zero; 2],
+            first: [zero; 2],
             run: Run { changes: 0, last: zero, total: zero },
             moments: [Moments::new(zero); 7],
             trends: [trend; 2],
@@ -162,19 +162,22 @@ impl<S: Scalar> Summary<S> {
     /// Takes the next cycle.
     pub fn push(&mut self, cycle: Cycle<S>) {
         let alike = |a: S, b: S| (a - b).abs() <= S::from_f64(Self::STEADY) * a.abs();
-        let steady = self.previous.is_some_and(|[amplitude, period_s]| {
-            alike(amplitude, cycle.amplitude()) && alike(period_s, cycle.period_s)
-        });
-        if let Some([amplitude, _]) = self.previous {
+        let before = self.cycles > 0 || self.start_up > 0;
+        let [amplitude, period_s] = self.previous;
+        let steady = before && alike(amplitude, cycle.amplitude()) && alike(period_s, cycle.period_s);
+        if before {
             self.run.push((cycle.amplitude() / amplitude).ln());
         }
-        self.previous = Some([cycle.amplitude(), cycle.period_s]);
+        self.previous = [cycle.amplitude(), cycle.period_s];
         if self.cycles == 0 && !steady {
             self.start_up += 1;
             return;
         }
         let middle = (cycle.maximum + cycle.minimum) / S::two();
-        let [first_amplitude, first_middle] = *self.first.get_or_insert([cycle.amplitude(), middle]);
+        if self.cycles == 0 {
+            self.first = [cycle.amplitude(), middle];
+        }
+        let [first_amplitude, first_middle] = self.first;
         let number = S::from_f64(f64::from(self.cycles));
         self.cycles += 1;
         let count = number + S::one();

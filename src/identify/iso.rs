@@ -64,7 +64,8 @@ impl<T: Real> Oscillation<T> {
     ///
     /// # Errors
     /// As [`describing_function`](Self::describing_function); [`IdentifyError::Unphysical`] where inertia or drag comes out
-    /// negative, as with a delay that is a large part of the period.
+    /// negative, as with a delay that is a large part of the period; [`IdentifyError::OutOfDomain`] too for a parameter that the
+    /// arithmetic cannot represent.
     ///
     /// ```
     /// use selfosc::identify::iso::Oscillation;
@@ -79,6 +80,14 @@ impl<T: Real> Oscillation<T> {
     /// ```
     pub fn identify(&self) -> Result<Parameters<T>, IdentifyError> {
         let found = parameters(self.describing_function()?, self.amplitude, self.omega_rad_s());
+        for (parameter, value) in [
+            ("inertia", found.alpha),
+            ("linear drag", found.beta),
+            ("quadratic drag", found.beta_quadratic),
+            ("disturbance", found.disturbance),
+        ] {
+            domain::representable(parameter, value, "")?;
+        }
         for (parameter, value) in [("inertia", found.alpha), ("drag", found.beta)] {
             if value.bounds().1 <= 0.0 {
                 let (value, delay_s) = (value.bounds().1, self.delay_s.bounds().1);

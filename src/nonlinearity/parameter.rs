@@ -1,7 +1,7 @@
 //! Named parameters: one declaration gives a characteristic its struct, its checks and its catalogue entry.
 
 use super::NonlinearityError;
-use crate::numeric::{Real, domain};
+use crate::numeric::{Limit, Real, domain};
 
 /// The numbers a parameter may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,6 +12,8 @@ pub enum ParameterDomain {
     NonNegative,
     /// A finite number above zero.
     Positive,
+    /// A finite number, zero or more, of which the work grows with the size: 10 000 at most.
+    Exponent,
     /// Points of a graph: as many pairs of values as there are, after the values of all other parameters.
     Points,
 }
@@ -24,6 +26,7 @@ impl ParameterDomain {
             Self::Finite => "a finite number",
             Self::NonNegative => "a finite number, 0 or more",
             Self::Positive => "a finite number above 0",
+            Self::Exponent => "a number from 0 to 10000",
             Self::Points => "points x0:y0,x1:y1,... with growing x",
         }
     }
@@ -48,6 +51,10 @@ impl ParameterSpec {
             ParameterDomain::Finite | ParameterDomain::Points => domain::finite(self.name, value, ""),
             ParameterDomain::NonNegative => domain::non_negative(self.name, value, ""),
             ParameterDomain::Positive => domain::positive(self.name, value, ""),
+            ParameterDomain::Exponent => {
+                let remedy = "take a dead zone or a relay for what is steeper";
+                domain::require(self.name, value, "", Limit::Within(0.0, 1e4), remedy)
+            }
         };
         checked.map(drop).map_err(|fault| NonlinearityError::Parameter { characteristic, fault })
     }

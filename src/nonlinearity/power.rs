@@ -9,7 +9,7 @@ characteristic! {
         /// Output at `x = 1`, in output units over input units to the exponent.
         gain: Finite = 1.0,
         /// Exponent, dimensionless.
-        exponent: NonNegative,
+        exponent: Exponent,
     }
     computed {
         /// What the exponent alone decides of the moments of its output.

@@ -24,13 +24,26 @@ characteristic! {
     }
 }
 
+impl<T: Real> RelayHysteresis<T> {
+    /// The inputs at which it switches up and down.
+    pub(crate) fn switching_levels(&self) -> [T; 2] {
+        [self.half_width, -self.half_width]
+    }
+
+    /// The least amplitude that switches both ways, with a bias (condition 40).
+    pub(crate) fn least_amplitude(&self, bias: T) -> T {
+        self.half_width + bias.abs()
+    }
+}
+
 impl<T: Real> PiecewiseLinear for RelayHysteresis<T> {
     type Number = T;
 
     fn value(&self, x: T, branch: Branch, _: &Sinusoid<T>) -> T {
+        let [rising, falling] = self.switching_levels();
         let threshold = match branch {
-            Branch::Rising => self.half_width,
-            Branch::Falling => -self.half_width,
+            Branch::Rising => rising,
+            Branch::Falling => falling,
         };
         self.offset + (x - threshold).select(|| -self.level, || self.level)
     }
@@ -42,7 +55,7 @@ impl<T: Real> PiecewiseLinear for RelayHysteresis<T> {
     }
 
     fn periodic(&self, sweep: &Sinusoid<T>) -> Result<(), NonlinearityError> {
-        let required = self.half_width + sweep.bias().abs();
+        let required = self.least_amplitude(sweep.bias());
         if sweep.amplitude().bounds().0 >= required.bounds().1 {
             return Ok(());
         }

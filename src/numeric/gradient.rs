@@ -90,6 +90,32 @@ impl Component for Interval {
     }
 }
 
+/// Derivatives of derivatives.
+impl<const N: usize> Component for Gradient<Interval, N> {
+    const UNKNOWN: Self = Self { value: Interval::ENTIRE, slopes: [Interval::ENTIRE; N] };
+    fn sign(self) -> Option<bool> {
+        self.value.sign()
+    }
+    fn precedes_or_equals(self, other: Self) -> Option<bool> {
+        self.value.precedes_or_equals(other.value)
+    }
+    fn either(self, other: Self) -> Self {
+        Self { value: self.value.hull(other.value), slopes: array::from_fn(|i| self.slopes[i].hull(other.slopes[i])) }
+    }
+    fn slope_of_abs(self) -> Self {
+        match self.value.slope_of_abs() {
+            known if known.is_point() => Self::constant(known),
+            either => Self { value: either, ..Self::UNKNOWN },
+        }
+    }
+    fn exp_from_exp_m1(self, _: Self) -> Self {
+        self.exp()
+    }
+    fn floor_is_constant(self) -> bool {
+        self.value.floor_is_constant()
+    }
+}
+
 /// A value with its `N` partial derivatives, all of them always there: of floats for inner loops and sensitivities, of
 /// [intervals](Interval) for enclosures over a box, as interval Newton and the mean value form ask for.
 ///

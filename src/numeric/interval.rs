@@ -35,6 +35,8 @@ use rounding::{product, quotient, sum};
 /// assert_eq!(Interval::from_f64(-1.0).sqrt(), Interval::ENTIRE);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "std", serde(into = "[Option<f64>; 2]", try_from = "[Option<f64>; 2]"))]
 pub struct Interval {
     // Invariant: lo <= hi, lo < inf, hi > -inf; so neither is NaN.
     lo: f64,
@@ -277,6 +279,22 @@ impl Sum {
 impl From<f64> for Interval {
     fn from(value: f64) -> Self {
         Self::point(value)
+    }
+}
+
+/// Both ends, an infinite one as `None`: what a file without infinities holds.
+impl From<Interval> for [Option<f64>; 2] {
+    fn from(Interval { lo, hi }: Interval) -> Self {
+        [lo, hi].map(|end| Some(end).filter(|end| end.is_finite()))
+    }
+}
+
+impl TryFrom<[Option<f64>; 2]> for Interval {
+    type Error = &'static str;
+
+    fn try_from([lo, hi]: [Option<f64>; 2]) -> Result<Self, Self::Error> {
+        Self::new(lo.unwrap_or(f64::NEG_INFINITY), hi.unwrap_or(f64::INFINITY))
+            .ok_or("the ends of an interval in order")
     }
 }
 

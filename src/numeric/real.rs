@@ -90,7 +90,8 @@ pub trait Real:
     ) -> [Self; N] {
         self.select_all(below, above)
     }
-    /// This number, known but for an error of at most that magnitude: an enclosure contains what it may be, floats go on.
+    /// This number, known but for an error of at most that magnitude: an enclosure contains what it may be; a float is
+    /// returned unchanged.
     /// Of a jet or gradient the value alone is widened: it bounds every function that near the one with these derivatives.
     #[must_use]
     fn give_or_take(self, error: f64) -> Self;

@@ -1,4 +1,4 @@
-//! Root of an increasing function inside a bracket.
+//! Safeguarded Newton method: the root of an increasing function inside a bracket.
 
 use super::Scalar;
 

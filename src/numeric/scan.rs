@@ -1,4 +1,4 @@
-//! Roots of a function of one variable from samples: sees what the samples resolve, and proves nothing.
+//! Roots of a function of one variable from samples, each refined by Chandrupatla's method: sees what the samples resolve, and proves nothing.
 
 use super::golden_section;
 

@@ -11,12 +11,12 @@ use crate::numeric::{OutOfDomain, Scalar};
 /// more where a cycle ends. In f32 let the clock start near zero.
 ///
 /// ```
-/// use selfosc::on_board::{Coordinate, Experiment, Phase, Protocol};
+/// use selfosc::on_board::{Experiment, Phase, Protocol};
 /// use selfosc::plant::{DragAxis, State};
 /// // A vehicle in simulation: heading in rad, torque in N m.
 /// let axis = DragAxis::linear(0.04, 0.03)?;
 /// let mut state = State { position: 0.0, velocity: 0.0 };
-/// let mut experiment = Experiment::new(Protocol::new(Coordinate::HeadingRad, 0.02, 0.2, 0.05))?;
+/// let mut experiment = Experiment::new(Protocol::heading_rad(0.02, 0.2, 0.05))?;
 /// for sample in 0..4000 {
 ///     let step = experiment.step(state.position, 0.05 * f64::from(sample));
 ///     if step.phase != Phase::Running {
@@ -50,9 +50,24 @@ impl<T: Scalar> Experiment<T> {
     /// Any values at all may come: what a sound sensor and clock cannot have said is a fault, upon which, as after the end and
     /// after an abort, the command is neutral until [`restart`](Self::restart).
     pub fn step(&mut self, reading: T, time_s: T) -> Step<T> {
-        let protocol = *self.supervisor.protocol();
         let relay_level = self.supervisor.relay_level();
-        self.supervisor.step(reading, time_s, &mut Judge { steadiness: &mut self.steadiness, protocol, relay_level })
+        self.supervisor.step(reading, time_s, &mut Judge { steadiness: &mut self.steadiness, relay_level })
+    }
+
+    /// The command at a time at which there is no reading: for a timer beside a driver that may block, which would otherwise
+    /// leave the last command standing. Readings that stay out for more than [`Protocol::LONGEST_GAP`] are a fault; before the
+    /// first reading nothing is.
+    ///
+    /// ```
+    /// use selfosc::on_board::{Experiment, Protocol};
+    /// let mut experiment = Experiment::new(Protocol::heading_rad(0.02, 0.2, 0.05))?;
+    /// assert_eq!(experiment.step(0.0, 0.0).command, 0.02);
+    /// assert_eq!(experiment.tick(0.1).command, 0.02);
+    /// assert_eq!(experiment.tick(0.3).command, 0.0); // four intervals are over
+    /// # Ok::<(), selfosc::on_board::OutOfDomain>(())
+    /// ```
+    pub fn tick(&mut self, time_s: T) -> Step<T> {
+        self.supervisor.tick(time_s)
     }
 
     /// Stops a running experiment: the command is neutral from now on. An end or a fault stays what it is.

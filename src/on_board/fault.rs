@@ -36,6 +36,57 @@ pub enum Fault {
         /// The limit over this interval.
         limit: f64,
     },
+    /// A heading of more turns than any sensor counts.
+    #[error("the heading reads {reading}, limit {limit} either way; check the sensor and its units")]
+    Range {
+        /// The reading.
+        reading: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// The coordinate has left the space given to the experiment.
+    #[error(
+        "{distance} from the reference, limit {limit}; check the actuator's sign and the disturbance, or give more room"
+    )]
+    Excursion {
+        /// Distance from the reference.
+        distance: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// The first command drives the vehicle away from the reference.
+    #[error(
+        "under the first command the reading moved {moved} away from the reference, limit {limit}; check the signs of \
+         actuator and sensor, or trim"
+    )]
+    WrongWay {
+        /// Way in the wrong direction.
+        moved: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// The reading flickers, but goes nowhere.
+    #[error(
+        "the reading stays within {range} for {unchanged_s} s under a relay that drives; check the sensor, the \
+         thrusters and the trim"
+    )]
+    NoMotion {
+        /// Range of the coordinate.
+        range: f64,
+        /// For how long.
+        unchanged_s: f64,
+    },
+    /// The sensor's noise switches the relay, in the last attempt either.
+    #[error(
+        "noise would switch the relay within {dwell_s} s of the switching before, at half-width {half_width}; quieten \
+         the sensor or allow a wider relay"
+    )]
+    Noise {
+        /// Half-width of the last attempt.
+        half_width: f64,
+        /// Least time between switchings.
+        dwell_s: f64,
+    },
     /// A reading that does not move.
     #[error(
         "the reading is {reading} for {unchanged_s} s under a relay that drives; check the sensor and the thrusters"
@@ -88,6 +139,11 @@ impl Fault {
             Self::TimeOrder { .. } => "time-order",
             Self::Gap { .. } => "gap",
             Self::Jump { .. } => "jump",
+            Self::Range { .. } => "range",
+            Self::Excursion { .. } => "excursion",
+            Self::WrongWay { .. } => "wrong-way",
+            Self::NoMotion { .. } => "no-motion",
+            Self::Noise { .. } => "noise",
             Self::Stuck { .. } => "stuck",
             Self::NoOscillation { .. } => "no-oscillation",
             Self::NotConverged { .. } => "not-converged",

@@ -23,13 +23,14 @@ pub enum Coordinate {
 ///
 /// ```
 /// use selfosc::on_board::{Coordinate, Experiment, Protocol};
+/// // A depth in m, read ten times a second, that may leave the reference by 1.5 m.
 /// let protocol = Protocol {
-///     highest_command: 0.12,
-///     lowest_command: -0.12,
-///     ..Protocol::new(Coordinate::HeadingDegrees, 0.08, 15.0, 0.1)
+///     highest_command: 12.0,
+///     lowest_command: -12.0,
+///     ..Protocol::new(Coordinate::Position, 8.0, 0.2, 1.5, 0.1)
 /// };
 /// assert!(Experiment::new(protocol).is_ok());
-/// assert!(Experiment::new(Protocol { highest_command: 0.05, ..protocol }).is_err());
+/// assert!(Experiment::new(Protocol { highest_command: 5.0, ..protocol }).is_err());
 /// # Ok::<(), selfosc::numeric::OutOfDomain>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,6 +49,13 @@ pub struct Protocol<T> {
     pub relay_level: T,
     /// Half-width x_a of the relay's hysteresis in the first attempt, in coordinate units.
     pub half_width: T,
+    /// The coordinate may be this far from the reference; a reading further off ends the experiment.
+    pub largest_excursion: T,
+    /// Before the relay has switched for the first time, the coordinate may fall back from the farthest it has come by this much. A
+    /// vehicle that goes further obeys a reversed actuator, or a disturbance beyond the relay level.
+    pub wrong_way: T,
+    /// The relay keeps an output for at least this long, in s. Noise that would switch it earlier counts against the half-width.
+    pub dwell_s: T,
     /// Time between samples as planned, in s. A gap of more than [`LONGEST_GAP`](Self::LONGEST_GAP) of them is a fault.
     pub interval_s: T,
     /// Step of the sensor, or a few standard deviations of its noise, in units of the reading; zero for none. A reading may
@@ -78,13 +86,20 @@ pub struct Protocol<T> {
 impl<T: Scalar> Protocol<T> {
     /// Gap between two samples that is a fault, in planned intervals.
     pub const LONGEST_GAP: f64 = 4.0;
+    /// Turns either way that a heading may read: sensors that count turns stay below, what is beyond is no heading.
+    pub const MOST_TURNS: f64 = 100.0;
 
-    /// An experiment about zero with these relay parameters and readings every `interval_s`, and what can be said without
-    /// knowing the vehicle: limits of twice the relay level, three cycles alike to 10 % out of at most 12, three attempts, each
-    /// half as strong again. Set `largest_rate` and `resolution` if they are known, and the times for slow vehicles: 5 s for one
-    /// value of the reading, 20 s for one of the command, 5 minutes in all.
+    /// An experiment about zero with these relay parameters and readings every `interval_s`, that may go `largest_excursion`
+    /// either way, and what can be said without knowing the vehicle: limits of twice the relay level, no faster than the largest
+    /// excursion in a second, two half-widths the wrong way, four intervals between switchings, three cycles alike to 10 % out of
+    /// at most 12, three attempts, each half as strong again. Set `largest_rate` and `resolution` if they are known, and the
+    /// times for slow vehicles: 5 s for one value of the reading, 20 s for one of the command, 5 minutes in all.
+    ///
+    /// The excursion is that of the reading. A vehicle whose sensor is true to `resolution`, and which goes no faster than
+    /// `largest_rate`, is driven no further than `largest_excursion` and the way of one gap, whatever its actuators do; what it
+    /// coasts after that, at the neutral command, is its own.
     #[must_use]
-    pub fn new(coordinate: Coordinate, relay_level: T, half_width: T, interval_s: T) -> Self {
+    pub fn new(coordinate: Coordinate, relay_level: T, half_width: T, largest_excursion: T, interval_s: T) -> Self {
         let number = T::from_f64;
         Self {
             coordinate,
@@ -94,9 +109,12 @@ impl<T: Scalar> Protocol<T> {
             highest_command: T::two() * relay_level,
             relay_level,
             half_width,
+            largest_excursion,
+            wrong_way: T::two() * half_width,
+            dwell_s: number(4.0) * interval_s,
             interval_s,
             resolution: T::zero(),
-            largest_rate: number(1e9),
+            largest_rate: largest_excursion,
             unchanged_s: number(5.0),
             patience_s: number(20.0),
             duration_s: number(300.0),
@@ -106,6 +124,27 @@ impl<T: Scalar> Protocol<T> {
             attempts: 3,
             factor: number(1.5),
         }
+    }
+
+    /// The same for a heading in radians, of a quarter turn either way and no more than a quarter turn per second.
+    ///
+    /// ```
+    /// use selfosc::on_board::{Experiment, Phase, Protocol};
+    /// let mut experiment = Experiment::new(Protocol::heading_rad(0.08, 0.2, 0.1))?;
+    /// assert_eq!(experiment.step(-0.1, 0.0).command, 0.08);
+    /// let astray = experiment.step(2.9, 0.1); // 170 degrees in a tenth of a second
+    /// assert!(matches!(astray.phase, Phase::Failed(fault) if fault.code() == "jump") && astray.command == 0.0);
+    /// # Ok::<(), selfosc::numeric::OutOfDomain>(())
+    /// ```
+    #[must_use]
+    pub fn heading_rad(relay_level: T, half_width: T, interval_s: T) -> Self {
+        Self::new(Coordinate::HeadingRad, relay_level, half_width, T::pi() / T::two(), interval_s)
+    }
+
+    /// The same for a heading in degrees.
+    #[must_use]
+    pub fn heading_degrees(relay_level: T, half_width: T, interval_s: T) -> Self {
+        Self::new(Coordinate::HeadingDegrees, relay_level, half_width, T::from_f64(90.0), interval_s)
     }
 
     /// The largest relay level within the limits.
@@ -130,7 +169,9 @@ impl<T: Scalar> Protocol<T> {
         let level_fits = self.relay_level <= self.largest_level();
         let unchanged_fits = self.unchanged_s > self.interval_s && self.unchanged_s < self.patience_s;
         let within = Limit::Words("within the limits about the neutral command");
+        let patient = Limit::Words("below the patience");
         let stuck = Limit::Words("above the interval and below the patience");
+        let wider = Limit::Words("above the half-width");
         let shorter = Limit::Words("shorter than the experiment");
         for (quantity, value, unit, inside, limit) in [
             ("reference", self.reference, COORDINATE, true, Limit::Finite),
@@ -140,6 +181,10 @@ impl<T: Scalar> Protocol<T> {
             ("relay level", self.relay_level, COMMAND, true, Limit::Positive),
             ("relay level", self.relay_level, COMMAND, level_fits, within),
             ("half-width", self.half_width, COORDINATE, true, Limit::Positive),
+            ("largest excursion", self.largest_excursion, COORDINATE, self.largest_excursion > self.half_width, wider),
+            ("way in the wrong direction", self.wrong_way, COORDINATE, true, Limit::Positive),
+            ("least time between switchings", self.dwell_s, "s", true, Limit::NonNegative),
+            ("least time between switchings", self.dwell_s, "s", self.dwell_s < self.patience_s, patient),
             ("sampling interval", self.interval_s, "s", true, Limit::Positive),
             ("resolution of the reading", self.resolution, COORDINATE, true, Limit::NonNegative),
             ("largest rate", self.largest_rate, "coordinate units per s", true, Limit::Positive),

@@ -19,6 +19,7 @@ impl<T: Scalar> Sensor<T> {
     pub(super) fn first(protocol: &Protocol<T>, reading: T, time_s: T) -> Result<Self, Fault> {
         finite("reading", reading)?;
         finite("time in s", time_s)?;
+        heading(protocol, reading)?;
         let position = match protocol.coordinate {
             Coordinate::Position => reading,
             Coordinate::HeadingRad | Coordinate::HeadingDegrees => nearest(protocol, reading, protocol.reference),
@@ -27,18 +28,32 @@ impl<T: Scalar> Sensor<T> {
         Ok(Self { time_s, reading, position, changed_s: time_s })
     }
 
+    /// Time since the sample; a fault where the clock runs backwards, or no sample has come for too long.
+    pub(super) fn age_s(&self, protocol: &Protocol<T>, time_s: T) -> Result<T, Fault> {
+        finite("time in s", time_s)?;
+        let age_s = time_s - self.time_s;
+        if !(age_s >= T::zero()) {
+            return Err(self.out_of_order(time_s));
+        }
+        let limit_s = T::from_f64(Protocol::<T>::LONGEST_GAP) * protocol.interval_s;
+        if !(age_s <= limit_s) {
+            return Err(Fault::Gap { gap_s: age_s.value(), limit_s: limit_s.value() });
+        }
+        Ok(age_s)
+    }
+
+    fn out_of_order(&self, time_s: T) -> Fault {
+        Fault::TimeOrder { time_s: time_s.value(), previous_s: self.time_s.value() }
+    }
+
     /// The next sample.
     pub(super) fn next(&self, protocol: &Protocol<T>, reading: T, time_s: T) -> Result<Self, Fault> {
         finite("reading", reading)?;
-        finite("time in s", time_s)?;
-        let interval_s = time_s - self.time_s;
-        if !(interval_s > T::zero()) {
-            return Err(Fault::TimeOrder { time_s: time_s.value(), previous_s: self.time_s.value() });
+        let interval_s = self.age_s(protocol, time_s)?;
+        if interval_s == T::zero() {
+            return Err(self.out_of_order(time_s));
         }
-        let limit_s = T::from_f64(Protocol::<T>::LONGEST_GAP) * protocol.interval_s;
-        if !(interval_s <= limit_s) {
-            return Err(Fault::Gap { gap_s: interval_s.value(), limit_s: limit_s.value() });
-        }
+        heading(protocol, reading)?;
         let (position, change) = match protocol.coordinate {
             Coordinate::Position => (reading, reading - self.reading),
             Coordinate::HeadingRad | Coordinate::HeadingDegrees => {
@@ -77,12 +92,25 @@ impl<T: Scalar> Sensor<T> {
     }
 }
 
+/// A whole turn of a heading.
+fn turn<T: Scalar>(coordinate: Coordinate) -> Option<T> {
+    match coordinate {
+        Coordinate::Position | Coordinate::Speed => None,
+        Coordinate::HeadingRad => Some(T::two() * T::pi()),
+        Coordinate::HeadingDegrees => Some(T::from_f64(360.0)),
+    }
+}
+
+/// Whether a reading can be a heading, where it has to be.
+fn heading<T: Scalar>(protocol: &Protocol<T>, reading: T) -> Result<(), Fault> {
+    let Some(turn) = turn::<T>(protocol.coordinate) else { return Ok(()) };
+    let limit = T::from_f64(Protocol::<T>::MOST_TURNS) * turn;
+    if reading.abs() <= limit { Ok(()) } else { Err(Fault::Range { reading: reading.value(), limit: limit.value() }) }
+}
+
 /// The heading that differs from the reading by whole turns and is nearest to another heading.
 fn nearest<T: Scalar>(protocol: &Protocol<T>, reading: T, other: T) -> T {
-    let turn = match protocol.coordinate {
-        Coordinate::HeadingDegrees => T::from_f64(360.0),
-        _ => T::two() * T::pi(),
-    };
+    let Some(turn) = turn::<T>(protocol.coordinate) else { return reading };
     reading + turn * ((other - reading) / turn + T::from_f64(0.5)).floor()
 }
 

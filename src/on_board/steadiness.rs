@@ -47,25 +47,24 @@ impl<T: Scalar> Steadiness<T> {
     }
 }
 
-/// The observer of one sample: the cycles with the protocol that judges them.
+/// The observer of one sample: the cycles with the relay level that they came by.
 pub(super) struct Judge<'a, T> {
     pub(super) steadiness: &'a mut Steadiness<T>,
-    pub(super) protocol: Protocol<T>,
     pub(super) relay_level: T,
 }
 
 impl<T: Scalar> Observer<T> for Judge<'_, T> {
-    fn begin(&mut self) {
-        *self.steadiness = Steadiness::new(&self.protocol);
+    fn begin(&mut self, protocol: &Protocol<T>) {
+        *self.steadiness = Steadiness::new(protocol);
     }
 
-    fn sample(&mut self, time_s: T, position: T, command: T) -> Observation {
+    fn sample(&mut self, protocol: &Protocol<T>, time_s: T, position: T, command: T) -> Observation {
         let Some(cycle) = self.steadiness.cycles.step(time_s, position, command) else {
             return Observation::Between;
         };
         self.steadiness.summary.push(cycle);
-        self.steadiness.compare(&cycle, &self.protocol);
-        if self.steadiness.alike < self.protocol.cycles {
+        self.steadiness.compare(&cycle, protocol);
+        if self.steadiness.alike < protocol.cycles {
             return Observation::Unsteady;
         }
         let Some(features) = self.steadiness.features() else { return Observation::Unsteady };

@@ -44,9 +44,9 @@ pub(crate) enum Observation {
 /// Whoever looks at the cycles.
 pub(crate) trait Observer<T> {
     /// Forgets all cycles: an attempt with other relay parameters begins.
-    fn begin(&mut self);
+    fn begin(&mut self, protocol: &Protocol<T>);
     /// Takes a sample with the command given upon it.
-    fn sample(&mut self, time_s: T, position: T, command: T) -> Observation;
+    fn sample(&mut self, protocol: &Protocol<T>, time_s: T, position: T, command: T) -> Observation;
 }
 
 /// Why an attempt failed.
@@ -55,11 +55,15 @@ enum Failure {
     NoSwitching,
     NotConverged,
     Condition40,
+    Noise,
 }
+
+/// Switchings wanted too early before an attempt is given up for noise. A fast start may want one.
+const MOST_EARLY: u8 = 4;
 
 /// All that decides on what a supervisor does next, its protocol being given; exact in its numbers.
 #[cfg(feature = "std")]
-pub(crate) type Key = (&'static str, [u64; 5], Option<[u64; 4]>, [u8; 2]);
+pub(crate) type Key = (&'static str, [u64; 7], Option<[u64; 4]>, [u8; 5]);
 
 /// The experiment but for its cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,8 +76,15 @@ pub(crate) struct Supervisor<T> {
     started_s: T,
     /// Last switching, or beginning of the attempt.
     switched_s: T,
+    /// Whether the relay has ever switched.
+    switched: bool,
+    /// Least and largest position since `switched_s`.
+    extent: (T, T),
     attempt: u8,
     cycles: u8,
+    /// Switchings of the attempt after which noise wanted the next one too early, and whether it did after the last.
+    early: u8,
+    hasty: bool,
 }
 
 impl<T: Scalar> Supervisor<T> {
@@ -87,8 +98,12 @@ impl<T: Scalar> Supervisor<T> {
             sensor: None,
             started_s: T::zero(),
             switched_s: T::zero(),
+            switched: false,
+            extent: (T::zero(), T::zero()),
             attempt: 1,
             cycles: 0,
+            early: 0,
+            hasty: false,
         })
     }
 
@@ -96,6 +111,16 @@ impl<T: Scalar> Supervisor<T> {
     pub(crate) fn step(&mut self, reading: T, time_s: T, observer: &mut impl Observer<T>) -> Step<T> {
         if self.phase == Phase::Running
             && let Err(fault) = self.run(reading, time_s, observer)
+        {
+            self.phase = Phase::Failed(fault);
+        }
+        Step { command: self.command(), phase: self.phase }
+    }
+
+    /// The command at a time without a sample.
+    pub(crate) fn tick(&mut self, time_s: T) -> Step<T> {
+        if let (Phase::Running, Some(sensor)) = (self.phase, &self.sensor)
+            && let Err(fault) = sensor.age_s(&self.protocol, time_s).and_then(|_| self.in_time(time_s))
         {
             self.phase = Phase::Failed(fault);
         }
@@ -138,10 +163,21 @@ impl<T: Scalar> Supervisor<T> {
         self.sensor.map(|sensor| sensor.position())
     }
 
+    /// Last switching, or beginning of the attempt, once there was a switching.
+    #[cfg(feature = "std")]
+    pub(crate) fn switched_s(&self) -> Option<T> {
+        self.switched.then_some(self.switched_s)
+    }
+    /// Least and largest position under the first command, while that lasts.
+    #[cfg(feature = "std")]
+    pub(crate) fn extent(&self) -> Option<(T, T)> {
+        (!self.switched && self.sensor.is_some()).then_some(self.extent)
+    }
+
     /// The state, for a table of visited ones. Of a fault its name: the numbers in it decide nothing.
     #[cfg(feature = "std")]
     pub(crate) fn key(&self) -> Key {
-        let Self { protocol: _, phase, relay, sensor, started_s, switched_s, attempt, cycles } = self;
+        let Self { protocol: _, phase, relay, sensor, started_s, switched_s, switched, extent, .. } = self;
         let phase = match phase {
             Phase::Running => "running",
             Phase::Done => "done",
@@ -154,9 +190,55 @@ impl<T: Scalar> Supervisor<T> {
             relay.characteristic().half_width(),
             *started_s,
             *switched_s,
+            extent.0,
+            extent.1,
         ];
         let numbers = numbers.map(|value| value.value().to_bits());
-        (phase, numbers, sensor.map(|sensor| sensor.key()), [*attempt, *cycles])
+        let counts = [self.attempt, self.cycles, self.early, u8::from(self.hasty), u8::from(*switched)];
+        (phase, numbers, sensor.map(|sensor| sensor.key()), counts)
+    }
+
+    fn in_time(&self, time_s: T) -> Result<(), Fault> {
+        if time_s - self.started_s < self.protocol.duration_s {
+            Ok(())
+        } else {
+            Err(Fault::Overtime { duration_s: self.protocol.duration_s.value() })
+        }
+    }
+
+    /// Whether the vehicle is where it may be.
+    fn in_place(&self, position: T) -> Result<(), Fault> {
+        let protocol = &self.protocol;
+        let distance = (position - protocol.reference).abs();
+        if !(distance <= protocol.largest_excursion) {
+            return Err(Fault::Excursion { distance: distance.value(), limit: protocol.largest_excursion.value() });
+        }
+        let high = self.relay.output() > protocol.neutral_command;
+        let moved = if high { self.extent.1 - position } else { position - self.extent.0 };
+        let limit = protocol.wrong_way + protocol.resolution;
+        if self.switched || moved <= limit {
+            Ok(())
+        } else {
+            Err(Fault::WrongWay { moved: moved.value(), limit: limit.value() })
+        }
+    }
+
+    /// The relay's command at a position; held where the last switching is too near.
+    fn switch(&mut self, position: T, time_s: T) -> T {
+        self.extent = (self.extent.0.min(position), self.extent.1.max(position));
+        let before = self.relay.output();
+        let mut relay = self.relay;
+        if relay.step(self.protocol.reference - position) == before {
+            return before;
+        }
+        if self.switched && time_s - self.switched_s < self.protocol.dwell_s {
+            self.early = self.early.saturating_add(u8::from(!self.hasty));
+            self.hasty = true;
+            return before;
+        }
+        (self.relay, self.switched, self.hasty) = (relay, true, false);
+        (self.switched_s, self.extent) = (time_s, (position, position));
+        relay.output()
     }
 
     fn run(&mut self, reading: T, time_s: T, observer: &mut impl Observer<T>) -> Result<(), Fault> {
@@ -164,21 +246,19 @@ impl<T: Scalar> Supervisor<T> {
             Some(sensor) => sensor.next(&self.protocol, reading, time_s)?,
             None => {
                 let first = Sensor::first(&self.protocol, reading, time_s)?;
+                let position = first.position();
                 (self.started_s, self.switched_s) = (time_s, time_s);
-                self.relay = RelayState::new(*self.relay.characteristic(), first.position() <= self.protocol.reference);
+                self.extent = (position, position);
+                self.relay = RelayState::new(*self.relay.characteristic(), position <= self.protocol.reference);
                 first
             }
         };
         self.sensor = Some(sensor);
-        if time_s - self.started_s >= self.protocol.duration_s {
-            return Err(Fault::Overtime { duration_s: self.protocol.duration_s.value() });
-        }
-        let before = self.relay.output();
-        let command = self.relay.step(self.protocol.reference - sensor.position());
-        if command != before {
-            self.switched_s = time_s;
-        }
-        match observer.sample(time_s, sensor.position(), command) {
+        self.in_place(sensor.position())?;
+        self.in_time(time_s)?;
+        let command = self.switch(sensor.position(), time_s);
+        match observer.sample(&self.protocol, time_s, sensor.position(), command) {
+            _ if self.early >= MOST_EARLY => self.retry(Failure::Noise, time_s, observer),
             Observation::Steady => {
                 self.phase = Phase::Done;
                 Ok(())
@@ -201,8 +281,19 @@ impl<T: Scalar> Supervisor<T> {
     /// The next attempt with other relay parameters, at the output that the relay has; a fault where there is none left.
     ///
     /// A relay that does not switch, or hardly overcomes the disturbance, gets a higher level; at the limit, a narrower
-    /// hysteresis makes the oscillation larger against it. Cycles that differ get a wider one.
+    /// hysteresis makes the oscillation larger against it. Cycles that differ get a wider one, and so does noise: against noise,
+    /// or a reading that goes nowhere, no level is raised.
     fn retry(&mut self, failure: Failure, time_s: T, observer: &mut impl Observer<T>) -> Result<(), Fault> {
+        let range = self.extent.1 - self.extent.0;
+        let still = (T::from_f64(1.5) * self.protocol.resolution).max(self.half_width() / T::two());
+        let failure = match failure {
+            Failure::NoSwitching if range <= still => {
+                let unchanged_s = (time_s - self.switched_s).value();
+                return Err(Fault::NoMotion { range: range.value(), unchanged_s });
+            }
+            Failure::NoSwitching | Failure::Condition40 if self.early > 0 => Failure::Noise,
+            other => other,
+        };
         let (factor, largest) = (self.protocol.factor, self.protocol.largest_level());
         let (relay_level, half_width) = (self.relay_level(), self.half_width());
         let next = match failure {
@@ -211,7 +302,9 @@ impl<T: Scalar> Supervisor<T> {
             }
             Failure::NoSwitching => None,
             Failure::Condition40 => Some((relay_level, half_width / factor)),
-            Failure::NotConverged => Some((relay_level, half_width * factor)),
+            Failure::NotConverged | Failure::Noise => {
+                Some((relay_level, half_width * factor)).filter(|(_, width)| *width < self.protocol.largest_excursion)
+            }
         };
         let Some((level, width)) = next.filter(|_| self.attempt < self.protocol.attempts) else {
             let (relay_level, half_width) = (relay_level.value(), half_width.value());
@@ -219,14 +312,18 @@ impl<T: Scalar> Supervisor<T> {
                 Failure::NoSwitching => Fault::NoOscillation { relay_level },
                 Failure::NotConverged => Fault::NotConverged { half_width },
                 Failure::Condition40 => Fault::Condition40 { relay_level, half_width },
+                Failure::Noise => Fault::Noise { half_width, dwell_s: self.protocol.dwell_s.value() },
             });
         };
         let high = self.relay.output() > self.protocol.neutral_command;
         let relay = self.protocol.relay(level, width).map_err(|_| Fault::NotConverged { half_width: width.value() })?;
         self.relay = RelayState::new(relay, high);
-        (self.switched_s, self.cycles) = (time_s, 0);
+        (self.switched_s, self.cycles, self.early, self.hasty) = (time_s, 0, 0, false);
+        if let Some(position) = self.position() {
+            self.extent = (position, position);
+        }
         self.attempt += 1;
-        observer.begin();
+        observer.begin(&self.protocol);
         Ok(())
     }
 }

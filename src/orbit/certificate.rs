@@ -14,12 +14,26 @@ use crate::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Certificate {
-    /// There is no other, among the oscillations with at most one command on its way.
+    /// There is no other oscillation. With a delay that does not exclude several commands on their way at once this is withheld:
+    /// faster oscillations of that kind may exist.
     pub unique: bool,
-    /// Every start that leads to switchings of both kinds approaches it.
+    /// Every start that leads to switchings of both kinds approaches it. Withheld likewise.
     pub attracting: bool,
+    /// Which starts that lead to switchings of both kinds approach it.
+    pub starts: Starts,
     /// Contains the limit cycle of exactly the parameters given.
     pub enclosure: LimitCycle<Interval>,
+}
+
+/// From where a limit cycle is approached.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
+pub enum Starts {
+    /// From everywhere: the delay is shorter than any way from one level to the other can take, so that after one delay at
+    /// most one command is on its way.
+    Every,
+    /// From where at most one command is on its way, and from then on no more are. Among these motions the cycle is unique.
+    OneCommandOnItsWay,
 }
 
 /// The limit cycle of `axis` under `relay` by enclosure: nothing in it rests on rounding having been kind.
@@ -28,7 +42,9 @@ pub struct Certificate {
 /// switching. **Uniqueness and attraction** because the way from rest to the level maps onto the next such way by an
 /// increasing, concave function with a positive value at zero: its slope `2 C v/((C -+ (delta + d) + drag(v)) v_0) - 1`,
 /// `v_0` the speed at the level and `v` at the switching, is positive and falls with `v_0` for linear, quadratic and mixed
-/// drag and any delay. So the half cycles in turn have exactly one fixed point, which every start approaches from its own side.
+/// drag and any delay. So the half cycles in turn have exactly one fixed point, which every start with at most one command on its
+/// way approaches from its own side. That there is no other start is known where the axis, driven from rest by the larger
+/// force, takes longer than the delay from one level to the other: it rests between crossing either.
 ///
 /// ```
 /// use selfosc::{nonlinearity::RelayHysteresis, orbit::certify, plant::DragAxis};
@@ -41,11 +57,12 @@ pub struct Certificate {
 /// ```
 ///
 /// # Errors
-/// As [`limit_cycle`]; [`OrbitError::Unresolved`] also where the enclosure fails, as with a multiplier near one.
+/// As [`limit_cycle`]; [`OrbitError::NotProved`] where the enclosure fails, as with a multiplier near one.
 pub fn certify(axis: &DragAxis<f64>, relay: &RelayHysteresis<f64>) -> Result<Certificate, OrbitError> {
     let halves = HalfCycle::pair(axis, relay)?;
     let (_, swings) = solve(&halves)?;
-    let unresolved = OrbitError::Unresolved { multiplier: limit_cycle(axis, relay)?.multiplier };
+    let half_period_s = 0.5 * limit_cycle(axis, relay)?.period_s;
+    let not_proved = |what| OrbitError::NotProved { what, half_period_s };
     let [upward, downward] = Half::pair(axis, relay)?;
     let guess = {
         let ([a, b], [c, d]) = (angles(&halves[0], &swings[0], axis), angles(&halves[1], &swings[1], axis));
@@ -72,13 +89,20 @@ pub fn certify(axis: &DragAxis<f64>, relay: &RelayHysteresis<f64>) -> Result<Cer
             _ => None,
         }
     });
-    let [a0, a, b0, b] = found.ok_or(unresolved)?;
+    let [a0, a, b0, b] = found.ok_or(not_proved("that it exists beside its floating-point approximation"))?;
     let (above, below) = (upward.end(a0, a), downward.end(b0, b));
     let enclosure = LimitCycle::between(half_width, &above, &below);
     if !enclosure.period_s.is_bounded() || !(enclosure.multiplier.upper() < 1.0) {
-        return Err(unresolved);
+        return Err(not_proved("that deviations from it shrink"));
     }
-    Ok(Certificate { unique: true, attracting: true, enclosure })
+    let way = Interval::two() * half_width;
+    let starts = if [upward, downward].iter().all(|half| half.farthest(delay_s).precedes(way)) {
+        Starts::Every
+    } else {
+        Starts::OneCommandOnItsWay
+    };
+    let alone = starts == Starts::Every;
+    Ok(Certificate { unique: alone, attracting: alone, starts, enclosure })
 }
 
 /// Near the angles (see [`Half`]) of the level and of the switching.
@@ -101,6 +125,8 @@ fn angles(half: &HalfCycle<f64>, swing: &Swing<f64>, axis: &DragAxis<f64>) -> [f
 /// whose rate is `slow + (fast - slow)(1 - exp(-angle))`: nothing in it is singular at terminal speed.
 #[derive(Clone, Copy, Debug)]
 struct Half {
+    /// Force of the command that drives over alpha.
+    drive: Interval,
     brake: OneWay<Interval>,
     terminal: Interval,
     /// Rate of the angle at rest, in 1/s.
@@ -120,9 +146,15 @@ impl Half {
             let terminal = motion.terminal_speed();
             let slow = motion.linear + motion.quadratic * terminal;
             let fast = slow + motion.quadratic * terminal;
-            Self { brake: interval.one_way(-brake), terminal, slow, fast }
+            Self { drive: motion.drive, brake: interval.one_way(-brake), terminal, slow, fast }
         };
         Ok([half(upward, downward), half(downward, upward)])
+    }
+
+    /// No way from rest is longer after a time under this command: by the drive without drag, and by terminal speed.
+    fn farthest(&self, time_s: Interval) -> Interval {
+        let free = self.drive * time_s.square() / Interval::two();
+        free.min(self.terminal * time_s)
     }
 
     fn rate(&self, angle: Interval) -> Interval {

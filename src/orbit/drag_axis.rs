@@ -171,7 +171,8 @@ const MAX_STEPS: usize = 60;
 /// Times from rest to the levels on the limit cycle, with the swings they give.
 pub(super) type Solution<S> = ([S; 2], [Swing<S>; 2]);
 
-/// Newton's method for the lengths of the two approaches, with the times as coordinates.
+/// Newton's method for the lengths of the two approaches, with the times as coordinates. Its own loop: it has two unknowns,
+/// derivatives in closed form, any [`Scalar`], and doubles both times where the return map does not contract.
 pub(super) fn solve<S: Scalar>(halves: &[HalfCycle<S>; 2]) -> Result<Solution<S>, OrbitError> {
     let one = S::one();
     let mean_drive = (halves[0].drive.drive + halves[1].drive.drive) / S::two();

@@ -58,6 +58,14 @@ pub enum OrbitError {
         /// The most there may be.
         limit: usize,
     },
+    /// More cycles than are followed, as with a delay of very many periods.
+    #[error("{cycles} cycles in the range of periods, at most {limit} are followed; give a range that begins later")]
+    TooManyCycles {
+        /// Cycles that close, genuine or not.
+        cycles: usize,
+        /// The most there may be.
+        limit: usize,
+    },
     /// A constant input or, for a plant without integrator, a reference that rules symmetric orbits out (Theorem 2).
     #[error(
         "no symmetric limit cycle with a constant input of {constant_input} and a reference of {reference}; \
@@ -131,6 +139,7 @@ impl OrbitError {
             Self::NoHysteresis => "no-hysteresis",
             Self::Unresolved { .. } => "orbit-unresolved",
             Self::TooManySamples { .. } => "too-many-samples",
+            Self::TooManyCycles { .. } => "too-many-cycles",
             Self::NotSymmetric { .. } => "not-symmetric",
             Self::LongDelay { .. } => "long-delay",
             Self::NotProved { .. } => "not-proved",

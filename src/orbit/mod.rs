@@ -20,7 +20,7 @@ mod relay_multiplier;
 mod tsypkin;
 
 #[cfg(feature = "std")]
-pub use certificate::{Certificate, certify};
+pub use certificate::{Certificate, Starts, certify};
 pub use drag_axis::{LimitCycle, Switching, limit_cycle};
 pub use error::OrbitError;
 #[cfg(feature = "std")]

@@ -9,7 +9,7 @@ use crate::plant::StateSpace;
 use crate::proof::Gradient;
 use crate::proof::branch_and_bound::{Visit, subdivide};
 use crate::proof::enclosure::{Roots, newton};
-use crate::proof::interval_matrix::{exponential, norm, solve};
+use crate::proof::interval_matrix::{contraction, exponential, solve};
 
 type Matrix = DMatrix<Interval>;
 
@@ -211,13 +211,6 @@ impl Half {
         let observed = &self.output * self.flow(swing.crossing)?;
         let along = &self.augmented * &flow * &swing.start * (Interval::ONE / swing.rate);
         let map = flow - along * observed;
-        let mut power = map.view((0, 0), (order, order)).into_owned();
-        for squaring in 0..=SQUARINGS {
-            if norm(&power) < 1.0 {
-                return Some(1 << squaring);
-            }
-            power = &power * &power;
-        }
-        None
+        contraction(&map.view((0, 0), (order, order)).into_owned(), SQUARINGS)
     }
 }

@@ -15,6 +15,8 @@ use crate::plant::StateSpace;
 
 /// The most samples a scan over periods takes.
 const SAMPLES: usize = 20_000;
+/// The most cycles that are followed. Where many periods fit into the delay there are as many, and the work grows as the square.
+const CYCLES: usize = 150;
 /// Shares of the period with positive command at which the scan for asymmetric cycles looks: 48 midpoints.
 const SHARES: u32 = 48;
 /// How far past a level the output may be before it counts as an earlier switching, relative to the output's size.
@@ -75,7 +77,7 @@ impl RelayLoop {
     ///
     /// # Errors
     /// [`OrbitError::Drift`] where an integrating plant cannot have one; [`OrbitError::OutOfDomain`],
-    /// [`OrbitError::TooManySamples`], [`OrbitError::TooManyPieces`], [`OrbitError::Plant`].
+    /// [`OrbitError::TooManySamples`], [`OrbitError::TooManyCycles`], [`OrbitError::TooManyPieces`], [`OrbitError::Plant`].
     pub fn orbits(&self, period_s: RangeInclusive<f64>) -> Result<Vec<RelayOrbit>, OrbitError> {
         let nodes = self.nodes(&period_s)?;
         let levels = self.levels();
@@ -201,6 +203,9 @@ impl RelayLoop {
 
     /// The cycles on which the relay switches when it should and not before.
     fn genuine(&self, cycles: Vec<Cycle>) -> Result<Vec<RelayOrbit>, OrbitError> {
+        if cycles.len() > CYCLES {
+            return Err(OrbitError::TooManyCycles { cycles: cycles.len(), limit: CYCLES });
+        }
         let mut orbits = Vec::new();
         for cycle in cycles {
             orbits.extend(self.orbit(cycle)?);
@@ -254,7 +259,9 @@ impl RelayLoop {
     }
 }
 
-/// Newton's method with difference quotients, kept near the cell it starts from.
+/// Newton's method with difference quotients for two unknowns, kept near the cell it starts from. Apart from
+/// [`increasing_root`](crate::numeric::increasing_root), which needs one unknown and a bracket; from the balance's own, because
+/// a start that leaves its cell is dropped here, not damped.
 fn newton(
     miss: impl Fn(Vector2<f64>) -> Option<Vector2<f64>>,
     start: Vector2<f64>,

@@ -5,9 +5,10 @@
 //! that does not vanish, enclosed from the border on; so the open domain is covered, the neighbourhood of its border too.
 
 use super::closed_form::{force_left, quadratic_half_cycle, return_slope};
-use crate::numeric::{Interval, Jet, Real};
-use crate::proof::inequality::{Cell, Inequality, Proof, Refusal, VARIABLES};
-use crate::proof::{Extent, Gradient, NotProved};
+use crate::numeric::Real;
+use crate::proof::inequality::{Inequality, Proof, Refusal, VARIABLES};
+use crate::proof::margin::Margin;
+use crate::proof::{Extent, NotProved, formula};
 
 /// A statement with the inequalities that it rests on.
 #[derive(Clone, Copy, Debug)]
@@ -63,11 +64,16 @@ const NEAR_ZERO: f64 = 0.05;
 /// From here on a border at one is treated by itself.
 const NEAR_ONE: f64 = 0.9;
 
-/// Denominator less numerator of the return map's slope, over the drag forces.
-fn excess(at: &Cell) -> Gradient<2> {
-    let [numerator, denominator] = return_slope(Gradient::constant(at[0]), Gradient::variables([at[1], at[2]]));
-    denominator - numerator
+/// Denominator less numerator of the return map's slope, over the drag forces, less a rate of growth.
+fn excess<T: Real>([mu, upper, lower]: [T; VARIABLES]) -> T {
+    let [numerator, denominator] = return_slope(mu, [upper, lower]);
+    denominator - numerator - T::from_f64(GROWTH) * (upper + lower)
 }
+
+/// The excess grows with either drag force at more than this rate.
+const GROWTH: f64 = 1.99;
+/// The multiplier falls short of one by more than this share of the drag forces.
+const RATE: f64 = 0.48;
 
 const MU_ALL: Extent = Extent::new("mu", -1.0, 1.0);
 const DRAG_1: Extent = Extent::new("d_1", 0.0, 2.0);
@@ -76,79 +82,85 @@ const DRAG_2: Extent = Extent::new("d_2", 0.0, 2.0);
 /// With no drag the excess is zero, so it is positive where there is drag.
 pub const EXCESS_FIRST: Inequality = Inequality {
     id: "excess-first",
-    statement: "the excess of the slope's denominator over its numerator grows with the drag at the upper switching",
+    statement: "the excess of the slope's denominator over its numerator grows with the drag at the upper switching, at a rate above 1.99",
     variables: [MU_ALL, DRAG_1, DRAG_2],
-    margin: |at| excess(at).slopes()[0],
+    margin: Margin::Slope { of: formula!(excess), by: 1 },
 };
 
 /// The same for the other drag.
 pub const EXCESS_SECOND: Inequality = Inequality {
     id: "excess-second",
-    statement: "the excess of the slope's denominator over its numerator grows with the drag at the lower switching",
-    variables: [MU_ALL, DRAG_1, DRAG_2],
-    margin: |at| excess(at).slopes()[1],
+    statement: "the excess of the slope's denominator over its numerator grows with the drag at the lower switching, at a rate above 1.99",
+    margin: Margin::Slope { of: formula!(excess), by: 2 },
+    ..EXCESS_FIRST
 };
 
-/// Denominator of the slope, the drag forces as shares of the forces that drive.
-fn denominator(at: &Cell) -> Interval {
-    let [upward, downward] = [Interval::ONE + at[0], Interval::ONE - at[0]];
-    return_slope(at[0], [at[1] * upward, at[2] * downward])[1]
+/// What the growth of the excess leaves over the rate times the slope's denominator, the drag forces as shares of the forces
+/// that drive.
+fn rate_left<T: Real>([mu, first, second]: [T; VARIABLES]) -> T {
+    let [upward, downward] = [T::one() + mu, T::one() - mu];
+    let [_, denominator] = return_slope(mu, [first * upward, second * downward]);
+    T::from_f64(GROWTH) - T::from_f64(RATE) * denominator
 }
 
-/// With the excess `2 (d_1 + d_2)` it bounds the multiplier: `1 - m > 0.48 (d_1 + d_2)`.
+/// With an excess above `1.99 (d_1 + d_2)` it bounds the multiplier: `1 - m > 0.48 (d_1 + d_2)`.
 pub const DENOMINATOR: Inequality = Inequality {
     id: "denominator",
-    statement: "the slope's denominator is below 4.1",
-    variables: [MU_ALL, Extent::new("d_1 over its force", 0.0, 1.0), Extent::new("d_2 over its force", 0.0, 1.0)],
-    margin: |at| Interval::point(4.1) - denominator(at),
+    statement: "0.48 times the slope's denominator is below 1.99",
+    variables: [MU_ALL, Extent::new("s_1", 0.0, 1.0), Extent::new("s_2", 0.0, 1.0)],
+    margin: Margin::Value(formula!(rate_left)),
 };
+
+fn force<T: Real>([speed, linear, _]: [T; VARIABLES]) -> T {
+    force_left(speed, linear)
+}
+
+fn force_lost<T: Real>(at: [T; VARIABLES]) -> T {
+    -force(at)
+}
 
 /// Up to half the terminal speed.
 pub const FORCE_SLOW: Inequality = Inequality {
     id: "force-slow",
     statement: "drag leaves force up to half the terminal speed",
-    variables: [Extent::new("speed", 0.0, 0.5), Extent::new("linear share", 0.0, 1.0), NONE],
-    margin: |at| force_left(at[0], at[1]),
+    variables: [Extent::new("speed", 0.0, 0.5), Extent::new("linear_share", 0.0, 1.0), NONE],
+    margin: Margin::Value(formula!(force)),
 };
 
 /// None is left at terminal speed, so some is left below.
 pub const FORCE_FAST: Inequality = Inequality {
     id: "force-fast",
     statement: "the force that drag leaves falls from half the terminal speed to all of it",
-    variables: [Extent::new("speed", 0.5, 1.0), Extent::new("linear share", 0.0, 1.0), NONE],
-    margin: |at| {
-        let [speed] = Gradient::variables([at[0]]);
-        -force_left(speed, Gradient::constant(at[1])).slopes()[0]
-    },
+    variables: [Extent::new("speed", 0.5, 1.0), Extent::new("linear_share", 0.0, 1.0), NONE],
+    margin: Margin::Slope { of: formula!(force_lost), by: 0 },
 };
+
+fn brake<T: Real>([mu, drag, _]: [T; VARIABLES]) -> T {
+    T::one() - mu + drag
+}
 
 /// After a switching the command and the drag brake together.
 pub const BRAKING: Inequality = Inequality {
     id: "braking",
     statement: "the other command brakes at every speed",
     variables: [MU, Extent::new("drag", 0.0, 2.0), NONE],
-    margin: |at| Interval::ONE - at[0] + at[1],
+    margin: Margin::Value(formula!(brake)),
 };
+
+fn quadratic_next<T: Real>([mu, y, gap]: [T; VARIABLES]) -> T {
+    quadratic_half_cycle(y, gap, T::one() + mu)
+}
 
 /// At `gap = 1` the next speed is the terminal one, so it lies below for every finite g.
 pub const QUADRATIC_NEXT: Inequality = Inequality {
     id: "quadratic-next",
     statement: "quadratic drag: the next switching speed grows with the gap 1 - exp(-4 g)",
     variables: [MU, Extent::new("y", 0.0, 2.0), Extent::new("gap", 0.0, 1.0)],
-    margin: |at| {
-        let [gap] = Gradient::variables([at[2]]);
-        quadratic_half_cycle(Gradient::constant(at[1]), gap, Gradient::constant(Interval::ONE + at[0])).slopes()[0]
-    },
+    margin: Margin::Slope { of: formula!(quadratic_next), by: 2 },
 };
 
-/// Taylor coefficient `N - 1` of a function, at every point between zero and those of `at`.
-fn last_coefficient<const N: usize>(at: Interval, function: impl Fn(Jet<N>) -> Jet<N>) -> Interval {
-    function(Jet::variable(at.hull(Interval::ZERO))).coefficients()[N - 1]
-}
-
-/// `w ln(1/w) < sqrt w`: bounds the term of a logarithm at its singularity, `w = 1 - at`.
-fn logarithmic_term(at: Interval) -> Interval {
-    (Interval::ONE - at).max(Interval::ZERO).sqrt() * Interval::UNIT.max(Interval::ZERO)
+fn linear_width<T: Real>([z, _, _]: [T; VARIABLES]) -> T {
+    z - z.tanh()
 }
 
 /// The equation of the period has a triple zero at zero.
@@ -156,7 +168,7 @@ pub const LINEAR_WIDTH_SHORT: Inequality = Inequality {
     id: "linear-width-short",
     statement: "linear drag: z - tanh z over z^3 is positive for z <= 1/2",
     variables: [Extent::new("z", 0.0, 0.5), NONE, NONE],
-    margin: |at| last_coefficient(at[0], |z: Jet<4>| z - z.tanh()),
+    margin: Margin::OverPower { of: formula!(linear_width), order: 3, near: 0.5 },
 };
 
 /// Its derivative for all longer periods.
@@ -164,11 +176,11 @@ pub const LINEAR_WIDTH_LONG: Inequality = Inequality {
     id: "linear-width-long",
     statement: "linear drag: z - tanh z grows for z >= 1/2",
     variables: [Extent::new("z", 0.5, f64::INFINITY), NONE, NONE],
-    margin: |at| at[0].tanh().square(),
+    margin: Margin::Slope { of: formula!(linear_width), by: 0 },
 };
 
 /// `(1 + r) ln(1 + r) + (1 - r) ln(1 - r)`: positive where the relative overshoot falls with g, `r = y*`.
-fn quadratic_overshoot<T: Real>(r: T) -> T {
+pub fn quadratic_overshoot<T: Real>([r, _, _]: [T; VARIABLES]) -> T {
     (T::one() + r) * r.ln_1p() + (T::one() - r) * (-r).ln_1p()
 }
 
@@ -176,26 +188,25 @@ fn quadratic_overshoot<T: Real>(r: T) -> T {
 pub const QUADRATIC_OVERSHOOT_WEAK: Inequality = Inequality {
     id: "quadratic-overshoot-weak",
     statement: "quadratic drag: the derivative of the relative overshoot, over y*^2 near zero, keeps its sign for y* <= 0.9",
-    variables: [Extent::new("y*", 0.0, NEAR_ONE), NONE, NONE],
-    margin: |at| {
-        if at[0].upper() > NEAR_ZERO {
-            quadratic_overshoot(at[0])
-        } else {
-            last_coefficient(at[0], quadratic_overshoot::<Jet<3>>)
-        }
-    },
+    variables: [Extent::new("r", 0.0, NEAR_ONE), NONE, NONE],
+    margin: Margin::OverPower { of: formula!(quadratic_overshoot), order: 2, near: NEAR_ZERO },
 };
+
+/// A lower bound of [`quadratic_overshoot`]: `w ln(1/w) < sqrt w` with `w = 1 - r` (`logarithm-low`, `logarithm-high`).
+fn quadratic_overshoot_bound<T: Real>([r, _, _]: [T; VARIABLES]) -> T {
+    (T::one() + r) * r.ln_1p() - (T::one() - r).sqrt()
+}
 
 /// Up to the strongest drag.
 pub const QUADRATIC_OVERSHOOT_STRONG: Inequality = Inequality {
     id: "quadratic-overshoot-strong",
     statement: "quadratic drag: the derivative of the relative overshoot keeps its sign for y* >= 0.9",
-    variables: [Extent::new("y*", NEAR_ONE, 1.0), NONE, NONE],
-    margin: |at| (Interval::ONE + at[0]) * at[0].ln_1p() - logarithmic_term(at[0]),
+    variables: [Extent::new("r", NEAR_ONE, 1.0), NONE, NONE],
+    margin: Margin::Value(formula!(quadratic_overshoot_bound)),
 };
 
 /// `t (t - ln(1 + t)) - (1 - t)(atanh t - t)`: positive where the relative overshoot falls with g, `t = tanh z`.
-fn linear_overshoot<T: Real>(t: T) -> T {
+pub fn linear_overshoot<T: Real>([t, _, _]: [T; VARIABLES]) -> T {
     t * (t - t.ln_1p()) - (T::one() - t) * (t.atanh() - t)
 }
 
@@ -203,26 +214,45 @@ fn linear_overshoot<T: Real>(t: T) -> T {
 pub const LINEAR_OVERSHOOT_WEAK: Inequality = Inequality {
     id: "linear-overshoot-weak",
     statement: "linear drag: the derivative of the relative overshoot, over tanh^3 z near zero, keeps its sign for tanh z <= 0.9",
-    variables: [Extent::new("tanh z", 0.0, NEAR_ONE), NONE, NONE],
-    margin: |at| {
-        if at[0].upper() > NEAR_ZERO {
-            linear_overshoot(at[0])
-        } else {
-            last_coefficient(at[0], linear_overshoot::<Jet<4>>)
-        }
-    },
+    variables: [Extent::new("t", 0.0, NEAR_ONE), NONE, NONE],
+    margin: Margin::OverPower { of: formula!(linear_overshoot), order: 3, near: NEAR_ZERO },
 };
 
-/// Up to the strongest drag: `(1 - t) atanh t = (1 - t) ln(1 + t)/2 - (1 - t) ln(1 - t)/2`.
+/// A lower bound of [`linear_overshoot`], by `(1 - t) atanh t = (1 - t) ln(1 + t)/2 - (1 - t) ln(1 - t)/2` and the logarithm's
+/// bound.
+fn linear_overshoot_bound<T: Real>([t, _, _]: [T; VARIABLES]) -> T {
+    let rest = T::one() - t;
+    let inverse = (rest * t.ln_1p() + rest.sqrt()) / T::two();
+    t * (t - t.ln_1p()) - (inverse - rest * t)
+}
+
+/// Up to the strongest drag.
 pub const LINEAR_OVERSHOOT_STRONG: Inequality = Inequality {
     id: "linear-overshoot-strong",
     statement: "linear drag: the derivative of the relative overshoot keeps its sign for tanh z >= 0.9",
-    variables: [Extent::new("tanh z", NEAR_ONE, 1.0), NONE, NONE],
-    margin: |at| {
-        let (t, rest) = (at[0], Interval::ONE - at[0]);
-        let inverse = (rest * t.ln_1p() + logarithmic_term(t)) / Interval::two();
-        t * (t - t.ln_1p()) - (inverse - rest * t)
-    },
+    variables: [Extent::new("t", NEAR_ONE, 1.0), NONE, NONE],
+    margin: Margin::Value(formula!(linear_overshoot_bound)),
+};
+
+/// `exp(v) - 2 v`, of `w = exp(-2 v)`: positive where `w ln(1/w) < sqrt w`.
+fn logarithm<T: Real>([v, _, _]: [T; VARIABLES]) -> T {
+    v.exp() - T::two() * v
+}
+
+/// `w ln(1/w) < sqrt w` for `w` from `exp(-2)` to one.
+pub const LOGARITHM_LOW: Inequality = Inequality {
+    id: "logarithm-low",
+    statement: "exp(v) exceeds 2 v for v <= 1",
+    variables: [Extent::new("v", 0.0, 1.0), NONE, NONE],
+    margin: Margin::Value(formula!(logarithm)),
+};
+
+/// For all smaller `w`.
+pub const LOGARITHM_HIGH: Inequality = Inequality {
+    id: "logarithm-high",
+    statement: "exp(v) - 2 v grows for v >= 1",
+    variables: [Extent::new("v", 1.0, f64::INFINITY), NONE, NONE],
+    margin: Margin::Slope { of: formula!(logarithm), by: 0 },
 };
 
 /// Quadratic drag: one attracting limit cycle.
@@ -279,12 +309,19 @@ pub const MULTIPLIER: Theorem = Theorem {
 pub const QUADRATIC_OVERSHOOT: Theorem = Theorem {
     id: "orbit-amplitude-monotone-quadratic",
     domain: "every g > 0, as y* = sqrt(1 - exp(-4 g)) in (0, 1)",
-    inequalities: &[QUADRATIC_OVERSHOOT_WEAK, QUADRATIC_OVERSHOOT_STRONG],
+    inequalities: &[QUADRATIC_OVERSHOOT_WEAK, QUADRATIC_OVERSHOOT_STRONG, LOGARITHM_LOW, LOGARITHM_HIGH],
 };
 
 /// Linear drag: the relative overshoot identifies g.
 pub const LINEAR_OVERSHOOT: Theorem = Theorem {
     id: "orbit-amplitude-monotone-linear",
     domain: "every g > 0, as tanh z in (0, 1)",
-    inequalities: &[LINEAR_OVERSHOOT_WEAK, LINEAR_OVERSHOOT_STRONG, LINEAR_WIDTH_SHORT, LINEAR_WIDTH_LONG],
+    inequalities: &[
+        LINEAR_OVERSHOOT_WEAK,
+        LINEAR_OVERSHOOT_STRONG,
+        LOGARITHM_LOW,
+        LOGARITHM_HIGH,
+        LINEAR_WIDTH_SHORT,
+        LINEAR_WIDTH_LONG,
+    ],
 };

@@ -5,6 +5,7 @@ use nalgebra::{Complex, DMatrix, DVector, RowDVector};
 
 use super::transfer::companion;
 use super::{PlantError, TransferFunction, all_finite, checked_delay};
+use crate::numeric::{Limit, domain};
 
 /// `x' = a x + b u(t - delay)`, `y = c x`: one input, one output, no feedthrough, time in seconds.
 ///
@@ -162,19 +163,24 @@ impl Flow {
     }
 }
 
+/// Above this the squares of balancing overflow, and its iteration need not end.
+const LARGEST_ENTRY: f64 = 1e75;
 /// Steps of the QR algorithm allowed for each eigenvalue; two or three are usual.
 const SWEEPS_PER_ORDER: usize = 100;
 
 /// Eigenvalues of a square matrix: balanced, then by the QR algorithm.
 ///
 /// # Errors
-/// [`PlantError::Eigenvalues`] where the iteration does not converge.
+/// [`PlantError::Eigenvalues`] where the iteration does not converge, and [`PlantError::OutOfDomain`] for an entry above 1e75.
 pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, PlantError> {
     let order = matrix.nrows();
     let failed = PlantError::Eigenvalues { order };
     if matrix.iter().any(|value| !value.is_finite()) {
         return Err(failed);
     }
+    let largest = matrix.amax();
+    let limit = Limit::AtMost(LARGEST_ENTRY);
+    domain::require("largest coefficient over the leading one", largest, "", limit, "scale the plant's time unit")?;
     let mut balanced = matrix.clone();
     // Coefficients of a companion matrix span decades: without this its small eigenvalues drown.
     balance_parlett_reinsch(&mut balanced);

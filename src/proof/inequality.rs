@@ -1,9 +1,9 @@
 //! Inequalities over boxes, and proofs of them that can be checked again without a search.
 
-use core::fmt;
-use core::str::FromStr;
+use serde::{Deserialize, Serialize};
 
 use super::branch_and_bound::prove_positive;
+use super::margin::Margin;
 use super::outcome::{Extent, NotProved};
 use crate::numeric::Interval;
 
@@ -22,8 +22,8 @@ pub struct Inequality {
     pub statement: &'static str,
     /// The box.
     pub variables: [Extent; VARIABLES],
-    /// An enclosure of the margin over a part of the box.
-    pub margin: fn(&Cell) -> Interval,
+    /// What exceeds zero.
+    pub margin: Margin,
 }
 
 /// A proof: boxes that cuts divide the domain into, on each of which interval arithmetic alone shows the inequality.
@@ -32,9 +32,7 @@ pub struct Inequality {
 /// cover the domain. To check a proof takes one evaluation for each box; the search took one more for each box that it
 /// divided, and one for that box's midpoint: about three times as long. Where the domain need not be divided, search
 /// and check are the same one evaluation.
-///
-/// As text, one item a line: `inequality ID`, `domain LO HI ...`, `bound B`, and `box LO HI ...` for each box.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Proof {
     /// What was proved, by [`Inequality::id`].
     pub inequality: String,
@@ -50,13 +48,21 @@ pub struct Proof {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Refusal {
-    /// A line that is not of the format.
-    #[error("line {line}: `{text}` is not an item of a proof, or is out of place")]
+    /// A file that is not of the format.
+    #[error("not a certificate: {text}")]
     Malformed {
-        /// From one.
-        line: usize,
-        /// The line.
+        /// What is amiss, and where.
         text: String,
+    },
+    /// A certificate that says something else than what it should prove.
+    #[error("`{field}` is not that of `{claim}`: {found}")]
+    Statement {
+        /// The claim in question.
+        claim: &'static str,
+        /// Which item of the certificate.
+        field: &'static str,
+        /// What it says.
+        found: String,
     },
     /// A proof of something else.
     #[error("a proof of `{found}`; `{expected}` is in question")]
@@ -105,6 +111,7 @@ impl Refusal {
     pub fn code(&self) -> &'static str {
         match self {
             Self::Malformed { .. } => "malformed-proof",
+            Self::Statement { .. } => "other-statement",
             Self::Other { .. } => "other-proof",
             Self::Missing { .. } => "missing-proof",
             Self::Domain { .. } => "other-domain",
@@ -129,7 +136,7 @@ impl Inequality {
     /// [`NotProved`].
     pub fn prove(&self, budget: usize) -> Result<Proof, NotProved<VARIABLES>> {
         let domain = self.domain().ok_or(NotProved::Undecided { at: [Interval::ENTIRE; VARIABLES], boxes: 0 })?;
-        let proved = prove_positive(self.margin, domain, budget)?;
+        let proved = prove_positive(|at| self.margin.over(at), domain, budget)?;
         let bound = proved.bound.value();
         Ok(Proof { inequality: self.id.to_owned(), domain, bound, boxes: proved.parts })
     }
@@ -150,7 +157,7 @@ impl Inequality {
             return Err(Refusal::Bound { bound: proof.bound });
         }
         for (index, at) in proof.boxes.iter().enumerate() {
-            let margin = (self.margin)(at);
+            let margin = self.margin.over(at);
             if margin.lower() < proof.bound {
                 return Err(Refusal::NotShown { index, margin, bound: proof.bound });
             }
@@ -181,61 +188,4 @@ fn join(before: &Cell, after: &Cell) -> Option<Cell> {
     whole[cut] = before[cut].hull(after[cut]);
     let others_agree = (cut + 1..VARIABLES).all(|i| before[i] == after[i]);
     (others_agree && before[cut].upper() == after[cut].lower()).then_some(whole)
-}
-
-struct Numbers<'a>(&'a Cell);
-
-impl fmt::Display for Numbers<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // The shortest decimals that give the same doubles again.
-        self.0.iter().try_for_each(|side| write!(f, " {:?} {:?}", side.lower(), side.upper()))
-    }
-}
-
-impl fmt::Display for Proof {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "inequality {}\ndomain{}\nbound {:?}", self.inequality, Numbers(&self.domain), self.bound)?;
-        self.boxes.iter().try_for_each(|at| writeln!(f, "box{}", Numbers(at)))
-    }
-}
-
-/// Several proofs, one after the other.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Proofs(pub Vec<Proof>);
-
-impl fmt::Display for Proofs {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.iter().try_for_each(|proof| write!(f, "{proof}"))
-    }
-}
-
-impl FromStr for Proofs {
-    type Err = Refusal;
-
-    fn from_str(text: &str) -> Result<Self, Refusal> {
-        let mut proofs: Vec<Proof> = Vec::new();
-        for (index, line) in text.lines().enumerate() {
-            let fault = || Refusal::Malformed { line: index + 1, text: line.to_owned() };
-            let (item, rest) = line.split_once(' ').ok_or_else(fault)?;
-            if item == "inequality" {
-                let domain = [Interval::ENTIRE; VARIABLES];
-                proofs.push(Proof { inequality: rest.to_owned(), domain, bound: 0.0, boxes: Vec::new() });
-                continue;
-            }
-            let proof = proofs.last_mut().ok_or_else(fault)?;
-            match item {
-                "domain" => proof.domain = cell(rest).ok_or_else(fault)?,
-                "bound" => proof.bound = rest.parse().map_err(|_| fault())?,
-                "box" => proof.boxes.push(cell(rest).ok_or_else(fault)?),
-                _ => return Err(fault()),
-            }
-        }
-        Ok(Self(proofs))
-    }
-}
-
-fn cell(text: &str) -> Option<Cell> {
-    let numbers: Vec<f64> = text.split(' ').map(|word| word.parse().ok()).collect::<Option<_>>()?;
-    let [a, b, c, d, e, f] = numbers[..] else { return None };
-    Some([Interval::new(a, b)?, Interval::new(c, d)?, Interval::new(e, f)?])
 }

@@ -60,6 +60,27 @@ pub fn exponential(matrix: &DMatrix<Interval>) -> Option<DMatrix<Interval>> {
     Some(sum)
 }
 
+/// The lowest power of two, at most `2^squarings`, to which every matrix in `matrix` shrinks every vector in the norm of the largest
+/// component; `None` where none is shown to.
+///
+/// ```
+/// use nalgebra::dmatrix;
+/// use selfosc::{numeric::Interval, proof::interval_matrix::contraction};
+/// assert_eq!(contraction(&dmatrix![0.9, 1.0; 0.0, 0.9].map(Interval::point), 12), Some(32));
+/// assert_eq!(contraction(&dmatrix![1.0, 0.0; 0.0, 0.9].map(Interval::point), 12), None);
+/// ```
+#[must_use]
+pub fn contraction(matrix: &DMatrix<Interval>, squarings: u32) -> Option<u32> {
+    let mut power = matrix.clone();
+    for squaring in 0..=squarings {
+        if norm(&power) < 1.0 {
+            return Some(1 << squaring);
+        }
+        power = &power * &power;
+    }
+    None
+}
+
 /// Encloses every solution of `matrix x = right`: elimination, the largest pivot first. `None` where a pivot may be zero, as
 /// for a matrix that is singular or nearly so.
 ///

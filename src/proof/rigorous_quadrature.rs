@@ -1,4 +1,8 @@
-//! Enclosures of integrals of piecewise smooth functions, without antiderivatives and without known breakpoints.
+//! Rigorous quadrature by Taylor models: integrals of piecewise smooth functions, without antiderivatives and without known
+//! breakpoints.
+//!
+//! It subdivides on its own, not by branch and bound: the widest contribution goes first, since a sum of widths decides and
+//! not one cell; and cells shrink geometrically towards an end at which derivatives grow without bound.
 
 use core::array;
 

@@ -11,6 +11,7 @@ mod html;
 pub mod identification;
 mod nyquist;
 pub mod paper;
+mod sketch;
 mod table;
 
 pub use characteristics::characteristics;
@@ -18,4 +19,5 @@ pub use error::ReportError;
 pub use figure::{Figure, Mark, Panel, Series};
 pub use html::{Document, Section};
 pub use nyquist::nyquist;
+pub use sketch::sketch;
 pub use table::{Cell, Table};

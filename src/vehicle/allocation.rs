@@ -42,6 +42,7 @@ impl<T: Scalar> Allocation<T, 2, 2> {
     pub fn pair(arm_m: T) -> Result<Self, VehicleError> {
         domain::positive("lever arm", arm_m, "m")?;
         let (one, half) = (T::one(), T::from_f64(0.5));
+        domain::representable("inverse of the lever arm", half / arm_m, "1/m")?;
         Ok(Self { matrix: [[one, one], [arm_m, -arm_m]], inverse: [[half, half / arm_m], [half, -half / arm_m]] })
     }
 }
@@ -88,17 +89,15 @@ impl<const AXES: usize, const THRUSTERS: usize> Allocation<f64, AXES, THRUSTERS>
         if AXES == 0 || THRUSTERS == 0 {
             return Err(VehicleError::Count { what: "axes or thrusters", count: 0, needed: 1 });
         }
+        // Of size one, so that no square overflows.
+        let largest = matrix.iter().flatten().fold(0.0, |largest: f64, entry| largest.max(entry.abs()));
+        let size = if largest > 0.0 { largest } else { 1.0 };
         // The tall one of the matrix and its transpose, by QR with column pivoting: `A P = Q R`.
         let wide = AXES < THRUSTERS;
         let needed = AXES.min(THRUSTERS);
-        let tall =
-            nalgebra::DMatrix::from_fn(
-                AXES.max(THRUSTERS),
-                needed,
-                |i, j| {
-                    if wide { matrix[j][i] } else { matrix[i][j] }
-                },
-            );
+        let tall = nalgebra::DMatrix::from_fn(AXES.max(THRUSTERS), needed, |i, j| {
+            if wide { matrix[j][i] / size } else { matrix[i][j] / size }
+        });
         let (q, r, order) = tall.col_piv_qr().unpack();
         let rank = r.diagonal().iter().filter(|pivot| pivot.abs() > r[(0, 0)].abs() * Self::RANK_TOLERANCE).count();
         let deficient = VehicleError::RankDeficient { what: "the allocation matrix", rank, needed };
@@ -107,7 +106,10 @@ impl<const AXES: usize, const THRUSTERS: usize> Allocation<f64, AXES, THRUSTERS>
         }
         let mut inverse = r.solve_upper_triangular(&q.transpose()).ok_or(deficient)?;
         order.inv_permute_rows(&mut inverse);
-        let entry = |i: usize, j: usize| if wide { inverse[(j, i)] } else { inverse[(i, j)] };
+        let entry = |i: usize, j: usize| if wide { inverse[(j, i)] / size } else { inverse[(i, j)] / size };
+        for &unscaled in inverse.iter() {
+            domain::representable("entry of the allocation's inverse", unscaled / size, "")?;
+        }
         Ok(Self { matrix, inverse: core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j))) })
     }
 }

@@ -1,4 +1,4 @@
-//! Allocation within thrust limits.
+//! Control allocation within thrust limits: bounded weighted least squares by an active-set method.
 
 use crate::numeric::{Limit, domain};
 use nalgebra::{DMatrix, DVector};

@@ -21,13 +21,13 @@ use crate::on_board::{Coordinate, Experiment, Phase, Protocol};
 /// # use nalgebra::Vector6;
 /// use selfosc::experiment::Sensor;
 /// use selfosc::identify::DragLaw;
-/// use selfosc::on_board::{Coordinate, Protocol};
+/// use selfosc::on_board::Protocol;
 /// let thrusters = pool_thrusters()?;
 /// let pair = [*thrusters[0].thruster(), *thrusters[1].thruster()];
 /// let chain = Compensation::new(Allocation::pair(0.08)?, pair);
 /// // A compass of one degree, read 0.1 s late; the thrusters are 0.1 s late too.
 /// let compass = Sensor { delay_s: 0.1, quantum: 1f64.to_radians(), noise: 0.0 };
-/// let protocol = Protocol { resolution: compass.quantum, ..Protocol::new(Coordinate::HeadingRad, 0.06, 0.3, 0.1) };
+/// let protocol = Protocol { resolution: compass.quantum, ..Protocol::heading_rad(0.06, 0.3, 0.1) };
 /// let pool = Simulation::new(pool_vehicle()?, thrusters.to_vec(), 0.01, BodyState::at_rest())?;
 /// let run = Trial::new(Axis::Yaw, protocol, compass)?.run(
 ///     pool,

@@ -46,7 +46,7 @@ pub(crate) fn values(entry: &Entry, rng: &mut impl Rng) -> Vec<f64> {
         match parameter.domain {
             ParameterDomain::Positive => values.push(size),
             // An exponent is dimensionless: within what drag laws and springs have, and somewhat beyond.
-            ParameterDomain::NonNegative if parameter.name == "exponent" => {
+            ParameterDomain::Exponent => {
                 let exponent = rng.random_range(0.05..12.0);
                 let near: f64 = rng.random_range(0..=24).into();
                 let near = 0.5 * near + sign(rng) * small(rng, 2.0, 16.0);

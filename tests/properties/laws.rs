@@ -377,7 +377,18 @@ fn every_page_is_complete_and_its_sketch_is_true() {
         for parameter in entry.parameters.iter().filter(|_| entry.name != "polynomial") {
             assert!(entry.page.contains(parameter.name), "the page of {} is silent on {}", entry.name, parameter.name);
         }
-        let drawn = entry.draw().unwrap();
+        let example = entry.example().unwrap();
+        let line = entry.page.lines().find_map(|line| line.strip_prefix("Sketch: ")).unwrap();
+        let (mut amplitude, mut settings) = (f64::NAN, Vec::new());
+        for (name, value) in line.trim_end_matches('.').split(';').map(|item| item.split_once('=').unwrap()) {
+            match (name.trim(), value.trim().parse::<Setting>().unwrap()) {
+                ("amplitude", Setting::Number(number)) => amplitude = number,
+                (name, value) => settings.push((name.to_owned(), value)),
+            }
+        }
+        let written = (amplitude, entry.values(&settings).unwrap());
+        assert_eq!((example.amplitude, example.values), written, "the page of {} shows another example", entry.name);
+        let drawn = selfosc::report::sketch(entry).unwrap();
         if std::env::var_os("SELFOSC_DRAW").is_some() {
             let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/spec/characteristics");
             std::fs::write(format!("{folder}/{}.svg", entry.name), &drawn).unwrap();

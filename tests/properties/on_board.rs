@@ -82,7 +82,7 @@ fn axis(drag: (f64, f64), disturbance: f64) -> DragAxis<f64> {
 }
 
 fn protocol() -> Protocol<f64> {
-    Protocol { largest_rate: 20.0, ..Protocol::new(Coordinate::Position, 1.0, 0.5, INTERVAL_S) }
+    Protocol::new(Coordinate::Position, 1.0, 0.5, 20.0, INTERVAL_S)
 }
 
 fn done<T: Scalar>(run: &Run<T>) -> Outcome<T> {
@@ -138,6 +138,15 @@ fn irregular(time_s: f64) -> f64 {
     if half % 2 == 0 { 1.0 } else { -1.0 }
 }
 
+/// A reading that noise of this range on either side throws about, evenly spread and the same each time.
+fn shaken(range: f64) -> impl Fn(f64, &State<f64>) -> f64 {
+    move |time_s, state| {
+        let sample = (time_s / INTERVAL_S).round();
+        state.position
+            + range * (2.0 * (0.618_033_988_75 * sample + 0.5 * (0.414_213_562 * sample).fract()).fract() - 1.0)
+    }
+}
+
 /// One scenario for each fault, and no fault without one.
 #[test]
 fn every_fault_has_a_name() {
@@ -154,7 +163,18 @@ fn every_fault_has_a_name() {
     expect("jump", run(protocol(), calm(), broken(3.0, 1e3)));
     expect("stuck", run(protocol(), calm(), broken(0.0, 0.01)));
     // A disturbance that the limits do not allow to overcome.
-    expect("no-oscillation", run(protocol(), Pool::new(axis((0.5, 0.0), 5.0), 1), plain));
+    let roomy = Protocol { largest_excursion: 1e4, wrong_way: 1e4, ..protocol() };
+    expect("no-oscillation", run(roomy, Pool::new(axis((0.5, 0.0), 5.0), 1), plain));
+    expect("excursion", run(Protocol { wrong_way: 1e4, ..protocol() }, Pool::new(axis((0.5, 0.0), 5.0), 1), plain));
+    // A reversed actuator.
+    expect("wrong-way", run(protocol(), calm(), |_, state| -state.position));
+    let degrees = Protocol { coordinate: Coordinate::HeadingDegrees, ..protocol() };
+    expect("range", run(degrees, calm(), broken(1.0, 1e17)));
+    expect(
+        "no-motion",
+        run(protocol(), calm(), |time_s, _| if (time_s / INTERVAL_S).round() % 2.0 > 0.5 { 0.01 } else { 0.0 }),
+    );
+    expect("noise", run(Protocol { factor: 1.1, largest_rate: 1e3, ..protocol() }, calm(), shaken(2.0)));
     // Cycles that come as they like.
     let jitter = |time_s: f64, _: &State<f64>| irregular(time_s);
     expect("not-converged", run(Protocol { largest_rate: 1e3, factor: 1.1, ..protocol() }, calm(), jitter));
@@ -180,6 +200,11 @@ fn every_fault_has_a_name() {
         "time-order",
         "gap",
         "jump",
+        "range",
+        "excursion",
+        "wrong-way",
+        "no-motion",
+        "noise",
         "stuck",
         "no-oscillation",
         "not-converged",
@@ -201,6 +226,11 @@ fn a_protocol_outside_its_domain_is_refused() {
         Protocol { neutral_command: 1.5, ..good },
         Protocol { relay_level: 0.0, ..good },
         Protocol { half_width: 0.0, ..good },
+        Protocol { largest_excursion: 0.5, ..good },
+        Protocol { largest_excursion: f64::INFINITY, ..good },
+        Protocol { wrong_way: 0.0, ..good },
+        Protocol { dwell_s: -1.0, ..good },
+        Protocol { dwell_s: 20.0, ..good },
         Protocol { interval_s: 0.0, ..good },
         Protocol { resolution: -0.1, ..good },
         Protocol { largest_rate: f64::NAN, ..good },
@@ -297,7 +327,7 @@ proptest! {
         let kinds = [Coordinate::Position, Coordinate::HeadingRad, Coordinate::HeadingDegrees, Coordinate::Speed];
         let protocol = Protocol { coordinate: kinds[coordinate], largest_rate: f64::MAX, ..protocol() };
         let mut wide = Experiment::new(protocol).unwrap();
-        let mut narrow = Experiment::new(Protocol::new(kinds[coordinate], 1f32, 0.5, 0.1)).unwrap();
+        let mut narrow = Experiment::new(Protocol::new(kinds[coordinate], 1f32, 0.5, 20.0, 0.1)).unwrap();
         for (sample, (reading, time_s)) in samples.iter().enumerate() {
             // Every other time is a sound one, so that the readings are looked at.
             let time_s = if sample % 2 == 0 { *time_s } else { 0.1 * sample as f64 };
@@ -355,7 +385,7 @@ proptest! {
     fn single_precision_agrees(linear in 0.2..1.0f64, disturbance in -0.3..0.3f64) {
         let pool = || Pool::new(axis((linear, 0.3), disturbance), 1);
         let wide = done(&run(protocol(), pool(), plain));
-        let protocol = Protocol { largest_rate: 20f32, ..Protocol::new(Coordinate::Position, 1.0, 0.5, INTERVAL_S as f32) };
+        let protocol = Protocol::new(Coordinate::Position, 1f32, 0.5, 20.0, INTERVAL_S as f32);
         let narrow = done(&run(protocol, pool(), plain));
         for law in [DragLaw::Linear, DragLaw::Quadratic] {
             let (wide, narrow) = (wide.exact(law, 0.1).unwrap(), narrow.exact(law, 0.1).unwrap());
@@ -374,4 +404,152 @@ proptest! {
         prop_assert!((is / was - 1.0).abs() < 3.0 * tolerance::SLOW_MODEL, "{found:?}");
         prop_assert!((found.disturbance() - disturbance).abs() < tolerance::SLOW_MODEL, "{found:?}");
     }
+}
+
+/// What a run did to its vehicle: the fault, the largest true excursion, how long it drove, the largest command, and the shortest
+/// time between two switchings.
+struct Harm {
+    code: &'static str,
+    excursion: f64,
+    drove_s: f64,
+    strongest: f64,
+    shortest_s: f64,
+}
+
+/// A plant by the sign of its actuator, seen through a sensor, under an experiment in either precision.
+fn harm<T: Scalar>(protocol: Protocol<f64>, sign: f64, sensor: impl Fn(f64, &State<f64>) -> f64) -> Harm {
+    let number = T::from_f64;
+    let protocol = Protocol {
+        resolution: number(protocol.resolution),
+        largest_rate: number(protocol.largest_rate),
+        factor: number(protocol.factor),
+        ..Protocol::new(
+            protocol.coordinate,
+            number(protocol.relay_level),
+            number(protocol.half_width),
+            number(protocol.largest_excursion),
+            number(protocol.interval_s),
+        )
+    };
+    let mut experiment = Experiment::new(protocol).unwrap();
+    let mut pool = Pool::new(axis((0.5, 0.0), 0.0), 1);
+    let mut harm = Harm { code: "none", excursion: 0.0, drove_s: 0.0, strongest: 0.0, shortest_s: f64::INFINITY };
+    let (mut switched_s, mut before) = (None, 0.0);
+    for sample in 0..10_000 {
+        let time_s = INTERVAL_S * f64::from(sample);
+        let step = experiment.step(number(sensor(time_s, &pool.state)), number(time_s));
+        let command = step.command.value();
+        if let Phase::Failed(fault) = step.phase {
+            harm.code = fault.code();
+            assert_eq!(command, 0.0);
+            break;
+        }
+        if command * before < 0.0 {
+            harm.shortest_s = switched_s.map_or(harm.shortest_s, |at_s| harm.shortest_s.min(time_s - at_s));
+            switched_s = Some(time_s);
+        }
+        before = command;
+        pool.advance(sign * command);
+        harm.drove_s = time_s;
+        harm.strongest = harm.strongest.max(command.abs());
+        harm.excursion = harm.excursion.max(pool.state.position.abs());
+    }
+    harm
+}
+
+/// What a fault may do before it has a name, in single and in double precision.
+#[test]
+fn a_fault_is_named_before_it_does_harm() {
+    fn all<T: Scalar>() {
+        let calm = Protocol::new(Coordinate::Position, 1.0, 0.5, 3.0, INTERVAL_S);
+        let reversed = harm::<T>(calm, -1.0, plain);
+        // Two half-widths, and a little for the delay; at the first level.
+        assert_eq!(reversed.code, "wrong-way");
+        assert!(
+            reversed.excursion < 1.5 && reversed.drove_s < 5.0 && reversed.strongest == 1.0,
+            "{}",
+            reversed.excursion
+        );
+
+        let toggling =
+            harm::<T>(calm, 1.0, |time_s, _| if (time_s / INTERVAL_S).round() % 2.0 > 0.5 { 0.01 } else { 0.0 });
+        assert_eq!(toggling.code, "no-motion");
+        // The patience, and never at a higher level.
+        assert!(toggling.drove_s < 20.2 && toggling.strongest == 1.0);
+
+        let noisy =
+            harm::<T>(Protocol { largest_rate: 1e3, largest_excursion: 20.0, factor: 1.1, ..calm }, 1.0, shaken(2.0));
+        assert_eq!(noisy.code, "noise");
+        // Not sooner than the dwell of four intervals, and never at a higher level.
+        assert!(noisy.shortest_s > 3.9 * INTERVAL_S && noisy.strongest == 1.0, "{}", noisy.shortest_s);
+        assert!(noisy.excursion < 20.0 && noisy.drove_s < 60.0);
+    }
+    all::<f32>();
+    all::<f64>();
+}
+
+/// Headings that no vehicle has, at the defaults.
+#[test]
+fn absurd_headings_are_refused() {
+    fn refused<T: Scalar>() {
+        let number = T::from_f64;
+        for (protocol, turn) in [
+            (Protocol::<T>::heading_rad(number(0.1), number(0.2), number(0.05)), core::f64::consts::TAU),
+            (Protocol::heading_degrees(number(0.1), number(15.0), number(0.05)), 360.0),
+        ] {
+            for (reading, code) in [
+                (1e17, "range"),
+                (-1e30, "range"),
+                (100.5 * turn, "range"),
+                (170.0 / 360.0 * turn, "jump"),
+                (10.0 / 360.0 * turn, "jump"),
+            ] {
+                let mut experiment = Experiment::new(protocol).unwrap();
+                let first = experiment.step(number(0.0), number(0.0));
+                assert_eq!((first.phase, first.command), (Phase::Running, number(0.1)));
+                let step = experiment.step(number(reading), number(0.05));
+                assert!(matches!(step.phase, Phase::Failed(fault) if fault.code() == code), "{reading} {step:?}");
+                assert_eq!(step.command, T::zero());
+            }
+            // At once, where the first reading is astray, and for a start beyond a quarter turn.
+            for (reading, code) in [(1e17, "range"), (100.0 / 360.0 * turn, "excursion")] {
+                let step = Experiment::new(protocol).unwrap().step(number(reading), number(0.0));
+                assert!(matches!(step.phase, Phase::Failed(fault) if fault.code() == code), "{reading} {step:?}");
+            }
+        }
+    }
+    refused::<f32>();
+    refused::<f64>();
+}
+
+/// A timer beside a driver that blocks ends the command within the longest gap.
+#[test]
+fn a_blocked_driver_is_noticed_by_the_clock() {
+    fn noticed<T: Scalar>() {
+        let number = T::from_f64;
+        let protocol = Protocol::new(Coordinate::Position, number(1.0), number(0.5), number(3.0), number(0.125));
+        let fresh = Experiment::new(protocol).unwrap();
+        let mut waiting = fresh;
+        assert_eq!((waiting.tick(number(9.0)).command, waiting.phase()), (T::zero(), Phase::Running));
+        let mut driven = fresh;
+        assert_eq!(driven.step(number(0.0), number(1.0)).command, number(1.0));
+        for (ticks, code) in
+            [(vec![1.0, 1.25, 1.5, 1.501], "gap"), (vec![f64::NAN], "not-finite"), (vec![0.9], "time-order")]
+        {
+            let mut experiment = driven;
+            let (last, sound) = ticks.split_last().unwrap();
+            for time_s in sound {
+                assert_eq!(experiment.tick(number(*time_s)).command, number(1.0));
+            }
+            let step = experiment.tick(number(*last));
+            assert!(matches!(step.phase, Phase::Failed(fault) if fault.code() == code), "{step:?}");
+            assert_eq!((step.command, experiment.step(number(0.0), number(1.125)).command), (T::zero(), T::zero()));
+        }
+        // Sound ticks change nothing.
+        let mut ticked = driven;
+        ticked.tick(number(1.1));
+        assert_eq!(ticked.step(number(0.1), number(1.125)), driven.step(number(0.1), number(1.125)));
+    }
+    noticed::<f32>();
+    noticed::<f64>();
 }

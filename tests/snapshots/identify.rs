@@ -200,3 +200,35 @@ fn usage() {
     });
     golden!("identify-usage", answers.join("\n"));
 }
+
+/// A report never replaces the log it is made from, by whatever name; nothing half-written stays; no escape sequence gets out.
+#[test]
+fn files_are_safe() {
+    use std::fs;
+    let folder = std::env::temp_dir().join(format!("selfosc-files-{}", std::process::id()));
+    fs::create_dir_all(&folder).unwrap();
+    let run = |arguments: &[&std::path::Path]| {
+        let command =
+            assert_cmd::Command::cargo_bin("selfosc").unwrap().arg("identify").args(arguments).output().unwrap();
+        (command.status.code(), String::from_utf8(command.stdout).unwrap(), String::from_utf8(command.stderr).unwrap())
+    };
+    let log = folder.join("log.csv");
+    fs::write(&log, "time_s,output,command\n0,0,1\n").unwrap();
+    let roundabout = folder.join(".").join("log.csv");
+    let (status, _, complaint) = run(&[&log, "--report".as_ref(), &roundabout]);
+    assert!(status == Some(2) && complaint.contains("is one of the logs"), "{complaint}");
+    #[cfg(unix)]
+    {
+        let link = folder.join("report.html");
+        fs::hard_link(&log, &link).unwrap();
+        let (status, _, complaint) = run(&[&log, "--report".as_ref(), &link]);
+        assert!(status == Some(2) && complaint.contains("is one of the logs"), "{complaint}");
+        let (status, answer, complaint) = run(&["/dev/zero".as_ref()]);
+        assert!(status != Some(0) && (answer + &complaint).contains("longer than 256 MiB"), "{complaint}");
+        let (_, answer, complaint) = run(&[&folder.join("\u{1b}[2J.csv")]);
+        assert!(!(answer + &complaint).contains('\u{1b}'));
+        assert!(complaint.contains("u{1b}"), "{complaint}");
+    }
+    assert_eq!(fs::read_to_string(&log).unwrap(), "time_s,output,command\n0,0,1\n");
+    fs::remove_dir_all(&folder).unwrap();
+}

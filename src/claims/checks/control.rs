@@ -1,10 +1,15 @@
 //! What controllers from an identified axis rest on.
 
-use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
-use crate::control::{Margins, OpenLoop, RelayTest, Structure, Tuning, UltimatePoint, critical_point};
+use super::algebra::{exactly, number};
+use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use crate::control::{
+    Margins, OpenLoop, RelayTest, Structure, Tuning, UltimatePoint, critical_point, double_pole, place,
+};
 use crate::nonlinearity::RelayHysteresis;
+use crate::numeric::Real;
 use crate::orbit::RelayLoop;
 use crate::plant::{DragAxis, StateSpace, TransferFunction};
+use crate::proof::polynomial::Rational;
 
 /// A design for any axis whose drag it can bear.
 fn design(draw: &mut Draw, delay_s: f64) -> Option<Tuning<f64>> {
@@ -16,15 +21,22 @@ fn design(draw: &mut Draw, delay_s: f64) -> Option<Tuning<f64>> {
     Tuning::new(&axis, structure, bandwidth).ok()
 }
 
+const POLE_PLACEMENT_WHOLE: ClaimPart =
+    ClaimPart::whole("whole", "every axis, structure and bandwidth that the design accepts");
+
 claim! {
     POLE_PLACEMENT = "pole-placement" "of this project" Identity
     "the gains of a design give the closed loop the double pole and the slow pole that the bandwidth asks for"
     {
-        domain: &[ClaimPart::whole("whole", "every axis and pair of poles")],
+        domain: &[POLE_PLACEMENT_WHOLE],
+        by_hand: &[
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| poles(budget, 0.0, Tuning::double_pole_rad_s)),
         // The bandwidth taken for the pole.
         falsified: |budget| poles(budget, 0.0, Tuning::bandwidth_rad_s),
+        proof: Some(prove_pole_placement),
         hypotheses: &[Hypothesis {
             id: "no-delay",
             counterexample: Some(|budget| poles(budget, 0.05, Tuning::double_pole_rad_s)),
@@ -100,15 +112,22 @@ fn delay_margin(budget: Budget, margin: DelayMargin) -> Verdict {
     })
 }
 
+const RELAY_ULTIMATE_WHOLE: ClaimPart = ClaimPart::whole("whole", "every gain, dead time and level");
+
 claim! {
     RELAY_ULTIMATE = "relay-ultimate" "of this project" Identity
     "for an integrator with dead time the relay oscillates with the ultimate period, and its describing function gives 8/pi^2 of the ultimate gain"
     {
-        domain: &[ClaimPart::whole("whole", "every gain, dead time and level")],
+        domain: &[RELAY_ULTIMATE_WHOLE],
+        by_hand: &[
+            "the oscillation is a triangle: it goes on at the speed gain times level for one dead time beyond zero, so that the period is four of them",
+            "the phase of the process is -pi where frequency times dead time is pi/2",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| relay_ultimate(budget, 8.0 / core::f64::consts::PI.powi(2), 0.0, 0.0)),
         // The describing function taken for exact.
         falsified: |budget| relay_ultimate(budget, 1.0, 0.0, 0.0),
+        proof: Some(prove_relay_ultimate),
         hypotheses: &[
             Hypothesis {
                 id: "no-hysteresis",
@@ -147,4 +166,64 @@ fn relay_ultimate(budget: Budget, share: f64, hysteresis: f64, lag: f64) -> Verd
         let expected = share * truth.gain();
         period.and(draw.equal(("ultimate_gain", found.gain()), expected, expected, tolerance::CANCELLING))
     })
+}
+
+/// The closed loop's characteristic polynomial and its slope vanish at the double pole, it alone at the slow one; where that is
+/// the double one, its second derivative does.
+fn prove_pole_placement(distortion: Distortion) -> Verdict {
+    let of = |structure: Structure| {
+        let functions = move |[alpha, drag, bandwidth]: [Rational; 3], factor: Rational| {
+            let axis = DragAxis::linear(alpha, drag).ok()?;
+            let gains = place(&axis, structure, bandwidth).ok()?;
+            let (fed_back, own) = OpenLoop::new(&axis, &gains, number(0.0)).ok()?.polynomials();
+            let lacking = own.len().checked_sub(fed_back.len())?;
+            let term = |(place, own): (usize, &Rational)| match place.checked_sub(lacking) {
+                Some(place) => *own + factor * fed_back[place],
+                None => *own,
+            };
+            let closed: Vec<_> = own.iter().enumerate().map(term).collect();
+            let w = double_pole(structure, bandwidth);
+            let slow = number(structure.slow_pole()) * w;
+            let slope = derivative(&closed);
+            let third = match structure {
+                Structure::Pd => number(0.0),
+                Structure::Pid => value(&closed, -slow),
+                Structure::Ipd => value(&derivative(&slope), -w),
+            };
+            Some([value(&closed, -w), value(&slope, -w), third])
+        };
+        exactly(POLE_PLACEMENT_WHOLE, distortion, &[[2.0, 0.5, 3.0]], functions)
+    };
+    of(Structure::Pd).and(|| of(Structure::Pid)).and(|| of(Structure::Ipd))
+}
+
+/// A polynomial in descending powers, by Horner's rule.
+fn value<T: Real>(polynomial: &[T], at: T) -> T {
+    polynomial.iter().fold(T::zero(), |sum, &coefficient| sum * at + coefficient)
+}
+
+fn derivative<T: Real>(polynomial: &[T]) -> Vec<T> {
+    let degree = polynomial.len().saturating_sub(1);
+    let factors = (1..=degree).rev().map(|power| T::from_f64(power as f64));
+    factors.zip(polynomial).map(|(power, &coefficient)| power * coefficient).collect()
+}
+
+/// The triangle of period four dead times through the code that reads an ultimate point off an oscillation.
+fn prove_relay_ultimate(distortion: Distortion) -> Verdict {
+    let functions = |[gain, delay_s, level]: [Rational; 3], factor: Rational| {
+        let (four, pi) = (number(4.0), Rational::pi());
+        let zero = number(0.0);
+        let test = RelayTest {
+            level,
+            half_width: zero,
+            amplitude: gain * level * delay_s,
+            bias: zero,
+            period_s: four * delay_s,
+        };
+        let found = test.ultimate().ok()?;
+        let omega = pi / (number(2.0) * delay_s);
+        let share = number(8.0) / pi.square();
+        Some([found.gain() - factor * share * omega / gain, found.period_s() - number(2.0) * pi / omega])
+    };
+    exactly(RELAY_ULTIMATE_WHOLE, distortion, &[[2.0, 0.5, 3.0]], functions)
 }

@@ -39,6 +39,6 @@ pub(super) fn unknown<T: Real>() -> T {
     T::from_f64(f64::NAN)
 }
 
-pub(super) fn no_function() -> DescribingFunction<Series> {
+pub(super) fn no_function<T: Real>() -> DescribingFunction<T> {
     DescribingFunction { f0: unknown(), p: unknown(), q: unknown() }
 }

@@ -2,6 +2,7 @@
 
 use core::f64::consts::PI;
 
+use super::algebra::{exactly, number};
 use super::enclosure::{identity, no_function};
 use super::family::{not_odd, odd_hysteretic, odd_nondecreasing, output_scale, sweep, unbiased};
 use super::kernels::{BREAKPOINT, prove_kernel};
@@ -10,22 +11,32 @@ use super::{
     AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance,
 };
 use crate::describing::{Boxed, ClosedForm, KernelForm, by_quadrature, harmonic};
-use crate::nonlinearity::{Branch, Characteristic, NonlinearityError, Polynomial, Power, Sinusoid};
+use crate::nonlinearity::{
+    Branch, Characteristic, NonlinearityError, Polynomial, Power, RelayDeadZone, RelayHysteresis, Sinusoid,
+};
 use crate::numeric::quadrature::integrate;
 use crate::numeric::{Interval, Real};
 use crate::proof::identity::Series;
+use crate::proof::polynomial::Rational;
 use std::array;
+
+const FOURIER_COEFFICIENTS_WHOLE: ClaimPart = ClaimPart::whole(
+    "whole",
+    "every output with a mean square, every mean, sine and cosine in place of the coefficients",
+);
 
 claim! {
     FOURIER_COEFFICIENTS = "fourier-coefficients" "7-11" Definition
     "The mean and first harmonic of eq. 10 leave the least mean square of the output" {
-        domain: &[
-            ClaimPart::whole("whole", "odd nondecreasing characteristics of the catalogue, every bias and amplitude"),
+        domain: &[FOURIER_COEFFICIENTS_WHOLE],
+        by_hand: &[
+            "one, sine and cosine are orthogonal over a turn with mean squares 1, 1/2, 1/2",
         ],
         printed: AsPrinted::Holds(|budget| least_square(budget, 1.0)),
         corrected: None,
         // Halved coefficients, as from 1/(2 pi) in place of 1/pi.
         falsified: |budget| least_square(budget, 0.5),
+        proof: Some(prove_least_square),
         hypotheses: &[],
         depends: &[],
     }
@@ -152,13 +163,23 @@ fn polynomial_is_integral(budget: Budget, factor: f64) -> Verdict {
     })
 }
 
+const ODD_HARMONICS_WHOLE: ClaimPart = ClaimPart::whole(
+    "whole",
+    "every odd characteristic without memory that has Fourier coefficients, every amplitude, every even order",
+);
+
 claim! {
     ODD_HARMONICS = "odd-harmonics" "Theorem 1" Theorem
     "An odd characteristic without memory under an unbiased sinusoid gives odd harmonics only" {
-        domain: &[ClaimPart::whole("whole", "odd characteristics without memory, every amplitude")],
+        domain: &[ODD_HARMONICS_WHOLE],
+        by_hand: &[
+            "a coefficient is the sum over half a turn of what an angle and the one half a turn on contribute",
+            "the orders zero and one are what half a turn makes of 1, cosine and sine; the step from two orders to the next proves all others",
+        ],
         printed: AsPrinted::Holds(|budget| even_vanish(budget, odd_nondecreasing, unbiased)),
         corrected: None,
         falsified: |budget| even_vanish(budget, not_odd, unbiased),
+        proof: Some(prove_odd_harmonics),
         hypotheses: &[
             Hypothesis { id: "odd", counterexample: Some(|budget| even_vanish(budget, not_odd, unbiased)) },
             Hypothesis { id: "unbiased", counterexample: Some(|budget| even_vanish(budget, odd_nondecreasing, sweep)) },
@@ -167,15 +188,23 @@ claim! {
     }
 }
 
+const ODD_HARMONICS_HYSTERETIC_WHOLE: ClaimPart = ClaimPart::whole(
+    "whole",
+    "every characteristic whose branches are each other's half-turn image that has Fourier coefficients, every amplitude, every even order",
+);
+
 claim! {
     ODD_HARMONICS_HYSTERETIC = "odd-harmonics-hysteretic" "Theorem 1, with memory" Theorem
     "Theorem 1 holds with memory when each branch is the other turned about the origin" {
-        domain: &[
-            ClaimPart::whole("whole", "characteristics whose branches are each other's half-turn image, every amplitude"),
+        domain: &[ODD_HARMONICS_HYSTERETIC_WHOLE],
+        by_hand: &[
+            "a coefficient is the sum over half a turn of what an angle and the one half a turn on contribute",
+            "the orders zero and one are what half a turn makes of 1, cosine and sine; the step from two orders to the next proves all others",
         ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| even_vanish(budget, odd_hysteretic, unbiased)),
         falsified: |budget| even_vanish(budget, not_odd, unbiased),
+        proof: Some(prove_odd_harmonics_hysteretic),
         hypotheses: &[
             Hypothesis { id: "branches-odd", counterexample: Some(|budget| even_vanish(budget, not_odd, unbiased)) },
             Hypothesis { id: "unbiased", counterexample: Some(|budget| even_vanish(budget, odd_hysteretic, sweep)) },
@@ -276,4 +305,66 @@ fn prove_polynomial(distortion: Distortion) -> Verdict {
         }
         errors
     })
+}
+
+/// Completing the square: with any other mean, sine and cosine more is left, by the mean square of the differences.
+fn prove_least_square(distortion: Distortion) -> Verdict {
+    // Means of the output, of its products with sine and cosine, and of its square; then the differences.
+    let functions = |[mean, by_sine, by_cosine, square, a, b, c]: [Rational; 7], factor: Rational| {
+        let left = |[mean_taken, sine, cosine]: [Rational; 3]| {
+            let products = mean_taken * mean + sine * by_sine + cosine * by_cosine;
+            let own = mean_taken.square() + (sine.square() + cosine.square()) / number(2.0);
+            square - number(2.0) * products + own
+        };
+        let [best_sine, best_cosine] = [by_sine, by_cosine].map(|product| number(2.0) * factor * product);
+        let more = a.square() + (b.square() + c.square()) / number(2.0);
+        Some([left([mean + a, best_sine + b, best_cosine + c]) - left([mean, best_sine, best_cosine]) - more])
+    };
+    exactly(FOURIER_COEFFICIENTS_WHOLE, distortion, &[[0.1, 0.2, 0.3, 1.0, 0.4, 0.5, 0.6]], functions)
+}
+
+/// Without memory: the relay with a dead zone stands for what `odd` means of the code's outputs.
+fn prove_odd_harmonics(distortion: Distortion) -> Verdict {
+    let half_turn = |[level, half_width, x]: [Rational; 3], factor: Rational| {
+        let (relay, sweep) =
+            (RelayDeadZone::new(level, half_width).ok()?, Sinusoid::new(number(0.0), number(9.0)).ok()?);
+        Some([relay.output(x, Branch::Rising, &sweep) + factor * relay.output(-x, Branch::Falling, &sweep)])
+    };
+    let points = [[1.0, 0.5, 2.0], [1.0, 0.5, -2.0], [1.0, 0.5, 0.2], [1.0, 0.5, -0.2]];
+    even_contributions_cancel(ODD_HARMONICS_WHOLE, distortion)
+        .and(|| exactly(HALF_TURN, distortion, &points, half_turn))
+}
+
+/// With memory: the relay with hysteresis stands for what `branches-odd` means of the code's outputs.
+fn prove_odd_harmonics_hysteretic(distortion: Distortion) -> Verdict {
+    let half_turn = |[level, half_width, x]: [Rational; 3], factor: Rational| {
+        let relay = RelayHysteresis::new(level, half_width, number(0.0)).ok()?;
+        let sweep = Sinusoid::new(number(0.0), number(9.0)).ok()?;
+        let sum = |branch, other| relay.output(x, branch, &sweep) + factor * relay.output(-x, other, &sweep);
+        Some([sum(Branch::Rising, Branch::Falling), sum(Branch::Falling, Branch::Rising)])
+    };
+    let points = [[1.0, 0.5, 2.0], [1.0, 0.5, -2.0], [1.0, 0.5, 0.2], [1.0, 0.5, -0.2]];
+    even_contributions_cancel(ODD_HARMONICS_HYSTERETIC_WHOLE, distortion)
+        .and(|| exactly(HALF_TURN, distortion, &points, half_turn))
+}
+
+/// Of characteristics of the catalogue, not of the class.
+const HALF_TURN: ClaimPart = ClaimPart::whole("half-turn", "output half a turn on is minus the output");
+
+/// Cosine or sine of the next multiple of an angle from the last two.
+fn next_multiple<T: Real>(cosine: T, [last, before]: [T; 2]) -> T {
+    T::two() * cosine * last - before
+}
+
+/// Half a turn on, cosine and sine of an even multiple are what they were, of an odd one their negatives: if so for two orders,
+/// then for the next, whichever of the two is even. Where the output changes sign, an even order's contributions cancel.
+fn even_contributions_cancel(part: ClaimPart, distortion: Distortion) -> Verdict {
+    let functions = |[cosine, last, before, output]: [Rational; 4], factor: Rational| {
+        let step = |sign: Rational| {
+            let half_a_turn_on = next_multiple(-cosine, [sign * last, -sign * before]);
+            half_a_turn_on + factor * sign * next_multiple(cosine, [last, before])
+        };
+        Some([step(number(1.0)), step(number(-1.0)), output * last + factor * -output * last])
+    };
+    exactly(part, distortion, &[[0.6, 0.3, 0.2, 1.5]], functions)
 }

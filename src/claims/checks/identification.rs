@@ -1,14 +1,18 @@
 //! From the first harmonic to parameters: eqs. 21-29, 33-34, Table 3, 37-39, 41-42, the zig-zag test.
 
-use crate::numeric::Real;
-use crate::proof::identity::Series;
+use crate::numeric::{Gradient, Interval, Real};
+use crate::proof::identity::{Series, prove_zero_of_two};
+use crate::proof::polynomial::{Rational, decided};
 use core::f64::consts::PI;
 
 use nalgebra::Complex;
 
+use super::algebra::{exactly, number};
 use super::enclosure::identity;
-use super::relay::{relay, root};
-use super::{AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Verdict, claim, sample, tolerance};
+use super::relay::{SWITCHINGS, relay, root};
+use super::{
+    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Evidence, Verdict, claim, sample, tolerance,
+};
 use crate::describing::{DescribingFunction, by_quadrature};
 use crate::identify::iso::{Oscillation, parameters};
 use crate::identify::select::pairwise::{Decision, decide, relative_spread_percent};
@@ -38,7 +42,10 @@ claim! {
                 const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
             ),
         ],
-        by_hand: &["level, amplitude and frequency are set to one by homogeneity"],
+        by_hand: &[
+            "level, amplitude and frequency are set to one by homogeneity",
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
+        ],
         printed: AsPrinted::Holds(|budget| table_3(budget, 1.5)),
         corrected: None,
         falsified: |budget| table_3(budget, 3.0 * PI / 8.0),
@@ -130,7 +137,9 @@ claim! {
                 const { &[ClaimVariable::number("v_2/v_1", 0.0, f64::INFINITY)] },
             ),
         ],
-        by_hand: &["one value is set to one by homogeneity"],
+        by_hand: &[
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
+        ],
         printed: AsPrinted::Holds(|budget| spread(budget, 1.0)),
         corrected: None,
         // Over n in place of n - 1.
@@ -151,14 +160,20 @@ fn spread(budget: Budget, degrees_of_freedom: f64) -> Verdict {
     })
 }
 
+const DRAG_DECISION_WHOLE: ClaimPart = ClaimPart::whole("whole", "every pair of spreads and threshold, zero or more");
+
 claim! {
     DRAG_DECISION = "drag-decision" "42" Definition
     "The drag law is the one whose coefficient spreads less, by more than the margin" {
-        domain: &[ClaimPart::whole("whole", "every pair of spreads and threshold")],
+        domain: &[DRAG_DECISION_WHOLE],
+        by_hand: &[
+            "three outcomes, each with its comparisons, are all there are",
+        ],
         printed: AsPrinted::Holds(|budget| decision(budget, decide)),
         corrected: None,
         // The paper's two names of the laws exchanged.
         falsified: |budget| decision(budget, |linear, quadratic, margin| decide(quadratic, linear, margin)),
+        proof: Some(prove_decision),
         hypotheses: &[],
         depends: &["relative-spread"],
     }
@@ -217,24 +232,19 @@ fn nomoto(budget: Budget, drag: fn(f64) -> f64) -> Verdict {
     })
 }
 
-/// Table 3.
+/// Table 3, whatever half-width and bias.
 fn prove_table_3(distortion: Distortion) -> Verdict {
-    let of_bias = |bias: f64| {
-        let sides = vec![ClaimVariable::number("x_a/X", 0.0, 0.69), ClaimVariable::number("abs(x_0)/X", bias, bias)];
-        let part = ClaimPart { variables: sides.into(), ..ClaimPart::whole("table", "") };
-        identity(part, distortion, |width, factor| {
-            let bias = Series::from_f64(bias);
-            let found = parameters(relay(Series::one(), width, bias), Series::one(), Series::one());
-            let pi = Series::pi();
-            let alpha = Series::two() / pi * (root(width - bias) + root(width + bias));
-            [
-                factor * alpha - found.alpha,
-                factor * Series::from_f64(4.0) * width / pi - found.beta,
-                factor * Series::from_f64(1.5) * width - found.beta_quadratic,
-            ]
-        })
-    };
-    of_bias(0.0).and(|| of_bias(0.3))
+    const COVERED: ClaimPart = ClaimPart::whole("table", "");
+    exactly(COVERED, distortion, &SWITCHINGS, |[width, bias]: [Rational; 2], factor: Rational| {
+        let found = parameters(relay(number(1.0), width, bias), number(1.0), number(1.0));
+        let pi = Rational::pi();
+        let alpha = number(2.0) / pi * (root(width - bias) + root(width + bias));
+        Some([
+            factor * alpha - found.alpha,
+            factor * number(4.0) * width / pi - found.beta,
+            factor * number(1.5) * width - found.beta_quadratic,
+        ])
+    })
 }
 
 /// Turning is multiplication by `exp(-j phase)`, and turning back undoes it.
@@ -258,37 +268,74 @@ fn prove_delay_rotation(distortion: Distortion) -> Verdict {
             back.q,
         ]
     })
+    .and(|| prove_delays_add(distortion))
 }
 
-/// Eq. 41 squared.
+/// A unit gain turned twice and turned by the sum: real and imaginary part.
+fn turned_twice<T: Real>(one: T, two: T, distortion: Distortion) -> [T; 2] {
+    let gain = DescribingFunction { f0: T::zero(), p: T::one(), q: T::zero() };
+    let (in_turn, at_once) = (gain.delayed(one).delayed(two), gain.delayed(one + two));
+    let factor = distortion.at(one, PHASES);
+    [factor * in_turn.p - at_once.p, factor * in_turn.q - at_once.q]
+}
+
+/// A little more than a turn.
+const PHASES: [f64; 2] = [0.0, 6.5];
+
+/// Two delays in turn are their sum.
+fn prove_delays_add(distortion: Distortion) -> Verdict {
+    const COVERED: ClaimPart = ClaimPart::whole("delays-add", "");
+    let values = |one, two| turned_twice::<Interval>(one, two, distortion);
+    let series = |one, two| turned_twice::<Series>(one, two, distortion);
+    match prove_zero_of_two(values, series, [PHASES; 2], tolerance::PROOF, 20_000) {
+        Ok(proved) => Verdict::Holds(Evidence::identity(COVERED, proved.bound.value(), proved.boxes)),
+        Err(_) => Verdict::undecided("20000 cells for two phases"),
+    }
+}
+
+/// Eq. 41 squared: the first value the larger, and the second.
 fn prove_relative_spread(distortion: Distortion) -> Verdict {
-    const COVERED: ClaimPart = ClaimPart::over("ratio", "", const { &[ClaimVariable::number("v_2/v_1", 0.01, 100.0)] });
-    identity(COVERED, distortion, |second, factor| {
-        let first = Series::one();
-        let mean = (first + second) / Series::two();
+    const COVERED: ClaimPart = ClaimPart::whole("ratio", "");
+    exactly(COVERED, distortion, &[[1.0, 2.0], [2.0, 1.0]], |[first, second]: [Rational; 2], factor: Rational| {
+        let mean = (first + second) / number(2.0);
         let square = (first - mean).square() + (second - mean).square();
-        let spread = relative_spread_percent(first, second) / Series::from_f64(100.0);
-        [factor * square / mean.square() - spread.square()]
+        let spread = relative_spread_percent(first, second) / number(100.0);
+        Some([factor * square / mean.square() - spread.square()])
     })
 }
 
-/// Nomoto's response to a step of the rudder; all but the time's ratio to T scales out.
+/// Nomoto's response to a unit step of the rudder satisfies the axis's equation.
 fn prove_zig_zag(distortion: Distortion) -> Verdict {
-    const COVERED: ClaimPart = ClaimPart::over(
-        "response",
-        "",
-        const {
-            &[
-                ClaimVariable::new("time", "s", 0.0, 60.0),
-                ClaimVariable::new("T", "s", 2.0, 2.0),
-                ClaimVariable::new("K", "1/s", 0.5, 0.5),
-            ]
-        },
-    );
-    identity(COVERED, distortion, |t, factor| {
-        let (time_constant, gain) = (Series::two(), Series::from_f64(0.5));
-        let rate = gain * (Series::one() - (-t / time_constant).exp());
-        let (alpha, beta) = (time_constant / gain, factor / gain);
-        [alpha * rate.derivative() + beta * rate - Series::one()]
+    const COVERED: ClaimPart = ClaimPart::whole("response", "");
+    exactly(COVERED, distortion, &[[1.0, 2.0, 0.5]], |[t, time_constant, gain]: [Rational; 3], factor: Rational| {
+        let [t] = Gradient::variables([t]);
+        let [time_constant, gain] = [time_constant, gain].map(Gradient::<_, 1>::constant);
+        let rate = gain * (Gradient::one() - (-t / time_constant).exp());
+        let (alpha, beta) = ((time_constant / gain).value(), factor / gain.value());
+        Some([alpha * rate.slopes()[0] + beta * rate.value() - number(1.0)])
     })
+}
+
+/// The code's comparisons, read off: each outcome comes with those that define it, and with no other.
+fn prove_decision(distortion: Distortion) -> Verdict {
+    let factor = number(distortion.factor());
+    let mut cases = 0;
+    for point in [[9.0, 2.0, 3.0], [2.0, 9.0, 3.0], [4.0, 5.0, 3.0]] {
+        let (decision, comparisons) = decided(point, |[linear, quadratic, margin]| decide(linear, quadratic, margin));
+        let [above, below] = decided(point, |[linear, quadratic, margin]: [Rational; 3]| {
+            [linear - quadratic - factor * margin, -factor * margin - (linear - quadratic)]
+        })
+        .0;
+        // By how much the difference exceeds the margin, then by how much it falls short of its negative.
+        let defining = match decision {
+            Decision::Quadratic => vec![(above, true)],
+            Decision::Linear => vec![(above, false), (-below, false)],
+            Decision::Undecided => vec![(above, false), (-below, true)],
+        };
+        if comparisons != defining {
+            return Verdict::undecided("the comparisons of three cases");
+        }
+        cases += 1;
+    }
+    Verdict::Holds(Evidence::identity(DRAG_DECISION_WHOLE, 0.0, cases))
 }

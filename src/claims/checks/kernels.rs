@@ -8,7 +8,6 @@ use super::{
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm, by_quadrature, prove_changed_band};
 use crate::nonlinearity::{Branches, Kernel, Side, Sinusoid};
 use crate::numeric::Real;
-use crate::proof::identity::Series;
 use crate::proof::{NotProved, Proved};
 use std::sync::LazyLock;
 
@@ -176,7 +175,7 @@ fn prove_kernel_band(distortion: Distortion) -> Verdict {
 }
 
 /// Closed form of one kernel under a unit sinusoid.
-pub(super) fn on_unit(kernel: Kernel<Series>) -> DescribingFunction<Series> {
-    let sweep = Sinusoid::new(Series::zero(), Series::one()).ok();
+pub(super) fn on_unit<T: Real>(kernel: Kernel<T>) -> DescribingFunction<T> {
+    let sweep = Sinusoid::new(T::zero(), T::one()).ok();
     sweep.and_then(|sweep| Single(kernel).describing_function(&sweep).ok()).unwrap_or_else(no_function)
 }

@@ -39,6 +39,8 @@ impl Lattice {
             lowest_command: -1.0,
             highest_command: 2.5,
             interval_s: 0.5,
+            wrong_way: half_width,
+            dwell_s: 1.5,
             largest_rate: 2.0 * half_width,
             unchanged_s: 2.0,
             patience_s: 3.0,
@@ -46,7 +48,7 @@ impl Lattice {
             cycles: 2,
             most_cycles: 2,
             factor: 2.0,
-            ..Protocol::new(coordinate, 1.0, half_width, 0.5)
+            ..Protocol::new(coordinate, 1.0, half_width, 1.5 * half_width, 0.5)
         };
         Self { part, protocol, readings }
     }
@@ -65,7 +67,15 @@ impl Lattice {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Event {
     Abort,
-    Sample { reading: f64, interval_s: f64, observation: Observation },
+    Sample {
+        reading: f64,
+        interval_s: f64,
+        observation: Observation,
+    },
+    /// A timer asks, this long after the last sample.
+    Tick {
+        age_s: f64,
+    },
 }
 
 /// What a machine has been broken by, so that a claim fails.
@@ -82,6 +92,8 @@ pub(super) enum Defect {
     IgnoresAbort,
     /// Goes on after a fault.
     Forgives,
+    /// Goes on wherever the coordinate is.
+    Boundless,
 }
 
 /// The machine under its clock.
@@ -101,15 +113,19 @@ pub(super) struct Machine {
 struct Says(Observation);
 
 impl Observer<f64> for Says {
-    fn begin(&mut self) {}
-    fn sample(&mut self, _: f64, _: f64, _: f64) -> Observation {
+    fn begin(&mut self, _: &Protocol<f64>) {}
+    fn sample(&mut self, _: &Protocol<f64>, _: f64, _: f64, _: f64) -> Observation {
         self.0
     }
 }
 
 impl Machine {
     fn new(lattice: &Lattice, defect: Defect) -> Option<Self> {
-        let supervisor = Supervisor::new(lattice.protocol).ok()?;
+        let protocol = match defect {
+            Defect::Boundless => Protocol { largest_excursion: f64::MAX, ..lattice.protocol },
+            _ => lattice.protocol,
+        };
+        let supervisor = Supervisor::new(protocol).ok()?;
         Some(Self { supervisor, defect, command: supervisor.command(), time_s: 0.0, seen: None })
     }
 
@@ -122,6 +138,12 @@ impl Machine {
     pub(super) fn half_width(&self) -> f64 {
         self.supervisor.half_width()
     }
+    pub(super) fn switched_s(&self) -> Option<f64> {
+        self.supervisor.switched_s()
+    }
+    pub(super) fn extent(&self) -> Option<(f64, f64)> {
+        self.supervisor.extent()
+    }
     pub(super) fn running(&self) -> bool {
         self.phase() == Phase::Running
     }
@@ -133,6 +155,9 @@ impl Machine {
                 if self.defect != Defect::IgnoresAbort || self.supervisor.attempt() == 1 {
                     self.supervisor.abort();
                 }
+            }
+            Event::Tick { age_s } => {
+                let _ = self.supervisor.tick(self.time_s + age_s);
             }
             Event::Sample { reading, interval_s, observation } => {
                 // A first sample has none before it.
@@ -232,17 +257,19 @@ fn events<'a>(lattice: &'a Lattice, machine: &Machine) -> impl Iterator<Item = E
     // A sample that is refused is not observed.
     let late = unsound.iter().map(move |&interval_s| sample(lattice.readings[0], interval_s, OBSERVATIONS[0]));
     let broken = BROKEN.into_iter().map(move |reading| sample(reading, INTERVALS_S[0], OBSERVATIONS[0]));
-    good.chain(late).chain(broken).chain([Event::Abort])
+    let ticks = INTERVALS_S.into_iter().map(|age_s| Event::Tick { age_s });
+    good.chain(late).chain(broken).chain(ticks).chain([Event::Abort])
 }
 
 /// Names of the numbers of a path, by its steps.
 macro_rules! steps {
     ($($step:literal)+) => {
-        const STEPS: &[[&str; 4]] = &[$([
+        const STEPS: &[[&str; 5]] = &[$([
             concat!("reading_", $step),
             concat!("after_s_", $step),
             concat!("cycles_say_", $step),
             concat!("abort_", $step),
+            concat!("tick_after_s_", $step),
         ]),+];
     };
 }
@@ -252,9 +279,10 @@ steps!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16);
 /// condition 40 is not met.
 fn witness(path: &[(Event, Machine)]) -> Witness {
     let mut numbers = Vec::new();
-    for ((event, _), [reading_name, interval_name, observation_name, abort]) in path.iter().zip(STEPS) {
+    for ((event, _), [reading_name, interval_name, observation_name, abort, tick]) in path.iter().zip(STEPS) {
         match *event {
             Event::Abort => numbers.push((*abort, 1.0)),
+            Event::Tick { age_s } => numbers.push((*tick, age_s)),
             Event::Sample { reading, interval_s, observation } => {
                 numbers.extend([(*reading_name, reading), (*interval_name, interval_s)]);
                 if observation != Observation::Between {

@@ -6,10 +6,12 @@ use super::registry::{AsPrinted, Hypothesis, claim};
 use super::sampling::{Budget, Case, Draw, sample};
 use super::tolerance;
 
+mod algebra;
 mod enclosure;
 mod family;
 mod machine;
 mod single;
+mod step;
 
 pub(super) mod control;
 pub(super) mod experiment;

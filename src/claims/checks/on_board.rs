@@ -2,7 +2,7 @@
 
 use super::machine::{Defect, Event, INTERVALS_S, LATTICES, Lattice, Machine, SOUND, explore};
 use super::{AsPrinted, claim};
-use crate::on_board::{Coordinate, Phase};
+use crate::on_board::{Coordinate, Phase, Protocol};
 
 claim! {
     ON_BOARD_ENDS = "on-board-ends" "of this project" Theorem
@@ -23,7 +23,11 @@ fn ends(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -
     for (index, (event, after)) in successors.iter().enumerate() {
         // A running machine has accepted its sample, which was later than the one before: there are finitely many.
         let later = matches!(event, Event::Sample { .. }) && (after.time_s > machine.time_s || machine.seen.is_none());
-        if after.running() && !(later && after.time_s < duration_s) {
+        let in_time = match *event {
+            Event::Tick { age_s } => machine.seen.is_none() || machine.time_s + age_s < duration_s,
+            _ => later && after.time_s < duration_s,
+        };
+        if after.running() && !in_time {
             return Err(Some(index));
         }
     }
@@ -34,7 +38,7 @@ fn ends(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -
 
 claim! {
     ON_BOARD_SWITCHES = "on-board-switches" "of this project" Theorem
-    "Between two switchings the coordinate moves by both half-widths, at no more than its largest rate: no chattering"
+    "Two switchings are the least dwell apart and both half-widths, crossed at no more than the largest rate: no chattering"
     {
         domain: LATTICES,
         printed: AsPrinted::Absent,
@@ -60,7 +64,9 @@ fn switches(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)
         let moved = (position - before).abs();
         let measured = protocol.coordinate != Coordinate::Speed;
         let slow = !measured || moved <= protocol.largest_rate * (after.time_s - machine.time_s);
-        if !(crossed && slow) {
+        let dwelt =
+            !(up || down) || machine.switched_s().is_none_or(|since_s| after.time_s - since_s >= protocol.dwell_s);
+        if !(crossed && slow && dwelt) {
             return Err(Some(index));
         }
     }
@@ -85,7 +91,7 @@ fn abort(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) 
     let safe = |after: &Machine| !after.running() && after.command == lattice.protocol.neutral_command;
     let wrong = successors.iter().position(|(event, after)| match event {
         Event::Abort => !safe(after),
-        Event::Sample { .. } => machine.phase() == Phase::Aborted && (after.phase() != Phase::Aborted || !safe(after)),
+        _ => machine.phase() == Phase::Aborted && (after.phase() != Phase::Aborted || !safe(after)),
     });
     wrong.map_or(Ok(()), |index| Err(Some(index)))
 }
@@ -126,17 +132,21 @@ claim! {
 }
 
 /// Faults of sensor and clock, rather than of the experiment.
-const OF_A_SAMPLE: [&str; 5] = ["not-finite", "time-order", "gap", "jump", "stuck"];
+const OF_A_SAMPLE: [&str; 7] = ["not-finite", "time-order", "gap", "jump", "stuck", "excursion", "wrong-way"];
 
 fn faults(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
     let wrong = successors.iter().position(|(event, after)| {
-        let Event::Sample { reading, interval_s, .. } = *event else { return false };
+        let expected = match *event {
+            Event::Sample { reading, interval_s, .. } => expected(lattice, machine, reading, interval_s),
+            Event::Tick { age_s } => expected_of_time(machine, age_s),
+            Event::Abort => return false,
+        };
         let found = match after.phase() {
             Phase::Failed(fault) if OF_A_SAMPLE.contains(&fault.code()) => Some(fault.code()),
             _ => None,
         };
         if machine.running() {
-            found != expected(lattice, machine, reading, interval_s)
+            found != expected
         } else {
             let neutral = after.command == lattice.protocol.neutral_command;
             !(neutral && core::mem::discriminant(&after.phase()) == core::mem::discriminant(&machine.phase()))
@@ -148,23 +158,90 @@ fn faults(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)])
 /// The fault that a sample is, by the words of the protocol.
 fn expected(lattice: &Lattice, machine: &Machine, reading: f64, interval_s: f64) -> Option<&'static str> {
     let protocol = &lattice.protocol;
-    let Some((before, since_s)) = machine.seen else { return (!reading.is_finite()).then_some("not-finite") };
-    let change = match protocol.coordinate {
-        // The short way round.
-        Coordinate::HeadingDegrees => 180.0 - ((reading - before).abs() - 180.0).abs(),
-        _ => (reading - before).abs(),
+    let far = |position: f64| (position - protocol.reference).abs() > protocol.largest_excursion;
+    // The short way round.
+    let round = |way: f64| 180.0 - (180.0 - way).rem_euclid(360.0);
+    let (Some((before, since_s)), Some(position)) = (machine.seen, machine.position()) else {
+        let first = match protocol.coordinate {
+            Coordinate::Speed => 0.0,
+            Coordinate::HeadingDegrees => round(reading),
+            _ => reading,
+        };
+        return if !reading.is_finite() { Some("not-finite") } else { far(first).then_some("excursion") };
     };
-    if !(reading.is_finite() && interval_s.is_finite()) {
-        Some("not-finite")
-    } else if interval_s <= 0.0 {
-        Some("time-order")
-    } else if !INTERVALS_S[..SOUND].contains(&interval_s) {
-        Some("gap")
-    } else if change > protocol.largest_rate * interval_s {
+    if !reading.is_finite() {
+        return Some("not-finite");
+    }
+    if let Some(late) = expected_of_time(machine, interval_s) {
+        return Some(late);
+    }
+    if interval_s == 0.0 {
+        return Some("time-order");
+    }
+    let (change, next) = match protocol.coordinate {
+        Coordinate::HeadingDegrees => (round(reading - before), position + round(reading - before)),
+        Coordinate::Speed => (reading - before, position + interval_s * (reading + before) / 2.0),
+        _ => (reading - before, reading),
+    };
+    let back = match machine.extent() {
+        Some((_, highest)) if machine.command > protocol.neutral_command => highest - next,
+        Some((lowest, _)) => next - lowest,
+        None => 0.0,
+    };
+    if change.abs() > protocol.largest_rate * interval_s {
         Some("jump")
     } else if change == 0.0 && machine.time_s + interval_s - since_s > protocol.unchanged_s {
         Some("stuck")
+    } else if far(next) {
+        Some("excursion")
     } else {
-        None
+        (back > protocol.wrong_way).then_some("wrong-way")
     }
+}
+
+/// The fault that the time since the last sample is.
+fn expected_of_time(machine: &Machine, age_s: f64) -> Option<&'static str> {
+    if machine.seen.is_none() {
+        None
+    } else if !age_s.is_finite() {
+        Some("not-finite")
+    } else if age_s < 0.0 {
+        Some("time-order")
+    } else {
+        (age_s > 0.0 && !INTERVALS_S[..SOUND].contains(&age_s)).then_some("gap")
+    }
+}
+
+claim! {
+    ON_BOARD_EXCURSION = "on-board-excursion" "of this project" Theorem
+    "Whatever plant and sensor say, the relay drives no further than the largest excursion and one gap at the largest rate"
+    {
+        domain: LATTICES,
+        printed: AsPrinted::Absent,
+        corrected: Some(|_| explore(Defect::None, excursion)),
+        // Goes on wherever the coordinate is.
+        falsified: |_| explore(Defect::Boundless, excursion),
+        hypotheses: &[],
+        depends: &["on-board-faults", "on-board-limits"],
+    }
+}
+
+/// Every sequence of readings comes, and so do those of a plant of the wrong sign, a stuck or a late one, and a sensor that
+/// wanders. The coordinate is what is read: a wandering sensor adds its error.
+fn excursion(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
+    let protocol = &lattice.protocol;
+    let drives = |machine: &Machine| machine.command != protocol.neutral_command;
+    let within = |position: f64| (position - protocol.reference).abs() <= protocol.largest_excursion;
+    if drives(machine) && !machine.position().is_some_and(within) {
+        return Err(None);
+    }
+    // Between samples it is driven for no longer than a gap: a tick or a sample that comes later ends it.
+    let longest_s = Protocol::<f64>::LONGEST_GAP * protocol.interval_s;
+    let wrong = successors.iter().position(|(event, after)| match *event {
+        Event::Sample { interval_s: age_s, .. } | Event::Tick { age_s } => {
+            machine.seen.is_some() && drives(after) && !(age_s <= longest_s)
+        }
+        Event::Abort => drives(after),
+    });
+    wrong.map_or(Ok(()), |index| Err(Some(index)))
 }

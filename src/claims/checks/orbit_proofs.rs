@@ -11,7 +11,8 @@ use crate::orbit::theorem::{self, BUDGET, Theorem};
 use crate::orbit::{limit_cycle, return_slope};
 use crate::plant::DragAxis;
 use crate::proof::inequality::{Cell, Inequality, VARIABLES};
-use crate::proof::{Extent, Gradient, NotProved};
+use crate::proof::margin::Margin;
+use crate::proof::{Extent, NotProved, formula};
 
 /// The verdict of a theorem's inequalities: they establish these parts.
 pub(super) fn proved(theorem: &Theorem, parts: &'static [ClaimPart]) -> Verdict {
@@ -52,21 +53,23 @@ const BELOW_095: ClaimPart =
     ClaimPart::over("every-axis", "", const { &[ClaimVariable::number("abs(delta)/C", 0.0, 0.95)] });
 const EXCESS: ClaimPart = ClaimPart::whole(
     "excess",
-    "denominator less numerator of the slope grows with both drag forces, the denominator is below 4.1",
+    "denominator less numerator of the slope grows with both drag forces, at a rate above 1.99",
 );
+const RATE: ClaimPart = ClaimPart::whole("rate", "1 - m > 0.48 (d_1 + d_2)");
 const EVERY_G: ClaimPart = ClaimPart::whole("every-g", "every g > 0");
 const UP_TO_TEN: ClaimPart =
     ClaimPart::whole("g-up-to-ten", "every alpha, drag, C, x_a > 0 with 0 < g <= 10, delta = 0");
+
+fn excess_of_the_wrong_sign<T: Real>([mu, upper, lower]: [T; VARIABLES]) -> T {
+    let [numerator, denominator] = return_slope(mu, [-upper, -lower]);
+    denominator - numerator
+}
 
 /// Negative drag, which feeds the motion.
 pub(super) const FALSE_DRAG: Inequality = Inequality {
     id: "false-drag",
     statement: "the map contracts with drag of the wrong sign",
-    margin: |at| {
-        let drags = Gradient::variables([at[1], at[2]]).map(|drag: Gradient<2>| -drag);
-        let [numerator, denominator] = return_slope(Gradient::constant(at[0]), drags);
-        (denominator - numerator).slopes()[0]
-    },
+    margin: Margin::Slope { of: formula!(excess_of_the_wrong_sign), by: 1 },
     ..theorem::EXCESS_FIRST
 };
 
@@ -81,8 +84,8 @@ const FALSE_BRAKING: Inequality = Inequality {
 /// Too small a denominator.
 const FALSE_DENOMINATOR: Inequality = Inequality {
     id: "false-denominator",
-    statement: "the slope's denominator is below 3.9",
-    margin: |at| (theorem::DENOMINATOR.margin)(at) - Interval::point(0.2),
+    statement: "0.48 times the slope's denominator is below 1.89",
+    margin: Margin::Enclosed(|at| theorem::DENOMINATOR.margin.over(at) - Interval::point(0.1)),
     ..theorem::DENOMINATOR
 };
 
@@ -90,7 +93,7 @@ const FALSE_DENOMINATOR: Inequality = Inequality {
 const FALSE_OVERSHOOT_QUADRATIC: Inequality = Inequality {
     id: "false-overshoot-quadratic",
     statement: "quadratic drag: the relative overshoot grows with g",
-    margin: |at| -(theorem::QUADRATIC_OVERSHOOT_WEAK.margin)(at),
+    margin: Margin::Enclosed(|at| -theorem::QUADRATIC_OVERSHOOT_WEAK.margin.over(at)),
     ..theorem::QUADRATIC_OVERSHOOT_WEAK
 };
 
@@ -98,7 +101,7 @@ const FALSE_OVERSHOOT_QUADRATIC: Inequality = Inequality {
 const FALSE_OVERSHOOT_LINEAR: Inequality = Inequality {
     id: "false-overshoot-linear",
     statement: "linear drag: the relative overshoot grows with g",
-    margin: |at| -(theorem::LINEAR_OVERSHOOT_WEAK.margin)(at),
+    margin: Margin::Enclosed(|at| -theorem::LINEAR_OVERSHOOT_WEAK.margin.over(at)),
     ..theorem::LINEAR_OVERSHOOT_WEAK
 };
 
@@ -137,13 +140,10 @@ claim! {
 claim! {
     MULTIPLIER = "orbit-multiplier" "of this project" Theorem
     "Without delay 1 - m > 0.48 (d_1 + d_2): the multiplier m by the drag forces d_1, d_2 at the switchings over C" {
-        domain: &[EXCESS, ClaimPart::whole("rate", "1 - m > 0.48 (d_1 + d_2)")],
-        by_hand: &[
-            "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
-            "the rate 2 of the growth",
-        ],
+        domain: &[EXCESS, RATE],
+        by_hand: &["the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles"],
         printed: AsPrinted::Absent,
-        corrected: Some(|_| proved(&theorem::MULTIPLIER, const { &[EXCESS] })),
+        corrected: Some(|_| proved(&theorem::MULTIPLIER, const { &[EXCESS, RATE] })),
         theorem: Some((&theorem::MULTIPLIER, &FALSE_DENOMINATOR)),
         falsified: |_| single(&FALSE_DENOMINATOR),
         hypotheses: &[BELOW_LEVEL],
@@ -240,10 +240,10 @@ macro_rules! within {
             id: $id,
             statement: concat!("the relative error is within ", stringify!($radius), " of ", stringify!($centre)),
             variables: [Extent::new("coordinate", $from, $to), Extent::NONE, Extent::NONE],
-            margin: |at: &Cell| match SymmetricOrbit::$law.error(at[0]) {
+            margin: Margin::Enclosed(|at: &Cell| match SymmetricOrbit::$law.error(at[0]) {
                 Some(error) => Interval::point($radius) - (error.$part - Interval::point($centre)).abs(),
                 None => Interval::ENTIRE,
-            },
+            }),
         }
     };
 }

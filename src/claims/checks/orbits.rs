@@ -1,13 +1,15 @@
 //! Exact limit cycles of a drag axis, and what the first-harmonic method makes of them.
 
+use super::algebra::exactly;
 use super::orbit_proofs::{FALSE_DRAG, proved};
-use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::balance::HarmonicBalance;
 use crate::describing::ClosedForm;
 use crate::identify::iso::{Oscillation, Parameters, disturbance_from_times};
 use crate::nonlinearity::RelayHysteresis;
 use crate::orbit::{self, LimitCycle, RelayLoop, limit_cycle, return_map, theorem};
 use crate::plant::{DragAxis, PlantError, StateSpace, TransferFunction};
+use crate::proof::polynomial::Rational;
 
 /// A drag law of one coefficient.
 struct Family {
@@ -204,14 +206,22 @@ fn delta(budget: Budget, linear: bool, quadratic: bool, sign: f64) -> Verdict {
     })
 }
 
+const DELTA_FROM_TIMES_WHOLE: ClaimPart =
+    ClaimPart::whole("whole", "every linear drag, disturbance below the level, delay");
+
 claim! {
     DELTA_FROM_TIMES = "delta-from-times" "32, delta = F_0" Theorem
     "delta = -C (t_plus - t_minus)/T is exact for any waveform and delay when drag is linear" {
-        domain: &[ClaimPart::whole("whole", "every linear drag, disturbance below the level, delay")],
+        domain: &[DELTA_FROM_TIMES_WHOLE],
+        by_hand: &[
+            "over one period inertia and linear drag have mean zero, so that command and disturbance have",
+            "the times are those at either command, however late it acts",
+        ],
         printed: AsPrinted::Refuted(|budget| delta(budget, true, true, 1.0)),
         corrected: Some(|budget| delta(budget, true, false, 1.0)),
         // T_H taken for the time at command +C.
         falsified: |budget| delta(budget, true, false, -1.0),
+        proof: Some(prove_delta_from_times),
         hypotheses: &[
             Hypothesis { id: "linear-drag", counterexample: Some(|budget| delta(budget, false, true, 1.0)) },
         ],
@@ -310,4 +320,14 @@ fn balance_errors(lag_s: f64, half_width: f64, orders: [usize; 3]) -> Option<[f6
     };
     let [a, b, c] = orders.map(error);
     Some([a?, b?, c?])
+}
+
+/// Times at which command and disturbance have mean zero give the disturbance.
+fn prove_delta_from_times(distortion: Distortion) -> Verdict {
+    let functions = |[level, positive_s, delta]: [Rational; 3], factor: Rational| {
+        let negative_s = positive_s * (level + delta) / (level - delta);
+        let impulse = level * (positive_s - negative_s) + delta * (positive_s + negative_s);
+        Some([impulse, factor * disturbance_from_times(level, positive_s, negative_s) - delta])
+    };
+    exactly(DELTA_FROM_TIMES_WHOLE, distortion, &[[1.0, 2.0, 0.3]], functions)
 }

@@ -1,6 +1,7 @@
 //! What an error of the amplitude does to the parameters: eqs. 37-39.
 
-use super::enclosure::{identity, unknown, zeros};
+use super::algebra::exactly;
+use super::enclosure::{unknown, zeros};
 use super::identification::oscillation;
 use super::{
     AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Evidence, Hypothesis, Verdict, claim, sample,
@@ -9,7 +10,7 @@ use super::{
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity};
 use crate::numeric::{self, Interval, Real};
 use crate::proof::branch_and_bound::prove_positive;
-use crate::proof::identity::Series;
+use crate::proof::polynomial::Rational;
 use crate::proof::{Gradient, Proved};
 
 /// Relative derivatives of (alpha, beta, beta_xx) by the relative amplitude, by first derivatives through the identification.
@@ -50,7 +51,10 @@ claim! {
                 const { &[ClaimVariable::number("X/x_a", 1.0, f64::INFINITY)] },
             ),
         ],
-        by_hand: &["level, half-width and frequency are set to one by homogeneity"],
+        by_hand: &[
+            "level, half-width and frequency are set to one by homogeneity",
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
+        ],
         printed: AsPrinted::Holds(|budget| sensitivity(budget, 0, false, false, 1.0)),
         corrected: None,
         falsified: |budget| sensitivity(budget, 0, false, false, 1.001),
@@ -76,6 +80,7 @@ claim! {
         by_hand: &[
             "level, half-width and frequency are set to one by homogeneity",
             "every bias: beta does not depend on it",
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
         ],
         printed: AsPrinted::Holds(|budget| sensitivity(budget, 1, true, false, 1.0)),
         corrected: None,
@@ -99,6 +104,7 @@ claim! {
         by_hand: &[
             "level, half-width and frequency are set to one by homogeneity",
             "every bias: beta_xx does not depend on it",
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
         ],
         printed: AsPrinted::Holds(|budget| sensitivity(budget, 2, true, false, 1.0)),
         corrected: None,
@@ -171,35 +177,36 @@ fn identified<T: Real>(amplitude: T) -> Parameters<T> {
         .unwrap_or(Parameters { alpha: unknown(), beta: unknown(), beta_quadratic: unknown(), disturbance: unknown() })
 }
 
-/// `X dp/dX = sensitivity p` for one of the parameters, times the power of X by which it falls: the bound is then relative,
-/// and a millionth is seen where the parameter is small, too.
+/// A formula with its derivative.
+type Slope = numeric::Gradient<Rational, 1>;
+
+/// `X dp/dX = sensitivity p` for one of the parameters, whatever the ratio: level with the middle half of the sweep, and beyond.
 fn prove_sensitivity(
     distortion: Distortion,
-    degree: i32,
-    read: fn(Parameters<Series>) -> Series,
-    printed: fn(Series) -> Series,
+    read: fn(Parameters<Slope>) -> Slope,
+    printed: fn(Rational) -> Rational,
 ) -> Verdict {
-    const COVERED: ClaimPart = ClaimPart::over("ratio", "", const { &[ClaimVariable::number("X/x_a", 1.001, 100.0)] });
-    identity(COVERED, distortion, |amplitude, factor| {
-        let parameter = read(identified(amplitude));
-        let weight = (0..degree).fold(Series::one(), |weight, _| weight * amplitude);
-        [weight * (amplitude * parameter.derivative() - factor * printed(amplitude) * parameter)]
+    const COVERED: ClaimPart = ClaimPart::whole("ratio", "");
+    exactly(COVERED, distortion, &[[3.0], [1.5]], |[amplitude], factor: Rational| {
+        let [variable] = numeric::Gradient::variables([amplitude]);
+        let parameter = read(identified(variable));
+        Some([amplitude * parameter.slopes()[0] - factor * printed(amplitude) * parameter.value()])
     })
 }
 
 /// Eq. 37.
 fn prove_quantisation_alpha(distortion: Distortion) -> Verdict {
-    prove_sensitivity(distortion, 1, |found| found.alpha, |r| amplitude_sensitivity(r).alpha)
+    prove_sensitivity(distortion, |found| found.alpha, |r| amplitude_sensitivity(r).alpha)
 }
 
 /// Eq. 38.
 fn prove_quantisation_beta(distortion: Distortion) -> Verdict {
-    prove_sensitivity(distortion, 2, |found| found.beta, |r| amplitude_sensitivity(r).beta)
+    prove_sensitivity(distortion, |found| found.beta, |r| amplitude_sensitivity(r).beta)
 }
 
 /// Eq. 39.
 fn prove_quantisation_beta_xx(distortion: Distortion) -> Verdict {
-    prove_sensitivity(distortion, 3, |found| found.beta_quadratic, |r| amplitude_sensitivity(r).beta_quadratic)
+    prove_sensitivity(distortion, |found| found.beta_quadratic, |r| amplitude_sensitivity(r).beta_quadratic)
 }
 
 /// Where the slope of alpha vanishes, and on which side it has which sign.

@@ -2,6 +2,7 @@
 
 use core::f64::consts::PI;
 
+use super::algebra::{exactly, number};
 use super::enclosure::{identity, no_function};
 use super::kernels::{BREAKPOINT, on_unit, prove_kernel};
 use super::{
@@ -12,6 +13,7 @@ use crate::experiment::RelayState;
 use crate::nonlinearity::{Branches, Kernel, RelayHysteresis, Sinusoid};
 use crate::numeric::Real;
 use crate::proof::identity::Series;
+use crate::proof::polynomial::Rational;
 
 /// A relay, an input that switches it, and the describing function by quadrature.
 struct Switching {
@@ -65,6 +67,7 @@ claim! {
         by_hand: &[
             "height and amplitude are set to one by linearity and homogeneity",
             "the sides and branches follow from one by reflection",
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
         ],
         printed: AsPrinted::Holds(|budget| {
             formula(budget, |df| df.q, |s| -4.0 * s.level * s.half_width / (PI * s.amplitude * s.amplitude), true)
@@ -108,6 +111,7 @@ claim! {
         by_hand: &[
             "height and amplitude are set to one by linearity and homogeneity",
             "the sides and branches follow from one by reflection",
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
         ],
         printed: AsPrinted::Holds(|budget| formula(budget, |df| df.p, |s| in_phase(s, s.bias), true)),
         corrected: None,
@@ -247,13 +251,20 @@ fn switches_once(budget: Budget, least: f64, most: f64) -> Verdict {
     })
 }
 
+const SWITCHING_CONDITION_WHOLE: ClaimPart = ClaimPart::whole("whole", "every half-width, bias and amplitude");
+
 claim! {
     SWITCHING_CONDITION = "switching-condition" "40" Identity
     "Eq. 31 has a value, and the relay oscillates, exactly when (x_a + abs(x_0))/X <= 1" {
-        domain: &[ClaimPart::whole("whole", "every half-width, bias and amplitude")],
+        domain: &[SWITCHING_CONDITION_WHOLE],
+        by_hand: &[
+            "a root has a value where its radicand is zero or more",
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
+        ],
         printed: AsPrinted::Holds(|budget| condition(budget, 1.0)),
         corrected: None,
         falsified: |budget| condition(budget, 1.1),
+        proof: Some(prove_switching_condition),
         hypotheses: &[],
         depends: &["relay-p"],
     }
@@ -309,9 +320,9 @@ fn overshoot(budget: Budget, least: f64) -> Verdict {
 const BIASES: [f64; 2] = [0.0, 0.3];
 
 /// Describing function of the unit relay under a unit sinusoid, in closed form.
-pub(super) fn relay(level: Series, half_width: Series, bias: Series) -> DescribingFunction<Series> {
-    let relay = RelayHysteresis::new(level, half_width, Series::zero());
-    let df = relay.and_then(|relay| Ok((relay, Sinusoid::new(bias, Series::one())?)));
+pub(super) fn relay<T: Real>(level: T, half_width: T, bias: T) -> DescribingFunction<T> {
+    let relay = RelayHysteresis::new(level, half_width, T::zero());
+    let df = relay.and_then(|relay| Ok((relay, Sinusoid::new(bias, T::one())?)));
     df.ok().and_then(|(relay, sweep)| relay.describing_function(&sweep).ok()).unwrap_or_else(no_function)
 }
 
@@ -346,20 +357,47 @@ fn prove_printed(
         .and(|| of_bias(BIASES[1]))
 }
 
-pub(super) fn root(distance: Series) -> Series {
-    (Series::one() - distance.square()).sqrt()
+pub(super) fn root<T: Real>(distance: T) -> T {
+    (T::one() - distance.square()).sqrt()
+}
+
+/// Half-widths and biases, over the amplitude, in each case of sign: which of the two is the larger, the bias's sign, and whether a
+/// level lies in the middle half of the sweep, where the code goes another way.
+pub(super) const SWITCHINGS: [[f64; 2]; 8] =
+    [[0.3, 0.1], [0.3, -0.1], [0.1, 0.3], [0.1, -0.3], [0.625, 0.25], [0.625, -0.25], [0.25, 0.625], [0.25, -0.625]];
+
+/// [`prove_printed`] where the formula is a rational function, or one of the roots that the code takes: exactly, whatever
+/// half-width and bias.
+fn prove_printed_exactly(
+    distortion: Distortion,
+    term: impl Fn(Rational) -> Rational,
+    formula: impl Fn(Rational, Rational) -> Rational,
+    component: fn(DescribingFunction<Rational>) -> Rational,
+) -> Verdict {
+    const TERM: ClaimPart = ClaimPart::whole("term", "");
+    const SUM: ClaimPart = ClaimPart::whole("sum", "");
+    let of_level = |[at]: [Rational; 1], factor: Rational| {
+        let level = Kernel::Sign { at, level: number(1.0), branches: Branches::Rising };
+        Some([term(at) * factor - component(on_unit(level))])
+    };
+    let of_sum = |[half_width, bias]: [Rational; 2], factor: Rational| {
+        Some([formula(half_width, bias) * factor - component(relay(number(1.0), half_width, bias))])
+    };
+    prove_kernel(KernelForm::Sign, distortion, BREAKPOINT)
+        .and(|| exactly(TERM, distortion, &[[0.3], [-0.3], [0.7], [-0.7]], of_level))
+        .and(|| exactly(SUM, distortion, &SWITCHINGS, of_sum))
 }
 
 /// Eq. 30.
 fn prove_relay_q(distortion: Distortion) -> Verdict {
-    let term = |u| -(Series::two() * u / Series::pi());
-    prove_printed(distortion, term, |width, _| -(Series::from_f64(4.0) * width / Series::pi()), |df| df.q)
+    let term = |u| -(number(2.0) * u / Rational::pi());
+    prove_printed_exactly(distortion, term, |width, _| -(number(4.0) * width / Rational::pi()), |df| df.q)
 }
 
 /// Eq. 31.
 fn prove_relay_p(distortion: Distortion) -> Verdict {
-    let term = |u| Series::two() / Series::pi() * root(u);
-    prove_printed(distortion, term, |width, bias| term(width - bias) + term(width + bias), |df| df.p)
+    let term = |u| number(2.0) / Rational::pi() * root(u);
+    prove_printed_exactly(distortion, term, |width, bias| term(width - bias) + term(width + bias), |df| df.p)
 }
 
 /// Eq. 32.
@@ -376,4 +414,15 @@ fn prove_second_quadrant(distortion: Distortion) -> Verdict {
         let df = relay(Series::pi() / Series::from_f64(4.0), (Series::pi() - angle).sin(), Series::zero());
         [df.p + factor * angle.cos(), df.q + factor * angle.sin()]
     })
+}
+
+/// The larger of the two distances that eq. 31 takes roots of is the least amplitude that the relay asks for.
+fn prove_switching_condition(distortion: Distortion) -> Verdict {
+    let functions = |[half_width, bias]: [Rational; 2], factor: Rational| {
+        let relay = RelayHysteresis::new(number(1.0), half_width, number(0.0)).ok()?;
+        let farther = (half_width - bias).abs().max((half_width + bias).abs());
+        Some([farther - factor * relay.least_amplitude(bias)])
+    };
+    let points = [[0.5, 0.2], [0.5, -0.2], [0.2, 0.5], [0.2, -0.5]];
+    exactly(SWITCHING_CONDITION_WHOLE, distortion, &points, functions)
 }

@@ -1,23 +1,32 @@
 //! When the mean output vanishes: the paper's lemmas on odd and other characteristics.
 
 use super::family::{mean_of, odd_nondecreasing, output_scale, sweep};
-use super::{AsPrinted, Budget, Case, ClaimPart, Hypothesis, Verdict, claim, sample, tolerance};
+use super::step::by_steps;
+use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::describing::ClosedForm;
 use crate::nonlinearity::{DeadZone, Sinusoid};
 use crate::numeric::quadrature::integrate;
 
+const LEMMA_1_WHOLE: ClaimPart = ClaimPart::whole(
+    "whole",
+    "every rising branch that is one nondecreasing function, not constant inside the sweep and its mirror image, the falling branch its half-turn image; without memory: odd, nondecreasing, not zero inside the sweep; every bias and amplitude",
+);
+
 claim! {
     LEMMA_1 = "lemma-1" "Lemma 1" Lemma
     "Odd, nondecreasing and not zero on the whole sweep: the mean output has the sign of the bias, and vanishes with it" {
-        domain: &[
-            ClaimPart::whole(
-                "whole",
-                "odd nondecreasing characteristics without memory that do not vanish on the sweep, every bias and amplitude",
-            ),
+        domain: &[LEMMA_1_WHOLE],
+        by_hand: &[
+            "with branches that are each other's half-turn image F_0 is half the mean of F_up(B + X s) - F_up(-B + X s), s the unit sinusoid",
+            "a nondecreasing function is a constant and a mixture of steps, and the mean is linear",
+            "of a breakpoint only its distance from the bias over the amplitude matters",
+            "a mean that falls with the breakpoint on the sweep, and rests beyond, is the larger of two the lower the breakpoint",
+            "where the code passes to another form, at half the amplitude and within a millionth of the turning points, the mean is an inverse cosine and falls too",
         ],
         printed: AsPrinted::Refuted(|budget| vanishes_only_unbiased(budget, |x| x * x * x - 2.0 * x)),
         corrected: Some(mean_has_sign_of_bias),
         falsified: |budget| vanishes_only_unbiased(budget, |x| (3.0 * x).sin()),
+        proof: Some(prove_lemma_1),
         hypotheses: &[
             Hypothesis { id: "odd", counterexample: Some(|budget| vanishes_only_unbiased(budget, |x| x + 0.5)) },
             Hypothesis { id: "nondecreasing", counterexample: Some(|budget| vanishes_only_unbiased(budget, f64::sin)) },
@@ -89,13 +98,27 @@ fn inside_the_dead_zone(budget: Budget) -> Verdict {
     })
 }
 
+const LEMMA_2_WHOLE: ClaimPart = ClaimPart::whole(
+    "whole",
+    "every pair of branches with E(x) = [F_up(x) + F_down(-x)]/2 of one sign, not zero almost everywhere on the sweep; nondecreasing branches for the sign of the bias; every amplitude",
+);
+
 claim! {
     LEMMA_2 = "lemma-2" "Lemma 2" Lemma
     "With an even part of one sign the mean output cannot vanish without bias; nondecreasing, only with one of the other sign" {
-        domain: &[ClaimPart::whole("whole", "characteristics with an even part of one sign, every amplitude")],
+        domain: &[LEMMA_2_WHOLE],
+        by_hand: &[
+            "without bias F_0 is the mean of E(X s), s the unit sinusoid",
+            "a function of one sign is a mixture of bands, and the mean of a band is that of a step at its lower end less that of one at its upper end",
+            "a nondecreasing function is a constant and a mixture of steps, and the mean is linear",
+            "of a breakpoint only its distance from the bias over the amplitude matters",
+            "a mean that falls with the breakpoint on the sweep, and rests beyond, is the larger of two the lower the breakpoint",
+            "where the code passes to another form, at half the amplitude and within a millionth of the turning points, the mean is an inverse cosine and falls too",
+        ],
         printed: AsPrinted::Refuted(|budget| unbiased_mean_is_not_zero(budget, |x, even| x + even * (x * x - 0.5))),
         corrected: Some(|budget| even_part_decides(budget, |x, even| x * x * x + x + even * (1.0 + (-x * x).exp()))),
         falsified: |budget| even_part_decides(budget, |x, even| x + even * (x * x - 0.5)),
+        proof: Some(prove_lemma_2),
         hypotheses: &[
             Hypothesis {
                 id: "even-part-of-one-sign",
@@ -149,4 +172,14 @@ fn even_part_decides(budget: Budget, function: WithEvenPart) -> Verdict {
         };
         Case::margin(unbiased).and(opposite)
     })
+}
+
+/// By the mean of a step.
+pub(super) fn prove_lemma_1(distortion: Distortion) -> Verdict {
+    by_steps(distortion, const { &[LEMMA_1_WHOLE] })
+}
+
+/// By the mean of a step.
+pub(super) fn prove_lemma_2(distortion: Distortion) -> Verdict {
+    by_steps(distortion, const { &[LEMMA_2_WHOLE] })
 }

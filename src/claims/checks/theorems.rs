@@ -1,10 +1,13 @@
 //! Theorems 2 and 3: when the self-oscillations of a closed loop are symmetric, on exact orbits and on the first harmonic.
 
-use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
-use crate::describing::by_quadrature;
+use super::algebra::{exactly, number};
+use super::step::by_steps;
+use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use crate::describing::{bias_of_output, by_quadrature};
 use crate::nonlinearity::{Custom, RelayHysteresis, Sinusoid};
 use crate::orbit::{RelayLoop, RelayOrbit};
 use crate::plant::{StateSpace, TransferFunction};
+use crate::proof::polynomial::Rational;
 
 /// Closed loops are dear: a hundredth of the cases that a formula gets.
 fn few(budget: Budget) -> Budget {
@@ -87,10 +90,25 @@ fn odd_and_astatic_without_bias(budget: Budget) -> Verdict {
     })
 }
 
+const THEOREM_2_FIRST_HARMONIC: ClaimPart = ClaimPart::whole(
+    "first-harmonic",
+    "every linear process, every characteristic of lemma 1, its input a sinusoid about a bias, every constant reference",
+);
+const THEOREM_2_RELAY_ORBITS: ClaimPart = ClaimPart::whole(
+    "relay-orbits",
+    "every exact motion with one switching each way of a linear process under a relay with hysteresis, the integrator's pole the only one on the imaginary axis, every constant reference",
+);
+
 claim! {
     THEOREM_2 = "theorem-2" "Theorem 2" Theorem
     "Odd, nondecreasing and not zero on the sweep: symmetric about any constant reference if the process integrates, and about none but zero if not" {
-        domain: &[ClaimPart::whole("whole", "every integrating plant under a symmetric relay")],
+        domain: &[THEOREM_2_FIRST_HARMONIC, THEOREM_2_RELAY_ORBITS],
+        by_hand: &[
+            "the steps of lemma 1",
+            "an integrator passes periodic motion only where the mean of its input is zero",
+            "a process without integrator answers a mean of zero with a mean of zero",
+            "a linear process answers a command of mirrored half waves with mirrored half waves, about a constant that is zero without integrator",
+        ],
         printed: AsPrinted::Refuted(odd_and_astatic_without_bias),
         corrected: Some(|budget| {
             symmetric(budget, &Loop { integrating: true, offset: false, referred: true })
@@ -98,6 +116,7 @@ claim! {
         }),
         // A reference that does not matter without an integrator either.
         falsified: |budget| symmetric(budget, &Loop { integrating: false, offset: false, referred: true }),
+        proof: Some(prove_theorem_2),
         hypotheses: &[
             Hypothesis {
                 id: "integrating",
@@ -123,16 +142,31 @@ fn not_odd_and_astatic_with_bias(budget: Budget) -> Verdict {
     })
 }
 
+const THEOREM_3_FIRST_HARMONIC: ClaimPart = ClaimPart::whole(
+    "first-harmonic",
+    "every linear process with an integrator, every characteristic of lemma 1 or 2, its input a sinusoid about a bias, every constant reference",
+);
+const THEOREM_3_RELAY_ORBITS: ClaimPart = ClaimPart::whole(
+    "relay-orbits",
+    "every exact motion with one switching each way of a linear process with an integrator under a relay with hysteresis, the integrator's pole the only one on the imaginary axis, every offset of the levels below the level",
+);
+
 claim! {
     THEOREM_3 = "theorem-3" "Theorem 3" Theorem
     "Integrating process: an even part of one sign makes the self-oscillations asymmetric; an odd nondecreasing characteristic keeps them symmetric" {
-        domain: &[ClaimPart::whole("whole", "every integrating plant under a relay with offset levels")],
+        domain: &[THEOREM_3_FIRST_HARMONIC, THEOREM_3_RELAY_ORBITS],
+        by_hand: &[
+            "the steps of lemmas 1 and 2",
+            "an integrator passes periodic motion only where the mean of its input is zero",
+            "a linear process answers a command of mirrored half waves with mirrored half waves, about a constant that is zero without integrator",
+        ],
         printed: AsPrinted::Refuted(not_odd_and_astatic_with_bias),
         corrected: Some(|budget| {
             asymmetric(budget, &Loop { integrating: true, offset: true, referred: true })
                 .and(|| symmetric(budget, &Loop { integrating: true, offset: false, referred: true }))
         }),
         falsified: |budget| asymmetric(budget, &Loop { integrating: true, offset: false, referred: true }),
+        proof: Some(prove_theorem_3),
         hypotheses: &[
             Hypothesis {
                 id: "integrating",
@@ -142,4 +176,37 @@ claim! {
         ],
         depends: &["lemma-2", "theorem-2"],
     }
+}
+
+/// On the first harmonic by lemma 1; on exact orbits by the mean of the command and the levels at which it switches: mean zero is
+/// equal times, and mirrored half waves that switch at both levels are mirrored at the reference.
+fn prove_theorem_2(distortion: Distortion) -> Verdict {
+    let orbits = |[level, positive_s, negative_s, half_width, reference]: [Rational; 5], factor: Rational| {
+        let relay = RelayHysteresis::new(level, half_width, number(0.0)).ok()?;
+        let mean = bias_of_output(level, positive_s, negative_s);
+        // The input is the reference less the output; it rises through one level and falls through the other.
+        let [rising, falling] = relay.switching_levels();
+        let (lower, upper) = (reference - rising, reference - falling);
+        Some([
+            mean * (positive_s + negative_s) - factor * level * (positive_s - negative_s),
+            (lower + upper) / number(2.0) - reference,
+        ])
+    };
+    by_steps(distortion, const { &[THEOREM_2_FIRST_HARMONIC] })
+        .and(|| exactly(THEOREM_2_RELAY_ORBITS, distortion, &[[1.0, 0.6, 0.4, 0.2, 0.3]], orbits))
+}
+
+/// On the first harmonic by lemmas 1 and 2; on exact orbits by the mean of the command: with levels `offset +- level` it vanishes
+/// where the times differ by `-offset/level` of the period.
+fn prove_theorem_3(distortion: Distortion) -> Verdict {
+    let orbits = |[level, positive_s, offset]: [Rational; 3], factor: Rational| {
+        let negative_s = positive_s * (level + offset) / (level - offset);
+        let period_s = positive_s + negative_s;
+        Some([
+            bias_of_output(level, positive_s, negative_s) + factor * offset,
+            (positive_s - negative_s) / period_s + offset / level,
+        ])
+    };
+    by_steps(distortion, const { &[THEOREM_3_FIRST_HARMONIC] })
+        .and(|| exactly(THEOREM_3_RELAY_ORBITS, distortion, &[[1.0, 0.6, 0.3]], orbits))
 }

@@ -1,17 +1,28 @@
 //! From the controller's forces to thrust: eqs. 1-3 and 35, Fig. 11.
 
-use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use super::algebra::{exactly, number};
+use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use crate::numeric::Real;
+use crate::proof::polynomial::Rational;
 use crate::vehicle::{Allocation, BilinearThruster, Compensation, ThrustSide, Thruster};
+
+const THRUSTER_BILINEAR_WHOLE: ClaimPart =
+    ClaimPart::whole("whole", "every pair of coefficients, speed of the water and thrust");
 
 claim! {
     THRUSTER_BILINEAR = "thruster-bilinear" "1" Identity
     "Thrust T_nn abs(n) n - T_nu abs(n) u_a and torque alike; each thrust has one rate that turns its way and does not brake"
     {
-        domain: &[ClaimPart::whole("whole", "every pair of coefficients, speed of the water and thrust")],
+        domain: &[THRUSTER_BILINEAR_WHOLE],
+        by_hand: &[
+            "every thrust within reach is that of some rate that does not brake, by continuity",
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
+        ],
         printed: AsPrinted::Holds(|budget| bilinear(budget, 1.0, 1.0)),
         corrected: None,
         // Still water: the rate found without the ambient speed.
         falsified: |budget| bilinear(budget, 0.0, 1.0),
+        proof: Some(prove_bilinear),
         hypotheses: &[
             Hypothesis { id: "not-braking", counterexample: Some(|budget| bilinear(budget, 1.0, 0.0)) },
         ],
@@ -90,11 +101,17 @@ impl Commands {
     }
 }
 
+const THRUSTER_AFFINE_WHOLE: ClaimPart = ClaimPart::whole("whole", "every pair of coefficients, command and thrust");
+
 claim! {
     THRUSTER_AFFINE = "thruster-affine" "2" Identity
     "Thrust a abs(n) n + b n is odd and has one command, sgn(T) sqrt(abs(T)/a) where b = 0"
     {
-        domain: &[ClaimPart::whole("whole", "every pair of coefficients, command and thrust")],
+        domain: &[THRUSTER_AFFINE_WHOLE],
+        by_hand: &[
+            "every thrust within reach is that of some command, by continuity",
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
+        ],
         printed: AsPrinted::Holds(|budget| affine(budget, Commands::Turning, inverse)
             .and(|| simplest(budget))),
         corrected: None,
@@ -102,6 +119,7 @@ claim! {
         falsified: |budget| affine(budget, Commands::Turning, |curve, thrust| {
             (thrust.abs() / curve.quadratic).sqrt().copysign(thrust)
         }),
+        proof: Some(prove_affine),
         hypotheses: &[
             Hypothesis { id: "turning", counterexample: Some(|budget| affine(budget, Commands::Standing, inverse)) },
             Hypothesis { id: "within-limit", counterexample: Some(|budget| affine(budget, Commands::Beyond, inverse)) },
@@ -149,15 +167,23 @@ fn falling(budget: Budget) -> Verdict {
     })
 }
 
+const THRUSTER_ASYMMETRIC_WHOLE: ClaimPart =
+    ClaimPart::whole("whole", "every two pairs of coefficients, command and thrust");
+
 claim! {
     THRUSTER_ASYMMETRIC = "thruster-asymmetric" "3" Definition
     "Coefficients of their own for n > 0 and n <= 0; the sign of the thrust picks the side of the inverse"
     {
-        domain: &[ClaimPart::whole("whole", "every two pairs of coefficients, command and thrust")],
+        domain: &[THRUSTER_ASYMMETRIC_WHOLE],
+        by_hand: &[
+            "every thrust within reach is that of some command, by continuity",
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
+        ],
         printed: AsPrinted::Holds(|budget| asymmetric(budget, false)),
         corrected: None,
         // The forward coefficients astern too.
         falsified: |budget| asymmetric(budget, true),
+        proof: Some(prove_asymmetric),
         hypotheses: &[],
         depends: &["thruster-affine"],
     }
@@ -181,15 +207,18 @@ fn asymmetric(budget: Budget, forward_only: bool) -> Verdict {
     })
 }
 
+const ALLOCATION_WHOLE: ClaimPart = ClaimPart::whole("whole", "every distance, force and moment");
+
 claim! {
     ALLOCATION = "allocation" "35" Identity
     "X = tau_1 + tau_2, N = d (tau_1 - tau_2); tau = (X +- N/d)/2 is its inverse"
     {
-        domain: &[ClaimPart::whole("whole", "every distance, force and moment")],
+        domain: &[ALLOCATION_WHOLE],
         printed: AsPrinted::Holds(|budget| allocation(budget, 1.0, 1.0)),
         corrected: None,
         // The two thrusters exchanged.
         falsified: |budget| allocation(budget, -1.0, 1.0),
+        proof: Some(prove_allocation),
         hypotheses: &[Hypothesis { id: "arm-positive", counterexample: Some(|budget| allocation(budget, 1.0, 0.0)) }],
         depends: &[],
     }
@@ -214,15 +243,23 @@ fn allocation(budget: Budget, sign: f64, arm_factor: f64) -> Verdict {
     })
 }
 
+const COMPENSATION_WHOLE: ClaimPart =
+    ClaimPart::whole("whole", "every pair of thrusters at a distance from the axis, every thruster, force and moment");
+
 claim! {
     COMPENSATION = "compensation" "Fig. 11" Theorem
     "Inverse allocation, offset and inverse maps before the thrusters leave the force asked for, plus a constant"
     {
-        domain: &[ClaimPart::whole("whole", "every allocation, thruster and force")],
+        domain: &[COMPENSATION_WHOLE],
+        by_hand: &[
+            "every force within reach is that of some pair of commands",
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
+        ],
         printed: AsPrinted::Holds(|budget| compensation(budget, &Chain::INTACT)),
         corrected: None,
         // The constant left out of account.
         falsified: |budget| compensation(budget, &Chain { bias: 0.0, ..Chain::INTACT }),
+        proof: Some(prove_compensation),
         hypotheses: &[
             Hypothesis {
                 id: "same-thrusters",
@@ -288,4 +325,123 @@ fn compensation(budget: Budget, chain: &Chain) -> Verdict {
         draw.equal(("turning_n_m", turning_n_m), moment + chain.bias * bias[1], ARM_M * scale, tolerance::ROUNDING)
             .and(draw.equal(("ahead_n", ahead_n), chain.bias * bias[0], scale, tolerance::ROUNDING))
     })
+}
+
+/// Eq. 1, and its rate: coefficients of thrust and torque, speed of the water, rate, largest rate.
+fn prove_bilinear(distortion: Distortion) -> Verdict {
+    let functions = |[t_nn, t_nu, q_nn, q_nu, ambient, rate, largest]: [Rational; 7], factor: Rational| {
+        let thruster = BilinearThruster::new((t_nn, t_nu), (q_nn, q_nu), largest).ok()?;
+        let eq_1 = |by_rate, by_speed| by_rate * rate.abs() * rate - by_speed * rate.abs() * ambient;
+        let thrust = thruster.thrust(rate, ambient);
+        Some([
+            thrust - factor * eq_1(t_nn, t_nu),
+            thruster.torque(rate, ambient) - eq_1(q_nn, q_nu),
+            thruster.rate(thrust, ambient).ok()? - rate,
+        ])
+    };
+    let at = |ambient, rate| [0.5, 0.3, 0.2, 0.1, ambient, rate, 9.0];
+    exactly(
+        THRUSTER_BILINEAR_WHOLE,
+        distortion,
+        &[at(2.0, 3.0), at(-2.0, 3.0), at(2.0, -3.0), at(-2.0, -3.0)],
+        functions,
+    )
+}
+
+/// Eq. 2 at a command, and the commands found for the thrusts there: what must vanish on one side.
+fn eq_2(
+    thruster: &Thruster<Rational>,
+    [quadratic, linear]: [Rational; 2],
+    command: Rational,
+    factor: Rational,
+) -> Option<[Rational; 2]> {
+    let thrust = thruster.thrust(command);
+    let printed = quadratic * command.abs() * command + linear * command;
+    Some([thrust - factor * printed, thruster.command(thrust).ok()? - command])
+}
+
+/// Coefficients, dead zone, limit and a command between them: both coefficients positive, or one of them.
+fn prove_affine(distortion: Distortion) -> Verdict {
+    let functions = |[quadratic, linear, dead_zone, limit, command]: [Rational; 5], factor: Rational| {
+        let thruster = Thruster::affine(quadratic, linear, dead_zone, limit).ok()?;
+        let ahead = eq_2(&thruster, [quadratic, linear], command, factor)?;
+        let astern = eq_2(&thruster, [quadratic, linear], -command, factor)?;
+        Some([ahead[0], ahead[1], astern[0], astern[1], thruster.thrust(command) + thruster.thrust(-command)])
+    };
+    let simplest = |[quadratic, dead_zone, limit, thrust]: [Rational; 4], factor: Rational| {
+        let thruster = Thruster::affine(quadratic, number(0.0), dead_zone, limit).ok()?;
+        let root = (thrust / quadratic).sqrt();
+        // Of four thrusts the root is that of two commands.
+        let found = [thrust, -thrust].map(|thrust| thruster.command(thrust).ok());
+        let [ahead, astern] = found;
+        Some([ahead?.square() - factor * root.square(), astern? + ahead?])
+    };
+    let points = [[0.5, 0.3, 1.0, 9.0, 4.0], [0.5, -0.3, 1.0, 9.0, 4.0], [-0.01, 0.3, 1.0, 9.0, 4.0]];
+    exactly(THRUSTER_AFFINE_WHOLE, distortion, &points, functions)
+        .and(|| exactly(THRUSTER_AFFINE_WHOLE, distortion, &[[0.5, 1.0, 9.0, 7.0]], simplest))
+}
+
+/// Coefficients, dead zone, limit and command of either side.
+fn prove_asymmetric(distortion: Distortion) -> Verdict {
+    let functions = |at: [Rational; 10], factor: Rational| {
+        let [a, b, dead_zone, limit, command, a_astern, b_astern, dead_astern, limit_astern, command_astern] = at;
+        let ahead = ThrustSide::new(a, b, dead_zone, limit).ok()?;
+        let astern = ThrustSide::new(a_astern, b_astern, dead_astern, limit_astern).ok()?;
+        let thruster = Thruster::asymmetric(ahead, astern);
+        let [thrust, found] = eq_2(&thruster, [a, b], command, factor)?;
+        let [back, found_astern] = eq_2(&thruster, [a_astern, b_astern], -command_astern, factor)?;
+        Some([thrust, found, back, found_astern, thruster.thrust(number(0.0))])
+    };
+    let sides = [[0.5, 0.3, 1.0, 9.0, 4.0], [0.4, -0.3, 1.5, 8.0, 3.0], [-0.01, 0.3, 1.0, 9.0, 4.0]];
+    let pairs = sides.iter().flat_map(|ahead| sides.iter().map(move |astern| [*ahead, *astern]));
+    let points: Vec<[f64; 10]> = pairs.map(|pair| core::array::from_fn(|i| pair[i / 5][i % 5])).collect();
+    exactly(THRUSTER_ASYMMETRIC_WHOLE, distortion, &points, functions)
+}
+
+/// Eq. 35 and its inverse, both ways.
+fn prove_allocation(distortion: Distortion) -> Verdict {
+    let functions = |[arm, first, second]: [Rational; 3], factor: Rational| {
+        let pair = Allocation::pair(arm).ok()?;
+        let [force, moment] = pair.forces(&[first, second]);
+        let [first_found, second_found] = pair.thrusts(&[force, moment]);
+        // The same two numbers taken for force and moment.
+        let [one, other] = pair.thrusts(&[first, second]);
+        let two = number(2.0);
+        Some([
+            force - factor * (first + second),
+            moment - arm * (first - second),
+            first_found - first,
+            second_found - second,
+            one - (first + second / arm) / two,
+            other - (first - second / arm) / two,
+        ])
+    };
+    exactly(ALLOCATION_WHOLE, distortion, &[[0.1, 2.0, 3.0]], functions)
+}
+
+/// A pair of thrusters with offsets against their dead zones: what is asked for is what commands within reach would give.
+fn prove_compensation(distortion: Distortion) -> Verdict {
+    let functions = |at: [Rational; 10], factor: Rational| {
+        let [arm, largest, a, b, dead_zone, first, a_other, b_other, dead_other, second] = at;
+        let thruster = |a, b, dead_zone| Thruster::affine(a, b, dead_zone, number(100.0)).ok();
+        let thrusters = [thruster(a, b, dead_zone)?, thruster(a_other, b_other, dead_other)?];
+        let (pair, one) = (Allocation::pair(arm).ok()?, number(1.0));
+        let made = Compensation::against_dead_zone(pair, thrusters, [one, one], [number(0.0), largest]).ok()?;
+        let ([force, moment], [force_bias, moment_bias]) =
+            (made.delivered(&[first, second], &thrusters), made.bias_forces());
+        let asked = [force - force_bias, moment - moment_bias];
+        let commands = made.commands(&asked).ok()?;
+        let [force_given, moment_given] = made.delivered(&commands, &thrusters);
+        Some([
+            commands[0] - first,
+            commands[1] - second,
+            force_given - (asked[0] + factor * force_bias),
+            moment_given - (asked[1] + factor * moment_bias),
+        ])
+    };
+    let point = |[a, b]: [f64; 2], [c, d]: [f64; 2], dead| [0.5, 0.25, a, b, 1.0, 4.0, c, d, dead, 5.0];
+    let (both, falling, bending) = ([0.5, 0.3], [0.5, -0.3], [-0.001, 0.5]);
+    let laws = [both, falling, bending];
+    let points: Vec<_> = laws.iter().flat_map(|&one| laws.iter().map(move |&other| point(one, other, 1.25))).collect();
+    exactly(COMPENSATION_WHOLE, distortion, &points, functions)
 }

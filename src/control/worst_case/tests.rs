@@ -29,7 +29,7 @@ fn no_axis_of_a_box_is_below_its_bound() {
             let open_loop = OpenLoop::linear(alpha, drag, inside(part.delay_s, share(2)), gains);
             worst = lesser(worst, scores(&open_loop).unwrap_or([0.0; 4]));
         }
-        for (bound, worst) in bound.iter().zip(worst) {
+        for (bound, worst) in bound.0.iter().zip(worst) {
             // An unstable axis has no margin, and the bound of its box is none or one.
             assert!(*bound <= worst * (1.0 + 1e-9) || (worst == 0.0 && *bound <= 1.0), "{bound} {worst} {part:?}");
             near += u32::from(*bound > 0.7 * worst && worst > 0.0 && worst.is_finite());

@@ -166,8 +166,8 @@ fn mean_square(values: &[f64], about: f64) -> f64 {
 }
 
 impl RecordFit {
-    /// The same model, its errors with what the input's way between samples leaves open: `other` takes the other of two ways
-    /// that pass into each other. A way between them is as likely as the parabola through both likelihoods says, and the
+    /// The same model, its errors with what is unknown of the input between samples: `other` is the fit under the other of two
+    /// treatments of the input between which there is a continuum. One between them is as likely as the parabola through both likelihoods says, and the
     /// estimate moves along with it.
     pub(super) fn widened(mut self, other: &Self) -> Self {
         let lost = (self.evidence - other.evidence).max(0.5);

@@ -1,4 +1,4 @@
-//! The drag law by likelihood: every law fitted to the same records.
+//! Model selection by likelihood, the drag law: every law fitted to the same records.
 
 use rayon::prelude::*;
 

@@ -35,7 +35,11 @@ pub enum Decision {
 /// assert_eq!(decide(20.0, 15.0, 10.0), Decision::Undecided);
 /// ```
 #[must_use]
-pub fn decide(spread_linear_percent: f64, spread_quadratic_percent: f64, margin_percent: f64) -> Decision {
+pub fn decide<T: Real + PartialOrd>(
+    spread_linear_percent: T,
+    spread_quadratic_percent: T,
+    margin_percent: T,
+) -> Decision {
     let difference = spread_linear_percent - spread_quadratic_percent;
     if difference > margin_percent {
         Decision::Quadratic

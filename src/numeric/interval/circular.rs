@@ -13,7 +13,7 @@ pub(super) const HALF_PI_REST: Interval =
     Interval { lo: 8.478_427_660_368_9e-32, hi: 8.478_427_660_368_9e-32_f64.next_up() };
 const HALF_PI: Interval = Interval { lo: core::f64::consts::FRAC_PI_2, hi: core::f64::consts::FRAC_PI_2.next_up() };
 
-/// Largest argument that is reduced; beyond it sine and cosine are only known to lie in `[-1, 1]`.
+/// Largest argument whose quarters are counted; beyond it they are counted modulo four.
 const REDUCTION_LIMIT: f64 = 1_048_576.0;
 
 /// `(sin(r)/r - 1)/r^2` and `(cos(r) - 1)/r^2` by the square of r, for `|r| <= 1.2`.
@@ -30,6 +30,62 @@ fn reduce(x: f64) -> Option<(i32, Interval)> {
     // The smallest first, but for the second: near a multiple of pi/2 it cancels what the first leaves.
     let r = Interval::point(x) - first - second - (third + Interval::point(k) * HALF_PI_REST);
     Some((k as i32, r))
+}
+
+/// `2/pi` to 1216 bits, the first 64 behind the point first.
+const TWO_OVER_PI: [u64; 19] = [
+    0xa2f9_836e_4e44_1529,
+    0xfc27_57d1_f534_ddc0,
+    0xdb62_9599_3c43_9041,
+    0xfe51_63ab_debb_c561,
+    0xb724_6e3a_424d_d2e0,
+    0x0649_2eea_09d1_921c,
+    0xfe1d_eb1c_b129_a73e,
+    0xe882_35f5_2ebb_4484,
+    0xe99c_7026_b45f_7e41,
+    0x3991_d639_8353_39f4,
+    0x9c84_5f8b_bdf9_283b,
+    0x1ff8_97ff_de05_980f,
+    0xef2f_118b_5a0a_6d1f,
+    0x6d36_7ecf_27cb_09b7,
+    0x4f46_3f66_9e5f_ea2d,
+    0x7527_bac7_ebe5_f17b,
+    0x3d07_39f7_8a52_92ea,
+    0x6bfb_5fb1_1f8d_5d08,
+    0x5603_3046_fc7b_6bab,
+];
+
+/// [`reduce`] with the count modulo four, for `|x| >= 1` and however large: as many bits of `2/pi` as decide.
+fn reduce_large(x: f64) -> (i32, Interval) {
+    /// From here on rounding to a double covers what the product leaves out.
+    const LONG: u128 = 1 << 60;
+    let bits = x.abs().to_bits();
+    let (significand, exponent) = (bits & ((1 << 52) - 1) | 1 << 52, (bits >> 52) as usize);
+    // x = significand 2^(exponent - 1075); words that give multiples of four are left out.
+    let skipped = exponent.saturating_sub(1077) / 64;
+    let mut product = [0_u64; 6];
+    for (place, &word) in TWO_OVER_PI[skipped..skipped + 4].iter().rev().enumerate() {
+        let sum = u128::from(significand) * u128::from(word) + u128::from(product[place]);
+        product[place] = sum as u64;
+        product[place + 1] = (sum >> 64) as u64;
+    }
+    // Place of the ones: what is left out is below 2^-128.
+    let ones = 256 + 1075 + 64 * skipped - exponent;
+    let from = |place: usize| {
+        let word = |index: usize| u128::from(product.get(index).copied().unwrap_or(0));
+        let (index, shift) = (place / 64, place % 64);
+        let low = word(index) | word(index + 1) << 64;
+        if shift == 0 { low } else { low >> shift | word(index + 2) << (128 - shift) }
+    };
+    let fraction = from(ones - 128).cast_signed();
+    let count = (from(ones) & 3) as i32 + i32::from(fraction < 0);
+    let nearest = fraction as f64;
+    let mut scaled = Interval { lo: nearest.next_down(), hi: nearest.next_up() };
+    if fraction.unsigned_abs() < LONG {
+        scaled += Interval { lo: 0.0, hi: 2.0 };
+    }
+    let rest = scaled * Interval::point(1.0 / (LONG as f64 * LONG as f64 * 256.0)) * HALF_PI;
+    if x < 0.0 { (-count, -rest) } else { (count, rest) }
 }
 
 /// What a series adds to its first term, in units of that.
@@ -63,9 +119,20 @@ struct Quarters {
 }
 
 impl Quarters {
+    /// `None` for an interval that is wide and reaches far.
     fn of(x: Interval) -> Option<Self> {
-        let lower = reduce(x.lo)?;
-        let upper = if x.is_point() { lower } else { reduce(x.hi)? };
+        /// Below three quarter turns: the ends' counts differ by three at most.
+        const SHORT: f64 = 4.0;
+        let lower = reduce(x.lo);
+        let (lower, upper) = match (lower, if x.is_point() { lower } else { reduce(x.hi) }) {
+            (Some(lower), Some(upper)) => (lower, upper),
+            (lower, upper) if x.is_bounded() && x.width() <= SHORT => {
+                let lower = lower.unwrap_or_else(|| reduce_large(x.lo));
+                let (count, rest) = upper.unwrap_or_else(|| reduce_large(x.hi));
+                (lower, (lower.0 + (count - lower.0).rem_euclid(4), rest))
+            }
+            _ => return None,
+        };
         let first = lower.0 + i32::from(lower.1.is_positive());
         let last = upper.0 - i32::from(upper.1.is_negative());
         Some(Self { lower, upper, first, last })
@@ -162,7 +229,18 @@ pub(super) fn minus_sine(x: Interval, difference: Interval) -> Interval {
     increasing.intersection(difference).unwrap_or(difference)
 }
 
+/// Up to here the inverse functions are their argument but for its cube, far below its rounding.
+const SMALL: f64 = 1.0 / 134_217_728.0; // 2^-27
+
+/// The argument's cube, and what lies between it and zero: `x <= asin x <= x + x^3` and `x - x^3 <= atan x <= x` for `0 <= x <= 1/2`.
+fn up_to_cube(x: Interval) -> Interval {
+    (x * x.square()).hull(Interval::ZERO)
+}
+
 pub(super) fn asin(x: Interval) -> Interval {
+    if x.magnitude() <= SMALL {
+        return x.increasing(|end| Interval::point(end) + up_to_cube(Interval::point(end)));
+    }
     if x.is_subset_of(Interval::UNIT) { x.increasing_over(asin_over) } else { Interval::ENTIRE }
 }
 
@@ -175,5 +253,8 @@ pub(super) fn acos(x: Interval) -> Interval {
 }
 
 pub(super) fn atan(x: Interval) -> Interval {
+    if x.magnitude() <= SMALL {
+        return x.increasing(|end| Interval::point(end) - up_to_cube(Interval::point(end)));
+    }
     x.increasing_over(atan_over)
 }

@@ -187,6 +187,62 @@ fn faults_are_named_and_hold_the_command() {
     ] {
         let step = controller.step(reference, measurement, dt);
         assert_eq!((step.command, step.fault), (good.command, Some(fault)));
-        assert_eq!(controller, before);
     }
+    // Measurement, reference and overflow lasted 0.1 s each, and so, for want of another number, did the two bad intervals.
+    let mut waited = before;
+    let (late, expected) = (controller.step(1.0, 0.02, 0.1), waited.step(1.0, 0.02, 0.6));
+    assert!((late.command - expected.command).abs() < ROUNDING_MARGIN, "{late:?} {expected:?}");
+}
+
+/// At constant speed along a moving reference, readings are lost and come back: the command is the undisturbed one's.
+#[test]
+fn lost_readings_do_not_multiply_the_speed() {
+    for structure in STRUCTURES {
+        for lost in [1, 5, 20] {
+            let mut undisturbed = Controller::new(&gains(structure));
+            let mut disturbed = undisturbed;
+            let (speed, dt_s) = (0.3, 0.1);
+            let mut last = (0.0, 0.0);
+            for sample in 0..80 {
+                let measurement = speed * dt_s * f64::from(sample);
+                let reference = measurement + 0.5;
+                let seen = if (50..50 + lost).contains(&sample) { f64::NAN } else { measurement };
+                last = (
+                    undisturbed.step(reference, measurement, dt_s).command,
+                    disturbed.step(reference, seen, dt_s).command,
+                );
+                if sample == 50 + lost {
+                    assert!((last.1 / last.0 - 1.0).abs() < 0.05, "{structure:?} after {lost}: {last:?}");
+                }
+            }
+            assert!((last.1 / last.0 - 1.0).abs() < 0.05, "{structure:?} at the end: {last:?}");
+        }
+    }
+}
+
+/// A hold is as long as chosen, in f32 too; then the command is neutral, and the next start is one.
+#[test]
+fn a_hold_ends_at_the_neutral_command() {
+    fn ends<T: selfosc::numeric::Scalar>() {
+        let number = T::from_f64;
+        let gains = Gains::new(Structure::Pid, number(1.0), number(0.5), number(0.5), number(0.125)).unwrap();
+        let fresh = Controller::new(&gains).with_longest_hold(number(0.5), number(0.25)).unwrap();
+        for (reference, measurement, dt) in
+            [(1.0, f64::NAN, 0.125), (f64::INFINITY, 0.0, 0.125), (1.0, 0.0, f64::NAN), (1.0, 0.0, -1.0)]
+        {
+            let mut controller = fresh;
+            let held = controller.step(number(1.0), number(0.0), number(0.125)).command;
+            for sample in 1..=20 {
+                let command = controller.step(number(reference), number(measurement), number(dt)).command;
+                assert_eq!(command, if sample <= 4 { held } else { number(0.25) });
+            }
+            let mut anew = fresh;
+            let again = [&mut controller, &mut anew].map(|it| it.step(number(1.0), number(3.0), number(0.125)).command);
+            assert_eq!(again[0], again[1]);
+        }
+        assert!(Controller::new(&gains).with_longest_hold(number(-1.0), T::zero()).is_err());
+        assert!(Controller::new(&gains).with_longest_hold(T::zero(), number(f64::NAN)).is_err());
+    }
+    ends::<f32>();
+    ends::<f64>();
 }

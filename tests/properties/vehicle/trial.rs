@@ -72,7 +72,7 @@ impl Setup {
             most_cycles: 60,
             duration_s: 600.0,
             spread: 0.25,
-            ..Protocol::new(self.coordinate, level, self.half_width, 0.1)
+            ..Protocol::new(self.coordinate, level, self.half_width, 10.0 * self.half_width, 0.1)
         };
         let sensor = Sensor { delay_s: 0.1, quantum: self.quantum, noise: 0.5 * self.quantum };
         let pool = Simulation::new(vehicle.clone(), thrusters, 0.01, BodyState::at_rest()).unwrap();
@@ -205,7 +205,7 @@ fn neglected_terms_explain_the_difference() {
 #[test]
 fn a_trial_refuses_what_does_not_fit() {
     let compass = Sensor { delay_s: 0.1, quantum: 0.0, noise: 0.0 };
-    let protocol = Protocol::new(Coordinate::HeadingRad, 0.06, 0.3, 0.1);
+    let protocol = Protocol::heading_rad(0.06, 0.3, 0.1);
     let pool = |step_s| {
         Simulation::new(pool_vehicle().unwrap(), pool_thrusters().unwrap().to_vec(), step_s, BodyState::at_rest())
             .unwrap()

@@ -7,29 +7,13 @@ use std::borrow::Cow;
 
 use selfosc::experiment::Record;
 use selfosc::identify::fit::{Fit, RecordFit};
-use selfosc::identify::joint::{Delay, Estimate, Parameter};
+use selfosc::identify::joint::{Delay, Parameter};
 use selfosc::identify::select::likelihood::Choice;
 use selfosc::identify::{DragLaw, Warning};
 use selfosc_simulator::answer::{Answer, Interval, Trust};
 use selfosc_simulator::kinds::Case;
 
-/// The record as a user reads it: wrapped headings made continuous.
-fn record(log: &selfosc_simulator::experiment::Record, turn: Option<f64>) -> Result<Record, String> {
-    let mut output = log.output.clone();
-    if let Some(turn) = turn {
-        for index in 1..output.len() {
-            let jump = output[index] - output[index - 1];
-            output[index] -= turn * (jump / turn).round();
-        }
-    }
-    Record::new(log.time_s.clone(), output, log.input.clone()).map_err(|error| error.code().to_owned())
-}
-
-/// An estimate that ended on its bound has no interval: it is taken at its word.
-fn interval(estimate: Estimate) -> Interval {
-    let Estimate { value, spread } = estimate;
-    spread.map_or(Interval::exact(value), |spread| Interval { value, low: spread.low, high: spread.high })
-}
+use crate::reading::{interval, record};
 
 /// The answer to a case.
 pub(crate) fn identify(case: &Case) -> Answer {

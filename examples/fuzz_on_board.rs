@@ -1,0 +1,175 @@
+//! Steps of experiments and controllers upon readings and clocks of all bit patterns: no panic, no command beyond its limits, and
+//! a neutral one after an end.
+//!
+//! `cargo run --release --example fuzz_on_board -- STEPS SEED`; without arguments a million steps from seed 1. The longest run so
+//! far is recorded in `fixtures/fuzz_on_board.txt`.
+
+use std::ops::ControlFlow;
+
+use selfosc::control::{Controller, Gains, Structure};
+use selfosc::numeric::Scalar;
+use selfosc::on_board::{Coordinate, Experiment, Phase, Protocol};
+
+/// Splitmix64 (Steele, Lea and Flood, 2014): every bit pattern comes.
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+    fn below(&mut self, count: u64) -> u64 {
+        self.bits() % count
+    }
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+    /// Any f64, or any f32.
+    fn any(&mut self) -> f64 {
+        let bits = self.bits();
+        if bits & 1 == 0 { f64::from_bits(self.bits()) } else { f64::from(f32::from_bits((bits >> 32) as u32)) }
+    }
+}
+
+/// What was seen, so that a run that looks at nothing shows.
+#[derive(Debug, Default)]
+struct Seen {
+    steps: u64,
+    driven: u64,
+    experiments: u64,
+    done: u64,
+    controllers: u64,
+    faults: std::collections::BTreeMap<&'static str, u64>,
+}
+
+fn protocol<T: Scalar>(random: &mut Random) -> Protocol<T> {
+    let kinds = [Coordinate::Position, Coordinate::HeadingRad, Coordinate::HeadingDegrees, Coordinate::Speed];
+    let coordinate = kinds[random.below(4) as usize];
+    let number = T::from_f64;
+    let half_width = if coordinate == Coordinate::HeadingDegrees { 15.0 } else { 0.3 };
+    let largest_excursion = half_width * random.between(1.5, 20.0);
+    let neutral = random.between(-0.5, 0.5);
+    let protocol = Protocol::new(coordinate, number(1.0), number(half_width), number(largest_excursion), number(0.1));
+    Protocol {
+        neutral_command: number(neutral),
+        lowest_command: number(neutral - 1.0 - random.between(0.0, 2.0)),
+        highest_command: number(neutral + 1.0 + random.between(0.0, 2.0)),
+        resolution: number([0.0, 0.01, 0.1][random.below(3) as usize] * half_width),
+        largest_rate: number([1.0, 1.0, 1e3][random.below(3) as usize]) * protocol.largest_rate,
+        cycles: 2 + random.below(3) as u8,
+        attempts: 1 + random.below(5) as u8,
+        ..protocol
+    }
+}
+
+/// One experiment to its end and a little beyond.
+fn experiment<T: Scalar>(random: &mut Random, seen: &mut Seen) {
+    let protocol = protocol::<T>(random);
+    let number = T::from_f64;
+    let Ok(mut experiment) = Experiment::new(protocol) else { return };
+    seen.experiments += 1;
+    // Mostly a plant, so that the experiment goes far, now and then whatever bits.
+    let (gain, noise) = (random.between(-1.0, 3.0), random.between(0.0, 2.0));
+    let wild = [0, 50, 1000][random.below(3) as usize];
+    let scale = protocol.half_width.value();
+    let (mut position, mut velocity, mut time_s) = (0.0, 0.0, random.between(-10.0, 10.0));
+    let mut ended: Option<Phase> = None;
+    let mut left = 20;
+    let mut last_good_s = None;
+    for _ in 0..4000 {
+        time_s += random.between(0.05, 0.15);
+        let strikes = |random: &mut Random| wild > 0 && random.below(wild) == 0;
+        let plain = if protocol.coordinate == Coordinate::Speed { velocity } else { position };
+        let reading = if strikes(random) { random.any() } else { plain + noise * scale * random.between(-1.0, 1.0) };
+        let at_s = if strikes(random) { random.any() } else { time_s };
+        let tick = random.below(10) == 0;
+        let step = if tick { experiment.tick(number(at_s)) } else { experiment.step(number(reading), number(at_s)) };
+        seen.steps += 1;
+        let command = step.command;
+        assert!(command >= protocol.lowest_command && command <= protocol.highest_command, "{protocol:?} {step:?}");
+        assert_eq!(command.value(), experiment.command().value());
+        if step.phase == Phase::Running {
+            assert!(ended.is_none());
+            if command != protocol.neutral_command {
+                seen.driven += 1;
+                let away = experiment.position().map(|x| (x - protocol.reference).abs());
+                assert!(away.is_some_and(|away| away <= protocol.largest_excursion), "{protocol:?} at {away:?}");
+                let age_s = number(at_s) - last_good_s.unwrap_or(number(at_s));
+                assert!(age_s <= number(4.0) * protocol.interval_s, "{protocol:?} after {age_s:?} s");
+            }
+            if !tick {
+                last_good_s = Some(number(at_s));
+            }
+        } else {
+            assert_eq!(command.value(), protocol.neutral_command.value(), "{protocol:?} {step:?}");
+            let first = *ended.get_or_insert(step.phase);
+            // A fault may hold a number that is none, which equals nothing: compare what is shown.
+            assert_eq!(format!("{first:?}"), format!("{:?}", step.phase));
+            left -= 1;
+            if left == 0 {
+                break;
+            }
+        }
+        let force = gain * (command.value() - protocol.neutral_command.value());
+        velocity += 0.1 * (scale * force - 0.4 * velocity);
+        position += 0.1 * velocity;
+    }
+    match ended {
+        Some(Phase::Failed(fault)) => *seen.faults.entry(fault.code()).or_default() += 1,
+        Some(Phase::Done) => {
+            seen.done += 1;
+            assert!(experiment.outcome().is_some());
+        }
+        _ => {}
+    }
+}
+
+/// A controller for a hundred steps.
+fn controller<T: Scalar>(random: &mut Random, seen: &mut Seen) -> ControlFlow<()> {
+    let number = T::from_f64;
+    let structures = [Structure::Pd, Structure::Pid, Structure::Ipd];
+    let structure = structures[random.below(3) as usize];
+    let mut gain = |plain: f64| if random.below(4) == 0 { random.any().abs() } else { plain };
+    let integral = if structure == Structure::Pd { 0.0 } else { gain(0.3) };
+    let gains = Gains::new(structure, number(gain(1.0)), number(integral), number(gain(0.5)), number(gain(0.1)));
+    let Ok(gains) = gains else { return ControlFlow::Continue(()) };
+    let (low, high) = (random.between(-2.0, 0.0), random.between(0.1, 2.0));
+    let Ok(limited) = Controller::new(&gains).with_limits(number(low), number(high)) else {
+        return ControlFlow::Continue(());
+    };
+    let hold_s = random.between(0.0, 3.0);
+    let Ok(held) = limited.with_longest_hold(number(hold_s), number(0.05)) else { return ControlFlow::Break(()) };
+    let mut controller = if random.below(2) == 0 { held } else { limited };
+    if random.below(2) == 0 {
+        controller = controller.on_circle(number(core::f64::consts::TAU)).unwrap_or(controller);
+    }
+    seen.controllers += 1;
+    for _ in 0..100 {
+        let mut either = |plain: f64| if random.below(5) == 0 { random.any() } else { plain };
+        let (reference, dt_s) = (either(1.0), either(0.1));
+        let measurement = either(0.5);
+        let step = controller.step(number(reference), number(measurement), number(dt_s));
+        seen.steps += 1;
+        assert!(step.command >= number(low) && step.command <= number(high), "{controller:?} {step:?}");
+    }
+    ControlFlow::Continue(())
+}
+
+fn main() {
+    let mut arguments = std::env::args().skip(1).map(|argument| argument.parse::<u64>());
+    let mut argument = |default| arguments.next().and_then(Result::ok).unwrap_or(default);
+    let (steps, seed) = (argument(1_000_000), argument(1));
+    let (mut random, mut seen) = (Random(seed), Seen::default());
+    while seen.steps < steps {
+        experiment::<f64>(&mut random, &mut seen);
+        experiment::<f32>(&mut random, &mut seen);
+        for _ in 0..4 {
+            let held = controller::<f64>(&mut random, &mut seen).is_continue();
+            assert!(held && controller::<f32>(&mut random, &mut seen).is_continue(), "a hold was refused");
+        }
+    }
+    println!("seed {seed}: {seen:#?}");
+}

@@ -1,0 +1,69 @@
+//! The command as the vehicle's input: levels, and when it passes from one to the next.
+
+use crate::experiment::Record;
+use crate::numeric::Interval;
+
+/// A held command: constant but for switchings, each within a known span of the log's clock.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Command {
+    levels: Vec<f64>,
+    /// First and last instant of each switching; equal where it is known.
+    spans: Vec<(f64, f64)>,
+}
+
+impl Command {
+    /// The command of a record: switching with the sample that has the new value, or `anywhere` since the one before.
+    pub(super) fn of(record: &Record, anywhere: bool) -> Self {
+        let (time, input) = (record.time_s(), record.input());
+        let (mut levels, mut spans) = (vec![input[0]], Vec::new());
+        for after in 1..record.samples() {
+            if input[after] != input[after - 1] {
+                levels.push(input[after]);
+                spans.push((if anywhere { time[after - 1] } else { time[after] }, time[after]));
+            }
+        }
+        Self { levels, spans }
+    }
+
+    /// Number of switchings.
+    pub(super) fn edges(&self) -> usize {
+        self.spans.len()
+    }
+
+    pub(super) fn span(&self, edge: usize) -> Interval {
+        let (first, last) = self.spans[edge];
+        Interval::point(first).hull(Interval::point(last))
+    }
+
+    /// The same with each switching's span replaced.
+    pub(super) fn with_spans(&self, spans: impl Iterator<Item = Interval>) -> Self {
+        Self { levels: self.levels.clone(), spans: spans.map(|span| (span.lower(), span.upper())).collect() }
+    }
+
+    /// When the switching acts at the earliest and the latest.
+    pub(super) fn window(&self, edge: usize, delay_s: Interval) -> (f64, f64) {
+        let window = self.span(edge) + delay_s;
+        (window.lower(), window.upper())
+    }
+
+    /// All levels from after switching number `done` (counted from one; zero for before the first) to after number `begun`.
+    pub(super) fn between(&self, done: usize, begun: usize) -> Interval {
+        let levels = self.levels[done..=begun].iter().map(|level| Interval::point(*level));
+        levels.reduce(Interval::hull).unwrap_or(Interval::ZERO)
+    }
+
+    /// By how much less the command is after a switching than before: what a later instant of it adds.
+    pub(super) fn drop_at(&self, edge: usize) -> Interval {
+        Interval::point(self.levels[edge]) - Interval::point(self.levels[edge + 1])
+    }
+
+    /// The largest magnitude.
+    pub(super) fn largest(&self) -> f64 {
+        self.levels.iter().fold(0.0, |largest, level| largest.max(level.abs()))
+    }
+
+    /// The levels, the first before any switching.
+    pub(super) fn levels(&self) -> &[f64] {
+        &self.levels
+    }
+}

@@ -1,0 +1,234 @@
+//! One pass of contraction: the readings as linear inequalities over a box, and what they leave of each unknown.
+
+use super::field::Term;
+use super::lp::{Multipliers, Outcome, Programme, Rows};
+use super::problem::{Layout, Readings};
+use super::step::{Fields, Pair};
+use super::trajectory::{By, Drive, Node, Unknowns, follow};
+use crate::numeric::Interval;
+
+/// What stands behind a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Origin {
+    /// The reading of a sample: the output must not be above, or not below, what it allows.
+    Reading { window: usize, sample: usize, above: bool },
+    /// The end of a window, one component: not above, or not below, the beginning of the next.
+    Link { window: usize, component: usize, above: bool },
+    /// The search box's own: a disturbance is not above, or not below, what the command can meet.
+    Disturbance { record: usize, above: bool },
+    /// Linear drag has its least coefficient.
+    LeastLinear,
+    /// A hat's equation: not more, or not less, than the readings allow.
+    Hat { record: usize, hat: usize, above: bool },
+}
+
+/// The readings over a box, linearised.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Linear {
+    pub(super) rows: Rows,
+    pub(super) origins: Vec<Origin>,
+    pub(super) centre: Vec<f64>,
+    pub(super) deviations: Vec<Interval>,
+}
+
+/// Successive windows of one record, from the first to before the last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Span {
+    pub(super) from: usize,
+    pub(super) to: usize,
+}
+
+/// Problem data that contraction needs.
+pub(super) struct Model<'a> {
+    pub(super) records: &'a [Readings],
+    pub(super) layout: &'a Layout,
+    pub(super) middle_speed: f64,
+    /// The delay where it is known.
+    pub(super) known_delay_s: Interval,
+    /// Least coefficient of linear drag over alpha.
+    pub(super) least_linear: f64,
+    /// No speed beyond this is looked for.
+    pub(super) fastest: f64,
+}
+
+impl Model<'_> {
+    pub(super) fn delay_s(&self, at: &[Interval]) -> Interval {
+        self.layout.delay().map_or(self.known_delay_s, |place| at[place])
+    }
+
+    /// The motion over a span of windows: over a box, and how it differs from that of `centre`. `None` where it cannot be enclosed.
+    pub(super) fn motion(&self, span: Span, at: &[Interval], centre: &[f64]) -> Option<Vec<Node>> {
+        let (by, places) = self.layout.columns(span.from);
+        let deviations: Vec<Interval> =
+            places.iter().map(|place| at[*place] - Interval::point(centre[*place])).collect();
+        self.follow(span, at, centre, &by, &deviations)
+    }
+
+    /// The outputs of one point over a span of windows.
+    pub(super) fn outputs(&self, span: Span, centre: &[f64]) -> Option<Vec<Interval>> {
+        let at: Vec<Interval> = centre.iter().map(|value| Interval::point(*value)).collect();
+        Some(self.follow(span, &at, centre, &[], &[])?.iter().map(|node| node.at[0]).collect())
+    }
+
+    fn follow(&self, span: Span, at: &[Interval], centre: &[f64], by: &[By], deviations: &[Interval]) -> Option<Vec<Node>> {
+        let stretch = self.layout.windows()[span.from];
+        let last = self.layout.windows()[span.to - 1].last;
+        let readings = &self.records[stretch.record];
+        let point: Vec<Interval> = centre.iter().map(|value| Interval::point(*value)).collect();
+        let fields = Fields {
+            over: self.layout.field(stretch.record, at, self.middle_speed),
+            at: self.layout.field(stretch.record, &point, self.middle_speed),
+        };
+        let own = self.layout.instants(stretch.record);
+        let moved = |at: &[Interval]| {
+            let spans = (0..own).map(|edge| at[self.layout.instant(stretch.record, edge)]);
+            (own > 0).then(|| readings.command.with_spans(spans))
+        };
+        let (over, middle) = (moved(at), moved(&point));
+        let drive = Drive {
+            fields,
+            command: over.as_ref().unwrap_or(&readings.command),
+            delay_s: self.delay_s(at),
+            command_at: middle.as_ref().unwrap_or(&readings.command),
+            delay_at_s: self.delay_s(&point).midpoint(),
+            fastest: 2.0 * self.fastest,
+        };
+        let start = Pair { over: self.layout.state_of(span.from, at), at: self.layout.state_of(span.from, &point) };
+        follow(&drive, start, &readings.time_s[stretch.first..=last], Unknowns { by, deviations })
+    }
+
+    /// Deviations from a point of a box.
+    pub(super) fn about(&self, at: &[Interval], centre: Vec<f64>) -> Linear {
+        let deviations = at.iter().zip(&centre).map(|(side, middle)| *side - Interval::point(*middle)).collect();
+        Linear { centre, deviations, ..Linear::default() }
+    }
+
+    /// What the search box says beyond the sides of a box: a disturbance is no stronger than the largest command, and linear drag
+    /// itself, without the quadratic one's share, is not below its least.
+    pub(super) fn bound(&self, linear: &mut Linear) {
+        let Some(gain) = self.layout.place_of(Term::Gain) else { return };
+        for (record, readings) in self.records.iter().enumerate() {
+            let disturbance = self.layout.disturbance(record);
+            let force = Interval::point(readings.command.largest());
+            for (above, sign) in [(true, Interval::ONE), (false, -Interval::ONE)] {
+                linear.row(vec![(gain, -force), (disturbance, sign)], Interval::ZERO, Origin::Disturbance { record, above });
+            }
+        }
+        let linear_place = self.layout.place_of(Term::Linear);
+        if let (Some(whole), Some(quadratic)) = (linear_place, self.layout.place_of(Term::Quadratic)) {
+            let share = Interval::point(2.0 * self.middle_speed);
+            let least = Interval::point(-self.least_linear);
+            linear.row(vec![(whole, -Interval::ONE), (quadratic, share)], least, Origin::LeastLinear);
+        }
+    }
+
+    /// Adds the inequalities of one span, whose motion over the box and about the same centre is known; those of its end with `linked`.
+    pub(super) fn linearise(&self, span: Span, over: &[Node], linked: bool, linear: &mut Linear) {
+        let stretch = self.layout.windows()[span.from];
+        let readings = &self.records[stretch.record];
+        let (_, places) = self.layout.columns(span.from);
+        for (offset, node) in over.iter().enumerate() {
+            let sample = stretch.first + offset;
+            let moved = if readings.jitter_s > 0.0 {
+                let next = over.get(offset + 1).map_or(node.speed, |next| next.speed);
+                Interval::point(readings.jitter_s) * Interval::point(node.speed.max(next))
+            } else {
+                Interval::ZERO
+            };
+            let error = Interval::point(readings.error) + moved;
+            let residual = node.at[0] - Interval::point(readings.value[sample]);
+            let slopes = places.iter().copied().zip(node.slopes.iter().map(|slope| slope[0]));
+            linear.pair(slopes, residual, error, |above| Origin::Reading { window: span.from, sample, above });
+        }
+        if linked {
+            let Some(node) = over.last() else { return };
+            for component in 0..self.layout.state_size() {
+                let next = self.layout.start(span.to, component);
+                let slopes = places.iter().copied().zip(node.slopes.iter().map(|slope| slope[component]));
+                let slopes = slopes.chain([(next, -Interval::ONE)]);
+                let residual = node.at[component] - Interval::point(linear.centre[next]);
+                linear.pair(slopes, residual, Interval::ZERO, |above| Origin::Link { window: span.from, component, above });
+            }
+        }
+    }
+}
+
+/// A bound found: an unknown, the side (1 upper, -1 lower), and the multipliers that prove it.
+pub(super) type Cut = (usize, f64, Multipliers);
+
+/// What a pass left of a box.
+#[derive(Clone, Debug)]
+pub(super) enum Pass {
+    /// The cuts made.
+    Contracted(Vec<Cut>),
+    /// Nothing: these rows contradict each other over the box.
+    Empty(Multipliers),
+}
+
+impl Linear {
+    /// `slopes . theta <= limit` as a row about the centre.
+    fn row(&mut self, slopes: Vec<(usize, Interval)>, limit: Interval, origin: Origin) {
+        let at_centre = slopes.iter().map(|(place, slope)| *slope * Interval::point(self.centre[*place]));
+        let limit = at_centre.fold(limit, |limit, part| limit - part);
+        self.rows.limits.push(limit.upper());
+        self.rows.slopes.push(slopes);
+        self.origins.push(origin);
+    }
+
+    /// `|slopes . z + residual| <= error` as two rows.
+    pub(super) fn pair(
+        &mut self,
+        slopes: impl Iterator<Item = (usize, Interval)> + Clone,
+        residual: Interval,
+        error: Interval,
+        origin: impl Fn(bool) -> Origin,
+    ) {
+        self.rows.slopes.push(slopes.clone().collect());
+        self.rows.limits.push((error - residual).upper());
+        self.origins.push(origin(true));
+        self.rows.slopes.push(slopes.map(|(place, slope)| (place, -slope)).collect());
+        self.rows.limits.push((error + residual).upper());
+        self.origins.push(origin(false));
+    }
+
+    /// Bounds the `unknowns`, of which the rows are linear inequalities together with the other `places`.
+    pub(super) fn contract(&self, at: &mut [Interval], places: &[usize], unknowns: &[usize]) -> Pass {
+        let programme = Programme::of(&self.rows, &self.deviations, places);
+        let mut cuts = Vec::new();
+        for &unknown in unknowns {
+            for sign in [1.0, -1.0] {
+                let objective = [(unknown, sign)];
+                match programme.maximise(&objective) {
+                    Outcome::Empty { multipliers } => {
+                        if self.rows.upper_bound(&[], &multipliers, &self.deviations) < 0.0 {
+                            return Pass::Empty(multipliers);
+                        }
+                    }
+                    Outcome::Bounded { multipliers, .. } => {
+                        let bound = self.rows.upper_bound(&objective, &multipliers, &self.deviations);
+                        let Some(next) = self.cut(at[unknown], unknown, sign, bound) else {
+                            return Pass::Empty(multipliers);
+                        };
+                        if next != at[unknown] {
+                            at[unknown] = next;
+                            cuts.push((unknown, sign, multipliers));
+                        }
+                    }
+                }
+            }
+        }
+        Pass::Contracted(cuts)
+    }
+
+    /// What is left of a side whose deviation, times `sign`, is at most `bound`; `None` for nothing.
+    pub(super) fn cut(&self, side: Interval, unknown: usize, sign: f64, bound: f64) -> Option<Interval> {
+        let end = Interval::point(self.centre[unknown]) + Interval::point(sign * bound);
+        let half = if sign > 0.0 {
+            Interval::new(f64::NEG_INFINITY, end.upper())
+        } else {
+            Interval::new(end.lower(), f64::INFINITY)
+        };
+        // An unbounded end says nothing.
+        half.map_or(Some(side), |half| side.intersection(half))
+    }
+}

@@ -1,0 +1,151 @@
+//! The model's equation of motion over boxes of parameters, with its derivatives.
+
+use crate::numeric::{Interval, Real};
+
+/// Terms of the acceleration, one parameter each: it is linear in every one of them but the lag's rate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Term {
+    /// `1/alpha`, times the force.
+    Gain,
+    /// Disturbance over alpha.
+    Disturbance,
+    /// Drag at the middle speed, over alpha: that proportional to speed, and twice the quadratic one's times the middle speed.
+    Linear,
+    /// Quadratic drag over alpha.
+    Quadratic,
+    /// Cubic drag over alpha.
+    Cubic,
+    /// Stiffness over alpha.
+    Stiffness,
+    /// Reciprocal of the time constant with which the force follows the command.
+    LagRate,
+}
+
+/// Number of [`Term`]s.
+pub(super) const TERMS: usize = 7;
+
+impl Term {
+    pub(super) const ALL: [Self; TERMS] = [
+        Self::Gain,
+        Self::Disturbance,
+        Self::Linear,
+        Self::Quadratic,
+        Self::Cubic,
+        Self::Stiffness,
+        Self::LagRate,
+    ];
+}
+
+/// Position, velocity, and the force over its unit gain.
+pub(super) type Triple = [Interval; 3];
+pub(super) const POSITION: usize = 0;
+pub(super) const VELOCITY: usize = 1;
+pub(super) const FORCE: usize = 2;
+
+/// The equation `v' = gain f + disturbance - linear v - quadratic (|v| - 2 middle) v - cubic v^3 - stiffness x`, where f is the
+/// command or follows it by `f' = rate (u - f)`.
+///
+/// With the middle speed taken out, the two drags hardly depend on each other, and a box holds the parameters that fit a record
+/// without much around them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Field {
+    pub(super) terms: [Interval; TERMS],
+    pub(super) active: [bool; TERMS],
+    pub(super) middle_speed: f64,
+}
+
+/// `v |v|` of every element.
+pub(super) fn signed_square(v: Interval) -> Interval {
+    let square = |end: f64| {
+        let square = Interval::point(end).square();
+        if end < 0.0 { -square } else { square }
+    };
+    square(v.lower()).hull(square(v.upper()))
+}
+
+fn cube(v: Interval) -> Interval {
+    let cube = |end: f64| Interval::point(end) * Interval::point(end).square();
+    cube(v.lower()).hull(cube(v.upper()))
+}
+
+/// `(v |v| - w |w|)/(v - w)`: the sum of speeds for velocities of one sign, between half of it and all of it for two.
+fn square_slope(v: Interval, w: Interval) -> Interval {
+    let sum = v.abs() + w.abs();
+    let one_sign = (v.lower() >= 0.0 && w.lower() >= 0.0) || (v.upper() <= 0.0 && w.upper() <= 0.0);
+    if one_sign { sum } else { sum.hull(Interval::point(0.5) * sum) }
+}
+
+impl Field {
+    #[inline]
+    pub(super) fn term(&self, term: Term) -> Interval {
+        self.terms[term as usize]
+    }
+    #[inline]
+    pub(super) fn has(&self, term: Term) -> bool {
+        self.active[term as usize]
+    }
+    #[inline]
+    pub(super) fn twice_middle(&self) -> Interval {
+        Interval::point(2.0 * self.middle_speed)
+    }
+
+    /// Derivatives of position, velocity and force with respect to time.
+    pub(super) fn rate(&self, [x, v, f]: &Triple, u: Interval) -> Triple {
+        let mut acceleration = self.term(Term::Gain) * *f + self.term(Term::Disturbance) - self.term(Term::Linear) * *v;
+        if self.has(Term::Quadratic) {
+            acceleration -= self.term(Term::Quadratic) * (signed_square(*v) - self.twice_middle() * *v);
+        }
+        if self.has(Term::Cubic) {
+            acceleration -= self.term(Term::Cubic) * cube(*v);
+        }
+        if self.has(Term::Stiffness) {
+            acceleration -= self.term(Term::Stiffness) * *x;
+        }
+        let force = if self.has(Term::LagRate) { self.term(Term::LagRate) * (u - *f) } else { Interval::ZERO };
+        [*v, acceleration, force]
+    }
+
+    /// Difference of the accelerations over that of the velocities, for velocities v and w at the same place and force.
+    pub(super) fn damping(&self, v: Interval, w: Interval) -> Interval {
+        let mut slope = -self.term(Term::Linear);
+        if self.has(Term::Quadratic) {
+            slope -= self.term(Term::Quadratic) * (square_slope(v, w) - self.twice_middle());
+        }
+        if self.has(Term::Cubic) {
+            slope -= self.term(Term::Cubic) * (v.square() + v * w + w.square()).max(Interval::ZERO);
+        }
+        slope
+    }
+
+    /// What a change of a term does at once: to velocity's rate, or to the force's.
+    pub(super) fn push(&self, term: Term, [x, v, f]: &Triple, u: Interval) -> Interval {
+        match term {
+            Term::Gain => *f,
+            Term::Disturbance => Interval::ONE,
+            Term::Linear => -*v,
+            Term::Quadratic => self.twice_middle() * *v - signed_square(*v),
+            Term::Cubic => -cube(*v),
+            Term::Stiffness => -*x,
+            Term::LagRate => u - *f,
+        }
+    }
+
+    /// Rate of a column of slopes of the state, given the damping and what pushes it besides.
+    pub(super) fn column_rate(&self, damping: Interval, column: &Triple, push: Option<(Term, Interval)>) -> Triple {
+        let mut acceleration = damping * column[VELOCITY];
+        if self.has(Term::Stiffness) {
+            acceleration -= self.term(Term::Stiffness) * column[POSITION];
+        }
+        let mut force = Interval::ZERO;
+        if self.has(Term::LagRate) {
+            acceleration += self.term(Term::Gain) * column[FORCE];
+            force -= self.term(Term::LagRate) * column[FORCE];
+        }
+        match push {
+            Some((Term::LagRate, push)) => force += push,
+            Some((_, push)) => acceleration += push,
+            None => {}
+        }
+        [column[VELOCITY], acceleration, force]
+    }
+}

@@ -1,0 +1,101 @@
+//! Guaranteed bounds: every reading a constraint on the motion, and the set of parameters that meet them all enclosed.
+//!
+//! A compass that shows whole degrees does not add noise: it says that the heading was within half a degree of the reading. This
+//! is bounded-error identification by set inversion (Jaulin, Kieffer, Didrit, Walter, *Applied Interval Analysis*, 2001; Milanese et
+//! al., *Bounding Approaches to System Identification*, 1996): no distribution of errors is assumed, and an empty set is a proof that the record contradicts
+//! the model. Everything that a statement rests on is computed in intervals:
+//!
+//! * over a wide box, the equation of motion weighed with hats gives inequalities that are linear in the parameters;
+//! * over a narrower one, validated Taylor steps enclose the motion and its slopes about a point, and each reading is two
+//!   linear inequalities with interval coefficients, window after window with the windows' states as unknowns;
+//! * a linear programme proposes multipliers, and the bound is what these give in intervals (Neumaier and Shcherbina,
+//!   *Mathematical Programming* 99, 2004; Jansson, *SIAM Journal on Optimization* 14, 2004); a box that does not shrink is divided;
+//! * the witness's motion is enclosed and meets every reading.
+
+mod bounds;
+mod command;
+mod contract;
+mod divide;
+mod field;
+mod lp;
+mod problem;
+mod report;
+mod search;
+mod settings;
+mod setup;
+mod speeds;
+mod step;
+mod trajectory;
+mod weak;
+mod witness;
+
+pub use bounds::{Bounds, Contradicting, Parameters, Quantity, QuantityRange, Consistency};
+pub use settings::{DelayBound, BoundedModel, SwitchedWhen};
+
+use super::IdentifyError;
+use crate::experiment::Record;
+use divide::Division;
+use report::Answer;
+use search::Search;
+use setup::Setup;
+
+/// Divisions after which a witness is looked for again.
+const DIVISIONS_PER_TRIAL: usize = 8;
+
+/// Bounds that are this good, the inner against the outer width, are not sharpened further.
+const GOOD: f64 = 0.97;
+
+/// Encloses the parameters with which the model meets every reading of all records, or proves that there are none in the search box.
+///
+/// Inertia, drags, delay, lag and stiffness are common to all records, the disturbance and the initial state each record's own. A
+/// record is taken from where every command that acts is in it.
+///
+/// ```
+/// use selfosc::experiment::{Experiment, Sensor};
+/// use selfosc::identify::DragLaw;
+/// use selfosc::identify::bounded::{DelayBound, Quantity, BoundedModel, Consistency, enclose};
+/// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
+/// let axis = DragAxis::linear(1.0, 0.5)?;
+/// let sensor = Sensor { quantum: 0.02, ..Sensor::default() };
+/// let record = Experiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().with_sensor(sensor)?.run(20.0)?;
+/// let found = enclose(&[&record], &BoundedModel::new(DragLaw::Linear, DelayBound::KnownS(0.0)))?;
+/// assert_eq!(found.verdict, Consistency::Consistent);
+/// assert!(found.of(Quantity::Alpha).is_some_and(|[low, high]| low <= 1.0 && 1.0 <= high));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`IdentifyError::OutOfDomain`] for settings that are none, a record without a switching, and a sensor without an error.
+pub fn enclose(records: &[&Record], settings: &BoundedModel) -> Result<Bounds, IdentifyError> {
+    let setup = Setup::new(records, settings)?;
+    let mut search = Search::new(&setup);
+    let division = search.search(setup.search.clone(), settings.budget);
+    let passes = search.passes;
+    // A delay that is known better leaves more readings.
+    if let (Some(hull), true) = (division.hull(), setup.layout.delay().is_some() && division.followed) {
+        let narrowed = setup.narrowed(settings, &hull)?;
+        let mut search = Search::new(&narrowed);
+        search.passes = passes;
+        let division = search.search(narrowed.search.clone(), settings.budget);
+        return Ok(conclude(&setup, search, division, settings));
+    }
+    Ok(conclude(&setup, search, division, settings))
+}
+
+/// The answer, from what division left; `wide` is where the search began.
+fn conclude(wide: &Setup, mut search: Search<'_>, mut division: Division, settings: &BoundedModel) -> Bounds {
+    let mut answer = Answer::default();
+    answer.try_nearest(&mut search, &division);
+    // Without a witness the parts may yet turn out empty.
+    let mut divided = 0;
+    while answer.witness().is_none() && search.passes < settings.budget && search.divide_coarsest(&mut division, settings.budget) {
+        divided += 1;
+        if divided % DIVISIONS_PER_TRIAL == 0 {
+            answer.try_nearest(&mut search, &division);
+        }
+    }
+    if answer.witness().is_some() {
+        answer.sharpen(&mut search, &mut division, settings.budget, GOOD);
+    }
+    answer.into_bounds(wide, search, &division)
+}

@@ -1,0 +1,300 @@
+//! From what division left to the answer.
+
+use super::bounds::{Bounds, Contradicting, Parameters, Quantity, QuantityRange, Consistency};
+use super::contract::{Linear, Origin};
+use super::divide::{Division, Then};
+use super::field::Term;
+use super::lp::{Multipliers, Outcome, Programme};
+use super::search::{Empty, Method, Search};
+use super::setup::Setup;
+use super::witness::Tried;
+use crate::numeric::Interval;
+
+/// Parameters tried so far.
+#[derive(Default)]
+pub(super) struct Answer {
+    nearest: Option<Tried>,
+    /// The box around all witnesses.
+    inner: Option<Vec<Interval>>,
+}
+
+/// The box of an empty leaf.
+fn leaf(empty: &Empty) -> Option<Vec<Interval>> {
+    let linear = empty.linear.as_ref().filter(|_| empty.method == Method::Chain)?;
+    Some(linear.deviations.iter().zip(&linear.centre).map(|(z, c)| *z + Interval::point(*c)).collect())
+}
+
+fn empties(division: &Division) -> impl Iterator<Item = &Empty> {
+    division.tree.iter().filter_map(|branch| match &branch.then {
+        Then::Empty(empty) => Some(&**empty),
+        _ => None,
+    })
+}
+
+impl Answer {
+    pub(super) fn witness(&self) -> Option<&Tried> {
+        self.nearest.as_ref().filter(|tried| tried.misfit <= 1.0)
+    }
+
+    fn note(&mut self, tried: Tried) {
+        if tried.misfit <= 1.0 {
+            let at: Vec<Interval> = tried.at.iter().map(|value| Interval::point(*value)).collect();
+            let inner = self.inner.take().map_or(at.clone(), |inner| {
+                inner.iter().zip(&at).map(|(inner, value)| inner.hull(*value)).collect()
+            });
+            self.inner = Some(inner);
+        }
+        if self.nearest.as_ref().is_none_or(|nearest| tried.misfit < nearest.misfit) {
+            self.nearest = Some(tried);
+        }
+    }
+
+    /// Looks for the parameter with the least largest misfit: in what is left, or where the contradiction came last.
+    pub(super) fn try_nearest(&mut self, search: &mut Search<'_>, division: &Division) {
+        let mut boxes: Vec<Vec<Interval>> = division.kept.iter().map(|kept| kept.at.clone()).take(2).collect();
+        boxes.extend(division.hull());
+        if boxes.is_empty() {
+            let mut leaves: Vec<Vec<Interval>> = empties(division).filter_map(leaf).collect();
+            leaves.reverse();
+            leaves.truncate(4);
+            boxes = leaves;
+        }
+        for at in boxes {
+            if self.witness().is_some() {
+                return;
+            }
+            if let Some(tried) = search.nearest(&at) {
+                self.note(tried);
+            }
+        }
+    }
+
+    /// Divides what is left until the bounds are hardly wider than what the witnesses reach.
+    pub(super) fn sharpen(&mut self, search: &mut Search<'_>, division: &mut Division, budget: usize, good: f64) {
+        let parameters: Vec<usize> = (0..search.setup.layout.common()).collect();
+        let mut tried: Vec<(usize, bool, f64)> = Vec::new();
+        while search.passes < budget {
+            let (Some(hull), Some(inner)) = (division.hull(), self.inner.clone()) else { return };
+            // The side of a parameter with the largest gap.
+            let gaps = parameters.iter().flat_map(|&place| {
+                let (outer, inner) = (hull[place], inner[place]);
+                let width = outer.width().max(f64::MIN_POSITIVE);
+                [(place, true, (outer.upper() - inner.upper()) / width), (place, false, (inner.lower() - outer.lower()) / width)]
+            });
+            let Some((place, upper, gap)) = gaps.max_by(|a, b| a.2.total_cmp(&b.2)) else { return };
+            if gap < 0.5 * (1.0 - good) {
+                return;
+            }
+            let end = |at: &[Interval]| if upper { at[place].upper() } else { -at[place].lower() };
+            let Some(index) = (0..division.kept.len())
+                .max_by(|a, b| end(&division.kept[*a].at).total_cmp(&end(&division.kept[*b].at)))
+            else {
+                return;
+            };
+            let outermost = end(&division.kept[index].at);
+            // Reach out towards it first; then divide.
+            if !tried.contains(&(place, upper, outermost)) {
+                tried.push((place, upper, outermost));
+                let at = division.kept[index].at.clone();
+                let witness = self.witness().cloned();
+                let centre = at.iter().map(|side| side.midpoint()).collect();
+                let mut own = at;
+                if let (Some(witness), Ok(Some(linear))) = (witness, search.chained(&mut own, centre)) {
+                    let sign = if upper { 1.0 } else { -1.0 };
+                    if let Some(tried) = search.reach(&witness, &linear, place, sign) {
+                        self.note(tried);
+                    }
+                }
+                continue;
+            }
+            if !search.divide_kept(division, index, budget) {
+                return;
+            }
+        }
+    }
+
+    pub(super) fn into_bounds(self, wide: &Setup, mut search: Search<'_>, division: &Division) -> Bounds {
+        let verdict = if self.witness().is_some() {
+            Consistency::Consistent
+        } else if division.kept.is_empty() {
+            Consistency::Refuted
+        } else {
+            Consistency::Undecided
+        };
+        let bounds = ranges(&mut search, division);
+        let least = if verdict == Consistency::Refuted { 1.0 } else { least_misfit(&mut search, division) };
+        let point = |tried: &Tried| Parameters { values: values(search.setup, &tried.at), misfit: tried.misfit };
+        let contradicting = if verdict == Consistency::Refuted {
+            let last = empties(division).filter(|empty| empty.method == Method::Chain).last();
+            last.or_else(|| empties(division).last()).map(|empty| contradiction(&search, empty)).unwrap_or_default()
+        } else {
+            Vec::new()
+        };
+        Bounds {
+            verdict,
+            search_box: wide.ranges(&wide.search),
+            bounds,
+            witness: self.witness().map(point),
+            nearest: self.nearest.as_ref().map(point),
+            error: search.setup.records.iter().map(|readings| readings.error).collect(),
+            error_factor: [least, self.nearest.as_ref().map_or(f64::MAX, |nearest| nearest.misfit)],
+            contradicting,
+            passes: search.passes,
+        }
+    }
+}
+
+/// The readings behind a contradiction.
+fn contradiction(search: &Search<'_>, empty: &Empty) -> Vec<Contradicting> {
+    let Some(linear) = &empty.linear else { return Vec::new() };
+    let mut found: Vec<Contradicting> = Vec::new();
+    for (row, weight) in &empty.multipliers {
+        if let Some(Origin::Reading { window, sample, above }) = linear.origins.get(*row) {
+            let record = search.setup.layout.windows()[*window].record;
+            let share = weight * search.setup.records[record].error;
+            found.push(Contradicting { record, sample: *sample, model_above: *above, share });
+        }
+    }
+    let sum: f64 = found.iter().map(|part| part.share).sum();
+    found.iter_mut().for_each(|part| part.share /= sum);
+    found.sort_by_key(|part| (part.record, part.sample));
+    found
+}
+
+/// A point's quantities.
+fn values(setup: &Setup, at: &[f64]) -> Vec<(Quantity, f64)> {
+    let layout = &setup.layout;
+    let side = |term| layout.place_of(term).map(|place| at[place]);
+    let gain = at[0];
+    let mut values = vec![(Quantity::Alpha, 1.0 / gain)];
+    if let Some(linear) = side(Term::Linear) {
+        let share = 2.0 * setup.middle_speed * side(Term::Quadratic).unwrap_or(0.0);
+        values.push((Quantity::Beta, (linear - share) / gain));
+    }
+    for (term, quantity) in [
+        (Term::Quadratic, Quantity::BetaQuadratic),
+        (Term::Cubic, Quantity::BetaCubic),
+        (Term::Stiffness, Quantity::Stiffness),
+    ] {
+        values.extend(side(term).map(|value| (quantity, value / gain)));
+    }
+    values.extend(side(Term::LagRate).map(|rate| (Quantity::LagS, 1.0 / rate)));
+    values.push((Quantity::DelayS, layout.delay().map_or(setup.known_delay_s.midpoint(), |place| at[place])));
+    let windows = layout.windows();
+    for record in 0..layout.records() {
+        values.push((Quantity::Delta(record), at[layout.disturbance(record)] / gain));
+        if let Some(first) = windows.iter().position(|window| window.record == record) {
+            values.push((Quantity::Position(record), at[layout.start(first, 0)]));
+            values.push((Quantity::Velocity(record), at[layout.start(first, 1)]));
+        }
+    }
+    values
+}
+
+/// Enclosures over all that is left.
+fn ranges(search: &mut Search<'_>, division: &Division) -> Vec<QuantityRange> {
+    let mut all: Vec<QuantityRange> = Vec::new();
+    for kept in &division.kept {
+        let mut at = kept.at.clone();
+        let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
+        let linear = search.chained(&mut at, centre).ok().flatten();
+        let own = box_ranges(search, &kept.at, linear.as_ref());
+        if all.is_empty() {
+            all = own;
+        } else {
+            for (all, own) in all.iter_mut().zip(own) {
+                all.low = all.low.min(own.low);
+                all.high = all.high.max(own.high);
+            }
+        }
+    }
+    all
+}
+
+fn box_ranges(search: &Search<'_>, at: &[Interval], linear: Option<&Linear>) -> Vec<QuantityRange> {
+    let (setup, layout) = (search.setup, &search.setup.layout);
+    let range = |quantity, side: Interval| QuantityRange { quantity, low: side.lower(), high: side.upper() };
+    let gain = at[0];
+    let mut ranges = vec![range(Quantity::Alpha, Interval::ONE / gain)];
+    let ratio = |parts: &[(usize, f64)]| over_gain(at, linear, parts);
+    if let Some(place) = layout.place_of(Term::Linear) {
+        let mut parts = vec![(place, 1.0)];
+        parts.extend(layout.place_of(Term::Quadratic).map(|quadratic| (quadratic, -2.0 * setup.middle_speed)));
+        let mut side = ratio(&parts);
+        if setup.least_linear >= 0.0 {
+            // No negative drag is looked for.
+            side = side.intersection(Interval::ZERO.hull(side)).unwrap_or(side);
+            side = Interval::new(side.lower().max(0.0), side.upper().max(0.0)).unwrap_or(side);
+        }
+        ranges.push(range(Quantity::Beta, side));
+    }
+    for (term, quantity) in [
+        (Term::Quadratic, Quantity::BetaQuadratic),
+        (Term::Cubic, Quantity::BetaCubic),
+        (Term::Stiffness, Quantity::Stiffness),
+    ] {
+        if let Some(place) = layout.place_of(term) {
+            ranges.push(range(quantity, ratio(&[(place, 1.0)])));
+        }
+    }
+    if let Some(place) = layout.place_of(Term::LagRate) {
+        ranges.push(range(Quantity::LagS, Interval::ONE / at[place]));
+    }
+    ranges.push(range(Quantity::DelayS, layout.delay().map_or(setup.known_delay_s, |place| at[place])));
+    for record in 0..layout.records() {
+        ranges.push(range(Quantity::Delta(record), ratio(&[(layout.disturbance(record), 1.0)])));
+    }
+    let windows = layout.windows();
+    for record in 0..layout.records() {
+        if let Some(first) = windows.iter().position(|window| window.record == record) {
+            ranges.push(range(Quantity::Position(record), at[layout.start(first, 0)]));
+            ranges.push(range(Quantity::Velocity(record), at[layout.start(first, 1)]));
+        }
+    }
+    ranges
+}
+
+/// A combination of parameters over the gain: by both ranges; and, better, by bounding how far the combination is from its middle
+/// ratio times the gain.
+fn over_gain(at: &[Interval], linear: Option<&Linear>, parts: &[(usize, f64)]) -> Interval {
+    let gain = at[0];
+    let sum = parts.iter().fold(Interval::ZERO, |sum, (place, factor)| sum + Interval::point(*factor) * at[*place]);
+    let direct = sum / gain;
+    let Some(linear) = linear else { return direct };
+    let middle = sum.midpoint() / gain.midpoint();
+    let places: Vec<usize> = (0..linear.deviations.len()).collect();
+    let programme = Programme::of(&linear.rows, &linear.deviations, &places);
+    let excess = |sign: f64| -> Option<Interval> {
+        let mut objective: Vec<(usize, f64)> = parts.iter().map(|(place, factor)| (*place, sign * factor)).collect();
+        objective.push((0, -sign * middle));
+        let multipliers: Multipliers = match programme.maximise(&objective) {
+            Outcome::Bounded { multipliers, .. } | Outcome::Empty { multipliers } => multipliers,
+        };
+        let bound = linear.rows.upper_bound(&objective, &multipliers, &linear.deviations);
+        let at_centre = objective.iter().map(|(place, factor)| Interval::point(*factor) * Interval::point(linear.centre[*place]));
+        let whole = at_centre.fold(Interval::point(bound), |sum, part| sum + part);
+        Some(whole / gain)
+    };
+    let (Some(above), Some(below)) = (excess(1.0), excess(-1.0)) else { return direct };
+    let better = Interval::new((Interval::point(middle) - below).lower(), (Interval::point(middle) + above).upper());
+    better.and_then(|better| direct.intersection(better)).unwrap_or(direct)
+}
+
+/// A lower bound of the largest misfit over all that is left, in largest errors.
+fn least_misfit(search: &mut Search<'_>, division: &Division) -> f64 {
+    let mut least = 1.0f64;
+    for kept in &division.kept {
+        let mut at = kept.at.clone();
+        let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
+        let Ok(Some(linear)) = search.chained(&mut at, centre) else { return 0.0 };
+        let (mut linear, misfit) = search.with_misfit(&linear);
+        linear.deviations[misfit] = Interval::new(-1.0, 1.0).unwrap_or(Interval::ENTIRE);
+        let places: Vec<usize> = (0..=misfit).collect();
+        let programme = Programme::of(&linear.rows, &linear.deviations, &places);
+        let objective = [(misfit, -1.0)];
+        let Outcome::Bounded { multipliers, .. } = programme.maximise(&objective) else { continue };
+        let bound = linear.rows.upper_bound(&objective, &multipliers, &linear.deviations);
+        least = least.min((Interval::ONE - Interval::point(bound)).lower());
+    }
+    least.max(0.0)
+}

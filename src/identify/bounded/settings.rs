@@ -1,0 +1,89 @@
+//! What is assumed: the model, the sensor, and where parameters are looked for.
+
+use serde::{Deserialize, Serialize};
+
+use crate::identify::DragLaw;
+
+/// What is known of the whole delay of the loop.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DelayBound {
+    /// It is this, in s.
+    KnownS(f64),
+    /// It lies between these two, in s.
+    WithinS([f64; 2]),
+    /// Nothing but that it is shorter than the mean time between switchings of the command.
+    Unknown,
+}
+
+/// When a logged change of the command happened.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SwitchedWhen {
+    /// At the sample with which the new value is logged.
+    #[default]
+    AtSamples,
+    /// Anywhere since the sample before, each for itself.
+    Anywhere,
+}
+
+/// A model and a sensor, for [`enclose`](super::enclose).
+///
+/// ```
+/// use selfosc::identify::bounded::{DelayBound, BoundedModel};
+/// use selfosc::identify::DragLaw;
+/// let settings = BoundedModel { error: 0.01, ..BoundedModel::new(DragLaw::Mixed, DelayBound::Unknown) };
+/// assert!(!settings.cubic);
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BoundedModel {
+    /// The drag law.
+    pub law: DragLaw,
+    /// Whether the part of the drag proportional to speed may be negative, as a fit over a small range of speeds may have it.
+    pub either_sign: bool,
+    /// A force `beta_3 v^3` besides.
+    pub cubic: bool,
+    /// A restoring force proportional to the coordinate.
+    pub stiffness: bool,
+    /// The force follows the command with a first-order lag.
+    pub lag: bool,
+    /// What is known of the delay.
+    pub delay: DelayBound,
+    /// When the command changed.
+    pub switching: SwitchedWhen,
+    /// Step of the sensor, zero for none; found in the record if not given.
+    pub quantum: Option<f64>,
+    /// Largest error of a reading besides half a step, in units of the output.
+    pub error: f64,
+    /// Largest error of a stamp, in s.
+    pub jitter_s: f64,
+    /// Readings that may be wrong altogether.
+    pub outliers: usize,
+    /// Factor by which inertia, and drag upwards, are looked for on either side of their order of magnitude in the record.
+    pub reach: f64,
+    /// Passes over the records that may be spent.
+    pub budget: usize,
+}
+
+impl BoundedModel {
+    /// A drag law and what is known of the delay; a perfect sensor but for its step, which is found in the record; the command
+    /// switched at samples; inertia over four decades.
+    #[must_use]
+    pub fn new(law: DragLaw, delay: DelayBound) -> Self {
+        Self {
+            law,
+            either_sign: false,
+            cubic: false,
+            stiffness: false,
+            lag: false,
+            delay,
+            switching: SwitchedWhen::AtSamples,
+            quantum: None,
+            error: 0.0,
+            jitter_s: 0.0,
+            outliers: 0,
+            reach: 100.0,
+            budget: 3000,
+        }
+    }
+}

@@ -1,0 +1,300 @@
+//! From records and settings to constraints and a box to search.
+
+use super::bounds::{Quantity, QuantityRange};
+use super::command::Command;
+use super::field::Term;
+use super::problem::{Layout, Readings, Window};
+use super::settings::{DelayBound, BoundedModel, SwitchedWhen};
+use crate::experiment::Record;
+use crate::identify::IdentifyError;
+use crate::numeric::{Interval, Limit, OutOfDomain};
+
+/// Room for what rounding did to a reading on its way into the file, in steps of the sensor.
+const READING: f64 = 1e-9;
+/// Windows of a record between two switchings of the command.
+const WINDOWS_PER_SWING: f64 = 1.0;
+/// Fewest samples of a window.
+const FEWEST: usize = 6;
+/// Most windows of a record: the linear programmes grow with them.
+const MOST_WINDOWS: usize = 40;
+
+/// Constraints, unknowns, and the box.
+#[derive(Clone, Debug)]
+pub(super) struct Setup {
+    pub(super) records: Vec<Readings>,
+    pub(super) layout: Layout,
+    pub(super) known_delay_s: Interval,
+    pub(super) middle_speed: f64,
+    /// No speed beyond this is looked for.
+    pub(super) fastest: f64,
+    /// Mean time between switchings.
+    pub(super) swing_s: f64,
+    /// Half the range of the output.
+    pub(super) reach: f64,
+    pub(super) typical_speed: f64,
+    /// Least coefficient of linear drag over alpha.
+    pub(super) least_linear: f64,
+    pub(super) search: Vec<Interval>,
+}
+
+fn refuse(quantity: &'static str, value: f64, unit: &'static str, limit: Limit, remedy: &'static str) -> IdentifyError {
+    OutOfDomain { quantity, value, unit, limit, remedy }.into()
+}
+
+fn interval(low: f64, high: f64) -> Interval {
+    Interval::new(low.min(high), high.max(low)).unwrap_or(Interval::ENTIRE)
+}
+
+/// A record's orders of magnitude.
+struct Scales {
+    /// Half the range of the output.
+    reach: f64,
+    swing_s: f64,
+    force: f64,
+    /// Root mean square of the speed.
+    speed: f64,
+    /// The largest mean speed over a tenth of a swing.
+    fastest: f64,
+}
+
+impl Scales {
+    fn of(readings: &Readings) -> Self {
+        let (time, value) = (&readings.time_s, &readings.value);
+        let (low, high) = value.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+        let lasted = time[time.len() - 1] - time[0];
+        let swing_s = lasted / (readings.command.edges() + 1) as f64;
+        let (mut squares, mut count, mut fastest) = (0.0, 0.0, 0.0f64);
+        let mut first = 0;
+        for last in 1..time.len() {
+            while time[last] - time[first + 1] > 0.1 * swing_s && first + 1 < last {
+                first += 1;
+            }
+            let speed = (value[last] - value[first]).abs() / (time[last] - time[first]);
+            let sure = (speed - 2.0 * readings.error / (time[last] - time[first])).max(0.0);
+            squares += speed * sure;
+            count += 1.0;
+            fastest = fastest.max(speed + 2.0 * readings.error / (time[last] - time[first]));
+        }
+        let reach = (0.5 * (high - low)).max(readings.error);
+        let speed = libm::sqrt(squares / count).max(reach / lasted);
+        Self { reach, swing_s, force: readings.command.largest(), speed, fastest }
+    }
+}
+
+impl BoundedModel {
+    fn check(&self) -> Result<(), IdentifyError> {
+        for (quantity, value, unit) in [
+            ("largest error of a reading", self.error, "output"),
+            ("largest error of a stamp", self.jitter_s, "s"),
+            ("step of the sensor", self.quantum.unwrap_or(0.0), "output"),
+        ] {
+            if !Limit::NonNegative.holds(value) {
+                return Err(refuse(quantity, value, unit, Limit::NonNegative, "give the sensor's largest error"));
+            }
+        }
+        if !(self.reach > 1.0 && self.reach <= 1e6) {
+            let limit = Limit::Within(1.0, 1e6);
+            return Err(refuse("reach of the search", self.reach, "", limit, "100 looks through four decades"));
+        }
+        let delays = match self.delay {
+            DelayBound::KnownS(delay_s) => [delay_s; 2],
+            DelayBound::WithinS(range) => range,
+            DelayBound::Unknown => [0.0; 2],
+        };
+        if !(delays[0] >= 0.0 && delays[0] <= delays[1] && delays[1].is_finite()) {
+            return Err(refuse("least delay", delays[0], "s", Limit::NonNegative, "give the lower bound of the delay first"));
+        }
+        Ok(())
+    }
+
+    pub(super) fn terms(&self) -> Vec<Term> {
+        let mut terms = vec![Term::Gain];
+        for (term, used) in [
+            (Term::Linear, self.law.has_linear()),
+            (Term::Quadratic, self.law.has_quadratic()),
+            (Term::Cubic, self.cubic),
+            (Term::Stiffness, self.stiffness),
+            (Term::LagRate, self.lag),
+        ] {
+            if used {
+                terms.push(term);
+            }
+        }
+        terms
+    }
+}
+
+impl Setup {
+    /// # Errors
+    /// [`IdentifyError::OutOfDomain`] that names what is missing.
+    pub(super) fn new(records: &[&Record], settings: &BoundedModel) -> Result<Self, IdentifyError> {
+        settings.check()?;
+        if records.is_empty() {
+            return Err(refuse("number of records", 0.0, "", Limit::AtLeast(1.0), "give a record"));
+        }
+        let mut readings = Vec::new();
+        for record in records {
+            let quantum = settings.quantum.or_else(|| record.quantum()).unwrap_or(0.0);
+            let error = 0.5 * quantum * (1.0 + READING) + settings.error;
+            if error <= 0.0 {
+                let remedy = "the record shows no step of its sensor: give its step, or its largest error";
+                return Err(refuse("largest error of a reading", error, "output", Limit::Positive, remedy));
+            }
+            let command = Command::of(record, settings.switching == SwitchedWhen::Anywhere);
+            if command.largest() <= 0.0 {
+                return Err(refuse("largest command", 0.0, "force", Limit::Positive, "choose the column of the command"));
+            }
+            if command.edges() == 0 {
+                let remedy = "give a record in which the command changes";
+                return Err(refuse("switchings of the command", 0.0, "", Limit::AtLeast(1.0), remedy));
+            }
+            readings.push(Readings {
+                time_s: record.time_s().to_vec(),
+                value: record.output().to_vec(),
+                error,
+                jitter_s: settings.jitter_s,
+                command,
+            });
+        }
+        let scales: Vec<Scales> = readings.iter().map(Scales::of).collect();
+        let swing_s = scales.iter().map(|scale| scale.swing_s).fold(f64::INFINITY, f64::min);
+        let delay = match settings.delay {
+            DelayBound::KnownS(delay_s) => Interval::point(delay_s),
+            DelayBound::WithinS([low, high]) => interval(low, high),
+            DelayBound::Unknown => interval(0.0, swing_s),
+        };
+        let both = settings.law.has_linear() && settings.law.has_quadratic() || settings.cubic;
+        let speed = scales.iter().map(|scale| scale.speed).sum::<f64>() / scales.len() as f64;
+        let middle_speed = if both && settings.law.has_quadratic() { speed } else { 0.0 };
+        let fastest = 4.0 * scales.iter().map(|scale| scale.fastest).fold(0.0, f64::max);
+        let layout = Self::lay(&readings, settings, delay)?;
+        let first = &scales[0];
+        // A force moves the vehicle by its reach in a swing.
+        let gain = 4.0 * first.reach / (first.force * first.swing_s * first.swing_s);
+        let rate = 1.0 / first.swing_s;
+        let reach = settings.reach;
+        let least_linear = if settings.either_sign { -rate } else { 0.0 };
+        let terms = layout.terms().iter().map(|term| {
+            let linear = interval(least_linear, reach * rate);
+            let quadratic = interval(0.0, reach * rate / first.speed);
+            match term {
+                Term::Gain => interval(gain / reach, gain * reach),
+                Term::Linear => linear + Interval::point(2.0 * middle_speed) * quadratic,
+                Term::Quadratic => quadratic,
+                Term::Cubic => interval(0.0, reach * rate / (first.speed * first.speed)),
+                Term::Stiffness => interval(0.0, reach * rate * rate),
+                Term::LagRate => interval(rate, 1000.0 * rate),
+                Term::Disturbance => Interval::ZERO,
+            }
+        });
+        let mut search: Vec<Interval> = terms.collect();
+        search.extend(layout.delay().map(|_| delay));
+        for (record, readings) in readings.iter().enumerate() {
+            // A disturbance stronger than the command is no oscillation's.
+            search.push(Interval::symmetric(gain * reach * readings.command.largest()));
+            search.extend((0..layout.instants(record)).map(|edge| readings.command.span(edge)));
+        }
+        let mut setup =
+            Self {
+                layout,
+                known_delay_s: delay,
+                middle_speed,
+                fastest,
+                swing_s,
+                reach: scales.iter().map(|scale| scale.reach).fold(0.0, f64::max),
+                typical_speed: speed,
+                least_linear,
+                search,
+                records: readings,
+            };
+        setup.states();
+        Ok(setup)
+    }
+
+    /// Windows of every record, from where every command that acts is in the log.
+    fn lay(readings: &[Readings], settings: &BoundedModel, delay: Interval) -> Result<Layout, IdentifyError> {
+        let mut windows = Vec::new();
+        let mut instants = Vec::new();
+        for (record, readings) in readings.iter().enumerate() {
+            let samples = readings.time_s.len();
+            let begin = Interval::point(readings.time_s[0]) + delay;
+            let first = readings.time_s.partition_point(|time| *time < begin.upper());
+            if samples < first + 3 * FEWEST {
+                let remedy = "give a longer record, or bound the delay";
+                return Err(refuse("longest delay", delay.upper(), "s", Limit::Words("well within the record"), remedy));
+            }
+            let swings = (readings.command.edges() + 1) as f64;
+            let count = (WINDOWS_PER_SWING * swings).ceil().clamp(2.0, MOST_WINDOWS as f64);
+            let most = (samples - first) / FEWEST;
+            let count = (count as usize).min(most).max(1);
+            let nodes: Vec<usize> = (0..=count).map(|index| first + (samples - 1 - first) * index / count).collect();
+            windows.extend(nodes.windows(2).map(|pair| Window { record, first: pair[0], last: pair[1] }));
+            instants.push(if settings.switching == SwitchedWhen::Anywhere { readings.command.edges() } else { 0 });
+        }
+        let delayed = !delay.is_point();
+        Ok(Layout::new(settings.terms(), delayed, instants, windows))
+    }
+
+    /// States at the windows' beginnings, from the readings there alone.
+    fn states(&mut self) {
+        self.search.truncate(self.layout.parameters());
+        for window in self.layout.windows() {
+            let readings = &self.records[window.record];
+            let stray = (Interval::point(readings.jitter_s) * Interval::point(self.fastest)).upper();
+            let error = (Interval::point(readings.error) + Interval::point(stray)).upper();
+            self.search.push(Interval::point(readings.value[window.first]) + Interval::symmetric(error));
+            self.search.push(Interval::symmetric(self.fastest));
+            if self.layout.lagged() {
+                // A lag keeps the force among the commands.
+                self.search.push(Interval::symmetric(readings.command.largest()));
+            }
+        }
+    }
+
+    /// The same constraints with the parameters known to lie in `at`: a shorter delay leaves more readings.
+    pub(super) fn narrowed(&self, settings: &BoundedModel, at: &[Interval]) -> Result<Self, IdentifyError> {
+        let Some(place) = self.layout.delay() else { return Ok(self.clone()) };
+        let mut setup = self.clone();
+        setup.layout = Self::lay(&self.records, settings, at[place])?;
+        setup.search = at[..self.layout.parameters()].to_vec();
+        if setup.layout.delay().is_none() {
+            setup.known_delay_s = at[place];
+            setup.search.remove(place);
+        }
+        setup.states();
+        Ok(setup)
+    }
+
+    /// A box of parameters in words.
+    pub(super) fn ranges(&self, at: &[Interval]) -> Vec<QuantityRange> {
+        let range = |quantity, side: Interval| QuantityRange { quantity, low: side.lower(), high: side.upper() };
+        let mut ranges: Vec<QuantityRange> = Vec::new();
+        for (place, term) in self.layout.terms().iter().enumerate() {
+            let quantity = match term {
+                Term::Gain => Quantity::Gain,
+                Term::Linear => Quantity::LinearRate,
+                Term::Quadratic => Quantity::QuadraticRate,
+                Term::Cubic => Quantity::CubicRate,
+                Term::Stiffness => Quantity::StiffnessRate,
+                Term::LagRate => Quantity::LagRate,
+                Term::Disturbance => continue,
+            };
+            let side = if *term == Term::Linear { self.linear(at) } else { at[place] };
+            ranges.push(range(quantity, side));
+        }
+        if let Some(place) = self.layout.delay() {
+            ranges.push(range(Quantity::DelayS, at[place]));
+        }
+        for record in 0..self.records.len() {
+            ranges.push(range(Quantity::DeltaRate(record), at[self.layout.disturbance(record)]));
+        }
+        ranges.push(range(Quantity::Speed, Interval::symmetric(self.fastest)));
+        ranges
+    }
+
+    /// The linear drag over alpha, which in the box stands with the quadratic one's share at the middle speed.
+    fn linear(&self, at: &[Interval]) -> Interval {
+        let side = |term| self.layout.place_of(term).map_or(Interval::ZERO, |place| at[place]);
+        side(Term::Linear) - Interval::point(2.0 * self.middle_speed) * side(Term::Quadratic)
+    }
+}

@@ -1,0 +1,275 @@
+//! Velocities at the samples, from readings and the accelerations besides drag.
+
+use super::contract::Model;
+use super::field::{Term, signed_square};
+use crate::numeric::{Interval, Real};
+
+/// Spans over which the mean speed is taken, in samples.
+const SPANS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
+
+/// Halvings towards a speed that is certain.
+const BISECTIONS: usize = 16;
+
+/// The largest acceleration besides drag between two samples: forwards and backwards, each zero or more.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Push {
+    pub(super) up: f64,
+    pub(super) down: f64,
+    /// The acceleration besides drag.
+    force: Interval,
+}
+
+impl Push {
+    /// What it adds to a velocity in a duration: at most upwards, at most downwards.
+    fn gains(self, lasted: Interval) -> [f64; 2] {
+        [self.up, self.down].map(|push| (Interval::point(push) * Interval::point(lasted.upper())).upper())
+    }
+}
+
+const NONE: Push = Push { up: 0.0, down: 0.0, force: Interval::ZERO };
+
+/// Velocities at the samples, and between each and the next.
+#[derive(Clone, Debug)]
+pub(super) struct Speeds {
+    pub(super) at_samples: Vec<Interval>,
+    pub(super) between: Vec<Interval>,
+}
+
+/// A half-line up to, or from, a number.
+fn below(end: f64) -> Interval {
+    Interval::new(f64::NEG_INFINITY, end).unwrap_or(Interval::ENTIRE)
+}
+fn above(end: f64) -> Interval {
+    Interval::new(end, f64::INFINITY).unwrap_or(Interval::ENTIRE)
+}
+fn plus(a: f64, b: f64) -> Interval {
+    Interval::point(a) + Interval::point(b)
+}
+
+/// The velocity between two samples. Beyond what it is at the first it grows by no more than the push adds, and what it is at the
+/// second it was before, less that; drag may brake it at once.
+fn between(first: Interval, second: Interval, push: Push, lasted: Interval) -> Interval {
+    let [up, down] = push.gains(lasted);
+    let ahead = plus(second.lower(), -up).lower();
+    let lower = if ahead > 0.0 { ahead } else { plus(first.lower().min(0.0), -down).lower() };
+    let behind = plus(second.upper(), down).upper();
+    let upper = if behind < 0.0 { behind } else { plus(first.upper().max(0.0), up).upper() };
+    Interval::new(lower, upper).unwrap_or(Interval::ENTIRE)
+}
+
+/// Drag over a box: linear, quadratic and cubic.
+struct Drag([Interval; 3]);
+
+impl Drag {
+    /// The least acceleration at any of the velocities.
+    fn rate(&self, v: Interval, force: Interval) -> f64 {
+        let [linear, quadratic, cubic] = self.0;
+        (force - linear * v - quadratic * signed_square(v) - cubic * v * v.square()).lower()
+    }
+
+    /// The least velocity during a duration from `v`.
+    fn least_within(&self, v: f64, force: Interval, lasted: Interval) -> f64 {
+        if self.rate(Interval::point(v), force) >= 0.0 { v } else { self.least(v, force, lasted) }
+    }
+
+    /// A velocity that is certainly reached, or not passed downwards, after a duration from `v`.
+    fn least(&self, v: f64, force: Interval, lasted: Interval) -> f64 {
+        if !v.is_finite() {
+            return f64::NEG_INFINITY;
+        }
+        let at_once = self.rate(Interval::point(v), force);
+        let span = |a: f64, b: f64| Interval::point(a).hull(Interval::point(b));
+        let furthest = (Interval::point(at_once) * Interval::point(lasted.upper())).upper().abs();
+        if at_once < 0.0 {
+            // It does not fall to f within the time, as slowly as it falls on the way there; nor where it rises.
+            let holds = |f: f64| {
+                let fallen = Interval::point(v) + Interval::point(self.rate(span(f, v), force)) * Interval::point(lasted.upper());
+                fallen.lower() >= f || self.rate(Interval::point(f), force) >= 0.0
+            };
+            let Some(mut sure) = (0..6).map(|k| v - f64::from(1 << k) * furthest).find(|f| holds(*f)) else {
+                return f64::NEG_INFINITY;
+            };
+            let mut beyond = v;
+            for _ in 0..BISECTIONS {
+                let middle = 0.5 * (sure + beyond);
+                if holds(middle) { sure = middle } else { beyond = middle }
+            }
+            return sure;
+        }
+        // It rises to m within the time, even as slowly as it may on the way: the backward Euler step.
+        let reached = |m: f64| {
+            let gained = Interval::point(self.rate(span(v, m), force)) * Interval::point(lasted.lower());
+            plus(m, -v).upper() <= gained.lower()
+        };
+        let (mut sure, mut beyond) = (v, v + furthest);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (sure + beyond);
+            if reached(middle) { sure = middle } else { beyond = middle }
+        }
+        sure
+    }
+}
+
+impl Model<'_> {
+    /// Drag over a box.
+    fn drag(&self, at: &[Interval]) -> Drag {
+        let place = |term: Term| self.layout.place_of(term).map_or(Interval::ZERO, |place| at[place]);
+        let quadratic = place(Term::Quadratic);
+        let linear = if self.layout.place_of(Term::Linear).is_some() {
+            place(Term::Linear) - Interval::point(2.0 * self.middle_speed) * quadratic
+        } else {
+            Interval::ZERO
+        };
+        let linear = linear.intersection(above(self.least_linear)).unwrap_or(linear);
+        Drag([linear, quadratic, place(Term::Cubic)])
+    }
+
+    /// Time between two samples, with what jitter makes of it.
+    pub(super) fn lasted(&self, record: usize, first: usize, last: usize) -> Interval {
+        let readings = &self.records[record];
+        let lasted = Interval::point(readings.time_s[last]) - Interval::point(readings.time_s[first]);
+        if readings.jitter_s > 0.0 { lasted + Interval::symmetric(2.0 * readings.jitter_s) } else { lasted }
+    }
+
+    /// For every interval between samples, over a box in which no speed exceeds `fastest`.
+    pub(super) fn pushes(&self, record: usize, at: &[Interval], fastest: f64) -> Vec<Push> {
+        let readings = &self.records[record];
+        let place = |term: Term| self.layout.place_of(term).map_or(Interval::ZERO, |place| at[place]);
+        let (gain, disturbance, stiffness) = (place(Term::Gain), at[self.layout.disturbance(record)], place(Term::Stiffness));
+        let speed = Interval::symmetric(fastest);
+        // Linear drag that drives.
+        let driving = Interval::symmetric((-self.least_linear).max(0.0)) * speed;
+        let delay_s = self.delay_s(at);
+        let command = &readings.command;
+        let windows: Vec<(f64, f64)> = (0..command.edges()).map(|edge| command.window(edge, delay_s)).collect();
+        let (mut done, mut begun) = (0, 0);
+        let samples = readings.time_s.len();
+        let mut pushes = Vec::with_capacity(samples);
+        for sample in 0..samples - 1 {
+            let stray = readings.jitter_s;
+            let from = plus(readings.time_s[sample], -stray).lower();
+            let to = plus(readings.time_s[sample + 1], stray).upper();
+            while windows.get(done).is_some_and(|(_, close)| *close <= from) {
+                done += 1;
+            }
+            begun = begun.max(done);
+            while windows.get(begun).is_some_and(|(open, _)| *open < to) {
+                begun += 1;
+            }
+            // Before the log nobody knows what acted, and a lag keeps what was.
+            let early = from < plus(readings.time_s[0], delay_s.upper()).upper();
+            let force = if early || self.layout.lagged() {
+                Interval::symmetric(command.largest())
+            } else {
+                command.between(done, begun)
+            };
+            let mut push = gain * force + disturbance;
+            if self.layout.place_of(Term::Stiffness).is_some() {
+                let (a, b) = (Interval::point(readings.value[sample]), Interval::point(readings.value[sample + 1]));
+                let stray = Interval::symmetric(readings.error) + speed * self.lasted(record, sample, sample + 1);
+                push -= stiffness * (a.hull(b) + stray);
+            }
+            pushes.push(Push { up: (push + driving).upper().max(0.0), down: (driving - push).upper().max(0.0), force: push });
+        }
+        pushes
+    }
+
+    /// Encloses the velocity at every sample of a record, over a box in which no speed exceeds `fastest`. `None` where there is none.
+    ///
+    /// Drag only brakes: with the acceleration besides it at most A, a velocity of v needs a way of `v T - A T^2/2` at least in the
+    /// time T before it, whatever the drag; and a vehicle that goes a way in the time T ahead is at least as fast as its mean less `A T/2`.
+    pub(super) fn speeds(&self, record: usize, at: &[Interval], pushes: &[Push], fastest: f64) -> Option<Speeds> {
+        let readings = &self.records[record];
+        let value = &readings.value;
+        let mut speeds = vec![Interval::symmetric(fastest); value.len()];
+        let twice = Interval::symmetric(2.0 * readings.error);
+        let half = Interval::point(0.5);
+        let drag = self.drag(at);
+        for span in SPANS {
+            for first in 0..value.len().saturating_sub(span) {
+                let last = first + span;
+                let lasted = self.lasted(record, first, last);
+                if !lasted.is_positive() {
+                    continue;
+                }
+                let mean = (Interval::point(value[last]) - Interval::point(value[first]) + twice) / lasted;
+                let most = pushes[first..last].iter().fold(NONE, |most, push| Push {
+                    up: most.up.max(push.up),
+                    down: most.down.max(push.down),
+                    ..most
+                });
+                let [up, down] = most.gains(lasted);
+                let [half_up, half_down] = [up, down].map(|gained| half * Interval::point(gained));
+                let fast = (mean + half_up).upper().max(up);
+                let slow = (mean - half_down).lower().min(-down);
+                speeds[last] = speeds[last].intersection(Interval::new(slow, fast)?)?;
+                let (least, largest) = ((mean - half_up).lower(), (mean + half_down).upper());
+                if least > 0.0 {
+                    speeds[first] = speeds[first].intersection(above(least))?;
+                }
+                if largest < 0.0 {
+                    speeds[first] = speeds[first].intersection(below(largest))?;
+                }
+            }
+        }
+        for sample in 1..value.len() {
+            let [up, down] = pushes[sample - 1].gains(self.lasted(record, sample - 1, sample));
+            let before = speeds[sample - 1];
+            let fast = below(plus(before.upper().max(0.0), up).upper());
+            let slow = above(plus(before.lower().min(0.0), -down).lower());
+            speeds[sample] = speeds[sample].intersection(fast)?.intersection(slow)?;
+            let lasted = self.lasted(record, sample - 1, sample);
+            let force = pushes[sample - 1].force;
+            let least = drag.least(before.lower(), force, lasted);
+            let largest = -drag.least(-before.upper(), -force, lasted);
+            speeds[sample] = speeds[sample].intersection(above(least))?.intersection(below(largest))?;
+        }
+        for sample in (1..value.len()).rev() {
+            // What it is later it was before, less what the push added.
+            let [up, down] = pushes[sample - 1].gains(self.lasted(record, sample - 1, sample));
+            let (least, largest) = (plus(speeds[sample].lower(), -up).lower(), plus(speeds[sample].upper(), down).upper());
+            if least > 0.0 {
+                speeds[sample - 1] = speeds[sample - 1].intersection(above(least))?;
+            }
+            if largest < 0.0 {
+                speeds[sample - 1] = speeds[sample - 1].intersection(below(largest))?;
+            }
+        }
+        let mut between_samples = Vec::with_capacity(pushes.len());
+        for sample in 1..value.len() {
+            let (push, lasted) = (pushes[sample - 1], self.lasted(record, sample - 1, sample));
+            let (before, after) = (speeds[sample - 1], speeds[sample]);
+            let least = drag.least_within(before.lower(), push.force, lasted);
+            let largest = -drag.least_within(-before.upper(), -push.force, lasted);
+            let range = between(before, after, push, lasted);
+            between_samples.push(range.intersection(above(least))?.intersection(below(largest))?);
+        }
+        Some(Speeds { at_samples: speeds, between: between_samples })
+    }
+
+    /// Whether the ways that the speeds between samples allow are ones that the readings allow, over every span of time.
+    pub(super) fn travelled(&self, record: usize, speeds: &Speeds) -> bool {
+        let readings = &self.records[record];
+        let room = Interval::two() * Interval::point(readings.error);
+        // What the least and the largest way are ahead of the readings, and the least of the former so far.
+        let (mut least, mut largest) = (Interval::ZERO, Interval::ZERO);
+        let (mut lowest, mut highest) = (Interval::ZERO, Interval::ZERO);
+        for sample in 1..speeds.at_samples.len() {
+            let lasted = self.lasted(record, sample - 1, sample);
+            let range = speeds.between[sample - 1];
+            let way = Interval::point(readings.value[sample]) - Interval::point(readings.value[sample - 1]);
+            least += Interval::point((Interval::point(range.lower()) * lasted).lower()) - way;
+            largest += Interval::point((Interval::point(range.upper()) * lasted).upper()) - way;
+            if (least - lowest).lower() > room.upper() || (highest - largest).lower() > room.upper() {
+                return false;
+            }
+            if least.upper() < lowest.upper() {
+                lowest = least;
+            }
+            if largest.lower() > highest.lower() {
+                highest = largest;
+            }
+        }
+        true
+    }
+}

@@ -1,0 +1,137 @@
+//! Single parameters: the one with the least largest misfit, and ones near the ends of the bounds.
+
+use super::contract::Linear;
+use super::lp::{Outcome, Programme};
+use super::search::Search;
+use crate::numeric::{Interval, Real};
+
+/// Steps towards the least largest misfit.
+const MOST_STEPS: usize = 8;
+
+/// Misfits up to which a better parameter is looked for, one after the other, beyond what readings allow.
+const MISFITS: [f64; 3] = [1.0, 30.0, 1000.0];
+
+/// A parameter with its misfit.
+#[derive(Clone, Debug)]
+pub(super) struct Tried {
+    /// All unknowns; of the windows' states those of each record's first count.
+    pub(super) at: Vec<f64>,
+    /// Upper bound of the largest misfit of a reading over its largest error.
+    pub(super) misfit: f64,
+}
+
+impl Search<'_> {
+    /// The largest misfit of one parameter over the whole records. `None` where its motion cannot be enclosed.
+    pub(super) fn misfit(&mut self, at: &[f64]) -> Option<f64> {
+        self.passes += 1;
+        let mut largest = 0.0f64;
+        for span in self.whole() {
+            let stretch = self.setup.layout.windows()[span.from];
+            let readings = &self.setup.records[stretch.record];
+            let outputs = self.model.outputs(span, at)?;
+            let error = Interval::point(readings.error);
+            for (output, reading) in outputs.iter().zip(&readings.value[stretch.first..]) {
+                // A stamp's error is granted to no witness.
+                let misfit = (*output - Interval::point(*reading)).abs() / error;
+                largest = largest.max(misfit.upper());
+            }
+        }
+        Some(largest)
+    }
+
+    /// The rows with the misfit as one more unknown, and its number.
+    pub(super) fn with_misfit(&self, linear: &Linear) -> (Linear, usize) {
+        let mut linear = linear.clone();
+        let misfit = linear.deviations.len();
+        let errors: Vec<f64> = self.setup.records.iter().map(|readings| readings.error).collect();
+        for (slopes, origin) in linear.rows.slopes.iter_mut().zip(&linear.origins) {
+            if let super::contract::Origin::Reading { window, .. } = origin {
+                let record = self.setup.layout.windows()[*window].record;
+                slopes.push((misfit, Interval::point(-errors[record])));
+            }
+        }
+        // One is what the readings allow; this is how much more.
+        linear.deviations.push(Interval::ZERO);
+        linear.centre.push(0.0);
+        (linear, misfit)
+    }
+
+    /// A parameter with a small largest misfit: linear programmes about one after another, from the middle of a box.
+    pub(super) fn nearest(&mut self, at: &[Interval]) -> Option<Tried> {
+        let mut centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
+        let mut best: Option<Tried> = None;
+        // How far from the centre is searched, against the box.
+        let mut trust = 1.0;
+        for _ in 0..MOST_STEPS {
+            let point: Vec<Interval> = centre.iter().map(|value| Interval::point(*value)).collect();
+            let Some(linear) = self.at_point(&point) else { break };
+            let (mut linear, misfit) = self.with_misfit(&linear);
+            for (place, side) in at.iter().enumerate() {
+                let width = trust * side.width();
+                let middle = Interval::point(centre[place]);
+                let room = (middle + Interval::symmetric(width)).intersection(*side).unwrap_or(middle);
+                linear.deviations[place] = room - middle;
+            }
+            let places: Vec<usize> = (0..=misfit).collect();
+            let solution = MISFITS.into_iter().find_map(|most| {
+                linear.deviations[misfit] = Interval::new(-1.0, most)?;
+                match Programme::of(&linear.rows, &linear.deviations, &places).maximise(&[(misfit, -1.0)]) {
+                    Outcome::Bounded { at, .. } => Some(at),
+                    Outcome::Empty { .. } => None,
+                }
+            });
+            let Some(solution) = solution else { break };
+            let next: Vec<f64> = centre.iter().zip(&solution).map(|(centre, step)| centre + step).collect();
+            let reached = self.misfit(&next);
+            let improved = reached.is_some_and(|reached| best.as_ref().is_none_or(|best| reached < best.misfit));
+            if let (Some(misfit), true) = (reached, improved) {
+                let small = best.as_ref().is_some_and(|best| best.misfit - misfit < 1e-4 * misfit);
+                best = Some(Tried { at: next.clone(), misfit });
+                centre = next;
+                if small {
+                    break;
+                }
+            } else {
+                trust *= 0.25;
+            }
+        }
+        best
+    }
+
+    /// The inequalities at a point.
+    fn at_point(&mut self, point: &[Interval]) -> Option<Linear> {
+        let centre: Vec<f64> = point.iter().map(|side| side.midpoint()).collect();
+        self.passes += 1;
+        let layout = &self.setup.layout;
+        let windows = layout.windows();
+        let mut linear = self.model.about(point, centre);
+        for index in 0..windows.len() {
+            let span = super::contract::Span { from: index, to: index + 1 };
+            let motion = self.model.motion(span, point, &linear.centre)?;
+            let linked = windows.get(index + 1).is_some_and(|next| next.record == windows[index].record);
+            self.model.linearise(span, &motion, linked, &mut linear);
+        }
+        self.model.bound(&mut linear);
+        Some(linear)
+    }
+
+    /// A witness with `unknown` as far up (or, `sign` negative, down) as linear programmes and trying find one.
+    pub(super) fn reach(&mut self, witness: &Tried, linear: &Linear, unknown: usize, sign: f64) -> Option<Tried> {
+        let places: Vec<usize> = (0..linear.deviations.len()).collect();
+        let programme = Programme::of(&linear.rows, &linear.deviations, &places);
+        let Outcome::Bounded { at: solution, .. } = programme.maximise(&[(unknown, sign)]) else { return None };
+        for share in [0.99, 0.96, 0.9, 0.8] {
+            let at: Vec<f64> = witness
+                .at
+                .iter()
+                .zip(linear.centre.iter().zip(&solution))
+                .map(|(from, (centre, step))| from + share * (centre + step - from))
+                .collect();
+            let misfit = self.misfit(&at)?;
+            if misfit <= 1.0 {
+                return Some(Tried { at, misfit });
+            }
+        }
+        None
+    }
+}

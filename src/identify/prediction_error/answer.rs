@@ -1,0 +1,194 @@
+//! What the estimator answers, and whether to trust it.
+
+use super::model::{Clock, Parameter, Switching};
+use super::term::Term;
+use crate::identify::DragLaw;
+use crate::identify::joint::Estimate;
+
+/// Whether an answer is to be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Trust {
+    /// No test contradicts the model, and the interval is the ordinary one.
+    Good,
+    /// A named misfit is paid for in the interval.
+    Widened,
+    /// A named contradiction that no term removes: not to be used.
+    Doubtful,
+}
+
+impl Trust {
+    /// Name in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Good => "good",
+            Self::Widened => "widened",
+            Self::Doubtful => "doubtful",
+        }
+    }
+}
+
+/// Why an answer is not simply good.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Reason {
+    /// The record has this term beside inertia, drag and white noise.
+    Term(Term),
+    /// The record contradicts the delay given: it has another.
+    DelayContradicted {
+        /// Given, in s.
+        given_s: f64,
+        /// Found, in s.
+        found_s: f64,
+    },
+    /// The two halves of the record want parameters that differ by more than chance allows; the interval of the inertia holds both.
+    HalvesDisagree {
+        /// Probability of so much by chance.
+        probability: f64,
+    },
+    /// Readings far from all others were left out.
+    Outliers {
+        /// How many.
+        count: usize,
+    },
+    /// The interval of the inertia is too wide to be of use.
+    TooWide {
+        /// Half the interval's width over the value.
+        relative: f64,
+    },
+    /// The search ended before it came to rest.
+    NotSettled,
+    /// Several records want inertias that differ by more than chance allows.
+    RecordsDisagree {
+        /// Standard deviation between records over the mean.
+        relative: f64,
+    },
+}
+
+impl Reason {
+    /// The name that scripts see.
+    #[must_use]
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::Term(term) => term.name(),
+            Self::DelayContradicted { .. } => "delay-contradicted",
+            Self::HalvesDisagree { .. } => "halves-disagree",
+            Self::Outliers { .. } => "outliers",
+            Self::TooWide { .. } => "too-wide",
+            Self::NotSettled => "not-settled",
+            Self::RecordsDisagree { .. } => "records-disagree",
+        }
+    }
+
+    /// What it does to the trust.
+    #[must_use]
+    pub fn trust(self) -> Trust {
+        match self {
+            Self::TooWide { .. } | Self::NotSettled => Trust::Doubtful,
+            _ => Trust::Widened,
+        }
+    }
+}
+
+impl core::fmt::Display for Reason {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match *self {
+            Self::Term(term) => {
+                write!(f, "{}; it is estimated with the rest, and the intervals allow for the choice", term.finding())
+            }
+            Self::DelayContradicted { given_s, found_s } => write!(
+                f,
+                "the record has a delay of {found_s:.3} s, not the {given_s} s given: the estimates are those with the delay found"
+            ),
+            Self::HalvesDisagree { probability } => write!(
+                f,
+                "the two halves of the record want different parameters (by chance once in {:.0} records): the vehicle \
+                 changed, or a structure is at work that no term has; the interval of the inertia holds both",
+                1.0 / probability.max(1e-9)
+            ),
+            Self::Outliers { count } => write!(f, "{count} readings far from all others were left out"),
+            Self::TooWide { relative } => write!(
+                f,
+                "the inertia is known to within {:.0} % only: a longer record, a finer sensor or a larger amplitude narrows it",
+                100.0 * relative
+            ),
+            Self::NotSettled => write!(f, "the search for the best parameters did not come to rest"),
+            Self::RecordsDisagree { relative } => write!(
+                f,
+                "the records want inertias that scatter by {:.1} % beyond chance; the interval holds their scatter",
+                100.0 * relative
+            ),
+        }
+    }
+}
+
+/// The one answer to use.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reported {
+    /// Drag law of the likeliest model; mixed where the record does not tell the laws apart.
+    pub drag: DragLaw,
+    /// Terms of the likeliest model.
+    pub terms: Vec<Term>,
+    /// Inertia.
+    pub alpha: Estimate,
+    /// Linear drag, of either sign; without error where no model that counts has it.
+    pub linear_drag: Estimate,
+    /// Quadratic drag.
+    pub quadratic_drag: Estimate,
+    /// Cubic drag, where the likeliest model has it.
+    pub cubic_drag: Option<Estimate>,
+    /// Restoring force per output, where the likeliest model has it.
+    pub stiffness: Option<Estimate>,
+    /// Time constant of the actuator in s, where the likeliest model has it.
+    pub lag_s: Option<Estimate>,
+    /// Time of the actuator over the command's range in s, where the likeliest model limits its rate.
+    pub ramp_s: Option<Estimate>,
+    /// Constant force during each record.
+    pub disturbance: Vec<Estimate>,
+    /// Delay in s.
+    pub delay_s: Estimate,
+    /// Whether to use it.
+    pub trust: Trust,
+    /// Why not simply good, the weightiest first.
+    pub reasons: Vec<Reason>,
+}
+
+/// A model that was tried.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    /// Which drag terms it has: linear, quadratic.
+    pub drag: [bool; 2],
+    /// Its other terms.
+    pub terms: Vec<Term>,
+    /// When the command changes.
+    pub switching: Switching,
+    /// Its clock.
+    pub clock: Clock,
+    /// Its log-likelihood, half cycles that repeat counted once.
+    pub log_likelihood: f64,
+    /// Number of parameters estimated.
+    pub freedom: usize,
+    /// Share in the average.
+    pub weight: f64,
+    /// Its structural parameters.
+    pub values: [f64; Parameter::COUNT],
+    /// Their standard deviations; zero for those not estimated, infinite where the record leaves them open.
+    pub deviations: [f64; Parameter::COUNT],
+    /// Whether its search came to rest.
+    pub settled: bool,
+    /// Steps of the search.
+    pub iterations: usize,
+}
+
+/// Everything the estimator found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    /// The one answer to use.
+    pub reported: Reported,
+    /// All models tried, the likeliest for its number of parameters first.
+    pub candidates: Vec<Candidate>,
+    /// Innovations of the likeliest model in standard deviations, with their times in s.
+    pub innovations: Vec<(f64, f64)>,
+    /// What the readings count together, those of repeated half cycles once.
+    pub effective_samples: f64,
+}

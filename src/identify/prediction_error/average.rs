@@ -1,0 +1,167 @@
+//! One estimate from all models tried, weighted by how likely they make the record for their number of parameters.
+
+use super::model::{Model, Parameter};
+use super::scoring::{self, Fitted};
+use super::search::{Found, PRICE};
+use crate::identify::joint::{Estimate, ConfidenceInterval};
+
+/// A model's word on one parameter: normal, or a point where it has no such parameter.
+#[derive(Clone, Copy, Debug)]
+struct Component {
+    weight: f64,
+    mean: f64,
+    std: f64,
+}
+
+/// Intervals of terms that were chosen by the record are wider by this.
+pub(super) const CHOSEN: f64 = 1.25;
+
+/// Twice the log-likelihood that each parameter more has to gain for a model to count. A structure that the record hardly
+/// shows moves the inertia, so that it counts sooner.
+const IDLE: f64 = 1.0;
+const IDLE_STRUCTURE: f64 = 0.25;
+/// The structures meant.
+const SUBTLE: [Parameter; 4] = [Parameter::Stiffness, Parameter::CubicDrag, Parameter::LagS, Parameter::RampS];
+
+/// Standard deviations of the structural parameters of a model, zero for those not estimated; `None` where the record leaves
+/// some of them open.
+pub(super) fn deviations(fitted: &Fitted, free: &[usize]) -> Option<[f64; Parameter::COUNT]> {
+    let mut deviations = [0.0; Parameter::COUNT];
+    for index in free {
+        let mut unit = [0.0; Parameter::COUNT];
+        unit[*index] = 1.0;
+        let (column, _) = scoring::solve(&fitted.score.structure_information, &unit, free, 1e-10)?;
+        let place = free.iter().position(|other| other == index)?;
+        deviations[*index] = column[place].sqrt();
+    }
+    Some(deviations)
+}
+
+/// The models of an average with their weights and their deviations.
+pub(super) struct Average<'a> {
+    pub(super) members: Vec<(f64, &'a Fitted, [f64; Parameter::COUNT])>,
+}
+
+impl<'a> Average<'a> {
+    /// `movable` names the parameters of a model that are not on a bound.
+    pub(super) fn new(found: &'a Found, movable: impl Fn(&Fitted) -> Vec<usize>) -> Self {
+        let value = |fitted: &Fitted| fitted.log_likelihood - 0.5 * PRICE * fitted.model.freedom() as f64;
+        let top = value(&found.tried[found.best]);
+        let mut members: Vec<(f64, &Fitted, [f64; Parameter::COUNT])> = Vec::new();
+        for fitted in &found.tried {
+            let weight = (value(fitted) - top).exp();
+            if weight < 1e-3 {
+                continue;
+            }
+            // The same model reached twice counts once, the likelier time.
+            if let Some(same) = members.iter_mut().find(|(_, other, _)| same_terms(&other.model, &fitted.model)) {
+                if fitted.log_likelihood <= same.1.log_likelihood {
+                    continue;
+                }
+                if let Some(deviations) = deviations(fitted, &movable(fitted)) {
+                    *same = (weight, fitted, deviations);
+                }
+                continue;
+            }
+            if let Some(deviations) = deviations(fitted, &movable(fitted)) {
+                members.push((weight, fitted, deviations));
+            }
+        }
+        // A model that hardly gains on one that it contains only says what a parameter without effect leaves open.
+        let idle = |(_, fitted, _): &(f64, &Fitted, [f64; Parameter::COUNT])| {
+            members.iter().any(|(_, other, _)| {
+                contains(&fitted.model, &other.model)
+                    && 2.0 * (fitted.log_likelihood - other.log_likelihood) < least_gain(&fitted.model, &other.model)
+            })
+        };
+        let idle: Vec<bool> = members.iter().map(idle).collect();
+        let mut keep = idle.iter().map(|idle| !idle);
+        members.retain(|_| keep.next().unwrap_or(true));
+        let sum: f64 = members.iter().map(|member| member.0).sum();
+        for member in &mut members {
+            member.0 /= sum;
+        }
+        Self { members }
+    }
+
+    /// The estimate of a parameter; its interval is wider than the mixture's by `factor`.
+    pub(super) fn estimate(&self, parameter: Parameter, factor: f64) -> Option<Estimate> {
+        let index = parameter as usize;
+        let components: Vec<Component> = self
+            .members
+            .iter()
+            .map(|(weight, fitted, deviations)| Component {
+                weight: *weight,
+                mean: fitted.model.values[index],
+                std: factor * deviations[index],
+            })
+            .collect();
+        let mean: f64 = components.iter().map(|c| c.weight * c.mean).sum();
+        let variance: f64 = components.iter().map(|c| c.weight * (c.std.powi(2) + (c.mean - mean).powi(2))).sum();
+        let std = variance.sqrt();
+        if !mean.is_finite() || !std.is_finite() {
+            return None;
+        }
+        let spread =
+            (std > 0.0).then(|| ConfidenceInterval { std, low: quantile(&components, 0.025), high: quantile(&components, 0.975) });
+        Some(Estimate { value: mean, spread })
+    }
+
+    /// Share of one model.
+    pub(super) fn weight(&self, fitted: &Fitted) -> f64 {
+        self.members.iter().find(|member| core::ptr::eq(member.1, fitted)).map_or(0.0, |member| member.0)
+    }
+
+    /// Weight of the models for which something holds.
+    pub(super) fn share(&self, holds: impl Fn(&Model) -> bool) -> f64 {
+        self.members.iter().filter(|member| holds(&member.1.model)).map(|member| member.0).sum()
+    }
+}
+
+/// Whether the first model has all that the second has, and more.
+fn contains(a: &Model, b: &Model) -> bool {
+    let covers = |a: &[bool], b: &[bool]| a.iter().zip(b).all(|(a, b)| *a || !*b);
+    (a.switching, a.clock) == (b.switching, b.clock)
+        && a.freedom() > b.freedom()
+        && covers(&a.free, &b.free)
+        && covers(&a.noise_free, &b.noise_free)
+}
+
+/// What the first model has to gain over the second, which it contains.
+fn least_gain(more: &Model, less: &Model) -> f64 {
+    let added = more.freedom() - less.freedom();
+    let subtle = SUBTLE.iter().filter(|parameter| more.is_free(**parameter) && !less.is_free(**parameter)).count();
+    IDLE_STRUCTURE * subtle as f64 + IDLE * added.saturating_sub(subtle) as f64
+}
+
+fn same_terms(a: &Model, b: &Model) -> bool {
+    (a.free, a.noise_free, a.switching, a.clock) == (b.free, b.noise_free, b.switching, b.clock)
+}
+
+/// Where a mixture of normal distributions and points reaches a probability.
+fn quantile(components: &[Component], probability: f64) -> f64 {
+    let below = |x: f64| -> f64 {
+        let share = |c: &Component| {
+            if c.std > 0.0 {
+                0.5 * libm::erfc((c.mean - x) / (c.std * core::f64::consts::SQRT_2))
+            } else if x >= c.mean {
+                1.0
+            } else {
+                0.0
+            }
+        };
+        components.iter().map(|c| c.weight * share(c)).sum()
+    };
+    let ends = components.iter().map(|c| (c.mean - 9.0 * c.std, c.mean + 9.0 * c.std));
+    let (mut low, mut high) =
+        ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), end| (low.min(end.0), high.max(end.1)));
+    for _ in 0..100 {
+        let middle = f64::midpoint(low, high);
+        if below(middle) < probability {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    f64::midpoint(low, high)
+}

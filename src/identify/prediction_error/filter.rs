@@ -1,0 +1,526 @@
+//! Extended Kalman filter in continuous and discrete time (Jazwinski 1970, chapter 8): predicts each reading from those
+//! before it. The innovations' likelihood is what is maximised; its derivatives are carried along.
+//!
+//! States are position, velocity, process force and coloured error of the reading. The derivatives with respect to
+//! structural parameters are those of the predictor with the gain as it is (Ljung 1999, section 10.2: what a change of the
+//! gain adds has expectation zero); with respect to the noise they are complete for the motion as linearised.
+
+use super::actuator::{Actuator, Force, Stop};
+use super::model::{Model, Noise, Parameter};
+use super::motion::{Dynamics, Point, Step};
+use super::observations::Observations;
+
+const STRUCTURE: usize = Parameter::COUNT;
+const NOISES: usize = Noise::COUNT;
+/// Parts of the record whose scores are kept apart.
+pub(super) const PARTS: usize = 8;
+/// The longest step, in time constants of the motion.
+const LONGEST_STEP: f64 = 0.3;
+/// Steps per sample beyond which a motion is faster than the record can show.
+const MOST_STEPS: f64 = 12.0;
+
+type Vector = [f64; 4];
+type Square = [[f64; 4]; 4];
+
+/// Error of a prediction of one step, and its variance.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Innovation {
+    pub(super) error: f64,
+    pub(super) variance: f64,
+}
+
+impl Innovation {
+    /// The error in standard deviations.
+    pub(super) fn standardised(self) -> f64 {
+        self.error / self.variance.sqrt()
+    }
+}
+
+/// Gradient of the log-likelihood and Fisher's information.
+#[derive(Clone, Debug)]
+pub(super) struct Score {
+    pub(super) structure: [f64; STRUCTURE],
+    pub(super) structure_information: [[f64; STRUCTURE]; STRUCTURE],
+    pub(super) noise: [f64; NOISES],
+    pub(super) noise_information: [[f64; NOISES]; NOISES],
+}
+
+impl Score {
+    fn zero() -> Self {
+        Self {
+            structure: [0.0; STRUCTURE],
+            structure_information: [[0.0; STRUCTURE]; STRUCTURE],
+            noise: [0.0; NOISES],
+            noise_information: [[0.0; NOISES]; NOISES],
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        for i in 0..STRUCTURE {
+            self.structure[i] += other.structure[i];
+            for j in 0..STRUCTURE {
+                self.structure_information[i][j] += other.structure_information[i][j];
+            }
+        }
+        for i in 0..NOISES {
+            self.noise[i] += other.noise[i];
+            for j in 0..NOISES {
+                self.noise_information[i][j] += other.noise_information[i][j];
+            }
+        }
+    }
+}
+
+/// One run through the record.
+#[derive(Clone, Debug)]
+pub(super) struct Pass {
+    pub(super) log_likelihood: f64,
+    /// One per sample from [`Observations::first`] on.
+    pub(super) innovations: Vec<Innovation>,
+    /// Scores of consecutive parts of the record; empty where no derivatives were asked for.
+    pub(super) parts: Vec<Score>,
+}
+
+impl Pass {
+    pub(super) fn score(&self) -> Score {
+        let mut sum = Score::zero();
+        for part in &self.parts {
+            sum.add(part);
+        }
+        sum
+    }
+}
+
+/// Transition of the four states over a step.
+#[derive(Clone, Copy)]
+struct Transition {
+    motion: [[f64; 2]; 2],
+    /// What a unit of process force makes of position and velocity.
+    by_force: [f64; 2],
+    force: f64,
+    colour: f64,
+}
+
+impl Transition {
+    fn apply(&self, v: &Vector) -> Vector {
+        [
+            self.motion[0][0] * v[0] + self.motion[0][1] * v[1] + self.by_force[0] * v[2],
+            self.motion[1][0] * v[0] + self.motion[1][1] * v[1] + self.by_force[1] * v[2],
+            self.force * v[2],
+            self.colour * v[3],
+        ]
+    }
+
+    /// `F P F'`.
+    fn turn(&self, p: &Square) -> Square {
+        let mut half = [[0.0; 4]; 4];
+        for (row, values) in p.iter().enumerate() {
+            half[row] = self.apply(values);
+        }
+        let mut whole = [[0.0; 4]; 4];
+        for column in 0..4 {
+            let turned = self.apply(&[half[0][column], half[1][column], half[2][column], half[3][column]]);
+            for row in 0..4 {
+                whole[row][column] = turned[row];
+            }
+        }
+        whole
+    }
+}
+
+/// The noise of the model as sizes.
+struct Sizes {
+    white: f64,
+    force: f64,
+    force_rate: f64,
+    colour: f64,
+    colour_rate: f64,
+    stamp: f64,
+    switch: f64,
+    tracking: f64,
+}
+
+impl Sizes {
+    fn of(model: &Model) -> Self {
+        Self {
+            white: model.size(Noise::White),
+            force: model.size(Noise::Force),
+            force_rate: model.size(Noise::ForceRate),
+            colour: model.size(Noise::Colour),
+            colour_rate: model.size(Noise::ColourRate),
+            stamp: model.size(Noise::StampJitter),
+            switch: model.size(Noise::SwitchJitter),
+            tracking: model.size(Noise::Tracking),
+        }
+    }
+}
+
+/// Sensitivities of the four states to what is estimated.
+struct Sensitivities {
+    structure: Vec<(Parameter, Vector)>,
+    noise: Vec<(Noise, Vector, Square)>,
+}
+
+struct Filter<'a> {
+    model: &'a Model,
+    dynamics: Dynamics,
+    sizes: Sizes,
+    stochastic: bool,
+    state: Vector,
+    covariance: Square,
+    sensitivities: Sensitivities,
+}
+
+/// Runs through the record; `None` where the motion leaves all bounds. Derivatives only where wanted.
+pub(super) fn run(observations: &Observations, model: &Model, derivatives: bool) -> Option<Pass> {
+    let actuator = Actuator::new(&observations.pieces, model, observations.range);
+    let late = model.value(Parameter::DelayS) + model.value(Parameter::LagS) + 0.5 * model.value(Parameter::RampS);
+    let uncertain = model.has_noise(Noise::SwitchJitter);
+    let kicks = observations.kicks.iter().filter(|kick| uncertain || kick.variance_s2 > 0.0);
+    let kicks = kicks.map(|kick| (kick.at_s + late, Stop::Kick { jump: kick.jump, variance_s2: kick.variance_s2 }));
+    let first = observations.first;
+    let mut now = observations.time_s[first];
+    let stops = actuator.stops(now, kicks, observations.switched);
+    let mut next_stop = 0;
+    let mut stretch = actuator.stretch_at(now);
+    let mut filter = Filter::new(model, observations, derivatives);
+    let longest = LONGEST_STEP / filter.dynamics.rate(observations.fastest).max(1e-12);
+    if longest < observations.interval_s / MOST_STEPS {
+        return None;
+    }
+    let samples = observations.time_s.len();
+    let mut innovations = Vec::with_capacity(samples - first);
+    let mut parts = Vec::new();
+    let mut part = Score::zero();
+    let mut log_likelihood = 0.0;
+    for sample in first..samples {
+        let target = observations.time_s[sample];
+        loop {
+            let stop = stops.get(next_stop).filter(|(time_s, _)| *time_s <= target);
+            let end = stop.map_or(target, |(time_s, _)| *time_s);
+            let span = end - now;
+            if span > 0.0 {
+                #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
+                let steps = (span / longest).ceil().clamp(1.0, 1e3) as usize;
+                let h_s = span / steps as f64;
+                let mut begin = actuator.at(stretch, now);
+                for index in 0..steps {
+                    let from = now + index as f64 * h_s;
+                    let middle = actuator.at(stretch, from + 0.5 * h_s);
+                    let last = actuator.at(stretch, from + h_s);
+                    filter.advance([begin, middle, last], h_s);
+                    begin = last;
+                }
+                now = end;
+            }
+            let Some((_, stop)) = stop else { break };
+            next_stop += 1;
+            match *stop {
+                Stop::Stretch { jump } => {
+                    stretch += 1;
+                    filter.jump(jump);
+                }
+                Stop::Refine => {}
+                Stop::Kick { jump, variance_s2 } => filter.kick(jump, variance_s2),
+            }
+        }
+        let weight = observations.weight[sample];
+        let done = (sample + 1 - first) * PARTS / (samples - first);
+        if weight == 0.0 {
+            innovations.push(Innovation { error: 0.0, variance: 1.0 });
+            if derivatives && done > parts.len() {
+                parts.push(core::mem::replace(&mut part, Score::zero()));
+            }
+            continue;
+        }
+        let innovation = filter.observe(observations.output[sample], weight, &mut part);
+        if !(innovation.variance > 0.0 && innovation.error.abs() < 1e3 * observations.span) {
+            return None;
+        }
+        log_likelihood -=
+            0.5 * weight * (core::f64::consts::TAU.ln() + innovation.variance.ln() + innovation.standardised().powi(2));
+        innovations.push(innovation);
+        if derivatives && done > parts.len() {
+            parts.push(core::mem::replace(&mut part, Score::zero()));
+        }
+    }
+    log_likelihood.is_finite().then_some(Pass { log_likelihood, innovations, parts })
+}
+
+impl<'a> Filter<'a> {
+    fn new(model: &'a Model, observations: &Observations, derivatives: bool) -> Self {
+        let dynamics = Dynamics {
+            alpha: model.value(Parameter::Alpha),
+            linear: model.value(Parameter::LinearDrag),
+            quadratic: model.value(Parameter::QuadraticDrag),
+            cubic: model.value(Parameter::CubicDrag),
+            stiffness: model.value(Parameter::Stiffness),
+        };
+        let sizes = Sizes::of(model);
+        let kicked = observations.kicks.iter().any(|kick| kick.variance_s2 > 0.0);
+        let random = sizes.force + sizes.colour + sizes.tracking + sizes.switch > 0.0;
+        let mut covariance = [[0.0; 4]; 4];
+        // The disturbance is the process force's value where the record begins.
+        let unseen_s = observations.time_s[observations.first] - observations.time_s[0];
+        covariance[2][2] = sizes.force * unseen_s;
+        let memory = sizes.colour_rate + 1.0 / observations.duration_s();
+        covariance[3][3] = 0.5 * sizes.colour / memory;
+        let mut sensitivities = Sensitivities { structure: Vec::new(), noise: Vec::new() };
+        if derivatives {
+            sensitivities.structure.extend(model.structure().map(|parameter| {
+                let mut column = [0.0; 4];
+                match parameter {
+                    Parameter::Position => column[0] = 1.0,
+                    Parameter::Velocity => column[1] = 1.0,
+                    _ => {}
+                }
+                (parameter, column)
+            }));
+            for noise in Noise::ALL.into_iter().filter(|noise| model.noise_free[*noise as usize]) {
+                let mut begin = [[0.0; 4]; 4];
+                match noise {
+                    Noise::Force => begin[2][2] = covariance[2][2],
+                    Noise::Colour => begin[3][3] = covariance[3][3],
+                    Noise::ColourRate => begin[3][3] = -covariance[3][3] * sizes.colour_rate / memory,
+                    _ => {}
+                }
+                sensitivities.noise.push((noise, [0.0; 4], begin));
+            }
+        }
+        let state = [model.value(Parameter::Position), model.value(Parameter::Velocity), 0.0, 0.0];
+        Self { model, dynamics, sizes, stochastic: kicked || random, state, covariance, sensitivities }
+    }
+
+    fn advance(&mut self, forces: [Force; 3], h_s: f64) {
+        let before = self.state;
+        let offset = self.model.value(Parameter::Disturbance) + before[2];
+        let step = self.dynamics.step((before[0], before[1]), forces.map(|force| force.value + offset), h_s);
+        let alpha = self.dynamics.alpha;
+        let gained = |axis: usize| step.begin_weight[axis] + step.middle_weight[axis];
+        let transition = Transition {
+            motion: step.transition,
+            by_force: [gained(0) / alpha, (gained(1) + step.end_weight) / alpha],
+            force: (-self.sizes.force_rate * h_s).exp(),
+            colour: (-self.sizes.colour_rate * h_s).exp(),
+        };
+        let begin = Point {
+            position: before[0],
+            velocity: before[1],
+            acceleration: self.dynamics.acceleration(before[0], before[1], forces[0].value + offset),
+        };
+        self.state =
+            [step.end.position, step.end.velocity, transition.force * before[2], transition.colour * before[3]];
+        for (parameter, column) in &mut self.sensitivities.structure {
+            let driven = driven(*parameter, alpha, &step, &begin, &forces);
+            *column = transition.apply(column);
+            column[0] += driven[0];
+            column[1] += driven[1];
+        }
+        if self.stochastic {
+            self.spread(&transition, &before, h_s);
+        }
+    }
+
+    /// Covariance over a step, with its sensitivities.
+    fn spread(&mut self, transition: &Transition, before: &Vector, h_s: f64) {
+        let alpha = self.dynamics.alpha;
+        let Sizes { force, force_rate, colour, colour_rate, tracking, .. } = self.sizes;
+        // A force that walks at random, integrated twice; drag within a step is left out.
+        let walk = |intensity: f64| {
+            let (h2, h3) = (h_s * h_s, h_s * h_s * h_s);
+            let mut q = [[0.0; 4]; 4];
+            q[2][2] = intensity * h_s;
+            (q[1][2], q[2][1]) = (0.5 * intensity * h2 / alpha, 0.5 * intensity * h2 / alpha);
+            (q[0][2], q[2][0]) = (intensity * h3 / (6.0 * alpha), intensity * h3 / (6.0 * alpha));
+            q[1][1] = intensity * h3 / (3.0 * alpha * alpha);
+            (q[0][1], q[1][0]) =
+                (intensity * h2 * h2 / (8.0 * alpha * alpha), intensity * h2 * h2 / (8.0 * alpha * alpha));
+            q[0][0] = intensity * h2 * h3 / (20.0 * alpha * alpha);
+            q
+        };
+        let white = |intensity: f64| {
+            let mut q = [[0.0; 4]; 4];
+            q[1][1] = intensity * h_s;
+            (q[0][1], q[1][0]) = (0.5 * intensity * h_s * h_s, 0.5 * intensity * h_s * h_s);
+            q[0][0] = intensity * h_s * h_s * h_s / 3.0;
+            q
+        };
+        // Variance that the coloured error gains, and its derivative with respect to the logarithm of the rate.
+        let decayed = 2.0 * colour_rate * h_s;
+        let (gained, gained_by_rate) = if decayed > 1e-6 {
+            let gained = -colour * (-decayed).exp_m1() / (2.0 * colour_rate);
+            (gained, colour * h_s * (-decayed).exp() - gained)
+        } else {
+            (colour * h_s, 0.0)
+        };
+        let covariance = self.covariance;
+        for (noise, column, derivative) in &mut self.sensitivities.noise {
+            *column = transition.apply(column);
+            *derivative = transition.turn(derivative);
+            match noise {
+                Noise::Force => add(derivative, &walk(force)),
+                Noise::Tracking => add(derivative, &white(tracking)),
+                Noise::Colour => derivative[3][3] += gained,
+                Noise::ForceRate | Noise::ColourRate => {
+                    let (state, rate, kept) = if *noise == Noise::ForceRate {
+                        (2, force_rate, transition.force)
+                    } else {
+                        derivative[3][3] += gained_by_rate;
+                        (3, colour_rate, transition.colour)
+                    };
+                    let by_log = -h_s * rate * kept;
+                    column[state] += by_log * before[state];
+                    // F P dF' and its transpose.
+                    let along = transition.apply(&covariance[state]);
+                    for (other, value) in along.iter().enumerate() {
+                        derivative[state][other] += by_log * value;
+                        derivative[other][state] += by_log * value;
+                    }
+                }
+                Noise::White | Noise::StampJitter | Noise::SwitchJitter => {}
+            }
+        }
+        self.covariance = transition.turn(&covariance);
+        if force > 0.0 {
+            add(&mut self.covariance, &walk(force));
+        }
+        if tracking > 0.0 {
+            add(&mut self.covariance, &white(tracking));
+        }
+        self.covariance[3][3] += gained;
+    }
+
+    /// The force jumps: a later jump leaves the velocity behind.
+    fn jump(&mut self, jump: f64) {
+        for (parameter, column) in &mut self.sensitivities.structure {
+            if *parameter == Parameter::DelayS {
+                column[1] -= jump / self.dynamics.alpha;
+            }
+        }
+    }
+
+    /// The force jumps at an instant that is off by a random d of known variance: velocity is off by `-jump d / alpha`, and
+    /// position by `jump d^2 / (2 alpha)`, whose mean is known and whose variance is that of evenly spread d.
+    fn kick(&mut self, jump: f64, variance_s2: f64) {
+        let per_second = jump / self.dynamics.alpha;
+        let variance = variance_s2 + self.sizes.switch;
+        self.covariance[1][1] += per_second * per_second * variance;
+        self.state[0] += 0.5 * per_second * variance;
+        self.covariance[0][0] += 0.2 * (per_second * variance).powi(2);
+        for (noise, column, derivative) in &mut self.sensitivities.noise {
+            if *noise == Noise::SwitchJitter {
+                derivative[1][1] += per_second * per_second * self.sizes.switch;
+                column[0] += 0.5 * per_second * self.sizes.switch;
+                derivative[0][0] += 0.4 * per_second * per_second * variance * self.sizes.switch;
+            }
+        }
+        for (parameter, column) in &mut self.sensitivities.structure {
+            if *parameter == Parameter::Alpha {
+                column[0] -= 0.5 * per_second * variance / self.dynamics.alpha;
+            }
+        }
+    }
+
+    /// Takes in a reading; adds its share of the score where there are sensitivities.
+    fn observe(&mut self, reading: f64, weight: f64, score: &mut Score) -> Innovation {
+        let error = reading - self.state[0] - self.state[3];
+        let stamp = self.sizes.stamp * self.state[1] * self.state[1];
+        let p = &self.covariance;
+        let seen = [p[0][0] + p[0][3], p[1][0] + p[1][3], p[2][0] + p[2][3], p[3][0] + p[3][3]];
+        let variance = seen[0] + seen[3] + self.sizes.white + stamp;
+        let gain = seen.map(|value| value / variance);
+        let structure = &mut self.sensitivities.structure;
+        for (index, (parameter, column)) in structure.iter().enumerate() {
+            let slope = -(column[0] + column[3]);
+            let i = *parameter as usize;
+            score.structure[i] -= weight * slope * error / variance;
+            for (other, row) in &structure[..=index] {
+                let j = *other as usize;
+                let share = weight * slope * -(row[0] + row[3]) / variance;
+                score.structure_information[i][j] += share;
+                if i != j {
+                    score.structure_information[j][i] += share;
+                }
+            }
+        }
+        for (_, column) in structure.iter_mut() {
+            let slope = -(column[0] + column[3]);
+            for (value, gain) in column.iter_mut().zip(gain) {
+                *value += gain * slope;
+            }
+        }
+        let mut slopes = [(0, 0.0, 0.0); NOISES];
+        let count = self.sensitivities.noise.len();
+        for ((noise, column, derivative), slope) in self.sensitivities.noise.iter_mut().zip(&mut slopes) {
+            let d = &*derivative;
+            let seen_by = [d[0][0] + d[0][3], d[1][0] + d[1][3], d[2][0] + d[2][3], d[3][0] + d[3][3]];
+            let direct = match noise {
+                Noise::White => self.sizes.white,
+                Noise::StampJitter => stamp,
+                _ => 0.0,
+            };
+            let speed_by = 2.0 * self.sizes.stamp * self.state[1] * column[1];
+            let variance_by = seen_by[0] + seen_by[3] + direct + speed_by;
+            let error_by = -(column[0] + column[3]);
+            *slope = (*noise as usize, error_by, variance_by);
+            for row in 0..4 {
+                column[row] += (seen_by[row] - gain[row] * variance_by) / variance * error + gain[row] * error_by;
+            }
+            for row in 0..4 {
+                for other in 0..4 {
+                    derivative[row][other] +=
+                        gain[row] * gain[other] * variance_by - seen_by[row] * gain[other] - gain[row] * seen_by[other];
+                }
+            }
+        }
+        let relative = error * error / variance;
+        for &(i, error_by, variance_by) in &slopes[..count] {
+            score.noise[i] += weight * (0.5 * variance_by * (relative - 1.0) - error * error_by) / variance;
+            for &(j, other_error, other_variance) in &slopes[..count] {
+                score.noise_information[i][j] += weight
+                    * (0.5 * variance_by * other_variance / (variance * variance) + error_by * other_error / variance);
+            }
+        }
+        if self.stochastic {
+            for (state, gain) in self.state.iter_mut().zip(gain) {
+                *state += gain * error;
+            }
+            for (row, seen) in self.covariance.iter_mut().zip(seen) {
+                for (value, gain) in row.iter_mut().zip(gain) {
+                    *value -= seen * gain;
+                }
+            }
+        }
+        Innovation { error, variance }
+    }
+}
+
+/// What a parameter itself does to position and velocity within a step.
+fn driven(parameter: Parameter, alpha: f64, step: &Step, begin: &Point, forces: &[Force; 3]) -> [f64; 2] {
+    let by = |point: &Point, force: &Force| match parameter {
+        Parameter::Alpha => -point.acceleration,
+        Parameter::LinearDrag => -point.velocity,
+        Parameter::QuadraticDrag => -point.velocity * point.velocity.abs(),
+        Parameter::CubicDrag => -point.velocity.powi(3),
+        Parameter::Stiffness => -point.position,
+        Parameter::Disturbance => 1.0,
+        Parameter::DelayS => force.by_delay,
+        Parameter::LagS => force.by_lag,
+        Parameter::RampS => force.by_ramp,
+        Parameter::Position | Parameter::Velocity => 0.0,
+    };
+    let [first, second, third] =
+        [(begin, &forces[0]), (&step.middle, &forces[1]), (&step.end, &forces[2])].map(|(p, f)| by(p, f) / alpha);
+    [
+        step.begin_weight[0] * first + step.middle_weight[0] * second,
+        step.begin_weight[1] * first + step.middle_weight[1] * second + step.end_weight * third,
+    ]
+}
+
+fn add(sum: &mut Square, term: &Square) {
+    for (row, values) in term.iter().enumerate() {
+        for (column, value) in values.iter().enumerate() {
+            sum[row][column] += value;
+        }
+    }
+}

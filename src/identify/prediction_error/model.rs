@@ -1,0 +1,166 @@
+//! The family of models: which parameters a model has, and their values.
+
+/// Structural parameters of
+/// `alpha x'' + (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + k x = a(t - T_d) + delta + w(t)`, `tau a' = u - a`,
+/// and the state in which the record begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(usize)]
+pub enum Parameter {
+    /// Inertia with added mass alpha, above zero.
+    Alpha,
+    /// Linear drag beta, of either sign.
+    LinearDrag,
+    /// Quadratic drag, the factor of `|x'| x'`.
+    QuadraticDrag,
+    /// Cubic drag, the factor of `x'^3`.
+    CubicDrag,
+    /// Restoring force per unit of output, k.
+    Stiffness,
+    /// Constant force delta.
+    Disturbance,
+    /// Pure delay T_d between command and actuator, in s, zero or more.
+    DelayS,
+    /// Time constant tau of the actuator, in s.
+    LagS,
+    /// Time that an actuator of limited rate takes over the command's whole range, in s.
+    RampS,
+    /// Output where the record begins.
+    Position,
+    /// Its rate there, per s.
+    Velocity,
+}
+
+impl Parameter {
+    /// Number of structural parameters.
+    pub const COUNT: usize = 11;
+    /// All of them, in the order of their numbers.
+    pub const ALL: [Self; Self::COUNT] = [
+        Self::Alpha,
+        Self::LinearDrag,
+        Self::QuadraticDrag,
+        Self::CubicDrag,
+        Self::Stiffness,
+        Self::Disturbance,
+        Self::DelayS,
+        Self::LagS,
+        Self::RampS,
+        Self::Position,
+        Self::Velocity,
+    ];
+}
+
+/// Parameters of what is random, each a logarithm.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(usize)]
+pub(super) enum Noise {
+    /// Variance of the white error of a reading, rounding included.
+    White,
+    /// Intensity of the process force: variance of its change in one second.
+    Force,
+    /// Rate at which the process force is forgotten, per s (Ornstein-Uhlenbeck); without it a random walk.
+    ForceRate,
+    /// Intensity of the coloured error of a reading.
+    Colour,
+    /// Rate at which that error is forgotten, per s.
+    ColourRate,
+    /// Variance of the time stamps, in s^2.
+    StampJitter,
+    /// Variance of the instants of switching, in s^2.
+    SwitchJitter,
+    /// Intensity of a white force, as variance of the velocity gained in one second: lets a poor start follow the record.
+    Tracking,
+}
+
+impl Noise {
+    pub(super) const COUNT: usize = 8;
+    pub(super) const ALL: [Self; Self::COUNT] = [
+        Self::White,
+        Self::Force,
+        Self::ForceRate,
+        Self::Colour,
+        Self::ColourRate,
+        Self::StampJitter,
+        Self::SwitchJitter,
+        Self::Tracking,
+    ];
+}
+
+/// When the command changed that a sample logs first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Switching {
+    /// At that sample.
+    AtSamples,
+    /// At an unknown instant since the sample before.
+    Between,
+}
+
+impl Switching {
+    pub(super) fn other(self) -> Self {
+        match self {
+            Self::AtSamples => Self::Between,
+            Self::Between => Self::AtSamples,
+        }
+    }
+}
+
+/// Which clock the samples have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Clock {
+    /// The stamps of the log.
+    Stamps,
+    /// A regular grid through these stamps.
+    Grid,
+}
+
+/// A model with its values.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Model {
+    pub(super) values: [f64; Parameter::COUNT],
+    /// Estimated; the others are known, or zero because the model has no such term.
+    pub(super) free: [bool; Parameter::COUNT],
+    /// Logarithms; minus infinity for what the model has not.
+    pub(super) noise: [f64; Noise::COUNT],
+    pub(super) noise_free: [bool; Noise::COUNT],
+    pub(super) switching: Switching,
+    pub(super) clock: Clock,
+}
+
+impl Model {
+    pub(super) fn value(&self, parameter: Parameter) -> f64 {
+        self.values[parameter as usize]
+    }
+
+    pub(super) fn is_free(&self, parameter: Parameter) -> bool {
+        self.free[parameter as usize]
+    }
+
+    pub(super) fn has_noise(&self, noise: Noise) -> bool {
+        self.noise[noise as usize] > f64::NEG_INFINITY
+    }
+
+    /// The size itself, zero for what the model has not.
+    pub(super) fn size(&self, noise: Noise) -> f64 {
+        self.noise[noise as usize].exp()
+    }
+
+    pub(super) fn set(&mut self, parameter: Parameter, value: f64, free: bool) {
+        self.values[parameter as usize] = value;
+        self.free[parameter as usize] = free;
+    }
+
+    pub(super) fn set_noise(&mut self, noise: Noise, size: f64, free: bool) {
+        self.noise[noise as usize] = size.ln();
+        self.noise_free[noise as usize] = free;
+    }
+
+    /// Structural parameters that are estimated.
+    pub(super) fn structure(&self) -> impl Iterator<Item = Parameter> {
+        let free = self.free;
+        Parameter::ALL.into_iter().filter(move |parameter| free[*parameter as usize])
+    }
+
+    /// Number of all that is estimated.
+    pub(super) fn freedom(&self) -> usize {
+        self.free.iter().chain(&self.noise_free).filter(|free| **free).count()
+    }
+}

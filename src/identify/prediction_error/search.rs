@@ -1,0 +1,354 @@
+//! Which terms a record has: from inertia and drag alone, the term that makes it likeliest joins, until none is worth it;
+//! then those that are no longer needed leave. Every model tried is kept for the average.
+
+use std::sync::OnceLock;
+
+use rayon::prelude::*;
+
+use super::filter;
+use super::model::{Clock, Model, Noise, Parameter, Switching};
+use super::observations::{self, Observations};
+use super::scoring::{Fitted, MOST_STEPS, climb, climb_beyond, climb_within};
+use super::start::{self, Start};
+use super::term::Term;
+use crate::experiment::Record;
+use crate::identify::DragLaw;
+
+/// Twice the gain in log-likelihood from which on a term joins.
+pub(super) const JOINS: f64 = 7.0;
+/// The same for a term that takes the place of another.
+const EXCHANGES: f64 = 0.5;
+/// Terms that a record confuses: the first's place may be taken by the second.
+const RIVALS: [(Term, Term); 8] = [
+    (Term::RateLimit, Term::Lag),
+    (Term::Lag, Term::RateLimit),
+    (Term::Delay, Term::Lag),
+    (Term::Delay, Term::RateLimit),
+    (Term::Lag, Term::Delay),
+    (Term::RateLimit, Term::Delay),
+    (Term::ProcessForce, Term::ColouredNoise),
+    (Term::ColouredNoise, Term::ProcessForce),
+];
+/// What a parameter costs in an average, in twice the log-likelihood.
+pub(super) const PRICE: f64 = 4.0;
+/// The most terms that a model gets.
+const MOST_TERMS: usize = 8;
+
+/// A model that does not promise to gain as much in log-likelihood is not followed to its end.
+const WORTH_FOLLOWING: f64 = 0.1;
+/// Samples of a longer record in which terms are looked for first, and how many of the models found there go on.
+const LONGEST_SEARCHED: usize = 6000;
+const CONTINUED: usize = 4;
+/// Steps while a white force carries a poor start along, and those that follow without it.
+const FOLLOWING: usize = 12;
+const APPROACHING: usize = 12;
+
+/// What is known before the record is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Known {
+    pub(super) delay_s: Option<f64>,
+    pub(super) law: Option<DragLaw>,
+}
+
+/// All readings of one record.
+pub(super) struct Search<'a> {
+    record: &'a Record,
+    known: Known,
+    clocks: Vec<Clock>,
+    readings: [OnceLock<Observations>; 4],
+    unseen_s: f64,
+}
+
+/// What the search found.
+pub(super) struct Found {
+    /// Each model once, in the order in which they were tried.
+    pub(super) tried: Vec<Fitted>,
+    /// Number of the best of them.
+    pub(super) best: usize,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(record: &'a Record, known: Known) -> Self {
+        let clocks =
+            if observations::grid(record).is_some() { vec![Clock::Stamps, Clock::Grid] } else { vec![Clock::Stamps] };
+        Self { record, known, clocks, readings: [const { OnceLock::new() }; 4], unseen_s: 0.0 }
+    }
+
+    pub(super) fn observations(&self, model: &Model) -> &Observations {
+        self.reading(model.clock, model.switching)
+    }
+
+    fn reading(&self, clock: Clock, switching: Switching) -> &Observations {
+        let index = 2 * usize::from(clock == Clock::Grid) + usize::from(switching == Switching::Between);
+        self.readings[index].get_or_init(|| {
+            let mut observations = Observations::new(self.record, clock, switching);
+            observations.skip(self.unseen_s);
+            observations
+        })
+    }
+
+    fn climb(&self, model: Model) -> Option<Fitted> {
+        climb(self.observations(&model), model)
+    }
+
+    /// The likeliest of several starts, climbed from.
+    fn climb_from(&self, starts: Vec<Model>, worth: f64) -> Option<Fitted> {
+        let value = |model: &Model| filter::run(self.observations(model), model, false).map(|pass| pass.log_likelihood);
+        let valued = starts.into_iter().filter_map(|model| Some((value(&model)?, model)));
+        let (_, best) = valued.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        climb_beyond(self.observations(&best), best, MOST_STEPS, worth)
+    }
+
+    /// From each start a model that follows the record by a white force of free intensity, then one without it; the likeliest.
+    fn approach(&mut self) -> Option<Fitted> {
+        let mut first = Observations::new(self.record, Clock::Stamps, Switching::AtSamples);
+        let mut starts = start::starts(&first, self.known.delay_s);
+        starts.push(rough(&first, self.known.delay_s));
+        let likely = starts.iter().min_by(|a, b| a.misfit.total_cmp(&b.misfit)).map_or(0.0, |start| start.delay_s);
+        let (short, long) = (0.05 * first.swing_s, 0.25 * first.swing_s);
+        self.unseen_s = (1.3 * likely + short).min(long).max(self.known.delay_s.map_or(0.0, |known| known + short));
+        first.skip(self.unseen_s);
+        let speed = first.span / first.swing_s;
+        let follow = |start: &Start| {
+            let mut model = self.model(&first, start);
+            model.set_noise(Noise::Tracking, (0.2 * speed).powi(2) / first.swing_s, true);
+            let mut model = climb_within(&first, model, FOLLOWING)?.model;
+            model.set_noise(Noise::Tracking, 0.0, false);
+            model.set_noise(Noise::White, 2.0 * model.size(Noise::White), true);
+            climb_within(&first, model, APPROACHING)
+        };
+        let ends: Vec<Fitted> = starts.par_iter().filter_map(follow).collect();
+        let best = ends.into_iter().max_by(|a, b| a.log_likelihood.total_cmp(&b.log_likelihood))?;
+        if best.settled { Some(best) } else { climb(&first, best.model) }
+    }
+
+    fn is_long(&self) -> bool {
+        self.record.samples() > LONGEST_SEARCHED
+    }
+
+    /// The model without terms under every reading of clock and switchings.
+    fn plain(&mut self) -> Option<Vec<Fitted>> {
+        let mut tried = vec![self.approach()?];
+        let mut others = Vec::new();
+        for clock in &self.clocks {
+            for switching in [Switching::AtSamples, Switching::Between] {
+                if (*clock, switching) != (tried[0].model.clock, tried[0].model.switching) {
+                    others.push(Model { clock: *clock, switching, ..tried[0].model.clone() });
+                }
+            }
+        }
+        tried.extend(others.into_par_iter().filter_map(|model| self.climb(model)).collect::<Vec<_>>());
+        Some(tried)
+    }
+
+    /// The likeliest models of the beginning of a long record, fitted to all of it.
+    fn continued(&mut self) -> Option<Vec<Fitted>> {
+        let part = |values: &[f64]| values[..LONGEST_SEARCHED].to_vec();
+        let record = self.record;
+        let head = Record::new(part(record.time_s()), part(record.output()), part(record.input())).ok()?;
+        let (search, mut found) = Search::new(&head, self.known).run()?;
+        self.unseen_s = search.unseen_s;
+        let value = |fitted: &Fitted| fitted.log_likelihood - 0.5 * PRICE * fitted.model.freedom() as f64;
+        found.tried.sort_by(|a, b| value(b).total_cmp(&value(a)));
+        let mut models: Vec<Model> = Vec::new();
+        for Fitted { model, .. } in found.tried {
+            let same = |other: &Model| {
+                (other.free, other.noise_free, other.switching) == (model.free, model.noise_free, model.switching)
+            };
+            if !models.iter().any(same) {
+                models.push(model);
+            }
+            if models.len() == CONTINUED {
+                break;
+            }
+        }
+        let tried: Vec<Fitted> = models.into_par_iter().filter_map(|model| self.climb(model)).collect();
+        (!tried.is_empty()).then_some(tried)
+    }
+
+    fn model(&self, observations: &Observations, start: &Start) -> Model {
+        let mut model = Model {
+            values: [0.0; Parameter::COUNT],
+            free: [false; Parameter::COUNT],
+            noise: [f64::NEG_INFINITY; Noise::COUNT],
+            noise_free: [false; Noise::COUNT],
+            switching: Switching::AtSamples,
+            clock: Clock::Stamps,
+        };
+        let law = self.known.law.unwrap_or(DragLaw::Mixed);
+        let drag = start.linear + start.quadratic * observations.fastest;
+        let (linear, quadratic) = match law {
+            DragLaw::Mixed => (start.linear, start.quadratic),
+            DragLaw::Linear => (drag, 0.0),
+            DragLaw::Quadratic => (0.0, drag / observations.fastest),
+        };
+        model.set(Parameter::Alpha, start.alpha, true);
+        model.set(Parameter::LinearDrag, linear, law.has_linear());
+        model.set(Parameter::QuadraticDrag, quadratic, law.has_quadratic());
+        model.set(Parameter::Disturbance, start.disturbance, true);
+        model.set(Parameter::DelayS, start.delay_s, self.known.delay_s.is_none());
+        let at_s = observations.time_s[observations.first];
+        let (position, velocity) = start::state_near(observations, at_s, 0.08 * observations.swing_s);
+        model.set(Parameter::Position, position, true);
+        model.set(Parameter::Velocity, velocity, true);
+        let step = self.record.quantum().unwrap_or(0.0);
+        let span = observations.span;
+        model.set_noise(Noise::White, (step * step / 12.0).max(1e-4 * span * span), true);
+        model
+    }
+
+    /// The whole search.
+    pub(super) fn run(mut self) -> Option<(Self, Found)> {
+        let mut tried = if self.is_long() { self.continued()? } else { self.plain()? };
+        let start = self.best(&tried);
+        // Noise and process force can hide a structure: where they come first, the structure alone is tried too.
+        let mut best = self.grow(&mut tried, start, |_| true);
+        let first = tried[start].model.freedom();
+        let structural = |fitted: &Fitted| {
+            let has = |term: &Term| term.is_in(&fitted.model) && (*term != Term::Delay || self.known.delay_s.is_some());
+            Term::ALL.into_iter().filter(has).all(Term::is_structural)
+        };
+        let noisy = Term::ALL.into_iter().any(|term| term.is_in(&tried[best].model) && !term.is_structural());
+        let worth = tried[start].log_likelihood + 0.5 * JOINS;
+        let alone = tried.iter().enumerate().filter(|(_, fitted)| structural(fitted) && fitted.log_likelihood > worth);
+        let alone = alone.filter(|(_, fitted)| fitted.model.freedom() > first);
+        let alone = alone.max_by(|a, b| a.1.log_likelihood.total_cmp(&b.1.log_likelihood)).map(|(index, _)| index);
+        if let Some(alone) = alone.filter(|_| noisy) {
+            let grown = self.grow(&mut tried, alone, Term::is_structural);
+            self.grow(&mut tried, grown, |_| true);
+            best = self.best(&tried);
+        }
+        // Leave out what is no longer needed, drag terms too.
+        loop {
+            let current = tried[best].clone();
+            let ends: Vec<Fitted> =
+                self.smaller(&current.model).into_par_iter().filter_map(|model| self.climb(model)).collect();
+            tried.extend(ends);
+            let next = self.best_among(&tried, |model| model.freedom() < current.model.freedom());
+            let worth = next.filter(|index| {
+                let lost = 2.0 * (current.log_likelihood - tried[*index].log_likelihood);
+                lost < PRICE * (current.model.freedom() - tried[*index].model.freedom()) as f64
+            });
+            match worth {
+                Some(index) => best = index,
+                None => break,
+            }
+        }
+        best = self.best(&tried);
+        Some((self, Found { tried, best }))
+    }
+
+    /// The best term joins, time and again; returns the number of the last model.
+    fn grow(&self, tried: &mut Vec<Fitted>, from: usize, admitted: impl Fn(Term) -> bool) -> usize {
+        let mut best = from;
+        for _ in 0..MOST_TERMS {
+            let current = tried[best].clone();
+            let ends: Vec<(Fitted, f64)> = self
+                .moves(&current.model, &admitted)
+                .into_par_iter()
+                .filter_map(|(starts, freedom)| {
+                    Some((self.climb_from(starts, current.log_likelihood + WORTH_FOLLOWING)?, freedom))
+                })
+                .collect();
+            let gain = |(end, freedom): &(Fitted, f64)| {
+                let price = if *freedom > 0.0 { JOINS - PRICE + PRICE * freedom } else { EXCHANGES };
+                2.0 * (end.log_likelihood - current.log_likelihood) - price
+            };
+            let joined = ends.iter().enumerate().map(|(index, end)| (index, gain(end)));
+            let joined = joined.max_by(|a, b| a.1.total_cmp(&b.1));
+            let worth = joined.filter(|(_, gain)| *gain > 0.0).map(|(index, _)| tried.len() + index);
+            tried.extend(ends.into_iter().map(|(end, _)| end));
+            match worth {
+                Some(index) => best = index,
+                None => break,
+            }
+        }
+        best
+    }
+
+    /// Starts of the models one step from a model, with the number of parameters that the step adds.
+    fn moves(&self, model: &Model, admitted: &impl Fn(Term) -> bool) -> Vec<(Vec<Model>, f64)> {
+        let mut moves: Vec<(Vec<Model>, f64)> = Vec::new();
+        let observations = self.observations(model);
+        let known = self.known.delay_s;
+        let estimated = |term: Term| term == Term::Delay && known.is_none();
+        for term in Term::ALL.into_iter().filter(|term| admitted(*term) && !estimated(*term)) {
+            if term.applies(model, observations) {
+                moves.push((term.starts(model, observations), term.freedom() as f64));
+                // Instants left to chance may hide a structure, and a structure may look like such instants.
+                if observations.switched && term.is_structural() && !self.is_long() {
+                    let mut starts = term.starts(model, observations);
+                    starts.iter_mut().for_each(|start| start.switching = start.switching.other());
+                    moves.push((starts, term.freedom() as f64));
+                }
+            }
+        }
+        if self.is_long() {
+            return moves;
+        }
+        moves.extend(self.swaps(model).into_iter().map(|model| (vec![model], 0.0)));
+        for (out, term) in RIVALS {
+            if out.is_in(model) && !estimated(out) && !estimated(term) && admitted(term) {
+                let less = out.without(model, known);
+                if term.applies(&less, observations) {
+                    moves.push((term.starts(&less, observations), 0.0));
+                }
+            }
+        }
+        moves
+    }
+
+    fn swaps(&self, model: &Model) -> Vec<Model> {
+        let mut swaps = Vec::new();
+        swaps.push(Model { switching: model.switching.other(), ..model.clone() });
+        if self.clocks.len() > 1 {
+            let clock = if model.clock == Clock::Grid { Clock::Stamps } else { Clock::Grid };
+            swaps.push(Model { clock, ..model.clone() });
+        }
+        swaps
+    }
+
+    /// Models with one term less.
+    fn smaller(&self, model: &Model) -> Vec<Model> {
+        let mut smaller: Vec<Model> = Term::ALL
+            .into_iter()
+            .filter(|term| term.is_in(model) && (*term != Term::Delay || self.known.delay_s.is_some()))
+            .map(|term| term.without(model, self.known.delay_s))
+            .collect();
+        if self.known.law.is_none() {
+            let drags = [Parameter::LinearDrag, Parameter::QuadraticDrag];
+            let kept = drags.iter().filter(|drag| model.is_free(**drag)).count()
+                + usize::from(model.is_free(Parameter::CubicDrag));
+            for drag in drags.into_iter().filter(|drag| kept > 1 && model.is_free(*drag)) {
+                let mut less = model.clone();
+                less.set(drag, 0.0, false);
+                smaller.push(less);
+            }
+        }
+        smaller
+    }
+
+    fn best(&self, tried: &[Fitted]) -> usize {
+        self.best_among(tried, |_| true).unwrap_or(0)
+    }
+
+    fn best_among(&self, tried: &[Fitted], admitted: impl Fn(&Model) -> bool) -> Option<usize> {
+        let value = |fitted: &Fitted| 2.0 * fitted.log_likelihood - PRICE * fitted.model.freedom() as f64;
+        let admitted = tried.iter().enumerate().filter(|(_, fitted)| admitted(&fitted.model));
+        admitted.max_by(|a, b| value(a.1).total_cmp(&value(b.1))).map(|(index, _)| index)
+    }
+}
+
+/// Orders of magnitude where noise makes equations without sense.
+fn rough(observations: &Observations, delay_s: Option<f64>) -> Start {
+    let speed = observations.fastest.max(observations.span / observations.swing_s);
+    let force = 0.5 * observations.range;
+    Start {
+        alpha: 0.3 * force * observations.swing_s / speed,
+        linear: 0.15 * force / speed,
+        quadratic: 0.15 * force / (speed * speed),
+        disturbance: 0.0,
+        delay_s: delay_s.unwrap_or(0.05 * observations.swing_s),
+        misfit: f64::INFINITY,
+    }
+}

@@ -1,0 +1,159 @@
+//! Where the search begins: the equation of motion under smooth weights, solved by linear least squares for each of several
+//! delays (modulating functions, Shinbrot 1957): derivatives fall on the weights, so that noise is not differentiated.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::actuator::Piece;
+use super::observations::Observations;
+
+/// Inertia, linear and quadratic drag, disturbance, delay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Start {
+    pub(super) alpha: f64,
+    pub(super) linear: f64,
+    pub(super) quadratic: f64,
+    pub(super) disturbance: f64,
+    pub(super) delay_s: f64,
+    /// Root mean square of what the equations leave, in units of the command.
+    pub(super) misfit: f64,
+}
+
+/// Longest delay tried, in swings.
+const LONGEST_DELAY: f64 = 0.6;
+/// Delays tried, in swings: inertia and delay turn the phase alike, so that one equation's misfit does not choose between them.
+const DELAYS: [&[f64]; 4] = [&[0.0, 0.03, 0.06], &[0.1, 0.14, 0.18], &[0.23, 0.28, 0.33], &[0.4, 0.5, LONGEST_DELAY]];
+
+/// The best start of each range of delays, or that of the known delay.
+pub(super) fn starts(observations: &Observations, delay_s: Option<f64>) -> Vec<Start> {
+    let rows = Rows::new(observations);
+    let best = |delays: &mut dyn Iterator<Item = f64>| {
+        let starts = delays.filter_map(|delay_s| rows.solve(observations, delay_s));
+        starts.min_by(|a, b| a.misfit.total_cmp(&b.misfit))
+    };
+    match delay_s {
+        Some(known) => best(&mut core::iter::once(known)).into_iter().collect(),
+        None => {
+            let range = |parts: &&[f64]| best(&mut parts.iter().map(|part| part * observations.swing_s));
+            DELAYS.iter().filter_map(range).collect()
+        }
+    }
+}
+
+/// The integrals that do not depend on the delay.
+struct Rows {
+    begins: Vec<f64>,
+    integrals: Vec<[f64; 4]>,
+}
+
+impl Rows {
+    fn new(observations: &Observations) -> Self {
+        let Observations { time_s, output, swing_s, interval_s, .. } = observations;
+        let (swing, last) = (*swing_s, time_s.len() - 1);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
+        let reach = (swing / (8.0 * interval_s)).max(1.0) as usize;
+        let (mut begins, mut integrals) = (Vec::new(), Vec::new());
+        let mut begin = time_s[0] + LONGEST_DELAY * swing;
+        while begin + swing <= time_s[last] {
+            let from = time_s.partition_point(|t| *t < begin).max(1);
+            let to = time_s.partition_point(|t| *t <= begin + swing).min(last);
+            let mut sums = [0.0; 4];
+            let middle = output[from];
+            let rate = core::f64::consts::TAU / swing;
+            for k in from..to {
+                let weight = 0.5 * (time_s[k + 1] - time_s[k - 1]);
+                let (sine, cosine) = (rate * (time_s[k] - begin)).sin_cos();
+                let (value, slope, bend) = (0.5 * (1.0 - cosine), 0.5 * rate * sine, 0.5 * rate * rate * cosine);
+                let (back, ahead) = (k.saturating_sub(reach), (k + reach).min(last));
+                let speed = (output[ahead] - output[back]) / (time_s[ahead] - time_s[back]);
+                sums[0] += weight * bend * (output[k] - middle);
+                sums[1] -= weight * slope * (output[k] - middle);
+                sums[2] += weight * value * speed * speed.abs();
+                sums[3] -= weight * value;
+            }
+            begins.push(begin);
+            integrals.push(sums);
+            begin += 0.3 * swing;
+        }
+        Self { begins, integrals }
+    }
+
+    fn solve(&self, observations: &Observations, delay_s: f64) -> Option<Start> {
+        let right: Vec<f64> = self
+            .begins
+            .iter()
+            .map(|begin| weighted(&observations.pieces, begin - delay_s, observations.swing_s))
+            .collect();
+        // Laws with one kind of drag stand in where both together come out without sense.
+        let laws: [&[usize]; 3] = [&[0, 1, 2, 3], &[0, 1, 3], &[0, 2, 3]];
+        let solved = laws.iter().filter_map(|columns| {
+            let rows = self.begins.len();
+            if rows < columns.len() + 2 {
+                return None;
+            }
+            let matrix = DMatrix::from_fn(rows, columns.len(), |row, column| self.integrals[row][columns[column]]);
+            let solution = least_squares(matrix, DVector::from_fn(rows, |row, _| right[row]));
+            let mut values = [0.0; 4];
+            for (index, column) in columns.iter().enumerate() {
+                values[*column] = solution[index];
+            }
+            let square: f64 = self
+                .integrals
+                .iter()
+                .zip(&right)
+                .map(|(row, right)| (row.iter().zip(values).map(|(a, b)| a * b).sum::<f64>() - right).powi(2))
+                .sum();
+            let misfit = (square / (rows - columns.len()) as f64).sqrt();
+            let [alpha, linear, quadratic, disturbance] = values;
+            let drag = linear + quadratic * observations.fastest;
+            (alpha > 0.0 && drag > 0.0 && quadratic >= 0.0 && misfit.is_finite()).then_some(Start {
+                alpha,
+                linear,
+                quadratic,
+                disturbance,
+                delay_s,
+                misfit,
+            })
+        });
+        solved.min_by(|a, b| a.misfit.total_cmp(&b.misfit))
+    }
+}
+
+/// The command under the weight that begins at a time, integrated piece by piece.
+fn weighted(pieces: &[Piece], begin: f64, swing: f64) -> f64 {
+    let rate = core::f64::consts::TAU / swing;
+    let integral = |t: f64| 0.5 * (t - (rate * t).sin() / rate);
+    let mut sum = 0.0;
+    let mut index = pieces.partition_point(|piece| piece.begin_s <= begin).saturating_sub(1);
+    while index < pieces.len() {
+        let piece = pieces[index];
+        let from = if index == 0 { begin } else { piece.begin_s.max(begin) };
+        let to = pieces.get(index + 1).map_or(f64::INFINITY, |next| next.begin_s).min(begin + swing);
+        if from >= begin + swing {
+            break;
+        }
+        let value = piece.value + piece.slope * (0.5 * (from + to) - piece.begin_s);
+        sum += value * (integral(to - begin) - integral(from - begin));
+        index += 1;
+    }
+    sum
+}
+
+/// Output and rate at a time, from the parabola of least squares through the readings within `reach_s`.
+pub(super) fn state_near(observations: &Observations, at_s: f64, reach_s: f64) -> (f64, f64) {
+    let Observations { time_s, output, .. } = observations;
+    let from = time_s.partition_point(|t| *t < at_s - reach_s).min(time_s.len() - 4);
+    let to = time_s.partition_point(|t| *t <= at_s + reach_s).max(from + 4).min(time_s.len());
+    let matrix = DMatrix::from_fn(to - from, 3, |row, power| ((time_s[from + row] - at_s) / reach_s).powi(power as i32));
+    let solution = least_squares(matrix, DVector::from_fn(to - from, |row, _| output[from + row] - output[from]));
+    let (offset, slope) = (solution[0], solution[1] / reach_s);
+    if offset.is_finite() && slope.is_finite() { (output[from] + offset, slope) } else { (output[from], 0.0) }
+}
+
+/// The solution of least squares by QR; not a number where the equations are singular, which the callers take for no answer.
+fn least_squares(matrix: DMatrix<f64>, mut right: DVector<f64>) -> DVector<f64> {
+    let unknowns = matrix.ncols();
+    let qr = matrix.qr();
+    qr.q_tr_mul(&mut right);
+    let solution = qr.unpack_r().solve_upper_triangular(&right.rows(0, unknowns));
+    solution.unwrap_or_else(|| DVector::repeat(unknowns, f64::NAN))
+}

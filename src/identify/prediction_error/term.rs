@@ -1,0 +1,221 @@
+//! Terms that a model may have beside inertia, linear and quadratic drag and white noise.
+
+use super::model::{Model, Noise, Parameter};
+use super::observations::Observations;
+
+/// What a model may have in addition, each tried where it makes the record likelier.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Term {
+    /// First-order lag of the actuator.
+    Lag,
+    /// Limited rate of the actuator.
+    RateLimit,
+    /// Restoring force.
+    Stiffness,
+    /// Drag proportional to the cube of the speed.
+    CubicDrag,
+    /// A delay other than the one given.
+    Delay,
+    /// A force that walks at random.
+    ProcessForce,
+    /// That force forgets (Ornstein-Uhlenbeck).
+    ProcessForceMemory,
+    /// An error of the reading that is alike from sample to sample.
+    ColouredNoise,
+    /// Time stamps that err at random.
+    StampJitter,
+    /// Instants of switching that err at random.
+    SwitchJitter,
+}
+
+impl Term {
+    pub(super) const ALL: [Self; 10] = [
+        Self::Lag,
+        Self::RateLimit,
+        Self::Stiffness,
+        Self::CubicDrag,
+        Self::Delay,
+        Self::ProcessForce,
+        Self::ProcessForceMemory,
+        Self::ColouredNoise,
+        Self::StampJitter,
+        Self::SwitchJitter,
+    ];
+
+    /// Name on the command line and in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lag => "lag",
+            Self::RateLimit => "rate-limit",
+            Self::Stiffness => "stiffness",
+            Self::CubicDrag => "cubic-drag",
+            Self::Delay => "delay",
+            Self::ProcessForce => "process-force",
+            Self::ProcessForceMemory => "process-force-memory",
+            Self::ColouredNoise => "coloured-noise",
+            Self::StampJitter => "stamp-jitter",
+            Self::SwitchJitter => "switch-jitter",
+        }
+    }
+
+    /// What a record with the term shows, as the beginning of a sentence.
+    pub(super) fn finding(self) -> &'static str {
+        match self {
+            Self::Lag => "the actuator follows the command with a lag",
+            Self::RateLimit => "the actuator follows the command at a limited rate",
+            Self::Stiffness => "a restoring force acts",
+            Self::CubicDrag => "drag grows with the cube of the speed",
+            Self::Delay => "the delay is another than the one given",
+            Self::ProcessForce => "a force acts that changes with time",
+            Self::ProcessForceMemory => "that force returns to its mean",
+            Self::ColouredNoise => "errors of the readings are alike from sample to sample",
+            Self::StampJitter => "the time stamps err at random",
+            Self::SwitchJitter => "the command acts at instants that err at random",
+        }
+    }
+
+    /// The structural parameter that the term consists of, where it is one.
+    fn parameter(self) -> Option<Parameter> {
+        match self {
+            Self::Lag => Some(Parameter::LagS),
+            Self::RateLimit => Some(Parameter::RampS),
+            Self::Stiffness => Some(Parameter::Stiffness),
+            Self::CubicDrag => Some(Parameter::CubicDrag),
+            Self::Delay => Some(Parameter::DelayS),
+            _ => None,
+        }
+    }
+
+    /// Whether the term belongs to the motion rather than to what is random.
+    pub(super) fn is_structural(self) -> bool {
+        self.parameter().is_some()
+    }
+
+    fn noises(self) -> &'static [Noise] {
+        match self {
+            Self::ProcessForce => &[Noise::Force],
+            Self::ProcessForceMemory => &[Noise::ForceRate],
+            Self::ColouredNoise => &[Noise::Colour, Noise::ColourRate],
+            Self::StampJitter => &[Noise::StampJitter],
+            Self::SwitchJitter => &[Noise::SwitchJitter],
+            _ => &[],
+        }
+    }
+
+    /// Number of parameters that it adds.
+    pub(super) fn freedom(self) -> usize {
+        self.noises().len().max(1)
+    }
+
+    pub(super) fn is_in(self, model: &Model) -> bool {
+        self.parameter().map_or_else(
+            || self.noises().iter().all(|noise| model.has_noise(*noise)),
+            |parameter| model.is_free(parameter),
+        )
+    }
+
+    /// Whether the model can have the term besides what it has.
+    pub(super) fn applies(self, model: &Model, observations: &Observations) -> bool {
+        !self.is_in(model)
+            && match self {
+                Self::RateLimit | Self::SwitchJitter => observations.switched,
+                Self::ProcessForceMemory => Self::ProcessForce.is_in(model),
+                _ => true,
+            }
+    }
+
+    /// The model without the term; what rests on it goes too. `known_delay_s` takes the place of one estimated.
+    pub(super) fn without(self, model: &Model, known_delay_s: Option<f64>) -> Model {
+        let mut model = model.clone();
+        match self.parameter() {
+            Some(Parameter::DelayS) => {
+                let value = known_delay_s.unwrap_or(model.value(Parameter::DelayS));
+                model.set(Parameter::DelayS, value, false);
+            }
+            Some(parameter) => {
+                // The mean delay stays.
+                let late = match parameter {
+                    Parameter::LagS => model.value(Parameter::LagS),
+                    Parameter::RampS => 0.5 * model.value(Parameter::RampS),
+                    _ => 0.0,
+                };
+                if model.is_free(Parameter::DelayS) {
+                    model.values[Parameter::DelayS as usize] += late;
+                }
+                model.set(parameter, 0.0, false);
+            }
+            None => {
+                let dependent: &[Noise] = if self == Self::ProcessForce { &[Noise::ForceRate] } else { &[] };
+                for noise in self.noises().iter().chain(dependent) {
+                    model.set_noise(*noise, 0.0, false);
+                }
+            }
+        }
+        model
+    }
+
+    /// Models with the term from which a search may start.
+    pub(super) fn starts(self, model: &Model, observations: &Observations) -> Vec<Model> {
+        let with = |parameter: Parameter, value: f64| {
+            let mut model = model.clone();
+            model.set(parameter, value, true);
+            model
+        };
+        let noisy = |sizes: &[(Noise, f64)]| {
+            let mut model = model.clone();
+            for (noise, size) in sizes {
+                model.set_noise(*noise, *size, true);
+            }
+            model
+        };
+        let (interval, swing) = (observations.interval_s, observations.swing_s);
+        match self {
+            Self::Stiffness | Self::CubicDrag => self.parameter().map(|p| with(p, 0.0)).into_iter().collect(),
+            Self::Delay => vec![with(Parameter::DelayS, model.value(Parameter::DelayS))],
+            Self::Lag | Self::RateLimit => {
+                let (parameter, mean) =
+                    if self == Self::Lag { (Parameter::LagS, 1.0) } else { (Parameter::RampS, 0.5) };
+                let delay_s = model.value(Parameter::DelayS);
+                let late = |part: f64| {
+                    // At a known delay the lag comes on top; else it takes the place of a part of the delay.
+                    let time_s = if model.is_free(Parameter::DelayS) { part * delay_s } else { 0.1 * part * swing };
+                    let mut model = with(parameter, time_s.max(0.3 * interval) / mean);
+                    if model.is_free(Parameter::DelayS) {
+                        model.values[Parameter::DelayS as usize] = (delay_s - time_s).max(0.0);
+                    }
+                    model
+                };
+                [0.15, 0.4, 0.7, 0.95].map(late).to_vec()
+            }
+            Self::ProcessForce => {
+                let unit = observations.range * observations.range / swing;
+                [1e-6, 1e-5, 1e-4, 1e-3, 1e-2].map(|part| noisy(&[(Noise::Force, part * unit)])).to_vec()
+            }
+            Self::ProcessForceMemory => [0.1, 0.5, 2.0]
+                .map(|rate| {
+                    let (rate, force) = (rate / swing, model.size(Noise::Force));
+                    noisy(&[(Noise::ForceRate, rate), (Noise::Force, force * (1.0 + rate * swing))])
+                })
+                .to_vec(),
+            Self::ColouredNoise => {
+                let white = model.size(Noise::White);
+                let times = [2.0 * interval, 8.0 * interval, 40.0 * interval, observations.duration_s()];
+                let start = |time_s: f64, part: f64| {
+                    noisy(&[
+                        (Noise::Colour, 2.0 * part * white / time_s),
+                        (Noise::ColourRate, 1.0 / time_s),
+                        (Noise::White, (1.0 - part).max(0.1) * white),
+                    ])
+                };
+                times.iter().flat_map(|time| [0.15, 0.5, 0.95].map(|part| start(*time, part))).collect()
+            }
+            Self::StampJitter => {
+                [0.03, 0.1, 0.3].map(|part| noisy(&[(Noise::StampJitter, (part * interval).powi(2))])).to_vec()
+            }
+            Self::SwitchJitter => {
+                [0.05, 0.2, 0.6].map(|part| noisy(&[(Noise::SwitchJitter, (part * interval).powi(2))])).to_vec()
+            }
+        }
+    }
+}

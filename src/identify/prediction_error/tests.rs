@@ -1,0 +1,172 @@
+//! The filter against a dense Gaussian likelihood that knows nothing of filters; gradients against differences.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::filter;
+use super::model::{Clock, Model, Noise, Parameter, Switching};
+use super::observations::Observations;
+use crate::experiment::Record;
+
+/// A command that switches, and an output about the motion that [`model`] has.
+fn record() -> Record {
+    let time: Vec<f64> = (0..60).map(|k| 0.1 * f64::from(k)).collect();
+    let input: Vec<f64> = (0..60).map(|k| if (k / 13) % 2 == 0 { 1.0 } else { -1.0 }).collect();
+    // Of a reading that is zero the innovation is the prediction's negative.
+    let mut output = vec![0.0; 60];
+    output[0] = 1.0;
+    let still = Record::new(time.clone(), output, input.clone()).expect("a record");
+    let mut observations = Observations::new(&still, Clock::Stamps, Switching::AtSamples);
+    observations.output[0] = 0.0;
+    observations.weight.fill(1.0);
+    let pass = filter::run(&observations, &model(), false).expect("a pass");
+    let wiggle = |k: usize| 0.02 * (17.0 * time[k]).cos() + 0.01 * (2.3 * time[k]).sin();
+    let output = pass.innovations.iter().enumerate().map(|(k, innovation)| wiggle(k) - innovation.error).collect();
+    Record::new(time.clone(), output, input).expect("a record")
+}
+
+fn model() -> Model {
+    let mut model = Model {
+        values: [0.0; Parameter::COUNT],
+        free: [false; Parameter::COUNT],
+        noise: [f64::NEG_INFINITY; Noise::COUNT],
+        noise_free: [false; Noise::COUNT],
+        switching: Switching::AtSamples,
+        clock: Clock::Stamps,
+    };
+    for (parameter, value) in [
+        (Parameter::Alpha, 0.9),
+        (Parameter::LinearDrag, 0.6),
+        (Parameter::Disturbance, 0.1),
+        (Parameter::DelayS, 0.13),
+        (Parameter::Position, 0.05),
+        (Parameter::Velocity, 0.4),
+    ] {
+        model.set(parameter, value, true);
+    }
+    model.set_noise(Noise::White, 4e-4, true);
+    model
+}
+
+/// Position under unit force, and after a unit velocity: the kernel of `alpha x'' + beta x' = f`.
+fn kernel(model: &Model, t: f64) -> f64 {
+    let (alpha, beta) = (model.value(Parameter::Alpha), model.value(Parameter::LinearDrag));
+    (1.0 - (-beta / alpha * t).exp()) / beta
+}
+
+/// Log-likelihood of the readings as one normal vector: mean by the integral over the kernel, covariance by sums over a grid.
+fn dense(observations: &Observations, model: &Model) -> f64 {
+    let n = observations.time_s.len();
+    let alpha = model.value(Parameter::Alpha);
+    let input = |t: f64| {
+        let at = t - model.value(Parameter::DelayS);
+        let piece = observations.pieces.iter().rev().find(|piece| piece.begin_s <= at + 1e-12);
+        piece.unwrap_or(&observations.pieces[0]).value + model.value(Parameter::Disturbance)
+    };
+    let fine = 100;
+    let h = 0.1 / f64::from(fine);
+    let mean: Vec<f64> = observations
+        .time_s
+        .iter()
+        .enumerate()
+        .map(|(k, t)| {
+            let steps = k * fine as usize;
+            let forced: f64 =
+                (0..steps).map(|j| (j as f64 + 0.5) * h).map(|s| h * kernel(model, t - s) * input(s)).sum();
+            model.value(Parameter::Position) + alpha * kernel(model, *t) * model.value(Parameter::Velocity) + forced
+        })
+        .collect();
+    // The walk's increments reach the position by the integral of the kernel.
+    let (intensity, colour, rate) =
+        (model.size(Noise::Force), model.size(Noise::Colour), model.size(Noise::ColourRate));
+    let beta = model.value(Parameter::LinearDrag);
+    let reach = |since: f64| if since <= 0.0 { 0.0 } else { (since - alpha * kernel(model, since)) / beta };
+    let begin = 0.5 * colour / (rate + 1.0 / observations.duration_s());
+    let covariance = DMatrix::from_fn(n, n, |i, j| {
+        let (early, late) = (i.min(j), i.max(j));
+        let (s, t) = (observations.time_s[early], observations.time_s[late]);
+        let steps = early * 20;
+        let walk: f64 =
+            (0..steps).map(|k| (k as f64 + 0.5) * 0.005).map(|r| 0.005 * intensity * reach(s - r) * reach(t - r)).sum();
+        let stationary = if rate > 0.0 { 0.5 * colour / rate } else { 0.0 };
+        let kept = (-2.0 * rate * s).exp();
+        let coloured = (begin * kept + stationary * (1.0 - kept)) * (-rate * (t - s)).exp();
+        walk + coloured + if i == j { model.size(Noise::White) } else { 0.0 }
+    });
+    let off = DVector::from_fn(n, |k, _| observations.output[k] - mean[k]);
+    let factor = covariance.cholesky().expect("a covariance");
+    let determinant: f64 = factor.l().diagonal().iter().map(|d| 2.0 * d.ln()).sum();
+    -0.5 * (n as f64 * core::f64::consts::TAU.ln() + determinant + off.dot(&factor.solve(&off)))
+}
+
+#[test]
+fn the_filter_s_likelihood_is_that_of_the_dense_normal_vector() {
+    let observations = Observations::new(&record(), Clock::Stamps, Switching::AtSamples);
+    let mut noisy = model();
+    noisy.set_noise(Noise::Colour, 3e-4, true);
+    noisy.set_noise(Noise::ColourRate, 0.8, true);
+    let mut forced = noisy.clone();
+    forced.set_noise(Noise::Force, 0.02, true);
+    for (model, tolerance) in [(model(), 0.02), (noisy, 0.02), (forced, 0.05)] {
+        let pass = filter::run(&observations, &model, false).expect("a pass");
+        let expected = dense(&observations, &model);
+        let off = (pass.log_likelihood - expected).abs();
+        assert!(off < tolerance, "{} for {expected}", pass.log_likelihood);
+    }
+}
+
+/// Derivative of the log-likelihood by central differences.
+fn difference(observations: &Observations, model: &Model, step: f64, change: impl Fn(&mut Model, f64)) -> f64 {
+    let at = |by: f64| {
+        let mut moved = model.clone();
+        change(&mut moved, by);
+        filter::run(observations, &moved, false).expect("a pass").log_likelihood
+    };
+    (at(step) - at(-step)) / (2.0 * step)
+}
+
+#[test]
+fn scores_of_the_structure_are_the_likelihood_s_slopes() {
+    let observations = Observations::new(&record(), Clock::Stamps, Switching::AtSamples);
+    let mut plain = model();
+    for (parameter, value) in
+        [(Parameter::QuadraticDrag, 0.4), (Parameter::CubicDrag, 0.2), (Parameter::Stiffness, 0.15)]
+    {
+        plain.set(parameter, value, true);
+    }
+    let mut lagged = plain.clone();
+    lagged.set(Parameter::LagS, 0.17, true);
+    let mut ramped = lagged.clone();
+    ramped.set(Parameter::RampS, 0.45, true);
+    for model in [plain, lagged, ramped] {
+        let score = filter::run(&observations, &model, true).expect("a pass").score();
+        for parameter in model.structure() {
+            let slope = difference(&observations, &model, 1e-5, |m, by| m.values[parameter as usize] += by);
+            let found = score.structure[parameter as usize];
+            let scale = score.structure_information[parameter as usize][parameter as usize].sqrt();
+            assert!((found - slope).abs() < 1e-2 * slope.abs() + 0.05 * scale, "{parameter:?}: {found} for {slope}");
+        }
+    }
+}
+
+#[test]
+fn scores_of_the_noise_are_the_likelihood_s_slopes() {
+    let observations = Observations::new(&record(), Clock::Stamps, Switching::Between);
+    let mut model = model();
+    for (noise, size) in [
+        (Noise::Force, 0.02),
+        (Noise::ForceRate, 0.3),
+        (Noise::Colour, 3e-4),
+        (Noise::ColourRate, 0.8),
+        (Noise::StampJitter, 4e-4),
+        (Noise::SwitchJitter, 1e-3),
+        (Noise::Tracking, 1e-3),
+    ] {
+        model.set_noise(noise, size, true);
+    }
+    let score = filter::run(&observations, &model, true).expect("a pass").score();
+    for noise in Noise::ALL {
+        let slope = difference(&observations, &model, 1e-4, |m, by| m.noise[noise as usize] += by);
+        let found = score.noise[noise as usize];
+        assert!((found - slope).abs() < 1e-3 * slope.abs() + 1e-3, "{noise:?}: {found} for {slope}");
+    }
+}

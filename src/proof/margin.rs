@@ -1,0 +1,153 @@
+//! Margins of inequalities: by a formula in every arithmetic that a proof or its reader needs.
+
+use serde::{Deserialize, Serialize};
+
+use super::Gradient;
+use super::inequality::{Cell, VARIABLES};
+use crate::numeric::{Expression, Interval, Jet};
+
+/// Taylor coefficients up to the third.
+pub type Series = Jet<4>;
+
+/// Partial derivatives with their own partial derivatives.
+pub type Curvature = crate::numeric::Gradient<Gradient<VARIABLES>, VARIABLES>;
+
+/// One formula, as each arithmetic evaluates it; by [`formula!`](crate::proof::formula) from one generic function.
+#[derive(Clone, Copy, Debug)]
+pub struct Formula {
+    /// Over a box.
+    pub interval: fn([Interval; VARIABLES]) -> Interval,
+    /// With its partial derivatives.
+    pub gradient: fn([Gradient<VARIABLES>; VARIABLES]) -> Gradient<VARIABLES>,
+    /// With its second derivatives.
+    pub curvature: fn([Curvature; VARIABLES]) -> Curvature,
+    /// In powers of one variable.
+    pub series: fn([Series; VARIABLES]) -> Series,
+    /// The formula itself, to print.
+    pub expression: fn([Expression; VARIABLES]) -> Expression,
+}
+
+/// The [`Formula`] of a function generic over [`Real`](crate::numeric::Real), of an array of three variables.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! formula {
+    ($function:path) => {
+        $crate::proof::margin::Formula {
+            interval: $function,
+            gradient: $function,
+            curvature: $function,
+            series: $function,
+            expression: $function,
+        }
+    };
+}
+pub use formula;
+
+/// What an inequality says is positive, and how it is enclosed.
+#[derive(Clone, Copy, Debug)]
+pub enum Margin {
+    /// The formula's value.
+    Value(Formula),
+    /// Its derivative by one variable: the formula grows with it.
+    Slope {
+        /// What grows.
+        of: Formula,
+        /// The variable's place.
+        by: usize,
+    },
+    /// Its value beyond `near`; on a cell that reaches no further, its value over the power `order` of the first variable: it
+    /// has a zero of that order at zero, which is checked.
+    OverPower {
+        /// What is positive.
+        of: Formula,
+        /// At most three.
+        order: usize,
+        /// Where the power is divided out.
+        near: f64,
+    },
+    /// An enclosure in intervals that no one formula gives.
+    Enclosed(fn(&Cell) -> Interval),
+}
+
+/// A [`Margin`] without its formula.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", tag = "kind")]
+pub enum Form {
+    /// [`Margin::Value`].
+    Value,
+    /// [`Margin::Slope`].
+    Slope {
+        /// The variable's place.
+        by: usize,
+    },
+    /// [`Margin::OverPower`].
+    OverPower {
+        /// The power.
+        order: usize,
+        /// Where it is divided out.
+        near: f64,
+    },
+    /// [`Margin::Enclosed`].
+    Enclosed,
+}
+
+impl Margin {
+    /// An enclosure over a box.
+    #[must_use]
+    pub fn over(&self, at: &Cell) -> Interval {
+        match *self {
+            Self::Value(formula) => (formula.interval)(*at),
+            Self::Slope { of, by } => slope(of, by, at),
+            Self::OverPower { of, order, near } if at[0].upper() <= near => over_power(of, order, at),
+            Self::OverPower { of, .. } => (of.interval)(*at),
+            Self::Enclosed(enclosure) => enclosure(at),
+        }
+    }
+
+    /// How the formula makes the margin, as a certificate says it.
+    #[must_use]
+    pub fn form(&self) -> Form {
+        match *self {
+            Self::Value(_) => Form::Value,
+            Self::Slope { by, .. } => Form::Slope { by },
+            Self::OverPower { order, near, .. } => Form::OverPower { order, near },
+            Self::Enclosed(_) => Form::Enclosed,
+        }
+    }
+
+    /// The formula, if there is one.
+    #[must_use]
+    pub fn formula(&self) -> Option<Formula> {
+        match *self {
+            Self::Value(of) | Self::Slope { of, .. } | Self::OverPower { of, .. } => Some(of),
+            Self::Enclosed(_) => None,
+        }
+    }
+}
+
+/// By the derivative over the box, and by that at its middle with the mean value theorem, whichever is narrower at either end.
+fn slope(of: Formula, by: usize, at: &Cell) -> Interval {
+    let direct = (of.gradient)(Gradient::variables(*at)).slopes()[by];
+    let middle = at.map(|side| Interval::point(side.midpoint()));
+    let at_middle = (of.gradient)(Gradient::variables(middle)).slopes()[by];
+    let bends = (of.curvature)(Curvature::variables(Gradient::variables(*at))).slopes()[by].slopes();
+    let offsets = at.iter().zip(middle).map(|(side, middle)| *side - middle);
+    let centred = bends.into_iter().zip(offsets).fold(at_middle, |sum, (bend, offset)| sum + bend * offset);
+    direct.intersection(centred).unwrap_or(direct)
+}
+
+/// By Taylor's theorem at zero, the last coefficient between zero and the points of `at`; it says nothing unless the lower ones
+/// are zero.
+fn over_power(of: Formula, order: usize, at: &Cell) -> Interval {
+    let mut at_zero = *at;
+    at_zero[0] = Interval::ZERO;
+    // Derivatives, whose operations keep an exact zero; sums of products in a jet round.
+    let zero = (of.curvature)(Curvature::variables(Gradient::variables(at_zero)));
+    let lower = [zero.value().value(), zero.slopes()[0].value(), zero.slopes()[0].slopes()[0]];
+    let mut variables = at.map(Series::constant);
+    variables[0] = Series::variable(at[0].hull(Interval::ZERO));
+    match (lower.get(..order), (of.series)(variables).coefficients().get(order)) {
+        (Some(lower), Some(&last)) if lower.iter().all(|value| *value == Interval::ZERO) => last,
+        _ => Interval::ENTIRE,
+    }
+}
