@@ -7,7 +7,7 @@ use crate::numeric::Interval;
 /// A box is not divided further where the slopes' ranges take less than this of the readings' error.
 const FINE: f64 = 0.003;
 /// A box stands for what is left once they take less than this.
-const FOLLOWED: f64 = 0.3;
+const FOLLOWED: f64 = 4.0;
 
 /// A node of the tree of divisions, for the certificate.
 #[derive(Clone, Debug)]
@@ -87,6 +87,17 @@ impl Search<'_> {
         division.tree[kept.branch].then = Then::Divided { unknown: widest, value, parts: [next, next + 1] };
         self.refine(division, parts.into(), budget);
         true
+    }
+
+    /// Divides the box left whose slopes' ranges take most; `false` where there is none that this would help.
+    pub(super) fn divide_coarsest(&mut self, division: &mut Division, budget: usize) -> bool {
+        let slack = |kept: &Kept| match kept.left {
+            Left::Followed { slack, .. } => slack,
+            Left::Wide(_) => 0.0,
+        };
+        let coarsest = (0..division.kept.len())
+            .max_by(|a, b| slack(&division.kept[*a]).total_cmp(&slack(&division.kept[*b])));
+        coarsest.is_some_and(|index| self.divide_kept(division, index, budget))
     }
 
     /// Works off a list of boxes, which take the next places in the tree.

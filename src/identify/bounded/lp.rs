@@ -5,9 +5,11 @@
 use crate::numeric::Interval;
 
 /// Pivots before the method gives up; what it has then still gives a bound.
-const MOST_PIVOTS: usize = 400;
+const MOST_PIVOTS: usize = 2000;
 /// A row counts as met that is missed by less than this, in units of its scale.
 const MET: f64 = 1e-9;
+/// Of the objective, against ties.
+const PERTURBATION: f64 = 1e-8;
 /// Pivots below this are none.
 const LEAST_PIVOT: f64 = 1e-9;
 
@@ -156,7 +158,7 @@ impl Programme {
         let unit = if largest > 0.0 { largest } else { 1.0 };
         for (j, c) in scaled.iter_mut().enumerate() {
             let odd = 1.0 + ((j * 7919 + 13) % 101) as f64 / 101.0;
-            *c += 1e-6 * unit * if *c < 0.0 { -odd } else { odd };
+            *c += PERTURBATION * unit * if *c < 0.0 { -odd } else { odd };
         }
         let mut basis: Vec<usize> = (0..n).map(|j| rows + 2 * j + usize::from(scaled[j] < 0.0)).collect();
         // Columns of the inverse: z = inverse . limits of the basis.

@@ -39,6 +39,9 @@ use report::Answer;
 use search::Search;
 use setup::Setup;
 
+/// Divisions after which a witness is looked for again.
+const DIVISIONS_PER_TRIAL: usize = 8;
+
 /// Bounds that are this good, the inner against the outer width, are not sharpened further.
 const GOOD: f64 = 0.97;
 
@@ -83,6 +86,14 @@ pub fn enclose(records: &[&Record], settings: &BoundedModel) -> Result<Bounds, I
 fn conclude(wide: &Setup, mut search: Search<'_>, mut division: Division, settings: &BoundedModel) -> Bounds {
     let mut answer = Answer::default();
     answer.try_nearest(&mut search, &division);
+    // Without a witness the parts may yet turn out empty.
+    let mut divided = 0;
+    while answer.witness().is_none() && search.passes < settings.budget && search.divide_coarsest(&mut division, settings.budget) {
+        divided += 1;
+        if divided % DIVISIONS_PER_TRIAL == 0 {
+            answer.try_nearest(&mut search, &division);
+        }
+    }
     if answer.witness().is_some() {
         answer.sharpen(&mut search, &mut division, settings.budget, GOOD);
     }

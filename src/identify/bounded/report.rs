@@ -51,7 +51,7 @@ impl Answer {
 
     /// Looks for the parameter with the least largest misfit: in what is left, or where the contradiction came last.
     pub(super) fn try_nearest(&mut self, search: &mut Search<'_>, division: &Division) {
-        let mut boxes: Vec<Vec<Interval>> = division.kept.iter().map(|kept| kept.at.clone()).take(4).collect();
+        let mut boxes: Vec<Vec<Interval>> = division.kept.iter().map(|kept| kept.at.clone()).take(2).collect();
         boxes.extend(division.hull());
         if boxes.is_empty() {
             let mut leaves: Vec<Vec<Interval>> = empties(division).filter_map(leaf).collect();
@@ -60,6 +60,9 @@ impl Answer {
             boxes = leaves;
         }
         for at in boxes {
+            if self.witness().is_some() {
+                return;
+            }
             if let Some(tried) = search.nearest(&at) {
                 self.note(tried);
             }
@@ -284,7 +287,8 @@ fn least_misfit(search: &mut Search<'_>, division: &Division) -> f64 {
         let mut at = kept.at.clone();
         let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
         let Ok(Some(linear)) = search.chained(&mut at, centre) else { return 0.0 };
-        let (linear, misfit) = search.with_misfit(&linear);
+        let (mut linear, misfit) = search.with_misfit(&linear);
+        linear.deviations[misfit] = Interval::new(-1.0, 1.0).unwrap_or(Interval::ENTIRE);
         let places: Vec<usize> = (0..=misfit).collect();
         let programme = Programme::of(&linear.rows, &linear.deviations, &places);
         let objective = [(misfit, -1.0)];

@@ -11,7 +11,7 @@ use crate::numeric::Interval;
 /// A pass that leaves more than this of every parameter's width did not help.
 const HELPED: f64 = 0.9;
 /// A box is too wide to follow the motion over while a parameter's range is worth more than this share of the command.
-const WIDE: f64 = 0.3;
+const WIDE: f64 = 0.5;
 /// The same where the motion takes many steps.
 const STIFF: f64 = 0.1;
 /// Steps between two samples that are many.
@@ -20,6 +20,9 @@ const MANY: f64 = 3.0;
 const ORDERS: f64 = 4.0;
 /// Passes over one box at most.
 const MOST_PASSES: usize = 30;
+
+/// Passes by hats that cost as much as one of the motion.
+const WEIGHED_PER_PASS: usize = 12;
 
 /// How a pass came about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +64,9 @@ pub(super) struct Search<'a> {
     pub(super) model: Model<'a>,
     /// For each record.
     hats: Vec<Vec<Hat>>,
+    /// Passes over the records so far, those by hats counting by the dozen.
     pub(super) passes: usize,
+    weighed: usize,
 }
 
 impl<'a> Search<'a> {
@@ -75,7 +80,7 @@ impl<'a> Search<'a> {
             fastest: setup.fastest,
         };
         let hats = setup.records.iter().map(|readings| hats(&readings.time_s, setup.swing_s)).collect();
-        Self { setup, model, hats, passes: 0 }
+        Self { setup, model, hats, passes: 0, weighed: 0 }
     }
 
     fn parameters(&self) -> usize {
@@ -98,7 +103,10 @@ impl<'a> Search<'a> {
     /// Speeds from the readings; those at the windows' beginnings go into the box. Then the hats.
     pub(super) fn weigh(&mut self, at: &mut [Interval]) -> Result<Vec<Cut>, Empty> {
         let nothing = || Empty { method: Method::Weigh, multipliers: Vec::new(), linear: None };
-        self.passes += 1;
+        self.weighed += 1;
+        if self.weighed % WEIGHED_PER_PASS == 0 {
+            self.passes += 1;
+        }
         let layout = &self.setup.layout;
         let mut linear = self.model.about(at, vec![0.0; at.len()]);
         for (record, hats) in self.hats.iter().enumerate() {
@@ -230,7 +238,7 @@ impl<'a> Search<'a> {
     }
 
     /// Whether following the motion over a box takes many steps.
-    fn stiff(&self, at: &[Interval]) -> bool {
+    pub(super) fn stiff(&self, at: &[Interval]) -> bool {
         let field = self.setup.layout.field(0, at, self.setup.middle_speed);
         let interval_s = self.setup.records.iter().map(|readings| {
             (readings.time_s[readings.time_s.len() - 1] - readings.time_s[0]) / readings.time_s.len() as f64

@@ -1,11 +1,14 @@
 //! Velocities at the samples, from readings and the accelerations besides drag.
 
 use super::contract::Model;
-use super::field::Term;
+use super::field::{Term, signed_square};
 use crate::numeric::{Interval, Real};
 
 /// Spans over which the mean speed is taken, in samples.
 const SPANS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
+
+/// Halvings towards a speed that is certain.
+const BISECTIONS: usize = 16;
 
 /// The largest acceleration besides drag between two samples: forwards and backwards, each zero or more.
 #[derive(Clone, Copy, Debug)]
@@ -58,42 +61,48 @@ fn between(first: Interval, second: Interval, push: Push, lasted: Interval) -> I
 struct Drag([Interval; 3]);
 
 impl Drag {
-    /// The least acceleration at a velocity.
-    fn rate(&self, v: f64, force: Interval) -> f64 {
-        let v = Interval::point(v);
+    /// The least acceleration at any of the velocities.
+    fn rate(&self, v: Interval, force: Interval) -> f64 {
         let [linear, quadratic, cubic] = self.0;
-        (force - linear * v - quadratic * v.abs() * v - cubic * v * v.square()).lower()
+        (force - linear * v - quadratic * signed_square(v) - cubic * v * v.square()).lower()
     }
 
     /// The least velocity during a duration from `v`.
     fn least_within(&self, v: f64, force: Interval, lasted: Interval) -> f64 {
-        if self.rate(v, force) >= 0.0 { v } else { self.least(v, force, lasted) }
+        if self.rate(Interval::point(v), force) >= 0.0 { v } else { self.least(v, force, lasted) }
     }
 
-    /// The least velocity after a duration from `v`: with drag that never decreases with speed the acceleration falls as the velocity rises.
+    /// A velocity that is certainly reached, or not passed downwards, after a duration from `v`.
     fn least(&self, v: f64, force: Interval, lasted: Interval) -> f64 {
-        let falls = self.0.iter().all(|drag| drag.lower() >= 0.0);
-        if !falls || !v.is_finite() {
+        if !v.is_finite() {
             return f64::NEG_INFINITY;
         }
-        let at_once = self.rate(v, force);
+        let at_once = self.rate(Interval::point(v), force);
+        let span = |a: f64, b: f64| Interval::point(a).hull(Interval::point(b));
+        let furthest = (Interval::point(at_once) * Interval::point(lasted.upper())).upper().abs();
         if at_once < 0.0 {
-            // Not lower than at this rate all the time, nor than where it no longer falls.
-            let fallen = (Interval::point(v) + Interval::point(at_once) * Interval::point(lasted.upper())).lower();
-            let (mut rests, mut step) = (fallen, v);
-            for _ in 0..40 {
-                let middle = 0.5 * (rests + step);
-                if self.rate(middle, force) >= 0.0 { rests = middle } else { step = middle }
+            // It does not fall to f within the time, as slowly as it falls on the way there; nor where it rises.
+            let holds = |f: f64| {
+                let fallen = Interval::point(v) + Interval::point(self.rate(span(f, v), force)) * Interval::point(lasted.upper());
+                fallen.lower() >= f || self.rate(Interval::point(f), force) >= 0.0
+            };
+            let Some(mut sure) = (0..6).map(|k| v - f64::from(1 << k) * furthest).find(|f| holds(*f)) else {
+                return f64::NEG_INFINITY;
+            };
+            let mut beyond = v;
+            for _ in 0..BISECTIONS {
+                let middle = 0.5 * (sure + beyond);
+                if holds(middle) { sure = middle } else { beyond = middle }
             }
-            return if self.rate(rests, force) >= 0.0 { rests.max(fallen) } else { fallen };
+            return sure;
         }
-        // Until it is m it rises at least as fast as there: the backward Euler step, by bisection.
+        // It rises to m within the time, even as slowly as it may on the way: the backward Euler step.
         let reached = |m: f64| {
-            let gained = Interval::point(self.rate(m, force)) * Interval::point(lasted.lower());
+            let gained = Interval::point(self.rate(span(v, m), force)) * Interval::point(lasted.lower());
             plus(m, -v).upper() <= gained.lower()
         };
-        let (mut sure, mut beyond) = (v, (Interval::point(v) + Interval::point(at_once) * Interval::point(lasted.upper())).upper());
-        for _ in 0..40 {
+        let (mut sure, mut beyond) = (v, v + furthest);
+        for _ in 0..BISECTIONS {
             let middle = 0.5 * (sure + beyond);
             if reached(middle) { sure = middle } else { beyond = middle }
         }

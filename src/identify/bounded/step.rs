@@ -9,8 +9,6 @@ use crate::numeric::{Interval, Real};
 
 /// Degree whose coefficient over the whole step is the remainder.
 const ORDER: usize = 10;
-/// Largest step against the damping: beyond, polynomial and remainder cancel.
-const LONGEST: f64 = 0.33;
 /// Attempts at an enclosure before the step is called too long.
 const ATTEMPTS: usize = 6;
 
@@ -198,21 +196,21 @@ impl Field {
     }
 
     /// The sign of the velocity and the state during a step, if it has one.
-    fn sign(&self, within: &Triple, h: Interval) -> Result<Interval, Refused> {
+    fn sign(&self, within: &Triple, h: Interval, longest: f64) -> Result<Interval, Refused> {
         let v = within[VELOCITY];
         if self.has(Term::Quadratic) && straddles(v) {
             return Err(Refused::Kink);
         }
-        if self.fastest(v) * h.upper() > LONGEST {
+        if self.fastest(v) * h.upper() > longest {
             return Err(Refused::TooLong);
         }
         Ok(if v.upper() <= 0.0 { -Interval::ONE } else { Interval::ONE })
     }
 
     /// The motion alone, over a duration `h` with a constant command u: its end and what it passes.
-    pub(super) fn pass(&self, start: &Triple, u: Interval, h: Interval) -> Result<[Triple; 2], Refused> {
+    pub(super) fn pass(&self, start: &Triple, u: Interval, h: Interval, longest: f64) -> Result<[Triple; 2], Refused> {
         let within = enclose(start, Interval::ZERO.hull(h), |state| self.rate(state, u)).ok_or(Refused::TooLong)?;
-        let sign = self.sign(&within, h)?;
+        let sign = self.sign(&within, h, longest)?;
         let middle = middle(start);
         let [from, head, rest] = [&middle, start, &within].map(|state| Base::of(self, state, u, sign));
         let [between, between_rest] = [&head, &rest].map(|base| self.dampings(base, base, sign));
@@ -236,14 +234,15 @@ impl Field {
 }
 
 impl Fields {
-    /// Over a duration `h` with a constant command u.
-    pub(super) fn smooth(&self, start: &Pair, u: Interval, h: Interval) -> Result<Step, Refused> {
+    /// Over a duration `h` with a constant command u, no longer than `longest` against the fastest rate: beyond, polynomial and
+    /// remainder cancel.
+    pub(super) fn smooth(&self, start: &Pair, u: Interval, h: Interval, longest: f64) -> Result<Step, Refused> {
         let span = Interval::ZERO.hull(h);
         let (field, point) = (&self.over, &self.at);
         let within = enclose(&start.over, span, |state| field.rate(state, u)).ok_or(Refused::TooLong)?;
-        let sign = field.sign(&within, h)?;
+        let sign = field.sign(&within, h, longest)?;
         let within_at = enclose(&start.at, span, |state| point.rate(state, u)).ok_or(Refused::TooLong)?;
-        if point.sign(&within_at, h)? != sign {
+        if point.sign(&within_at, h, longest)? != sign {
             return Err(Refused::Kink);
         }
         let [head, rest] = [&start.over, &within].map(|state| Base::of(field, state, u, sign));

@@ -8,7 +8,10 @@ use crate::numeric::Interval;
 /// The most steps between two changes of the command.
 const MOST_STEPS: usize = 2000;
 /// Length of a step against the equation's fastest rate.
-const STEP: f64 = 0.3;
+const STEP: f64 = 0.25;
+/// The same over a box whose gain's relative width is at most `NARROW`, where the remainders would count.
+const POINT_STEP: f64 = 0.12;
+const NARROW: f64 = 0.01;
 /// The same for a step by the rates' ranges.
 const CRUDE: f64 = 0.2;
 /// How often a step is made shorter before the motion is given up.
@@ -81,7 +84,7 @@ fn advance_point(field: &Field, start: Triple, u: Interval, h: Interval) -> Opti
             return Some([state, passed]);
         }
         let mut part = left;
-        let longest = STEP / field.fastest(state[VELOCITY]);
+        let longest = POINT_STEP / field.fastest(state[VELOCITY]);
         if longest < part.lower() {
             part = Interval::point(longest);
         }
@@ -91,7 +94,7 @@ fn advance_point(field: &Field, start: Triple, u: Interval, h: Interval) -> Opti
             if made.is_some() {
                 break;
             }
-            let length = match field.pass(&state, u, part) {
+            let length = match field.pass(&state, u, part, 1.1 * POINT_STEP) {
                 Ok(done) => {
                     made = Some(done);
                     break;
@@ -190,7 +193,7 @@ impl Way<'_> {
                 return Some(());
             }
             let mut part = left;
-            let longest = STEP / self.drive.fields.over.fastest(self.state.over[VELOCITY]);
+            let longest = self.length() / self.drive.fields.over.fastest(self.state.over[VELOCITY]);
             if longest < part.lower() {
                 part = Interval::point(longest);
             }
@@ -243,10 +246,16 @@ impl Way<'_> {
         None
     }
 
+    /// Length of a step against the fastest rate.
+    fn length(&self) -> f64 {
+        let gain = self.drive.fields.over.term(Term::Gain);
+        if gain.width() <= NARROW * gain.lower() { POINT_STEP } else { STEP }
+    }
+
     /// One step of at most the duration `part`, which it shortens; none where the velocity is about to change its sign.
     fn smooth(&self, u: Interval, part: &mut Interval) -> Option<Option<Step>> {
         for _ in 0..MOST_SHORTENED {
-            let length = match self.drive.fields.smooth(&self.state, u, *part) {
+            let length = match self.drive.fields.smooth(&self.state, u, *part, 1.1 * self.length()) {
                 Ok(step) => return Some(Some(step)),
                 Err(Refused::TooLong) => 0.5 * part.lower(),
                 Err(Refused::Kink) => match to_rest(&self.drive.fields.over, &self.both(), u, part.upper()) {

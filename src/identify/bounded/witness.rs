@@ -8,6 +8,9 @@ use crate::numeric::{Interval, Real};
 /// Steps towards the least largest misfit.
 const MOST_STEPS: usize = 8;
 
+/// Misfits up to which a better parameter is looked for, one after the other, beyond what readings allow.
+const MISFITS: [f64; 3] = [1.0, 30.0, 1000.0];
+
 /// A parameter with its misfit.
 #[derive(Clone, Debug)]
 pub(super) struct Tried {
@@ -48,7 +51,7 @@ impl Search<'_> {
             }
         }
         // One is what the readings allow; this is how much more.
-        linear.deviations.push(Interval::new(-1.0, 1e3).unwrap_or(Interval::ENTIRE));
+        linear.deviations.push(Interval::ZERO);
         linear.centre.push(0.0);
         (linear, misfit)
     }
@@ -70,8 +73,14 @@ impl Search<'_> {
                 linear.deviations[place] = room - middle;
             }
             let places: Vec<usize> = (0..=misfit).collect();
-            let programme = Programme::of(&linear.rows, &linear.deviations, &places);
-            let Outcome::Bounded { at: solution, .. } = programme.maximise(&[(misfit, -1.0)]) else { break };
+            let solution = MISFITS.into_iter().find_map(|most| {
+                linear.deviations[misfit] = Interval::new(-1.0, most)?;
+                match Programme::of(&linear.rows, &linear.deviations, &places).maximise(&[(misfit, -1.0)]) {
+                    Outcome::Bounded { at, .. } => Some(at),
+                    Outcome::Empty { .. } => None,
+                }
+            });
+            let Some(solution) = solution else { break };
             let next: Vec<f64> = centre.iter().zip(&solution).map(|(centre, step)| centre + step).collect();
             let reached = self.misfit(&next);
             let improved = reached.is_some_and(|reached| best.as_ref().is_none_or(|best| reached < best.misfit));
