@@ -36,13 +36,13 @@ impl Random {
 
 /// What was seen, so that a run that looks at nothing shows.
 #[derive(Debug, Default)]
-struct Seen {
-    steps: u64,
-    driven: u64,
-    experiments: u64,
-    done: u64,
-    controllers: u64,
-    faults: std::collections::BTreeMap<&'static str, u64>,
+pub struct Seen {
+    pub steps: u64,
+    pub driven: u64,
+    pub experiments: u64,
+    pub done: u64,
+    pub controllers: u64,
+    pub faults: std::collections::BTreeMap<&'static str, u64>,
 }
 
 fn protocol<T: Scalar>(random: &mut Random) -> Protocol<T> {
@@ -158,10 +158,8 @@ fn controller<T: Scalar>(random: &mut Random, seen: &mut Seen) -> ControlFlow<()
     ControlFlow::Continue(())
 }
 
-fn main() {
-    let mut arguments = std::env::args().skip(1).map(|argument| argument.parse::<u64>());
-    let mut argument = |default| arguments.next().and_then(Result::ok).unwrap_or(default);
-    let (steps, seed) = (argument(1_000_000), argument(1));
+/// A run of at least so many steps; what was seen.
+pub fn run(steps: u64, seed: u64) -> Seen {
     let (mut random, mut seen) = (Random(seed), Seen::default());
     while seen.steps < steps {
         experiment::<f64>(&mut random, &mut seen);
@@ -171,5 +169,13 @@ fn main() {
             assert!(held && controller::<f32>(&mut random, &mut seen).is_continue(), "a hold was refused");
         }
     }
-    println!("seed {seed}: {seen:#?}");
+    seen
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let mut argument = |default| arguments.next().map_or(Ok(default), |text| text.parse());
+    let (steps, seed) = (argument(1_000_000)?, argument(1)?);
+    println!("seed {seed}: {:#?}", run(steps, seed));
+    Ok(())
 }
