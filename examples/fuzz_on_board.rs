@@ -3,6 +3,7 @@
 //!
 //! `cargo run --release --example fuzz_on_board -- STEPS SEED`; without arguments a million steps from seed 1. The longest run so
 //! far is recorded in `fixtures/fuzz_on_board.txt`.
+#![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
 use std::ops::ControlFlow;
 
@@ -37,11 +38,17 @@ impl Random {
 /// What was seen, so that a run that looks at nothing shows.
 #[derive(Debug, Default)]
 pub struct Seen {
+    /// Steps of experiments and controllers.
     pub steps: u64,
+    /// Steps under a command that drives.
     pub driven: u64,
+    /// Experiments begun.
     pub experiments: u64,
+    /// Experiments that came to their end.
     pub done: u64,
+    /// Controllers begun.
     pub controllers: u64,
+    /// Experiments that ended in each fault.
     pub faults: std::collections::BTreeMap<&'static str, u64>,
 }
 
