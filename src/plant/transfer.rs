@@ -191,10 +191,5 @@ pub(super) fn companion(descending: &[f64]) -> DMatrix<f64> {
 }
 
 fn roots(descending: &[f64]) -> Result<Vec<Complex<f64>>, PlantError> {
-    let mut matrix = companion(descending);
-    if matrix.is_empty() {
-        return Ok(Vec::new());
-    }
-    let _ = nalgebra::linalg::balancing::balance_parlett_reinsch(&mut matrix);
-    eigenvalues(&matrix)
+    eigenvalues(&companion(descending))
 }
