@@ -16,12 +16,30 @@ use crate::numeric::{Limit, domain};
 /// assert_eq!(plant.order(), 2);
 /// # Ok::<(), selfosc::plant::PlantError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(try_from = "Parts")]
 pub struct StateSpace {
     a: DMatrix<f64>,
     b: DVector<f64>,
     c: RowDVector<f64>,
     delay_s: f64,
+}
+
+/// A plant as it is written, not yet checked.
+#[derive(serde::Deserialize)]
+struct Parts {
+    a: DMatrix<f64>,
+    b: DVector<f64>,
+    c: RowDVector<f64>,
+    delay_s: f64,
+}
+
+impl TryFrom<Parts> for StateSpace {
+    type Error = PlantError;
+
+    fn try_from(Parts { a, b, c, delay_s }: Parts) -> Result<Self, PlantError> {
+        Self::new(a, b, c)?.with_delay(delay_s)
+    }
 }
 
 impl StateSpace {
