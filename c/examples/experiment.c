@@ -28,7 +28,7 @@ int main(void)
     SelfoscLimitCycle_f64 again;
     SelfoscControllerSettings_f64 settings = {0};
     SelfoscController_f64 controller;
-    SelfoscControllerStep_f64 moment = {0};
+    SelfoscControlStep_f64 moment = {0};
     double largest = 0.0;
     int sample;
 

@@ -78,7 +78,7 @@ static void task_tune(Task *task)
 static float task_run(Task *task, const Message *message, float now_s)
 {
     SelfoscExperimentStep_f32 step;
-    SelfoscControllerStep_f32 moment;
+    SelfoscControlStep_f32 moment;
     SelfoscStatus status;
     switch (task->mode) {
     case MODE_EXPERIMENT:

@@ -46,16 +46,16 @@ typedef enum {
 // Why a controller held its command.
 typedef enum {
   // It did not: the step was good.
-  SELFOSC_CONTROLLER_FAULT_NONE = 0,
+  SELFOSC_CONTROL_FAULT_NONE = 0,
   // The reference is not a finite number.
-  SELFOSC_CONTROLLER_FAULT_REFERENCE = 1,
+  SELFOSC_CONTROL_FAULT_REFERENCE = 1,
   // The measurement is not a finite number.
-  SELFOSC_CONTROLLER_FAULT_MEASUREMENT = 2,
+  SELFOSC_CONTROL_FAULT_MEASUREMENT = 2,
   // The interval is not a finite number above zero.
-  SELFOSC_CONTROLLER_FAULT_INTERVAL = 3,
+  SELFOSC_CONTROL_FAULT_INTERVAL = 3,
   // The command would not be a finite number.
-  SELFOSC_CONTROLLER_FAULT_OVERFLOW = 4,
-} SelfoscControllerFault;
+  SELFOSC_CONTROL_FAULT_OVERFLOW = 4,
+} SelfoscControlFault;
 
 // The catalogue. Parameters of each, in their order, are on its page in `spec/characteristics`.
 typedef enum {
@@ -315,22 +315,22 @@ typedef struct {
   float mean;
   // Standard deviation of one cycle's value, not of the mean.
   float std;
-} SelfoscSpread_f32;
+} SelfoscCycleStatistics_f32;
 
 // What a finished experiment found.
 typedef struct {
   // Half the range, in coordinate units.
-  SelfoscSpread_f32 amplitude;
+  SelfoscCycleStatistics_f32 amplitude;
   // Middle of the range against the middle of the switching levels.
-  SelfoscSpread_f32 bias;
+  SelfoscCycleStatistics_f32 bias;
   // Period, s.
-  SelfoscSpread_f32 period_s;
+  SelfoscCycleStatistics_f32 period_s;
   // Level at which the command really switched, in coordinate units.
-  SelfoscSpread_f32 switch_level;
+  SelfoscCycleStatistics_f32 switch_level;
   // Time with the positive command, s.
-  SelfoscSpread_f32 time_positive_s;
+  SelfoscCycleStatistics_f32 time_positive_s;
   // Time with the negative command, s.
-  SelfoscSpread_f32 time_negative_s;
+  SelfoscCycleStatistics_f32 time_negative_s;
   // Relay level of the last attempt, in command units.
   float relay_level;
   // Half-width of the last attempt, in coordinate units.
@@ -392,8 +392,8 @@ typedef struct {
   // Whether a limit holds the command back: 1 or 0.
   uint32_t limited;
   // Why the command is held, if it is.
-  SelfoscControllerFault fault;
-} SelfoscControllerStep_f32;
+  SelfoscControlFault fault;
+} SelfoscControlStep_f32;
 
 // Thrust by command on one side, `(quadratic n + linear) n` from the dead zone to the limit. Magnitudes all.
 typedef struct {
@@ -576,22 +576,22 @@ typedef struct {
   double mean;
   // Standard deviation of one cycle's value, not of the mean.
   double std;
-} SelfoscSpread_f64;
+} SelfoscCycleStatistics_f64;
 
 // What a finished experiment found.
 typedef struct {
   // Half the range, in coordinate units.
-  SelfoscSpread_f64 amplitude;
+  SelfoscCycleStatistics_f64 amplitude;
   // Middle of the range against the middle of the switching levels.
-  SelfoscSpread_f64 bias;
+  SelfoscCycleStatistics_f64 bias;
   // Period, s.
-  SelfoscSpread_f64 period_s;
+  SelfoscCycleStatistics_f64 period_s;
   // Level at which the command really switched, in coordinate units.
-  SelfoscSpread_f64 switch_level;
+  SelfoscCycleStatistics_f64 switch_level;
   // Time with the positive command, s.
-  SelfoscSpread_f64 time_positive_s;
+  SelfoscCycleStatistics_f64 time_positive_s;
   // Time with the negative command, s.
-  SelfoscSpread_f64 time_negative_s;
+  SelfoscCycleStatistics_f64 time_negative_s;
   // Relay level of the last attempt, in command units.
   double relay_level;
   // Half-width of the last attempt, in coordinate units.
@@ -653,8 +653,8 @@ typedef struct {
   // Whether a limit holds the command back: 1 or 0.
   uint32_t limited;
   // Why the command is held, if it is.
-  SelfoscControllerFault fault;
-} SelfoscControllerStep_f64;
+  SelfoscControlFault fault;
+} SelfoscControlStep_f64;
 
 // Thrust by command on one side, `(quadratic n + linear) n` from the dead zone to the limit. Magnitudes all.
 typedef struct {
@@ -781,7 +781,7 @@ SelfoscStatus selfosc_controller_step_f32(SelfoscController_f32 *controller,
                                           float reference,
                                           float measurement,
                                           float dt_s,
-                                          SelfoscControllerStep_f32 *result);
+                                          SelfoscControlStep_f32 *result);
 
 // Lets a controller forget everything but its settings.
 SelfoscStatus selfosc_controller_reset_f32(SelfoscController_f32 *controller);
@@ -894,7 +894,7 @@ SelfoscStatus selfosc_controller_step_f64(SelfoscController_f64 *controller,
                                           double reference,
                                           double measurement,
                                           double dt_s,
-                                          SelfoscControllerStep_f64 *result);
+                                          SelfoscControlStep_f64 *result);
 
 // Lets a controller forget everything but its settings.
 SelfoscStatus selfosc_controller_reset_f64(SelfoscController_f64 *controller);

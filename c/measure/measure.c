@@ -67,7 +67,7 @@ static int index_of(const char *name)
             SelfoscLimitCycle_##P orbit; \
             SelfoscControllerSettings_##P settings; \
             SelfoscController_##P controller; \
-            SelfoscControllerStep_##P moment; \
+            SelfoscControlStep_##P moment; \
             SelfoscThruster_##P thruster = {{2, 0, (NUMBER)0.1, 1}, {1, (NUMBER)0.5, (NUMBER)0.1, 1}}; \
             SelfoscDelivered_##P delivered; \
             NUMBER command; \

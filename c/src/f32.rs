@@ -4,7 +4,7 @@ use super::placed::{self, ControllerF32, ExperimentF32};
 use super::routines;
 use super::status::{Refusal, Refused, Status, answer, given, usable};
 use super::values::{
-    Axis, ControllerSettings, ControllerStep, Delivered, DescribingFunction, ExperimentStep, LimitCycle, Margins,
+    Axis, ControlStep, ControllerSettings, Delivered, DescribingFunction, ExperimentStep, LimitCycle, Margins,
     MeanCycle, Oscillation, Outcome, Parameters, Protocol, Thruster,
 };
 
@@ -218,7 +218,7 @@ pub unsafe extern "C" fn selfosc_controller_step_f32(
     reference: f32,
     measurement: f32,
     dt_s: f32,
-    result: *mut ControllerStep<f32>,
+    result: *mut ControlStep<f32>,
 ) -> Status {
     // SAFETY: pointers are null or good for what they point at.
     let held = || unsafe { placed::held(controller) };

@@ -4,7 +4,7 @@ use super::placed::{self, ControllerF64, ExperimentF64};
 use super::routines;
 use super::status::{Refusal, Refused, Status, answer, given, usable};
 use super::values::{
-    Axis, ControllerSettings, ControllerStep, Delivered, DescribingFunction, ExperimentStep, LimitCycle, Margins,
+    Axis, ControlStep, ControllerSettings, Delivered, DescribingFunction, ExperimentStep, LimitCycle, Margins,
     MeanCycle, Oscillation, Outcome, Parameters, Protocol, Thruster,
 };
 
@@ -218,7 +218,7 @@ pub unsafe extern "C" fn selfosc_controller_step_f64(
     reference: f64,
     measurement: f64,
     dt_s: f64,
-    result: *mut ControllerStep<f64>,
+    result: *mut ControlStep<f64>,
 ) -> Status {
     // SAFETY: pointers are null or good for what they point at.
     let held = || unsafe { placed::held(controller) };

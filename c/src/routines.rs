@@ -1,6 +1,6 @@
 //! What C calls, over either precision.
 
-use selfosc::control::{Controller, Fault, FeedForward, Gains, Tuning};
+use selfosc::control::{ControlFault as Fault, Controller, FeedForward, Gains, Tuning};
 use selfosc::describing::ClosedForm;
 use selfosc::identify::{exact, iso};
 use selfosc::nonlinearity as catalogue;
@@ -13,9 +13,9 @@ use selfosc::vehicle;
 
 use super::status::{Refused, Status, Text};
 use super::values::{
-    Axis, ControllerFault, ControllerSettings, ControllerStep, Coordinate, Delivered, DescribingFunction, DragLaw,
-    ExperimentStep, LimitCycle, Margins, MeanCycle, Oscillation, Outcome, Parameter, Parameters, Phase, Protocol,
-    Spread, Structure, ThrustSide, Thruster,
+    Axis, ControlFault, ControlStep, ControllerSettings, Coordinate, CycleStatistics, Delivered, DescribingFunction,
+    DragLaw, ExperimentStep, LimitCycle, Margins, MeanCycle, Oscillation, Outcome, Parameter, Parameters, Phase,
+    Protocol, Structure, ThrustSide, Thruster,
 };
 
 /// Points of a piecewise linear characteristic.
@@ -229,14 +229,14 @@ pub(crate) fn experiment_step<T: Scalar>(step: selfosc::on_board::Step<T>) -> Ex
 
 pub(crate) fn outcome<T: Scalar>(experiment: &Experiment<T>) -> Result<Outcome<T>, Refused> {
     let found = experiment.outcome().ok_or(Status::NotDone)?;
-    let spread = |of: selfosc::features::Spread<T>| Spread { mean: of.mean, std: of.std };
+    let statistics = |of: selfosc::features::CycleStatistics<T>| CycleStatistics { mean: of.mean, std: of.std };
     Ok(Outcome {
-        amplitude: spread(found.features.amplitude),
-        bias: spread(found.features.bias),
-        period_s: spread(found.features.period_s),
-        switch_level: spread(found.features.switch_level),
-        time_positive_s: spread(found.features.time_positive_s),
-        time_negative_s: spread(found.features.time_negative_s),
+        amplitude: statistics(found.features.amplitude),
+        bias: statistics(found.features.bias),
+        period_s: statistics(found.features.period_s),
+        switch_level: statistics(found.features.switch_level),
+        time_positive_s: statistics(found.features.time_positive_s),
+        time_negative_s: statistics(found.features.time_negative_s),
         relay_level: found.relay_level,
         half_width: found.half_width,
         cycles: found.features.cycles,
@@ -311,15 +311,15 @@ pub(crate) fn feed_forward<T: Scalar>(
     Ok(controller.with_feed_forward(FeedForward::new(&axis.checked()?, pace_rad_s, top_speed)?))
 }
 
-pub(crate) fn controller_step<T: Scalar>(step: selfosc::control::Step<T>) -> ControllerStep<T> {
+pub(crate) fn controller_step<T: Scalar>(step: selfosc::control::ControlStep<T>) -> ControlStep<T> {
     let fault = match step.fault {
-        None => ControllerFault::None,
-        Some(Fault::Reference) => ControllerFault::Reference,
-        Some(Fault::Measurement) => ControllerFault::Measurement,
-        Some(Fault::Interval) => ControllerFault::Interval,
-        Some(_) => ControllerFault::Overflow,
+        None => ControlFault::None,
+        Some(Fault::Reference) => ControlFault::Reference,
+        Some(Fault::Measurement) => ControlFault::Measurement,
+        Some(Fault::Interval) => ControlFault::Interval,
+        Some(_) => ControlFault::Overflow,
     };
-    ControllerStep { command: step.command, limited: step.limited.into(), fault }
+    ControlStep { command: step.command, limited: step.limited.into(), fault }
 }
 
 impl<T: Scalar> Thruster<T> {

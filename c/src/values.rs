@@ -257,7 +257,7 @@ pub struct ExperimentStep<T> {
 /// Mean and standard deviation over cycles.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct Spread<T> {
+pub struct CycleStatistics<T> {
     /// Mean.
     pub mean: T,
     /// Standard deviation of one cycle's value, not of the mean.
@@ -269,17 +269,17 @@ pub struct Spread<T> {
 #[derive(Clone, Copy, Debug)]
 pub struct Outcome<T> {
     /// Half the range, in coordinate units.
-    pub amplitude: Spread<T>,
+    pub amplitude: CycleStatistics<T>,
     /// Middle of the range against the middle of the switching levels.
-    pub bias: Spread<T>,
+    pub bias: CycleStatistics<T>,
     /// Period, s.
-    pub period_s: Spread<T>,
+    pub period_s: CycleStatistics<T>,
     /// Level at which the command really switched, in coordinate units.
-    pub switch_level: Spread<T>,
+    pub switch_level: CycleStatistics<T>,
     /// Time with the positive command, s.
-    pub time_positive_s: Spread<T>,
+    pub time_positive_s: CycleStatistics<T>,
     /// Time with the negative command, s.
-    pub time_negative_s: Spread<T>,
+    pub time_negative_s: CycleStatistics<T>,
     /// Relay level of the last attempt, in command units.
     pub relay_level: T,
     /// Half-width of the last attempt, in coordinate units.
@@ -347,7 +347,7 @@ pub struct Margins<T> {
 /// Why a controller held its command.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ControllerFault {
+pub enum ControlFault {
     /// It did not: the step was good.
     None = 0,
     /// The reference is not a finite number.
@@ -363,13 +363,13 @@ pub enum ControllerFault {
 /// What a step of a controller gives.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct ControllerStep<T> {
+pub struct ControlStep<T> {
     /// The command, within the limits in any case.
     pub command: T,
     /// Whether a limit holds the command back: 1 or 0.
     pub limited: u32,
     /// Why the command is held, if it is.
-    pub fault: ControllerFault,
+    pub fault: ControlFault,
 }
 
 /// Thrust by command on one side, `(quadratic n + linear) n` from the dead zone to the limit. Magnitudes all.

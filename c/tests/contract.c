@@ -50,7 +50,7 @@ static int pointers(void)
     SelfoscExperiment_f64 experiment;
     SelfoscController_f64 controller;
     SelfoscExperimentStep_f64 step;
-    SelfoscControllerStep_f64 moment;
+    SelfoscControlStep_f64 moment;
     SelfoscProtocol_f64 protocol;
     SelfoscOutcome_f64 outcome;
     SelfoscRefusal why;
@@ -202,7 +202,7 @@ static int fuzz(void)
             }
         CHECK(selfosc_controller_begin_f64(&controller, &settings, NULL) == SELFOSC_STATUS_OK);
         for (i = 0; i < 40; ++i) {
-            SelfoscControllerStep_f64 step;
+            SelfoscControlStep_f64 step;
             CHECK(selfosc_controller_step_f64(&controller, bits() % 5 ? 1.0 : any(), bits() % 5 ? 0.5 : any(),
                                               bits() % 5 ? 0.1 : any(), &step)
                   == SELFOSC_STATUS_OK);
