@@ -7,6 +7,8 @@ use super::sampling::{Budget, Case, Draw, sample};
 use super::tolerance;
 
 mod algebra;
+mod band;
+mod decomposition;
 mod enclosure;
 mod family;
 mod machine;
@@ -25,6 +27,7 @@ pub(super) mod orbits;
 pub(super) mod power_law;
 pub(super) mod quantisation;
 pub(super) mod relay;
+pub(super) mod relay_state;
 pub(super) mod smooth;
 pub(super) mod symmetry;
 pub(super) mod theorems;
