@@ -14,6 +14,7 @@ mod family;
 mod machine;
 mod single;
 mod step;
+mod vehicle_proofs;
 
 pub(super) mod control;
 pub(super) mod experiment;

@@ -358,6 +358,10 @@ impl Scalar for Rational {
     fn epsilon() -> Self {
         Self::from_f64(f64::EPSILON)
     }
+    /// What is known at a point by value and slope is no formula.
+    fn lift(self, _: f64, _: f64) -> Self {
+        <Self as Component>::UNKNOWN
+    }
 }
 
 /// Derivatives of formulas are formulas.
