@@ -146,10 +146,10 @@ impl<T: Real> Arc<T> {
     /// [`ramp`](Self::ramp) where phi is known.
     fn ramp_by(self, phi: T, branches: Branches) -> DescribingFunction<T> {
         let scale = half::<T>() * T::inverse_pi();
-        let mean = phi * self.one_minus_u - phi.minus_sine(self.sine);
+        let mean = phi * self.one_minus_u - phi.minus_own_sine(self.sine);
         DescribingFunction {
             f0: scale * self.amplitude * mean + half::<T>() * self.beyond,
-            p: scale * half() * (phi + phi).minus_sine(T::two() * self.sine * self.u),
+            p: scale * half() * (phi + phi).minus_own_sine(T::two() * self.sine * self.u),
             q: match branches {
                 Branches::Both => T::zero(),
                 Branches::Rising | Branches::Falling => {

@@ -70,6 +70,7 @@ use crate::numeric::Real;
 ///
 /// It says nothing of the higher harmonics that it leaves out.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct DescribingFunction<T> {
     /// Mean of the output, `F_0 = Y_0`, in output units.
     pub f0: T,

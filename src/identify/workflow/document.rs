@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::identification::{Caution, Identification, Source};
 use super::model::Model;
 use super::refusal::Refusal;
-use crate::features::{RecordFeatures, Spread};
+use crate::features::{CycleStatistics, RecordFeatures};
 use crate::identify::DragLaw;
 use crate::identify::select::likelihood::Choice;
 
@@ -174,7 +174,7 @@ impl RecordConclusion {
 impl FeatureMeans {
     fn of(found: &RecordFeatures) -> Self {
         let f = &found.features;
-        let values = |of: fn(&Spread<f64>) -> f64| FeatureValues {
+        let values = |of: fn(&CycleStatistics<f64>) -> f64| FeatureValues {
             amplitude: of(&f.amplitude),
             bias: of(&f.bias),
             period_s: of(&f.period_s),

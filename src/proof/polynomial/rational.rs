@@ -346,10 +346,10 @@ impl Real for Rational {
             None => [Self::UNKNOWN; N],
         }
     }
-    fn give_or_take(self, error: f64) -> Self {
+    fn inflate(self, error: f64) -> Self {
         if error == 0.0 { self } else { Self::UNKNOWN }
     }
-    fn minus_sine(self, sine: Self) -> Self {
+    fn minus_own_sine(self, sine: Self) -> Self {
         self - sine
     }
 }
