@@ -54,7 +54,7 @@ impl<'a> Average<'a> {
                 continue;
             }
             // The same model reached twice counts once, the likelier time.
-            if let Some(same) = members.iter_mut().find(|(_, other, _)| same_terms(&other.model, &fitted.model)) {
+            if let Some(same) = members.iter_mut().find(|(_, other, _)| other.model.is_alike(&fitted.model)) {
                 if fitted.log_likelihood <= same.1.log_likelihood {
                     continue;
                 }
@@ -132,10 +132,6 @@ fn least_gain(more: &Model, less: &Model) -> f64 {
     let added = more.freedom() - less.freedom();
     let subtle = SUBTLE.iter().filter(|parameter| more.is_free(**parameter) && !less.is_free(**parameter)).count();
     IDLE_STRUCTURE * subtle as f64 + IDLE * added.saturating_sub(subtle) as f64
-}
-
-fn same_terms(a: &Model, b: &Model) -> bool {
-    (a.free, a.noise_free, a.switching, a.clock) == (b.free, b.noise_free, b.switching, b.clock)
 }
 
 /// Where a mixture of normal distributions and points reaches a probability.

@@ -1,5 +1,7 @@
 //! The family of models: which parameters a model has, and their values.
 
+use crate::identify::DragLaw;
+
 /// Structural parameters of
 /// `alpha x'' + (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + k x = a(t - T_d) + delta + w(t)`, `tau a' = u - a`,
 /// and the state in which the record begins.
@@ -151,6 +153,26 @@ impl Model {
     pub(super) fn set_noise(&mut self, noise: Noise, size: f64, free: bool) {
         self.noise[noise as usize] = size.ln();
         self.noise_free[noise as usize] = free;
+    }
+
+    /// The model with another drag law: as much drag at a speed, above zero, by the terms that it has.
+    pub(super) fn with_drag(&self, law: DragLaw, speed: f64) -> Self {
+        let (linear, quadratic) = (self.value(Parameter::LinearDrag), self.value(Parameter::QuadraticDrag));
+        let (linear, quadratic) = match law {
+            DragLaw::Mixed => (linear, quadratic),
+            DragLaw::Linear => (linear + quadratic * speed, 0.0),
+            DragLaw::Quadratic => (0.0, quadratic + linear / speed),
+        };
+        let mut model = self.clone();
+        model.set(Parameter::LinearDrag, linear, law.has_linear());
+        model.set(Parameter::QuadraticDrag, quadratic, law.has_quadratic());
+        model
+    }
+
+    /// Whether both have the same parameters under the same reading of the record.
+    pub(super) fn is_alike(&self, other: &Self) -> bool {
+        (self.free, self.noise_free, self.switching, self.clock)
+            == (other.free, other.noise_free, other.switching, other.clock)
     }
 
     /// Structural parameters that are estimated.

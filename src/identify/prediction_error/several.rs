@@ -4,6 +4,7 @@
 //! far as a mean of random effects would leave any of them out (DerSimonian and Laird 1986 test for it with the same sum).
 
 use super::answer::{Answer, Reason, Reported, Trust};
+use super::laws::LawEvidence;
 use super::residuals::{NORMAL, chi_square_tail};
 use crate::identify::DragLaw;
 use crate::identify::joint::{Estimate, ConfidenceInterval};
@@ -77,15 +78,16 @@ impl Several {
         terms.dedup();
         let reported = Reported {
             drag: if drags.iter().all(|drag| *drag == drags[0]) { drags[0] } else { DragLaw::Mixed },
+            laws: LawEvidence::sum(answers.iter().map(|answer| answer.reported.laws)),
             terms,
             alpha,
-            linear_drag: all(&|r| r.linear_drag).0,
-            quadratic_drag: all(&|r| r.quadratic_drag).0,
-            cubic_drag: some(&|r| r.cubic_drag),
+            beta: all(&|r| r.beta).0,
+            beta_quadratic: all(&|r| r.beta_quadratic).0,
+            beta_cubic: some(&|r| r.beta_cubic),
             stiffness: some(&|r| r.stiffness),
             lag_s: some(&|r| r.lag_s),
             ramp_s: some(&|r| r.ramp_s),
-            disturbance: answers.iter().flat_map(|answer| answer.reported.disturbance.iter().copied()).collect(),
+            deltas: answers.iter().flat_map(|answer| answer.reported.deltas.iter().copied()).collect(),
             delay_s: all(&|r| r.delay_s).0,
             trust: reasons.iter().map(|reason| reason.trust()).max().unwrap_or(Trust::Good),
             reasons,

@@ -1,10 +1,13 @@
 //! Terms that a model may have beside inertia, linear and quadratic drag and white noise.
 
+use serde::{Deserialize, Serialize};
+
 use super::model::{Model, Noise, Parameter};
 use super::observations::Observations;
 
 /// What a model may have in addition, each tried where it makes the record likelier.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Term {
     /// First-order lag of the actuator.
     Lag,
