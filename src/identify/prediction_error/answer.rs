@@ -145,12 +145,18 @@ pub struct Reported {
     pub beta_quadratic: Estimate,
     /// Cubic drag, where the likeliest model has it.
     pub beta_cubic: Option<Estimate>,
+    /// Part by which drag is larger to the positive side than the mean of both, where the likeliest model has it.
+    pub skew: Option<Estimate>,
+    /// Coulomb friction, where the likeliest model has it.
+    pub coulomb: Option<Estimate>,
     /// Restoring force per output, where the likeliest model has it.
     pub stiffness: Option<Estimate>,
     /// Time constant of the actuator in s, where the likeliest model has it.
     pub lag_s: Option<Estimate>,
     /// Time of the actuator over the command's range in s, where the likeliest model limits its rate.
     pub ramp_s: Option<Estimate>,
+    /// Time constant of the sensor's filter in s, where the likeliest model has it.
+    pub filter_s: Option<Estimate>,
     /// Constant force during each record.
     pub deltas: Vec<Estimate>,
     /// Delay in s.
@@ -162,11 +168,11 @@ pub struct Reported {
 }
 
 impl Reported {
-    /// Delay with the mean time by which lag and limited rate make the actuator late, in s.
+    /// Delay with the mean time by which lag and limited rate make the actuator late, and a filter the sensor, in s.
     #[must_use]
     pub fn mean_delay_s(&self) -> f64 {
         let late = |time_s: Option<Estimate>| time_s.map_or(0.0, |estimate| estimate.value);
-        self.delay_s.value + late(self.lag_s) + 0.5 * late(self.ramp_s)
+        self.delay_s.value + late(self.lag_s) + late(self.filter_s) + 0.5 * late(self.ramp_s)
     }
 }
 

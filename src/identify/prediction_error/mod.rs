@@ -2,10 +2,10 @@
 //! parameters, of the motion and of what disturbs it together, that make its innovations likeliest.
 //!
 //! The vehicle is
-//! `alpha x'' + (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + k x = a(t - T_d) + delta + w(t)`, `tau a' = u - a`, `y = x + e`,
-//! a continuous-discrete stochastic state-space model (Jazwinski 1970; Kristensen, Madsen and Jorgensen 2004; Ljung 1999,
+//! `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + k x = a(t - T_d) + delta + w(t)`,
+//! `tau a' = u - a`, `y = x + e`, a continuous-discrete stochastic state-space model (Jazwinski 1970; Kristensen, Madsen and Jorgensen 2004; Ljung 1999,
 //! chapter 7). Inertia, drag, disturbance and white noise are always there. A lag, a limited rate, a restoring force, cubic
-//! drag, another delay than the one given, a process force, coloured noise, and instants that err are terms: each is tried,
+//! drag, drag that differs by side, Coulomb friction, a filter of the sensor, another delay than the one given, a process force, coloured noise, and instants that err are terms: each is tried,
 //! and joins where the record is enough likelier for it. All models tried are averaged, so that an interval allows for the
 //! choice among them too.
 //!
@@ -101,8 +101,9 @@ impl Estimator {
             Delay::Estimated => None,
         };
         let known = Known { delay_s, law: self.law };
-        let (search, found) =
-            Search::new(record, known).run().ok_or(IdentifyError::NotSettled { steps: 0, rms: deviation(record.output()) })?;
+        let (search, found) = Search::new(record, known)
+            .run()
+            .ok_or(IdentifyError::NotSettled { steps: 0, rms: deviation(record.output()) })?;
         Ok(conclude(&search, &found, known))
     }
 }
@@ -193,9 +194,12 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
         beta: estimate(Parameter::LinearDrag),
         beta_quadratic: estimate(Parameter::QuadraticDrag),
         beta_cubic: present(Parameter::CubicDrag),
+        skew: present(Parameter::Skew),
+        coulomb: present(Parameter::Coulomb).map(not_negative),
         stiffness: present(Parameter::Stiffness),
         lag_s: present(Parameter::LagS).map(not_negative),
         ramp_s: present(Parameter::RampS).map(not_negative),
+        filter_s: present(Parameter::FilterS).map(not_negative),
         deltas: vec![estimate(Parameter::Disturbance)],
         delay_s: not_negative(estimate(Parameter::DelayS)),
         trust,

@@ -3,8 +3,8 @@
 use crate::identify::DragLaw;
 
 /// Structural parameters of
-/// `alpha x'' + (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + k x = a(t - T_d) + delta + w(t)`, `tau a' = u - a`,
-/// and the state in which the record begins.
+/// `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + k x = a(t - T_d) + delta + w(t)`,
+/// `tau a' = u - a`, `filter y' = x - y`, and the state in which the record begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(usize)]
 pub enum Parameter {
@@ -16,6 +16,10 @@ pub enum Parameter {
     QuadraticDrag,
     /// Cubic drag, the factor of `x'^3`.
     CubicDrag,
+    /// Part by which drag is larger to the positive side than the mean of both sides, and smaller to the negative one.
+    Skew,
+    /// Coulomb friction: a force against the motion, whatever its speed.
+    Coulomb,
     /// Restoring force per unit of output, k.
     Stiffness,
     /// Constant force delta.
@@ -26,6 +30,8 @@ pub enum Parameter {
     LagS,
     /// Time that an actuator of limited rate takes over the command's whole range, in s.
     RampS,
+    /// Time constant of the sensor's filter, in s.
+    FilterS,
     /// Output where the record begins.
     Position,
     /// Its rate there, per s.
@@ -34,18 +40,21 @@ pub enum Parameter {
 
 impl Parameter {
     /// Number of structural parameters.
-    pub const COUNT: usize = 11;
+    pub const COUNT: usize = 14;
     /// All of them, in the order of their numbers.
     pub const ALL: [Self; Self::COUNT] = [
         Self::Alpha,
         Self::LinearDrag,
         Self::QuadraticDrag,
         Self::CubicDrag,
+        Self::Skew,
+        Self::Coulomb,
         Self::Stiffness,
         Self::Disturbance,
         Self::DelayS,
         Self::LagS,
         Self::RampS,
+        Self::FilterS,
         Self::Position,
         Self::Velocity,
     ];

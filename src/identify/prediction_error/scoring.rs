@@ -39,7 +39,9 @@ fn bounds(parameter: Parameter, observations: &Observations) -> (f64, f64) {
     match parameter {
         Parameter::Alpha => (1e-9 * observations.range * swing * swing / observations.span, f64::INFINITY),
         Parameter::DelayS => (0.0, swing),
-        Parameter::LagS => (0.02 * interval, 2.0 * swing),
+        Parameter::LagS | Parameter::FilterS => (0.02 * interval, 2.0 * swing),
+        Parameter::Skew => (-0.9, 0.9),
+        Parameter::Coulomb => (0.0, observations.range),
         Parameter::RampS => (0.05 * interval, 2.0 * swing),
         _ => (f64::NEG_INFINITY, f64::INFINITY),
     }

@@ -148,8 +148,7 @@ impl<'a> Found<'a> {
             let Some(features) = &source.features else { continue };
             let record = several.then_some(index);
             let (attempts, warnings) = self.attempts(features, delay_s, record);
-            let cautions: Vec<Caution> =
-                warnings.into_iter().map(|warning| source.caution(warning, record)).collect();
+            let cautions: Vec<Caution> = warnings.into_iter().map(|warning| source.caution(warning, record)).collect();
             self.cautions.extend(cautions);
             for (method, law, result) in attempts {
                 match result {

@@ -195,7 +195,16 @@ fn comparison(found: &Identification) -> Table {
     let several = found.sources().len() > 1;
     let mut columns = vec!["method", "drag"];
     columns.extend(several.then_some("record"));
-    columns.extend(["alpha", "beta", "beta_quadratic", "delta", "delay (s)", "fit (%)", "residual rms", "log-likelihood"]);
+    columns.extend([
+        "alpha",
+        "beta",
+        "beta_quadratic",
+        "delta",
+        "delay (s)",
+        "fit (%)",
+        "residual rms",
+        "log-likelihood",
+    ]);
     let table = Table::new("methods", "Methods compared", &columns);
     found.models().iter().fold(table, |table, model| {
         let record = model.record.map_or("all", |index| &found.sources()[index].name);
@@ -220,12 +229,15 @@ pub(super) fn refused_table(found: &Identification) -> Option<Table> {
     let table = Table::new("refused", "Methods without a model", &["method", "name", "reason"]);
     let row = |table: Table, method: &str, code: &str, text: &str| table.row([method.into(), code.into(), text.into()]);
     let refused = found.refused();
-    (!refused.is_empty()).then(|| refused.iter().fold(table, |table, one| row(table, &one.method, &one.code, &one.text)))
+    (!refused.is_empty())
+        .then(|| refused.iter().fold(table, |table, one| row(table, &one.method, &one.code, &one.text)))
 }
 
 pub(super) fn caution_table(name: &'static str, title: &str, cautions: &[Caution]) -> Option<Table> {
     let table = Table::new(name, title, &["name", "meaning"]);
-    (!cautions.is_empty()).then(|| cautions
-        .iter()
-        .fold(table, |table, caution| table.row([caution.code.as_ref().into(), caution.text.as_str().into()])))
+    (!cautions.is_empty()).then(|| {
+        cautions
+            .iter()
+            .fold(table, |table, caution| table.row([caution.code.as_ref().into(), caution.text.as_str().into()]))
+    })
 }
