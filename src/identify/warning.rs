@@ -113,7 +113,8 @@ impl Warning {
         }
         // Rounding alone leaves a third of a step and may well have a pattern of its own.
         let real = fit.records().iter().filter(|record| record.residual_rms > 0.5 * record.quantum);
-        let coloured = real.filter(|record| record.colour > SIGNIFICANT).map(|record| record.strongest_correlation);
+        let coloured =
+            real.filter(|record| record.ljung_box_deviate > SIGNIFICANT).map(|record| record.strongest_correlation);
         let worst = coloured.fold(0.0, |worst: f64, next| if next.abs() > worst.abs() { next } else { worst });
         if worst.abs() > COLOURED {
             warnings.push(Self::ColouredResiduals { correlation: worst });

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::identification::{Caution, Identification, RefusedMethod, Source};
 use super::model::{Model, single};
 use super::refusal::Refusal;
-use crate::features::{RecordFeatures, Spread};
+use crate::features::{CycleStatistics, RecordFeatures};
 use crate::identify::DragLaw;
 use crate::identify::joint::Estimate;
 use crate::identify::prediction_error::{DragVerdict, LawEvidence, Reported, Term, Trust};
@@ -252,7 +252,7 @@ impl RecordConclusion {
 impl FeatureMeans {
     fn of(found: &RecordFeatures) -> Self {
         let f = &found.features;
-        let values = |of: fn(&Spread<f64>) -> f64| FeatureValues {
+        let values = |of: fn(&CycleStatistics<f64>) -> f64| FeatureValues {
             amplitude: of(&f.amplitude),
             bias: of(&f.bias),
             period_s: of(&f.period_s),

@@ -1,6 +1,6 @@
 //! What was found, as tables and sentences.
 
-use crate::features::Spread;
+use crate::features::CycleStatistics;
 use crate::identify::joint::Estimate;
 use crate::identify::{Caution, DragLaw, DragVerdict, Identification, Reason, Reported, Source, Trust};
 use crate::report::{Cell, Table};
@@ -54,8 +54,9 @@ pub(crate) fn feature_table(source: &Source) -> Option<Table> {
     let f = &found.features;
     let title = format!("Features over {} steady cycles", f.cycles);
     let table = Table::new("features", &title, &["feature", "mean", "spread"]);
-    let row =
-        |table: Table, name: &str, spread: &Spread<f64>| table.row([name.into(), cell(spread.mean), cell(spread.std)]);
+    let row = |table: Table, name: &str, spread: &CycleStatistics<f64>| {
+        table.row([name.into(), cell(spread.mean), cell(spread.std)])
+    };
     let table = row(table, "amplitude X_m", &f.amplitude);
     let table = row(table, "bias x_0", &f.bias);
     let table = row(table, "period T (s)", &f.period_s);
