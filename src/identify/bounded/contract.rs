@@ -70,7 +70,14 @@ impl Model<'_> {
         Some(self.follow(span, &at, centre, &[], &[])?.iter().map(|node| node.at[0]).collect())
     }
 
-    fn follow(&self, span: Span, at: &[Interval], centre: &[f64], by: &[By], deviations: &[Interval]) -> Option<Vec<Node>> {
+    fn follow(
+        &self,
+        span: Span,
+        at: &[Interval],
+        centre: &[f64],
+        by: &[By],
+        deviations: &[Interval],
+    ) -> Option<Vec<Node>> {
         let stretch = self.layout.windows()[span.from];
         let last = self.layout.windows()[span.to - 1].last;
         let readings = &self.records[stretch.record];
@@ -111,7 +118,11 @@ impl Model<'_> {
             let disturbance = self.layout.disturbance(record);
             let force = Interval::point(readings.command.largest());
             for (above, sign) in [(true, Interval::ONE), (false, -Interval::ONE)] {
-                linear.row(vec![(gain, -force), (disturbance, sign)], Interval::ZERO, Origin::Disturbance { record, above });
+                linear.row(
+                    vec![(gain, -force), (disturbance, sign)],
+                    Interval::ZERO,
+                    Origin::Disturbance { record, above },
+                );
             }
         }
         let linear_place = self.layout.place_of(Term::Linear);
@@ -147,7 +158,11 @@ impl Model<'_> {
                 let slopes = places.iter().copied().zip(node.slopes.iter().map(|slope| slope[component]));
                 let slopes = slopes.chain([(next, -Interval::ONE)]);
                 let residual = node.at[component] - Interval::point(linear.centre[next]);
-                linear.pair(slopes, residual, Interval::ZERO, |above| Origin::Link { window: span.from, component, above });
+                linear.pair(slopes, residual, Interval::ZERO, |above| Origin::Link {
+                    window: span.from,
+                    component,
+                    above,
+                });
             }
         }
     }

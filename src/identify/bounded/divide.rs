@@ -95,8 +95,8 @@ impl Search<'_> {
             Left::Followed { slack, .. } => slack,
             Left::Wide(_) => 0.0,
         };
-        let coarsest = (0..division.kept.len())
-            .max_by(|a, b| slack(&division.kept[*a]).total_cmp(&slack(&division.kept[*b])));
+        let coarsest =
+            (0..division.kept.len()).max_by(|a, b| slack(&division.kept[*a]).total_cmp(&slack(&division.kept[*b])));
         coarsest.is_some_and(|index| self.divide_kept(division, index, budget))
     }
 

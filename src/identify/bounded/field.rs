@@ -25,15 +25,8 @@ pub(super) enum Term {
 pub(super) const TERMS: usize = 7;
 
 impl Term {
-    pub(super) const ALL: [Self; TERMS] = [
-        Self::Gain,
-        Self::Disturbance,
-        Self::Linear,
-        Self::Quadratic,
-        Self::Cubic,
-        Self::Stiffness,
-        Self::LagRate,
-    ];
+    pub(super) const ALL: [Self; TERMS] =
+        [Self::Gain, Self::Disturbance, Self::Linear, Self::Quadratic, Self::Cubic, Self::Stiffness, Self::LagRate];
 }
 
 /// Position, velocity, and the force over its unit gain.

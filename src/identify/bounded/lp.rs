@@ -38,7 +38,12 @@ impl Rows {
     /// An upper bound of `objective . z` over all z in the `deviations` that meet the rows for some element of their slopes:
     /// `sum y_k limit_k + sum_j (objective_j - sum_k y_k slopes_kj) z_j` for whatever multipliers `y >= 0` are given (Neumaier and Shcherbina 2004).
     /// With the objective zero, a negative bound says that there are none.
-    pub(super) fn upper_bound(&self, objective: &[(usize, f64)], multipliers: &Multipliers, deviations: &[Interval]) -> f64 {
+    pub(super) fn upper_bound(
+        &self,
+        objective: &[(usize, f64)],
+        multipliers: &Multipliers,
+        deviations: &[Interval],
+    ) -> f64 {
         let mut rest = vec![Interval::ZERO; deviations.len()];
         for (unknown, weight) in objective {
             rest[*unknown] += Interval::point(*weight);

@@ -29,8 +29,8 @@ mod trajectory;
 mod weak;
 mod witness;
 
-pub use bounds::{Bounds, Contradicting, Parameters, Quantity, QuantityRange, Consistency};
-pub use settings::{DelayBound, BoundedModel, SwitchedWhen};
+pub use bounds::{Bounds, Consistency, Contradicting, Parameters, Quantity, QuantityRange};
+pub use settings::{BoundedModel, DelayBound, SwitchedWhen};
 
 use super::IdentifyError;
 use crate::experiment::Record;
@@ -88,7 +88,10 @@ fn conclude(wide: &Setup, mut search: Search<'_>, mut division: Division, settin
     answer.try_nearest(&mut search, &division);
     // Without a witness the parts may yet turn out empty.
     let mut divided = 0;
-    while answer.witness().is_none() && search.passes < settings.budget && search.divide_coarsest(&mut division, settings.budget) {
+    while answer.witness().is_none()
+        && search.passes < settings.budget
+        && search.divide_coarsest(&mut division, settings.budget)
+    {
         divided += 1;
         if divided % DIVISIONS_PER_TRIAL == 0 {
             answer.try_nearest(&mut search, &division);

@@ -1,6 +1,6 @@
 //! From what division left to the answer.
 
-use super::bounds::{Bounds, Contradicting, Parameters, Quantity, QuantityRange, Consistency};
+use super::bounds::{Bounds, Consistency, Contradicting, Parameters, Quantity, QuantityRange};
 use super::contract::{Linear, Origin};
 use super::divide::{Division, Then};
 use super::field::Term;
@@ -39,9 +39,10 @@ impl Answer {
     fn note(&mut self, tried: Tried) {
         if tried.misfit <= 1.0 {
             let at: Vec<Interval> = tried.at.iter().map(|value| Interval::point(*value)).collect();
-            let inner = self.inner.take().map_or(at.clone(), |inner| {
-                inner.iter().zip(&at).map(|(inner, value)| inner.hull(*value)).collect()
-            });
+            let inner = self
+                .inner
+                .take()
+                .map_or(at.clone(), |inner| inner.iter().zip(&at).map(|(inner, value)| inner.hull(*value)).collect());
             self.inner = Some(inner);
         }
         if self.nearest.as_ref().is_none_or(|nearest| tried.misfit < nearest.misfit) {
@@ -79,7 +80,10 @@ impl Answer {
             let gaps = parameters.iter().flat_map(|&place| {
                 let (outer, inner) = (hull[place], inner[place]);
                 let width = outer.width().max(f64::MIN_POSITIVE);
-                [(place, true, (outer.upper() - inner.upper()) / width), (place, false, (inner.lower() - outer.lower()) / width)]
+                [
+                    (place, true, (outer.upper() - inner.upper()) / width),
+                    (place, false, (inner.lower() - outer.lower()) / width),
+                ]
             });
             let Some((place, upper, gap)) = gaps.max_by(|a, b| a.2.total_cmp(&b.2)) else { return };
             if gap < 0.5 * (1.0 - good) {
@@ -271,7 +275,8 @@ fn over_gain(at: &[Interval], linear: Option<&Linear>, parts: &[(usize, f64)]) -
             Outcome::Bounded { multipliers, .. } | Outcome::Empty { multipliers } => multipliers,
         };
         let bound = linear.rows.upper_bound(&objective, &multipliers, &linear.deviations);
-        let at_centre = objective.iter().map(|(place, factor)| Interval::point(*factor) * Interval::point(linear.centre[*place]));
+        let at_centre =
+            objective.iter().map(|(place, factor)| Interval::point(*factor) * Interval::point(linear.centre[*place]));
         let whole = at_centre.fold(Interval::point(bound), |sum, part| sum + part);
         Some(whole / gain)
     };

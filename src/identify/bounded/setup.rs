@@ -4,7 +4,7 @@ use super::bounds::{Quantity, QuantityRange};
 use super::command::Command;
 use super::field::Term;
 use super::problem::{Layout, Readings, Window};
-use super::settings::{DelayBound, BoundedModel, SwitchedWhen};
+use super::settings::{BoundedModel, DelayBound, SwitchedWhen};
 use crate::experiment::Record;
 use crate::identify::IdentifyError;
 use crate::numeric::{Interval, Limit, OutOfDomain};
@@ -102,7 +102,13 @@ impl BoundedModel {
             DelayBound::Unknown => [0.0; 2],
         };
         if !(delays[0] >= 0.0 && delays[0] <= delays[1] && delays[1].is_finite()) {
-            return Err(refuse("least delay", delays[0], "s", Limit::NonNegative, "give the lower bound of the delay first"));
+            return Err(refuse(
+                "least delay",
+                delays[0],
+                "s",
+                Limit::NonNegative,
+                "give the lower bound of the delay first",
+            ));
         }
         Ok(())
     }
@@ -142,7 +148,13 @@ impl Setup {
             }
             let command = Command::of(record, settings.switching == SwitchedWhen::Anywhere);
             if command.largest() <= 0.0 {
-                return Err(refuse("largest command", 0.0, "force", Limit::Positive, "choose the column of the command"));
+                return Err(refuse(
+                    "largest command",
+                    0.0,
+                    "force",
+                    Limit::Positive,
+                    "choose the column of the command",
+                ));
             }
             if command.edges() == 0 {
                 let remedy = "give a record in which the command changes";
@@ -194,19 +206,18 @@ impl Setup {
             search.push(Interval::symmetric(gain * reach * readings.command.largest()));
             search.extend((0..layout.instants(record)).map(|edge| readings.command.span(edge)));
         }
-        let mut setup =
-            Self {
-                layout,
-                known_delay_s: delay,
-                middle_speed,
-                fastest,
-                swing_s,
-                reach: scales.iter().map(|scale| scale.reach).fold(0.0, f64::max),
-                typical_speed: speed,
-                least_linear,
-                search,
-                records: readings,
-            };
+        let mut setup = Self {
+            layout,
+            known_delay_s: delay,
+            middle_speed,
+            fastest,
+            swing_s,
+            reach: scales.iter().map(|scale| scale.reach).fold(0.0, f64::max),
+            typical_speed: speed,
+            least_linear,
+            search,
+            records: readings,
+        };
         setup.states();
         Ok(setup)
     }
@@ -221,7 +232,13 @@ impl Setup {
             let first = readings.time_s.partition_point(|time| *time < begin.upper());
             if samples < first + 3 * FEWEST {
                 let remedy = "give a longer record, or bound the delay";
-                return Err(refuse("longest delay", delay.upper(), "s", Limit::Words("well within the record"), remedy));
+                return Err(refuse(
+                    "longest delay",
+                    delay.upper(),
+                    "s",
+                    Limit::Words("well within the record"),
+                    remedy,
+                ));
             }
             let swings = (readings.command.edges() + 1) as f64;
             let count = (WINDOWS_PER_SWING * swings).ceil().clamp(2.0, MOST_WINDOWS as f64);

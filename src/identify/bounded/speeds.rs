@@ -83,7 +83,8 @@ impl Drag {
         if at_once < 0.0 {
             // It does not fall to f within the time, as slowly as it falls on the way there; nor where it rises.
             let holds = |f: f64| {
-                let fallen = Interval::point(v) + Interval::point(self.rate(span(f, v), force)) * Interval::point(lasted.upper());
+                let fallen = Interval::point(v)
+                    + Interval::point(self.rate(span(f, v), force)) * Interval::point(lasted.upper());
                 fallen.lower() >= f || self.rate(Interval::point(f), force) >= 0.0
             };
             let Some(mut sure) = (0..6).map(|k| v - f64::from(1 << k) * furthest).find(|f| holds(*f)) else {
@@ -135,7 +136,8 @@ impl Model<'_> {
     pub(super) fn pushes(&self, record: usize, at: &[Interval], fastest: f64) -> Vec<Push> {
         let readings = &self.records[record];
         let place = |term: Term| self.layout.place_of(term).map_or(Interval::ZERO, |place| at[place]);
-        let (gain, disturbance, stiffness) = (place(Term::Gain), at[self.layout.disturbance(record)], place(Term::Stiffness));
+        let (gain, disturbance, stiffness) =
+            (place(Term::Gain), at[self.layout.disturbance(record)], place(Term::Stiffness));
         let speed = Interval::symmetric(fastest);
         // Linear drag that drives.
         let driving = Interval::symmetric((-self.least_linear).max(0.0)) * speed;
@@ -169,7 +171,11 @@ impl Model<'_> {
                 let stray = Interval::symmetric(readings.error) + speed * self.lasted(record, sample, sample + 1);
                 push -= stiffness * (a.hull(b) + stray);
             }
-            pushes.push(Push { up: (push + driving).upper().max(0.0), down: (driving - push).upper().max(0.0), force: push });
+            pushes.push(Push {
+                up: (push + driving).upper().max(0.0),
+                down: (driving - push).upper().max(0.0),
+                force: push,
+            });
         }
         pushes
     }
@@ -227,7 +233,8 @@ impl Model<'_> {
         for sample in (1..value.len()).rev() {
             // What it is later it was before, less what the push added.
             let [up, down] = pushes[sample - 1].gains(self.lasted(record, sample - 1, sample));
-            let (least, largest) = (plus(speeds[sample].lower(), -up).lower(), plus(speeds[sample].upper(), down).upper());
+            let (least, largest) =
+                (plus(speeds[sample].lower(), -up).lower(), plus(speeds[sample].upper(), down).upper());
             if least > 0.0 {
                 speeds[sample - 1] = speeds[sample - 1].intersection(above(least))?;
             }

@@ -218,7 +218,8 @@ impl Field {
         let powers = powers(h);
         let mut gain = UNIT;
         for column in self.columns().filter(|column| column.push.is_none()) {
-            let enclosure = enclose(&column.start, Interval::ZERO.hull(h), |value| self.column_rate(damping, value, None));
+            let enclosure =
+                enclose(&column.start, Interval::ZERO.hull(h), |value| self.column_rate(damping, value, None));
             let head = head.column(self, &between, &column, &column.start);
             let rest = rest.column(self, &between_rest, &column, &enclosure.ok_or(Refused::TooLong)?);
             gain[column.component()] = value(&joined(&head, &rest), &powers);
@@ -258,7 +259,8 @@ impl Fields {
             by_term: [None; TERMS],
             end: None,
         };
-        let [between, between_rest] = [(&head, &head_at), (&rest, &rest_at)].map(|(over, at)| field.dampings(over, at, sign));
+        let [between, between_rest] =
+            [(&head, &head_at), (&rest, &rest_at)].map(|(over, at)| field.dampings(over, at, sign));
         let damping = field.damping(within[VELOCITY], within_at[VELOCITY]);
         for column in field.columns() {
             let push = column.push.map(|term| (term, field.push(term, &within_at, u)));
@@ -304,7 +306,15 @@ impl Fields {
             end = Some([start[POSITION] + way, reached]);
         }
         let over = line(start, &field.rate(&within, u));
-        let mut step = Step { over, at: None, at_about: [Interval::ZERO; 3], within, gain: [None; 3], by_term: [None; TERMS], end };
+        let mut step = Step {
+            over,
+            at: None,
+            at_about: [Interval::ZERO; 3],
+            within,
+            gain: [None; 3],
+            by_term: [None; TERMS],
+            end,
+        };
         let damping = field.damping(within[VELOCITY], within_at[VELOCITY]);
         for column in field.columns() {
             let push = column.push.map(|term| (term, field.push(term, within_at, u_at)));

@@ -392,7 +392,13 @@ pub(super) fn follow(drive: &Drive<'_>, start: Pair, times: &[f64], unknowns: Un
                 times[from..to].iter().map(|time| Interval::point(*time) - Interval::point(now)).collect();
             let h = Interval::point(until) - Interval::point(now);
             let uncertain = begun > done || begun_at > done_at || done_at != done;
-            way.advance(command.between(done, begun), drive.command_at.between(done_at, begun_at), h, uncertain, &ahead)?;
+            way.advance(
+                command.between(done, begun),
+                drive.command_at.between(done_at, begun_at),
+                h,
+                uncertain,
+                &ahead,
+            )?;
             now = until;
         }
         if open <= now {

@@ -73,14 +73,7 @@ impl Model<'_> {
     }
 
     /// Inequalities for all `hats` of a record over a box; `speeds` enclose the velocity at its samples.
-    pub(super) fn weigh(
-        &self,
-        record: usize,
-        hats: &[Hat],
-        at: &[Interval],
-        speeds: &Speeds,
-        linear: &mut Linear,
-    ) {
+    pub(super) fn weigh(&self, record: usize, hats: &[Hat], at: &[Interval], speeds: &Speeds, linear: &mut Linear) {
         let readings = &self.records[record];
         let delay_s = self.delay_s(at);
         let fastest = speeds.between.iter().fold(0.0f64, |fastest, speed| fastest.max(speed.magnitude()));
@@ -116,12 +109,15 @@ impl Model<'_> {
                 let weight = middle * lasted;
                 drag += weight * signed_square(range);
                 cube += weight * range * range.square();
-                place += weight * (Interval::point(readings.value[sample]).hull(Interval::point(readings.value[sample + 1])))
+                place += weight
+                    * (Interval::point(readings.value[sample]).hull(Interval::point(readings.value[sample + 1])))
                     + weight * Interval::symmetric(readings.error + range.magnitude() * lasted.upper());
             }
             // The readings' errors in the way sum up by the hat's own rise and fall.
             velocity += Interval::symmetric((Interval::two() * (Interval::point(readings.error) + stray)).upper());
-            drag = drag.intersection(square_by_mean(velocity, whole, range_over(&speeds.between[hat[0]..hat[2]]))).unwrap_or(drag);
+            drag = drag
+                .intersection(square_by_mean(velocity, whole, range_over(&speeds.between[hat[0]..hat[2]])))
+                .unwrap_or(drag);
             let force = if lagged {
                 whole * Interval::symmetric(readings.command.largest())
             } else {
