@@ -3,6 +3,7 @@
 //!
 //! `cargo run --release --example fuzz_on_board -- STEPS SEED`; without arguments a million steps from seed 1. The longest run so
 //! far is recorded in `fixtures/fuzz_on_board.txt`.
+#![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
 use std::ops::ControlFlow;
 
@@ -36,13 +37,19 @@ impl Random {
 
 /// What was seen, so that a run that looks at nothing shows.
 #[derive(Debug, Default)]
-struct Seen {
-    steps: u64,
-    driven: u64,
-    experiments: u64,
-    done: u64,
-    controllers: u64,
-    faults: std::collections::BTreeMap<&'static str, u64>,
+pub struct Seen {
+    /// Steps of experiments and controllers.
+    pub steps: u64,
+    /// Steps under a command that drives.
+    pub driven: u64,
+    /// Experiments begun.
+    pub experiments: u64,
+    /// Experiments that came to their end.
+    pub done: u64,
+    /// Controllers begun.
+    pub controllers: u64,
+    /// Experiments that ended in each fault.
+    pub faults: std::collections::BTreeMap<&'static str, u64>,
 }
 
 fn protocol<T: Scalar>(random: &mut Random) -> Protocol<T> {
@@ -158,10 +165,8 @@ fn controller<T: Scalar>(random: &mut Random, seen: &mut Seen) -> ControlFlow<()
     ControlFlow::Continue(())
 }
 
-fn main() {
-    let mut arguments = std::env::args().skip(1).map(|argument| argument.parse::<u64>());
-    let mut argument = |default| arguments.next().and_then(Result::ok).unwrap_or(default);
-    let (steps, seed) = (argument(1_000_000), argument(1));
+/// A run of at least so many steps; what was seen.
+pub fn run(steps: u64, seed: u64) -> Seen {
     let (mut random, mut seen) = (Random(seed), Seen::default());
     while seen.steps < steps {
         experiment::<f64>(&mut random, &mut seen);
@@ -171,5 +176,13 @@ fn main() {
             assert!(held && controller::<f32>(&mut random, &mut seen).is_continue(), "a hold was refused");
         }
     }
-    println!("seed {seed}: {seen:#?}");
+    seen
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let mut argument = |default| arguments.next().map_or(Ok(default), |text| text.parse());
+    let (steps, seed) = (argument(1_000_000)?, argument(1)?);
+    println!("seed {seed}: {:#?}", run(steps, seed));
+    Ok(())
 }

@@ -39,6 +39,7 @@ pub enum Bias {
 
 /// One oscillation predicted by the first harmonic.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct Intersection {
     /// Amplitude X of the characteristic's input, which is the plant output's too.
     pub amplitude: f64,

@@ -8,7 +8,7 @@ use crate::numeric::{Limit, Scalar, domain};
 ///
 /// The derivative acts on the measurement through a filter that is stable for every interval. An integral that drives
 /// the command past a limit is led back (back-calculation with the time constant `sqrt(K_d/K_i)`, `K_p/K_i` without
-/// derivative; Astrom and Hagglund). What is not a number changes nothing: the command is held, and the [`Fault`]
+/// derivative; Astrom and Hagglund). What is not a number changes nothing: the command is held, and the [`ControlFault`]
 /// named. The time goes on meanwhile: the next good measurement is met with the whole time since the last one.
 /// [`with_longest_hold`](Controller::with_longest_hold) sets how long a command may be held before it is a neutral one.
 ///
@@ -51,19 +51,19 @@ struct Memory<T> {
 
 /// What a step gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step<T> {
+pub struct ControlStep<T> {
     /// The command, within the limits, a number in any case.
     pub command: T,
     /// Whether a limit holds the command back.
     pub limited: bool,
     /// Why the command is held, if it is.
-    pub fault: Option<Fault>,
+    pub fault: Option<ControlFault>,
 }
 
 /// Why a step held the command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Fault {
+pub enum ControlFault {
     /// The reference is not a finite number.
     Reference,
     /// The measurement is not a finite number.
@@ -149,16 +149,16 @@ impl<T: Scalar> Controller<T> {
 
     /// The next command, given the reference, the measurement, and the time since the step before (s), good or not. The first
     /// step after a start has no speed to go by.
-    pub fn step(&mut self, reference: T, measurement: T, dt_s: T) -> Step<T> {
+    pub fn step(&mut self, reference: T, measurement: T, dt_s: T) -> ControlStep<T> {
         let sound = dt_s > T::zero() && dt_s.is_finite();
         // Time that the last good step does not know of.
         let passed_s = self.held_s + if sound { dt_s } else { self.dt_s };
         let fault = if !measurement.is_finite() {
-            Fault::Measurement
+            ControlFault::Measurement
         } else if !reference.is_finite() {
-            Fault::Reference
+            ControlFault::Reference
         } else if !sound {
-            Fault::Interval
+            ControlFault::Interval
         } else {
             // A start knows of no time before.
             let step_s = if self.memory.is_some() { passed_s } else { dt_s };
@@ -167,12 +167,12 @@ impl<T: Scalar> Controller<T> {
             if let Some(memory) = self.led_back(memory, command - wanted, step_s).filter(|_| wanted.is_finite()) {
                 (self.command, self.memory) = (command, Some(memory));
                 (self.held_s, self.dt_s) = (T::zero(), dt_s);
-                return Step { command, limited: command != wanted, fault: None };
+                return ControlStep { command, limited: command != wanted, fault: None };
             }
-            Fault::Overflow
+            ControlFault::Overflow
         };
         self.hold(passed_s);
-        Step { command: self.command, limited: false, fault: Some(fault) }
+        ControlStep { command: self.command, limited: false, fault: Some(fault) }
     }
 
     /// Goes on without a good step, until that has been for too long.

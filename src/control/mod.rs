@@ -29,7 +29,7 @@ mod ultimate;
 #[cfg(feature = "std")]
 mod worst_case;
 
-pub use controller::{Controller, Fault, Step};
+pub use controller::{ControlFault, ControlStep, Controller};
 pub use design::Tuning;
 #[cfg(feature = "std")]
 pub(crate) use design::{double_pole, place};

@@ -2,7 +2,7 @@
 
 use super::roots::{Few, Polynomial, horner, positive_roots, product};
 use super::{ControlError, Gains};
-use crate::numeric::{Scalar, domain, increasing_root};
+use crate::numeric::{Limit, Scalar, domain, increasing_root};
 use crate::plant::DragAxis;
 
 /// Phase crossovers looked at in one loop.
@@ -38,18 +38,17 @@ impl<T: Scalar> OpenLoop<T> {
     /// ```
     ///
     /// # Errors
-    /// [`ControlError::OutOfDomain`] unless the speed is finite, and where squares of the loop's coefficients, divided by the
-    /// inertia, are not.
+    /// [`ControlError::OutOfDomain`] unless the speed is finite, where squares of the loop's coefficients, divided by the
+    /// inertia, are not, and where the proportional gain is lost against the inertia.
     pub fn new(axis: &DragAxis<T>, gains: &Gains<T>, speed: T) -> Result<Self, ControlError> {
         domain::finite("speed", speed, "output units per s")?;
         let slope = axis.linear_drag() + T::two() * axis.quadratic_drag() * speed.abs();
         let open_loop = Self::linear(axis.alpha(), slope, axis.delay_s(), gains);
-        for square in open_loop.numerator_squared() {
-            domain::representable("squared gain over inertia", square, "")?;
-        }
-        for square in open_loop.denominator_squared() {
-            domain::representable("squared drag over inertia, or filter", square, "")?;
-        }
+        let size = |squares: &[T]| squares.iter().fold(T::zero(), |sum, square| sum + square.abs());
+        domain::representable("squared gain over inertia", size(&open_loop.numerator_squared()), "")?;
+        domain::representable("squared drag over inertia, or filter", size(&open_loop.denominator_squared()), "")?;
+        let remedy = "choose units in which gain and inertia are nearer to one";
+        domain::require("gain over inertia", open_loop.numerator[1], "", Limit::Positive, remedy)?;
         Ok(open_loop)
     }
 

@@ -15,6 +15,7 @@ pub struct AxisIntervals {
 
 /// Margins that every axis of the intervals has, between a bound and the worst that was met.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct WorstMargins {
     /// Every axis of the intervals is stable and has at least these, up to rounding.
     pub at_least: WorstMargin,
@@ -28,6 +29,7 @@ pub struct WorstMargins {
 
 /// The four margins, without the place where each is met; fields as in [`Margins`](super::Margins).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct WorstMargin {
     /// The gain may grow by less than this factor; `None` for no limit.
     pub gain: Option<f64>,

@@ -14,6 +14,7 @@ const TRAP: f64 = 4e-15;
 
 /// Enclosures of `F_0`, `P`, `Q`, with the work they took.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct Certified {
     /// Contains the exact values.
     pub enclosure: DescribingFunction<Interval>,

@@ -46,6 +46,9 @@ pub use quadrature::by_quadrature;
 #[cfg(feature = "std")]
 pub use setting::Setting;
 
+#[cfg(feature = "std")]
+pub(crate) use kernel::ramp_by_angle;
+
 internal! {
     use closed_form::{over_amplitudes};
     #[cfg(feature = "std")]
@@ -67,6 +70,7 @@ use crate::numeric::Real;
 ///
 /// It says nothing of the higher harmonics that it leaves out.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct DescribingFunction<T> {
     /// Mean of the output, `F_0 = Y_0`, in output units.
     pub f0: T,

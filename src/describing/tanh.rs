@@ -56,7 +56,7 @@ fn by_poles<T: Special>(scale: T, sweep: &Sinusoid<T>) -> (T, T) {
         mean = mean + weight * (four_bias * (node * product.re + c * product.im) / size);
         component = component + weight * (below.component().im - above.component().im);
     }
-    (T::two() * mean.give_or_take(REST), T::from_f64(4.0) * scale * component.give_or_take(REST))
+    (T::two() * mean.inflate(REST), T::from_f64(4.0) * scale * component.inflate(REST))
 }
 
 /// `P` of `tanh(scale x)` on one side of zero, `distance = scale (abs(B) - X) > 2` away from it.
@@ -70,7 +70,7 @@ fn by_exponentials<T: Special>(scale: T, distance: T, sweep: &Sinusoid<T>) -> T 
         let (size, largest) = (term.bounds().1, sum.bounds().1);
         // Each term is less than a twentieth of the one before, with the other sign.
         if !(size > 0.5 * f64::EPSILON * largest) {
-            return T::from_f64(4.0) * sum.give_or_take(size) / sweep.amplitude();
+            return T::from_f64(4.0) * sum.inflate(size) / sweep.amplitude();
         }
         (twice, sign) = (twice + T::two(), -sign);
     }

@@ -13,4 +13,4 @@ mod summary;
 pub use batch::{RecordFeatures, RelayLevels};
 pub use cycle::{Cycle, Cycles};
 pub use error::FeatureError;
-pub use summary::{Features, Spread, Summary};
+pub use summary::{CycleStatistics, Features, Summary};

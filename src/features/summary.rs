@@ -6,7 +6,7 @@ use crate::numeric::Scalar;
 /// Mean and sample standard deviation over cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
-pub struct Spread<S> {
+pub struct CycleStatistics<S> {
     /// Mean.
     pub mean: S,
     /// Standard deviation (n - 1) of one cycle's value, not of the mean.
@@ -23,19 +23,19 @@ pub struct Features<S> {
     /// Cycles left out before, as start-up.
     pub start_up_cycles: u32,
     /// Amplitude X_m, in output units.
-    pub amplitude: Spread<S>,
+    pub amplitude: CycleStatistics<S>,
     /// Bias x_0 against the reference, in output units.
-    pub bias: Spread<S>,
+    pub bias: CycleStatistics<S>,
     /// Middle of the switching levels, in output units.
-    pub reference: Spread<S>,
+    pub reference: CycleStatistics<S>,
     /// Period T, in s.
-    pub period_s: Spread<S>,
+    pub period_s: CycleStatistics<S>,
     /// Level x_a* where the command really switched, in output units.
-    pub switch_level: Spread<S>,
+    pub switch_level: CycleStatistics<S>,
     /// Time per period with the positive command, in s.
-    pub time_positive_s: Spread<S>,
+    pub time_positive_s: CycleStatistics<S>,
     /// Time per period with the negative command, in s.
-    pub time_negative_s: Spread<S>,
+    pub time_negative_s: CycleStatistics<S>,
 }
 
 /// Welford's recurrence.
@@ -56,9 +56,9 @@ impl<S: Scalar> Moments<S> {
         self.squares = self.squares + before * (value - self.mean);
     }
 
-    fn spread(&self, count: S) -> Spread<S> {
+    fn spread(&self, count: S) -> CycleStatistics<S> {
         let freedom = (count - S::one()).max(S::one());
-        Spread { mean: self.mean, std: (self.squares / freedom).sqrt() }
+        CycleStatistics { mean: self.mean, std: (self.squares / freedom).sqrt() }
     }
 }
 

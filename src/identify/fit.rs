@@ -6,13 +6,13 @@
 //! a cost that grows with the samples only. Where the command changed at an unknown instant between two samples, the instant
 //! is estimated with the rest, and integrated out by Laplace's approximation where likelihoods are compared.
 
-mod chain;
+mod condensing;
+mod covariance;
 mod input;
 mod motion;
 mod noise;
 mod result;
 mod search;
-mod spread;
 mod start;
 
 pub use input::Between;

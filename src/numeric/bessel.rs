@@ -32,7 +32,7 @@ fn power_series<T: Real>(z: T) -> [T; 2] {
         let rest = magnitude(term);
         // Negated, so that NaN ends it.
         if !(rest > CUT * magnitude(zeroth) || 2.0 * size > (k + 1.0) * (k + 1.0)) {
-            return [zeroth, first].map(|sum| sum.give_or_take(rest));
+            return [zeroth, first].map(|sum| sum.inflate(rest));
         }
     }
 }
@@ -62,7 +62,7 @@ fn large_i<T: Real>(x: T) -> [T; 2] {
     let root = (T::two() * T::pi() * x).sqrt();
     [0.0, 1.0].map(|order| {
         let terms = hankel_terms(order, x);
-        alternating(&terms, 0, 1).give_or_take(15.0 * magnitude(terms[TERMS]) + 1e-17) / root
+        alternating(&terms, 0, 1).inflate(15.0 * magnitude(terms[TERMS]) + 1e-17) / root
     })
 }
 
@@ -122,7 +122,7 @@ fn middle_j(x: Interval) -> [Interval; 2] {
         slope = slope * h + value;
         value = value * h + coefficient;
     }
-    [value, -slope].map(|sum| sum.give_or_take(3e-18))
+    [value, -slope].map(|sum| sum.inflate(3e-18))
 }
 
 /// `J_n = sqrt(2/(pi x)) (P cos(w) - Q sin(w))`, `w = x - n pi/2 - pi/4`; on the positive axis the rest of either sum is
@@ -133,7 +133,7 @@ fn large_j(x: Interval) -> [Interval; 2] {
     let scale = (Interval::two() / (Interval::PI * x)).sqrt();
     let sums = |order| {
         let terms = hankel_terms(order, x);
-        [0, 1].map(|first| alternating(&terms, first, 2).give_or_take(terms[TERMS + first].magnitude()))
+        [0, 1].map(|first| alternating(&terms, first, 2).inflate(terms[TERMS + first].magnitude()))
     };
     let ([p0, q0], [p1, q1]) = (sums(0.0), sums(1.0));
     [scale * (p0 * cosine - q0 * sine), scale * (p1 * sine + q1 * cosine)]

@@ -114,10 +114,10 @@ macro_rules! functions {
                     }
                 }
             }
-            fn give_or_take(self, _: f64) -> Self {
+            fn inflate(self, _: f64) -> Self {
                 self
             }
-            fn minus_sine(self, sine: Self) -> Self {
+            fn minus_own_sine(self, sine: Self) -> Self {
                 self - sine
             }
             $(

@@ -351,13 +351,13 @@ impl<T: Component, const N: usize> Real for Gradient<T, N> {
         }
     }
     #[inline]
-    fn give_or_take(self, error: f64) -> Self {
-        Self { value: self.value.give_or_take(error), ..self }
+    fn inflate(self, error: f64) -> Self {
+        Self { value: self.value.inflate(error), ..self }
     }
-    fn minus_sine(self, sine: Self) -> Self {
+    fn minus_own_sine(self, sine: Self) -> Self {
         // 1 - cos x without cancellation.
         let slope = T::two() * (self.value / T::two()).sin().square();
-        self.chain(self.value.minus_sine(sine.value), slope)
+        self.chain(self.value.minus_own_sine(sine.value), slope)
     }
     #[inline]
     fn sqrt(self) -> Self {

@@ -350,13 +350,13 @@ impl<const N: usize> Real for Jet<N> {
             }
         }
     }
-    fn give_or_take(mut self, error: f64) -> Self {
-        self.coefficients[0] = self.coefficients[0].give_or_take(error);
+    fn inflate(mut self, error: f64) -> Self {
+        self.coefficients[0] = self.coefficients[0].inflate(error);
         self
     }
-    fn minus_sine(self, sine: Self) -> Self {
+    fn minus_own_sine(self, sine: Self) -> Self {
         let mut difference = self - sine;
-        difference.coefficients[0] = self.value().minus_sine(sine.value());
+        difference.coefficients[0] = self.value().minus_own_sine(sine.value());
         difference
     }
     fn sqrt(self) -> Self {

@@ -94,9 +94,9 @@ pub trait Real:
     /// returned unchanged.
     /// Of a jet or gradient the value alone is widened: it bounds every function that near the one with these derivatives.
     #[must_use]
-    fn give_or_take(self, error: f64) -> Self;
+    fn inflate(self, error: f64) -> Self;
     /// `self - sin(self)` for `self >= 0` without cancellation near zero, given `sine = sin(self)` found some other way.
-    fn minus_sine(self, sine: Self) -> Self;
+    fn minus_own_sine(self, sine: Self) -> Self;
 
     /// [`select_all`](Self::select_all) of one number.
     #[must_use]
@@ -151,6 +151,13 @@ pub trait Scalar: Real + PartialOrd {
     fn value(self) -> f64 {
         self.bounds().0
     }
+    /// A function known at the real part by value and slope, carried over to this arithmetic: a float gets the value, a dual
+    /// number of first order its derivatives. An infinite slope becomes the largest number.
+    #[must_use]
+    fn lift(self, value: f64, slope: f64) -> Self {
+        let slope = slope.clamp(-f64::MAX, f64::MAX);
+        Self::from_f64(value) + Self::from_f64(slope) * (self - Self::from_f64(self.value()))
+    }
     /// Neither infinite nor NaN.
     #[must_use]
     fn is_finite(self) -> bool {
@@ -165,16 +172,9 @@ pub(super) fn magnitude<T: Real>(x: T) -> f64 {
     lower.abs().max(upper.abs())
 }
 
-/// A function known at the real part of `x` by value and slope, carried over to the arithmetic of `x`: a float gets the
-/// value, a dual number of first order its derivatives. An infinite slope becomes the largest number.
-pub(super) fn lift<T: Scalar>(x: T, value: f64, slope: f64) -> T {
-    let slope = slope.clamp(-f64::MAX, f64::MAX);
-    T::from_f64(value) + T::from_f64(slope) * (x - T::from_f64(x.value()))
-}
-
 /// `x - sin x`: the series below one, where the difference cancels; its first term left out is below 2e-17 of the sum.
 #[inline]
-pub(super) fn minus_sine<S: Scalar>(x: S, sine: S) -> S {
+pub(super) fn minus_own_sine<S: Scalar>(x: S, sine: S) -> S {
     if x >= S::one() {
         return x - sine;
     }
@@ -242,12 +242,12 @@ macro_rules! float {
                 if self > 0.0 { above() } else { below() }
             }
             #[inline]
-            fn give_or_take(self, _: f64) -> Self {
+            fn inflate(self, _: f64) -> Self {
                 self
             }
             #[inline]
-            fn minus_sine(self, sine: Self) -> Self {
-                minus_sine(self, sine)
+            fn minus_own_sine(self, sine: Self) -> Self {
+                minus_own_sine(self, sine)
             }
             #[inline]
             fn pow(self, exponent: Self) -> Self {

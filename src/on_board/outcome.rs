@@ -10,6 +10,7 @@ use crate::plant::DragAxis;
 /// Features of the steady cycles of the last attempt, with what they were got by. Their spreads and number are its quality;
 /// what the sensor and the drag law do to the parameters is not in them.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Outcome<T> {
     /// Means and spreads over the steady cycles: the same numbers as of the attempt's record as a whole.

@@ -12,6 +12,7 @@ use crate::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
 
 /// What is proved of the limit cycle of one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Certificate {
     /// There is no other oscillation. With a delay that does not exclude several commands on their way at once this is withheld:
@@ -27,7 +28,7 @@ pub struct Certificate {
 
 /// From where a limit cycle is approached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "std", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Starts {
     /// From everywhere: the delay is shorter than any way from one level to the other can take, so that after one delay at
     /// most one command is on its way.

@@ -22,6 +22,7 @@ const SQUARINGS: u32 = 12;
 
 /// What is proved of a limit cycle of a linear plant, whose matrices count as exactly the numbers they hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct RelayCertificate {
     /// The cycle's half-period lies in here, and no other symmetric cycle's does. Seconds.

@@ -8,7 +8,7 @@ use crate::plant::StateSpace;
 const CLOSED: f64 = 1e-9;
 
 /// The two inputs after offset and disturbance, and the output levels at which the relay switches.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(super) struct Levels {
     /// Plant input while the command is positive, and while it is negative.
     pub(super) high: f64,
@@ -19,7 +19,7 @@ pub(super) struct Levels {
 }
 
 /// One period of a plant whose input is `high` on `[0, positive)` and `low` on `[positive, positive + negative)`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(super) struct Cycle {
     pub(super) positive: f64,
     pub(super) negative: f64,
@@ -30,6 +30,11 @@ pub(super) struct Cycle {
 }
 
 impl Cycle {
+    /// Whether this is a cycle of such a plant, by the number of its states.
+    pub(super) fn belongs_to(&self, plant: &StateSpace) -> bool {
+        [self.start.len(), self.turn.len()] == [plant.order(); 2]
+    }
+
     /// The periodic response; `None` where there is none or not one alone (a pole on the imaginary axis in resonance), or
     /// where rounding hides it.
     ///

@@ -295,7 +295,8 @@ fn newton(
 }
 
 /// A limit cycle of a [`RelayLoop`].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(try_from = "Parts")]
 pub struct RelayOrbit {
     plant: StateSpace,
     cycle: Cycle,
@@ -303,6 +304,29 @@ pub struct RelayOrbit {
     minimum: f64,
     maximum: f64,
     multipliers: Vec<Complex<f64>>,
+}
+
+/// An orbit as it is written, not yet checked.
+#[derive(serde::Deserialize)]
+struct Parts {
+    plant: StateSpace,
+    cycle: Cycle,
+    shift: f64,
+    minimum: f64,
+    maximum: f64,
+    multipliers: Vec<Complex<f64>>,
+}
+
+impl TryFrom<Parts> for RelayOrbit {
+    type Error = &'static str;
+
+    fn try_from(parts: Parts) -> Result<Self, &'static str> {
+        let Parts { plant, cycle, shift, minimum, maximum, multipliers } = parts;
+        if !cycle.belongs_to(&plant) {
+            return Err("the cycle's states must be as many as the plant's order; write both from the same orbit");
+        }
+        Ok(Self { plant, cycle, shift, minimum, maximum, multipliers })
+    }
 }
 
 impl RelayOrbit {

@@ -42,7 +42,7 @@ pub struct Counts {
 }
 
 /// A measure of the spread of two values in percent: eq. 41, or something else to compare it with.
-pub type Spread<T> = fn(T, T) -> T;
+pub type SpreadMeasure<T> = fn(T, T) -> T;
 
 /// Relay levels and parameters of the experiments of which pairs are formed.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,7 +88,7 @@ impl<T: Copy> Pairs<T> {
 impl Pairs<f64> {
     /// The bars of one criterion.
     #[must_use]
-    pub fn counts(&self, criterion: &Criterion, spread: Spread<f64>) -> Counts {
+    pub fn counts(&self, criterion: &Criterion, spread: SpreadMeasure<f64>) -> Counts {
         let mut counts = Counts { criterion: criterion.number, correct: 0, wrong: 0, undecided: 0 };
         for pair in &self.pairs {
             let (spreads, margin) = criterion.measure(pair, spread);
@@ -122,7 +122,7 @@ impl Pairs<Interval> {
 
 impl Criterion {
     /// The spreads of a pair's parameters, and the margin that they give.
-    fn measure<T: Real>(&self, (first, second): &(Yaw<T>, Yaw<T>), spread: Spread<T>) -> (Yaw<T>, T) {
+    fn measure<T: Real>(&self, (first, second): &(Yaw<T>, Yaw<T>), spread: SpreadMeasure<T>) -> (Yaw<T>, T) {
         let spreads = Yaw {
             alpha: spread(first.alpha, second.alpha),
             beta_r: spread(first.beta_r, second.beta_r),

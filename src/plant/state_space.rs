@@ -16,12 +16,30 @@ use crate::numeric::{Limit, domain};
 /// assert_eq!(plant.order(), 2);
 /// # Ok::<(), selfosc::plant::PlantError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(try_from = "Parts")]
 pub struct StateSpace {
     a: DMatrix<f64>,
     b: DVector<f64>,
     c: RowDVector<f64>,
     delay_s: f64,
+}
+
+/// A plant as it is written, not yet checked.
+#[derive(serde::Deserialize)]
+struct Parts {
+    a: DMatrix<f64>,
+    b: DVector<f64>,
+    c: RowDVector<f64>,
+    delay_s: f64,
+}
+
+impl TryFrom<Parts> for StateSpace {
+    type Error = PlantError;
+
+    fn try_from(Parts { a, b, c, delay_s }: Parts) -> Result<Self, PlantError> {
+        Self::new(a, b, c)?.with_delay(delay_s)
+    }
 }
 
 impl StateSpace {
@@ -43,15 +61,15 @@ impl StateSpace {
     /// The controllable realisation of a transfer function, balanced by powers of two; keeps the delay.
     ///
     /// # Errors
-    /// [`PlantError::NotStrictlyProper`] where numerator and denominator have the same degree.
+    /// [`PlantError::NotStrictlyProper`] where numerator and denominator have the same degree; [`PlantError::OutOfDomain`] for a
+    /// coefficient of the denominator that is above 1e75 times the leading one.
     pub fn realise(plant: &TransferFunction) -> Result<Self, PlantError> {
         let (numerator, denominator) = (plant.numerator(), plant.denominator());
         let order = denominator.len() - 1;
         if numerator.len() > order {
             return Err(PlantError::NotStrictlyProper { degree: order });
         }
-        let mut a = companion(denominator);
-        let scale = nalgebra::linalg::balancing::balance_parlett_reinsch(&mut a);
+        let (a, scale) = balanced(companion(denominator))?;
         let b = DVector::from_fn(order, |row, _| if row == 0 { 1.0 / scale[0] } else { 0.0 });
         let skipped = order - numerator.len();
         let c = RowDVector::from_fn(order, |_, column| {
@@ -168,22 +186,27 @@ const LARGEST_ENTRY: f64 = 1e75;
 /// Steps of the QR algorithm allowed for each eigenvalue; two or three are usual.
 const SWEEPS_PER_ORDER: usize = 100;
 
+/// The matrix balanced by powers of two, and these.
+fn balanced(mut matrix: DMatrix<f64>) -> Result<(DMatrix<f64>, DVector<f64>), PlantError> {
+    // The largest, or what is no number.
+    let largest = matrix.iter().map(|entry| entry.abs()).max_by(f64::total_cmp).unwrap_or(0.0);
+    let limit = Limit::AtMost(LARGEST_ENTRY);
+    domain::require("largest coefficient over the leading one", largest, "", limit, "scale the plant's time unit")?;
+    let scale = balance_parlett_reinsch(&mut matrix);
+    Ok((matrix, scale))
+}
+
 /// Eigenvalues of a square matrix: balanced, then by the QR algorithm.
 ///
 /// # Errors
 /// [`PlantError::Eigenvalues`] where the iteration does not converge, and [`PlantError::OutOfDomain`] for an entry above 1e75.
 pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, PlantError> {
     let order = matrix.nrows();
-    let failed = PlantError::Eigenvalues { order };
-    if matrix.iter().any(|value| !value.is_finite()) {
-        return Err(failed);
+    if order == 0 {
+        return Ok(Vec::new());
     }
-    let largest = matrix.amax();
-    let limit = Limit::AtMost(LARGEST_ENTRY);
-    domain::require("largest coefficient over the leading one", largest, "", limit, "scale the plant's time unit")?;
-    let mut balanced = matrix.clone();
     // Coefficients of a companion matrix span decades: without this its small eigenvalues drown.
-    balance_parlett_reinsch(&mut balanced);
+    let (balanced, _) = balanced(matrix.clone())?;
     let spectrum = |matrix: DMatrix<f64>, shift: f64| {
         let schur = Schur::try_new(matrix, f64::EPSILON, SWEEPS_PER_ORDER * order)?;
         Some(schur.complex_eigenvalues().iter().map(|value| value - shift).collect())
@@ -192,5 +215,5 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, PlantErro
     // shift by the matrix' size gives it one.
     let size = balanced.norm();
     let shifted = || spectrum(&balanced + DMatrix::identity(order, order) * size, size);
-    spectrum(balanced.clone(), 0.0).or_else(shifted).ok_or(failed)
+    spectrum(balanced.clone(), 0.0).or_else(shifted).ok_or(PlantError::Eigenvalues { order })
 }

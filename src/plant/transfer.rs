@@ -18,11 +18,28 @@ const PADE_LIMIT: usize = 10;
 /// assert!(!plant.is_integrating());
 /// # Ok::<(), selfosc::plant::PlantError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(try_from = "Parts")]
 pub struct TransferFunction {
     numerator: Vec<f64>,
     denominator: Vec<f64>,
     delay_s: f64,
+}
+
+/// A plant as it is written, not yet checked.
+#[derive(serde::Deserialize)]
+struct Parts {
+    numerator: Vec<f64>,
+    denominator: Vec<f64>,
+    delay_s: f64,
+}
+
+impl TryFrom<Parts> for TransferFunction {
+    type Error = PlantError;
+
+    fn try_from(parts: Parts) -> Result<Self, PlantError> {
+        Self::new(&parts.numerator, &parts.denominator)?.with_delay(parts.delay_s)
+    }
 }
 
 impl TransferFunction {
@@ -174,10 +191,5 @@ pub(super) fn companion(descending: &[f64]) -> DMatrix<f64> {
 }
 
 fn roots(descending: &[f64]) -> Result<Vec<Complex<f64>>, PlantError> {
-    let mut matrix = companion(descending);
-    if matrix.is_empty() {
-        return Ok(Vec::new());
-    }
-    let _ = nalgebra::linalg::balancing::balance_parlett_reinsch(&mut matrix);
-    eigenvalues(&matrix)
+    eigenvalues(&companion(descending))
 }

@@ -58,14 +58,6 @@ pub struct Proved<const N: usize> {
     pub boxes: usize,
 }
 
-impl<const N: usize> Proved<N> {
-    /// The domain with the variables' names, as a claim states it.
-    #[must_use]
-    pub fn domain_of(&self, names: [&'static str; N]) -> [Extent; N] {
-        core::array::from_fn(|i| Extent::new(names[i], self.domain[i].lower(), self.domain[i].upper()))
-    }
-}
-
 /// Why a statement is not proved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NotProved<const N: usize> {

@@ -138,14 +138,6 @@ impl Vehicle {
     pub fn kinetic_energy_j(&self, nu: &Vector6<f64>) -> f64 {
         0.5 * nu.dot(&(self.mass() * nu))
     }
-
-    /// Potential energy of weight and buoyancy at a depth, J; zero when both centres are at depth zero.
-    #[must_use]
-    pub fn potential_energy_j(&self, depth_m: f64, attitude: &UnitQuaternion<f64>) -> f64 {
-        let depth = |centre: &Vector3<f64>| depth_m + (attitude * centre).z;
-        let p = &self.parameters;
-        p.buoyancy_n * depth(&p.centre_of_buoyancy_m) - self.weight_n() * depth(&p.centre_of_gravity_m)
-    }
 }
 
 /// The Coriolis and centripetal matrix of an inertia matrix, in the skew-symmetric form

@@ -190,7 +190,7 @@ fn jets_agree_with_derivatives() {
         ("root", &|x| x.pow(half), [x.sqrt(), 0.5 / x.sqrt(), -0.25 * x.powf(-1.5), 0.375 * x.powf(-2.5)]),
         ("cube", &|x| x.pow(three), [x * x * x, 3.0 * x * x, 6.0 * x, 6.0]),
         ("own power", &|x| x.pow(x), own_power(x)),
-        ("minus_sine", &|x| x.minus_sine(x.sin()), [x - s, 1.0 - c, s, c]),
+        ("minus_own_sine", &|x| x.minus_own_sine(x.sin()), [x - s, 1.0 - c, s, c]),
         ("sqrt", &Real::sqrt, [x.sqrt(), 0.5 / x.sqrt(), -0.25 * x.powf(-1.5), 0.375 * x.powf(-2.5)]),
         ("square", &Real::square, [x * x, 2.0 * x, 2.0, 0.0]),
         ("product", &|x| x * x * x, [x * x * x, 3.0 * x * x, 6.0 * x, 6.0]),

@@ -13,6 +13,8 @@ use selfosc::plant::DragAxis;
 mod describing_function;
 #[path = "../../examples/fleet.rs"]
 mod fleet;
+#[path = "../../examples/fuzz_on_board.rs"]
+mod fuzz_on_board;
 #[path = "../../examples/limit_cycle.rs"]
 mod limit_cycle;
 #[path = "../../examples/nyquist_balance.rs"]
@@ -46,6 +48,13 @@ fn pool_session() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 3);
 }
 
+/// The one that runs as long as it is told: every kind of fault comes within the first steps already.
+#[test]
+fn fuzz_on_board() {
+    let seen = fuzz_on_board::run(50_000, 2);
+    assert!(seen.steps >= 50_000 && seen.driven > 0 && seen.controllers > 0 && seen.faults.len() > 5, "{seen:?}");
+}
+
 macro_rules! run {
     ($($name:ident),+ $(,)?) => {
         const LISTED: &[&str] = &[$(stringify!($name)),+];
@@ -67,5 +76,8 @@ fn none_is_left_out() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let names: BTreeSet<String> = files.map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()).collect();
-    assert_eq!(names, LISTED.iter().chain(&["pool_log", "pool_session"]).map(|&name| name.to_owned()).collect());
+    assert_eq!(
+        names,
+        LISTED.iter().chain(&["fuzz_on_board", "pool_log", "pool_session"]).map(|&name| name.to_owned()).collect()
+    );
 }

@@ -333,7 +333,7 @@ fn a_pattern_in_the_residuals_is_named() {
     let codes = |record: &Record| {
         let fit = Fit::new(DragLaw::Quadratic, Delay::KnownS(0.1)).records(&[record]).unwrap();
         let codes: Vec<_> = Warning::of_fit(&fit, None).iter().map(Warning::code).collect();
-        (fit.records()[0].colour, codes)
+        (fit.records()[0].ljung_box_deviate, codes)
     };
     let (colour, names) = codes(&record);
     assert!(colour.abs() < 3.5 && !names.contains(&"coloured-residuals"), "{colour} {names:?}");

@@ -98,8 +98,8 @@ const ELEMENTARY: [Elementary; 15] = [
     elementary!(cos, TURNS, TURNS, TURN_EDGES),
     elementary!(tan, TURNS, TURNS, TURN_EDGES),
     Elementary {
-        name: "minus_sine",
-        interval: |x| x.minus_sine(x.sin()),
+        name: "minus_own_sine",
+        interval: |x| x.minus_own_sine(x.sin()),
         exact: |x| bracket!(x: x.clone() - x.sin()),
         domain: TURNS,
         tight: (1e-100, 1e6),
@@ -235,7 +235,8 @@ fn elementary_functions_enclose_the_oracle() {
 /// One evaluation over a narrow interval gives about what two at its ends would.
 #[test]
 fn narrow_intervals_give_narrow_enclosures() {
-    for function in ELEMENTARY.iter().filter(|function| ["asin", "acos", "atan", "minus_sine"].contains(&function.name))
+    for function in
+        ELEMENTARY.iter().filter(|function| ["asin", "acos", "atan", "minus_own_sine"].contains(&function.name))
     {
         for i in 1..1000 {
             for width in [3e-16, 1e-14, 9e-13, 2e-12] {
@@ -413,7 +414,7 @@ fn a_violated_domain_stays_visible() {
         beyond(-1.0, 1.0).ln_1p(),
         beyond(0.0, 1.0).atanh(),
         beyond(1.0, 2.0).tan(),
-        Interval::point(1e300).tan(),
+        beyond(1e300, 2e300).tan(),
         Interval::point(f64::NAN),
     ];
     type Function = fn(Interval) -> Interval;

@@ -41,6 +41,7 @@ mod power_law;
 mod record;
 mod relay_certificate;
 mod sampling;
+mod serialised;
 mod session;
 mod special;
 mod tolerance;

@@ -110,7 +110,7 @@ fn enclose(start: &Triple, span: Interval, rate: impl Fn(&Triple) -> Triple) -> 
         // Force moves velocity, velocity position: each needs more room than what moves it.
         for ((guess, next), room) in guess.iter_mut().zip(next).zip([0.4, 0.15, 0.05]) {
             let hull = guess.hull(next);
-            *guess = hull.give_or_take(room * hull.width() + f64::MIN_POSITIVE);
+            *guess = hull.inflate(room * hull.width() + f64::MIN_POSITIVE);
         }
     }
     None
@@ -139,7 +139,7 @@ fn value(path: &Path, powers: &Series) -> Triple {
 
 /// `1/(k + 1)`.
 fn next(k: usize) -> Interval {
-    Interval::point(1.0 / (k + 1) as f64).give_or_take(f64::EPSILON)
+    Interval::point(1.0 / (k + 1) as f64).inflate(f64::EPSILON)
 }
 
 fn middle(state: &Triple) -> Triple {

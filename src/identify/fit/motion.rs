@@ -31,7 +31,7 @@ pub(super) struct Sensitive {
 
 /// A stretch of the record: from one node to the next.
 #[derive(Clone, Debug)]
-pub(super) struct Stretch {
+pub(super) struct ShootingInterval {
     pub(super) begin_s: f64,
     pub(super) end_s: f64,
     /// Samples in it: indices into the record.
@@ -109,7 +109,7 @@ pub(super) fn uncertain(edges: &[Edge]) -> Option<usize> {
 
 /// Outputs at the stretch's samples (every `stride`-th) into `rows`, and position and velocity at its end.
 pub(super) fn integrate(
-    stretch: &Stretch,
+    stretch: &ShootingInterval,
     drive: &Drive<'_>,
     time_s: &[f64],
     (shared, disturbance): (&Shared, f64),

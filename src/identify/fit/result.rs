@@ -1,9 +1,9 @@
 //! What a fit found.
 
+use super::covariance::Covariance;
 use super::input::Between;
 use super::motion::SHARED;
 use super::search::{Linearised, Search, Start};
-use super::spread::Covariance;
 use crate::identify::joint::{ConfidenceInterval, Estimate, Parameter};
 use crate::identify::{DragLaw, IdentifyError};
 use crate::plant::{DragAxis, State};
@@ -55,7 +55,7 @@ pub struct FittedRecord {
     pub strongest_correlation: f64,
     /// Ljung and Box's statistic over those lags as a standard normal deviate (Wilson and Hilferty's cube root): above 3, the
     /// residuals are hardly white.
-    pub colour: f64,
+    pub ljung_box_deviate: f64,
 }
 
 impl FittedRecord {
@@ -72,7 +72,7 @@ fn correlations(values: &[f64]) -> Vec<f64> {
 
 /// Ljung and Box's statistic as a normal deviate.
 #[allow(clippy::cast_precision_loss, reason = "counts of samples")]
-fn colour(correlations: &[f64], samples: usize) -> f64 {
+fn ljung_box_deviate(correlations: &[f64], samples: usize) -> f64 {
     let (n, lags) = (samples as f64, correlations.len().max(1) as f64);
     let terms =
         correlations.iter().enumerate().map(|(k, correlation)| correlation * correlation / (n - 1.0 - k as f64));
@@ -124,7 +124,7 @@ impl Search<'_> {
                     fit_percent: 100.0 * (1.0 - rms / std.max(f64::MIN_POSITIVE)),
                     autocorrelation: correlations.first().copied().unwrap_or(0.0),
                     strongest_correlation: strongest.unwrap_or(0.0),
-                    colour: colour(&correlations, residuals.len()),
+                    ljung_box_deviate: ljung_box_deviate(&correlations, residuals.len()),
                     output,
                     residuals,
                 }

@@ -3,9 +3,11 @@
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::chain::{Chain, Link, OWN, solve_shared, weighted};
+use super::condensing::{Chain, Link, OWN, solve_shared, weighted};
 use super::input::{Between, Edge, edges, gather};
-use super::motion::{COMMON, Drive, Gradient, SHARED, Sensitive, Shared, Stretch, UNKNOWNS, integrate, uncertain};
+use super::motion::{
+    COMMON, Drive, Gradient, SHARED, Sensitive, Shared, ShootingInterval, UNKNOWNS, integrate, uncertain,
+};
 use super::motion::{DISTURBANCE, INSTANT, POSITION, VELOCITY};
 use super::noise::Noise;
 use super::start;
@@ -42,7 +44,7 @@ pub(super) struct Motion<'a> {
     pub(super) record: &'a Record,
     pub(super) edges: Vec<Edge>,
     pub(super) deviations: Vec<f64>,
-    pub(super) stretches: Vec<Stretch>,
+    pub(super) stretches: Vec<ShootingInterval>,
     pub(super) disturbance: f64,
     pub(super) noise: Noise,
     range: f64,
@@ -107,7 +109,7 @@ impl<'a> Motion<'a> {
             let from = time.partition_point(|t| *t < pair[0]);
             let to = if index + 2 == nodes.len() { time.len() } else { time.partition_point(|t| *t < pair[1]) };
             let start = start::state_near(record, pair[0], swing / 8.0);
-            Stretch { begin_s: pair[0], end_s: pair[1], samples: from..to, start }
+            ShootingInterval { begin_s: pair[0], end_s: pair[1], samples: from..to, start }
         });
         let stretches = stretches.collect();
         let output = record.output();

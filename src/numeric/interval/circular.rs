@@ -218,7 +218,7 @@ pub(super) fn tan(x: Interval) -> Interval {
 }
 
 /// `x - sin x`, which increases; `difference` encloses it too.
-pub(super) fn minus_sine(x: Interval, difference: Interval) -> Interval {
+pub(super) fn minus_own_sine(x: Interval, difference: Interval) -> Interval {
     /// From here on nothing cancels, and below the series holds.
     const LIMIT: f64 = 1.2;
     if x.lo >= LIMIT && difference.width() <= 64.0 * f64::EPSILON {

@@ -103,15 +103,15 @@ impl Real for Interval {
             core::array::from_fn(|k| below[k].hull(above[k]))
         }
     }
-    fn give_or_take(self, error: f64) -> Self {
+    fn inflate(self, error: f64) -> Self {
         self + Self::symmetric(error)
     }
-    fn minus_sine(self, sine: Self) -> Self {
+    fn minus_own_sine(self, sine: Self) -> Self {
         let difference = self - sine;
         if difference.is_entire() {
             return difference;
         }
-        circular::minus_sine(self, difference)
+        circular::minus_own_sine(self, difference)
     }
     from_module!(circular: sin cos tan asin acos atan);
     from_module!(exponential: exp exp_m1 ln ln_1p sinh cosh tanh atanh);

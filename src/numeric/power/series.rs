@@ -31,7 +31,7 @@ impl Known {
 
     #[inline]
     pub(super) fn get<T: Real>(self) -> T {
-        T::from_f64(self.value).give_or_take(self.error)
+        T::from_f64(self.value).inflate(self.error)
     }
 }
 
@@ -75,7 +75,7 @@ fn hypergeometric<T: Real>(a: T, b: T, c: f64, x: T, share: f64) -> [T; 2] {
     let r = (n + 1.0) * (1.0 - x_most) + x_most * s;
     let (rest, slope_rest) =
         if rest > 0.0 { (rest / (r - 1.0).max(0.0), rest * n / (r - 2.0).max(0.0)) } else { (0.0, 0.0) };
-    [T::one() + x * sum.give_or_take(rest), slope.give_or_take(slope_rest)]
+    [T::one() + x * sum.inflate(rest), slope.inflate(slope_rest)]
 }
 
 impl PowerMoments {
@@ -155,8 +155,8 @@ impl PowerMoments {
             let rest =
                 2.0 * (order + j + 1.0) * (magnitude(d) + magnitude(b) * (magnitude(level) + magnitude(weight) + 4.0));
             if !(rest * reach > enough) {
-                m = m + over * z * pairs.give_or_take(rest);
-                slope = slope + over * (T::from_f64(order) * pairs + moving - weight * tail).give_or_take(rest);
+                m = m + over * z * pairs.inflate(rest);
+                slope = slope + over * (T::from_f64(order) * pairs + moving - weight * tail).inflate(rest);
                 return self.moments(u, m, -half * slope, -T::two() * z * (T::one() - z) * slope);
             }
             j += 1.0;

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use proptest::prelude::*;
-use selfosc::control::{Answer, Controller, Fault, FeedForward, Gains, StepResponse, Structure, Tuning};
+use selfosc::control::{Answer, ControlFault, Controller, FeedForward, Gains, StepResponse, Structure, Tuning};
 use selfosc::plant::DragAxis;
 
 use crate::sampling::{recorded, seeded};
@@ -179,11 +179,11 @@ fn faults_are_named_and_hold_the_command() {
     assert_eq!(good.fault, None);
     let before = controller;
     for (reference, measurement, dt, fault) in [
-        (1.0, f64::NAN, 0.1, Fault::Measurement),
-        (f64::INFINITY, 0.0, 0.1, Fault::Reference),
-        (1.0, 0.0, 0.0, Fault::Interval),
-        (1.0, 0.0, -0.1, Fault::Interval),
-        (f64::MAX, -f64::MAX, 0.1, Fault::Overflow),
+        (1.0, f64::NAN, 0.1, ControlFault::Measurement),
+        (f64::INFINITY, 0.0, 0.1, ControlFault::Reference),
+        (1.0, 0.0, 0.0, ControlFault::Interval),
+        (1.0, 0.0, -0.1, ControlFault::Interval),
+        (f64::MAX, -f64::MAX, 0.1, ControlFault::Overflow),
     ] {
         let step = controller.step(reference, measurement, dt);
         assert_eq!((step.command, step.fault), (good.command, Some(fault)));

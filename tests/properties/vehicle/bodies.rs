@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Matrix6, SMatrix, UnitQuaternion, Vector3, Vector6};
 use proptest::collection::vec;
 use proptest::prelude::*;
-use selfosc::vehicle::{EulerAngles, Vehicle, VehicleParameters};
+use selfosc::vehicle::{EulerAngles, STANDARD_GRAVITY, Vehicle, VehicleParameters};
 
 /// A heavy point of a rigid body: mass and place.
 pub(super) type PointMass = (f64, Vector3<f64>);
@@ -76,4 +76,11 @@ pub(super) fn vehicle() -> impl Strategy<Value = Vehicle> {
 fn gram(matrix: &SMatrix<f64, 6, 6>) -> Matrix6<f64> {
     let product = matrix * matrix.transpose();
     (product + product.transpose()) * 0.5
+}
+
+/// Potential energy of weight and buoyancy at a depth, J; zero when both centres are at depth zero.
+pub(super) fn potential_energy_j(vehicle: &Vehicle, depth_m: f64, attitude: &UnitQuaternion<f64>) -> f64 {
+    let depth = |centre: &Vector3<f64>| depth_m + (attitude * centre).z;
+    let p = vehicle.parameters();
+    p.buoyancy_n * depth(&p.centre_of_buoyancy_m) - p.mass_kg * STANDARD_GRAVITY * depth(&p.centre_of_gravity_m)
 }

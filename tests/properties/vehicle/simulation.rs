@@ -7,7 +7,7 @@ use selfosc::vehicle::{
     pool_thrusters, pool_vehicle,
 };
 
-use super::bodies::{angles, parameters, vector6};
+use super::bodies::{angles, parameters, potential_energy_j, vector6};
 use crate::tolerance::ENERGY_BALANCE;
 
 const STEP_S: f64 = 2.5e-4;
@@ -15,7 +15,7 @@ const STEP_S: f64 = 2.5e-4;
 /// Energy now, and the power that comes in from thrusters and disturbance less what drag takes.
 fn energy_and_power(simulation: &Simulation, tau: &Vector6<f64>) -> (f64, f64, f64) {
     let (vehicle, state) = (simulation.vehicle(), simulation.state());
-    let potential = vehicle.potential_energy_j(state.pose.position_m.z, &state.pose.attitude);
+    let potential = potential_energy_j(vehicle, state.pose.position_m.z, &state.pose.attitude);
     let (nu, drag) = (&state.nu, vehicle.drag(&state.nu) * state.nu);
     (vehicle.kinetic_energy_j(nu) + potential, nu.dot(tau), -nu.dot(&drag))
 }

@@ -8,7 +8,7 @@ use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
-use super::chain::{Chain, OWN, solve_shared};
+use super::condensing::{Chain, OWN, solve_shared};
 use super::motion::{SHARED, Sensitive};
 use super::noise::{Noise, Scores};
 use super::search::{Linearised, Motion, Search, stack};
