@@ -42,10 +42,9 @@ def force_left(speed, linear_share):
     return 1 - linear_share * speed - (1 - linear_share) * speed * speed
 
 
-def quadratic_next(mu, y, gap):
-    """The half-cycle map of y = (V/k)^2 under a force 1 + mu."""
-    ratio = 1 + mu
-    return ratio * (y + ratio * gap) / (y + ratio)
+def quadratic_next(y, gap):
+    """The half-cycle map of y = (V/k)^2 without disturbance."""
+    return (y + gap) / (y + 1)
 
 
 def quadratic_overshoot(r):
@@ -74,7 +73,7 @@ def logarithm(v):
 
 
 MU = ("mu", -1.0, 1.0)
-MU_LESS = ("mu", -0.95, 0.95)
+BRAKING = [MU, ("drag", 0.0, 2.0)]
 DRAGS = [MU, ("d_1", 0.0, 2.0), ("d_2", 0.0, 2.0)]
 SHARE = ("linear_share", 0.0, 1.0)
 
@@ -85,8 +84,9 @@ INEQUALITIES = {
     "denominator": (VALUE, [MU, ("s_1", 0.0, 1.0), ("s_2", 0.0, 1.0)], rate_left),
     "force-slow": (VALUE, [("speed", 0.0, 0.5), SHARE], force_left),
     "force-fast": (slope(0), [("speed", 0.5, 1.0), SHARE], lambda speed, share: -force_left(speed, share)),
-    "braking": (VALUE, [MU_LESS, ("drag", 0.0, 2.0)], lambda mu, drag: 1 - mu + drag),
-    "quadratic-next": (slope(2), [MU_LESS, ("y", 0.0, 2.0), ("gap", 0.0, 1.0)], quadratic_next),
+    "braking": (slope(0), BRAKING, lambda mu, drag: mu - 1 - drag),
+    "braking-drag": (slope(1), BRAKING, lambda mu, drag: 1 - mu + drag),
+    "quadratic-next": (slope(1), [("y", 0.0, 1.0), ("gap", 0.0, 1.0)], quadratic_next),
     "linear-width-short": (over_power(3, 0.5), [("z", 0.0, 0.5)], linear_width),
     "linear-width-long": (slope(0), [("z", 0.5, UP)], linear_width),
     "quadratic-overshoot-weak": (over_power(2, 0.05), [("r", 0.0, 0.9)], quadratic_overshoot),
@@ -114,15 +114,15 @@ CLAIMS = {
     ),
     "orbit-quadratic-disturbed": (
         "Quadratic drag with a disturbance: one limit cycle, reached from every start",
-        SLOPE + FORCE + ["braking", "quadratic-next"],
+        SLOPE + FORCE + ["braking", "braking-drag"],
     ),
     "orbit-linear-disturbed": (
         "Linear drag with a disturbance: one limit cycle, reached from every start",
-        SLOPE + FORCE + ["braking"],
+        SLOPE + FORCE + ["braking", "braking-drag"],
     ),
     "orbit-no-early-switching": (
         "Between two switchings the velocity changes sign once, beyond the relay's level: the command switches when the formulas say",
-        FORCE + ["braking"],
+        FORCE + ["braking", "braking-drag"],
     ),
     "orbit-multiplier": (
         "Without delay 1 - m > 0.48 (d_1 + d_2): the multiplier m by the drag forces d_1, d_2 at the switchings over C",

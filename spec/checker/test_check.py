@@ -35,12 +35,12 @@ def change_domain(certificate):
 
 
 CHANGES = {
-    "a raised bound": lambda c: item(c, "braking").update(bound=0.06),
+    "a raised bound": lambda c: item(c, "braking").update(bound=1.1),
     "a bound of zero": lambda c: item(c, "braking").update(bound=0.0),
     "a missing box": lambda c: longest(c)["boxes"].pop(),
     "a box too small": shrink,
     "another domain": change_domain,
-    "a wrong expression": lambda c: item(c, "braking").update(expression="1 + drag - mu/2"),
+    "a wrong expression": lambda c: item(c, "braking").update(expression="mu/2 - 1 - drag"),
     "a wrong factor": lambda c: item(c, "force-slow").update(expression="1 - 9/10 (linear_share + speed - linear_share speed) speed"),
     "a constant": lambda c: item(c, "braking").update(expression="1"),
     "another form": lambda c: item(c, "excess-first").update(form={"kind": "value"}),

@@ -79,6 +79,8 @@ pub struct Claim {
     pub domain: &'static [ClaimPart],
     /// Steps of its proof that no program checks.
     pub by_hand: &'static [&'static str],
+    /// What is in the way of a proof of the whole statement; `None` where it is proved or every state was visited.
+    pub not_proved: Option<&'static str>,
     /// As printed.
     pub printed: AsPrinted,
     /// As corrected; `None` where the print needs no correction.
@@ -165,6 +167,7 @@ impl Claim {
         statement: "",
         domain: &[],
         by_hand: &[],
+        not_proved: None,
         printed: AsPrinted::Absent,
         corrected: None,
         falsified: |_| Verdict::Undecided { spent: String::new() },

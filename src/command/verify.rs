@@ -112,6 +112,9 @@ fn table(findings: &[(&Claim, Finding)], output: &mut impl Write) -> Result<(), 
     for (claim, finding) in findings {
         let (printed, corrected) = (short(finding.as_printed()), short(finding.as_corrected()));
         writeln!(output, "{:width$}  {printed:14}  {corrected:14}  {}", claim.id, evidence(finding))?;
+        if let Some(why) = claim.not_proved {
+            writeln!(output, "{:width$}  not proved as a whole: {why}", "")?;
+        }
         if let Some(Verdict::Refuted(witness)) = &finding.printed {
             writeln!(output, "{:width$}  as printed, refuted by {witness}", "")?;
         }
@@ -169,6 +172,7 @@ fn document(findings: &[(&Claim, Finding)]) -> Value {
             "residual_bound": found.residual_bound,
             "margin": found.margin,
             "by_hand": proof.then_some(&finding.by_hand),
+            "not_proved": claim.not_proved,
             "domain": parts.collect::<Vec<_>>(),
             "established": established,
             "witness": witness,

@@ -140,7 +140,12 @@ impl<T: Real> Arc<T> {
     /// `sin(phi) - phi cos(phi)` and `phi - sin(phi) cos(phi)` by way of `x - sin(x)`, which small arcs need. The cosine
     /// component only where the other branch does not take it away.
     pub(super) fn ramp(self, branches: Branches) -> DescribingFunction<T> {
-        let (phi, scale) = (self.phi(), half::<T>() * T::inverse_pi());
+        self.ramp_by(self.phi(), branches)
+    }
+
+    /// [`ramp`](Self::ramp) where phi is known.
+    fn ramp_by(self, phi: T, branches: Branches) -> DescribingFunction<T> {
+        let scale = half::<T>() * T::inverse_pi();
         let mean = phi * self.one_minus_u - phi.minus_own_sine(self.sine);
         DescribingFunction {
             f0: scale * self.amplitude * mean + half::<T>() * self.beyond,
@@ -153,6 +158,12 @@ impl<T: Real> Arc<T> {
             },
         }
     }
+}
+
+/// A unit ramp above `at` on both branches, by the angle `acos(u)` of its breakpoint.
+#[cfg(feature = "std")]
+pub(crate) fn ramp_by_angle<T: Real>(at: T, phi: T, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
+    Arc::above(at, sweep).ramp_by(phi, Branches::Both).on(Branches::Both)
 }
 
 /// The input held between two breakpoints, less `origin`.

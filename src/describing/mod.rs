@@ -46,6 +46,9 @@ pub use quadrature::by_quadrature;
 #[cfg(feature = "std")]
 pub use setting::Setting;
 
+#[cfg(feature = "std")]
+pub(crate) use kernel::ramp_by_angle;
+
 internal! {
     use closed_form::{over_amplitudes};
     #[cfg(feature = "std")]

@@ -21,7 +21,7 @@ impl<T: Real, const N: usize> ClosedForm for Polynomial<T, N> {
         let (mut mean, mut even) = (T::one(), 0u32);
         for pair in about_bias.chunks(2) {
             f0 = f0 + pair[0] * mean;
-            let next = mean * T::from_f64(f64::from(even + 1) / f64::from(even + 2));
+            let next = mean * (T::from_f64(f64::from(even + 1)) / T::from_f64(f64::from(even + 2)));
             if let Some(&odd) = pair.get(1) {
                 p = p + odd * T::two() * next;
             }

@@ -151,6 +151,13 @@ pub trait Scalar: Real + PartialOrd {
     fn value(self) -> f64 {
         self.bounds().0
     }
+    /// A function known at the real part by value and slope, carried over to this arithmetic: a float gets the value, a dual
+    /// number of first order its derivatives. An infinite slope becomes the largest number.
+    #[must_use]
+    fn lift(self, value: f64, slope: f64) -> Self {
+        let slope = slope.clamp(-f64::MAX, f64::MAX);
+        Self::from_f64(value) + Self::from_f64(slope) * (self - Self::from_f64(self.value()))
+    }
     /// Neither infinite nor NaN.
     #[must_use]
     fn is_finite(self) -> bool {
@@ -163,13 +170,6 @@ pub trait Scalar: Real + PartialOrd {
 pub(super) fn magnitude<T: Real>(x: T) -> f64 {
     let (lower, upper) = x.bounds();
     lower.abs().max(upper.abs())
-}
-
-/// A function known at the real part of `x` by value and slope, carried over to the arithmetic of `x`: a float gets the
-/// value, a dual number of first order its derivatives. An infinite slope becomes the largest number.
-pub(super) fn lift<T: Scalar>(x: T, value: f64, slope: f64) -> T {
-    let slope = slope.clamp(-f64::MAX, f64::MAX);
-    T::from_f64(value) + T::from_f64(slope) * (x - T::from_f64(x.value()))
 }
 
 /// `x - sin x`: the series below one, where the difference cancels; its first term left out is below 2e-17 of the sum.

@@ -1,7 +1,6 @@
 //! Special functions of the smooth catalogue, in every arithmetic: values to a few units in the last place, or enclosures.
 
 use super::power::{self, PowerMoments};
-use super::real::lift;
 use super::{Interval, Jet, Real, Scalar, bessel};
 
 /// An arithmetic that has the special functions that the describing functions of smooth characteristics are made of.
@@ -35,12 +34,12 @@ impl<T: Scalar> Special for T {
     fn bessel_j(self) -> [Self; 2] {
         let x = self.value();
         let (zeroth, first) = (libm::j0(x), libm::j1(x));
-        [lift(self, zeroth, -first), lift(self, first, zeroth - odd_over(first, x))]
+        [self.lift(zeroth, -first), self.lift(first, zeroth - odd_over(first, x))]
     }
     fn bessel_i_scaled(self) -> [Self; 2] {
         let x = self.value();
         let [zeroth, first] = bessel::i_scaled(x);
-        [lift(self, zeroth, first - zeroth), lift(self, first, zeroth - odd_over(first, x) - first)]
+        [self.lift(zeroth, first - zeroth), self.lift(first, zeroth - odd_over(first, x) - first)]
     }
     fn power_moments(law: &PowerMoments, bias: Self, amplitude: Self) -> [Self; 2] {
         power::of_scalar(law, bias, amplitude)

@@ -57,8 +57,6 @@ impl Theorem {
 }
 
 const NONE: Extent = Extent::NONE;
-/// Disturbance over relay level: what the theorems with disturbance cover.
-const MU: Extent = Extent::new("mu", -0.95, 0.95);
 /// Up to here a multiple zero at zero is divided out.
 const NEAR_ZERO: f64 = 0.05;
 /// From here on a border at one is treated by itself.
@@ -135,28 +133,41 @@ pub const FORCE_FAST: Inequality = Inequality {
     margin: Margin::Slope { of: formula!(force_lost), by: 0 },
 };
 
-fn brake<T: Real>([mu, drag, _]: [T; VARIABLES]) -> T {
+/// The force that brakes after a switching: the other command's, less the disturbance, and the drag.
+pub(crate) fn brake<T: Real>([mu, drag, _]: [T; VARIABLES]) -> T {
     T::one() - mu + drag
 }
 
-/// After a switching the command and the drag brake together.
+fn brake_lost<T: Real>(at: [T; VARIABLES]) -> T {
+    -brake(at)
+}
+
+/// A disturbance as large as the level leaves the drag alone, so a smaller one leaves more.
 pub const BRAKING: Inequality = Inequality {
     id: "braking",
-    statement: "the other command brakes at every speed",
-    variables: [MU, Extent::new("drag", 0.0, 2.0), NONE],
-    margin: Margin::Value(formula!(brake)),
+    statement: "the force that brakes after a switching falls as the disturbance grows, up to that of the relay's level",
+    variables: [MU_ALL, Extent::new("drag", 0.0, 2.0), NONE],
+    margin: Margin::Slope { of: formula!(brake_lost), by: 0 },
 };
 
-fn quadratic_next<T: Real>([mu, y, gap]: [T; VARIABLES]) -> T {
-    quadratic_half_cycle(y, gap, T::one() + mu)
+/// It is zero for a disturbance as large as the level at rest, so it is zero or more there at every speed.
+pub const BRAKING_DRAG: Inequality = Inequality {
+    id: "braking-drag",
+    statement: "the force that brakes after a switching grows with the drag",
+    margin: Margin::Slope { of: formula!(brake), by: 1 },
+    ..BRAKING
+};
+
+fn quadratic_next<T: Real>([y, gap, _]: [T; VARIABLES]) -> T {
+    quadratic_half_cycle(y, gap, T::one())
 }
 
 /// At `gap = 1` the next speed is the terminal one, so it lies below for every finite g.
 pub const QUADRATIC_NEXT: Inequality = Inequality {
     id: "quadratic-next",
     statement: "quadratic drag: the next switching speed grows with the gap 1 - exp(-4 g)",
-    variables: [MU, Extent::new("y", 0.0, 2.0), Extent::new("gap", 0.0, 1.0)],
-    margin: Margin::Slope { of: formula!(quadratic_next), by: 2 },
+    variables: [Extent::new("y", 0.0, 1.0), Extent::new("gap", 0.0, 1.0), NONE],
+    margin: Margin::Slope { of: formula!(quadratic_next), by: 1 },
 };
 
 fn linear_width<T: Real>([z, _, _]: [T; VARIABLES]) -> T {
@@ -280,22 +291,22 @@ pub const LINEAR: Theorem = Theorem {
 /// Quadratic drag with a disturbance: one attracting limit cycle.
 pub const QUADRATIC_DISTURBED: Theorem = Theorem {
     id: "orbit-quadratic-disturbed",
-    domain: "every alpha, beta, C, x_a > 0 with |delta| <= 0.95 C, as exp(-4 g) in (0, 1); every start",
-    inequalities: &[EXCESS_FIRST, EXCESS_SECOND, DENOMINATOR, FORCE_SLOW, FORCE_FAST, BRAKING, QUADRATIC_NEXT],
+    domain: "every alpha, beta, C, x_a > 0 with |delta| < C; every start",
+    inequalities: &[EXCESS_FIRST, EXCESS_SECOND, DENOMINATOR, FORCE_SLOW, FORCE_FAST, BRAKING, BRAKING_DRAG],
 };
 
 /// Linear drag with a disturbance: one attracting limit cycle.
 pub const LINEAR_DISTURBED: Theorem = Theorem {
     id: "orbit-linear-disturbed",
-    domain: "every alpha, beta, C, x_a > 0 with |delta| <= 0.95 C; every start",
-    inequalities: &[EXCESS_FIRST, EXCESS_SECOND, DENOMINATOR, FORCE_SLOW, FORCE_FAST, BRAKING],
+    domain: "every alpha, beta, C, x_a > 0 with |delta| < C; every start",
+    inequalities: &[EXCESS_FIRST, EXCESS_SECOND, DENOMINATOR, FORCE_SLOW, FORCE_FAST, BRAKING, BRAKING_DRAG],
 };
 
 /// No switching earlier than the one that the formulas assume.
 pub const NO_EARLY_SWITCHING: Theorem = Theorem {
     id: "orbit-no-early-switching",
-    domain: "every mix of linear and quadratic drag, |delta| <= 0.95 C, every speed below the terminal one",
-    inequalities: &[FORCE_SLOW, FORCE_FAST, BRAKING],
+    domain: "every mix of linear and quadratic drag, |delta| < C, every speed below the terminal one",
+    inequalities: &[FORCE_SLOW, FORCE_FAST, BRAKING, BRAKING_DRAG],
 };
 
 /// How fast deviations die out.

@@ -156,13 +156,16 @@ impl Inequality {
         if !(proof.bound > 0.0) {
             return Err(Refusal::Bound { bound: proof.bound });
         }
+        if !tile(&proof.domain, &proof.boxes) {
+            return Err(Refusal::NotCovered);
+        }
         for (index, at) in proof.boxes.iter().enumerate() {
             let margin = self.margin.over(at);
-            if margin.lower() < proof.bound {
+            if !(margin.lower() >= proof.bound) {
                 return Err(Refusal::NotShown { index, margin, bound: proof.bound });
             }
         }
-        if tile(&proof.domain, &proof.boxes) { Ok(()) } else { Err(Refusal::NotCovered) }
+        Ok(())
     }
 }
 

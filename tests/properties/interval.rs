@@ -414,7 +414,7 @@ fn a_violated_domain_stays_visible() {
         beyond(-1.0, 1.0).ln_1p(),
         beyond(0.0, 1.0).atanh(),
         beyond(1.0, 2.0).tan(),
-        Interval::point(1e300).tan(),
+        beyond(1e300, 2e300).tan(),
         Interval::point(f64::NAN),
     ];
     type Function = fn(Interval) -> Interval;

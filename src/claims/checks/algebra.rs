@@ -33,7 +33,7 @@ mod tests {
     /// Proofs that take no subdivision, or one of a second: each holds, covers what is claimed, and no false variant of it holds.
     #[test]
     fn exact_proofs_hold_and_false_ones_do_not() {
-        const IDS: [&str; 25] = [
+        const IDS: [&str; 31] = [
             "fourier-coefficients",
             "odd-harmonics",
             "odd-harmonics-hysteretic",
@@ -53,6 +53,12 @@ mod tests {
             "relay-ultimate",
             "relay-p",
             "relay-q",
+            "relay-f0",
+            "relay-noise",
+            "sampled-level",
+            "second-quadrant",
+            "polynomial",
+            "quantisation-zero",
             "table-3",
             "relative-spread",
             "zig-zag",

@@ -81,6 +81,7 @@ claim! {
     DELAY_MARGIN = "delay-margin" "of this project" Theorem
     "the least of phase above critical over frequency at the crossovers of gain is the delay that a stable loop bears"
     {
+        not_proved: Some("the poles of a loop with delay are counted in floats; an enclosure of the count is not there"),
         domain: &[ClaimPart::whole("whole", "every stable loop of an axis and its controller")],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| delay_margin(budget, |_, margins| margins.delay_s)),

@@ -3,7 +3,8 @@
 use core::f64::consts::PI;
 
 use super::algebra::{exactly, number};
-use super::enclosure::{identity, no_function};
+use super::band::as_coded;
+use super::decomposition::{BEYOND, DECOMPOSITION, SCALING, beyond, decomposition, scaling};
 use super::family::{not_odd, odd_hysteretic, odd_nondecreasing, output_scale, sweep, unbiased};
 use super::kernels::{BREAKPOINT, prove_kernel};
 use super::tone::{EVERY_AMPLITUDE, prove_sine_abs_sine};
@@ -15,8 +16,7 @@ use crate::nonlinearity::{
     Branch, Characteristic, NonlinearityError, Polynomial, Power, RelayDeadZone, RelayHysteresis, Sinusoid,
 };
 use crate::numeric::quadrature::integrate;
-use crate::numeric::{Interval, Real};
-use crate::proof::identity::Series;
+use crate::numeric::Real;
 use crate::proof::polynomial::Rational;
 use std::array;
 
@@ -82,17 +82,11 @@ fn mean_over_sweep(
 claim! {
     DESCRIBING_FUNCTION = "describing-function" "12-15" Definition
     "P and Q are the first-harmonic coefficients over the amplitude, F_0 the mean: closed form and integral agree" {
-        domain: &[
-            BREAKPOINT,
-            ClaimPart::whole(
-                "decomposition",
-                "each member of the piecewise-linear catalogue is the sum of its kernels, every parameter",
-            ),
-            ClaimPart::whole("beyond-the-sweep", "sweeps that end beyond a breakpoint"),
-        ],
+        domain: &[BREAKPOINT, DECOMPOSITION, SCALING, BEYOND],
         by_hand: &[
-            "height and amplitude are set to one by linearity and homogeneity",
-            "the sides and branches follow from one by reflection",
+            "integrals of the output are linear in it, and scale and turn as the closed forms are shown to",
+            "a polyline of more than four points, a sweep over more treads of a quantizer: a kernel more for each",
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
         ],
         printed: AsPrinted::Holds(|budget| closed_is_integral(budget, 1.0)),
         corrected: None,
@@ -268,43 +262,42 @@ fn sine_abs_sine(budget: Budget, first: f64) -> Verdict {
     })
 }
 
-/// Every kernel. That the members of the catalogue are sums of kernels is not proved here.
+/// Every kernel, at every place and scale, and each member of the catalogue as a sum of them.
 fn prove_describing_function(distortion: Distortion) -> Verdict {
     let forms = [KernelForm::Step, KernelForm::Ramp, KernelForm::Sign, KernelForm::Band];
-    forms
-        .map(|form| prove_kernel(form, distortion, BREAKPOINT))
-        .into_iter()
-        .reduce(|all, next| all.and(|| next))
-        .unwrap_or_else(|| Verdict::undecided("nothing"))
+    let kernels = forms.map(|form| prove_kernel(form, distortion, BREAKPOINT)).into_iter();
+    let kernels = kernels.reduce(|all, next| all.and(|| next)).unwrap_or_else(|| Verdict::undecided("nothing"));
+    kernels
+        .and(|| as_coded(distortion))
+        .and(|| decomposition(distortion))
+        .and(|| scaling(distortion))
+        .and(|| beyond(distortion))
 }
 
 /// Powers up to the ninth. The mean over twelve equally spaced angles is the mean over the circle for every trigonometric
 /// polynomial of degree below twelve, so the integral needs no antiderivative.
 fn prove_polynomial(distortion: Distortion) -> Verdict {
-    const COVERED: ClaimPart =
-        ClaimPart::over("powers", "", const { &[ClaimVariable::number("bias/amplitude", -2.0, 2.0)] });
-    identity(COVERED, distortion, |bias, factor| {
-        let sweep = Sinusoid::new(bias, Series::one()).ok();
-        let nodes = (0..12).map(|k| Interval::point(f64::from(k)) * Interval::PI / Interval::point(6.0));
-        let sines: Vec<Series> = nodes.map(|angle| Series::constant(angle.sin())).collect();
-        let mut powers = vec![Series::one(); sines.len()];
-        let mut errors = [Series::zero(); 20];
+    let functions = |[bias]: [Rational; 1], factor: Rational| {
+        let sweep = Sinusoid::new(bias, number(1.0)).ok()?;
+        let (half, root) = (number(0.5), number(3.0).sqrt() / number(2.0));
+        let quarter = [number(0.0), half, root, number(1.0), root, half];
+        let sines: Vec<Rational> = quarter.into_iter().chain(quarter.map(|sine| -sine)).collect();
+        let mut powers = vec![number(1.0); sines.len()];
+        let mut errors = [number(0.0); 20];
         for (degree, error) in errors.chunks_mut(2).enumerate() {
-            let monomial =
-                Polynomial::<_, 10>::new(array::from_fn(|k| Series::from_f64(f64::from(u8::from(k == degree)))));
-            let closed =
-                sweep.zip(monomial.ok()).and_then(|(sweep, monomial)| monomial.describing_function(&sweep).ok());
-            let closed = closed.unwrap_or_else(no_function) * factor;
-            let (mut mean, mut sine) = (Series::zero(), Series::zero());
+            let monomial = Polynomial::<_, 10>::new(array::from_fn(|k| number(f64::from(u8::from(k == degree))))).ok()?;
+            let closed = monomial.describing_function(&sweep).ok()? * factor;
+            let (mut mean, mut sine) = (number(0.0), number(0.0));
             for (power, &node) in powers.iter_mut().zip(&sines) {
                 (mean, sine) = (mean + *power, sine + *power * node);
                 *power = *power * (bias + node);
             }
-            error[0] = closed.f0 - mean / Series::from_f64(12.0);
-            error[1] = closed.p - sine / Series::from_f64(6.0);
+            error[0] = closed.f0 - mean / number(12.0);
+            error[1] = closed.p - sine / number(6.0);
         }
-        errors
-    })
+        Some(errors)
+    };
+    exactly(ClaimPart::whole("powers", ""), distortion, &[[0.5]], functions)
 }
 
 /// Completing the square: with any other mean, sine and cosine more is left, by the mean square of the differences.

@@ -7,11 +7,14 @@ use super::sampling::{Budget, Case, Draw, sample};
 use super::tolerance;
 
 mod algebra;
+mod band;
+mod decomposition;
 mod enclosure;
 mod family;
 mod machine;
 mod single;
 mod step;
+mod vehicle_proofs;
 
 pub(super) mod control;
 pub(super) mod experiment;
@@ -25,6 +28,7 @@ pub(super) mod orbits;
 pub(super) mod power_law;
 pub(super) mod quantisation;
 pub(super) mod relay;
+pub(super) mod relay_state;
 pub(super) mod smooth;
 pub(super) mod symmetry;
 pub(super) mod theorems;

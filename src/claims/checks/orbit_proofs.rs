@@ -48,9 +48,17 @@ fn failed(inequality: &Inequality, why: NotProved<VARIABLES>) -> Verdict {
     }
 }
 
-/// What the theorems with a disturbance enclose of the disturbances below the level.
-const BELOW_095: ClaimPart =
-    ClaimPart::over("every-axis", "", const { &[ClaimVariable::number("abs(delta)/C", 0.0, 0.95)] });
+/// Every disturbance below the level: the inequalities hold up to the level itself, where the forces that they are about vanish.
+const EVERY_AXIS: ClaimPart = ClaimPart::over(
+    "every-axis",
+    "every alpha, beta, C, x_a > 0; every start",
+    const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] },
+);
+const EVERY_MIX: ClaimPart = ClaimPart::over(
+    "every-axis",
+    "every mix of linear and quadratic drag, every speed below the terminal one",
+    const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] },
+);
 const EXCESS: ClaimPart = ClaimPart::whole(
     "excess",
     "denominator less numerator of the slope grows with both drag forces, at a rate above 1.99",
@@ -78,7 +86,7 @@ const FALSE_BRAKING: Inequality = Inequality {
     id: "false-braking",
     statement: "the other command brakes whatever the disturbance",
     variables: [Extent::new("mu", -1.5, 1.5), Extent::new("drag", 0.0, 2.0), Extent::NONE],
-    ..theorem::BRAKING
+    margin: Margin::Value(formula!(theorem::brake)),
 };
 
 /// Too small a denominator.
@@ -120,16 +128,10 @@ const BELOW_LEVEL: Hypothesis = Hypothesis { id: "disturbance-below-level", coun
 claim! {
     NO_EARLY_SWITCHING = "orbit-no-early-switching" "of this project" Theorem
     "Between two switchings the velocity changes sign once, beyond the relay's level: the command switches when the formulas say" {
-        domain: &[
-            ClaimPart::over(
-                "every-axis",
-                "every mix of linear and quadratic drag, every speed below the terminal one",
-                const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] },
-            ),
-        ],
+        domain: &[EVERY_MIX],
         by_hand: &["speeds stay below the terminal one", "a force that keeps its sign lets the velocity vanish once"],
         printed: AsPrinted::Absent,
-        corrected: Some(|_| proved(&theorem::NO_EARLY_SWITCHING, const { &[BELOW_095] })),
+        corrected: Some(|_| proved(&theorem::NO_EARLY_SWITCHING, const { &[EVERY_MIX] })),
         theorem: Some((&theorem::NO_EARLY_SWITCHING, &FALSE_BRAKING)),
         falsified: |_| single(&FALSE_BRAKING),
         hypotheses: &[BELOW_LEVEL],
@@ -154,20 +156,14 @@ claim! {
 claim! {
     QUADRATIC_DISTURBED = "orbit-quadratic-disturbed" "of this project" Theorem
     "Quadratic drag with a disturbance: one limit cycle, reached from every start" {
-        domain: &[
-            ClaimPart::over(
-                "every-axis",
-                "every alpha, beta, C, x_a > 0; every start",
-                const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] },
-            ),
-        ],
+        domain: &[EVERY_AXIS],
         by_hand: &[
             "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
             "existence: the return map takes an interval into itself",
             "every start reaches the map's domain",
         ],
         printed: AsPrinted::Absent,
-        corrected: Some(|_| proved(&theorem::QUADRATIC_DISTURBED, const { &[BELOW_095] })),
+        corrected: Some(|_| proved(&theorem::QUADRATIC_DISTURBED, const { &[EVERY_AXIS] })),
         theorem: Some((&theorem::QUADRATIC_DISTURBED, &FALSE_DRAG)),
         falsified: |_| single(&FALSE_DRAG),
         hypotheses: &[BELOW_LEVEL],
@@ -178,20 +174,14 @@ claim! {
 claim! {
     LINEAR_DISTURBED = "orbit-linear-disturbed" "of this project" Theorem
     "Linear drag with a disturbance: one limit cycle, reached from every start" {
-        domain: &[
-            ClaimPart::over(
-                "every-axis",
-                "every alpha, beta, C, x_a > 0; every start",
-                const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] },
-            ),
-        ],
+        domain: &[EVERY_AXIS],
         by_hand: &[
             "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
             "existence: the return map takes an interval into itself",
             "every start reaches the map's domain",
         ],
         printed: AsPrinted::Absent,
-        corrected: Some(|_| proved(&theorem::LINEAR_DISTURBED, const { &[BELOW_095] })),
+        corrected: Some(|_| proved(&theorem::LINEAR_DISTURBED, const { &[EVERY_AXIS] })),
         theorem: Some((&theorem::LINEAR_DISTURBED, &FALSE_DRAG)),
         falsified: |_| single(&FALSE_DRAG),
         hypotheses: &[BELOW_LEVEL],

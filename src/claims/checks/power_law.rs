@@ -10,6 +10,7 @@ use crate::proof::rigorous_quadrature::CellJet;
 claim! {
     POWER_LAW = "power-law" "8" Identity
     "Mean and gain of sgn(x) abs(x)^p are the hypergeometric series about bias/amplitude 0, 1 and infinity" {
+        not_proved: Some("constants of the series are compared at listed exponents, not over a range of them"),
         domain: &[
             LISTED,
             ClaimPart::whole("other-exponents", "every bias and amplitude; the other exponents of 0 or more"),

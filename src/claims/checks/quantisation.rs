@@ -1,17 +1,14 @@
 //! What an error of the amplitude does to the parameters: eqs. 37-39.
 
-use super::algebra::exactly;
-use super::enclosure::{unknown, zeros};
+use super::algebra::{exactly, number};
+use super::enclosure::unknown;
 use super::identification::oscillation;
 use super::{
-    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Evidence, Hypothesis, Verdict, claim, sample,
-    tolerance,
+    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Hypothesis, Verdict, claim, sample, tolerance,
 };
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity};
-use crate::numeric::{self, Interval, Real};
-use crate::proof::branch_and_bound::prove_positive;
+use crate::numeric::{self, Real};
 use crate::proof::polynomial::Rational;
-use crate::proof::{Gradient, Proved};
 
 /// Relative derivatives of (alpha, beta, beta_xx) by the relative amplitude, by first derivatives through the identification.
 fn derivatives(o: &Oscillation<f64>) -> Option<[f64; 3]> {
@@ -131,7 +128,11 @@ claim! {
                 const { &[ClaimVariable::number("X/x_a", core::f64::consts::SQRT_2, f64::INFINITY)] },
             ),
         ],
-        by_hand: &["level, half-width and frequency are set to one by homogeneity"],
+        by_hand: &[
+            "level, half-width and frequency are set to one by homogeneity",
+            "alpha, a root of what is positive, is positive, so the slope has the sign of 2 - r^2",
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
+        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| {
             zero_at(budget, core::f64::consts::SQRT_2, false, false)
@@ -212,27 +213,29 @@ fn prove_quantisation_beta_xx(distortion: Distortion) -> Verdict {
 /// Where the slope of alpha vanishes, and on which side it has which sign.
 const ZERO: ClaimPart = ClaimPart::whole("zero", "the slope vanishes at X/x_a = sqrt(2), unbiased, no delay");
 
-/// The slope of alpha: zero at the root of two, positive below, negative above.
+/// The slope of alpha times `r (r^2 - 1)` is `(2 - r^2)` times alpha, whose square is that of a product of positive numbers.
 fn prove_quantisation_zero(distortion: Distortion) -> Verdict {
-    const BELOW: ClaimPart =
-        ClaimPart::over("positive-below", "", const { &[ClaimVariable::number("X/x_a", 1.001, 1.4)] });
-    const ABOVE: ClaimPart =
-        ClaimPart::over("negative-above", "", const { &[ClaimVariable::number("X/x_a", 1.43, 100.0)] });
-    let slope = |ratio: Interval| {
-        let [amplitude] = Gradient::variables([ratio]);
-        identified(amplitude).alpha.slopes()[0]
+    let slope = |ratio: Rational, factor: Rational| {
+        let [amplitude] = numeric::Gradient::variables([ratio]);
+        let alpha = identified(amplitude).alpha;
+        let square = ratio.square();
+        let (one, two) = (number(1.0), number(2.0));
+        let size = number(16.0) * (square - one) / (Rational::pi() * square).square();
+        Some([
+            alpha.slopes()[0] * ratio * (square - one) - (two - factor * square) * alpha.value(),
+            alpha.value().square() - size,
+        ])
     };
-    let zero = Interval::two().sqrt() * Interval::point(distortion.factor());
-    let sign = |part: ClaimPart, sign: f64| {
-        let domain = part.variables.first().and_then(|side| Interval::new(side.from, side.to)).map(|domain| [domain]);
-        let verdict =
-            domain.map(|domain| prove_positive(|[ratio]| slope(*ratio) * Interval::point(sign), domain, 20_000));
-        match verdict {
-            Some(Ok(Proved { boxes, bound, .. })) => {
-                Verdict::Holds(Evidence::inequality(part.into(), bound.value(), boxes))
-            }
-            _ => Verdict::undecided("20000 boxes"),
-        }
+    let at_root = |[]: [Rational; 0], factor: Rational| {
+        let [amplitude] = numeric::Gradient::variables([factor * number(2.0).sqrt()]);
+        Some([identified(amplitude).alpha.slopes()[0]])
     };
-    zeros(ZERO, &[slope(zero)], 1).and(|| sign(BELOW, 1.0)).and(|| sign(ABOVE, -1.0))
+    let sign = |name, point: f64| {
+        exactly(ClaimPart::whole(name, ""), distortion, &[[point]], |[ratio]: [Rational; 1], factor| slope(ratio, factor))
+    };
+    // Level with the middle half of the sweep only above twice the half-width.
+    exactly(ZERO, distortion, &[[]], at_root)
+        .and(|| sign("positive-below", 1.25))
+        .and(|| sign("negative-above", 1.5))
+        .and(|| sign("negative-above", 3.0))
 }

@@ -3,16 +3,14 @@
 use core::f64::consts::PI;
 
 use super::algebra::{exactly, number};
-use super::enclosure::{identity, no_function};
+use super::enclosure::no_function;
 use super::kernels::{BREAKPOINT, on_unit, prove_kernel};
 use super::{
     AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance,
 };
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm, bias_of_output, by_quadrature};
-use crate::experiment::RelayState;
 use crate::nonlinearity::{Branches, Kernel, RelayHysteresis, Sinusoid};
 use crate::numeric::Real;
-use crate::proof::identity::Series;
 use crate::proof::polynomial::Rational;
 
 /// A relay, an input that switches it, and the describing function by quadrature.
@@ -146,6 +144,8 @@ claim! {
         by_hand: &[
             "height and amplitude are set to one by linearity and homogeneity",
             "the sides and branches follow from one by reflection",
+            "asin(u) = pi/2 - 2 asin(sqrt((1 - u)/2))",
+            "the cases of sign that are proved are all that the code accepts, and limits of them",
         ],
         printed: AsPrinted::Holds(|budget| mean_output(budget, 1.0)),
         corrected: None,
@@ -187,7 +187,11 @@ claim! {
             ),
             ClaimPart::whole("nothing-else", "every relay and amplitude that switches it has its point in the quadrant"),
         ],
-        by_hand: &["every magnitude by choice of the level"],
+        by_hand: &[
+            "every magnitude by choice of the level",
+            "every angle of the quadrant is pi less twice the inverse tangent of a number from 0 to 1, whose sine and cosine are rational in it",
+            "the components are a root, which is not negative, and minus a half-width, each times a positive factor",
+        ],
         printed: AsPrinted::Holds(|budget| covers(budget, 0.5 * PI, PI)),
         corrected: None,
         falsified: |budget| covers(budget, 0.5 * PI, 1.25 * PI),
@@ -215,39 +219,6 @@ fn covers(budget: Budget, from: f64, to: f64) -> Verdict {
             Some(any) => covered.and(Case::truth(-any.p <= 0.0 && -any.q >= 0.0)),
             None => Case::Skipped,
         }
-    })
-}
-
-claim! {
-    NOISE = "relay-noise" "section 4.1, in words" Statement
-    "While the input moves one way, noise smaller than the half-width switches the relay at most once" {
-        domain: &[ClaimPart::whole("whole", "every half-width and smaller noise, inputs that move one way")],
-        printed: AsPrinted::Refuted(|budget| switches_once(budget, 0.0, 10.0)),
-        corrected: Some(|budget| switches_once(budget, 0.0, 1.0)),
-        falsified: |budget| switches_once(budget, 1.5, 2.0),
-        hypotheses: &[
-            Hypothesis { id: "noise-below-half-width", counterexample: Some(|budget| switches_once(budget, 1.5, 2.0)) },
-        ],
-        depends: &[],
-    }
-}
-
-/// A slow ramp through both levels with noise between the given shares of the half-width: exactly one switching.
-fn switches_once(budget: Budget, least: f64, most: f64) -> Verdict {
-    sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
-        let half_width = draw.uniform("half_width", 0.1, 1.0);
-        let noise = half_width * draw.uniform("noise_over_half_width", least, most);
-        let Ok(relay) = RelayHysteresis::new(1.0, half_width, 0.0) else { return Case::Skipped };
-        let mut relay = RelayState::new(relay, false);
-        let (mut switchings, mut high) = (0, false);
-        for step in -500..=500 {
-            let input = f64::from(step) / 500.0 * (half_width + noise + 0.1);
-            let disturbed = input + noise * draw.unrecorded(-1.0, 1.0);
-            let now = relay.step(disturbed) > 0.0;
-            switchings += usize::from(now != high);
-            high = now;
-        }
-        Case::truth(draw.note("switchings", switchings as f64) == 1.0)
     })
 }
 
@@ -285,40 +256,6 @@ fn condition(budget: Budget, limit: f64) -> Verdict {
     })
 }
 
-claim! {
-    SAMPLED_LEVEL = "sampled-level" "section 4.3" Statement
-    "A sampled relay switches at x_a or beyond, at most one sample's motion beyond" {
-        domain: &[ClaimPart::whole("whole", "every half-width, phase and sampling interval")],
-        printed: AsPrinted::Holds(|budget| overshoot(budget, 0.0)),
-        corrected: None,
-        falsified: |budget| overshoot(budget, 0.01),
-        hypotheses: &[],
-        depends: &[],
-    }
-}
-
-/// The level at which a sampled relay switches up on a sinusoid, against `x_a (1 + least)` and `x_a` plus one step.
-fn overshoot(budget: Budget, least: f64) -> Verdict {
-    sample(budget, |draw| {
-        let (half_width, step) = (draw.uniform("half_width", 0.05, 0.95), draw.uniform("step_rad", 0.001, 0.5));
-        let start = draw.uniform("phase_rad", -0.5 * PI, -0.5 * PI + step);
-        let Ok(relay) = RelayHysteresis::new(1.0, half_width, 0.0) else { return Case::Skipped };
-        let mut relay = RelayState::new(relay, false);
-        let mut angle = start;
-        while angle < 0.5 * PI && relay.step(angle.sin()) < 0.0 {
-            angle += step;
-        }
-        if angle >= 0.5 * PI {
-            return Case::Skipped;
-        }
-        let level = draw.note("level", angle.sin());
-        Case::margin(level - half_width * (1.0 + least)).and(Case::margin(half_width + step - level))
-    })
-}
-
-/// The biases, over the amplitude, at which a whole formula is compared with the code in the half-width.
-const BIASES: [f64; 2] = [0.0, 0.3];
-
 /// Describing function of the unit relay under a unit sinusoid, in closed form.
 pub(super) fn relay<T: Real>(level: T, half_width: T, bias: T) -> DescribingFunction<T> {
     let relay = RelayHysteresis::new(level, half_width, T::zero());
@@ -326,49 +263,22 @@ pub(super) fn relay<T: Real>(level: T, half_width: T, bias: T) -> DescribingFunc
     df.ok().and_then(|(relay, sweep)| relay.describing_function(&sweep).ok()).unwrap_or_else(no_function)
 }
 
-/// Proof of a printed formula in three parts: the closed form of a sign is its integral; the formula's term of one switching
-/// level, at the ratio u, is that closed form; the terms are put together as the code does.
-fn prove_printed(
-    distortion: Distortion,
-    term: impl Fn(Series) -> Series,
-    formula: impl Fn(Series, Series) -> Series,
-    component: fn(DescribingFunction<Series>) -> Series,
-) -> Verdict {
-    let of_bias = |bias: f64| {
-        let sides = vec![ClaimVariable::number("x_a/X", 0.0, 0.69), ClaimVariable::number("abs(x_0)/X", bias, bias)];
-        let part = ClaimPart { variables: sides.into(), ..ClaimPart::whole("sum", "") };
-        identity(part, distortion, |half_width, factor| {
-            let bias = Series::from_f64(bias);
-            let formula = formula(half_width, bias) * factor;
-            [formula - component(relay(Series::one(), half_width, bias))]
-        })
-    };
-    let of_level = || {
-        const COVERED: ClaimPart =
-            ClaimPart::over("term", "", const { &[ClaimVariable::number("u", -0.9999, 0.9999)] });
-        identity(COVERED, distortion, |at, factor| {
-            let level = Kernel::Sign { at, level: Series::one(), branches: Branches::Rising };
-            [term(at) * factor - component(on_unit(level))]
-        })
-    };
-    prove_kernel(KernelForm::Sign, distortion, BREAKPOINT)
-        .and(of_level)
-        .and(|| of_bias(BIASES[0]))
-        .and(|| of_bias(BIASES[1]))
-}
-
 pub(super) fn root<T: Real>(distance: T) -> T {
     (T::one() - distance.square()).sqrt()
 }
 
-/// Half-widths and biases, over the amplitude, in each case of sign: which of the two is the larger, the bias's sign, and whether a
-/// level lies in the middle half of the sweep, where the code goes another way.
-pub(super) const SWITCHINGS: [[f64; 2]; 8] =
-    [[0.3, 0.1], [0.3, -0.1], [0.1, 0.3], [0.1, -0.3], [0.625, 0.25], [0.625, -0.25], [0.25, 0.625], [0.25, -0.625]];
+/// Half-widths and biases, over the amplitude, in each case of sign: which of the two is the larger, the bias's sign, and whether
+/// none, one or both levels lie in the middle half of the sweep, where the code goes another way.
+#[rustfmt::skip]
+pub(super) const SWITCHINGS: [[f64; 2]; 12] = [
+    [0.3, 0.1], [0.3, -0.1], [0.1, 0.3], [0.1, -0.3],
+    [0.625, 0.25], [0.625, -0.25], [0.25, 0.625], [0.25, -0.625],
+    [0.75, 0.125], [0.75, -0.125], [0.125, 0.75], [0.125, -0.75],
+];
 
-/// [`prove_printed`] where the formula is a rational function, or one of the roots that the code takes: exactly, whatever
-/// half-width and bias.
-fn prove_printed_exactly(
+/// Proof of a printed formula in three parts, whatever half-width and bias: the closed form of a sign is its integral; the
+/// formula's term of one switching level, at the ratio u, is that closed form; the terms are put together as the code does.
+fn prove_printed(
     distortion: Distortion,
     term: impl Fn(Rational) -> Rational,
     formula: impl Fn(Rational, Rational) -> Rational,
@@ -391,29 +301,54 @@ fn prove_printed_exactly(
 /// Eq. 30.
 fn prove_relay_q(distortion: Distortion) -> Verdict {
     let term = |u| -(number(2.0) * u / Rational::pi());
-    prove_printed_exactly(distortion, term, |width, _| -(number(4.0) * width / Rational::pi()), |df| df.q)
+    prove_printed(distortion, term, |width, _| -(number(4.0) * width / Rational::pi()), |df| df.q)
 }
 
 /// Eq. 31.
 fn prove_relay_p(distortion: Distortion) -> Verdict {
     let term = |u| number(2.0) / Rational::pi() * root(u);
-    prove_printed_exactly(distortion, term, |width, bias| term(width - bias) + term(width + bias), |df| df.p)
+    prove_printed(distortion, term, |width, bias| term(width - bias) + term(width + bias), |df| df.p)
 }
 
-/// Eq. 32.
+/// The inverse sine: towards the turning points by the half angle, as the code forms it.
+fn inverse_sine(u: Rational) -> Rational {
+    let (half, quarter_turn) = (number(0.5), number(0.5) * Rational::pi());
+    let from = |end: Rational| number(2.0) * (half * end).sqrt().asin();
+    let near_an_end = || u.select(|| from(number(1.0) + u) - quarter_turn, || quarter_turn - from(number(1.0) - u));
+    (u.abs() - half).select(|| u.asin(), near_an_end)
+}
+
+/// Eq. 32: by the angles, and by the times between the two crossings.
 fn prove_relay_f0(distortion: Distortion) -> Verdict {
-    let term = |u: Series| -(u.asin() / Series::pi());
+    let term = |u| -(inverse_sine(u) / Rational::pi());
+    let times = |[half_width, bias]: [Rational; 2], factor: Rational| {
+        let high = Rational::pi() - inverse_sine(half_width - bias) + inverse_sine(half_width + bias);
+        let by_time = bias_of_output(factor, high, number(2.0) * Rational::pi() - high);
+        Some([by_time - relay(number(1.0), half_width, bias).f0])
+    };
     prove_printed(distortion, term, |width, bias| term(width - bias) - term(width + bias), |df| df.f0)
+        .and(|| exactly(ClaimPart::whole("sum", ""), distortion, &SWITCHINGS, times))
 }
 
-/// Each direction of the quadrant is that of some relay.
+/// Each direction of the quadrant is that of some relay: with `t` from 0 to 1 the angle is `pi - 2 atan(t)`, its cosine
+/// `-(1 - t^2)/(1 + t^2)`, its sine `2 t/(1 + t^2)`. And components of one sign each are all that there is.
 fn prove_second_quadrant(distortion: Distortion) -> Verdict {
-    const COVERED: ClaimPart =
-        ClaimPart::over("covered", "", const { &[ClaimVariable::new("angle", "rad", 1.58, 3.13)] });
-    identity(COVERED, distortion, |angle, factor| {
-        let df = relay(Series::pi() / Series::from_f64(4.0), (Series::pi() - angle).sin(), Series::zero());
-        [df.p + factor * angle.cos(), df.q + factor * angle.sin()]
-    })
+    let covered = |[t]: [Rational; 1], factor: Rational| {
+        let square = t.square();
+        let [cosine, sine] = [square - number(1.0), number(2.0) * t].map(|part| part / (number(1.0) + square));
+        let df = relay(Rational::pi() / number(4.0), sine, number(0.0));
+        Some([df.p + factor * cosine, df.q + factor * sine])
+    };
+    let nothing_else = |[level, half_width, amplitude]: [Rational; 3], factor: Rational| {
+        let relay = RelayHysteresis::new(level, half_width, number(0.0)).ok()?;
+        let df = relay.describing_function(&Sinusoid::new(number(0.0), amplitude).ok()?).ok()?;
+        let scale = number(4.0) * level / (Rational::pi() * amplitude);
+        let share = half_width / amplitude;
+        Some([df.p - factor * scale * root(share), df.q + factor * scale * share])
+    };
+    let points = [[2.0, 0.25, 1.0], [2.0, 0.75, 1.0]];
+    exactly(ClaimPart::whole("covered", ""), distortion, &[[0.25], [0.75]], covered)
+        .and(|| exactly(ClaimPart::whole("nothing-else", ""), distortion, &points, nothing_else))
 }
 
 /// The larger of the two distances that eq. 31 takes roots of is the least amplitude that the relay asks for.

@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
 
+use super::vehicle_proofs::{six_axes, uncoupled_axis};
 use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::vehicle::{Axis, EulerAngles, Pose, Vehicle, VehicleParameters};
 
@@ -27,6 +28,7 @@ claim! {
     KINEMATICS = "kinematics" "4" Identity
     "J1 is a rotation, J2 the inverse of the matrix from Euler rates to body rates; both agree with quaternions"
     {
+        not_proved: Some("rotations come from a library that has floats alone"),
         domain: &[ClaimPart::whole("whole", "every attitude short of a vertical one, every rate")],
         printed: AsPrinted::Holds(|budget| kinematics(budget, EulerAngles::rate_matrix)),
         corrected: None,
@@ -110,11 +112,19 @@ fn parameters(draw: &mut Draw) -> VehicleParameters {
     }
 }
 
+const SIX_AXES_WHOLE: ClaimPart = ClaimPart::whole("whole", "every positive definite inertia, every velocity");
+
 claim! {
     SIX_AXES = "six-axes" "5" Identity
     "M is symmetric positive definite, C(nu) does no work, D(nu) takes energy, and eq. 5 balances"
     {
-        domain: &[ClaimPart::whole("whole", "every positive definite inertia, every velocity")],
+        domain: &[SIX_AXES_WHOLE],
+        by_hand: &[
+            "inertia, C(nu) and D(nu) are linear in each parameter and in the velocities or their magnitudes",
+            "a matrix that is its transpose's negative does no work",
+            "a vehicle is refused unless its inertia is positive definite and its linear drag takes no less than nothing",
+            "solving by Cholesky's factors inverts the inertia",
+        ],
         printed: AsPrinted::Holds(|budget| structure(budget, |_| {}, |coriolis| coriolis)),
         corrected: None,
         // One block of C with the wrong sign.
@@ -122,6 +132,7 @@ claim! {
             coriolis.fixed_view_mut::<3, 3>(0, 3).neg_mut();
             coriolis
         }),
+        proof: Some(|distortion| six_axes(&SIX_AXES_WHOLE, distortion)),
         hypotheses: &[
             Hypothesis {
                 id: "inertia-of-a-body",
@@ -166,15 +177,24 @@ fn structure(
     })
 }
 
+const UNCOUPLED_AXIS_WHOLE: ClaimPart =
+    ClaimPart::whole("whole", "every vehicle of Table 2's form, every axis and velocity");
+
 claim! {
     UNCOUPLED_AXIS = "uncoupled-axis" "6, Table 2" Theorem
     "Of a symmetric, level vehicle whose other axes are at rest, an axis accelerates by eq. 5 as by eq. 6"
     {
-        domain: &[ClaimPart::whole("whole", "every vehicle of Table 2's form, every axis and velocity")],
+        domain: &[UNCOUPLED_AXIS_WHOLE],
+        by_hand: &[
+            "inertia, C(nu) and D(nu) are linear in each parameter and in the velocities or their magnitudes",
+            "an axis that no other one is coupled to accelerates by its force over its inertia",
+            "a turn about the vertical leaves the vertical where it is",
+        ],
         printed: AsPrinted::Holds(|budget| reduction(budget, &Assumed::ALL)),
         corrected: None,
         // Inertia without the water's.
         falsified: |budget| reduction(budget, &Assumed { water: 0.0, ..Assumed::ALL }),
+        proof: Some(|distortion| uncoupled_axis(&UNCOUPLED_AXIS_WHOLE, distortion)),
         hypotheses: &[
             Hypothesis { id: "others-at-rest", counterexample: Some(|budget| reduction(budget, &Assumed { others: 1.0, ..Assumed::ALL })) },
             Hypothesis { id: "level", counterexample: Some(|budget| reduction(budget, &Assumed { tilt_rad: 0.3, ..Assumed::ALL })) },

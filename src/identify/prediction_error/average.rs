@@ -3,7 +3,7 @@
 use super::model::{Model, Parameter};
 use super::scoring::{self, Fitted};
 use super::search::{Found, PRICE};
-use crate::identify::joint::{Estimate, ConfidenceInterval};
+use crate::identify::joint::{ConfidenceInterval, Estimate};
 
 /// A model's word on one parameter: normal, or a point where it has no such parameter.
 #[derive(Clone, Copy, Debug)]
@@ -21,7 +21,15 @@ pub(super) const CHOSEN: f64 = 1.25;
 const IDLE: f64 = 1.0;
 const IDLE_STRUCTURE: f64 = 0.25;
 /// The structures meant.
-const SUBTLE: [Parameter; 4] = [Parameter::Stiffness, Parameter::CubicDrag, Parameter::LagS, Parameter::RampS];
+const SUBTLE: [Parameter; 7] = [
+    Parameter::Stiffness,
+    Parameter::CubicDrag,
+    Parameter::Skew,
+    Parameter::Coulomb,
+    Parameter::LagS,
+    Parameter::RampS,
+    Parameter::FilterS,
+];
 
 /// Standard deviations of the structural parameters of a model, zero for those not estimated; `None` where the record leaves
 /// some of them open.
@@ -54,7 +62,7 @@ impl<'a> Average<'a> {
                 continue;
             }
             // The same model reached twice counts once, the likelier time.
-            if let Some(same) = members.iter_mut().find(|(_, other, _)| same_terms(&other.model, &fitted.model)) {
+            if let Some(same) = members.iter_mut().find(|(_, other, _)| other.model.is_alike(&fitted.model)) {
                 if fitted.log_likelihood <= same.1.log_likelihood {
                     continue;
                 }
@@ -102,8 +110,11 @@ impl<'a> Average<'a> {
         if !mean.is_finite() || !std.is_finite() {
             return None;
         }
-        let spread =
-            (std > 0.0).then(|| ConfidenceInterval { std, low: quantile(&components, 0.025), high: quantile(&components, 0.975) });
+        let spread = (std > 0.0).then(|| ConfidenceInterval {
+            std,
+            low: quantile(&components, 0.025),
+            high: quantile(&components, 0.975),
+        });
         Some(Estimate { value: mean, spread })
     }
 
@@ -132,10 +143,6 @@ fn least_gain(more: &Model, less: &Model) -> f64 {
     let added = more.freedom() - less.freedom();
     let subtle = SUBTLE.iter().filter(|parameter| more.is_free(**parameter) && !less.is_free(**parameter)).count();
     IDLE_STRUCTURE * subtle as f64 + IDLE * added.saturating_sub(subtle) as f64
-}
-
-fn same_terms(a: &Model, b: &Model) -> bool {
-    (a.free, a.noise_free, a.switching, a.clock) == (b.free, b.noise_free, b.switching, b.clock)
 }
 
 /// Where a mixture of normal distributions and points reaches a probability.

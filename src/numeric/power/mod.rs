@@ -13,7 +13,6 @@ pub(crate) use series::{analytic_step, paired_step, step};
 
 use series::{Known, Moments};
 
-use super::real::lift;
 use super::{Interval, Jet, Real, Scalar};
 
 /// An exponent, with what the series need of it alone: constants of two gamma functions, enclosed once.
@@ -134,8 +133,8 @@ pub(super) fn of_scalar<T: Scalar>(law: &PowerMoments, bias: T, amplitude: T) ->
     let Found { beyond, moments } = law.of_sweep(bias.value(), amplitude.value(), f64::EPSILON);
     let (reference, ratio) = if beyond { (bias, amplitude / bias) } else { (amplitude, bias / amplitude) };
     let scale = reference.pow(T::from_f64(law.exponent));
-    let mean = scale * lift(ratio, moments.m, moments.m_slope);
-    [if negative { -mean } else { mean }, scale * lift(ratio, moments.h, moments.h_slope)]
+    let mean = scale * ratio.lift(moments.m, moments.m_slope);
+    [if negative { -mean } else { mean }, scale * ratio.lift(moments.h, moments.h_slope)]
 }
 
 /// Intervals.

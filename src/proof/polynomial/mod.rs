@@ -67,6 +67,7 @@ pub fn decided<R, const N: usize>(point: [f64; N], code: impl FnOnce([Rational; 
 mod tests {
     use super::{Rational, decided, prove_identity};
     use crate::numeric::Real;
+    use crate::numeric::special::Special;
 
     fn number(value: f64) -> Rational {
         Rational::from_f64(value)
@@ -133,6 +134,35 @@ mod tests {
         assert!(!holds([1.0], |[_]| None::<[Rational; 1]>));
         // A comparison that is too close at the point decides nothing.
         assert!(!holds([0.0], |[a]| Some([a.abs() - a])));
+    }
+
+    /// Functions known by value and slope at a point are no formulas: their tangent must not pass for them.
+    #[test]
+    fn tangents_are_not_functions() {
+        assert!(!holds([1.0], |[x]: [Rational; 1]| {
+            let [j0, _] = x.bessel_j();
+            let [again, _] = x.bessel_j();
+            Some([j0 - again])
+        }));
+    }
+
+    #[test]
+    fn signs_of_arguments_are_told_apart() {
+        assert!(holds([0.3], |[x]| Some([x.asin() + (-x).asin(), x.cosh() - (-x).cosh()])));
+        assert!(!holds([0.3], |[x]| Some([x.exp() + (-x).exp()])));
+        assert!(!holds([0.3], |[x]| Some([x.cos() + (-x).cos()])));
+        // A root of a square times what another root is of, on either side of zero.
+        let roots = |[x, y]: [Rational; 2], sign: f64| Some([(x.square() * y).sqrt() - number(sign) * x * y.sqrt()]);
+        assert!(holds([1.0, 2.0], |at| roots(at, 1.0)) && holds([-1.0, 2.0], |at| roots(at, -1.0)));
+        assert!(!holds([1.0, 2.0], |at| roots(at, -1.0)) && !holds([-1.0, 2.0], |at| roots(at, 1.0)));
+        assert!(!holds([1.0, 2.0], |[x, y]| Some([(x * y).sqrt() - x * y.sqrt()])));
+    }
+
+    #[test]
+    fn floors_are_whole_numbers_where_they_are_known() {
+        assert!(holds([2.5], |[x]| Some([x.floor() - number(2.0)])) && holds([-0.5], |[x]| Some([x.floor() + number(1.0)])));
+        assert!(!holds([2.0], |[x]| Some([x.floor() - number(2.0)])));
+        assert!(holds([2.0], |[_]| Some([number(2.0).floor() - number(2.0)])));
     }
 
     #[test]

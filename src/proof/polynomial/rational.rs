@@ -136,14 +136,26 @@ impl Rational {
         Some(positive)
     }
 
-    /// An indeterminate that stands for what a function gives.
-    fn call(name: &'static str, arguments: &[Self], value: f64) -> Self {
+    /// A rational function whose square this is.
+    fn root_of_square(self) -> Option<Self> {
+        let (numerator, denominator) = self.fraction?;
+        let root = numerator.times(denominator)?.root()?;
+        let value = root.value(&at_point) / denominator.value(&at_point);
+        Some(Self::of(root, denominator.clone(), value))
+    }
+
+    /// The place of a function's earlier call with these arguments.
+    fn known(name: &'static str, arguments: &[Self]) -> Option<usize> {
         let same = |call: &Call| {
             let known = call.arguments.iter().zip(arguments);
             call.name == name && call.arguments.len() == arguments.len() && known.into_iter().all(|(a, b)| a == b)
         };
-        let known = CALLS.with_borrow(|calls| calls.iter().position(same));
-        let place = known.unwrap_or_else(|| {
+        CALLS.with_borrow(|calls| calls.iter().position(same))
+    }
+
+    /// An indeterminate that stands for what a function gives.
+    fn call(name: &'static str, arguments: &[Self], value: f64) -> Self {
+        let place = Self::known(name, arguments).unwrap_or_else(|| {
             CALLS.with_borrow_mut(|calls| {
                 calls.push(Call { name, arguments: arguments.to_vec(), value });
                 calls.len() - 1
@@ -152,14 +164,26 @@ impl Rational {
         Self::of(Polynomial::symbol(Symbol::Call(place)), Polynomial::number(1), value)
     }
 
-    /// A function of one argument, with its value at zero where that is a whole number.
-    fn function(self, name: &'static str, at_zero: Option<f64>, value: f64) -> Self {
-        match at_zero {
-            Some(known) if self.is_zero() => Self::from_f64(known),
+    /// A function of one argument, with its value at zero where that is a whole number; an odd or even one of an argument whose
+    /// negative it has been asked of is what it was there.
+    fn function(self, name: &'static str, at_zero: Option<f64>, parity: Parity, value: f64) -> Self {
+        if let Some(known) = at_zero.filter(|_| self.is_zero()) {
+            return Self::from_f64(known);
+        }
+        let mirrored = || Self::known(name, &[-self]).is_some();
+        match parity {
+            Parity::Odd if mirrored() => -Self::call(name, &[-self], -value),
+            Parity::Even if mirrored() => Self::call(name, &[-self], value),
             _ => Self::call(name, &[self], value),
         }
     }
+}
 
+/// What becomes of a function's value when the sign of its argument is turned.
+enum Parity {
+    Odd,
+    Even,
+    Neither,
 }
 
 impl Add for Rational {
@@ -229,11 +253,11 @@ impl PartialOrd for Rational {
     }
 }
 
-/// Functions of one argument: their values at zero where these are whole numbers.
+/// Functions of one argument: their values at zero where these are whole numbers, and their parity.
 macro_rules! functions {
-    ($($function:ident: $at_zero:expr),+) => {
+    ($($function:ident: $at_zero:expr, $parity:ident;)+) => {
         $(fn $function(self) -> Self {
-            self.function(stringify!($function), $at_zero, Real::$function(self.value))
+            self.function(stringify!($function), $at_zero, Parity::$parity, Real::$function(self.value))
         })+
     };
 }
@@ -281,19 +305,32 @@ impl Real for Rational {
             None => Self::UNKNOWN,
         }
     }
-    /// Of a square, the side that is positive at the point, which is written down.
+    /// Of a square, the side that is positive at the point, which is written down; of a square times what a root has been taken
+    /// of, that root times such a side.
     fn sqrt(self) -> Self {
-        let root = self.fraction.and_then(|(numerator, denominator)| {
-            let root = numerator.times(denominator)?.root()?;
-            let value = root.value(&at_point) / denominator.value(&at_point);
-            Some(Self::of(root, denominator.clone(), value))
+        let earlier: Vec<_> = CALLS.with_borrow(|calls| {
+            let roots = calls.iter().enumerate().filter(|(_, call)| call.name == SQRT);
+            roots.filter_map(|(place, call)| Some((place, call.value, *call.arguments.first()?))).collect()
         });
-        root.map_or_else(|| Self::call(SQRT, &[self], self.value.sqrt()), Self::abs)
+        let by_earlier = |(place, value, argument): (usize, f64, Self)| {
+            let root = Self::of(Polynomial::symbol(Symbol::Call(place)), Polynomial::number(1), value);
+            Some((self / argument).root_of_square()?.abs() * root)
+        };
+        let root = self.root_of_square().map(Self::abs).or_else(|| earlier.into_iter().find_map(by_earlier));
+        root.unwrap_or_else(|| Self::call(SQRT, &[self], self.value.sqrt()))
     }
     functions! {
-        sin: Some(0.0), cos: Some(1.0), tan: Some(0.0), asin: Some(0.0), atan: Some(0.0), exp: Some(1.0),
-        exp_m1: Some(0.0), ln: None, ln_1p: Some(0.0), sinh: Some(0.0), cosh: Some(1.0), tanh: Some(0.0),
-        atanh: Some(0.0), floor: Some(0.0)
+        sin: Some(0.0), Odd; cos: Some(1.0), Even; tan: Some(0.0), Odd; asin: Some(0.0), Odd; atan: Some(0.0), Odd;
+        exp: Some(1.0), Neither; exp_m1: Some(0.0), Neither; ln: None, Neither; ln_1p: Some(0.0), Neither;
+        sinh: Some(0.0), Odd; cosh: Some(1.0), Even; tanh: Some(0.0), Odd; atanh: Some(0.0), Odd;
+    }
+    /// The whole number below at the point, which is written down as two decisions.
+    fn floor(self) -> Self {
+        let whole = Self::from_f64(Real::floor(self.value));
+        match ((self - whole).is_zero(), (self - whole).positive(), (whole + Self::one() - self).positive()) {
+            (true, ..) | (_, Some(true), Some(true)) => whole,
+            _ => Self::UNKNOWN,
+        }
     }
     fn pow(self, exponent: Self) -> Self {
         Self::call("pow", &[self, exponent], Real::pow(self.value, exponent.value))
@@ -320,6 +357,10 @@ impl Real for Rational {
 impl Scalar for Rational {
     fn epsilon() -> Self {
         Self::from_f64(f64::EPSILON)
+    }
+    /// What is known at a point by value and slope is no formula.
+    fn lift(self, _: f64, _: f64) -> Self {
+        <Self as Component>::UNKNOWN
     }
 }
 

@@ -1,0 +1,229 @@
+//! The piecewise-linear catalogue as sums of kernels, and the kernels' describing functions wherever the breakpoint is.
+
+use super::algebra::{exactly, number};
+use super::single::Single;
+use super::{ClaimPart, Distortion, Verdict};
+use crate::describing::{ClosedForm, DescribingFunction};
+use crate::nonlinearity::{
+    Absolute, Backlash, Branch, Branches, Catalogued, DeadZone, DeadZoneSaturation, GainChanging, Kernel,
+    PiecewiseLinear, Polyline, Preload, Quantizer, Relay, RelayDeadZone, RelayDeadZoneHysteresis, RelayHysteresis,
+    Saturation, SaturationAsymmetric, Side, Sinusoid,
+};
+use crate::numeric::Real;
+use crate::proof::polynomial::Rational;
+
+pub(super) const DECOMPOSITION: ClaimPart = ClaimPart::whole(
+    "decomposition",
+    "each member of the piecewise-linear catalogue is the sum of its kernels, every parameter",
+);
+pub(super) const SCALING: ClaimPart = ClaimPart::whole(
+    "scaling",
+    "every kernel, height, bias and amplitude as at one, none and one, and below a breakpoint as above its mirror image",
+);
+pub(super) const BEYOND: ClaimPart = ClaimPart::whole("beyond-the-sweep", "sweeps that end beyond a breakpoint");
+
+/// Most parameters of a member, two for each point of a polyline.
+const PARAMETERS: usize = 10;
+/// Bias, amplitude and place on the sweep besides.
+const VARIABLES: usize = PARAMETERS + 3;
+
+/// A member's output less the sum of its kernels, on one branch, at these settings and at sweeps and places that lie on every
+/// side of all breakpoints.
+fn is_sum<C>(distortion: Distortion, branch: Branch, settings: &[&[f64]]) -> Verdict
+where
+    C: Catalogued<Rational> + PiecewiseLinear<Number = Rational>,
+{
+    const SWEEPS: [[f64; 2]; 4] = [[0.11, 0.37], [0.13, 5.3], [3.1, 2.9], [-3.3, 2.7]];
+    const PLACES: [f64; 10] = [-0.97, -0.79, -0.58, -0.41, -0.17, 0.06, 0.29, 0.47, 0.68, 0.91];
+    let each = |setting: &&[f64]| {
+        let count = setting.len();
+        let points = SWEEPS.iter().flat_map(|&[bias, amplitude]| {
+            PLACES.map(|place| {
+                let mut point = [0.0; VARIABLES];
+                point[..count].copy_from_slice(setting);
+                point[PARAMETERS..].copy_from_slice(&[bias, amplitude, place]);
+                point
+            })
+        });
+        let points: Vec<_> = points.collect();
+        exactly(DECOMPOSITION, distortion, &points, |at: [Rational; VARIABLES], factor: Rational| {
+            let member = C::from_values(&at[..count]).ok()?;
+            let [bias, amplitude, place] = [at[PARAMETERS], at[PARAMETERS + 1], at[PARAMETERS + 2]];
+            let (sweep, x) = (Sinusoid::new(bias, amplitude).ok()?, bias + amplitude * place);
+            let mut sum = number(0.0);
+            member.kernels(&sweep, |kernel| sum = sum + Single(kernel).value(x, branch, &sweep));
+            Some([member.value(x, branch, &sweep) - factor * sum])
+        })
+    };
+    settings.iter().map(each).reduce(|all, next| all.and(|| next)).unwrap_or_else(|| Verdict::undecided("nothing"))
+}
+
+/// What a member is proved by: on a branch.
+type Proof = fn(Distortion, Branch) -> Verdict;
+
+/// Each member with settings in every order that its parameters can have; a polyline of up to four points, the bias in each of
+/// its segments.
+const MEMBERS: [(&str, Proof); 14] = [
+    (Relay::<Rational>::NAME, |d, b| is_sum::<Relay<_>>(d, b, &[&[0.7]])),
+    (RelayDeadZone::<Rational>::NAME, |d, b| is_sum::<RelayDeadZone<_>>(d, b, &[&[0.7, 1.3]])),
+    (RelayHysteresis::<Rational>::NAME, |d, b| is_sum::<RelayHysteresis<_>>(d, b, &[&[0.7, 1.3, 0.2]])),
+    (RelayDeadZoneHysteresis::<Rational>::NAME, |d, b| {
+        is_sum::<RelayDeadZoneHysteresis<_>>(d, b, &[&[0.7, 1.3, 0.5], &[0.7, 0.25, 0.05]])
+    }),
+    (Saturation::<Rational>::NAME, |d, b| is_sum::<Saturation<_>>(d, b, &[&[0.7, 1.3], &[0.7, 0.2]])),
+    (SaturationAsymmetric::<Rational>::NAME, |d, b| {
+        is_sum::<SaturationAsymmetric<_>>(d, b, &[&[0.7, -0.6, 1.3], &[0.7, 0.6, 1.3], &[0.7, -1.3, -0.6]])
+    }),
+    (DeadZone::<Rational>::NAME, |d, b| is_sum::<DeadZone<_>>(d, b, &[&[0.7, 1.3], &[0.7, 0.2]])),
+    (DeadZoneSaturation::<Rational>::NAME, |d, b| is_sum::<DeadZoneSaturation<_>>(d, b, &[&[0.7, 0.6, 1.7]])),
+    (GainChanging::<Rational>::NAME, |d, b| {
+        let settings: [&[f64]; 5] =
+            [&[2.0, 0.7, 1.3], &[0.7, 2.0, 1.3], &[-0.7, 2.0, 1.3], &[-0.7, -2.0, 1.3], &[-2.0, -0.7, 1.3]];
+        is_sum::<GainChanging<_>>(d, b, &settings)
+    }),
+    (Preload::<Rational>::NAME, |d, b| is_sum::<Preload<_>>(d, b, &[&[0.7, 0.4]])),
+    (Quantizer::<Rational>::NAME, |d, b| is_sum::<Quantizer<_>>(d, b, &[&[0.9], &[2.3]])),
+    (Absolute::<Rational>::NAME, |d, b| is_sum::<Absolute<_>>(d, b, &[&[0.7]])),
+    (Polyline::<Rational, Vec<(Rational, Rational)>>::NAME, |d, b| {
+        let settings: [&[f64]; 6] = [
+            &[0.7, -0.3, 0.2, 0.5],
+            &[0.7, -0.3, -1.2, 0.5, 1.1, 0.9],
+            &[0.7, -0.3, 1.2, 0.5, 2.1, 0.9],
+            &[0.7, -0.3, -1.2, 0.5, 1.1, 0.9, 2.2, -0.4],
+            &[0.7, -0.3, -2.2, 0.5, -1.1, 0.9, 0.7, -0.4, 2.3, 0.1],
+            &[0.7, -0.3, -3.2, 0.5, -2.1, 0.9, -1.2, -0.4, -0.3, 0.1],
+        ];
+        is_sum::<Polyline<_, Vec<_>>>(d, b, &settings)
+    }),
+    (Backlash::<Rational>::NAME, |d, b| is_sum::<Backlash<_>>(d, b, &[&[0.7, 0.2], &[0.7, 1.1]])),
+];
+
+/// Every member on both branches.
+pub(super) fn decomposition(distortion: Distortion) -> Verdict {
+    let both = |(_, proof): &(&str, Proof)| proof(distortion, Branch::Rising).and(|| proof(distortion, Branch::Falling));
+    MEMBERS.iter().map(both).reduce(|all, next| all.and(|| next)).unwrap_or_else(|| Verdict::undecided("nothing"))
+}
+
+/// Kernels with one breakpoint, of a height or slope.
+type Make = fn(at: Rational, height: Rational, side: Side, branches: Branches) -> Kernel<Rational>;
+
+const STEP: Make = |at, height, side, branches| Kernel::Step { at, height, side, branches };
+const RAMP: Make = |at, slope, side, branches| Kernel::Ramp { at, slope, side, branches };
+const SIGN: Make = |at, level, _, branches| Kernel::Sign { at, level, branches };
+
+const SIDES: [Side; 2] = [Side::Above, Side::Below];
+const BRANCHES: [Branches; 3] = [Branches::Both, Branches::Rising, Branches::Falling];
+
+fn of(kernel: Kernel<Rational>, bias: Rational, amplitude: Rational) -> Option<DescribingFunction<Rational>> {
+    Single(kernel).describing_function(&Sinusoid::new(bias, amplitude).ok()?).ok()
+}
+
+/// The three components of the output, that is `[F_0, P X, Q X]`.
+fn output(df: DescribingFunction<Rational>, amplitude: Rational) -> [Rational; 3] {
+    [df.f0, df.p * amplitude, df.q * amplitude]
+}
+
+/// Every height, bias and amplitude from a unit kernel on the unit sweep, on the rising branch and above: the falling branch
+/// turns the cosine component round, a kernel below is one above its mirror image with the sine component turned round, and
+/// what is on both branches is the sum.
+pub(super) fn scaling(distortion: Distortion) -> Verdict {
+    let one = |make: Make, side: Side, branches: Branches, is_ramp: bool| {
+        let points = [0.25, -0.25, 0.75, -0.75].map(|u| [u, 0.3, 2.0, 0.7]);
+        exactly(SCALING, distortion, &points, |[u, bias, amplitude, height]: [Rational; 4], factor: Rational| {
+            let (zero, unit) = (number(0.0), number(1.0));
+            let found = output(of(make(bias + amplitude * u, height, side, branches), bias, amplitude)?, amplitude);
+            // A sign is odd itself.
+            let (mirrored, turned) = match side {
+                Side::Above => (u, unit),
+                Side::Below => (-u, -unit),
+            };
+            let [mean, sine, cosine] =
+                output(of(make(mirrored, unit, Side::Above, Branches::Rising), zero, unit)?, unit);
+            let size = factor * height * if is_ramp { amplitude } else { unit };
+            let (both, cosine) = match branches {
+                Branches::Both => (number(2.0), zero),
+                Branches::Rising => (unit, cosine),
+                Branches::Falling => (unit, -cosine),
+            };
+            let expected = [mean * both, turned * sine * both, cosine];
+            Some(core::array::from_fn::<_, 3, _>(|i| found[i] - size * expected[i]))
+        })
+    };
+    let kernels = SIDES.iter().flat_map(|&side| {
+        BRANCHES.map(|branches| one(STEP, side, branches, false).and(|| one(RAMP, side, branches, true)))
+    });
+    let signs = BRANCHES.map(|branches| one(SIGN, Side::Above, branches, false));
+    kernels.chain(signs).reduce(|all, next| all.and(|| next)).unwrap_or_else(|| Verdict::undecided("nothing"))
+}
+
+/// A breakpoint beyond the sweep leaves a straight line `c + s x` on each branch that counts, with mean `c + s B`, sine component
+/// `s X` and, on a branch alone, cosine component `4 (c + s B)/pi` of either sign: half of each on a branch.
+pub(super) fn beyond(distortion: Distortion) -> Verdict {
+    let one = |make: Make, line: fn(Side, bool) -> [f64; 2], side: Side, branches: Branches| {
+        let points = [[4.0, 0.3, 2.0, 0.7], [-4.0, 0.3, 2.0, 0.7]];
+        exactly(BEYOND, distortion, &points, |[at, bias, amplitude, height]: [Rational; 4], factor: Rational| {
+            let found = output(of(make(at, height, side, branches), bias, amplitude)?, amplitude);
+            // Every input lies above the breakpoint or below it.
+            let [constant, slope] = line(side, bias > at).map(number);
+            let (mean, sine) = (height * (constant + slope * (bias - at)), height * slope * amplitude);
+            let (share, side) = match branches {
+                Branches::Both => (number(1.0), number(0.0)),
+                Branches::Rising => (number(0.5), number(1.0)),
+                Branches::Falling => (number(0.5), number(-1.0)),
+            };
+            let expected = [share * mean, share * sine, side * number(2.0) * mean / Rational::pi()];
+            Some(core::array::from_fn::<_, 3, _>(|i| found[i] - factor * expected[i]))
+        })
+    };
+    const fn reached(side: Side, above: bool) -> bool {
+        matches!((side, above), (Side::Above, true) | (Side::Below, false))
+    }
+    let step = |side, above| [f64::from(u8::from(reached(side, above))), 0.0];
+    let ramp = |side, above| match (reached(side, above), side) {
+        (false, _) => [0.0, 0.0],
+        (true, Side::Above) => [0.0, 1.0],
+        (true, Side::Below) => [0.0, -1.0],
+    };
+    let sign = |_, above| [if above { 1.0 } else { -1.0 }, 0.0];
+    let all = SIDES.iter().flat_map(|&side| {
+        BRANCHES.map(|branches| {
+            one(STEP, step, side, branches)
+                .and(|| one(RAMP, ramp, side, branches))
+                .and(|| one(SIGN, sign, side, branches))
+        })
+    });
+    all.reduce(|all, next| all.and(|| next)).unwrap_or_else(|| Verdict::undecided("nothing"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BEYOND, Branch, DECOMPOSITION, Distortion, MEMBERS, SCALING, beyond, decomposition, scaling};
+    use crate::describing::CATALOGUE;
+
+    #[test]
+    fn every_piecewise_linear_member_is_decomposed() {
+        const SMOOTH: [&str; 6] = ["power", "polynomial", "sine", "sinh", "arctan", "tanh"];
+        let names: Vec<_> = CATALOGUE.iter().map(|entry| entry.name).filter(|name| !SMOOTH.contains(name)).collect();
+        let mut proved = MEMBERS.map(|(name, _)| name).to_vec();
+        proved.sort_by_key(|name| names.iter().position(|known| known == name));
+        assert_eq!(proved, names);
+        for (name, proof) in MEMBERS {
+            for branch in [Branch::Rising, Branch::Falling] {
+                assert!(proof(Distortion::None, branch).holds(), "{name}, {branch:?}");
+                for false_one in Distortion::FALSE {
+                    assert!(!proof(false_one, branch).holds(), "{name}, {branch:?}, {false_one:?}");
+                }
+            }
+        }
+        assert!(decomposition(Distortion::None).holds(), "{}", DECOMPOSITION.name);
+    }
+
+    #[test]
+    fn kernels_scale_and_end() {
+        assert!(scaling(Distortion::None).holds(), "{}", SCALING.name);
+        assert!(beyond(Distortion::None).holds(), "{}", BEYOND.name);
+        for false_one in Distortion::FALSE {
+            assert!(!scaling(false_one).holds() && !beyond(false_one).holds(), "{false_one:?}");
+        }
+    }
+}

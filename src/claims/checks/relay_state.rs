@@ -1,0 +1,141 @@
+//! The relay as a state machine: what the paper says of it in words.
+
+use core::f64::consts::PI;
+
+use super::algebra::{exactly, number};
+use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Hypothesis, Verdict, claim, sample};
+use crate::experiment::RelayState;
+use crate::nonlinearity::RelayHysteresis;
+use crate::proof::polynomial::{Decision, Rational, decided};
+
+const NOISE_WHOLE: ClaimPart = ClaimPart::whole("whole", "every half-width and smaller noise, inputs that move one way");
+
+claim! {
+    NOISE = "relay-noise" "section 4.1, in words" Statement
+    "While the input moves one way, noise smaller than the half-width switches the relay at most once" {
+        domain: &[NOISE_WHOLE],
+        by_hand: &[
+            "the command turns at the samples that the decisions name and at no others",
+            "numbers of which none is negative and one is positive do not add up to zero",
+            "downwards by the symmetry of the relay",
+        ],
+        proof: Some(prove_noise),
+        printed: AsPrinted::Refuted(|budget| switches_once(budget, 0.0, 10.0)),
+        corrected: Some(|budget| switches_once(budget, 0.0, 1.0)),
+        falsified: |budget| switches_once(budget, 1.5, 2.0),
+        hypotheses: &[
+            Hypothesis { id: "noise-below-half-width", counterexample: Some(|budget| switches_once(budget, 1.5, 2.0)) },
+        ],
+        depends: &[],
+    }
+}
+
+/// A slow ramp through both levels with noise between the given shares of the half-width: exactly one switching.
+fn switches_once(budget: Budget, least: f64, most: f64) -> Verdict {
+    sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
+        let half_width = draw.uniform("half_width", 0.1, 1.0);
+        let noise = half_width * draw.uniform("noise_over_half_width", least, most);
+        let Ok(relay) = RelayHysteresis::new(1.0, half_width, 0.0) else { return Case::Skipped };
+        let mut relay = RelayState::new(relay, false);
+        let (mut switchings, mut high) = (0, false);
+        for step in -500..=500 {
+            let input = f64::from(step) / 500.0 * (half_width + noise + 0.1);
+            let disturbed = input + noise * draw.unrecorded(-1.0, 1.0);
+            let now = relay.step(disturbed) > 0.0;
+            switchings += usize::from(now != high);
+            high = now;
+        }
+        Case::truth(draw.note("switchings", switchings as f64) == 1.0)
+    })
+}
+
+const SAMPLED_LEVEL_WHOLE: ClaimPart = ClaimPart::whole("whole", "every half-width, phase and sampling interval");
+
+claim! {
+    SAMPLED_LEVEL = "sampled-level" "section 4.3" Statement
+    "A sampled relay switches at x_a or beyond, at most one sample's motion beyond" {
+        domain: &[SAMPLED_LEVEL_WHOLE],
+        by_hand: &[
+            "the command turns at the samples that the decisions name and at no others",
+            "downwards by the symmetry of the relay",
+        ],
+        proof: Some(prove_sampled_level),
+        printed: AsPrinted::Holds(|budget| overshoot(budget, 0.0)),
+        corrected: None,
+        falsified: |budget| overshoot(budget, 0.01),
+        hypotheses: &[],
+        depends: &[],
+    }
+}
+
+/// The level at which a sampled relay switches up on a sinusoid, against `x_a (1 + least)` and `x_a` plus one step.
+fn overshoot(budget: Budget, least: f64) -> Verdict {
+    sample(budget, |draw| {
+        let (half_width, step) = (draw.uniform("half_width", 0.05, 0.95), draw.uniform("step_rad", 0.001, 0.5));
+        let start = draw.uniform("phase_rad", -0.5 * PI, -0.5 * PI + step);
+        let Ok(relay) = RelayHysteresis::new(1.0, half_width, 0.0) else { return Case::Skipped };
+        let mut relay = RelayState::new(relay, false);
+        let mut angle = start;
+        while angle < 0.5 * PI && relay.step(angle.sin()) < 0.0 {
+            angle += step;
+        }
+        if angle >= 0.5 * PI {
+            return Case::Skipped;
+        }
+        let level = draw.note("level", angle.sin());
+        Case::margin(level - half_width * (1.0 + least)).and(Case::margin(half_width + step - level))
+    })
+}
+
+/// What the relay asks of an input, each a number and whether it is positive, and whether the command turns.
+fn asked<const N: usize>(
+    point: [f64; N],
+    high: bool,
+    of: impl Fn([Rational; N]) -> [Rational; 2],
+) -> Option<(Vec<Decision>, bool)> {
+    let step = |at: [Rational; N]| {
+        let [input, half_width] = of(at);
+        let mut relay = RelayState::new(RelayHysteresis::new(number(1.0), half_width, number(0.0)).ok()?, high);
+        let before = relay.output();
+        Some(!(relay.step(input) - before).is_zero())
+    };
+    let (turned, decisions) = decided(point, step);
+    Some((decisions, turned?))
+}
+
+/// The relay turns up at one input and down at a later, higher one: what it found then, the growth of the input and the two
+/// distances of the noise from the half-width add up to zero, so that not all of them are what they should be.
+fn prove_noise(distortion: Distortion) -> Verdict {
+    // The disturbed inputs are where the relay turns; that the noise is too large there is what the identity shows.
+    const POINT: [f64; 5] = [1.0, 0.5, -1.0, -0.5, 0.25];
+    let up = asked(POINT, false, |[input, noise, .., half_width]| [input + noise, half_width]);
+    let down = asked(POINT, true, |[_, _, input, noise, half_width]| [input + noise, half_width]);
+    let (Some((up, true)), Some((down, true))) = (up, down) else { return Verdict::undecided("one step of the relay") };
+    let (&[(above, true)], &[(_, false), (below, false)]) = (up.as_slice(), down.as_slice()) else {
+        return Verdict::undecided("decisions of the relay");
+    };
+    let sum = |[first, first_noise, later, later_noise, half_width]: [Rational; 5], factor: Rational| {
+        let room = (half_width - first_noise) + (half_width + later_noise);
+        Some([above - below + (later - first) + factor * room])
+    };
+    exactly(NOISE_WHOLE, distortion, &[POINT], sum)
+}
+
+/// A sample that turns the command is at the level or beyond, and beyond it by less than the motion since the one before, which
+/// did not.
+fn prove_sampled_level(distortion: Distortion) -> Verdict {
+    const POINT: [f64; 3] = [0.25, 0.75, 0.5];
+    let before = asked(POINT, false, |[input, _, half_width]| [input, half_width]);
+    let turning = asked(POINT, false, |[_, input, half_width]| [input, half_width]);
+    let (Some((before, false)), Some((turning, true))) = (before, turning) else {
+        return Verdict::undecided("one step of the relay");
+    };
+    let (&[(missed, false), ..], &[(beyond, true)]) = (before.as_slice(), turning.as_slice()) else {
+        return Verdict::undecided("decisions of the relay");
+    };
+    let functions = |[before, turning, half_width]: [Rational; 3], factor: Rational| {
+        let overshoot = turning - half_width;
+        Some([beyond - factor * overshoot, overshoot - missed - (turning - before)])
+    };
+    exactly(SAMPLED_LEVEL_WHOLE, distortion, &[POINT], functions)
+}
