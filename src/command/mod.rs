@@ -10,9 +10,13 @@ mod df;
 mod error;
 mod files;
 mod identify;
+mod known;
+mod manual;
+mod number;
 mod predict;
 mod reproduce;
 mod simulate;
+mod suggestion;
 mod terminal;
 mod tune;
 mod verify;
@@ -20,7 +24,7 @@ mod verify;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
 use error::CommandError;
 
@@ -33,6 +37,9 @@ use error::CommandError;
 struct Command {
     #[command(subcommand)]
     action: Action,
+    /// When help and errors are coloured
+    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = ColorChoice::Auto)]
+    color: ColorChoice,
 }
 
 #[derive(Debug, Subcommand)]
@@ -45,6 +52,8 @@ enum Action {
     Simulate(simulate::Arguments),
     Identify(identify::Arguments),
     Tune(tune::Arguments),
+    Completions(manual::Completions),
+    Man(manual::Manual),
 }
 
 /// What a subcommand found, when nothing went wrong.
@@ -61,7 +70,11 @@ enum Outcome {
 /// Does not return for `--help`, `--version` and unusable arguments: they end the process with status 0 or 2.
 #[must_use]
 pub fn run() -> ExitCode {
-    let command = Command::parse();
+    let matches = Command::command().color(wanted_color()).get_matches();
+    let command = match Command::from_arg_matches(&matches) {
+        Ok(command) => command,
+        Err(error) => error.format(&mut Command::command()).exit(),
+    };
     let mut output = terminal::Shown(io::BufWriter::new(io::stdout().lock()));
     let outcome = match &command.action {
         Action::Reproduce(arguments) => reproduce::run(arguments, &mut output),
@@ -72,6 +85,8 @@ pub fn run() -> ExitCode {
         Action::Simulate(arguments) => simulate::run(arguments, &mut output),
         Action::Identify(arguments) => identify::run(arguments, &mut output),
         Action::Tune(arguments) => tune::run(arguments, &mut output),
+        Action::Completions(arguments) => manual::completions(arguments, &mut output),
+        Action::Man(arguments) => manual::manual(arguments),
     };
     match outcome.and_then(|outcome| output.flush().map(|()| outcome).map_err(CommandError::from)) {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
@@ -84,6 +99,18 @@ pub fn run() -> ExitCode {
             error.status()
         }
     }
+}
+
+/// What `--color` asks for: help and errors of the parser are shown before the arguments are known.
+fn wanted_color() -> ColorChoice {
+    let given: Vec<String> = std::env::args().skip(1).collect();
+    let after = |at: usize| given.get(at + 1).map(String::as_str);
+    let value = given.iter().enumerate().find_map(|(at, argument)| match argument.strip_prefix("--color") {
+        Some("") => after(at),
+        Some(rest) => rest.strip_prefix('='),
+        None => None,
+    });
+    value.and_then(|value| ColorChoice::from_str(value, false).ok()).unwrap_or(ColorChoice::Auto)
 }
 
 /// Writes one JSON document and a line end.
