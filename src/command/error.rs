@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use crate::error::Error;
+use crate::numeric::OutOfDomain;
 
 /// Why a subcommand could not answer.
 #[derive(Debug, thiserror::Error)]
@@ -56,6 +57,20 @@ impl CommandError {
     /// All of them are input that cannot be used.
     pub(super) fn status(&self) -> ExitCode {
         ExitCode::from(2)
+    }
+
+    /// Short name for scripts.
+    pub(super) fn code(&self) -> &'static str {
+        match self {
+            Self::Library(error) => error.code(),
+            Self::Usage { .. } | Self::UnknownClaim { .. } => "usage",
+            Self::Output(_) | Self::Write { .. } | Self::OutputIsInput { .. } | Self::Certificate { .. } => "files",
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    pub(super) fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        if let Self::Library(error) = self { error.out_of_domain() } else { None }
     }
 }
 

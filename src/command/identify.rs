@@ -24,7 +24,7 @@ use crate::report::identification as page;
 Examples:
   selfosc identify log.csv
   selfosc identify log.csv --delay 0.2 --report report.html
-  selfosc identify weak.csv strong.csv --delay estimate --json
+  selfosc identify weak.csv strong.csv --json
   selfosc identify zigzag.csv --method fit --output yaw_deg --input rudder")]
 pub(super) struct Arguments {
     /// Delimiter-separated text with a header
@@ -45,8 +45,8 @@ pub(super) struct Arguments {
     /// Level at which the command switched, output units (with --degrees still radians) [default: as logged]
     #[arg(long, value_name = "XA", value_parser = positive, allow_negative_numbers = true)]
     half_width: Option<f64>,
-    /// Delay of the whole loop in s, or `estimate`
-    #[arg(long, value_name = "S|estimate", default_value = "0", value_parser = delay, allow_negative_numbers = true)]
+    /// Delay of the whole loop in s, or `estimate`; one that is given is checked
+    #[arg(long, value_name = "S|estimate", default_value = "estimate", value_parser = delay, allow_negative_numbers = true)]
     delay: Delay,
     /// Drag law
     #[arg(long, default_value = "auto")]
@@ -99,7 +99,7 @@ enum Method {
     Iso,
     /// The exact limit cycle with the mean cycle's features
     Exact,
-    /// Maximum likelihood on every sample, with intervals
+    /// The likelihood of every sample: the answer to use, and each drag law alone
     Fit,
     /// All of them
     All,
@@ -192,9 +192,6 @@ impl Arguments {
             Refusal::Settings(SettingsError::MixedNeedsFit) => {
                 return usage("only the fit knows mixed drag; use --method fit, or another --drag");
             }
-            Refusal::Settings(SettingsError::DelayNeedsFit) => {
-                return usage("only the fit estimates a delay; use --method fit or all, or give the delay in seconds");
-            }
             Refusal::Settings(_) | Refusal::File { .. } => return Err(refusal.into()),
             _ => {}
         }
@@ -223,6 +220,12 @@ fn show(found: &Identification, output: &mut impl Write) -> Result<(), CommandEr
         writeln!(output, "{}", table.text())?;
     }
     writeln!(output, "{}", page::verdict(found))?;
+    for reason in page::reasons(found) {
+        writeln!(output, "{}: {}", reason.code, reason.text)?;
+    }
+    for refused in found.refused() {
+        writeln!(output, "no model by {} ({}): {}", refused.method, refused.code, refused.text)?;
+    }
     for caution in found.cautions() {
         writeln!(output, "warning: {}: {}", caution.code, caution.text)?;
     }

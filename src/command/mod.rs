@@ -17,11 +17,13 @@ mod terminal;
 mod tune;
 mod verify;
 
+use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use crate::numeric::OutOfDomain;
 use error::CommandError;
 
 /// Self-oscillations under a relay: the paper reproduced, its theory checked, vehicles identified.
@@ -47,6 +49,21 @@ enum Action {
     Tune(tune::Arguments),
 }
 
+impl Action {
+    fn run(&self, output: &mut impl Write) -> Result<Outcome, CommandError> {
+        match self {
+            Self::Reproduce(arguments) => reproduce::run(arguments, output),
+            Self::Verify(arguments) => verify::run(arguments, output),
+            Self::Df(arguments) => df::run(arguments, output),
+            Self::Balance(arguments) => balance::run(arguments, output),
+            Self::Predict(arguments) => predict::run(arguments, output),
+            Self::Simulate(arguments) => simulate::run(arguments, output),
+            Self::Identify(arguments) => identify::run(arguments, output),
+            Self::Tune(arguments) => tune::run(arguments, output),
+        }
+    }
+}
+
 /// What a subcommand found, when nothing went wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
@@ -63,16 +80,7 @@ enum Outcome {
 pub fn run() -> ExitCode {
     let command = Command::parse();
     let mut output = terminal::Shown(io::BufWriter::new(io::stdout().lock()));
-    let outcome = match &command.action {
-        Action::Reproduce(arguments) => reproduce::run(arguments, &mut output),
-        Action::Verify(arguments) => verify::run(arguments, &mut output),
-        Action::Df(arguments) => df::run(arguments, &mut output),
-        Action::Balance(arguments) => balance::run(arguments, &mut output),
-        Action::Predict(arguments) => predict::run(arguments, &mut output),
-        Action::Simulate(arguments) => simulate::run(arguments, &mut output),
-        Action::Identify(arguments) => identify::run(arguments, &mut output),
-        Action::Tune(arguments) => tune::run(arguments, &mut output),
-    };
+    let outcome = command.action.run(&mut output);
     match outcome.and_then(|outcome| output.flush().map(|()| outcome).map_err(CommandError::from)) {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::No) => ExitCode::from(1),
@@ -84,6 +92,49 @@ pub fn run() -> ExitCode {
             error.status()
         }
     }
+}
+
+/// What a subcommand prints, for a program that calls it without a process.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Answer {
+    /// Standard output.
+    pub text: String,
+    /// Whether the answer is no: exit status 1.
+    pub no: bool,
+}
+
+/// Why a subcommand gives no answer: exit status 2.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// Short name for scripts: the library's, or `usage` or `files`.
+    pub code: &'static str,
+    /// What standard error shows.
+    pub text: String,
+    /// The number outside its domain, if that is the reason.
+    pub out_of_domain: Option<OutOfDomain>,
+}
+
+/// The answer to arguments as a shell would pass them, without the command's own name.
+///
+/// # Errors
+/// [`Failure`] for unusable arguments and unreadable input, and for `--help`, whose text it has.
+///
+/// ```
+/// let answer = selfosc::command::answer(["df", "relay", "--amplitude", "2", "--json"]).unwrap();
+/// assert!(answer.text.contains("\"p\": 0.6366197723675814"));
+/// assert_eq!(selfosc::command::answer(["df", "relay", "--amplitude", "-2"]).unwrap_err().code, "out-of-domain");
+/// ```
+pub fn answer<T: Into<OsString>>(arguments: impl IntoIterator<Item = T>) -> Result<Answer, Failure> {
+    let arguments = std::iter::once("selfosc".into()).chain(arguments.into_iter().map(Into::into));
+    let usage = |error: clap::Error| Failure { code: "usage", text: error.to_string(), out_of_domain: None };
+    let command = Command::try_parse_from(arguments).map_err(usage)?;
+    let mut output = Vec::new();
+    let outcome = command.action.run(&mut output).map_err(|error| Failure {
+        code: error.code(),
+        text: error.to_string(),
+        out_of_domain: error.out_of_domain().copied(),
+    })?;
+    Ok(Answer { text: String::from_utf8_lossy(&output).into_owned(), no: outcome == Outcome::No })
 }
 
 /// Writes one JSON document and a line end.

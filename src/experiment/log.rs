@@ -95,11 +95,7 @@ impl Columns {
             .trim(csv::Trim::All)
             .from_reader(table.as_bytes());
         let names: Vec<String> = reader.headers().map_err(unreadable)?.iter().map(str::to_owned).collect();
-        let columns = [
-            column(&names, self.time.as_deref(), TIME)?,
-            column(&names, self.output.as_deref(), OUTPUT)?,
-            column(&names, self.input.as_deref(), INPUT)?,
-        ];
+        let columns = self.choose(&names)?;
         let mut values: [Vec<f64>; 3] = Default::default();
         let mut lines = Vec::new();
         let mut row = csv::StringRecord::new();
@@ -110,16 +106,54 @@ impl Columns {
             }
             lines.push(line);
         }
-        let [time_s, mut output, input] = values;
-        let name = names[columns[1]].to_lowercase();
+        self.log(columns.map(|column| names[column].clone()), values, |sample| Place::Line(lines[sample]))
+    }
+
+    /// Which of these columns are time, output and input, by their places.
+    ///
+    /// # Errors
+    /// [`ExperimentError::UnknownColumn`] with the names there are.
+    pub fn choose(&self, names: &[String]) -> Result<[usize; 3], ExperimentError> {
+        Ok([
+            column(names, self.time.as_deref(), TIME)?,
+            column(names, self.output.as_deref(), OUTPUT)?,
+            column(names, self.input.as_deref(), INPUT)?,
+        ])
+    }
+
+    /// The log of a table in memory: what reading it as text would give. The columns are time, output and input, as
+    /// [`choose`](Self::choose) finds them, with their names.
+    ///
+    /// # Errors
+    /// [`ExperimentError`] with sample and value.
+    ///
+    /// ```
+    /// use selfosc::experiment::Columns;
+    /// let names = ["time_s", "yaw_deg", "command"].map(str::to_owned);
+    /// let time_s: Vec<f64> = (0..20).map(f64::from).collect();
+    /// let log = Columns::default().table(names, [time_s, vec![90.0; 20], vec![1.0; 20]])?;
+    /// assert_eq!(log.record.output()[0], core::f64::consts::FRAC_PI_2);
+    /// # Ok::<(), selfosc::experiment::ExperimentError>(())
+    /// ```
+    pub fn table(&self, names: [String; 3], values: [Vec<f64>; 3]) -> Result<Log, ExperimentError> {
+        self.log(names, values, Place::Sample)
+    }
+
+    fn log(
+        &self,
+        columns: [String; 3],
+        [time_s, mut output, input]: [Vec<f64>; 3],
+        place: impl Fn(usize) -> Place,
+    ) -> Result<Log, ExperimentError> {
+        let name = columns[1].to_lowercase();
         let degrees = self.degrees || name.ends_with("_deg");
         if degrees {
             output.iter_mut().for_each(|angle| *angle = angle.to_radians());
         }
         let wrap = self.wrap || name.contains("heading") || name.contains("yaw");
         let unwrapped = if wrap { unwrap(&mut output) } else { 0 };
-        let record = Record::placed(time_s, output, input, |sample| Place::Line(lines[sample]))?;
-        Ok(Log { record, degrees, unwrapped, columns: columns.map(|column| names[column].clone()) })
+        let record = Record::placed(time_s, output, input, place)?;
+        Ok(Log { record, degrees, unwrapped, columns })
     }
 }
 

@@ -35,20 +35,14 @@ pub enum Parameter {
 }
 
 /// What is done about the delay.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Delay {
     /// It is known, in seconds.
     KnownS(f64),
     /// It is estimated with the other parameters, zero or more.
+    #[default]
     Estimated,
-}
-
-impl Default for Delay {
-    /// None: known to be zero.
-    fn default() -> Self {
-        Self::KnownS(0.0)
-    }
 }
 
 /// An experiment as the joint estimate sees it.

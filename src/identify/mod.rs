@@ -16,6 +16,8 @@ pub mod fit;
 pub mod iso;
 #[cfg(feature = "std")]
 pub mod joint;
+#[cfg(feature = "std")]
+pub mod prediction_error;
 mod reading;
 #[cfg(feature = "std")]
 pub mod select;
@@ -24,18 +26,14 @@ mod warning;
 #[cfg(feature = "std")]
 mod workflow;
 
-// Not part of the workflow: on vehicles outside its family of models it misses more often than a default may.
-internal! {
-    #[cfg(feature = "std")]
-    mod prediction_error;
-}
-
 pub use drag_law::DragLaw;
 pub use error::IdentifyError;
+#[cfg(feature = "std")]
+pub use prediction_error::{DragVerdict, LawEvidence, Reason, Reported, Term, Trust};
 #[cfg(feature = "std")]
 pub use warning::Warning;
 #[cfg(feature = "std")]
 pub use workflow::{
-    Caution, Conclusion, DragChoice, DragVerdict, FeatureMeans, FeatureValues, Identification, Method, Model,
-    Probabilities, RecordConclusion, Refusal, Refused, Session, Settings, SettingsError, Source, Stage, Total,
+    Caution, Conclusion, DragChoice, FeatureMeans, FeatureValues, Identification, Method, Model, RecordConclusion,
+    Refusal, Refused, RefusedMethod, ReportedModel, Session, Settings, SettingsError, Source, Stage, Total, Units,
 };

@@ -5,6 +5,7 @@ use core::fmt;
 use super::fit::RecordFit;
 use super::iso;
 use super::joint::Parameter;
+use super::prediction_error::Reported;
 use crate::features::Features;
 
 /// Something that would mislead. Ratios are plain numbers; one to an estimate of zero is infinite, and written as text in JSON.
@@ -43,11 +44,11 @@ pub enum Warning {
         /// The strongest correlation of residuals a few samples apart.
         correlation: f64,
     },
-    /// The paper's method and the fit disagree by more than their errors.
+    /// The paper's method and the answer disagree by more than their errors.
     MethodsDisagree {
         /// The parameter.
         parameter: Parameter,
-        /// Value by the paper's method over that of the fit.
+        /// Value by the paper's method over the reported one.
         #[serde(with = "super::any_float")]
         ratio: f64,
     },
@@ -121,19 +122,20 @@ impl Warning {
         warnings
     }
 
-    /// Warnings that the paper's method beside a fit gives.
+    /// Warnings that the paper's method beside the answer gives.
     #[must_use]
-    pub fn of_methods(iso: &iso::Parameters<f64>, fit: &RecordFit) -> Vec<Self> {
+    pub fn of_methods(iso: &iso::Parameters<f64>, reported: &Reported) -> Vec<Self> {
         let mut warnings = Vec::new();
-        let drag = match (fit.law().has_linear(), fit.law().has_quadratic()) {
-            (true, false) => Some((Parameter::LinearDrag, iso.beta)),
-            (false, true) => Some((Parameter::QuadraticDrag, iso.beta_quadratic)),
+        let drag = match (reported.drag.has_linear(), reported.drag.has_quadratic()) {
+            (true, false) => Some((Parameter::LinearDrag, iso.beta, reported.beta)),
+            (false, true) => Some((Parameter::QuadraticDrag, iso.beta_quadratic, reported.beta_quadratic)),
             _ => None,
         };
-        for (parameter, value) in [Some((Parameter::Alpha, iso.alpha)), drag].into_iter().flatten() {
-            let estimate = fit.estimate(parameter);
+        for (parameter, value, estimate) in
+            [Some((Parameter::Alpha, iso.alpha, reported.alpha)), drag].into_iter().flatten()
+        {
             let std = estimate.spread.map_or(0.0, |spread| spread.std);
-            if (value - estimate.value).abs() > (SIGNIFICANT * std).max(METHOD_ERROR * estimate.value) {
+            if (value - estimate.value).abs() > (SIGNIFICANT * std).max(METHOD_ERROR * estimate.value.abs()) {
                 warnings.push(Self::MethodsDisagree { parameter, ratio: value / estimate.value });
             }
         }
@@ -172,8 +174,8 @@ impl fmt::Display for Warning {
             ),
             Self::ActuatorLag { given_s, fitted_s } => write!(
                 f,
-                "the record fits a delay of {fitted_s:.3} s better than the {given_s:.3} s given: an actuator lags, or the \
-                 command is held; measure the delay or have it estimated"
+                "the record fits a delay of {fitted_s:.3} s better than the {given_s:.3} s given: an actuator lags, the \
+                 command is held, or the delay is another"
             ),
             Self::ColouredResiduals { correlation } => write!(
                 f,
@@ -182,8 +184,7 @@ impl fmt::Display for Warning {
             ),
             Self::MethodsDisagree { parameter, ratio } => write!(
                 f,
-                "the paper's method gives {ratio:.2} times the {} of the fit: the oscillation is far from a sinusoid, trust \
-                 the fit",
+                "the paper's method gives {ratio:.2} times the {} reported: the oscillation is far from a sinusoid",
                 name(parameter)
             ),
         }

@@ -1,14 +1,14 @@
 //! From samples to a conclusion by the library alone, and results that survive being written.
 
 use selfosc::control::{Gains, Structure, Tuning};
-use selfosc::experiment::{Columns, Log, Record, SimulatedExperiment};
+use selfosc::experiment::{Columns, Log, Record, Sensor, SimulatedExperiment};
 use selfosc::features::{Features, RecordFeatures};
 use selfosc::identify::fit::RecordFit;
 use selfosc::identify::joint::{Delay, FeatureRow, Joint, Parameter, fit_rows};
 use selfosc::identify::select::likelihood::Choice;
 use selfosc::identify::{
-    Caution, Conclusion, DragLaw, Identification, Method, Model, Refusal, Refused, Session, Settings, SettingsError,
-    Stage, Warning, exact, iso,
+    Caution, Conclusion, DragLaw, DragVerdict, Identification, Method, Model, Reason, Refusal, Refused, Reported,
+    Session, Settings, SettingsError, Stage, Term, Trust, Warning, exact, iso,
 };
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::orbit::{LimitCycle, limit_cycle};
@@ -51,12 +51,15 @@ fn damaged<T: DeserializeOwned>(value: &impl Serialize, pointer: &str, by: serde
 #[test]
 fn what_an_identification_holds_comes_back() {
     let found = found();
-    let model = found.reported().unwrap();
-    assert_eq!(model.drag, DragLaw::Quadratic);
-    assert!((model.alpha.value - 1.0).abs() < 4.0 * model.alpha.spread.unwrap().std.max(1e-3), "{model:?}");
+    let reported = found.reported().unwrap();
+    assert_eq!(reported.laws.verdict(), Some(DragVerdict::Law(DragLaw::Quadratic)));
+    assert!((reported.alpha.value - 1.0).abs() < 4.0 * reported.alpha.spread.unwrap().std.max(1e-3), "{reported:?}");
     comes_back::<Identification>(&found);
     comes_back::<Conclusion>(&found.conclusion());
-    comes_back::<Model>(model);
+    comes_back::<Reported>(reported);
+    comes_back::<Vec<Model>>(&found.models().to_vec());
+    let relative = f64::INFINITY;
+    comes_back::<Vec<Reason>>(&vec![Reason::TooWide { relative }, Reason::Term(Term::Lag), Reason::NotSettled]);
     comes_back::<Choice>(found.fits().unwrap());
     comes_back::<RecordFit>(found.likeliest_fit().unwrap());
     comes_back::<Log>(&found.sources()[0].log);
@@ -64,6 +67,46 @@ fn what_an_identification_holds_comes_back() {
     comes_back::<RecordFeatures>(found.sources()[0].features.as_ref().unwrap());
     comes_back::<Features<f64>>(&found.sources()[0].features.as_ref().unwrap().features);
     comes_back::<Vec<Caution>>(&found.cautions().to_vec());
+}
+
+/// A record without steady cycles leaves the methods for mean cycles their reason, and the others their results; and one without
+/// a delay given has it from the answer.
+#[test]
+fn methods_do_without_each_other() {
+    let drifting = {
+        let record = record(1.0);
+        let from = record.samples() - 60;
+        let part = |values: &[f64]| values[from..].to_vec();
+        Record::new(part(record.time_s()), part(record.output()), part(record.input())).unwrap()
+    };
+    let found = Session::default().record("short", drifting).identify().unwrap();
+    assert!(found.reported().is_some());
+    let refused: Vec<_> = found.refused().iter().map(|one| (one.method.as_ref(), one.code.as_ref())).collect();
+    assert_eq!(refused, [("iso", "no-cycle"), ("exact", "no-cycle")]);
+    let exact = Settings { method: Method::Exact, ..Settings::default() };
+    let found = Session::new(exact).record("log", record(1.0)).identify().unwrap();
+    assert!(found.reported().is_none() && found.fits().is_none());
+    assert!((found.models()[1].delay_s.value - 0.1).abs() < 0.01, "{:?}", found.models());
+}
+
+/// A delay that the record contradicts is said, whichever way it errs, and the answer has the right one.
+#[test]
+fn a_given_delay_is_checked_from_both_sides() {
+    let sensor = Sensor { noise: 0.005, ..Sensor::default() };
+    let experiment = SimulatedExperiment::new(axis(), relay(1.0), 10.0).unwrap().held().with_sensor(sensor).unwrap();
+    let record = experiment.run(50.0).unwrap();
+    let answer = |given_s| {
+        let settings = Settings { method: Method::Fit, delay: Delay::KnownS(given_s), ..Settings::default() };
+        Session::new(settings).record("log", record.clone()).identify().unwrap().reported().unwrap().clone()
+    };
+    let contradicted = |reason: &Reason| matches!(reason, Reason::DelayContradicted { .. });
+    for given_s in [0.0, 0.2] {
+        let reported = answer(given_s);
+        assert!(reported.reasons.iter().any(contradicted), "{given_s}: {:?}", reported.reasons);
+        assert_eq!(reported.trust, Trust::Widened);
+        assert!((reported.mean_delay_s() - 0.1).abs() < 0.02, "{reported:?}");
+    }
+    assert!(!answer(0.1).reasons.iter().any(contradicted));
 }
 
 #[test]
@@ -121,10 +164,11 @@ fn what_does_not_belong_together_is_refused() {
     assert!(damaged::<Record>(&record(1.0), "/input", none()).contains("must be as many"));
     assert!(damaged::<DragAxis<f64>>(&axis(), "/alpha", (-1.0).into()).contains("alpha"));
     assert!(damaged::<Identification>(&found, "/sources", none()).contains("does not belong"));
+    assert!(damaged::<Identification>(&found, "/reported/deltas", none()).contains("one disturbance for each"));
     assert!(damaged::<Identification>(&found, "/models/0/record", 7.into()).contains("not there"));
     assert!(damaged::<Identification>(&found, "/fits/fits/0/records/0/first_sample", 9999.into()).contains("belong"));
     assert!(damaged::<Choice>(found.fits().unwrap(), "/fits", none()).contains("needs a fit"));
-    assert!(damaged::<Model>(found.reported().unwrap(), "/alpha/std", ().into()).contains("together"));
+    assert!(damaged::<Model>(found.models().last().unwrap(), "/alpha/std", ().into()).contains("together"));
     let gains = Gains::new(Structure::Pd, 0.5, 0.0, 0.3, 0.02).unwrap();
     assert!(damaged::<Gains<f64>>(&gains, "/proportional", 0.into()).contains("proportional"));
 }
@@ -134,7 +178,7 @@ fn stages_are_told_in_order() {
     let stages = std::cell::RefCell::new(Vec::new());
     let session = Session::default().record("log", record(1.0));
     session.identify_with(|stage| stages.borrow_mut().push(stage)).unwrap();
-    assert_eq!(*stages.borrow(), [Stage::Cycles, Stage::Fit, Stage::Delay]);
+    assert_eq!(*stages.borrow(), [Stage::Cycles, Stage::Fit, Stage::Terms]);
 }
 
 #[test]
@@ -142,8 +186,6 @@ fn settings_that_no_method_meets_are_refused() {
     let refused = |settings| Session::new(settings).record("log", record(1.0)).identify().unwrap_err();
     let mixed = Settings { method: Method::Iso, drag: Some(DragLaw::Mixed), ..Settings::default() };
     assert_eq!(refused(mixed), Refusal::Settings(SettingsError::MixedNeedsFit));
-    let delay = Settings { method: Method::Exact, delay: Delay::Estimated, ..Settings::default() };
-    assert_eq!(refused(delay), Refusal::Settings(SettingsError::DelayNeedsFit));
     for level in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let refusal = refused(Settings { relay_level: Some(level), ..Settings::default() });
         assert!(refusal.is_usage() && refusal.code() == "out-of-domain", "{refusal}");

@@ -1,12 +1,16 @@
 //! What the estimator answers, and whether to trust it.
 
+use serde::{Deserialize, Serialize};
+
+use super::laws::LawEvidence;
 use super::model::{Clock, Parameter, Switching};
 use super::term::Term;
 use crate::identify::DragLaw;
 use crate::identify::joint::Estimate;
 
 /// Whether an answer is to be used.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Trust {
     /// No test contradicts the model, and the interval is the ordinary one.
     Good,
@@ -29,7 +33,8 @@ impl Trust {
 }
 
 /// Why an answer is not simply good.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Reason {
     /// The record has this term beside inertia, drag and white noise.
@@ -53,7 +58,8 @@ pub enum Reason {
     },
     /// The interval of the inertia is too wide to be of use.
     TooWide {
-        /// Half the interval's width over the value.
+        /// Half the interval's width over the value; infinite where there is no interval.
+        #[serde(with = "crate::identify::any_float")]
         relative: f64,
     },
     /// The search ended before it came to rest.
@@ -122,35 +128,52 @@ impl core::fmt::Display for Reason {
     }
 }
 
-/// The one answer to use.
-#[derive(Clone, Debug, PartialEq)]
+/// The one answer to use. All models that the records do not refute are averaged: a parameter of one that they do is absent.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reported {
-    /// Drag law of the likeliest model; mixed where the record does not tell the laws apart.
+    /// Drag terms that count; mixed where the record does not tell the laws apart.
     pub drag: DragLaw,
+    /// How much likelier each law makes the records.
+    pub laws: LawEvidence,
     /// Terms of the likeliest model.
     pub terms: Vec<Term>,
     /// Inertia.
     pub alpha: Estimate,
     /// Linear drag, of either sign; without error where no model that counts has it.
-    pub linear_drag: Estimate,
+    pub beta: Estimate,
     /// Quadratic drag.
-    pub quadratic_drag: Estimate,
+    pub beta_quadratic: Estimate,
     /// Cubic drag, where the likeliest model has it.
-    pub cubic_drag: Option<Estimate>,
+    pub beta_cubic: Option<Estimate>,
+    /// Part by which drag is larger to the positive side than the mean of both, where the likeliest model has it.
+    pub skew: Option<Estimate>,
+    /// Coulomb friction, where the likeliest model has it.
+    pub coulomb: Option<Estimate>,
     /// Restoring force per output, where the likeliest model has it.
     pub stiffness: Option<Estimate>,
     /// Time constant of the actuator in s, where the likeliest model has it.
     pub lag_s: Option<Estimate>,
     /// Time of the actuator over the command's range in s, where the likeliest model limits its rate.
     pub ramp_s: Option<Estimate>,
+    /// Time constant of the sensor's filter in s, where the likeliest model has it.
+    pub filter_s: Option<Estimate>,
     /// Constant force during each record.
-    pub disturbance: Vec<Estimate>,
+    pub deltas: Vec<Estimate>,
     /// Delay in s.
     pub delay_s: Estimate,
     /// Whether to use it.
     pub trust: Trust,
     /// Why not simply good, the weightiest first.
     pub reasons: Vec<Reason>,
+}
+
+impl Reported {
+    /// Delay with the mean time by which lag and limited rate make the actuator late, and a filter the sensor, in s.
+    #[must_use]
+    pub fn mean_delay_s(&self) -> f64 {
+        let late = |time_s: Option<Estimate>| time_s.map_or(0.0, |estimate| estimate.value);
+        self.delay_s.value + late(self.lag_s) + late(self.filter_s) + 0.5 * late(self.ramp_s)
+    }
 }
 
 /// A model that was tried.

@@ -1,9 +1,10 @@
 //! One estimate from all models tried, weighted by how likely they make the record for their number of parameters.
 
+use super::lateness;
 use super::model::{Model, Parameter};
 use super::scoring::{self, Fitted};
 use super::search::{Found, PRICE};
-use crate::identify::joint::{Estimate, ConfidenceInterval};
+use crate::identify::joint::{ConfidenceInterval, Estimate};
 
 /// A model's word on one parameter: normal, or a point where it has no such parameter.
 #[derive(Clone, Copy, Debug)]
@@ -13,15 +14,27 @@ struct Component {
     std: f64,
 }
 
-/// Intervals of terms that were chosen by the record are wider by this.
+/// Intervals of terms that were chosen by the record are wider by this, and by this where one of them makes late: actuators and
+/// sensors have more than one way to, and none of the models may be quite the one.
 pub(super) const CHOSEN: f64 = 1.25;
+pub(super) const CHOSEN_LATE: f64 = 1.6;
+/// Likelihoods of models that differ in what makes late count by this power: among stand-ins for the true one they say too much.
+const TEMPER: f64 = 0.4;
 
 /// Twice the log-likelihood that each parameter more has to gain for a model to count. A structure that the record hardly
 /// shows moves the inertia, so that it counts sooner.
 const IDLE: f64 = 1.0;
 const IDLE_STRUCTURE: f64 = 0.25;
 /// The structures meant.
-const SUBTLE: [Parameter; 4] = [Parameter::Stiffness, Parameter::CubicDrag, Parameter::LagS, Parameter::RampS];
+const SUBTLE: [Parameter; 7] = [
+    Parameter::Stiffness,
+    Parameter::CubicDrag,
+    Parameter::Skew,
+    Parameter::Coulomb,
+    Parameter::LagS,
+    Parameter::RampS,
+    Parameter::FilterS,
+];
 
 /// Standard deviations of the structural parameters of a model, zero for those not estimated; `None` where the record leaves
 /// some of them open.
@@ -46,15 +59,17 @@ impl<'a> Average<'a> {
     /// `movable` names the parameters of a model that are not on a bound.
     pub(super) fn new(found: &'a Found, movable: impl Fn(&Fitted) -> Vec<usize>) -> Self {
         let value = |fitted: &Fitted| fitted.log_likelihood - 0.5 * PRICE * fitted.model.freedom() as f64;
-        let top = value(&found.tried[found.best]);
+        let best = &found.tried[found.best];
+        let top = value(best);
+        let temper = if lateness::is_in(&best.model) { TEMPER } else { 1.0 };
         let mut members: Vec<(f64, &Fitted, [f64; Parameter::COUNT])> = Vec::new();
         for fitted in &found.tried {
-            let weight = (value(fitted) - top).exp();
+            let weight = (temper * (value(fitted) - top)).exp();
             if weight < 1e-3 {
                 continue;
             }
             // The same model reached twice counts once, the likelier time.
-            if let Some(same) = members.iter_mut().find(|(_, other, _)| same_terms(&other.model, &fitted.model)) {
+            if let Some(same) = members.iter_mut().find(|(_, other, _)| other.model.is_alike(&fitted.model)) {
                 if fitted.log_likelihood <= same.1.log_likelihood {
                     continue;
                 }
@@ -102,8 +117,11 @@ impl<'a> Average<'a> {
         if !mean.is_finite() || !std.is_finite() {
             return None;
         }
-        let spread =
-            (std > 0.0).then(|| ConfidenceInterval { std, low: quantile(&components, 0.025), high: quantile(&components, 0.975) });
+        let spread = (std > 0.0).then(|| ConfidenceInterval {
+            std,
+            low: quantile(&components, 0.025),
+            high: quantile(&components, 0.975),
+        });
         Some(Estimate { value: mean, spread })
     }
 
@@ -132,10 +150,6 @@ fn least_gain(more: &Model, less: &Model) -> f64 {
     let added = more.freedom() - less.freedom();
     let subtle = SUBTLE.iter().filter(|parameter| more.is_free(**parameter) && !less.is_free(**parameter)).count();
     IDLE_STRUCTURE * subtle as f64 + IDLE * added.saturating_sub(subtle) as f64
-}
-
-fn same_terms(a: &Model, b: &Model) -> bool {
-    (a.free, a.noise_free, a.switching, a.clock) == (b.free, b.noise_free, b.switching, b.clock)
 }
 
 /// Where a mixture of normal distributions and points reaches a probability.

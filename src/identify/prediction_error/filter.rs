@@ -1,7 +1,8 @@
 //! Extended Kalman filter in continuous and discrete time (Jazwinski 1970, chapter 8): predicts each reading from those
 //! before it. The innovations' likelihood is what is maximised; its derivatives are carried along.
 //!
-//! States are position, velocity, process force and coloured error of the reading. The derivatives with respect to
+//! States are position, velocity, process force and coloured error of the reading, and the filtered position where the sensor
+//! filters. The derivatives with respect to
 //! structural parameters are those of the predictor with the gain as it is (Ljung 1999, section 10.2: what a change of the
 //! gain adds has expectation zero); with respect to the noise they are complete for the motion as linearised.
 
@@ -19,8 +20,13 @@ const LONGEST_STEP: f64 = 0.3;
 /// Steps per sample beyond which a motion is faster than the record can show.
 const MOST_STEPS: f64 = 12.0;
 
-type Vector = [f64; 4];
-type Square = [[f64; 4]; 4];
+/// Position, velocity, process force, coloured error, and the filtered position where the sensor filters.
+type Vector<const N: usize> = [f64; N];
+type Square<const N: usize> = [[f64; N]; N];
+/// Place of the filtered position.
+const FILTERED: usize = 4;
+/// Speed within which Coulomb friction changes its sign, in parts of the highest.
+const CREEP: f64 = 0.04;
 
 /// Error of a prediction of one step, and its variance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -91,7 +97,7 @@ impl Pass {
     }
 }
 
-/// Transition of the four states over a step.
+/// Transition of the states over a step.
 #[derive(Clone, Copy)]
 struct Transition {
     motion: [[f64; 2]; 2],
@@ -99,32 +105,74 @@ struct Transition {
     by_force: [f64; 2],
     force: f64,
     colour: f64,
+    /// What position, velocity, process force and the filtered position itself make of the filtered position.
+    filtered: [f64; 4],
 }
 
 impl Transition {
-    fn apply(&self, v: &Vector) -> Vector {
-        [
-            self.motion[0][0] * v[0] + self.motion[0][1] * v[1] + self.by_force[0] * v[2],
-            self.motion[1][0] * v[0] + self.motion[1][1] * v[1] + self.by_force[1] * v[2],
-            self.force * v[2],
-            self.colour * v[3],
-        ]
+    fn apply<const N: usize>(&self, v: &Vector<N>) -> Vector<N> {
+        let mut next = [0.0; N];
+        next[0] = self.motion[0][0] * v[0] + self.motion[0][1] * v[1] + self.by_force[0] * v[2];
+        next[1] = self.motion[1][0] * v[0] + self.motion[1][1] * v[1] + self.by_force[1] * v[2];
+        next[2] = self.force * v[2];
+        next[3] = self.colour * v[3];
+        if N > FILTERED {
+            let [x, velocity, force, own] = self.filtered;
+            next[FILTERED] = x * v[0] + velocity * v[1] + force * v[2] + own * v[FILTERED];
+        }
+        next
     }
 
     /// `F P F'`.
-    fn turn(&self, p: &Square) -> Square {
-        let mut half = [[0.0; 4]; 4];
+    fn turn<const N: usize>(&self, p: &Square<N>) -> Square<N> {
+        let mut half = [[0.0; N]; N];
         for (row, values) in p.iter().enumerate() {
             half[row] = self.apply(values);
         }
-        let mut whole = [[0.0; 4]; 4];
-        for column in 0..4 {
-            let turned = self.apply(&[half[0][column], half[1][column], half[2][column], half[3][column]]);
-            for row in 0..4 {
+        let mut whole = [[0.0; N]; N];
+        for column in 0..N {
+            let column_of: Vector<N> = core::array::from_fn(|row| half[row][column]);
+            let turned = self.apply(&column_of);
+            for row in 0..N {
                 whole[row][column] = turned[row];
             }
         }
         whole
+    }
+}
+
+/// A first-order filter over a step in which the position is the parabola through its beginning, middle and end: what is left
+/// of the filtered position, the weights of the three, and the derivatives of all with respect to the filter's time.
+#[derive(Clone, Copy)]
+struct SensorFilter {
+    kept: f64,
+    weights: [f64; 3],
+    kept_by_time: f64,
+    weights_by_time: [f64; 3],
+}
+
+impl SensorFilter {
+    fn new(time_s: f64, h_s: f64) -> Self {
+        let q = h_s / time_s;
+        let kept = (-q).exp();
+        // Moments of the weight exp(-(h - s) / time) / time over s / h, and their derivatives with respect to q.
+        let m0 = -(-q).exp_m1();
+        let m1 = 1.0 - m0 / q;
+        let m2 = 1.0 - 2.0 * m1 / q;
+        let (d0, d1) = (kept, (m0 - q * kept) / (q * q));
+        let d2 = -2.0 * (d1 - m1 / q) / q;
+        let parabola = |m0: f64, m1: f64, m2: f64| [m0 - 3.0 * m1 + 2.0 * m2, 4.0 * (m1 - m2), 2.0 * m2 - m1];
+        let by_time = -q / time_s;
+        Self {
+            kept,
+            weights: parabola(m0, m1, m2),
+            kept_by_time: -kept * by_time,
+            weights_by_time: parabola(d0, d1, d2).map(|weight| weight * by_time),
+        }
+    }
+
+    fn weighted(weights: &[f64; 3], positions: &[f64; 3]) -> f64 {
+        weights.iter().zip(positions).map(|(weight, position)| weight * position).sum()
     }
 }
 
@@ -155,24 +203,32 @@ impl Sizes {
     }
 }
 
-/// Sensitivities of the four states to what is estimated.
-struct Sensitivities {
-    structure: Vec<(Parameter, Vector)>,
-    noise: Vec<(Noise, Vector, Square)>,
+/// Sensitivities of the states to what is estimated.
+struct Sensitivities<const N: usize> {
+    structure: Vec<(Parameter, Vector<N>)>,
+    noise: Vec<(Noise, Vector<N>, Square<N>)>,
 }
 
-struct Filter<'a> {
+struct Filter<'a, const N: usize> {
     model: &'a Model,
     dynamics: Dynamics,
     sizes: Sizes,
     stochastic: bool,
-    state: Vector,
-    covariance: Square,
-    sensitivities: Sensitivities,
+    state: Vector<N>,
+    covariance: Square<N>,
+    sensitivities: Sensitivities<N>,
 }
 
 /// Runs through the record; `None` where the motion leaves all bounds. Derivatives only where wanted.
 pub(super) fn run(observations: &Observations, model: &Model, derivatives: bool) -> Option<Pass> {
+    if model.value(Parameter::FilterS) > 0.0 {
+        run_with::<5>(observations, model, derivatives)
+    } else {
+        run_with::<4>(observations, model, derivatives)
+    }
+}
+
+fn run_with<const N: usize>(observations: &Observations, model: &Model, derivatives: bool) -> Option<Pass> {
     let actuator = Actuator::new(&observations.pieces, model, observations.range);
     let late = model.value(Parameter::DelayS) + model.value(Parameter::LagS) + 0.5 * model.value(Parameter::RampS);
     let uncertain = model.has_noise(Noise::SwitchJitter);
@@ -183,7 +239,7 @@ pub(super) fn run(observations: &Observations, model: &Model, derivatives: bool)
     let stops = actuator.stops(now, kicks, observations.switched);
     let mut next_stop = 0;
     let mut stretch = actuator.stretch_at(now);
-    let mut filter = Filter::new(model, observations, derivatives);
+    let mut filter = Filter::<N>::new(model, observations, derivatives);
     let longest = LONGEST_STEP / filter.dynamics.rate(observations.fastest).max(1e-12);
     if longest < observations.interval_s / MOST_STEPS {
         return None;
@@ -206,10 +262,17 @@ pub(super) fn run(observations: &Observations, model: &Model, derivatives: bool)
                 let mut begin = actuator.at(stretch, now);
                 for index in 0..steps {
                     let from = now + index as f64 * h_s;
-                    let middle = actuator.at(stretch, from + 0.5 * h_s);
-                    let last = actuator.at(stretch, from + h_s);
-                    filter.advance([begin, middle, last], h_s);
-                    begin = last;
+                    // Drag bends where the vehicle turns: a step ends there.
+                    let turn = filter.turn_after(&begin, h_s);
+                    for (since, h_s) in turn.map_or([(0.0, h_s), (h_s, 0.0)], |turn| [(0.0, turn), (turn, h_s - turn)])
+                    {
+                        if h_s > 0.0 {
+                            let middle = actuator.at(stretch, from + since + 0.5 * h_s);
+                            let last = actuator.at(stretch, from + since + h_s);
+                            filter.advance([begin, middle, last], h_s);
+                            begin = last;
+                        }
+                    }
                 }
                 now = end;
             }
@@ -247,19 +310,25 @@ pub(super) fn run(observations: &Observations, model: &Model, derivatives: bool)
     log_likelihood.is_finite().then_some(Pass { log_likelihood, innovations, parts })
 }
 
-impl<'a> Filter<'a> {
+impl<'a, const N: usize> Filter<'a, N> {
+    /// Place of the state that is read.
+    const READ: usize = if N > FILTERED { FILTERED } else { 0 };
+
     fn new(model: &'a Model, observations: &Observations, derivatives: bool) -> Self {
         let dynamics = Dynamics {
             alpha: model.value(Parameter::Alpha),
             linear: model.value(Parameter::LinearDrag),
             quadratic: model.value(Parameter::QuadraticDrag),
             cubic: model.value(Parameter::CubicDrag),
+            skew: model.value(Parameter::Skew),
+            coulomb: model.value(Parameter::Coulomb),
+            creep: CREEP * observations.fastest,
             stiffness: model.value(Parameter::Stiffness),
         };
         let sizes = Sizes::of(model);
         let kicked = observations.kicks.iter().any(|kick| kick.variance_s2 > 0.0);
         let random = sizes.force + sizes.colour + sizes.tracking + sizes.switch > 0.0;
-        let mut covariance = [[0.0; 4]; 4];
+        let mut covariance = [[0.0; N]; N];
         // The disturbance is the process force's value where the record begins.
         let unseen_s = observations.time_s[observations.first] - observations.time_s[0];
         covariance[2][2] = sizes.force * unseen_s;
@@ -268,27 +337,48 @@ impl<'a> Filter<'a> {
         let mut sensitivities = Sensitivities { structure: Vec::new(), noise: Vec::new() };
         if derivatives {
             sensitivities.structure.extend(model.structure().map(|parameter| {
-                let mut column = [0.0; 4];
+                let mut column = [0.0; N];
                 match parameter {
                     Parameter::Position => column[0] = 1.0,
                     Parameter::Velocity => column[1] = 1.0,
                     _ => {}
                 }
+                if N > FILTERED {
+                    column[FILTERED] = match parameter {
+                        Parameter::Position => 1.0,
+                        Parameter::Velocity => -model.value(Parameter::FilterS),
+                        Parameter::FilterS => -model.value(Parameter::Velocity),
+                        _ => 0.0,
+                    };
+                }
                 (parameter, column)
             }));
             for noise in Noise::ALL.into_iter().filter(|noise| model.noise_free[*noise as usize]) {
-                let mut begin = [[0.0; 4]; 4];
+                let mut begin = [[0.0; N]; N];
                 match noise {
                     Noise::Force => begin[2][2] = covariance[2][2],
                     Noise::Colour => begin[3][3] = covariance[3][3],
                     Noise::ColourRate => begin[3][3] = -covariance[3][3] * sizes.colour_rate / memory,
                     _ => {}
                 }
-                sensitivities.noise.push((noise, [0.0; 4], begin));
+                sensitivities.noise.push((noise, [0.0; N], begin));
             }
         }
-        let state = [model.value(Parameter::Position), model.value(Parameter::Velocity), 0.0, 0.0];
+        let mut state = [0.0; N];
+        (state[0], state[1]) = (model.value(Parameter::Position), model.value(Parameter::Velocity));
+        if N > FILTERED {
+            // As if it had moved evenly before.
+            state[FILTERED] = state[0] - model.value(Parameter::FilterS) * state[1];
+        }
         Self { model, dynamics, sizes, stochastic: kicked || random, state, covariance, sensitivities }
+    }
+
+    /// When within a step the velocity passes zero, if well inside.
+    fn turn_after(&self, force: &Force, h_s: f64) -> Option<f64> {
+        let velocity = self.state[1];
+        let force = force.value + self.model.value(Parameter::Disturbance) + self.state[2];
+        let turn = -velocity / self.dynamics.acceleration(self.state[0], velocity, force);
+        (turn > 0.02 * h_s && turn < 0.98 * h_s).then_some(turn)
     }
 
     fn advance(&mut self, forces: [Force; 3], h_s: f64) {
@@ -297,24 +387,49 @@ impl<'a> Filter<'a> {
         let step = self.dynamics.step((before[0], before[1]), forces.map(|force| force.value + offset), h_s);
         let alpha = self.dynamics.alpha;
         let gained = |axis: usize| step.begin_weight[axis] + step.middle_weight[axis];
-        let transition = Transition {
+        let mut transition = Transition {
             motion: step.transition,
             by_force: [gained(0) / alpha, (gained(1) + step.end_weight) / alpha],
             force: (-self.sizes.force_rate * h_s).exp(),
             colour: (-self.sizes.colour_rate * h_s).exp(),
+            filtered: [0.0; 4],
         };
         let begin = Point {
             position: before[0],
             velocity: before[1],
             acceleration: self.dynamics.acceleration(before[0], before[1], forces[0].value + offset),
         };
-        self.state =
-            [step.end.position, step.end.velocity, transition.force * before[2], transition.colour * before[3]];
+        self.state[..4].copy_from_slice(&[
+            step.end.position,
+            step.end.velocity,
+            transition.force * before[2],
+            transition.colour * before[3],
+        ]);
+        let positions = [before[0], step.middle.position, step.end.position];
+        let time_s = self.model.value(Parameter::FilterS);
+        let sensor = (N > FILTERED).then(|| SensorFilter::new(time_s, h_s));
+        if let Some(sensor) = sensor {
+            let [first, middle, last] = sensor.weights;
+            transition.filtered = [
+                first + middle * step.half[0] + last * step.transition[0][0],
+                middle * step.half[1] + last * step.transition[0][1],
+                middle * 0.125 * h_s * h_s / alpha + last * transition.by_force[0],
+                sensor.kept,
+            ];
+            self.state[FILTERED] = sensor.kept * before[FILTERED] + SensorFilter::weighted(&sensor.weights, &positions);
+        }
         for (parameter, column) in &mut self.sensitivities.structure {
-            let driven = driven(*parameter, alpha, &step, &begin, &forces);
+            let [end, velocity, middle] = driven(*parameter, &self.dynamics, &step, &begin, &forces, h_s);
             *column = transition.apply(column);
-            column[0] += driven[0];
-            column[1] += driven[1];
+            column[0] += end;
+            column[1] += velocity;
+            if let Some(sensor) = sensor {
+                column[FILTERED] += sensor.weights[1] * middle + sensor.weights[2] * end;
+                if *parameter == Parameter::FilterS {
+                    column[FILTERED] += sensor.kept_by_time * before[FILTERED]
+                        + SensorFilter::weighted(&sensor.weights_by_time, &positions);
+                }
+            }
         }
         if self.stochastic {
             self.spread(&transition, &before, h_s);
@@ -322,13 +437,13 @@ impl<'a> Filter<'a> {
     }
 
     /// Covariance over a step, with its sensitivities.
-    fn spread(&mut self, transition: &Transition, before: &Vector, h_s: f64) {
+    fn spread(&mut self, transition: &Transition, before: &Vector<N>, h_s: f64) {
         let alpha = self.dynamics.alpha;
         let Sizes { force, force_rate, colour, colour_rate, tracking, .. } = self.sizes;
         // A force that walks at random, integrated twice; drag within a step is left out.
         let walk = |intensity: f64| {
             let (h2, h3) = (h_s * h_s, h_s * h_s * h_s);
-            let mut q = [[0.0; 4]; 4];
+            let mut q = [[0.0; N]; N];
             q[2][2] = intensity * h_s;
             (q[1][2], q[2][1]) = (0.5 * intensity * h2 / alpha, 0.5 * intensity * h2 / alpha);
             (q[0][2], q[2][0]) = (intensity * h3 / (6.0 * alpha), intensity * h3 / (6.0 * alpha));
@@ -339,7 +454,7 @@ impl<'a> Filter<'a> {
             q
         };
         let white = |intensity: f64| {
-            let mut q = [[0.0; 4]; 4];
+            let mut q = [[0.0; N]; N];
             q[1][1] = intensity * h_s;
             (q[0][1], q[1][0]) = (0.5 * intensity * h_s * h_s, 0.5 * intensity * h_s * h_s);
             q[0][0] = intensity * h_s * h_s * h_s / 3.0;
@@ -423,20 +538,21 @@ impl<'a> Filter<'a> {
 
     /// Takes in a reading; adds its share of the score where there are sensitivities.
     fn observe(&mut self, reading: f64, weight: f64, score: &mut Score) -> Innovation {
-        let error = reading - self.state[0] - self.state[3];
+        let read = Self::READ;
+        let error = reading - self.state[read] - self.state[3];
         let stamp = self.sizes.stamp * self.state[1] * self.state[1];
         let p = &self.covariance;
-        let seen = [p[0][0] + p[0][3], p[1][0] + p[1][3], p[2][0] + p[2][3], p[3][0] + p[3][3]];
-        let variance = seen[0] + seen[3] + self.sizes.white + stamp;
+        let seen: Vector<N> = core::array::from_fn(|row| p[row][read] + p[row][3]);
+        let variance = seen[read] + seen[3] + self.sizes.white + stamp;
         let gain = seen.map(|value| value / variance);
         let structure = &mut self.sensitivities.structure;
         for (index, (parameter, column)) in structure.iter().enumerate() {
-            let slope = -(column[0] + column[3]);
+            let slope = -(column[read] + column[3]);
             let i = *parameter as usize;
             score.structure[i] -= weight * slope * error / variance;
             for (other, row) in &structure[..=index] {
                 let j = *other as usize;
-                let share = weight * slope * -(row[0] + row[3]) / variance;
+                let share = weight * slope * -(row[read] + row[3]) / variance;
                 score.structure_information[i][j] += share;
                 if i != j {
                     score.structure_information[j][i] += share;
@@ -444,7 +560,7 @@ impl<'a> Filter<'a> {
             }
         }
         for (_, column) in structure.iter_mut() {
-            let slope = -(column[0] + column[3]);
+            let slope = -(column[read] + column[3]);
             for (value, gain) in column.iter_mut().zip(gain) {
                 *value += gain * slope;
             }
@@ -453,21 +569,21 @@ impl<'a> Filter<'a> {
         let count = self.sensitivities.noise.len();
         for ((noise, column, derivative), slope) in self.sensitivities.noise.iter_mut().zip(&mut slopes) {
             let d = &*derivative;
-            let seen_by = [d[0][0] + d[0][3], d[1][0] + d[1][3], d[2][0] + d[2][3], d[3][0] + d[3][3]];
+            let seen_by: Vector<N> = core::array::from_fn(|row| d[row][read] + d[row][3]);
             let direct = match noise {
                 Noise::White => self.sizes.white,
                 Noise::StampJitter => stamp,
                 _ => 0.0,
             };
             let speed_by = 2.0 * self.sizes.stamp * self.state[1] * column[1];
-            let variance_by = seen_by[0] + seen_by[3] + direct + speed_by;
-            let error_by = -(column[0] + column[3]);
+            let variance_by = seen_by[read] + seen_by[3] + direct + speed_by;
+            let error_by = -(column[read] + column[3]);
             *slope = (*noise as usize, error_by, variance_by);
-            for row in 0..4 {
+            for row in 0..N {
                 column[row] += (seen_by[row] - gain[row] * variance_by) / variance * error + gain[row] * error_by;
             }
-            for row in 0..4 {
-                for other in 0..4 {
+            for row in 0..N {
+                for other in 0..N {
                     derivative[row][other] +=
                         gain[row] * gain[other] * variance_by - seen_by[row] * gain[other] - gain[row] * seen_by[other];
                 }
@@ -495,29 +611,45 @@ impl<'a> Filter<'a> {
     }
 }
 
-/// What a parameter itself does to position and velocity within a step.
-fn driven(parameter: Parameter, alpha: f64, step: &Step, begin: &Point, forces: &[Force; 3]) -> [f64; 2] {
-    let by = |point: &Point, force: &Force| match parameter {
-        Parameter::Alpha => -point.acceleration,
-        Parameter::LinearDrag => -point.velocity,
-        Parameter::QuadraticDrag => -point.velocity * point.velocity.abs(),
-        Parameter::CubicDrag => -point.velocity.powi(3),
-        Parameter::Stiffness => -point.position,
-        Parameter::Disturbance => 1.0,
-        Parameter::DelayS => force.by_delay,
-        Parameter::LagS => force.by_lag,
-        Parameter::RampS => force.by_ramp,
-        Parameter::Position | Parameter::Velocity => 0.0,
+/// What a parameter itself does to position and velocity within a step, and to the position half-way.
+fn driven(
+    parameter: Parameter,
+    dynamics: &Dynamics,
+    step: &Step,
+    begin: &Point,
+    forces: &[Force; 3],
+    h_s: f64,
+) -> [f64; 3] {
+    let by = |point: &Point, force: &Force| {
+        let side = 1.0 + dynamics.skew * point.velocity.signum();
+        match parameter {
+            Parameter::Alpha => -point.acceleration,
+            Parameter::LinearDrag => -side * point.velocity,
+            Parameter::QuadraticDrag => -side * point.velocity * point.velocity.abs(),
+            Parameter::CubicDrag => -side * point.velocity.powi(3),
+            Parameter::Skew => -dynamics.even_drag(point.velocity.abs()),
+            Parameter::Coulomb => -dynamics.sense(point.velocity),
+            Parameter::Stiffness => -point.position,
+            Parameter::Disturbance => 1.0,
+            Parameter::DelayS => force.by_delay,
+            Parameter::LagS => force.by_lag,
+            Parameter::RampS => force.by_ramp,
+            Parameter::FilterS | Parameter::Position | Parameter::Velocity => 0.0,
+        }
     };
-    let [first, second, third] =
-        [(begin, &forces[0]), (&step.middle, &forces[1]), (&step.end, &forces[2])].map(|(p, f)| by(p, f) / alpha);
+    if matches!(parameter, Parameter::FilterS | Parameter::Position | Parameter::Velocity) {
+        return [0.0; 3];
+    }
+    let [first, second, third] = [(begin, &forces[0]), (&step.middle, &forces[1]), (&step.end, &forces[2])]
+        .map(|(p, f)| by(p, f) / dynamics.alpha);
     [
         step.begin_weight[0] * first + step.middle_weight[0] * second,
         step.begin_weight[1] * first + step.middle_weight[1] * second + step.end_weight * third,
+        0.25 * h_s * h_s * (first / 3.0 + second / 6.0),
     ]
 }
 
-fn add(sum: &mut Square, term: &Square) {
+fn add<const N: usize>(sum: &mut Square<N>, term: &Square<N>) {
     for (row, values) in term.iter().enumerate() {
         for (column, value) in values.iter().enumerate() {
             sum[row][column] += value;

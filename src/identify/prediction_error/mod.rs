@@ -2,10 +2,10 @@
 //! parameters, of the motion and of what disturbs it together, that make its innovations likeliest.
 //!
 //! The vehicle is
-//! `alpha x'' + (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + k x = a(t - T_d) + delta + w(t)`, `tau a' = u - a`, `y = x + e`,
-//! a continuous-discrete stochastic state-space model (Jazwinski 1970; Kristensen, Madsen and Jorgensen 2004; Ljung 1999,
+//! `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + k x = a(t - T_d) + delta + w(t)`,
+//! `tau a' = u - a`, `y = x + e`, a continuous-discrete stochastic state-space model (Jazwinski 1970; Kristensen, Madsen and Jorgensen 2004; Ljung 1999,
 //! chapter 7). Inertia, drag, disturbance and white noise are always there. A lag, a limited rate, a restoring force, cubic
-//! drag, another delay than the one given, a process force, coloured noise, and instants that err are terms: each is tried,
+//! drag, drag that differs by side, Coulomb friction, a filter of the sensor, another delay than the one given, a process force, coloured noise, and instants that err are terms: each is tried,
 //! and joins where the record is enough likelier for it. All models tried are averaged, so that an interval allows for the
 //! choice among them too.
 //!
@@ -16,6 +16,8 @@ mod actuator;
 mod answer;
 mod average;
 mod filter;
+mod lateness;
+mod laws;
 mod model;
 mod motion;
 mod observations;
@@ -29,6 +31,7 @@ mod term;
 mod tests;
 
 pub use answer::{Answer, Candidate, Reason, Reported, Trust};
+pub use laws::{DragVerdict, LawEvidence};
 pub use model::{Clock, Parameter, Switching};
 pub use several::Several;
 pub use term::Term;
@@ -39,20 +42,20 @@ use super::joint::{ConfidenceInterval, Delay, Estimate};
 use super::{DragLaw, IdentifyError};
 use crate::experiment::Record;
 use crate::numeric::{Limit, domain};
-use average::{Average, CHOSEN};
+use average::{Average, CHOSEN, CHOSEN_LATE};
 use scoring::Fitted;
 use search::{Found, Known, Search};
 
 /// What to estimate, and what is known.
 ///
 /// ```
-/// use selfosc::experiment::{Experiment, Sensor};
+/// use selfosc::experiment::{Sensor, SimulatedExperiment};
 /// use selfosc::identify::joint::Delay;
 /// use selfosc::identify::prediction_error::{Estimator, Trust};
 /// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
 /// let axis = DragAxis::quadratic(1.0, 0.5)?.with_delay_s(0.1)?;
 /// let sensor = Sensor { quantum: 0.02, ..Sensor::default() };
-/// let record = Experiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().with_sensor(sensor)?.run(60.0)?;
+/// let record = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().with_sensor(sensor)?.run(60.0)?;
 /// let reported = Estimator::new(Delay::KnownS(0.1)).record(&record)?.reported;
 /// assert_ne!(reported.trust, Trust::Doubtful);
 /// let spread = reported.alpha.spread.expect("an estimate with its error");
@@ -99,8 +102,9 @@ impl Estimator {
             Delay::Estimated => None,
         };
         let known = Known { delay_s, law: self.law };
-        let (search, found) =
-            Search::new(record, known).run().ok_or(IdentifyError::NotSettled { steps: 0, rms: deviation(record.output()) })?;
+        let (search, found) = Search::new(record, known)
+            .run()
+            .ok_or(IdentifyError::NotSettled { steps: 0, rms: deviation(record.output()) })?;
         Ok(conclude(&search, &found, known))
     }
 }
@@ -146,7 +150,7 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     let spare = (count - best.model.freedom() as f64).max(1.0);
     let mut factor = (count / spare).sqrt() * residuals::student(spare) / residuals::NORMAL;
     if !terms.is_empty() {
-        factor *= CHOSEN;
+        factor *= if lateness::is_in(&best.model) { CHOSEN_LATE } else { CHOSEN };
     }
     if observations.outliers > 0 {
         reasons.push(Reason::Outliers { count: observations.outliers });
@@ -185,15 +189,19 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     };
     let reported = Reported {
         drag,
+        laws: laws_of(found, best),
         terms,
         alpha,
-        linear_drag: estimate(Parameter::LinearDrag),
-        quadratic_drag: estimate(Parameter::QuadraticDrag),
-        cubic_drag: present(Parameter::CubicDrag),
+        beta: estimate(Parameter::LinearDrag),
+        beta_quadratic: estimate(Parameter::QuadraticDrag),
+        beta_cubic: present(Parameter::CubicDrag),
+        skew: present(Parameter::Skew),
+        coulomb: present(Parameter::Coulomb).map(not_negative),
         stiffness: present(Parameter::Stiffness),
         lag_s: present(Parameter::LagS).map(not_negative),
         ramp_s: present(Parameter::RampS).map(not_negative),
-        disturbance: vec![estimate(Parameter::Disturbance)],
+        filter_s: present(Parameter::FilterS).map(not_negative),
+        deltas: vec![estimate(Parameter::Disturbance)],
         delay_s: not_negative(estimate(Parameter::DelayS)),
         trust,
         reasons,
@@ -205,6 +213,15 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     let seen = observations.time_s[observations.first..].iter();
     let innovations = seen.zip(&best.pass.innovations).map(|(t, innovation)| (*t, innovation.standardised())).collect();
     Answer { reported, candidates, innovations, effective_samples: count }
+}
+
+/// The drag laws beside each other, with the terms of the best model.
+fn laws_of(found: &Found, best: &Fitted) -> LawEvidence {
+    LawEvidence::from_log_likelihoods(DragLaw::ALL.map(|law| {
+        let model = best.model.with_drag(law, 1.0);
+        let alike = found.tried.iter().filter(|fitted| fitted.model.is_alike(&model));
+        alike.map(|fitted| fitted.log_likelihood).reduce(f64::max)
+    }))
 }
 
 fn candidate(fitted: &Fitted, average: &Average<'_>, known: Known, search: &Search<'_>) -> Candidate {

@@ -1,8 +1,10 @@
 //! The family of models: which parameters a model has, and their values.
 
+use crate::identify::DragLaw;
+
 /// Structural parameters of
-/// `alpha x'' + (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + k x = a(t - T_d) + delta + w(t)`, `tau a' = u - a`,
-/// and the state in which the record begins.
+/// `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + k x = a(t - T_d) + delta + w(t)`,
+/// `tau a' = u - a`, `filter y' = x - y`, and the state in which the record begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(usize)]
 pub enum Parameter {
@@ -14,6 +16,10 @@ pub enum Parameter {
     QuadraticDrag,
     /// Cubic drag, the factor of `x'^3`.
     CubicDrag,
+    /// Part by which drag is larger to the positive side than the mean of both sides, and smaller to the negative one.
+    Skew,
+    /// Coulomb friction: a force against the motion, whatever its speed.
+    Coulomb,
     /// Restoring force per unit of output, k.
     Stiffness,
     /// Constant force delta.
@@ -24,6 +30,8 @@ pub enum Parameter {
     LagS,
     /// Time that an actuator of limited rate takes over the command's whole range, in s.
     RampS,
+    /// Time constant of the sensor's filter, in s.
+    FilterS,
     /// Output where the record begins.
     Position,
     /// Its rate there, per s.
@@ -32,18 +40,21 @@ pub enum Parameter {
 
 impl Parameter {
     /// Number of structural parameters.
-    pub const COUNT: usize = 11;
+    pub const COUNT: usize = 14;
     /// All of them, in the order of their numbers.
     pub const ALL: [Self; Self::COUNT] = [
         Self::Alpha,
         Self::LinearDrag,
         Self::QuadraticDrag,
         Self::CubicDrag,
+        Self::Skew,
+        Self::Coulomb,
         Self::Stiffness,
         Self::Disturbance,
         Self::DelayS,
         Self::LagS,
         Self::RampS,
+        Self::FilterS,
         Self::Position,
         Self::Velocity,
     ];
@@ -151,6 +162,26 @@ impl Model {
     pub(super) fn set_noise(&mut self, noise: Noise, size: f64, free: bool) {
         self.noise[noise as usize] = size.ln();
         self.noise_free[noise as usize] = free;
+    }
+
+    /// The model with another drag law: as much drag at a speed, above zero, by the terms that it has.
+    pub(super) fn with_drag(&self, law: DragLaw, speed: f64) -> Self {
+        let (linear, quadratic) = (self.value(Parameter::LinearDrag), self.value(Parameter::QuadraticDrag));
+        let (linear, quadratic) = match law {
+            DragLaw::Mixed => (linear, quadratic),
+            DragLaw::Linear => (linear + quadratic * speed, 0.0),
+            DragLaw::Quadratic => (0.0, quadratic + linear / speed),
+        };
+        let mut model = self.clone();
+        model.set(Parameter::LinearDrag, linear, law.has_linear());
+        model.set(Parameter::QuadraticDrag, quadratic, law.has_quadratic());
+        model
+    }
+
+    /// Whether both have the same parameters under the same reading of the record.
+    pub(super) fn is_alike(&self, other: &Self) -> bool {
+        (self.free, self.noise_free, self.switching, self.clock)
+            == (other.free, other.noise_free, other.switching, other.clock)
     }
 
     /// Structural parameters that are estimated.

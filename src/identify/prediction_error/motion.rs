@@ -7,6 +7,10 @@ pub(super) struct Dynamics {
     pub(super) linear: f64,
     pub(super) quadratic: f64,
     pub(super) cubic: f64,
+    pub(super) skew: f64,
+    pub(super) coulomb: f64,
+    /// Speed within which Coulomb friction changes its sign.
+    pub(super) creep: f64,
     pub(super) stiffness: f64,
 }
 
@@ -26,6 +30,8 @@ pub(super) struct Step {
     pub(super) middle: Point,
     /// Transition matrix of position and velocity over the step.
     pub(super) transition: [[f64; 2]; 2],
+    /// The first row of the transition matrix half-way.
+    pub(super) half: [f64; 2],
     /// What a unit of force per inertia at the beginning and half-way makes of position and velocity at the end, times
     /// Simpson's weights; at the end it makes `end_weight` of velocity.
     pub(super) begin_weight: [f64; 2],
@@ -35,21 +41,36 @@ pub(super) struct Step {
 
 impl Dynamics {
     pub(super) fn acceleration(&self, position: f64, velocity: f64, force: f64) -> f64 {
-        let drag = (self.linear + (self.quadratic + self.cubic * velocity.abs()) * velocity.abs()) * velocity;
-        (force - drag - self.stiffness * position) / self.alpha
+        let friction = if self.coulomb == 0.0 { 0.0 } else { self.coulomb * self.sense(velocity) };
+        let drag = (1.0 + self.skew * velocity.signum()) * self.even_drag(velocity);
+        (force - drag - friction - self.stiffness * position) / self.alpha
+    }
+
+    /// Drag alike to both sides.
+    pub(super) fn even_drag(&self, velocity: f64) -> f64 {
+        (self.linear + (self.quadratic + self.cubic * velocity.abs()) * velocity.abs()) * velocity
+    }
+
+    /// The sign of a velocity, smooth across zero.
+    pub(super) fn sense(&self, velocity: f64) -> f64 {
+        (velocity / self.creep).tanh()
     }
 
     /// Derivative of the drag with respect to velocity, over the inertia.
     fn damping(&self, velocity: f64) -> f64 {
         let speed = velocity.abs();
-        (self.linear + (2.0 * self.quadratic + 3.0 * self.cubic * speed) * speed) / self.alpha
+        let drag = (1.0 + self.skew * velocity.signum())
+            * (self.linear + (2.0 * self.quadratic + 3.0 * self.cubic * speed) * speed);
+        let friction =
+            if self.coulomb == 0.0 { 0.0 } else { self.coulomb * (1.0 - self.sense(velocity).powi(2)) / self.creep };
+        (drag + friction) / self.alpha
     }
 
     /// The fastest rate of the motion up to a speed, per s.
     pub(super) fn rate(&self, speed: f64) -> f64 {
-        let damping =
-            (self.linear.abs() + (2.0 * self.quadratic.abs() + 3.0 * self.cubic.abs() * speed) * speed) / self.alpha;
-        damping + (self.stiffness.abs() / self.alpha).sqrt()
+        let drag = (1.0 + self.skew.abs())
+            * (self.linear.abs() + (2.0 * self.quadratic.abs() + 3.0 * self.cubic.abs() * speed) * speed);
+        (drag + self.coulomb.abs() / self.creep) / self.alpha + (self.stiffness.abs() / self.alpha).sqrt()
     }
 
     /// Advances by `h_s` under the forces at the beginning, half-way and at the end (Runge-Kutta of order four).
@@ -81,6 +102,7 @@ impl Dynamics {
             end: Point { position, velocity, acceleration },
             middle,
             transition,
+            half: first[0],
             begin_weight: [h_s / 6.0 * transition[0][1], h_s / 6.0 * transition[1][1]],
             middle_weight: [h_s / 1.5 * second[0][1], h_s / 1.5 * second[1][1]],
             end_weight: h_s / 6.0,

@@ -30,13 +30,18 @@ const OPTIMISM: f64 = 2.0;
 /// The largest change of a logarithm in one step.
 const LARGEST_LOG_STEP: f64 = 1.5;
 
+/// No reading counts as finer than this part of the output's range: that is how well the motion is integrated.
+const FINEST: f64 = 3e-5;
+
 /// Least and largest value of a structural parameter.
 fn bounds(parameter: Parameter, observations: &Observations) -> (f64, f64) {
     let (interval, swing) = (observations.interval_s, observations.swing_s);
     match parameter {
         Parameter::Alpha => (1e-9 * observations.range * swing * swing / observations.span, f64::INFINITY),
         Parameter::DelayS => (0.0, swing),
-        Parameter::LagS => (0.02 * interval, 2.0 * swing),
+        Parameter::LagS | Parameter::FilterS => (0.02 * interval, 2.0 * swing),
+        Parameter::Skew => (-0.9, 0.9),
+        Parameter::Coulomb => (0.0, observations.range),
         Parameter::RampS => (0.05 * interval, 2.0 * swing),
         _ => (f64::NEG_INFINITY, f64::INFINITY),
     }
@@ -47,7 +52,7 @@ fn noise_bounds(noise: Noise, observations: &Observations) -> (f64, f64) {
     let (interval, swing, span) = (observations.interval_s, observations.swing_s, observations.span);
     let force = observations.range;
     let (low, high) = match noise {
-        Noise::White => (1e-14 * span * span, span * span),
+        Noise::White => ((FINEST * span).powi(2), span * span),
         Noise::Force => (1e-10 * force * force / swing, 10.0 * force * force / swing),
         Noise::ForceRate => (0.02 / observations.duration_s(), 3.0 / interval),
         Noise::Colour => (1e-12 * span * span / swing, span * span / interval),
@@ -100,6 +105,11 @@ pub(super) fn climb_beyond(
     for parameter in Parameter::ALL.into_iter().filter(|p| model.free[*p as usize]) {
         let (low, high) = bounds(parameter, observations);
         let value = &mut model.values[parameter as usize];
+        *value = value.clamp(low, high);
+    }
+    for noise in Noise::ALL.into_iter().filter(|noise| model.noise_free[*noise as usize]) {
+        let (low, high) = noise_bounds(noise, observations);
+        let value = &mut model.noise[noise as usize];
         *value = value.clamp(low, high);
     }
     let mut pass = filter::run(observations, &model, true)?;

@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 use rayon::prelude::*;
 
 use super::filter;
+use super::lateness;
 use super::model::{Clock, Model, Noise, Parameter, Switching};
 use super::observations::{self, Observations};
 use super::scoring::{Fitted, MOST_STEPS, climb, climb_beyond, climb_within};
@@ -19,7 +20,12 @@ pub(super) const JOINS: f64 = 7.0;
 /// The same for a term that takes the place of another.
 const EXCHANGES: f64 = 0.5;
 /// Terms that a record confuses: the first's place may be taken by the second.
-const RIVALS: [(Term, Term); 8] = [
+const RIVALS: [(Term, Term); 13] = [
+    (Term::Lag, Term::SensorFilter),
+    (Term::SensorFilter, Term::Lag),
+    (Term::RateLimit, Term::SensorFilter),
+    (Term::SensorFilter, Term::RateLimit),
+    (Term::Delay, Term::SensorFilter),
     (Term::RateLimit, Term::Lag),
     (Term::Lag, Term::RateLimit),
     (Term::Delay, Term::Lag),
@@ -31,6 +37,8 @@ const RIVALS: [(Term, Term); 8] = [
 ];
 /// What a parameter costs in an average, in twice the log-likelihood.
 pub(super) const PRICE: f64 = 4.0;
+/// Log-likelihood below the best from which on a model hardly counts in an average.
+const COUNTING: f64 = 4.0;
 /// The most terms that a model gets.
 const MOST_TERMS: usize = 8;
 
@@ -175,16 +183,10 @@ impl<'a> Search<'a> {
             switching: Switching::AtSamples,
             clock: Clock::Stamps,
         };
-        let law = self.known.law.unwrap_or(DragLaw::Mixed);
-        let drag = start.linear + start.quadratic * observations.fastest;
-        let (linear, quadratic) = match law {
-            DragLaw::Mixed => (start.linear, start.quadratic),
-            DragLaw::Linear => (drag, 0.0),
-            DragLaw::Quadratic => (0.0, drag / observations.fastest),
-        };
         model.set(Parameter::Alpha, start.alpha, true);
-        model.set(Parameter::LinearDrag, linear, law.has_linear());
-        model.set(Parameter::QuadraticDrag, quadratic, law.has_quadratic());
+        model.set(Parameter::LinearDrag, start.linear, true);
+        model.set(Parameter::QuadraticDrag, start.quadratic, true);
+        let mut model = model.with_drag(self.known.law.unwrap_or(DragLaw::Mixed), observations.fastest);
         model.set(Parameter::Disturbance, start.disturbance, true);
         model.set(Parameter::DelayS, start.delay_s, self.known.delay_s.is_none());
         let at_s = observations.time_s[observations.first];
@@ -218,6 +220,7 @@ impl<'a> Search<'a> {
             self.grow(&mut tried, grown, |_| true);
             best = self.best(&tried);
         }
+        best = self.late_otherwise(&mut tried, best);
         // Leave out what is no longer needed, drag terms too.
         loop {
             let current = tried[best].clone();
@@ -234,8 +237,36 @@ impl<'a> Search<'a> {
                 None => break,
             }
         }
+        let others = self.other_laws(&tried, &tried[best].model);
+        tried.extend(others.into_par_iter().filter_map(|model| self.climb(model)).collect::<Vec<_>>());
         best = self.best(&tried);
         Some((self, Found { tried, best }))
+    }
+
+    /// What makes the vehicle late is looked for anew; returns the number of the best model.
+    fn late_otherwise(&self, tried: &mut Vec<Fitted>, from: usize) -> usize {
+        let current = tried[from].clone();
+        let switched = self.observations(&current.model).switched;
+        let mut others = lateness::chains(&current.model, self.known.delay_s, switched);
+        others.retain(|model| !tried.iter().any(|fitted| fitted.model.is_alike(model)));
+        let worth = current.log_likelihood - COUNTING;
+        let ends: Vec<Fitted> = others
+            .into_par_iter()
+            .filter_map(|model| climb_beyond(self.observations(&model), model, MOST_STEPS, worth))
+            .collect();
+        tried.extend(ends);
+        let best = self.best(tried);
+        if best == from { from } else { self.grow(tried, best, |_| true) }
+    }
+
+    /// A model with the other drag laws, as far as they have not been tried, so that the laws can be compared.
+    fn other_laws(&self, tried: &[Fitted], model: &Model) -> Vec<Model> {
+        if self.known.law.is_some() {
+            return Vec::new();
+        }
+        let speed = self.observations(model).fastest;
+        let others = DragLaw::ALL.map(|law| model.with_drag(law, speed));
+        others.into_iter().filter(|model| !tried.iter().any(|fitted| fitted.model.is_alike(model))).collect()
     }
 
     /// The best term joins, time and again; returns the number of the last model.

@@ -4,9 +4,10 @@
 //! far as a mean of random effects would leave any of them out (DerSimonian and Laird 1986 test for it with the same sum).
 
 use super::answer::{Answer, Reason, Reported, Trust};
+use super::laws::LawEvidence;
 use super::residuals::{NORMAL, chi_square_tail};
 use crate::identify::DragLaw;
-use crate::identify::joint::{Estimate, ConfidenceInterval};
+use crate::identify::joint::{ConfidenceInterval, Estimate};
 
 /// Below this probability records disagree.
 const DISAGREE: f64 = 0.01;
@@ -46,9 +47,18 @@ fn pooled(estimates: &[Estimate]) -> (Estimate, Option<f64>) {
         let between = (values.map(|v| (v - value).powi(2)).sum::<f64>() / freedom).sqrt();
         let low = known.iter().map(|(.., spread)| spread.low).fold(f64::INFINITY, f64::min);
         let high = known.iter().map(|(.., spread)| spread.high).fold(f64::NEG_INFINITY, f64::max);
-        return (Estimate { value, spread: Some(ConfidenceInterval { std: between.hypot(std), low, high }) }, Some(between));
+        return (
+            Estimate { value, spread: Some(ConfidenceInterval { std: between.hypot(std), low, high }) },
+            Some(between),
+        );
     }
-    (Estimate { value: mean, spread: Some(ConfidenceInterval { std, low: mean - NORMAL * std, high: mean + NORMAL * std }) }, None)
+    (
+        Estimate {
+            value: mean,
+            spread: Some(ConfidenceInterval { std, low: mean - NORMAL * std, high: mean + NORMAL * std }),
+        },
+        None,
+    )
 }
 
 impl Several {
@@ -77,15 +87,19 @@ impl Several {
         terms.dedup();
         let reported = Reported {
             drag: if drags.iter().all(|drag| *drag == drags[0]) { drags[0] } else { DragLaw::Mixed },
+            laws: LawEvidence::sum(answers.iter().map(|answer| answer.reported.laws)),
             terms,
             alpha,
-            linear_drag: all(&|r| r.linear_drag).0,
-            quadratic_drag: all(&|r| r.quadratic_drag).0,
-            cubic_drag: some(&|r| r.cubic_drag),
+            beta: all(&|r| r.beta).0,
+            beta_quadratic: all(&|r| r.beta_quadratic).0,
+            beta_cubic: some(&|r| r.beta_cubic),
+            skew: some(&|r| r.skew),
+            coulomb: some(&|r| r.coulomb),
             stiffness: some(&|r| r.stiffness),
             lag_s: some(&|r| r.lag_s),
             ramp_s: some(&|r| r.ramp_s),
-            disturbance: answers.iter().flat_map(|answer| answer.reported.disturbance.iter().copied()).collect(),
+            filter_s: some(&|r| r.filter_s),
+            deltas: answers.iter().flat_map(|answer| answer.reported.deltas.iter().copied()).collect(),
             delay_s: all(&|r| r.delay_s).0,
             trust: reasons.iter().map(|reason| reason.trust()).max().unwrap_or(Trust::Good),
             reasons,

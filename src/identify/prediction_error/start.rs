@@ -143,7 +143,8 @@ pub(super) fn state_near(observations: &Observations, at_s: f64, reach_s: f64) -
     let Observations { time_s, output, .. } = observations;
     let from = time_s.partition_point(|t| *t < at_s - reach_s).min(time_s.len() - 4);
     let to = time_s.partition_point(|t| *t <= at_s + reach_s).max(from + 4).min(time_s.len());
-    let matrix = DMatrix::from_fn(to - from, 3, |row, power| ((time_s[from + row] - at_s) / reach_s).powi(power as i32));
+    let matrix =
+        DMatrix::from_fn(to - from, 3, |row, power| ((time_s[from + row] - at_s) / reach_s).powi(power as i32));
     let solution = least_squares(matrix, DVector::from_fn(to - from, |row, _| output[from + row] - output[from]));
     let (offset, slope) = (solution[0], solution[1] / reach_s);
     if offset.is_finite() && slope.is_finite() { (output[from] + offset, slope) } else { (output[from], 0.0) }

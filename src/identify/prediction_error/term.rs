@@ -1,10 +1,13 @@
 //! Terms that a model may have beside inertia, linear and quadratic drag and white noise.
 
+use serde::{Deserialize, Serialize};
+
 use super::model::{Model, Noise, Parameter};
 use super::observations::Observations;
 
 /// What a model may have in addition, each tried where it makes the record likelier.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Term {
     /// First-order lag of the actuator.
     Lag,
@@ -14,6 +17,12 @@ pub enum Term {
     Stiffness,
     /// Drag proportional to the cube of the speed.
     CubicDrag,
+    /// Drag larger to one side than to the other.
+    SkewDrag,
+    /// Coulomb friction.
+    Coulomb,
+    /// First-order filter of the sensor.
+    SensorFilter,
     /// A delay other than the one given.
     Delay,
     /// A force that walks at random.
@@ -29,11 +38,14 @@ pub enum Term {
 }
 
 impl Term {
-    pub(super) const ALL: [Self; 10] = [
+    pub(super) const ALL: [Self; 13] = [
         Self::Lag,
         Self::RateLimit,
         Self::Stiffness,
         Self::CubicDrag,
+        Self::SkewDrag,
+        Self::Coulomb,
+        Self::SensorFilter,
         Self::Delay,
         Self::ProcessForce,
         Self::ProcessForceMemory,
@@ -50,6 +62,9 @@ impl Term {
             Self::RateLimit => "rate-limit",
             Self::Stiffness => "stiffness",
             Self::CubicDrag => "cubic-drag",
+            Self::SkewDrag => "one-sided-drag",
+            Self::Coulomb => "coulomb-friction",
+            Self::SensorFilter => "sensor-filter",
             Self::Delay => "delay",
             Self::ProcessForce => "process-force",
             Self::ProcessForceMemory => "process-force-memory",
@@ -66,6 +81,9 @@ impl Term {
             Self::RateLimit => "the actuator follows the command at a limited rate",
             Self::Stiffness => "a restoring force acts",
             Self::CubicDrag => "drag grows with the cube of the speed",
+            Self::SkewDrag => "drag is larger to one side than to the other",
+            Self::Coulomb => "friction acts that does not grow with the speed",
+            Self::SensorFilter => "the sensor follows the motion with a lag",
             Self::Delay => "the delay is another than the one given",
             Self::ProcessForce => "a force acts that changes with time",
             Self::ProcessForceMemory => "that force returns to its mean",
@@ -82,6 +100,9 @@ impl Term {
             Self::RateLimit => Some(Parameter::RampS),
             Self::Stiffness => Some(Parameter::Stiffness),
             Self::CubicDrag => Some(Parameter::CubicDrag),
+            Self::SkewDrag => Some(Parameter::Skew),
+            Self::Coulomb => Some(Parameter::Coulomb),
+            Self::SensorFilter => Some(Parameter::FilterS),
             Self::Delay => Some(Parameter::DelayS),
             _ => None,
         }
@@ -136,7 +157,7 @@ impl Term {
             Some(parameter) => {
                 // The mean delay stays.
                 let late = match parameter {
-                    Parameter::LagS => model.value(Parameter::LagS),
+                    Parameter::LagS | Parameter::FilterS => model.value(parameter),
                     Parameter::RampS => 0.5 * model.value(Parameter::RampS),
                     _ => 0.0,
                 };
@@ -171,11 +192,16 @@ impl Term {
         };
         let (interval, swing) = (observations.interval_s, observations.swing_s);
         match self {
-            Self::Stiffness | Self::CubicDrag => self.parameter().map(|p| with(p, 0.0)).into_iter().collect(),
+            Self::Stiffness | Self::CubicDrag | Self::SkewDrag | Self::Coulomb => {
+                self.parameter().map(|p| with(p, 0.0)).into_iter().collect()
+            }
             Self::Delay => vec![with(Parameter::DelayS, model.value(Parameter::DelayS))],
-            Self::Lag | Self::RateLimit => {
-                let (parameter, mean) =
-                    if self == Self::Lag { (Parameter::LagS, 1.0) } else { (Parameter::RampS, 0.5) };
+            Self::Lag | Self::RateLimit | Self::SensorFilter => {
+                let (parameter, mean) = match self {
+                    Self::RateLimit => (Parameter::RampS, 0.5),
+                    Self::Lag => (Parameter::LagS, 1.0),
+                    _ => (Parameter::FilterS, 1.0),
+                };
                 let delay_s = model.value(Parameter::DelayS);
                 let late = |part: f64| {
                     // At a known delay the lag comes on top; else it takes the place of a part of the delay.

@@ -137,7 +137,13 @@ fn scores_of_the_structure_are_the_likelihood_s_slopes() {
     lagged.set(Parameter::LagS, 0.17, true);
     let mut ramped = lagged.clone();
     ramped.set(Parameter::RampS, 0.45, true);
-    for model in [plain, lagged, ramped] {
+    let mut uneven = plain.clone();
+    uneven.set(Parameter::Skew, 0.2, true);
+    let mut rubbing = plain.clone();
+    rubbing.set(Parameter::Coulomb, 0.02, true);
+    let mut filtered = lagged.clone();
+    filtered.set(Parameter::FilterS, 0.25, true);
+    for model in [plain, lagged, ramped, uneven, rubbing, filtered] {
         let score = filter::run(&observations, &model, true).expect("a pass").score();
         for parameter in model.structure() {
             let slope = difference(&observations, &model, 1e-5, |m, by| m.values[parameter as usize] += by);

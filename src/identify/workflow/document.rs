@@ -1,13 +1,16 @@
 //! What an identification comes to, as the JSON document of `selfosc identify --json`.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
-use super::identification::{Caution, Identification, Source};
-use super::model::Model;
+use super::identification::{Caution, Identification, RefusedMethod, Source};
+use super::model::{Model, single};
 use super::refusal::Refusal;
 use crate::features::{CycleStatistics, RecordFeatures};
 use crate::identify::DragLaw;
-use crate::identify::select::likelihood::Choice;
+use crate::identify::joint::Estimate;
+use crate::identify::prediction_error::{DragVerdict, LawEvidence, Reported, Term, Trust};
 
 /// The document: everything found but the samples. SI units, angles in radians, full precision; what is missing is null.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -16,14 +19,110 @@ pub struct Conclusion {
     pub record: Total,
     /// Features of the only record; null for several.
     pub features: Option<FeatureMeans>,
+    /// The one answer to use; null where the fit was not asked for or refused.
+    pub reported: Option<ReportedModel>,
     /// What every method found under every law.
     pub estimates: Vec<Model>,
+    /// Methods that gave nothing, with their reasons.
+    pub refused_methods: Vec<RefusedMethod>,
     /// The drag law.
     pub choice: DragChoice,
     /// What to beware of.
     pub warnings: Vec<Caution>,
     /// Every record, in the order given.
     pub records: Vec<RecordConclusion>,
+    /// Units of the numbers.
+    pub units: Units,
+    /// Version of this library.
+    pub version: Cow<'static, str>,
+}
+
+/// The answer to use. Numbers are absent where the drag law or the terms have them not.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ReportedModel {
+    /// Drag terms that count; mixed where the record does not tell the laws apart.
+    pub drag: DragLaw,
+    /// What it has beside inertia, drag, constant force and delay.
+    pub terms: Vec<Term>,
+    /// Inertia with added mass.
+    pub alpha: Estimate,
+    /// Linear drag.
+    pub beta: Option<Estimate>,
+    /// Quadratic drag.
+    pub beta_quadratic: Option<Estimate>,
+    /// Cubic drag.
+    pub beta_cubic: Option<Estimate>,
+    /// Restoring force per output.
+    pub stiffness: Option<Estimate>,
+    /// Time constant of the actuator, in s.
+    pub lag_s: Option<Estimate>,
+    /// Time that an actuator of limited rate takes over the command's range, in s.
+    pub ramp_s: Option<Estimate>,
+    /// Constant force of the only record; null for several.
+    pub delta: Option<Estimate>,
+    /// Constant force during each record.
+    pub deltas: Vec<Estimate>,
+    /// Delay, in s.
+    pub delay_s: Estimate,
+    /// Whether to use it.
+    pub trust: Trust,
+    /// Why it is not simply good, the weightiest first.
+    pub reasons: Vec<Caution>,
+}
+
+impl From<&Reported> for ReportedModel {
+    fn from(reported: &Reported) -> Self {
+        let Reported { drag, alpha, beta_cubic, stiffness, lag_s, ramp_s, delay_s, trust, .. } = *reported;
+        Self {
+            drag,
+            terms: reported.terms.clone(),
+            alpha,
+            beta: drag.has_linear().then_some(reported.beta),
+            beta_quadratic: drag.has_quadratic().then_some(reported.beta_quadratic),
+            beta_cubic,
+            stiffness,
+            lag_s,
+            ramp_s,
+            delta: single(&reported.deltas),
+            deltas: reported.deltas.clone(),
+            delay_s,
+            trust,
+            reasons: reported.reasons.iter().copied().map(Caution::from).collect(),
+        }
+    }
+}
+
+/// Units of the numbers: `command` and `output` are those of the log's columns, angles in radians.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Units {
+    /// Of the output column as read.
+    pub output: Cow<'static, str>,
+    /// Of alpha.
+    pub alpha: Cow<'static, str>,
+    /// Of linear drag.
+    pub beta: Cow<'static, str>,
+    /// Of quadratic drag.
+    pub beta_quadratic: Cow<'static, str>,
+    /// Of cubic drag.
+    pub beta_cubic: Cow<'static, str>,
+    /// Of stiffness.
+    pub stiffness: Cow<'static, str>,
+    /// Of a constant force.
+    pub delta: Cow<'static, str>,
+}
+
+impl Units {
+    fn of(degrees: bool) -> Self {
+        Self {
+            output: if degrees { "rad" } else { "output" }.into(),
+            alpha: "command s^2/output".into(),
+            beta: "command s/output".into(),
+            beta_quadratic: "command s^2/output^2".into(),
+            beta_cubic: "command s^3/output^3".into(),
+            stiffness: "command/output".into(),
+            delta: "command".into(),
+        }
+    }
 }
 
 /// All records together.
@@ -81,37 +180,15 @@ pub struct FeatureValues {
     pub time_negative_s: f64,
 }
 
-/// The drag law and how sure it is.
+/// The drag law and what speaks for it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DragChoice {
-    /// The law given, or what the records say; null where no law was given or fitted.
+    /// The law given, or what the records say; null where no law was given, or not all were fitted.
     pub drag: Option<DragVerdict>,
-    /// Probability of the likeliest law; null where the law was given or nothing was fitted.
+    /// How surely the laws not chosen are refuted; null where none is, or the law was given.
     pub confidence: Option<f64>,
-    /// Probability of every law; null likewise.
-    pub probabilities: Option<Probabilities>,
-}
-
-/// What records say of the drag law.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum DragVerdict {
-    /// No law is certain enough.
-    Undecided,
-    /// This law.
-    #[serde(untagged)]
-    Law(DragLaw),
-}
-
-/// Probability of every law among those fitted; zero for one that could not be.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Probabilities {
-    /// Linear drag.
-    pub linear: f64,
-    /// Quadratic drag.
-    pub quadratic: f64,
-    /// Their sum.
-    pub mixed: f64,
+    /// Log-likelihood of each law less that of the likeliest.
+    pub log_likelihood: LawEvidence,
 }
 
 /// The document of a refusal: `{"refused": {"code", "text"}}`.
@@ -140,21 +217,22 @@ impl Identification {
                 cycles_used: (!used.is_empty()).then(|| used.iter().sum()),
             },
             features: if let [only] = &records[..] { only.features } else { None },
+            reported: self.reported.as_ref().map(ReportedModel::from),
             estimates: self.models.clone(),
+            refused_methods: self.refused.clone(),
             choice: self.drag_choice(),
             warnings: self.cautions.clone(),
             records,
+            units: Units::of(self.sources.iter().any(|source| source.log.degrees)),
+            version: env!("CARGO_PKG_VERSION").into(),
         }
     }
 
     fn drag_choice(&self) -> DragChoice {
-        match (self.choice(), &self.fits) {
-            (Some((law, confidence)), Some(fits)) => DragChoice {
-                drag: Some(law.map_or(DragVerdict::Undecided, DragVerdict::Law)),
-                confidence: Some(confidence),
-                probabilities: Some(Probabilities::of(fits)),
-            },
-            _ => DragChoice { drag: self.law_given.map(DragVerdict::Law), confidence: None, probabilities: None },
+        let laws = self.reported.as_ref().map_or_else(LawEvidence::default, |reported| reported.laws);
+        match self.law_given {
+            Some(law) => DragChoice { drag: Some(DragVerdict::Law(law)), confidence: None, log_likelihood: laws },
+            None => DragChoice { drag: laws.verdict(), confidence: laws.confidence(), log_likelihood: laws },
         }
     }
 }
@@ -184,12 +262,5 @@ impl FeatureMeans {
         };
         let (mean, std) = (values(|spread| spread.mean), values(|spread| spread.std));
         Self { mean, relay: found.relay.level, std }
-    }
-}
-
-impl Probabilities {
-    fn of(fits: &Choice) -> Self {
-        let [linear, quadratic, mixed] = DragLaw::ALL.map(|law| fits.probability(law));
-        Self { linear, quadratic, mixed }
     }
 }

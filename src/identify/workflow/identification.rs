@@ -5,10 +5,10 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use super::model::Model;
-use super::settings::Method;
 use crate::experiment::Log;
 use crate::features::RecordFeatures;
 use crate::identify::fit::RecordFit;
+use crate::identify::prediction_error::{Reason, Reported};
 use crate::identify::select::likelihood::Choice;
 use crate::identify::{DragLaw, Warning};
 
@@ -25,6 +25,23 @@ impl From<Warning> for Caution {
     fn from(warning: Warning) -> Self {
         Self { code: warning.code().into(), text: warning.to_string() }
     }
+}
+
+impl From<Reason> for Caution {
+    fn from(reason: Reason) -> Self {
+        Self { code: reason.code().into(), text: reason.to_string() }
+    }
+}
+
+/// A method that gives no model of these records, under one law or at all.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RefusedMethod {
+    /// The method: a name of [`Method`](super::Method), or `prediction-error` for the answer to use.
+    pub method: Cow<'static, str>,
+    /// Short name of the reason for scripts.
+    pub code: Cow<'static, str>,
+    /// The reason.
+    pub text: String,
 }
 
 /// A record with what it shows.
@@ -53,9 +70,11 @@ impl Source {
 #[serde(try_from = "Parts")]
 pub struct Identification {
     pub(super) sources: Vec<Source>,
+    pub(super) reported: Option<Reported>,
     pub(super) models: Vec<Model>,
     pub(super) fits: Option<Choice>,
     pub(super) cautions: Vec<Caution>,
+    pub(super) refused: Vec<RefusedMethod>,
     pub(super) law_given: Option<DragLaw>,
 }
 
@@ -63,9 +82,11 @@ pub struct Identification {
 #[derive(Deserialize)]
 struct Parts {
     sources: Vec<Source>,
+    reported: Option<Reported>,
     models: Vec<Model>,
     fits: Option<Choice>,
     cautions: Vec<Caution>,
+    refused: Vec<RefusedMethod>,
     law_given: Option<DragLaw>,
 }
 
@@ -73,7 +94,7 @@ impl TryFrom<Parts> for Identification {
     type Error = &'static str;
 
     fn try_from(parts: Parts) -> Result<Self, Self::Error> {
-        let Parts { sources, models, fits, cautions, law_given } = parts;
+        let Parts { sources, reported, models, fits, cautions, refused, law_given } = parts;
         let covers = |fit: &RecordFit| {
             fit.records().len() == sources.len()
                 && fit.records().iter().zip(&sources).all(|(fitted, source)| {
@@ -88,17 +109,19 @@ impl TryFrom<Parts> for Identification {
         if models.iter().any(|model| model.record.is_some_and(|index| index >= sources.len())) {
             return Err("a model belongs to a record that is not there; keep a document as it was written");
         }
-        Ok(Self { sources, models, fits, cautions, law_given })
+        if reported.as_ref().is_some_and(|reported| reported.deltas.len() != sources.len()) {
+            return Err("the answer has not one disturbance for each record; keep a document as it was written");
+        }
+        Ok(Self { sources, reported, models, fits, cautions, refused, law_given })
     }
 }
 
 impl Identification {
-    /// The one model to use: that of the likeliest fit, with its intervals. `None` where no fit was asked for or possible: the
-    /// methods for mean cycles neither decide between drag laws nor know their errors.
+    /// The one answer to use, with its trust and the reasons. `None` where the fit was not asked for or refused: the methods for
+    /// mean cycles neither tell drag laws apart nor know their errors.
     #[must_use]
-    pub fn reported(&self) -> Option<&Model> {
-        let law = self.likeliest_fit()?.law();
-        self.models.iter().find(|model| model.method == Method::Fit && model.drag == law)
+    pub fn reported(&self) -> Option<&Reported> {
+        self.reported.as_ref()
     }
 
     /// The records, in the order given.
@@ -131,12 +154,10 @@ impl Identification {
         &self.cautions
     }
 
-    /// The drag law that the records speak for with its probability; no law where none is certain enough, and nothing where
-    /// the law was given or nothing was fitted.
+    /// Methods that gave nothing, with their reasons.
     #[must_use]
-    pub fn choice(&self) -> Option<(Option<DragLaw>, f64)> {
-        let fits = self.fits.as_ref().filter(|_| self.law_given.is_none())?;
-        Some((fits.decision(), fits.probability(fits.likeliest().law())))
+    pub fn refused(&self) -> &[RefusedMethod] {
+        &self.refused
     }
 
     /// The drag law given beforehand.

@@ -1,13 +1,14 @@
-//! Every method asked for, tried on the same records.
+//! Every method asked for, tried on the same records. One that refuses leaves its reason, and the others their results.
 
-use super::identification::{Caution, Identification, Source};
+use super::identification::{Caution, Identification, RefusedMethod, Source};
 use super::model::Model;
+use super::refusal::Refusal;
 use super::session::Stage;
 use super::settings::{Method, Settings};
 use crate::experiment::Record;
-use crate::features::RecordFeatures;
-use crate::identify::fit::Fit;
+use crate::features::{FeatureError, RecordFeatures};
 use crate::identify::joint::{Delay, Parameter};
+use crate::identify::prediction_error::{Estimator, Reported};
 use crate::identify::select::likelihood::{Choice, fit_each};
 use crate::identify::{DragLaw, IdentifyError, Warning, exact, iso};
 
@@ -15,9 +16,13 @@ use crate::identify::{DragLaw, IdentifyError, Warning, exact, iso};
 pub(super) struct Found<'a> {
     settings: &'a Settings,
     sources: Vec<Source>,
+    reported: Option<Reported>,
     models: Vec<Model>,
     fits: Option<Choice>,
     cautions: Vec<Caution>,
+    refused: Vec<RefusedMethod>,
+    /// The reason where nothing is found: that of the last method.
+    failure: Refusal,
 }
 
 /// What one method gave under one law.
@@ -25,92 +30,138 @@ type Attempt = (Method, DragLaw, Result<Model, IdentifyError>);
 
 impl<'a> Found<'a> {
     pub(super) fn new(settings: &'a Settings, sources: Vec<Source>, cautions: Vec<Caution>) -> Self {
-        Self { settings, sources, models: Vec::new(), fits: None, cautions }
+        let failure = IdentifyError::TooFewEquations { equations: 0, parameters: 1 }.into();
+        let (models, refused) = (Vec::new(), Vec::new());
+        Self { settings, sources, reported: None, models, fits: None, cautions, refused, failure }
     }
 
-    pub(super) fn by_all_methods(mut self, progress: impl Fn(Stage)) -> Result<Identification, IdentifyError> {
-        let mut failure = None;
-        if self.settings.method.includes(Method::Fit) {
+    /// Records whose features `failures` says are missing, with the reason.
+    pub(super) fn by_all_methods(
+        mut self,
+        failures: &[(usize, FeatureError)],
+        progress: impl Fn(Stage),
+    ) -> Result<Identification, Refusal> {
+        let by_samples = self.settings.method.includes(Method::Fit);
+        if by_samples {
             progress(Stage::Fit);
-            failure = self.fit().err();
+            self.fit();
         }
-        let delay_s = match (self.settings.delay, &self.fits) {
-            (Delay::KnownS(delay_s), _) => Some(delay_s),
-            (Delay::Estimated, Some(fits)) => Some(fits.likeliest().estimate(Parameter::DelayS).value),
-            (Delay::Estimated, None) => None,
-        };
-        if let Some(delay_s) = delay_s {
-            failure = self.identify_cycles(delay_s).or(failure);
+        // The methods for mean cycles need a delay from somewhere.
+        if by_samples || self.settings.delay == Delay::Estimated {
+            progress(Stage::Terms);
+            self.report();
         }
-        if self.models.is_empty() {
-            let none = IdentifyError::TooFewEquations { equations: 0, parameters: 1 };
-            return Err(failure.unwrap_or(none));
+        for (index, error) in failures {
+            self.refuse_cycles(*index, error);
         }
-        if self.fits.is_some() {
-            progress(Stage::Delay);
-            self.check_fit();
+        match self.delay_s() {
+            Some(delay_s) => self.identify_cycles(delay_s),
+            None => self.refuse_all_cycles(),
         }
-        let Self { settings, sources, models, fits, cautions } = self;
-        Ok(Identification { sources, models, fits, cautions, law_given: settings.drag })
+        if !by_samples {
+            self.reported = None;
+        }
+        if self.models.is_empty() && self.reported.is_none() {
+            return Err(self.failure);
+        }
+        let Self { settings, sources, reported, models, fits, cautions, refused, .. } = self;
+        Ok(Identification { sources, reported, models, fits, cautions, refused, law_given: settings.drag })
+    }
+
+    /// The answer to use: terms found, models averaged.
+    fn report(&mut self) {
+        let estimator = Estimator::new(self.settings.delay);
+        let estimator = self.settings.drag.map_or(estimator, |law| estimator.with_law(law));
+        match estimator.records(&self.records()) {
+            Ok(several) => self.reported = Some(several.reported),
+            Err(error) => self.refuse("prediction-error", None, error),
+        }
     }
 
     /// Every drag law asked for, fitted to all records.
-    fn fit(&mut self) -> Result<(), IdentifyError> {
+    fn fit(&mut self) {
         let laws = self.settings.drag.map_or(DragLaw::ALL.to_vec(), |law| vec![law]);
         let records = self.records();
         let samples = records.iter().map(|record| record.samples()).sum();
         let results = fit_each(&laws, &records, self.settings.delay);
         for (law, result) in laws.iter().zip(&results) {
             if let Err(error) = result {
-                let text = format!("no fit with {} drag: {error}", law.name());
-                self.cautions.push(Caution { code: "fit-failed".into(), text });
+                self.refuse(Method::Fit.name(), Some((None, *law)), *error);
             }
         }
-        let fits = Choice::of(results, samples)?;
-        self.models.extend(fits.fits().iter().map(Model::of_fit));
-        self.fits = Some(fits);
-        Ok(())
+        if let Ok(fits) = Choice::of(results, samples) {
+            self.models.extend(fits.fits().iter().map(Model::of_fit));
+            self.fits = Some(fits);
+        }
     }
 
-    /// Warnings of the likeliest fit, beside the same fit with a free delay where one was given.
-    fn check_fit(&mut self) {
-        let Some(fit) = self.fits.as_ref().map(Choice::likeliest) else { return };
-        let free = match self.settings.delay {
-            Delay::KnownS(_) => Fit::new(fit.law(), Delay::Estimated).records_from(&self.records(), &[fit]).ok(),
-            Delay::Estimated => None,
-        };
-        let warnings = Warning::of_fit(fit, free.as_ref());
-        self.cautions.extend(warnings.into_iter().map(Caution::from));
+    /// The loop's delay for methods that know of no lag: given, or found with what else is late.
+    fn delay_s(&self) -> Option<f64> {
+        match (self.settings.delay, &self.reported, &self.fits) {
+            (Delay::KnownS(delay_s), ..) => Some(delay_s),
+            (Delay::Estimated, Some(reported), _) => Some(reported.mean_delay_s()),
+            (Delay::Estimated, None, Some(fits)) => Some(fits.likeliest().estimate(Parameter::DelayS).value),
+            (Delay::Estimated, None, None) => None,
+        }
     }
 
-    /// The methods that work on the features of one record, put before the fits; the last failure.
-    fn identify_cycles(&mut self, delay_s: f64) -> Option<IdentifyError> {
+    fn refuse(&mut self, method: &'static str, of: Option<(Option<usize>, DragLaw)>, error: IdentifyError) {
         let several = self.sources.len() > 1;
-        let (mut models, mut cautions, mut failure) = (Vec::new(), Vec::new(), None);
-        for (index, source) in self.sources.iter().enumerate() {
+        let place = of.map_or_else(String::new, |(record, law)| match record.filter(|_| several) {
+            Some(index) => format!("{}, {} drag: ", self.sources[index].name, law.name()),
+            None => format!("{} drag: ", law.name()),
+        });
+        let text = format!("{place}{error}");
+        self.refused.push(RefusedMethod { method: method.into(), code: error.code().into(), text });
+        self.failure = error.into();
+    }
+
+    fn cycle_methods(&self) -> impl Iterator<Item = Method> + use<> {
+        let asked = self.settings.method;
+        [Method::Iso, Method::Exact].into_iter().filter(move |method| asked.includes(*method))
+    }
+
+    /// The methods for mean cycles have none of this record.
+    fn refuse_cycles(&mut self, index: usize, error: &FeatureError) {
+        let name = self.sources[index].name.clone();
+        for method in self.cycle_methods() {
+            let (code, text) = (error.code().into(), format!("{name}: {error}"));
+            self.refused.push(RefusedMethod { method: method.name().into(), code, text });
+            self.failure = Refusal::Features { name: name.clone(), source: *error };
+        }
+    }
+
+    /// They have no delay either.
+    fn refuse_all_cycles(&mut self) {
+        for method in self.cycle_methods() {
+            let text = "the delay could not be estimated; give it".to_owned();
+            self.refused.push(RefusedMethod { method: method.name().into(), code: "delay-unknown".into(), text });
+        }
+    }
+
+    /// The methods that work on the features of one record, put before the fits.
+    fn identify_cycles(&mut self, delay_s: f64) {
+        let several = self.sources.len() > 1;
+        let mut models = Vec::new();
+        for index in 0..self.sources.len() {
+            let source = &self.sources[index];
             let Some(features) = &source.features else { continue };
             let record = several.then_some(index);
             let (attempts, warnings) = self.attempts(features, delay_s, record);
-            cautions.extend(warnings.into_iter().map(|warning| source.caution(warning, record)));
+            let cautions: Vec<Caution> = warnings.into_iter().map(|warning| source.caution(warning, record)).collect();
+            self.cautions.extend(cautions);
             for (method, law, result) in attempts {
                 match result {
                     Ok(model) => models.push(model),
-                    Err(error) => {
-                        let (name, method, law) = (&source.name, method.name(), law.name());
-                        let text = format!("{name}: no model by {method} with {law} drag: {error}");
-                        cautions.push(Caution { code: "method-failed".into(), text });
-                        failure = Some(error);
-                    }
+                    Err(error) => self.refuse(method.name(), Some((Some(index), law)), error),
                 }
             }
         }
-        self.cautions.extend(cautions);
         models.append(&mut self.models);
         self.models = models;
-        failure
     }
 
-    /// The methods for mean cycles on one record, and where they disagree with the fit.
+    /// The methods for mean cycles on one record, and where they disagree with the answer.
     fn attempts(&self, found: &RecordFeatures, delay_s: f64, record: Option<usize>) -> (Vec<Attempt>, Vec<Warning>) {
         let (features, relay) = (&found.features, &found.relay);
         let switch_level = self.settings.half_width.unwrap_or(features.switch_level.mean);
@@ -118,8 +169,8 @@ impl<'a> Found<'a> {
         if self.settings.method.includes(Method::Iso) {
             let of_record = iso::Oscillation::of(features, relay.level, delay_s);
             let parameters = iso::Oscillation { switch_level, ..of_record }.identify();
-            if let (Ok(parameters), Some(fits)) = (&parameters, &self.fits) {
-                warnings = Warning::of_methods(parameters, fits.likeliest());
+            if let (Ok(parameters), Some(reported)) = (&parameters, &self.reported) {
+                warnings = Warning::of_methods(parameters, reported);
             }
             for law in [DragLaw::Linear, DragLaw::Quadratic] {
                 let model = parameters.map(|found| Model::of_iso(law, &found, relay, delay_s, record));

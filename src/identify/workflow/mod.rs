@@ -11,9 +11,9 @@ mod session;
 mod settings;
 
 pub use document::{
-    Conclusion, DragChoice, DragVerdict, FeatureMeans, FeatureValues, Probabilities, RecordConclusion, Refused, Total,
+    Conclusion, DragChoice, FeatureMeans, FeatureValues, RecordConclusion, Refused, ReportedModel, Total, Units,
 };
-pub use identification::{Caution, Identification, Source};
+pub use identification::{Caution, Identification, RefusedMethod, Source};
 pub use model::Model;
 pub use refusal::Refusal;
 pub use session::{Session, Stage};

@@ -6,6 +6,7 @@ use super::settings::Method;
 use crate::features::RelayLevels;
 use crate::identify::fit::RecordFit;
 use crate::identify::joint::{Estimate, Parameter};
+use crate::identify::prediction_error::Term;
 use crate::identify::{DragLaw, iso};
 use crate::plant::DragAxis;
 
@@ -19,6 +20,8 @@ pub struct Model {
     pub record: Option<usize>,
     /// The drag law.
     pub drag: DragLaw,
+    /// What it has beside inertia, drag, constant force and delay.
+    pub terms: Vec<Term>,
     /// Inertia with added mass.
     pub alpha: Estimate,
     /// Linear drag, if the law has it.
@@ -33,6 +36,8 @@ pub struct Model {
     pub fit_percent: Option<f64>,
     /// Root mean square of the residuals, in output units.
     pub residual_rms: Option<f64>,
+    /// Log-likelihood of all samples; comparable between models of one method only.
+    pub log_likelihood: Option<f64>,
 }
 
 /// A model in a document: the disturbance of a single record is at hand without counting records.
@@ -41,6 +46,7 @@ struct Entry {
     method: Method,
     drag: DragLaw,
     record: Option<usize>,
+    terms: Vec<Term>,
     alpha: Estimate,
     beta: Option<Estimate>,
     beta_quadratic: Option<Estimate>,
@@ -50,28 +56,55 @@ struct Entry {
     delay_s: Estimate,
     fit_percent: Option<f64>,
     residual_rms: Option<f64>,
+    log_likelihood: Option<f64>,
 }
 
 impl From<Model> for Entry {
     fn from(model: Model) -> Self {
-        let Model { method, record, drag, alpha, beta, beta_quadratic, delay_s, deltas, fit_percent, residual_rms } =
-            model;
-        let delta = single(&deltas);
-        Self { method, drag, record, alpha, beta, beta_quadratic, delta, deltas, delay_s, fit_percent, residual_rms }
+        let delta = model.delta();
+        let Model { method, record, drag, terms, alpha, beta, beta_quadratic, delay_s, deltas, .. } = model;
+        let Model { fit_percent, residual_rms, log_likelihood, .. } = model;
+        Self {
+            method,
+            drag,
+            record,
+            terms,
+            alpha,
+            beta,
+            beta_quadratic,
+            delta,
+            deltas,
+            delay_s,
+            fit_percent,
+            residual_rms,
+            log_likelihood,
+        }
     }
 }
 
 impl From<Entry> for Model {
     fn from(entry: Entry) -> Self {
-        let Entry {
-            method, drag, record, alpha, beta, beta_quadratic, deltas, delay_s, fit_percent, residual_rms, ..
-        } = entry;
-        Self { method, record, drag, alpha, beta, beta_quadratic, delay_s, deltas, fit_percent, residual_rms }
+        let Entry { method, drag, record, terms, alpha, beta, beta_quadratic, deltas, delay_s, .. } = entry;
+        let Entry { fit_percent, residual_rms, log_likelihood, .. } = entry;
+        Self {
+            method,
+            record,
+            drag,
+            terms,
+            alpha,
+            beta,
+            beta_quadratic,
+            delay_s,
+            deltas,
+            fit_percent,
+            residual_rms,
+            log_likelihood,
+        }
     }
 }
 
 /// The only one.
-fn single(deltas: &[Estimate]) -> Option<Estimate> {
+pub(super) fn single(deltas: &[Estimate]) -> Option<Estimate> {
     if let [delta] = deltas { Some(*delta) } else { None }
 }
 
@@ -89,6 +122,7 @@ impl Model {
             method: Method::Fit,
             record: None,
             drag: law,
+            terms: Vec::new(),
             alpha: fit.estimate(Parameter::Alpha),
             beta: law.has_linear().then(|| fit.estimate(Parameter::LinearDrag)),
             beta_quadratic: law.has_quadratic().then(|| fit.estimate(Parameter::QuadraticDrag)),
@@ -96,6 +130,7 @@ impl Model {
             deltas: fit.records().iter().map(|record| record.disturbance).collect(),
             fit_percent: Some(fit_percent),
             residual_rms: Some(residual_rms),
+            log_likelihood: Some(fit.log_likelihood()),
         }
     }
 
@@ -125,6 +160,7 @@ impl Model {
             method,
             record,
             drag,
+            terms: Vec::new(),
             alpha,
             beta: drag.has_linear().then_some(beta),
             beta_quadratic: drag.has_quadratic().then_some(beta_quadratic),
@@ -132,6 +168,7 @@ impl Model {
             deltas: vec![delta],
             fit_percent: None,
             residual_rms: None,
+            log_likelihood: None,
         }
     }
 }

@@ -8,7 +8,7 @@ use std::path::Path;
 use super::identification::{Caution, Identification, Source};
 use super::methods::Found;
 use super::refusal::Refusal;
-use super::settings::{Method, Settings};
+use super::settings::Settings;
 use crate::experiment::{Columns, Log, Record};
 use crate::features::{FeatureError, RecordFeatures, RelayLevels};
 use crate::identify::Warning;
@@ -21,8 +21,8 @@ pub enum Stage {
     Cycles,
     /// The drag laws are fitted.
     Fit,
-    /// The delay is checked.
-    Delay,
+    /// Terms of the motion and of what disturbs it are tried.
+    Terms,
 }
 
 impl fmt::Display for Stage {
@@ -30,7 +30,7 @@ impl fmt::Display for Stage {
         f.write_str(match self {
             Self::Cycles => "looking for cycles",
             Self::Fit => "fitting the drag laws",
-            Self::Delay => "checking the delay",
+            Self::Terms => "looking for what else acts",
         })
     }
 }
@@ -48,9 +48,9 @@ impl fmt::Display for Stage {
 /// # let lines: String = samples.map(|((time, output), input)| format!("{time},{output},{input}\n")).collect();
 /// # std::fs::write(&path, format!("time_s,output,input\n{lines}"))?;
 /// let found = selfosc::identify::Session::default().log(&path)?.identify()?;
-/// let model = found.reported().ok_or("no fit")?;
-/// println!("{} drag, inertia {:.4}", model.drag.name(), model.alpha.value);
-/// # assert!((model.alpha.value - 1.0).abs() < 0.01 && model.drag.name() == "quadratic");
+/// let answer = found.reported().ok_or("no fit")?;
+/// println!("inertia {:.4}, trust: {}", answer.alpha.value, answer.trust.name());
+/// # assert!((answer.alpha.value - 1.0).abs() < 0.01);
 /// # std::fs::remove_dir_all(&folder)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -61,7 +61,7 @@ impl fmt::Display for Stage {
 /// ```no_run
 /// use selfosc::identify::{Method, Session, Settings, joint::Delay};
 /// # let (time_s, output, input, upload) = (vec![], vec![], vec![], std::io::empty());
-/// let settings = Settings { method: Method::Fit, delay: Delay::Estimated, ..Settings::default() };
+/// let settings = Settings { method: Method::Fit, delay: Delay::KnownS(0.1), ..Settings::default() };
 /// let session = Session::new(settings)
 ///     .log("weak.csv")?
 ///     .log("strong.csv")?
@@ -157,15 +157,23 @@ impl Session {
         progress(Stage::Cycles);
         let mut cautions = Vec::new();
         let mut sources = Vec::with_capacity(self.logs.len());
-        for (name, log) in self.logs {
-            sources.push(source(name, log, &self.settings, &mut cautions)?);
+        let mut failures = Vec::new();
+        for (index, (name, log)) in self.logs.into_iter().enumerate() {
+            let (source, failure) = source(name, log, &self.settings, &mut cautions)?;
+            sources.push(source);
+            failures.extend(failure.map(|error| (index, error)));
         }
-        Ok(Found::new(&self.settings, sources, cautions).by_all_methods(progress)?)
+        Found::new(&self.settings, sources, cautions).by_all_methods(&failures, progress)
     }
 }
 
-/// The record in the units wanted, with its features.
-fn source(name: String, mut log: Log, settings: &Settings, cautions: &mut Vec<Caution>) -> Result<Source, Refusal> {
+/// The record in the units wanted, with its features or why it has none.
+fn source(
+    name: String,
+    mut log: Log,
+    settings: &Settings,
+    cautions: &mut Vec<Caution>,
+) -> Result<(Source, Option<FeatureError>), Refusal> {
     let refused = |source| Refusal::Features { name: name.clone(), source };
     if let Some(level) = settings.relay_level {
         let scale = level / RelayLevels::of(&log.record).map_err(refused)?.level;
@@ -173,18 +181,12 @@ fn source(name: String, mut log: Log, settings: &Settings, cautions: &mut Vec<Ca
         log.record = Record::new(log.record.time_s().to_vec(), log.record.output().to_vec(), input)
             .map_err(|source| Refusal::Record { name: name.clone(), source })?;
     }
-    let features = match (RecordFeatures::of(&log.record), settings.method) {
-        (Ok(features), _) => {
+    match RecordFeatures::of(&log.record) {
+        Ok(features) => {
             cautions.extend(Warning::of_features(&features.features).into_iter().map(Caution::from));
-            Some(features)
+            Ok((Source { name, log, features: Some(features) }, None))
         }
-        (Err(error @ FeatureError::ConstantInput { .. }), _) => return Err(refused(error)),
-        // The fit needs neither a relay nor a steady oscillation; that the other methods do is worth a word.
-        (Err(error), Method::Fit) | (Err(error @ FeatureError::NotARelay { .. }), Method::All) => {
-            cautions.push(Caution { code: error.code().into(), text: format!("{name}: {error}") });
-            None
-        }
-        (Err(error), _) => return Err(refused(error)),
-    };
-    Ok(Source { name, log, features })
+        Err(error @ FeatureError::ConstantInput { .. }) => Err(refused(error)),
+        Err(error) => Ok((Source { name, log, features: None }, Some(error))),
+    }
 }

@@ -15,7 +15,7 @@ pub enum Method {
     Iso,
     /// The exact limit cycle with the mean cycle's features.
     Exact,
-    /// Maximum likelihood on every sample, with intervals.
+    /// Likelihood of every sample: the answer to use, with its terms, and each drag law alone.
     Fit,
     /// All of them.
     #[default]
@@ -41,7 +41,8 @@ impl Method {
     }
 }
 
-/// What to find, and what is known beforehand. The default is that of the command: every method, every drag law, no delay.
+/// What to find, and what is known beforehand. The default is that of the command: every method, every drag law, the delay
+/// estimated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Settings {
@@ -49,7 +50,7 @@ pub struct Settings {
     pub method: Method,
     /// The drag law, if it is known; else every law that a method has.
     pub drag: Option<DragLaw>,
-    /// Delay of the whole loop.
+    /// Delay of the whole loop. One that is given is checked: the answer says where a record contradicts it.
     pub delay: Delay,
     /// Relay level in the units wanted, above 0, if the log has the command in others.
     pub relay_level: Option<f64>,
@@ -64,9 +65,6 @@ pub enum SettingsError {
     /// Mixed drag without the fit.
     #[error("only the fit knows mixed drag; use the method fit, or another drag law")]
     MixedNeedsFit,
-    /// An estimated delay without the fit.
-    #[error("only the fit estimates a delay; use the method fit or all, or give the delay in seconds")]
-    DelayNeedsFit,
     /// A level outside its domain.
     #[error(transparent)]
     OutOfDomain(#[from] OutOfDomain),
@@ -78,7 +76,6 @@ impl SettingsError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::MixedNeedsFit => "mixed-needs-fit",
-            Self::DelayNeedsFit => "delay-needs-fit",
             Self::OutOfDomain(_) => "out-of-domain",
         }
     }
@@ -88,7 +85,7 @@ impl SettingsError {
     pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
         match self {
             Self::OutOfDomain(fault) => Some(fault),
-            Self::MixedNeedsFit | Self::DelayNeedsFit => None,
+            Self::MixedNeedsFit => None,
         }
     }
 }
@@ -99,13 +96,8 @@ impl Settings {
     /// # Errors
     /// [`SettingsError`] with the remedy.
     pub fn check(&self) -> Result<(), SettingsError> {
-        if !self.method.includes(Method::Fit) {
-            if self.drag == Some(DragLaw::Mixed) {
-                return Err(SettingsError::MixedNeedsFit);
-            }
-            if self.delay == Delay::Estimated {
-                return Err(SettingsError::DelayNeedsFit);
-            }
+        if !self.method.includes(Method::Fit) && self.drag == Some(DragLaw::Mixed) {
+            return Err(SettingsError::MixedNeedsFit);
         }
         let levels =
             [("relay level", self.relay_level, "command units"), ("half-width", self.half_width, "output units")];

@@ -3,21 +3,26 @@
 mod figures;
 mod tables;
 
-pub(crate) use tables::{feature_table, model_tables, summary, verdict};
+pub(crate) use tables::{feature_table, model_tables, reasons, summary, verdict};
 
 use super::{Document, Section};
 use crate::identify::{Identification, Source};
 use figures::figures;
-use tables::{caution_table, cycle_table};
+use tables::{caution_table, cycle_table, refused_table};
 
 /// Everything as one file.
 #[must_use]
 pub fn document(found: &Identification) -> Document {
-    let cautions = (!found.cautions().is_empty()).then(|| caution_table(found.cautions()));
+    let [parameters, compared] = {
+        let mut tables = model_tables(found);
+        [found.reported().and_then(|_| tables.next()), tables.next()]
+    };
+    let reasons = caution_table("reasons", "Why the answer is not simply good", &reasons(found));
+    let cautions = caution_table("warnings", "Warnings", found.cautions());
     let summary = Section {
         title: "Model".to_owned(),
-        paragraphs: vec![verdict(found)],
-        tables: model_tables(found).chain(cautions).collect(),
+        paragraphs: verdict(found).lines().map(str::to_owned).collect(),
+        tables: [parameters, reasons, compared, refused_table(found), cautions].into_iter().flatten().collect(),
         figures: Vec::new(),
     };
     let records = found.sources().iter().enumerate().map(|(index, source)| record_section(found, index, source));

@@ -2,8 +2,7 @@
 
 use crate::features::CycleStatistics;
 use crate::identify::joint::Estimate;
-use crate::identify::select::likelihood::DECIDED;
-use crate::identify::{Caution, Identification, Method, Model, Source};
+use crate::identify::{Caution, DragLaw, DragVerdict, Identification, Reason, Reported, Source, Trust};
 use crate::report::{Cell, Table};
 
 /// Digits that a measured number is shown with, after the first.
@@ -98,41 +97,90 @@ pub(super) fn cycle_table(source: &Source) -> Option<Table> {
     }))
 }
 
-/// The drag law in one sentence.
+/// The answer's trust and the drag law, a sentence each.
 #[must_use]
 pub(crate) fn verdict(found: &Identification) -> String {
-    match (found.choice(), found.likeliest_fit(), found.law_given()) {
-        (Some((Some(law), confidence)), ..) => {
-            format!("Drag is {}, with probability {confidence:.3} among the laws fitted.", law.name())
-        }
-        (Some((None, confidence)), Some(fit), _) => format!(
-            "The drag law is undecided: {} drag is likeliest, but with probability {confidence:.3}, below {DECIDED}. A \
-             record with another relay level decides.",
-            fit.law().name()
+    let Some(reported) = found.reported() else { return "Nothing is reported: that takes the fit.".to_owned() };
+    let trust = match reported.trust {
+        Trust::Good => "Trust: good. No test contradicts the model.",
+        Trust::Widened => "Trust: widened. The intervals allow for what is named below.",
+        Trust::Doubtful => "Trust: doubtful. Do not use the numbers, for the reasons named below.",
+    };
+    format!("{trust}\n{}\n{SCALE}", drag_sentence(found, reported))
+}
+
+/// What no record can show is said once.
+const SCALE: &str = "All parameters are in units of the logged command: its scale in newtons, and at one level its dead zone and \
+                     asymmetry, no record shows.";
+
+fn drag_sentence(found: &Identification, reported: &Reported) -> String {
+    if let Some(law) = found.law_given() {
+        return format!("Drag was taken to be {}.", law.name());
+    }
+    let laws = reported.laws;
+    let gap = |law: DragLaw| laws.of(law).map_or(0.0, |value| -value);
+    match laws.verdict() {
+        Some(DragVerdict::NotDistinguishable) => format!(
+            "The drag law is not distinguishable: beside the likeliest, linear drag alone loses {:.1} and quadratic drag alone \
+             {:.1} in log-likelihood; their mixture is reported.",
+            gap(DragLaw::Linear),
+            gap(DragLaw::Quadratic),
         ),
-        (_, _, Some(law)) => format!("Drag was taken to be {}.", law.name()),
-        _ => "No drag law was chosen: that takes the fit.".to_owned(),
+        Some(DragVerdict::Law(DragLaw::Mixed)) => format!(
+            "Drag is mixed: linear drag alone loses {:.1} and quadratic drag alone {:.1} in log-likelihood.",
+            gap(DragLaw::Linear),
+            gap(DragLaw::Quadratic),
+        ),
+        Some(DragVerdict::Law(law)) => {
+            let other = if law == DragLaw::Linear { DragLaw::Quadratic } else { DragLaw::Linear };
+            format!(
+                "{} drag is enough: {} drag alone loses {:.1} in log-likelihood, while both together gain {:.1} on it.",
+                capitalised(law.name()),
+                other.name(),
+                gap(other) - gap(law),
+                gap(law),
+            )
+        }
+        None => "No verdict on the drag law: not every law could be fitted.".to_owned(),
     }
 }
 
-/// The likeliest fit with its intervals, then every method.
-pub(crate) fn model_tables(found: &Identification) -> impl Iterator<Item = Table> + use<> {
-    let chosen = found.likeliest_fit().map(|fit| fit.law());
-    let fit = found.models().iter().find(|model| model.method == Method::Fit && Some(model.drag) == chosen);
-    fit.map(|model| parameter_table(found, model)).into_iter().chain([comparison(found)])
+fn capitalised(word: &str) -> String {
+    let mut letters = word.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-fn parameter_table(found: &Identification, model: &Model) -> Table {
-    let title = format!("Parameters by fit, {} drag", model.drag.name());
+/// Why the answer is not simply good, a line each.
+#[must_use]
+pub(crate) fn reasons(found: &Identification) -> Vec<Caution> {
+    let reasons = found.reported().map_or(&[][..], |reported| &reported.reasons);
+    reasons.iter().copied().map(|reason: Reason| Caution::from(reason)).collect()
+}
+
+/// The answer with its intervals, then every method.
+pub(crate) fn model_tables(found: &Identification) -> impl Iterator<Item = Table> + use<> {
+    let reported = found.reported().map(|reported| parameter_table(found, reported));
+    let compared = (!found.models().is_empty()).then(|| comparison(found));
+    reported.into_iter().chain(compared)
+}
+
+fn parameter_table(found: &Identification, reported: &Reported) -> Table {
+    let terms: Vec<&str> = reported.terms.iter().map(|term| term.name()).collect();
+    let terms = if terms.is_empty() { String::new() } else { format!(", with {}", terms.join(", ")) };
+    let title = format!("Reported: {} drag{terms}", reported.drag.name());
     let columns = ["parameter", "value", "std", "95 % from", "to"];
     let named = [
-        ("inertia alpha", Some(model.alpha)),
-        ("linear drag beta", model.beta),
-        ("quadratic drag beta_quadratic", model.beta_quadratic),
-        ("delay (s)", Some(model.delay_s)),
+        ("inertia alpha", Some(reported.alpha)),
+        ("linear drag beta", reported.drag.has_linear().then_some(reported.beta)),
+        ("quadratic drag beta_quadratic", reported.drag.has_quadratic().then_some(reported.beta_quadratic)),
+        ("cubic drag beta_cubic", reported.beta_cubic),
+        ("restoring force stiffness", reported.stiffness),
+        ("delay (s)", Some(reported.delay_s)),
+        ("lag of the actuator (s)", reported.lag_s),
+        ("ramp of the actuator (s)", reported.ramp_s),
     ];
     let shared = named.into_iter().filter_map(|(name, estimate)| Some((name.to_owned(), estimate?)));
-    let deltas = found.sources().iter().zip(&model.deltas).map(|(source, delta)| match found.sources().len() {
+    let deltas = found.sources().iter().zip(&reported.deltas).map(|(source, delta)| match found.sources().len() {
         1 => ("disturbance delta".to_owned(), *delta),
         _ => (format!("disturbance delta in {}", source.name), *delta),
     });
@@ -148,11 +196,19 @@ fn comparison(found: &Identification) -> Table {
     let several = found.sources().len() > 1;
     let mut columns = vec!["method", "drag"];
     columns.extend(several.then_some("record"));
-    columns.extend(["alpha", "beta", "beta_quadratic", "delta", "delay (s)", "fit (%)", "residual rms", "probability"]);
+    columns.extend([
+        "alpha",
+        "beta",
+        "beta_quadratic",
+        "delta",
+        "delay (s)",
+        "fit (%)",
+        "residual rms",
+        "log-likelihood",
+    ]);
     let table = Table::new("methods", "Methods compared", &columns);
     found.models().iter().fold(table, |table, model| {
         let record = model.record.map_or("all", |index| &found.sources()[index].name);
-        let fits = found.fits().filter(|_| model.method == Method::Fit && found.law_given().is_none());
         let mut cells = vec![model.method.name().into(), model.drag.name().into()];
         cells.extend(several.then(|| record.into()));
         cells.extend([
@@ -163,15 +219,26 @@ fn comparison(found: &Identification) -> Table {
             cell(model.delay_s.value),
             model.fit_percent.map_or(Cell::Missing, |percent| Cell::number(percent, 2)),
             model.residual_rms.map_or(Cell::Missing, cell),
-            fits.map_or(Cell::Missing, |fits| Cell::number(fits.probability(model.drag), 3)),
+            model.log_likelihood.map_or(Cell::Missing, |value| Cell::number(value, 1)),
         ]);
         table.row(cells)
     })
 }
 
-pub(super) fn caution_table(cautions: &[Caution]) -> Table {
-    let table = Table::new("warnings", "Warnings", &["name", "meaning"]);
-    cautions
-        .iter()
-        .fold(table, |table, caution| table.row([caution.code.as_ref().into(), caution.text.as_str().into()]))
+/// What was refused, by whom and why.
+pub(super) fn refused_table(found: &Identification) -> Option<Table> {
+    let table = Table::new("refused", "Methods without a model", &["method", "name", "reason"]);
+    let row = |table: Table, method: &str, code: &str, text: &str| table.row([method.into(), code.into(), text.into()]);
+    let refused = found.refused();
+    (!refused.is_empty())
+        .then(|| refused.iter().fold(table, |table, one| row(table, &one.method, &one.code, &one.text)))
+}
+
+pub(super) fn caution_table(name: &'static str, title: &str, cautions: &[Caution]) -> Option<Table> {
+    let table = Table::new(name, title, &["name", "meaning"]);
+    (!cautions.is_empty()).then(|| {
+        cautions
+            .iter()
+            .fold(table, |table, caution| table.row([caution.code.as_ref().into(), caution.text.as_str().into()]))
+    })
 }

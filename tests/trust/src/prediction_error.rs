@@ -39,12 +39,12 @@ fn answer(reported: &Reported, case: &Case) -> Answer {
         },
         reasons: reported.reasons.iter().map(|reason: &Reason| Cow::Borrowed(reason.code())).collect(),
         alpha: reported.alpha.spread.and(whole(reported.alpha)),
-        beta: whole(reported.linear_drag),
-        beta_quadratic: whole(reported.quadratic_drag),
-        beta_cubic: reported.cubic_drag.and_then(whole),
+        beta: whole(reported.beta),
+        beta_quadratic: whole(reported.beta_quadratic),
+        beta_cubic: reported.beta_cubic.and_then(whole),
         stiffness: reported.stiffness.and_then(whole),
         lag_s: reported.lag_s.and_then(whole),
         delay_s: case.known.delay_s.is_none().then(|| interval(reported.delay_s)),
-        delta: reported.disturbance.iter().map(|estimate| whole(*estimate)).collect(),
+        delta: reported.deltas.iter().map(|estimate| whole(*estimate)).collect(),
     }
 }
