@@ -3,8 +3,8 @@
 use super::algebra::{exactly, number};
 use super::method_bias::SymmetricOrbit;
 use super::{
-    AsPrinted, Budget, Case, ClaimDomain, ClaimPart, ClaimVariable, Distortion, Evidence, Hypothesis, Verdict, Witness, claim,
-    sample,
+    AsPrinted, Budget, Case, ClaimDomain, ClaimPart, ClaimVariable, Distortion, Evidence, Hypothesis, Verdict, Witness,
+    claim, sample,
 };
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::{Interval, Real};
