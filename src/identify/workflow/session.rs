@@ -19,6 +19,8 @@ use crate::identify::Warning;
 pub enum Stage {
     /// Cycles are looked for.
     Cycles,
+    /// Parameters are enclosed.
+    Bounds,
     /// The drag laws are fitted.
     Fit,
     /// Terms of the motion and of what disturbs it are tried.
@@ -29,6 +31,7 @@ impl fmt::Display for Stage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Cycles => "looking for cycles",
+            Self::Bounds => "enclosing the parameters",
             Self::Fit => "fitting the drag laws",
             Self::Terms => "looking for what else acts",
         })
