@@ -99,14 +99,14 @@ fn a_given_delay_is_checked_from_both_sides() {
         let settings = Settings { method: Method::Fit, delay: Delay::KnownS(given_s), ..Settings::default() };
         Session::new(settings).record("log", record.clone()).identify().unwrap().reported().unwrap().clone()
     };
+    let contradicted = |reason: &Reason| matches!(reason, Reason::DelayContradicted { .. });
     for given_s in [0.0, 0.2] {
         let reported = answer(given_s);
-        let contradicted = |reason: &Reason| matches!(reason, Reason::DelayContradicted { .. });
         assert!(reported.reasons.iter().any(contradicted), "{given_s}: {:?}", reported.reasons);
         assert_eq!(reported.trust, Trust::Widened);
         assert!((reported.mean_delay_s() - 0.1).abs() < 0.02, "{reported:?}");
     }
-    assert_eq!(answer(0.1).reasons, []);
+    assert!(!answer(0.1).reasons.iter().any(contradicted));
 }
 
 #[test]

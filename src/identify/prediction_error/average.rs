@@ -1,5 +1,6 @@
 //! One estimate from all models tried, weighted by how likely they make the record for their number of parameters.
 
+use super::lateness;
 use super::model::{Model, Parameter};
 use super::scoring::{self, Fitted};
 use super::search::{Found, PRICE};
@@ -13,8 +14,12 @@ struct Component {
     std: f64,
 }
 
-/// Intervals of terms that were chosen by the record are wider by this.
+/// Intervals of terms that were chosen by the record are wider by this, and by this where one of them makes late: actuators and
+/// sensors have more than one way to, and none of the models may be quite the one.
 pub(super) const CHOSEN: f64 = 1.25;
+pub(super) const CHOSEN_LATE: f64 = 1.6;
+/// Likelihoods of models that differ in what makes late count by this power: among stand-ins for the true one they say too much.
+const TEMPER: f64 = 0.4;
 
 /// Twice the log-likelihood that each parameter more has to gain for a model to count. A structure that the record hardly
 /// shows moves the inertia, so that it counts sooner.
@@ -54,10 +59,12 @@ impl<'a> Average<'a> {
     /// `movable` names the parameters of a model that are not on a bound.
     pub(super) fn new(found: &'a Found, movable: impl Fn(&Fitted) -> Vec<usize>) -> Self {
         let value = |fitted: &Fitted| fitted.log_likelihood - 0.5 * PRICE * fitted.model.freedom() as f64;
-        let top = value(&found.tried[found.best]);
+        let best = &found.tried[found.best];
+        let top = value(best);
+        let temper = if lateness::is_in(&best.model) { TEMPER } else { 1.0 };
         let mut members: Vec<(f64, &Fitted, [f64; Parameter::COUNT])> = Vec::new();
         for fitted in &found.tried {
-            let weight = (value(fitted) - top).exp();
+            let weight = (temper * (value(fitted) - top)).exp();
             if weight < 1e-3 {
                 continue;
             }

@@ -262,10 +262,17 @@ fn run_with<const N: usize>(observations: &Observations, model: &Model, derivati
                 let mut begin = actuator.at(stretch, now);
                 for index in 0..steps {
                     let from = now + index as f64 * h_s;
-                    let middle = actuator.at(stretch, from + 0.5 * h_s);
-                    let last = actuator.at(stretch, from + h_s);
-                    filter.advance([begin, middle, last], h_s);
-                    begin = last;
+                    // Drag bends where the vehicle turns: a step ends there.
+                    let turn = filter.turn_after(&begin, h_s);
+                    for (since, h_s) in turn.map_or([(0.0, h_s), (h_s, 0.0)], |turn| [(0.0, turn), (turn, h_s - turn)])
+                    {
+                        if h_s > 0.0 {
+                            let middle = actuator.at(stretch, from + since + 0.5 * h_s);
+                            let last = actuator.at(stretch, from + since + h_s);
+                            filter.advance([begin, middle, last], h_s);
+                            begin = last;
+                        }
+                    }
                 }
                 now = end;
             }
@@ -364,6 +371,14 @@ impl<'a, const N: usize> Filter<'a, N> {
             state[FILTERED] = state[0] - model.value(Parameter::FilterS) * state[1];
         }
         Self { model, dynamics, sizes, stochastic: kicked || random, state, covariance, sensitivities }
+    }
+
+    /// When within a step the velocity passes zero, if well inside.
+    fn turn_after(&self, force: &Force, h_s: f64) -> Option<f64> {
+        let velocity = self.state[1];
+        let force = force.value + self.model.value(Parameter::Disturbance) + self.state[2];
+        let turn = -velocity / self.dynamics.acceleration(self.state[0], velocity, force);
+        (turn > 0.02 * h_s && turn < 0.98 * h_s).then_some(turn)
     }
 
     fn advance(&mut self, forces: [Force; 3], h_s: f64) {

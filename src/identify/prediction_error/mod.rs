@@ -16,6 +16,7 @@ mod actuator;
 mod answer;
 mod average;
 mod filter;
+mod lateness;
 mod laws;
 mod model;
 mod motion;
@@ -41,7 +42,7 @@ use super::joint::{ConfidenceInterval, Delay, Estimate};
 use super::{DragLaw, IdentifyError};
 use crate::experiment::Record;
 use crate::numeric::{Limit, domain};
-use average::{Average, CHOSEN};
+use average::{Average, CHOSEN, CHOSEN_LATE};
 use scoring::Fitted;
 use search::{Found, Known, Search};
 
@@ -149,7 +150,7 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     let spare = (count - best.model.freedom() as f64).max(1.0);
     let mut factor = (count / spare).sqrt() * residuals::student(spare) / residuals::NORMAL;
     if !terms.is_empty() {
-        factor *= CHOSEN;
+        factor *= if lateness::is_in(&best.model) { CHOSEN_LATE } else { CHOSEN };
     }
     if observations.outliers > 0 {
         reasons.push(Reason::Outliers { count: observations.outliers });

@@ -107,6 +107,11 @@ pub(super) fn climb_beyond(
         let value = &mut model.values[parameter as usize];
         *value = value.clamp(low, high);
     }
+    for noise in Noise::ALL.into_iter().filter(|noise| model.noise_free[*noise as usize]) {
+        let (low, high) = noise_bounds(noise, observations);
+        let value = &mut model.noise[noise as usize];
+        *value = value.clamp(low, high);
+    }
     let mut pass = filter::run(observations, &model, true)?;
     let mut damping = 1e-6;
     let mut settled = false;

@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 use rayon::prelude::*;
 
 use super::filter;
+use super::lateness;
 use super::model::{Clock, Model, Noise, Parameter, Switching};
 use super::observations::{self, Observations};
 use super::scoring::{Fitted, MOST_STEPS, climb, climb_beyond, climb_within};
@@ -36,6 +37,8 @@ const RIVALS: [(Term, Term); 13] = [
 ];
 /// What a parameter costs in an average, in twice the log-likelihood.
 pub(super) const PRICE: f64 = 4.0;
+/// Log-likelihood below the best from which on a model hardly counts in an average.
+const COUNTING: f64 = 4.0;
 /// The most terms that a model gets.
 const MOST_TERMS: usize = 8;
 
@@ -217,6 +220,7 @@ impl<'a> Search<'a> {
             self.grow(&mut tried, grown, |_| true);
             best = self.best(&tried);
         }
+        best = self.late_otherwise(&mut tried, best);
         // Leave out what is no longer needed, drag terms too.
         loop {
             let current = tried[best].clone();
@@ -237,6 +241,22 @@ impl<'a> Search<'a> {
         tried.extend(others.into_par_iter().filter_map(|model| self.climb(model)).collect::<Vec<_>>());
         best = self.best(&tried);
         Some((self, Found { tried, best }))
+    }
+
+    /// What makes the vehicle late is looked for anew; returns the number of the best model.
+    fn late_otherwise(&self, tried: &mut Vec<Fitted>, from: usize) -> usize {
+        let current = tried[from].clone();
+        let switched = self.observations(&current.model).switched;
+        let mut others = lateness::chains(&current.model, self.known.delay_s, switched);
+        others.retain(|model| !tried.iter().any(|fitted| fitted.model.is_alike(model)));
+        let worth = current.log_likelihood - COUNTING;
+        let ends: Vec<Fitted> = others
+            .into_par_iter()
+            .filter_map(|model| climb_beyond(self.observations(&model), model, MOST_STEPS, worth))
+            .collect();
+        tried.extend(ends);
+        let best = self.best(tried);
+        if best == from { from } else { self.grow(tried, best, |_| true) }
     }
 
     /// A model with the other drag laws, as far as they have not been tried, so that the laws can be compared.
