@@ -101,6 +101,9 @@ impl Session {
     pub fn log(self, path: impl AsRef<Path>) -> Result<Self, Refusal> {
         let name = path.as_ref().display().to_string();
         match File::open(path) {
+            Ok(file) if file.metadata().is_ok_and(|about| about.is_dir()) => {
+                Err(Refusal::File { name, reason: "it is a folder".to_owned() })
+            }
             Ok(file) => self.reader(name, file),
             Err(error) => Err(Refusal::File { name, reason: error.to_string() }),
         }
