@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
+use super::number::significant;
 use super::{CommandError, Outcome, files, write_json};
 use crate::balance::{Bias, HarmonicBalance};
 use crate::describing::{Entry, Setting};
@@ -15,7 +16,7 @@ use crate::report::nyquist;
 /// The oscillations that harmonic balance predicts for a plant in a loop with a characteristic.
 ///
 /// Every intersection of the plant's Nyquist curve with -1/N, with Loeb's verdict on its stability. An approximation: it leaves
-/// out all harmonics but the first. No intersection is an answer too.
+/// out all harmonics but the first. Exit status 1 where no oscillation is predicted.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -60,21 +61,28 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         let figure = nyquist(&plant, balance.omega_rad_s(), describing, arguments.bias, &found)?;
         files::write(path, &figure.svg()?)?;
     }
+    let outcome = if found.is_empty() { Outcome::No } else { Outcome::Done };
     if arguments.json {
         let intersection = |found: &crate::balance::Intersection| json!({ "amplitude": found.amplitude, "omega_rad_s": found.omega_rad_s, "stable": found.stable });
         write_json(output, &json!({ "intersections": found.iter().map(intersection).collect::<Vec<_>>() }))?;
-        return Ok(Outcome::Done);
+        return Ok(outcome);
     }
     if found.is_empty() {
         let (from, to) = balance.omega_rad_s().into_inner();
         writeln!(output, "no oscillation: -1/N does not meet the plant's curve between {from:.3e} and {to:.3e} rad/s")?;
-        return Ok(Outcome::Done);
+        return Ok(outcome);
     }
     writeln!(output, "{:>14}  {:>14}  {:>12}  stable", "amplitude", "omega / rad/s", "period / s")?;
     for one in &found {
         let stable = one.stable.map_or("not decided", |stable| if stable { "yes" } else { "no" });
         let period_s = core::f64::consts::TAU / one.omega_rad_s;
-        writeln!(output, "{:14.7}  {:14.7}  {period_s:12.6}  {stable}", one.amplitude, one.omega_rad_s)?;
+        writeln!(
+            output,
+            "{:>14}  {:>14}  {:>12}  {stable}",
+            significant(one.amplitude, 7),
+            significant(one.omega_rad_s, 7),
+            significant(period_s, 7)
+        )?;
     }
     Ok(Outcome::Done)
 }

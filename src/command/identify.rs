@@ -138,8 +138,8 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         Err(refusal) => return arguments.refuse(refusal, output),
     };
     if let Some(path) = &arguments.report {
-        let html = page::document(&found).html()?;
-        files::write(path, &html)?;
+        let document = page::document(&found).from_where(files::provenance(&arguments.logs));
+        files::write(path, &document.html()?)?;
     }
     if arguments.json {
         write_json(output, &found.conclusion())?;

@@ -10,9 +10,13 @@ mod df;
 mod error;
 mod files;
 mod identify;
+mod known;
+mod manual;
+mod number;
 mod predict;
 mod reproduce;
 mod simulate;
+mod suggestion;
 mod terminal;
 mod tune;
 mod verify;
@@ -21,7 +25,7 @@ use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
 use crate::numeric::OutOfDomain;
 use error::CommandError;
@@ -35,6 +39,9 @@ use error::CommandError;
 struct Command {
     #[command(subcommand)]
     action: Action,
+    /// When help and errors are coloured
+    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = ColorChoice::Auto)]
+    color: ColorChoice,
 }
 
 #[derive(Debug, Subcommand)]
@@ -47,6 +54,8 @@ enum Action {
     Simulate(simulate::Arguments),
     Identify(identify::Arguments),
     Tune(tune::Arguments),
+    Completions(manual::Completions),
+    Man(manual::Manual),
 }
 
 impl Action {
@@ -60,6 +69,8 @@ impl Action {
             Self::Simulate(arguments) => simulate::run(arguments, output),
             Self::Identify(arguments) => identify::run(arguments, output),
             Self::Tune(arguments) => tune::run(arguments, output),
+            Self::Completions(arguments) => manual::completions(arguments, output),
+            Self::Man(arguments) => manual::manual(arguments),
         }
     }
 }
@@ -78,7 +89,11 @@ enum Outcome {
 /// Does not return for `--help`, `--version` and unusable arguments: they end the process with status 0 or 2.
 #[must_use]
 pub fn run() -> ExitCode {
-    let command = Command::parse();
+    let matches = Command::command().color(wanted_color()).get_matches();
+    let command = match Command::from_arg_matches(&matches) {
+        Ok(command) => command,
+        Err(error) => error.format(&mut Command::command()).exit(),
+    };
     let mut output = terminal::Shown(io::BufWriter::new(io::stdout().lock()));
     let outcome = command.action.run(&mut output);
     match outcome.and_then(|outcome| output.flush().map(|()| outcome).map_err(CommandError::from)) {
@@ -135,6 +150,18 @@ pub fn answer<T: Into<OsString>>(arguments: impl IntoIterator<Item = T>) -> Resu
         out_of_domain: error.out_of_domain().copied(),
     })?;
     Ok(Answer { text: String::from_utf8_lossy(&output).into_owned(), no: outcome == Outcome::No })
+}
+
+/// What `--color` asks for: help and errors of the parser are shown before the arguments are known.
+fn wanted_color() -> ColorChoice {
+    let given: Vec<String> = std::env::args().skip(1).collect();
+    let after = |at: usize| given.get(at + 1).map(String::as_str);
+    let value = given.iter().enumerate().find_map(|(at, argument)| match argument.strip_prefix("--color") {
+        Some("") => after(at),
+        Some(rest) => rest.strip_prefix('='),
+        None => None,
+    });
+    value.and_then(|value| ColorChoice::from_str(value, false).ok()).unwrap_or(ColorChoice::Auto)
 }
 
 /// Writes one JSON document and a line end.

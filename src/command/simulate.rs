@@ -21,16 +21,16 @@ pub(super) struct Arguments {
     #[command(flatten)]
     axis: AxisArguments,
     /// Cycles of the limit cycle that the record lasts
-    #[arg(long, value_name = "N", default_value_t = 10.0)]
+    #[arg(long, value_name = "N", default_value_t = 10.0, allow_negative_numbers = true)]
     cycles: f64,
     /// Samples per second
-    #[arg(long, value_name = "HZ", default_value_t = 10.0)]
+    #[arg(long, value_name = "HZ", default_value_t = 10.0, allow_negative_numbers = true)]
     rate: f64,
     /// Readings are rounded to whole multiples of this, output units (with --degrees still radians)
-    #[arg(long, value_name = "Q", default_value_t = 0.0)]
+    #[arg(long, value_name = "Q", default_value_t = 0.0, allow_negative_numbers = true)]
     quantum: f64,
     /// Standard deviation of the noise on a reading before it is rounded, output units
-    #[arg(long, value_name = "SD", default_value_t = 0.0)]
+    #[arg(long, value_name = "SD", default_value_t = 0.0, allow_negative_numbers = true)]
     noise: f64,
     /// Samples the relay at the rate too, and holds its command in between
     #[arg(long)]

@@ -29,6 +29,7 @@ pub fn document(found: &Identification) -> Document {
     Document {
         title: "Identification from self-oscillations".to_owned(),
         sections: std::iter::once(summary).chain(records).collect(),
+        provenance: vec![concat!("Written by selfosc ", env!("CARGO_PKG_VERSION")).to_owned()],
     }
 }
 
