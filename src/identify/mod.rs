@@ -36,4 +36,5 @@ pub use warning::Warning;
 pub use workflow::{
     Caution, Conclusion, DragChoice, FeatureMeans, FeatureValues, Identification, Method, Model, RecordConclusion,
     Refusal, Refused, RefusedMethod, ReportedModel, Session, Settings, SettingsError, Source, Stage, Total, Units,
+    Validation,
 };

@@ -15,7 +15,14 @@ fn check(claim: &Claim) {
     let finding = claim.check(budget);
     assert!(finding.expected, "{}: {finding:?}", claim.id);
     let whole = matches!(finding.word(), Word::Proved | Word::Exhausted);
-    assert_eq!(claim.not_proved.is_none(), whole, "{}: {}, and the reason is {:?}", claim.id, finding.word(), claim.not_proved);
+    assert_eq!(
+        claim.not_proved.is_none(),
+        whole,
+        "{}: {}, and the reason is {:?}",
+        claim.id,
+        finding.word(),
+        claim.not_proved
+    );
     let stream = claim.stream(budget);
     let falsified = (claim.falsified)(stream);
     assert!(falsified.is_refuted(), "{}: the false variant is not refuted: {falsified:?}", claim.id);

@@ -15,10 +15,7 @@ fn of(kernel: Kernel<Rational>, sweep: &Sinusoid<Rational>) -> Option<Describing
     Single(kernel).describing_function(sweep).ok()
 }
 
-fn band(
-    [origin, lower, upper]: [Rational; 3],
-    sweep: &Sinusoid<Rational>,
-) -> Option<DescribingFunction<Rational>> {
+fn band([origin, lower, upper]: [Rational; 3], sweep: &Sinusoid<Rational>) -> Option<DescribingFunction<Rational>> {
     of(Kernel::Band { origin, lower, upper, slope: number(1.0) }, sweep)
 }
 

@@ -100,7 +100,8 @@ const MEMBERS: [(&str, Proof); 14] = [
 
 /// Every member on both branches.
 pub(super) fn decomposition(distortion: Distortion) -> Verdict {
-    let both = |(_, proof): &(&str, Proof)| proof(distortion, Branch::Rising).and(|| proof(distortion, Branch::Falling));
+    let both =
+        |(_, proof): &(&str, Proof)| proof(distortion, Branch::Rising).and(|| proof(distortion, Branch::Falling));
     MEMBERS.iter().map(both).reduce(|all, next| all.and(|| next)).unwrap_or_else(|| Verdict::undecided("nothing"))
 }
 

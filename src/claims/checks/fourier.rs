@@ -15,8 +15,8 @@ use crate::describing::{Boxed, ClosedForm, KernelForm, by_quadrature, harmonic};
 use crate::nonlinearity::{
     Branch, Characteristic, NonlinearityError, Polynomial, Power, RelayDeadZone, RelayHysteresis, Sinusoid,
 };
-use crate::numeric::quadrature::integrate;
 use crate::numeric::Real;
+use crate::numeric::quadrature::integrate;
 use crate::proof::polynomial::Rational;
 use std::array;
 
@@ -285,7 +285,8 @@ fn prove_polynomial(distortion: Distortion) -> Verdict {
         let mut powers = vec![number(1.0); sines.len()];
         let mut errors = [number(0.0); 20];
         for (degree, error) in errors.chunks_mut(2).enumerate() {
-            let monomial = Polynomial::<_, 10>::new(array::from_fn(|k| number(f64::from(u8::from(k == degree))))).ok()?;
+            let monomial =
+                Polynomial::<_, 10>::new(array::from_fn(|k| number(f64::from(u8::from(k == degree))))).ok()?;
             let closed = monomial.describing_function(&sweep).ok()? * factor;
             let (mut mean, mut sine) = (number(0.0), number(0.0));
             for (power, &node) in powers.iter_mut().zip(&sines) {

@@ -7,9 +7,9 @@ use crate::balance::HarmonicBalance;
 use crate::describing::ClosedForm;
 use crate::identify::iso::{Oscillation, Parameters, disturbance_from_times};
 use crate::nonlinearity::RelayHysteresis;
+use crate::numeric::Real;
 use crate::orbit::{self, LimitCycle, RelayLoop, limit_cycle, return_map, theorem};
 use crate::plant::{DragAxis, PlantError, StateSpace, TransferFunction};
-use crate::numeric::Real;
 use crate::proof::polynomial::Rational;
 
 /// A drag law of one coefficient.
@@ -350,7 +350,8 @@ fn relative(
     [alpha, drag]: [Rational; 2],
 ) -> Option<[Rational; 2]> {
     let zero = number(0.0);
-    let read = Oscillation { relay_level: level, switch_level: half_width, amplitude, bias: zero, period_s, delay_s: zero };
+    let read =
+        Oscillation { relay_level: level, switch_level: half_width, amplitude, bias: zero, period_s, delay_s: zero };
     let found = read.identify().ok()?;
     Some([found.alpha / alpha, family(&found) / drag])
 }

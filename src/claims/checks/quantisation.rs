@@ -231,7 +231,9 @@ fn prove_quantisation_zero(distortion: Distortion) -> Verdict {
         Some([identified(amplitude).alpha.slopes()[0]])
     };
     let sign = |name, point: f64| {
-        exactly(ClaimPart::whole(name, ""), distortion, &[[point]], |[ratio]: [Rational; 1], factor| slope(ratio, factor))
+        exactly(ClaimPart::whole(name, ""), distortion, &[[point]], |[ratio]: [Rational; 1], factor| {
+            slope(ratio, factor)
+        })
     };
     // Level with the middle half of the sweep only above twice the half-width.
     exactly(ZERO, distortion, &[[]], at_root)

@@ -8,7 +8,8 @@ use crate::experiment::RelayState;
 use crate::nonlinearity::RelayHysteresis;
 use crate::proof::polynomial::{Decision, Rational, decided};
 
-const NOISE_WHOLE: ClaimPart = ClaimPart::whole("whole", "every half-width and smaller noise, inputs that move one way");
+const NOISE_WHOLE: ClaimPart =
+    ClaimPart::whole("whole", "every half-width and smaller noise, inputs that move one way");
 
 claim! {
     NOISE = "relay-noise" "section 4.1, in words" Statement

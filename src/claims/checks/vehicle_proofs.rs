@@ -50,8 +50,12 @@ fn symmetry(factor: f64) -> Residuals {
             for place in 0..4 {
                 let centre_of_gravity_m = Vector3::from_fn(|row, _| if row == place { 1.0 } else { 0.0 });
                 let inertia_kg_m2 = body(mass_kg).inertia_kg_m2 + matrix.fixed_view::<3, 3>(3, 3);
-                let parameters =
-                    VehicleParameters { centre_of_gravity_m, inertia_kg_m2, added_mass: matrix + Matrix6::identity() * 8.0, ..body(mass_kg) };
+                let parameters = VehicleParameters {
+                    centre_of_gravity_m,
+                    inertia_kg_m2,
+                    added_mass: matrix + Matrix6::identity() * 8.0,
+                    ..body(mass_kg)
+                };
                 let mass = Vehicle::new(parameters).ok()?.mass();
                 found.extend((mass - mass.transpose() * factor).iter());
             }

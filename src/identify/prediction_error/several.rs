@@ -5,7 +5,9 @@
 
 use super::answer::{Answer, Reason, Reported, Trust};
 use super::laws::LawEvidence;
+use super::prediction::Prediction;
 use super::residuals::{NORMAL, chi_square_tail};
+use crate::experiment::Record;
 use crate::identify::DragLaw;
 use crate::identify::joint::{ConfidenceInterval, Estimate};
 
@@ -19,6 +21,8 @@ pub struct Several {
     pub reported: Reported,
     /// Each record's own.
     pub answers: Vec<Answer>,
+    /// Each record predicted from all others; `None` where there are no others, or the prediction leaves all bounds.
+    pub left_out: Vec<Option<Prediction>>,
 }
 
 /// Half the width of an interval in normal standard deviations: also right where it is no normal one.
@@ -104,6 +108,19 @@ impl Several {
             trust: reasons.iter().map(|reason| reason.trust()).max().unwrap_or(Trust::Good),
             reasons,
         };
-        Self { reported, answers }
+        let left_out = vec![None; answers.len()];
+        Self { reported, answers, left_out }
+    }
+
+    /// With each record predicted from all others.
+    pub(super) fn predicted(mut self, records: &[&Record]) -> Self {
+        if records.len() > 1 {
+            let without = |index: usize| {
+                let others = self.answers.iter().enumerate().filter(|(other, _)| *other != index);
+                Self::of(others.map(|(_, answer)| answer.clone()).collect()).reported
+            };
+            self.left_out = (0..records.len()).map(|index| without(index).predict(records[index])).collect();
+        }
+        self
     }
 }

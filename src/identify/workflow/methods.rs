@@ -1,14 +1,14 @@
 //! Every method asked for, tried on the same records. One that refuses leaves its reason, and the others their results.
 
-use super::identification::{Caution, Identification, RefusedMethod, Source};
+use super::identification::{Caution, Identification, RefusedMethod, Source, Validation};
 use super::model::Model;
 use super::refusal::Refusal;
 use super::session::Stage;
 use super::settings::{Method, Settings};
-use crate::experiment::Record;
+use crate::experiment::{Log, Record};
 use crate::features::{FeatureError, RecordFeatures};
 use crate::identify::joint::{Delay, Parameter};
-use crate::identify::prediction_error::{Estimator, Reported};
+use crate::identify::prediction_error::{Estimator, Prediction, Reported};
 use crate::identify::select::likelihood::{Choice, fit_each};
 use crate::identify::{DragLaw, IdentifyError, Warning, exact, iso};
 
@@ -17,6 +17,7 @@ pub(super) struct Found<'a> {
     settings: &'a Settings,
     sources: Vec<Source>,
     reported: Option<Reported>,
+    left_out: Vec<Option<Prediction>>,
     models: Vec<Model>,
     fits: Option<Choice>,
     cautions: Vec<Caution>,
@@ -32,13 +33,15 @@ impl<'a> Found<'a> {
     pub(super) fn new(settings: &'a Settings, sources: Vec<Source>, cautions: Vec<Caution>) -> Self {
         let failure = IdentifyError::TooFewEquations { equations: 0, parameters: 1 }.into();
         let (models, refused) = (Vec::new(), Vec::new());
-        Self { settings, sources, reported: None, models, fits: None, cautions, refused, failure }
+        let left_out = vec![None; sources.len()];
+        Self { settings, sources, reported: None, left_out, models, fits: None, cautions, refused, failure }
     }
 
     /// Records whose features `failures` says are missing, with the reason.
     pub(super) fn by_all_methods(
         mut self,
         failures: &[(usize, FeatureError)],
+        validation: Vec<(String, Log)>,
         progress: impl Fn(Stage),
     ) -> Result<Identification, Refusal> {
         let by_samples = self.settings.method.includes(Method::Fit);
@@ -60,12 +63,28 @@ impl<'a> Found<'a> {
         }
         if !by_samples {
             self.reported = None;
+            self.left_out.fill(None);
         }
         if self.models.is_empty() && self.reported.is_none() {
             return Err(self.failure);
         }
-        let Self { settings, sources, reported, models, fits, cautions, refused, .. } = self;
-        Ok(Identification { sources, reported, models, fits, cautions, refused, law_given: settings.drag })
+        let Self { settings, sources, reported, left_out, models, fits, cautions, refused, .. } = self;
+        let validated = validation.into_iter().map(|(file, log)| {
+            let prediction = reported.as_ref().and_then(|reported| reported.predict(&log.record));
+            Validation { file, prediction }
+        });
+        let validation = validated.collect();
+        Ok(Identification {
+            sources,
+            reported,
+            left_out,
+            validation,
+            models,
+            fits,
+            cautions,
+            refused,
+            law_given: settings.drag,
+        })
     }
 
     /// The answer to use: terms found, models averaged.
@@ -73,7 +92,7 @@ impl<'a> Found<'a> {
         let estimator = Estimator::new(self.settings.delay);
         let estimator = self.settings.drag.map_or(estimator, |law| estimator.with_law(law));
         match estimator.records(&self.records()) {
-            Ok(several) => self.reported = Some(several.reported),
+            Ok(several) => (self.reported, self.left_out) = (Some(several.reported), several.left_out),
             Err(error) => self.refuse("prediction-error", None, error),
         }
     }

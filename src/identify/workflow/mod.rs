@@ -13,7 +13,7 @@ mod settings;
 pub use document::{
     Conclusion, DragChoice, FeatureMeans, FeatureValues, RecordConclusion, Refused, ReportedModel, Total, Units,
 };
-pub use identification::{Caution, Identification, RefusedMethod, Source};
+pub use identification::{Caution, Identification, RefusedMethod, Source, Validation};
 pub use model::Model;
 pub use refusal::Refusal;
 pub use session::{Session, Stage};

@@ -13,16 +13,20 @@ use tables::{caution_table, cycle_table, refused_table};
 /// Everything as one file.
 #[must_use]
 pub fn document(found: &Identification) -> Document {
-    let [parameters, compared] = {
-        let mut tables = model_tables(found);
-        [found.reported().and_then(|_| tables.next()), tables.next()]
-    };
+    let mut tables = model_tables(found);
+    let parameters = found.reported().and_then(|_| tables.next());
     let reasons = caution_table("reasons", "Why the answer is not simply good", &reasons(found));
     let cautions = caution_table("warnings", "Warnings", found.cautions());
     let summary = Section {
         title: "Model".to_owned(),
         paragraphs: verdict(found).lines().map(str::to_owned).collect(),
-        tables: [parameters, reasons, compared, refused_table(found), cautions].into_iter().flatten().collect(),
+        tables: [parameters, reasons]
+            .into_iter()
+            .flatten()
+            .chain(tables)
+            .chain(refused_table(found))
+            .chain(cautions)
+            .collect(),
         figures: Vec::new(),
     };
     let records = found.sources().iter().enumerate().map(|(index, source)| record_section(found, index, source));
