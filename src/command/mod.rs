@@ -6,6 +6,7 @@
 mod axis;
 mod balance;
 mod certificates;
+mod design;
 mod df;
 mod error;
 mod files;
@@ -43,6 +44,7 @@ enum Action {
     Balance(balance::Arguments),
     Predict(predict::Arguments),
     Simulate(simulate::Arguments),
+    Design(design::Arguments),
     Identify(identify::Arguments),
     Tune(tune::Arguments),
 }
@@ -70,6 +72,7 @@ pub fn run() -> ExitCode {
         Action::Balance(arguments) => balance::run(arguments, &mut output),
         Action::Predict(arguments) => predict::run(arguments, &mut output),
         Action::Simulate(arguments) => simulate::run(arguments, &mut output),
+        Action::Design(arguments) => design::run(arguments, &mut output),
         Action::Identify(arguments) => identify::run(arguments, &mut output),
         Action::Tune(arguments) => tune::run(arguments, &mut output),
     };

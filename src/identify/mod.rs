@@ -8,6 +8,8 @@
 mod any_float;
 #[cfg(feature = "std")]
 pub mod bounded;
+#[cfg(feature = "std")]
+pub mod design;
 mod drag_law;
 mod error;
 pub mod exact;

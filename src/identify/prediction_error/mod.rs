@@ -16,6 +16,7 @@ mod actuator;
 mod answer;
 mod average;
 mod filter;
+pub(in crate::identify) mod information;
 mod lateness;
 mod laws;
 mod model;
@@ -44,8 +45,8 @@ use super::joint::{ConfidenceInterval, Delay, Estimate};
 use super::{DragLaw, IdentifyError};
 use crate::experiment::Record;
 use crate::numeric::{Limit, domain};
-use observations::Observations;
 use average::{Average, CHOSEN, CHOSEN_LATE};
+use observations::Observations;
 use scoring::Fitted;
 use search::{Found, Known, Search};
 
