@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
+use super::number::{number, significant};
 use super::{CommandError, Outcome, files, write_json};
 use crate::balance::{Bias, HarmonicBalance};
 use crate::describing::{Entry, Setting};
@@ -15,7 +16,7 @@ use crate::report::nyquist;
 /// The oscillations that harmonic balance predicts for a plant in a loop with a characteristic.
 ///
 /// Every intersection of the plant's Nyquist curve with -1/N, with Loeb's verdict on its stability. An approximation: it leaves
-/// out all harmonics but the first. No intersection is an answer too.
+/// out all harmonics but the first. Exit status 1 where no oscillation is predicted.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -23,13 +24,13 @@ Examples:
   selfosc balance --num 1 --den 1,1,0 --delay 0.1 --nonlinearity relay-hysteresis --set half_width=0.2 --json")]
 pub(super) struct Arguments {
     /// Numerator, descending powers of s
-    #[arg(long, value_name = "A,B,...", value_delimiter = ',', required = true, allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "A,B,...", value_delimiter = ',', required = true, allow_hyphen_values = true)]
     num: Vec<f64>,
     /// Denominator, descending powers of s
-    #[arg(long, value_name = "A,B,...", value_delimiter = ',', required = true, allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "A,B,...", value_delimiter = ',', required = true, allow_hyphen_values = true)]
     den: Vec<f64>,
     /// Delay of the plant in s
-    #[arg(long, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
     delay: f64,
     /// Name of the characteristic, as `selfosc df --list` shows it
     #[arg(long, value_name = "NAME")]
@@ -38,7 +39,7 @@ pub(super) struct Arguments {
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = super::df::setting)]
     settings: Vec<(String, Setting)>,
     /// Bias of the characteristic's input
-    #[arg(long, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
     bias: f64,
     /// Draws G(jw) and -1/N into this SVG file
     #[arg(long, value_name = "FILE")]
@@ -60,21 +61,28 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         let figure = nyquist(&plant, balance.omega_rad_s(), describing, arguments.bias, &found)?;
         files::write(path, &figure.svg()?)?;
     }
+    let outcome = if found.is_empty() { Outcome::No } else { Outcome::Done };
     if arguments.json {
         let intersection = |found: &crate::balance::Intersection| json!({ "amplitude": found.amplitude, "omega_rad_s": found.omega_rad_s, "stable": found.stable });
         write_json(output, &json!({ "intersections": found.iter().map(intersection).collect::<Vec<_>>() }))?;
-        return Ok(Outcome::Done);
+        return Ok(outcome);
     }
     if found.is_empty() {
         let (from, to) = balance.omega_rad_s().into_inner();
         writeln!(output, "no oscillation: -1/N does not meet the plant's curve between {from:.3e} and {to:.3e} rad/s")?;
-        return Ok(Outcome::Done);
+        return Ok(outcome);
     }
     writeln!(output, "{:>14}  {:>14}  {:>12}  stable", "amplitude", "omega / rad/s", "period / s")?;
     for one in &found {
         let stable = one.stable.map_or("not decided", |stable| if stable { "yes" } else { "no" });
         let period_s = core::f64::consts::TAU / one.omega_rad_s;
-        writeln!(output, "{:14.7}  {:14.7}  {period_s:12.6}  {stable}", one.amplitude, one.omega_rad_s)?;
+        writeln!(
+            output,
+            "{:>14}  {:>14}  {:>12}  {stable}",
+            significant(one.amplitude, 7),
+            significant(one.omega_rad_s, 7),
+            significant(period_s, 7)
+        )?;
     }
     Ok(Outcome::Done)
 }

@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 use serde_json::json;
 
+use super::number::number;
 use super::{CommandError, Outcome, files, write_json};
 use crate::describing::{CATALOGUE, DescribingFunction, Entry, Setting, by_quadrature, certified};
 use crate::nonlinearity::{ParameterSpec, Sinusoid};
@@ -32,10 +33,10 @@ pub(super) struct Arguments {
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     settings: Vec<(String, Setting)>,
     /// Amplitude X of the input
-    #[arg(long, value_name = "X", required_unless_present = "list", allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "X", required_unless_present = "list", allow_negative_numbers = true)]
     amplitude: Option<f64>,
     /// Bias B of the input
-    #[arg(long, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
     bias: f64,
     /// How it is found
     #[arg(long, value_enum, default_value_t = Method::ClosedForm)]

@@ -4,6 +4,8 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
+use sha2::{Digest, Sha256};
+
 use super::CommandError;
 
 /// Most bytes that are read of a proof.
@@ -13,6 +15,21 @@ const LONGEST: u64 = 64 << 20;
 /// as it stands.
 pub(super) fn write(path: &Path, content: &str) -> Result<(), CommandError> {
     replace(path, content.as_bytes()).map_err(|source| CommandError::Write { path: path.to_owned(), source })
+}
+
+/// When, by which command and from which bytes a file was made; the digests are those of `sha256sum`.
+pub(super) fn provenance(inputs: &[PathBuf]) -> Vec<String> {
+    let command: Vec<String> = std::env::args().collect();
+    let now = humantime::format_rfc3339_seconds(std::time::SystemTime::now());
+    let digest = |path: &PathBuf| {
+        let bytes = fs::read(path).ok()?;
+        let digest: String = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        Some(format!("{}: SHA-256 {digest}", path.display()))
+    };
+    [format!("Command: {}", command.join(" ")), format!("Written at {now}")]
+        .into_iter()
+        .chain(inputs.iter().filter_map(digest))
+        .collect()
 }
 
 /// Refuses an output that is one of the inputs, by whatever name.

@@ -11,18 +11,24 @@ mod df;
 mod error;
 mod files;
 mod identify;
+mod known;
+mod manual;
+mod number;
 mod predict;
 mod reproduce;
 mod simulate;
+mod suggestion;
 mod terminal;
 mod tune;
 mod verify;
 
+use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
+use crate::numeric::OutOfDomain;
 use error::CommandError;
 
 /// Self-oscillations under a relay: the paper reproduced, its theory checked, vehicles identified.
@@ -34,6 +40,9 @@ use error::CommandError;
 struct Command {
     #[command(subcommand)]
     action: Action,
+    /// When help and errors are coloured
+    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = ColorChoice::Auto)]
+    color: ColorChoice,
 }
 
 #[derive(Debug, Subcommand)]
@@ -47,6 +56,26 @@ enum Action {
     Design(design::Arguments),
     Identify(identify::Arguments),
     Tune(tune::Arguments),
+    Completions(manual::Completions),
+    Man(manual::Manual),
+}
+
+impl Action {
+    fn run(&self, output: &mut impl Write) -> Result<Outcome, CommandError> {
+        match self {
+            Self::Reproduce(arguments) => reproduce::run(arguments, output),
+            Self::Verify(arguments) => verify::run(arguments, output),
+            Self::Df(arguments) => df::run(arguments, output),
+            Self::Balance(arguments) => balance::run(arguments, output),
+            Self::Predict(arguments) => predict::run(arguments, output),
+            Self::Simulate(arguments) => simulate::run(arguments, output),
+            Self::Design(arguments) => design::run(arguments, output),
+            Self::Identify(arguments) => identify::run(arguments, output),
+            Self::Tune(arguments) => tune::run(arguments, output),
+            Self::Completions(arguments) => manual::completions(arguments, output),
+            Self::Man(arguments) => manual::manual(arguments),
+        }
+    }
 }
 
 /// What a subcommand found, when nothing went wrong.
@@ -63,19 +92,13 @@ enum Outcome {
 /// Does not return for `--help`, `--version` and unusable arguments: they end the process with status 0 or 2.
 #[must_use]
 pub fn run() -> ExitCode {
-    let command = Command::parse();
-    let mut output = terminal::Shown(io::BufWriter::new(io::stdout().lock()));
-    let outcome = match &command.action {
-        Action::Reproduce(arguments) => reproduce::run(arguments, &mut output),
-        Action::Verify(arguments) => verify::run(arguments, &mut output),
-        Action::Df(arguments) => df::run(arguments, &mut output),
-        Action::Balance(arguments) => balance::run(arguments, &mut output),
-        Action::Predict(arguments) => predict::run(arguments, &mut output),
-        Action::Simulate(arguments) => simulate::run(arguments, &mut output),
-        Action::Design(arguments) => design::run(arguments, &mut output),
-        Action::Identify(arguments) => identify::run(arguments, &mut output),
-        Action::Tune(arguments) => tune::run(arguments, &mut output),
+    let matches = Command::command().color(wanted_color()).get_matches();
+    let command = match Command::from_arg_matches(&matches) {
+        Ok(command) => command,
+        Err(error) => error.format(&mut Command::command()).exit(),
     };
+    let mut output = terminal::Shown(io::BufWriter::new(io::stdout().lock()));
+    let outcome = command.action.run(&mut output);
     match outcome.and_then(|outcome| output.flush().map(|()| outcome).map_err(CommandError::from)) {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::No) => ExitCode::from(1),
@@ -87,6 +110,61 @@ pub fn run() -> ExitCode {
             error.status()
         }
     }
+}
+
+/// What a subcommand prints, for a program that calls it without a process.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Answer {
+    /// Standard output.
+    pub text: String,
+    /// Whether the answer is no: exit status 1.
+    pub no: bool,
+}
+
+/// Why a subcommand gives no answer: exit status 2.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// Short name for scripts: the library's, or `usage` or `files`.
+    pub code: &'static str,
+    /// What standard error shows.
+    pub text: String,
+    /// The number outside its domain, if that is the reason.
+    pub out_of_domain: Option<OutOfDomain>,
+}
+
+/// The answer to arguments as a shell would pass them, without the command's own name.
+///
+/// # Errors
+/// [`Failure`] for unusable arguments and unreadable input, and for `--help`, whose text it has.
+///
+/// ```
+/// let answer = selfosc::command::answer(["df", "relay", "--amplitude", "2", "--json"]).unwrap();
+/// assert!(answer.text.contains("\"p\": 0.6366197723675814"));
+/// assert_eq!(selfosc::command::answer(["df", "relay", "--amplitude", "-2"]).unwrap_err().code, "out-of-domain");
+/// ```
+pub fn answer<T: Into<OsString>>(arguments: impl IntoIterator<Item = T>) -> Result<Answer, Failure> {
+    let arguments = std::iter::once("selfosc".into()).chain(arguments.into_iter().map(Into::into));
+    let usage = |error: clap::Error| Failure { code: "usage", text: error.to_string(), out_of_domain: None };
+    let command = Command::try_parse_from(arguments).map_err(usage)?;
+    let mut output = Vec::new();
+    let outcome = command.action.run(&mut output).map_err(|error| Failure {
+        code: error.code(),
+        text: error.to_string(),
+        out_of_domain: error.out_of_domain().copied(),
+    })?;
+    Ok(Answer { text: String::from_utf8_lossy(&output).into_owned(), no: outcome == Outcome::No })
+}
+
+/// What `--color` asks for: help and errors of the parser are shown before the arguments are known.
+fn wanted_color() -> ColorChoice {
+    let given: Vec<String> = std::env::args().skip(1).collect();
+    let after = |at: usize| given.get(at + 1).map(String::as_str);
+    let value = given.iter().enumerate().find_map(|(at, argument)| match argument.strip_prefix("--color") {
+        Some("") => after(at),
+        Some(rest) => rest.strip_prefix('='),
+        None => None,
+    });
+    value.and_then(|value| ColorChoice::from_str(value, false).ok()).unwrap_or(ColorChoice::Auto)
 }
 
 /// Writes one JSON document and a line end.

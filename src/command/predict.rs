@@ -7,14 +7,17 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::axis::AxisArguments;
+use super::number::significant;
 use super::{CommandError, Outcome, write_json};
 use crate::balance::AxisOscillation;
 use crate::numeric::Interval;
-use crate::orbit::{Certificate, LimitCycle, certify, limit_cycle};
+use crate::orbit::{Certificate, LimitCycle, Starts, certify, limit_cycle};
 
 /// The self-oscillation of alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay) + delta under a relay with hysteresis.
 ///
-/// Harmonic balance is the paper's approximation; the exact limit cycle comes from the closed-form motion between switchings.
+/// The exact limit cycle comes from the closed-form motion between switchings; harmonic balance, which keeps the first harmonic
+/// only, is the paper's approximation. A certificate in interval arithmetic follows. Output is whatever unit half-width has
+/// (rad, m), command whatever relay has (N m, N).
 /// Exit status 1 where there is no limit cycle, with the reason.
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -111,18 +114,47 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         write_json(output, &document)?;
         return Ok(Outcome::Done);
     }
-    let approximate = |part: fn(&AxisOscillation) -> f64| {
-        balance.as_ref().map_or_else(|| "-".to_owned(), |found| format!("{:.6}", part(found)))
-    };
-    let mut row = |name: &str, exact: f64, balance: String| writeln!(output, "{name:22}{exact:>16.6}{balance:>20}");
-    row("amplitude", exact.amplitude, approximate(|found| found.amplitude))?;
-    row("bias", exact.bias, approximate(|found| found.bias))?;
-    row("period / s", exact.period_s, approximate(AxisOscillation::period_s))?;
-    row("maximum", exact.maximum, String::new())?;
-    row("minimum", exact.minimum, String::new())?;
-    row("time at +C / s", exact.time_positive_s, String::new())?;
-    row("time at -C / s", exact.time_negative_s, String::new())?;
-    row("real switching level", exact.switch_level, String::new())?;
-    row("multiplier", exact.multiplier, String::new())?;
+    table(&exact, balance.as_ref(), output)?;
+    match certify(&axis, &relay) {
+        Ok(proof) => proved(&proof, output)?,
+        Err(reason) => writeln!(output, "\nnot proved: {reason}")?,
+    }
     Ok(Outcome::Done)
+}
+
+/// The cycle, with what the first harmonic alone makes of it beside it.
+fn table(exact: &Exact, balance: Option<&AxisOscillation>, output: &mut impl Write) -> Result<(), CommandError> {
+    let first = |part: fn(&AxisOscillation) -> f64| {
+        balance.map_or_else(|| "none".to_owned(), |found| significant(part(found), 6))
+    };
+    writeln!(output, "{:22}{:12}{:>14}{:>18}", "", "unit", "exact", "first harmonic")?;
+    let rows = [
+        ("amplitude", "output", exact.amplitude, Some(first(|found| found.amplitude))),
+        ("bias", "output", exact.bias, Some(first(|found| found.bias))),
+        ("period", "s", exact.period_s, Some(first(AxisOscillation::period_s))),
+        ("maximum", "output", exact.maximum, None),
+        ("minimum", "output", exact.minimum, None),
+        ("time at +C", "s", exact.time_positive_s, None),
+        ("time at -C", "s", exact.time_negative_s, None),
+        ("output at switching", "output", exact.switch_level, None),
+        ("multiplier per cycle", "1", exact.multiplier, None),
+    ];
+    for (name, unit, value, first) in rows {
+        let line = format!("{name:22}{unit:12}{:>14}{:>18}", significant(value, 6), first.unwrap_or_default());
+        writeln!(output, "{}", line.trim_end())?;
+    }
+    Ok(())
+}
+
+/// What the certificate says, in words.
+fn proved(proof: &Certificate, output: &mut impl Write) -> Result<(), CommandError> {
+    let cycle = &proof.enclosure;
+    writeln!(output, "\nproved in interval arithmetic, for exactly these parameters:")?;
+    writeln!(output, "  amplitude in {}, period in {} s", cycle.amplitude, cycle.period_s)?;
+    let yes = |flag: bool| if flag { "yes" } else { "not shown" };
+    writeln!(output, "  the only oscillation: {}; attracting: {}", yes(proof.unique), yes(proof.attracting))?;
+    if proof.starts == Starts::OneCommandOnItsWay {
+        writeln!(output, "  (among motions with at most one command on its way in the delay)")?;
+    }
+    Ok(())
 }

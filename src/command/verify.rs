@@ -4,9 +4,11 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
-use super::{CommandError, Outcome, certificates, write_json};
+use super::number::whole;
+use super::{CommandError, Outcome, certificates, suggestion, write_json};
 use crate::claims::{Budget, CLAIMS, Claim, Evidence, Finding, Verdict, Word};
 
 /// Checks every claim of the theory, as printed and as corrected, and says on what evidence.
@@ -28,10 +30,10 @@ pub(super) struct Arguments {
     #[arg(long = "claim", value_name = "ID", num_args = 1..)]
     claims: Vec<String>,
     /// Cases drawn by each sampled check
-    #[arg(long, value_name = "N", default_value_t = Budget::default().cases, value_parser = cases)]
+    #[arg(long, value_name = "N", default_value_t = Budget::default().cases, value_parser = cases, allow_negative_numbers = true)]
     cases: usize,
     /// Seed of the cases
-    #[arg(long, value_name = "S", default_value_t = Budget::default().seed)]
+    #[arg(long, value_parser = whole, value_name = "S", default_value_t = Budget::default().seed, allow_negative_numbers = true)]
     seed: u64,
     /// Writes the proofs of the orbit theorems to this folder, one file a theorem, with every box
     #[arg(long, value_name = "DIR")]
@@ -39,6 +41,9 @@ pub(super) struct Arguments {
     /// Checks such files, without searching for anything, in place of the claims
     #[arg(long, value_name = "DIR", conflicts_with_all = ["claims", "cases", "seed", "certificates", "json"])]
     check: Option<PathBuf>,
+    /// Shows on a terminal which claim is being checked
+    #[arg(long)]
+    progress: bool,
     /// Prints one JSON document
     #[arg(long)]
     json: bool,
@@ -59,14 +64,43 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     let chosen = chosen(&arguments.claims)?;
     let written = arguments.certificates.as_deref().map(certificates::write).transpose()?;
     let budget = Budget { cases: arguments.cases, seed: arguments.seed };
-    let findings: Vec<(&Claim, Finding)> = chosen.into_iter().map(|claim| (claim, claim.check(budget))).collect();
+    let findings = check(&chosen, budget, arguments, output)?;
     if arguments.json {
         write_json(output, &document(&findings))?;
     } else {
-        table(&findings, output)?;
+        summary(&findings, output)?;
     }
     let expected = findings.iter().all(|(_, finding)| finding.expected);
     Ok(if expected { written.unwrap_or(Outcome::Done) } else { Outcome::No })
+}
+
+/// Checks one claim after the other; for people, each one's lines as it ends.
+fn check(
+    chosen: &[&'static Claim],
+    budget: Budget,
+    arguments: &Arguments,
+    output: &mut impl Write,
+) -> Result<Vec<(&'static Claim, Finding)>, CommandError> {
+    // Drawn on standard error, and only where that is a terminal.
+    let progress = if arguments.progress { ProgressBar::new(chosen.len() as u64) } else { ProgressBar::hidden() };
+    progress.set_style(ProgressStyle::with_template("{pos}/{len} {msg}").unwrap_or(ProgressStyle::default_bar()));
+    let width = chosen.iter().map(|claim| claim.id.len()).max().unwrap_or(0);
+    if !arguments.json {
+        writeln!(output, "{:width$}  {:14}  {:14}  evidence", "claim", "as printed", "as corrected")?;
+    }
+    let mut findings = Vec::with_capacity(chosen.len());
+    for &claim in chosen {
+        progress.set_message(claim.id);
+        let finding = claim.check(budget);
+        if !arguments.json {
+            progress.suspend(|| lines(claim, &finding, width, output))?;
+            output.flush()?;
+        }
+        findings.push((claim, finding));
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    Ok(findings)
 }
 
 fn chosen(ids: &[String]) -> Result<Vec<&'static Claim>, CommandError> {
@@ -76,7 +110,7 @@ fn chosen(ids: &[String]) -> Result<Vec<&'static Claim>, CommandError> {
     let find = |id: &String| {
         Claim::find(id).ok_or_else(|| CommandError::UnknownClaim {
             id: id.clone(),
-            known: CLAIMS.iter().map(|claim| claim.id).collect::<Vec<_>>().join(", "),
+            nearest: suggestion::nearest(id, CLAIMS.iter().map(|claim| claim.id)),
         })
     };
     ids.iter().map(find).collect()
@@ -105,23 +139,24 @@ fn evidence(finding: &Finding) -> String {
     said.join(", ")
 }
 
-fn table(findings: &[(&Claim, Finding)], output: &mut impl Write) -> Result<(), CommandError> {
-    let width = findings.iter().map(|(claim, _)| claim.id.len()).max().unwrap_or(0);
-    writeln!(output, "{:width$}  {:14}  {:14}  evidence", "claim", "as printed", "as corrected")?;
+/// What was found of one claim.
+fn lines(claim: &Claim, finding: &Finding, width: usize, output: &mut impl Write) -> Result<(), CommandError> {
     let short = |word: Word| if word == Word::NotApplicable { "-" } else { word.as_str() };
-    for (claim, finding) in findings {
-        let (printed, corrected) = (short(finding.as_printed()), short(finding.as_corrected()));
-        writeln!(output, "{:width$}  {printed:14}  {corrected:14}  {}", claim.id, evidence(finding))?;
-        if let Some(why) = claim.not_proved {
-            writeln!(output, "{:width$}  not proved as a whole: {why}", "")?;
-        }
-        if let Some(Verdict::Refuted(witness)) = &finding.printed {
-            writeln!(output, "{:width$}  as printed, refuted by {witness}", "")?;
-        }
-        if !finding.expected {
-            writeln!(output, "{:width$}  NOT AS STATED in spec/claims/{}.md", "", claim.id)?;
-        }
+    let (printed, corrected) = (short(finding.as_printed()), short(finding.as_corrected()));
+    writeln!(output, "{:width$}  {printed:14}  {corrected:14}  {}", claim.id, evidence(finding))?;
+    if let Some(why) = claim.not_proved {
+        writeln!(output, "{:width$}  not proved as a whole: {why}", "")?;
     }
+    if let Some(Verdict::Refuted(witness)) = &finding.printed {
+        writeln!(output, "{:width$}  as printed, refuted by {witness}", "")?;
+    }
+    if !finding.expected {
+        writeln!(output, "{:width$}  NOT AS STATED in spec/claims/{}.md", "", claim.id)?;
+    }
+    Ok(())
+}
+
+fn summary(findings: &[(&Claim, Finding)], output: &mut impl Write) -> Result<(), CommandError> {
     let words = [Word::Proved, Word::ProvedInPart, Word::Exhausted, Word::Sampled];
     let words = words.map(|word| format!("{} {word}", count(findings, word))).join(", ");
     let (refuted, wrong) = (refuted_as_printed(findings), not_as_stated(findings));

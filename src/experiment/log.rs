@@ -108,11 +108,7 @@ impl Columns {
             .trim(csv::Trim::All)
             .from_reader(table.as_bytes());
         let names: Vec<String> = reader.headers().map_err(unreadable)?.iter().map(str::to_owned).collect();
-        let columns = [
-            column(&names, self.time.as_deref(), TIME)?,
-            column(&names, self.output.as_deref(), OUTPUT)?,
-            column(&names, self.input.as_deref(), INPUT)?,
-        ];
+        let columns = self.choose(&names)?;
         let mut values: [Vec<f64>; 3] = Default::default();
         let mut lines = Vec::new();
         let mut row = csv::StringRecord::new();
@@ -123,8 +119,46 @@ impl Columns {
             }
             lines.push(line);
         }
-        let [mut time_s, mut output, mut input] = values;
-        let unit = self.time_unit.unwrap_or_else(|| TimeUnit::of_column(&names[columns[0]]));
+        self.log(columns.map(|column| names[column].clone()), values, |sample| Place::Line(lines[sample]))
+    }
+
+    /// Which of these columns are time, output and input, by their places.
+    ///
+    /// # Errors
+    /// [`ExperimentError::UnknownColumn`] with the names there are.
+    pub fn choose(&self, names: &[String]) -> Result<[usize; 3], ExperimentError> {
+        Ok([
+            column(names, self.time.as_deref(), TIME)?,
+            column(names, self.output.as_deref(), OUTPUT)?,
+            column(names, self.input.as_deref(), INPUT)?,
+        ])
+    }
+
+    /// The log of a table in memory: what reading it as text would give. The columns are time, output and input, as
+    /// [`choose`](Self::choose) finds them, with their names.
+    ///
+    /// # Errors
+    /// [`ExperimentError`] with sample and value.
+    ///
+    /// ```
+    /// use selfosc::experiment::Columns;
+    /// let names = ["time_s", "yaw_deg", "command"].map(str::to_owned);
+    /// let time_s: Vec<f64> = (0..20).map(f64::from).collect();
+    /// let log = Columns::default().table(names, [time_s, vec![90.0; 20], vec![1.0; 20]])?;
+    /// assert_eq!(log.record.output()[0], core::f64::consts::FRAC_PI_2);
+    /// # Ok::<(), selfosc::experiment::ExperimentError>(())
+    /// ```
+    pub fn table(&self, names: [String; 3], values: [Vec<f64>; 3]) -> Result<Log, ExperimentError> {
+        self.log(names, values, Place::Sample)
+    }
+
+    fn log(
+        &self,
+        columns: [String; 3],
+        [mut time_s, mut output, mut input]: [Vec<f64>; 3],
+        place: impl Fn(usize) -> Place,
+    ) -> Result<Log, ExperimentError> {
+        let unit = self.time_unit.unwrap_or_else(|| TimeUnit::of_column(&columns[0]));
         time_s.iter_mut().for_each(|time| *time /= unit.per_second());
         if self.time_unit.is_none() {
             clinic::seconds(&time_s)?;
@@ -137,10 +171,9 @@ impl Columns {
             let mut inside = inside.iter();
             values.retain(|_| inside.next().copied().unwrap_or(true));
         }
-        let mut within = inside.iter();
-        lines.retain(|_| within.next().copied().unwrap_or(true));
-        let place = |sample: usize| Place::Line(lines[sample]);
-        let name = &names[columns[1]];
+        let kept: Vec<usize> = (0..inside.len()).filter(|sample| inside[*sample]).collect();
+        let place = |sample: usize| place(kept[sample]);
+        let name = &columns[1];
         let lower = name.to_lowercase();
         let degrees = !self.radians && (self.degrees || lower.ends_with("_deg"));
         let wrap = self.wrap || lower.contains("heading") || lower.contains("yaw");
@@ -156,13 +189,13 @@ impl Columns {
         }
         match self.neutral {
             Some(neutral) => input.iter_mut().for_each(|command| *command -= neutral),
-            None => clinic::neutral(&names[columns[2]], &input)?,
+            None => clinic::neutral(&columns[2], &input)?,
         }
         if self.invert {
             input.iter_mut().for_each(|command| *command = -*command);
         }
         let record = Record::placed(time_s, output, input, place)?;
-        Ok(Log { record, degrees, unwrapped, columns: columns.map(|column| names[column].clone()) })
+        Ok(Log { record, degrees, unwrapped, columns })
     }
 }
 

@@ -13,7 +13,11 @@ const POINTS: u32 = 240;
 /// [`ReportError::Catalogue`] where a page has no usable example.
 pub fn characteristics() -> Result<Document, ReportError> {
     let sections = CATALOGUE.iter().map(section).collect::<Result<_, CatalogueError>>()?;
-    Ok(Document { title: "Describing functions".to_owned(), sections })
+    Ok(Document {
+        title: "Describing functions".to_owned(),
+        sections,
+        provenance: vec![concat!("Written by selfosc ", env!("CARGO_PKG_VERSION")).to_owned()],
+    })
 }
 
 fn section(entry: &Entry) -> Result<Section, CatalogueError> {

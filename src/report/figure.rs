@@ -7,6 +7,7 @@ use plotters::prelude::*;
 use plotters::series::DashedLineSeries;
 
 use super::ReportError;
+use super::table::escaped_html;
 
 /// How a series is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,12 +111,25 @@ pub struct Figure {
     pub panels: Vec<Panel>,
 }
 
+/// Parts of a pixel that are drawn: the library rounds places to whole units, and a curve has finer ones.
+const FINE: u32 = 10;
 /// Width of a figure and height of a panel, in pixels.
 const SIZE: (u32, u32) = (900, 420);
 const TITLE_HEIGHT: u32 = 40;
 /// Height of a legend's entry with its share of the border, in pixels.
 const LEGEND_ENTRY: f64 = 30.0;
 const FONT: &str = "sans-serif";
+
+/// A length in pixels, as it is drawn.
+const fn px(length: u32) -> u32 {
+    length * FINE
+}
+
+/// The same where the library wants a sign.
+#[allow(clippy::cast_possible_wrap, reason = "lengths of a figure")]
+const fn signed(length: u32) -> i32 {
+    (length * FINE) as i32
+}
 
 /// Colours that people who confuse red and green tell apart (Okabe and Ito).
 const PALETTE: [RGBColor; 6] = [
@@ -144,14 +158,28 @@ impl Figure {
         }
         let mut svg = String::new();
         self.draw(&mut svg).map_err(|error| failed(error.to_string()))?;
-        Ok(svg)
+        Ok(self.described(&svg))
+    }
+
+    fn height(&self) -> u32 {
+        TITLE_HEIGHT + SIZE.1 * u32::try_from(self.panels.len()).unwrap_or(u32::MAX / SIZE.1 - 1)
+    }
+
+    /// The drawing in the size of its pixels, with words for who cannot see it.
+    fn described(&self, svg: &str) -> String {
+        let axes = self.panels.iter().map(|panel| format!("{} over {}", panel.y_label, panel.x_label));
+        let words = format!("{}: {}", self.title, axes.collect::<Vec<_>>().join("; "));
+        let (width, height) = (SIZE.0, self.height());
+        let drawn = format!(r#"<svg width="{}" height="{}""#, px(width), px(height));
+        let shown =
+            format!(r#"<svg role="img" aria-label="{}" width="{width}" height="{height}""#, escaped_html(&words));
+        svg.replacen(&drawn, &shown, 1)
     }
 
     fn draw(&self, svg: &mut String) -> Result<(), Box<dyn std::error::Error>> {
-        let panels = u32::try_from(self.panels.len())?;
-        let root = SVGBackend::with_string(svg, (SIZE.0, TITLE_HEIGHT + SIZE.1 * panels)).into_drawing_area();
+        let root = SVGBackend::with_string(svg, (px(SIZE.0), px(self.height()))).into_drawing_area();
         root.fill(&WHITE)?;
-        let root = root.titled(&self.title, (FONT, 20))?;
+        let root = root.titled(&self.title, (FONT, px(20)))?;
         for (panel, area) in self.panels.iter().zip(root.split_evenly((self.panels.len(), 1))) {
             panel.draw(&area)?;
         }
@@ -164,9 +192,9 @@ impl Panel {
     fn draw(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), Box<dyn std::error::Error>> {
         let ((x_from, x_to), (y_from, y_to)) = (self.x_range(), self.y_range());
         let mut chart = ChartBuilder::on(area)
-            .margin(14)
-            .x_label_area_size(52)
-            .y_label_area_size(72)
+            .margin(px(14))
+            .x_label_area_size(px(52))
+            .y_label_area_size(px(72))
             .build_cartesian_2d(x_from..x_to, y_from..y_to)?;
         let mut mesh = chart.configure_mesh();
         // Bars stand at whole numbers.
@@ -177,14 +205,15 @@ impl Panel {
         }
         mesh.x_desc(&self.x_label)
             .y_desc(&self.y_label)
-            .axis_desc_style((FONT, 17))
-            .label_style((FONT, 15))
+            .axis_desc_style((FONT, px(17)))
+            .label_style((FONT, px(15)))
             .x_label_formatter(&x_tick)
             .y_label_formatter(&|value| tick(*value))
             .x_labels(11)
             .y_labels(9)
             .light_line_style(TRANSPARENT)
-            .bold_line_style(RGBColor(225, 225, 225))
+            .bold_line_style(RGBColor(225, 225, 225).stroke_width(FINE))
+            .axis_style(BLACK.stroke_width(FINE))
             .draw()?;
         let mut colour = PALETTE[0];
         for series in &self.series {
@@ -197,10 +226,11 @@ impl Panel {
             chart
                 .configure_series_labels()
                 .position(SeriesLabelPosition::UpperRight)
-                .margin(10)
-                .label_font((FONT, 15))
+                .margin(px(10))
+                .legend_area_size(px(30))
+                .label_font((FONT, px(15)))
                 .background_style(WHITE.mix(0.9))
-                .border_style(RGBColor(200, 200, 200))
+                .border_style(RGBColor(200, 200, 200).stroke_width(FINE))
                 .draw()?;
         }
         Ok(())
@@ -210,12 +240,12 @@ impl Panel {
 impl Series {
     fn draw<'a>(&self, chart: &mut Chart<'a>, colour: RGBColor) -> Result<(), Box<dyn std::error::Error>> {
         let points = self.points.iter().copied();
-        let line = colour.stroke_width(2);
+        let line = colour.stroke_width(px(2));
         let drawn = match self.mark {
             Mark::Line => chart.draw_series(LineSeries::new(points, line))?,
-            Mark::Dashed => chart.draw_series(DashedLineSeries::new(points, 7, 5, line))?,
-            Mark::Dots => chart.draw_series(points.map(|point| Circle::new(point, 5, colour.filled())))?,
-            Mark::Points => chart.draw_series(points.map(|point| Circle::new(point, 2, colour.filled())))?,
+            Mark::Dashed => chart.draw_series(DashedLineSeries::new(points, px(7), px(5), line))?,
+            Mark::Dots => chart.draw_series(points.map(|point| Circle::new(point, px(5), colour.filled())))?,
+            Mark::Points => chart.draw_series(points.map(|point| Circle::new(point, px(2), colour.filled())))?,
             Mark::Bars { width } => {
                 let half = width / 2.0;
                 chart.draw_series(
@@ -228,19 +258,22 @@ impl Series {
         }
         let mark = self.mark;
         drawn.label(&self.label).legend(move |(x, y)| match mark {
-            Mark::Line => PathElement::new([(x, y), (x + 22, y)], line).into_dyn(),
-            Mark::Dashed => DashedPathElement::new([(x, y), (x + 22, y)], 7, 5, line).into_dyn(),
-            Mark::Dots => Circle::new((x + 11, y), 5, colour.filled()).into_dyn(),
-            Mark::Points => Circle::new((x + 11, y), 2, colour.filled()).into_dyn(),
-            Mark::Bars { .. } => Rectangle::new([(x + 5, y - 6), (x + 17, y + 6)], colour.filled()).into_dyn(),
+            Mark::Line => PathElement::new([(x, y), (x + signed(22), y)], line).into_dyn(),
+            Mark::Dashed => DashedPathElement::new([(x, y), (x + signed(22), y)], px(7), px(5), line).into_dyn(),
+            Mark::Dots => Circle::new((x + signed(11), y), px(5), colour.filled()).into_dyn(),
+            Mark::Points => Circle::new((x + signed(11), y), px(2), colour.filled()).into_dyn(),
+            Mark::Bars { .. } => {
+                let corners = [(x + signed(5), y - signed(6)), (x + signed(17), y + signed(6))];
+                Rectangle::new(corners, colour.filled()).into_dyn()
+            }
         });
         Ok(())
     }
 }
 
-/// A tick's number without trailing zeros.
+/// A tick's number without trailing zeros, with a typographic minus.
 fn tick(value: f64) -> String {
     let text = format!("{value:.4}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    if text == "-0" { "0".to_owned() } else { text.replace('-', "\u{2212}") }
 }

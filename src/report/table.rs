@@ -5,6 +5,9 @@ use serde_json::{Map, Value, json};
 use super::ReportError;
 use crate::numeric::Expression;
 
+/// A page folds a table away that has more rows.
+const LONG: usize = 24;
+
 /// A cell.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
@@ -223,13 +226,22 @@ impl Table {
         let heading: String =
             self.columns.iter().enumerate().map(|(i, column)| cell("th", i, escaped_html(column))).collect();
         let row = |row: &Vec<Cell>| {
-            let cells = row.iter().enumerate().map(|(i, content)| cell("td", i, content.shown(escaped_html, formula)));
+            let shown = |content: &Cell| match content {
+                Cell::Number { .. } => content.plain().replace('-', "\u{2212}"),
+                other => other.shown(escaped_html, formula),
+            };
+            let cells = row.iter().enumerate().map(|(i, content)| cell("td", i, shown(content)));
             format!("<tr>{}</tr>\n", cells.collect::<String>())
         };
         let body: String = self.rows.iter().map(row).collect();
         let notes: String = self.notes.iter().map(|note| format!("<p>{}</p>\n", escaped_html(note))).collect();
         let title = escaped_html(&self.title);
-        format!("<table>\n<caption>{title}</caption>\n<tr>{heading}</tr>\n{body}</table>\n{notes}")
+        let table = format!("<table>\n<caption>{title}</caption>\n<tr>{heading}</tr>\n{body}</table>\n");
+        if self.rows.len() > LONG {
+            format!("<details>\n<summary>{title}: {} rows</summary>\n{table}</details>\n{notes}", self.rows.len())
+        } else {
+            format!("{table}{notes}")
+        }
     }
 
     /// Whether a column holds numbers only.
@@ -238,8 +250,10 @@ impl Table {
     }
 }
 
+/// Text as HTML has it, squares and cubes as superscripts.
 pub(super) fn escaped_html(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    let escaped = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;");
+    escaped.replace("^2", "\u{b2}").replace("^3", "\u{b3}")
 }
 
 fn escaped_latex(text: &str) -> String {

@@ -242,8 +242,9 @@ fn inequalities_are_no_more_than_what_they_stand_for() {
             "denominator" => 1.99 - 0.48 * (1.0 - a + b * (1.0 + a)) * (1.0 + a + c * (1.0 - a)),
             "force-slow" => 1.0 - b * a - (1.0 - b) * a * a,
             "force-fast" => b + 2.0 * (1.0 - b) * a,
-            "braking" => 1.0 - a + b,
-            "quadratic-next" => slope(&|gap| quadratic_half_cycle(b, gap, 1.0 + a), c),
+            "braking" => -slope(&|mu| 1.0 - mu + b, a),
+            "braking-drag" => slope(&|drag| 1.0 - a + drag, b),
+            "quadratic-next" => slope(&|gap| quadratic_half_cycle(a, gap, 1.0), b),
             "linear-width-short" => (a - a.tanh()) / a.powi(3),
             "linear-width-long" => a.tanh().powi(2),
             "quadratic-overshoot-weak" if a <= 0.05 => ((1.0 + a) * a.ln_1p() + (1.0 - a) * (-a).ln_1p()) / a.powi(2),
@@ -257,8 +258,13 @@ fn inequalities_are_no_more_than_what_they_stand_for() {
             _ => return None,
         })
     };
-    let theorems: [Theorem; 4] =
-        [theorem::QUADRATIC_DISTURBED, theorem::LINEAR, theorem::QUADRATIC_OVERSHOOT, theorem::LINEAR_OVERSHOOT];
+    let theorems: [Theorem; 5] = [
+        theorem::QUADRATIC_DISTURBED,
+        theorem::QUADRATIC,
+        theorem::LINEAR,
+        theorem::QUADRATIC_OVERSHOOT,
+        theorem::LINEAR_OVERSHOOT,
+    ];
     for inequality in theorems.iter().flat_map(|theorem| theorem.inequalities) {
         let domain = inequality.domain().unwrap();
         for k in 1..40 {

@@ -6,6 +6,8 @@ mod clinic;
 mod command;
 mod identify;
 mod paper;
+mod readme;
+mod refusals;
 
 /// Compares with `golden/<name>.snap`.
 macro_rules! golden {

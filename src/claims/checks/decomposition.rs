@@ -198,8 +198,57 @@ pub(super) fn beyond(distortion: Distortion) -> Verdict {
 
 #[cfg(test)]
 mod tests {
-    use super::{BEYOND, Branch, DECOMPOSITION, Distortion, MEMBERS, SCALING, beyond, decomposition, scaling};
+    use super::{
+        BEYOND, Branch, Catalogued, DECOMPOSITION, DeadZone, Distortion, Kernel, MEMBERS, PiecewiseLinear, Rational,
+        SCALING, Sinusoid, beyond, decomposition, is_sum, number, scaling,
+    };
     use crate::describing::CATALOGUE;
+    use crate::nonlinearity::{NonlinearityError, ParameterSpec};
+
+    /// A dead zone whose kernels are off by a millionth: each in its place, or one of them in its slope.
+    struct Off<const SLOPE: bool>(DeadZone<Rational>);
+
+    impl<const SLOPE: bool> Catalogued<Rational> for Off<SLOPE> {
+        const NAME: &'static str = "off";
+        const PARAMETERS: &'static [ParameterSpec] = DeadZone::<Rational>::PARAMETERS;
+        const ORDERED: &'static [(&'static str, &'static str)] = &[];
+        const SPEC: &'static str = "";
+        const SKETCH: &'static str = "";
+
+        fn from_values(values: &[Rational]) -> Result<Self, NonlinearityError> {
+            DeadZone::from_values(values).map(Self)
+        }
+    }
+
+    impl<const SLOPE: bool> PiecewiseLinear for Off<SLOPE> {
+        type Number = Rational;
+
+        fn value(&self, x: Rational, branch: Branch, sweep: &Sinusoid<Rational>) -> Rational {
+            self.0.value(x, branch, sweep)
+        }
+        fn kernels(&self, sweep: &Sinusoid<Rational>, mut report: impl FnMut(Kernel<Rational>)) {
+            let off = number(1.000_001);
+            self.0.kernels(sweep, |kernel| {
+                report(match kernel {
+                    Kernel::Ramp { at, slope, side, branches } if SLOPE => {
+                        Kernel::Ramp { at, slope: slope * off, side, branches }
+                    }
+                    Kernel::Ramp { at, slope, side, branches } => Kernel::Ramp { at: at * off, slope, side, branches },
+                    other => other,
+                })
+            });
+        }
+    }
+
+    #[test]
+    fn a_millionth_is_seen() {
+        let settings: [&[f64]; 1] = [&[0.7, 1.3]];
+        for branch in [Branch::Rising, Branch::Falling] {
+            assert!(is_sum::<DeadZone<_>>(Distortion::None, branch, &settings).holds());
+            assert!(!is_sum::<Off<false>>(Distortion::None, branch, &settings).holds());
+            assert!(!is_sum::<Off<true>>(Distortion::None, branch, &settings).holds());
+        }
+    }
 
     #[test]
     fn every_piecewise_linear_member_is_decomposed() {

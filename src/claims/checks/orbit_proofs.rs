@@ -1,9 +1,10 @@
 //! Claims about exact orbits that are proved by enclosure.
 
+use super::algebra::{exactly, number};
 use super::method_bias::SymmetricOrbit;
 use super::{
-    AsPrinted, Budget, Case, ClaimDomain, ClaimPart, ClaimVariable, Evidence, Hypothesis, Verdict, Witness, claim,
-    sample,
+    AsPrinted, Budget, Case, ClaimDomain, ClaimPart, ClaimVariable, Distortion, Evidence, Hypothesis, Verdict, Witness,
+    claim, sample,
 };
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::{Interval, Real};
@@ -12,6 +13,7 @@ use crate::orbit::{limit_cycle, return_slope};
 use crate::plant::DragAxis;
 use crate::proof::inequality::{Cell, Inequality, VARIABLES};
 use crate::proof::margin::Margin;
+use crate::proof::polynomial::Rational;
 use crate::proof::{Extent, NotProved, formula};
 
 /// The verdict of a theorem's inequalities: they establish these parts.
@@ -59,6 +61,13 @@ const EVERY_MIX: ClaimPart = ClaimPart::over(
     "every mix of linear and quadratic drag, every speed below the terminal one",
     const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] },
 );
+/// What the inequalities about braking start from: under a disturbance as large as the level the drag brakes alone.
+fn at_the_level(part: ClaimPart) -> Verdict {
+    exactly(part, Distortion::None, &[[0.5]], |[drag]: [Rational; 1], factor: Rational| {
+        Some([theorem::brake([number(1.0), drag, number(0.0)]) - factor * drag])
+    })
+}
+
 const EXCESS: ClaimPart = ClaimPart::whole(
     "excess",
     "denominator less numerator of the slope grows with both drag forces, at a rate above 1.99",
@@ -131,7 +140,7 @@ claim! {
         domain: &[EVERY_MIX],
         by_hand: &["speeds stay below the terminal one", "a force that keeps its sign lets the velocity vanish once"],
         printed: AsPrinted::Absent,
-        corrected: Some(|_| proved(&theorem::NO_EARLY_SWITCHING, const { &[EVERY_MIX] })),
+        corrected: Some(|_| proved(&theorem::NO_EARLY_SWITCHING, const { &[EVERY_MIX] }).and(|| at_the_level(EVERY_MIX))),
         theorem: Some((&theorem::NO_EARLY_SWITCHING, &FALSE_BRAKING)),
         falsified: |_| single(&FALSE_BRAKING),
         hypotheses: &[BELOW_LEVEL],
@@ -163,7 +172,7 @@ claim! {
             "every start reaches the map's domain",
         ],
         printed: AsPrinted::Absent,
-        corrected: Some(|_| proved(&theorem::QUADRATIC_DISTURBED, const { &[EVERY_AXIS] })),
+        corrected: Some(|_| proved(&theorem::QUADRATIC_DISTURBED, const { &[EVERY_AXIS] }).and(|| at_the_level(EVERY_AXIS))),
         theorem: Some((&theorem::QUADRATIC_DISTURBED, &FALSE_DRAG)),
         falsified: |_| single(&FALSE_DRAG),
         hypotheses: &[BELOW_LEVEL],
@@ -181,7 +190,7 @@ claim! {
             "every start reaches the map's domain",
         ],
         printed: AsPrinted::Absent,
-        corrected: Some(|_| proved(&theorem::LINEAR_DISTURBED, const { &[EVERY_AXIS] })),
+        corrected: Some(|_| proved(&theorem::LINEAR_DISTURBED, const { &[EVERY_AXIS] }).and(|| at_the_level(EVERY_AXIS))),
         theorem: Some((&theorem::LINEAR_DISTURBED, &FALSE_DRAG)),
         falsified: |_| single(&FALSE_DRAG),
         hypotheses: &[BELOW_LEVEL],

@@ -83,9 +83,6 @@ impl Layout {
     pub(super) fn start(&self, window: usize, component: usize) -> usize {
         self.parameters() + window * self.state_size() + component
     }
-    pub(super) fn count(&self) -> usize {
-        self.parameters() + self.windows.len() * self.state_size()
-    }
 
     /// For one window: what its derivatives are by, and where each stands in a box.
     pub(super) fn columns(&self, window: usize) -> (Vec<By>, Vec<usize>) {

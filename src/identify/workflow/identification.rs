@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
+use super::guaranteed::Guaranteed;
 use super::model::Model;
 use crate::experiment::Log;
 use crate::features::RecordFeatures;
@@ -82,6 +83,7 @@ pub struct Identification {
     pub(super) reported: Option<Reported>,
     pub(super) left_out: Vec<Option<Prediction>>,
     pub(super) validation: Vec<Validation>,
+    pub(super) bounded: Option<Guaranteed>,
     pub(super) models: Vec<Model>,
     pub(super) fits: Option<Choice>,
     pub(super) cautions: Vec<Caution>,
@@ -96,6 +98,8 @@ struct Parts {
     reported: Option<Reported>,
     left_out: Vec<Option<Prediction>>,
     validation: Vec<Validation>,
+    #[serde(default)]
+    bounded: Option<Guaranteed>,
     models: Vec<Model>,
     fits: Option<Choice>,
     cautions: Vec<Caution>,
@@ -107,7 +111,8 @@ impl TryFrom<Parts> for Identification {
     type Error = &'static str;
 
     fn try_from(parts: Parts) -> Result<Self, Self::Error> {
-        let Parts { sources, reported, left_out, validation, models, fits, cautions, refused, law_given } = parts;
+        let Parts { sources, reported, bounded, left_out, validation, models, fits, cautions, refused, law_given } =
+            parts;
         let covers = |fit: &RecordFit| {
             fit.records().len() == sources.len()
                 && fit.records().iter().zip(&sources).all(|(fitted, source)| {
@@ -125,7 +130,7 @@ impl TryFrom<Parts> for Identification {
         if reported.as_ref().is_some_and(|reported| reported.deltas.len() != sources.len()) {
             return Err("the answer has not one disturbance for each record; keep a document as it was written");
         }
-        Ok(Self { sources, reported, left_out, validation, models, fits, cautions, refused, law_given })
+        Ok(Self { sources, reported, bounded, left_out, validation, models, fits, cautions, refused, law_given })
     }
 }
 
@@ -147,6 +152,12 @@ impl Identification {
     #[must_use]
     pub fn validation(&self) -> &[Validation] {
         &self.validation
+    }
+
+    /// The guaranteed bounds; `None` where they were not asked for.
+    #[must_use]
+    pub fn bounded(&self) -> Option<&Guaranteed> {
+        self.bounded.as_ref()
     }
 
     /// The records, in the order given.

@@ -1,5 +1,6 @@
 //! Every method asked for, tried on the same records. One that refuses leaves its reason, and the others their results.
 
+use super::guaranteed::Guaranteed;
 use super::identification::{Caution, Identification, RefusedMethod, Source, Validation};
 use super::model::Model;
 use super::refusal::Refusal;
@@ -18,6 +19,7 @@ pub(super) struct Found<'a> {
     sources: Vec<Source>,
     reported: Option<Reported>,
     left_out: Vec<Option<Prediction>>,
+    bounded: Option<Guaranteed>,
     models: Vec<Model>,
     fits: Option<Choice>,
     cautions: Vec<Caution>,
@@ -34,7 +36,18 @@ impl<'a> Found<'a> {
         let failure = IdentifyError::TooFewEquations { equations: 0, parameters: 1 }.into();
         let (models, refused) = (Vec::new(), Vec::new());
         let left_out = vec![None; sources.len()];
-        Self { settings, sources, reported: None, left_out, models, fits: None, cautions, refused, failure }
+        Self {
+            settings,
+            sources,
+            reported: None,
+            bounded: None,
+            left_out,
+            models,
+            fits: None,
+            cautions,
+            refused,
+            failure,
+        }
     }
 
     /// Records whose features `failures` says are missing, with the reason.
@@ -44,6 +57,46 @@ impl<'a> Found<'a> {
         validation: Vec<(String, Log)>,
         progress: impl Fn(Stage),
     ) -> Result<Identification, Refusal> {
+        if self.settings.method == Method::Bounded {
+            progress(Stage::Bounds);
+            self.enclose();
+        } else {
+            self.estimate(failures, progress);
+        }
+        if self.models.is_empty() && self.reported.is_none() && self.bounded.is_none() {
+            return Err(self.failure);
+        }
+        let Self { settings, sources, reported, bounded, left_out, models, fits, cautions, refused, .. } = self;
+        let validated = validation.into_iter().map(|(file, log)| {
+            let prediction = reported.as_ref().and_then(|reported| reported.predict(&log.record));
+            Validation { file, prediction }
+        });
+        let validation = validated.collect();
+        let law_given = settings.drag;
+        Ok(Identification {
+            sources,
+            reported,
+            bounded,
+            left_out,
+            validation,
+            models,
+            fits,
+            cautions,
+            refused,
+            law_given,
+        })
+    }
+
+    /// The guaranteed bounds.
+    fn enclose(&mut self) {
+        match Guaranteed::of(&self.records(), self.settings) {
+            Ok(found) => self.bounded = Some(found),
+            Err(error) => self.refuse(Method::Bounded.name(), None, error),
+        }
+    }
+
+    /// By the methods that estimate.
+    fn estimate(&mut self, failures: &[(usize, FeatureError)], progress: impl Fn(Stage)) {
         let by_samples = self.settings.method.includes(Method::Fit);
         if by_samples {
             progress(Stage::Fit);
@@ -65,26 +118,6 @@ impl<'a> Found<'a> {
             self.reported = None;
             self.left_out.fill(None);
         }
-        if self.models.is_empty() && self.reported.is_none() {
-            return Err(self.failure);
-        }
-        let Self { settings, sources, reported, left_out, models, fits, cautions, refused, .. } = self;
-        let validated = validation.into_iter().map(|(file, log)| {
-            let prediction = reported.as_ref().and_then(|reported| reported.predict(&log.record));
-            Validation { file, prediction }
-        });
-        let validation = validated.collect();
-        Ok(Identification {
-            sources,
-            reported,
-            left_out,
-            validation,
-            models,
-            fits,
-            cautions,
-            refused,
-            law_given: settings.drag,
-        })
     }
 
     /// The answer to use: terms found, models averaged.

@@ -8,7 +8,7 @@ use crate::report::{Figure, Mark, Panel};
 /// Samples that a figure shows: more than these cannot be told apart on a page.
 const SHOWN: usize = 1500;
 
-/// Record with model, residuals, and phase portrait.
+/// Record with model, residuals and how they are distributed, phase portrait.
 pub(super) fn figures(source: &Source, fitted: Option<(&RecordFit, &FittedRecord)>) -> Vec<Figure> {
     let samples = source.log.record.samples();
     let from = samples.saturating_sub(SHOWN);
@@ -16,6 +16,7 @@ pub(super) fn figures(source: &Source, fitted: Option<(&RecordFit, &FittedRecord
     let mut figures = vec![record_figure(source, fitted, from, &part)];
     if let Some((_, fitted)) = fitted {
         figures.push(residual_figure(source, fitted, from, &part));
+        figures.extend(distribution_figure(source, fitted));
     }
     figures.push(phase_figure(source, fitted.map(|(_, fitted)| fitted), from, &part));
     figures
@@ -45,6 +46,44 @@ fn residual_figure(source: &Source, fitted: &FittedRecord, from: usize, part: &s
         .with("readings less model", Mark::Points, pairs(time, residuals))
         .with("", Mark::Dashed, ends.map(|time| (*time, 0.0)));
     Figure { name: "residuals", title: format!("Residuals{part}"), panels: vec![panel] }
+}
+
+/// Bars of the histogram of residuals, and lags of their correlation.
+const BARS: usize = 31;
+const LAGS: usize = 40;
+
+/// How residuals are distributed, and how those some samples apart hang together: within the dashed lines, 95 % of the
+/// correlations of independent ones lie.
+#[allow(clippy::cast_precision_loss, reason = "counts of samples")]
+fn distribution_figure(source: &Source, fitted: &FittedRecord) -> Option<Figure> {
+    let residuals = &fitted.residuals;
+    let count = residuals.len() as f64;
+    let power: f64 = residuals.iter().map(|value| value * value).sum();
+    let largest = residuals.iter().fold(0.0f64, |largest, value| largest.max(value.abs()));
+    if residuals.len() <= LAGS || !(power > 0.0 && largest.is_finite()) {
+        return None;
+    }
+    let width = 2.0 * largest / BARS as f64;
+    let middle = |bar: usize| -largest + (bar as f64 + 0.5) * width;
+    let within =
+        |bar: usize| residuals.iter().filter(|value| (**value - middle(bar)).abs() <= 0.5 * width).count() as f64;
+    let bars = (0..BARS).map(|bar| (middle(bar), within(bar) / count));
+    let histogram = Panel::new(&format!("residual of {}", output_label(source)), "share of samples").with(
+        "",
+        Mark::Line,
+        bars.flat_map(|(x, y)| [(x - 0.5 * width, y), (x + 0.5 * width, y)]),
+    );
+    let correlation = |lag: usize| residuals.iter().zip(&residuals[lag..]).map(|(a, b)| a * b).sum::<f64>() / power;
+    let limit = 1.96 / count.sqrt();
+    let correlations = Panel::new("lag (samples)", "correlation of residuals")
+        .with("residuals", Mark::Dots, (1..=LAGS).map(|lag| (lag as f64, correlation(lag))))
+        .with("95 % of independent ones", Mark::Dashed, [(0.0, limit), (LAGS as f64, limit)])
+        .with("", Mark::Dashed, [(0.0, -limit), (LAGS as f64, -limit)]);
+    Some(Figure {
+        name: "distribution",
+        title: "Distribution and correlation of residuals".to_owned(),
+        panels: vec![histogram, correlations],
+    })
 }
 
 fn phase_figure(source: &Source, fitted: Option<&FittedRecord>, from: usize, part: &str) -> Figure {

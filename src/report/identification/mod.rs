@@ -1,8 +1,10 @@
 //! One vehicle identified from its records, as tables, figures and sentences.
 
+mod bounds;
 mod figures;
 mod tables;
 
+pub(crate) use bounds::{bounds_tables, bounds_verdict};
 pub(crate) use tables::{feature_table, model_tables, reasons, summary, verdict};
 
 use super::{Document, Section};
@@ -19,10 +21,12 @@ pub fn document(found: &Identification) -> Document {
     let cautions = caution_table("warnings", "Warnings", found.cautions());
     let summary = Section {
         title: "Model".to_owned(),
-        paragraphs: verdict(found).lines().map(str::to_owned).collect(),
-        tables: [parameters, reasons]
+        paragraphs: found.bounded().map_or_else(|| verdict(found), bounds_verdict).lines().map(str::to_owned).collect(),
+        tables: found
+            .bounded()
             .into_iter()
-            .flatten()
+            .flat_map(|bounded| bounds_tables(found, bounded))
+            .chain([parameters, reasons].into_iter().flatten())
             .chain(tables)
             .chain(refused_table(found))
             .chain(cautions)
@@ -33,6 +37,7 @@ pub fn document(found: &Identification) -> Document {
     Document {
         title: "Identification from self-oscillations".to_owned(),
         sections: std::iter::once(summary).chain(records).collect(),
+        provenance: vec![concat!("Written by selfosc ", env!("CARGO_PKG_VERSION")).to_owned()],
     }
 }
 

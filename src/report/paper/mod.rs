@@ -46,7 +46,11 @@ impl Reproduction {
     /// Parts as one report.
     #[must_use]
     pub fn document(sections: Vec<Section>) -> Document {
-        Document { title: "Self-oscillation identification, regenerated and audited".to_owned(), sections }
+        Document {
+            title: "Self-oscillation identification, regenerated and audited".to_owned(),
+            sections,
+            provenance: vec![concat!("Written by selfosc ", env!("CARGO_PKG_VERSION")).to_owned()],
+        }
     }
 }
 

@@ -1,0 +1,100 @@
+"""From keyword arguments to the command's arguments, and from its JSON documents to Python."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from . import _core
+from .errors import UsageError, of
+
+#: Options of which a sequence is one value, joined by commas; others are repeated.
+_JOINED = {"num", "den", "alpha_interval", "beta_interval", "beta_quadratic_interval", "delay_interval"}
+
+
+def number(value: Any) -> str:
+    """A number with every digit that it has, as the command reads it."""
+    return repr(float(value))
+
+
+def setting(value: Any) -> str:
+    """The value of a characteristic's parameter: a number, or points."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, Iterable):
+        return ",".join(f"{number(x)}:{number(y)}" for x, y in value)
+    return number(value)
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    if isinstance(value, int) and not isinstance(value, bool):
+        return str(value)
+    return number(value)
+
+
+def flags(**options: Any) -> list[str]:
+    """Options as a shell would pass them: what is ``None`` or ``False`` is left out."""
+    arguments: list[str] = []
+    for name, value in options.items():
+        flag = "--" + name.replace("_", "-")
+        if value is None or value is False:
+            continue
+        if value is True:
+            arguments.append(flag)
+        elif isinstance(value, Iterable) and not isinstance(value, str):
+            values = [_text(one) for one in value]
+            arguments.append(f"{flag}={','.join(values)}") if name in _JOINED else arguments.extend(
+                f"{flag}={one}" for one in values
+            )
+        else:
+            arguments.append(f"{flag}={_text(value)}")
+    return arguments
+
+
+def settings(parameters: Mapping[str, Any]) -> list[str]:
+    """Parameters of a characteristic as ``--set`` options."""
+    return [f"--set={name}={setting(value)}" for name, value in parameters.items()]
+
+
+def answer(subcommand: str, *arguments: str) -> tuple[bool, dict[str, Any]]:
+    """Whether the command's answer is no, and its JSON document."""
+    no, text = _core.run([subcommand, *arguments, "--json"])
+    document = json.loads(text)
+    if no and "refused" in document:
+        raise of(document["refused"]["code"], document["refused"]["text"])
+    return no, document
+
+
+def coefficients(plant: Any, delay: float) -> tuple[list[float], list[float], float]:
+    """Numerator and denominator in descending powers of s, and the delay in s.
+
+    The plant is a ``control.TransferFunction`` or ``control.StateSpace``, a ``scipy.signal.lti``, or a pair of sequences.
+    """
+    if not isinstance(plant, (tuple, list)):
+        if getattr(plant, "dt", None) not in (None, 0):
+            raise UsageError("the plant is in discrete time; give it in continuous time", "discrete-time")
+        if hasattr(plant, "ninputs"):  # python-control
+            if (plant.ninputs, plant.noutputs) != (1, 1):
+                raise UsageError("the plant has several inputs or outputs; give one of each", "several-channels")
+            if not hasattr(plant, "num"):
+                import control
+
+                plant = control.tf(plant)
+            plant = plant.num[0][0], plant.den[0][0]
+        elif hasattr(plant, "to_tf"):  # scipy.signal
+            plant = plant.to_tf()
+            plant = plant.num, plant.den
+        else:
+            raise UsageError(
+                f"a plant of type {type(plant).__name__} is unknown; give a control.TransferFunction, a scipy.signal.lti, "
+                "or a pair (numerator, denominator) in descending powers of s",
+                "unknown-plant",
+            )
+    num, den = ([float(c) for c in part] for part in plant)
+    # Other packages keep numerator and denominator of one length; here a degree is what its length says.
+    while len(num) > 1 and num[0] == 0.0:
+        num = num[1:]
+    return num, den, float(delay)

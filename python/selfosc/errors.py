@@ -1,0 +1,79 @@
+"""What the package refuses, as exceptions that name the value, the limit and the remedy."""
+
+from __future__ import annotations
+
+__all__ = ["NoLimitCycle", "OutOfDomain", "RecordRefused", "SelfoscError", "UnreadableLog", "UsageError"]
+
+
+class SelfoscError(ValueError):
+    """Anything that the package refuses.
+
+    Attributes
+    ----------
+    code : str
+        Short name for programs; it does not change with the wording of the message.
+    quantity, unit : str or None
+        The number that is out of its domain, where one is the reason.
+    value : float or None
+        What it is, in ``unit``.
+    limit, remedy : str or None
+        What it has to be, and what to do.
+
+    Examples
+    --------
+    >>> import selfosc
+    >>> try:
+    ...     selfosc.predict(alpha=-1.0, beta=1.0, relay=1.0, half_width=0.2)
+    ... except selfosc.SelfoscError as error:
+    ...     print(error.code, error.quantity, error.value, error.limit)
+    out-of-domain alpha -1.0 a finite number above 0
+    """
+
+    def __init__(
+        self,
+        text: str,
+        code: str = "usage",
+        quantity: str | None = None,
+        value: float | None = None,
+        unit: str | None = None,
+        limit: str | None = None,
+        remedy: str | None = None,
+    ) -> None:
+        super().__init__(text)
+        self.text, self.code = text, code
+        self.quantity, self.value, self.unit, self.limit, self.remedy = quantity, value, unit, limit, remedy
+
+    def __reduce__(self):  # so that it comes back whole from a worker process
+        fields = (self.text, self.code, self.quantity, self.value, self.unit, self.limit, self.remedy)
+        return type(self), fields
+
+
+class OutOfDomain(SelfoscError):
+    """A number outside its domain."""
+
+
+class UsageError(SelfoscError):
+    """Arguments that contradict each other or that nothing is known of."""
+
+
+class RecordRefused(SelfoscError):
+    """A record or its model that is refused; ``code`` says why."""
+
+
+class NoLimitCycle(SelfoscError):
+    """There is no limit cycle, or none that is exact to rounding."""
+
+
+class UnreadableLog(SelfoscError):
+    """A log that is damaged, truncated, empty or of another format."""
+
+
+#: Codes that name wrong arguments; the others are answers.
+_USAGE = {"usage", "mixed-needs-fit", "delay-needs-fit", "unknown-parameter", "missing-parameter", "parameter-kind"}
+
+
+def of(code: str, text: str, number: tuple[str, float, str, str, str] | None = None) -> SelfoscError:
+    """The exception of a refusal by the native half."""
+    if number is not None:
+        return OutOfDomain(text, code, *number)
+    return (UsageError if code in _USAGE else RecordRefused)(text, code)

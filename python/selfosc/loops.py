@@ -1,0 +1,255 @@
+"""Where a loop oscillates: by harmonic balance, exactly, and with proof."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from . import _core, _documents
+from ._results import Result
+from .describing import Nonlinearity
+from .errors import NoLimitCycle
+
+__all__ = ["Balance", "Certificate", "Prediction", "balance", "certify", "predict", "simulate"]
+
+
+class Balance(Result):
+    """The intersections of a Nyquist curve with ``-1/N``."""
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return self.to_dict()["intersections"]
+
+    def __len__(self) -> int:
+        return len(self.intersections)
+
+    def __iter__(self):
+        return iter(self.intersections)
+
+    def __getitem__(self, index: int) -> dict[str, Any]:
+        return self.intersections[index]
+
+
+class Prediction(Result):
+    """The self-oscillation of a drag axis: ``harmonic_balance``, ``exact``, ``certificate``."""
+
+
+class Certificate(Result):
+    """Limit cycles of a relay loop, each with its proof or why there is none."""
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return self.to_dict()["orbits"]
+
+    def __len__(self) -> int:
+        return len(self.orbits)
+
+    def __iter__(self):
+        return iter(self.orbits)
+
+    def __getitem__(self, index: int) -> dict[str, Any]:
+        return self.orbits[index]
+
+
+def balance(
+    plant: Any, characteristic: str | Nonlinearity, *, delay: float = 0.0, bias: float = 0.0, **parameters: Any
+) -> Balance:
+    """The oscillations that harmonic balance predicts for a plant in negative feedback with a characteristic.
+
+    Parameters
+    ----------
+    plant : control.TransferFunction, control.StateSpace, scipy.signal.lti or (num, den)
+        Continuous time, one input and output, descending powers of s.
+    characteristic : str or Nonlinearity
+        A name of the catalogue with ``parameters``, or an object of :func:`selfosc.nonlinearity`.
+    delay : float, default 0
+        Of the plant, s.
+    bias : float, default 0
+        Of the characteristic's input, input units.
+
+    Returns
+    -------
+    Balance
+        ``intersections``, each with ``amplitude`` (input units), ``omega_rad_s`` and ``stable`` (Loeb's verdict: true, false
+        or ``None``). None is an answer too.
+
+    Raises
+    ------
+    SelfoscError
+        For a plant or characteristic that is none.
+
+    Notes
+    -----
+    An approximation: all harmonics but the first are left out. :func:`certify` and :func:`predict` leave out none.
+
+    Examples
+    --------
+    >>> from selfosc import balance
+    >>> found = balance(([8], [1, 2, 2, 1]), "saturation", breakpoint=1)
+    >>> round(found[0]["amplitude"], 4), round(found[0]["omega_rad_s"], 4), found[0]["stable"]
+    (3.3652, 1.4142, True)
+    """
+    if isinstance(characteristic, Nonlinearity):
+        name, parameters = characteristic.name, {**characteristic.parameters, **parameters}
+    else:
+        name = characteristic
+    num, den, delay = _documents.coefficients(plant, delay)
+    arguments = _documents.flags(num=num, den=den, delay=delay, nonlinearity=name, bias=bias)
+    return Balance(_documents.answer("balance", *arguments, *_documents.settings(parameters))[1])
+
+
+def predict(
+    *,
+    alpha: float,
+    beta: float = 0.0,
+    beta_quadratic: float = 0.0,
+    delta: float = 0.0,
+    relay: float,
+    half_width: float,
+    delay: float = 0.0,
+) -> Prediction:
+    """The self-oscillation of ``alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay) + delta`` under a relay.
+
+    Parameters
+    ----------
+    alpha : float
+        Inertia with added mass, command units s^2 per output unit, above 0.
+    beta, beta_quadratic : float
+        Linear drag, command units s per output unit, and quadratic drag, command units s^2 per output unit squared.
+    delta : float
+        Constant disturbance, command units.
+    relay, half_width : float
+        Level C, command units, and half-width x_a of the hysteresis, output units.
+    delay : float
+        Of the whole loop, s.
+
+    Returns
+    -------
+    Prediction
+        ``harmonic_balance`` (the approximation), ``exact`` (closed-form motion between switchings) and ``certificate``
+        (intervals that contain the exact values, with uniqueness and attraction), each a dictionary or ``None``.
+
+    Raises
+    ------
+    NoLimitCycle
+        Where there is none.
+    SelfoscError
+        For numbers outside their domain.
+
+    Examples
+    --------
+    >>> from selfosc import predict
+    >>> found = predict(alpha=1, beta=1, relay=1, half_width=0.2, delta=0.3)
+    >>> low, high = found.certificate["enclosure"]["period_s"]
+    >>> low <= found.exact["period_s"] <= high
+    True
+    """
+    arguments = _documents.flags(
+        alpha=alpha, beta=beta, beta_quadratic=beta_quadratic, delta=delta, relay=relay, half_width=half_width, delay=delay
+    )
+    no, document = _documents.answer("predict", *arguments)
+    if no:
+        raise NoLimitCycle(document["no_limit_cycle"]["text"], "no-limit-cycle")
+    return Prediction(document)
+
+
+def certify(
+    plant: Any, relay: Nonlinearity, *, delay: float = 0.0, period_s: tuple[float, float] = (1e-2, 1e3)
+) -> Certificate:
+    """The symmetric limit cycles of a linear plant under a relay with hysteresis, each with its proof.
+
+    Parameters
+    ----------
+    plant : control.TransferFunction, control.StateSpace, scipy.signal.lti or (num, den)
+        Strictly proper; the relay's input is minus its output.
+    relay : Nonlinearity
+        A ``relay`` or a ``relay-hysteresis`` without offset.
+    delay : float, default 0
+        Of the plant, s.
+    period_s : (float, float)
+        The periods to look at, s.
+
+    Returns
+    -------
+    Certificate
+        ``orbits``, each with ``period_s``, ``amplitude``, ``stable`` and ``certificate``: intervals for the half-period and the
+        switching rate, and whether the orbit is shown to attract; or ``certificate_refused``.
+
+    Raises
+    ------
+    SelfoscError
+        For a plant or relay that has no such cycle.
+
+    Notes
+    -----
+    Proved is each orbit and that the relay does not switch earlier on it, for exactly the coefficients given. That no orbit is
+    missed is as sure as the scan over periods is fine; orbits with more than two switchings a period are not looked for.
+
+    Examples
+    --------
+    >>> from selfosc import certify, nonlinearity
+    >>> orbit = certify(([1], [1, 1, 0]), nonlinearity("relay-hysteresis", half_width=0.2))[0]
+    >>> low, high = orbit["certificate"]["half_period_s"]
+    >>> low < 1.862223721734969 < high and high - low < 1e-12
+    True
+    """
+    parameters = relay.parameters
+    if relay.name not in ("relay", "relay-hysteresis") or parameters.get("offset"):
+        raise NoLimitCycle(f"{relay!r} is no symmetric relay; give a relay or a relay-hysteresis without offset", "not-a-relay")
+    num, den, delay = _documents.coefficients(plant, delay)
+    half_width = parameters.get("half_width", 0.0)
+    text = _core.certify(num, den, delay, parameters["level"], half_width, (float(period_s[0]), float(period_s[1])))
+    return Certificate(json.loads(text))
+
+
+def simulate(
+    *,
+    alpha: float,
+    beta: float = 0.0,
+    beta_quadratic: float = 0.0,
+    delta: float = 0.0,
+    relay: float,
+    half_width: float,
+    delay: float = 0.0,
+    cycles: float = 10.0,
+    rate: float = 10.0,
+    quantum: float = 0.0,
+    noise: float = 0.0,
+    hold: bool = False,
+    seed: int = 0,
+    degrees: bool = False,
+) -> dict[str, list[float]]:
+    """A record of a relay experiment on a drag axis that starts at rest.
+
+    Parameters
+    ----------
+    alpha, beta, beta_quadratic, delta, relay, half_width, delay : float
+        As for :func:`predict`.
+    cycles : float
+        Length in cycles of the limit cycle.
+    rate : float
+        Samples per second.
+    quantum, noise : float
+        Step to which readings are rounded, and standard deviation of their noise before that, output units.
+    hold : bool
+        Sample the relay at the rate too.
+    seed : int
+        Of the noise.
+    degrees : bool
+        Take the output for radians and write it in degrees, as ``heading_deg``.
+
+    Returns
+    -------
+    dict
+        ``time_s``, ``output`` (or ``heading_deg``) and ``input``, lists of one length; :func:`selfosc.identify` takes it.
+
+    Examples
+    --------
+    >>> from selfosc import simulate
+    >>> record = simulate(alpha=1, beta=1, relay=1, half_width=0.3, cycles=2)
+    >>> list(record), record["time_s"][1]
+    (['time_s', 'output', 'input'], 0.1)
+    """
+    arguments = _documents.flags(
+        alpha=alpha, beta=beta, beta_quadratic=beta_quadratic, delta=delta, relay=relay, half_width=half_width, delay=delay,
+        cycles=cycles, rate=rate, quantum=quantum, noise=noise, hold=hold, seed=seed, degrees=degrees,
+    )  # fmt: skip
+    return _documents.answer("simulate", *arguments)[1]

@@ -1,0 +1,178 @@
+//! Characteristics and their describing functions over arrays.
+
+use std::cell::RefCell;
+
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+use selfosc::Error;
+use selfosc::describing::{Boxed, DescribingFunction, Entry, Setting};
+use selfosc::nonlinearity::{Branch, Custom, Sinusoid};
+
+use crate::failure;
+
+/// `F_0`, `P`, `Q`, one array each.
+type Arrays<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
+/// A number or points, as Python gives them.
+#[derive(FromPyObject)]
+enum Given {
+    Number(f64),
+    Points(Vec<(f64, f64)>),
+}
+
+impl From<Given> for Setting {
+    fn from(given: Given) -> Self {
+        match given {
+            Given::Number(number) => Self::Number(number),
+            Given::Points(points) => Self::Points(points),
+        }
+    }
+}
+
+/// A characteristic of the catalogue.
+#[pyclass(frozen)]
+pub(crate) struct Characteristic {
+    entry: &'static Entry,
+    values: Vec<f64>,
+}
+
+impl Characteristic {
+    fn build(&self, py: Python<'_>) -> PyResult<Boxed<f64>> {
+        self.entry.build(&self.values).map_err(|error| failure::library(py, error))
+    }
+}
+
+#[pymethods]
+impl Characteristic {
+    #[new]
+    fn new(py: Python<'_>, name: &str, settings: Vec<(String, Given)>) -> PyResult<Self> {
+        let settings: Vec<(String, Setting)> = settings.into_iter().map(|(key, given)| (key, given.into())).collect();
+        let entry = Entry::find(name).map_err(|error| failure::library(py, error))?;
+        let values = entry.values(&settings).map_err(|error| failure::library(py, error))?;
+        let characteristic = Self { entry, values };
+        characteristic.build(py)?;
+        Ok(characteristic)
+    }
+
+    /// Each parameter with its value: a number, or points as text.
+    fn settings(&self) -> Vec<(&'static str, String)> {
+        self.entry.settings(&self.values).into_iter().map(|(name, value)| (name, value.to_string())).collect()
+    }
+
+    /// `F_0`, `P`, `Q` for arrays of one length, or of length one. Where `skip` is set, what has none is NaN.
+    fn describing_function<'py>(
+        &self,
+        py: Python<'py>,
+        amplitude: PyReadonlyArray1<'py, f64>,
+        bias: PyReadonlyArray1<'py, f64>,
+        skip: bool,
+    ) -> PyResult<Arrays<'py>> {
+        let (amplitude, bias) = (amplitude.as_slice()?, bias.as_slice()?);
+        let count = amplitude.len().max(bias.len());
+        let mut columns = [(); 3].map(|()| vec![0.0; count]);
+        let [f0, p, q] = &mut columns;
+        for (block, ((f0, p), q)) in f0.chunks_mut(BLOCK).zip(p.chunks_mut(BLOCK)).zip(q.chunks_mut(BLOCK)).enumerate()
+        {
+            let from = block * BLOCK;
+            let fault =
+                py.detach(|| self.fill(|at| (part(amplitude, from + at), part(bias, from + at)), skip, [f0, p, q]));
+            if let Some(error) = fault {
+                return Err(failure::library(py, error));
+            }
+            py.check_signals()?;
+        }
+        let [f0, p, q] = columns.map(|column| column.into_pyarray(py));
+        Ok((f0, p, q))
+    }
+
+    /// The outputs on the way up and on the way down, for the sweeps of these biases and amplitudes.
+    fn branches(&self, py: Python<'_>, x: f64, bias: f64, amplitude: f64) -> PyResult<(f64, f64)> {
+        let characteristic = self.build(py)?;
+        let sweep = Sinusoid::new(bias, amplitude).map_err(|error| failure::library(py, error))?;
+        let output = |branch| characteristic.output(x, branch, &sweep);
+        Ok((output(Branch::Rising), output(Branch::Falling)))
+    }
+
+    /// The outputs of one without memory.
+    fn outputs<'py>(&self, py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let characteristic = self.build(py)?;
+        // Without memory the sweep does not matter.
+        let sweep = Sinusoid::new(0.0, 1.0).map_err(|error| failure::library(py, error))?;
+        let output = |x: &f64| characteristic.output(*x, Branch::Rising, &sweep);
+        Ok(x.as_slice()?.iter().map(output).collect::<Vec<_>>().into_pyarray(py))
+    }
+}
+
+/// Elements between two questions whether Python was interrupted.
+const BLOCK: usize = 1 << 20;
+/// Elements that a thread takes at a time.
+const CHUNK: usize = 1 << 12;
+
+/// The element, or the only one.
+fn part(values: &[f64], index: usize) -> f64 {
+    if values.len() == 1 { values[0] } else { values[index] }
+}
+
+impl Characteristic {
+    /// `F_0`, `P`, `Q` at the amplitudes and biases that `sweep` gives for each place; the first failure, if there is one. All threads
+    /// take part, each with a characteristic of its own.
+    fn fill(
+        &self,
+        sweep: impl Fn(usize) -> (f64, f64) + Sync,
+        skip: bool,
+        [f0, p, q]: [&mut [f64]; 3],
+    ) -> Option<Error> {
+        let chunk = |(chunk, ((f0, p), q)): (usize, ((&mut [f64], &mut [f64]), &mut [f64]))| -> Result<(), Error> {
+            let characteristic = self.entry.build::<f64>(&self.values)?;
+            for (place, ((f0, p), q)) in f0.iter_mut().zip(p).zip(q).enumerate() {
+                let (amplitude, bias) = sweep(chunk * CHUNK + place);
+                match characteristic.describing_function(&Sinusoid::new(bias, amplitude)?) {
+                    Ok(df) => (*f0, *p, *q) = (df.f0, df.p, df.q),
+                    Err(_) if skip => (*f0, *p, *q) = (f64::NAN, f64::NAN, f64::NAN),
+                    Err(error) => return Err(error.into()),
+                }
+            }
+            Ok(())
+        };
+        if f0.len() <= CHUNK {
+            return chunk((0, ((f0, p), q))).err();
+        }
+        let chunks = f0.par_chunks_mut(CHUNK).zip(p.par_chunks_mut(CHUNK)).zip(q.par_chunks_mut(CHUNK));
+        chunks.enumerate().filter_map(|one| chunk(one).err()).find_first(|_| true)
+    }
+}
+
+/// `F_0`, `P`, `Q` of a Python function by quadrature between its kinks. The function gets the input and whether it rises.
+#[pyfunction]
+pub(crate) fn by_quadrature<'py>(
+    py: Python<'py>,
+    function: Bound<'py, PyAny>,
+    kinks: Vec<f64>,
+    amplitude: PyReadonlyArray1<'py, f64>,
+    bias: PyReadonlyArray1<'py, f64>,
+) -> PyResult<Arrays<'py>> {
+    let fault: RefCell<Option<PyErr>> = RefCell::new(None);
+    let output = |x: f64, branch: Branch| {
+        if fault.borrow().is_some() {
+            return 0.0;
+        }
+        let value = py.check_signals().and_then(|()| function.call1((x, branch == Branch::Rising))?.extract());
+        value.unwrap_or_else(|error| {
+            *fault.borrow_mut() = Some(error);
+            0.0
+        })
+    };
+    let custom = Custom::new(output, &kinks);
+    let (amplitude, bias) = (amplitude.as_slice()?, bias.as_slice()?);
+    let one = |index: usize| -> Result<_, Error> {
+        let sweep = Sinusoid::new(part(bias, index), part(amplitude, index))?;
+        Ok(selfosc::describing::by_quadrature(&custom, &sweep)?)
+    };
+    let found: Result<Vec<_>, Error> = (0..amplitude.len().max(bias.len())).map(one).collect();
+    if let Some(error) = fault.take() {
+        return Err(error);
+    }
+    let found = found.map_err(|error| failure::library(py, error))?;
+    let column = |of: fn(&DescribingFunction<f64>) -> f64| found.iter().map(of).collect::<Vec<_>>().into_pyarray(py);
+    Ok((column(|df| df.f0), column(|df| df.p), column(|df| df.q)))
+}

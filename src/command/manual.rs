@@ -1,0 +1,56 @@
+//! `selfosc completions` and `selfosc man`: what a shell and `man` want to know of the command.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+
+use super::{Command, CommandError, Outcome, files};
+
+/// A script by which a shell completes subcommands and flags.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Example:
+  selfosc completions bash > ~/.local/share/bash-completion/completions/selfosc")]
+pub(super) struct Completions {
+    /// Whose script
+    #[arg(value_enum)]
+    shell: Shell,
+}
+
+/// Manual pages, one for the command and one for each subcommand.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Example:
+  selfosc man man1 && man ./man1/selfosc-identify.1")]
+pub(super) struct Manual {
+    /// Folder to write them to
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+}
+
+pub(super) fn completions(arguments: &Completions, output: &mut impl Write) -> Result<Outcome, CommandError> {
+    // The generator panics where a reader has seen enough.
+    let mut script = Vec::new();
+    clap_complete::generate(arguments.shell, &mut Command::command(), "selfosc", &mut script);
+    output.write_all(&script)?;
+    Ok(Outcome::Done)
+}
+
+pub(super) fn manual(arguments: &Manual) -> Result<Outcome, CommandError> {
+    let in_folder = |source| CommandError::Write { path: arguments.folder.clone(), source };
+    std::fs::create_dir_all(&arguments.folder).map_err(in_folder)?;
+    let command = Command::command();
+    let page = |command: clap::Command, name: &str| {
+        let mut text = Vec::new();
+        clap_mangen::Man::new(command).title(name.to_owned()).render(&mut text)?;
+        files::write(&arguments.folder.join(format!("{name}.1")), &String::from_utf8_lossy(&text))
+    };
+    for subcommand in command.get_subcommands() {
+        let name = format!("selfosc-{}", subcommand.get_name());
+        page(subcommand.clone().bin_name(name.replacen('-', " ", 1)), &name)?;
+    }
+    page(command, "selfosc")?;
+    Ok(Outcome::Done)
+}
