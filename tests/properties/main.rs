@@ -45,4 +45,5 @@ mod serialised;
 mod session;
 mod special;
 mod tolerance;
+mod trust;
 mod vehicle;

@@ -220,7 +220,7 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     candidates.sort_by(|a, b| value(b).total_cmp(&value(a)));
     let seen = observations.time_s[observations.first..].iter();
     let innovations = seen.zip(&best.pass.innovations).map(|(t, innovation)| (*t, innovation.standardised())).collect();
-    Answer { reported, candidates, innovations, effective_samples: count }
+    Answer { reported, candidates, innovations, effective_samples: count, command_range: observations.range }
 }
 
 /// The drag laws beside each other, with the terms of the best model.

@@ -13,6 +13,8 @@ use crate::identify::joint::{ConfidenceInterval, Estimate};
 
 /// Below this probability records disagree.
 const DISAGREE: f64 = 0.01;
+/// Ratio of the commands' ranges from which on their levels are different.
+const OTHER_LEVEL: f64 = 1.05;
 
 /// What several records say.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,7 +85,17 @@ impl Several {
                 reasons.push(*reason);
             }
         }
-        reasons.extend(apart.map(|between| Reason::RecordsDisagree { relative: between / alpha.value.abs() }));
+        let ranges = answers.iter().map(|answer| answer.command_range);
+        let (least, largest) =
+            ranges.fold((f64::INFINITY, 0.0), |(low, high), range| (range.min(low), range.max(high)));
+        reasons.extend(apart.map(|between| {
+            let relative = between / alpha.value.abs();
+            if largest > OTHER_LEVEL * least {
+                Reason::ThrustNotProportional { relative }
+            } else {
+                Reason::RecordsDisagree { relative }
+            }
+        }));
         reasons.sort_by_key(|reason| core::cmp::Reverse(reason.trust()));
         let drags: Vec<DragLaw> = answers.iter().map(|answer| answer.reported.drag).collect();
         let mut terms: Vec<_> = answers.iter().flat_map(|answer| answer.reported.terms.iter().copied()).collect();
