@@ -42,6 +42,7 @@ helps! {
     predict_help "predict-help" ["predict"];
     simulate_help "simulate-help" ["simulate"];
     tune_help "tune-help" ["tune"];
+    design_help "design-help" ["design"];
 }
 
 /// Verdicts and evidence of every claim. The worst margins are left out: they hang on the last bit of the arithmetic.
@@ -53,6 +54,12 @@ fn verify() {
 
 const RELAY: [&str; 4] = ["df", "relay-hysteresis", "--set", "half_width=0.3"];
 const AXIS: [&str; 7] = ["predict", "--alpha", "1", "--beta", "1", "--relay", "1"];
+
+#[test]
+fn design() {
+    let model = ["design", "--alpha", "1", "--beta-quadratic", "0.5", "--delay", "0.1", "--level", "1", "--time", "60"];
+    golden!("design", done(&[&model[..], &["--quantum", "0.0175", "--largest-amplitude", "2"]].concat()));
+}
 
 /// Written, read again, and refused with one box gone.
 #[test]
