@@ -29,6 +29,9 @@ mod trajectory;
 mod weak;
 mod witness;
 
+#[cfg(test)]
+mod tests;
+
 pub use bounds::{Bounds, Consistency, Contradicting, Parameters, Quantity, QuantityRange};
 pub use settings::{BoundedModel, DelayBound, SwitchedWhen};
 
