@@ -9,6 +9,7 @@ mod certificates;
 mod df;
 mod error;
 mod files;
+mod gain;
 mod identify;
 mod known;
 mod manual;
