@@ -11,9 +11,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _documents
 from ._results import Result
-from .errors import UsageError
+from .errors import OutOfDomain, UsageError
 
 __all__ = ["DescribingFunction", "Nonlinearity", "catalogue", "describing_function", "df", "nonlinearity"]
+
+
+#: Characteristics whose output depends on where the input came from.
+_WITH_MEMORY = frozenset({"relay-hysteresis", "relay-dead-zone-hysteresis", "backlash"})
 
 
 class DescribingFunction(NamedTuple):
@@ -46,7 +50,9 @@ class Nonlinearity:
         given = [(key, _parameter(value)) for key, value in parameters.items()]
         self._core = _core.Characteristic(name, given)
         self.name = name
-        self._has_memory = self._core.has_memory()
+        self._has_memory = name in _WITH_MEMORY
+        numbers = (abs(value) for value in self.parameters.values() if isinstance(value, float))
+        self._reach = 4.0 * sum(numbers)
         self._last: float | None = None
 
     @property
@@ -93,9 +99,8 @@ class Nonlinearity:
 
     def _follow(self, x: float) -> float:
         """Between what a rising and a falling input would give, the output stays where it was."""
-        # A sweep so wide that neither of its turning points matters, and so narrow that it costs no digits.
-        span = 4.0 * (abs(x) + sum(abs(value) for value in self.parameters.values() if isinstance(value, float)))
-        rising, falling = self._core.branches(x, 0.0, span or 1.0)
+        # A sweep so wide that neither of its turning points matters.
+        rising, falling = self._core.branches(x, 0.0, self._reach + 4.0 * abs(x))
         low, high = min(rising, falling), max(rising, falling)
         self._last = rising if self._last is None else min(max(self._last, low), high)
         return self._last
@@ -107,7 +112,7 @@ class Nonlinearity:
     def _isstatic(self) -> bool:
         return not self._has_memory
 
-    def describing_function(self, A: ArrayLike, bias: ArrayLike = 0.0) -> Any:  # noqa: N803 (python-control's name)
+    def describing_function(self, A: ArrayLike, bias: ArrayLike = 0.0) -> Any:
         """The complex gain ``P + jQ``, exact.
 
         Parameters
@@ -129,6 +134,12 @@ class Nonlinearity:
             without limit.
         """
         amplitude, centre = np.broadcast_arrays(np.asarray(A, dtype=float), np.asarray(bias, dtype=float))
+        if (amplitude < 0.0).any():
+            value = float(amplitude[amplitude < 0.0].flat[0])
+            raise OutOfDomain(
+                f"cannot evaluate at amplitude {value}: must be 0 or more; give the amplitude X of x = B + X sin(theta)",
+                "out-of-domain", "amplitude", value, "input units", "a finite number, 0 or more", "give the amplitude X",
+            )  # fmt: skip
         zero = amplitude == 0.0
         if not zero.any():
             return describing_function(self, amplitude, centre).gain

@@ -4,7 +4,9 @@ use std::cell::RefCell;
 
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
-use selfosc::describing::{Boxed, DescribingError, DescribingFunction, Entry, Setting};
+use rayon::prelude::*;
+use selfosc::Error;
+use selfosc::describing::{Boxed, DescribingFunction, Entry, Setting};
 use selfosc::nonlinearity::{Branch, Custom, Sinusoid};
 
 use crate::failure;
@@ -57,11 +59,6 @@ impl Characteristic {
         self.entry.settings(&self.values).into_iter().map(|(name, value)| (name, value.to_string())).collect()
     }
 
-    /// Whether the output depends on the way of the input.
-    fn has_memory(&self, py: Python<'_>) -> PyResult<bool> {
-        Ok(self.build(py)?.has_memory())
-    }
-
     /// `F_0`, `P`, `Q` for arrays of one length, or of length one. Where `skip` is set, what has none is NaN.
     fn describing_function<'py>(
         &self,
@@ -70,13 +67,20 @@ impl Characteristic {
         bias: PyReadonlyArray1<'py, f64>,
         skip: bool,
     ) -> PyResult<Arrays<'py>> {
-        let (entry, values) = (self.entry, &self.values[..]);
         let (amplitude, bias) = (amplitude.as_slice()?, bias.as_slice()?);
-        let found = py.detach(|| {
-            let characteristic = entry.build::<f64>(values).map_err(|error| (0, error.into()))?;
-            over(amplitude, bias, skip, |sweep| characteristic.describing_function(sweep))
-        });
-        arrays(py, found)
+        let count = amplitude.len().max(bias.len());
+        let mut columns = [(); 3].map(|()| vec![0.0; count]);
+        let [f0, p, q] = &mut columns;
+        for (block, ((f0, p), q)) in f0.chunks_mut(BLOCK).zip(p.chunks_mut(BLOCK)).zip(q.chunks_mut(BLOCK)).enumerate() {
+            let from = block * BLOCK;
+            let fault = py.detach(|| self.fill(|at| (part(amplitude, from + at), part(bias, from + at)), skip, [f0, p, q]));
+            if let Some(error) = fault {
+                return Err(failure::library(py, error));
+            }
+            py.check_signals()?;
+        }
+        let [f0, p, q] = columns.map(|column| column.into_pyarray(py));
+        Ok((f0, p, q))
     }
 
     /// The outputs on the way up and on the way down, for the sweeps of these biases and amplitudes.
@@ -97,35 +101,38 @@ impl Characteristic {
     }
 }
 
-/// Columns of results, or the place of the first that has none and why.
-type Found = Result<[Vec<f64>; 3], (usize, selfosc::Error)>;
+/// Elements between two questions whether Python was interrupted.
+const BLOCK: usize = 1 << 20;
+/// Elements that a thread takes at a time.
+const CHUNK: usize = 1 << 12;
 
-fn over(
-    amplitude: &[f64],
-    bias: &[f64],
-    skip: bool,
-    describing: impl Fn(&Sinusoid<f64>) -> Result<DescribingFunction<f64>, DescribingError>,
-) -> Found {
-    let count = amplitude.len().max(bias.len());
-    let at = |values: &[f64], index: usize| if values.len() == 1 { values[0] } else { values[index] };
-    let mut columns = [(); 3].map(|()| Vec::with_capacity(count));
-    for index in 0..count {
-        let sweep = Sinusoid::new(at(bias, index), at(amplitude, index)).map_err(|error| (index, error.into()))?;
-        let values = match describing(&sweep) {
-            Ok(DescribingFunction { f0, p, q }) => [f0, p, q],
-            Err(_) if skip => [f64::NAN; 3],
-            Err(error) => return Err((index, error.into())),
-        };
-        for (column, value) in columns.iter_mut().zip(values) {
-            column.push(value);
-        }
-    }
-    Ok(columns)
+/// The element, or the only one.
+fn part(values: &[f64], index: usize) -> f64 {
+    if values.len() == 1 { values[0] } else { values[index] }
 }
 
-fn arrays(py: Python<'_>, found: Found) -> PyResult<Arrays<'_>> {
-    let [f0, p, q] = found.map_err(|(_, error)| failure::library(py, error))?;
-    Ok((f0.into_pyarray(py), p.into_pyarray(py), q.into_pyarray(py)))
+impl Characteristic {
+    /// `F_0`, `P`, `Q` at the amplitudes and biases that `sweep` gives for each place; the first failure, if there is one. All threads
+    /// take part, each with a characteristic of its own.
+    fn fill(&self, sweep: impl Fn(usize) -> (f64, f64) + Sync, skip: bool, [f0, p, q]: [&mut [f64]; 3]) -> Option<Error> {
+        let chunk = |(chunk, ((f0, p), q)): (usize, ((&mut [f64], &mut [f64]), &mut [f64]))| -> Result<(), Error> {
+            let characteristic = self.entry.build::<f64>(&self.values)?;
+            for (place, ((f0, p), q)) in f0.iter_mut().zip(p).zip(q).enumerate() {
+                let (amplitude, bias) = sweep(chunk * CHUNK + place);
+                match characteristic.describing_function(&Sinusoid::new(bias, amplitude)?) {
+                    Ok(df) => (*f0, *p, *q) = (df.f0, df.p, df.q),
+                    Err(_) if skip => (*f0, *p, *q) = (f64::NAN, f64::NAN, f64::NAN),
+                    Err(error) => return Err(error.into()),
+                }
+            }
+            Ok(())
+        };
+        if f0.len() <= CHUNK {
+            return chunk((0, ((f0, p), q))).err();
+        }
+        let chunks = f0.par_chunks_mut(CHUNK).zip(p.par_chunks_mut(CHUNK)).zip(q.par_chunks_mut(CHUNK));
+        chunks.enumerate().filter_map(|one| chunk(one).err()).find_first(|_| true)
+    }
 }
 
 /// `F_0`, `P`, `Q` of a Python function by quadrature between its kinks. The function gets the input and whether it rises.
@@ -149,11 +156,16 @@ pub(crate) fn by_quadrature<'py>(
         })
     };
     let custom = Custom::new(output, &kinks);
-    let found = over(amplitude.as_slice()?, bias.as_slice()?, false, |sweep| {
-        selfosc::describing::by_quadrature(&custom, sweep)
-    });
-    match fault.take() {
-        Some(error) => Err(error),
-        None => arrays(py, found),
+    let (amplitude, bias) = (amplitude.as_slice()?, bias.as_slice()?);
+    let one = |index: usize| -> Result<_, Error> {
+        let sweep = Sinusoid::new(part(bias, index), part(amplitude, index))?;
+        Ok(selfosc::describing::by_quadrature(&custom, &sweep)?)
+    };
+    let found: Result<Vec<_>, Error> = (0..amplitude.len().max(bias.len())).map(one).collect();
+    if let Some(error) = fault.take() {
+        return Err(error);
     }
+    let found = found.map_err(|error| failure::library(py, error))?;
+    let column = |of: fn(&DescribingFunction<f64>) -> f64| found.iter().map(of).collect::<Vec<_>>().into_pyarray(py);
+    Ok((column(|df| df.f0), column(|df| df.p), column(|df| df.q)))
 }

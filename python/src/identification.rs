@@ -1,9 +1,11 @@
 //! From logs to a model.
 
+use std::fs::File;
+
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use selfosc::experiment::Columns;
+use selfosc::experiment::{Columns, Log};
 use selfosc::identify::{Refusal, Session, Settings};
 use serde::de::DeserializeOwned;
 
@@ -35,7 +37,7 @@ fn written(document: &impl serde::Serialize) -> PyResult<String> {
     serde_json::to_string(document).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-fn parsed<T: DeserializeOwned>(py: Python<'_>, text: &str) -> PyResult<T> {
+pub(crate) fn parsed<T: DeserializeOwned>(py: Python<'_>, text: &str) -> PyResult<T> {
     serde_json::from_str(text).map_err(|error| failure::raised(py, "usage", &error.to_string(), None))
 }
 
@@ -53,13 +55,13 @@ pub(crate) enum Source<'py> {
 }
 
 /// The same, out of Python's reach.
-enum Read {
+pub(crate) enum Read {
     Path(String),
     Table(String, [String; 3], [Vec<f64>; 3]),
 }
 
 impl Source<'_> {
-    fn read(self) -> PyResult<Read> {
+    pub(crate) fn read(self) -> PyResult<Read> {
         Ok(match self {
             Self::Path(path) => Read::Path(path),
             Self::Table(name, names, columns) => {
@@ -72,13 +74,18 @@ impl Source<'_> {
 }
 
 impl Read {
-    fn add(self, session: Session, columns: &Columns) -> Result<Session, Refusal> {
-        match self {
-            Self::Path(path) => session.log(path),
-            Self::Table(name, names, values) => match columns.table(names, values) {
-                Ok(log) => Ok(session.record(name, log)),
-                Err(source) => Err(Refusal::Record { name, source }),
+    /// The log with its name.
+    pub(crate) fn log(self, columns: &Columns) -> Result<(String, Log), Refusal> {
+        let (name, log) = match self {
+            Self::Path(name) => match File::open(&name) {
+                Ok(file) => (name, columns.read(file)),
+                Err(error) => return Err(Refusal::File { name, reason: error.to_string() }),
             },
+            Self::Table(name, names, values) => (name, columns.table(names, values)),
+        };
+        match log {
+            Ok(log) => Ok((name, log)),
+            Err(source) => Err(Refusal::Record { name, source }),
         }
     }
 }
@@ -97,8 +104,11 @@ pub(crate) fn identify(
     let sources = sources.into_iter().map(Source::read).collect::<PyResult<Vec<_>>>()?;
     let found = work::interruptible(py, progress.as_ref(), move |stage| {
         settings.check()?;
-        let session = Session::new(settings).with_columns(columns.clone());
-        let session = sources.into_iter().try_fold(session, |session, source| source.add(session, &columns))?;
+        let mut session = Session::new(settings);
+        for source in sources {
+            let (name, log) = source.log(&columns)?;
+            session = session.record(name, log);
+        }
         session.identify_with(|next| stage(next.to_string()))
     })?;
     found.map(Identification).map_err(|refusal: Refusal| failure::library(py, refusal))

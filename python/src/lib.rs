@@ -1,6 +1,7 @@
 //! What the Python package `selfosc` calls: the command's documents, describing functions over arrays, logs to models,
 //! certificates. Arguments are checked and results are shaped in Python, numbers are found here.
 
+mod bounds;
 mod describing;
 mod failure;
 mod identification;
@@ -21,6 +22,8 @@ fn run(py: Python<'_>, arguments: Vec<String>) -> PyResult<(bool, String)> {
 /// The native half of the package `selfosc`.
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use super::bounds::bounds;
     #[pymodule_export]
     use super::describing::{Characteristic, by_quadrature};
     #[pymodule_export]

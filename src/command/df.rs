@@ -7,8 +7,9 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 use serde_json::json;
 
+use super::number::number;
 use super::{CommandError, Outcome, files, write_json};
-use crate::describing::{CATALOGUE, DescribingFunction, Entry, Setting, by_quadrature, certified};
+use crate::describing::{CATALOGUE, DescribingFunction, Entry, RoundingBounds, Setting, by_quadrature, certified};
 use crate::nonlinearity::{ParameterSpec, Sinusoid};
 use crate::numeric::{Interval, Real};
 use crate::proof::rigorous_quadrature::CellJet;
@@ -32,10 +33,10 @@ pub(super) struct Arguments {
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     settings: Vec<(String, Setting)>,
     /// Amplitude X of the input
-    #[arg(long, value_name = "X", required_unless_present = "list", allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "X", required_unless_present = "list", allow_negative_numbers = true)]
     amplitude: Option<f64>,
     /// Bias B of the input
-    #[arg(long, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
     bias: f64,
     /// How it is found
     #[arg(long, value_enum, default_value_t = Method::ClosedForm)]
@@ -145,11 +146,25 @@ fn enclose(
     Ok(certified(&*entry.build(&values)?, &sweep)?.enclosure)
 }
 
+/// Over which values of the parameters, in their order, of bias and of amplitude the closed form is how near to the exact value.
+fn rounding(bounds: &RoundingBounds) -> serde_json::Value {
+    let parts = |df: DescribingFunction<f64>| json!({ "f0": df.f0, "p": df.p, "q": df.q });
+    json!({
+        "parameters": bounds.parameters,
+        "bias": bounds.bias,
+        "amplitude": bounds.amplitude,
+        "f64": parts(bounds.double),
+        "f32": parts(bounds.single),
+    })
+}
+
 fn list(as_json: bool, output: &mut impl Write) -> Result<Outcome, CommandError> {
     if as_json {
         let parameter = |p: &ParameterSpec| json!({ "name": p.name, "meaning": p.meaning, "domain": p.domain.words(), "default": p.default });
-        let entry =
-            |e: &Entry| json!({ "name": e.name, "parameters": e.parameters.iter().map(parameter).collect::<Vec<_>>() });
+        let entry = |e: &Entry| {
+            let parameters = e.parameters.iter().map(parameter).collect::<Vec<_>>();
+            json!({ "name": e.name, "parameters": parameters, "rounding": e.rounding_bounds().as_ref().map(rounding) })
+        };
         write_json(output, &CATALOGUE.iter().map(entry).collect::<Vec<_>>())?;
         return Ok(Outcome::Done);
     }

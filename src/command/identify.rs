@@ -25,6 +25,7 @@ Examples:
   selfosc identify log.csv
   selfosc identify log.csv --delay 0.2 --report report.html
   selfosc identify weak.csv strong.csv --json
+  selfosc identify log.csv --method bounded --delay 0.2
   selfosc identify zigzag.csv --method fit --output yaw_deg --input rudder")]
 pub(super) struct Arguments {
     /// Delimiter-separated text with a header
@@ -54,6 +55,12 @@ pub(super) struct Arguments {
     /// How parameters are found
     #[arg(long, default_value = "all")]
     method: Method,
+    /// Bounded: largest error of a reading beside its rounding, output units (with --degrees still radians)
+    #[arg(long, value_name = "E", default_value_t = 0.0, value_parser = nonnegative, allow_negative_numbers = true)]
+    error: f64,
+    /// Bounded: step of the sensor, output units (with --degrees still radians) [default: found in the record]
+    #[arg(long, value_name = "Q", value_parser = positive, allow_negative_numbers = true)]
+    quantum: Option<f64>,
     /// The output is in degrees; a column ending in _deg always is. Every result is in radians
     #[arg(long)]
     degrees: bool,
@@ -101,7 +108,9 @@ enum Method {
     Exact,
     /// The likelihood of every sample: the answer to use, and each drag law alone
     Fit,
-    /// All of them
+    /// Guaranteed bounds: every reading a constraint; consistent, refuted or undecided
+    Bounded,
+    /// All of them but the bounds
     All,
 }
 
@@ -111,6 +120,7 @@ impl From<Method> for identify::Method {
             Method::Iso => Self::Iso,
             Method::Exact => Self::Exact,
             Method::Fit => Self::Fit,
+            Method::Bounded => Self::Bounded,
             Method::All => Self::All,
         }
     }
@@ -119,6 +129,11 @@ impl From<Method> for identify::Method {
 fn positive(text: &str) -> Result<f64, String> {
     let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
     value.ok_or_else(|| "must be a finite number above 0".to_owned())
+}
+
+fn nonnegative(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value >= 0.0);
+    value.ok_or_else(|| "must be a finite number, 0 or more".to_owned())
 }
 
 fn delay(text: &str) -> Result<Delay, String> {
@@ -173,6 +188,8 @@ impl Arguments {
             delay: self.delay,
             relay_level: self.relay,
             half_width: self.half_width,
+            error: self.error,
+            quantum: self.quantum,
         }
     }
 
@@ -219,7 +236,14 @@ fn show(found: &Identification, output: &mut impl Write) -> Result<(), CommandEr
     for table in page::model_tables(found) {
         writeln!(output, "{}", table.text())?;
     }
-    writeln!(output, "{}", page::verdict(found))?;
+    if let Some(bounded) = found.bounded() {
+        for table in page::bounds_tables(found, bounded) {
+            writeln!(output, "{}", table.text())?;
+        }
+        writeln!(output, "{}", page::bounds_verdict(bounded))?;
+    } else {
+        writeln!(output, "{}", page::verdict(found))?;
+    }
     for reason in page::reasons(found) {
         writeln!(output, "{}: {}", reason.code, reason.text)?;
     }

@@ -174,6 +174,21 @@ impl ExperimentError {
         }
     }
 
+    /// Whether the text itself could not be read, rather than the record in it be used.
+    #[must_use]
+    pub fn is_unreadable(&self) -> bool {
+        matches!(
+            self,
+            Self::Empty
+                | Self::Binary { .. }
+                | Self::UnknownColumn { .. }
+                | Self::Blank { .. }
+                | Self::NotANumber { .. }
+                | Self::TooLong { .. }
+                | Self::Unreadable { .. }
+        )
+    }
+
     /// The number outside its domain, if that is the reason.
     #[must_use]
     pub fn out_of_domain(&self) -> Option<&OutOfDomain> {

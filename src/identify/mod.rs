@@ -34,6 +34,7 @@ pub use prediction_error::{DragVerdict, LawEvidence, Reason, Reported, Term, Tru
 pub use warning::Warning;
 #[cfg(feature = "std")]
 pub use workflow::{
-    Caution, Conclusion, DragChoice, FeatureMeans, FeatureValues, Identification, Method, Model, RecordConclusion,
-    Refusal, Refused, RefusedMethod, ReportedModel, Session, Settings, SettingsError, Source, Stage, Total, Units,
+    BoundedConclusion, Caution, Conclusion, DragChoice, FeatureMeans, FeatureValues, Guaranteed, Identification,
+    Method, Model, RecordConclusion, Refusal, Refused, RefusedMethod, ReportedModel, Session, Settings, SettingsError,
+    Source, Stage, Total, Units,
 };

@@ -5,6 +5,8 @@ mod catalogue;
 mod command;
 mod identify;
 mod paper;
+mod readme;
+mod refusals;
 
 /// Compares with `golden/<name>.snap`.
 macro_rules! golden {

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
+use super::guaranteed::BoundedConclusion;
 use super::identification::{Caution, Identification, RefusedMethod, Source};
 use super::model::{Model, single};
 use super::refusal::Refusal;
@@ -23,6 +24,8 @@ pub struct Conclusion {
     pub reported: Option<ReportedModel>,
     /// What every method found under every law.
     pub estimates: Vec<Model>,
+    /// The guaranteed bounds; null where they were not asked for.
+    pub bounded: Option<BoundedConclusion>,
     /// Methods that gave nothing, with their reasons.
     pub refused_methods: Vec<RefusedMethod>,
     /// The drag law.
@@ -219,6 +222,7 @@ impl Identification {
             features: if let [only] = &records[..] { only.features } else { None },
             reported: self.reported.as_ref().map(ReportedModel::from),
             estimates: self.models.clone(),
+            bounded: self.bounded.as_ref().map(BoundedConclusion::from),
             refused_methods: self.refused.clone(),
             choice: self.drag_choice(),
             warnings: self.cautions.clone(),

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
+use super::guaranteed::Guaranteed;
 use super::model::Model;
 use crate::experiment::Log;
 use crate::features::RecordFeatures;
@@ -71,6 +72,7 @@ impl Source {
 pub struct Identification {
     pub(super) sources: Vec<Source>,
     pub(super) reported: Option<Reported>,
+    pub(super) bounded: Option<Guaranteed>,
     pub(super) models: Vec<Model>,
     pub(super) fits: Option<Choice>,
     pub(super) cautions: Vec<Caution>,
@@ -83,6 +85,8 @@ pub struct Identification {
 struct Parts {
     sources: Vec<Source>,
     reported: Option<Reported>,
+    #[serde(default)]
+    bounded: Option<Guaranteed>,
     models: Vec<Model>,
     fits: Option<Choice>,
     cautions: Vec<Caution>,
@@ -94,7 +98,7 @@ impl TryFrom<Parts> for Identification {
     type Error = &'static str;
 
     fn try_from(parts: Parts) -> Result<Self, Self::Error> {
-        let Parts { sources, reported, models, fits, cautions, refused, law_given } = parts;
+        let Parts { sources, reported, bounded, models, fits, cautions, refused, law_given } = parts;
         let covers = |fit: &RecordFit| {
             fit.records().len() == sources.len()
                 && fit.records().iter().zip(&sources).all(|(fitted, source)| {
@@ -112,7 +116,7 @@ impl TryFrom<Parts> for Identification {
         if reported.as_ref().is_some_and(|reported| reported.deltas.len() != sources.len()) {
             return Err("the answer has not one disturbance for each record; keep a document as it was written");
         }
-        Ok(Self { sources, reported, models, fits, cautions, refused, law_given })
+        Ok(Self { sources, reported, bounded, models, fits, cautions, refused, law_given })
     }
 }
 
@@ -122,6 +126,12 @@ impl Identification {
     #[must_use]
     pub fn reported(&self) -> Option<&Reported> {
         self.reported.as_ref()
+    }
+
+    /// The guaranteed bounds; `None` where they were not asked for.
+    #[must_use]
+    pub fn bounded(&self) -> Option<&Guaranteed> {
+        self.bounded.as_ref()
     }
 
     /// The records, in the order given.

@@ -1,5 +1,6 @@
 //! Every method asked for, tried on the same records. One that refuses leaves its reason, and the others their results.
 
+use super::guaranteed::Guaranteed;
 use super::identification::{Caution, Identification, RefusedMethod, Source};
 use super::model::Model;
 use super::refusal::Refusal;
@@ -17,6 +18,7 @@ pub(super) struct Found<'a> {
     settings: &'a Settings,
     sources: Vec<Source>,
     reported: Option<Reported>,
+    bounded: Option<Guaranteed>,
     models: Vec<Model>,
     fits: Option<Choice>,
     cautions: Vec<Caution>,
@@ -32,7 +34,7 @@ impl<'a> Found<'a> {
     pub(super) fn new(settings: &'a Settings, sources: Vec<Source>, cautions: Vec<Caution>) -> Self {
         let failure = IdentifyError::TooFewEquations { equations: 0, parameters: 1 }.into();
         let (models, refused) = (Vec::new(), Vec::new());
-        Self { settings, sources, reported: None, models, fits: None, cautions, refused, failure }
+        Self { settings, sources, reported: None, bounded: None, models, fits: None, cautions, refused, failure }
     }
 
     /// Records whose features `failures` says are missing, with the reason.
@@ -41,6 +43,29 @@ impl<'a> Found<'a> {
         failures: &[(usize, FeatureError)],
         progress: impl Fn(Stage),
     ) -> Result<Identification, Refusal> {
+        if self.settings.method == Method::Bounded {
+            progress(Stage::Bounds);
+            self.enclose();
+        } else {
+            self.estimate(failures, progress);
+        }
+        if self.models.is_empty() && self.reported.is_none() && self.bounded.is_none() {
+            return Err(self.failure);
+        }
+        let Self { settings, sources, reported, bounded, models, fits, cautions, refused, .. } = self;
+        Ok(Identification { sources, reported, bounded, models, fits, cautions, refused, law_given: settings.drag })
+    }
+
+    /// The guaranteed bounds.
+    fn enclose(&mut self) {
+        match Guaranteed::of(&self.records(), self.settings) {
+            Ok(found) => self.bounded = Some(found),
+            Err(error) => self.refuse(Method::Bounded.name(), None, error),
+        }
+    }
+
+    /// By the methods that estimate.
+    fn estimate(&mut self, failures: &[(usize, FeatureError)], progress: impl Fn(Stage)) {
         let by_samples = self.settings.method.includes(Method::Fit);
         if by_samples {
             progress(Stage::Fit);
@@ -61,11 +86,6 @@ impl<'a> Found<'a> {
         if !by_samples {
             self.reported = None;
         }
-        if self.models.is_empty() && self.reported.is_none() {
-            return Err(self.failure);
-        }
-        let Self { settings, sources, reported, models, fits, cautions, refused, .. } = self;
-        Ok(Identification { sources, reported, models, fits, cautions, refused, law_given: settings.drag })
     }
 
     /// The answer to use: terms found, models averaged.

@@ -19,6 +19,8 @@ use crate::identify::Warning;
 pub enum Stage {
     /// Cycles are looked for.
     Cycles,
+    /// Parameters are enclosed.
+    Bounds,
     /// The drag laws are fitted.
     Fit,
     /// Terms of the motion and of what disturbs it are tried.
@@ -29,6 +31,7 @@ impl fmt::Display for Stage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Cycles => "looking for cycles",
+            Self::Bounds => "enclosing the parameters",
             Self::Fit => "fitting the drag laws",
             Self::Terms => "looking for what else acts",
         })
@@ -98,6 +101,9 @@ impl Session {
     pub fn log(self, path: impl AsRef<Path>) -> Result<Self, Refusal> {
         let name = path.as_ref().display().to_string();
         match File::open(path) {
+            Ok(file) if file.metadata().is_ok_and(|about| about.is_dir()) => {
+                Err(Refusal::File { name, reason: "it is a folder".to_owned() })
+            }
             Ok(file) => self.reader(name, file),
             Err(error) => Err(Refusal::File { name, reason: error.to_string() }),
         }

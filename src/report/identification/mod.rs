@@ -1,8 +1,10 @@
 //! One vehicle identified from its records, as tables, figures and sentences.
 
+mod bounds;
 mod figures;
 mod tables;
 
+pub(crate) use bounds::{bounds_tables, bounds_verdict};
 pub(crate) use tables::{feature_table, model_tables, reasons, summary, verdict};
 
 use super::{Document, Section};
@@ -21,8 +23,13 @@ pub fn document(found: &Identification) -> Document {
     let cautions = caution_table("warnings", "Warnings", found.cautions());
     let summary = Section {
         title: "Model".to_owned(),
-        paragraphs: verdict(found).lines().map(str::to_owned).collect(),
-        tables: [parameters, reasons, compared, refused_table(found), cautions].into_iter().flatten().collect(),
+        paragraphs: found.bounded().map_or_else(|| verdict(found), bounds_verdict).lines().map(str::to_owned).collect(),
+        tables: found
+            .bounded()
+            .into_iter()
+            .flat_map(|bounded| bounds_tables(found, bounded))
+            .chain([parameters, reasons, compared, refused_table(found), cautions].into_iter().flatten())
+            .collect(),
         figures: Vec::new(),
     };
     let records = found.sources().iter().enumerate().map(|(index, source)| record_section(found, index, source));

@@ -8,7 +8,7 @@ use crate::report::{Cell, Table};
 /// Digits that a measured number is shown with, after the first.
 const DIGITS: u8 = 3;
 
-fn cell(value: f64) -> Cell {
+pub(super) fn cell(value: f64) -> Cell {
     // The magnitude after rounding: 0.99996 is shown as 1.000.
     let rounded = format!("{value:.digits$e}", digits = usize::from(DIGITS));
     let magnitude = rounded.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0);

@@ -1,0 +1,200 @@
+"""An identified axis for other people's programs: state space, Gazebo, ArduSub."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree
+
+from .control import Tuned
+from .errors import UsageError
+from .identification import Identification
+
+if TYPE_CHECKING:
+    import control
+
+__all__ = ["AXES", "ardusub_parameters", "gazebo_hydrodynamics", "hydrodynamic_coefficients", "state_space", "xacro_hydrodynamics"]
+
+#: Axes of a body by the letters of force and velocity (SNAME).
+AXES = {"surge": "xU", "sway": "yV", "heave": "zW", "roll": "kP", "pitch": "mQ", "yaw": "nR"}
+
+
+def _values(model: Identification | Mapping[str, float]) -> dict[str, float]:
+    """Inertia, drags and delay, of an identification or given."""
+    if isinstance(model, Mapping):
+        values = {name: float(model.get(name, 0.0)) for name in ("alpha", "beta", "beta_quadratic", "delay")}
+    else:
+        answer = model.reported
+        if not answer:
+            raise UsageError("the model reports no answer; identify with the method fit or all")
+        if model.trust == "doubtful":
+            raise UsageError("the model is doubtful; give alpha and drag yourself, or log another record", "doubtful")
+        named = {"alpha": "alpha", "beta": "beta", "beta_quadratic": "beta_quadratic", "delay": "delay_s"}
+        values = {name: float((answer.get(field) or {"value": 0.0})["value"]) for name, field in named.items()}
+    if not (math.isfinite(values["alpha"]) and values["alpha"] > 0.0):
+        raise UsageError(f"alpha is {values['alpha']}: must be above 0; check where it comes from", "out-of-domain")
+    return values
+
+
+def state_space(model: Identification | Mapping[str, float], speed: float = 0.0, *, pade: int = 0) -> control.StateSpace:
+    """The axis about a constant speed, from force to output.
+
+    Parameters
+    ----------
+    model : Identification or mapping
+        With ``alpha``, ``beta``, ``beta_quadratic`` and ``delay`` in a mapping.
+    speed : float
+        About which quadratic drag is taken by its slope, ``beta + 2 beta_quadratic |speed|``; output units per s.
+    pade : int
+        Order of the rational approximation of the delay; 0 leaves the delay out.
+
+    Returns
+    -------
+    control.StateSpace
+        Without a delay, states are output and speed, as deviations.
+
+    Examples
+    --------
+    >>> from selfosc.export import state_space
+    >>> state_space({"alpha": 2.0, "beta": 1.0, "beta_quadratic": 0.5}, speed=1.0).A
+    array([[ 0.,  1.],
+           [ 0., -1.]])
+    """
+    import control
+
+    values = _values(model)
+    slope = values["beta"] + 2.0 * values["beta_quadratic"] * abs(float(speed))
+    alpha = values["alpha"]
+    axis = control.ss([[0.0, 1.0], [0.0, -slope / alpha]], [[0.0], [1.0 / alpha]], [[1.0, 0.0]], [[0.0]])
+    if pade:
+        return control.ss(axis * control.tf(*control.pade(values["delay"], pade)))
+    return axis
+
+
+def hydrodynamic_coefficients(
+    model: Identification | Mapping[str, float], axis: str, rigid_inertia: float, scale: float = 1.0
+) -> dict[str, float]:
+    """Added mass and damping under the names and signs of Gazebo's Hydrodynamics plugin.
+
+    Parameters
+    ----------
+    model : Identification or mapping
+        As for :func:`state_space`.
+    axis : {"surge", "sway", "heave", "roll", "pitch", "yaw"}
+    rigid_inertia : float
+        Mass (kg) or moment of inertia (kg m^2) that the simulator has for the link about this axis: what was identified is
+        the sum of it and the added mass.
+    scale : float
+        Newtons or newton metres for one unit of the command, where it is another.
+
+    Returns
+    -------
+    dict
+        ``nDotR``, ``nR`` and ``nRabsR`` for yaw and so on; zero or negative, as Fossen's derivatives are.
+
+    Raises
+    ------
+    UsageError
+        Where the added mass would be negative: the simulator's inertia is larger than all that was identified.
+
+    Notes
+    -----
+    Names are those of gz-sim's ``Hydrodynamics.hh``. One axis says nothing of the cross terms.
+
+    Examples
+    --------
+    >>> from selfosc.export import hydrodynamic_coefficients
+    >>> hydrodynamic_coefficients({"alpha": 3.0, "beta": 0.5, "beta_quadratic": 2.0}, "yaw", rigid_inertia=1.0)
+    {'nDotR': -2.0, 'nR': -0.5, 'nRabsR': -2.0}
+    """
+    if axis not in AXES:
+        raise UsageError(f"{axis!r} is no axis; choose one of {', '.join(AXES)}")
+    values = _values(model)
+    force, velocity = AXES[axis]
+    added = values["alpha"] * scale - float(rigid_inertia)
+    if added < 0.0:
+        raise UsageError(
+            f"rigid_inertia is {rigid_inertia}: must be at most what was identified, {values['alpha'] * scale:.6g}; check the "
+            "link's inertia and the scale of the command",
+            "out-of-domain", "rigid_inertia", float(rigid_inertia),
+        )  # fmt: skip
+    return {
+        f"{force}Dot{velocity}": -added,
+        f"{force}{velocity}": -values["beta"] * scale,
+        f"{force}{velocity}abs{velocity}": -values["beta_quadratic"] * scale,
+    }
+
+
+def gazebo_hydrodynamics(coefficients: Mapping[str, float], link: str, *, water_density: float = 998.0) -> str:
+    """The plugin's element for an SDF model, with coefficients of :func:`hydrodynamic_coefficients`, of several axes merged.
+
+    Examples
+    --------
+    >>> from selfosc.export import gazebo_hydrodynamics
+    >>> print(gazebo_hydrodynamics({"nR": -0.5}, "base_link"))
+    <plugin filename="gz-sim-hydrodynamics-system" name="gz::sim::systems::Hydrodynamics">
+      <link_name>base_link</link_name>
+      <water_density>998.0</water_density>
+      <nR>-0.5</nR>
+    </plugin>
+    """
+    plugin = ElementTree.Element(
+        "plugin", filename="gz-sim-hydrodynamics-system", name="gz::sim::systems::Hydrodynamics"
+    )
+    for name, value in {"link_name": link, "water_density": float(water_density), **coefficients}.items():
+        ElementTree.SubElement(plugin, name).text = str(value)
+    ElementTree.indent(plugin)
+    return ElementTree.tostring(plugin, encoding="unicode")
+
+
+def xacro_hydrodynamics(coefficients: Mapping[str, float], name: str = "hydrodynamics") -> str:
+    """A xacro macro ``<xacro:NAME link="..."/>`` that puts the plugin into a robot's description.
+
+    Examples
+    --------
+    >>> from selfosc.export import xacro_hydrodynamics
+    >>> print(xacro_hydrodynamics({"nR": -0.5}).splitlines()[1].strip())
+    <xacro:macro name="hydrodynamics" params="link">
+    """
+    robot = ElementTree.Element("robot", {"xmlns:xacro": "http://www.ros.org/wiki/xacro"})
+    macro = ElementTree.SubElement(robot, "xacro:macro", name=name, params="link")
+    gazebo = ElementTree.SubElement(macro, "gazebo")
+    gazebo.append(ElementTree.fromstring(gazebo_hydrodynamics(coefficients, "${link}")))
+    ElementTree.indent(robot)
+    return ElementTree.tostring(robot, encoding="unicode")
+
+
+def ardusub_parameters(tuned: Tuned, axis: str = "yaw") -> dict[str, float]:
+    """A PD design as the gains of ArduSub's attitude loops.
+
+    Parameters
+    ----------
+    tuned : Tuned
+        With structure ``"pd"``, for a command normalised to -1..1, as ArduSub's mixer takes it, and an output in rad.
+    axis : {"roll", "pitch", "yaw"}
+
+    Returns
+    -------
+    dict
+        ``ATC_ANG_*_P`` in 1/s, from angle error to rate, and ``ATC_RAT_*_P``, from rate error to command; the rate loop's
+        integral and derivative set to zero.
+
+    Notes
+    -----
+    ArduSub's documentation has the two loops in cascade: ``command = RAT_P (ANG_P error - rate)``, which is a PD controller on the
+    measurement with ``derivative = RAT_P`` and ``proportional = RAT_P ANG_P``. Its limits of rate and acceleration, its
+    square-root shaping of large errors and the filter of the derivative are not in this.
+    """
+    if axis not in ("roll", "pitch", "yaw"):
+        raise UsageError(f"{axis!r} has no attitude loop; choose roll, pitch or yaw")
+    gains: dict[str, Any] = tuned.gains
+    if gains["structure"] != "pd":
+        raise UsageError(f"the structure {gains['structure']} has no such form; tune with structure pd")
+    name = {"roll": "RLL", "pitch": "PIT", "yaw": "YAW"}[axis]
+    return {
+        f"ATC_ANG_{name}_P": gains["proportional"] / gains["derivative"],
+        f"ATC_RAT_{name}_P": gains["derivative"],
+        f"ATC_RAT_{name}_I": 0.0,
+        f"ATC_RAT_{name}_D": 0.0,
+    }

@@ -1,0 +1,306 @@
+"""A vehicle's inertia, drag, disturbance and delay from logs."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _core, _tables
+from ._results import Result, _flat
+from .errors import UsageError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["Bounds", "Identification", "bounded", "identify"]
+
+
+class Identification(Result):
+    """One vehicle identified.
+
+    ``reported`` is the one answer to use: ``reported["alpha"]`` is a dictionary with ``value``, ``std``, ``low`` and ``high``
+    (95 %), and ``reported["trust"]`` says whether to use it. Numbers are in SI units, angles in radians.
+    """
+
+    def __init__(self, core: _core.Identification) -> None:
+        super().__init__(json.loads(core.document()))
+        self._core = core
+
+    def __reduce__(self):
+        raise TypeError("an identification does not travel; send to_dict(), or the log and identify there")
+
+    @cached_property
+    def details(self) -> dict[str, Any]:
+        """Everything found, with the records, the fitted outputs and the residuals. Its fields promise nothing."""
+        return json.loads(self._core.full())
+
+    @property
+    def trust(self) -> str | None:
+        """Whether to use ``reported``: ``"good"``, ``"widened"``, ``"doubtful"``; ``None`` without it."""
+        return self.to_dict()["reported"] and self.to_dict()["reported"].get("trust")
+
+    def _rows(self) -> list[dict[str, Any]]:
+        answer = self.to_dict().get("reported")
+        rows = [{"method": "reported", **_flat(answer)}] if answer else []
+        return rows + [_flat(estimate) for estimate in self.to_dict()["estimates"]]
+
+    def report(self, path: str | os.PathLike[str]) -> Path:
+        """Writes one HTML file with tables and figures, which needs no network.
+
+        Parameters
+        ----------
+        path : path-like
+            Of the file; one of the logs is refused.
+
+        Returns
+        -------
+        Path
+        """
+        place = Path(path)
+        logs = (Path(record["file"]) for record in self.to_dict()["records"])
+        if any(log.exists() and place.exists() and log.samefile(place) for log in logs):
+            raise UsageError(f"{place} is one of the logs; choose another name for the report", "output-is-input")
+        beside = place.with_name(f".{place.name}.{os.getpid()}.part")
+        beside.write_text(self._core.html(), encoding="utf-8")
+        beside.replace(place)
+        return place
+
+    def plot(self) -> Figure:
+        """Record, model, residuals and intervals of every record, as one matplotlib figure.
+
+        The model drawn is that of the fit with the likeliest drag law, beside the record that it was fitted to; the intervals
+        are those of ``reported``.
+        """
+        from matplotlib.figure import Figure
+
+        logs = [source["log"]["record"] for source in self.details["sources"]]
+        fitted = _fitted(self.details, len(logs))
+        figure = Figure(figsize=(9.0, 3.6 * len(logs) + 2.2), layout="constrained")
+        grid = figure.add_gridspec(2 * len(logs) + 1, 1, height_ratios=[2.2, 1.0] * len(logs) + [1.6])
+        for place, (log, fit) in enumerate(zip(logs, fitted, strict=True)):
+            above = figure.add_subplot(grid[2 * place])
+            below = figure.add_subplot(grid[2 * place + 1], sharex=above)
+            time = np.asarray(log["time_s"])
+            above.plot(time, log["output"], ".", markersize=3, color="0.45", label="record")
+            above.set_title(self.details["sources"][place]["name"], fontsize="medium")
+            above.set_ylabel("output")
+            if fit is not None:
+                first, output, residuals = fit
+                inside = time[first : first + len(output)]
+                above.plot(inside, output, linewidth=1.0, color="C0", label="model")
+                below.plot(inside, residuals, linewidth=0.8, color="C3")
+            command = above.twinx()
+            command.step(time, log["input"], where="post", linewidth=0.8, color="C1", alpha=0.6, label="command")
+            command.set_ylabel("command")
+            above.legend(loc="upper right", fontsize="small")
+            below.set_ylabel("residual")
+            below.set_xlabel("time / s")
+        self._plot_intervals(figure.add_subplot(grid[-1]))
+        return figure
+
+    def _plot_intervals(self, axes: Any) -> None:
+        """Each parameter's interval relative to its value."""
+        answer = self.to_dict().get("reported") or {}
+        named = {name: part for name, part in answer.items() if isinstance(part, dict) and part.get("low") is not None}
+        for row, (_, part) in enumerate(named.items()):
+            scale = abs(part["value"]) or 1.0
+            middle = 100.0 * (part["value"] / scale if part["value"] == 0.0 else 0.0)
+            ends = [100.0 * (part[end] - part["value"]) / scale for end in ("low", "high")]
+            axes.plot(ends, [row, row], color="C0", marker="|")
+            axes.plot([middle], [row], "o", color="C0")
+        axes.set_yticks(range(len(named)), [f"{name} = {part['value']:.4g}" for name, part in named.items()])
+        axes.invert_yaxis()
+        axes.set_xlabel("95 % interval, percent of the value (of one where that is zero)")
+
+
+def _fitted(details: dict[str, Any], records: int) -> list[tuple[int, list[float], list[float]] | None]:
+    """First sample, model and residuals of every record under the likeliest law; ``None`` without a fit."""
+    fits = details.get("fits")
+    if not fits:
+        return [None] * records
+    likeliest = max(fits["fits"], key=lambda fit: fit.get("log_likelihood", 0.0))
+    return [(one["first_sample"], one["output"], one["residuals"]) for one in likeliest["records"]]
+
+
+def identify(
+    source: Any,
+    *,
+    time: str | None = None,
+    output: str | None = None,
+    input: str | None = None,
+    degrees: bool = False,
+    wrap: bool = False,
+    relay: float | None = None,
+    half_width: float | None = None,
+    delay: float | str | None = None,
+    drag: str = "auto",
+    method: str = "all",
+    progress: bool | Callable[[str], None] = False,
+    **settings: Any,
+) -> Identification:
+    """A vehicle's inertia, drag, disturbance and delay from records of relay experiments, with 95 % intervals.
+
+    The model is ``alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay) + delta``, with further terms where the record
+    has them. Several records of one vehicle are fitted jointly.
+
+    Parameters
+    ----------
+    source : path, pandas.DataFrame, polars.DataFrame, pyarrow.Table, mapping, or a sequence of these
+        Delimiter-separated text with a header, a Parquet or Arrow file, or a table with three columns of numbers.
+    time, output, input : str, optional
+        Names of the columns: time in s, the measured output, the command. By default the first of the usual names.
+    degrees, wrap : bool
+        The output is in degrees (a name ending in ``_deg`` always is); it is an angle that jumps by a turn (heading and yaw
+        always are).
+    relay, half_width : float, optional
+        Level of the relay, command units, and level at which it switches, output units (radians where the output is in
+        degrees), if not to be read off the record.
+    delay : float or "estimate", optional
+        Of the whole loop, s; by default as the command's.
+    drag : {"auto", "linear", "quadratic", "mixed"}
+    method : {"all", "fit", "exact", "iso"}
+    progress : bool or callable
+        Called with what comes next; ``True`` shows it with tqdm where that is installed.
+    **settings
+        Further fields of the library's settings.
+
+    Returns
+    -------
+    Identification
+        The document of ``selfosc identify --json``, bit for bit, with :meth:`~Identification.plot`,
+        :meth:`~Identification.to_frame` and :meth:`~Identification.report`.
+
+    Raises
+    ------
+    RecordRefused
+        For a record that cannot be used; ``code`` says why.
+    SelfoscError
+        For settings that contradict each other or are out of their domain.
+
+    Notes
+    -----
+    The call can be interrupted. What was begun then runs on to its next stage and is dropped.
+
+    Examples
+    --------
+    >>> from selfosc import identify, simulate
+    >>> record = simulate(alpha=1, beta_quadratic=0.5, relay=1, half_width=0.3, cycles=8, noise=0.003, hold=True)
+    >>> found = identify(record, method="fit")
+    >>> abs(found.reported["alpha"]["value"] - 1.0) < 0.02
+    True
+    """
+    columns = {"time": time, "output": output, "input": input, "degrees": bool(degrees), "wrap": bool(wrap)}
+    wanted: dict[str, Any] = {"method": method, "relay_level": _float(relay), "half_width": _float(half_width), **settings}
+    if drag != "auto":
+        wanted["drag"] = drag
+    if delay is not None:
+        wanted["delay"] = "estimated" if delay == "estimate" else {"known_s": _float(delay)}
+    logs = _tables.sources(source, columns)
+    with _Shown(progress) as shown:
+        core = _core.identify(logs, _document(wanted), json.dumps(columns), shown)
+    return Identification(core)
+
+
+class Bounds(Result):
+    """What records leave of a model's parameters: ``verdict``, ``bounds``, ``witness`` and what was assumed."""
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return self.to_dict()["bounds"] or [{"verdict": self.to_dict()["verdict"]}]
+
+    def of(self, quantity: str) -> tuple[float, float] | None:
+        """The interval of ``"alpha"``, ``"beta"``, ``"beta_quadratic"``, ``"delay_s"``, ...; ``None`` where there is none."""
+        found = next((one for one in self.to_dict()["bounds"] if one["quantity"] == quantity), None)
+        return found and (found["low"], found["high"])
+
+
+def bounded(
+    source: Any,
+    *,
+    drag: str = "linear",
+    delay: float | tuple[float, float] | None = None,
+    time: str | None = None,
+    output: str | None = None,
+    input: str | None = None,
+    degrees: bool = False,
+    wrap: bool = False,
+    **model: Any,
+) -> Bounds:
+    """Encloses the parameters with which a model meets every reading, or proves that there are none in the search box.
+
+    Parameters
+    ----------
+    source, time, output, input, degrees, wrap
+        As for :func:`identify`.
+    drag : {"linear", "quadratic", "mixed"}
+    delay : float or (float, float), optional
+        Known, or between two numbers, s; by default nothing is known but that it is shorter than the mean time between
+        switchings.
+    **model
+        What else is assumed: ``error`` (largest error of a reading beside half a step, output units), ``quantum`` (step of
+        the sensor; read off the record by default), ``switching`` (``"at-samples"`` or ``"anywhere"``), ``outliers``,
+        ``jitter_s``, ``stiffness``, ``lag``, ``cubic``, ``reach``, ``budget``.
+
+    Returns
+    -------
+    Bounds
+        Guaranteed under what is assumed, and within the search box only.
+
+    Raises
+    ------
+    SelfoscError
+        For a record without switchings, a sensor without an error, and settings out of their domain.
+
+    Examples
+    --------
+    >>> from selfosc import bounded, simulate
+    >>> record = simulate(alpha=1, beta=0.5, relay=1, half_width=0.3, cycles=4, hold=True, quantum=0.02)
+    >>> low, high = bounded(record, delay=0.0, budget=200).of("alpha")
+    >>> low <= 1.0 <= high
+    True
+    """
+    columns = {"time": time, "output": output, "input": input, "degrees": bool(degrees), "wrap": bool(wrap)}
+    wanted: dict[str, Any] = {"law": drag, **model}
+    if delay is not None:
+        pair = isinstance(delay, (tuple, list))
+        wanted["delay"] = {"within-s": [float(end) for end in delay]} if pair else {"known-s": _float(delay)}
+    return Bounds(json.loads(_core.bounds(_tables.sources(source, columns), json.dumps(columns), _document(wanted))))
+
+
+def _float(value: Any) -> float | None:
+    return None if value is None else float(value)
+
+
+def _document(settings: dict[str, Any]) -> str:
+    try:
+        return json.dumps(settings, allow_nan=False)
+    except ValueError as error:
+        raise UsageError(f"a setting is not a finite number ({error}); give numbers") from error
+
+
+class _Shown:
+    """What hears of the stages: nobody, a function of the user's, or tqdm."""
+
+    def __init__(self, progress: bool | Callable[[str], None]) -> None:
+        self._progress, self._bar = progress, None
+
+    def __enter__(self) -> Callable[[str], None] | None:
+        if callable(self._progress):
+            return self._progress
+        if not self._progress:
+            return None
+        try:
+            from tqdm.auto import tqdm
+        except ImportError:
+            return None
+        self._bar = tqdm(bar_format="{desc} {elapsed}")
+        return self._bar.set_description_str
+
+    def __exit__(self, *_: object) -> None:
+        if self._bar is not None:
+            self._bar.close()

@@ -1,0 +1,69 @@
+"""PX4's ULog, by pyulog."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ._align import Channel, align, angles, damaged, missing, required, split, unknown
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+__all__ = ["read_ulog"]
+
+
+def read_ulog(path: str | os.PathLike[str], output: str, command: str, **how: Any) -> pd.DataFrame:
+    """Two channels of a PX4 log on one clock.
+
+    Parameters
+    ----------
+    path : path-like
+        A ``.ulg`` file.
+    output, command : str
+        Channels as ``topic.field``, another instance as ``topic[1].field``: ``"vehicle_attitude.yaw"`` (from its quaternion),
+        ``"vehicle_local_position.z"``, ``"actuator_motors.control[0]"``, ``"vehicle_torque_setpoint.xyz[2]"``.
+    **how
+        As for :func:`align`.
+
+    Returns
+    -------
+    pandas.DataFrame
+        As of :func:`align`. PX4 logs SI units, angles in rad, in NED; time is that of ``timestamp``.
+
+    Raises
+    ------
+    UnreadableLog
+        For a damaged log (also one that pyulog would read in part), a channel that is not there.
+    """
+    core = required(lambda: __import__("pyulog.core", fromlist=["core"]), "ulog")
+    try:
+        log = core.ULog(os.fspath(path))
+    except OSError as error:
+        raise missing(path, error) from error
+    except Exception as error:  # pyulog raises what its parsing comes to
+        raise damaged(path, "ULog file", error) from error
+    if log.file_corruption:
+        raise damaged(path, "ULog file", "messages in it are corrupt")
+    if not log.data_list:
+        raise damaged(path, "ULog file", "it holds no data")
+    return align(_channel(log, output), _channel(log, command), **how)
+
+
+def _channel(log: Any, name: str) -> Channel:
+    topic, field = split(name)
+    base, _, instance = topic.partition("[")
+    number = int(instance[:-1]) if instance else 0
+    found = next((one for one in log.data_list if (one.name, one.multi_id) == (base, number)), None)
+    if found is None:
+        raise unknown("topic", topic, sorted({one.name for one in log.data_list}))
+    time_s = found.data["timestamp"].astype(float) * 1e-6
+    if field in found.data:
+        heading = field in ("heading", "yaw")
+        return Channel(name, time_s, found.data[field].astype(float), "rad" if heading else "", "NED")
+    if field in ("roll", "pitch", "yaw") and "q[0]" in found.data:
+        quaternion = tuple(found.data[f"q[{part}]"] for part in range(4))
+        return Channel(name, time_s, np.asarray(angles(quaternion, field)), "rad", "NED")
+    raise unknown("field", field, [one for one in found.data if one != "timestamp"])

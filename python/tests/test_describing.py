@@ -1,0 +1,140 @@
+"""Characteristics: arrays, functions, calls, refusals."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import selfosc
+from selfosc import describing_function, nonlinearity
+
+
+def fourier(function, amplitude, bias, points=200_000):
+    """Mean and first harmonic by the midpoint rule, which shares nothing with the package."""
+    theta = (np.arange(points) + 0.5) * 2.0 * np.pi / points
+    y = function(bias + amplitude * np.sin(theta))
+    return y.mean(), 2.0 * (y * np.sin(theta)).mean() / amplitude, 2.0 * (y * np.cos(theta)).mean() / amplitude
+
+
+def test_a_biased_asymmetric_saturation_against_a_sum():
+    amplitude, bias = np.array([0.6, 1.3, 4.0])[:, None], np.array([-0.4, 0.0, 0.7])
+    found = describing_function("saturation-asymmetric", amplitude, bias, lower=-1.0, upper=0.5)
+    assert found.p.shape == (3, 3)
+    for row, column in np.ndindex(3, 3):
+        expected = fourier(lambda x: np.clip(x, -1.0, 0.5), amplitude[row, 0], bias[column])
+        assert [part[row, column] for part in found] == pytest.approx(expected, abs=1e-9)
+
+
+def test_an_array_is_its_elements():
+    amplitudes = np.linspace(0.4, 5.0, 57)
+    array = describing_function("backlash", amplitudes, half_gap=0.3)
+    alone = [describing_function("backlash", one, half_gap=0.3) for one in amplitudes]
+    assert np.array_equal(array.gain, [one.gain for one in alone])
+
+
+def test_shapes():
+    assert describing_function("relay", np.ones((2, 1, 3)), np.zeros((4, 1))).f0.shape == (2, 4, 3)
+    assert describing_function("relay", []).p.shape == (0,)
+    assert isinstance(describing_function("relay", 1.0).p, float)
+    assert describing_function("relay", np.asfortranarray(np.ones((2, 3))) * [1, 2, 4]).p[0, 2] == pytest.approx(1 / np.pi)
+
+
+def test_a_function_with_kinks():
+    exact = describing_function("saturation", 2.0, 0.3, breakpoint=1.0)
+    integrated = describing_function(lambda x: min(max(x, -1.0), 1.0), 2.0, 0.3, kinks=[-1.0, 1.0])
+    assert integrated == pytest.approx(exact, abs=1e-12)
+
+
+def test_a_function_of_the_branch():
+    exact = describing_function("relay-hysteresis", 1.0, half_width=0.5)
+    relay = lambda x, rising: 1.0 if x > (0.5 if rising else -0.5) else -1.0  # noqa: E731
+    assert describing_function(relay, 1.0, kinks=[-0.5, 0.5]) == pytest.approx(exact, abs=1e-12)
+
+
+def test_what_a_function_raises_comes_out():
+    with pytest.raises(ZeroDivisionError):
+        describing_function(lambda x: 1 / 0, 1.0)
+
+
+def test_below_switching_is_refused_or_nan_on_request():
+    with pytest.raises(selfosc.SelfoscError) as refusal:
+        describing_function("relay-hysteresis", [1.0, 0.1], half_width=0.5)
+    assert "0.1" in str(refusal.value)
+    found = describing_function("relay-hysteresis", [1.0, 0.1], half_width=0.5, undefined="nan")
+    assert np.isnan(found.p).tolist() == [False, True]
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: describing_function("relay", -1.0),
+        lambda: describing_function("relay", np.nan),
+        lambda: describing_function("relay", 1.0, np.inf),
+        lambda: nonlinearity("saturation", breakpoint=-1.0),
+        lambda: nonlinearity("saturation"),
+        lambda: nonlinearity("saturation", breakpoint=1.0, slop=2.0),
+        lambda: nonlinearity("saturatoin"),
+        lambda: nonlinearity("relay", level="much"),
+        lambda: nonlinearity("relay")(np.nan),
+        lambda: describing_function(3.0, 1.0),
+        lambda: nonlinearity("relay").describing_function(0.0),
+    ],
+)
+def test_refusals(call):
+    with pytest.raises((selfosc.SelfoscError, TypeError, ValueError)) as refusal:
+        call()
+    assert str(refusal.value)
+
+
+def test_a_refusal_has_its_parts():
+    with pytest.raises(selfosc.OutOfDomain) as refusal:
+        describing_function("relay", -1.0)
+    error = refusal.value
+    assert (error.code, error.quantity, error.value, error.unit) == ("out-of-domain", "amplitude", -1.0, "input units")
+    assert "above 0" in error.limit
+    assert error.remedy
+    assert pickle.loads(pickle.dumps(error)).value == -1.0
+
+
+def test_memory_follows_the_input():
+    relay = nonlinearity("relay-hysteresis", level=2.0, half_width=0.5)
+    assert relay([0.0, 0.6, 0.0, -0.4, -0.6, 0.0]).tolist() == [-2.0, 2.0, 2.0, 2.0, -2.0, -2.0]
+    relay.reset()
+    assert relay(0.0) == -2.0
+    play = nonlinearity("backlash", half_gap=0.5)
+    assert play([0.0, 1.0, 0.5, 0.0, -1.0, 0.0, 0.25]).tolist() == [-0.5, 0.5, 0.5, 0.5, -0.5, -0.5, -0.25]
+
+
+def test_objects_travel_and_compare():
+    one = nonlinearity("piecewise-linear", points=[(0, 0), (1, 2)], left_slope=0, right_slope=1)
+    assert pickle.loads(pickle.dumps(one)) == one
+    assert len({one, nonlinearity("relay"), nonlinearity("relay", level=1.0)}) == 2
+
+
+def test_memory_is_where_the_branches_differ():
+    given = {"sinh": {}, "sine": {}, "arctan": {}, "tanh": {}, "polynomial": {}, "piecewise-linear": {}}
+    for name, parameters in selfosc.catalogue().items():
+        values = dict(given.get(name, {}))
+        for parameter in parameters:
+            if parameter["default"] is None:
+                points = [(-1.0, -1.0), (0.0, 0.0), (1.0, 2.0)]
+                chosen = {"lower": -0.5, "upper": 0.8, "on": 0.6, "off": 0.3, "points": points, "breakpoint": 0.9}
+                values[parameter["name"]] = chosen.get(parameter["name"], 0.4)
+        entry = nonlinearity(name, **values)
+        branches = [entry._core.branches(x, 0.0, 3.0) for x in np.linspace(-1.9, 1.9, 191)]
+        assert entry._isstatic() == all(rising == falling for rising, falling in branches), name
+
+
+def test_every_entry_of_the_catalogue_agrees_with_its_own_calls():
+    """Closed form against the sum over what the object answers as a function; those with memory are tested by python-control."""
+    given = {
+        "relay-dead-zone": {"dead_zone": 0.4}, "saturation": {"breakpoint": 0.7}, "dead-zone": {"half_width": 0.3},
+        "saturation-asymmetric": {"lower": -0.5, "upper": 0.8}, "dead-zone-saturation": {"half_width": 0.2, "breakpoint": 0.9},
+        "gain-changing": {"inner_slope": 2.0, "outer_slope": 0.5, "breakpoint": 0.6}, "preload": {"slope": 1.0, "level": 0.3},
+        "quantizer": {"step": 0.25}, "power": {"exponent": 2.0}, "absolute": {}, "relay": {},
+    }  # fmt: skip
+    for name, parameters in given.items():
+        entry = nonlinearity(name, **parameters)
+        assert entry._isstatic()
+        found = describing_function(entry, 1.1, 0.17)
+        assert list(found) == pytest.approx(fourier(entry, 1.1, 0.17), abs=2e-4), name

@@ -1,0 +1,144 @@
+"""The package and the command give the same document, bit for bit: JSON has every digit, so text is compared through floats."""
+
+import json
+import struct
+
+import pytest
+from conftest import CORPUS, YAW
+
+import selfosc
+
+
+def bits(document):
+    """The document with every float as its bits, so that -0.0 is not 0.0."""
+    if isinstance(document, dict):
+        return {name: bits(value) for name, value in document.items()}
+    if isinstance(document, list):
+        return [bits(value) for value in document]
+    return struct.pack("<d", document).hex() if isinstance(document, float) else document
+
+
+def assert_same(result, printed):
+    status, text = printed
+    assert status == 0
+    assert bits(result.to_dict() if hasattr(result, "to_dict") else result) == bits(json.loads(text))
+
+
+def flags(options):
+    return [f"--{name.replace('_', '-')}={value!r}" for name, value in options.items()]
+
+
+@pytest.mark.parametrize("method", ["closed-form", "quadrature", "certified"])
+def test_df(command, method):
+    result = selfosc.df("relay-hysteresis", 1.1, 0.1, method=method, level=2.0, half_width=0.3)
+    options = ["--set=level=2", "--set=half_width=0.3", "--amplitude=1.1", "--bias=0.1", f"--method={method}", "--json"]
+    assert_same(result, command("df", "relay-hysteresis", *options))
+
+
+def test_df_of_an_array_is_the_command_s(command):
+    third = 1.0 / 3.0
+    found = selfosc.describing_function("saturation-asymmetric", [0.7, 2.0], third, lower=-1.0, upper=0.5)
+    for place, amplitude in enumerate([0.7, 2.0]):
+        options = ["--set=lower=-1", "--set=upper=0.5", f"--amplitude={amplitude}", f"--bias={third!r}", "--json"]
+        document = json.loads(command("df", "saturation-asymmetric", *options)[1])
+        assert bits([float(part[place]) for part in found]) == bits([document["f0"], document["p"], document["q"]])
+
+
+def test_points_of_a_graph(command):
+    points = [(-1.0, -1.0), (0.0, 0.0), (1.0, 2.0)]
+    result = selfosc.df("piecewise-linear", 2.0, points=points, left_slope=0.0, right_slope=0.1)
+    options = ["--set=points=-1:-1,0:0,1:2", "--set=left_slope=0", "--set=right_slope=0.1", "--amplitude=2", "--json"]
+    assert_same(result, command("df", "piecewise-linear", *options))
+
+
+def test_the_catalogue(command):
+    listed = json.loads(command("df", "--list", "--json")[1])
+    assert selfosc.catalogue() == {entry["name"]: entry["parameters"] for entry in listed}
+
+
+def test_balance(command):
+    result = selfosc.balance(([8], [1, 2, 2, 1]), "saturation", breakpoint=1, delay=0.1)
+    options = ["--num=8", "--den=1,2,2,1", "--delay=0.1", "--nonlinearity=saturation", "--set=breakpoint=1", "--json"]
+    assert_same(result, command("balance", *options))
+
+
+@pytest.mark.parametrize("delta", [0.0, 0.011])
+def test_predict(command, delta):
+    assert_same(selfosc.predict(**YAW, delta=delta), command("predict", *flags(YAW), f"--delta={delta}", "--json"))
+
+
+def test_simulate(command):
+    options = [*flags(YAW), "--hold", "--noise=0.01", "--quantum=0.0175", "--seed=7", "--degrees", "--cycles=4", "--json"]
+    result = selfosc.simulate(**YAW, hold=True, noise=0.01, quantum=0.0175, seed=7, degrees=True, cycles=4)
+    assert_same(result, command("simulate", *options))
+
+
+@pytest.mark.parametrize("options", [{}, {"method": "fit", "delay": 0.2}, {"drag": "quadratic", "relay": 0.16}])
+def test_identify(command, record_path, options):
+    result = selfosc.identify(record_path, **options)
+    assert_same(result, command("identify", record_path, *[f"--{name}={value}" for name, value in options.items()], "--json"))
+
+
+def test_identify_from_every_kind_of_table(command, record, record_path):
+    """A table in memory differs from its file in the record's name alone."""
+    import pandas as pd
+    import polars as pl
+    import pyarrow as pa
+
+    expected = bits(json.loads(command("identify", record_path, "--method=fit", "--json")[1]))
+    expected["records"][0]["file"] = "record"
+    for make in (dict, pd.DataFrame, pl.DataFrame, pa.table):
+        assert bits(selfosc.identify(make(record), method="fit").to_dict()) == expected
+
+
+def test_identify_from_parquet(command, record, record_path, tmp_path):
+    import pyarrow as pa
+    from pyarrow import feather, parquet
+
+    expected = bits(json.loads(command("identify", record_path, "--method=fit", "--json")[1]))
+    parquet.write_table(pa.table(record), tmp_path / "log.parquet")
+    feather.write_feather(pa.table(record), str(tmp_path / "log.arrow"))
+    for name in ("log.parquet", "log.arrow"):
+        expected["records"][0]["file"] = str(tmp_path / name)
+        assert bits(selfosc.identify(tmp_path / name, method="fit").to_dict()) == expected
+
+
+def test_identify_several(command):
+    logs = [CORPUS / "noisy.csv", CORPUS / "heading.csv"]
+    status, text = command("identify", *logs, "--method=fit", "--json")
+    try:
+        found = selfosc.identify(logs, method="fit").to_dict()
+    except selfosc.SelfoscError as refusal:
+        assert status == 1
+        assert json.loads(text)["refused"] == {"code": refusal.code, "text": str(refusal)}
+    else:
+        assert status == 0
+        assert bits(found) == bits(json.loads(text))
+
+
+@pytest.mark.parametrize("name", ["broken.csv", "standstill.csv"])
+def test_a_refusal_is_the_command_s(command, name):
+    status, text = command("identify", CORPUS / name, "--json")
+    with pytest.raises(selfosc.RecordRefused) as refusal:
+        selfosc.identify(CORPUS / name)
+    assert status in (1, 2)
+    assert json.loads(text)["refused"] == {"code": refusal.value.code, "text": str(refusal.value)}
+
+
+def test_tune(command):
+    options = {"alpha": 0.033, "beta": 0.01, "beta_quadratic": 0.06, "delay": 0.2, "bandwidth": 0.8}
+    assert_same(selfosc.tune(**options), command("tune", *flags(options), "--json"))
+    result = selfosc.tune(**options, structure="pid", alpha_interval=(0.031, 0.035))
+    assert_same(result, command("tune", *flags(options), "--structure=pid", "--alpha-interval=0.031,0.035", "--json"))
+
+
+def test_verify(command):
+    claims = ["lemma-1", "theorem-2"]
+    result = selfosc.verify(*claims, cases=200, seed=7)
+    assert_same(result, command("verify", "--claim", *claims, "--cases=200", "--seed=7", "--json"))
+    assert result.as_stated
+
+
+def test_reproduce(command, tmp_path):
+    assert_same(selfosc.reproduce(["table4", "audit"], out=tmp_path), command("reproduce", "--only", "table4", "audit", "--json"))
+    assert (tmp_path / "report.html").read_text().startswith("<!")
