@@ -110,7 +110,7 @@ impl<'a> Search<'a> {
     pub(super) fn weigh(&mut self, at: &mut [Interval]) -> Result<Vec<Cut>, Empty> {
         let nothing = || Empty { method: Method::Weigh, multipliers: Vec::new(), linear: None };
         self.weighed += 1;
-        if self.weighed % WEIGHED_PER_PASS == 0 {
+        if self.weighed.is_multiple_of(WEIGHED_PER_PASS) {
             self.passes += 1;
         }
         let layout = &self.setup.layout;
