@@ -7,6 +7,7 @@ use selfosc::identify::DragLaw;
 use selfosc::identify::exact::MeanCycle;
 use selfosc::identify::iso::Oscillation;
 use selfosc::identify::joint::{Delay, FeatureRow, fit_rows};
+use selfosc::identify::prediction_error::Estimator;
 use selfosc::identify::select::likelihood::Choice;
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::plant::DragAxis;
@@ -79,4 +80,11 @@ fn iso_of_record(bencher: Bencher<'_, '_>, duration_s: f64) {
 fn fit_of_record<const ROUNDED: bool>(bencher: Bencher<'_, '_>, duration_s: f64) {
     let record = record(duration_s, ROUNDED);
     bencher.bench(|| Choice::among_all(&[black_box(record.as_ref()?)], Delay::KnownS(0.1)).ok());
+}
+
+/// The reported answer: terms looked for, models averaged.
+#[divan::bench(args = [6.0, 60.0, 600.0], consts = [false, true], sample_count = 5)]
+fn answer_of_record<const ROUNDED: bool>(bencher: Bencher<'_, '_>, duration_s: f64) {
+    let record = record(duration_s, ROUNDED);
+    bencher.bench(|| Estimator::new(Delay::Estimated).record(black_box(record.as_ref()?)).ok());
 }
