@@ -80,7 +80,8 @@ def _numbers(column: Any, label: str, name: str) -> NDArray[np.float64]:
     if values.dtype.kind == "O":
         values = np.array([np.nan if one is None else one for one in values.ravel()], dtype=object)
     try:
-        return np.ascontiguousarray(values, dtype=np.float64).reshape(-1)
+        # What comes out of a message may begin at any byte.
+        return np.require(values, dtype=np.float64, requirements=["C", "A"]).reshape(-1)
     except (TypeError, ValueError) as error:
         text = f"{name}: column {label} is no column of numbers ({error}); give numbers in it"
         raise RecordRefused(text, "not-a-number") from error

@@ -49,9 +49,7 @@ class Certificate(Result):
         return self.orbits[index]
 
 
-def balance(
-    plant: Any, characteristic: str | Nonlinearity, *, delay: float = 0.0, bias: float = 0.0, **parameters: Any
-) -> Balance:
+def balance(plant: Any, characteristic: str | Nonlinearity, *, delay: float = 0.0, bias: float = 0.0, **parameters: Any) -> Balance:
     """The oscillations that harmonic balance predicts for a plant in negative feedback with a characteristic.
 
     Parameters
@@ -151,9 +149,7 @@ def predict(
     return Prediction(document)
 
 
-def certify(
-    plant: Any, relay: Nonlinearity, *, delay: float = 0.0, period_s: tuple[float, float] = (1e-2, 1e3)
-) -> Certificate:
+def certify(plant: Any, relay: Nonlinearity, *, delay: float = 0.0, period_s: tuple[float, float] = (1e-2, 1e3)) -> Certificate:
     """The symmetric limit cycles of a linear plant under a relay with hysteresis, each with its proof.
 
     Parameters
