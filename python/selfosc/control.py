@@ -70,7 +70,7 @@ def tune(
     >>> from selfosc import tune
     >>> found = tune(alpha=0.033, beta=0.01, beta_quadratic=0.06, delay=0.2, bandwidth=0.8)
     >>> found.gains["structure"], round(found.gains["proportional"], 5)
-    ('pd', 0.02112)
+    ('pd', 0.04203)
     """
     options = {
         "alpha": alpha, "beta": beta, "beta_quadratic": beta_quadratic, "delay": delay, "bandwidth": bandwidth,

@@ -263,7 +263,7 @@ def describing_function(
     >>> describing_function("saturation", [0.5, 1.0, 2.0], breakpoint=1.0).p.round(4)
     array([1.   , 1.   , 0.609])
     >>> describing_function("saturation-asymmetric", 2.0, bias=0.3, lower=-1.0, upper=0.5).f0
-    -0.12148526574170803
+    -0.11321593152331502
     >>> round(describing_function(lambda x: x**3, 2.0).p, 12)
     3.0
     """

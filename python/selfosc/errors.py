@@ -75,7 +75,7 @@ _USAGE = {"usage", "mixed-needs-fit", "unknown-characteristic", "unknown-paramet
 def of(code: str, text: str, number: tuple[str, float, str, str, str] | None = None, record: bool = False) -> SelfoscError:
     """The exception of a refusal by the native half."""
     if number is not None:
-        return OutOfDomain(text, code, *number)
+        return (RecordRefused if record else OutOfDomain)(text, code, *number)
     if code == "unreadable":
         return UnreadableLog(text, code)
     if code in _USAGE:

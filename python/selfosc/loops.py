@@ -83,7 +83,7 @@ def balance(plant: Any, characteristic: str | Nonlinearity, *, delay: float = 0.
     >>> from selfosc import balance
     >>> found = balance(([8], [1, 2, 2, 1]), "saturation", breakpoint=1)
     >>> round(found[0]["amplitude"], 4), round(found[0]["omega_rad_s"], 4), found[0]["stable"]
-    (3.3652, 1.4142, True)
+    (3.344, 1.4142, True)
     """
     if isinstance(characteristic, Nonlinearity):
         name, parameters = characteristic.name, {**characteristic.parameters, **parameters}

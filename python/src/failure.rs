@@ -13,16 +13,18 @@ pub(crate) fn raised(py: Python<'_>, code: &str, text: &str, fault: Option<&OutO
 fn exception(py: Python<'_>, code: &str, text: &str, fault: Option<&OutOfDomain>, record: bool) -> PyErr {
     let number =
         fault.map(|fault| (fault.quantity, fault.value, fault.unit, fault.limit.to_string(), fault.remedy.to_owned()));
-    let exception = py.import("selfosc.errors").and_then(|errors| errors.getattr("of")?.call1((code, text, number, record)));
+    let exception =
+        py.import("selfosc.errors").and_then(|errors| errors.getattr("of")?.call1((code, text, number, record)));
     exception.map_or_else(|error| error, PyErr::from_value)
 }
 
 /// Any error of the library.
 pub(crate) fn library(py: Python<'_>, error: impl Into<Error>) -> PyErr {
     let error = error.into();
-    let record = matches!(
-        error,
-        Error::Experiment(_) | Error::Features(_) | Error::Identify(_) | Error::Identification(_)
-    );
+    let record = match &error {
+        Error::Identification(refusal) => !refusal.is_usage(),
+        Error::Experiment(_) | Error::Features(_) | Error::Identify(_) => true,
+        _ => false,
+    };
     exception(py, error.code(), &error.to_string(), error.out_of_domain(), record)
 }
