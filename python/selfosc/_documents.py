@@ -46,9 +46,7 @@ def flags(**options: Any) -> list[str]:
             arguments.append(flag)
         elif isinstance(value, Iterable) and not isinstance(value, str):
             values = [_text(one) for one in value]
-            arguments.append(f"{flag}={','.join(values)}") if name in _JOINED else arguments.extend(
-                f"{flag}={one}" for one in values
-            )
+            arguments.append(f"{flag}={','.join(values)}") if name in _JOINED else arguments.extend(f"{flag}={one}" for one in values)
         else:
             arguments.append(f"{flag}={_text(value)}")
     return arguments
@@ -64,7 +62,7 @@ def answer(subcommand: str, *arguments: str) -> tuple[bool, dict[str, Any]]:
     no, text = _core.run([subcommand, *arguments, "--json"])
     document = json.loads(text)
     if no and "refused" in document:
-        raise of(document["refused"]["code"], document["refused"]["text"])
+        raise of(document["refused"]["code"], document["refused"]["text"], record=subcommand == "identify")
     return no, document
 
 

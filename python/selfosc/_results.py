@@ -56,9 +56,7 @@ class Result:
         names = list(dict.fromkeys(name for row in rows for name in row))
         cell = lambda tag, value: f"<{tag}>{html.escape(str(value))}</{tag}>"  # noqa: E731
         head = "".join(cell("th", name) for name in names)
-        body = "".join(
-            "<tr>" + "".join(cell("td", _short(row.get(name))) for name in names) + "</tr>" for row in rows
-        )
+        body = "".join("<tr>" + "".join(cell("td", _short(row.get(name))) for name in names) + "</tr>" for row in rows)
         return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
 

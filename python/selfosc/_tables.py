@@ -50,7 +50,8 @@ def _source(log: Any, name: str, columns: Mapping[str, Any]) -> Source:
             f"a log of type {type(log).__name__} is unknown; give a path, a pandas or polars frame, a pyarrow table, or a "
             "mapping from names to columns"
         )
-    names = [str(one) for one in (log.column_names if hasattr(log, "column_names") else log)]
+    labels = log if isinstance(log, Mapping) else getattr(log, "column_names", None) or log.columns
+    names = [str(one) for one in labels]
     places = _core.choose_columns(json.dumps(columns), names)
     chosen = [names[place] for place in places]
     return name, chosen, [_numbers(log[column], column, name) for column in chosen]
@@ -80,7 +81,8 @@ def _numbers(column: Any, label: str, name: str) -> NDArray[np.float64]:
     if values.dtype.kind == "O":
         values = np.array([np.nan if one is None else one for one in values.ravel()], dtype=object)
     try:
-        return np.ascontiguousarray(values, dtype=np.float64).reshape(-1)
+        # What comes out of a message may begin at any byte.
+        return np.require(values, dtype=np.float64, requirements=["C", "A"]).reshape(-1)
     except (TypeError, ValueError) as error:
         text = f"{name}: column {label} is no column of numbers ({error}); give numbers in it"
         raise RecordRefused(text, "not-a-number") from error

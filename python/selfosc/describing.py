@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _documents
 from ._results import Result
-from .errors import OutOfDomain, UsageError
+from .errors import OutOfDomain, SelfoscError, UsageError
 
 __all__ = ["DescribingFunction", "Nonlinearity", "catalogue", "describing_function", "df", "nonlinearity"]
 
@@ -36,7 +36,7 @@ class DescribingFunction(NamedTuple):
     @property
     def gain(self) -> NDArray[np.complex128] | complex:
         """``p + jq``."""
-        return self.p + 1j * self.q
+        return np.asarray(self.p) + 1j * np.asarray(self.q) if np.ndim(self.p) else complex(self.p, self.q)
 
 
 class Nonlinearity:
@@ -94,7 +94,7 @@ class Nonlinearity:
         if self._has_memory:
             outputs = np.array([self._follow(float(one)) for one in inputs.ravel()]).reshape(inputs.shape)
         else:
-            outputs = self._core.outputs(np.ascontiguousarray(inputs).ravel()).reshape(inputs.shape)
+            outputs = self._core.outputs(np.require(inputs, requirements=["C", "A"]).reshape(-1)).reshape(inputs.shape)
         return outputs if inputs.ndim else float(outputs)
 
     def _follow(self, x: float) -> float:
@@ -130,8 +130,12 @@ class Nonlinearity:
         Raises
         ------
         SelfoscError
-            Below the switching amplitude (code ``below-switching``), for amplitudes below 0, and at 0 where the gain grows
-            without limit.
+            For amplitudes below 0, and at 0 where the gain grows without limit.
+
+        Notes
+        -----
+        Where the input is too small to switch a hysteresis or to cross a gap, the output rests, and the gain is 0. Its mean is
+        then wherever it came to rest, which :func:`describing_function` refuses to say.
         """
         amplitude, centre = np.broadcast_arrays(np.asarray(A, dtype=float), np.asarray(bias, dtype=float))
         if (amplitude < 0.0).any():
@@ -141,12 +145,23 @@ class Nonlinearity:
                 "out-of-domain", "amplitude", value, "input units", "a finite number, 0 or more", "give the amplitude X",
             )  # fmt: skip
         zero = amplitude == 0.0
-        if not zero.any():
+        if not (zero.any() or self._has_memory):
             return describing_function(self, amplitude, centre).gain
         gain = np.empty(amplitude.shape, dtype=complex)
-        gain[~zero] = describing_function(self, amplitude[~zero], centre[~zero]).gain
-        gain[zero] = [self._slope(float(one)) for one in centre[zero]]
+        gain[~zero] = describing_function(self, amplitude[~zero], centre[~zero], undefined="nan").gain
+        gain[zero] = [0.0 if self._has_memory else self._slope(float(one)) for one in centre[zero]]
+        for place in np.flatnonzero(np.isnan(gain)):
+            gain.flat[place] = self._at_rest(float(amplitude.flat[place]), float(centre.flat[place]))
         return gain if gain.ndim else complex(gain)
+
+    def _at_rest(self, amplitude: float, bias: float) -> complex:
+        """The gain where there is no describing function: none of an output that rests, else why there is none."""
+        try:
+            return complex(describing_function(self, amplitude, bias).gain)
+        except SelfoscError as refusal:
+            if refusal.code == "below-switching":
+                return 0.0
+            raise
 
     def _slope(self, bias: float) -> complex:
         """The limit of the gain: the same at two small amplitudes, or there is none."""
@@ -248,7 +263,7 @@ def describing_function(
     >>> describing_function("saturation", [0.5, 1.0, 2.0], breakpoint=1.0).p.round(4)
     array([1.   , 1.   , 0.609])
     >>> describing_function("saturation-asymmetric", 2.0, bias=0.3, lower=-1.0, upper=0.5).f0
-    -0.12148526574170803
+    -0.11321593152331502
     >>> round(describing_function(lambda x: x**3, 2.0).p, 12)
     3.0
     """
@@ -257,7 +272,7 @@ def describing_function(
     sizes = (np.asarray(amplitude, dtype=float), np.asarray(bias, dtype=float))
     # A single number is not spread out over the other's shape.
     wide, centre = (
-        np.ascontiguousarray(one if one.size == 1 and shape else full).reshape(-1)
+        np.require(one if one.size == 1 and shape else full, requirements=["C", "A"]).reshape(-1)
         for one, full in zip(sizes, (wide, centre), strict=True)
     )
     if 0 in shape:
@@ -292,9 +307,7 @@ def _of_branch(function: Callable[..., Any]) -> Callable[[float, bool], float]:
     return lambda x, _: float(np.squeeze(function(x)))
 
 
-def df(
-    name: str, amplitude: float, bias: float = 0.0, *, method: str = "closed-form", **parameters: Any
-) -> Result:
+def df(name: str, amplitude: float, bias: float = 0.0, *, method: str = "closed-form", **parameters: Any) -> Result:
     """One describing function as the command ``selfosc df`` gives it, with proof on request.
 
     Parameters
@@ -338,7 +351,7 @@ def catalogue() -> dict[str, list[dict[str, Any]]]:
 
 
 def _parameter(value: Any) -> float | Sequence[tuple[float, float]]:
-    if isinstance(value, Iterable) and not isinstance(value, (str, bytes)) and np.ndim(value) > 0:
+    if isinstance(value, Iterable) and not isinstance(value, (str, bytes)) and np.ndim(value) > 0:  # type: ignore[arg-type]
         return [(float(x), float(y)) for x, y in value]
     return float(value)
 

@@ -69,11 +69,15 @@ class UnreadableLog(SelfoscError):
 
 
 #: Codes that name wrong arguments; the others are answers.
-_USAGE = {"usage", "mixed-needs-fit", "delay-needs-fit", "unknown-parameter", "missing-parameter", "parameter-kind"}
+_USAGE = {"usage", "mixed-needs-fit", "unknown-characteristic", "unknown-parameter", "missing-parameter", "parameter-kind"}
 
 
-def of(code: str, text: str, number: tuple[str, float, str, str, str] | None = None) -> SelfoscError:
+def of(code: str, text: str, number: tuple[str, float, str, str, str] | None = None, record: bool = False) -> SelfoscError:
     """The exception of a refusal by the native half."""
     if number is not None:
-        return OutOfDomain(text, code, *number)
-    return (UsageError if code in _USAGE else RecordRefused)(text, code)
+        return (RecordRefused if record else OutOfDomain)(text, code, *number)
+    if code == "unreadable":
+        return UnreadableLog(text, code)
+    if code in _USAGE:
+        return UsageError(text, code)
+    return (RecordRefused if record else SelfoscError)(text, code)

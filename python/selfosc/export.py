@@ -14,7 +14,14 @@ from .identification import Identification
 if TYPE_CHECKING:
     import control
 
-__all__ = ["AXES", "ardusub_parameters", "gazebo_hydrodynamics", "hydrodynamic_coefficients", "state_space", "xacro_hydrodynamics"]
+__all__ = [
+    "AXES",
+    "ardusub_parameters",
+    "gazebo_hydrodynamics",
+    "hydrodynamic_coefficients",
+    "state_space",
+    "xacro_hydrodynamics",
+]
 
 #: Axes of a body by the letters of force and velocity (SNAME).
 AXES = {"surge": "xU", "sway": "yV", "heave": "zW", "roll": "kP", "pitch": "mQ", "yaw": "nR"}
@@ -111,7 +118,7 @@ def hydrodynamic_coefficients(
     if axis not in AXES:
         raise UsageError(f"{axis!r} is no axis; choose one of {', '.join(AXES)}")
     values = _values(model)
-    force, velocity = AXES[axis]
+    force, velocity = AXES[axis][0], AXES[axis][1]
     added = values["alpha"] * scale - float(rigid_inertia)
     if added < 0.0:
         raise UsageError(
@@ -139,9 +146,7 @@ def gazebo_hydrodynamics(coefficients: Mapping[str, float], link: str, *, water_
       <nR>-0.5</nR>
     </plugin>
     """
-    plugin = ElementTree.Element(
-        "plugin", filename="gz-sim-hydrodynamics-system", name="gz::sim::systems::Hydrodynamics"
-    )
+    plugin = ElementTree.Element("plugin", filename="gz-sim-hydrodynamics-system", name="gz::sim::systems::Hydrodynamics")
     for name, value in {"link_name": link, "water_density": float(water_density), **coefficients}.items():
         ElementTree.SubElement(plugin, name).text = str(value)
     ElementTree.indent(plugin)

@@ -121,9 +121,7 @@ def identify_dask(records: Iterable[tuple[str, pa.Table]], client: Any, *, retri
 
     Dask works on a lost worker's records again elsewhere, ``retries`` times.
     """
-    futures = [
-        client.submit(identify_record, table, record, **settings, retries=retries, pure=False) for record, table in records
-    ]
+    futures = [client.submit(identify_record, table, record, **settings, retries=retries, pure=False) for record, table in records]
     rows = client.gather(futures)
     return pa.concat_tables(rows) if rows else SCHEMA.empty_table()
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Callable
 from functools import cached_property
@@ -13,7 +14,7 @@ import numpy as np
 
 from . import _core, _tables
 from ._results import Result, _flat
-from .errors import UsageError
+from .errors import OutOfDomain, UsageError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -200,7 +201,7 @@ def identify(
     if drag != "auto":
         wanted["drag"] = drag
     if delay is not None:
-        wanted["delay"] = "estimated" if delay == "estimate" else {"known_s": _float(delay)}
+        wanted["delay"] = "estimated" if delay == "estimate" else {"known_s": _delay(delay)}
     logs = _tables.sources(source, columns)
     with _Shown(progress) as shown:
         core = _core.identify(logs, _document(wanted), json.dumps(columns), shown)
@@ -267,9 +268,18 @@ def bounded(
     columns = {"time": time, "output": output, "input": input, "degrees": bool(degrees), "wrap": bool(wrap)}
     wanted: dict[str, Any] = {"law": drag, **model}
     if delay is not None:
-        pair = isinstance(delay, (tuple, list))
-        wanted["delay"] = {"within-s": [float(end) for end in delay]} if pair else {"known-s": _float(delay)}
+        wanted["delay"] = (
+            {"within-s": [_delay(end) for end in delay]} if isinstance(delay, (tuple, list)) else {"known-s": _delay(delay)}
+        )
     return Bounds(json.loads(_core.bounds(_tables.sources(source, columns), json.dumps(columns), _document(wanted))))
+
+
+def _delay(value: Any) -> float:
+    delay = float(value)
+    if math.isfinite(delay) and delay >= 0.0:
+        return delay
+    limit, remedy = "a finite number, 0 or more", 'give the loop\'s delay, or "estimate"'
+    raise OutOfDomain(f"delay is {delay} (s): must be {limit}; {remedy}", "out-of-domain", "delay", delay, "s", limit, remedy)
 
 
 def _float(value: Any) -> float | None:
@@ -287,7 +297,8 @@ class _Shown:
     """What hears of the stages: nobody, a function of the user's, or tqdm."""
 
     def __init__(self, progress: bool | Callable[[str], None]) -> None:
-        self._progress, self._bar = progress, None
+        self._progress = progress
+        self._bar: Any = None
 
     def __enter__(self) -> Callable[[str], None] | None:
         if callable(self._progress):
@@ -298,8 +309,8 @@ class _Shown:
             from tqdm.auto import tqdm
         except ImportError:
             return None
-        self._bar = tqdm(bar_format="{desc} {elapsed}")
-        return self._bar.set_description_str
+        bar = self._bar = tqdm(bar_format="{desc} {elapsed}")
+        return bar.set_description_str
 
     def __exit__(self, *_: object) -> None:
         if self._bar is not None:

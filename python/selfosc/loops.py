@@ -49,9 +49,7 @@ class Certificate(Result):
         return self.orbits[index]
 
 
-def balance(
-    plant: Any, characteristic: str | Nonlinearity, *, delay: float = 0.0, bias: float = 0.0, **parameters: Any
-) -> Balance:
+def balance(plant: Any, characteristic: str | Nonlinearity, *, delay: float = 0.0, bias: float = 0.0, **parameters: Any) -> Balance:
     """The oscillations that harmonic balance predicts for a plant in negative feedback with a characteristic.
 
     Parameters
@@ -85,7 +83,7 @@ def balance(
     >>> from selfosc import balance
     >>> found = balance(([8], [1, 2, 2, 1]), "saturation", breakpoint=1)
     >>> round(found[0]["amplitude"], 4), round(found[0]["omega_rad_s"], 4), found[0]["stable"]
-    (3.3652, 1.4142, True)
+    (3.344, 1.4142, True)
     """
     if isinstance(characteristic, Nonlinearity):
         name, parameters = characteristic.name, {**characteristic.parameters, **parameters}
@@ -151,9 +149,7 @@ def predict(
     return Prediction(document)
 
 
-def certify(
-    plant: Any, relay: Nonlinearity, *, delay: float = 0.0, period_s: tuple[float, float] = (1e-2, 1e3)
-) -> Certificate:
+def certify(plant: Any, relay: Nonlinearity, *, delay: float = 0.0, period_s: tuple[float, float] = (1e-2, 1e3)) -> Certificate:
     """The symmetric limit cycles of a linear plant under a relay with hysteresis, each with its proof.
 
     Parameters

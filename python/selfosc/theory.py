@@ -83,8 +83,8 @@ def reproduce(only: Sequence[str] = (), out: str | os.PathLike[str] | None = Non
     Examples
     --------
     >>> from selfosc import reproduce
-    >>> sorted(reproduce(["table4"]).table4)
-    ['mean', 'rows', 'std_percent']
+    >>> sorted(reproduce(["table4"]).table4["mean"])
+    ['alpha', 'beta_r', 'beta_rr']
     """
     only = [only] if isinstance(only, str) else list(only)
     arguments = _documents.flags(only=only or None, out=None if out is None else os.fspath(out))

@@ -1,18 +1,30 @@
 //! Refusals as Python exceptions.
 
 use pyo3::prelude::*;
+use selfosc::Error;
 use selfosc::numeric::OutOfDomain;
 
-/// The exception that Python's side makes of a refusal, with code, text, quantity, value, unit, limit and remedy.
+/// The exception of a refusal, with code, text, quantity, value, unit, limit and remedy.
 pub(crate) fn raised(py: Python<'_>, code: &str, text: &str, fault: Option<&OutOfDomain>) -> PyErr {
+    exception(py, code, text, fault, false)
+}
+
+/// The exception that Python's side makes of this.
+fn exception(py: Python<'_>, code: &str, text: &str, fault: Option<&OutOfDomain>, record: bool) -> PyErr {
     let number =
         fault.map(|fault| (fault.quantity, fault.value, fault.unit, fault.limit.to_string(), fault.remedy.to_owned()));
-    let exception = py.import("selfosc.errors").and_then(|errors| errors.getattr("of")?.call1((code, text, number)));
+    let exception =
+        py.import("selfosc.errors").and_then(|errors| errors.getattr("of")?.call1((code, text, number, record)));
     exception.map_or_else(|error| error, PyErr::from_value)
 }
 
 /// Any error of the library.
-pub(crate) fn library(py: Python<'_>, error: impl Into<selfosc::Error>) -> PyErr {
+pub(crate) fn library(py: Python<'_>, error: impl Into<Error>) -> PyErr {
     let error = error.into();
-    raised(py, error.code(), &error.to_string(), error.out_of_domain())
+    let record = match &error {
+        Error::Identification(refusal) => !refusal.is_usage(),
+        Error::Experiment(_) | Error::Features(_) | Error::Identify(_) => true,
+        _ => false,
+    };
+    exception(py, error.code(), &error.to_string(), error.out_of_domain(), record)
 }

@@ -77,7 +77,7 @@ def test_what_progress_raises_ends_the_call(record):
     [
         (lambda table: {**table, "input": [None, *table["input"][1:]]}, "not-finite"),
         (lambda table: {**table, "time_s": table["time_s"][::-1]}, "time-order"),
-        (lambda table: {**table, "input": table["input"][1:]}, "lengths"),
+        (lambda table: {**table, "input": table["input"][1:]}, "unequal-columns"),
         (lambda table: {name: values[:4] for name, values in table.items()}, "too-short"),
         (lambda table: {"a": [1.0]}, "unknown-column"),
         (lambda table: {**table, "input": ["on"] * len(table["input"])}, "not-a-number"),

@@ -26,10 +26,11 @@ def test_the_same_gain(theirs, ours, smallest):
     )
 
 
-@pytest.mark.parametrize(("theirs", "ours", "smallest"), theirs_and_ours())
-def test_the_same_outputs(theirs, ours, smallest):
+@pytest.mark.parametrize(("theirs", "ours"), [(theirs, ours) for theirs, ours, _ in theirs_and_ours()])
+def test_the_same_outputs(theirs, ours):
     inputs = 3.0 * np.sin(np.linspace(0.0, 13.0, 101))
-    assert [ours(x) for x in inputs[20:]] == pytest.approx([theirs(x) for x in inputs][20:], abs=1e-12) or smallest
+    # After a swing both ways, where the memory began no longer matters.
+    np.testing.assert_allclose([ours(x) for x in inputs][60:], [theirs(x) for x in inputs][60:], atol=1e-12)
 
 
 @pytest.mark.parametrize(("ours", "smallest"), [(ours, smallest) for _, ours, smallest in theirs_and_ours()])
@@ -54,7 +55,7 @@ def test_intersections():
         gain = ct.describing_function(saturation, amplitude)
         np.testing.assert_almost_equal((8 * plant)(1j * frequency), -1 / gain, decimal=5)
     exact = balance(8 * plant, saturation)
-    assert [(one["amplitude"], one["omega_rad_s"]) for one in exact] == pytest.approx(list(found), rel=1e-4)
+    np.testing.assert_allclose([(one["amplitude"], one["omega_rad_s"]) for one in exact], list(found), rtol=1e-4)
 
 
 def test_several_intersections_with_backlash():
@@ -84,6 +85,16 @@ def test_a_saturation_as_a_function_an_object_and_at_zero():
     assert ours(-3) == -1.0
 
 
+def test_an_output_that_rests_has_no_gain():
+    for name, parameters in {"backlash": {"half_gap": 0.5}, "relay-hysteresis": {"half_width": 0.5}}.items():
+        entry = nonlinearity(name, **parameters)
+        gains = entry.describing_function([0.0, 0.4, 0.5, 1.0])
+        assert gains[:2].tolist() == [0.0, 0.0]
+        assert gains[3] == describing_function(entry, 1.0).gain
+        with pytest.raises(ValueError, match="switch"):
+            describing_function(entry, 0.4)
+
+
 def test_where_python_control_has_no_answer():
     """Its saturation is refused a bias and warns of asymmetry; a relay at amplitude zero has no gain to give."""
     with pytest.warns(UserWarning, match="asymmetric"):
@@ -101,7 +112,12 @@ def test_plants_of_every_make():
     from scipy import signal
 
     coefficients = ([8.0], [1.0, 2.0, 2.0, 1.0])
-    plants = [ct.tf(*coefficients), ct.ss(ct.tf(*coefficients)), signal.TransferFunction(*coefficients), signal.lti(*coefficients)]
+    plants = [
+        ct.tf(*coefficients),
+        ct.ss(ct.tf(*coefficients)),
+        signal.TransferFunction(*coefficients),
+        signal.lti(*coefficients),
+    ]
     expected = balance(coefficients, "saturation", breakpoint=1)[0]
     for plant in plants:
         assert balance(plant, "saturation", breakpoint=1)[0] == pytest.approx(expected, rel=1e-9)

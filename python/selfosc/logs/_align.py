@@ -64,7 +64,13 @@ class Channel:
 
 
 def align(
-    output: Channel, command: Channel, *, wrap: bool | None = None, frame: str | None = None, neutral: float = 0.0, scale: float = 1.0
+    output: Channel,
+    command: Channel,
+    *,
+    wrap: bool | None = None,
+    frame: str | None = None,
+    neutral: float = 0.0,
+    scale: float = 1.0,
 ) -> pd.DataFrame:
     """One table of both channels at the output's stamps.
 
@@ -203,6 +209,7 @@ def _of_messages(time_s: NDArray[np.float64], messages: list[Any], name: str, pa
 
     found = [value(message) for message in messages]
     if angle:
-        values = angles(tuple([getattr(q, part) for q in found] for part in "wxyz"), angle)
+        w, x, y, z = ([getattr(q, part) for q in found] for part in "wxyz")
+        values = angles((w, x, y, z), angle)
         return Channel(name, time_s, values, "rad", "ENU")
     return Channel(name, time_s, np.asarray(found, dtype=float))

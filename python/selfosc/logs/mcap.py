@@ -71,5 +71,3 @@ def stamp_ns(message: Any, logged_ns: int, stamp: str) -> int:
     if header is None:
         return logged_ns
     return header.stamp.sec * 1_000_000_000 + header.stamp.nanosec
-
-

@@ -14,6 +14,11 @@ if TYPE_CHECKING:
 
 __all__ = ["read_ulog"]
 
+#: Bytes of the file's header, and the types of messages, of the ULog file format.
+_HEADER, _TYPES = 16, frozenset(b"BFIMPQARDLCSO")
+#: A message that is cut off at the end may have this many bytes in any log.
+_SHORT = 528
+
 
 def read_ulog(path: str | os.PathLike[str], output: str, command: str, **how: Any) -> pd.DataFrame:
     """Two channels of a PX4 log on one clock.
@@ -36,7 +41,8 @@ def read_ulog(path: str | os.PathLike[str], output: str, command: str, **how: An
     Raises
     ------
     UnreadableLog
-        For a damaged log (also one that pyulog would read in part), a channel that is not there.
+        For a log with bytes between its messages that are none (pyulog passes over them), another file, a channel that is not
+        there. What power cut off at the end is left out. ULog has no checksums: a number changed in place goes unseen.
     """
     core = required(lambda: __import__("pyulog.core", fromlist=["core"]), "ulog")
     try:
@@ -47,9 +53,27 @@ def read_ulog(path: str | os.PathLike[str], output: str, command: str, **how: An
         raise damaged(path, "ULog file", error) from error
     if log.file_corruption:
         raise damaged(path, "ULog file", "messages in it are corrupt")
+    _refuse_gaps(path)
     if not log.data_list:
         raise damaged(path, "ULog file", "it holds no data")
     return align(_channel(log, output), _channel(log, command), **how)
+
+
+def _refuse_gaps(path: Any) -> None:
+    """pyulog passes over much of what is no message; each message says how long it is, and the next begins there."""
+    with open(path, "rb") as file:
+        content = file.read()
+    at, longest = _HEADER, 0
+    while at + 3 <= len(content):
+        length = 3 + int.from_bytes(content[at : at + 2], "little")
+        if content[at + 2] not in _TYPES:
+            raise damaged(path, "ULog file", f"what begins at byte {at} is no message")
+        if at + length > len(content):
+            # What power cut off; longer than any message before it, it is none.
+            if length > max(longest, _SHORT):
+                raise damaged(path, "ULog file", f"what begins at byte {at} is no message")
+            break
+        at, longest = at + length, max(longest, length)
 
 
 def _channel(log: Any, name: str) -> Channel:
