@@ -6,7 +6,8 @@
 
 use super::closed_form::{force_left, quadratic_half_cycle, return_slope};
 use crate::numeric::Real;
-use crate::proof::inequality::{Inequality, Proof, Refusal, VARIABLES};
+use crate::proof::inequality::{Inequality, Proof, Refusal};
+use crate::proof::margin::VARIABLES;
 use crate::proof::margin::Margin;
 use crate::proof::{Extent, NotProved, formula};
 

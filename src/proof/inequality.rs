@@ -3,15 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::branch_and_bound::prove_positive;
-use super::margin::Margin;
+use super::margin::{Cell, Margin, VARIABLES};
 use super::outcome::{Extent, NotProved};
 use crate::numeric::Interval;
-
-/// Unknowns of an inequality, used or not.
-pub const VARIABLES: usize = 3;
-
-/// A box: one interval for each unknown.
-pub type Cell = [Interval; VARIABLES];
 
 /// `margin > 0` for every point of a box.
 #[derive(Clone, Copy, Debug)]

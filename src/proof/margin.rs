@@ -3,8 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::Gradient;
-use super::inequality::{Cell, VARIABLES};
 use crate::numeric::{Expression, Interval, Jet};
+
+/// Unknowns of an inequality, used or not.
+pub const VARIABLES: usize = 3;
+
+/// A box: one interval for each unknown.
+pub type Cell = [Interval; VARIABLES];
 
 /// Taylor coefficients up to the third.
 pub type Series = Jet<4>;

@@ -9,8 +9,9 @@ use selfosc::plant::DragAxis;
 use selfosc::proof::branch_and_bound::prove_positive;
 use selfosc::proof::enclosure::{Roots, newton};
 use selfosc::proof::identity::{Series, prove_zero, prove_zero_of_two};
-use selfosc::proof::inequality::{Cell, Inequality};
+use selfosc::proof::inequality::Inequality;
 use selfosc::proof::interval_matrix::{contraction, exponential};
+use selfosc::proof::margin::Cell;
 use selfosc::proof::margin::Margin;
 use selfosc::proof::{Change, Gradient, NotProved, formula};
 

@@ -8,7 +8,8 @@ use selfosc::numeric::Interval;
 use selfosc::orbit::theorem::BUDGET;
 use selfosc::orbit::{OrbitError, certify, force_left, limit_cycle, return_slope};
 use selfosc::plant::DragAxis;
-use selfosc::proof::inequality::{Cell, Inequality, Proof, Refusal};
+use selfosc::proof::inequality::{Inequality, Proof, Refusal};
+use selfosc::proof::margin::Cell;
 use selfosc::proof::margin::{Form, Margin};
 use selfosc::proof::{Extent, Gradient, NotProved};
 

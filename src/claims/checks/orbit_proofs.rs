@@ -11,8 +11,9 @@ use crate::numeric::{Interval, Real};
 use crate::orbit::theorem::{self, BUDGET, Theorem};
 use crate::orbit::{limit_cycle, return_slope};
 use crate::plant::DragAxis;
-use crate::proof::inequality::{Cell, Inequality, VARIABLES};
+use crate::proof::inequality::Inequality;
 use crate::proof::margin::Margin;
+use crate::proof::margin::{Cell, VARIABLES};
 use crate::proof::polynomial::Rational;
 use crate::proof::{Extent, NotProved, formula};
 

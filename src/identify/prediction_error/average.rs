@@ -117,12 +117,14 @@ impl<'a> Average<'a> {
         if !mean.is_finite() || !std.is_finite() {
             return None;
         }
-        let spread = (std > 0.0).then(|| ConfidenceInterval {
+        // All models have one value where it was given, and rounding of the weights is no spread.
+        let given = components.iter().all(|c| c.std == 0.0 && c.mean == components[0].mean);
+        let spread = (!given).then(|| ConfidenceInterval {
             std,
             low: quantile(&components, 0.025),
             high: quantile(&components, 0.975),
         });
-        Some(Estimate { value: mean, spread })
+        Some(Estimate { value: if given { components[0].mean } else { mean }, spread })
     }
 
     /// Share of one model.

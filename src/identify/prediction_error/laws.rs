@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::residuals::chi_square_tail;
+use super::tail::chi_square_tail;
 use crate::identify::DragLaw;
 
 /// Log-likelihood of the records under each drag law, the other terms alike, less that of the likeliest: zero or negative.

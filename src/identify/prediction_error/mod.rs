@@ -28,6 +28,7 @@ mod scoring;
 mod search;
 mod several;
 mod start;
+mod tail;
 mod term;
 #[cfg(test)]
 mod tests;

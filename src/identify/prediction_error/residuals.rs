@@ -4,6 +4,7 @@ use super::answer::Reason;
 use super::model::Parameter;
 use super::observations::Observations;
 use super::scoring::{self, Fitted};
+use super::tail::chi_square_tail;
 
 /// Half the width of a 95 % interval of a normal distribution, in standard deviations.
 pub(super) const NORMAL: f64 = 1.959_963_984_540_054;
@@ -72,11 +73,4 @@ fn halves(fitted: &Fitted, observations: &Observations) -> Option<(f64, f64)> {
     let statistic = apart.dot(&covariance.cholesky()?.solve(&apart));
     let inertia = free.iter().position(|index| *index == Parameter::Alpha as usize);
     Some((chi_square_tail(statistic, n as f64), inertia.map_or(0.0, |index| 0.5 * apart[index].abs())))
-}
-
-/// Probability that a chi-square variable exceeds a value (Wilson and Hilferty's cube root).
-pub(super) fn chi_square_tail(value: f64, freedom: f64) -> f64 {
-    let spread = 2.0 / (9.0 * freedom);
-    let z = ((value / freedom).cbrt() - 1.0 + spread) / spread.sqrt();
-    0.5 * libm::erfc(z / core::f64::consts::SQRT_2)
 }

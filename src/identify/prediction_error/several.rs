@@ -6,7 +6,8 @@
 use super::answer::{Answer, Reason, Reported, Trust};
 use super::laws::LawEvidence;
 use super::prediction::Prediction;
-use super::residuals::{NORMAL, chi_square_tail};
+use super::residuals::NORMAL;
+use super::tail::chi_square_tail;
 use crate::experiment::Record;
 use crate::identify::DragLaw;
 use crate::identify::joint::{ConfidenceInterval, Estimate};

@@ -10,6 +10,7 @@ mod model;
 mod refusal;
 mod session;
 mod settings;
+mod stage;
 
 pub use document::{
     Conclusion, DragChoice, FeatureMeans, FeatureValues, RecordConclusion, Refused, ReportedModel, Total, Units,
@@ -18,5 +19,6 @@ pub use guaranteed::{BoundedConclusion, Guaranteed};
 pub use identification::{Caution, Identification, RefusedMethod, Source, Validation};
 pub use model::Model;
 pub use refusal::Refusal;
-pub use session::{Session, Stage};
+pub use session::Session;
 pub use settings::{Method, Settings, SettingsError};
+pub use stage::Stage;

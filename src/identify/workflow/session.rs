@@ -1,6 +1,5 @@
 //! From logs to an identification.
 
-use core::fmt;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -9,34 +8,10 @@ use super::identification::{Caution, Identification, Source};
 use super::methods::Found;
 use super::refusal::Refusal;
 use super::settings::Settings;
+use super::stage::Stage;
 use crate::experiment::{Columns, Log, Record};
 use crate::features::{FeatureError, RecordFeatures, RelayLevels};
 use crate::identify::Warning;
-
-/// What an identification is at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Stage {
-    /// Cycles are looked for.
-    Cycles,
-    /// Parameters are enclosed.
-    Bounds,
-    /// The drag laws are fitted.
-    Fit,
-    /// Terms of the motion and of what disturbs it are tried.
-    Terms,
-}
-
-impl fmt::Display for Stage {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Cycles => "looking for cycles",
-            Self::Bounds => "enclosing the parameters",
-            Self::Fit => "fitting the drag laws",
-            Self::Terms => "looking for what else acts",
-        })
-    }
-}
 
 /// One vehicle to be identified: settings, and its records, which are fitted jointly.
 ///
