@@ -71,9 +71,11 @@ impl Characteristic {
         let count = amplitude.len().max(bias.len());
         let mut columns = [(); 3].map(|()| vec![0.0; count]);
         let [f0, p, q] = &mut columns;
-        for (block, ((f0, p), q)) in f0.chunks_mut(BLOCK).zip(p.chunks_mut(BLOCK)).zip(q.chunks_mut(BLOCK)).enumerate() {
+        for (block, ((f0, p), q)) in f0.chunks_mut(BLOCK).zip(p.chunks_mut(BLOCK)).zip(q.chunks_mut(BLOCK)).enumerate()
+        {
             let from = block * BLOCK;
-            let fault = py.detach(|| self.fill(|at| (part(amplitude, from + at), part(bias, from + at)), skip, [f0, p, q]));
+            let fault =
+                py.detach(|| self.fill(|at| (part(amplitude, from + at), part(bias, from + at)), skip, [f0, p, q]));
             if let Some(error) = fault {
                 return Err(failure::library(py, error));
             }
@@ -114,7 +116,12 @@ fn part(values: &[f64], index: usize) -> f64 {
 impl Characteristic {
     /// `F_0`, `P`, `Q` at the amplitudes and biases that `sweep` gives for each place; the first failure, if there is one. All threads
     /// take part, each with a characteristic of its own.
-    fn fill(&self, sweep: impl Fn(usize) -> (f64, f64) + Sync, skip: bool, [f0, p, q]: [&mut [f64]; 3]) -> Option<Error> {
+    fn fill(
+        &self,
+        sweep: impl Fn(usize) -> (f64, f64) + Sync,
+        skip: bool,
+        [f0, p, q]: [&mut [f64]; 3],
+    ) -> Option<Error> {
         let chunk = |(chunk, ((f0, p), q)): (usize, ((&mut [f64], &mut [f64]), &mut [f64]))| -> Result<(), Error> {
             let characteristic = self.entry.build::<f64>(&self.values)?;
             for (place, ((f0, p), q)) in f0.iter_mut().zip(p).zip(q).enumerate() {
