@@ -70,6 +70,22 @@ fn skew(factor: f64) -> Residuals {
     Some(pairs.flat_map(|c| (c + c.transpose() * factor).iter().copied().collect::<Vec<_>>()).collect())
 }
 
+/// `C(nu) nu` is what turning axes make of the momenta `(p, h) = M nu`: `omega x p` and `v x p + omega x h` (Kirchhoff). Quadratic in
+/// the velocity: sums of two units decide.
+fn turning_momenta(factor: f64) -> Residuals {
+    let mut found = Vec::new();
+    for (mass, i, j) in symmetric().flat_map(|mass| (0..36).map(move |pair| (mass, pair / 6, pair % 6))) {
+        let nu = unit(i) + unit(j);
+        let half = |vector: &Vector6<f64>, from| Vector3::new(vector[from], vector[from + 1], vector[from + 2]);
+        let momentum = mass * nu;
+        let ([v, omega], [p, h]) = ([half(&nu, 0), half(&nu, 3)], [half(&momentum, 0), half(&momentum, 3)]);
+        let force = coriolis(&mass, &nu) * nu * factor;
+        found.extend((half(&force, 0) - omega.cross(&p)).iter());
+        found.extend((half(&force, 3) - v.cross(&p) - omega.cross(&h)).iter());
+    }
+    Some(found)
+}
+
 /// `D(nu)` is the linear drag, and on the diagonal the quadratic one times the speed.
 fn drag(factor: f64) -> Residuals {
     let mut found = Vec::new();
@@ -112,7 +128,7 @@ fn balance(factor: f64) -> Residuals {
 /// Eq. 5.
 pub(super) fn six_axes(part: &ClaimPart, distortion: Distortion) -> Verdict {
     let factor = distortion.factor();
-    let proofs = [symmetry, skew, drag, balance].map(|proof| zero(part.clone(), proof(factor)));
+    let proofs = [symmetry, skew, turning_momenta, drag, balance].map(|proof| zero(part.clone(), proof(factor)));
     proofs.into_iter().reduce(|all, next| all.and(|| next)).unwrap_or_else(|| Verdict::undecided("nothing"))
 }
 
