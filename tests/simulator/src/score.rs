@@ -176,6 +176,21 @@ pub fn median(values: &[f64]) -> Option<f64> {
     Some(0.5 * (lower + upper))
 }
 
+/// The process's arguments as they would be typed, but for where the table goes.
+fn arguments() -> String {
+    let mut arguments = std::env::args().skip(1);
+    let mut text = String::new();
+    while let Some(argument) = arguments.next() {
+        if argument == "--out" {
+            arguments.next();
+            continue;
+        }
+        let quote = if argument.contains(' ') { "'" } else { "" };
+        let _ = write!(text, " {quote}{argument}{quote}");
+    }
+    text
+}
+
 /// The scores of the kinds selected.
 #[derive(Clone, Debug)]
 pub struct Table {
@@ -272,11 +287,15 @@ impl Table {
         let last = self.seed + self.records - 1;
         let purpose = if self.seed >= FIRST_REPORT_SEED { "report" } else { "development" };
         let mut text = format!(
-            "Seeds {} to {last} ({purpose}). *Right*: share of all cases with a trusted answer (`good` or `widened`) whose 95 % \
+            "# How often the reported answer is right\n\n    cargo run --release -p selfosc-trust --{}\n\n\
+             Records are those of the independent simulator in `tests/simulator`; drag law, terms and sensor are unknown to the \
+             tool. What no record of one level can show, the scale of the thrust with dead zone and asymmetry, is a group of its \
+             own.\n\nSeeds {} to {last} ({purpose}). *Right*: share of all cases with a trusted answer (`good` or `widened`) whose 95 % \
              interval holds alpha. *Missed*: share of the trusted answers that do not. *Error*: median over all answers, \
              doubtful ones too; *half-width*: median over trusted ones. *Width*: median of the interval's width over that of a fit that knows the true structure \
              (Cramér-Rao); on rounded records the reference takes the rounding as white noise, which a fit that uses the \
              rounding itself betters.\n\n## Groups\n\n{HEAD}",
+            arguments(),
             self.seed
         );
         for group in Group::ALL {
