@@ -111,12 +111,12 @@ impl Search<'_> {
     /// A box with room for a parameter that meets no reading of the record, but comes near.
     pub(super) fn loosened(&self, at: &[Interval]) -> Vec<Interval> {
         let layout = &self.setup.layout;
-        let mut loose: Vec<Interval> = at.iter().map(|side| side.give_or_take(side.width())).collect();
+        let mut loose: Vec<Interval> = at.iter().map(|side| *side + Interval::symmetric(side.width())).collect();
         for (index, window) in layout.windows().iter().enumerate() {
             let room = FAR * self.setup.records[window.record].error;
             let (position, velocity) = (layout.start(index, 0), layout.start(index, 1));
-            loose[position] = at[position].give_or_take(room);
-            loose[velocity] = at[velocity].give_or_take(room / self.setup.swing_s + at[velocity].width());
+            loose[position] = at[position] + Interval::symmetric(room);
+            loose[velocity] = at[velocity] + Interval::symmetric(room / self.setup.swing_s + at[velocity].width());
         }
         for (loose, widest) in loose.iter_mut().zip(&self.setup.search).take(layout.parameters()) {
             *loose = loose.intersection(*widest).unwrap_or(*widest);
