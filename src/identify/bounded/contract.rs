@@ -168,14 +168,11 @@ impl Model<'_> {
     }
 }
 
-/// A bound found: an unknown, the side (1 upper, -1 lower), and the multipliers that prove it.
-pub(super) type Cut = (usize, f64, Multipliers);
-
 /// What a pass left of a box.
 #[derive(Clone, Debug)]
 pub(super) enum Pass {
-    /// The cuts made.
-    Contracted(Vec<Cut>),
+    /// What is in the box that was handed over.
+    Contracted,
     /// Nothing: these rows contradict each other over the box.
     Empty(Multipliers),
 }
@@ -209,7 +206,6 @@ impl Linear {
     /// Bounds the `unknowns`, of which the rows are linear inequalities together with the other `places`.
     pub(super) fn contract(&self, at: &mut [Interval], places: &[usize], unknowns: &[usize]) -> Pass {
         let programme = Programme::of(&self.rows, &self.deviations, places);
-        let mut cuts = Vec::new();
         for &unknown in unknowns {
             for sign in [1.0, -1.0] {
                 let objective = [(unknown, sign)];
@@ -224,15 +220,12 @@ impl Linear {
                         let Some(next) = self.cut(at[unknown], unknown, sign, bound) else {
                             return Pass::Empty(multipliers);
                         };
-                        if next != at[unknown] {
-                            at[unknown] = next;
-                            cuts.push((unknown, sign, multipliers));
-                        }
+                        at[unknown] = next;
                     }
                 }
             }
         }
-        Pass::Contracted(cuts)
+        Pass::Contracted
     }
 
     /// What is left of a side whose deviation, times `sign`, is at most `bound`; `None` for nothing.

@@ -1,51 +1,48 @@
 //! Division of the search box until every part is empty or as small as it needs to be.
 
+use std::collections::VecDeque;
+
 use super::field::Term;
-use super::search::{Empty, Left, Made, Search};
+use super::search::{Empty, Left, Method, Search};
 use crate::numeric::Interval;
 
 /// A box is not divided further where the slopes' ranges take less than this of the readings' error.
 const FINE: f64 = 0.003;
 /// Divisions of a slice that is to be cut off.
 const MOST_OF_A_SLICE: usize = 6;
+/// Boxes excluded last that are remembered: there the contradiction is shown, and the nearest parameter looked for.
+const REMEMBERED: usize = 4;
 /// A box stands for what is left once they take less than this.
 const FOLLOWED: f64 = 4.0;
-
-/// A node of the tree of divisions, for the certificate.
-#[derive(Clone, Debug)]
-pub(super) struct Branch {
-    pub(super) made: Vec<Made>,
-    pub(super) then: Then,
-}
-
-/// What became of a box.
-#[derive(Clone, Debug)]
-pub(super) enum Then {
-    /// Nothing is in it.
-    Empty(Box<Empty>),
-    /// It was divided at a value of an unknown: below, above.
-    Divided { unknown: usize, value: f64, parts: [usize; 2] },
-    /// It is among those left.
-    Left,
-}
 
 /// A box that is left.
 #[derive(Clone, Debug)]
 pub(super) struct Kept {
     pub(super) at: Vec<Interval>,
     pub(super) left: Left,
-    branch: usize,
 }
 
-/// The tree so far, and what is left.
+/// What is left, and what was excluded last.
 pub(super) struct Division {
-    pub(super) tree: Vec<Branch>,
+    /// The last boxes that the motion excluded.
+    pub(super) empties: VecDeque<Empty>,
     pub(super) kept: Vec<Kept>,
     /// Whether the budget sufficed to follow the motion over all that is left.
     pub(super) followed: bool,
 }
 
 impl Division {
+    /// Notes a box in which nothing is; one that only its readings' speeds exclude shows no motion.
+    fn exclude(&mut self, empty: Empty) {
+        if empty.method == Method::Weigh || empty.linear.is_none() {
+            return;
+        }
+        if self.empties.len() == REMEMBERED {
+            self.empties.pop_front();
+        }
+        self.empties.push_back(empty);
+    }
+
     /// The smallest box around all that is left; `None` where nothing is.
     pub(super) fn hull(&self) -> Option<Vec<Interval>> {
         let boxes = self.kept.iter().map(|kept| kept.at.clone());
@@ -55,7 +52,7 @@ impl Division {
 
 impl Search<'_> {
     /// Divides a box at a parameter: the gain, whose orders of magnitude count, at the geometric mean.
-    fn divide(&self, at: &[Interval], unknown: usize) -> Option<(f64, [Vec<Interval>; 2])> {
+    fn divide(&self, at: &[Interval], unknown: usize) -> Option<[Vec<Interval>; 2]> {
         let side = at[unknown];
         let positive = side.lower() > 0.0;
         let orders = matches!(self.setup.layout.terms().get(unknown), Some(Term::Gain | Term::LagRate));
@@ -67,12 +64,12 @@ impl Search<'_> {
             part[unknown] = half;
             part
         });
-        (side.lower() < value && value < side.upper()).then_some((value, parts))
+        (side.lower() < value && value < side.upper()).then_some(parts)
     }
 
     /// Everything in `at`, divided until the motion can be followed over each part that is left.
     pub(super) fn search(&mut self, at: Vec<Interval>, budget: usize) -> Division {
-        let mut division = Division { tree: Vec::new(), kept: Vec::new(), followed: true };
+        let mut division = Division { empties: VecDeque::new(), kept: Vec::new(), followed: true };
         self.refine(&mut division, vec![at], budget);
         division
     }
@@ -93,14 +90,8 @@ impl Search<'_> {
             let halves = [Interval::new(side.lower(), value), Interval::new(value, side.upper())];
             let [Some(low), Some(high)] = halves else { continue };
             let mut kept = division.kept.swap_remove(index);
-            let next = division.tree.len();
-            let parts = [next, next + 1];
-            division.tree[kept.branch].then = Then::Divided { unknown, value, parts };
-            division.tree.extend([(); 2].map(|()| Branch { made: Vec::new(), then: Then::Left }));
             let mut outer = kept.clone();
-            let (near, far) = if upper { (low, high) } else { (high, low) };
-            (kept.at[unknown], outer.at[unknown]) = (near, far);
-            (kept.branch, outer.branch) = (parts[usize::from(!upper)], parts[usize::from(upper)]);
+            (kept.at[unknown], outer.at[unknown]) = if upper { (low, high) } else { (high, low) };
             division.kept.push(kept);
             beyond.push(outer);
         }
@@ -115,12 +106,9 @@ impl Search<'_> {
                 division.kept.push(kept);
                 continue;
             }
-            let mut made = Vec::new();
-            let left = self.contract_fine(&mut kept.at, &mut made);
-            division.tree[kept.branch].made.append(&mut made);
-            match left {
+            match self.contract_fine(&mut kept.at) {
                 Err(empty) => {
-                    division.tree[kept.branch].then = Then::Empty(Box::new(empty));
+                    division.exclude(empty);
                     continue;
                 }
                 Ok(left) => kept.left = left,
@@ -133,17 +121,12 @@ impl Search<'_> {
                 division.kept.push(kept);
                 continue;
             }
-            let Some((value, parts)) = self.divide(&kept.at, widest) else {
+            let Some(parts) = self.divide(&kept.at, widest) else {
                 division.kept.push(kept);
                 continue;
             };
             divided += 1;
-            let next = division.tree.len();
-            division.tree[kept.branch].then = Then::Divided { unknown: widest, value, parts: [next, next + 1] };
-            for (at, branch) in parts.into_iter().zip(next..) {
-                division.tree.push(Branch { made: Vec::new(), then: Then::Left });
-                open.push(Kept { at, left: kept.left, branch });
-            }
+            open.extend(parts.map(|at| Kept { at, left: kept.left }));
         }
     }
 
@@ -151,11 +134,8 @@ impl Search<'_> {
     pub(super) fn contract_kept(&mut self, division: &mut Division) {
         let boxes: Vec<Kept> = division.kept.drain(..).collect();
         for mut kept in boxes {
-            let mut made = Vec::new();
-            let left = self.contract_fine(&mut kept.at, &mut made);
-            division.tree[kept.branch].made.append(&mut made);
-            match left {
-                Err(empty) => division.tree[kept.branch].then = Then::Empty(Box::new(empty)),
+            match self.contract_fine(&mut kept.at) {
+                Err(empty) => division.exclude(empty),
                 Ok(left) => {
                     kept.left = left;
                     division.kept.push(kept);
@@ -170,10 +150,8 @@ impl Search<'_> {
         if slack < FINE {
             return false;
         }
-        let Some((value, parts)) = self.divide(&division.kept[index].at, widest) else { return false };
-        let kept = division.kept.swap_remove(index);
-        let next = division.tree.len();
-        division.tree[kept.branch].then = Then::Divided { unknown: widest, value, parts: [next, next + 1] };
+        let Some(parts) = self.divide(&division.kept[index].at, widest) else { return false };
+        division.kept.swap_remove(index);
         self.refine(division, parts.into(), budget);
         true
     }
@@ -189,47 +167,34 @@ impl Search<'_> {
         coarsest.is_some_and(|index| self.divide_kept(division, index, budget))
     }
 
-    /// Works off a list of boxes, which take the next places in the tree.
-    fn refine(&mut self, division: &mut Division, boxes: Vec<Vec<Interval>>, budget: usize) {
-        let mut open: Vec<(Vec<Interval>, usize)> = Vec::new();
-        let place = |division: &mut Division| {
-            division.tree.push(Branch { made: Vec::new(), then: Then::Left });
-            division.tree.len() - 1
-        };
-        for at in boxes {
-            open.push((at, place(division)));
-        }
-        while let Some((mut at, branch)) = open.pop() {
+    /// Works off a list of boxes.
+    fn refine(&mut self, division: &mut Division, mut open: Vec<Vec<Interval>>, budget: usize) {
+        while let Some(mut at) = open.pop() {
             if self.passes >= budget {
                 division.followed = false;
-                division.kept.push(Kept { at, left: Left::Wide(0), branch });
+                division.kept.push(Kept { at, left: Left::Wide(0) });
                 continue;
             }
-            let mut made = Vec::new();
-            let left = self.contract(&mut at, &mut made);
-            division.tree[branch].made = made;
-            let unknown = match left {
+            let left = match self.contract(&mut at) {
+                Ok(left) => left,
                 Err(empty) => {
-                    division.tree[branch].then = Then::Empty(Box::new(empty));
+                    division.exclude(empty);
                     continue;
                 }
-                Ok(left) => match left {
-                    Left::Followed { slack, .. } if slack <= FOLLOWED => {
-                        division.kept.push(Kept { at, left, branch });
-                        continue;
-                    }
-                    Left::Followed { widest, .. } | Left::Wide(widest) => widest,
-                },
             };
-            let Some((value, parts)) = self.divide(&at, unknown) else {
-                division.followed = false;
-                division.kept.push(Kept { at, left: Left::Wide(unknown), branch });
-                continue;
+            let unknown = match left {
+                Left::Followed { slack, .. } if slack <= FOLLOWED => {
+                    division.kept.push(Kept { at, left });
+                    continue;
+                }
+                Left::Followed { widest, .. } | Left::Wide(widest) => widest,
             };
-            let next = division.tree.len();
-            division.tree[branch].then = Then::Divided { unknown, value, parts: [next, next + 1] };
-            for part in parts {
-                open.push((part, place(division)));
+            match self.divide(&at, unknown) {
+                Some(parts) => open.extend(parts),
+                None => {
+                    division.followed = false;
+                    division.kept.push(Kept { at, left: Left::Wide(unknown) });
+                }
             }
         }
     }

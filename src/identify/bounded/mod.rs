@@ -90,13 +90,13 @@ fn conclude(wide: &Setup, mut search: Search<'_>, mut division: Division, settin
     let mut answer = Answer::default();
     answer.try_nearest(&mut search, &division);
     // Without a witness the parts may yet turn out empty.
-    let mut divided = 0;
+    let mut divided = 0usize;
     while answer.witness().is_none()
         && search.passes < settings.budget
         && search.divide_coarsest(&mut division, settings.budget)
     {
         divided += 1;
-        if divided % DIVISIONS_PER_TRIAL == 0 {
+        if divided.is_multiple_of(DIVISIONS_PER_TRIAL) {
             answer.try_nearest(&mut search, &division);
         }
     }

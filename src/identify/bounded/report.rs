@@ -2,10 +2,10 @@
 
 use super::bounds::{Bounds, Consistency, Contradicting, Parameters, Quantity, QuantityRange};
 use super::contract::{Linear, Origin};
-use super::divide::{Division, Then};
+use super::divide::Division;
 use super::field::Term;
 use super::lp::{Multipliers, Outcome, Programme};
-use super::search::{Empty, Method, Search};
+use super::search::{Empty, Search};
 use super::setup::Setup;
 use super::witness::Tried;
 use crate::numeric::Interval;
@@ -27,15 +27,8 @@ pub(super) struct Answer {
 
 /// The box of an empty leaf.
 fn leaf(empty: &Empty) -> Option<Vec<Interval>> {
-    let linear = empty.linear.as_ref().filter(|_| empty.method != Method::Weigh)?;
+    let linear = empty.linear.as_ref()?;
     Some(linear.deviations.iter().zip(&linear.centre).map(|(z, c)| *z + Interval::point(*c)).collect())
-}
-
-fn empties(division: &Division) -> impl Iterator<Item = &Empty> {
-    division.tree.iter().filter_map(|branch| match &branch.then {
-        Then::Empty(empty) => Some(&**empty),
-        _ => None,
-    })
 }
 
 impl Answer {
@@ -61,17 +54,16 @@ impl Answer {
     pub(super) fn try_nearest(&mut self, search: &mut Search<'_>, division: &Division) {
         let mut boxes: Vec<Vec<Interval>> = division.kept.iter().map(|kept| kept.at.clone()).take(2).collect();
         boxes.extend(division.hull());
-        if boxes.is_empty() {
-            let mut leaves: Vec<Vec<Interval>> = empties(division).filter_map(leaf).collect();
-            leaves.reverse();
-            leaves.truncate(4);
-            boxes = leaves;
+        let excluded = boxes.is_empty();
+        if excluded {
+            boxes = division.empties.iter().rev().filter_map(leaf).collect();
         }
         for at in boxes {
             if self.witness().is_some() {
                 return;
             }
-            if let Some(tried) = search.nearest(&at) {
+            let within = if excluded { search.loosened(&at) } else { at.clone() };
+            if let Some(tried) = search.nearest(&at, &within) {
                 self.note(tried);
             }
         }
@@ -133,8 +125,7 @@ impl Answer {
         let least = if verdict == Consistency::Refuted { 1.0 } else { least_misfit(&mut search, division) };
         let point = |tried: &Tried| Parameters { values: values(search.setup, &tried.at), misfit: tried.misfit };
         let contradicting = if verdict == Consistency::Refuted {
-            let last = empties(division).filter(|empty| empty.method != Method::Weigh).last();
-            last.or_else(|| empties(division).last()).map(|empty| contradiction(&search, empty)).unwrap_or_default()
+            division.empties.back().map(|empty| contradiction(&search, empty)).unwrap_or_default()
         } else {
             Vec::new()
         };

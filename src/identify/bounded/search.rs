@@ -1,6 +1,6 @@
 //! Contraction of one box until nothing helps.
 
-use super::contract::{Cut, Linear, Model, Pass, Span};
+use super::contract::{Linear, Model, Pass, Span};
 use super::field::Term;
 use super::lp::Multipliers;
 use super::setup::Setup;
@@ -37,13 +37,6 @@ pub(super) enum Method {
     Whole,
     /// All windows, each linked to the next.
     Chain,
-}
-
-/// A pass that made a box smaller, for the certificate.
-#[derive(Clone, Debug)]
-pub(super) struct Made {
-    pub(super) method: Method,
-    pub(super) cuts: Vec<Cut>,
 }
 
 /// A box in which nothing is.
@@ -107,7 +100,7 @@ impl<'a> Search<'a> {
     }
 
     /// Speeds from the readings; those at the windows' beginnings go into the box. Then the hats.
-    pub(super) fn weigh(&mut self, at: &mut [Interval]) -> Result<Vec<Cut>, Empty> {
+    pub(super) fn weigh(&mut self, at: &mut [Interval]) -> Result<(), Empty> {
         let nothing = || Empty { method: Method::Weigh, multipliers: Vec::new(), linear: None };
         self.weighed += 1;
         if self.weighed.is_multiple_of(WEIGHED_PER_PASS) {
@@ -131,7 +124,7 @@ impl<'a> Search<'a> {
         let places: Vec<usize> = (0..self.parameters()).collect();
         match linear.contract(at, &places, &places) {
             Pass::Empty(multipliers) => Err(Empty { method: Method::Weigh, multipliers, linear: Some(linear) }),
-            Pass::Contracted(cuts) => Ok(cuts),
+            Pass::Contracted => Ok(()),
         }
     }
 
@@ -280,7 +273,7 @@ impl<'a> Search<'a> {
 
     /// Contracts a box over which the motion is followed, by the motion alone: over whole records, where nothing but their
     /// beginnings is unknown beside the parameters, or window by window if the slopes' ranges take less so.
-    pub(super) fn contract_fine(&mut self, at: &mut [Interval], made: &mut Vec<Made>) -> Result<Left, Empty> {
+    pub(super) fn contract_fine(&mut self, at: &mut [Interval]) -> Result<Left, Empty> {
         let (whole, parameters) = (self.of_whole(), (0..self.parameters()).collect::<Vec<_>>());
         let places: Vec<usize> = (0..at.len()).collect();
         let (mut left, mut broken) = (Left::Wide(0), false);
@@ -303,7 +296,7 @@ impl<'a> Search<'a> {
                 if broken { (Method::Chain, &places, &parameters) } else { (Method::Whole, &whole, &whole) };
             match linear.contract(at, of, unknowns) {
                 Pass::Empty(multipliers) => return Err(Empty { method, multipliers, linear: Some(linear) }),
-                Pass::Contracted(cuts) => made.push(Made { method, cuts }),
+                Pass::Contracted => {}
             }
             if pass + 1 >= FINE_PASSES || self.rest(&before, at) > HELPED {
                 break;
@@ -313,15 +306,14 @@ impl<'a> Search<'a> {
     }
 
     /// Contracts a box until nothing helps.
-    pub(super) fn contract(&mut self, at: &mut [Interval], made: &mut Vec<Made>) -> Result<Left, Empty> {
+    pub(super) fn contract(&mut self, at: &mut [Interval]) -> Result<Left, Empty> {
         let mut weighing = true;
         let mut sweeping = true;
         let mut left = Left::Wide(0);
         for _ in 0..MOST_PASSES {
             let before = at.to_vec();
             if weighing {
-                let cuts = self.weigh(at)?;
-                made.push(Made { method: Method::Weigh, cuts });
+                self.weigh(at)?;
                 weighing = self.rest(&before, at) < HELPED;
                 if weighing {
                     continue;
@@ -346,7 +338,7 @@ impl<'a> Search<'a> {
                 Pass::Empty(multipliers) => {
                     return Err(Empty { method: Method::Chain, multipliers, linear: Some(linear) });
                 }
-                Pass::Contracted(cuts) => made.push(Made { method: Method::Chain, cuts }),
+                Pass::Contracted => {}
             }
             if self.rest(&before, at) > HELPED {
                 return Ok(left);

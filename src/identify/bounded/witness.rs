@@ -14,6 +14,9 @@ const REACHED: f64 = 0.002;
 /// How far within what readings allow a far witness is sought, of what the nearest leaves: room for what is not linear.
 const INSIDE: f64 = 0.01;
 
+/// Largest errors by which a window's beginning may miss its reading, where no parameter meets the record.
+const FAR: f64 = 30.0;
+
 /// Misfits up to which a better parameter is looked for, one after the other, beyond what readings allow.
 const MISFITS: [f64; 3] = [1.0, 30.0, 1000.0];
 
@@ -62,9 +65,10 @@ impl Search<'_> {
         (linear, misfit)
     }
 
-    /// A parameter with a small largest misfit: linear programmes about one after another, from the middle of a box.
-    pub(super) fn nearest(&mut self, at: &[Interval]) -> Option<Tried> {
-        let mut centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
+    /// A parameter with a small largest misfit: linear programmes about one after another, from the middle of a box, and
+    /// within another.
+    pub(super) fn nearest(&mut self, from: &[Interval], at: &[Interval]) -> Option<Tried> {
+        let mut centre: Vec<f64> = from.iter().map(|side| side.midpoint()).collect();
         let mut best: Option<Tried> = None;
         // How far from the centre is searched, against the box.
         let mut trust = 1.0;
@@ -102,6 +106,22 @@ impl Search<'_> {
             }
         }
         best
+    }
+
+    /// A box with room for a parameter that meets no reading of the record, but comes near.
+    pub(super) fn loosened(&self, at: &[Interval]) -> Vec<Interval> {
+        let layout = &self.setup.layout;
+        let mut loose: Vec<Interval> = at.iter().map(|side| *side + Interval::symmetric(side.width())).collect();
+        for (index, window) in layout.windows().iter().enumerate() {
+            let room = FAR * self.setup.records[window.record].error;
+            let (position, velocity) = (layout.start(index, 0), layout.start(index, 1));
+            loose[position] = at[position] + Interval::symmetric(room);
+            loose[velocity] = at[velocity] + Interval::symmetric(room / self.setup.swing_s + at[velocity].width());
+        }
+        for (loose, widest) in loose.iter_mut().zip(&self.setup.search).take(layout.parameters()) {
+            *loose = loose.intersection(*widest).unwrap_or(*widest);
+        }
+        loose
     }
 
     /// The inequalities at a point.
