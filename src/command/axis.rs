@@ -1,8 +1,9 @@
-//! The arguments that describe a drag axis, common to `predict`, `simulate` and `tune`, and its relay.
+//! The arguments that describe a drag axis, common to `predict`, `simulate`, `design` and `tune`, and its relay.
 
 use clap::Args;
 
 use super::CommandError;
+use super::number::number;
 use crate::nonlinearity::RelayHysteresis;
 use crate::plant::{DragAxis, PlantError};
 
@@ -10,13 +11,13 @@ use crate::plant::{DragAxis, PlantError};
 #[derive(Clone, Copy, Debug, Args)]
 pub(super) struct MotionArguments {
     /// Inertia with added mass, command units per output unit per s^2
-    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "A", allow_negative_numbers = true)]
     alpha: f64,
     /// Linear drag, command units per output unit per s
-    #[arg(long, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
     beta: f64,
     /// Quadratic drag, command units per (output unit per s)^2
-    #[arg(long, value_name = "Q", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "Q", default_value_t = 0.0, allow_negative_numbers = true)]
     beta_quadratic: f64,
 }
 
@@ -31,16 +32,16 @@ pub(super) struct AxisArguments {
     #[command(flatten)]
     motion: MotionArguments,
     /// Constant disturbance, command units
-    #[arg(long, value_name = "D", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "D", default_value_t = 0.0, allow_negative_numbers = true)]
     delta: f64,
     /// Relay level C, command units
-    #[arg(long, value_name = "C", allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "C", allow_negative_numbers = true)]
     relay: f64,
     /// Half-width x_a of the relay's hysteresis, output units
-    #[arg(long, value_name = "XA", allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "XA", allow_negative_numbers = true)]
     half_width: f64,
     /// Delay of the whole loop in s
-    #[arg(long, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
     delay: f64,
 }
 
@@ -50,6 +51,9 @@ impl AxisArguments {
     }
 
     pub(super) fn relay(&self) -> Result<RelayHysteresis<f64>, CommandError> {
-        Ok(RelayHysteresis::new(self.relay, self.half_width, 0.0)?)
+        RelayHysteresis::new(self.relay, self.half_width, 0.0).map_err(|error| {
+            let of_level = error.out_of_domain().is_some_and(|fault| fault.quantity == "level");
+            CommandError::Given { flag: if of_level { "--relay" } else { "--half-width" }, error: error.into() }
+        })
     }
 }

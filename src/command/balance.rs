@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use super::number::significant;
+use super::number::{number, significant};
 use super::{CommandError, Outcome, files, write_json};
 use crate::balance::{Bias, HarmonicBalance};
 use crate::describing::{Entry, Setting};
@@ -24,13 +24,13 @@ Examples:
   selfosc balance --num 1 --den 1,1,0 --delay 0.1 --nonlinearity relay-hysteresis --set half_width=0.2 --json")]
 pub(super) struct Arguments {
     /// Numerator, descending powers of s
-    #[arg(long, value_name = "A,B,...", value_delimiter = ',', required = true, allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "A,B,...", value_delimiter = ',', required = true, allow_hyphen_values = true)]
     num: Vec<f64>,
     /// Denominator, descending powers of s
-    #[arg(long, value_name = "A,B,...", value_delimiter = ',', required = true, allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "A,B,...", value_delimiter = ',', required = true, allow_hyphen_values = true)]
     den: Vec<f64>,
     /// Delay of the plant in s
-    #[arg(long, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
     delay: f64,
     /// Name of the characteristic, as `selfosc df --list` shows it
     #[arg(long, value_name = "NAME")]
@@ -39,7 +39,7 @@ pub(super) struct Arguments {
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = super::df::setting)]
     settings: Vec<(String, Setting)>,
     /// Bias of the characteristic's input
-    #[arg(long, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
     bias: f64,
     /// Draws G(jw) and -1/N into this SVG file
     #[arg(long, value_name = "FILE")]

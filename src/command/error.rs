@@ -17,6 +17,14 @@ pub(super) enum CommandError {
     /// What the library refuses.
     #[error("{}", in_context(.0))]
     Library(Error),
+    /// The same of a number that one flag gave.
+    #[error("{flag}: {error}")]
+    Given {
+        /// The flag.
+        flag: &'static str,
+        /// What the library says.
+        error: Error,
+    },
     /// Arguments that contradict each other.
     #[error("{reason}")]
     Usage {
@@ -78,7 +86,7 @@ impl CommandError {
     /// Short name for scripts.
     pub(super) fn code(&self) -> &'static str {
         match self {
-            Self::Library(error) => error.code(),
+            Self::Library(error) | Self::Given { error, .. } => error.code(),
             Self::Usage { .. } | Self::UnknownClaim { .. } | Self::Contradiction { .. } => "usage",
             Self::Model { .. } => "model",
             Self::Output(_) | Self::Write { .. } | Self::OutputIsInput { .. } | Self::Certificate { .. } => "files",
@@ -87,7 +95,10 @@ impl CommandError {
 
     /// The number outside its domain, if that is the reason.
     pub(super) fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        if let Self::Library(error) = self { error.out_of_domain() } else { None }
+        match self {
+            Self::Library(error) | Self::Given { error, .. } => error.out_of_domain(),
+            _ => None,
+        }
     }
 }
 
@@ -109,13 +120,13 @@ fn flag(quantity: &str) -> Option<&'static str> {
         "linear_drag" => "--beta",
         "quadratic_drag" => "--beta-quadratic",
         "disturbance" => "--delta",
-        "level" => "--relay",
-        "half_width" => "--half-width",
         "delay_s" => "--delay",
         "quantum" => "--quantum",
         "noise" => "--noise",
         "rate" => "--rate",
-        "bandwidth_rad_s" => "--bandwidth",
+        "duration" => "--cycles",
+        "bandwidth" => "--bandwidth",
+        "size of the step" => "--step",
         "amplitude" => "--amplitude",
         "bias" => "--bias",
         _ => return None,

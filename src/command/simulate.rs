@@ -5,6 +5,7 @@ use std::io::Write;
 use clap::Args;
 
 use super::axis::AxisArguments;
+use super::number::{number, whole};
 use super::{CommandError, Outcome, write_json};
 use crate::experiment::{Sensor, SimulatedExperiment};
 use crate::orbit::limit_cycle;
@@ -21,22 +22,22 @@ pub(super) struct Arguments {
     #[command(flatten)]
     axis: AxisArguments,
     /// Cycles of the limit cycle that the record lasts
-    #[arg(long, value_name = "N", default_value_t = 10.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "N", default_value_t = 10.0, allow_negative_numbers = true)]
     cycles: f64,
     /// Samples per second
-    #[arg(long, value_name = "HZ", default_value_t = 10.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "HZ", default_value_t = 10.0, allow_negative_numbers = true)]
     rate: f64,
     /// Readings are rounded to whole multiples of this, output units (with --degrees still radians)
-    #[arg(long, value_name = "Q", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "Q", default_value_t = 0.0, allow_negative_numbers = true)]
     quantum: f64,
     /// Standard deviation of the noise on a reading before it is rounded, output units
-    #[arg(long, value_name = "SD", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "SD", default_value_t = 0.0, allow_negative_numbers = true)]
     noise: f64,
     /// Samples the relay at the rate too, and holds its command in between
     #[arg(long)]
     hold: bool,
     /// Seed of the noise
-    #[arg(long, value_name = "S", default_value_t = 0)]
+    #[arg(long, value_parser = whole, value_name = "S", default_value_t = 0, allow_negative_numbers = true)]
     seed: u64,
     /// Takes the output for radians and writes it in degrees, as a column heading_deg
     #[arg(long)]

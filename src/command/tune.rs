@@ -7,7 +7,7 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use super::known::{Known, Model};
-use super::number::significant;
+use super::number::{non_negative, number, positive, significant};
 use super::{CommandError, Outcome, write_json};
 use crate::control::{
     Answer, AxisIntervals, ControlError, Controller, Margins, OpenLoop, StepResponse, Structure, Tuning, WorstMargin,
@@ -34,32 +34,32 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "RESULT.json", required_unless_present = "alpha", conflicts_with_all = ["alpha", "beta", "beta_quadratic", "delay"])]
     model: Option<PathBuf>,
     /// Inertia with added mass, command units per output unit per s^2
-    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "A", allow_negative_numbers = true)]
     alpha: Option<f64>,
     /// Linear drag, command units per output unit per s
-    #[arg(long, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
     beta: f64,
     /// Quadratic drag, command units per (output unit per s)^2
-    #[arg(long, value_name = "Q", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "Q", default_value_t = 0.0, allow_negative_numbers = true)]
     beta_quadratic: f64,
     /// Bandwidth of the answer to the reference, rad/s
-    #[arg(long, value_name = "W", allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "W", allow_negative_numbers = true)]
     bandwidth: f64,
     /// On what the actions act: pd and pid act on the error, ipd with its integral only; the derivative acts on the
     /// measurement
     #[arg(long, value_name = "NAME", default_value = "pd", value_parser = structure)]
     structure: Structure,
     /// Delay of the whole loop in s
-    #[arg(long, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
     delay: f64,
     /// Step of the reference to simulate, output units
-    #[arg(long, value_name = "X", default_value_t = 1.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "X", default_value_t = 1.0, allow_negative_numbers = true)]
     step: f64,
     /// Largest command either way in that step, command units [default: no limit]
-    #[arg(long, value_name = "U", allow_negative_numbers = true)]
+    #[arg(long, value_parser = positive, value_name = "U", allow_negative_numbers = true)]
     limit: Option<f64>,
     /// Speed up to which quadratic drag is counted in the margins, output units per s [default: the step's]
-    #[arg(long, value_name = "V", allow_negative_numbers = true)]
+    #[arg(long, value_parser = non_negative, value_name = "V", allow_negative_numbers = true)]
     top_speed: Option<f64>,
     /// Interval of the inertia
     #[arg(long, value_name = "LOW,HIGH", value_parser = interval, allow_hyphen_values = true)]

@@ -7,6 +7,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
+use super::number::whole;
 use super::{CommandError, Outcome, certificates, suggestion, write_json};
 use crate::claims::{Budget, CLAIMS, Claim, Evidence, Finding, Verdict, Word};
 
@@ -29,10 +30,10 @@ pub(super) struct Arguments {
     #[arg(long = "claim", value_name = "ID", num_args = 1..)]
     claims: Vec<String>,
     /// Cases drawn by each sampled check
-    #[arg(long, value_name = "N", default_value_t = Budget::default().cases, value_parser = cases)]
+    #[arg(long, value_name = "N", default_value_t = Budget::default().cases, value_parser = cases, allow_negative_numbers = true)]
     cases: usize,
     /// Seed of the cases
-    #[arg(long, value_name = "S", default_value_t = Budget::default().seed)]
+    #[arg(long, value_parser = whole, value_name = "S", default_value_t = Budget::default().seed, allow_negative_numbers = true)]
     seed: u64,
     /// Writes the proofs of the orbit theorems to this folder, one file a theorem, with every box
     #[arg(long, value_name = "DIR")]

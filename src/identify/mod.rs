@@ -8,6 +8,8 @@
 mod any_float;
 #[cfg(feature = "std")]
 pub mod bounded;
+#[cfg(feature = "std")]
+pub mod design;
 mod drag_law;
 mod error;
 pub mod exact;
@@ -34,6 +36,7 @@ pub use prediction_error::{DragVerdict, LawEvidence, Reason, Reported, Term, Tru
 pub use warning::Warning;
 #[cfg(feature = "std")]
 pub use workflow::{
-    Caution, Conclusion, DragChoice, FeatureMeans, FeatureValues, Identification, Method, Model, RecordConclusion,
-    Refusal, Refused, RefusedMethod, ReportedModel, Session, Settings, SettingsError, Source, Stage, Total, Units,
+    BoundedConclusion, Caution, Conclusion, DragChoice, FeatureMeans, FeatureValues, Guaranteed, Identification,
+    Method, Model, RecordConclusion, Refusal, Refused, RefusedMethod, ReportedModel, Session, Settings, SettingsError,
+    Source, Stage, Total, Units, Validation,
 };

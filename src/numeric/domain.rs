@@ -13,7 +13,7 @@ use super::Real;
 /// assert!(fault.to_string().starts_with("amplitude is -1 (input units): must be a finite number above 0; "));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{quantity} is {value}{}: must be {limit}; {remedy}", Unit(.unit))]
+#[error("{quantity} is {}{}: must be {limit}; {remedy}", Plain(*.value), Unit(.unit))]
 pub struct OutOfDomain {
     /// Name of the quantity.
     pub quantity: &'static str,
@@ -76,11 +76,25 @@ impl fmt::Display for Limit {
             Self::Positive => write!(f, "a finite number above 0"),
             Self::NonNegative => write!(f, "a finite number, 0 or more"),
             Self::NonZero => write!(f, "a finite number other than 0"),
-            Self::Above(least) => write!(f, "a finite number above {least}"),
-            Self::AtLeast(least) => write!(f, "a finite number, {least} or more"),
-            Self::AtMost(most) => write!(f, "a finite number, {most} or less"),
-            Self::Within(least, most) => write!(f, "a number from {least} to {most}"),
+            Self::Above(least) => write!(f, "a finite number above {}", Plain(*least)),
+            Self::AtLeast(least) => write!(f, "a finite number, {} or more", Plain(*least)),
+            Self::AtMost(most) => write!(f, "a finite number, {} or less", Plain(*most)),
+            Self::Within(least, most) => write!(f, "a number from {} to {}", Plain(*least), Plain(*most)),
             Self::Words(words) => write!(f, "{words}"),
+        }
+    }
+}
+
+/// A number that nobody has to count the zeros of.
+pub(crate) struct Plain(pub(crate) f64);
+
+impl fmt::Display for Plain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.0.abs();
+        if size == 0.0 || !size.is_finite() || (1e-5..1e12).contains(&size) {
+            write!(f, "{}", self.0)
+        } else {
+            write!(f, "{:e}", self.0)
         }
     }
 }

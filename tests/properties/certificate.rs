@@ -72,6 +72,15 @@ fn around_the_circle<const M: usize>(integrand: &impl Integrand<M>, width: f64, 
     integrate(integrand, -Interval::PI, Interval::PI, width, budget)
 }
 
+/// Between ends that are intervals themselves: every integral from a point of one to a point of the other.
+#[test]
+fn wide_ends_are_enclosed() {
+    let found = integrate(&formula!(|t| t.exp()), interval(0.0, 0.1), interval(1.0, 1.1), 1.0, 1000).integrals[0];
+    for (from, to) in [(0.0, 1.0), (0.0, 1.1), (0.1, 1.0), (0.1, 1.1)] {
+        assert!(found.contains(f64::exp(to) - f64::exp(from)), "{from} to {to}: {found}");
+    }
+}
+
 #[test]
 fn known_integrals_are_enclosed() {
     let turn = Interval::PI + Interval::PI;

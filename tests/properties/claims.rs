@@ -145,6 +145,11 @@ fn words_follow_from_the_domains() {
     assert_eq!(word(&ClaimPart::whole("other", "").into(), boxes(&[[0.0, 1.0]])), Word::ProvedInPart);
     // A proof at one value of a variable that the claim leaves open restricts it.
     assert_eq!(word(&ClaimPart::whole("part", "").into(), boxes(&[[0.0, 1.0]])), Word::ProvedInPart);
+    // Of two parts one, and another one of the same variable.
+    let other = ClaimPart { name: "other".into(), ..claimed.parts[0].clone() };
+    let two = ClaimDomain { parts: vec![claimed.parts[0].clone(), other.clone()].into() };
+    assert_eq!(word(&two, claimed.clone()), Word::ProvedInPart);
+    assert_eq!(word(&claimed, other.into()), Word::ProvedInPart);
     let exhausted = Evidence { exhausted: boxes(&[[0.0, 1.0]]), ..Evidence::default() };
     assert_eq!(Verdict::Holds(exhausted).word(&claimed), Word::Exhausted);
 }

@@ -116,6 +116,7 @@ fn settings(random: &mut Pcg64Mcg) -> (Columns, Settings) {
         delay: if some(random, 3) == 0 { Delay::Estimated } else { Delay::KnownS(random.random_range(0.0..extent)) },
         relay_level: maybe(random, extent),
         half_width: maybe(random, extent),
+        ..Settings::default()
     };
     let columns = Columns { degrees: some(random, 4) == 0, wrap: some(random, 4) == 0, ..Columns::default() };
     (columns, settings)

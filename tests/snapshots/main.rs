@@ -2,9 +2,12 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
 mod catalogue;
+mod clinic;
 mod command;
 mod identify;
 mod paper;
+mod readme;
+mod refusals;
 
 /// Compares with `golden/<name>.snap`.
 macro_rules! golden {

@@ -33,7 +33,7 @@ mod tests {
     /// Proofs that take no subdivision, or one of a second: each holds, covers what is claimed, and no false variant of it holds.
     #[test]
     fn exact_proofs_hold_and_false_ones_do_not() {
-        const IDS: [&str; 31] = [
+        const IDS: [&str; 34] = [
             "fourier-coefficients",
             "odd-harmonics",
             "odd-harmonics-hysteretic",
@@ -58,6 +58,9 @@ mod tests {
             "sampled-level",
             "second-quadrant",
             "polynomial",
+            "method-bias",
+            "six-axes",
+            "uncoupled-axis",
             "quantisation-zero",
             "table-3",
             "relative-spread",

@@ -191,3 +191,23 @@ impl Verdict {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{ClaimDomain, ClaimPart, Evidence, Verdict, Witness, Word};
+
+    #[test]
+    fn a_failed_proof_is_not_made_up_for_by_cases() {
+        let (sampled, part) = (|| Verdict::Holds(Evidence::sampled(10, 0.5)), ClaimPart::whole("whole", ""));
+        let (failed, refuted) = (|| Verdict::undecided("ten boxes"), || Verdict::Refuted(Witness::default()));
+        let proved = || Verdict::Holds(Evidence::identity(ClaimPart::whole("whole", ""), 0.0, 1));
+        let claimed = ClaimDomain::from(part);
+        assert_eq!(sampled().word(&claimed), Word::Sampled);
+        assert_eq!(sampled().backed_by(proved).word(&claimed), Word::Proved);
+        assert_eq!(sampled().backed_by(failed).word(&claimed), Word::Undecided);
+        assert_eq!(sampled().backed_by(refuted).word(&claimed), Word::Refuted);
+        assert_eq!(refuted().backed_by(proved).word(&claimed), Word::Refuted);
+        assert_eq!(proved().and(failed).word(&claimed), Word::Undecided);
+        assert_eq!(failed().and(proved).word(&claimed), Word::Undecided);
+    }
+}

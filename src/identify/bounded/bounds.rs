@@ -68,6 +68,19 @@ pub enum Quantity {
     Speed,
 }
 
+impl Quantity {
+    /// The record whose own it is; `None` for what is common to all.
+    #[must_use]
+    pub fn record(self) -> Option<usize> {
+        match self {
+            Self::Delta(record) | Self::DeltaRate(record) | Self::Position(record) | Self::Velocity(record) => {
+                Some(record)
+            }
+            _ => None,
+        }
+    }
+}
+
 impl core::fmt::Display for Quantity {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let name = match self {

@@ -3,6 +3,7 @@
 //! [`Session`] takes logs or samples and gives an [`Identification`]; [`Conclusion`] is its JSON document.
 
 mod document;
+mod guaranteed;
 mod identification;
 mod methods;
 mod model;
@@ -13,7 +14,8 @@ mod settings;
 pub use document::{
     Conclusion, DragChoice, FeatureMeans, FeatureValues, RecordConclusion, Refused, ReportedModel, Total, Units,
 };
-pub use identification::{Caution, Identification, RefusedMethod, Source};
+pub use guaranteed::{BoundedConclusion, Guaranteed};
+pub use identification::{Caution, Identification, RefusedMethod, Source, Validation};
 pub use model::Model;
 pub use refusal::Refusal;
 pub use session::{Session, Stage};

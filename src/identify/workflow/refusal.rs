@@ -72,7 +72,7 @@ impl Refusal {
     pub fn is_usage(&self) -> bool {
         match self {
             Self::Settings(_) | Self::File { .. } => true,
-            Self::Record { source, .. } => matches!(source, ExperimentError::Unreadable { line: 0, .. }),
+            Self::Record { source, .. } => source.is_unreadable(),
             Self::Features { .. } | Self::Model(_) => false,
         }
     }

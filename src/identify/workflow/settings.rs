@@ -17,7 +17,10 @@ pub enum Method {
     Exact,
     /// Likelihood of every sample: the answer to use, with its terms, and each drag law alone.
     Fit,
-    /// All of them.
+    /// Guaranteed bounds: every reading a constraint, and no distribution of errors assumed. It takes seconds, and only who asks for
+    /// it by name gets it.
+    Bounded,
+    /// All of the former but the guaranteed bounds.
     #[default]
     All,
 }
@@ -30,6 +33,7 @@ impl Method {
             Self::Iso => "iso",
             Self::Exact => "exact",
             Self::Fit => "fit",
+            Self::Bounded => "bounded",
             Self::All => "all",
         }
     }
@@ -37,7 +41,7 @@ impl Method {
     /// Whether `one` is asked for.
     #[must_use]
     pub fn includes(self, one: Self) -> bool {
-        self == one || self == Self::All
+        self == one || self == Self::All && one != Self::Bounded
     }
 }
 
@@ -56,6 +60,10 @@ pub struct Settings {
     pub relay_level: Option<f64>,
     /// Level at which the command switched, in output units, above 0, if it is not to be read off the record.
     pub half_width: Option<f64>,
+    /// For the guaranteed bounds: largest error of a reading beside half a step of the sensor, in output units, 0 or more.
+    pub error: f64,
+    /// For the guaranteed bounds: step of the sensor in output units, above 0, if it is not to be read off the record.
+    pub quantum: Option<f64>,
 }
 
 /// Settings that contradict each other or are no numbers of the right kind.
@@ -96,15 +104,20 @@ impl Settings {
     /// # Errors
     /// [`SettingsError`] with the remedy.
     pub fn check(&self) -> Result<(), SettingsError> {
-        if !self.method.includes(Method::Fit) && self.drag == Some(DragLaw::Mixed) {
+        if !self.method.includes(Method::Fit) && self.method != Method::Bounded && self.drag == Some(DragLaw::Mixed) {
             return Err(SettingsError::MixedNeedsFit);
         }
-        let levels =
-            [("relay level", self.relay_level, "command units"), ("half-width", self.half_width, "output units")];
+        let levels = [
+            ("relay level", self.relay_level, "command units"),
+            ("half-width", self.half_width, "output units"),
+            ("step of the sensor", self.quantum, "output units"),
+        ];
         for (quantity, level, unit) in levels {
             let remedy = "leave it out to have it read off the record";
             level.map_or(Ok(()), |level| require(quantity, level, unit, Limit::Positive, remedy).map(|_| ()))?;
         }
+        let remedy = "give the largest error from the sensor's data sheet, 0 for rounding alone";
+        require("largest error of a reading", self.error, "output units", Limit::NonNegative, remedy)?;
         Ok(())
     }
 }

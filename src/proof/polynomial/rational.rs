@@ -86,6 +86,10 @@ fn vanishes(polynomial: &Polynomial, calls: usize) -> Option<bool> {
     Some(all)
 }
 
+fn calls() -> usize {
+    CALLS.with_borrow(Vec::len)
+}
+
 /// The name of the one function of which more is known.
 const SQRT: &str = "sqrt";
 
@@ -96,8 +100,13 @@ impl Rational {
     /// Whether this is zero whatever the variables are; `false` where that is not known.
     #[must_use]
     pub fn is_zero(self) -> bool {
-        let calls = CALLS.with_borrow(Vec::len);
-        self.fraction.is_some_and(|(numerator, _)| vanishes(numerator, calls).unwrap_or(false))
+        self.fraction.is_some_and(|(numerator, _)| vanishes(numerator, calls()).unwrap_or(false))
+    }
+
+    /// The numerator of the difference over the product of the denominators, without a node of its own: comparisons are many.
+    fn difference(&self, other: &Self) -> Option<Polynomial> {
+        let ((a, b), (c, d)) = self.fraction.zip(other.fraction)?;
+        if b == d { a.plus(-1, c) } else { a.times(d)?.plus(-1, &c.times(b)?) }
     }
 
     fn of(numerator: Polynomial, denominator: Polynomial, value: f64) -> Self {
@@ -129,7 +138,7 @@ impl Rational {
         }
         let positive = self.value > 0.0;
         DECISIONS.with_borrow_mut(|decisions| {
-            if !decisions.iter().any(|(known, was)| *was == positive && (*known - self).is_zero()) {
+            if !decisions.iter().any(|(known, was)| *was == positive && *known == self) {
                 decisions.push((self, positive));
             }
         });
@@ -239,7 +248,7 @@ impl Div for Rational {
 
 impl PartialEq for Rational {
     fn eq(&self, other: &Self) -> bool {
-        (*self - *other).is_zero()
+        self.difference(other).is_some_and(|difference| vanishes(&difference, calls()).unwrap_or(false))
     }
 }
 

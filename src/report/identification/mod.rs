@@ -1,8 +1,10 @@
 //! One vehicle identified from its records, as tables, figures and sentences.
 
+mod bounds;
 mod figures;
 mod tables;
 
+pub(crate) use bounds::{bounds_tables, bounds_verdict};
 pub(crate) use tables::{feature_table, model_tables, reasons, summary, verdict};
 
 use super::{Document, Section};
@@ -13,16 +15,22 @@ use tables::{caution_table, cycle_table, refused_table};
 /// Everything as one file.
 #[must_use]
 pub fn document(found: &Identification) -> Document {
-    let [parameters, compared] = {
-        let mut tables = model_tables(found);
-        [found.reported().and_then(|_| tables.next()), tables.next()]
-    };
+    let mut tables = model_tables(found);
+    let parameters = found.reported().and_then(|_| tables.next());
     let reasons = caution_table("reasons", "Why the answer is not simply good", &reasons(found));
     let cautions = caution_table("warnings", "Warnings", found.cautions());
     let summary = Section {
         title: "Model".to_owned(),
-        paragraphs: verdict(found).lines().map(str::to_owned).collect(),
-        tables: [parameters, reasons, compared, refused_table(found), cautions].into_iter().flatten().collect(),
+        paragraphs: found.bounded().map_or_else(|| verdict(found), bounds_verdict).lines().map(str::to_owned).collect(),
+        tables: found
+            .bounded()
+            .into_iter()
+            .flat_map(|bounded| bounds_tables(found, bounded))
+            .chain([parameters, reasons].into_iter().flatten())
+            .chain(tables)
+            .chain(refused_table(found))
+            .chain(cautions)
+            .collect(),
         figures: Vec::new(),
     };
     let records = found.sources().iter().enumerate().map(|(index, source)| record_section(found, index, source));

@@ -18,7 +18,7 @@ pub struct Selection {
     /// First seed. Seeds from 1000000 on are for reports: never develop on them.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Only kinds with this in their name; may be given several times.
+    /// Only kinds with this in their name, in this order; may be given several times.
     #[arg(long)]
     pub kind: Vec<String>,
     /// Only this group: inside, family, outside, unshowable or several.
@@ -194,11 +194,16 @@ impl Table {
         identify: impl Fn(&Case) -> Answer + Sync,
     ) -> Result<Self, Box<dyn std::error::Error>> {
         let group = |kind: &Kind| format!("{:?}", kind.group).to_lowercase();
-        let mut kinds = Kind::all();
-        if !selection.kind.is_empty() {
-            let matching: Result<Vec<_>, _> = selection.kind.iter().map(|name| Kind::matching(name)).collect();
-            let names: Vec<&str> = matching?.into_iter().flatten().map(|kind| kind.name).collect();
-            kinds.retain(|kind| names.contains(&kind.name));
+        let mut kinds: Vec<Kind> = Vec::new();
+        if selection.kind.is_empty() {
+            kinds = Kind::all();
+        }
+        for name in &selection.kind {
+            for kind in Kind::matching(name)? {
+                if !kinds.iter().any(|other| other.name == kind.name) {
+                    kinds.push(kind);
+                }
+            }
         }
         kinds.retain(|kind| selection.group.as_ref().is_none_or(|wanted| *wanted == group(kind)));
         if kinds.is_empty() {
@@ -230,8 +235,15 @@ impl Table {
             eprint!("{}", score.row(kind.name));
             (kind, score)
         };
-        let kinds = pool.install(|| kinds.into_iter().map(of_kind).collect());
-        Ok(Self { kinds, records: selection.records, seed: selection.seed })
+        let mut table = Self { kinds: Vec::new(), records: selection.records, seed: selection.seed };
+        for kind in kinds {
+            table.kinds.push(pool.install(|| of_kind(kind)));
+            // A long run that is ended leaves a table of the kinds it got through.
+            if let Some(path) = &selection.out {
+                std::fs::write(path, table.markdown())?;
+            }
+        }
+        Ok(table)
     }
 
     /// The score of a kind.

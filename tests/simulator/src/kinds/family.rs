@@ -130,4 +130,22 @@ pub(super) const KINDS: &[Entry] = &[
         let plan = any(r);
         plan.with(|s| s.vehicle.actuator.rate_limit = Some(r.uniform(1.0, 4.0)))
     }),
+    ("sensor filter 0.2 s", |r| any(r).with(|s| s.sensor.filter_s = 0.2)),
+    ("sensor filter 0.5 s, delay unknown", |r| any(r).with(|s| s.sensor.filter_s = 0.5).delay_unknown()),
+    ("Coulomb friction 0.03 C", |r| vehicle(r, |v| v.drag.coulomb = 0.03)),
+    ("Coulomb friction 0.1 C", |r| vehicle(r, |v| v.drag.coulomb = 0.1)),
+    ("drag 10 % larger to one side", |r| vehicle(r, |v| v.drag.asymmetry = 0.05)),
+    ("drag 30 % larger to one side", |r| vehicle(r, |v| v.drag.asymmetry = 0.15)),
+    ("lag 0.15 s, Coulomb friction 0.05 C", |r| {
+        vehicle(r, |v| {
+            v.actuator.thrust = Lag::First { tau_s: 0.15 };
+            v.drag.coulomb = 0.05;
+        })
+    }),
+    ("sensor filter 0.3 s, lag 0.15 s", |r| {
+        any(r).with(|s| {
+            s.sensor.filter_s = 0.3;
+            s.vehicle.actuator.thrust = Lag::First { tau_s: 0.15 };
+        })
+    }),
 ];

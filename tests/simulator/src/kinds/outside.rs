@@ -18,8 +18,6 @@ fn second_order(r: &mut Random, zeta: f64) -> Plan {
 }
 
 pub(super) const KINDS: &[Entry] = &[
-    ("sensor filter 0.2 s", |r| any(r).with(|s| s.sensor.filter_s = 0.2)),
-    ("sensor filter 0.5 s, delay unknown", |r| any(r).with(|s| s.sensor.filter_s = 0.5).delay_unknown()),
     ("second-order lag, 12 rad/s, damping 0.7", |r| second_order(r, 0.7)),
     ("second-order lag, 12 rad/s, damping 0.7, delay unknown", |r| second_order(r, 0.7).delay_unknown()),
     ("two lags 0.15 s", |r| {
@@ -28,8 +26,6 @@ pub(super) const KINDS: &[Entry] = &[
             v.actuator.thrust = Lag::First { tau_s: 0.15 };
         })
     }),
-    ("Coulomb friction 0.03 C", |r| vehicle(r, |v| v.drag.coulomb = 0.03)),
-    ("Coulomb friction 0.1 C", |r| vehicle(r, |v| v.drag.coulomb = 0.1)),
     ("alpha drifts by 10 %", |r| vehicle(r, |v| v.alpha_drift = 0.1)),
     ("alpha drifts by 10 %, delay unknown", |r| vehicle(r, |v| v.alpha_drift = -0.1).delay_unknown()),
     ("thrust sags by 10 %", |r| {
@@ -54,8 +50,6 @@ pub(super) const KINDS: &[Entry] = &[
         })
     }),
     ("noise with heavy tails", |r| Plan::new(r, Law::Any).noisy(0.5).with(|s| s.sensor.noise_freedom = 3)),
-    ("drag 10 % larger to one side", |r| vehicle(r, |v| v.drag.asymmetry = 0.05)),
-    ("drag 30 % larger to one side", |r| vehicle(r, |v| v.drag.asymmetry = 0.15)),
     ("drag of power 1.5", |r| {
         vehicle(r, |v| {
             // As much force at the typical speed as the law drawn would have.
@@ -74,18 +68,6 @@ pub(super) const KINDS: &[Entry] = &[
         any(r).with(|s| {
             s.sensor.irregular_s = 0.03;
             s.sensor.stamp_step_s = 0.05;
-        })
-    }),
-    ("lag 0.15 s, Coulomb friction 0.05 C", |r| {
-        vehicle(r, |v| {
-            v.actuator.thrust = Lag::First { tau_s: 0.15 };
-            v.drag.coulomb = 0.05;
-        })
-    }),
-    ("sensor filter 0.3 s, lag 0.15 s", |r| {
-        any(r).with(|s| {
-            s.sensor.filter_s = 0.3;
-            s.vehicle.actuator.thrust = Lag::First { tau_s: 0.15 };
         })
     }),
     ("outliers 1 %, stiffness 0.05 C/rad, 10 % missing", |r| {

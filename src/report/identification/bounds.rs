@@ -1,0 +1,101 @@
+//! Guaranteed bounds as tables and sentences.
+
+use super::tables::cell;
+use crate::identify::bounded::{Bounds, Consistency, DelayBound, Quantity};
+use crate::identify::{Guaranteed, Identification};
+use crate::report::{Cell, Table};
+
+/// What is left of every parameter with the witness; or the readings that contradict each other.
+pub(crate) fn bounds_tables(found: &Identification, guaranteed: &Guaranteed) -> Vec<Table> {
+    let bounds = &guaranteed.bounds;
+    let tables = [
+        (!bounds.bounds.is_empty()).then(|| bounds_table(found, bounds)),
+        (!bounds.contradicting.is_empty()).then(|| contradiction_table(found, bounds)),
+    ];
+    tables.into_iter().flatten().chain([search_table(found, bounds)]).collect()
+}
+
+fn name(found: &Identification, quantity: Quantity) -> Cell {
+    match quantity.record().filter(|_| found.sources().len() > 1) {
+        Some(record) => Cell::Text(format!("{quantity} in {}", found.sources()[record].name)),
+        None => Cell::Text(quantity.to_string()),
+    }
+}
+
+fn bounds_table(found: &Identification, bounds: &Bounds) -> Table {
+    let table = Table::new("bounds", "Guaranteed bounds", &["parameter", "at least", "at most", "witness"]);
+    bounds.bounds.iter().fold(table, |table, range| {
+        let values = bounds.witness.iter().flat_map(|witness| &witness.values);
+        let witness = values.filter(|(quantity, _)| *quantity == range.quantity).map(|(_, value)| cell(*value)).next();
+        table.row([name(found, range.quantity), cell(range.low), cell(range.high), witness.unwrap_or(Cell::Missing)])
+    })
+}
+
+fn search_table(found: &Identification, bounds: &Bounds) -> Table {
+    let table = Table::new("search", "Where parameters were looked for", &["quantity", "from", "to"]);
+    bounds
+        .search_box
+        .iter()
+        .fold(table, |table, range| table.row([name(found, range.quantity), cell(range.low), cell(range.high)]))
+}
+
+fn contradiction_table(found: &Identification, bounds: &Bounds) -> Table {
+    let columns = ["record", "time (s)", "reading", "the model is", "share (%)"];
+    let table = Table::new("contradiction", "Readings that contradict each other", &columns);
+    let table = bounds.contradicting.iter().fold(table, |table, part| {
+        let source = &found.sources()[part.record];
+        let record = &source.log.record;
+        let side = if part.model_above { "not above" } else { "not below" };
+        table.row([
+            source.name.as_str().into(),
+            Cell::number(record.time_s()[part.sample], 3),
+            cell(record.output()[part.sample]),
+            side.into(),
+            Cell::number(100.0 * part.share, 1),
+        ])
+    });
+    table.note(
+        "No motion of the model stays within these bounds of these readings at once, in the part of the search box that was \
+         excluded last; the share is each bound's weight in the proof.",
+    )
+}
+
+/// The answer in sentences.
+#[must_use]
+pub(crate) fn bounds_verdict(guaranteed: &Guaranteed) -> String {
+    let (model, bounds) = (&guaranteed.model, &guaranteed.bounds);
+    let delay = match model.delay {
+        DelayBound::KnownS(delay_s) => format!("a delay of {delay_s} s"),
+        DelayBound::WithinS([low, high]) => format!("a delay between {low} and {high} s"),
+        DelayBound::Unknown => "an unknown delay".to_owned(),
+    };
+    let of = format!("{} drag and {delay}", model.law.name());
+    let errors: Vec<String> = bounds.error.iter().map(|error| format!("{error:.4e}")).collect();
+    let [least, most] = bounds.error_factor;
+    let answer = match bounds.verdict {
+        Consistency::Consistent => format!(
+            "Consistent: a parameter of the model with {of} meets every reading, and every parameter in the search box that does lies \
+             within the bounds."
+        ),
+        Consistency::Refuted => format!(
+            "Refuted: no parameter in the search box lets the model with {of} meet every reading. This is proved by interval \
+             arithmetic, without an assumption on the distribution of errors."
+        ),
+        Consistency::Undecided => format!(
+            "Undecided: the budget was spent before a parameter of the model with {of} was found that meets every reading, or all \
+             were excluded. The bounds hold nevertheless."
+        ),
+    };
+    let granted = format!("Every reading was granted an error of {}.", errors.join(", "));
+    let smallest = match bounds.verdict {
+        Consistency::Refuted if most < f64::MAX => {
+            format!(
+                " With {most:.3} times that error a parameter would meet every reading; with no more than that error none does."
+            )
+        }
+        Consistency::Refuted => String::new(),
+        _ if least > 0.0 => format!(" With less than {least:.3} times that error none would."),
+        _ => String::new(),
+    };
+    format!("{answer}\n{granted}{smallest}")
+}

@@ -1,0 +1,87 @@
+//! What the README shows is what happens: its commands run as typed, and its picture and printed answer are the program's.
+
+use std::path::Path;
+use std::process::Command;
+
+const README: &str = include_str!("../../README.md");
+
+/// Lines of the blocks in a language.
+fn blocks(language: &str) -> impl Iterator<Item = &'static str> {
+    let fence = format!("```{language}\n");
+    let starts: Vec<usize> = README.match_indices(&fence).map(|(at, _)| at + fence.len()).collect();
+    starts.into_iter().map(|start| README[start..].split("```").next().unwrap_or_default())
+}
+
+/// A shell in an empty folder that has the fixtures, with the command on its path.
+fn shell(line: &str, folder: &Path) -> std::process::Output {
+    let program = assert_cmd::cargo::cargo_bin("selfosc");
+    let path = format!("{}:{}", program.parent().unwrap().display(), std::env::var("PATH").unwrap());
+    Command::new("sh").args(["-c", line]).current_dir(folder).env("PATH", path).output().unwrap()
+}
+
+fn folder_with_fixtures() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let pool = folder.path().join("fixtures/pool");
+    std::fs::create_dir_all(&pool).unwrap();
+    std::fs::copy("fixtures/pool/heading.csv", pool.join("heading.csv")).unwrap();
+    folder
+}
+
+/// All claims at once are another test's.
+fn is_long(line: &str) -> bool {
+    line.starts_with("selfosc verify\n")
+        || line == "selfosc verify"
+        || line.contains("--certificates")
+        || line.contains("--out paper")
+}
+
+#[test]
+fn commands_run_as_typed() {
+    let folder = folder_with_fixtures();
+    let lines: Vec<&str> = blocks("sh").flat_map(str::lines).filter(|line| line.starts_with("selfosc ")).collect();
+    assert!(lines.len() > 12, "{lines:?}");
+    for line in lines.into_iter().filter(|line| !is_long(line)) {
+        let output = shell(line, folder.path());
+        assert!(output.status.success(), "{line}\n{}", String::from_utf8_lossy(&output.stderr));
+        assert!(output.stderr.is_empty(), "{line}\n{}", String::from_utf8_lossy(&output.stderr));
+    }
+    for made in ["report.html", "model.json", "log.csv"] {
+        assert!(std::fs::metadata(folder.path().join(made)).unwrap().len() > 0, "{made}");
+    }
+}
+
+#[test]
+fn the_first_answer_is_the_one_shown() {
+    let folder = folder_with_fixtures();
+    let output = shell("selfosc identify fixtures/pool/heading.csv", folder.path());
+    let answer = String::from_utf8(output.stdout).unwrap();
+    let shown = blocks("text").next().unwrap();
+    for line in shown.lines().filter(|line| !line.trim().is_empty()) {
+        assert!(answer.lines().any(|one| one == line), "README shows\n{line}\nand the answer is\n{answer}");
+    }
+}
+
+/// With `SELFOSC_WRITE_TABLES=1` the picture is written instead.
+#[test]
+fn the_picture_is_the_report_s() {
+    let folder = folder_with_fixtures();
+    let output = shell("selfosc identify fixtures/pool/heading.csv --report report.html", folder.path());
+    assert!(output.status.success());
+    let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
+    let (from, to) = (page.find("<svg").unwrap(), page.find("</svg>").unwrap());
+    let picture = format!("{}</svg>\n", &page[from..to]);
+    if std::env::var_os("SELFOSC_WRITE_TABLES").is_some() {
+        std::fs::write("spec/figures/pool.svg", &picture).unwrap();
+    }
+    assert!(
+        std::fs::read_to_string("spec/figures/pool.svg").unwrap() == picture,
+        "spec/figures/pool.svg is another picture"
+    );
+}
+
+/// The sample log is what the command beside it makes.
+#[test]
+fn the_sample_log_is_simulated() {
+    let made = shell(include_str!("../../fixtures/pool/make.sh"), Path::new("."));
+    assert!(String::from_utf8(made.stdout).unwrap() == include_str!("../../fixtures/pool/heading.csv"));
+}
