@@ -57,8 +57,8 @@ def main():
     exact = y.mean(), (y * np.sin(theta)).mean(), (y * np.cos(theta)).mean()
     df = describing_function("saturation-asymmetric", 2.0, 0.3, lower=-1.0, upper=0.5)
     print(f"  selfosc                                 {max(abs(a - b) for a, b in zip(df, exact, strict=True)):10.1e}")
-    shifted = ct.describing_function(lambda x: np.clip(0.3 + x, -1.0, 0.5), 2.0, zero_check=False)
-    error = max(abs(shifted.real - exact[1]), abs(shifted.imag - exact[2]))
+    shifted = complex(np.squeeze(ct.describing_function(lambda x: np.clip(0.3 + x, -1.0, 0.5), 2.0, zero_check=False)))
+    error = float(max(abs(shifted.real - exact[1]), abs(shifted.imag - exact[2])))
     print(f"  python-control, bias written into F     {error:10.1e}   (P and Q; it has no F0)")
 
 

@@ -23,7 +23,7 @@ START = np.array([0.06, 0.01, 0.0, 0.0, 0.0])
 
 
 def by_selfosc(record):
-    answer = selfosc.identify(record, method="fit", drag="quadratic", delay=0.0).reported
+    answer = selfosc.identify(record, method="fit", drag="quadratic", delay=0.0).estimates[-1]
     return answer["alpha"]["value"], answer["beta_quadratic"]["value"]
 
 

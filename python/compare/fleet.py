@@ -1,6 +1,6 @@
 """A thousand records by one process, Dask and Spark, a worker of each cluster killed: the same bytes, and the time.
 
-    python compare/fleet.py [records] [iso|exact|fit] [one|dask|spark ...]
+python compare/fleet.py [records] [iso|exact|fit] [one|dask|spark ...]
 """
 
 import hashlib

@@ -78,11 +78,12 @@ class Identification(Result):
         The model drawn is that of the fit with the likeliest drag law, beside the record that it was fitted to; the intervals
         are those of ``reported``.
         """
-        from matplotlib.figure import Figure
+        import matplotlib
+        from matplotlib import pyplot
 
         logs = [source["log"]["record"] for source in self.details["sources"]]
         fitted = _fitted(self.details, len(logs))
-        figure = Figure(figsize=(9.0, 3.6 * len(logs) + 2.2), layout="constrained")
+        figure = pyplot.figure(figsize=(9.0, 3.6 * len(logs) + 2.2), layout="constrained")
         grid = figure.add_gridspec(2 * len(logs) + 1, 1, height_ratios=[2.2, 1.0] * len(logs) + [1.6])
         for place, (log, fit) in enumerate(zip(logs, fitted, strict=True)):
             above = figure.add_subplot(grid[2 * place])
@@ -103,6 +104,9 @@ class Identification(Result):
             below.set_ylabel("residual")
             below.set_xlabel("time / s")
         self._plot_intervals(figure.add_subplot(grid[-1]))
+        if "inline" in matplotlib.get_backend():
+            # A notebook shows what a cell returns; left open, it would be shown twice.
+            pyplot.close(figure)
         return figure
 
     def _plot_intervals(self, axes: Any) -> None:
