@@ -44,7 +44,7 @@ mod tests {
     #[test]
     fn no_escape_sequence_passes() -> io::Result<()> {
         let mut shown = Shown(Vec::new());
-        write!(shown, "log \u{1b}[2J{}\r\u{9b}31m\u{202e}.csv: \u{e9}\t1\n", "\u{7}")?;
+        write!(shown, "log \u{1b}[2J\u{7}\r\u{9b}31m\u{202e}.csv: \u{e9}\t1\n")?;
         assert_eq!(shown.0, "log \\u{1b}[2J\\u{7}\\r\\u{9b}31m\\u{202e}.csv: \u{e9}\t1\n".as_bytes());
         Ok(())
     }
