@@ -29,6 +29,7 @@ mod identify_moved;
 mod integration_oracle;
 mod interval;
 mod laws;
+mod libm_single;
 mod method_bias;
 mod motion_drag_axis;
 mod on_board;
