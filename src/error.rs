@@ -68,6 +68,7 @@ umbrella! {
     "No steady self-oscillation in a record." Features(crate::features::FeatureError);
     "No model." Identify(crate::identify::IdentifyError) numbers;
     "No model from these logs." Identification(crate::identify::Refusal) numbers;
+    "No experiment to propose." Design(crate::identify::design::DesignError) numbers;
     "An experiment on board that was broken off." OnBoard(crate::on_board::Fault);
     "A vehicle, a thruster or a demand on them." Vehicle(crate::vehicle::VehicleError) numbers;
     "No controller." Control(crate::control::ControlError) numbers;

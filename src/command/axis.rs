@@ -1,4 +1,4 @@
-//! The arguments that describe a drag axis, common to `predict`, `simulate` and `tune`, and its relay.
+//! The arguments that describe a drag axis, common to `predict`, `simulate`, `design` and `tune`, and its relay.
 
 use clap::Args;
 

@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
 
 use super::{CommandError, Outcome, files, write_json};
-use crate::experiment::Columns;
+use crate::experiment::{Columns, TimeUnit};
 use crate::identify::joint::Delay;
 use crate::identify::{self, DragLaw, Identification, Refusal, Refused, Session, Settings, SettingsError};
 use crate::report::identification as page;
@@ -28,7 +28,7 @@ Examples:
   selfosc identify log.csv --method bounded --delay 0.2
   selfosc identify zigzag.csv --method fit --output yaw_deg --input rudder")]
 pub(super) struct Arguments {
-    /// Delimiter-separated text with a header
+    /// Delimiter-separated text with a header; - is standard input
     #[arg(value_name = "LOG", required = true)]
     logs: Vec<PathBuf>,
     /// Column of times in s [default: the first of time_s, time, t]
@@ -64,9 +64,30 @@ pub(super) struct Arguments {
     /// The output is in degrees; a column ending in _deg always is. Every result is in radians
     #[arg(long)]
     degrees: bool,
+    /// The output is in radians, whatever its column looks like
+    #[arg(long, conflicts_with = "degrees")]
+    radians: bool,
     /// The output is an angle that jumps by a turn; a heading or yaw column always is
     #[arg(long)]
     wrap: bool,
+    /// Unit of the times [default: that which the column's name ends in, as _ms does, else s]
+    #[arg(long, value_name = "UNIT", value_parser = time_unit)]
+    time_unit: Option<TimeUnit>,
+    /// The command that does nothing, as logged; it is taken off [default: 0]
+    #[arg(long, value_name = "U", value_parser = finite, allow_negative_numbers = true)]
+    neutral: Option<f64>,
+    /// The command is logged with the opposite sign
+    #[arg(long)]
+    invert: bool,
+    /// Uses samples from this time on, in s on the log's clock
+    #[arg(long, value_name = "T", value_parser = finite, allow_negative_numbers = true)]
+    from: Option<f64>,
+    /// Uses samples up to this time, in s on the log's clock
+    #[arg(long, value_name = "T", value_parser = finite, allow_negative_numbers = true)]
+    to: Option<f64>,
+    /// Logs that are predicted and take no part in the estimate: percent of fit of each
+    #[arg(long, value_name = "LOG", num_args = 1..)]
+    validate: Vec<PathBuf>,
     /// Writes one HTML file with figures, which needs no network
     #[arg(long, value_name = "OUT.html")]
     report: Option<PathBuf>,
@@ -131,6 +152,14 @@ fn positive(text: &str) -> Result<f64, String> {
     value.ok_or_else(|| "must be a finite number above 0".to_owned())
 }
 
+fn finite(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| "must be a finite number".to_owned())
+}
+
+fn time_unit(text: &str) -> Result<TimeUnit, String> {
+    TimeUnit::ALL.into_iter().find(|unit| unit.name() == text).ok_or_else(|| "must be s, ms, us or ns".to_owned())
+}
+
 fn nonnegative(text: &str) -> Result<f64, String> {
     let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value >= 0.0);
     value.ok_or_else(|| "must be a finite number, 0 or more".to_owned())
@@ -175,7 +204,12 @@ impl Arguments {
         let progress = ProgressBar::new_spinner();
         progress.enable_steady_tick(Duration::from_millis(100));
         let session = Session::new(settings).with_columns(self.columns());
-        let session = self.logs.iter().try_fold(session, Session::log);
+        let read = |session: Session, path: &PathBuf| match path.to_str() {
+            Some("-") => session.reader("standard input", std::io::stdin()),
+            _ => session.log(path),
+        };
+        let session = self.logs.iter().try_fold(session, read);
+        let session = session.and_then(|session| self.validate.iter().try_fold(session, Session::validation));
         let found = session.and_then(|session| session.identify_with(|stage| progress.set_message(stage.to_string())));
         progress.finish_and_clear();
         found
@@ -198,6 +232,12 @@ impl Arguments {
             time: self.time.clone(),
             output: self.output.clone(),
             input: self.input.clone(),
+            time_unit: self.time_unit,
+            neutral: self.neutral,
+            invert: self.invert,
+            from_s: self.from,
+            to_s: self.to,
+            radians: self.radians,
             degrees: self.degrees,
             wrap: self.wrap,
         }

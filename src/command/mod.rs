@@ -6,9 +6,11 @@
 mod axis;
 mod balance;
 mod certificates;
+mod design;
 mod df;
 mod error;
 mod files;
+mod gain;
 mod identify;
 mod known;
 mod manual;
@@ -52,6 +54,7 @@ enum Action {
     Balance(balance::Arguments),
     Predict(predict::Arguments),
     Simulate(simulate::Arguments),
+    Design(design::Arguments),
     Identify(identify::Arguments),
     Tune(tune::Arguments),
     Completions(manual::Completions),
@@ -67,6 +70,7 @@ impl Action {
             Self::Balance(arguments) => balance::run(arguments, output),
             Self::Predict(arguments) => predict::run(arguments, output),
             Self::Simulate(arguments) => simulate::run(arguments, output),
+            Self::Design(arguments) => design::run(arguments, output),
             Self::Identify(arguments) => identify::run(arguments, output),
             Self::Tune(arguments) => tune::run(arguments, output),
             Self::Completions(arguments) => manual::completions(arguments, output),

@@ -83,7 +83,9 @@ pub enum ExperimentError {
         previous_s: f64,
     },
     /// Samples are missing: the input in between is not known.
-    #[error("{place}: no sample for {gap_s} s, at most {limit_s} s allowed; cut the log there and use one part")]
+    #[error(
+        "{place}: no sample for {gap_s} s, at most {limit_s} s allowed; use the part before or after (--from, --to)"
+    )]
     Gap {
         /// Where the gap ends.
         place: Place,
@@ -110,6 +112,65 @@ pub enum ExperimentError {
         wanted: String,
         /// The names in the header.
         found: String,
+    },
+    /// Two columns of one name.
+    #[error(
+        "column {name} is there {count} times: name the one to read by its number, {name}#1 or another; or rename them"
+    )]
+    DuplicateColumn {
+        /// The name.
+        name: String,
+        /// How often it is there.
+        count: usize,
+    },
+    /// Times that make no sense in seconds.
+    #[error(
+        "samples are {interval_s} s apart in the middle, if times are in seconds: say the unit of the log, s, ms, us or ns \
+         (--time-unit)"
+    )]
+    TimeUnit {
+        /// The middle interval, in s.
+        interval_s: f64,
+    },
+    /// A heading that no angle in radians reaches.
+    #[error(
+        "{place}: {column} = {value} is no heading in radians: say that it is in degrees (--degrees), or that it is in radians \
+         all the same (--radians)"
+    )]
+    Degrees {
+        /// Where.
+        place: Place,
+        /// Name of the column.
+        column: String,
+        /// The value.
+        value: f64,
+    },
+    /// An output that jumps by a turn.
+    #[error(
+        "{place}: {column} jumps by {jump}, a turn: say that it is an angle (--wrap, with --degrees if it is in degrees)"
+    )]
+    Turns {
+        /// Where.
+        place: Place,
+        /// Name of the column.
+        column: String,
+        /// The jump.
+        jump: f64,
+    },
+    /// A command whose neutral is not zero.
+    #[error(
+        "{column} lies between {low} and {high} and never changes its sign: say which command is neutral (--neutral {middle}), \
+         or that zero is (--neutral 0)"
+    )]
+    Neutral {
+        /// Name of the column.
+        column: String,
+        /// The least command.
+        low: f64,
+        /// The largest command.
+        high: f64,
+        /// Their middle.
+        middle: f64,
     },
     /// A cell without a number.
     #[error("line {line}, column {column}: the cell is blank; fill it in or remove the line")]
@@ -165,6 +226,11 @@ impl ExperimentError {
             Self::Empty => "empty",
             Self::Binary { .. } => "not-text",
             Self::UnknownColumn { .. } => "unknown-column",
+            Self::DuplicateColumn { .. } => "duplicate-column",
+            Self::TimeUnit { .. } => "time-unit",
+            Self::Degrees { .. } => "degrees",
+            Self::Turns { .. } => "turns",
+            Self::Neutral { .. } => "neutral",
             Self::Blank { .. } => "blank-cell",
             Self::NotANumber { .. } => "not-a-number",
             Self::TooLong { .. } => "too-long",

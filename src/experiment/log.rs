@@ -1,13 +1,13 @@
 //! Reading logs: delimiter-separated text with a header.
 
-use core::f64::consts::{PI, TAU};
 use std::borrow::Cow;
 use std::io::Read;
 
+use super::clinic::{self, TimeUnit};
 use super::{ExperimentError, Place, Record};
 
 /// Names tried for each column, best first.
-const TIME: &[&str] = &["time_s", "time", "t"];
+const TIME: &[&str] = &["time_s", "time", "t", "time_ms", "time_us", "time_ns"];
 const OUTPUT: &[&str] =
     &["heading_deg", "yaw_deg", "heading", "yaw", "depth_m", "position_m", "position", "output", "y"];
 const INPUT: &[&str] = &["command", "input", "u"];
@@ -23,16 +23,29 @@ const INPUT: &[&str] = &["command", "input", "u"];
 /// assert!((log.record.output()[19] - 374f64.to_radians()).abs() < 1e-12);
 /// # Ok::<(), selfosc::experiment::ExperimentError>(())
 /// ```
-#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Columns {
-    /// Name of the time column, in seconds; by default the first of `time_s`, `time`, `t`.
+    /// Name of the time column; by default the first of `time_s`, `time`, `t`, `time_ms`, `time_us`, `time_ns`. Of several columns
+    /// of one name, `name#2` is the second.
     pub time: Option<String>,
     /// Name of the output column; by default the first of `heading_deg`, `yaw_deg`, `heading`, `yaw`, `depth_m`,
     /// `position_m`, `position`, `output`, `y`.
     pub output: Option<String>,
     /// Name of the input column; by default the first of `command`, `input`, `u`.
     pub input: Option<String>,
+    /// Unit of the times; by default that which the column's name ends in, as `_ms` does, else seconds.
+    pub time_unit: Option<TimeUnit>,
+    /// The command that does nothing, in units of its column: it is taken off. By default zero.
+    pub neutral: Option<f64>,
+    /// The command is logged with the opposite sign.
+    pub invert: bool,
+    /// Only samples from this time on, in s on the log's clock.
+    pub from_s: Option<f64>,
+    /// Only samples up to this time, in s on the log's clock.
+    pub to_s: Option<f64>,
+    /// The output is in radians, whatever it looks like.
+    pub radians: bool,
     /// The output is in degrees. A column whose name ends in `_deg` always is.
     pub degrees: bool,
     /// The output is an angle that jumps by a turn. Columns named after heading or yaw always count as such.
@@ -142,16 +155,45 @@ impl Columns {
     fn log(
         &self,
         columns: [String; 3],
-        [time_s, mut output, input]: [Vec<f64>; 3],
+        [mut time_s, mut output, mut input]: [Vec<f64>; 3],
         place: impl Fn(usize) -> Place,
     ) -> Result<Log, ExperimentError> {
-        let name = columns[1].to_lowercase();
-        let degrees = self.degrees || name.ends_with("_deg");
+        let unit = self.time_unit.unwrap_or_else(|| TimeUnit::of_column(&columns[0]));
+        time_s.iter_mut().for_each(|time| *time /= unit.per_second());
+        if self.time_unit.is_none() {
+            clinic::seconds(&time_s)?;
+        }
+        let inside: Vec<bool> = time_s
+            .iter()
+            .map(|time| self.from_s.is_none_or(|from| *time >= from) && self.to_s.is_none_or(|to| *time <= to))
+            .collect();
+        for values in [&mut time_s, &mut output, &mut input] {
+            let mut inside = inside.iter();
+            values.retain(|_| inside.next().copied().unwrap_or(true));
+        }
+        let kept: Vec<usize> = (0..inside.len()).filter(|sample| inside[*sample]).collect();
+        let place = |sample: usize| place(kept[sample]);
+        let name = &columns[1];
+        let lower = name.to_lowercase();
+        let degrees = !self.radians && (self.degrees || lower.ends_with("_deg"));
+        let wrap = self.wrap || lower.contains("heading") || lower.contains("yaw");
+        if wrap && !degrees && !self.radians {
+            clinic::radians(name, &output, place)?;
+        }
         if degrees {
             output.iter_mut().for_each(|angle| *angle = angle.to_radians());
         }
-        let wrap = self.wrap || name.contains("heading") || name.contains("yaw");
-        let unwrapped = if wrap { unwrap(&mut output) } else { 0 };
+        let unwrapped = if wrap { clinic::unwrap(&mut output) } else { 0 };
+        if !wrap {
+            clinic::turns(name, &output, clinic::turn(degrees), place)?;
+        }
+        match self.neutral {
+            Some(neutral) => input.iter_mut().for_each(|command| *command -= neutral),
+            None => clinic::neutral(&columns[2], &input)?,
+        }
+        if self.invert {
+            input.iter_mut().for_each(|command| *command = -*command);
+        }
         let record = Record::placed(time_s, output, input, place)?;
         Ok(Log { record, degrees, unwrapped, columns })
     }
@@ -170,18 +212,30 @@ fn delimiter<'a>(header: &str, text: &'a str) -> (u8, Cow<'a, str>) {
 
 /// Index of the column asked for, or of the first default that is there.
 fn column(names: &[String], wanted: Option<&str>, defaults: &[&str]) -> Result<usize, ExperimentError> {
-    let find = |name: &str| {
-        let same = |candidate: &String| candidate.eq_ignore_ascii_case(name);
-        names.iter().position(|candidate| candidate == name).or_else(|| names.iter().position(same))
+    let all = |name: &str| -> Vec<usize> {
+        let those = |same: fn(&str, &str) -> bool| {
+            (0..names.len()).filter(|index| same(&names[*index], name)).collect::<Vec<_>>()
+        };
+        let exact = those(|candidate, name| candidate == name);
+        if exact.is_empty() { those(|candidate, name| candidate.eq_ignore_ascii_case(name)) } else { exact }
+    };
+    let numbered = |name: &str| {
+        let (name, number) = name.rsplit_once('#')?;
+        all(name).get(number.parse::<usize>().ok()?.checked_sub(1)?).copied()
     };
     let found = match wanted {
-        Some(name) => find(name),
-        None => defaults.iter().find_map(|name| find(name)),
+        Some(name) => all(name),
+        None => defaults.iter().map(|name| all(name)).find(|found| !found.is_empty()).unwrap_or_default(),
     };
-    found.ok_or_else(|| ExperimentError::UnknownColumn {
-        wanted: wanted.map_or_else(|| defaults.join(", "), str::to_owned),
-        found: names.join(", "),
-    })
+    match (&found[..], wanted.and_then(numbered)) {
+        ([only], _) => Ok(*only),
+        ([], Some(numbered)) => Ok(numbered),
+        ([], None) => Err(ExperimentError::UnknownColumn {
+            wanted: wanted.map_or_else(|| defaults.join(", "), str::to_owned),
+            found: names.join(", "),
+        }),
+        (several, _) => Err(ExperimentError::DuplicateColumn { name: names[several[0]].clone(), count: several.len() }),
+    }
 }
 
 /// The number in a cell.
@@ -195,23 +249,6 @@ fn number(cell: &str, delimiter: u8, line: u64, column: &str) -> Result<f64, Exp
         column: column.to_owned(),
         text: cell.chars().take(40).collect(),
     })
-}
-
-/// Takes out jumps by more than half a turn; how many there were. Values that are not finite are left for the record to
-/// refuse.
-fn unwrap(angles: &mut [f64]) -> usize {
-    let (mut turns, mut jumps) = (0.0, 0);
-    let Some(mut previous) = angles.first().copied() else { return 0 };
-    for angle in angles {
-        let jump = *angle - previous;
-        previous = *angle;
-        if jump.abs() > PI && jump.is_finite() {
-            turns -= (jump / TAU).round();
-            jumps += 1;
-        }
-        *angle += turns * TAU;
-    }
-    jumps
 }
 
 fn unreadable(error: csv::Error) -> ExperimentError {

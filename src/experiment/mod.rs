@@ -1,6 +1,8 @@
 //! The experiment: a relay in the loop, and the record that it leaves.
 
 #[cfg(feature = "std")]
+mod clinic;
+#[cfg(feature = "std")]
 mod error;
 #[cfg(feature = "std")]
 mod log;
@@ -10,6 +12,8 @@ mod relay;
 #[cfg(feature = "std")]
 mod simulation;
 
+#[cfg(feature = "std")]
+pub use clinic::TimeUnit;
 #[cfg(feature = "std")]
 pub use error::{ExperimentError, Place};
 #[cfg(feature = "std")]

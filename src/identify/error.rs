@@ -65,6 +65,9 @@ pub enum IdentifyError {
         /// Residual rms reached.
         rms: f64,
     },
+    /// The output answers the command's opposite.
+    #[error("the output moves against the command: say that it is logged with the opposite sign (--invert)")]
+    CommandSign,
     /// The first harmonic belongs to no vehicle.
     #[error(
         "{parameter} = {value} by the first harmonic with a delay of {delay_s} s in a period of {period_s} s, but it must be \
@@ -102,6 +105,7 @@ impl IdentifyError {
             Self::TooFewEquations { .. } => "too-few-equations",
             Self::Confounded { .. } => "confounded",
             Self::NotSettled { .. } => "not-settled",
+            Self::CommandSign => "command-sign",
             Self::Unphysical { .. } => "unphysical",
             Self::Orbit(_) => "orbit",
             Self::Plant(_) => "plant",

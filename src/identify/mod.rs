@@ -8,6 +8,8 @@
 mod any_float;
 #[cfg(feature = "std")]
 pub mod bounded;
+#[cfg(feature = "std")]
+pub mod design;
 mod drag_law;
 mod error;
 pub mod exact;
@@ -36,5 +38,5 @@ pub use warning::Warning;
 pub use workflow::{
     BoundedConclusion, Caution, Conclusion, DragChoice, FeatureMeans, FeatureValues, Guaranteed, Identification,
     Method, Model, RecordConclusion, Refusal, Refused, RefusedMethod, ReportedModel, Session, Settings, SettingsError,
-    Source, Stage, Total, Units,
+    Source, Stage, Total, Units, Validation,
 };

@@ -46,4 +46,5 @@ mod serialised;
 mod session;
 mod special;
 mod tolerance;
+mod trust;
 mod vehicle;

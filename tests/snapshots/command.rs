@@ -42,6 +42,7 @@ helps! {
     predict_help "predict-help" ["predict"];
     simulate_help "simulate-help" ["simulate"];
     tune_help "tune-help" ["tune"];
+    design_help "design-help" ["design"];
 }
 
 /// Verdicts and evidence of every claim. The worst margins are left out: they hang on the last bit of the arithmetic.
@@ -53,6 +54,12 @@ fn verify() {
 
 const RELAY: [&str; 4] = ["df", "relay-hysteresis", "--set", "half_width=0.3"];
 const AXIS: [&str; 7] = ["predict", "--alpha", "1", "--beta", "1", "--relay", "1"];
+
+#[test]
+fn design() {
+    let model = ["design", "--alpha", "1", "--beta-quadratic", "0.5", "--delay", "0.1", "--level", "1", "--time", "60"];
+    golden!("design", done(&[&model[..], &["--quantum", "0.0175", "--largest-amplitude", "2"]].concat()));
+}
 
 /// Written, read again, and refused with one box gone.
 #[test]
@@ -153,4 +160,35 @@ fn no_limit_cycle() {
     let (status, answer, complaint) = output(&with(&AXIS, &["--half-width", "0.2", "--delta", "1.5"]));
     assert_eq!((status, complaint.as_str()), (Some(1), ""));
     golden!("no-limit-cycle", answer);
+}
+
+/// A gain has its amplitudes, and gains have their characteristic.
+#[test]
+fn the_other_way_round() {
+    let answer = done(&["df", "relay-dead-zone", "--set", "dead_zone=0.5", "--gain", "1", "--json"]);
+    let answer: serde_json::Value = serde_json::from_str(&answer).unwrap();
+    let found = answer["amplitudes"].as_array().unwrap();
+    assert_eq!(found.len(), 2);
+    assert!(found.iter().all(|one| (one["p"].as_f64().unwrap() - 1.0).abs() < 1e-12));
+    let (status, answer, _) = output(&["df", "saturation", "--set", "breakpoint=1", "--gain", "3"]);
+    assert_eq!((status, answer.contains("no amplitude")), (Some(1), true));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("gains.csv");
+    // P of a saturation, 2/pi (asin(b/X) + b/X sqrt(1 - (b/X)^2)) beyond its breakpoint b = 0.7.
+    let gain = |x: f64| {
+        if x < 0.7 {
+            1.0
+        } else {
+            2.0 / std::f64::consts::PI * ((0.7 / x).asin() + 0.7 / x * (1.0 - (0.7 / x).powi(2)).sqrt())
+        }
+    };
+    let rows: String = [0.3, 0.5, 0.8, 1.1, 1.6, 2.5, 4.0].map(|x| format!("{x},{}\n", gain(x))).concat();
+    std::fs::write(&path, format!("amplitude,p\n{rows}")).unwrap();
+    let ranked: serde_json::Value =
+        serde_json::from_str(&done(&["df", "--fit", path.to_str().unwrap(), "--json"])).unwrap();
+    let best: Vec<_> = ranked["fits"].as_array().unwrap().iter().take(3).collect();
+    assert!(
+        best.iter().any(|fit| fit["nonlinearity"] == "saturation" && fit["residual"].as_f64().unwrap() < 1e-9),
+        "{best:?}"
+    );
 }

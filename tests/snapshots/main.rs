@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
 mod catalogue;
+mod clinic;
 mod command;
 mod identify;
 mod paper;

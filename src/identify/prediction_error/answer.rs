@@ -69,6 +69,11 @@ pub enum Reason {
         /// Standard deviation between records over the mean.
         relative: f64,
     },
+    /// The same of records whose commands have different levels: thrust is not proportional to the command, or the vehicles differ.
+    ThrustNotProportional {
+        /// Standard deviation between records over the mean.
+        relative: f64,
+    },
 }
 
 impl Reason {
@@ -83,6 +88,7 @@ impl Reason {
             Self::TooWide { .. } => "too-wide",
             Self::NotSettled => "not-settled",
             Self::RecordsDisagree { .. } => "records-disagree",
+            Self::ThrustNotProportional { .. } => "thrust-not-proportional",
         }
     }
 
@@ -90,7 +96,7 @@ impl Reason {
     #[must_use]
     pub fn trust(self) -> Trust {
         match self {
-            Self::TooWide { .. } | Self::NotSettled => Trust::Doubtful,
+            Self::TooWide { .. } | Self::NotSettled | Self::ThrustNotProportional { .. } => Trust::Doubtful,
             _ => Trust::Widened,
         }
     }
@@ -104,7 +110,12 @@ impl core::fmt::Display for Reason {
             }
             Self::DelayContradicted { given_s, found_s } => write!(
                 f,
-                "the record has a delay of {found_s:.3} s, not the {given_s} s given: the estimates are those with the delay found"
+                "the record has a delay of {found_s:.3} s, not the {given_s} s given{}: the estimates are those with the delay found",
+                if found_s < given_s {
+                    " (the log may hold the command as it acted, behind a part of the delay)"
+                } else {
+                    ""
+                }
             ),
             Self::HalvesDisagree { probability } => write!(
                 f,
@@ -122,6 +133,13 @@ impl core::fmt::Display for Reason {
             Self::RecordsDisagree { relative } => write!(
                 f,
                 "the records want inertias that scatter by {:.1} % beyond chance; the interval holds their scatter",
+                100.0 * relative
+            ),
+            Self::ThrustNotProportional { relative } => write!(
+                f,
+                "records of different levels want inertias that scatter by {:.1} % beyond chance: thrust is not proportional to \
+                 the command (a dead zone, another exponent), or the vehicles differ; two levels do not tell these apart, and \
+                 one number does not serve both",
                 100.0 * relative
             ),
         }
@@ -214,4 +232,6 @@ pub struct Answer {
     pub innovations: Vec<(f64, f64)>,
     /// What the readings count together, those of repeated half cycles once.
     pub effective_samples: f64,
+    /// Largest less least command.
+    pub command_range: f64,
 }

@@ -16,11 +16,13 @@ mod actuator;
 mod answer;
 mod average;
 mod filter;
+pub(in crate::identify) mod information;
 mod lateness;
 mod laws;
 mod model;
 mod motion;
 mod observations;
+mod prediction;
 mod residuals;
 mod scoring;
 mod search;
@@ -33,6 +35,7 @@ mod tests;
 pub use answer::{Answer, Candidate, Reason, Reported, Trust};
 pub use laws::{DragVerdict, LawEvidence};
 pub use model::{Clock, Parameter, Switching};
+pub use prediction::Prediction;
 pub use several::Several;
 pub use term::Term;
 
@@ -43,6 +46,7 @@ use super::{DragLaw, IdentifyError};
 use crate::experiment::Record;
 use crate::numeric::{Limit, domain};
 use average::{Average, CHOSEN, CHOSEN_LATE};
+use observations::Observations;
 use scoring::Fitted;
 use search::{Found, Known, Search};
 
@@ -89,7 +93,8 @@ impl Estimator {
     /// The answer to one record.
     ///
     /// # Errors
-    /// [`IdentifyError::OutOfDomain`] for an output or a command that never changes, [`IdentifyError::NotSettled`] where no model follows the record.
+    /// [`IdentifyError::OutOfDomain`] for an output or a command that never changes, [`IdentifyError::CommandSign`] for an output that
+    /// answers the command's opposite, [`IdentifyError::NotSettled`] where no model follows the record.
     pub fn record(&self, record: &Record) -> Result<Answer, IdentifyError> {
         for (feature, values) in [("range of the output", record.output()), ("range of the command", record.input())] {
             if values.iter().all(|value| *value == values[0]) {
@@ -101,6 +106,9 @@ impl Estimator {
             Delay::KnownS(delay_s) => Some(delay_s),
             Delay::Estimated => None,
         };
+        if start::answers_against(&Observations::new(record, Clock::Stamps, Switching::AtSamples), delay_s) {
+            return Err(IdentifyError::CommandSign);
+        }
         let known = Known { delay_s, law: self.law };
         let (search, found) = Search::new(record, known)
             .run()
@@ -120,7 +128,7 @@ impl Estimator {
         }
         let answers: Result<Vec<Answer>, IdentifyError> =
             records.par_iter().map(|record| self.record(record)).collect();
-        answers.map(Several::of)
+        answers.map(|answers| Several::of(answers).predicted(records))
     }
 }
 
@@ -212,7 +220,7 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     candidates.sort_by(|a, b| value(b).total_cmp(&value(a)));
     let seen = observations.time_s[observations.first..].iter();
     let innovations = seen.zip(&best.pass.innovations).map(|(t, innovation)| (*t, innovation.standardised())).collect();
-    Answer { reported, candidates, innovations, effective_samples: count }
+    Answer { reported, candidates, innovations, effective_samples: count, command_range: observations.range }
 }
 
 /// The drag laws beside each other, with the terms of the best model.

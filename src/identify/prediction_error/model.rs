@@ -137,6 +137,18 @@ pub(super) struct Model {
 }
 
 impl Model {
+    /// Nothing but zeros.
+    pub(super) fn plain(switching: Switching) -> Self {
+        Self {
+            values: [0.0; Parameter::COUNT],
+            free: [false; Parameter::COUNT],
+            noise: [f64::NEG_INFINITY; Noise::COUNT],
+            noise_free: [false; Noise::COUNT],
+            switching,
+            clock: Clock::Stamps,
+        }
+    }
+
     pub(super) fn value(&self, parameter: Parameter) -> f64 {
         self.values[parameter as usize]
     }

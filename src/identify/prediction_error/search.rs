@@ -175,14 +175,7 @@ impl<'a> Search<'a> {
     }
 
     fn model(&self, observations: &Observations, start: &Start) -> Model {
-        let mut model = Model {
-            values: [0.0; Parameter::COUNT],
-            free: [false; Parameter::COUNT],
-            noise: [f64::NEG_INFINITY; Noise::COUNT],
-            noise_free: [false; Noise::COUNT],
-            switching: Switching::AtSamples,
-            clock: Clock::Stamps,
-        };
+        let mut model = Model::plain(Switching::AtSamples);
         model.set(Parameter::Alpha, start.alpha, true);
         model.set(Parameter::LinearDrag, start.linear, true);
         model.set(Parameter::QuadraticDrag, start.quadratic, true);

@@ -5,12 +5,16 @@
 
 use super::answer::{Answer, Reason, Reported, Trust};
 use super::laws::LawEvidence;
+use super::prediction::Prediction;
 use super::residuals::{NORMAL, chi_square_tail};
+use crate::experiment::Record;
 use crate::identify::DragLaw;
 use crate::identify::joint::{ConfidenceInterval, Estimate};
 
 /// Below this probability records disagree.
 const DISAGREE: f64 = 0.01;
+/// Ratio of the commands' ranges from which on their levels are different.
+const OTHER_LEVEL: f64 = 1.05;
 
 /// What several records say.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +23,8 @@ pub struct Several {
     pub reported: Reported,
     /// Each record's own.
     pub answers: Vec<Answer>,
+    /// Each record predicted from all others; `None` where there are no others, or the prediction leaves all bounds.
+    pub left_out: Vec<Option<Prediction>>,
 }
 
 /// Half the width of an interval in normal standard deviations: also right where it is no normal one.
@@ -79,7 +85,17 @@ impl Several {
                 reasons.push(*reason);
             }
         }
-        reasons.extend(apart.map(|between| Reason::RecordsDisagree { relative: between / alpha.value.abs() }));
+        let ranges = answers.iter().map(|answer| answer.command_range);
+        let (least, largest) =
+            ranges.fold((f64::INFINITY, 0.0), |(low, high), range| (range.min(low), range.max(high)));
+        reasons.extend(apart.map(|between| {
+            let relative = between / alpha.value.abs();
+            if largest > OTHER_LEVEL * least {
+                Reason::ThrustNotProportional { relative }
+            } else {
+                Reason::RecordsDisagree { relative }
+            }
+        }));
         reasons.sort_by_key(|reason| core::cmp::Reverse(reason.trust()));
         let drags: Vec<DragLaw> = answers.iter().map(|answer| answer.reported.drag).collect();
         let mut terms: Vec<_> = answers.iter().flat_map(|answer| answer.reported.terms.iter().copied()).collect();
@@ -104,6 +120,19 @@ impl Several {
             trust: reasons.iter().map(|reason| reason.trust()).max().unwrap_or(Trust::Good),
             reasons,
         };
-        Self { reported, answers }
+        let left_out = vec![None; answers.len()];
+        Self { reported, answers, left_out }
+    }
+
+    /// With each record predicted from all others.
+    pub(super) fn predicted(mut self, records: &[&Record]) -> Self {
+        if records.len() > 1 {
+            let without = |index: usize| {
+                let others = self.answers.iter().enumerate().filter(|(other, _)| *other != index);
+                Self::of(others.map(|(_, answer)| answer.clone()).collect()).reported
+            };
+            self.left_out = (0..records.len()).map(|index| without(index).predict(records[index])).collect();
+        }
+        self
     }
 }

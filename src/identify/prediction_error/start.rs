@@ -39,6 +39,22 @@ pub(super) fn starts(observations: &Observations, delay_s: Option<f64>) -> Vec<S
     }
 }
 
+/// Misfit, in ranges of the command, above which the equations are taken for noise.
+const SENSIBLE: f64 = 0.15;
+
+/// Whether the output answers the command's opposite: with it the equations of motion make sense, and with the command they do not.
+pub(super) fn answers_against(observations: &Observations, delay_s: Option<f64>) -> bool {
+    let misfit = |observations: &Observations| {
+        starts(observations, delay_s).iter().map(|start| start.misfit).fold(f64::INFINITY, f64::min)
+    };
+    let mut opposite = observations.clone();
+    for piece in &mut opposite.pieces {
+        (piece.value, piece.slope) = (-piece.value, -piece.slope);
+    }
+    let against = misfit(&opposite);
+    against < SENSIBLE * observations.range && misfit(observations) > 3.0 * against
+}
+
 /// The integrals that do not depend on the delay.
 struct Rows {
     begins: Vec<f64>,

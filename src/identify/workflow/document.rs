@@ -5,13 +5,13 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use super::guaranteed::BoundedConclusion;
-use super::identification::{Caution, Identification, RefusedMethod, Source};
+use super::identification::{Caution, Identification, RefusedMethod, Source, Validation};
 use super::model::{Model, single};
 use super::refusal::Refusal;
 use crate::features::{CycleStatistics, RecordFeatures};
 use crate::identify::DragLaw;
 use crate::identify::joint::Estimate;
-use crate::identify::prediction_error::{DragVerdict, LawEvidence, Reported, Term, Trust};
+use crate::identify::prediction_error::{DragVerdict, LawEvidence, Prediction, Reported, Term, Trust};
 
 /// The document: everything found but the samples. SI units, angles in radians, full precision; what is missing is null.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,6 +34,8 @@ pub struct Conclusion {
     pub warnings: Vec<Caution>,
     /// Every record, in the order given.
     pub records: Vec<RecordConclusion>,
+    /// Records that were predicted and took no part in the estimate.
+    pub validation: Vec<Validation>,
     /// Units of the numbers.
     pub units: Units,
     /// Version of this library.
@@ -55,12 +57,18 @@ pub struct ReportedModel {
     pub beta_quadratic: Option<Estimate>,
     /// Cubic drag.
     pub beta_cubic: Option<Estimate>,
+    /// Part by which drag is larger to the positive side than the mean of both.
+    pub skew: Option<Estimate>,
+    /// Coulomb friction.
+    pub coulomb: Option<Estimate>,
     /// Restoring force per output.
     pub stiffness: Option<Estimate>,
     /// Time constant of the actuator, in s.
     pub lag_s: Option<Estimate>,
     /// Time that an actuator of limited rate takes over the command's range, in s.
     pub ramp_s: Option<Estimate>,
+    /// Time constant of the sensor's filter, in s.
+    pub filter_s: Option<Estimate>,
     /// Constant force of the only record; null for several.
     pub delta: Option<Estimate>,
     /// Constant force during each record.
@@ -75,7 +83,8 @@ pub struct ReportedModel {
 
 impl From<&Reported> for ReportedModel {
     fn from(reported: &Reported) -> Self {
-        let Reported { drag, alpha, beta_cubic, stiffness, lag_s, ramp_s, delay_s, trust, .. } = *reported;
+        let Reported { drag, alpha, beta_cubic, skew, coulomb, stiffness, .. } = *reported;
+        let Reported { lag_s, ramp_s, filter_s, delay_s, trust, .. } = *reported;
         Self {
             drag,
             terms: reported.terms.clone(),
@@ -83,9 +92,12 @@ impl From<&Reported> for ReportedModel {
             beta: drag.has_linear().then_some(reported.beta),
             beta_quadratic: drag.has_quadratic().then_some(reported.beta_quadratic),
             beta_cubic,
+            skew,
+            coulomb,
             stiffness,
             lag_s,
             ramp_s,
+            filter_s,
             delta: single(&reported.deltas),
             deltas: reported.deltas.clone(),
             delay_s,
@@ -152,6 +164,8 @@ pub struct RecordConclusion {
     pub cycles_used: Option<u32>,
     /// Its features; null likewise.
     pub features: Option<FeatureMeans>,
+    /// How well all other records predict it; null for the only one.
+    pub predicted: Option<Prediction>,
 }
 
 /// Means over the steady cycles, the relay, and sample standard deviations over cycles.
@@ -211,7 +225,8 @@ impl Identification {
     /// The short document.
     #[must_use]
     pub fn conclusion(&self) -> Conclusion {
-        let records: Vec<RecordConclusion> = self.sources.iter().map(RecordConclusion::of).collect();
+        let records: Vec<RecordConclusion> =
+            self.sources.iter().zip(&self.left_out).map(RecordConclusion::of).collect();
         let used: Vec<u32> = records.iter().filter_map(|record| record.cycles_used).collect();
         Conclusion {
             record: Total {
@@ -227,6 +242,7 @@ impl Identification {
             choice: self.drag_choice(),
             warnings: self.cautions.clone(),
             records,
+            validation: self.validation.clone(),
             units: Units::of(self.sources.iter().any(|source| source.log.degrees)),
             version: env!("CARGO_PKG_VERSION").into(),
         }
@@ -242,8 +258,9 @@ impl Identification {
 }
 
 impl RecordConclusion {
-    fn of(source: &Source) -> Self {
+    fn of((source, predicted): (&Source, &Option<Prediction>)) -> Self {
         Self {
+            predicted: *predicted,
             file: source.name.clone(),
             samples: source.log.record.samples(),
             duration_s: source.log.record.duration_s(),

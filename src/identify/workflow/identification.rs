@@ -9,7 +9,7 @@ use super::model::Model;
 use crate::experiment::Log;
 use crate::features::RecordFeatures;
 use crate::identify::fit::RecordFit;
-use crate::identify::prediction_error::{Reason, Reported};
+use crate::identify::prediction_error::{Prediction, Reason, Reported};
 use crate::identify::select::likelihood::Choice;
 use crate::identify::{DragLaw, Warning};
 
@@ -64,6 +64,15 @@ impl Source {
     }
 }
 
+/// A record that took no part in the estimate, and how well the answer predicts it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Validation {
+    /// Where it comes from.
+    pub file: String,
+    /// The prediction; null where nothing is reported, or the motion left all bounds.
+    pub prediction: Option<Prediction>,
+}
+
 /// One vehicle identified from its records: everything that the methods found, with the records themselves.
 ///
 /// As JSON it comes back equal, records and residuals included; [`conclusion`](Self::conclusion) is the short document.
@@ -72,6 +81,8 @@ impl Source {
 pub struct Identification {
     pub(super) sources: Vec<Source>,
     pub(super) reported: Option<Reported>,
+    pub(super) left_out: Vec<Option<Prediction>>,
+    pub(super) validation: Vec<Validation>,
     pub(super) bounded: Option<Guaranteed>,
     pub(super) models: Vec<Model>,
     pub(super) fits: Option<Choice>,
@@ -85,6 +96,8 @@ pub struct Identification {
 struct Parts {
     sources: Vec<Source>,
     reported: Option<Reported>,
+    left_out: Vec<Option<Prediction>>,
+    validation: Vec<Validation>,
     #[serde(default)]
     bounded: Option<Guaranteed>,
     models: Vec<Model>,
@@ -98,7 +111,8 @@ impl TryFrom<Parts> for Identification {
     type Error = &'static str;
 
     fn try_from(parts: Parts) -> Result<Self, Self::Error> {
-        let Parts { sources, reported, bounded, models, fits, cautions, refused, law_given } = parts;
+        let Parts { sources, reported, bounded, left_out, validation, models, fits, cautions, refused, law_given } =
+            parts;
         let covers = |fit: &RecordFit| {
             fit.records().len() == sources.len()
                 && fit.records().iter().zip(&sources).all(|(fitted, source)| {
@@ -116,7 +130,7 @@ impl TryFrom<Parts> for Identification {
         if reported.as_ref().is_some_and(|reported| reported.deltas.len() != sources.len()) {
             return Err("the answer has not one disturbance for each record; keep a document as it was written");
         }
-        Ok(Self { sources, reported, bounded, models, fits, cautions, refused, law_given })
+        Ok(Self { sources, reported, bounded, left_out, validation, models, fits, cautions, refused, law_given })
     }
 }
 
@@ -126,6 +140,18 @@ impl Identification {
     #[must_use]
     pub fn reported(&self) -> Option<&Reported> {
         self.reported.as_ref()
+    }
+
+    /// Each record predicted from all others, in the order given: `None` where it is the only one, or nothing is reported.
+    #[must_use]
+    pub fn left_out(&self) -> &[Option<Prediction>] {
+        &self.left_out
+    }
+
+    /// Records that were predicted and took no part in the estimate.
+    #[must_use]
+    pub fn validation(&self) -> &[Validation] {
+        &self.validation
     }
 
     /// The guaranteed bounds; `None` where they were not asked for.

@@ -1,15 +1,15 @@
 //! Every method asked for, tried on the same records. One that refuses leaves its reason, and the others their results.
 
 use super::guaranteed::Guaranteed;
-use super::identification::{Caution, Identification, RefusedMethod, Source};
+use super::identification::{Caution, Identification, RefusedMethod, Source, Validation};
 use super::model::Model;
 use super::refusal::Refusal;
 use super::session::Stage;
 use super::settings::{Method, Settings};
-use crate::experiment::Record;
+use crate::experiment::{Log, Record};
 use crate::features::{FeatureError, RecordFeatures};
 use crate::identify::joint::{Delay, Parameter};
-use crate::identify::prediction_error::{Estimator, Reported};
+use crate::identify::prediction_error::{Estimator, Prediction, Reported};
 use crate::identify::select::likelihood::{Choice, fit_each};
 use crate::identify::{DragLaw, IdentifyError, Warning, exact, iso};
 
@@ -18,6 +18,7 @@ pub(super) struct Found<'a> {
     settings: &'a Settings,
     sources: Vec<Source>,
     reported: Option<Reported>,
+    left_out: Vec<Option<Prediction>>,
     bounded: Option<Guaranteed>,
     models: Vec<Model>,
     fits: Option<Choice>,
@@ -34,13 +35,26 @@ impl<'a> Found<'a> {
     pub(super) fn new(settings: &'a Settings, sources: Vec<Source>, cautions: Vec<Caution>) -> Self {
         let failure = IdentifyError::TooFewEquations { equations: 0, parameters: 1 }.into();
         let (models, refused) = (Vec::new(), Vec::new());
-        Self { settings, sources, reported: None, bounded: None, models, fits: None, cautions, refused, failure }
+        let left_out = vec![None; sources.len()];
+        Self {
+            settings,
+            sources,
+            reported: None,
+            bounded: None,
+            left_out,
+            models,
+            fits: None,
+            cautions,
+            refused,
+            failure,
+        }
     }
 
     /// Records whose features `failures` says are missing, with the reason.
     pub(super) fn by_all_methods(
         mut self,
         failures: &[(usize, FeatureError)],
+        validation: Vec<(String, Log)>,
         progress: impl Fn(Stage),
     ) -> Result<Identification, Refusal> {
         if self.settings.method == Method::Bounded {
@@ -52,8 +66,25 @@ impl<'a> Found<'a> {
         if self.models.is_empty() && self.reported.is_none() && self.bounded.is_none() {
             return Err(self.failure);
         }
-        let Self { settings, sources, reported, bounded, models, fits, cautions, refused, .. } = self;
-        Ok(Identification { sources, reported, bounded, models, fits, cautions, refused, law_given: settings.drag })
+        let Self { settings, sources, reported, bounded, left_out, models, fits, cautions, refused, .. } = self;
+        let validated = validation.into_iter().map(|(file, log)| {
+            let prediction = reported.as_ref().and_then(|reported| reported.predict(&log.record));
+            Validation { file, prediction }
+        });
+        let validation = validated.collect();
+        let law_given = settings.drag;
+        Ok(Identification {
+            sources,
+            reported,
+            bounded,
+            left_out,
+            validation,
+            models,
+            fits,
+            cautions,
+            refused,
+            law_given,
+        })
     }
 
     /// The guaranteed bounds.
@@ -85,6 +116,7 @@ impl<'a> Found<'a> {
         }
         if !by_samples {
             self.reported = None;
+            self.left_out.fill(None);
         }
     }
 
@@ -93,7 +125,7 @@ impl<'a> Found<'a> {
         let estimator = Estimator::new(self.settings.delay);
         let estimator = self.settings.drag.map_or(estimator, |law| estimator.with_law(law));
         match estimator.records(&self.records()) {
-            Ok(several) => self.reported = Some(several.reported),
+            Ok(several) => (self.reported, self.left_out) = (Some(several.reported), several.left_out),
             Err(error) => self.refuse("prediction-error", None, error),
         }
     }

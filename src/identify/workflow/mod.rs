@@ -15,7 +15,7 @@ pub use document::{
     Conclusion, DragChoice, FeatureMeans, FeatureValues, RecordConclusion, Refused, ReportedModel, Total, Units,
 };
 pub use guaranteed::{BoundedConclusion, Guaranteed};
-pub use identification::{Caution, Identification, RefusedMethod, Source};
+pub use identification::{Caution, Identification, RefusedMethod, Source, Validation};
 pub use model::Model;
 pub use refusal::Refusal;
 pub use session::{Session, Stage};

@@ -79,6 +79,7 @@ pub struct Session {
     settings: Settings,
     columns: Columns,
     logs: Vec<(String, Log)>,
+    validation: Vec<(String, Log)>,
 }
 
 impl Session {
@@ -107,6 +108,17 @@ impl Session {
             Ok(file) => self.reader(name, file),
             Err(error) => Err(Refusal::File { name, reason: error.to_string() }),
         }
+    }
+
+    /// Adds the log in a file to those that are predicted and take no part in the estimate.
+    ///
+    /// # Errors
+    /// As [`log`](Self::log).
+    pub fn validation(mut self, path: impl AsRef<Path>) -> Result<Self, Refusal> {
+        let logs = self.logs.len();
+        self = self.log(path)?;
+        self.validation.extend(self.logs.drain(logs..));
+        Ok(self)
     }
 
     /// Adds the log that a reader gives, under a name for messages.
@@ -164,35 +176,46 @@ impl Session {
         let mut cautions = Vec::new();
         let mut sources = Vec::with_capacity(self.logs.len());
         let mut failures = Vec::new();
+        let mut validation = Vec::with_capacity(self.validation.len());
+        for (name, log) in self.validation {
+            let log = in_units(&name, log, &self.settings)?;
+            validation.push((name, log));
+        }
         for (index, (name, log)) in self.logs.into_iter().enumerate() {
             let (source, failure) = source(name, log, &self.settings, &mut cautions)?;
             sources.push(source);
             failures.extend(failure.map(|error| (index, error)));
         }
-        Found::new(&self.settings, sources, cautions).by_all_methods(&failures, progress)
+        Found::new(&self.settings, sources, cautions).by_all_methods(&failures, validation, progress)
     }
+}
+
+/// The log with its command in the units wanted.
+fn in_units(name: &str, mut log: Log, settings: &Settings) -> Result<Log, Refusal> {
+    if let Some(level) = settings.relay_level {
+        let found =
+            RelayLevels::of(&log.record).map_err(|source| Refusal::Features { name: name.to_owned(), source })?;
+        let input = log.record.input().iter().map(|command| command * level / found.level).collect();
+        log.record = Record::new(log.record.time_s().to_vec(), log.record.output().to_vec(), input)
+            .map_err(|source| Refusal::Record { name: name.to_owned(), source })?;
+    }
+    Ok(log)
 }
 
 /// The record in the units wanted, with its features or why it has none.
 fn source(
     name: String,
-    mut log: Log,
+    log: Log,
     settings: &Settings,
     cautions: &mut Vec<Caution>,
 ) -> Result<(Source, Option<FeatureError>), Refusal> {
-    let refused = |source| Refusal::Features { name: name.clone(), source };
-    if let Some(level) = settings.relay_level {
-        let scale = level / RelayLevels::of(&log.record).map_err(refused)?.level;
-        let input = log.record.input().iter().map(|command| command * scale).collect();
-        log.record = Record::new(log.record.time_s().to_vec(), log.record.output().to_vec(), input)
-            .map_err(|source| Refusal::Record { name: name.clone(), source })?;
-    }
+    let log = in_units(&name, log, settings)?;
     match RecordFeatures::of(&log.record) {
         Ok(features) => {
             cautions.extend(Warning::of_features(&features.features).into_iter().map(Caution::from));
             Ok((Source { name, log, features: Some(features) }, None))
         }
-        Err(error @ FeatureError::ConstantInput { .. }) => Err(refused(error)),
+        Err(source @ FeatureError::ConstantInput { .. }) => Err(Refusal::Features { name, source }),
         Err(error) => Ok((Source { name, log, features: None }, Some(error))),
     }
 }

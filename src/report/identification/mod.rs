@@ -15,10 +15,8 @@ use tables::{caution_table, cycle_table, refused_table};
 /// Everything as one file.
 #[must_use]
 pub fn document(found: &Identification) -> Document {
-    let [parameters, compared] = {
-        let mut tables = model_tables(found);
-        [found.reported().and_then(|_| tables.next()), tables.next()]
-    };
+    let mut tables = model_tables(found);
+    let parameters = found.reported().and_then(|_| tables.next());
     let reasons = caution_table("reasons", "Why the answer is not simply good", &reasons(found));
     let cautions = caution_table("warnings", "Warnings", found.cautions());
     let summary = Section {
@@ -28,7 +26,10 @@ pub fn document(found: &Identification) -> Document {
             .bounded()
             .into_iter()
             .flat_map(|bounded| bounds_tables(found, bounded))
-            .chain([parameters, reasons, compared, refused_table(found), cautions].into_iter().flatten())
+            .chain([parameters, reasons].into_iter().flatten())
+            .chain(tables)
+            .chain(refused_table(found))
+            .chain(cautions)
             .collect(),
         figures: Vec::new(),
     };

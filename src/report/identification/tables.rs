@@ -2,6 +2,7 @@
 
 use crate::features::CycleStatistics;
 use crate::identify::joint::Estimate;
+use crate::identify::prediction_error::Prediction;
 use crate::identify::{Caution, DragLaw, DragVerdict, Identification, Reason, Reported, Source, Trust};
 use crate::report::{Cell, Table};
 
@@ -161,7 +162,7 @@ pub(crate) fn reasons(found: &Identification) -> Vec<Caution> {
 pub(crate) fn model_tables(found: &Identification) -> impl Iterator<Item = Table> + use<> {
     let reported = found.reported().map(|reported| parameter_table(found, reported));
     let compared = (!found.models().is_empty()).then(|| comparison(found));
-    reported.into_iter().chain(compared)
+    reported.into_iter().chain(compared).chain(prediction_table(found))
 }
 
 fn parameter_table(found: &Identification, reported: &Reported) -> Table {
@@ -174,10 +175,13 @@ fn parameter_table(found: &Identification, reported: &Reported) -> Table {
         ("linear drag beta", reported.drag.has_linear().then_some(reported.beta)),
         ("quadratic drag beta_quadratic", reported.drag.has_quadratic().then_some(reported.beta_quadratic)),
         ("cubic drag beta_cubic", reported.beta_cubic),
+        ("one-sidedness of drag skew", reported.skew),
+        ("Coulomb friction coulomb", reported.coulomb),
         ("restoring force stiffness", reported.stiffness),
         ("delay (s)", Some(reported.delay_s)),
         ("lag of the actuator (s)", reported.lag_s),
         ("ramp of the actuator (s)", reported.ramp_s),
+        ("filter of the sensor (s)", reported.filter_s),
     ];
     let shared = named.into_iter().filter_map(|(name, estimate)| Some((name.to_owned(), estimate?)));
     let deltas = found.sources().iter().zip(&reported.deltas).map(|(source, delta)| match found.sources().len() {
@@ -222,6 +226,22 @@ fn comparison(found: &Identification) -> Table {
             model.log_likelihood.map_or(Cell::Missing, |value| Cell::number(value, 1)),
         ]);
         table.row(cells)
+    })
+}
+
+/// Records predicted by an answer that they had no part in.
+fn prediction_table(found: &Identification) -> Option<Table> {
+    let left_out = found.sources().iter().zip(found.left_out());
+    let left_out = left_out.filter_map(|(source, predicted)| Some((&source.name, "the other records", (*predicted)?)));
+    let validated = found.validation().iter().filter_map(|one| Some((&one.file, "all records", one.prediction?)));
+    let columns = ["record", "predicted from", "fit (%)", "rms", "disturbance"];
+    let rows: Vec<_> = left_out.chain(validated).collect();
+    let table = Table::new("predictions", "Records predicted", &columns);
+    (!rows.is_empty()).then(|| {
+        rows.into_iter().fold(table, |table, (name, from, predicted)| {
+            let Prediction { fit_percent, rms, disturbance } = predicted;
+            table.row([name.as_str().into(), from.into(), Cell::number(fit_percent, 2), cell(rms), cell(disturbance)])
+        })
     })
 }
 

@@ -1,0 +1,143 @@
+//! The log clinic: what logs of real vehicles suffer from, each named with the setting that mends it, before anything is fitted.
+//!
+//! Nothing is repaired in silence: a log that reads like one in another unit is refused until a setting says which it is.
+
+use core::f64::consts::{PI, TAU};
+
+use super::{ExperimentError, Place};
+
+/// Unit of the times in a log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+pub enum TimeUnit {
+    /// Seconds.
+    #[serde(rename = "s")]
+    Seconds,
+    /// Milliseconds.
+    #[serde(rename = "ms")]
+    Milliseconds,
+    /// Microseconds.
+    #[serde(rename = "us")]
+    Microseconds,
+    /// Nanoseconds.
+    #[serde(rename = "ns")]
+    Nanoseconds,
+}
+
+impl TimeUnit {
+    /// All of them, the longest first.
+    pub const ALL: [Self; 4] = [Self::Seconds, Self::Milliseconds, Self::Microseconds, Self::Nanoseconds];
+
+    /// Name on the command line, and the end of a column's name after an underscore.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Seconds => "s",
+            Self::Milliseconds => "ms",
+            Self::Microseconds => "us",
+            Self::Nanoseconds => "ns",
+        }
+    }
+
+    /// How many of them a second has.
+    #[must_use]
+    pub fn per_second(self) -> f64 {
+        match self {
+            Self::Seconds => 1.0,
+            Self::Milliseconds => 1e3,
+            Self::Microseconds => 1e6,
+            Self::Nanoseconds => 1e9,
+        }
+    }
+
+    /// The unit that a column's name ends in, seconds else.
+    pub(super) fn of_column(name: &str) -> Self {
+        let ends = |unit: &Self| name.to_lowercase().ends_with(&format!("_{}", unit.name()));
+        Self::ALL.into_iter().find(ends).unwrap_or(Self::Seconds)
+    }
+}
+
+/// The longest middle interval of a record in which a relay's cycles could be seen, in s.
+const SLOWEST_S: f64 = 10.0;
+/// Headings within these bounds may be in radians: a turn either way, or from zero to a turn.
+const LARGEST_HEADING_RAD: f64 = TAU + 0.01;
+/// Middle of a command that never changes sign, in halves of its range, from which on its neutral is not zero.
+const FAR_FROM_ZERO: f64 = 4.0;
+
+/// Refuses times that make no sense in seconds, where no unit was given.
+pub(super) fn seconds(time_s: &[f64]) -> Result<(), ExperimentError> {
+    let mut intervals: Vec<f64> = time_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    if intervals.is_empty() {
+        return Ok(());
+    }
+    let middle = intervals.len() / 2;
+    let interval_s = *intervals.select_nth_unstable_by(middle, f64::total_cmp).1;
+    if interval_s > SLOWEST_S { Err(ExperimentError::TimeUnit { interval_s }) } else { Ok(()) }
+}
+
+/// Refuses headings that no angle in radians reaches.
+pub(super) fn radians(column: &str, headings: &[f64], place: impl Fn(usize) -> Place) -> Result<(), ExperimentError> {
+    match headings.iter().position(|heading| heading.abs() > LARGEST_HEADING_RAD) {
+        Some(sample) => {
+            let (place, value) = (place(sample), headings[sample]);
+            Err(ExperimentError::Degrees { place, column: column.to_owned(), value })
+        }
+        None => Ok(()),
+    }
+}
+
+/// Refuses an output that jumps by a turn, while its other changes are far smaller.
+pub(super) fn turns(
+    column: &str,
+    output: &[f64],
+    turn: [f64; 2],
+    place: impl Fn(usize) -> Place,
+) -> Result<(), ExperimentError> {
+    let mut sizes: Vec<f64> = output.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    let unsorted = sizes.clone();
+    let Some(most) = sizes.len().checked_sub(1 + sizes.len() / 20) else { return Ok(()) };
+    let usual = *sizes.select_nth_unstable_by(most, f64::total_cmp).1;
+    // A jump is a turn less what the vehicle turned meanwhile.
+    let is_turn =
+        |jump: f64| turn.iter().any(|turn| (jump - turn).abs() <= (2.0 * usual).min(0.05 * turn) && jump > 8.0 * usual);
+    match unsorted.iter().position(|jump| usual > 0.0 && is_turn(*jump)) {
+        Some(before) => {
+            let jump = output[before + 1] - output[before];
+            Err(ExperimentError::Turns { place: place(before + 1), column: column.to_owned(), jump })
+        }
+        None => Ok(()),
+    }
+}
+
+/// What a turn is in the unit of a column.
+pub(super) fn turn(degrees: bool) -> [f64; 2] {
+    // The column is in radians by now; one of degrees that nobody said so jumps by 360.
+    if degrees { [TAU, TAU] } else { [TAU, 360.0] }
+}
+
+/// Refuses a command that never changes its sign and stays far from zero.
+pub(super) fn neutral(column: &str, input: &[f64]) -> Result<(), ExperimentError> {
+    let low = input.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let (middle, half) = (f64::midpoint(low, high), 0.5 * (high - low));
+    if half > 0.0 && middle.is_finite() && middle.abs() >= FAR_FROM_ZERO * half {
+        return Err(ExperimentError::Neutral { column: column.to_owned(), low, high, middle });
+    }
+    Ok(())
+}
+
+/// Takes out jumps by more than half a turn; how many there were. Values that are not finite are left for the record to
+/// refuse.
+pub(super) fn unwrap(angles: &mut [f64]) -> usize {
+    let (mut turns, mut jumps) = (0.0, 0);
+    let Some(mut previous) = angles.first().copied() else { return 0 };
+    for angle in angles {
+        let jump = *angle - previous;
+        previous = *angle;
+        if jump.abs() > PI && jump.is_finite() {
+            turns -= (jump / TAU).round();
+            jumps += 1;
+        }
+        *angle += turns * TAU;
+    }
+    jumps
+}
