@@ -7,7 +7,7 @@ use super::contract::{Origin, Span};
 use super::lp::Rows;
 use super::search::Search;
 use super::setup::Setup;
-use super::{BoundedModel, Consistency, DelayBound, Quantity, SwitchedWhen, enclose};
+use super::{BoundedModel, Consistency, DelayBound, Quantity, enclose};
 use crate::experiment::Record;
 use crate::identify::DragLaw;
 use crate::numeric::Interval;
@@ -186,39 +186,11 @@ fn settings(law: DragLaw) -> BoundedModel {
 }
 
 #[test]
-fn the_truth_is_inside_from_a_wide_start_and_a_near_one_ends_in_the_same_bounds() {
-    let record = record(300);
-    let wide = enclose(&[&record], &settings(DragLaw::Linear)).expect("bounds");
-    let near = enclose(&[&record], &BoundedModel { reach: 4.0, ..settings(DragLaw::Linear) }).expect("bounds");
+fn the_truth_is_inside_from_a_wide_start() {
+    let wide = enclose(&[&record(300)], &settings(DragLaw::Linear)).expect("bounds");
     assert_eq!(wide.verdict, Consistency::Consistent);
     for (quantity, value) in [(Quantity::Alpha, ALPHA), (Quantity::Beta, BETA), (Quantity::Delta(0), DELTA)] {
-        let [w, n] = [&wide, &near].map(|bounds| bounds.of(quantity).expect("a range"));
-        assert!(w[0] <= value && value <= w[1], "{quantity}: {value} outside {w:?}");
-        assert!((w[0] - n[0]).abs() + (w[1] - n[1]).abs() < 0.1 * (w[1] - w[0]), "{quantity}: {w:?}, near {n:?}");
+        let [low, high] = wide.of(quantity).expect("a range");
+        assert!(low <= value && value <= high, "{quantity}: {value} outside [{low}, {high}]");
     }
-}
-
-#[test]
-fn a_wrong_law_is_refuted_and_what_is_known_less_well_widens_the_bounds() {
-    let record = record(300);
-    let wrong = enclose(&[&record], &settings(DragLaw::Quadratic)).expect("bounds");
-    assert_eq!(wrong.verdict, Consistency::Refuted);
-    assert!(wrong.of(Quantity::Alpha).is_none() && wrong.error_factor[0] >= 1.0);
-    let width = |model: &BoundedModel| {
-        let bounds = enclose(&[&record], model).expect("bounds");
-        let [low, high] = bounds.of(Quantity::Alpha).expect("a range");
-        assert!(low <= ALPHA && ALPHA <= high && bounds.verdict == Consistency::Consistent);
-        high - low
-    };
-    let plain = width(&settings(DragLaw::Linear));
-    assert!(width(&BoundedModel { error: 0.01, ..settings(DragLaw::Linear) }) > plain);
-    assert!(width(&BoundedModel { jitter_s: 0.01, ..settings(DragLaw::Linear) }) > plain);
-    let anywhere = BoundedModel { switching: SwitchedWhen::Anywhere, ..settings(DragLaw::Linear) };
-    let bounds = enclose(&[&record], &anywhere).expect("bounds");
-    assert!(bounds.of(Quantity::Alpha).is_some_and(|[low, high]| low <= ALPHA && ALPHA <= high && high - low > plain));
-    // Two records of one vehicle say more than one.
-    let both = enclose(&[&record, &self::record(200)], &settings(DragLaw::Linear)).expect("bounds");
-    assert!(
-        both.of(Quantity::Alpha).is_some_and(|[low, high]| low <= ALPHA && ALPHA <= high && high - low <= 1.05 * plain)
-    );
 }
