@@ -7,7 +7,7 @@ claims that are checked. The numbers are those of the command ``selfosc``, bit f
 from . import errors
 from ._core import VERSION as __version__
 from ._results import Result
-from .control import Tuned, tune
+from .control import Design, Tuned, design, tune
 from .describing import DescribingFunction, Nonlinearity, catalogue, describing_function, df, nonlinearity
 from .errors import NoLimitCycle, OutOfDomain, RecordRefused, SelfoscError, UnreadableLog, UsageError
 from .identification import Bounds, Identification, bounded, identify
@@ -19,6 +19,7 @@ __all__ = [
     "Bounds",
     "Certificate",
     "DescribingFunction",
+    "Design",
     "Identification",
     "NoLimitCycle",
     "Nonlinearity",
@@ -38,6 +39,7 @@ __all__ = [
     "catalogue",
     "certify",
     "describing_function",
+    "design",
     "df",
     "errors",
     "identify",

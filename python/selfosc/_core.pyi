@@ -14,6 +14,7 @@ def by_quadrature(
 def choose_columns(columns: str, names: list[str]) -> tuple[int, int, int]: ...
 def identify(
     sources: Sequence[str | tuple[str, Sequence[str], Sequence[_Array]]],
+    validation: list[str],
     settings: str,
     columns: str,
     progress: Callable[[str], None] | None,

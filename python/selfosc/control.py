@@ -1,17 +1,18 @@
-"""A controller for an identified axis, with its verified margins."""
+"""Which experiment to make, and a controller for the axis that it gives, with its verified margins."""
 
 from __future__ import annotations
 
 import json
 import tempfile
 from pathlib import Path
+from typing import Any
 
 from . import _documents
-from ._results import Result
+from ._results import Result, _flat
 from .errors import UsageError
 from .identification import Identification
 
-__all__ = ["Tuned", "tune"]
+__all__ = ["Design", "Tuned", "design", "tune"]
 
 
 class Tuned(Result):
@@ -85,3 +86,69 @@ def tune(
         path = Path(folder) / "model.json"
         path.write_text(json.dumps(model.to_dict()), encoding="utf-8")
         return Tuned(_documents.answer("tune", *_documents.flags(model=str(path), **options))[1])
+
+
+class Design(Result):
+    """Relay experiments, the best for the inertia first."""
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return [_flat(proposal) for proposal in self.to_dict()["proposals"]]
+
+
+def design(
+    *,
+    alpha: float,
+    beta: float = 0.0,
+    beta_quadratic: float = 0.0,
+    delta: float = 0.0,
+    delay: float = 0.0,
+    delay_known: bool = False,
+    level: float,
+    time: float,
+    rate: float = 10.0,
+    quantum: float = 0.0,
+    noise: float = 0.0,
+    largest_amplitude: float | None = None,
+    proposals: int = 5,
+) -> Design:
+    """Which relay level and half-width determine the inertia best, and which second level tells the drag laws apart.
+
+    Parameters
+    ----------
+    alpha, beta, beta_quadratic, delta, delay : float
+        A rough model, as for :func:`selfosc.predict`.
+    delay_known : bool
+        The delay will be known.
+    level : float
+        The largest relay level, command units.
+    time : float
+        Length of one record, s.
+    rate, quantum, noise : float
+        Samples per second; step of the sensor and standard deviation of its noise, output units.
+    largest_amplitude : float, optional
+        That is allowed, output units.
+    proposals : int
+        How many.
+
+    Returns
+    -------
+    Design
+        ``proposals`` with expected standard deviations, and whether a cycle would lock to the sampling.
+
+    Raises
+    ------
+    SelfoscError
+        Where no relay makes the rough model oscillate within the limits, and for numbers outside their domain.
+
+    Examples
+    --------
+    >>> from selfosc import design
+    >>> best = design(alpha=1, beta_quadratic=0.5, delay=0.1, level=1, time=60, quantum=0.0175, proposals=1).proposals[0]
+    >>> best["first"]["std"]["alpha"] < 0.1
+    True
+    """
+    arguments = _documents.flags(
+        alpha=alpha, beta=beta, beta_quadratic=beta_quadratic, delta=delta, delay=delay, delay_known=delay_known, level=level,
+        time=time, rate=rate, quantum=quantum, noise=noise, largest_amplitude=largest_amplitude, proposals=proposals,
+    )  # fmt: skip
+    return Design(_documents.answer("design", *arguments)[1])

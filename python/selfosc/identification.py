@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -146,6 +146,15 @@ def identify(
     delay: float | str | None = None,
     drag: str = "auto",
     method: str = "all",
+    error: float = 0.0,
+    quantum: float | None = None,
+    radians: bool = False,
+    time_unit: str | None = None,
+    neutral: float | None = None,
+    invert: bool = False,
+    from_s: float | None = None,
+    to_s: float | None = None,
+    validate: Sequence[str | os.PathLike[str]] = (),
     progress: bool | Callable[[str], None] = False,
     **settings: Any,
 ) -> Identification:
@@ -169,7 +178,22 @@ def identify(
     delay : float or "estimate", optional
         Of the whole loop, s; by default as the command's.
     drag : {"auto", "linear", "quadratic", "mixed"}
-    method : {"all", "fit", "exact", "iso"}
+    method : {"all", "fit", "exact", "iso", "bounded"}
+        ``bounded`` takes every reading for a constraint; its answer is in ``bounded``. ``all`` leaves it out.
+    error, quantum : float, optional
+        For the bounds: largest error of a reading beside half a step, and step of the sensor, output units.
+    radians : bool
+        The output is in radians, whatever it looks like.
+    time_unit : {"s", "ms", "us", "ns"}, optional
+        Of the times; by default what the column's name ends in, else s.
+    neutral : float, optional
+        The command that does nothing, as logged; it is taken off.
+    invert : bool
+        The command is logged with the opposite sign.
+    from_s, to_s : float, optional
+        Only samples from and up to these times, s on the log's clock.
+    validate : sequence of paths
+        Text logs that are predicted and take no part in the estimate.
     progress : bool or callable
         Called with what comes next; ``True`` shows it with tqdm where that is installed.
     **settings
@@ -200,15 +224,20 @@ def identify(
     >>> abs(found.reported["alpha"]["value"] - 1.0) < 0.02
     True
     """
-    columns = {"time": time, "output": output, "input": input, "degrees": bool(degrees), "wrap": bool(wrap)}
-    wanted: dict[str, Any] = {"method": method, "relay_level": _float(relay), "half_width": _float(half_width), **settings}
+    columns = {
+        "time": time, "output": output, "input": input, "degrees": bool(degrees), "wrap": bool(wrap), "radians": bool(radians),
+        "time_unit": time_unit, "neutral": _float(neutral), "invert": bool(invert), "from_s": _float(from_s), "to_s": _float(to_s),
+    }  # fmt: skip
+    wanted: dict[str, Any] = {"method": method, "relay_level": _float(relay), "half_width": _float(half_width)}
+    wanted |= {"error": float(error), "quantum": _float(quantum), **settings}
     if drag != "auto":
         wanted["drag"] = drag
     if delay is not None:
         wanted["delay"] = "estimated" if delay == "estimate" else {"known_s": _delay(delay)}
     logs = _tables.sources(source, columns)
     with _Shown(progress) as shown:
-        core = _core.identify(logs, _document(wanted), json.dumps(columns), shown)
+        paths = [os.fspath(path) for path in validate]
+        core = _core.identify(logs, paths, _document(wanted), _document(columns), shown)
     return Identification(core)
 
 

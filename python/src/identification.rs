@@ -90,11 +90,12 @@ impl Read {
     }
 }
 
-/// One vehicle from its logs. Settings and columns are the documents of `Settings` and `Columns`.
+/// One vehicle from its logs, and the logs in files that are predicted and take no part. Settings and columns are the documents of `Settings` and `Columns`.
 #[pyfunction]
 pub(crate) fn identify(
     py: Python<'_>,
     sources: Vec<Source<'_>>,
+    validation: Vec<String>,
     settings: &str,
     columns: &str,
     progress: Option<Bound<'_, PyAny>>,
@@ -104,11 +105,12 @@ pub(crate) fn identify(
     let sources = sources.into_iter().map(Source::read).collect::<PyResult<Vec<_>>>()?;
     let found = work::interruptible(py, progress.as_ref(), move |stage| {
         settings.check()?;
-        let mut session = Session::new(settings);
+        let mut session = Session::new(settings).with_columns(columns.clone());
         for source in sources {
             let (name, log) = source.log(&columns)?;
             session = session.record(name, log);
         }
+        let session = validation.into_iter().try_fold(session, Session::validation)?;
         session.identify_with(|next| stage(next.to_string()))
     })?;
     found.map(Identification).map_err(|refusal: Refusal| failure::library(py, refusal))

@@ -132,6 +132,21 @@ def test_tune(command):
     assert_same(result, command("tune", *flags(options), "--structure=pid", "--alpha-interval=0.031,0.035", "--json"))
 
 
+def test_design(command):
+    options = {"alpha": 1.0, "beta_quadratic": 0.5, "delay": 0.1, "level": 1.0, "time": 60.0, "quantum": 0.0175}
+    assert_same(selfosc.design(**options), command("design", *flags(options), "--json"))
+
+
+def test_identify_with_bounds_and_a_part_of_the_log(command, record_path):
+    result = selfosc.identify(record_path, method="bounded", delay=0.2, to_s=20.0)
+    assert_same(result, command("identify", record_path, "--method=bounded", "--delay=0.2", "--to=20", "--json"))
+
+
+def test_identify_and_validate(command, record_path):
+    result = selfosc.identify(record_path, method="fit", from_s=10.0, validate=[record_path], invert=False)
+    assert_same(result, command("identify", record_path, "--method=fit", "--from=10", "--validate", record_path, "--json"))
+
+
 def test_verify(command):
     claims = ["lemma-1", "theorem-2"]
     result = selfosc.verify(*claims, cases=200, seed=7)
