@@ -72,7 +72,7 @@ fn clinic() {
     };
     let wrapped = |turn: f64| {
         log.text("time_s,output,command", |_, [t, x, u]| {
-            let angle = (x * turn / core::f64::consts::TAU + 0.5 * turn).rem_euclid(turn);
+            let angle = (x * turn / core::f64::consts::TAU).rem_euclid(turn);
             Some(format!("{t:.1},{angle:.5},{u}"))
         })
     };

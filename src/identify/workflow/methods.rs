@@ -61,7 +61,7 @@ impl<'a> Found<'a> {
             progress(Stage::Bounds);
             self.enclose();
         } else {
-            self.estimate(failures, progress);
+            self.estimate(failures, progress)?;
         }
         if self.models.is_empty() && self.reported.is_none() && self.bounded.is_none() {
             return Err(self.failure);
@@ -96,7 +96,7 @@ impl<'a> Found<'a> {
     }
 
     /// By the methods that estimate.
-    fn estimate(&mut self, failures: &[(usize, FeatureError)], progress: impl Fn(Stage)) {
+    fn estimate(&mut self, failures: &[(usize, FeatureError)], progress: impl Fn(Stage)) -> Result<(), Refusal> {
         let by_samples = self.settings.method.includes(Method::Fit);
         if by_samples {
             progress(Stage::Fit);
@@ -105,7 +105,7 @@ impl<'a> Found<'a> {
         // The methods for mean cycles need a delay from somewhere.
         if by_samples || self.settings.delay == Delay::Estimated {
             progress(Stage::Terms);
-            self.report();
+            self.report()?;
         }
         for (index, error) in failures {
             self.refuse_cycles(*index, error);
@@ -118,16 +118,19 @@ impl<'a> Found<'a> {
             self.reported = None;
             self.left_out.fill(None);
         }
+        Ok(())
     }
 
-    /// The answer to use: terms found, models averaged.
-    fn report(&mut self) {
+    /// The answer to use: terms found, models averaged. No method makes sense of a command of the opposite sign.
+    fn report(&mut self) -> Result<(), Refusal> {
         let estimator = Estimator::new(self.settings.delay);
         let estimator = self.settings.drag.map_or(estimator, |law| estimator.with_law(law));
         match estimator.records(&self.records()) {
             Ok(several) => (self.reported, self.left_out) = (Some(several.reported), several.left_out),
+            Err(error @ IdentifyError::CommandSign) => return Err(error.into()),
             Err(error) => self.refuse("prediction-error", None, error),
         }
+        Ok(())
     }
 
     /// Every drag law asked for, fitted to all records.
