@@ -121,6 +121,8 @@ class Identification(Result):
             axes.plot([middle], [row], "o", color="C0")
         axes.set_yticks(range(len(named)), [f"{name} = {part['value']:.4g}" for name, part in named.items()])
         axes.invert_yaxis()
+        # A constant force near zero is uncertain by many times its value, an inertia by a hundredth.
+        axes.set_xscale("symlog", linthresh=1.0)
         axes.set_xlabel("95 % interval, percent of the value (of one where that is zero)")
 
 
@@ -129,7 +131,7 @@ def _fitted(details: dict[str, Any], records: int) -> list[tuple[int, list[float
     fits = details.get("fits")
     if not fits:
         return [None] * records
-    likeliest = max(fits["fits"], key=lambda fit: fit.get("log_likelihood", 0.0))
+    likeliest, _ = max(zip(fits["fits"], fits["probabilities"], strict=True), key=lambda one: one[1])
     return [(one["first_sample"], one["output"], one["residuals"]) for one in likeliest["records"]]
 
 

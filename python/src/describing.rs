@@ -108,6 +108,9 @@ const BLOCK: usize = 1 << 20;
 /// Elements that a thread takes at a time.
 const CHUNK: usize = 1 << 12;
 
+/// Parts of the three columns, as zipped.
+type Columns<'a> = ((&'a mut [f64], &'a mut [f64]), &'a mut [f64]);
+
 /// The element, or the only one.
 fn part(values: &[f64], index: usize) -> f64 {
     if values.len() == 1 { values[0] } else { values[index] }
@@ -122,7 +125,7 @@ impl Characteristic {
         skip: bool,
         [f0, p, q]: [&mut [f64]; 3],
     ) -> Option<Error> {
-        let chunk = |(chunk, ((f0, p), q)): (usize, ((&mut [f64], &mut [f64]), &mut [f64]))| -> Result<(), Error> {
+        let chunk = |(chunk, ((f0, p), q)): (usize, Columns<'_>)| -> Result<(), Error> {
             let characteristic = self.entry.build::<f64>(&self.values)?;
             for (place, ((f0, p), q)) in f0.iter_mut().zip(p).zip(q).enumerate() {
                 let (amplitude, bias) = sweep(chunk * CHUNK + place);

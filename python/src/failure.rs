@@ -2,6 +2,7 @@
 
 use pyo3::prelude::*;
 use selfosc::Error;
+use selfosc::identify::Refusal;
 use selfosc::numeric::OutOfDomain;
 
 /// The exception of a refusal, with code, text, quantity, value, unit, limit and remedy.
@@ -22,7 +23,7 @@ fn exception(py: Python<'_>, code: &str, text: &str, fault: Option<&OutOfDomain>
 pub(crate) fn library(py: Python<'_>, error: impl Into<Error>) -> PyErr {
     let error = error.into();
     let record = match &error {
-        Error::Identification(refusal) => !refusal.is_usage(),
+        Error::Identification(refusal) => !matches!(refusal, Refusal::Settings(_)),
         Error::Experiment(_) | Error::Features(_) | Error::Identify(_) => true,
         _ => false,
     };

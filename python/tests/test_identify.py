@@ -45,6 +45,12 @@ def test_plot_and_report(found, tmp_path):
     assert "<svg" in found.report(tmp_path / "report.html").read_text()
 
 
+def test_the_model_drawn_is_the_likeliest(found):
+    drawn = next(line for line in found.plot().axes[1].lines)
+    likeliest = next(one for one in found.estimates if (one["method"], one["drag"]) == ("fit", "quadratic"))
+    assert np.sqrt(np.mean(np.square(drawn.get_ydata()))) == pytest.approx(likeliest["residual_rms"], rel=1e-6)
+
+
 def test_a_report_over_the_log_is_refused(record_path):
     found = selfosc.identify(record_path, method="fit")
     before = record_path.read_bytes()
