@@ -162,15 +162,21 @@ fn the_papers_identification() {
     assert!(double.iter().all(|bound| *bound < 1e-14), "{double:?}");
     assert!(single.iter().all(|bound| *bound < 5e-6), "{single:?}");
     let mut rng = Pcg64Mcg::seed_from_u64(0x150);
+    let mut answered = 0;
     for _ in 0..20_000 {
         #[allow(clippy::cast_possible_truncation, reason = "a float of the format")]
         let inputs = OSCILLATION.map(|(from, to)| (from + (to - from) * rng.random::<f64>()) as f32);
-        let narrow = oscillation(&inputs).identify().unwrap();
-        let wide = oscillation(&inputs.map(f64::from)).identify().unwrap();
+        // Where a long delay turns the inertia negative there is no answer to be wrong.
+        let (Ok(narrow), Ok(wide)) = (oscillation(&inputs).identify(), oscillation(&inputs.map(f64::from)).identify())
+        else {
+            continue;
+        };
+        answered += 1;
         let narrow = [narrow.alpha, narrow.beta, narrow.beta_quadratic, narrow.disturbance].map(f64::from);
         let wide = [wide.alpha, wide.beta, wide.beta_quadratic, wide.disturbance];
         for k in 0..4 {
             assert!((narrow[k] - wide[k]).abs() <= single[k], "{inputs:?} {k}");
         }
     }
+    assert!(answered > 15_000, "{answered}");
 }

@@ -23,7 +23,15 @@ fn folder_with_fixtures() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let pool = folder.path().join("fixtures/pool");
     std::fs::create_dir_all(&pool).unwrap();
-    std::fs::copy("fixtures/pool/heading.csv", pool.join("heading.csv")).unwrap();
+    // The other logs that it speaks of stand for records of one vehicle.
+    for place in [
+        pool.join("heading.csv"),
+        folder.path().join("first.csv"),
+        folder.path().join("second.csv"),
+        folder.path().join("third.csv"),
+    ] {
+        std::fs::copy("fixtures/pool/heading.csv", place).unwrap();
+    }
     folder
 }
 
