@@ -9,6 +9,8 @@
 //! | tune a controller for it | [`control::Tuning`] |
 //! | verify the theory | `claims::verify` (with the feature `std`) |
 //!
+//! The page `guide` works through a log, an orbit and a claim, says what units there are, and where other tools are better.
+//!
 //! [`prelude`] has the names that these jobs need. Without the feature `std` the library neither allocates nor panics on
 //! input; [`on_board`] runs the whole experiment there.
 //!
@@ -93,6 +95,11 @@ pub mod prelude;
 mod error;
 #[cfg(feature = "std")]
 pub use error::Error;
+
+/// A guide: worked pages, units, other tools.
+#[cfg(all(feature = "std", any(doc, doctest)))]
+#[doc = include_str!("../spec/guide.md")]
+pub mod guide {}
 
 /// The Rust blocks of the README, compiled and run as tests.
 #[cfg(all(doctest, feature = "std"))]

@@ -8,8 +8,8 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::number::number;
-use super::{CommandError, Outcome, files, write_json};
-use crate::describing::{CATALOGUE, DescribingFunction, Entry, Setting, by_quadrature, certified};
+use super::{CommandError, Outcome, files, gain, write_json};
+use crate::describing::{CATALOGUE, DescribingFunction, Entry, RoundingBounds, Setting, by_quadrature, certified};
 use crate::nonlinearity::{ParameterSpec, Sinusoid};
 use crate::numeric::{Interval, Real};
 use crate::proof::rigorous_quadrature::CellJet;
@@ -24,17 +24,25 @@ Examples:
   selfosc df relay-hysteresis --set level=2 --set half_width=0.3 --amplitude 1 --bias 0.1
   selfosc df saturation --set breakpoint=0.5 --amplitude 2 --method quadrature --json
   selfosc df piecewise-linear --set points=-1:-1,0:0,1:2 --set left_slope=0 --set right_slope=0 --amplitude 2
+  selfosc df relay-dead-zone --set dead_zone=0.5 --gain 1
+  selfosc df --fit gains.csv
   selfosc df --list --page catalogue.html")]
 pub(super) struct Arguments {
     /// Name of the characteristic, as --list shows it
-    #[arg(required_unless_present = "list")]
+    #[arg(required_unless_present_any = ["list", "fit"])]
     name: Option<String>,
     /// A parameter of the characteristic, as key=value; repeat for each
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     settings: Vec<(String, Setting)>,
     /// Amplitude X of the input
-    #[arg(long, value_parser = number, value_name = "X", required_unless_present = "list", allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "X", required_unless_present_any = ["list", "fit", "gain"], conflicts_with = "gain", allow_negative_numbers = true)]
     amplitude: Option<f64>,
+    /// In place of the amplitude: every amplitude from 0.001 to 1000 at which P has this value
+    #[arg(long, value_parser = number, value_name = "P", allow_negative_numbers = true)]
+    gain: Option<f64>,
+    /// Which characteristics have the gains of this CSV file (columns amplitude and p), the best first
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["name", "amplitude", "gain", "list"])]
+    fit: Option<PathBuf>,
     /// Bias B of the input
     #[arg(long, value_parser = number, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
     bias: f64,
@@ -91,6 +99,15 @@ struct Enclosure {
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
+    if let Some(path) = &arguments.fit {
+        return gain::recognise(path, arguments.bias, arguments.json, output);
+    }
+    if let (Some(name), Some(wanted), false) = (&arguments.name, arguments.gain, arguments.list) {
+        let entry = Entry::find(name)?;
+        let values = entry.values(&arguments.settings)?;
+        let characteristic = entry.build(&values)?;
+        return gain::solve((entry, &values), &characteristic, (arguments.bias, wanted), arguments.json, output);
+    }
     let (Some(name), Some(amplitude), false) = (&arguments.name, arguments.amplitude, arguments.list) else {
         if let Some(path) = &arguments.page {
             files::write(path, &characteristics()?.html()?)?;
@@ -113,8 +130,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         }
     };
     if arguments.json {
-        let params =
-            entry.settings(&values).into_iter().map(|(name, value)| (name.to_owned(), plain(&value))).collect();
+        let params = parameters(entry, &values);
         let (bias, method) = (arguments.bias, arguments.method);
         let enclosure = enclosed.map(|df| Enclosure { f0: df.f0.bounds(), p: df.p.bounds(), q: df.q.bounds() });
         let answer = Answer { nonlinearity: entry.name, params, amplitude, bias, f0, p, q, method, enclosure };
@@ -125,6 +141,11 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         writeln!(output, "F_0 = {f0}\nP   = {p}\nQ   = {q}")?;
     }
     Ok(Outcome::Done)
+}
+
+/// Values by the names of the parameters.
+pub(super) fn parameters(entry: &Entry, values: &[f64]) -> serde_json::Map<String, serde_json::Value> {
+    entry.settings(values).into_iter().map(|(name, value)| (name.to_owned(), plain(&value))).collect()
 }
 
 /// A number as a number, points as pairs.
@@ -146,11 +167,25 @@ fn enclose(
     Ok(certified(&*entry.build(&values)?, &sweep)?.enclosure)
 }
 
+/// Over which values of the parameters, in their order, of bias and of amplitude the closed form is how near to the exact value.
+fn rounding(bounds: &RoundingBounds) -> serde_json::Value {
+    let parts = |df: DescribingFunction<f64>| json!({ "f0": df.f0, "p": df.p, "q": df.q });
+    json!({
+        "parameters": bounds.parameters,
+        "bias": bounds.bias,
+        "amplitude": bounds.amplitude,
+        "f64": parts(bounds.double),
+        "f32": parts(bounds.single),
+    })
+}
+
 fn list(as_json: bool, output: &mut impl Write) -> Result<Outcome, CommandError> {
     if as_json {
         let parameter = |p: &ParameterSpec| json!({ "name": p.name, "meaning": p.meaning, "domain": p.domain.words(), "default": p.default });
-        let entry =
-            |e: &Entry| json!({ "name": e.name, "parameters": e.parameters.iter().map(parameter).collect::<Vec<_>>() });
+        let entry = |e: &Entry| {
+            let parameters = e.parameters.iter().map(parameter).collect::<Vec<_>>();
+            json!({ "name": e.name, "parameters": parameters, "rounding": e.rounding_bounds().as_ref().map(rounding) })
+        };
         write_json(output, &CATALOGUE.iter().map(entry).collect::<Vec<_>>())?;
         return Ok(Outcome::Done);
     }

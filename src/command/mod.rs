@@ -10,6 +10,7 @@ mod design;
 mod df;
 mod error;
 mod files;
+mod gain;
 mod identify;
 mod known;
 mod manual;

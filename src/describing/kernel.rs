@@ -111,14 +111,14 @@ impl<T: Real> Arc<T> {
     #[inline]
     fn phi(self) -> T {
         let from = |end: T| T::two() * (half::<T>() * end).sqrt().asin();
-        let near_an_end = || self.u.select(|| T::pi() - from(self.one_plus_u), || from(self.one_minus_u));
-        (self.u.abs() - half()).select(|| half::<T>() * T::pi() - self.u.asin(), near_an_end)
+        let near_an_end = || self.u.prefer(|| T::pi() - from(self.one_plus_u), || from(self.one_minus_u));
+        (self.u.abs() - half()).prefer(|| half::<T>() * T::pi() - self.u.asin(), near_an_end)
     }
 
     /// `asin(u)`, towards the ends by way of phi: its derivative then agrees with that of `sin(phi)`.
     #[inline]
     pub(super) fn asin(self) -> T {
-        (self.u.abs() - half()).select(|| self.u.asin(), || half::<T>() * T::pi() - self.phi())
+        (self.u.abs() - half()).prefer(|| self.u.asin(), || half::<T>() * T::pi() - self.phi())
     }
 
     #[inline]
@@ -182,9 +182,9 @@ fn band<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> Describi
     let near_minimum = || components(flat(upper - origin) + ramp(lower, Side::Below) - ramp(upper, Side::Below));
 
     let near = half::<T>() * amplitude;
-    let inner = || (upper - lower - amplitude).select_all(middle, wide);
-    let beside_maximum = || (bias - upper - near).select_all(inner, near_minimum);
-    let [f0, p] = (lower - bias - near).select_all(beside_maximum, near_maximum);
+    let inner = || (upper - lower - amplitude).prefer_all(middle, wide);
+    let beside_maximum = || (bias - upper - near).prefer_all(inner, near_minimum);
+    let [f0, p] = (lower - bias - near).prefer_all(beside_maximum, near_maximum);
     DescribingFunction { f0, p, q: T::zero() }
 }
 

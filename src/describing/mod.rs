@@ -27,6 +27,8 @@ mod power;
 mod quadrature;
 mod relay;
 #[cfg(feature = "std")]
+mod rounding;
+#[cfg(feature = "std")]
 mod setting;
 mod sine;
 mod tanh;
@@ -43,6 +45,8 @@ pub use fit::{FittedCharacteristic, fit};
 pub use inverse::{Solution, amplitudes, nearest_amplitude};
 #[cfg(feature = "std")]
 pub use quadrature::by_quadrature;
+#[cfg(feature = "std")]
+pub use rounding::RoundingBounds;
 #[cfg(feature = "std")]
 pub use setting::Setting;
 

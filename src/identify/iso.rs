@@ -67,6 +67,9 @@ impl<T: Real> Oscillation<T> {
     /// negative, as with a delay that is a large part of the period; [`IdentifyError::OutOfDomain`] too for a parameter that the
     /// arithmetic cannot represent.
     ///
+    /// Rounding: for all floats with levels 0.5 to 2, switching levels 0.25 to 0.5, amplitudes and periods 1 to 4, biases to a quarter either
+    /// way and delays up to a quarter, each parameter is within 1e-14 in f64 and 5e-6 in f32 of its exact value.
+    ///
     /// ```
     /// use selfosc::identify::iso::Oscillation;
     /// // Row 7 of Table 4, in its own units: degrees and 1e-2 N m.

@@ -16,6 +16,7 @@ internal! {
     mod power;
     #[cfg(feature = "std")]
     mod quadrature;
+    mod rounded;
     #[cfg(feature = "std")]
     mod scan;
     mod special;

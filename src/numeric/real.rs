@@ -105,6 +105,13 @@ pub trait Real:
         let [selected] = self.select_all(|| [below()], || [above()]);
         selected
     }
+    /// [`prefer_all`](Self::prefer_all) of one number.
+    #[must_use]
+    #[inline]
+    fn prefer(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
+        let [preferred] = self.prefer_all(|| [below()], || [above()]);
+        preferred
+    }
     /// The reciprocal of [`pi`](Self::pi): dividing by a constant costs a division each time.
     #[must_use]
     fn inverse_pi() -> Self {
@@ -172,12 +179,15 @@ pub(super) fn magnitude<T: Real>(x: T) -> f64 {
     lower.abs().max(upper.abs())
 }
 
-/// `x - sin x`: the series below one, where the difference cancels; its first term left out is below 2e-17 of the sum.
+/// `x - sin x`: the series below one, where the difference cancels.
 #[inline]
 pub(super) fn minus_own_sine<S: Scalar>(x: S, sine: S) -> S {
-    if x >= S::one() {
-        return x - sine;
-    }
+    if x >= S::one() { x - sine } else { own_sine_series(x) }
+}
+
+/// `x - sin x` for x of at most one; the first term left out is below 2e-17 of the sum.
+#[inline]
+pub(super) fn own_sine_series<S: Real>(x: S) -> S {
     // 6 (-1)^k/(2 k + 3)!, in pairs: the processor works on several at once.
     const FACTORS: [[f64; 2]; 4] = [
         [1.0, -1.0 / 20.0],

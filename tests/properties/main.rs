@@ -40,6 +40,7 @@ mod paper;
 mod power_law;
 mod record;
 mod relay_certificate;
+mod rounding;
 mod sampling;
 mod serialised;
 mod session;

@@ -161,3 +161,34 @@ fn no_limit_cycle() {
     assert_eq!((status, complaint.as_str()), (Some(1), ""));
     golden!("no-limit-cycle", answer);
 }
+
+/// A gain has its amplitudes, and gains have their characteristic.
+#[test]
+fn the_other_way_round() {
+    let answer = done(&["df", "relay-dead-zone", "--set", "dead_zone=0.5", "--gain", "1", "--json"]);
+    let answer: serde_json::Value = serde_json::from_str(&answer).unwrap();
+    let found = answer["amplitudes"].as_array().unwrap();
+    assert_eq!(found.len(), 2);
+    assert!(found.iter().all(|one| (one["p"].as_f64().unwrap() - 1.0).abs() < 1e-12));
+    let (status, answer, _) = output(&["df", "saturation", "--set", "breakpoint=1", "--gain", "3"]);
+    assert_eq!((status, answer.contains("no amplitude")), (Some(1), true));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("gains.csv");
+    // P of a saturation, 2/pi (asin(b/X) + b/X sqrt(1 - (b/X)^2)) beyond its breakpoint b = 0.7.
+    let gain = |x: f64| {
+        if x < 0.7 {
+            1.0
+        } else {
+            2.0 / std::f64::consts::PI * ((0.7 / x).asin() + 0.7 / x * (1.0 - (0.7 / x).powi(2)).sqrt())
+        }
+    };
+    let rows: String = [0.3, 0.5, 0.8, 1.1, 1.6, 2.5, 4.0].map(|x| format!("{x},{}\n", gain(x))).concat();
+    std::fs::write(&path, format!("amplitude,p\n{rows}")).unwrap();
+    let ranked: serde_json::Value =
+        serde_json::from_str(&done(&["df", "--fit", path.to_str().unwrap(), "--json"])).unwrap();
+    let best: Vec<_> = ranked["fits"].as_array().unwrap().iter().take(3).collect();
+    assert!(
+        best.iter().any(|fit| fit["nonlinearity"] == "saturation" && fit["residual"].as_f64().unwrap() < 1e-9),
+        "{best:?}"
+    );
+}

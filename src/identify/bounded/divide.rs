@@ -6,6 +6,8 @@ use crate::numeric::Interval;
 
 /// A box is not divided further where the slopes' ranges take less than this of the readings' error.
 const FINE: f64 = 0.003;
+/// Divisions of a slice that is to be cut off.
+const MOST_OF_A_SLICE: usize = 6;
 /// A box stands for what is left once they take less than this.
 const FOLLOWED: f64 = 4.0;
 
@@ -75,8 +77,95 @@ impl Search<'_> {
         division
     }
 
+    /// Cuts boxes left at a value of an unknown, and works off what is beyond it.
+    pub(super) fn shave(&mut self, division: &mut Division, unknown: usize, upper: bool, value: f64, budget: usize) {
+        let mut beyond = Vec::new();
+        for index in (0..division.kept.len()).rev() {
+            let side = division.kept[index].at[unknown];
+            if !(side.lower() < value && value < side.upper()) {
+                // All of it is beyond, or nothing.
+                let all = if upper { side.lower() >= value } else { side.upper() <= value };
+                if all {
+                    beyond.push(division.kept.swap_remove(index));
+                }
+                continue;
+            }
+            let halves = [Interval::new(side.lower(), value), Interval::new(value, side.upper())];
+            let [Some(low), Some(high)] = halves else { continue };
+            let mut kept = division.kept.swap_remove(index);
+            let next = division.tree.len();
+            let parts = [next, next + 1];
+            division.tree[kept.branch].then = Then::Divided { unknown, value, parts };
+            division.tree.extend([(); 2].map(|()| Branch { made: Vec::new(), then: Then::Left }));
+            let mut outer = kept.clone();
+            let (near, far) = if upper { (low, high) } else { (high, low) };
+            (kept.at[unknown], outer.at[unknown]) = (near, far);
+            (kept.branch, outer.branch) = (parts[usize::from(!upper)], parts[usize::from(upper)]);
+            division.kept.push(kept);
+            beyond.push(outer);
+        }
+        self.work_off(division, beyond, budget);
+    }
+
+    /// Contracts and divides boxes that are near the end of a parameter's range, each a few times.
+    fn work_off(&mut self, division: &mut Division, mut open: Vec<Kept>, budget: usize) {
+        let mut divided = 0;
+        while let Some(mut kept) = open.pop() {
+            if self.passes >= budget {
+                division.kept.push(kept);
+                continue;
+            }
+            let mut made = Vec::new();
+            let left = self.contract_fine(&mut kept.at, &mut made);
+            division.tree[kept.branch].made.append(&mut made);
+            match left {
+                Err(empty) => {
+                    division.tree[kept.branch].then = Then::Empty(Box::new(empty));
+                    continue;
+                }
+                Ok(left) => kept.left = left,
+            }
+            let Left::Followed { slack, widest } = kept.left else {
+                division.kept.push(kept);
+                continue;
+            };
+            if slack < FINE || divided >= MOST_OF_A_SLICE {
+                division.kept.push(kept);
+                continue;
+            }
+            let Some((value, parts)) = self.divide(&kept.at, widest) else {
+                division.kept.push(kept);
+                continue;
+            };
+            divided += 1;
+            let next = division.tree.len();
+            division.tree[kept.branch].then = Then::Divided { unknown: widest, value, parts: [next, next + 1] };
+            for (at, branch) in parts.into_iter().zip(next..) {
+                division.tree.push(Branch { made: Vec::new(), then: Then::Left });
+                open.push(Kept { at, left: kept.left, branch });
+            }
+        }
+    }
+
+    /// Contracts what is left once more.
+    pub(super) fn contract_kept(&mut self, division: &mut Division) {
+        let boxes: Vec<Kept> = division.kept.drain(..).collect();
+        for mut kept in boxes {
+            let mut made = Vec::new();
+            let left = self.contract_fine(&mut kept.at, &mut made);
+            division.tree[kept.branch].made.append(&mut made);
+            match left {
+                Err(empty) => division.tree[kept.branch].then = Then::Empty(Box::new(empty)),
+                Ok(left) => {
+                    kept.left = left;
+                    division.kept.push(kept);
+                }
+            }
+        }
+    }
+
     /// Divides one of the boxes left; `false` where that would not help.
-    pub(super) fn divide_kept(&mut self, division: &mut Division, index: usize, budget: usize) -> bool {
+    fn divide_kept(&mut self, division: &mut Division, index: usize, budget: usize) -> bool {
         let Left::Followed { slack, widest } = division.kept[index].left else { return false };
         if slack < FINE {
             return false;

@@ -29,6 +29,9 @@ mod trajectory;
 mod weak;
 mod witness;
 
+#[cfg(test)]
+mod tests;
+
 pub use bounds::{Bounds, Consistency, Contradicting, Parameters, Quantity, QuantityRange};
 pub use settings::{BoundedModel, DelayBound, SwitchedWhen};
 
@@ -43,7 +46,7 @@ use setup::Setup;
 const DIVISIONS_PER_TRIAL: usize = 8;
 
 /// Bounds that are this good, the inner against the outer width, are not sharpened further.
-const GOOD: f64 = 0.97;
+const GOOD: f64 = 0.95;
 
 /// Encloses the parameters with which the model meets every reading of all records, or proves that there are none in the search box.
 ///

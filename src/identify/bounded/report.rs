@@ -10,6 +10,13 @@ use super::setup::Setup;
 use super::witness::Tried;
 use crate::numeric::Interval;
 
+/// Passes after which the bounds are good enough: they hold in any case.
+const SHARPENING: usize = 200;
+/// How often all sides are cut.
+const ROUNDS: usize = 6;
+/// A round that leaves more than this of every width is the last.
+const HELPED: f64 = 0.99;
+
 /// Parameters tried so far.
 #[derive(Default)]
 pub(super) struct Answer {
@@ -20,7 +27,7 @@ pub(super) struct Answer {
 
 /// The box of an empty leaf.
 fn leaf(empty: &Empty) -> Option<Vec<Interval>> {
-    let linear = empty.linear.as_ref().filter(|_| empty.method == Method::Chain)?;
+    let linear = empty.linear.as_ref().filter(|_| empty.method != Method::Weigh)?;
     Some(linear.deviations.iter().zip(&linear.centre).map(|(z, c)| *z + Interval::point(*c)).collect())
 }
 
@@ -70,49 +77,46 @@ impl Answer {
         }
     }
 
-    /// Divides what is left until the bounds are hardly wider than what the witnesses reach.
+    /// Cuts off what is beyond the witnesses, until the bounds are hardly wider than what these reach.
     pub(super) fn sharpen(&mut self, search: &mut Search<'_>, division: &mut Division, budget: usize, good: f64) {
+        let budget = budget.min(search.passes + SHARPENING);
         let parameters: Vec<usize> = (0..search.setup.layout.common()).collect();
-        let mut tried: Vec<(usize, bool, f64)> = Vec::new();
-        while search.passes < budget {
-            let (Some(hull), Some(inner)) = (division.hull(), self.inner.clone()) else { return };
-            // The side of a parameter with the largest gap.
-            let gaps = parameters.iter().flat_map(|&place| {
-                let (outer, inner) = (hull[place], inner[place]);
-                let width = outer.width().max(f64::MIN_POSITIVE);
-                [
-                    (place, true, (outer.upper() - inner.upper()) / width),
-                    (place, false, (inner.lower() - outer.lower()) / width),
-                ]
-            });
-            let Some((place, upper, gap)) = gaps.max_by(|a, b| a.2.total_cmp(&b.2)) else { return };
-            if gap < 0.5 * (1.0 - good) {
-                return;
-            }
-            let end = |at: &[Interval]| if upper { at[place].upper() } else { -at[place].lower() };
-            let Some(index) = (0..division.kept.len())
-                .max_by(|a, b| end(&division.kept[*a].at).total_cmp(&end(&division.kept[*b].at)))
-            else {
-                return;
-            };
-            let outermost = end(&division.kept[index].at);
-            // Reach out towards it first; then divide.
-            if !tried.contains(&(place, upper, outermost)) {
-                tried.push((place, upper, outermost));
-                let at = division.kept[index].at.clone();
-                let witness = self.witness().cloned();
-                let centre = at.iter().map(|side| side.midpoint()).collect();
-                let mut own = at;
-                if let (Some(witness), Ok(Some(linear))) = (witness, search.chained(&mut own, centre)) {
-                    let sign = if upper { 1.0 } else { -1.0 };
-                    if let Some(tried) = search.reach(&witness, &linear, place, sign) {
-                        self.note(tried);
-                    }
+        let sides: Vec<(usize, bool)> = parameters.iter().flat_map(|&place| [(place, true), (place, false)]).collect();
+        search.contract_kept(division);
+        self.reach(search, division, &sides);
+        for _ in 0..ROUNDS {
+            let mut helped = false;
+            for &(place, upper) in &sides {
+                let (Some(hull), Some(inner)) = (division.hull(), self.inner.as_ref()) else { return };
+                let (outer, inner, width) = (hull[place], inner[place], hull[place].width());
+                let gap = if upper { outer.upper() - inner.upper() } else { inner.lower() - outer.lower() };
+                if gap <= 0.5 * (1.0 - good) * width {
+                    continue;
                 }
-                continue;
+                let beyond = 0.25 * (1.0 - good) * inner.width();
+                let value = if upper { inner.upper() + beyond } else { inner.lower() - beyond };
+                search.shave(division, place, upper, value, budget);
+                let Some(hull) = division.hull() else { return };
+                helped |= hull[place].width() < HELPED * width;
+                if search.passes >= budget {
+                    return;
+                }
             }
-            if !search.divide_kept(division, index, budget) {
+            if !helped {
                 return;
+            }
+            search.contract_kept(division);
+        }
+    }
+
+    /// Witnesses as far to every side as they are found.
+    fn reach(&mut self, search: &mut Search<'_>, division: &Division, sides: &[(usize, bool)]) {
+        let Some(hull) = division.hull() else { return };
+        for &(place, upper) in sides {
+            let Some(witness) = self.witness().cloned() else { return };
+            let sign = if upper { 1.0 } else { -1.0 };
+            if let Some(tried) = search.furthest(&witness, &hull, place, sign) {
+                self.note(tried);
             }
         }
     }
@@ -129,7 +133,7 @@ impl Answer {
         let least = if verdict == Consistency::Refuted { 1.0 } else { least_misfit(&mut search, division) };
         let point = |tried: &Tried| Parameters { values: values(search.setup, &tried.at), misfit: tried.misfit };
         let contradicting = if verdict == Consistency::Refuted {
-            let last = empties(division).filter(|empty| empty.method == Method::Chain).last();
+            let last = empties(division).filter(|empty| empty.method != Method::Weigh).last();
             last.or_else(|| empties(division).last()).map(|empty| contradiction(&search, empty)).unwrap_or_default()
         } else {
             Vec::new()

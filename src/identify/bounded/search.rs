@@ -21,6 +21,10 @@ const ORDERS: f64 = 4.0;
 /// Passes over one box at most.
 const MOST_PASSES: usize = 30;
 
+/// Passes over one slice at most.
+const FINE_PASSES: usize = 6;
+/// Records are followed as a whole where the slopes' ranges take less than this of the readings' error.
+const UNBROKEN: f64 = 1.0;
 /// Passes by hats that cost as much as one of the motion.
 const WEIGHED_PER_PASS: usize = 12;
 
@@ -29,6 +33,8 @@ const WEIGHED_PER_PASS: usize = 12;
 pub(super) enum Method {
     /// Speeds from the readings, then the hats.
     Weigh,
+    /// Whole records.
+    Whole,
     /// All windows, each linked to the next.
     Chain,
 }
@@ -250,6 +256,60 @@ impl<'a> Search<'a> {
     pub(super) fn rest(&self, before: &[Interval], after: &[Interval]) -> f64 {
         let shares = before.iter().zip(after).take(self.parameters());
         shares.map(|(b, a)| if b.width() > 0.0 { a.width() / b.width() } else { 1.0 }).fold(1.0, f64::min)
+    }
+
+    /// The inequalities of whole records over a box about `centre`; `None` where there is no enclosure.
+    pub(super) fn unbroken(&mut self, at: &[Interval], centre: Vec<f64>) -> Option<Linear> {
+        self.passes += 1;
+        let mut linear = self.model.about(at, centre);
+        for span in self.whole() {
+            let motion = self.model.motion(span, at, &linear.centre)?;
+            self.model.linearise(span, &motion, false, &mut linear);
+        }
+        self.model.bound(&mut linear);
+        Some(linear)
+    }
+
+    /// Parameters, and the state at every record's beginning.
+    pub(super) fn of_whole(&self) -> Vec<usize> {
+        let layout = &self.setup.layout;
+        let starts = self.whole().into_iter();
+        let starts = starts.flat_map(|span| (0..layout.state_size()).map(move |k| layout.start(span.from, k)));
+        (0..self.parameters()).chain(starts).collect()
+    }
+
+    /// Contracts a box over which the motion is followed, by the motion alone: over whole records, where nothing but their
+    /// beginnings is unknown beside the parameters, or window by window if the slopes' ranges take less so.
+    pub(super) fn contract_fine(&mut self, at: &mut [Interval], made: &mut Vec<Made>) -> Result<Left, Empty> {
+        let (whole, parameters) = (self.of_whole(), (0..self.parameters()).collect::<Vec<_>>());
+        let places: Vec<usize> = (0..at.len()).collect();
+        let (mut left, mut broken) = (Left::Wide(0), false);
+        for pass in 0..MOST_PASSES {
+            let before = at.to_vec();
+            let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
+            let unbroken = if broken { None } else { self.unbroken(at, centre.clone()) };
+            let found =
+                unbroken.map(|linear| (self.slack(&linear), linear)).filter(|((slack, _), _)| *slack <= UNBROKEN);
+            broken = found.is_none();
+            let ((slack, widest), linear) = match found {
+                Some(found) => found,
+                None => match self.chained(at, centre)? {
+                    Some(linear) => (self.slack(&linear), linear),
+                    None => return Ok(left),
+                },
+            };
+            left = Left::Followed { slack, widest };
+            let (method, of, unknowns) =
+                if broken { (Method::Chain, &places, &parameters) } else { (Method::Whole, &whole, &whole) };
+            match linear.contract(at, of, unknowns) {
+                Pass::Empty(multipliers) => return Err(Empty { method, multipliers, linear: Some(linear) }),
+                Pass::Contracted(cuts) => made.push(Made { method, cuts }),
+            }
+            if pass + 1 >= FINE_PASSES || self.rest(&before, at) > HELPED {
+                break;
+            }
+        }
+        Ok(left)
     }
 
     /// Contracts a box until nothing helps.

@@ -57,8 +57,6 @@ pub struct BoundedModel {
     pub error: f64,
     /// Largest error of a stamp, in s.
     pub jitter_s: f64,
-    /// Readings that may be wrong altogether.
-    pub outliers: usize,
     /// Factor by which inertia, and drag upwards, are looked for on either side of their order of magnitude in the record.
     pub reach: f64,
     /// Passes over the records that may be spent.
@@ -81,7 +79,6 @@ impl BoundedModel {
             quantum: None,
             error: 0.0,
             jitter_s: 0.0,
-            outliers: 0,
             reach: 100.0,
             budget: 3000,
         }

@@ -8,6 +8,12 @@ use crate::numeric::{Interval, Real};
 /// Steps towards the least largest misfit.
 const MOST_STEPS: usize = 8;
 
+/// A step that gains less than this share of a parameter's width is the last.
+const REACHED: f64 = 0.002;
+
+/// How far within what readings allow a far witness is sought, of what the nearest leaves: room for what is not linear.
+const INSIDE: f64 = 0.01;
+
 /// Misfits up to which a better parameter is looked for, one after the other, beyond what readings allow.
 const MISFITS: [f64; 3] = [1.0, 30.0, 1000.0];
 
@@ -115,23 +121,61 @@ impl Search<'_> {
         Some(linear)
     }
 
-    /// A witness with `unknown` as far up (or, `sign` negative, down) as linear programmes and trying find one.
-    pub(super) fn reach(&mut self, witness: &Tried, linear: &Linear, unknown: usize, sign: f64) -> Option<Tried> {
-        let places: Vec<usize> = (0..linear.deviations.len()).collect();
-        let programme = Programme::of(&linear.rows, &linear.deviations, &places);
-        let Outcome::Bounded { at: solution, .. } = programme.maximise(&[(unknown, sign)]) else { return None };
-        for share in [0.99, 0.96, 0.9, 0.8] {
-            let at: Vec<f64> = witness
-                .at
-                .iter()
-                .zip(linear.centre.iter().zip(&solution))
-                .map(|(from, (centre, step))| from + share * (centre + step - from))
-                .collect();
-            let misfit = self.misfit(&at)?;
+    /// The inequalities of whole records about a point, and the largest misfit there.
+    fn about_point(&mut self, centre: &[f64]) -> Option<(Linear, f64)> {
+        self.passes += 1;
+        let point: Vec<Interval> = centre.iter().map(|value| Interval::point(*value)).collect();
+        let mut linear = self.model.about(&point, centre.to_vec());
+        let mut largest = 0.0f64;
+        for span in self.whole() {
+            let motion = self.model.motion(span, &point, centre)?;
+            let stretch = self.setup.layout.windows()[span.from];
+            let readings = &self.setup.records[stretch.record];
+            let error = Interval::point(readings.error);
+            for (node, reading) in motion.iter().zip(&readings.value[stretch.first..]) {
+                let misfit = (node.at[0] - Interval::point(*reading)).abs() / error;
+                largest = largest.max(misfit.upper());
+            }
+            self.model.linearise(span, &motion, false, &mut linear);
+        }
+        self.model.bound(&mut linear);
+        Some((linear, largest))
+    }
+
+    /// The witness with `unknown` furthest up (or, `sign` negative, down) that linear programmes, one after another from a
+    /// witness, find in a box.
+    pub(super) fn furthest(&mut self, from: &Tried, within: &[Interval], unknown: usize, sign: f64) -> Option<Tried> {
+        let layout = &self.setup.layout;
+        let mut places: Vec<usize> = (0..layout.parameters()).collect();
+        for span in self.whole() {
+            places.extend((0..layout.state_size()).map(|component| layout.start(span.from, component)));
+        }
+        let inside = INSIDE * (1.0 - from.misfit);
+        let mut centre = from.at.clone();
+        let mut best: Option<Tried> = None;
+        for _ in 0..MOST_STEPS {
+            let Some((linear, misfit)) = self.about_point(&centre) else { break };
             if misfit <= 1.0 {
-                return Some(Tried { at, misfit });
+                let gained = best.as_ref().map_or(f64::INFINITY, |best| sign * (centre[unknown] - best.at[unknown]));
+                if gained > 0.0 {
+                    best = Some(Tried { at: centre.clone(), misfit });
+                }
+                if gained < REACHED * within[unknown].width() {
+                    break;
+                }
+            }
+            let (mut linear, tightened) = self.with_misfit(&linear);
+            for place in &places {
+                linear.deviations[*place] = within[*place] - Interval::point(centre[*place]);
+            }
+            linear.deviations[tightened] = Interval::point(-inside);
+            let all: Vec<usize> = places.iter().copied().chain([tightened]).collect();
+            let programme = Programme::of(&linear.rows, &linear.deviations, &all);
+            let Outcome::Bounded { at: step, .. } = programme.maximise(&[(unknown, sign)]) else { break };
+            for (place, step) in places.iter().zip(&step) {
+                centre[*place] += step;
             }
         }
-        None
+        best
     }
 }

@@ -1,0 +1,224 @@
+//! What the bounds rest on, each with a false variant that is caught.
+
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+use super::contract::{Origin, Span};
+use super::lp::Rows;
+use super::search::Search;
+use super::setup::Setup;
+use super::{BoundedModel, Consistency, DelayBound, Quantity, SwitchedWhen, enclose};
+use crate::experiment::Record;
+use crate::identify::DragLaw;
+use crate::numeric::Interval;
+
+/// Integers below this are products of three without loss in 128 bits, while floats round a product of two.
+const LARGEST: i64 = 1 << 36;
+
+/// The exact value of the dual, of integers.
+fn exact_dual(slopes: &[Vec<i64>], limits: &[i64], y: &[i64], objective: &[i64], box_: &[(i64, i64)]) -> i128 {
+    let wide = i128::from;
+    let mut sum: i128 = limits.iter().zip(y).map(|(limit, y)| wide(*limit) * wide(*y)).sum();
+    for (j, (low, high)) in box_.iter().enumerate() {
+        let rest = wide(objective[j]) - slopes.iter().zip(y).map(|(row, y)| wide(row[j]) * wide(*y)).sum::<i128>();
+        sum += (rest * wide(*low)).max(rest * wide(*high));
+    }
+    sum
+}
+
+/// The same in floats, rounded to nearest.
+fn rounded_dual(slopes: &[Vec<i64>], limits: &[i64], y: &[i64], objective: &[i64], box_: &[(i64, i64)]) -> f64 {
+    let mut sum: f64 = limits.iter().zip(y).map(|(limit, y)| *limit as f64 * *y as f64).sum();
+    for (j, (low, high)) in box_.iter().enumerate() {
+        let rest = objective[j] as f64 - slopes.iter().zip(y).map(|(row, y)| row[j] as f64 * *y as f64).sum::<f64>();
+        sum += (rest * *low as f64).max(rest * *high as f64);
+    }
+    sum
+}
+
+#[test]
+fn the_dual_in_intervals_is_never_below_its_exact_value_and_in_floats_sometimes_is() {
+    let mut random = Pcg64Mcg::seed_from_u64(1);
+    let mut below = 0;
+    for _ in 0..500 {
+        let mut any = || random.random_range(-LARGEST..LARGEST);
+        let slopes: Vec<Vec<i64>> = (0..4).map(|_| (0..3).map(|_| any()).collect()).collect();
+        let limits: Vec<i64> = (0..4).map(|_| any()).collect();
+        let y: Vec<i64> = (0..4).map(|_| any().abs()).collect();
+        let objective: Vec<i64> = (0..3).map(|_| any()).collect();
+        let box_: Vec<(i64, i64)> = (0..3).map(|_| (any(), any())).map(|(a, b)| (a.min(b), a.max(b))).collect();
+        let exact = exact_dual(&slopes, &limits, &y, &objective, &box_);
+        let rows = Rows {
+            slopes: slopes
+                .iter()
+                .map(|row| row.iter().enumerate().map(|(j, a)| (j, Interval::point(*a as f64))).collect())
+                .collect(),
+            limits: limits.iter().map(|limit| *limit as f64).collect(),
+        };
+        let objective_f: Vec<(usize, f64)> = objective.iter().enumerate().map(|(j, c)| (j, *c as f64)).collect();
+        let multipliers = y.iter().enumerate().map(|(k, y)| (k, *y as f64)).collect();
+        let sides: Vec<Interval> =
+            box_.iter().map(|(low, high)| Interval::new(*low as f64, *high as f64).expect("ordered")).collect();
+        // A float of this size is an integer.
+        let safe = rows.upper_bound(&objective_f, &multipliers, &sides) as i128;
+        assert!(safe >= exact, "{safe} below {exact}");
+        below += usize::from((rounded_dual(&slopes, &limits, &y, &objective, &box_) as i128) < exact);
+    }
+    assert!(below > 100, "rounding to nearest was below {below} times of 500");
+}
+
+const ALPHA: f64 = 1.3;
+const BETA: f64 = 0.6;
+const DELTA: f64 = 0.1;
+const STEP: f64 = 0.02;
+const TURN_S: f64 = 2.0;
+
+/// Linear drag under a square wave, by the solution in closed form, rounded to steps of `STEP`.
+fn record(samples: usize) -> Record {
+    let (mut x, mut v) = (0.0f64, 0.2f64);
+    let (mut time, mut output, mut input) = (Vec::new(), Vec::new(), Vec::new());
+    let h = 0.1;
+    for sample in 0..samples {
+        let now = sample as f64 * h;
+        // Just after a switching instant, however the product rounds.
+        let u = if ((now + 1e-9) / TURN_S).floor() % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        time.push(now);
+        output.push((x / STEP).round() * STEP);
+        input.push(u);
+        let (rate, terminal) = (BETA / ALPHA, (u + DELTA) / BETA);
+        let decay = (-rate * h).exp();
+        x += terminal * h + (v - terminal) * (1.0 - decay) / rate;
+        v = terminal + (v - terminal) * decay;
+    }
+    Record::new(time, output, input).expect("a record")
+}
+
+/// A box about the truth, of this relative half-width, with everything that a search over it needs.
+fn setup(width: f64) -> (Setup, Vec<Interval>) {
+    let model = BoundedModel { quantum: Some(STEP), ..BoundedModel::new(DragLaw::Linear, DelayBound::KnownS(0.0)) };
+    let setup = Setup::new(&[&record(150)], &model).expect("a problem");
+    let truth = [1.0 / ALPHA, BETA / ALPHA, DELTA / ALPHA];
+    let mut at = setup.search.clone();
+    for (side, value) in at.iter_mut().zip(truth) {
+        *side = Interval::new(value * (1.0 - width), value * (1.0 + width)).expect("ordered");
+    }
+    // Speeds at the windows' beginnings are found as the search finds them.
+    let mut search = Search::new(&setup);
+    search.weigh(&mut at).expect("not empty: the truth is inside");
+    (setup, at)
+}
+
+#[test]
+fn outputs_lie_within_the_mean_value_form_and_not_within_that_of_the_midpoint() {
+    let (setup, at) = setup(0.05);
+    let search = Search::new(&setup);
+    let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
+    let mut random = Pcg64Mcg::seed_from_u64(2);
+    let mut outside = 0;
+    for window in 0..setup.layout.windows().len() {
+        let span = Span { from: window, to: window + 1 };
+        let motion = search.model.motion(span, &at, &centre).expect("an enclosure");
+        let (_, places) = setup.layout.columns(window);
+        for _ in 0..20 {
+            let point: Vec<f64> =
+                at.iter().map(|side| random.random_range(side.lower()..side.upper().next_up())).collect();
+            let outputs = search.model.outputs(span, &point).expect("an enclosure");
+            for (node, output) in motion.iter().zip(&outputs) {
+                let (mut form, mut middle) = (node.at[0], node.at[0]);
+                for (slope, place) in node.slopes.iter().zip(&places) {
+                    let deviation = Interval::point(point[*place]) - Interval::point(centre[*place]);
+                    form += slope[0] * deviation;
+                    middle += Interval::point(slope[0].midpoint()) * deviation;
+                }
+                assert!(form.intersection(*output).is_some(), "{output:?} outside {form:?}");
+                outside += usize::from(middle.intersection(*output).is_none());
+            }
+        }
+    }
+    assert!(outside > 100, "the midpoint's slopes missed {outside} outputs");
+}
+
+/// Whether the truth meets every row: whether some element of every slope does.
+fn met(linear: &super::contract::Linear, truth: &[f64], keep: impl Fn(&Origin) -> bool) -> bool {
+    linear.rows.slopes.iter().zip(&linear.rows.limits).zip(&linear.origins).filter(|(_, origin)| keep(origin)).all(
+        |((slopes, limit), _)| {
+            let sum = slopes.iter().fold(Interval::ZERO, |sum, (place, slope)| {
+                sum + *slope * (Interval::point(truth[*place]) - Interval::point(linear.centre[*place]))
+            });
+            sum.lower() <= *limit
+        },
+    )
+}
+
+/// All unknowns of the true motion, which at each window's beginning is the one before carried on.
+fn truth(setup: &Setup) -> Vec<f64> {
+    let mut all = vec![1.0 / ALPHA, BETA / ALPHA, DELTA / ALPHA];
+    let rate = BETA / ALPHA;
+    for window in setup.layout.windows() {
+        let (mut x, mut v) = (0.0f64, 0.2f64);
+        for sample in 0..window.first {
+            let u = if ((sample as f64 * 0.1 + 1e-9) / TURN_S).floor() % 2.0 == 0.0 { 1.0 } else { -1.0 };
+            let (terminal, decay) = ((u + DELTA) / BETA, (-rate * 0.1f64).exp());
+            x += terminal * 0.1 + (v - terminal) * (1.0 - decay) / rate;
+            v = terminal + (v - terminal) * decay;
+        }
+        all.extend([x, v]);
+    }
+    all
+}
+
+#[test]
+fn the_true_motion_meets_the_chain_of_windows_and_a_state_shifted_between_two_does_not() {
+    let (setup, mut at) = setup(0.02);
+    let mut search = Search::new(&setup);
+    let centre = at.iter().map(|side| side.midpoint()).collect();
+    let Ok(Some(linear)) = search.chained(&mut at, centre) else { panic!("no enclosure") };
+    let mut truth = truth(&setup);
+    assert!(met(&linear, &truth, |_| true));
+    // A window that begins elsewhere than the one before ends is still a motion, but not of one vehicle.
+    let velocity = setup.layout.start(2, 1);
+    truth[velocity] += 0.05;
+    assert!(!met(&linear, &truth, |origin| matches!(origin, Origin::Link { .. })));
+}
+
+fn settings(law: DragLaw) -> BoundedModel {
+    BoundedModel { quantum: Some(STEP), ..BoundedModel::new(law, DelayBound::KnownS(0.0)) }
+}
+
+#[test]
+fn the_truth_is_inside_from_a_wide_start_and_a_near_one_ends_in_the_same_bounds() {
+    let record = record(300);
+    let wide = enclose(&[&record], &settings(DragLaw::Linear)).expect("bounds");
+    let near = enclose(&[&record], &BoundedModel { reach: 4.0, ..settings(DragLaw::Linear) }).expect("bounds");
+    assert_eq!(wide.verdict, Consistency::Consistent);
+    for (quantity, value) in [(Quantity::Alpha, ALPHA), (Quantity::Beta, BETA), (Quantity::Delta(0), DELTA)] {
+        let [w, n] = [&wide, &near].map(|bounds| bounds.of(quantity).expect("a range"));
+        assert!(w[0] <= value && value <= w[1], "{quantity}: {value} outside {w:?}");
+        assert!((w[0] - n[0]).abs() + (w[1] - n[1]).abs() < 0.1 * (w[1] - w[0]), "{quantity}: {w:?}, near {n:?}");
+    }
+}
+
+#[test]
+fn a_wrong_law_is_refuted_and_what_is_known_less_well_widens_the_bounds() {
+    let record = record(300);
+    let wrong = enclose(&[&record], &settings(DragLaw::Quadratic)).expect("bounds");
+    assert_eq!(wrong.verdict, Consistency::Refuted);
+    assert!(wrong.of(Quantity::Alpha).is_none() && wrong.error_factor[0] >= 1.0);
+    let width = |model: &BoundedModel| {
+        let bounds = enclose(&[&record], model).expect("bounds");
+        let [low, high] = bounds.of(Quantity::Alpha).expect("a range");
+        assert!(low <= ALPHA && ALPHA <= high && bounds.verdict == Consistency::Consistent);
+        high - low
+    };
+    let plain = width(&settings(DragLaw::Linear));
+    assert!(width(&BoundedModel { error: 0.01, ..settings(DragLaw::Linear) }) > plain);
+    assert!(width(&BoundedModel { jitter_s: 0.01, ..settings(DragLaw::Linear) }) > plain);
+    let anywhere = BoundedModel { switching: SwitchedWhen::Anywhere, ..settings(DragLaw::Linear) };
+    let bounds = enclose(&[&record], &anywhere).expect("bounds");
+    assert!(bounds.of(Quantity::Alpha).is_some_and(|[low, high]| low <= ALPHA && ALPHA <= high && high - low > plain));
+    // Two records of one vehicle say more than one.
+    let both = enclose(&[&record, &self::record(200)], &settings(DragLaw::Linear)).expect("bounds");
+    assert!(
+        both.of(Quantity::Alpha).is_some_and(|[low, high]| low <= ALPHA && ALPHA <= high && high - low <= 1.05 * plain)
+    );
+}
