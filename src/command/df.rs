@@ -8,6 +8,7 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::number::number;
+use super::settings::parameters;
 use super::{CommandError, Outcome, files, gain, write_json};
 use crate::describing::{CATALOGUE, DescribingFunction, Entry, RoundingBounds, Setting, by_quadrature, certified};
 use crate::nonlinearity::{ParameterSpec, Sinusoid};
@@ -141,19 +142,6 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         writeln!(output, "F_0 = {f0}\nP   = {p}\nQ   = {q}")?;
     }
     Ok(Outcome::Done)
-}
-
-/// Values by the names of the parameters.
-pub(super) fn parameters(entry: &Entry, values: &[f64]) -> serde_json::Map<String, serde_json::Value> {
-    entry.settings(values).into_iter().map(|(name, value)| (name.to_owned(), plain(&value))).collect()
-}
-
-/// A number as a number, points as pairs.
-fn plain(setting: &Setting) -> serde_json::Value {
-    match setting {
-        Setting::Number(number) => json!(number),
-        Setting::Points(points) => json!(points),
-    }
 }
 
 fn enclose(

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::df::parameters;
 use super::number::significant;
+use super::settings::parameters;
 use super::{CommandError, Outcome, write_json};
 use crate::describing::{Boxed, Entry, FittedCharacteristic, amplitudes, fit};
 

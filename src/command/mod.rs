@@ -17,6 +17,7 @@ mod manual;
 mod number;
 mod predict;
 mod reproduce;
+mod settings;
 mod simulate;
 mod suggestion;
 mod terminal;
