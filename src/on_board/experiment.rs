@@ -64,7 +64,7 @@ impl<T: Scalar> Experiment<T> {
     /// assert_eq!(experiment.step(0.0, 0.0).command, 0.02);
     /// assert_eq!(experiment.tick(0.1).command, 0.02);
     /// assert_eq!(experiment.tick(0.3).command, 0.0); // four intervals are over
-    /// # Ok::<(), selfosc::on_board::OutOfDomain>(())
+    /// # Ok::<(), selfosc::numeric::OutOfDomain>(())
     /// ```
     pub fn tick(&mut self, time_s: T) -> Step<T> {
         self.supervisor.tick(time_s)

@@ -66,7 +66,7 @@ pub fn exponential(matrix: &DMatrix<Interval>) -> Option<DMatrix<Interval>> {
 /// ```
 /// use nalgebra::dmatrix;
 /// use selfosc::{numeric::Interval, proof::interval_matrix::contraction};
-/// assert_eq!(contraction(&dmatrix![0.9, 1.0; 0.0, 0.9].map(Interval::point), 12), Some(32));
+/// assert_eq!(contraction(&dmatrix![0.9, 1.0; 0.0, 0.9].map(Interval::point), 12), Some(64));
 /// assert_eq!(contraction(&dmatrix![1.0, 0.0; 0.0, 0.9].map(Interval::point), 12), None);
 /// ```
 #[must_use]

@@ -54,13 +54,13 @@ const GOOD: f64 = 0.95;
 /// record is taken from where every command that acts is in it.
 ///
 /// ```
-/// use selfosc::experiment::{Experiment, Sensor};
+/// use selfosc::experiment::{Sensor, SimulatedExperiment};
 /// use selfosc::identify::DragLaw;
 /// use selfosc::identify::bounded::{DelayBound, Quantity, BoundedModel, Consistency, enclose};
 /// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
 /// let axis = DragAxis::linear(1.0, 0.5)?;
 /// let sensor = Sensor { quantum: 0.02, ..Sensor::default() };
-/// let record = Experiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().with_sensor(sensor)?.run(20.0)?;
+/// let record = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().with_sensor(sensor)?.run(20.0)?;
 /// let found = enclose(&[&record], &BoundedModel::new(DragLaw::Linear, DelayBound::KnownS(0.0)))?;
 /// assert_eq!(found.verdict, Consistency::Consistent);
 /// assert!(found.of(Quantity::Alpha).is_some_and(|[low, high]| low <= 1.0 && 1.0 <= high));
