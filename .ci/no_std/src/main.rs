@@ -48,7 +48,7 @@ fn experiment<T: Scalar>() -> Option<T> {
     let number = |value: f64| black_box(T::from_f64(value));
     let axis = DragAxis::mixed(number(0.04), number(0.01), number(0.03)).ok()?;
     let mut state = State { position: T::zero(), velocity: T::zero() };
-    let protocol = Protocol::new(Coordinate::HeadingRad, number(0.02), number(0.2), number(0.05));
+    let protocol = Protocol::new(Coordinate::HeadingRad, number(0.02), number(0.2), number(1.0), number(0.05));
     let mut experiment = Experiment::new(protocol).ok()?;
     let mut time_s = T::zero();
     while experiment.phase() == Phase::Running {
