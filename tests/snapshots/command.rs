@@ -192,3 +192,22 @@ fn the_other_way_round() {
         "{best:?}"
     );
 }
+
+/// A model with a term that `tune` does not know is refused by the term's name, not tuned without it.
+#[test]
+fn a_model_with_an_unknown_term_is_not_tuned() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.json");
+    let tuned = |term: &str| {
+        let text = format!(
+            r#"{{"reported": {{"alpha": {{"value": 1}}, "beta": {{"value": 0.5}}, "trust": "good", "{term}": {{"value": 0.1}}}}}}"#
+        );
+        std::fs::write(&path, text).unwrap();
+        output(&["tune", "--model", path.to_str().unwrap(), "--bandwidth", "0.5"])
+    };
+    assert_eq!(tuned("delay_s").0, Some(0));
+    for term in ["beta_cubic", "skew", "coulomb", "stiffness", "lag_s", "ramp_s", "filter_s"] {
+        let (status, _, complaint) = tuned(term);
+        assert!(status == Some(2) && complaint.contains(term), "{term}: {status:?} {complaint}");
+    }
+}
