@@ -9,8 +9,7 @@ use std::fs::File;
 use rayon::prelude::*;
 
 use selfosc::experiment::{Columns, Record, Sensor, SimulatedExperiment};
-use selfosc::identify::joint::{Delay, Parameter};
-use selfosc::identify::select::likelihood::Choice;
+use selfosc::identify::{Delay, Method, Session, Settings};
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::plant::DragAxis;
 
@@ -19,7 +18,7 @@ type Failure = Box<dyn std::error::Error + Send + Sync>;
 /// Runs it; an error is a failure.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    println!("record,drag,probability,alpha,std");
+    println!("record,trust,drag,alpha,low,high");
     match arguments.first().map_or(Ok(3), |first| first.parse::<u64>()) {
         Ok(count) => (0..count).into_par_iter().for_each(|number| print(&number.to_string(), simulated(number))),
         Err(_) => arguments.par_iter().for_each(|path| print(path, logged(path))),
@@ -29,18 +28,19 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 /// One line for each record, in the order in which they are done.
 fn print(name: &str, record: Result<Record, Failure>) {
-    match record.and_then(|record| identify(&record)) {
+    match record.and_then(identify) {
         Ok(found) => println!("{name},{found}"),
-        Err(refused) => println!("{name},{refused},,,"),
+        Err(refused) => println!("{name},{refused},,,,"),
     }
 }
 
-fn identify(record: &Record) -> Result<String, Failure> {
-    let choice = Choice::among_all(&[record], Delay::KnownS(0.1))?;
-    let fit = choice.likeliest();
-    let (law, alpha) = (fit.law(), fit.estimate(Parameter::Alpha));
-    let std = alpha.spread.map_or_else(String::new, |spread| format!("{:.4}", spread.std));
-    Ok(format!("{},{:.3},{:.4},{std}", law.name(), choice.probability(law), alpha.value))
+fn identify(record: Record) -> Result<String, Failure> {
+    let settings = Settings { method: Method::Fit, delay: Delay::KnownS(0.1), ..Settings::default() };
+    let found = Session::new(settings).record("record", record).identify()?;
+    let reported = found.reported().ok_or("no fit")?;
+    let spread = reported.alpha.spread.ok_or("no interval")?;
+    let (low, high) = (spread.low, spread.high);
+    Ok(format!("{},{},{:.4},{low:.4},{high:.4}", reported.trust.name(), reported.drag.name(), reported.alpha.value))
 }
 
 fn logged(path: &str) -> Result<Record, Failure> {

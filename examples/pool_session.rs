@@ -10,11 +10,10 @@ use nalgebra::Vector6;
 use selfosc::control::{Answer, ControlError, Controller, FeedForward, Structure, Tuning};
 use selfosc::experiment::{Record, RelayState};
 use selfosc::features::RecordFeatures;
-use selfosc::identify::joint::{Delay, Parameter};
-use selfosc::identify::select::likelihood::Choice;
+use selfosc::identify::{Method, Settings};
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::plant::DragAxis;
-use selfosc::report::{Figure, Mark, Panel};
+use selfosc::report::{Figure, Mark, Panel, identification};
 use selfosc::vehicle::{
     Allocation, Axis, BodyState, Compensation, DynamometerPoint, FittedSide, Simulation, ThrustSide, Thruster,
     ThrusterMap, VehicleError, pool_thrusters, pool_vehicle,
@@ -98,27 +97,31 @@ pub fn run(folder: &Path) -> Result<Session, Failure> {
     );
 
     println!("3. Identification from the whole record.");
-    let choice = Choice::among_all(&[&record], Delay::Estimated)?;
-    let fit = choice.likeliest();
-    let estimate = |parameter| fit.estimate(parameter).value;
+    let settings = Settings { method: Method::Fit, ..Settings::default() };
+    let found = selfosc::identify::Session::new(settings).record("pool", record).identify()?;
+    let model = found.reported().ok_or("no model")?;
     let truth = pool_vehicle()?.axis(Axis::Yaw, &Vector6::zeros());
     println!(
-        "  {} drag; alpha {:.4} (truth {:.4}), beta {:.4} (truth {:.4}), beta_quadratic {:.4} (truth {:.4}), delay {:.3} s",
-        fit.law().name(),
-        estimate(Parameter::Alpha),
+        "  {} drag, {}; alpha {:.4} (truth {:.4}), beta {:.4} (truth {:.4}), beta_quadratic {:.4} (truth {:.4}), delay {:.3} s",
+        model.drag.name(),
+        model.trust.name(),
+        model.alpha.value,
         truth.alpha,
-        estimate(Parameter::LinearDrag),
+        model.beta.value,
         truth.linear_drag,
-        estimate(Parameter::QuadraticDrag),
+        model.beta_quadratic.value,
         truth.quadratic_drag,
-        estimate(Parameter::DelayS)
+        model.mean_delay_s()
     );
-    save(&record_figure(&run, &fit.records()[0].output, fit.records()[0].first_sample))?;
+    let sections = identification::document(&found).sections;
+    let figure = sections.iter().flat_map(|section| &section.figures).next().ok_or("no figure of the record")?;
+    save(figure)?;
 
     println!("4. A heading controller from it.");
     // The fit knows of the hold between samples; for the controller it is half an interval more of delay.
-    let disturbance = fit.records()[0].disturbance.value;
-    let axis = fit.axis().with_delay_s(fit.axis().delay_s() + 0.5 * INTERVAL_S)?.with_disturbance(disturbance)?;
+    let axis = DragAxis::mixed(model.alpha.value, model.beta.value, model.beta_quadratic.value)?
+        .with_delay_s(model.mean_delay_s() + 0.5 * INTERVAL_S)?
+        .with_disturbance(model.deltas[0].value)?;
     let tuning = match Tuning::new(&axis, Structure::Pd, WISH_RAD_S) {
         Err(refusal @ ControlError::TooFast { most_rad_s, .. }) => {
             println!("  {refusal}");
@@ -157,7 +160,7 @@ pub fn run(folder: &Path) -> Result<Session, Failure> {
         answer
     });
     save(&step_figure(&before, &after))?;
-    Ok(Session { alpha_ratio: estimate(Parameter::Alpha) / truth.alpha, before: answers[0], after: answers[1] })
+    Ok(Session { alpha_ratio: model.alpha.value / truth.alpha, before: answers[0], after: answers[1] })
 }
 
 /// Readings of one thruster, to a twentieth of a newton.
@@ -227,16 +230,6 @@ fn thruster_figure(points: &[DynamometerPoint], map: &ThrusterMap) -> Figure {
         .with("dynamometer", Mark::Points, points.iter().map(|point| (point.command, point.thrust_n)))
         .with("fitted map", Mark::Line, fitted);
     Figure { name: "thruster-map", title: "Thruster map".to_owned(), panels: vec![panel] }
-}
-
-fn record_figure(run: &Run, model: &[f64], first: usize) -> Figure {
-    let degrees = 1f64.to_degrees();
-    let heading = Panel::new("time / s", "heading / deg")
-        .with("compass", Mark::Points, series(&run.time_s, &run.heading_rad, degrees))
-        .with("identified model", Mark::Line, series(&run.time_s[first..], model, degrees));
-    let moment =
-        Panel::new("time / s", "moment asked for / (N m)").with("", Mark::Line, series(&run.time_s, &run.moment, 1.0));
-    Figure { name: "relay-experiment", title: "RelayState experiment".to_owned(), panels: vec![heading, moment] }
 }
 
 fn step_figure(before: &Run, after: &Run) -> Figure {

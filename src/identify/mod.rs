@@ -1,8 +1,8 @@
 //! From an oscillation to a model of the vehicle.
 //!
-//! [`Session`] goes the whole way from logs to a conclusion; the methods stand beside it for who has features or records:
-//! [`iso`], [`exact`], [`fit`], [`joint`], and [`select`] for the drag law. What a record proves about a model, without any
-//! assumption on the distribution of errors, is in `bounded`.
+//! [`Session`] goes the whole way from logs to a conclusion. Beside it, for who has features of a cycle and no log, stand [`iso`]
+//! and [`exact`]; what a record proves about a model, without any assumption on the distribution of errors, is in `bounded`, and
+//! the experiment to run in `design`.
 
 #[cfg(feature = "std")]
 mod any_float;
@@ -13,25 +13,30 @@ pub mod design;
 mod drag_law;
 mod error;
 pub mod exact;
-#[cfg(feature = "std")]
-pub mod fit;
 pub mod iso;
-#[cfg(feature = "std")]
-pub mod joint;
-#[cfg(feature = "std")]
-pub mod prediction_error;
 mod reading;
-#[cfg(feature = "std")]
-pub mod select;
 #[cfg(feature = "std")]
 mod warning;
 #[cfg(feature = "std")]
 mod workflow;
 
+internal! {
+    #[cfg(feature = "std")]
+    mod fit;
+    #[cfg(feature = "std")]
+    mod joint;
+    #[cfg(feature = "std")]
+    mod prediction_error;
+    #[cfg(feature = "std")]
+    mod select;
+}
+
 pub use drag_law::DragLaw;
 pub use error::IdentifyError;
 #[cfg(feature = "std")]
-pub use prediction_error::{DragVerdict, LawEvidence, Reason, Reported, Term, Trust};
+pub use joint::{ConfidenceInterval, Delay, Estimate};
+#[cfg(feature = "std")]
+pub use prediction_error::{DragVerdict, LawEvidence, Prediction, Reason, Reported, Term, Trust};
 #[cfg(feature = "std")]
 pub use warning::Warning;
 #[cfg(feature = "std")]

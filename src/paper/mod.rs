@@ -20,20 +20,20 @@
 
 pub mod audit;
 mod error;
-pub mod figure15;
 mod printed;
-pub mod table2;
-pub mod table3;
-pub mod table4;
 
 pub use error::PaperError;
 pub use printed::Printed;
 
 internal! {
+    mod figure15;
     mod fixtures;
     mod joint;
     mod quantisation;
     mod relay_figures;
     mod response_figures;
+    mod table2;
+    mod table3;
+    mod table4;
     mod thruster_figure;
 }

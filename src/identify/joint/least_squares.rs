@@ -40,8 +40,11 @@ impl<const N: usize> Minimum<N> {
 
 /// Steps allowed; about ten are needed.
 const MAX_STEPS: usize = 200;
-/// Relative step, and cosine of the angle between the residuals and what parameters can change, at which the search ends.
+/// Relative step at which the search ends.
 const SETTLED: f64 = 1e-9;
+/// Cosine of the angle between the residuals and what parameters can change, at which it ends: below the root of the rounding
+/// the cost no longer falls.
+const ANGLE: f64 = 1e-8;
 /// Ratio of singular values below which two combinations of parameters are not told apart.
 const RANK: f64 = 1e-9;
 
@@ -66,7 +69,7 @@ pub(super) fn minimise<const N: usize>(
         let next = std::array::from_fn(|j| (values[j] + step[j] * start[j]).max(0.0));
         let moved =
             (0..N).map(|j| (next[j] - values[j]).abs() / start[j]).filter(|x| x.is_finite()).fold(0.0, f64::max);
-        if moved <= SETTLED || system.reachable <= SETTLED * cost.sqrt() {
+        if moved <= SETTLED || system.reachable <= ANGLE * cost.sqrt() {
             let variance = cost / (equations - count(&free)) as f64;
             let covariance = system.covariance(variance, &start)?;
             return Ok(Minimum { values, free, residuals: here.residuals, covariance });

@@ -173,12 +173,14 @@ impl Identification {
     }
 
     /// The fits to all records at once; `None` where none was asked for or possible.
+    #[doc(hidden)]
     #[must_use]
     pub fn fits(&self) -> Option<&Choice> {
         self.fits.as_ref()
     }
 
     /// The likeliest fit, with its residuals.
+    #[doc(hidden)]
     #[must_use]
     pub fn likeliest_fit(&self) -> Option<&RecordFit> {
         self.fits.as_ref().map(Choice::likeliest)

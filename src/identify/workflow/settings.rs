@@ -99,7 +99,7 @@ impl SettingsError {
 }
 
 impl Settings {
-    /// Whether a method asked for can do what is asked. The delay's own value is checked by the methods.
+    /// Whether a method asked for can do what is asked, and each number is in its domain.
     ///
     /// # Errors
     /// [`SettingsError`] with the remedy.
@@ -118,6 +118,9 @@ impl Settings {
         }
         let remedy = "give the largest error from the sensor's data sheet, 0 for rounding alone";
         require("largest error of a reading", self.error, "output units", Limit::NonNegative, remedy)?;
+        if let Delay::KnownS(delay_s) = self.delay {
+            require("delay", delay_s, "s", Limit::NonNegative, "leave it out to have it estimated")?;
+        }
         Ok(())
     }
 }
