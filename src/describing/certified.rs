@@ -5,11 +5,13 @@ use crate::nonlinearity::{Branch, Characteristic, Sinusoid};
 use crate::numeric::{Interval, Jet, Real};
 use crate::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
 
-/// Width of each Fourier integral, relative to the largest output: what the result promises.
+/// Width of each Fourier integral, relative to the largest output: what the result promises away from turning points.
 const WIDTH: f64 = 4e-12;
+/// What a kink at the angle t adds to it, over `cos t`: the input near it is known to a rounding, its angle to that over `cos t`.
+const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
 /// Cells of one piece between two kinks; a smooth piece takes a handful, a kink not reported about a hundred.
 const CELLS: usize = 4000;
-/// Half the length of the cell that a kink is trapped in, in radians: a few roundings of its angle.
+/// Half the length of the cell that a kink at the angle t is trapped in, in radians, times `cos t`: a few roundings of the input.
 const TRAP: f64 = 4e-15;
 
 /// Enclosures of `F_0`, `P`, `Q`, with the work they took.
@@ -30,8 +32,8 @@ pub struct Certified {
 ///
 /// # Errors
 /// [`DescribingError::Nonlinearity`] below the switching amplitude, [`DescribingError::NotFinite`] where the output may be
-/// unbounded, [`DescribingError::Quadrature`] where an integral stays wider than 4e-12 of the largest output: parameters
-/// given as wide intervals, or a jump within 1e-8 rad of a turning point.
+/// unbounded, [`DescribingError::Quadrature`] where an integral stays wider than 4e-12 of the largest output, and by 4e-15 over
+/// its distance in radians for each kink near a turning point: parameters given as wide intervals.
 ///
 /// ```
 /// use selfosc::describing::certified;
@@ -54,9 +56,8 @@ pub fn certified(
     if let Some(output) = outputs.into_iter().find(|output| !output.is_bounded()) {
         return Err(DescribingError::NotFinite { input: sweep.maximum().bounds().1, output: output.upper() });
     }
-    let wanted = WIDTH * outputs[0].magnitude().max(outputs[1].magnitude());
-
-    let ends = branches.pieces(quarter);
+    let (ends, roundings) = branches.pieces(quarter);
+    let wanted = (WIDTH + roundings) * outputs[0].magnitude().max(outputs[1].magnitude());
     let share = wanted / (2.0 * ends.len() as f64);
     let (mut integrals, mut cells) = ([Interval::ZERO; 3], 0);
     for pair in ends.windows(2) {
@@ -99,8 +100,8 @@ impl<C: Characteristic<Number = CellJet> + ?Sized> Branches<'_, C> {
         [sum, sum * sine, turned]
     }
 
-    /// Ends of the pieces into which the traps of the reported kinks divide the branch.
-    fn pieces(&self, quarter: Interval) -> Vec<Interval> {
+    /// Ends of the pieces into which the traps of the reported kinks divide the branch, and what the kinks add to the width.
+    fn pieces(&self, quarter: Interval) -> (Vec<Interval>, f64) {
         let number = |jet: CellJet| jet.value().midpoint();
         let (bias, maximum, minimum) =
             (number(self.sweep.bias()), number(self.sweep.maximum()), number(self.sweep.minimum()));
@@ -109,20 +110,24 @@ impl<C: Characteristic<Number = CellJet> + ?Sized> Branches<'_, C> {
             let x = number(kink);
             let (above, below) = (maximum - x, x - minimum);
             if above > 0.0 && below > 0.0 {
-                angles.push((x - bias).atan2((above * below).sqrt()));
+                let half_chord = (above * below).sqrt();
+                angles.push(((x - bias).atan2(half_chord), 2.0 * half_chord / (maximum - minimum)));
             }
         });
-        angles.sort_by(f64::total_cmp);
+        angles.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut ends = vec![-quarter];
         let mut last = (-quarter).upper();
-        for angle in angles {
-            if angle - TRAP > last && angle + TRAP < quarter.lower() {
-                ends.extend([angle - TRAP, angle + TRAP].map(Interval::point));
-                last = angle + TRAP;
+        let mut roundings = 0.0;
+        for (angle, cosine) in angles {
+            roundings += ROUNDINGS / cosine;
+            let (from, to) = (angle - TRAP / cosine, angle + TRAP / cosine);
+            if from > last && to < quarter.lower() {
+                ends.extend([from, to].map(Interval::point));
+                last = to;
             }
         }
         ends.push(quarter);
-        ends
+        (ends, roundings)
     }
 }
 

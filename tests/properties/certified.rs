@@ -79,6 +79,32 @@ fn every_member_is_enclosed_within_1e11() {
     }
 }
 
+/// A jump beside a turning point: the enclosure is as wide as a rounding of the input makes it, up to the last float before the
+/// turning point.
+#[test]
+fn a_jump_beside_a_turning_point_is_enclosed() {
+    let distances = [1e-4, 1e-7, 1e-9, 1e-11, 1e-13, 1e-15, f64::EPSILON / 2.0];
+    for (name, below) in distances.iter().flat_map(|below| [("relay-dead-zone", below), ("relay-hysteresis", below)]) {
+        let at = 1.0 - below;
+        let mut values = vec![1.0, at];
+        values.extend((name == "relay-hysteresis").then_some(0.0));
+        let entry = CATALOGUE.iter().find(|entry| entry.name == name).unwrap();
+        let characteristic = entry.build(&values.iter().map(|&value| jet(value)).collect::<Vec<_>>()).unwrap();
+        let found = certified(&*characteristic, &Sinusoid::new(jet(0.0), jet(1.0)).unwrap());
+        let found = found.unwrap_or_else(|error| panic!("{name}, {below}: {error}")).enclosure;
+        let definition = definition(name, &values, &big(0.0), &big(1.0));
+        let exact = describing_function(&definition, &big(0.0), &big(1.0));
+        let cosine = (2.0 * below).sqrt();
+        for (part, exact) in parts(found).into_iter().zip(&exact) {
+            assert!(holds(part, exact), "{name}, {below}: {exact} not in {part}");
+            assert!(
+                part.width() < tolerance::CERTIFIED_WIDTH + 40.0 * f64::EPSILON / cosine,
+                "{name}, {below}: {part}"
+            );
+        }
+    }
+}
+
 /// Random parameters, in the arithmetic of intervals: the closed form contains the definition in 42 digits.
 #[test]
 fn closed_forms_in_intervals_contain_the_exact_values() {
