@@ -89,7 +89,10 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         Ok(cycle) => Exact::from(cycle),
         Err(reason) => {
             if arguments.json {
-                write_json(output, &json!({ "no_limit_cycle": { "text": reason.to_string() } }))?;
+                write_json(
+                    output,
+                    &json!({ "no_limit_cycle": { "code": reason.code(), "text": reason.to_string() } }),
+                )?;
             } else {
                 writeln!(output, "no limit cycle: {reason}")?;
             }

@@ -85,7 +85,9 @@ fn write_files(reproduction: &Reproduction, parts: &[&'static Part], folder: &Pa
         count += 1;
         files::write(&path, content)
     };
-    let mut sections = Vec::new();
+    // The outcome first, where the whole is asked for.
+    let story = (parts.len() == PARTS.len()).then(|| reproduction.story());
+    let mut sections = Vec::from_iter(story);
     for part in parts {
         let section = part.section(reproduction)?;
         for table in &section.tables {

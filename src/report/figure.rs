@@ -20,6 +20,8 @@ pub enum Mark {
     Dots,
     /// A small dot at each of many points.
     Points,
+    /// An arrow head at the second of two points, seen from the first.
+    Arrow,
     /// A bar from zero to each point, so wide in units of the x axis.
     Bars {
         /// Width of a bar.
@@ -44,6 +46,8 @@ pub struct Panel {
     x_label: String,
     y_label: String,
     y_limits: Option<(f64, f64)>,
+    equal_axes: bool,
+    rows: Vec<String>,
     series: Vec<Series>,
 }
 
@@ -51,13 +55,32 @@ impl Panel {
     /// Empty axes; labels name quantity and unit.
     #[must_use]
     pub fn new(x_label: &str, y_label: &str) -> Self {
-        Self { x_label: x_label.to_owned(), y_label: y_label.to_owned(), y_limits: None, series: Vec::new() }
+        Self {
+            x_label: x_label.to_owned(),
+            y_label: y_label.to_owned(),
+            y_limits: None,
+            equal_axes: false,
+            rows: Vec::new(),
+            series: Vec::new(),
+        }
     }
 
     /// The panel with the y axis held to a range instead of spanning the data.
     #[must_use]
     pub fn y_limits(self, from: f64, to: f64) -> Self {
         Self { y_limits: Some((from, to)), ..self }
+    }
+
+    /// The panel with a unit as long on one axis as on the other.
+    #[must_use]
+    pub fn equal_axes(self) -> Self {
+        Self { equal_axes: true, ..self }
+    }
+
+    /// The panel with names in place of numbers at 0, 1, ... of its y axis, the first at the top.
+    #[must_use]
+    pub fn rows(self, names: impl IntoIterator<Item = String>) -> Self {
+        Self { rows: names.into_iter().collect(), ..self }
     }
 
     /// The panel with one more series.
@@ -82,8 +105,26 @@ impl Panel {
         (from - widest, to + widest)
     }
 
+    /// Both ranges, the shorter axis lengthened where a unit is to be as long on both.
+    fn ranges(&self) -> [(f64, f64); 2] {
+        let (x, y) = (self.x_range(), self.y_range());
+        if !self.equal_axes {
+            return [x, y];
+        }
+        let unit = ((x.1 - x.0) / f64::from(PLOT.0)).max((y.1 - y.0) / f64::from(PLOT.1));
+        let wide = |(from, to): (f64, f64), length: u32| {
+            let more = 0.5 * (unit * f64::from(length) - (to - from));
+            (from - more, to + more)
+        };
+        [wide(x, PLOT.0), wide(y, PLOT.1)]
+    }
+
     /// With room at the top for the legend.
+    #[allow(clippy::cast_precision_loss, reason = "a number of rows")]
     fn y_range(&self) -> (f64, f64) {
+        if !self.rows.is_empty() {
+            return (self.rows.len() as f64 - 0.4, -0.6);
+        }
         let (from, to) = self.range(|point| point.1);
         let from = if self.has_bars() { 0.0 } else { from };
         let entries = self.named().count();
@@ -116,6 +157,14 @@ const FINE: u32 = 10;
 /// Width of a figure and height of a panel, in pixels.
 const SIZE: (u32, u32) = (900, 420);
 const TITLE_HEIGHT: u32 = 40;
+/// Around the axes of a panel, and for the labels below and beside them, in pixels.
+const MARGIN: u32 = 14;
+const BELOW: u32 = 52;
+const BESIDE: u32 = 72;
+/// Room for names in place of numbers.
+const BESIDE_NAMES: u32 = 170;
+/// What is left for the axes.
+const PLOT: (u32, u32) = (SIZE.0 - 2 * MARGIN - BESIDE, SIZE.1 - 2 * MARGIN - BELOW);
 /// Height of a legend's entry with its share of the border, in pixels.
 const LEGEND_ENTRY: f64 = 30.0;
 const FONT: &str = "sans-serif";
@@ -190,11 +239,11 @@ impl Figure {
 
 impl Panel {
     fn draw(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), Box<dyn std::error::Error>> {
-        let ((x_from, x_to), (y_from, y_to)) = (self.x_range(), self.y_range());
+        let [(x_from, x_to), (y_from, y_to)] = self.ranges();
         let mut chart = ChartBuilder::on(area)
-            .margin(px(14))
-            .x_label_area_size(px(52))
-            .y_label_area_size(px(72))
+            .margin(px(MARGIN))
+            .x_label_area_size(px(BELOW))
+            .y_label_area_size(px(if self.rows.is_empty() { BESIDE } else { BESIDE_NAMES }))
             .build_cartesian_2d(x_from..x_to, y_from..y_to)?;
         let mut mesh = chart.configure_mesh();
         // Bars stand at whole numbers.
@@ -208,9 +257,9 @@ impl Panel {
             .axis_desc_style((FONT, px(17)))
             .label_style((FONT, px(15)))
             .x_label_formatter(&x_tick)
-            .y_label_formatter(&|value| tick(*value))
+            .y_label_formatter(&|value| self.y_tick(*value))
             .x_labels(11)
-            .y_labels(9)
+            .y_labels(self.rows.len().max(9))
             .light_line_style(TRANSPARENT)
             .bold_line_style(RGBColor(225, 225, 225).stroke_width(FINE))
             .axis_style(BLACK.stroke_width(FINE))
@@ -246,6 +295,13 @@ impl Series {
             Mark::Dashed => chart.draw_series(DashedLineSeries::new(points, px(7), px(5), line))?,
             Mark::Dots => chart.draw_series(points.map(|point| Circle::new(point, px(5), colour.filled())))?,
             Mark::Points => chart.draw_series(points.map(|point| Circle::new(point, px(2), colour.filled())))?,
+            Mark::Arrow => {
+                let pixels: Vec<_> = self.points.iter().map(|point| chart.backend_coord(point)).collect();
+                let heads: Vec<_> = points.skip(1).zip(arrow_head(&pixels)).collect();
+                chart.draw_series(
+                    heads.into_iter().map(|(tip, head)| EmptyElement::at(tip) + Polygon::new(head, colour.filled())),
+                )?
+            }
             Mark::Bars { width } => {
                 let half = width / 2.0;
                 chart.draw_series(
@@ -261,13 +317,42 @@ impl Series {
             Mark::Line => PathElement::new([(x, y), (x + signed(22), y)], line).into_dyn(),
             Mark::Dashed => DashedPathElement::new([(x, y), (x + signed(22), y)], px(7), px(5), line).into_dyn(),
             Mark::Dots => Circle::new((x + signed(11), y), px(5), colour.filled()).into_dyn(),
-            Mark::Points => Circle::new((x + signed(11), y), px(2), colour.filled()).into_dyn(),
+            Mark::Points | Mark::Arrow => Circle::new((x + signed(11), y), px(2), colour.filled()).into_dyn(),
             Mark::Bars { .. } => {
                 let corners = [(x + signed(5), y - signed(6)), (x + signed(17), y + signed(6))];
                 Rectangle::new(corners, colour.filled()).into_dyn()
             }
         });
         Ok(())
+    }
+}
+
+/// Corners of a head at the second of two places, seen from it; none where the places do not tell a direction.
+#[allow(clippy::cast_possible_truncation, reason = "places on a page")]
+fn arrow_head(pixels: &[(i32, i32)]) -> Option<Vec<(i32, i32)>> {
+    let &[(from_x, from_y), (to_x, to_y)] = pixels else { return None };
+    let (along, across) = (f64::from(to_x) - f64::from(from_x), f64::from(to_y) - f64::from(from_y));
+    let length = along.hypot(across);
+    if length == 0.0 {
+        return None;
+    }
+    let (along, across) = (along / length, across / length);
+    let corner = |ahead: f64, aside: f64| {
+        let place = |a: f64, b: f64| (f64::from(FINE) * (ahead * a + aside * b)).round() as i32;
+        (place(along, -across), place(across, along))
+    };
+    Some(vec![corner(9.0, 0.0), corner(-7.0, 7.0), corner(-7.0, -7.0)])
+}
+
+impl Panel {
+    /// A number, or the row's name where rows have names.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number, from zero on")]
+    fn y_tick(&self, value: f64) -> String {
+        if self.rows.is_empty() {
+            return tick(value);
+        }
+        let whole = value >= 0.0 && value.fract() == 0.0;
+        self.rows.get(value as usize).filter(|_| whole).cloned().unwrap_or_default()
     }
 }
 

@@ -32,12 +32,32 @@ pub fn nyquist(
     };
     let response = curve(nyquist_locus(plant, omega_rad_s)?);
     let inverse = curve(negative_inverse_locus(describing, bias, 1e-3..=1e3)?);
-    let axes = Panel::new("real part", "imaginary part").with("G(jw)", Mark::Line, response);
-    let axes = if inverse.is_empty() { axes } else { axes.with("-1/N(X)", Mark::Dashed, inverse) };
+    let (growing, rising) = (direction(&inverse), direction(&response));
+    let axes = Panel::new("real part", "imaginary part")
+        .equal_axes()
+        .with("G(jw), arrow towards higher w", Mark::Line, response)
+        .with("", Mark::Arrow, rising);
+    let axes = if inverse.is_empty() {
+        axes
+    } else {
+        axes.with("-1/N(X), arrow towards larger X", Mark::Dashed, inverse).with("", Mark::Arrow, growing)
+    };
     let panel = marks.into_iter().fold(axes, |panel, (one, point)| {
         let stable = one.stable.map_or("not decided", |stable| if stable { "stable" } else { "unstable" });
         let label = format!("X = {:.4}, w = {:.4} rad/s, {stable}", one.amplitude, one.omega_rad_s);
         panel.with(&label, Mark::Dots, [(point.re, point.im)])
     });
     Ok(Figure { name: "nyquist", title: "Harmonic balance: G(jw) = -1/N(X)".to_owned(), panels: vec![panel] })
+}
+
+/// Two points near the middle of a curve's length, in its direction; none of a curve without length.
+fn direction(curve: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let step = |pair: &[(f64, f64)]| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
+    let half = 0.5 * curve.windows(2).map(step).sum::<f64>();
+    let mut length = 0.0;
+    let middle = curve.windows(2).find(|pair| {
+        length += step(pair);
+        length >= half && step(pair) > 0.0
+    });
+    middle.map_or_else(Vec::new, <[_]>::to_vec)
 }

@@ -127,7 +127,12 @@ pub struct Units {
 }
 
 impl Units {
-    fn of(degrees: bool) -> Self {
+    /// A unit with the output's own in it.
+    pub(crate) fn written(&self, unit: &str) -> String {
+        unit.replace("output", &self.output)
+    }
+
+    pub(crate) fn of(degrees: bool) -> Self {
         Self {
             output: if degrees { "rad" } else { "output" }.into(),
             alpha: "command s^2/output".into(),

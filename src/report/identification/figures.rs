@@ -1,8 +1,8 @@
 //! A record with its model.
 
 use super::tables::output_label;
-use crate::identify::Source;
 use crate::identify::fit::{Between, FittedRecord, RecordFit};
+use crate::identify::{Estimate, Identification, Model, Source};
 use crate::report::{Figure, Mark, Panel};
 
 /// Samples that a figure shows: more than these cannot be told apart on a page.
@@ -20,6 +20,47 @@ pub(super) fn figures(source: &Source, fitted: Option<(&RecordFit, &FittedRecord
     }
     figures.push(phase_figure(source, fitted.map(|(_, fitted)| fitted), from, &part));
     figures
+}
+
+/// Each parameter by every method, the answer first: a dot with its 95 % interval, where there is one.
+#[allow(clippy::cast_precision_loss, reason = "a number of rows")]
+pub(super) fn interval_figure(found: &Identification) -> Option<Figure> {
+    let reported = found.reported();
+    let drag = |has: bool, of: Option<Estimate>| of.filter(|_| has);
+    type Of = fn(&Model) -> Option<Estimate>;
+    let alpha = (reported.map(|one| one.alpha), (|model| Some(model.alpha)) as Of, "inertia alpha");
+    let beta = (
+        reported.and_then(|one| drag(one.drag.has_linear(), Some(one.beta))),
+        (|model| model.beta) as Of,
+        "linear drag beta",
+    );
+    let quadratic = (
+        reported.and_then(|one| drag(one.drag.has_quadratic(), Some(one.beta_quadratic))),
+        (|model| model.beta_quadratic) as Of,
+        "quadratic drag beta_quadratic",
+    );
+    let name = |model: &Model| {
+        let record = model.record.map_or_else(String::new, |index| format!(", {}", index + 1));
+        format!("{}, {}{record}", model.method.name(), model.drag.name())
+    };
+    let panel = |(answer, of, label): (Option<Estimate>, Of, &str)| {
+        let answer = answer.map(|estimate| ("reported".to_owned(), estimate));
+        let models = found.models().iter().filter_map(|model| Some((name(model), of(model)?)));
+        let rows: Vec<(String, Estimate)> = answer.into_iter().chain(models).collect();
+        let named = rows.iter().map(|row| row.0.clone());
+        let dots = rows.iter().enumerate().map(|(row, (_, estimate))| (estimate.value, row as f64));
+        let panel = Panel::new(label, "").rows(named).with("", Mark::Dots, dots);
+        let bars = rows.iter().enumerate().filter_map(|(row, (_, estimate))| Some((row as f64, estimate.spread?)));
+        (rows.len() > 1).then(|| {
+            bars.fold(panel, |panel, (row, spread)| panel.with("", Mark::Line, [(spread.low, row), (spread.high, row)]))
+        })
+    };
+    let panels: Vec<Panel> = [alpha, beta, quadratic].into_iter().filter_map(panel).collect();
+    (!panels.is_empty()).then(|| Figure {
+        name: "intervals",
+        title: "Every method, with 95 % intervals".to_owned(),
+        panels,
+    })
 }
 
 fn record_figure(source: &Source, fitted: Option<(&RecordFit, &FittedRecord)>, from: usize, part: &str) -> Figure {

@@ -31,7 +31,7 @@ pub fn document(found: &Identification) -> Document {
             .chain(refused_table(found))
             .chain(cautions)
             .collect(),
-        figures: Vec::new(),
+        figures: figures::interval_figure(found).into_iter().collect(),
     };
     let records = found.sources().iter().enumerate().map(|(index, source)| record_section(found, index, source));
     Document {

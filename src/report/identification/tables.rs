@@ -3,7 +3,7 @@
 use crate::features::CycleStatistics;
 use crate::identify::joint::Estimate;
 use crate::identify::prediction_error::Prediction;
-use crate::identify::{Caution, DragLaw, DragVerdict, Identification, Reason, Reported, Source, Trust};
+use crate::identify::{Caution, DragLaw, DragVerdict, Identification, Reason, Reported, Source, Trust, Units};
 use crate::report::{Cell, Table};
 
 /// Digits that a measured number is shown with, after the first.
@@ -58,10 +58,11 @@ pub(crate) fn feature_table(source: &Source) -> Option<Table> {
     let row = |table: Table, name: &str, spread: &CycleStatistics<f64>| {
         table.row([name.into(), cell(spread.mean), cell(spread.std)])
     };
-    let table = row(table, "amplitude X_m", &f.amplitude);
-    let table = row(table, "bias x_0", &f.bias);
+    let angle = if source.log.degrees { " (rad)" } else { "" };
+    let table = row(table, &format!("amplitude X_m{angle}"), &f.amplitude);
+    let table = row(table, &format!("bias x_0{angle}"), &f.bias);
     let table = row(table, "period T (s)", &f.period_s);
-    let table = row(table, "switching level x_a*", &f.switch_level);
+    let table = row(table, &format!("switching level x_a*{angle}"), &f.switch_level);
     let table = row(table, "time at +C (s)", &f.time_positive_s);
     let table = row(table, "time at -C (s)", &f.time_negative_s);
     Some(table.row(["relay level C".into(), cell(found.relay.level)]))
@@ -169,29 +170,36 @@ fn parameter_table(found: &Identification, reported: &Reported) -> Table {
     let terms: Vec<&str> = reported.terms.iter().map(|term| term.name()).collect();
     let terms = if terms.is_empty() { String::new() } else { format!(", with {}", terms.join(", ")) };
     let title = format!("Reported: {} drag{terms}", reported.drag.name());
-    let columns = ["parameter", "value", "std", "95 % from", "to"];
+    let columns = ["parameter", "value", "std", "95 % from", "to", "unit"];
+    let units = Units::of(found.sources().iter().any(|source| source.log.degrees));
+    let (one, second) = (String::new(), "s".to_owned());
+    let [alpha, beta, quadratic, cubic, stiffness] =
+        [&units.alpha, &units.beta, &units.beta_quadratic, &units.beta_cubic, &units.stiffness]
+            .map(|unit| units.written(unit));
+    let force = units.delta.clone().into_owned();
     let named = [
-        ("inertia alpha", Some(reported.alpha)),
-        ("linear drag beta", reported.drag.has_linear().then_some(reported.beta)),
-        ("quadratic drag beta_quadratic", reported.drag.has_quadratic().then_some(reported.beta_quadratic)),
-        ("cubic drag beta_cubic", reported.beta_cubic),
-        ("one-sidedness of drag skew", reported.skew),
-        ("Coulomb friction coulomb", reported.coulomb),
-        ("restoring force stiffness", reported.stiffness),
-        ("delay (s)", Some(reported.delay_s)),
-        ("lag of the actuator (s)", reported.lag_s),
-        ("ramp of the actuator (s)", reported.ramp_s),
-        ("filter of the sensor (s)", reported.filter_s),
+        ("inertia alpha", Some(reported.alpha), &alpha),
+        ("linear drag beta", reported.drag.has_linear().then_some(reported.beta), &beta),
+        ("quadratic drag beta_quadratic", reported.drag.has_quadratic().then_some(reported.beta_quadratic), &quadratic),
+        ("cubic drag beta_cubic", reported.beta_cubic, &cubic),
+        ("one-sidedness of drag skew", reported.skew, &one),
+        ("Coulomb friction coulomb", reported.coulomb, &force),
+        ("restoring force stiffness", reported.stiffness, &stiffness),
+        ("delay", Some(reported.delay_s), &second),
+        ("lag of the actuator", reported.lag_s, &second),
+        ("ramp of the actuator", reported.ramp_s, &second),
+        ("filter of the sensor", reported.filter_s, &second),
     ];
-    let shared = named.into_iter().filter_map(|(name, estimate)| Some((name.to_owned(), estimate?)));
+    let shared = named.into_iter().filter_map(|(name, estimate, unit)| Some((name.to_owned(), estimate?, unit)));
     let deltas = found.sources().iter().zip(&reported.deltas).map(|(source, delta)| match found.sources().len() {
-        1 => ("disturbance delta".to_owned(), *delta),
-        _ => (format!("disturbance delta in {}", source.name), *delta),
+        1 => ("disturbance delta".to_owned(), *delta, &force),
+        _ => (format!("disturbance delta in {}", source.name), *delta, &force),
     });
-    shared.chain(deltas).fold(Table::new("parameters", &title, &columns), |table, (name, estimate)| {
+    shared.chain(deltas).fold(Table::new("parameters", &title, &columns), |table, (name, estimate, unit)| {
         let error = estimate.spread.map(|spread| [spread.std, spread.low, spread.high]);
         let error = error.map_or([const { Cell::Missing }; 3], |error| error.map(cell));
-        table.row([Cell::Text(name), cell(estimate.value)].into_iter().chain(error))
+        let unit = Cell::from(unit.as_str());
+        table.row([Cell::Text(name), cell(estimate.value)].into_iter().chain(error).chain([unit]))
     })
 }
 

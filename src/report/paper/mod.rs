@@ -1,6 +1,7 @@
 //! The regenerated paper as tables and figures: one list of parts drives the summary, the files and the report.
 
 mod figures;
+mod story;
 mod tables;
 
 use super::{Document, Figure, ReportError, Section, Table};
