@@ -128,13 +128,14 @@ impl<S: Scalar> Cycles<S> {
                 self.maximum = Peak::new();
             }
         }
+        self.maximum.push(time_s, output, &self.recent, S::one());
+        self.minimum.push(time_s, output, &self.recent, -S::one());
         self.recent.push(time_s, output);
-        self.maximum.push(&self.recent, S::one());
-        self.minimum.push(&self.recent, -S::one());
         complete
     }
 
-    fn complete(&self, time_s: S, output: S) -> Option<Cycle<S>> {
+    #[cold]
+    fn complete(&mut self, time_s: S, output: S) -> Option<Cycle<S>> {
         if !(self.begun && self.turned) {
             return None;
         }
@@ -146,8 +147,8 @@ impl<S: Scalar> Cycles<S> {
             begin_s,
             period_s,
             time_positive_s: change_s - begin_s,
-            maximum: self.maximum.value(reach)?,
-            minimum: -self.minimum.value(reach)?,
+            maximum: self.maximum.value(&self.recent, S::one(), reach)?,
+            minimum: -self.minimum.value(&self.recent, -S::one(), reach)?,
             upper_level,
             lower_level: output,
         })
