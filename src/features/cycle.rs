@@ -110,6 +110,11 @@ impl<S: Scalar> Cycles<S> {
     ///
     /// Times are taken where the command is first seen changed; a change between samples is late by up to one interval, by
     /// about as much each time, so that durations are right on average.
+    ///
+    /// Rounding: durations and levels are one operation on what was given, right to half a unit in the last place. An extreme between
+    /// samples answers to its neighbours' noise, and more or less to rounding: for nine samples within 1/256 of `1 - s^2/2`, `s` from
+    /// -1 to 1, at times within 1/4096 s of equal distances from 4 to 5 s, it is within 1.8e-14 of the parabola's in f64 and within 9.5e-6 in f32.
+    /// `spec/rounding.md` says what that rests on.
     pub fn step(&mut self, time_s: S, output: S, input: S) -> Option<Cycle<S>> {
         let positive = input > self.threshold;
         let changed = self.positive.is_some_and(|before| before != positive);

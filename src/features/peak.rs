@@ -117,19 +117,4 @@ fn vertex<S: Scalar>(samples: &[(S, S)], offset: S) -> Option<S> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The top of a tent is a sample; what comes after it is lower, though above where the window began.
-    #[test]
-    fn the_largest_sample_stays_the_largest() {
-        let (mut recent, mut peak) = (Recent::new(), Peak::new());
-        for time in -10..=10 {
-            let time = f64::from(time);
-            let value = 10.0 - time.abs();
-            peak.push(time, value, &recent, 1.0);
-            recent.push(time, value);
-        }
-        assert_eq!(peak.value(&recent, 1.0, 0.0), Some(10.0));
-    }
-}
+mod tests;
