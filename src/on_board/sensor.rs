@@ -6,12 +6,12 @@ use crate::numeric::Scalar;
 /// The last sample, and what follows from those before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sensor<T> {
-    time_s: T,
-    reading: T,
+    pub(super) time_s: T,
+    pub(super) reading: T,
     /// The coordinate: for a heading without jumps, for a speed its integral.
-    position: T,
+    pub(super) position: T,
     /// Since when the reading is what it is.
-    changed_s: T,
+    pub(super) changed_s: T,
 }
 
 impl<T: Scalar> Sensor<T> {

@@ -347,3 +347,6 @@ fn wrong_way<T: Scalar>(moved: T, limit: T) -> Fault {
 fn overtime<T: Scalar>(duration_s: T) -> Fault {
     Fault::Overtime { duration_s: duration_s.value() }
 }
+
+#[cfg(all(test, feature = "std"))]
+mod tests;

@@ -25,7 +25,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 pub use format::{Double, Format, Single, Units};
 #[cfg(feature = "std")]
-pub use order::{Compared, every_way};
+pub use order::{Compared, every_outcome, every_way};
 
 use super::{Interval, Real};
 

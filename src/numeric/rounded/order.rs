@@ -16,19 +16,21 @@ use crate::numeric::{Real, Scalar};
 pub struct Compared<F>(pub Rounded<F>);
 
 /// Comparisons that a formula may leave open.
-const MOST_OPEN: usize = 12;
+const MOST_OPEN: usize = 24;
 
 /// The way that a run takes.
 struct Way {
     /// Outcomes of the open comparisons, in their order, and how many of them were used.
     outcomes: Vec<bool>,
     used: usize,
-    /// Rounding may decide.
+    /// Rounding may decide, and that is no outcome.
     unclear: bool,
+    /// Rounding may decide as it likes.
+    lenient: bool,
 }
 
 std::thread_local! {
-    static WAY: RefCell<Way> = const { RefCell::new(Way { outcomes: Vec::new(), used: 0, unclear: false }) };
+    static WAY: RefCell<Way> = const { RefCell::new(Way { outcomes: Vec::new(), used: 0, unclear: false, lenient: false }) };
 }
 
 /// What a formula of [`Compared`] numbers gives, on every way that its comparisons can take; `None` where rounding may decide one of them,
@@ -36,7 +38,16 @@ std::thread_local! {
 ///
 /// Comparisons mean nothing outside of this.
 pub fn every_way<R>(formula: impl Fn() -> R) -> Option<Vec<R>> {
-    WAY.with_borrow_mut(|way| (way.outcomes, way.unclear) = (Vec::new(), false));
+    follow(false, formula)
+}
+
+/// The same where it does not matter whether float and exact value take the same case: what holds of every result holds of both.
+pub fn every_outcome<R>(formula: impl Fn() -> R) -> Option<Vec<R>> {
+    follow(true, formula)
+}
+
+fn follow<R>(lenient: bool, formula: impl Fn() -> R) -> Option<Vec<R>> {
+    WAY.with_borrow_mut(|way| *way = Way { outcomes: Vec::new(), used: 0, unclear: false, lenient });
     let mut results = Vec::new();
     loop {
         WAY.with_borrow_mut(|way| way.used = 0);
@@ -64,7 +75,8 @@ impl<F: Format> Compared<F> {
             return certainly;
         }
         WAY.with_borrow_mut(|way| {
-            way.unclear |= self.0.error > 0.0 || other.0.error > 0.0 || way.used >= MOST_OPEN;
+            let rounded = self.0.error > 0.0 || other.0.error > 0.0;
+            way.unclear |= rounded && !way.lenient || way.used >= MOST_OPEN;
             if way.unclear {
                 return false;
             }
