@@ -1,4 +1,5 @@
 //! What rounding does to a step.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use super::*;
 use crate::numeric::rounded::testing::{Big, Formula, big, hold};

@@ -42,9 +42,9 @@ impl Formula<18, 1> for Vertex {
         for pivot in 0..3 {
             for row in (0..3).filter(|row| *row != pivot) {
                 let factor = &rows[row][pivot] / &rows[pivot][pivot];
-                for column in 0..4 {
-                    let part = &factor * &rows[pivot][column];
-                    rows[row][column] -= part;
+                let parts = rows[pivot].clone().map(|entry| &factor * entry);
+                for (entry, part) in rows[row].iter_mut().zip(parts) {
+                    *entry -= part;
                 }
             }
         }
