@@ -149,6 +149,12 @@ impl<T: Scalar> Controller<T> {
 
     /// The next command, given the reference, the measurement, and the time since the step before (s), good or not. The first
     /// step after a start has no speed to go by.
+    ///
+    /// Rounding: for all floats with gains `K_p` and `K_d` from 0.5 to 2, `K_i`, where there is one, from 0.125 to 0.5, a filter of
+    /// 0.0625 to 0.5 s, steps of 0.0625 to 0.25 s, and reference, measurement, the measurement before, filtered speed and integral
+    /// up to one either way, the command of a step that no limit holds back, without feed-forward, is within 5.5e-14 of the exact
+    /// one in f64 and within 2.9e-5 in f32; the integral that it leaves within 2.8e-15 and 1.5e-6. On a circle of 8 the same.
+    /// `spec/rounding.md` says what that rests on.
     pub fn step(&mut self, reference: T, measurement: T, dt_s: T) -> ControlStep<T> {
         let sound = dt_s > T::zero() && dt_s.is_finite();
         // Time that the last good step does not know of.
@@ -163,11 +169,12 @@ impl<T: Scalar> Controller<T> {
             // A start knows of no time before.
             let step_s = if self.memory.is_some() { passed_s } else { dt_s };
             let (wanted, memory) = self.wanted(reference, measurement, step_s);
-            let command = self.clamp(wanted);
-            if let Some(memory) = self.led_back(memory, command - wanted, step_s).filter(|_| wanted.is_finite()) {
+            let (command, limited) = (self.clamp(wanted), self.limited(wanted));
+            let excess = if limited { command - wanted } else { T::zero() };
+            if let Some(memory) = self.led_back(memory, excess, step_s).filter(|_| wanted.is_finite()) {
                 (self.command, self.memory) = (command, Some(memory));
                 (self.held_s, self.dt_s) = (T::zero(), dt_s);
-                return ControlStep { command, limited: command != wanted, fault: None };
+                return ControlStep { command, limited, fault: None };
             }
             ControlFault::Overflow
         };
@@ -241,8 +248,16 @@ impl<T: Scalar> Controller<T> {
         self.limits.map_or(command, |(lower, upper)| command.max(lower).min(upper))
     }
 
+    /// Whether a limit holds a command back.
+    fn limited(&self, wanted: T) -> bool {
+        self.limits.is_some_and(|(lower, upper)| wanted < lower || wanted > upper)
+    }
+
     /// The representative nearest to zero on a circle; the number itself on a line.
     fn short_way(&self, way: T) -> T {
         self.turn.map_or(way, |turn| way - turn * (way / turn + T::from_f64(0.5)).floor())
     }
 }
+
+#[cfg(all(test, feature = "std"))]
+mod tests;

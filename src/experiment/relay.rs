@@ -34,12 +34,18 @@ impl<T: Scalar> RelayState<T> {
     /// Output after the input has become `input`: high from `half_width` upwards, low from `-half_width` downwards, else as
     /// it was. An input that is not a number changes nothing.
     pub fn step(&mut self, input: T) -> T {
-        if input >= self.characteristic.half_width() {
-            self.high = true;
-        } else if input <= -self.characteristic.half_width() {
-            self.high = false;
-        }
+        self.high = self.high_after(input);
         self.output()
+    }
+
+    /// Whether that input would change it.
+    pub(crate) fn changes(&self, input: T) -> bool {
+        self.high != self.high_after(input)
+    }
+
+    fn high_after(&self, input: T) -> bool {
+        let half_width = self.characteristic.half_width();
+        if self.high { !(input <= -half_width) || input >= half_width } else { input >= half_width }
     }
 
     /// The output it has now.

@@ -110,6 +110,11 @@ impl<S: Scalar> Cycles<S> {
     ///
     /// Times are taken where the command is first seen changed; a change between samples is late by up to one interval, by
     /// about as much each time, so that durations are right on average.
+    ///
+    /// Rounding: durations and levels are one operation on what was given, right to half a unit in the last place. An extreme between
+    /// samples answers to its neighbours' noise, and more or less to rounding: for nine samples within 1/256 of `1 - s^2/2`, `s` from
+    /// -1 to 1, at times within 1/4096 s of equal distances from 4 to 5 s, it is within 1.8e-14 of the parabola's in f64 and within 9.5e-6 in f32.
+    /// `spec/rounding.md` says what that rests on.
     pub fn step(&mut self, time_s: S, output: S, input: S) -> Option<Cycle<S>> {
         let positive = input > self.threshold;
         let changed = self.positive.is_some_and(|before| before != positive);
@@ -128,13 +133,14 @@ impl<S: Scalar> Cycles<S> {
                 self.maximum = Peak::new();
             }
         }
+        self.maximum.push(time_s, output, &self.recent, S::one());
+        self.minimum.push(time_s, output, &self.recent, -S::one());
         self.recent.push(time_s, output);
-        self.maximum.push(&self.recent, S::one());
-        self.minimum.push(&self.recent, -S::one());
         complete
     }
 
-    fn complete(&self, time_s: S, output: S) -> Option<Cycle<S>> {
+    #[cold]
+    fn complete(&mut self, time_s: S, output: S) -> Option<Cycle<S>> {
         if !(self.begun && self.turned) {
             return None;
         }
@@ -146,8 +152,8 @@ impl<S: Scalar> Cycles<S> {
             begin_s,
             period_s,
             time_positive_s: change_s - begin_s,
-            maximum: self.maximum.value(reach)?,
-            minimum: -self.minimum.value(reach)?,
+            maximum: self.maximum.value(&self.recent, S::one(), reach)?,
+            minimum: -self.minimum.value(&self.recent, -S::one(), reach)?,
             upper_level,
             lower_level: output,
         })

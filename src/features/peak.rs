@@ -40,29 +40,40 @@ impl<S: Scalar> Peak<S> {
         Self { around: [(S::zero(), S::zero()); WINDOW], count: 0, top: 0, valid: 0 }
     }
 
-    /// Takes the newest of the recent samples, times `sign`.
-    pub(super) fn push(&mut self, recent: &Recent<S>, sign: S) {
-        let signed = |(time, value): (S, S)| (time, sign * value);
-        let newest = signed(recent.0[REACH]);
+    /// Takes a sample, times `sign`, that follows the recent ones.
+    pub(super) fn push(&mut self, time: S, value: S, recent: &Recent<S>, sign: S) {
+        let newest = (time, sign * value);
         self.count = (self.count + 1).min(WINDOW as u8);
-        let valid = usize::from(self.valid);
-        let top = self.around.get(usize::from(self.top)).filter(|_| valid > 0);
+        let top = self.around.get(usize::from(self.top)).filter(|_| self.valid > 0);
         if top.is_none_or(|top| newest.1 > top.1) {
-            let before = usize::from(self.count - 1).min(REACH);
-            for (place, sample) in self.around.iter_mut().zip(recent.0.iter().skip(REACH - before)) {
-                *place = signed(*sample);
+            self.top = (self.count - 1).min(REACH as u8);
+            self.valid = self.top + 1;
+            if let Some(place) = self.around.get_mut(usize::from(self.top)) {
+                *place = newest;
             }
-            (self.top, self.valid) = (before as u8, before as u8 + 1);
-        } else if valid <= usize::from(self.top) + REACH
-            && let Some(place) = self.around.get_mut(valid)
-        {
-            *place = newest;
-            self.valid += 1;
+        } else if self.valid <= self.top + REACH as u8 {
+            self.settle(recent, sign);
+            if let Some(place) = self.around.get_mut(usize::from(self.valid)) {
+                *place = newest;
+                self.valid += 1;
+            }
         }
     }
 
-    /// Value of the peak; `None` before the first sample. Samples further than `reach_s` from the largest are left out.
-    pub(super) fn value(&self, reach_s: S) -> Option<S> {
+    /// Fetches the samples before the largest, where that is the newest of the recent ones: while the signal rises nobody asks.
+    fn settle(&mut self, recent: &Recent<S>, sign: S) {
+        if self.valid == self.top + 1 {
+            let before = self.around.iter_mut().take(usize::from(self.top)).rev();
+            for (place, (time, value)) in before.zip(recent.0.iter().rev().skip(1)) {
+                *place = (*time, sign * *value);
+            }
+        }
+    }
+
+    /// Value of the peak, the recent samples and the sign being those of the last sample; `None` before the first. Samples further
+    /// than `reach_s` from the largest are left out.
+    pub(super) fn value(&mut self, recent: &Recent<S>, sign: S, reach_s: S) -> Option<S> {
+        self.settle(recent, sign);
         let (top, valid) = (usize::from(self.top), usize::from(self.valid));
         let samples = self.around.get(..valid)?;
         let &(origin, largest) = samples.get(top)?;
@@ -106,18 +117,4 @@ fn vertex<S: Scalar>(samples: &[(S, S)], offset: S) -> Option<S> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The top of a tent is a sample; what comes after it is lower, though above where the window began.
-    #[test]
-    fn the_largest_sample_stays_the_largest() {
-        let (mut recent, mut peak) = (Recent::new(), Peak::new());
-        for time in -10..=10 {
-            let time = f64::from(time);
-            recent.push(time, 10.0 - time.abs());
-            peak.push(&recent, 1.0);
-        }
-        assert_eq!(peak.value(0.0), Some(10.0));
-    }
-}
+mod tests;

@@ -6,12 +6,12 @@ use crate::numeric::Scalar;
 /// The last sample, and what follows from those before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sensor<T> {
-    time_s: T,
-    reading: T,
+    pub(super) time_s: T,
+    pub(super) reading: T,
     /// The coordinate: for a heading without jumps, for a speed its integral.
-    position: T,
+    pub(super) position: T,
     /// Since when the reading is what it is.
-    changed_s: T,
+    pub(super) changed_s: T,
 }
 
 impl<T: Scalar> Sensor<T> {
@@ -37,17 +37,18 @@ impl<T: Scalar> Sensor<T> {
         }
         let limit_s = T::from_f64(Protocol::<T>::LONGEST_GAP) * protocol.interval_s;
         if !(age_s <= limit_s) {
-            return Err(Fault::Gap { gap_s: age_s.value(), limit_s: limit_s.value() });
+            return Err(gap(age_s, limit_s));
         }
         Ok(age_s)
     }
 
+    #[cold]
     fn out_of_order(&self, time_s: T) -> Fault {
         Fault::TimeOrder { time_s: time_s.value(), previous_s: self.time_s.value() }
     }
 
-    /// The next sample.
-    pub(super) fn next(&self, protocol: &Protocol<T>, reading: T, time_s: T) -> Result<Self, Fault> {
+    /// Takes the next sample; the coordinate. Upon a fault nothing changes.
+    pub(super) fn step(&mut self, protocol: &Protocol<T>, reading: T, time_s: T) -> Result<T, Fault> {
         finite("reading", reading)?;
         let interval_s = self.age_s(protocol, time_s)?;
         if interval_s == T::zero() {
@@ -68,15 +69,15 @@ impl<T: Scalar> Sensor<T> {
         finite("coordinate", position)?;
         let limit = protocol.largest_rate * interval_s + protocol.resolution;
         if !(change.abs() <= limit) {
-            return Err(Fault::Jump { change: change.value(), limit: limit.value() });
+            return Err(jump(change, limit));
         }
-        let moved = reading != self.reading;
-        let changed_s = if moved { time_s } else { self.changed_s };
-        let unchanged_s = time_s - changed_s;
-        if unchanged_s > protocol.unchanged_s {
-            return Err(Fault::Stuck { reading: reading.value(), unchanged_s: unchanged_s.value() });
+        if reading != self.reading {
+            self.changed_s = time_s;
+        } else if time_s - self.changed_s > protocol.unchanged_s {
+            return Err(stuck(reading, time_s - self.changed_s));
         }
-        Ok(Self { time_s, reading, position, changed_s })
+        (self.time_s, self.reading, self.position) = (time_s, reading, position);
+        Ok(position)
     }
 
     /// All that it is, exactly.
@@ -105,7 +106,7 @@ fn turn<T: Scalar>(coordinate: Coordinate) -> Option<T> {
 fn heading<T: Scalar>(protocol: &Protocol<T>, reading: T) -> Result<(), Fault> {
     let Some(turn) = turn::<T>(protocol.coordinate) else { return Ok(()) };
     let limit = T::from_f64(Protocol::<T>::MOST_TURNS) * turn;
-    if reading.abs() <= limit { Ok(()) } else { Err(Fault::Range { reading: reading.value(), limit: limit.value() }) }
+    if reading.abs() <= limit { Ok(()) } else { Err(range(reading, limit)) }
 }
 
 /// The heading that differs from the reading by whole turns and is nearest to another heading.
@@ -115,5 +116,27 @@ fn nearest<T: Scalar>(protocol: &Protocol<T>, reading: T, other: T) -> T {
 }
 
 fn finite<T: Scalar>(quantity: &'static str, value: T) -> Result<(), Fault> {
-    if value.is_finite() { Ok(()) } else { Err(Fault::NotFinite { quantity, value: value.value() }) }
+    if value.is_finite() { Ok(()) } else { Err(not_finite(quantity, value)) }
+}
+
+// Faults are made aside: they come once, and the way of a sound sample stays short.
+#[cold]
+fn not_finite<T: Scalar>(quantity: &'static str, value: T) -> Fault {
+    Fault::NotFinite { quantity, value: value.value() }
+}
+#[cold]
+fn gap<T: Scalar>(gap_s: T, limit_s: T) -> Fault {
+    Fault::Gap { gap_s: gap_s.value(), limit_s: limit_s.value() }
+}
+#[cold]
+fn range<T: Scalar>(reading: T, limit: T) -> Fault {
+    Fault::Range { reading: reading.value(), limit: limit.value() }
+}
+#[cold]
+fn jump<T: Scalar>(change: T, limit: T) -> Fault {
+    Fault::Jump { change: change.value(), limit: limit.value() }
+}
+#[cold]
+fn stuck<T: Scalar>(reading: T, unchanged_s: T) -> Fault {
+    Fault::Stuck { reading: reading.value(), unchanged_s: unchanged_s.value() }
 }

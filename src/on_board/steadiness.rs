@@ -59,9 +59,17 @@ impl<T: Scalar> Observer<T> for Judge<'_, T> {
     }
 
     fn sample(&mut self, protocol: &Protocol<T>, time_s: T, position: T, command: T) -> Observation {
-        let Some(cycle) = self.steadiness.cycles.step(time_s, position, command) else {
-            return Observation::Between;
-        };
+        match self.steadiness.cycles.step(time_s, position, command) {
+            Some(cycle) => self.judge(protocol, cycle),
+            None => Observation::Between,
+        }
+    }
+}
+
+impl<T: Scalar> Judge<'_, T> {
+    /// What a cycle says that has ended.
+    #[cold]
+    fn judge(&mut self, protocol: &Protocol<T>, cycle: Cycle<T>) -> Observation {
         self.steadiness.summary.push(cycle);
         self.steadiness.compare(&cycle, protocol);
         if self.steadiness.alike < protocol.cycles {

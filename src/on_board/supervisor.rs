@@ -202,7 +202,7 @@ impl<T: Scalar> Supervisor<T> {
         if time_s - self.started_s < self.protocol.duration_s {
             Ok(())
         } else {
-            Err(Fault::Overtime { duration_s: self.protocol.duration_s.value() })
+            Err(overtime(self.protocol.duration_s))
         }
     }
 
@@ -211,24 +211,26 @@ impl<T: Scalar> Supervisor<T> {
         let protocol = &self.protocol;
         let distance = (position - protocol.reference).abs();
         if !(distance <= protocol.largest_excursion) {
-            return Err(Fault::Excursion { distance: distance.value(), limit: protocol.largest_excursion.value() });
+            return Err(excursion(distance, protocol.largest_excursion));
+        }
+        if self.switched {
+            return Ok(());
         }
         let high = self.relay.output() > protocol.neutral_command;
         let moved = if high { self.extent.1 - position } else { position - self.extent.0 };
         let limit = protocol.wrong_way + protocol.resolution;
-        if self.switched || moved <= limit {
-            Ok(())
-        } else {
-            Err(Fault::WrongWay { moved: moved.value(), limit: limit.value() })
-        }
+        if moved <= limit { Ok(()) } else { Err(wrong_way(moved, limit)) }
     }
 
     /// The relay's command at a position; held where the last switching is too near.
     fn switch(&mut self, position: T, time_s: T) -> T {
         self.extent = (self.extent.0.min(position), self.extent.1.max(position));
-        let before = self.relay.output();
+        let (before, input) = (self.relay.output(), self.protocol.reference - position);
+        if !self.relay.changes(input) {
+            return before;
+        }
         let mut relay = self.relay;
-        if relay.step(self.protocol.reference - position) == before {
+        if relay.step(input) == before {
             return before;
         }
         if self.switched && time_s - self.switched_s < self.protocol.dwell_s {
@@ -241,23 +243,27 @@ impl<T: Scalar> Supervisor<T> {
         relay.output()
     }
 
-    fn run(&mut self, reading: T, time_s: T, observer: &mut impl Observer<T>) -> Result<(), Fault> {
-        let sensor = match &self.sensor {
-            Some(sensor) => sensor.next(&self.protocol, reading, time_s)?,
-            None => {
-                let first = Sensor::first(&self.protocol, reading, time_s)?;
-                let position = first.position();
-                (self.started_s, self.switched_s) = (time_s, time_s);
-                self.extent = (position, position);
-                self.relay = RelayState::new(*self.relay.characteristic(), position <= self.protocol.reference);
-                first
-            }
-        };
+    /// Takes the first sample; the coordinate.
+    #[cold]
+    fn begin(&mut self, reading: T, time_s: T) -> Result<T, Fault> {
+        let sensor = Sensor::first(&self.protocol, reading, time_s)?;
+        let position = sensor.position();
+        (self.started_s, self.switched_s) = (time_s, time_s);
+        self.extent = (position, position);
+        self.relay = RelayState::new(*self.relay.characteristic(), position <= self.protocol.reference);
         self.sensor = Some(sensor);
-        self.in_place(sensor.position())?;
+        Ok(position)
+    }
+
+    fn run(&mut self, reading: T, time_s: T, observer: &mut impl Observer<T>) -> Result<(), Fault> {
+        let position = match &mut self.sensor {
+            Some(sensor) => sensor.step(&self.protocol, reading, time_s)?,
+            None => self.begin(reading, time_s)?,
+        };
+        self.in_place(position)?;
         self.in_time(time_s)?;
-        let command = self.switch(sensor.position(), time_s);
-        match observer.sample(&self.protocol, time_s, sensor.position(), command) {
+        let command = self.switch(position, time_s);
+        match observer.sample(&self.protocol, time_s, position, command) {
             _ if self.early >= MOST_EARLY => self.retry(Failure::Noise, time_s, observer),
             Observation::Steady => {
                 self.phase = Phase::Done;
@@ -283,6 +289,7 @@ impl<T: Scalar> Supervisor<T> {
     /// A relay that does not switch, or hardly overcomes the disturbance, gets a higher level; at the limit, a narrower
     /// hysteresis makes the oscillation larger against it. Cycles that differ get a wider one, and so does noise: against noise,
     /// or a reading that goes nowhere, no level is raised.
+    #[cold]
     fn retry(&mut self, failure: Failure, time_s: T, observer: &mut impl Observer<T>) -> Result<(), Fault> {
         let range = self.extent.1 - self.extent.0;
         let still = (T::from_f64(1.5) * self.protocol.resolution).max(self.half_width() / T::two());
@@ -327,3 +334,19 @@ impl<T: Scalar> Supervisor<T> {
         Ok(())
     }
 }
+
+#[cold]
+fn excursion<T: Scalar>(distance: T, limit: T) -> Fault {
+    Fault::Excursion { distance: distance.value(), limit: limit.value() }
+}
+#[cold]
+fn wrong_way<T: Scalar>(moved: T, limit: T) -> Fault {
+    Fault::WrongWay { moved: moved.value(), limit: limit.value() }
+}
+#[cold]
+fn overtime<T: Scalar>(duration_s: T) -> Fault {
+    Fault::Overtime { duration_s: duration_s.value() }
+}
+
+#[cfg(all(test, feature = "std"))]
+mod tests;

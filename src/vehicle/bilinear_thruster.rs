@@ -44,6 +44,9 @@ impl<T: Scalar> BilinearThruster<T> {
     }
 
     /// Thrust in N.
+    ///
+    /// Rounding: for all floats with `T_nn` 2^-7 to 2^-6, `T_nu` 2^-6 to 2^-4, rates to 32 and speeds to 1 either way, the thrust is
+    /// within 6.1e-15 of the exact one in f64 and within 3.3e-6 in f32. `spec/rounding.md` says what that rests on.
     pub fn thrust(&self, rate: T, ambient_speed_m_s: T) -> T {
         bilinear(self.thrust, rate, ambient_speed_m_s)
     }
@@ -59,6 +62,9 @@ impl<T: Scalar> BilinearThruster<T> {
     }
 
     /// The rate that gives a thrust in N, turning in the direction of that thrust; no thrust is rate zero.
+    ///
+    /// Rounding: for these coefficients and speeds, a largest rate of 64, and thrusts 0.5 to 8 either way, the rate is within 1.8e-14 of the
+    /// exact one in f64 and within 9.7e-6 in f32.
     ///
     /// As thrust vanishes the rate tends to [`Self::braking_rate`] when the flow goes the same way, not to zero.
     ///
@@ -78,11 +84,10 @@ impl<T: Scalar> BilinearThruster<T> {
         let four_product = T::from_f64(4.0) * self.thrust[0] * thrust_n.abs();
         let root = (with_flow.square() + four_product).sqrt();
         // The form without cancellation for the sign of the flow.
-        let rate = if with_flow < T::zero() {
-            T::two() * thrust_n.abs() / (root - with_flow)
-        } else {
-            (with_flow + root) / (T::two() * self.thrust[0])
-        };
+        let rate = (-with_flow).prefer(
+            || (with_flow + root) / (T::two() * self.thrust[0]),
+            || T::two() * thrust_n.abs() / (root - with_flow),
+        );
         if rate <= self.largest_rate {
             return Ok(sign * rate);
         }

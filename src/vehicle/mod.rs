@@ -36,6 +36,8 @@ mod pool_vehicle;
 mod reduction;
 #[cfg(feature = "std")]
 mod simulation;
+#[cfg(all(test, feature = "std"))]
+mod tests;
 mod thruster;
 #[cfg(feature = "std")]
 mod thruster_map;

@@ -154,11 +154,18 @@ impl<T: Scalar> Thruster<T> {
     }
 
     /// Thrust in N at a command; a command past the limit gives the thrust at the limit.
+    ///
+    /// Rounding: for all floats with quadratic coefficients 2^-13 to 2^-12, linear ones 2^-7 to 2^-6, dead zones 8 to 16, limits 192
+    /// to 256 and commands to 256 either way, the thrust is within 6.3e-15 of the exact one in f64 and within 3.4e-6 in f32: at the
+    /// ends of the dead zone and at the limit too, for these decide without rounding. `spec/rounding.md` says what that rests on.
     pub fn thrust(&self, command: T) -> T {
         if command < T::zero() { -self.backward.thrust(-command) } else { self.forward.thrust(command) }
     }
 
     /// The command that gives a thrust in N; no thrust is command zero.
+    ///
+    /// Rounding: for the coefficients, dead zones and limits of [`thrust`](Self::thrust), and thrusts 0.375 to 5 either way, which none of
+    /// these thrusters refuses, the command is within 8.5e-14 of the exact one in f64 and within 4.4e-5 in f32.
     ///
     /// # Errors
     /// [`VehicleError::Saturated`] above the largest thrust of that side, [`VehicleError::InDeadZone`] between none and the

@@ -49,3 +49,5 @@ mod special;
 mod tolerance;
 mod trust;
 mod vehicle;
+mod wide;
+mod wide_oracle;

@@ -38,3 +38,41 @@ fn no_axis_of_a_box_is_below_its_bound() {
     // Nor is the bound nothing at all.
     assert!(near > 600, "{near}");
 }
+
+/// What is true is proved of boxes large and small; what one loop contradicts is not, by 1 %.
+#[test]
+fn margins_are_proved_and_more_is_not() {
+    let axis = DragAxis::linear(1.0, 0.5).unwrap().with_delay_s(0.1).unwrap();
+    let between = |low, high| Interval::new(low, high).unwrap();
+    for (structure, share) in [(Structure::Pd, 0.0), (Structure::Pd, 0.1), (Structure::Pid, 0.2), (Structure::Ipd, 0.1)]
+    {
+        let tuning = Tuning::new(&axis, structure, 0.8).unwrap();
+        let around = |value: f64| between(value * (1.0 - share), value * (1.0 + share));
+        let axes = AxisIntervals::new(around(1.0), around(0.5), around(0.1)).unwrap();
+        let worst = axes.worst_margins(tuning.gains()).unwrap();
+        assert!(worst.converged, "{worst:?}");
+        let limit = |margin: Option<f64>| margin.unwrap_or(f64::INFINITY);
+        let list = |m: &WorstMargin| [limit(m.gain), limit(m.gain_reduction), m.phase_rad, m.delay_s];
+        assert!(Statement::new(tuning.gains(), list(&worst.at_least)).is_proved(&axes));
+        for kind in 0..4 {
+            let mut claimed = list(&worst.at_least);
+            claimed[kind] = list(&worst.met)[kind] * 1.01;
+            if claimed[kind].is_finite() {
+                assert!(!Statement::new(tuning.gains(), claimed).is_proved(&axes), "{structure:?} {share} {kind}");
+            }
+        }
+    }
+}
+
+/// Gains that leave a pole in the right half plane without delay, or with it, have no margins to prove.
+#[test]
+fn an_unstable_loop_is_not_proved() {
+    let point = |value: f64| Interval::point(value);
+    let axes = |delay_s: f64| AxisIntervals::new(point(1.0), point(0.1), point(delay_s)).unwrap();
+    let hasty = Gains::new(Structure::Pid, 1.0, 5.0, 0.5, 0.1).unwrap();
+    assert!(!Statement::new(&hasty, NONE).is_proved(&axes(0.0)));
+    let sound = Gains::new(Structure::Pd, 1.0, 0.0, 1.0, 0.1).unwrap();
+    let little = [1.0, 1.0, 0.01, 0.01];
+    assert!(Statement::new(&sound, little).is_proved(&axes(0.1)));
+    assert!(!Statement::new(&sound, little).is_proved(&axes(3.0)));
+}

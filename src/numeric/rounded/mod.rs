@@ -8,9 +8,15 @@
 //! |---|---|
 //! | `format` | the two formats, and what their functions are known to keep |
 //! | `functions` | the functions of `Real` and `Special` |
+//! | `order` | comparisons |
 
 mod format;
 mod functions;
+#[cfg(feature = "std")]
+mod order;
+#[cfg(all(test, feature = "std"))]
+#[allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::cast_possible_truncation, reason = "a test may panic")]
+pub(crate) mod testing;
 #[cfg(test)]
 mod tests;
 
@@ -18,6 +24,8 @@ use core::marker::PhantomData;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 pub use format::{Double, Format, Single, Units};
+#[cfg(feature = "std")]
+pub use order::{Compared, every_outcome, every_way};
 
 use super::{Interval, Real};
 
