@@ -1,6 +1,6 @@
-"""A thousand records by one process, Dask and Spark, a worker of each cluster killed: the same bytes, and the time.
+"""A thousand records by one process, Dask, Spark and Ray, a worker of each of the first two clusters killed: the same bytes, and the time.
 
-python compare/fleet.py [records] [iso|exact|fit] [one|dask|spark ...]
+python compare/fleet.py [records] [iso|exact|fit] [one|dask|spark|ray ...]
 """
 
 import hashlib
@@ -61,9 +61,20 @@ def by_spark(given, **settings):
     from spark_cluster import identify_with_a_worker_killed
 
     with tempfile.TemporaryDirectory() as folder:
+        rows, killed, begun = identify_with_a_worker_killed(given, Path(folder), **settings)
+        return rows, time.perf_counter() - begun, killed
+
+
+def by_ray(given, **settings):
+    import ray
+
+    ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False)
+    try:
         begin = time.perf_counter()
-        rows, killed = identify_with_a_worker_killed(given, Path(folder), **settings)
-        return rows, time.perf_counter() - begin, killed
+        rows = fleet.identify_ray(given, **settings)
+        return rows, time.perf_counter() - begin, False
+    finally:
+        ray.shutdown()
 
 
 def by_one(given, **settings):
@@ -76,11 +87,14 @@ def main(count=1000, method="fit", *ways):
     given = list(records(int(count)))
     print(f"{count} records of about {given[0][1].num_rows} samples, method {method}, linear drag", flush=True)
     for way in ways or ("one", "dask", "spark"):
-        rows, spent, killed = {"one": by_one, "dask": by_dask, "spark": by_spark}[way](given, method=method, drag="linear")
+        work = {"one": by_one, "dask": by_dask, "spark": by_spark, "ray": by_ray}[way]
+        begin = time.perf_counter()
+        rows, spent, killed = work(given, method=method, drag="linear")
+        start = time.perf_counter() - begin - spent
         refused = sum(code is not None for code in rows["refused"].to_pylist())
         print(
-            f"{way:6} {rows.num_rows} rows, {refused} refused, {1e3 * spent / len(given):.2f} ms per record, "
-            f"worker killed: {killed}, rows {digest(rows)}",
+            f"{way:6} {rows.num_rows} rows, {refused} refused, {1e3 * spent / len(given):.2f} ms per record "
+            f"and {start:.0f} s for start and end, worker killed: {killed}, rows {digest(rows)}",
             flush=True,
         )
 

@@ -11,15 +11,18 @@ from .control import Design, Tuned, design, tune
 from .describing import DescribingFunction, Nonlinearity, catalogue, describing_function, df, nonlinearity
 from .errors import NoLimitCycle, OutOfDomain, RecordRefused, SelfoscError, UnreadableLog, UsageError
 from .identification import Bounds, Identification, bounded, identify
+from .inverse import Amplitudes, FittedCharacteristics, amplitudes, fit_characteristic
 from .loops import Balance, Certificate, Prediction, balance, certify, predict, simulate
 from .theory import Reproduction, Verification, reproduce, verify
 
 __all__ = [
+    "Amplitudes",
     "Balance",
     "Bounds",
     "Certificate",
     "DescribingFunction",
     "Design",
+    "FittedCharacteristics",
     "Identification",
     "NoLimitCycle",
     "Nonlinearity",
@@ -34,6 +37,7 @@ __all__ = [
     "UsageError",
     "Verification",
     "__version__",
+    "amplitudes",
     "balance",
     "bounded",
     "catalogue",
@@ -42,6 +46,7 @@ __all__ = [
     "design",
     "df",
     "errors",
+    "fit_characteristic",
     "identify",
     "nonlinearity",
     "predict",

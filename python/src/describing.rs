@@ -2,11 +2,11 @@
 
 use std::cell::RefCell;
 
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use selfosc::Error;
-use selfosc::describing::{Boxed, DescribingFunction, Entry, Setting};
+use selfosc::describing::{Boxed, DescribingError, DescribingFunction, Entry, Setting};
 use selfosc::nonlinearity::{Branch, Custom, Sinusoid};
 
 use crate::failure;
@@ -69,19 +69,23 @@ impl Characteristic {
     ) -> PyResult<Arrays<'py>> {
         let (amplitude, bias) = (amplitude.as_slice()?, bias.as_slice()?);
         let count = amplitude.len().max(bias.len());
-        let mut columns = [(); 3].map(|()| vec![0.0; count]);
-        let [f0, p, q] = &mut columns;
+        // Memory from numpy, which asks for large pages.
+        let arrays = [(); 3].map(|()| PyArray1::zeros(py, count, false));
+        let mut columns = arrays.each_ref().map(|array| array.readwrite());
+        let [f0, p, q] = columns.each_mut().map(|column| column.as_slice_mut());
+        let (f0, p, q) = (f0?, p?, q?);
         for (block, ((f0, p), q)) in f0.chunks_mut(BLOCK).zip(p.chunks_mut(BLOCK)).zip(q.chunks_mut(BLOCK)).enumerate()
         {
             let from = block * BLOCK;
             let fault =
-                py.detach(|| self.fill(|at| (part(amplitude, from + at), part(bias, from + at)), skip, [f0, p, q]));
+                py.detach(|| self.fill(|at| (part(bias, from + at), part(amplitude, from + at)), skip, [f0, p, q]));
             if let Some(error) = fault {
                 return Err(failure::library(py, error));
             }
             py.check_signals()?;
         }
-        let [f0, p, q] = columns.map(|column| column.into_pyarray(py));
+        drop(columns);
+        let [f0, p, q] = arrays;
         Ok((f0, p, q))
     }
 
@@ -117,7 +121,7 @@ fn part(values: &[f64], index: usize) -> f64 {
 }
 
 impl Characteristic {
-    /// `F_0`, `P`, `Q` at the amplitudes and biases that `sweep` gives for each place; the first failure, if there is one. All threads
+    /// `F_0`, `P`, `Q` at the biases and amplitudes that `sweep` gives for each place; the first failure, if there is one. All threads
     /// take part, each with a characteristic of its own.
     fn fill(
         &self,
@@ -125,17 +129,10 @@ impl Characteristic {
         skip: bool,
         [f0, p, q]: [&mut [f64]; 3],
     ) -> Option<Error> {
+        const NONE: DescribingFunction<f64> = DescribingFunction { f0: f64::NAN, p: f64::NAN, q: f64::NAN };
+        let undefined = |error: DescribingError| if skip { Ok(NONE) } else { Err(error.into()) };
         let chunk = |(chunk, ((f0, p), q)): (usize, Columns<'_>)| -> Result<(), Error> {
-            let characteristic = self.entry.build::<f64>(&self.values)?;
-            for (place, ((f0, p), q)) in f0.iter_mut().zip(p).zip(q).enumerate() {
-                let (amplitude, bias) = sweep(chunk * CHUNK + place);
-                match characteristic.describing_function(&Sinusoid::new(bias, amplitude)?) {
-                    Ok(df) => (*f0, *p, *q) = (df.f0, df.p, df.q),
-                    Err(_) if skip => (*f0, *p, *q) = (f64::NAN, f64::NAN, f64::NAN),
-                    Err(error) => return Err(error.into()),
-                }
-            }
-            Ok(())
+            self.entry.over_sweeps(&self.values, |place| sweep(chunk * CHUNK + place), undefined, [f0, p, q])
         };
         if f0.len() <= CHUNK {
             return chunk((0, ((f0, p), q))).err();

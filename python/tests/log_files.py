@@ -118,23 +118,41 @@ def write_mcap(path: Path) -> None:
 
 
 def write_rosbag(path: Path) -> None:
+    """A bag of ROS 2: a folder with a database."""
     from rosbags.rosbag2 import Writer
     from rosbags.typesys import Stores, get_typestore
 
-    time, heading, when, command = channels()
     store = get_typestore(Stores.ROS2_HUMBLE)
-    kinds = store.types
     with Writer(path, version=9) as writer:
-        imu = writer.add_connection("/imu/data", "sensor_msgs/msg/Imu", typestore=store)
-        torque = writer.add_connection("/torque", "std_msgs/msg/Float64", typestore=store)
-        vector, none = kinds["geometry_msgs/msg/Vector3"](0.0, 0.0, 0.0), np.zeros(9)
-        for stamp, angle in zip(time, heading, strict=True):
-            ns = 1_760_000_000_000_000_000 + round(stamp * 1e9)
-            yaw = 0.5 * (0.5 * np.pi - angle)
-            stamped = kinds["std_msgs/msg/Header"](kinds["builtin_interfaces/msg/Time"](ns // 10**9, ns % 10**9), "base")
-            turned = kinds["geometry_msgs/msg/Quaternion"](0.0, 0.0, float(np.sin(yaw)), float(np.cos(yaw)))
-            message = kinds["sensor_msgs/msg/Imu"](stamped, turned, none, vector, none, vector, none)
-            writer.write(imu, ns + 4_000_000, store.serialize_cdr(message, "sensor_msgs/msg/Imu"))
-        for stamp, value in zip(when, command, strict=True):
-            ns = 1_760_000_000_000_000_000 + round(stamp * 1e9)
-            writer.write(torque, ns, store.serialize_cdr(kinds["std_msgs/msg/Float64"](float(value)), "std_msgs/msg/Float64"))
+        _write_messages(writer, store, store.serialize_cdr)
+
+
+def write_rosbag1(path: Path) -> None:
+    """A bag of ROS 1: one file, which holds its definitions."""
+    from rosbags.rosbag1 import Writer
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS1_NOETIC)
+    with Writer(path) as writer:
+        _write_messages(writer, store, store.serialize_ros1)
+
+
+def _write_messages(writer: Any, store: Any, serialized: Any) -> None:
+    time, heading, when, command = channels()
+    kinds = store.types
+    imu = writer.add_connection("/imu/data", "sensor_msgs/msg/Imu", typestore=store)
+    torque = writer.add_connection("/torque", "std_msgs/msg/Float64", typestore=store)
+    vector, none = kinds["geometry_msgs/msg/Vector3"](0.0, 0.0, 0.0), np.zeros(9)
+    counted = "seq" in kinds["std_msgs/msg/Header"].__dataclass_fields__
+    for number, (stamp, angle) in enumerate(zip(time, heading, strict=True)):
+        ns = 1_760_000_000_000_000_000 + round(stamp * 1e9)
+        yaw = 0.5 * (0.5 * np.pi - angle)
+        sequence = {"seq": number} if counted else {}
+        when_measured = kinds["builtin_interfaces/msg/Time"](ns // 10**9, ns % 10**9)
+        stamped = kinds["std_msgs/msg/Header"](stamp=when_measured, frame_id="base", **sequence)
+        turned = kinds["geometry_msgs/msg/Quaternion"](0.0, 0.0, float(np.sin(yaw)), float(np.cos(yaw)))
+        message = kinds["sensor_msgs/msg/Imu"](stamped, turned, none, vector, none, vector, none)
+        writer.write(imu, ns + 4_000_000, serialized(message, "sensor_msgs/msg/Imu"))
+    for stamp, value in zip(when, command, strict=True):
+        ns = 1_760_000_000_000_000_000 + round(stamp * 1e9)
+        writer.write(torque, ns, serialized(kinds["std_msgs/msg/Float64"](float(value)), "std_msgs/msg/Float64"))

@@ -15,8 +15,10 @@ import pyarrow as pa
 from selfosc import fleet
 
 
-def identify_with_a_worker_killed(records: list[tuple[str, pa.Table]], folder: Path, **settings: Any) -> tuple[pa.Table, bool]:
-    """The rows, in Spark's order, and whether an executor was killed while they were worked on."""
+def identify_with_a_worker_killed(
+    records: list[tuple[str, pa.Table]], folder: Path, **settings: Any
+) -> tuple[pa.Table, bool, float]:
+    """The rows, in Spark's order, whether an executor was killed while they were worked on, and when the cluster had started."""
     from pyspark.sql import SparkSession
 
     os.environ["PYSPARK_PYTHON"] = sys.executable
@@ -30,13 +32,14 @@ def identify_with_a_worker_killed(records: list[tuple[str, pa.Table]], folder: P
         .config("spark.executorEnv.PYTHONPATH", os.pathsep.join(sys.path))
         .getOrCreate()
     )
+    begun = time.perf_counter()
     try:
         tables = [table.append_column("vehicle", pa.array([name] * table.num_rows)) for name, table in records]
         frame = session.createDataFrame(pa.concat_tables(tables).to_pandas())
         killed = threading.Event()
         threading.Thread(target=_kill_an_executor, args=(session.sparkContext._gateway.proc.pid, killed), daemon=True).start()
         rows = fleet.identify_spark(frame, "vehicle", **settings).toArrow()
-        return rows, killed.is_set()
+        return rows, killed.is_set(), begun
     finally:
         session.stop()
 

@@ -32,6 +32,27 @@ def test_an_array_is_its_elements():
     assert np.array_equal(array.gain, [one.gain for one in alone])
 
 
+ENTRIES = {
+    "absolute": {}, "backlash": {"half_gap": 0.5}, "dead-zone": {"half_width": 0.5}, "preload": {"slope": 1.0, "level": 0.5},
+    "dead-zone-saturation": {"half_width": 0.2, "breakpoint": 0.9}, "gain-changing": {"inner_slope": 1, "outer_slope": 2, "breakpoint": 0.7},
+    "relay": {}, "relay-dead-zone": {"dead_zone": 0.4}, "relay-dead-zone-hysteresis": {"on": 0.5, "off": 0.3},
+    "relay-hysteresis": {"half_width": 0.5}, "saturation": {"breakpoint": 1.0}, "saturation-asymmetric": {"lower": -1.0, "upper": 0.5},
+    "quantizer": {"step": 0.3}, "tanh": {"gain": 1.0, "scale": 2.0},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ENTRIES)
+@pytest.mark.parametrize("bias", [0.0, 0.1, -0.8, 3.0])
+def test_a_shuffled_array_is_its_elements_to_the_bit(name, bias):
+    """Elements are worked on several at a time; neighbours that decide otherwise must not be seen."""
+    relay = nonlinearity(name, **ENTRIES[name])
+    amplitudes = np.random.default_rng(5).permutation(np.geomspace(1e-3, 50.0, 1003))
+    array = np.array(describing_function(relay, amplitudes, bias, undefined="nan"))
+    alone = np.array([describing_function(relay, one, bias, undefined="nan") for one in amplitudes]).T
+    np.testing.assert_array_equal(array.view(np.uint64), alone.view(np.uint64))
+    assert np.any(np.isfinite(array))
+
+
 def test_shapes():
     assert describing_function("relay", np.ones((2, 1, 3)), np.zeros((4, 1))).f0.shape == (2, 4, 3)
     assert describing_function("relay", []).p.shape == (0,)
@@ -138,3 +159,21 @@ def test_every_entry_of_the_catalogue_agrees_with_its_own_calls():
         assert entry._isstatic()
         found = describing_function(entry, 1.1, 0.17)
         assert list(found) == pytest.approx(fourier(entry, 1.1, 0.17), abs=2e-4), name
+
+
+def test_the_first_amplitude_outside_its_domain_is_named():
+    amplitudes = np.ones(50)
+    amplitudes[17] = -2.0
+    with pytest.raises(selfosc.OutOfDomain) as refusal:
+        describing_function("relay", amplitudes, undefined="nan")
+    assert (refusal.value.quantity, refusal.value.value) == ("amplitude", -2.0)
+
+
+def test_gains_that_fit_nothing_are_refused():
+    with pytest.raises(selfosc.UsageError):
+        selfosc.fit_characteristic([1.0, 2.0], [1.0])
+    with pytest.raises(selfosc.SelfoscError) as refusal:
+        selfosc.fit_characteristic([1.0, -2.0, 3.0], [1.0, 2.0, 3.0])
+    assert refusal.value.code == "out-of-domain"
+    with pytest.raises(selfosc.UsageError):
+        selfosc.amplitudes(nonlinearity("relay"), 1.0, level=2.0)

@@ -80,8 +80,18 @@ def test_spark_with_a_worker_killed(alone, tmp_path):
         pytest.skip("there is no Java")
     from spark_cluster import identify_with_a_worker_killed
 
-    rows, killed = identify_with_a_worker_killed(list(records(12)), tmp_path, method="fit", drag="linear")
+    rows, killed, _ = identify_with_a_worker_killed(list(records(12)), tmp_path, method="fit", drag="linear")
     assert killed
     order = {name: place for place, (name, _) in enumerate(records(12))}
     rows = rows.take(sorted(range(rows.num_rows), key=lambda place: order[rows["record"][place].as_py()]))
+    assert written(rows) == written(alone)
+
+
+def test_ray(alone):
+    ray = pytest.importorskip("ray")
+    ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False)
+    try:
+        rows = fleet.identify_ray(records(12), method="fit", drag="linear")
+    finally:
+        ray.shutdown()
     assert written(rows) == written(alone)

@@ -12,6 +12,7 @@ CASES = {
     "dataflash": ("log.bin", log_files.write_dataflash, logs.read_dataflash, "ATT.Yaw", "RCOU.C4", {"neutral": 1500, "scale": 1e-3}),
     "mcap": ("log.mcap", log_files.write_mcap, logs.read_mcap, "/imu/data.orientation.yaw", "/torque.data", {"frame": "NED"}),
     "rosbag": ("bag", log_files.write_rosbag, logs.read_rosbag, "/imu/data.orientation.yaw", "/torque.data", {"frame": "NED"}),
+    "rosbag1": ("log.bag", log_files.write_rosbag1, logs.read_rosbag, "/imu/data.orientation.yaw", "/torque.data", {"frame": "NED"}),
 }  # fmt: skip
 
 
@@ -163,3 +164,45 @@ def test_frames_turn_into_each_other():
         channel([0], [0.0]).in_frame("NED")
     with pytest.raises(selfosc.UsageError):
         channel([0], [0.0], "a.depth", frame="ENU").in_frame("NED")
+
+
+def write_csv(path, record):
+    path.write_text("time_s,heading,command\n" + "".join(f"{t!r},{y!r},{u!r}\n" for t, y, u in zip(*record.values(), strict=True)))
+
+
+def write_parquet(path, record):
+    import pyarrow as pa
+    from pyarrow import parquet
+
+    parquet.write_table(pa.table(record), path)
+
+
+def write_arrow(path, record):
+    import pyarrow as pa
+    from pyarrow import feather
+
+    feather.write_feather(pa.table(record), str(path))
+
+
+TABLES = {
+    "csv": (write_csv, {"noise": "not-text", "empty": "empty", "cut": "unreadable"}),
+    "parquet": (write_parquet, dict.fromkeys(("noise", "empty", "cut"), "damaged")),
+    "arrow": (write_arrow, dict.fromkeys(("noise", "empty", "cut"), "damaged")),
+}
+
+
+@pytest.mark.parametrize("damage", ["noise", "empty", "cut"])
+@pytest.mark.parametrize("kind", TABLES)
+def test_a_damaged_table(kind, damage, record, tmp_path):
+    """A CSV file is cut within a line: one that ends with a line is a shorter log."""
+    path = tmp_path / f"log.{kind}"
+    write, codes = TABLES[kind]
+    write(path, record)
+    content = path.read_bytes()
+    cut = content[: len(content) // 3]
+    cut = cut[: cut.rindex(b",")] if kind == "csv" else cut
+    path.write_bytes({"noise": np.random.default_rng(3).bytes(5000), "empty": b"", "cut": cut}[damage])
+    with pytest.raises((selfosc.UnreadableLog, selfosc.RecordRefused)) as refusal:
+        selfosc.identify(path)
+    assert refusal.value.code == codes[damage]
+    assert path.name in str(refusal.value)

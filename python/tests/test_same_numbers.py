@@ -56,6 +56,33 @@ def test_the_catalogue(command):
     assert selfosc.catalogue() == {entry["name"]: entry["parameters"] for entry in listed}
 
 
+@pytest.mark.parametrize("bias", [0.0, 0.1])
+def test_amplitudes_that_have_a_gain(command, bias):
+    result = selfosc.amplitudes("relay-dead-zone", 1.0 / 3.0, bias, level=2.0, dead_zone=0.5)
+    options = ["--set=level=2", "--set=dead_zone=0.5", f"--gain={1.0 / 3.0!r}", f"--bias={bias}", "--json"]
+    assert_same(result, command("df", "relay-dead-zone", *options))
+    assert bits(list(selfosc.amplitudes(selfosc.nonlinearity("relay-dead-zone", level=2, dead_zone=0.5), 1 / 3, bias))) == bits(
+        result.to_dict()["amplitudes"]
+    )
+
+
+def test_no_amplitude_has_the_gain(command):
+    status, text = command("df", "relay-dead-zone", "--set=dead_zone=0.5", "--gain=2", "--json")
+    result = selfosc.amplitudes("relay-dead-zone", 2.0, dead_zone=0.5)
+    assert (status, len(result)) == (1, 0)
+    assert bits(result.to_dict()) == bits(json.loads(text))
+
+
+def test_a_characteristic_that_has_the_gains(command, tmp_path):
+    wide = [0.2, 0.5, 0.8, 1.1, 1.6, 2.5, 4.0]
+    gains = selfosc.describing_function("saturation", wide, 0.1, slope=2.0, breakpoint=0.7).p
+    rows = "".join(f"{x!r},{float(y)!r}\n" for x, y in zip(wide, gains, strict=True))
+    (tmp_path / "gains.csv").write_text("amplitude,p\n" + rows)
+    result = selfosc.fit_characteristic(wide, gains, 0.1)
+    assert_same(result, command("df", f"--fit={tmp_path / 'gains.csv'}", "--bias=0.1", "--json"))
+    assert result[0]["residual"] == min(one["residual"] for one in result)
+
+
 def test_balance(command):
     result = selfosc.balance(([8], [1, 2, 2, 1]), "saturation", breakpoint=1, delay=0.1)
     options = ["--num=8", "--den=1,2,2,1", "--delay=0.1", "--nonlinearity=saturation", "--set=breakpoint=1", "--json"]

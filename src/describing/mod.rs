@@ -31,6 +31,8 @@ mod rounding;
 #[cfg(feature = "std")]
 mod setting;
 mod sine;
+#[cfg(feature = "std")]
+mod sweeps;
 mod tanh;
 
 #[cfg(feature = "std")]

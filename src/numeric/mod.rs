@@ -7,6 +7,8 @@ mod expression;
 mod gradient;
 mod interval;
 mod jet;
+#[cfg(feature = "std")]
+mod lanes;
 mod minimum;
 mod ratio;
 mod real;
@@ -21,6 +23,9 @@ internal! {
     mod scan;
     mod special;
 }
+
+#[cfg(feature = "std")]
+pub(crate) use lanes::Lanes;
 
 pub use domain::{Limit, OutOfDomain};
 pub use interval::Interval;

@@ -46,6 +46,7 @@ mod sampling;
 mod serialised;
 mod session;
 mod special;
+mod sweeps;
 mod tolerance;
 mod trust;
 mod vehicle;
