@@ -44,8 +44,13 @@ impl<T: Scalar> RelayState<T> {
     }
 
     fn high_after(&self, input: T) -> bool {
-        let half_width = self.characteristic.half_width();
-        if self.high { !(input <= -half_width) || input >= half_width } else { input >= half_width }
+        if input >= self.characteristic.half_width() {
+            true
+        } else if input <= -self.characteristic.half_width() {
+            false
+        } else {
+            self.high
+        }
     }
 
     /// The output it has now.

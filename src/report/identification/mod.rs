@@ -31,12 +31,17 @@ pub fn document(found: &Identification) -> Document {
             .chain(refused_table(found))
             .chain(cautions)
             .collect(),
-        figures: figures::interval_figure(found).into_iter().collect(),
+        figures: Vec::new(),
     };
     let records = found.sources().iter().enumerate().map(|(index, source)| record_section(found, index, source));
+    let methods = figures::interval_figure(found).map(|figure| Section {
+        title: "Methods beside each other".to_owned(),
+        figures: vec![figure],
+        ..Section::default()
+    });
     Document {
         title: "Identification from self-oscillations".to_owned(),
-        sections: std::iter::once(summary).chain(records).collect(),
+        sections: std::iter::once(summary).chain(records).chain(methods).collect(),
         provenance: vec![concat!("Written by selfosc ", env!("CARGO_PKG_VERSION")).to_owned()],
     }
 }
