@@ -23,7 +23,7 @@ TOPICS = {
     "engine": [("lib", ["proof::", "claims::checks::step"]), ("properties", ["engine::", "certificate::", "relay_certificate::"])],
     "formulas": [("lib", ["proof::", "claims::checks"])],
     "describing": [("lib", ["claims::checks"]), ("properties", ["certified::kernels_are", "certified::closed_forms", "engine::every_part"])],
-    "orbits": [("properties", ["engine::", "orbit_certified::", "relay_certificate::"]), ("lib", ["claims::checks"])],
+    "orbits": [("properties", ["engine::", "orbit_certified::", "orbit_drag_axis::", "relay_certificate::"]), ("lib", ["claims::checks"])],
     "words": [("properties", ["claims::words", "claims::boxes", "claims::files"]), ("lib", ["claims::"])],
     "vehicle": [("lib", ["claims::checks"])],
 }

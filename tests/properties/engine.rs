@@ -84,8 +84,43 @@ fn an_interpolation_exceeds_its_nodes() {
     });
     let largest = through_the_nodes(1.0_f64, values).powi(2);
     assert!(largest > 6.5, "{largest}");
-    let tolerance = 0.8 * largest * 1e-9;
-    assert!(!tried!(|a, b| times(1e-9, through_the_nodes(a, values) * through_the_nodes(b, values)), tolerance));
+    // At the nodes up to the tolerance itself, and beyond it between them.
+    for share in [0.8, 0.3, 0.16] {
+        let tolerance = share * largest * 1e-9;
+        assert!(!tried!(|a, b| times(1e-9, through_the_nodes(a, values) * through_the_nodes(b, values)), tolerance));
+    }
+}
+
+/// A cell that reaches over a kink by a little has both its sides.
+#[test]
+fn a_kink_is_seen_from_either_side() {
+    let over = |from: f64, to: f64| Series::variable(Interval::new(from, to).unwrap());
+    let slope = over(-5e-10, 0.1).abs().coefficients()[1];
+    assert!(slope.contains(-1.0) && slope.contains(1.0), "{slope}");
+    let step = over(-0.001, 0.002).select(|| Series::from_f64(-1.0), Series::one).value();
+    assert!(step.contains(-1.0) && step.contains(1.0), "{step}");
+}
+
+fn square_of<T: Real>([x, ..]: [T; 3]) -> T {
+    x.square()
+}
+
+/// The slope of a square over a cell whose middle is not the vertex.
+#[test]
+fn a_slope_is_that_of_the_whole_cell() {
+    let cell = [Interval::new(-1.0, 3.0).unwrap(), Interval::ZERO, Interval::ZERO];
+    let slope = Margin::Slope { of: formula!(square_of), by: 0 }.over(&cell);
+    assert!(slope.contains(-2.0) && slope.contains(6.0), "{slope}");
+}
+
+/// A disturbance as large as the relay's level leaves the drag alone to brake.
+#[test]
+fn braking_by_drag_alone() {
+    let lost = theorem::BRAKING.margin.formula().unwrap();
+    for drag in [0.0, 0.3, 1.0] {
+        let at = [1.0, drag, 0.0].map(Interval::point);
+        assert_eq!((lost.interval)(at), Interval::point(-drag));
+    }
 }
 
 /// Zero with fourteen derivatives in the middle, a millionth at the ends.
@@ -307,11 +342,12 @@ fn a_zero_of_a_lower_order_is_not_divided_out() {
 fn certificates_need_a_multiplier_below_one() {
     let relay = selfosc::nonlinearity::RelayHysteresis::new(1.0, 0.3, 0.0).unwrap();
     let mut refused = 0;
-    for tenths in 50..160 {
-        let axis = DragAxis::linear(1.0, 10f64.powf(-0.1 * f64::from(tenths))).unwrap();
-        match certify(&axis, &relay) {
-            Ok(proof) => assert!(proof.enclosure.multiplier.upper() < 1.0, "{proof:?}"),
-            Err(_) => refused += 1,
+    for drag in (50..160).map(|tenths| 10f64.powf(-0.1 * f64::from(tenths))) {
+        for axis in [DragAxis::linear(1.0, drag), DragAxis::quadratic(1.0, drag), DragAxis::mixed(1.0, drag, drag)] {
+            match certify(&axis.unwrap(), &relay) {
+                Ok(proof) => assert!(proof.enclosure.multiplier.upper() < 1.0, "{proof:?}"),
+                Err(_) => refused += 1,
+            }
         }
     }
     assert!(refused > 0);

@@ -42,13 +42,23 @@ fn the_ideal_relay_starts_on_its_level() {
 /// switched before.
 #[test]
 fn a_cycle_with_an_earlier_switching_is_refused() {
-    let closed = closed(&[1.0], &[1.0, 0.1, 1.0], 0.0, 0.3);
-    let transfer = TransferFunction::new(&[1.0], &[1.0, 0.1, 1.0]).unwrap();
+    refused_where_it_switched_before(0.1, 0.3);
+}
+
+/// Of some such solutions the output is below the level half-way to the switching, and above it before.
+#[test]
+fn an_earlier_switching_beside_the_middle_is_seen() {
+    refused_where_it_switched_before(0.02, 0.5);
+}
+
+fn refused_where_it_switched_before(damping: f64, level: f64) {
+    let closed = closed(&[1.0], &[1.0, damping, 1.0], 0.0, level);
+    let transfer = TransferFunction::new(&[1.0], &[1.0, damping, 1.0]).unwrap();
     let plant = StateSpace::realise(&transfer).unwrap();
     let miss = |h: f64| {
         let flow = plant.flow(h);
         let matrix = nalgebra::DMatrix::identity(2, 2) + &flow.state;
-        -0.3 - plant.output(&matrix.lu().solve(&-flow.input).unwrap())
+        -level - plant.output(&matrix.lu().solve(&-flow.input).unwrap())
     };
     let genuine: Vec<f64> = closed.symmetric_orbits(0.5..=60.0).unwrap().iter().map(|o| 0.5 * o.period_s()).collect();
     let (mut refused, mut proved) = (0, 0);
@@ -70,6 +80,14 @@ fn a_cycle_with_an_earlier_switching_is_refused() {
         assert_eq!(closed.certify(low).is_ok(), expected, "half-period {low}");
     }
     assert!(proved >= 1 && refused >= 2, "{proved} proved, {refused} refused");
+}
+
+/// All of this half-period that is not within a quarter of the passage of the level lies after it, and is looked at.
+#[test]
+fn the_output_after_the_passage_is_looked_at() {
+    let closed = closed(&[1.0], &[1.0, 1.0], 5.0, 0.01);
+    let orbit = &closed.symmetric_orbits(5.2..=100.0).unwrap()[0];
+    assert!(closed.certify(0.5 * orbit.period_s()).unwrap().cells > 0);
 }
 
 #[test]

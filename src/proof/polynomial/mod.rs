@@ -132,8 +132,16 @@ mod tests {
         assert!(!holds([1.0], |[a]| Some([number(f64::NAN) * a * number(0.0)])));
         assert!(!holds([0.0], |[a]| Some([a / (a - a) - a / (a - a)])));
         assert!(!holds([1.0], |[_]| None::<[Rational; 1]>));
+        // So does what a root's square leaves: below the range each by itself.
+        let beyond = |[a]: [Rational; 1]| {
+            let large = number(f64::from(1 << 30));
+            let root = (large * large * a + number(1.0)).sqrt();
+            Some([large * large * large * root * root + a])
+        };
+        assert!(!holds([1.0], beyond));
         // A comparison that is too close at the point decides nothing.
-        assert!(!holds([0.0], |[a]| Some([a.abs() - a])));
+        assert!(!holds([0.0], |[a]| Some([a.abs() - a])) && !holds([0.0], |[a]| Some([a.abs() + a])));
+        assert!(!holds([1e-20], |[a]| Some([a.abs() - a])));
     }
 
     /// Functions known by value and slope at a point are no formulas: their tangent must not pass for them.
