@@ -6,13 +6,17 @@
 //! structural parameters are those of the predictor with the gain as it is (Ljung 1999, section 10.2: what a change of the
 //! gain adds has expectation zero); with respect to the noise they are complete for the motion as linearised.
 
+mod pass;
+mod transition;
+
 use super::actuator::{Actuator, Force, Stop};
 use super::model::{Model, Noise, Parameter};
 use super::motion::{Dynamics, Point, Step};
 use super::observations::Observations;
+use pass::{NOISES, STRUCTURE};
+pub(super) use pass::{Innovation, Pass, Score};
+use transition::{FILTERED, SensorFilter, Square, Transition, Vector, add};
 
-const STRUCTURE: usize = Parameter::COUNT;
-const NOISES: usize = Noise::COUNT;
 /// Parts of the record whose scores are kept apart.
 pub(super) const PARTS: usize = 8;
 /// The longest step, in time constants of the motion.
@@ -20,161 +24,8 @@ const LONGEST_STEP: f64 = 0.3;
 /// Steps per sample beyond which a motion is faster than the record can show.
 const MOST_STEPS: f64 = 12.0;
 
-/// Position, velocity, process force, coloured error, and the filtered position where the sensor filters.
-type Vector<const N: usize> = [f64; N];
-type Square<const N: usize> = [[f64; N]; N];
-/// Place of the filtered position.
-const FILTERED: usize = 4;
 /// Speed within which Coulomb friction changes its sign, in parts of the highest.
 const CREEP: f64 = 0.04;
-
-/// Error of a prediction of one step, and its variance.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Innovation {
-    pub(super) error: f64,
-    pub(super) variance: f64,
-}
-
-impl Innovation {
-    /// The error in standard deviations.
-    pub(super) fn standardised(self) -> f64 {
-        self.error / self.variance.sqrt()
-    }
-}
-
-/// Gradient of the log-likelihood and Fisher's information.
-#[derive(Clone, Debug)]
-pub(super) struct Score {
-    pub(super) structure: [f64; STRUCTURE],
-    pub(super) structure_information: [[f64; STRUCTURE]; STRUCTURE],
-    pub(super) noise: [f64; NOISES],
-    pub(super) noise_information: [[f64; NOISES]; NOISES],
-}
-
-impl Score {
-    fn zero() -> Self {
-        Self {
-            structure: [0.0; STRUCTURE],
-            structure_information: [[0.0; STRUCTURE]; STRUCTURE],
-            noise: [0.0; NOISES],
-            noise_information: [[0.0; NOISES]; NOISES],
-        }
-    }
-
-    fn add(&mut self, other: &Self) {
-        for i in 0..STRUCTURE {
-            self.structure[i] += other.structure[i];
-            for j in 0..STRUCTURE {
-                self.structure_information[i][j] += other.structure_information[i][j];
-            }
-        }
-        for i in 0..NOISES {
-            self.noise[i] += other.noise[i];
-            for j in 0..NOISES {
-                self.noise_information[i][j] += other.noise_information[i][j];
-            }
-        }
-    }
-}
-
-/// One run through the record.
-#[derive(Clone, Debug)]
-pub(super) struct Pass {
-    pub(super) log_likelihood: f64,
-    /// One per sample from [`Observations::first`] on.
-    pub(super) innovations: Vec<Innovation>,
-    /// Scores of consecutive parts of the record; empty where no derivatives were asked for.
-    pub(super) parts: Vec<Score>,
-}
-
-impl Pass {
-    pub(super) fn score(&self) -> Score {
-        let mut sum = Score::zero();
-        for part in &self.parts {
-            sum.add(part);
-        }
-        sum
-    }
-}
-
-/// Transition of the states over a step.
-#[derive(Clone, Copy)]
-struct Transition {
-    motion: [[f64; 2]; 2],
-    /// What a unit of process force makes of position and velocity.
-    by_force: [f64; 2],
-    force: f64,
-    colour: f64,
-    /// What position, velocity, process force and the filtered position itself make of the filtered position.
-    filtered: [f64; 4],
-}
-
-impl Transition {
-    fn apply<const N: usize>(&self, v: &Vector<N>) -> Vector<N> {
-        let mut next = [0.0; N];
-        next[0] = self.motion[0][0] * v[0] + self.motion[0][1] * v[1] + self.by_force[0] * v[2];
-        next[1] = self.motion[1][0] * v[0] + self.motion[1][1] * v[1] + self.by_force[1] * v[2];
-        next[2] = self.force * v[2];
-        next[3] = self.colour * v[3];
-        if N > FILTERED {
-            let [x, velocity, force, own] = self.filtered;
-            next[FILTERED] = x * v[0] + velocity * v[1] + force * v[2] + own * v[FILTERED];
-        }
-        next
-    }
-
-    /// `F P F'`.
-    fn turn<const N: usize>(&self, p: &Square<N>) -> Square<N> {
-        let mut half = [[0.0; N]; N];
-        for (row, values) in p.iter().enumerate() {
-            half[row] = self.apply(values);
-        }
-        let mut whole = [[0.0; N]; N];
-        for column in 0..N {
-            let column_of: Vector<N> = core::array::from_fn(|row| half[row][column]);
-            let turned = self.apply(&column_of);
-            for row in 0..N {
-                whole[row][column] = turned[row];
-            }
-        }
-        whole
-    }
-}
-
-/// A first-order filter over a step in which the position is the parabola through its beginning, middle and end: what is left
-/// of the filtered position, the weights of the three, and the derivatives of all with respect to the filter's time.
-#[derive(Clone, Copy)]
-struct SensorFilter {
-    kept: f64,
-    weights: [f64; 3],
-    kept_by_time: f64,
-    weights_by_time: [f64; 3],
-}
-
-impl SensorFilter {
-    fn new(time_s: f64, h_s: f64) -> Self {
-        let q = h_s / time_s;
-        let kept = (-q).exp();
-        // Moments of the weight exp(-(h - s) / time) / time over s / h, and their derivatives with respect to q.
-        let m0 = -(-q).exp_m1();
-        let m1 = 1.0 - m0 / q;
-        let m2 = 1.0 - 2.0 * m1 / q;
-        let (d0, d1) = (kept, (m0 - q * kept) / (q * q));
-        let d2 = -2.0 * (d1 - m1 / q) / q;
-        let parabola = |m0: f64, m1: f64, m2: f64| [m0 - 3.0 * m1 + 2.0 * m2, 4.0 * (m1 - m2), 2.0 * m2 - m1];
-        let by_time = -q / time_s;
-        Self {
-            kept,
-            weights: parabola(m0, m1, m2),
-            kept_by_time: -kept * by_time,
-            weights_by_time: parabola(d0, d1, d2).map(|weight| weight * by_time),
-        }
-    }
-
-    fn weighted(weights: &[f64; 3], positions: &[f64; 3]) -> f64 {
-        weights.iter().zip(positions).map(|(weight, position)| weight * position).sum()
-    }
-}
 
 /// The noise of the model as sizes.
 struct Sizes {
@@ -647,12 +498,4 @@ fn driven(
         step.begin_weight[1] * first + step.middle_weight[1] * second + step.end_weight * third,
         0.25 * h_s * h_s * (first / 3.0 + second / 6.0),
     ]
-}
-
-fn add<const N: usize>(sum: &mut Square<N>, term: &Square<N>) {
-    for (row, values) in term.iter().enumerate() {
-        for (column, value) in values.iter().enumerate() {
-            sum[row][column] += value;
-        }
-    }
 }
