@@ -36,6 +36,11 @@ pub fn document(found: &Identification) -> Document {
     let records = found.sources().iter().enumerate().map(|(index, source)| record_section(found, index, source));
     let methods = figures::interval_figure(found).map(|figure| Section {
         title: "Methods beside each other".to_owned(),
+        paragraphs: vec![
+            "A dot without a bar comes without an interval. The bars of the fits hold where their own drag law does; that of \
+             the answer also allows for what the record leaves open."
+                .to_owned(),
+        ],
         figures: vec![figure],
         ..Section::default()
     });
