@@ -13,7 +13,7 @@ use super::actuator::{Actuator, Force, Stop};
 use super::model::{Model, Noise, Parameter};
 use super::motion::{Dynamics, Point, Step};
 use super::observations::Observations;
-use pass::{NOISES, STRUCTURE};
+use pass::NOISES;
 pub(super) use pass::{Innovation, Pass, Score};
 use transition::{FILTERED, SensorFilter, Square, Transition, Vector, add};
 
