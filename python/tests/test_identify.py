@@ -127,7 +127,8 @@ def test_bounds_hold_the_truth():
 
 
 INTERRUPTED = """
-import sys, time, selfosc
+import signal, time, selfosc
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs begin with interrupts ignored
 record = selfosc.simulate(alpha=1, beta_quadratic=0.5, relay=1, half_width=0.3, cycles=400, rate=200, noise=0.01)
 print("ready", flush=True)
 try:
