@@ -133,6 +133,16 @@ fn identities_hold() -> bool {
     telescoping && steps && pairs
 }
 
+/// Bound of a solution of `d_phi^2 d = p^2 d - 2 p tan(phi) d_phi` over an angle `room`, from a value and a slope.
+fn most_within(p: Interval, value: Interval, slope: Interval, room: Interval) -> Interval {
+    (value + slope * room) * (p * room).exp()
+}
+
+/// Bound of the slope of a solution of `d_psi^2 d = 2 p coth(psi) d_psi - p^2 d` down to zero, from a value and a slope.
+fn steepest_beyond(p: Interval, value: Interval, slope: Interval) -> Interval {
+    (slope.square() + (p * value).square()).sqrt()
+}
+
 /// A power law and its closed form, made false unless the factor is one.
 struct Law {
     exponent: f64,
@@ -161,7 +171,7 @@ impl Law {
         let (u, [mean, sine]) = (number(INNER), self.difference(INNER, boxes)?.map(Interval::abs));
         let (room, cosine) = (u.acos(), ((Interval::ONE - u) * (Interval::ONE + u)).sqrt());
         let start = ((Interval::ONE + p) * sine + p * u * mean) / cosine;
-        let most = (mean + start * room) * (p * room).exp();
+        let most = most_within(p, mean, start, room);
         let sine = (start + p * most + p * most) / (Interval::ONE + p);
         Ok((most.hull(sine) / (Interval::ONE + u).pow(p)).magnitude())
     }
@@ -172,7 +182,7 @@ impl Law {
         let (u, [mean, sine]) = (number(OUTER), self.difference(OUTER, boxes)?.map(Interval::abs));
         let sinh = ((u - Interval::ONE) * (u + Interval::ONE)).sqrt();
         let start = ((Interval::ONE + p) * sine + p * u * mean) / sinh;
-        let slope = (start.square() + (p * mean).square()).sqrt();
+        let slope = steepest_beyond(p, mean, start);
         let most = mean + slope * (u + sinh).ln();
         let sine = (sinh * slope + p * u * most) / (Interval::ONE + p);
         Ok((most.hull(sine) / Interval::two().pow(p)).magnitude())
@@ -193,5 +203,55 @@ impl Law {
         *boxes += integral.cells;
         let [mean, sine] = self.closed(u)?;
         Ok([mean - integral.enclosure.f0, sine - integral.enclosure.p / Interval::two()])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{INNER, OUTER, most_within, number, steepest_beyond};
+
+    /// Values and slopes of a solution from one argument to another, by the classical Runge-Kutta method.
+    fn solution(bend: impl Fn(f64, [f64; 2]) -> f64, from: f64, to: f64, start: [f64; 2]) -> Vec<[f64; 2]> {
+        const STEPS: u32 = 20_000;
+        let h = (to - from) / f64::from(STEPS);
+        let rate = |x: f64, y: [f64; 2]| [y[1], bend(x, y)];
+        let ahead = |y: [f64; 2], h: f64, r: [f64; 2]| [y[0] + h * r[0], y[1] + h * r[1]];
+        let step = |y: &mut [f64; 2], k: u32| {
+            let x = from + h * f64::from(k);
+            let a = rate(x, *y);
+            let b = rate(x + 0.5 * h, ahead(*y, 0.5 * h, a));
+            let c = rate(x + 0.5 * h, ahead(*y, 0.5 * h, b));
+            let d = rate(x + h, ahead(*y, h, c));
+            *y = ahead(*y, h / 6.0, [0, 1].map(|i| a[i] + 2.0 * (b[i] + c[i]) + d[i]));
+            Some(*y)
+        };
+        (0..STEPS).scan(start, |y, k| step(y, k)).collect()
+    }
+
+    const STARTS: [[f64; 2]; 4] = [[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, -1.0]];
+
+    /// The steps by hand: solutions, integrated, stay below their bounds, and not below bounds without the growth.
+    #[test]
+    fn growth_is_bounded() {
+        let mut grown = 0;
+        for p in [0.5, 1.5, 2.5, 4.0] {
+            for start in STARTS {
+                let (from, to) = (INNER.asin(), core::f64::consts::FRAC_PI_2 - 1e-3);
+                let found = solution(|phi, [d, slope]| p * p * d - 2.0 * p * phi.tan() * slope, from, to, start);
+                let largest = found.iter().fold(0.0_f64, |most, y| most.max(y[0].abs()));
+                let [value, slope] = start.map(|x| number(x.abs()));
+                let room = number(INNER.acos());
+                assert!(largest <= most_within(number(p), value, slope, room).upper(), "{p} {start:?}: {largest}");
+                grown += usize::from(largest > (value + slope * room).upper());
+
+                let from = OUTER.acosh();
+                let found = solution(|psi, [d, slope]| 2.0 * p * slope / psi.tanh() - p * p * d, from, 1e-3, start);
+                let steepest = found.iter().fold(0.0_f64, |most, y| most.max(y[1].abs()));
+                let bound = steepest_beyond(number(p), value, slope).upper();
+                assert!(steepest <= bound * (1.0 + 1e-9), "{p} {start:?}: {steepest} {bound}");
+                grown += usize::from(steepest > slope.upper());
+            }
+        }
+        assert!(grown > 4, "{grown}");
     }
 }
