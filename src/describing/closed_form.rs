@@ -75,17 +75,24 @@ pub fn over_amplitudes<C: ClosedForm + ?Sized>(
 }
 
 /// The describing function, unless a number in it overflowed or is none. An unbounded interval is neither.
+#[inline]
 pub(super) fn finite<T: Real>(
     df: DescribingFunction<T>,
     sweep: &Sinusoid<T>,
 ) -> Result<DescribingFunction<T>, DescribingError> {
-    let fault =
-        [df.f0, df.p, df.q].into_iter().map(|part| part.bounds()).find(|(low, high)| !low.is_finite() && !(low < high));
-    match fault {
+    let undefined = |part: &T| {
+        let (low, high) = part.bounds();
+        !low.is_finite() && !(low < high)
+    };
+    match [df.f0, df.p, df.q].into_iter().find(undefined) {
         None => Ok(df),
-        Some((output, _)) => {
-            let input = if sweep.bias().bounds().0 < 0.0 { sweep.minimum() } else { sweep.maximum() };
-            Err(DescribingError::NotFinite { input: input.bounds().0, output })
-        }
+        Some(output) => Err(not_finite(output, sweep)),
     }
+}
+
+#[cold]
+#[inline(never)]
+fn not_finite<T: Real>(output: T, sweep: &Sinusoid<T>) -> DescribingError {
+    let input = if sweep.bias().bounds().0 < 0.0 { sweep.minimum() } else { sweep.maximum() };
+    DescribingError::NotFinite { input: input.bounds().0, output: output.bounds().0 }
 }

@@ -1,6 +1,6 @@
 //! Describing functions of many sweeps.
 
-use super::{Boxed, CatalogueError, DescribingError, DescribingFunction, Entry};
+use super::{CatalogueError, ClosedForm, DescribingError, DescribingFunction, Entry};
 use crate::nonlinearity::{
     Absolute, Backlash, Catalogued, DeadZone, DeadZoneSaturation, GainChanging, Preload, Relay, RelayDeadZone,
     RelayDeadZoneHysteresis, RelayHysteresis, Saturation, SaturationAsymmetric, Sinusoid,
@@ -35,34 +35,58 @@ impl Entry {
         [f0, p, q]: [&mut [f64]; 3],
     ) -> Result<(), E> {
         let characteristic = self.build::<f64>(values)?;
-        let one = |place| {
-            let (bias, amplitude) = sweep(place);
+        let one = |bias, amplitude| {
             let sweep = Sinusoid::new(bias, amplitude).map_err(DescribingError::from)?;
             characteristic.describing_function(&sweep).or_else(&undefined)
         };
         let together = self.in_lanes(values);
-        let several = |from: usize| {
-            let sweeps: [_; Lanes::COUNT] = core::array::from_fn(|lane| sweep(from + lane));
-            let sweep = Sinusoid::new(Lanes::from_fn(|lane| sweeps[lane].0), Lanes::from_fn(|lane| sweeps[lane].1));
-            together.as_ref()?.describing_function(&sweep.ok()?).ok()
-        };
-        let columns = f0.chunks_mut(Lanes::COUNT).zip(p.chunks_mut(Lanes::COUNT)).zip(q.chunks_mut(Lanes::COUNT));
-        for (block, ((f0, p), q)) in columns.enumerate() {
-            let from = block * Lanes::COUNT;
-            let full = [&f0, &p, &q].iter().all(|column| column.len() == Lanes::COUNT);
-            // What is refused for one of several sweeps is looked at one by one.
-            if let Some(df) = full.then(|| several(from)).flatten() {
-                for (column, part) in [(f0, df.f0), (p, df.p), (q, df.q)] {
-                    column.copy_from_slice(&part.values());
-                }
-                continue;
+        let count = f0.len().min(p.len()).min(q.len());
+        let (mut biases, mut amplitudes) = ([0.0; BLOCK], [0.0; BLOCK]);
+        for from in (0..count).step_by(BLOCK) {
+            let size = BLOCK.min(count - from);
+            for place in 0..size {
+                (biases[place], amplitudes[place]) = sweep(from + place);
             }
-            for (lane, ((f0, p), q)) in f0.iter_mut().zip(p).zip(q).enumerate() {
-                let df = one(from + lane)?;
-                (*f0, *p, *q) = (df.f0, df.p, df.q);
+            let mut done = 0;
+            while done < size {
+                let rest = from + done..from + size;
+                let columns = [&mut f0[rest.clone()], &mut p[rest.clone()], &mut q[rest]];
+                let filled = |group: &dyn Group| group.fill(&biases[done..size], &amplitudes[done..size], columns);
+                done += together.as_deref().map_or(0, filled);
+                // What is refused for one of several sweeps is looked at one by one, and so are the last.
+                let alone = done..size.min(done + Lanes::COUNT);
+                for place in alone {
+                    let df = one(biases[place], amplitudes[place])?;
+                    (f0[from + place], p[from + place], q[from + place]) = (df.f0, df.p, df.q);
+                }
+                done += Lanes::COUNT;
             }
         }
         Ok(())
+    }
+}
+
+/// Sweeps whose biases and amplitudes are looked up before they are evaluated.
+const BLOCK: usize = 64;
+
+/// A characteristic over several sweeps side by side.
+trait Group {
+    /// Fills the columns up to the first sweeps that are refused, or to the last that are too few; returns how many are filled.
+    fn fill(&self, biases: &[f64], amplitudes: &[f64], columns: [&mut [f64]; 3]) -> usize;
+}
+
+impl<C: ClosedForm<Number = Lanes>> Group for C {
+    fn fill(&self, biases: &[f64], amplitudes: &[f64], [f0, p, q]: [&mut [f64]; 3]) -> usize {
+        let sweeps = biases.as_chunks().0.iter().zip(amplitudes.as_chunks().0);
+        let columns = f0.as_chunks_mut().0.iter_mut().zip(p.as_chunks_mut().0).zip(q.as_chunks_mut().0);
+        let mut filled = 0;
+        for ((bias, amplitude), ((f0, p), q)) in sweeps.zip(columns) {
+            let Ok(sweep) = Sinusoid::new(Lanes::new(*bias), Lanes::new(*amplitude)) else { break };
+            let Ok(df) = self.describing_function(&sweep) else { break };
+            (*f0, *p, *q) = (df.f0.values(), df.p.values(), df.q.values());
+            filled += Lanes::COUNT;
+        }
+        filled
     }
 }
 
@@ -70,7 +94,7 @@ impl Entry {
 macro_rules! in_lanes {
     ($($type:ident),+ $(,)?) => {
         impl Entry {
-            fn in_lanes(&self, values: &[f64]) -> Option<Boxed<Lanes>> {
+            fn in_lanes(&self, values: &[f64]) -> Option<Box<dyn Group>> {
                 let values: Vec<_> = values.iter().map(|&value| Lanes::from_f64(value)).collect();
                 $(
                     if self.name == <$type<Lanes> as Catalogued<Lanes>>::NAME {

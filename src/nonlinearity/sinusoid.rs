@@ -19,6 +19,7 @@ impl<T: Real> Sinusoid<T> {
     /// assert!(Sinusoid::new(0.1, 1.0).is_ok());
     /// assert!(Sinusoid::new(0.1, -1.0).is_err());
     /// ```
+    #[inline]
     pub fn new(bias: T, amplitude: T) -> Result<Self, NonlinearityError> {
         checked_amplitude(amplitude)?;
         let remedy = "give the bias B of x = B + X sin(theta)";
@@ -49,6 +50,7 @@ impl<T: Real> Sinusoid<T> {
 }
 
 /// The amplitude, where a sinusoid can have it.
+#[inline]
 pub(crate) fn checked_amplitude<T: Real>(amplitude: T) -> Result<T, OutOfDomain> {
     let remedy = "give the amplitude X of x = B + X sin(theta)";
     domain::require("amplitude", amplitude, "input units", Limit::Positive, remedy)

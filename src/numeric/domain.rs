@@ -53,6 +53,7 @@ pub enum Limit {
 
 impl Limit {
     /// Whether the value, or all of an interval, is finite and within the limit. What takes words is for the caller to check.
+    #[inline]
     pub(crate) fn holds<T: Real>(self, value: T) -> bool {
         let (lower, upper) = value.bounds();
         let inside = match self {
@@ -108,6 +109,7 @@ impl fmt::Display for Unit<'_> {
 }
 
 /// The value, where `inside` is true and `limit` holds.
+#[inline]
 pub(crate) fn require_that<T: Real>(
     inside: bool,
     quantity: &'static str,
@@ -116,13 +118,23 @@ pub(crate) fn require_that<T: Real>(
     limit: Limit,
     remedy: &'static str,
 ) -> Result<T, OutOfDomain> {
-    if inside && limit.holds(value) {
-        return Ok(value);
-    }
-    Err(OutOfDomain { quantity, value: value.bounds().0, unit, limit, remedy })
+    if inside && limit.holds(value) { Ok(value) } else { Err(outside(quantity, value, unit, limit, remedy)) }
+}
+
+#[cold]
+#[inline(never)]
+fn outside<T: Real>(
+    quantity: &'static str,
+    value: T,
+    unit: &'static str,
+    limit: Limit,
+    remedy: &'static str,
+) -> OutOfDomain {
+    OutOfDomain { quantity, value: value.bounds().0, unit, limit, remedy }
 }
 
 /// The value, where `limit` holds.
+#[inline]
 pub(crate) fn require<T: Real>(
     quantity: &'static str,
     value: T,

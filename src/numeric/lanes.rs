@@ -1,7 +1,13 @@
 //! Several floats side by side: what they have in common is decided once, and the processor works on them together.
 
+mod circular;
+#[cfg(test)]
+mod tests;
+
 use core::array;
 use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use wide::f64x4;
 
 use super::Real;
 use super::real::own_sine_series;
@@ -12,91 +18,88 @@ use super::real::own_sine_series;
 /// not a number where one of them is not finite: a check that passes has passed for each. A formula that branches on them
 /// otherwise is none for this arithmetic.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lanes([f64; Lanes::COUNT]);
+pub(crate) struct Lanes(f64x4);
 
 impl Lanes {
     /// More keep no more of the processor busy and disagree more often.
     pub(crate) const COUNT: usize = 4;
 
-    #[inline]
-    pub(crate) fn from_fn(value: impl FnMut(usize) -> f64) -> Self {
-        Self(array::from_fn(value))
+    #[inline(always)]
+    pub(crate) fn new(values: [f64; Self::COUNT]) -> Self {
+        Self(f64x4::new(values))
     }
-    #[inline]
+    #[inline(always)]
     pub(crate) fn values(self) -> [f64; Self::COUNT] {
-        self.0
+        self.0.to_array()
     }
 
+    /// One after the other.
     #[inline(always)]
-    fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        Self(self.0.map(f))
-    }
-    #[inline(always)]
-    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        let mut values = self.0;
-        for (value, other) in values.iter_mut().zip(other.0) {
-            *value = f(*value, other);
-        }
-        Self(values)
+    fn each(self, f: impl Fn(f64) -> f64) -> Self {
+        Self::new(self.values().map(f))
     }
 
     /// Each lane from the side that its answer selects.
     #[inline(always)]
     fn decide<const N: usize>(
-        answers: [bool; Self::COUNT],
+        answers: f64x4,
         below: impl FnOnce() -> [Self; N],
         above: impl FnOnce() -> [Self; N],
     ) -> [Self; N] {
-        match answers.iter().filter(|&&answer| answer).count() {
-            0 => return below(),
-            Self::COUNT => return above(),
-            _ => {}
+        if answers.all() {
+            return above();
         }
         let mut chosen = below();
-        for (chosen, above) in chosen.iter_mut().zip(above()) {
-            for ((value, above), answer) in chosen.0.iter_mut().zip(above.0).zip(answers) {
-                *value = if answer { above } else { *value };
+        if answers.any() {
+            for (below, above) in chosen.iter_mut().zip(above()) {
+                below.0 = answers.select(above.0, below.0);
             }
         }
         chosen
     }
 }
 
-macro_rules! lane_by_lane {
+macro_rules! side_by_side {
     ($($trait:ident::$method:ident),+) => { $(
         impl $trait for Lanes {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                self.zip(other, $trait::$method)
+                Self($trait::$method(self.0, other.0))
             }
         }
     )+ };
 }
-lane_by_lane!(Add::add, Sub::sub, Mul::mul, Div::div);
+side_by_side!(Add::add, Sub::sub, Mul::mul, Div::div);
 
 impl Neg for Lanes {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        self.map(Neg::neg)
+        Self(-self.0)
     }
 }
 
-/// Functions of one float, one after the other.
 macro_rules! one_by_one {
     ($($method:ident),+) => { $(
         #[inline(never)]
         fn $method(self) -> Self {
-            self.map(<f64 as Real>::$method)
+            self.each(Real::$method)
         }
     )+ };
+}
+
+impl Lanes {
+    #[inline(never)]
+    fn asin_of_each(self) -> Self {
+        self.each(Real::asin)
+    }
 }
 
 impl Real for Lanes {
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
-        Self([value; Self::COUNT])
+        Self(f64x4::splat(value))
     }
     #[inline(always)]
     fn pi() -> Self {
@@ -106,37 +109,50 @@ impl Real for Lanes {
     fn inverse_pi() -> Self {
         Self::from_f64(f64::inverse_pi())
     }
-    #[inline]
+    #[inline(always)]
     fn bounds(self) -> (f64, f64) {
-        if self.0.iter().any(|value| !value.is_finite()) {
+        // Zero times a finite number is zero, times another none.
+        if !(self.0 * 0.0).simd_eq(f64x4::splat(0.0)).all() {
             return (f64::NAN, f64::NAN);
         }
-        (self.0.into_iter().fold(f64::INFINITY, Real::min), self.0.into_iter().fold(f64::NEG_INFINITY, Real::max))
+        let [a, b, c, d] = self.values();
+        (Real::min(Real::min(a, b), Real::min(c, d)), Real::max(Real::max(a, b), Real::max(c, d)))
     }
-    #[inline]
+    #[inline(always)]
     fn vanishes(self) -> bool {
-        self.0.into_iter().all(Real::vanishes)
+        self.0.simd_eq(f64x4::splat(0.0)).all()
     }
     #[inline(always)]
     fn abs(self) -> Self {
-        self.map(f64::abs)
+        Self(self.0.abs())
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        self.zip(other, Real::min)
+        Self(other.0.simd_lt(self.0).select(other.0, self.0))
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        self.zip(other, Real::max)
+        Self(other.0.simd_gt(self.0).select(other.0, self.0))
     }
     /// The processor's: any square root is rounded correctly.
     #[inline(always)]
     fn sqrt(self) -> Self {
-        self.map(f64::sqrt)
+        Self(self.0.sqrt())
     }
-    one_by_one!(sin, cos, tan, asin, acos, atan, exp, exp_m1, ln, ln_1p, sinh, cosh, tanh, atanh, floor);
+    /// Formulas ask for it near zero, where all go together.
+    #[inline(always)]
+    fn asin(self) -> Self {
+        let near = self.0.abs().simd_lt(f64x4::splat(0.5)).all();
+        if near { Self(circular::asin_below_half(self.0)) } else { self.asin_of_each() }
+    }
+    #[inline(always)]
+    fn atan(self) -> Self {
+        Self(circular::atan(self.0))
+    }
+    one_by_one!(sin, cos, tan, acos, exp, exp_m1, ln, ln_1p, sinh, cosh, tanh, atanh, floor);
     fn pow(self, exponent: Self) -> Self {
-        self.zip(exponent, Real::pow)
+        let (values, exponents) = (self.values(), exponent.values());
+        Self::new(array::from_fn(|lane| values[lane].pow(exponents[lane])))
     }
     #[inline(always)]
     fn select_all<const N: usize>(
@@ -144,7 +160,7 @@ impl Real for Lanes {
         below: impl FnOnce() -> [Self; N],
         above: impl FnOnce() -> [Self; N],
     ) -> [Self; N] {
-        Self::decide(self.0.map(|value| value > 0.0), below, above)
+        Self::decide(self.0.simd_gt(f64x4::splat(0.0)), below, above)
     }
     #[inline(always)]
     fn inflate(self, _: f64) -> Self {
@@ -152,7 +168,8 @@ impl Real for Lanes {
     }
     #[inline(always)]
     fn minus_own_sine(self, sine: Self) -> Self {
-        let [difference] = Self::decide(self.0.map(|value| value >= 1.0), || [own_sine_series(self)], || [self - sine]);
+        let from_one = self.0.simd_ge(f64x4::splat(1.0));
+        let [difference] = Self::decide(from_one, || [own_sine_series(self)], || [self - sine]);
         difference
     }
 }

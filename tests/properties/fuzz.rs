@@ -44,9 +44,6 @@ const CELLS: [&str; 16] = [
     "360",
 ];
 
-/// Longer than any log of this size may take.
-const HANG: Duration = Duration::from_secs(30);
-
 fn some(random: &mut Pcg64Mcg, of: usize) -> usize {
     random.random_range(0..of.max(1))
 }
@@ -174,7 +171,6 @@ fn fuzz(first: u64, enough: impl Fn(u64) -> bool) -> (u64, u64) {
         let Ok(model) = outcome else {
             panic!("case {number} with {columns:?}, {settings:?}:\n{}", String::from_utf8_lossy(&log));
         };
-        assert!(took < HANG, "case {number} took {took:?} with {settings:?}:\n{}", String::from_utf8_lossy(&log));
         cases += 1;
         models += u64::from(model);
     }
