@@ -35,7 +35,11 @@ impl<C: PiecewiseLinear> ClosedForm for C {
     ) -> Result<DescribingFunction<C::Number>, DescribingError> {
         self.periodic(sweep)?;
         let mut sum = DescribingFunction::zero();
-        self.kernels(sweep, |kernel| sum = sum + DescribingFunction::of(kernel, sweep));
+        self.kernels(
+            sweep,
+            #[inline(always)]
+            |kernel| sum = sum + DescribingFunction::of(kernel, sweep),
+        );
         finite(sum, sweep)
     }
 }

@@ -1,6 +1,6 @@
 //! One HTML file with everything in it.
 
-use super::table::escaped_html;
+use super::table::{escaped_html, prose_html};
 use super::{Figure, ReportError, Table};
 
 /// Text, tables and figures under one heading.
@@ -105,8 +105,7 @@ impl Document {
 
 impl Section {
     fn html(&self, place: usize) -> Result<String, ReportError> {
-        let paragraphs: String =
-            self.paragraphs.iter().map(|text| format!("<p>{}</p>\n", escaped_html(text))).collect();
+        let paragraphs: String = self.paragraphs.iter().map(|text| format!("<p>{}</p>\n", prose_html(text))).collect();
         let tables: String =
             self.tables.iter().map(|table| format!("<div class=\"wide\">\n{}</div>\n", table.html())).collect();
         let figures: String = self

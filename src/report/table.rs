@@ -234,7 +234,7 @@ impl Table {
             format!("<tr>{}</tr>\n", cells.collect::<String>())
         };
         let body: String = self.rows.iter().map(row).collect();
-        let notes: String = self.notes.iter().map(|note| format!("<p>{}</p>\n", escaped_html(note))).collect();
+        let notes: String = self.notes.iter().map(|note| format!("<p>{}</p>\n", prose_html(note))).collect();
         let title = escaped_html(&self.title);
         let table = format!("<table>\n<caption>{title}</caption>\n<tr>{heading}</tr>\n{body}</table>\n");
         if self.rows.len() > LONG {
@@ -256,6 +256,23 @@ pub(super) fn escaped_html(text: &str) -> String {
     escaped.replace("^2", "\u{b2}").replace("^3", "\u{b3}")
 }
 
+/// [`escaped_html`] of sentences: `5e-3` with its power of ten.
+pub(super) fn prose_html(text: &str) -> String {
+    let escaped = escaped_html(text);
+    let mut parts = escaped.split("e-");
+    let mut shown = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let digits = part.find(|c: char| !c.is_ascii_digit()).unwrap_or(part.len());
+        if digits > 0 && shown.ends_with(|c: char| c.is_ascii_digit()) {
+            let (exponent, rest) = part.split_at(digits);
+            shown += &format!("\u{b7}10<sup>\u{2212}{exponent}</sup>{rest}");
+        } else {
+            shown += &format!("e-{part}");
+        }
+    }
+    shown
+}
+
 fn escaped_latex(text: &str) -> String {
     let escape = |c: char| match c {
         '&' | '%' | '$' | '#' | '_' | '{' | '}' => format!("\\{c}"),
@@ -265,4 +282,18 @@ fn escaped_latex(text: &str) -> String {
         other => other.to_string(),
     };
     text.chars().map(escape).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::prose_html;
+
+    #[test]
+    fn small_numbers_in_sentences_have_powers_of_ten() {
+        let shown = prose_html("alpha is 5.69e-4 & the rate-limit of one-1 is at 1e-03.");
+        assert_eq!(
+            shown,
+            "alpha is 5.69\u{b7}10<sup>\u{2212}4</sup> &amp; the rate-limit of one-1 is at 1\u{b7}10<sup>\u{2212}03</sup>."
+        );
+    }
 }
