@@ -12,6 +12,11 @@ pub(super) struct Command {
 }
 
 impl Command {
+    /// Levels, and the first and last instant of each switching between two of them.
+    pub(super) fn new(levels: Vec<f64>, spans: Vec<(f64, f64)>) -> Self {
+        Self { levels, spans }
+    }
+
     /// The command of a record: switching with the sample that has the new value, or `anywhere` since the one before.
     pub(super) fn of(record: &Record, anywhere: bool) -> Self {
         let (time, input) = (record.time_s(), record.input());
@@ -23,6 +28,11 @@ impl Command {
             }
         }
         Self { levels, spans }
+    }
+
+    /// First and last instant of each switching.
+    pub(super) fn spans(&self) -> &[(f64, f64)] {
+        &self.spans
     }
 
     /// Number of switchings.

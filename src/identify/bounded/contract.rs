@@ -1,14 +1,18 @@
 //! One pass of contraction: the readings as linear inequalities over a box, and what they leave of each unknown.
 
+use serde::{Deserialize, Serialize};
+
 use super::field::Term;
 use super::lp::{Multipliers, Outcome, Programme, Rows};
 use super::problem::{Layout, Readings};
 use super::step::{Fields, Pair};
 use super::trajectory::{By, Drive, Node, Unknowns, follow};
-use crate::numeric::Interval;
+use super::weak::Hat;
+use crate::numeric::{Interval, Real};
 
 /// What stands behind a row.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(super) enum Origin {
     /// The reading of a sample: the output must not be above, or not below, what it allows.
     Reading { window: usize, sample: usize, above: bool },
@@ -18,8 +22,8 @@ pub(super) enum Origin {
     Disturbance { record: usize, above: bool },
     /// Linear drag has its least coefficient.
     LeastLinear,
-    /// A hat's equation: not more, or not less, than the readings allow.
-    Hat { record: usize, hat: usize, above: bool },
+    /// The equation weighed with the hat at these samples: not more, or not less, than the readings allow.
+    Hat { record: usize, samples: Hat, above: bool },
 }
 
 /// The readings over a box, linearised.
@@ -68,6 +72,20 @@ impl Model<'_> {
     pub(super) fn outputs(&self, span: Span, centre: &[f64]) -> Option<Vec<Interval>> {
         let at: Vec<Interval> = centre.iter().map(|value| Interval::point(*value)).collect();
         Some(self.follow(span, &at, centre, &[], &[])?.iter().map(|node| node.at[0]).collect())
+    }
+
+    /// Upper bound of the largest misfit of one point over a span of windows, in largest errors. `None` where its motion cannot
+    /// be enclosed.
+    pub(super) fn misfit(&self, span: Span, centre: &[f64]) -> Option<f64> {
+        let stretch = self.layout.windows()[span.from];
+        let readings = &self.records[stretch.record];
+        let error = Interval::point(readings.error);
+        // A stamp's error is granted to no witness.
+        let misfits = self.outputs(span, centre)?.into_iter().zip(&readings.value[stretch.first..]);
+        Some(misfits.fold(0.0, |largest, (output, reading)| {
+            let misfit = (output - Interval::point(*reading)).abs() / error;
+            largest.max(misfit.upper())
+        }))
     }
 
     fn follow(

@@ -52,7 +52,7 @@ impl Division {
 
 impl Search<'_> {
     /// Divides a box at a parameter: the gain, whose orders of magnitude count, at the geometric mean.
-    fn divide(&self, at: &[Interval], unknown: usize) -> Option<[Vec<Interval>; 2]> {
+    pub(super) fn divide(&self, at: &[Interval], unknown: usize) -> Option<[Vec<Interval>; 2]> {
         let side = at[unknown];
         let positive = side.lower() > 0.0;
         let orders = matches!(self.setup.layout.terms().get(unknown), Some(Term::Gain | Term::LagRate));

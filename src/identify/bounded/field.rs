@@ -1,9 +1,12 @@
 //! The model's equation of motion over boxes of parameters, with its derivatives.
 
+use serde::{Deserialize, Serialize};
+
 use crate::numeric::{Interval, Real};
 
 /// Terms of the acceleration, one parameter each: it is linear in every one of them but the lag's rate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(super) enum Term {
     /// `1/alpha`, times the force.
     Gain,

@@ -20,6 +20,7 @@ mod field;
 mod lp;
 mod problem;
 mod report;
+mod rows;
 mod search;
 mod settings;
 mod setup;
@@ -29,6 +30,8 @@ mod trajectory;
 mod weak;
 mod witness;
 
+internal! { mod certificate; }
+
 #[cfg(test)]
 mod tests;
 
@@ -37,6 +40,8 @@ pub use settings::{BoundedModel, DelayBound, SwitchedWhen};
 
 use super::IdentifyError;
 use crate::experiment::Record;
+use crate::numeric::Interval;
+use certificate::{Certificate, Unproved, Witness};
 use divide::Division;
 use report::Answer;
 use search::Search;
@@ -71,7 +76,38 @@ const GOOD: f64 = 0.95;
 /// [`IdentifyError::OutOfDomain`] for settings that are none, a record without a switching, and a sensor without an error.
 pub fn enclose(records: &[&Record], settings: &BoundedModel) -> Result<Bounds, IdentifyError> {
     let setup = Setup::new(records, settings)?;
-    let mut search = Search::new(&setup);
+    Ok(explore(&setup, settings, |_| ())?.bounds)
+}
+
+/// The same with the proof in a form that is checked without a search.
+///
+/// # Errors
+/// Those of [`enclose`]; and, within, [`certificate::Unproved::NotFound`] where a proof takes too many steps.
+pub fn enclose_with_certificate(
+    records: &[&Record],
+    settings: &BoundedModel,
+) -> Result<(Bounds, Result<Certificate, Unproved>), IdentifyError> {
+    let setup = Setup::new(records, settings)?;
+    let mut witness = None;
+    let explored = explore(&setup, settings, |found| witness = found)?;
+    let certificate = Certificate::prove(&setup, settings, &explored.hulls, witness);
+    Ok((explored.bounds, certificate?))
+}
+
+/// What a search gave.
+struct Explored {
+    bounds: Bounds,
+    /// The box around what was left, and that around what more readings left of it; none for nothing.
+    hulls: Vec<Option<Vec<Interval>>>,
+}
+
+/// The search; `witness` is told of one that was found.
+fn explore(
+    setup: &Setup,
+    settings: &BoundedModel,
+    witness: impl FnOnce(Option<Witness>),
+) -> Result<Explored, IdentifyError> {
+    let mut search = Search::new(setup);
     let division = search.search(setup.search.clone(), settings.budget);
     let passes = search.passes;
     // A delay that is known better leaves more readings.
@@ -80,13 +116,21 @@ pub fn enclose(records: &[&Record], settings: &BoundedModel) -> Result<Bounds, I
         let mut search = Search::new(&narrowed);
         search.passes = passes;
         let division = search.search(narrowed.search.clone(), settings.budget);
-        return Ok(conclude(&setup, search, division, settings));
+        let (bounds, last) = conclude(setup, search, division, settings, witness);
+        return Ok(Explored { bounds, hulls: vec![Some(hull), last] });
     }
-    Ok(conclude(&setup, search, division, settings))
+    let (bounds, hull) = conclude(setup, search, division, settings, witness);
+    Ok(Explored { bounds, hulls: vec![hull] })
 }
 
 /// The answer, from what division left; `wide` is where the search began.
-fn conclude(wide: &Setup, mut search: Search<'_>, mut division: Division, settings: &BoundedModel) -> Bounds {
+fn conclude(
+    wide: &Setup,
+    mut search: Search<'_>,
+    mut division: Division,
+    settings: &BoundedModel,
+    witness: impl FnOnce(Option<Witness>),
+) -> (Bounds, Option<Vec<Interval>>) {
     let mut answer = Answer::default();
     answer.try_nearest(&mut search, &division);
     // Without a witness the parts may yet turn out empty.
@@ -103,5 +147,6 @@ fn conclude(wide: &Setup, mut search: Search<'_>, mut division: Division, settin
     if answer.witness().is_some() {
         answer.sharpen(&mut search, &mut division, settings.budget, GOOD);
     }
-    answer.into_bounds(wide, search, &division)
+    witness(answer.witness().map(|tried| Witness::of(&search, &tried.at)));
+    (answer.into_bounds(wide, search, &division), division.hull())
 }

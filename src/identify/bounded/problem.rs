@@ -42,6 +42,11 @@ impl Layout {
         Self { terms, delay, instants, windows }
     }
 
+    /// The same with the delay an unknown, or not.
+    pub(super) fn with_delay(self, delay: bool) -> Self {
+        Self { delay, ..self }
+    }
+
     pub(super) fn terms(&self) -> &[Term] {
         &self.terms
     }
@@ -82,6 +87,23 @@ impl Layout {
     /// Component of the state at the beginning of a window.
     pub(super) fn start(&self, window: usize, component: usize) -> usize {
         self.parameters() + window * self.state_size() + component
+    }
+
+    /// The state at every window's beginning as far as the reading there tells, while no speed exceeds `fastest`.
+    pub(super) fn states(&self, records: &[Readings], fastest: f64) -> Vec<Interval> {
+        let mut states = Vec::with_capacity(self.windows.len() * self.state_size());
+        for window in &self.windows {
+            let readings = &records[window.record];
+            let stray = (Interval::point(readings.jitter_s) * Interval::point(fastest)).upper();
+            let error = (Interval::point(readings.error) + Interval::point(stray)).upper();
+            states.push(Interval::point(readings.value[window.first]) + Interval::symmetric(error));
+            states.push(Interval::symmetric(fastest));
+            if self.lagged() {
+                // A lag keeps the force among the commands.
+                states.push(Interval::symmetric(readings.command.largest()));
+            }
+        }
+        states
     }
 
     /// For one window: what its derivatives are by, and where each stands in a box.

@@ -1,10 +1,10 @@
 //! Contraction of one box until nothing helps.
 
-use super::contract::{Linear, Model, Pass, Span};
+use super::contract::{Linear, Model, Pass};
 use super::field::Term;
 use super::lp::Multipliers;
+use super::rows::Parted;
 use super::setup::Setup;
-use super::trajectory::Node;
 use super::weak::{Hat, hats};
 use crate::numeric::Interval;
 
@@ -24,7 +24,7 @@ const MOST_PASSES: usize = 30;
 /// Passes over one slice at most.
 const FINE_PASSES: usize = 6;
 /// Records are followed as a whole where the slopes' ranges take less than this of the readings' error.
-const UNBROKEN: f64 = 1.0;
+pub(super) const UNBROKEN: f64 = 1.0;
 /// Passes by hats that cost as much as one of the motion.
 const WEIGHED_PER_PASS: usize = 12;
 
@@ -86,40 +86,19 @@ impl<'a> Search<'a> {
         self.setup.layout.parameters()
     }
 
-    /// Whole records, one span each.
-    pub(super) fn whole(&self) -> Vec<Span> {
-        let windows = self.setup.layout.windows();
-        let mut spans: Vec<Span> = Vec::new();
-        for (index, window) in windows.iter().enumerate() {
-            match spans.last_mut() {
-                Some(span) if windows[span.from].record == window.record => span.to = index + 1,
-                _ => spans.push(Span { from: index, to: index + 1 }),
-            }
-        }
-        spans
+    /// The inequalities by hats; speeds from the readings at the windows' beginnings go into the box. `None` where there is no motion.
+    pub(super) fn weighed(&self, at: &mut [Interval]) -> Option<Linear> {
+        self.model.weighed(&self.hats, at)
     }
 
     /// Speeds from the readings; those at the windows' beginnings go into the box. Then the hats.
     pub(super) fn weigh(&mut self, at: &mut [Interval]) -> Result<(), Empty> {
-        let nothing = || Empty { method: Method::Weigh, multipliers: Vec::new(), linear: None };
         self.weighed += 1;
         if self.weighed.is_multiple_of(WEIGHED_PER_PASS) {
             self.passes += 1;
         }
-        let layout = &self.setup.layout;
-        let mut linear = self.model.about(at, vec![0.0; at.len()]);
-        for (record, hats) in self.hats.iter().enumerate() {
-            let pushes = self.model.pushes(record, at, self.setup.fastest);
-            let speeds = self.model.speeds(record, at, &pushes, self.setup.fastest).ok_or_else(nothing)?;
-            if !self.model.travelled(record, &speeds) {
-                return Err(nothing());
-            }
-            for (index, window) in layout.windows().iter().enumerate().filter(|(_, window)| window.record == record) {
-                let place = layout.start(index, 1);
-                at[place] = at[place].intersection(speeds.at_samples[window.first]).ok_or_else(nothing)?;
-            }
-            self.model.weigh(record, hats, at, &speeds, &mut linear);
-        }
+        let weighed = self.weighed(at);
+        let mut linear = weighed.ok_or(Empty { method: Method::Weigh, multipliers: Vec::new(), linear: None })?;
         self.model.bound(&mut linear);
         let places: Vec<usize> = (0..self.parameters()).collect();
         match linear.contract(at, &places, &places) {
@@ -132,36 +111,8 @@ impl<'a> Search<'a> {
     /// one's beginning goes into the box. `None` where there is no enclosure.
     pub(super) fn chained(&mut self, at: &mut [Interval], centre: Vec<f64>) -> Result<Option<Linear>, Empty> {
         self.passes += 1;
-        let layout = &self.setup.layout;
-        let windows = layout.windows();
-        let mut linear = self.model.about(at, centre);
-        for index in 0..windows.len() {
-            let span = Span { from: index, to: index + 1 };
-            let Some(motion) = self.model.motion(span, at, &linear.centre) else { return Ok(None) };
-            let linked = windows.get(index + 1).is_some_and(|next| next.record == windows[index].record);
-            self.model.linearise(span, &motion, linked, &mut linear);
-            if linked {
-                self.carry(at, index + 1, &motion)?;
-                for component in 0..layout.state_size() {
-                    let place = layout.start(index + 1, component);
-                    linear.deviations[place] = at[place] - Interval::point(linear.centre[place]);
-                }
-            }
-        }
-        self.model.bound(&mut linear);
-        Ok(Some(linear))
-    }
-
-    /// The state at the end of a motion is that at the beginning of the next window.
-    fn carry(&self, at: &mut [Interval], next: usize, motion: &[Node]) -> Result<(), Empty> {
-        let layout = &self.setup.layout;
-        let end = motion.last().map(|node| node.over);
-        for (component, value) in end.iter().flatten().enumerate().take(layout.state_size()) {
-            let place = layout.start(next, component);
-            let met = at[place].intersection(*value);
-            at[place] = met.ok_or(Empty { method: Method::Chain, multipliers: Vec::new(), linear: None })?;
-        }
-        Ok(())
+        let chained = self.model.chained(at, centre);
+        chained.map_err(|Parted| Empty { method: Method::Chain, multipliers: Vec::new(), linear: None })
     }
 
     /// Every window by itself bounds the state at its beginning.
@@ -169,11 +120,8 @@ impl<'a> Search<'a> {
         self.passes += 1;
         let layout = &self.setup.layout;
         for index in 0..layout.windows().len() {
-            let span = Span { from: index, to: index + 1 };
-            let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
-            let Some(motion) = self.model.motion(span, at, &centre) else { return Ok(()) };
-            let mut linear = self.model.about(at, centre);
-            self.model.linearise(span, &motion, false, &mut linear);
+            let centre = at.iter().map(|side| side.midpoint()).collect();
+            let Some(linear) = self.model.alone(index, at, centre) else { return Ok(()) };
             let (_, places) = layout.columns(index);
             let own: Vec<usize> = (1..layout.state_size()).map(|component| layout.start(index, component)).collect();
             if let Pass::Empty(multipliers) = linear.contract(at, &places, &own) {
@@ -245,6 +193,12 @@ impl<'a> Search<'a> {
         field.fastest(Interval::symmetric(self.setup.typical_speed)) * interval_s.fold(0.0, f64::max) > MANY * 0.3
     }
 
+    /// Whether a box is too wide to follow the motion over, and its widest parameter.
+    pub(super) fn too_wide(&self, at: &[Interval]) -> (bool, usize) {
+        let (share, widest) = self.widest(at);
+        (share > if self.stiff(at) { STIFF } else { WIDE }, widest)
+    }
+
     /// What is left of each parameter, the least.
     pub(super) fn rest(&self, before: &[Interval], after: &[Interval]) -> f64 {
         let shares = before.iter().zip(after).take(self.parameters());
@@ -254,19 +208,13 @@ impl<'a> Search<'a> {
     /// The inequalities of whole records over a box about `centre`; `None` where there is no enclosure.
     pub(super) fn unbroken(&mut self, at: &[Interval], centre: Vec<f64>) -> Option<Linear> {
         self.passes += 1;
-        let mut linear = self.model.about(at, centre);
-        for span in self.whole() {
-            let motion = self.model.motion(span, at, &linear.centre)?;
-            self.model.linearise(span, &motion, false, &mut linear);
-        }
-        self.model.bound(&mut linear);
-        Some(linear)
+        self.model.unbroken(at, centre)
     }
 
     /// Parameters, and the state at every record's beginning.
     pub(super) fn of_whole(&self) -> Vec<usize> {
         let layout = &self.setup.layout;
-        let starts = self.whole().into_iter();
+        let starts = self.model.whole().into_iter();
         let starts = starts.flat_map(|span| (0..layout.state_size()).map(move |k| layout.start(span.from, k)));
         (0..self.parameters()).chain(starts).collect()
     }
@@ -319,8 +267,8 @@ impl<'a> Search<'a> {
                     continue;
                 }
             }
-            let (share, widest) = self.widest(at);
-            if share > if self.stiff(at) { STIFF } else { WIDE } {
+            let (wide, widest) = self.too_wide(at);
+            if wide {
                 return Ok(Left::Wide(widest));
             }
             if sweeping {

@@ -11,6 +11,8 @@ use crate::numeric::{Interval, Limit, OutOfDomain};
 
 /// Room for what rounding did to a reading on its way into the file, in steps of the sensor.
 const READING: f64 = 1e-9;
+/// Linear drag that drives is looked for up to this over the mean time between switchings.
+const DRIVING: f64 = 2.5;
 /// Windows of a record between two switchings of the command.
 const WINDOWS_PER_SWING: f64 = 1.0;
 /// Fewest samples of a window.
@@ -185,7 +187,7 @@ impl Setup {
         let gain = 4.0 * first.reach / (first.force * first.swing_s * first.swing_s);
         let rate = 1.0 / first.swing_s;
         let reach = settings.reach;
-        let least_linear = if settings.either_sign { -rate } else { 0.0 };
+        let least_linear = if settings.either_sign { -DRIVING * rate } else { 0.0 };
         let terms = layout.terms().iter().map(|term| {
             let linear = interval(least_linear, reach * rate);
             let quadratic = interval(0.0, reach * rate / first.speed);
@@ -255,17 +257,7 @@ impl Setup {
     /// States at the windows' beginnings, from the readings there alone.
     fn states(&mut self) {
         self.search.truncate(self.layout.parameters());
-        for window in self.layout.windows() {
-            let readings = &self.records[window.record];
-            let stray = (Interval::point(readings.jitter_s) * Interval::point(self.fastest)).upper();
-            let error = (Interval::point(readings.error) + Interval::point(stray)).upper();
-            self.search.push(Interval::point(readings.value[window.first]) + Interval::symmetric(error));
-            self.search.push(Interval::symmetric(self.fastest));
-            if self.layout.lagged() {
-                // A lag keeps the force among the commands.
-                self.search.push(Interval::symmetric(readings.command.largest()));
-            }
-        }
+        self.search.extend(self.layout.states(&self.records, self.fastest));
     }
 
     /// The same constraints with the parameters known to lie in `at`: a shorter delay leaves more readings.

@@ -7,14 +7,16 @@ use crate::numeric::{Interval, Real};
 /// Spans over which the mean speed is taken, in samples.
 const SPANS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
 
+/// Speeds are enclosed again where they are below this share of the largest that is looked for.
+const SLOWER: f64 = 0.7;
 /// Halvings towards a speed that is certain.
 const BISECTIONS: usize = 16;
 
 /// The largest acceleration besides drag between two samples: forwards and backwards, each zero or more.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Push {
-    pub(super) up: f64,
-    pub(super) down: f64,
+struct Push {
+    up: f64,
+    down: f64,
     /// The acceleration besides drag.
     force: Interval,
 }
@@ -133,14 +135,15 @@ impl Model<'_> {
     }
 
     /// For every interval between samples, over a box in which no speed exceeds `fastest`.
-    pub(super) fn pushes(&self, record: usize, at: &[Interval], fastest: f64) -> Vec<Push> {
+    fn pushes(&self, record: usize, at: &[Interval], fastest: f64) -> Vec<Push> {
         let readings = &self.records[record];
         let place = |term: Term| self.layout.place_of(term).map_or(Interval::ZERO, |place| at[place]);
         let (gain, disturbance, stiffness) =
             (place(Term::Gain), at[self.layout.disturbance(record)], place(Term::Stiffness));
         let speed = Interval::symmetric(fastest);
         // Linear drag that drives.
-        let driving = Interval::symmetric((-self.least_linear).max(0.0)) * speed;
+        let Drag([linear, ..]) = self.drag(at);
+        let driving = Interval::symmetric((-linear.lower()).max(0.0)) * speed;
         let delay_s = self.delay_s(at);
         let command = &readings.command;
         let windows: Vec<(f64, f64)> = (0..command.edges()).map(|edge| command.window(edge, delay_s)).collect();
@@ -180,11 +183,21 @@ impl Model<'_> {
         pushes
     }
 
-    /// Encloses the velocity at every sample of a record, over a box in which no speed exceeds `fastest`. `None` where there is none.
+    /// Encloses the velocity at every sample of a record, over a box. `None` where there is none.
+    pub(super) fn speeds(&self, record: usize, at: &[Interval]) -> Option<Speeds> {
+        let speeds = self.slower(record, at, self.fastest)?;
+        let driven = self.least_linear < 0.0 || self.layout.place_of(Term::Stiffness).is_some();
+        let fastest = speeds.between.iter().fold(0.0f64, |fastest, speed| fastest.max(speed.magnitude()));
+        // What drives in proportion to a speed, or to a way, is less over slower ones.
+        if driven && fastest < SLOWER * self.fastest { self.slower(record, at, fastest) } else { Some(speeds) }
+    }
+
+    /// The same where no speed exceeds `fastest`.
     ///
     /// Drag only brakes: with the acceleration besides it at most A, a velocity of v needs a way of `v T - A T^2/2` at least in the
     /// time T before it, whatever the drag; and a vehicle that goes a way in the time T ahead is at least as fast as its mean less `A T/2`.
-    pub(super) fn speeds(&self, record: usize, at: &[Interval], pushes: &[Push], fastest: f64) -> Option<Speeds> {
+    fn slower(&self, record: usize, at: &[Interval], fastest: f64) -> Option<Speeds> {
+        let pushes = self.pushes(record, at, fastest);
         let readings = &self.records[record];
         let value = &readings.value;
         let mut speeds = vec![Interval::symmetric(fastest); value.len()];

@@ -78,7 +78,7 @@ impl Model<'_> {
         let delay_s = self.delay_s(at);
         let fastest = speeds.between.iter().fold(0.0f64, |fastest, speed| fastest.max(speed.magnitude()));
         let lagged = self.layout.lagged();
-        for (index, hat) in hats.iter().enumerate() {
+        for hat in hats {
             let [l, m, r] = hat.map(|sample| readings.time_s[sample]);
             // The hat starts once every command that acts is in the log.
             if Interval::point(l).lower() < readings.time_s[0] + delay_s.upper() {
@@ -136,7 +136,7 @@ impl Model<'_> {
                 slopes.push((unknown, slope));
             }
             slopes.push((self.layout.disturbance(record), whole));
-            linear.pair(slopes.into_iter(), -second, error, |above| Origin::Hat { record, hat: index, above });
+            linear.pair(slopes.into_iter(), -second, error, |above| Origin::Hat { record, samples: *hat, above });
         }
     }
 }

@@ -33,19 +33,8 @@ impl Search<'_> {
     /// The largest misfit of one parameter over the whole records. `None` where its motion cannot be enclosed.
     pub(super) fn misfit(&mut self, at: &[f64]) -> Option<f64> {
         self.passes += 1;
-        let mut largest = 0.0f64;
-        for span in self.whole() {
-            let stretch = self.setup.layout.windows()[span.from];
-            let readings = &self.setup.records[stretch.record];
-            let outputs = self.model.outputs(span, at)?;
-            let error = Interval::point(readings.error);
-            for (output, reading) in outputs.iter().zip(&readings.value[stretch.first..]) {
-                // A stamp's error is granted to no witness.
-                let misfit = (*output - Interval::point(*reading)).abs() / error;
-                largest = largest.max(misfit.upper());
-            }
-        }
-        Some(largest)
+        let spans = self.model.whole().into_iter();
+        spans.map(|span| self.model.misfit(span, at)).try_fold(0.0, |largest: f64, misfit| Some(largest.max(misfit?)))
     }
 
     /// The rows with the misfit as one more unknown, and its number.
@@ -147,7 +136,7 @@ impl Search<'_> {
         let point: Vec<Interval> = centre.iter().map(|value| Interval::point(*value)).collect();
         let mut linear = self.model.about(&point, centre.to_vec());
         let mut largest = 0.0f64;
-        for span in self.whole() {
+        for span in self.model.whole() {
             let motion = self.model.motion(span, &point, centre)?;
             let stretch = self.setup.layout.windows()[span.from];
             let readings = &self.setup.records[stretch.record];
@@ -167,7 +156,7 @@ impl Search<'_> {
     pub(super) fn furthest(&mut self, from: &Tried, within: &[Interval], unknown: usize, sign: f64) -> Option<Tried> {
         let layout = &self.setup.layout;
         let mut places: Vec<usize> = (0..layout.parameters()).collect();
-        for span in self.whole() {
+        for span in self.model.whole() {
             places.extend((0..layout.state_size()).map(|component| layout.start(span.from, component)));
         }
         let inside = INSIDE * (1.0 - from.misfit);

@@ -1,0 +1,406 @@
+//! The check: enclosures over the boxes that are listed, and sums. No search, no linear programme.
+
+use std::collections::BTreeMap;
+
+use super::super::command::Command;
+use super::super::contract::{Linear, Model, Origin};
+use super::super::field::Term;
+use super::super::problem::{Layout, Readings, Window};
+use super::super::weak::Hat;
+use super::{By, Certificate, Combination, Cut, FORMAT, Stage, Step, Witness, shorten};
+use crate::numeric::Interval;
+
+/// Why a certificate is not accepted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Unproved {
+    /// It is no certificate, or one of another format.
+    #[error("not a certificate of guaranteed bounds: {text}")]
+    Malformed {
+        /// What is wrong.
+        text: String,
+    },
+    /// A stage begins elsewhere than the one before ended.
+    #[error("stage {stage} does not begin where the one before it ended")]
+    Stage {
+        /// Its number.
+        stage: usize,
+    },
+    /// What a step says does not follow.
+    #[error("step {step} of stage {stage}: {what}")]
+    Step {
+        /// Number of the stage.
+        stage: usize,
+        /// Number of the step.
+        step: usize,
+        /// What does not follow.
+        what: &'static str,
+    },
+    /// Boxes are left that no step deals with, or steps without a box.
+    #[error("the steps of stage {stage} do not deal with the whole box")]
+    Incomplete {
+        /// Its number.
+        stage: usize,
+    },
+    /// The witness does not meet a reading.
+    #[error("the witness misses a reading by {misfit:.4} times its largest error")]
+    Witness {
+        /// The largest misfit over its largest error, at most.
+        misfit: f64,
+    },
+    /// What is said is not what the steps show.
+    #[error("the statement is not what the steps show: {expected}")]
+    Statement {
+        /// What they show.
+        expected: String,
+    },
+    /// None was found within the budget.
+    #[error("no proof was found within the budget; give a longer record or a smaller model")]
+    NotFound,
+}
+
+impl Unproved {
+    /// Short name for scripts.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Malformed { .. } => "malformed",
+            Self::Stage { .. } => "stage",
+            Self::Step { .. } => "step",
+            Self::Incomplete { .. } => "incomplete",
+            Self::Witness { .. } => "witness",
+            Self::Statement { .. } => "statement",
+            Self::NotFound => "not-found",
+        }
+    }
+}
+
+/// What an accepted certificate shows, and by how much work.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shown {
+    /// In words.
+    pub statement: String,
+    /// Boxes excluded.
+    pub excluded: usize,
+    /// Enclosures of the motion.
+    pub enclosures: usize,
+    /// Readings.
+    pub readings: usize,
+}
+
+fn malformed(text: &str) -> Unproved {
+    Unproved::Malformed { text: text.to_owned() }
+}
+
+pub(super) fn sides(ends: &[[f64; 2]]) -> Option<Vec<Interval>> {
+    ends.iter().map(|[low, high]| Interval::new(*low, *high).filter(|side| side.is_bounded())).collect()
+}
+
+fn within(inner: &[Interval], outer: &[Interval]) -> bool {
+    inner.iter().zip(outer).all(|(inner, outer)| inner.is_subset_of(*outer))
+}
+
+impl Certificate {
+    /// What it shows of its records.
+    ///
+    /// # Errors
+    /// The first [`Unproved`].
+    pub fn check(&self) -> Result<Shown, Unproved> {
+        if self.format != FORMAT {
+            return Err(malformed("another format"));
+        }
+        let readings = self.readings()?;
+        let mut work = Work::default();
+        for (index, stage) in self.stages.iter().enumerate() {
+            let before = index.checked_sub(1).map(|before| &self.stages[before].left);
+            if before.is_some_and(|left| left.as_ref() != Some(&stage.from)) {
+                return Err(Unproved::Stage { stage: index });
+            }
+            Walk::of(self, &readings, stage, index)?.go(&mut work)?;
+        }
+        if self.stages.is_empty() {
+            return Err(malformed("no stage"));
+        }
+        if let Some(witness) = &self.witness {
+            self.check_witness(&readings, witness)?;
+        }
+        let expected = self.words();
+        if expected != self.statement {
+            return Err(Unproved::Statement { expected });
+        }
+        let readings = readings.iter().map(|readings| readings.value.len()).sum();
+        Ok(Shown { statement: expected, excluded: work.excluded, enclosures: work.enclosures, readings })
+    }
+
+    /// What steps of this shape show.
+    pub(super) fn words(&self) -> String {
+        let left = self.stages.last().and_then(|stage| stage.left.as_ref());
+        match (left, &self.witness) {
+            (None, _) => "refuted: no parameter in the search box meets every reading",
+            (Some(_), None) => "every parameter in the search box that meets every reading lies within the bounds",
+            (Some(_), Some(_)) => {
+                "consistent: every parameter in the search box that meets every reading lies within the bounds, and the witness \
+                 meets every reading from its own first on"
+            }
+        }
+        .to_owned()
+    }
+
+    fn readings(&self) -> Result<Vec<Readings>, Unproved> {
+        let ordered = self.terms.windows(2).all(|pair| pair[0] < pair[1]);
+        let finite = [self.middle_speed, self.least_linear, self.fastest].iter().all(|value| value.is_finite());
+        if self.terms.first() != Some(&Term::Gain) || !ordered || self.terms.contains(&Term::Disturbance) || self.records.is_empty() || !finite {
+            return Err(malformed("the equation or its records"));
+        }
+        let each = self.records.iter().map(|sensed| {
+            let increasing = |times: &[f64]| times.windows(2).all(|pair| pair[0] < pair[1]);
+            let all = sensed.time_s.iter().chain(&sensed.reading).chain(&sensed.levels).chain(sensed.switched_s.iter().flatten());
+            let sound = sensed.time_s.len() == sensed.reading.len()
+                && increasing(&sensed.time_s)
+                && all.copied().all(f64::is_finite)
+                && (sensed.error > 0.0 && sensed.error.is_finite() && sensed.jitter_s >= 0.0 && sensed.jitter_s.is_finite())
+                && sensed.levels.len() == sensed.switched_s.len() + 1
+                && sensed.switched_s.iter().all(|[first, last]| first <= last)
+                && sensed.switched_s.windows(2).all(|pair| pair[0][1] <= pair[1][0]);
+            sound.then(|| Readings {
+                time_s: sensed.time_s.clone(),
+                value: sensed.reading.clone(),
+                error: sensed.error,
+                jitter_s: sensed.jitter_s,
+                command: Command::new(sensed.levels.clone(), sensed.switched_s.iter().map(|[a, b]| (*a, *b)).collect()),
+            })
+        });
+        each.collect::<Option<_>>().ok_or_else(|| malformed("a record"))
+    }
+
+    fn layout(&self, readings: &[Readings], stage: &Stage) -> Option<Layout> {
+        let windows: Vec<Window> =
+            stage.windows.iter().map(|&[record, first, last]| Window { record, first, last }).collect();
+        // Each record's follow one another, the first from where every command that acts is in the log.
+        let delayed = stage.delay_s.is_none();
+        let longest = if delayed { stage.from.get(self.terms.len())?[1] } else { stage.delay_s? };
+        let mut before: Option<Window> = None;
+        for window in &windows {
+            let own = readings.get(window.record)?;
+            let follows = match before {
+                Some(before) if before.record == window.record => before.last == window.first,
+                Some(before) => window.record == before.record + 1,
+                None => window.record == 0,
+            };
+            let start = *own.time_s.get(window.first)?;
+            let acts = (Interval::point(own.time_s[0]) + Interval::point(longest)).upper() <= start;
+            if !(follows && acts && window.first < window.last && window.last < own.time_s.len()) {
+                return None;
+            }
+            before = Some(*window);
+        }
+        if before?.record + 1 != readings.len() {
+            return None;
+        }
+        let known = |readings: &Readings| (0..readings.command.edges()).all(|edge| readings.command.span(edge).is_point());
+        let instants = readings.iter().map(|own| if known(own) { 0 } else { own.command.edges() }).collect();
+        Some(Layout::new(self.terms.clone(), delayed, instants, windows))
+    }
+
+    fn model<'a>(&self, readings: &'a [Readings], layout: &'a Layout, stage: &Stage) -> Model<'a> {
+        Model {
+            records: readings,
+            layout,
+            middle_speed: self.middle_speed,
+            known_delay_s: Interval::point(stage.delay_s.unwrap_or(0.0)),
+            least_linear: self.least_linear,
+            fastest: self.fastest,
+        }
+    }
+
+    fn check_witness(&self, readings: &[Readings], witness: &Witness) -> Result<(), Unproved> {
+        let first = self.stages.first().ok_or_else(|| malformed("no stage"))?;
+        let delayed = first.delay_s.is_none();
+        let delay_s = if delayed { witness.values.get(self.terms.len()).copied() } else { first.delay_s };
+        // As if it were all that is left, with one window for each record.
+        let windows = readings.iter().zip(&witness.first).enumerate();
+        let stage = Stage {
+            delay_s,
+            windows: windows.map(|(record, (own, first))| [record, *first, own.time_s.len() - 1]).collect(),
+            from: Vec::new(),
+            left: None,
+            steps: Vec::new(),
+        };
+        let layout = self.layout(readings, &stage).ok_or_else(|| malformed("the witness"))?;
+        let layout = layout.with_delay(delayed);
+        let model = self.model(readings, &layout, &stage);
+        let at = &witness.values;
+        let inside = sides(&first.from).is_some_and(|from| {
+            from.len() == layout.parameters() && from.iter().zip(at).all(|(side, value)| side.contains(*value))
+        });
+        if at.len() != layout.start(readings.len(), 0) || !inside || !at.iter().all(|value| value.is_finite()) {
+            return Err(malformed("the witness"));
+        }
+        let misfits = model.whole().into_iter().map(|span| model.misfit(span, at).unwrap_or(f64::INFINITY));
+        let misfit = misfits.fold(0.0, f64::max);
+        if misfit <= 1.0 { Ok(()) } else { Err(Unproved::Witness { misfit }) }
+    }
+}
+
+/// What was done.
+#[derive(Default)]
+struct Work {
+    excluded: usize,
+    enclosures: usize,
+}
+
+/// A stage with what its steps need.
+struct Walk<'a> {
+    stage: &'a Stage,
+    index: usize,
+    certificate: &'a Certificate,
+    readings: &'a [Readings],
+    layout: Layout,
+    left: Option<Vec<Interval>>,
+    from: Vec<Interval>,
+}
+
+impl<'a> Walk<'a> {
+    fn of(certificate: &'a Certificate, readings: &'a [Readings], stage: &'a Stage, index: usize) -> Result<Self, Unproved> {
+        let layout = certificate.layout(readings, stage).ok_or_else(|| malformed("a window"))?;
+        let from = sides(&stage.from).filter(|from| from.len() == layout.parameters() && from[0].lower() > 0.0);
+        let mut from = from.ok_or_else(|| malformed("a range"))?;
+        let positive = |term| layout.place_of(term).is_none_or(|place| from[place].lower() >= 0.0);
+        if ![Term::Quadratic, Term::Cubic, Term::Stiffness, Term::LagRate].into_iter().all(positive) {
+            return Err(malformed("a range"));
+        }
+        from.extend(layout.states(readings, certificate.fastest));
+        let left = stage.left.as_ref().map(|left| sides(left).filter(|left| left.len() == layout.parameters()));
+        let left = left.map(|left| left.ok_or_else(|| malformed("what is left"))).transpose()?;
+        Ok(Self { stage, index, certificate, readings, layout, left, from })
+    }
+
+    fn go(&self, work: &mut Work) -> Result<(), Unproved> {
+        let mut open = vec![self.from.clone()];
+        for (step, what) in self.stage.steps.iter().enumerate() {
+            let wrong = |what| Unproved::Step { stage: self.index, step, what };
+            let at = open.pop().ok_or(Unproved::Incomplete { stage: self.index })?;
+            match what {
+                Step::Keep => {
+                    if !self.left.as_ref().is_some_and(|left| within(&at[..left.len()], left)) {
+                        return Err(wrong("the box is not within what is left"));
+                    }
+                }
+                Step::Divide { unknown, at: value } => {
+                    let halves = at.get(*unknown).map(|side| [Interval::new(side.lower(), *value), Interval::new(*value, side.upper())]);
+                    let Some([Some(low), Some(high)]) = halves else {
+                        return Err(wrong("the division is not within the box"));
+                    };
+                    for half in [high, low] {
+                        let mut part = at.clone();
+                        part[*unknown] = half;
+                        open.push(part);
+                    }
+                }
+                Step::Exclude { by, rows } => {
+                    work.enclosures += 1;
+                    let excluded = match self.rows(*by, &at, [rows.as_slice()]).ok_or(wrong("there is no enclosure"))? {
+                        None => true,
+                        Some((linear, _)) => bound(&linear, &[], rows).is_some_and(|bound| bound < 0.0),
+                    };
+                    if !excluded {
+                        return Err(wrong("the box is not excluded"));
+                    }
+                    work.excluded += 1;
+                }
+                Step::Contract { by, cuts } => {
+                    work.enclosures += 1;
+                    let cut = self.rows(*by, &at, cuts.iter().map(|cut| cut.rows.as_slice()));
+                    match cut.ok_or(wrong("there is no enclosure"))? {
+                        None => work.excluded += 1,
+                        Some((linear, direct)) => {
+                            let mut at = at;
+                            for cut in cuts {
+                                let shown = shown(&linear, &direct, &at, cut);
+                                if !shown {
+                                    return Err(wrong("the range is not that short"));
+                                }
+                            }
+                            if cuts.iter().all(|cut| shorten(&mut at, cut)) {
+                                open.push(at);
+                            } else {
+                                work.excluded += 1;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        if open.is_empty() { Ok(()) } else { Err(Unproved::Incomplete { stage: self.index }) }
+    }
+
+    /// The inequalities over a box and what the enclosure itself leaves of it: `Some(None)` for nothing, `None` where there is no
+    /// enclosure. Of the hats only those in the `combinations`.
+    fn rows<'r>(
+        &self,
+        by: By,
+        at: &[Interval],
+        combinations: impl IntoIterator<Item = &'r [(Origin, f64)]>,
+    ) -> Option<Option<(Linear, Vec<Interval>)>> {
+        let model = self.certificate.model(self.readings, &self.layout, self.stage);
+        let mut own = at.to_vec();
+        let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
+        let linear = match by {
+            By::Hats => {
+                let mut hats: Vec<Vec<Hat>> = vec![Vec::new(); self.readings.len()];
+                for (origin, _) in combinations.into_iter().flatten() {
+                    if let Origin::Hat { record, samples, .. } = origin {
+                        let samples_of = self.readings.get(*record)?.time_s.len();
+                        let [l, m, r] = *samples;
+                        if !(l < m && m < r && r < samples_of) {
+                            return None;
+                        }
+                        hats[*record].push(*samples);
+                    }
+                }
+                hats.iter_mut().for_each(|hats| {
+                    hats.sort_unstable();
+                    hats.dedup();
+                });
+                model.weighed(&hats, &mut own).map(|mut linear| {
+                    model.bound(&mut linear);
+                    linear
+                })
+            }
+            By::Whole => Some(model.unbroken(at, centre)?),
+            By::Window(window) => {
+                if window >= self.layout.windows().len() {
+                    return None;
+                }
+                Some(model.alone(window, at, centre)?)
+            }
+            By::Chain => match model.chained(&mut own, centre) {
+                Ok(linear) => Some(linear?),
+                Err(_) => None,
+            },
+        };
+        Some(linear.map(|linear| (linear, own)))
+    }
+}
+
+/// The value of the multipliers; `None` where one is no multiplier or names no inequality.
+fn bound(linear: &Linear, objective: &[(usize, f64)], rows: &Combination) -> Option<f64> {
+    let places: BTreeMap<Origin, usize> = linear.origins.iter().enumerate().map(|(place, origin)| (*origin, place)).collect();
+    let multipliers = rows.iter().map(|(origin, y)| {
+        (*y >= 0.0 && y.is_finite()).then_some(())?;
+        Some((*places.get(origin)?, *y))
+    });
+    let bound = linear.rows.upper_bound(objective, &multipliers.collect::<Option<_>>()?, &linear.deviations);
+    (!bound.is_nan()).then_some(bound)
+}
+
+/// Whether the end of a range follows.
+fn shown(linear: &Linear, direct: &[Interval], at: &[Interval], cut: &Cut) -> bool {
+    let Some(side) = at.get(cut.unknown) else { return false };
+    let sign = if cut.upper { 1.0 } else { -1.0 };
+    let reached = |side: Interval| if cut.upper { side.upper() <= cut.end } else { side.lower() >= cut.end };
+    if cut.rows.is_empty() {
+        return reached(direct[cut.unknown]);
+    }
+    let Some(bound) = bound(linear, &[(cut.unknown, sign)], &cut.rows) else { return false };
+    // Nothing left of the side is less than any end.
+    linear.cut(*side, cut.unknown, sign, bound).is_none_or(reached)
+}

@@ -1,0 +1,94 @@
+//! The inequalities of a pass over a box: by hats, of whole records, of windows each linked to the next, of one window alone.
+
+use super::contract::{Linear, Model, Span};
+use super::trajectory::Node;
+use super::weak::Hat;
+use crate::numeric::Interval;
+
+/// An enclosure of the motion and what is known of it otherwise have nothing in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Parted;
+
+impl Model<'_> {
+    /// Whole records, one span each.
+    pub(super) fn whole(&self) -> Vec<Span> {
+        let windows = self.layout.windows();
+        let mut spans: Vec<Span> = Vec::new();
+        for (index, window) in windows.iter().enumerate() {
+            match spans.last_mut() {
+                Some(span) if windows[span.from].record == window.record => span.to = index + 1,
+                _ => spans.push(Span { from: index, to: index + 1 }),
+            }
+        }
+        spans
+    }
+
+    /// Speeds from the readings, those at the windows' beginnings put into the box; then the hats. `None` where there is no motion.
+    pub(super) fn weighed(&self, hats: &[Vec<Hat>], at: &mut [Interval]) -> Option<Linear> {
+        let mut linear = self.about(at, vec![0.0; at.len()]);
+        for (record, hats) in hats.iter().enumerate() {
+            let speeds = self.speeds(record, at)?;
+            if !self.travelled(record, &speeds) {
+                return None;
+            }
+            for (index, window) in self.layout.windows().iter().enumerate().filter(|(_, w)| w.record == record) {
+                let place = self.layout.start(index, 1);
+                at[place] = at[place].intersection(speeds.at_samples[window.first])?;
+            }
+            self.weigh(record, hats, at, &speeds, &mut linear);
+        }
+        Some(linear)
+    }
+
+    /// Whole records about `centre`. `None` where there is no enclosure.
+    pub(super) fn unbroken(&self, at: &[Interval], centre: Vec<f64>) -> Option<Linear> {
+        let mut linear = self.about(at, centre);
+        for span in self.whole() {
+            let motion = self.motion(span, at, &linear.centre)?;
+            self.linearise(span, &motion, false, &mut linear);
+        }
+        self.bound(&mut linear);
+        Some(linear)
+    }
+
+    /// One window about `centre`, whatever came before and comes after. `None` where there is no enclosure.
+    pub(super) fn alone(&self, window: usize, at: &[Interval], centre: Vec<f64>) -> Option<Linear> {
+        let span = Span { from: window, to: window + 1 };
+        let motion = self.motion(span, at, &centre)?;
+        let mut linear = self.about(at, centre);
+        self.linearise(span, &motion, false, &mut linear);
+        Some(linear)
+    }
+
+    /// All windows about `centre`, each linked to the next. What a window's end says of the next one's beginning goes into the
+    /// box. `None` where there is no enclosure.
+    pub(super) fn chained(&self, at: &mut [Interval], centre: Vec<f64>) -> Result<Option<Linear>, Parted> {
+        let windows = self.layout.windows();
+        let mut linear = self.about(at, centre);
+        for index in 0..windows.len() {
+            let span = Span { from: index, to: index + 1 };
+            let Some(motion) = self.motion(span, at, &linear.centre) else { return Ok(None) };
+            let linked = windows.get(index + 1).is_some_and(|next| next.record == windows[index].record);
+            self.linearise(span, &motion, linked, &mut linear);
+            if linked {
+                self.carry(at, index + 1, &motion)?;
+                for component in 0..self.layout.state_size() {
+                    let place = self.layout.start(index + 1, component);
+                    linear.deviations[place] = at[place] - Interval::point(linear.centre[place]);
+                }
+            }
+        }
+        self.bound(&mut linear);
+        Ok(Some(linear))
+    }
+
+    /// The state at the end of a motion is that at the beginning of the next window.
+    fn carry(&self, at: &mut [Interval], next: usize, motion: &[Node]) -> Result<(), Parted> {
+        let end = motion.last().map(|node| node.over);
+        for (component, value) in end.iter().flatten().enumerate().take(self.layout.state_size()) {
+            let place = self.layout.start(next, component);
+            at[place] = at[place].intersection(*value).ok_or(Parted)?;
+        }
+        Ok(())
+    }
+}
