@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::{CommandError, Outcome, files};
 use crate::claims::{CLAIMS, Certificate, Claim};
+use crate::identify::bounded::certificate as bounded;
 use crate::proof::inequality::Refusal;
 
 fn theorems() -> impl Iterator<Item = &'static Claim> {
@@ -29,8 +30,31 @@ pub(super) fn write(folder: &Path) -> Result<Outcome, CommandError> {
     Ok(outcome)
 }
 
-/// A line for each theorem: accepted, or why not.
+/// A file of guaranteed bounds: accepted, with what is left in the coordinates of the search, or why not.
+fn check_bounds(path: &Path, output: &mut impl Write) -> Result<Outcome, CommandError> {
+    let read = files::read(path)?;
+    match bounded::Certificate::read(&read).and_then(|certificate| certificate.check()) {
+        Ok(shown) => {
+            let bounded::Shown { statement, left, excluded, enclosures, readings } = shown;
+            writeln!(output, "accepted  {statement}")?;
+            writeln!(output, "          {readings} readings, {enclosures} enclosures, {excluded} boxes excluded")?;
+            for (quantity, [low, high]) in left {
+                writeln!(output, "          {low:.9e} <= {quantity} <= {high:.9e}")?;
+            }
+            Ok(Outcome::Done)
+        }
+        Err(unproved) => {
+            writeln!(output, "refused   {}: {unproved}", unproved.code())?;
+            Ok(Outcome::No)
+        }
+    }
+}
+
+/// A line for each theorem, accepted or why not; or what a file of guaranteed bounds shows.
 pub(super) fn check(folder: &Path, output: &mut impl Write) -> Result<Outcome, CommandError> {
+    if folder.is_file() {
+        return check_bounds(folder, output);
+    }
     let width = theorems().map(|claim| claim.id.len()).max().unwrap_or(0);
     let mut outcome = Outcome::Done;
     for claim in theorems() {

@@ -53,6 +53,12 @@ pub(super) enum CommandError {
         /// What the system says.
         source: std::io::Error,
     },
+    /// A proof that was not found.
+    #[error("no certificate: {reason}")]
+    Proof {
+        /// Why, and the remedy.
+        reason: String,
+    },
     /// An id that no claim has.
     #[error("there is no claim `{id}`{}; `selfosc verify` without --claim lists them all", meant(*.nearest))]
     UnknownClaim {
@@ -89,6 +95,7 @@ impl CommandError {
             Self::Library(error) | Self::Given { error, .. } => error.code(),
             Self::Usage { .. } | Self::UnknownClaim { .. } | Self::Contradiction { .. } => "usage",
             Self::Model { .. } => "model",
+            Self::Proof { .. } => "proof",
             Self::Output(_) | Self::Write { .. } | Self::OutputIsInput { .. } | Self::Certificate { .. } => "files",
         }
     }

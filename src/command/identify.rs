@@ -61,6 +61,21 @@ pub(super) struct Arguments {
     /// Bounded: step of the sensor, output units (with --degrees still radians) [default: found in the record]
     #[arg(long, value_name = "Q", value_parser = positive, allow_negative_numbers = true)]
     quantum: Option<f64>,
+    /// Bounded: the model has a restoring force proportional to the coordinate
+    #[arg(long)]
+    stiffness: bool,
+    /// Bounded: the force follows the command with a first-order lag
+    #[arg(long)]
+    lag: bool,
+    /// Bounded: the drag has a part proportional to the cube of speed
+    #[arg(long)]
+    cubic: bool,
+    /// Bounded: the part of the drag proportional to speed may drive
+    #[arg(long)]
+    either_sign: bool,
+    /// Bounded: writes the proof to this file, which `selfosc verify --check FILE` checks without a search
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
     /// The output is in degrees; a column ending in _deg always is. Every result is in radians
     #[arg(long)]
     degrees: bool,
@@ -174,7 +189,7 @@ fn delay(text: &str) -> Result<Delay, String> {
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
-    if let Some(path) = &arguments.report {
+    for path in [&arguments.report, &arguments.certificate].into_iter().flatten() {
         files::distinct(path, &arguments.logs)?;
     }
     let found = match arguments.identify() {
@@ -185,6 +200,15 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         let document = page::document(&found).from_where(files::provenance(&arguments.logs));
         files::write(path, &document.html()?)?;
     }
+    let certificate = found.bounded().and_then(|bounded| bounded.certificate.as_ref());
+    let written = match (&arguments.certificate, certificate) {
+        (Some(path), Some(Ok(certificate))) => {
+            files::write(path, &certificate.to_string())?;
+            Some(Ok(path))
+        }
+        (_, Some(Err(unproved))) => Some(Err(unproved)),
+        _ => None,
+    };
     if arguments.json {
         write_json(output, &found.conclusion())?;
     } else {
@@ -192,8 +216,14 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         if let Some(path) = &arguments.report {
             writeln!(output, "\nreport in {}", path.display())?;
         }
+        if let Some(Ok(path)) = written {
+            writeln!(output, "\nproof in {}", path.display())?;
+        }
     }
-    Ok(Outcome::Done)
+    match written {
+        Some(Err(unproved)) => Err(CommandError::Proof { reason: unproved.to_string() }),
+        _ => Ok(Outcome::Done),
+    }
 }
 
 impl Arguments {
@@ -224,6 +254,11 @@ impl Arguments {
             half_width: self.half_width,
             error: self.error,
             quantum: self.quantum,
+            stiffness: self.stiffness,
+            lag: self.lag,
+            cubic: self.cubic,
+            either_sign: self.either_sign,
+            certificate: self.certificate.is_some(),
         }
     }
 
@@ -248,6 +283,11 @@ impl Arguments {
         match refusal {
             Refusal::Settings(SettingsError::MixedNeedsFit) => {
                 return usage("only the fit knows mixed drag; use --method fit, or another --drag");
+            }
+            Refusal::Settings(SettingsError::NeedsBounded) => {
+                return usage(
+                    "--stiffness, --lag, --cubic, --either-sign and --certificate are of the guaranteed bounds; use --method bounded",
+                );
             }
             Refusal::Settings(_) | Refusal::File { .. } => return Err(refusal.into()),
             _ => {}

@@ -24,6 +24,7 @@ Examples:
   selfosc verify --claim lemma-1 --claim lemma-2 --cases 100000 --seed 7
   selfosc verify --certificates proofs
   selfosc verify --check proofs
+  selfosc verify --check bounds.json
   selfosc verify --json")]
 pub(super) struct Arguments {
     /// Only this claim; repeat or list several
@@ -38,8 +39,8 @@ pub(super) struct Arguments {
     /// Writes the proofs of the orbit theorems to this folder, one file a theorem, with every box
     #[arg(long, value_name = "DIR")]
     certificates: Option<PathBuf>,
-    /// Checks such files, without searching for anything, in place of the claims
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["claims", "cases", "seed", "certificates", "json"])]
+    /// Checks such files, or one that `identify --certificate` wrote, without searching for anything, in place of the claims
+    #[arg(long, value_name = "DIR|FILE", conflicts_with_all = ["claims", "cases", "seed", "certificates", "json"])]
     check: Option<PathBuf>,
     /// Shows on a terminal which claim is being checked
     #[arg(long)]

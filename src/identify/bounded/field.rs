@@ -28,6 +28,19 @@ pub(super) enum Term {
 pub(super) const TERMS: usize = 7;
 
 impl Term {
+    /// What its coefficient is; with mixed drag the linear one is that at the middle speed.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Gain => "1/alpha",
+            Self::Disturbance => "delta/alpha",
+            Self::Linear => "beta/alpha, at the middle speed",
+            Self::Quadratic => "beta_quadratic/alpha",
+            Self::Cubic => "beta_cubic/alpha",
+            Self::Stiffness => "stiffness/alpha",
+            Self::LagRate => "1/lag_s",
+        }
+    }
+
     pub(super) const ALL: [Self; TERMS] =
         [Self::Gain, Self::Disturbance, Self::Linear, Self::Quadratic, Self::Cubic, Self::Stiffness, Self::LagRate];
 }

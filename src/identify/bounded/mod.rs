@@ -83,6 +83,7 @@ pub fn enclose(records: &[&Record], settings: &BoundedModel) -> Result<Bounds, I
 ///
 /// # Errors
 /// Those of [`enclose`]; and, within, [`certificate::Unproved::NotFound`] where a proof takes too many steps.
+#[doc(hidden)]
 pub fn enclose_with_certificate(
     records: &[&Record],
     settings: &BoundedModel,

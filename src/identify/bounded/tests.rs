@@ -74,7 +74,7 @@ const STEP: f64 = 0.02;
 const TURN_S: f64 = 2.0;
 
 /// Linear drag under a square wave, by the solution in closed form, rounded to steps of `STEP`.
-fn record(samples: usize) -> Record {
+pub(super) fn record(samples: usize) -> Record {
     let (mut x, mut v) = (0.0f64, 0.2f64);
     let (mut time, mut output, mut input) = (Vec::new(), Vec::new(), Vec::new());
     let h = 0.1;
@@ -181,7 +181,7 @@ fn the_true_motion_meets_the_chain_of_windows_and_a_state_shifted_between_two_do
     assert!(!met(&linear, &truth, |origin| matches!(origin, Origin::Link { .. })));
 }
 
-fn settings(law: DragLaw) -> BoundedModel {
+pub(super) fn settings(law: DragLaw) -> BoundedModel {
     BoundedModel { quantum: Some(STEP), ..BoundedModel::new(law, DelayBound::KnownS(0.0)) }
 }
 

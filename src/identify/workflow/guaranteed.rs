@@ -6,8 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use super::settings::Settings;
 use crate::experiment::Record;
+use crate::identify::bounded::certificate::{Certificate, Unproved};
 use crate::identify::bounded::{
     BoundedModel, Bounds, Consistency, Contradicting, DelayBound, Parameters, Quantity, QuantityRange, enclose,
+    enclose_with_certificate,
 };
 use crate::identify::joint::Delay;
 use crate::identify::{DragLaw, IdentifyError};
@@ -19,6 +21,9 @@ pub struct Guaranteed {
     pub model: BoundedModel,
     /// What the records leave of it.
     pub bounds: Bounds,
+    /// The proof, or why there is none; `None` where it was not asked for.
+    #[serde(skip)]
+    pub(crate) certificate: Option<Result<Certificate, Unproved>>,
 }
 
 impl Guaranteed {
@@ -29,9 +34,22 @@ impl Guaranteed {
             Delay::Estimated => DelayBound::Unknown,
         };
         let law = settings.drag.unwrap_or(DragLaw::Mixed);
-        let model = BoundedModel { quantum: settings.quantum, error: settings.error, ..BoundedModel::new(law, delay) };
-        let bounds = enclose(records, &model)?;
-        Ok(Self { model, bounds })
+        let model = BoundedModel {
+            quantum: settings.quantum,
+            error: settings.error,
+            stiffness: settings.stiffness,
+            lag: settings.lag,
+            cubic: settings.cubic,
+            either_sign: settings.either_sign,
+            ..BoundedModel::new(law, delay)
+        };
+        let (bounds, certificate) = if settings.certificate {
+            let (bounds, certificate) = enclose_with_certificate(records, &model)?;
+            (bounds, Some(certificate))
+        } else {
+            (enclose(records, &model)?, None)
+        };
+        Ok(Self { model, bounds, certificate })
     }
 }
 
@@ -54,6 +72,12 @@ pub struct BoundedConclusion {
     pub delta: Option<[f64; 2]>,
     /// Constant force during each record.
     pub deltas: Vec<[f64; 2]>,
+    /// Cubic drag; this and the next two where the model was given them.
+    pub beta_cubic: Option<[f64; 2]>,
+    /// Restoring force over the coordinate.
+    pub stiffness: Option<[f64; 2]>,
+    /// Time constant of the force, in s.
+    pub lag_s: Option<[f64; 2]>,
     /// Delay, in s.
     pub delay_s: Option<[f64; 2]>,
     /// A parameter that meets every reading; null where none is known.
@@ -93,6 +117,9 @@ impl From<&Guaranteed> for BoundedConclusion {
             beta_quadratic: bounds.of(Quantity::BetaQuadratic),
             delta: if let [only] = deltas[..] { Some(only) } else { None },
             deltas,
+            beta_cubic: bounds.of(Quantity::BetaCubic),
+            stiffness: bounds.of(Quantity::Stiffness),
+            lag_s: bounds.of(Quantity::LagS),
             delay_s: bounds.of(Quantity::DelayS),
             witness: bounds.witness.as_ref().map(point),
             error: bounds.error.iter().fold(0.0, |largest, error| error.max(largest)),

@@ -64,6 +64,16 @@ pub struct Settings {
     pub error: f64,
     /// For the guaranteed bounds: step of the sensor in output units, above 0, if it is not to be read off the record.
     pub quantum: Option<f64>,
+    /// For the guaranteed bounds: whether the model has a restoring force proportional to the coordinate.
+    pub stiffness: bool,
+    /// For the guaranteed bounds: whether the force follows the command with a first-order lag.
+    pub lag: bool,
+    /// For the guaranteed bounds: whether the drag has a part proportional to the cube of speed.
+    pub cubic: bool,
+    /// For the guaranteed bounds: whether the part of the drag proportional to speed may drive.
+    pub either_sign: bool,
+    /// For the guaranteed bounds: whether a proof is wanted that is checked without a search.
+    pub certificate: bool,
 }
 
 /// Settings that contradict each other or are no numbers of the right kind.
@@ -73,6 +83,9 @@ pub enum SettingsError {
     /// Mixed drag without the fit.
     #[error("only the fit knows mixed drag; use the method fit, or another drag law")]
     MixedNeedsFit,
+    /// A term or a certificate that only the guaranteed bounds have.
+    #[error("stiffness, lag, cubic drag, drag of either sign and a certificate are of the guaranteed bounds; use the method bounded")]
+    NeedsBounded,
     /// A level outside its domain.
     #[error(transparent)]
     OutOfDomain(#[from] OutOfDomain),
@@ -84,6 +97,7 @@ impl SettingsError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::MixedNeedsFit => "mixed-needs-fit",
+            Self::NeedsBounded => "needs-bounded",
             Self::OutOfDomain(_) => "out-of-domain",
         }
     }
@@ -93,7 +107,7 @@ impl SettingsError {
     pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
         match self {
             Self::OutOfDomain(fault) => Some(fault),
-            Self::MixedNeedsFit => None,
+            Self::MixedNeedsFit | Self::NeedsBounded => None,
         }
     }
 }
@@ -106,6 +120,10 @@ impl Settings {
     pub fn check(&self) -> Result<(), SettingsError> {
         if !self.method.includes(Method::Fit) && self.method != Method::Bounded && self.drag == Some(DragLaw::Mixed) {
             return Err(SettingsError::MixedNeedsFit);
+        }
+        let of_bounded = [self.stiffness, self.lag, self.cubic, self.either_sign, self.certificate];
+        if self.method != Method::Bounded && of_bounded.contains(&true) {
+            return Err(SettingsError::NeedsBounded);
         }
         let levels = [
             ("relay level", self.relay_level, "command units"),

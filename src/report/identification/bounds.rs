@@ -69,7 +69,15 @@ pub(crate) fn bounds_verdict(guaranteed: &Guaranteed) -> String {
         DelayBound::WithinS([low, high]) => format!("a delay between {low} and {high} s"),
         DelayBound::Unknown => "an unknown delay".to_owned(),
     };
-    let of = format!("{} drag and {delay}", model.law.name());
+    let mut terms = vec![format!("{} drag", model.law.name())];
+    let given = [
+        (model.either_sign, "linear drag of either sign"),
+        (model.cubic, "cubic drag"),
+        (model.stiffness, "a restoring force"),
+        (model.lag, "a lag"),
+    ];
+    terms.extend(given.into_iter().filter(|(given, _)| *given).map(|(_, term)| term.to_owned()));
+    let of = format!("{} and {delay}", terms.join(", "));
     let errors: Vec<String> = bounds.error.iter().map(|error| format!("{error:.4e}")).collect();
     let [least, most] = bounds.error_factor;
     let answer = match bounds.verdict {

@@ -1,9 +1,12 @@
 //! One record: what is assumed of it, what was found, and whether that is true.
 
+use std::path::Path;
+
 use clap::ValueEnum;
 use cpu_time::ThreadTime;
 use selfosc::experiment::Record;
-use selfosc::identify::bounded::{BoundedModel, Bounds, Consistency, DelayBound, Quantity, enclose};
+use selfosc::identify::bounded::certificate::Certificate;
+use selfosc::identify::bounded::{BoundedModel, Bounds, Consistency, DelayBound, Quantity, enclose, enclose_with_certificate};
 use selfosc::identify::{DragLaw, IdentifyError};
 use selfosc_simulator::kinds::Case;
 
@@ -32,6 +35,8 @@ pub(crate) struct Outcome {
     /// On one core.
     pub(crate) seconds: f64,
     pub(crate) samples: usize,
+    /// What came of its certificate.
+    pub(crate) certified: Option<String>,
 }
 
 fn model(case: &Case, terms: Terms) -> BoundedModel {
@@ -55,7 +60,7 @@ fn model(case: &Case, terms: Terms) -> BoundedModel {
 }
 
 impl Outcome {
-    pub(crate) fn of(case: &Case, terms: Terms, change: impl Fn(&mut BoundedModel)) -> Self {
+    pub(crate) fn of(case: &Case, terms: Terms, certificates: Option<&Path>, change: impl Fn(&mut BoundedModel)) -> Self {
         let mut model = model(case, terms);
         // A user knows what the sensor shows.
         model.quantum = Some(case.runs[0].scenario.sensor.quantum);
@@ -74,7 +79,8 @@ impl Outcome {
         let clock = ThreadTime::now();
         let found = enclose(&records, &model);
         let seconds = clock.elapsed().as_secs_f64();
-        let mut outcome = Self { found, missed: Vec::new(), ratio: None, half_width: None, seconds, samples };
+        let certified = certificates.map(|folder| certified(&records, &model, seconds, &folder.join(format!("{}.json", case.seed))));
+        let mut outcome = Self { found, missed: Vec::new(), ratio: None, half_width: None, seconds, samples, certified };
         if let Ok(bounds) = &outcome.found
             && bounds.verdict != Consistency::Refuted
         {
@@ -113,6 +119,32 @@ fn missed(bounds: &Bounds, case: &Case) -> Vec<Quantity> {
     truths.into_iter().filter(|truth| !inside(truth)).map(|(quantity, _)| quantity).collect()
 }
 
+/// The certificate of a case, written, read and checked: what that costs against the search.
+fn certified(records: &[&Record], model: &BoundedModel, searched_s: f64, path: &Path) -> String {
+    let clock = ThreadTime::now();
+    let certificate = match enclose_with_certificate(records, model) {
+        Ok((_, Ok(certificate))) => certificate,
+        Ok((_, Err(error))) => return format!("no certificate: {error}"),
+        Err(error) => return format!("no certificate: {error}"),
+    };
+    let proved_s = clock.elapsed().as_secs_f64() - searched_s;
+    let text = certificate.to_string();
+    let clock = ThreadTime::now();
+    let shown = Certificate::read(&text).and_then(|certificate| certificate.check());
+    let checked_s = clock.elapsed().as_secs_f64();
+    let written = std::fs::write(path, &text).map_or_else(|error| format!(", not written: {error}"), |()| String::new());
+    match shown {
+        Ok(shown) => format!(
+            "accepted: {} enclosures, {} excluded, {} kB, proof {proved_s:.2} s, check {checked_s:.3} s, {:.3} of the search{written}",
+            shown.enclosures,
+            shown.excluded,
+            text.len() / 1000,
+            checked_s / searched_s
+        ),
+        Err(error) => format!("NOT ACCEPTED: {error}{written}"),
+    }
+}
+
 impl core::fmt::Display for Outcome {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let bounds = match &self.found {
@@ -134,6 +166,7 @@ impl core::fmt::Display for Outcome {
             f,
             ", error x [{least:.3}, {most:.3}], {} passes, {} samples, {:.2} s",
             bounds.passes, self.samples, self.seconds
-        )
+        )?;
+        self.certified.iter().try_for_each(|certified| write!(f, "; certificate {certified}"))
     }
 }

@@ -36,6 +36,9 @@ struct Arguments {
     /// Threads.
     #[arg(long, default_value_t = 1)]
     threads: usize,
+    /// Folder for a certificate of each case; each is checked, and its cost printed with the case.
+    #[arg(long)]
+    certificates: Option<std::path::PathBuf>,
     /// Prints every case.
     #[arg(long)]
     list: bool,
@@ -54,7 +57,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let outcomes: Vec<Outcome> = seeds
             .into_par_iter()
             .map(|seed| {
-                let outcome = Outcome::of(&kind.case(seed), arguments.terms, |model| {
+                let outcome = Outcome::of(&kind.case(seed), arguments.terms, arguments.certificates.as_deref(), |model| {
                     model.budget = arguments.budget.unwrap_or(model.budget);
                     model.reach = arguments.reach.unwrap_or(model.reach);
                 });

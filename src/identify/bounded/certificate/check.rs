@@ -78,6 +78,8 @@ impl Unproved {
 pub struct Shown {
     /// In words.
     pub statement: String,
+    /// What is left of the terms and the delay; nothing where refuted.
+    pub left: Vec<(&'static str, [f64; 2])>,
     /// Boxes excluded.
     pub excluded: usize,
     /// Enclosures of the motion.
@@ -127,7 +129,18 @@ impl Certificate {
             return Err(Unproved::Statement { expected });
         }
         let readings = readings.iter().map(|readings| readings.value.len()).sum();
-        Ok(Shown { statement: expected, excluded: work.excluded, enclosures: work.enclosures, readings })
+        Ok(Shown { statement: expected, left: self.left(), excluded: work.excluded, enclosures: work.enclosures, readings })
+    }
+
+    /// What is left, by name.
+    fn left(&self) -> Vec<(&'static str, [f64; 2])> {
+        let names = self.terms.iter().map(|term| term.name()).chain(["delay_s"]);
+        let left = self.stages.last().and_then(|stage| Some((stage.left.as_ref()?, stage.delay_s.is_none())));
+        left.into_iter()
+            .flat_map(|(left, delayed)| left.iter().take(self.terms.len() + usize::from(delayed)))
+            .zip(names)
+            .map(|(range, name)| (name, *range))
+            .collect()
     }
 
     /// What steps of this shape show.

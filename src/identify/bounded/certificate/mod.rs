@@ -6,6 +6,8 @@
 
 mod check;
 mod prove;
+#[cfg(test)]
+mod tests;
 
 use serde::{Deserialize, Serialize};
 

@@ -8,15 +8,17 @@ use super::{By, Combination, Cut, Stage, Step, Unproved};
 use crate::numeric::{Interval, Real};
 
 /// What is left is given wider than it was found by this share on either side: room for other enclosures than those of the search.
-const ROOM: f64 = 0.02;
-/// A cut takes this share less than the multipliers give, for the same reason.
-const CAUTION: f64 = 0.02;
+const ROOM: f64 = 0.05;
+/// A cut takes this share less than the multipliers give, for the same reason: over wide boxes and over narrow ones.
+const CAUTION: [f64; 2] = [0.1, 0.03];
 /// A contradiction is beyond doubt by this share of the errors that it weighs.
-const BEYOND: f64 = 0.01;
+const BEYOND: f64 = 1e-5;
 /// A cut that takes less than this of a range is left out.
 const LEAST_CUT: f64 = 0.05;
 /// Steps that leave more than this of every range did not help.
 const HELPED: f64 = 0.8;
+/// A box this much wider than what is left is cut where it sticks out.
+const NEAR: f64 = 4.0;
 /// Steps of a stage.
 const MOST_STEPS: usize = 4000;
 
@@ -144,6 +146,11 @@ impl Prover<'_> {
             }
         }
         here.weighed = true;
+        own.clone_from(&here.at);
+        if self.search.weighed(&mut own).is_none() {
+            self.steps.push(Step::Exclude { by: By::Hats, rows: Vec::new() });
+            return Some(Next::Excluded);
+        }
         // What the readings say of speeds is needed once the motion is followed.
         let mut cuts = Vec::new();
         let start = self.search.setup.layout.parameters();
@@ -157,7 +164,6 @@ impl Prover<'_> {
             here.at[unknown] = side.intersection(known).unwrap_or(side);
         }
         if !cuts.is_empty() {
-            // Over the box before the last cuts; over less of it they hold all the more.
             self.steps.push(Step::Contract { by: By::Hats, cuts });
         }
         None
@@ -266,7 +272,12 @@ impl Prover<'_> {
                 if !(gained > LEAST_CUT * side.width() || wanted) || !(gained > 0.0) {
                     continue;
                 }
-                let mut end = reached + CAUTION * gained;
+                let caution = match by {
+                    By::Hats => 0.0,
+                    By::Window(_) | By::Chain => CAUTION[0],
+                    By::Whole => CAUTION[1],
+                };
+                let mut end = reached + caution * gained;
                 // Beyond what is left nothing is gained.
                 if let Some(face) = face.filter(|face| *face < now && other <= *face) {
                     end = end.max(face);
@@ -302,8 +313,11 @@ impl Prover<'_> {
 
     /// Where the box sticks out of what is left, there; else at the unknown whose range costs most.
     fn divide(&self, at: &[Interval], widest: usize) -> Result<Next, Unproved> {
-        let meets = |left: &Vec<Interval>| at.iter().zip(left).all(|(side, left)| side.intersection(*left).is_some());
-        let Some(left) = self.left.as_ref().filter(|left| meets(left)) else { return self.halves(at, widest) };
+        let near = |left: &Vec<Interval>| {
+            let mut sides = at.iter().zip(left);
+            sides.all(|(side, left)| side.width() <= NEAR * left.width() && side.intersection(*left).is_some())
+        };
+        let Some(left) = self.left.as_ref().filter(|left| near(left)) else { return self.halves(at, widest) };
         let mut furthest = (0.0, None);
         for (unknown, (side, left)) in at.iter().zip(left).enumerate() {
             let unit = left.width().max(f64::MIN_POSITIVE);

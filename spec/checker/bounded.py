@@ -1,0 +1,425 @@
+"""Verifies the proofs that `selfosc identify LOG --method bounded --certificate FILE` writes. See README.md."""
+
+import json
+import sys
+from pathlib import Path
+
+from flint import arb
+
+from check import Refused, require
+from motion import Equation, Motion, Products, Unfollowed, advance_point, span, times
+
+FORMAT = 1
+# Boxes whose inertia is known worse than this are followed with exact products.
+WIDE = 2e-3
+TERMS = ("gain", "linear", "quadratic", "cubic", "stiffness", "lag_rate")
+STATEMENTS = {
+    (False, False): "every parameter in the search box that meets every reading lies within the bounds",
+    (False, True): "consistent: every parameter in the search box that meets every reading lies within the bounds, and the witness "
+    "meets every reading from its own first on",
+    (True, False): "refuted: no parameter in the search box meets every reading",
+    (True, True): "refuted: no parameter in the search box meets every reading",
+}
+
+
+def interval(ends):
+    low, high = float(ends[0]), float(ends[1])
+    require(low <= high and abs(low) + abs(high) < float("inf"), "a range is malformed")
+    return low, high
+
+
+class Record:
+    def __init__(self, item):
+        self.time, self.reading = [float(t) for t in item["time_s"]], [float(y) for y in item["reading"]]
+        self.error, self.levels = float(item["error"]), [float(u) for u in item["levels"]]
+        spans = [interval(ends) for ends in item["switched_s"]]
+        require(float(item["jitter_s"]) == 0.0, "stamps with errors are not verified here")
+        require(all(a == b for a, b in spans), "switchings at unknown instants are not verified here")
+        self.switched = [a for a, _ in spans]
+        require(len(self.time) == len(self.reading) and len(self.levels) == len(spans) + 1, "a record is malformed")
+        for instants in (self.time, self.switched):
+            require(all(a < b for a, b in zip(instants, instants[1:])), "instants are not in order")
+        numbers = self.time + self.reading + self.levels + self.switched + [self.error]
+        require(self.error > 0 and all(abs(n) < float("inf") for n in numbers), "a record has what is no number")
+
+    def largest(self):
+        return max(map(abs, self.levels))
+
+
+class Stage:
+    """One stage, as a problem: where each unknown stands in a box."""
+
+    def __init__(self, certificate, records, item):
+        self.certificate, self.records, self.item = certificate, records, item
+        self.terms = certificate["terms"]
+        self.delay = None if item["delay_s"] is None else float(item["delay_s"])
+        self.common = len(self.terms) + (self.delay is None)
+        self.parameters = self.common + len(records)
+        self.size = 3 if "lag_rate" in self.terms else 2
+        self.windows = [tuple(int(n) for n in window) for window in item["windows"]]
+        self.middle, self.least, self.fastest = (float(certificate[k]) for k in ("middle_speed", "least_linear", "fastest"))
+        own = [interval(ends) for ends in item["from"]]
+        require(len(own) == self.parameters and own[0][0] > 0, "the search box is malformed")
+        longest = own[len(self.terms)][1] if self.delay is None else self.delay
+        before = None
+        for window in self.windows:
+            record, first, last = window
+            require(0 <= record < len(records) and 0 <= first < last < len(records[record].time), "a window is malformed")
+            follows = record == 0 if before is None else record == before[0] + 1 if record != before[0] else first == before[2]
+            times = records[record].time
+            require(follows and arb(times[first]) - arb(times[0]) >= longest, "a window does not follow, or is too early")
+            before = window
+        require(before is not None and before[0] == len(records) - 1, "a record has no window")
+        for record, first, _ in self.windows:
+            reading, error = arb(records[record].reading[first]), records[record].error
+            own.append((float((reading - error).lower()) - 1e-300, float((reading + error).upper()) + 1e-300))
+            own.append((-self.fastest, self.fastest))
+            if self.size == 3:
+                own.append((-records[record].largest(), records[record].largest()))
+        # Ends as floats, outwards.
+        self.box = [tuple(own[i]) if i < self.parameters else (down(own[i][0]), up(own[i][1])) for i in range(len(own))]
+        self.left = None if item["left"] is None else [interval(ends) for ends in item["left"]]
+        require(self.left is None or len(self.left) == self.parameters, "what is left is malformed")
+
+    def start(self, window, component):
+        return self.parameters + window * self.size + component
+
+    def equation(self, box, record):
+        terms = dict(zip(self.terms, box))
+        terms["disturbance"] = box[self.common + record]
+        return Equation(terms, self.middle)
+
+    def columns(self, window):
+        """What slopes there are, and where each unknown stands."""
+        record = self.windows[window][0]
+        columns = [(("term", name), place) for place, name in enumerate(self.terms)]
+        if self.delay is None:
+            columns.append((("delay", None), len(self.terms)))
+        columns.append((("term", "disturbance"), self.common + record))
+        columns += [(("start", k), self.start(window, k)) for k in range(self.size)]
+        return columns
+
+    def rows(self, by, box):
+        """Inequalities by name as `(slopes, limit)` about the middle of the box, with the deviations; `None` where links part."""
+        rows, ranges = {}, [span(*side) for side in box]
+        centre = [arb(side.mid()) for side in ranges]
+        Products.by_ends = float(ranges[0].rad()) > WIDE * float(ranges[0].mid())
+        if by == "whole":
+            spans = whole(self.windows)
+        elif by == "chain":
+            spans = [(i, i + 1) for i in range(len(self.windows))]
+        else:
+            window = int(by["window"])
+            require(0 <= window < len(self.windows), "no such window")
+            spans = [(window, window + 1)]
+        for first, after in spans:
+            nodes, places = self.motion(first, after, ranges, centre)
+            record = self.records[self.windows[first][0]]
+            for sample, (_, point, slopes) in nodes:
+                strays, slopes = point[0] - record.reading[sample], [(p, s[0]) for p, s in zip(places, slopes)]
+                pair(rows, ("reading", first, sample), slopes, strays, arb(record.error))
+            linked = by == "chain" and after < len(self.windows) and self.windows[after][0] == self.windows[first][0]
+            if linked:
+                over, point, slopes = nodes[-1][1]
+                for k in range(self.size):
+                    place = self.start(after, k)
+                    low, high = max(over[k].lower(), ranges[place].lower()), min(over[k].upper(), ranges[place].upper())
+                    if not low <= high:
+                        return None
+                    ranges[place] = span(low, high)
+                    own = [(p, s[k]) for p, s in zip(places, slopes)] + [(place, arb(-1))]
+                    pair(rows, ("link", first, k), own, point[k] - centre[place], arb(0))
+        if not isinstance(by, dict):
+            self.bound(rows, centre)
+        return rows, centre, [r - c for r, c in zip(ranges, centre)]
+
+    def bound(self, rows, centre):
+        """What the search box says beside its sides."""
+        for record, own in enumerate(self.records):
+            place = self.common + record
+            for above, sign in ((True, 1), (False, -1)):
+                slopes = [(0, arb(-own.largest())), (place, arb(sign))]
+                rows["disturbance", record, above] = slopes, -sum(s * centre[p] for p, s in slopes)
+        if "linear" in self.terms and "quadratic" in self.terms:
+            slopes = [(self.terms.index("linear"), arb(-1)), (self.terms.index("quadratic"), 2 * arb(self.middle))]
+            rows["least_linear",] = slopes, arb(-self.least) - sum(s * centre[p] for p, s in slopes)
+
+    def motion(self, first, after, ranges, centre):
+        """States at every sample from the first of one window to the last of another, with the places of their slopes."""
+        record_index, begin, _ = self.windows[first]
+        end = self.windows[after - 1][2]
+        record = self.records[record_index]
+        columns = self.columns(first)
+        places = [place for _, place in columns]
+        state = [ranges[self.start(first, k)] if k < self.size else arb(0) for k in range(3)]
+        point = [centre[self.start(first, k)] if k < self.size else arb(0) for k in range(3)]
+        motion = Motion(
+            self.equation(ranges, record_index),
+            self.equation(centre, record_index),
+            [column for column, _ in columns],
+            [ranges[p] - centre[p] for p in places],
+            state,
+            point,
+        )
+        delays = [arb(self.delay)] * 3
+        if self.delay is None:
+            own = ranges[len(self.terms)]
+            delays = [own.lower(), centre[len(self.terms)], own.upper()]
+        return drive(motion, record, delays, begin, end), places
+
+    def witness(self, values, record_index, first, state):
+        """The largest misfit of one parameter over its largest error."""
+        record = self.records[record_index]
+        exact = [arb(v) for v in values]
+        equation = self.equation(exact, record_index)
+        delay = arb(self.delay) if self.delay is not None else exact[len(self.terms)]
+        require(arb(record.time[first]) - arb(record.time[0]) >= delay, "the witness begins too early")
+        state = [arb(v) for v in state] + [arb(0)] * (3 - self.size)
+        now, worst = arb(record.time[first]), arb(0)
+        events = sorted([(t, 1, k) for k, t in enumerate(record.time) if k >= first])
+        done = 0
+        for t, _, sample in events:
+            while done < len(record.switched) and (arb(record.switched[done]) + delay) < arb(t):
+                at = arb(record.switched[done]) + delay
+                if at > now:
+                    state, now = moved(equation, state, record.levels[done], at - now, self.size), at
+                done += 1
+            if arb(t) > now:
+                state, now = moved(equation, state, record.levels[done], arb(t) - now, self.size), arb(t)
+            worst = max(worst, (abs(state[0] - record.reading[sample]) / record.error).upper())
+        return worst
+
+
+def moved(equation, state, level, h, size):
+    u = arb(level)
+    if size == 2:
+        state = [state[0], state[1], u]
+    return advance_point(equation, state, u, h)[0]
+
+
+def drive(motion, record, delays, begin, end):
+    """The nodes of a motion: `(sample, (over, point, slopes))`."""
+    least, middle, most = delays
+    uncertain = not (least == most)
+    events = []
+    for edge, at in enumerate(record.switched):
+        opens, acts, closes = arb(at) + least, arb(at) + middle, arb(at) + most
+        events.append((acts, 1, edge))
+        if uncertain:
+            events += [(opens, 0, edge), (closes, 2, edge)]
+    events = [(t, kind, n) for t, kind, n in events] + [(arb(record.time[k]), 3, k) for k in range(begin + 1, end + 1)]
+    events.sort(key=lambda event: (float(event[0].mid()), event[1]))
+    now = arb(record.time[begin])
+    opened = acted = closed = 0
+    nodes = []
+
+    def note(sample):
+        slopes = [list(slope) for slope in motion.seen_slopes()]
+        over = motion.met(list(motion.over))
+        if not all(v.is_finite() for v in over + motion.point):
+            raise Unfollowed("no finite states")
+        nodes.append((sample, (over, list(motion.point), slopes)))
+
+    # What has happened before the first sample.
+    for t, kind, edge in events:
+        if kind != 3 and float(t.mid()) <= float(now.mid()):
+            opened, acted, closed = opened + (kind == 0), acted + (kind == 1), closed + (kind == 2)
+    if uncertain and opened > closed:
+        require(opened == closed + 1, "two switchings at once")
+        motion.opened(arb(record.levels[closed]) - arb(record.levels[closed + 1]), True)
+    note(begin)
+    for t, kind, n in events:
+        if kind != 3 and float(t.mid()) <= record.time[begin]:
+            continue
+        if float(t.mid()) > record.time[end]:
+            break
+        h = t - now
+        if float(h.mid()) > 0:
+            low = (closed if uncertain else acted), (opened if uncertain else acted)
+            u = arb(record.levels[low[0]])
+            for level in record.levels[low[0] : low[1] + 1]:
+                u = u.union(arb(level))
+            motion.advance(u, arb(record.levels[acted]), h)
+            now = t
+        if kind == 0:
+            motion.opened(arb(record.levels[n]) - arb(record.levels[n + 1]), False)
+            opened += 1
+        elif kind == 1:
+            acted += 1
+        elif kind == 2:
+            motion.closed()
+            closed += 1
+        else:
+            note(n)
+    require(len(nodes) == end - begin + 1, "a sample was passed over")
+    return nodes
+
+
+def down(x):
+    return float(x) - 1e-15 * abs(float(x))
+
+
+def up(x):
+    return float(x) + 1e-15 * abs(float(x))
+
+
+def whole(windows):
+    spans = []
+    for i, (record, _, _) in enumerate(windows):
+        if spans and windows[spans[-1][0]][0] == record:
+            spans[-1] = spans[-1][0], i + 1
+        else:
+            spans.append((i, i + 1))
+    return spans
+
+
+def pair(rows, name, slopes, strays, error):
+    rows[name + (True,)] = slopes, error - strays
+    rows[name + (False,)] = [(p, -s) for p, s in slopes], error + strays
+
+
+def key(origin):
+    """The name of a row as the file has it."""
+    if origin == "least_linear":
+        return ("least_linear",)
+    ((kind, at),) = origin.items()
+    fields = {"reading": ("window", "sample"), "link": ("window", "component"), "disturbance": ("record",)}
+    require(kind in fields, f"a row by {kind}")
+    return (kind, *(int(at[f]) for f in fields[kind]), bool(at["above"]))
+
+
+def dual(found, objective, combination):
+    """An upper bound of the objective from multipliers."""
+    rows, _, deviations = found
+    rest = {objective[0]: arb(objective[1])} if objective else {}
+    total = arb(0)
+    for origin, y in combination:
+        y = float(y)
+        require(0 <= y < float("inf"), "a multiplier is negative")
+        name = key(origin)
+        require(name in rows, "a row does not exist")
+        slopes, limit = rows[name]
+        total += arb(y) * limit
+        for place, slope in slopes:
+            rest[place] = rest.get(place, arb(0)) - arb(y) * slope
+    for place, slope in rest.items():
+        total += times(slope, deviations[place])
+    return total.upper()
+
+
+class Walk:
+    """The steps of a stage over its boxes."""
+
+    def __init__(self, stage, name):
+        self.stage, self.name = stage, name
+        self.verified, self.taken = 0, 0
+
+    def go(self):
+        boxes = [self.stage.box]
+        for number, step in enumerate(self.stage.item["steps"]):
+            require(boxes, f"{self.name}: a step without a box")
+            try:
+                boxes += self.step(boxes.pop(), step)
+            except Unfollowed as fault:
+                raise Refused(f"{self.name}, step {number}: {fault}") from fault
+            except Refused as fault:
+                raise Refused(f"{self.name}, step {number}: {fault}") from fault
+        require(not boxes, f"{self.name}: boxes are left over")
+
+    def step(self, box, step):
+        """The boxes that are left to deal with, the next one last."""
+        if step == "keep":
+            left = self.stage.left
+            require(left is not None, "nothing is said to be left")
+            require(all(a <= f and t <= b for (f, t), (a, b) in zip(box, left)), "the box is not within what is left")
+            return []
+        ((kind, what),) = step.items()
+        if kind == "divide":
+            place, at = int(what["unknown"]), float(what["at"])
+            low, high = box[place]
+            require(low <= at <= high, "the division is not within the box")
+            return [box[:place] + [half] + box[place + 1 :] for half in ((at, high), (low, at))]
+        require(kind in ("contract", "exclude"), "an unknown step")
+        by = what["by"]
+        if by == "hats":
+            self.taken += 1
+            return [] if kind == "exclude" else shorten(box, what["cuts"])
+        self.verified += 1
+        found = self.stage.rows(by, box)
+        if found is None:
+            return []
+        if kind == "exclude":
+            require(dual(found, None, what["rows"]) < 0, "the box is not excluded")
+            return []
+        for cut in what["cuts"]:
+            place, sign = int(cut["unknown"]), 1 if cut["upper"] else -1
+            end = found[1][place] + sign * dual(found, (place, sign), cut["rows"])
+            reached = end.upper() <= cut["end"] if sign > 0 else end.lower() >= cut["end"]
+            require(reached, f"the range of unknown {place} ends at {float(end.mid()):.6g}, not at {cut['end']:.6g}")
+        return shorten(box, what["cuts"])
+
+
+def shorten(box, cuts):
+    box = list(box)
+    for cut in cuts:
+        place, end = int(cut["unknown"]), float(cut["end"])
+        low, high = box[place]
+        box[place] = (low, min(high, end)) if cut["upper"] else (max(low, end), high)
+        if box[place][0] > box[place][1]:
+            return []
+    return [box]
+
+
+def check(certificate):
+    """What it shows, the number of steps verified here, and of those taken from the file; or Refused."""
+    require(certificate["format"] == FORMAT, "another format")
+    terms = certificate["terms"]
+    require(terms == [t for t in TERMS if t in terms] and terms[0] == "gain", "another equation")
+    records = [Record(item) for item in certificate["records"]]
+    stages = [Stage(certificate, records, item) for item in certificate["stages"]]
+    require(stages and records, "no stage")
+    for before, after in zip(stages, stages[1:]):
+        require(before.item["left"] == after.item["from"], "a stage does not begin where the one before ended")
+    witness = certificate["witness"]
+    expected = STATEMENTS[stages[-1].left is None, witness is not None]
+    require(certificate["statement"] == expected, "another statement")
+    if witness is not None:
+        stage = stages[0]
+        values, firsts = [float(v) for v in witness["values"]], [int(n) for n in witness["first"]]
+        require(len(values) == stage.parameters + stage.size * len(records) and len(firsts) == len(records), "the witness is malformed")
+        require(all(a <= v <= b for v, (a, b) in zip(values, stage.box)), "the witness is not in the search box")
+        for record, first in enumerate(firsts):
+            at = stage.parameters + stage.size * record
+            misfit = stage.witness(values[: stage.parameters], record, first, values[at : at + stage.size])
+            require(misfit <= 1, "the witness misses a reading")
+    verified = taken = 0
+    for number, stage in enumerate(stages):
+        walk = Walk(stage, f"stage {number}")
+        walk.go()
+        verified, taken = verified + walk.verified, taken + walk.taken
+    return expected, verified, taken
+
+
+def check_file(path):
+    try:
+        return check(json.loads(Path(path).read_text()))
+    except (OSError, KeyError, IndexError, TypeError, ValueError) as fault:
+        raise Refused(f"unreadable: {fault!r}") from fault
+
+
+def main(paths):
+    accepted = True
+    for path in paths:
+        try:
+            shown, verified, taken = check_file(path)
+            print(f"{path}  accepted  {shown}\n  verified here: {verified} steps by the motion; taken from the file: {taken} steps by hats")
+        except Refused as reason:
+            accepted = False
+            print(f"{path}  refused   {reason}")
+    return 0 if accepted else 1
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    sys.exit(main(sys.argv[1:]))

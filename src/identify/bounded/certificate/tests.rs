@@ -1,0 +1,125 @@
+//! Certificates are accepted as they are written, and refused with anything changed.
+
+use std::sync::LazyLock;
+
+use super::super::tests::{record, settings};
+use super::super::{BoundedModel, Consistency, DelayBound, enclose_with_certificate};
+use super::{Certificate, Combination, Step, Unproved};
+use crate::identify::DragLaw;
+
+fn written(model: &BoundedModel, verdict: Consistency) -> Certificate {
+    let (bounds, certificate) = enclose_with_certificate(&[&record(300)], model).expect("bounds");
+    assert_eq!(bounds.verdict, verdict);
+    certificate.expect("a proof")
+}
+
+static CONSISTENT: LazyLock<Certificate> =
+    LazyLock::new(|| written(&settings(DragLaw::Linear), Consistency::Consistent));
+
+/// By a delay that is not the vehicle's.
+static REFUTED: LazyLock<Certificate> = LazyLock::new(|| {
+    let late = BoundedModel { delay: DelayBound::KnownS(0.15), ..settings(DragLaw::Linear) };
+    written(&late, Consistency::Refuted)
+});
+
+fn both() -> [&'static Certificate; 2] {
+    [&CONSISTENT, &REFUTED]
+}
+
+fn refused(certificate: &Certificate) -> &'static str {
+    certificate.check().map_or_else(|unproved| unproved.code(), |shown| panic!("accepted: {shown:?}"))
+}
+
+#[test]
+fn what_is_written_is_accepted_and_read_back() {
+    for certificate in both() {
+        let read = Certificate::read(&certificate.to_string()).expect("a certificate");
+        assert_eq!(read, *certificate);
+        let shown = read.check().expect("accepted");
+        assert!(shown.enclosures > 0 && shown.readings == 300);
+        assert_eq!(shown.left.is_empty(), read.stages[0].left.is_none());
+    }
+}
+
+/// Every combination of rows by the motion, one at a time.
+fn each_changed(change: impl Fn(&mut Combination)) -> usize {
+    let mut changed = 0;
+    for certificate in both() {
+        for step in 0..certificate.stages[0].steps.len() {
+            let mut other = certificate.clone();
+            let rows = match &mut other.stages[0].steps[step] {
+                Step::Contract { cuts, .. } => cuts.iter_mut().map(|cut| &mut cut.rows).find(|rows| rows.len() > 1),
+                Step::Exclude { rows, .. } => Some(rows).filter(|rows| rows.len() > 1),
+                _ => None,
+            };
+            let Some(rows) = rows else { continue };
+            change(rows);
+            changed += 1;
+            assert_eq!(refused(&other), "step", "step {step}");
+        }
+    }
+    changed
+}
+
+fn heaviest(rows: &Combination) -> usize {
+    (0..rows.len()).max_by(|a, b| rows[*a].1.total_cmp(&rows[*b].1)).unwrap_or(0)
+}
+
+#[test]
+fn one_constraint_dropped_or_one_multiplier_altered_is_refused() {
+    let dropped = each_changed(|rows| {
+        rows.remove(heaviest(rows));
+    });
+    let altered = each_changed(|rows| {
+        let heaviest = heaviest(rows);
+        rows[heaviest].1 *= 3.0;
+    });
+    let negative = each_changed(|rows| {
+        let heaviest = heaviest(rows);
+        rows[heaviest].1 *= -1.0;
+    });
+    assert!(dropped > 5 && altered == dropped && negative == dropped, "{dropped} combinations");
+}
+
+#[test]
+fn boxes_left_out_or_made_smaller_are_refused() {
+    for certificate in both() {
+        let mut shorter = certificate.clone();
+        shorter.stages[0].steps.pop();
+        assert_eq!(refused(&shorter), "incomplete");
+        let mut longer = certificate.clone();
+        longer.stages[0].steps.push(Step::Keep);
+        assert_eq!(refused(&longer), "incomplete");
+        let mut without = certificate.clone();
+        without.stages.clear();
+        assert_eq!(refused(&without), "malformed");
+    }
+    let mut narrower = CONSISTENT.clone();
+    let left = narrower.stages[0].left.as_mut().expect("a box");
+    left[0][1] = 0.5 * (left[0][0] + left[0][1]);
+    assert_eq!(refused(&narrower), "step");
+    let mut refuted = CONSISTENT.clone();
+    refuted.stages[0].left = None;
+    assert_eq!(refused(&refuted), "step");
+}
+
+#[test]
+fn a_window_that_starts_before_its_commands_are_known_is_refused() {
+    let mut early = REFUTED.clone();
+    early.stages[0].windows[0][1] = 0;
+    assert_eq!(refused(&early), "malformed");
+    let mut parted = CONSISTENT.clone();
+    parted.stages[0].windows[1][1] += 1;
+    assert_eq!(refused(&parted), "malformed");
+}
+
+#[test]
+fn a_witness_that_misses_a_reading_and_words_that_say_more_are_refused() {
+    let mut missing = CONSISTENT.clone();
+    missing.witness.as_mut().expect("a witness").values[1] *= 1.05;
+    assert_eq!(refused(&missing), "witness");
+    let mut boast = CONSISTENT.clone();
+    boast.statement = REFUTED.statement.clone();
+    assert_eq!(refused(&boast), "statement");
+    assert!(matches!(Certificate::read("{}"), Err(Unproved::Malformed { .. })));
+}
