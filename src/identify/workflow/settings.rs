@@ -84,7 +84,9 @@ pub enum SettingsError {
     #[error("only the fit knows mixed drag; use the method fit, or another drag law")]
     MixedNeedsFit,
     /// A term or a certificate that only the guaranteed bounds have.
-    #[error("stiffness, lag, cubic drag, drag of either sign and a certificate are of the guaranteed bounds; use the method bounded")]
+    #[error(
+        "stiffness, lag, cubic drag, drag of either sign and a certificate are of the guaranteed bounds; use the method bounded"
+    )]
     NeedsBounded,
     /// A level outside its domain.
     #[error(transparent)]

@@ -6,7 +6,9 @@ use clap::ValueEnum;
 use cpu_time::ThreadTime;
 use selfosc::experiment::Record;
 use selfosc::identify::bounded::certificate::Certificate;
-use selfosc::identify::bounded::{BoundedModel, Bounds, Consistency, DelayBound, Quantity, enclose, enclose_with_certificate};
+use selfosc::identify::bounded::{
+    BoundedModel, Bounds, Consistency, DelayBound, Quantity, enclose, enclose_with_certificate,
+};
 use selfosc::identify::{DragLaw, IdentifyError};
 use selfosc_simulator::kinds::Case;
 
@@ -60,7 +62,12 @@ fn model(case: &Case, terms: Terms) -> BoundedModel {
 }
 
 impl Outcome {
-    pub(crate) fn of(case: &Case, terms: Terms, certificates: Option<&Path>, change: impl Fn(&mut BoundedModel)) -> Self {
+    pub(crate) fn of(
+        case: &Case,
+        terms: Terms,
+        certificates: Option<&Path>,
+        change: impl Fn(&mut BoundedModel),
+    ) -> Self {
         let mut model = model(case, terms);
         // A user knows what the sensor shows.
         model.quantum = Some(case.runs[0].scenario.sensor.quantum);
@@ -79,8 +86,10 @@ impl Outcome {
         let clock = ThreadTime::now();
         let found = enclose(&records, &model);
         let seconds = clock.elapsed().as_secs_f64();
-        let certified = certificates.map(|folder| certified(&records, &model, seconds, &folder.join(format!("{}.json", case.seed))));
-        let mut outcome = Self { found, missed: Vec::new(), ratio: None, half_width: None, seconds, samples, certified };
+        let certified = certificates
+            .map(|folder| certified(&records, &model, seconds, &folder.join(format!("{}.json", case.seed))));
+        let mut outcome =
+            Self { found, missed: Vec::new(), ratio: None, half_width: None, seconds, samples, certified };
         if let Ok(bounds) = &outcome.found
             && bounds.verdict != Consistency::Refuted
         {
@@ -132,7 +141,8 @@ fn certified(records: &[&Record], model: &BoundedModel, searched_s: f64, path: &
     let clock = ThreadTime::now();
     let shown = Certificate::read(&text).and_then(|certificate| certificate.check());
     let checked_s = clock.elapsed().as_secs_f64();
-    let written = std::fs::write(path, &text).map_or_else(|error| format!(", not written: {error}"), |()| String::new());
+    let written =
+        std::fs::write(path, &text).map_or_else(|error| format!(", not written: {error}"), |()| String::new());
     match shown {
         Ok(shown) => format!(
             "accepted: {} enclosures, {} excluded, {} kB, proof {proved_s:.2} s, check {checked_s:.3} s, {:.3} of the search{written}",

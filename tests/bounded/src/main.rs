@@ -57,10 +57,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let outcomes: Vec<Outcome> = seeds
             .into_par_iter()
             .map(|seed| {
-                let outcome = Outcome::of(&kind.case(seed), arguments.terms, arguments.certificates.as_deref(), |model| {
-                    model.budget = arguments.budget.unwrap_or(model.budget);
-                    model.reach = arguments.reach.unwrap_or(model.reach);
-                });
+                let outcome =
+                    Outcome::of(&kind.case(seed), arguments.terms, arguments.certificates.as_deref(), |model| {
+                        model.budget = arguments.budget.unwrap_or(model.budget);
+                        model.reach = arguments.reach.unwrap_or(model.reach);
+                    });
                 if arguments.list {
                     eprintln!("{} {seed}: {outcome}", kind.name);
                 }

@@ -10,7 +10,7 @@ use crate::numeric::{Interval, Real};
 /// What is left is given wider than it was found by this share on either side: room for other enclosures than those of the search.
 const ROOM: f64 = 0.05;
 /// A cut takes this share less than the multipliers give, for the same reason: over wide boxes and over narrow ones.
-const CAUTION: [f64; 2] = [0.1, 0.03];
+const CAUTION: [f64; 2] = [0.2, 0.03];
 /// A contradiction is beyond doubt by this share of the errors that it weighs.
 const BEYOND: f64 = 1e-5;
 /// A cut that takes less than this of a range is left out.
@@ -272,12 +272,16 @@ impl Prover<'_> {
                 if !(gained > LEAST_CUT * side.width() || wanted) || !(gained > 0.0) {
                     continue;
                 }
+                // Over wide boxes enclosures differ by shares of the range, over narrow ones of what is gained.
                 let caution = match by {
                     By::Hats => 0.0,
-                    By::Window(_) | By::Chain => CAUTION[0],
-                    By::Whole => CAUTION[1],
+                    By::Window(_) | By::Chain => CAUTION[0] * gained + 0.2 * CAUTION[0] * side.width(),
+                    By::Whole => CAUTION[1] * gained,
                 };
-                let mut end = reached + caution * gained;
+                if caution >= gained {
+                    continue;
+                }
+                let mut end = reached + caution;
                 // Beyond what is left nothing is gained.
                 if let Some(face) = face.filter(|face| *face < now && other <= *face) {
                     end = end.max(face);
