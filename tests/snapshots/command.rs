@@ -85,6 +85,30 @@ fn certificates() {
     assert!(complaint.contains("orbit-linear.json") && complaint.contains("--certificates"), "{complaint}");
 }
 
+/// A proof of bounds: written with them, checked without a search, refused with one constraint dropped.
+#[test]
+fn bounds_are_proved_in_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (log, proof) = (path("log.csv"), path("proof.json"));
+    let record = ["simulate", "--alpha", "1", "--beta", "0.5", "--relay", "1", "--half-width", "0.3", "--cycles", "5"];
+    std::fs::write(&log, done(&[&record[..], &["--hold", "--quantum", "0.01"]].concat())).unwrap();
+    let method = ["identify", &log, "--method", "bounded", "--drag", "linear", "--certificate", &proof];
+    for (delay, shown) in [("0", "accepted  consistent"), ("0.15", "accepted  refuted")] {
+        assert!(done(&[&method[..], &["--delay", delay]].concat()).contains("proof in "));
+        assert!(done(&["verify", "--check", &proof]).starts_with(shown));
+    }
+
+    let mut certificate: serde_json::Value = serde_json::from_slice(&std::fs::read(&proof).unwrap()).unwrap();
+    let steps = certificate["stages"][0]["steps"].as_array_mut().unwrap();
+    let rows = steps.iter_mut().rev().find_map(|step| step.get_mut("exclude")?["rows"].as_array_mut());
+    rows.filter(|rows| !rows.is_empty()).unwrap().remove(0);
+    std::fs::write(&proof, certificate.to_string()).unwrap();
+    let (status, answer, _) = output(&["verify", "--check", &proof]);
+    assert_eq!(status, Some(1));
+    assert!(answer.starts_with("refused   step: "), "{answer}");
+}
+
 fn with(first: &[&'static str], rest: &[&'static str]) -> Vec<&'static str> {
     first.iter().chain(rest).copied().collect()
 }

@@ -28,6 +28,8 @@ struct Open {
     at: Vec<Interval>,
     /// The hats help no more.
     weighed: bool,
+    /// Speeds at the windows' beginnings are those that the readings tell.
+    quickened: bool,
     /// Each window has been seen by itself.
     swept: bool,
 }
@@ -87,7 +89,7 @@ impl Stage {
 
 impl Prover<'_> {
     fn go(&mut self) -> Result<(), Unproved> {
-        let mut open = vec![Open { at: self.search.setup.search.clone(), weighed: false, swept: false }];
+        let mut open = vec![Open { at: self.search.setup.search.clone(), weighed: false, quickened: false, swept: false }];
         while let Some(mut here) = open.pop() {
             loop {
                 if self.kept(&here.at) {
@@ -127,6 +129,12 @@ impl Prover<'_> {
             here.weighed = false;
             return self.halves(&here.at, widest);
         }
+        if !here.quickened {
+            here.quickened = true;
+            if let Some(next) = self.quicken(here) {
+                return Ok(next);
+            }
+        }
         self.follow(here)
     }
 
@@ -146,22 +154,25 @@ impl Prover<'_> {
             }
         }
         here.weighed = true;
-        own.clone_from(&here.at);
+        None
+    }
+
+    /// Speeds at the windows' beginnings, as the readings have them; `Some` where there are none.
+    fn quicken(&mut self, here: &mut Open) -> Option<Next> {
+        let mut own = here.at.clone();
         if self.search.weighed(&mut own).is_none() {
             self.steps.push(Step::Exclude { by: By::Hats, rows: Vec::new() });
             return Some(Next::Excluded);
         }
-        // What the readings say of speeds is needed once the motion is followed.
         let mut cuts = Vec::new();
-        let start = self.search.setup.layout.parameters();
-        for unknown in start..own.len() {
+        for unknown in self.search.setup.layout.parameters()..own.len() {
             let (side, known) = (here.at[unknown], own[unknown]);
             for (upper, end, other) in [(true, known.upper(), side.upper()), (false, known.lower(), side.lower())] {
                 if end != other {
                     cuts.push(Cut { unknown, upper, end, rows: Vec::new() });
                 }
             }
-            here.at[unknown] = side.intersection(known).unwrap_or(side);
+            here.at[unknown] = known;
         }
         if !cuts.is_empty() {
             self.steps.push(Step::Contract { by: By::Hats, cuts });
@@ -207,7 +218,9 @@ impl Prover<'_> {
             self.take(by, &linear, here, &all, &parameters)
         };
         match next {
-            Some(next) if matches!(next, Next::Excluded) || self.search.rest(&before, &here.at) < HELPED => Ok(next),
+            Some(next) if matches!(next, Next::Excluded) || self.search.rest(&before, &here.at) < HELPED => {
+                Ok(next)
+            }
             _ => self.divide(&here.at, slack.1),
         }
     }
