@@ -148,10 +148,12 @@ impl Prover<'_> {
         self.search.model.bound(&mut linear);
         let parameters: Vec<usize> = (0..self.search.setup.layout.parameters()).collect();
         let before = here.at.clone();
-        if let Some(next) = self.take(By::Hats, &linear, here, &parameters, &parameters) {
-            if matches!(next, Next::Excluded) || self.search.rest(&before, &here.at) < HELPED {
-                return Some(next);
-            }
+        let next = self.take(By::Hats, &linear, here, &parameters, &parameters);
+        if next.is_some_and(|next| matches!(next, Next::Excluded)) {
+            return Some(Next::Excluded);
+        }
+        if self.search.rest(&before, &here.at) < HELPED {
+            return Some(Next::Smaller);
         }
         here.weighed = true;
         None
@@ -165,8 +167,8 @@ impl Prover<'_> {
             return Some(Next::Excluded);
         }
         let mut cuts = Vec::new();
-        for unknown in self.search.setup.layout.parameters()..own.len() {
-            let (side, known) = (here.at[unknown], own[unknown]);
+        for (unknown, &known) in own.iter().enumerate().skip(self.search.setup.layout.parameters()) {
+            let side = here.at[unknown];
             for (upper, end, other) in [(true, known.upper(), side.upper()), (false, known.lower(), side.lower())] {
                 if end != other {
                     cuts.push(Cut { unknown, upper, end, rows: Vec::new() });
