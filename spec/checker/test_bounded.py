@@ -16,15 +16,16 @@ FILES = {name: json.loads((FOLDER / f"{name}.json").read_text()) for name in ("r
 
 
 def of_motion(certificate):
-    """Combinations of rows that are verified here: `(multipliers, the step's number)`."""
-    for number, step in enumerate(certificate["stages"][0]["steps"]):
-        if isinstance(step, str) or "divide" in step:
+    """Combinations of rows that are verified here, contradictions first: these need all their rows, a cut may say less than its show."""
+    steps = [step for step in certificate["stages"][0]["steps"] if not isinstance(step, str)]
+    for step in sorted(steps, key=lambda step: "exclude" not in step):
+        if "divide" in step:
             continue
         (what,) = step.values()
         if what["by"] != "hats":
             rows = what["rows"] if "rows" in what else what["cuts"][0]["rows"]
             if len(rows) > 1:
-                yield rows, number
+                yield rows
 
 
 def heaviest(rows):
@@ -53,8 +54,7 @@ def test_what_the_command_writes_is_accepted(name):
 @pytest.mark.parametrize("name", FILES)
 def test_a_changed_combination_is_refused(name, change):
     certificate = copy.deepcopy(FILES[name])
-    rows, _ = next(of_motion(certificate))
-    change(rows)
+    change(next(of_motion(certificate)))
     with pytest.raises(Refused):
         bounded.check(certificate)
 

@@ -92,7 +92,7 @@ fn bounds_are_proved_in_a_file() {
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (log, proof) = (path("log.csv"), path("proof.json"));
     let record = ["simulate", "--alpha", "1", "--beta", "0.5", "--relay", "1", "--half-width", "0.3", "--cycles", "5"];
-    std::fs::write(&log, done(&[&record[..], &["--hold", "--quantum", "0.01"]].concat())).unwrap();
+    std::fs::write(&log, done(&[&record[..], &["--hold", "--quantum", "0.02"]].concat())).unwrap();
     let method = ["identify", &log, "--method", "bounded", "--drag", "linear", "--certificate", &proof];
     for (delay, shown) in [("0", "accepted  consistent"), ("0.15", "accepted  refuted")] {
         assert!(done(&[&method[..], &["--delay", delay]].concat()).contains("proof in "));
