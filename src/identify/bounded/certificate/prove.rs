@@ -8,9 +8,9 @@ use super::{By, Combination, Cut, Stage, Step, Unproved};
 use crate::numeric::{Interval, Real};
 
 /// What is left is given wider than it was found by this share on either side: room for other enclosures than those of the search.
-const ROOM: f64 = 0.05;
+const ROOM: f64 = 0.1;
 /// A cut takes this share less than the multipliers give, for the same reason: over wide boxes and over narrow ones.
-const CAUTION: [f64; 2] = [0.2, 0.03];
+const CAUTION: [f64; 2] = [0.2, 0.1];
 /// A contradiction is beyond doubt by this share of the errors that it weighs.
 const BEYOND: f64 = 1e-5;
 /// A cut that takes less than this of a range is left out.
@@ -327,7 +327,12 @@ impl Prover<'_> {
     }
 
     fn halves(&self, at: &[Interval], unknown: usize) -> Result<Next, Unproved> {
-        self.search.divide(at, unknown).map(|parts| Next::Divide(parts, unknown)).ok_or(Unproved::NotFound)
+        // A range that cannot be divided leaves the widest of the others.
+        let relative = |place: &usize| at[*place].width() / self.search.setup.search[*place].width();
+        let mut others: Vec<usize> = (0..self.search.setup.layout.parameters()).collect();
+        others.sort_by(|a, b| relative(b).total_cmp(&relative(a)));
+        let parts = |place: usize| Some(Next::Divide(self.search.divide(at, place)?, place));
+        core::iter::once(unknown).chain(others).find_map(parts).ok_or(Unproved::NotFound)
     }
 
     /// Where the box sticks out of what is left, there; else at the unknown whose range costs most.
