@@ -69,7 +69,7 @@ class UnreadableLog(SelfoscError):
 
 
 #: Codes that name wrong arguments; the others are answers.
-_USAGE = {"usage", "mixed-needs-fit", "unknown-characteristic", "unknown-parameter", "missing-parameter", "parameter-kind"}
+_USAGE = {"usage", "mixed-needs-fit", "needs-bounded", "unknown-characteristic", "unknown-parameter", "missing-parameter", "parameter-kind"}
 
 
 def of(code: str, text: str, number: tuple[str, float, str, str, str] | None = None, record: bool = False) -> SelfoscError:
