@@ -75,7 +75,9 @@ fn heaviest(rows: &Combination) -> usize {
 #[test]
 fn one_constraint_dropped_or_one_multiplier_altered_is_refused() {
     let changes: [fn(&mut Combination); 3] = [
-        |rows| drop(rows.remove(heaviest(rows))),
+        |rows| {
+            rows.remove(heaviest(rows));
+        },
         |rows| {
             let heaviest = heaviest(rows);
             rows[heaviest].1 *= 3.0;
