@@ -7,8 +7,10 @@ use super::lp::{Multipliers, Outcome, Programme, Rows};
 use super::problem::{Layout, Readings};
 use super::step::{Fields, Pair};
 use super::trajectory::{By, Drive, Node, Unknowns, follow};
-use super::weak::Hat;
 use crate::numeric::{Interval, Real};
+
+/// Samples at which a hat begins, has its peak, and ends.
+pub(super) type Hat = [usize; 3];
 
 /// What stands behind a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]

@@ -1,8 +1,7 @@
 //! The inequalities of a pass over a box: by hats, of whole records, of windows each linked to the next, of one window alone.
 
-use super::contract::{Linear, Model, Span};
+use super::contract::{Hat, Linear, Model, Span};
 use super::trajectory::Node;
-use super::weak::Hat;
 use crate::numeric::Interval;
 
 /// An enclosure of the motion and what is known of it otherwise have nothing in common.

@@ -1,11 +1,11 @@
 //! Contraction of one box until nothing helps.
 
-use super::contract::{Linear, Model, Pass};
+use super::contract::{Hat, Linear, Model, Pass};
 use super::field::Term;
 use super::lp::Multipliers;
 use super::rows::Parted;
 use super::setup::Setup;
-use super::weak::{Hat, hats};
+use super::weak::hats;
 use crate::numeric::Interval;
 
 /// A pass that leaves more than this of every parameter's width did not help.

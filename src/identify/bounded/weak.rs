@@ -4,7 +4,7 @@
 //! readings give it to within their errors. The equation makes it a combination of the terms, whose coefficients follow
 //! from the command and the readings between.
 
-use super::contract::{Linear, Model, Origin};
+use super::contract::{Hat, Linear, Model, Origin};
 use super::field::{Term, signed_square};
 use super::speeds::Speeds;
 use crate::numeric::{Interval, Real};
@@ -13,9 +13,6 @@ use crate::numeric::{Interval, Real};
 const SHARES: [f64; 5] = [0.2, 0.4, 0.8, 1.4, 2.2];
 /// Hats of one width, at most.
 const MOST_HATS: usize = 60;
-
-/// Samples at which a hat begins, has its peak, and ends.
-pub(super) type Hat = [usize; 3];
 
 /// Hats all along a record with the mean time between switchings `swing_s`.
 pub(super) fn hats(time_s: &[f64], swing_s: f64) -> Vec<Hat> {

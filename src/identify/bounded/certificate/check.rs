@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::super::command::Command;
-use super::super::contract::{Linear, Model, Origin};
+use super::super::contract::{Hat, Linear, Model, Origin};
 use super::super::field::Term;
 use super::super::problem::{Layout, Readings, Window};
-use super::super::weak::Hat;
 use super::{By, Certificate, Combination, Cut, FORMAT, Stage, Step, Witness, shorten};
 use crate::numeric::Interval;
 
