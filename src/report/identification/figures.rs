@@ -80,12 +80,18 @@ fn record_figure(source: &Source, fitted: Option<(&RecordFit, &FittedRecord)>, f
     Figure { name: "record", title: format!("Record and fitted model{part}"), panels: vec![output, input] }
 }
 
+/// Residuals over time, with a band of twice their rms over the whole record.
+#[allow(clippy::cast_precision_loss, reason = "a count of samples")]
 fn residual_figure(source: &Source, fitted: &FittedRecord, from: usize, part: &str) -> Figure {
     let (time, residuals) = shown(source, fitted, &fitted.residuals, from);
-    let ends = [time.first(), time.last()].into_iter().flatten();
+    let power: f64 = fitted.residuals.iter().map(|value| value * value).sum();
+    let band = 2.0 * (power / fitted.residuals.len().max(1) as f64).sqrt();
+    let level = |at: f64| [time.first(), time.last()].into_iter().flatten().map(move |time| (*time, at));
     let panel = Panel::new("time (s)", &format!("residual of {}", output_label(source)))
         .with("readings less model", Mark::Points, pairs(time, residuals))
-        .with("", Mark::Dashed, ends.map(|time| (*time, 0.0)));
+        .with("twice their rms", Mark::Dashed, level(band))
+        .with("", Mark::Dashed, level(-band))
+        .with("", Mark::Line, level(0.0));
     Figure { name: "residuals", title: format!("Residuals{part}"), panels: vec![panel] }
 }
 
