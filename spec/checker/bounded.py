@@ -2,9 +2,10 @@
 
 import json
 import sys
+from fractions import Fraction
 from pathlib import Path
 
-from flint import arb
+from flint import arb, fmpq
 
 from check import Refused, require
 from motion import Equation, Motion, Products, Unfollowed, advance_point, span, times
@@ -66,8 +67,8 @@ class Stage:
             record, first, last = window
             require(0 <= record < len(records) and 0 <= first < last < len(records[record].time), "a window is malformed")
             follows = record == 0 if before is None else record == before[0] + 1 if record != before[0] else first == before[2]
-            times = records[record].time
-            require(follows and arb(times[first]) - arb(times[0]) >= longest, "a window does not follow, or is too early")
+            stamps = records[record].time
+            require(follows and Fraction(stamps[first]) - Fraction(stamps[0]) >= Fraction(longest), "a window does not follow, or is too early")
             before = window
         require(before is not None and before[0] == len(records) - 1, "a record has no window")
         for record, first, _ in self.windows:
@@ -161,33 +162,41 @@ class Stage:
             state,
             point,
         )
-        delays = [arb(self.delay)] * 3
         if self.delay is None:
             own = ranges[len(self.terms)]
-            delays = [own.lower(), centre[len(self.terms)], own.upper()]
+            delays = [exact(own.lower()), exact(centre[len(self.terms)]), exact(own.upper())]
+        else:
+            delays = [Fraction(self.delay)] * 3
         return drive(motion, record, delays, begin, end), places
 
     def witness(self, values, record_index, first, state):
         """The largest misfit of one parameter over its largest error."""
         record = self.records[record_index]
-        exact = [arb(v) for v in values]
-        equation = self.equation(exact, record_index)
-        delay = arb(self.delay) if self.delay is not None else exact[len(self.terms)]
-        require(arb(record.time[first]) - arb(record.time[0]) >= delay, "the witness begins too early")
+        equation = self.equation([arb(v) for v in values], record_index)
+        delay = Fraction(values[len(self.terms)] if self.delay is None else self.delay)
+        require(Fraction(record.time[first]) - Fraction(record.time[0]) >= delay, "the witness begins too early")
         state = [arb(v) for v in state] + [arb(0)] * (3 - self.size)
-        now, worst = arb(record.time[first]), arb(0)
-        events = sorted([(t, 1, k) for k, t in enumerate(record.time) if k >= first])
-        done = 0
-        for t, _, sample in events:
-            while done < len(record.switched) and (arb(record.switched[done]) + delay) < arb(t):
-                at = arb(record.switched[done]) + delay
+        now, worst, done = Fraction(record.time[first]), arb(0), 0
+        for t, reading in zip(map(Fraction, record.time[first:]), record.reading[first:]):
+            while done < len(record.switched) and Fraction(record.switched[done]) + delay < t:
+                at = Fraction(record.switched[done]) + delay
                 if at > now:
-                    state, now = moved(equation, state, record.levels[done], at - now, self.size), at
+                    state, now = moved(equation, state, record.levels[done], ball(at - now), self.size), at
                 done += 1
-            if arb(t) > now:
-                state, now = moved(equation, state, record.levels[done], arb(t) - now, self.size), arb(t)
-            worst = max(worst, (abs(state[0] - record.reading[sample]) / record.error).upper())
+            if t > now:
+                state, now = moved(equation, state, record.levels[done], ball(t - now), self.size), t
+            worst = max(worst, (abs(state[0] - reading) / record.error).upper())
         return worst
+
+
+def exact(x):
+    """A ball without a radius as a fraction: instants are added and compared without rounding."""
+    mantissa, exponent = x.man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
+def ball(x):
+    return arb(fmpq(x.numerator, x.denominator))
 
 
 def moved(equation, state, level, h, size):
@@ -200,16 +209,16 @@ def moved(equation, state, level, h, size):
 def drive(motion, record, delays, begin, end):
     """The nodes of a motion: `(sample, (over, point, slopes))`."""
     least, middle, most = delays
-    uncertain = not (least == most)
+    uncertain = least != most
     events = []
-    for edge, at in enumerate(record.switched):
-        opens, acts, closes = arb(at) + least, arb(at) + middle, arb(at) + most
-        events.append((acts, 1, edge))
+    for edge, at in enumerate(map(Fraction, record.switched)):
+        events.append((at + middle, 1, edge))
         if uncertain:
-            events += [(opens, 0, edge), (closes, 2, edge)]
-    events = [(t, kind, n) for t, kind, n in events] + [(arb(record.time[k]), 3, k) for k in range(begin + 1, end + 1)]
-    events.sort(key=lambda event: (float(event[0].mid()), event[1]))
-    now = arb(record.time[begin])
+            events += [(at + least, 0, edge), (at + most, 2, edge)]
+    events += [(Fraction(record.time[k]), 3, k) for k in range(begin + 1, end + 1)]
+    events.sort()
+    since, until = Fraction(record.time[begin]), Fraction(record.time[end])
+    now = since
     opened = acted = closed = 0
     nodes = []
 
@@ -222,24 +231,23 @@ def drive(motion, record, delays, begin, end):
 
     # What has happened before the first sample.
     for t, kind, edge in events:
-        if kind != 3 and float(t.mid()) <= float(now.mid()):
+        if kind != 3 and t <= now:
             opened, acted, closed = opened + (kind == 0), acted + (kind == 1), closed + (kind == 2)
     if uncertain and opened > closed:
         require(opened == closed + 1, "two switchings at once")
         motion.opened(arb(record.levels[closed]) - arb(record.levels[closed + 1]), True)
     note(begin)
     for t, kind, n in events:
-        if kind != 3 and float(t.mid()) <= record.time[begin]:
+        if kind != 3 and t <= since:
             continue
-        if float(t.mid()) > record.time[end]:
+        if t > until:
             break
-        h = t - now
-        if float(h.mid()) > 0:
+        if t > now:
             low = (closed if uncertain else acted), (opened if uncertain else acted)
             u = arb(record.levels[low[0]])
             for level in record.levels[low[0] : low[1] + 1]:
                 u = u.union(arb(level))
-            motion.advance(u, arb(record.levels[acted]), h)
+            motion.advance(u, arb(record.levels[acted]), ball(t - now))
             now = t
         if kind == 0:
             motion.opened(arb(record.levels[n]) - arb(record.levels[n + 1]), False)
@@ -380,6 +388,7 @@ def check(certificate):
     require(stages and records, "no stage")
     for before, after in zip(stages, stages[1:]):
         require(before.item["left"] == after.item["from"], "a stage does not begin where the one before ended")
+        require(before.delay == after.delay, "a stage has another delay than the one before")
     witness = certificate["witness"]
     expected = STATEMENTS[stages[-1].left is None, witness is not None]
     require(certificate["statement"] == expected, "another statement")

@@ -71,6 +71,7 @@ CHANGES = {
     "another format": lambda c: c.update(format=2),
     "another equation": lambda c: c.update(terms=["gain", "sound"]),
     "a window too early": lambda c: c["stages"][0].update(delay_s=1e9),
+    "a stage with another delay": lambda c: c["stages"].insert(0, c["stages"][0] | {"delay_s": 0.0, "left": c["stages"][0]["from"], "steps": ["keep"]}),
     "no stage": lambda c: c["stages"].clear(),
     "a missing field": lambda c: c.pop("records"),
 }

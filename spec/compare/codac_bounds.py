@@ -13,6 +13,7 @@ import io
 import json
 import subprocess
 import sys
+import tempfile
 import time
 
 from codac import AnalyticFunction, CtcInverse, Interval, IntervalVector, VectorVar, exp, vec
@@ -64,12 +65,13 @@ def main(selfosc):
     for alpha, beta, quantum in VEHICLES:
         vehicle = ["--alpha", str(alpha), "--beta", str(beta), "--relay", "1", "--half-width", "0.3"]
         log = run(selfosc, "simulate", *vehicle, "--cycles", "6", "--hold", "--rate", "10", "--quantum", str(quantum))
-        with open("codac_bounds.csv", "w") as file:
-            file.write(log)
-        clock = time.perf_counter()
         flags = ["--method", "bounded", "--drag", "linear", "--delay", "0", "--quantum", str(quantum), "--json"]
-        own = json.loads(run(selfosc, "identify", "codac_bounds.csv", *flags))["bounded"]["alpha"]
-        own_s = time.perf_counter() - clock
+        with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
+            file.write(log)
+            file.flush()
+            clock = time.perf_counter()
+            own = json.loads(run(selfosc, "identify", file.name, *flags))["bounded"]["alpha"]
+            own_s = time.perf_counter() - clock
         rows = [(float(r["time_s"]), float(r["output"]), float(r["input"])) for r in csv.DictReader(io.StringIO(log))]
         clock = time.perf_counter()
         other = codac(rows, quantum, alpha, beta)

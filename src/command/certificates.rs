@@ -35,12 +35,19 @@ fn check_bounds(path: &Path, output: &mut impl Write) -> Result<Outcome, Command
     let read = files::read(path)?;
     match bounded::Certificate::read(&read).and_then(|certificate| certificate.check()) {
         Ok(shown) => {
-            let bounded::Shown { statement, left, excluded, enclosures, readings } = shown;
+            let bounded::Shown { statement, searched, left, fastest, excluded, enclosures, readings } = shown;
             writeln!(output, "accepted  {statement}")?;
             writeln!(output, "          {readings} readings, {enclosures} enclosures, {excluded} boxes excluded")?;
-            for (quantity, [low, high]) in left {
-                writeln!(output, "          {low:.9e} <= {quantity} <= {high:.9e}")?;
+            for (what, ranges) in [("searched", searched), ("left", left)] {
+                for (quantity, [low, high]) in ranges {
+                    if low == high {
+                        writeln!(output, "{what:10}{quantity} = {low}")?;
+                    } else {
+                        writeln!(output, "{what:10}{low:.9e} <= {quantity} <= {high:.9e}")?;
+                    }
+                }
             }
+            writeln!(output, "searched  speeds up to {fastest:.9e}")?;
             Ok(Outcome::Done)
         }
         Err(unproved) => {

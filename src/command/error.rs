@@ -40,7 +40,7 @@ pub(super) enum CommandError {
         source: std::io::Error,
     },
     /// A file that would be replaced by what is made from it.
-    #[error("{} is one of the logs; choose another name for the report", path.display())]
+    #[error("{} is one of the logs; choose another name for what is written", path.display())]
     OutputIsInput {
         /// The file.
         path: PathBuf,

@@ -200,7 +200,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         let document = page::document(&found).from_where(files::provenance(&arguments.logs));
         files::write(path, &document.html()?)?;
     }
-    let certificate = found.bounded().and_then(|bounded| bounded.certificate.as_ref());
+    let certificate = found.bounded().and_then(|bounded| bounded.certificate());
     let written = match (&arguments.certificate, certificate) {
         (Some(path), Some(Ok(certificate))) => {
             files::write(path, &certificate.to_string())?;

@@ -43,7 +43,7 @@ struct Command {
     #[command(subcommand)]
     action: Action,
     /// When help and errors are coloured
-    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = ColorChoice::Auto)]
+    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = ColorChoice::Auto, display_order = 900)]
     color: ColorChoice,
 }
 

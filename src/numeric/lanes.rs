@@ -21,7 +21,7 @@ use super::real::own_sine_series;
 pub(crate) struct Lanes(f64x4);
 
 impl Lanes {
-    /// More keep no more of the processor busy and disagree more often.
+    /// As many as the vector type has.
     pub(crate) const COUNT: usize = 4;
 
     #[inline(always)]

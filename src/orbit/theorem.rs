@@ -7,8 +7,8 @@
 use super::closed_form::{force_left, quadratic_half_cycle, return_slope};
 use crate::numeric::Real;
 use crate::proof::inequality::{Inequality, Proof, Refusal};
-use crate::proof::margin::VARIABLES;
 use crate::proof::margin::Margin;
+use crate::proof::margin::VARIABLES;
 use crate::proof::{Extent, NotProved, formula};
 
 /// A statement with the inequalities that it rests on.

@@ -3,7 +3,7 @@
 use super::PaperError;
 use super::joint::JointRow;
 use super::relay_figures::Curve;
-use crate::experiment::{SimulatedExperiment, Record, Sensor};
+use crate::experiment::{Record, Sensor, SimulatedExperiment};
 use crate::nonlinearity::RelayHysteresis;
 use crate::plant::DragAxis;
 

@@ -50,7 +50,14 @@ impl Cell {
     fn shown(&self, words: fn(&str) -> String, formula: fn(Expression) -> String) -> String {
         match self {
             Self::Text(text) => words(text),
-            Self::Number { value, decimals } => format!("{value:.decimals$}"),
+            Self::Number { value, decimals } => {
+                let text = format!("{value:.decimals$}");
+                // Zero has no sign.
+                match text.strip_prefix('-') {
+                    Some(size) if size.chars().all(|c| c == '0' || c == '.') => size.to_owned(),
+                    _ => text,
+                }
+            }
             Self::Formula(expression) => formula(*expression),
             Self::Flag(flag) => if *flag { "yes" } else { "no" }.to_owned(),
             Self::Missing => String::new(),
@@ -286,7 +293,15 @@ fn escaped_latex(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::prose_html;
+    use super::{Cell, prose_html};
+
+    #[test]
+    fn zero_has_no_sign() {
+        let shown = [(-1e-17, "0.000"), (0.0, "0.000"), (-0.0006, "-0.001")];
+        for (value, text) in shown {
+            assert_eq!(Cell::number(value, 3).plain(), text);
+        }
+    }
 
     #[test]
     fn small_numbers_in_sentences_have_powers_of_ten() {

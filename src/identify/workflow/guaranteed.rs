@@ -23,10 +23,18 @@ pub struct Guaranteed {
     pub bounds: Bounds,
     /// The proof, or why there is none; `None` where it was not asked for.
     #[serde(skip)]
-    pub(crate) certificate: Option<Result<Certificate, Unproved>>,
+    certificate: Option<Result<Certificate, Unproved>>,
 }
 
 impl Guaranteed {
+    /// The text of the proof, which `selfosc verify --check` reads, or why none was found; `None` where
+    /// [`Settings::certificate`] did not ask for it.
+    #[must_use]
+    pub fn certificate(&self) -> Option<Result<&dyn core::fmt::Display, &dyn core::error::Error>> {
+        let found = self.certificate.as_ref()?.as_ref();
+        Some(found.map(|proof| proof as _).map_err(|unproved| unproved as _))
+    }
+
     /// Under the drag law given, or else under mixed drag, which has the other laws as its ends.
     pub(super) fn of(records: &[&Record], settings: &Settings) -> Result<Self, IdentifyError> {
         let delay = match settings.delay {

@@ -16,7 +16,12 @@ const DOUBLE_UNIT: f64 = f64::EPSILON / 2.0;
 
 impl<F: Format> Rounded<F> {
     /// A function, its largest slope over an interval of arguments, and its error in units in the last place.
-    fn function(self, function: impl Fn(Interval) -> Interval, slope: impl Fn(Interval) -> Interval, units: f64) -> Self {
+    fn function(
+        self,
+        function: impl Fn(Interval) -> Interval,
+        slope: impl Fn(Interval) -> Interval,
+        units: f64,
+    ) -> Self {
         let (exact, unrounded) = (function(self.exact), function(self.float));
         // No error came in, and none is passed on, however steep the function is.
         let passed_on = if self.error > 0.0 { up(slope(self.hull()).magnitude() * self.error) } else { 0.0 };
@@ -184,10 +189,8 @@ impl<F: Format> Real for Rounded<F> {
             // What came in is passed on by the slope 1 - cos(x), below x^2/2, and is in the series' error already.
             [Self { exact, error: up(series.error + left_out), ..series }]
         };
-        let [difference] = (Self::one() - self).prefer_all(
-            || [Self { exact: self.exact.minus_own_sine(sine.exact), ..self - sine }],
-            near,
-        );
+        let [difference] = (Self::one() - self)
+            .prefer_all(|| [Self { exact: self.exact.minus_own_sine(sine.exact), ..self - sine }], near);
         difference
     }
 }

@@ -168,7 +168,9 @@ mod tests {
 
     #[test]
     fn floors_are_whole_numbers_where_they_are_known() {
-        assert!(holds([2.5], |[x]| Some([x.floor() - number(2.0)])) && holds([-0.5], |[x]| Some([x.floor() + number(1.0)])));
+        assert!(
+            holds([2.5], |[x]| Some([x.floor() - number(2.0)])) && holds([-0.5], |[x]| Some([x.floor() + number(1.0)]))
+        );
         assert!(!holds([2.0], |[x]| Some([x.floor() - number(2.0)])));
         assert!(holds([2.0], |[_]| Some([number(2.0).floor() - number(2.0)])));
     }

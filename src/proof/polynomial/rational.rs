@@ -38,11 +38,15 @@ thread_local! {
 }
 
 /// What `code` gives for variables at a point, and the decisions that it made on the way, each once.
-pub(super) fn recorded<R, const N: usize>(point: [f64; N], code: impl FnOnce([Rational; N]) -> R) -> (R, Vec<Decision>) {
+pub(super) fn recorded<R, const N: usize>(
+    point: [f64; N],
+    code: impl FnOnce([Rational; N]) -> R,
+) -> (R, Vec<Decision>) {
     DECISIONS.with_borrow_mut(Vec::clear);
     CALLS.with_borrow_mut(Vec::clear);
     POINT.set(point.to_vec());
-    let variable = |place| Rational::of(Polynomial::symbol(Symbol::Variable(place)), Polynomial::number(1), point[place]);
+    let variable =
+        |place| Rational::of(Polynomial::symbol(Symbol::Variable(place)), Polynomial::number(1), point[place]);
     let result = code(core::array::from_fn(variable));
     (result, DECISIONS.with_borrow_mut(core::mem::take))
 }
@@ -67,10 +71,15 @@ fn vanishes(polynomial: &Polynomial, calls: usize) -> Option<bool> {
     let Some(place) = calls.checked_sub(1) else { return Some(false) };
     let powers = polynomial.in_powers_of(Symbol::Call(place));
     let radicand = CALLS.with_borrow(|calls| {
-        calls.get(place).filter(|call| call.name == SQRT).and_then(|call| call.arguments.first().and_then(|x| x.fraction))
+        calls
+            .get(place)
+            .filter(|call| call.name == SQRT)
+            .and_then(|call| call.arguments.first().and_then(|x| x.fraction))
     });
     let Some((numerator, denominator)) = radicand else {
-        return Some(powers.iter().map(|power| vanishes(power, place)).collect::<Option<Vec<_>>>()?.into_iter().all(|zero| zero));
+        return Some(
+            powers.iter().map(|power| vanishes(power, place)).collect::<Option<Vec<_>>>()?.into_iter().all(|zero| zero),
+        );
     };
     let mut all = true;
     for odd in [0, 1] {

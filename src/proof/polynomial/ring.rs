@@ -43,7 +43,11 @@ impl Monomial {
     }
 
     fn root(&self) -> Option<Self> {
-        self.0.iter().map(|&(symbol, power)| (power % 2 == 0).then_some((symbol, power / 2))).collect::<Option<_>>().map(Self)
+        self.0
+            .iter()
+            .map(|&(symbol, power)| (power % 2 == 0).then_some((symbol, power / 2)))
+            .collect::<Option<_>>()
+            .map(Self)
     }
 }
 
@@ -163,7 +167,8 @@ impl Polynomial {
         });
         let Some(shared) = shared.filter(|_| number > 0) else { return (self, other) };
         let divided = |of: &Self| {
-            let term = |(monomial, coefficient): (&Monomial, &i128)| Some((monomial.over(&shared)?, coefficient / number));
+            let term =
+                |(monomial, coefficient): (&Monomial, &i128)| Some((monomial.over(&shared)?, coefficient / number));
             of.0.iter().map(term).collect::<Option<BTreeMap<_, _>>>().map(Self)
         };
         match (divided(&self), divided(&other)) {
@@ -175,7 +180,10 @@ impl Polynomial {
     /// The value where each symbol has the value that `of` gives.
     pub(super) fn value(&self, of: &impl Fn(Symbol) -> f64) -> f64 {
         let term = |(monomial, coefficient): (&Monomial, &i128)| {
-            monomial.0.iter().fold(*coefficient as f64, |product, &(symbol, power)| product * of(symbol).powi(power as i32))
+            monomial
+                .0
+                .iter()
+                .fold(*coefficient as f64, |product, &(symbol, power)| product * of(symbol).powi(power as i32))
         };
         self.0.iter().map(term).sum()
     }

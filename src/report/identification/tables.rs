@@ -8,12 +8,17 @@ use crate::report::{Cell, Table};
 
 /// Digits that a measured number is shown with, after the first.
 const DIGITS: u8 = 3;
+/// Less than this is rounding, in whatever unit.
+const NOTHING: f64 = 1e-12;
 
 pub(super) fn cell(value: f64) -> Cell {
     // The magnitude after rounding: 0.99996 is shown as 1.000.
     let rounded = format!("{value:.digits$e}", digits = usize::from(DIGITS));
     let magnitude = rounded.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0);
-    Cell::number(value, usize::try_from(i32::from(DIGITS) - magnitude).unwrap_or(0).min(12))
+    let decimals = i32::from(DIGITS) - magnitude;
+    // Rounding of what is zero has no digits to show.
+    let decimals = if value.abs() < NOTHING { i32::from(DIGITS) } else { decimals };
+    Cell::number(value, usize::try_from(decimals).unwrap_or(0))
 }
 
 fn value(estimate: Option<Estimate>) -> Cell {
@@ -269,4 +274,16 @@ pub(super) fn caution_table(name: &'static str, title: &str, cautions: &[Caution
             .iter()
             .fold(table, |table, caution| table.row([caution.code.as_ref().into(), caution.text.as_str().into()]))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Cell, cell};
+
+    #[test]
+    fn rounding_of_zero_shows_no_digits() {
+        assert_eq!(cell(3e-16), Cell::number(3e-16, 3));
+        assert_eq!(cell(-6.345e-7), Cell::number(-6.345e-7, 10));
+        assert_eq!(cell(0.99996), Cell::number(0.99996, 3));
+    }
 }

@@ -18,8 +18,8 @@ pub enum Unproved {
         /// What is wrong.
         text: String,
     },
-    /// A stage begins elsewhere than the one before ended.
-    #[error("stage {stage} does not begin where the one before it ended")]
+    /// A stage begins elsewhere than the one before ended, or has another delay.
+    #[error("stage {stage} does not begin where the one before it ended, or has another delay")]
     Stage {
         /// Its number.
         stage: usize,
@@ -53,8 +53,11 @@ pub enum Unproved {
         expected: String,
     },
     /// None was found within the budget.
-    #[error("no proof was found within the budget; give a longer record or a smaller model")]
-    NotFound,
+    #[error("no proof was found within {steps} steps; the bounds printed do not depend on one")]
+    NotFound {
+        /// At most.
+        steps: usize,
+    },
 }
 
 impl Unproved {
@@ -67,7 +70,7 @@ impl Unproved {
             Self::Incomplete { .. } => "incomplete",
             Self::Witness { .. } => "witness",
             Self::Statement { .. } => "statement",
-            Self::NotFound => "not-found",
+            Self::NotFound { .. } => "not-found",
         }
     }
 }
@@ -77,8 +80,12 @@ impl Unproved {
 pub struct Shown {
     /// In words.
     pub statement: String,
-    /// What is left of the terms and the delay; nothing where refuted.
+    /// Where parameters were searched: the terms and the delay.
+    pub searched: Vec<(&'static str, [f64; 2])>,
+    /// What is left of them; nothing where refuted.
     pub left: Vec<(&'static str, [f64; 2])>,
+    /// Speeds were searched up to this, in units of the readings per s.
+    pub fastest: f64,
     /// Boxes excluded.
     pub excluded: usize,
     /// Enclosures of the motion.
@@ -111,15 +118,16 @@ impl Certificate {
         let readings = self.readings()?;
         let mut work = Work::default();
         for (index, stage) in self.stages.iter().enumerate() {
-            let before = index.checked_sub(1).map(|before| &self.stages[before].left);
-            if before.is_some_and(|left| left.as_ref() != Some(&stage.from)) {
+            let before = index.checked_sub(1).map(|before| &self.stages[before]);
+            if before.is_some_and(|before| before.left.as_ref() != Some(&stage.from) || before.delay_s != stage.delay_s)
+            {
                 return Err(Unproved::Stage { stage: index });
             }
             Walk::of(self, &readings, stage, index)?.go(&mut work)?;
         }
-        if self.stages.is_empty() {
+        let (Some(first), Some(last)) = (self.stages.first(), self.stages.last()) else {
             return Err(malformed("no stage"));
-        }
+        };
         if let Some(witness) = &self.witness {
             self.check_witness(&readings, witness)?;
         }
@@ -128,17 +136,23 @@ impl Certificate {
             return Err(Unproved::Statement { expected });
         }
         let readings = readings.iter().map(|readings| readings.value.len()).sum();
-        Ok(Shown { statement: expected, left: self.left(), excluded: work.excluded, enclosures: work.enclosures, readings })
+        Ok(Shown {
+            statement: expected,
+            searched: self.named(first, &first.from),
+            left: last.left.as_ref().map_or_else(Vec::new, |left| self.named(last, left)),
+            fastest: self.fastest,
+            excluded: work.excluded,
+            enclosures: work.enclosures,
+            readings,
+        })
     }
 
-    /// What is left, by name.
-    fn left(&self) -> Vec<(&'static str, [f64; 2])> {
+    /// Ranges of a stage's terms and of its delay, by name.
+    fn named(&self, stage: &Stage, ranges: &[[f64; 2]]) -> Vec<(&'static str, [f64; 2])> {
         let names = self.terms.iter().map(|term| term.name()).chain(["delay_s"]);
-        let left = self.stages.last().and_then(|stage| Some((stage.left.as_ref()?, stage.delay_s.is_none())));
-        left.into_iter()
-            .flat_map(|(left, delayed)| left.iter().take(self.terms.len() + usize::from(delayed)))
-            .zip(names)
-            .map(|(range, name)| (name, *range))
+        let known = stage.delay_s.map(|delay_s| [delay_s; 2]);
+        names
+            .zip(ranges.iter().take(self.terms.len()).copied().chain(known.or(ranges.get(self.terms.len()).copied())))
             .collect()
     }
 
@@ -159,16 +173,29 @@ impl Certificate {
     fn readings(&self) -> Result<Vec<Readings>, Unproved> {
         let ordered = self.terms.windows(2).all(|pair| pair[0] < pair[1]);
         let finite = [self.middle_speed, self.least_linear, self.fastest].iter().all(|value| value.is_finite());
-        if self.terms.first() != Some(&Term::Gain) || !ordered || self.terms.contains(&Term::Disturbance) || self.records.is_empty() || !finite {
+        if self.terms.first() != Some(&Term::Gain)
+            || !ordered
+            || self.terms.contains(&Term::Disturbance)
+            || self.records.is_empty()
+            || !finite
+        {
             return Err(malformed("the equation or its records"));
         }
         let each = self.records.iter().map(|sensed| {
             let increasing = |times: &[f64]| times.windows(2).all(|pair| pair[0] < pair[1]);
-            let all = sensed.time_s.iter().chain(&sensed.reading).chain(&sensed.levels).chain(sensed.switched_s.iter().flatten());
+            let all = sensed
+                .time_s
+                .iter()
+                .chain(&sensed.reading)
+                .chain(&sensed.levels)
+                .chain(sensed.switched_s.iter().flatten());
             let sound = sensed.time_s.len() == sensed.reading.len()
                 && increasing(&sensed.time_s)
                 && all.copied().all(f64::is_finite)
-                && (sensed.error > 0.0 && sensed.error.is_finite() && sensed.jitter_s >= 0.0 && sensed.jitter_s.is_finite())
+                && (sensed.error > 0.0
+                    && sensed.error.is_finite()
+                    && sensed.jitter_s >= 0.0
+                    && sensed.jitter_s.is_finite())
                 && sensed.levels.len() == sensed.switched_s.len() + 1
                 && sensed.switched_s.iter().all(|[first, last]| first <= last)
                 && sensed.switched_s.windows(2).all(|pair| pair[0][1] <= pair[1][0]);
@@ -207,7 +234,8 @@ impl Certificate {
         if before?.record + 1 != readings.len() {
             return None;
         }
-        let known = |readings: &Readings| (0..readings.command.edges()).all(|edge| readings.command.span(edge).is_point());
+        let known =
+            |readings: &Readings| (0..readings.command.edges()).all(|edge| readings.command.span(edge).is_point());
         let instants = readings.iter().map(|own| if known(own) { 0 } else { own.command.edges() }).collect();
         Some(Layout::new(self.terms.clone(), delayed, instants, windows))
     }
@@ -271,7 +299,12 @@ struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    fn of(certificate: &'a Certificate, readings: &'a [Readings], stage: &'a Stage, index: usize) -> Result<Self, Unproved> {
+    fn of(
+        certificate: &'a Certificate,
+        readings: &'a [Readings],
+        stage: &'a Stage,
+        index: usize,
+    ) -> Result<Self, Unproved> {
         let layout = certificate.layout(readings, stage).ok_or_else(|| malformed("a window"))?;
         let from = sides(&stage.from).filter(|from| from.len() == layout.parameters() && from[0].lower() > 0.0);
         let mut from = from.ok_or_else(|| malformed("a range"))?;
@@ -297,7 +330,9 @@ impl<'a> Walk<'a> {
                     }
                 }
                 Step::Divide { unknown, at: value } => {
-                    let halves = at.get(*unknown).map(|side| [Interval::new(side.lower(), *value), Interval::new(*value, side.upper())]);
+                    let halves = at
+                        .get(*unknown)
+                        .map(|side| [Interval::new(side.lower(), *value), Interval::new(*value, side.upper())]);
                     let Some([Some(low), Some(high)]) = halves else {
                         return Err(wrong("the division is not within the box"));
                     };
@@ -395,7 +430,8 @@ impl<'a> Walk<'a> {
 
 /// The value of the multipliers; `None` where one is no multiplier or names no inequality.
 fn bound(linear: &Linear, objective: &[(usize, f64)], rows: &Combination) -> Option<f64> {
-    let places: BTreeMap<Origin, usize> = linear.origins.iter().enumerate().map(|(place, origin)| (*origin, place)).collect();
+    let places: BTreeMap<Origin, usize> =
+        linear.origins.iter().enumerate().map(|(place, origin)| (*origin, place)).collect();
     let multipliers = rows.iter().map(|(origin, y)| {
         (*y >= 0.0 && y.is_finite()).then_some(())?;
         Some((*places.get(origin)?, *y))

@@ -149,7 +149,7 @@ impl Certificate {
     /// Of a search from the box of `wide`, and of a second one with more readings where there are two `hulls`: what each left.
     ///
     /// # Errors
-    /// [`Unproved::NotFound`] where a stage takes too many steps.
+    /// [`Unproved::NotFound`] where a stage takes too many steps, however much room there is around what is left.
     pub(super) fn prove(
         wide: &Setup,
         settings: &BoundedModel,

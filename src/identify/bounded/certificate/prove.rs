@@ -7,8 +7,9 @@ use super::super::setup::Setup;
 use super::{By, Combination, Cut, Stage, Step, Unproved};
 use crate::numeric::{Interval, Real};
 
-/// What is left is given wider than it was found by this share on either side: room for other enclosures than those of the search.
-const ROOM: f64 = 0.1;
+/// What is left is given wider than it was found by the first of these shares, on either side, with which a proof is found: room for
+/// other enclosures than those of the search, and fewer boxes.
+const ROOMS: [f64; 3] = [0.1, 0.5, 2.0];
 /// A cut takes this share less than the multipliers give, for the same reason: over wide boxes and over narrow ones.
 const CAUTION: [f64; 2] = [0.2, 0.1];
 /// A contradiction is beyond doubt by this share of the errors that it weighs.
@@ -53,6 +54,7 @@ enum Found {
 struct Prover<'a> {
     search: Search<'a>,
     left: Option<Vec<Interval>>,
+    room: f64,
     steps: Vec<Step>,
 }
 
@@ -66,15 +68,22 @@ impl Stage {
     /// # Errors
     /// [`Unproved::NotFound`] where they are too many.
     pub(super) fn prove(setup: &Setup, hull: Option<&[Interval]>) -> Result<Self, Unproved> {
+        // Of what is empty there is nothing to widen.
+        let rooms = if hull.is_some() { &ROOMS[..] } else { &ROOMS[..1] };
+        let mut tries = rooms.iter().map(|room| Self::prove_within(setup, hull, *room));
+        tries.find(Result::is_ok).unwrap_or(Err(Unproved::NotFound { steps: MOST_STEPS }))
+    }
+
+    fn prove_within(setup: &Setup, hull: Option<&[Interval]>, room: f64) -> Result<Self, Unproved> {
         let parameters = setup.layout.parameters();
         let left = hull.map(|hull| {
             let wider = |(side, from): (&Interval, &Interval)| {
-                let room = ROOM * side.width() + f64::EPSILON * side.magnitude();
+                let room = room * side.width() + f64::EPSILON * side.magnitude();
                 side.inflate(room).intersection(*from).unwrap_or(*side)
             };
             hull.iter().zip(&setup.search).take(parameters).map(wider).collect::<Vec<_>>()
         });
-        let mut prover = Prover { search: Search::new(setup), left, steps: Vec::new() };
+        let mut prover = Prover { search: Search::new(setup), left, room, steps: Vec::new() };
         prover.go()?;
         let layout = &setup.layout;
         Ok(Self {
@@ -89,7 +98,8 @@ impl Stage {
 
 impl Prover<'_> {
     fn go(&mut self) -> Result<(), Unproved> {
-        let mut open = vec![Open { at: self.search.setup.search.clone(), weighed: false, quickened: false, swept: false }];
+        let mut open =
+            vec![Open { at: self.search.setup.search.clone(), weighed: false, quickened: false, swept: false }];
         while let Some(mut here) = open.pop() {
             loop {
                 if self.kept(&here.at) {
@@ -97,7 +107,7 @@ impl Prover<'_> {
                     break;
                 }
                 if self.steps.len() > MOST_STEPS {
-                    return Err(Unproved::NotFound);
+                    return Err(Unproved::NotFound { steps: MOST_STEPS });
                 }
                 match self.step(&mut here)? {
                     Next::Excluded => break,
@@ -188,7 +198,8 @@ impl Prover<'_> {
         let parameters: Vec<usize> = (0..self.search.setup.layout.parameters()).collect();
         let before = here.at.clone();
         let whole = self.search.unbroken(&here.at, centre(&here.at));
-        let whole = whole.map(|linear| (self.search.slack(&linear), linear)).filter(|((slack, _), _)| *slack <= UNBROKEN);
+        let whole =
+            whole.map(|linear| (self.search.slack(&linear), linear)).filter(|((slack, _), _)| *slack <= UNBROKEN);
         let (by, slack, linear) = match whole {
             Some((slack, linear)) => (By::Whole, slack, linear),
             None => {
@@ -220,9 +231,7 @@ impl Prover<'_> {
             self.take(by, &linear, here, &all, &parameters)
         };
         match next {
-            Some(next) if matches!(next, Next::Excluded) || self.search.rest(&before, &here.at) < HELPED => {
-                Ok(next)
-            }
+            Some(next) if matches!(next, Next::Excluded) || self.search.rest(&before, &here.at) < HELPED => Ok(next),
             _ => self.divide(&here.at, slack.1),
         }
     }
@@ -278,12 +287,13 @@ impl Prover<'_> {
                 }
                 let side = at[unknown];
                 // Towards the end that may be taken off, zero is where the range has it now.
-                let reached = sign * (Interval::point(linear.centre[unknown]) + Interval::point(sign * bound)).midpoint();
+                let reached =
+                    sign * (Interval::point(linear.centre[unknown]) + Interval::point(sign * bound)).midpoint();
                 let (now, other) = if upper { (side.upper(), side.lower()) } else { (-side.lower(), -side.upper()) };
                 let gained = now - reached;
                 let face = self.left.as_ref().and_then(|left| left.get(unknown));
                 let face = face.map(|face| if upper { face.upper() } else { -face.lower() });
-                let wanted = face.is_some_and(|face| now > face) && gained > 0.1 * ROOM * side.width();
+                let wanted = face.is_some_and(|face| now > face) && gained > 0.1 * self.room * side.width();
                 if !(gained > LEAST_CUT * side.width() || wanted) || !(gained > 0.0) {
                     continue;
                 }
@@ -332,7 +342,7 @@ impl Prover<'_> {
         let mut others: Vec<usize> = (0..self.search.setup.layout.parameters()).collect();
         others.sort_by(|a, b| relative(b).total_cmp(&relative(a)));
         let parts = |place: usize| Some(Next::Divide(self.search.divide(at, place)?, place));
-        core::iter::once(unknown).chain(others).find_map(parts).ok_or(Unproved::NotFound)
+        core::iter::once(unknown).chain(others).find_map(parts).ok_or(Unproved::NotFound { steps: MOST_STEPS })
     }
 
     /// Where the box sticks out of what is left, there; else at the unknown whose range costs most.
@@ -345,7 +355,9 @@ impl Prover<'_> {
         let mut furthest = (0.0, None);
         for (unknown, (side, left)) in at.iter().zip(left).enumerate() {
             let unit = left.width().max(f64::MIN_POSITIVE);
-            for (out, value) in [(side.upper() - left.upper(), left.upper()), (left.lower() - side.lower(), left.lower())] {
+            for (out, value) in
+                [(side.upper() - left.upper(), left.upper()), (left.lower() - side.lower(), left.lower())]
+            {
                 if out / unit > furthest.0 && side.lower() < value && value < side.upper() {
                     furthest = (out / unit, Some((unknown, value)));
                 }
@@ -357,8 +369,11 @@ impl Prover<'_> {
             part[unknown] = half?;
             Some(part)
         };
-        let [low, high] = [Interval::new(at[unknown].lower(), value), Interval::new(value, at[unknown].upper())].map(part);
-        low.zip(high).map(|(low, high)| Next::Divide([low, high], unknown)).ok_or(Unproved::NotFound)
+        let [low, high] =
+            [Interval::new(at[unknown].lower(), value), Interval::new(value, at[unknown].upper())].map(part);
+        low.zip(high)
+            .map(|(low, high)| Next::Divide([low, high], unknown))
+            .ok_or(Unproved::NotFound { steps: MOST_STEPS })
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use super::super::tests::{record, settings};
 use super::super::{BoundedModel, Consistency, DelayBound, enclose_with_certificate};
-use super::{Certificate, Combination, Step, Unproved};
+use super::{Certificate, Combination, Stage, Step, Unproved};
 use crate::identify::DragLaw;
 
 fn written(model: &BoundedModel, verdict: Consistency) -> Certificate {
@@ -49,7 +49,9 @@ fn each_changed(change: impl Fn(&mut Combination)) -> (usize, usize) {
         for step in 0..certificate.stages[0].steps.len() {
             let mut other = certificate.clone();
             let (rows, contradiction) = match &mut other.stages[0].steps[step] {
-                Step::Contract { cuts, .. } => (cuts.iter_mut().map(|cut| &mut cut.rows).find(|rows| rows.len() > 1), false),
+                Step::Contract { cuts, .. } => {
+                    (cuts.iter_mut().map(|cut| &mut cut.rows).find(|rows| rows.len() > 1), false)
+                }
                 Step::Exclude { rows, .. } => (Some(rows).filter(|rows| rows.len() > 1), true),
                 _ => (None, false),
             };
@@ -113,6 +115,18 @@ fn boxes_left_out_or_made_smaller_are_refused() {
     let mut refuted = CONSISTENT.clone();
     refuted.stages[0].left = None;
     assert_eq!(refused(&refuted), "step");
+}
+
+/// Of two delays that each leave something else, a proof for one says nothing about the other.
+#[test]
+fn a_stage_with_another_delay_is_refused() {
+    let mut mixed = REFUTED.clone();
+    let first = &REFUTED.stages[0];
+    let whole = Stage { left: Some(first.from.clone()), steps: vec![Step::Keep], ..first.clone() };
+    mixed.stages.insert(0, whole.clone());
+    assert!(mixed.check().is_ok());
+    mixed.stages[0] = Stage { delay_s: Some(0.1), ..whole };
+    assert_eq!(refused(&mixed), "stage");
 }
 
 #[test]
