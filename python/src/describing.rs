@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use selfosc::Error;
@@ -59,34 +59,36 @@ impl Characteristic {
         self.entry.settings(&self.values).into_iter().map(|(name, value)| (name, value.to_string())).collect()
     }
 
-    /// `F_0`, `P`, `Q` for arrays of one length, or of length one. Where `skip` is set, what has none is NaN.
+    /// `F_0`, `P`, `Q`, a row each, for arrays of one length, or of length one. Where `skip` is set, what has none is NaN.
     fn describing_function<'py>(
         &self,
         py: Python<'py>,
         amplitude: PyReadonlyArray1<'py, f64>,
         bias: PyReadonlyArray1<'py, f64>,
         skip: bool,
-    ) -> PyResult<Arrays<'py>> {
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let (amplitude, bias) = (amplitude.as_slice()?, bias.as_slice()?);
         let count = amplitude.len().max(bias.len());
         // Memory from numpy, which asks for large pages.
-        let arrays = [(); 3].map(|()| PyArray1::zeros(py, count, false));
-        let mut columns = arrays.each_ref().map(|array| array.readwrite());
-        let [f0, p, q] = columns.each_mut().map(|column| column.as_slice_mut());
-        let (f0, p, q) = (f0?, p?, q?);
+        let array = PyArray2::zeros(py, [3, count], false);
+        let mut rows = array.readwrite();
+        let (f0, rest) = rows.as_slice_mut()?.split_at_mut(count);
+        let (p, q) = rest.split_at_mut(count);
         for (block, ((f0, p), q)) in f0.chunks_mut(BLOCK).zip(p.chunks_mut(BLOCK)).zip(q.chunks_mut(BLOCK)).enumerate()
         {
-            let from = block * BLOCK;
-            let fault =
-                py.detach(|| self.fill(|at| (part(bias, from + at), part(amplitude, from + at)), skip, [f0, p, q]));
+            let (from, columns) = (block * BLOCK, [f0, p, q]);
+            let fault = py.detach(|| match (bias, amplitude) {
+                ([bias], _) => self.fill(|at| (*bias, amplitude[from + at]), skip, columns),
+                (_, [amplitude]) => self.fill(|at| (bias[from + at], *amplitude), skip, columns),
+                _ => self.fill(|at| (bias[from + at], amplitude[from + at]), skip, columns),
+            });
             if let Some(error) = fault {
                 return Err(failure::library(py, error));
             }
             py.check_signals()?;
         }
-        drop(columns);
-        let [f0, p, q] = arrays;
-        Ok((f0, p, q))
+        drop(rows);
+        Ok(array)
     }
 
     /// The outputs on the way up and on the way down, for the sweeps of these biases and amplitudes.

@@ -24,7 +24,7 @@ impl<T: Real> DescribingFunction<T> {
     }
 
     /// Takes what the rising branch alone contributes: the falling branch mirrors it at the maximum.
-    #[inline]
+    #[inline(always)]
     fn on(self, branches: Branches) -> Self {
         match branches {
             Branches::Rising => self,
@@ -44,12 +44,13 @@ fn flat<T: Real>(mean: T) -> DescribingFunction<T> {
 }
 
 /// The constant one on the rising branch.
+#[inline(always)]
 pub(super) fn constant<T: Real>(amplitude: T) -> DescribingFunction<T> {
     DescribingFunction { f0: half(), p: T::zero(), q: T::two() * T::inverse_pi() / amplitude }
 }
 
 /// A kernel on either side of `at`: below is above, of the input turned upside down.
-#[inline]
+#[inline(always)]
 fn arc<T: Real>(
     at: T,
     sweep: &Sinusoid<T>,
@@ -81,18 +82,18 @@ pub(super) struct Arc<T> {
 }
 
 impl<T: Real> Arc<T> {
-    #[inline]
+    #[inline(always)]
     fn above(at: T, sweep: &Sinusoid<T>) -> Self {
         Self::new(at - sweep.bias(), sweep.maximum() - at, at - sweep.minimum(), sweep.amplitude())
     }
 
-    #[inline]
+    #[inline(always)]
     fn below(at: T, sweep: &Sinusoid<T>) -> Self {
         Self::new(sweep.bias() - at, at - sweep.minimum(), sweep.maximum() - at, sweep.amplitude())
     }
 
     /// From the breakpoint's distances: from the bias, to the turning point on the kernel's side, to the one on the other.
-    #[inline]
+    #[inline(always)]
     pub(super) fn new(middle: T, near: T, far: T, amplitude: T) -> Self {
         let hold = |distance: T| (distance / amplitude).max(T::zero()).min(T::two());
         let (one_minus_u, one_plus_u) = (hold(near), hold(far));
@@ -108,26 +109,38 @@ impl<T: Real> Arc<T> {
     }
 
     /// `acos(u)`: from the nearer end, or from the middle.
-    #[inline]
+    #[inline(always)]
     fn phi(self) -> T {
-        let from = |end: T| T::two() * (half::<T>() * end).sqrt().asin();
-        let near_an_end = || self.u.prefer(|| T::pi() - from(self.one_plus_u), || from(self.one_minus_u));
-        (self.u.abs() - half()).prefer(|| half::<T>() * T::pi() - self.u.asin(), near_an_end)
+        let near_an_end = |end: T| T::two() * (half::<T>() * end).sqrt().asin();
+        let [near, far] = [self.one_minus_u, self.one_plus_u];
+        (self.u.abs() - half()).prefer(
+            #[inline(always)]
+            || half::<T>() * T::pi() - self.u.asin(),
+            #[inline(always)]
+            || {
+                self.u.prefer(
+                    #[inline(always)]
+                    || T::pi() - near_an_end(far),
+                    #[inline(always)]
+                    || near_an_end(near),
+                )
+            },
+        )
     }
 
     /// `asin(u)`, towards the ends by way of phi: its derivative then agrees with that of `sin(phi)`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn asin(self) -> T {
         (self.u.abs() - half()).prefer(|| self.u.asin(), || half::<T>() * T::pi() - self.phi())
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn sign(self) -> DescribingFunction<T> {
         let scale = T::two() * T::inverse_pi() / self.amplitude;
         DescribingFunction { f0: -self.asin() * T::inverse_pi(), p: scale * self.sine, q: -scale * self.u }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn step(self) -> DescribingFunction<T> {
         let scale = T::inverse_pi() / self.amplitude;
         DescribingFunction {
@@ -139,11 +152,13 @@ impl<T: Real> Arc<T> {
 
     /// `sin(phi) - phi cos(phi)` and `phi - sin(phi) cos(phi)` by way of `x - sin(x)`, which small arcs need. The cosine
     /// component only where the other branch does not take it away.
+    #[inline(always)]
     pub(super) fn ramp(self, branches: Branches) -> DescribingFunction<T> {
         self.ramp_by(self.phi(), branches)
     }
 
     /// [`ramp`](Self::ramp) where phi is known.
+    #[inline(always)]
     fn ramp_by(self, phi: T, branches: Branches) -> DescribingFunction<T> {
         let scale = half::<T>() * T::inverse_pi();
         let mean = phi * self.one_minus_u - phi.minus_own_sine(self.sine);
@@ -189,9 +204,16 @@ fn band<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> Describi
 }
 
 /// A unit ramp.
-#[inline]
+#[inline(always)]
 fn ramp<T: Real>(at: T, side: Side, branches: Branches, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
-    arc(at, sweep, side, |arc| arc.ramp(branches)).on(branches)
+    let ramp = arc(
+        at,
+        sweep,
+        side,
+        #[inline(always)]
+        |arc| arc.ramp(branches),
+    );
+    ramp.on(branches)
 }
 
 /// A band as its lower limit and a ramp from there, less a ramp from its upper limit.
@@ -207,7 +229,7 @@ pub(super) fn band_near_the_maximum<T: Real>(
 }
 
 /// A band as the middle of its limits, and the rest from there.
-#[inline]
+#[inline(always)]
 pub(super) fn band_from_the_middle<T: Real>(
     origin: T,
     lower: T,
@@ -219,7 +241,7 @@ pub(super) fn band_from_the_middle<T: Real>(
 
 /// A band, less the middle of its breakpoints, from the angles `a`, `b` at which the input passes its ends, by the tangents
 /// of `(b - a)/2` and `(b + a)/2`. What is odd in the bias comes from the latter, formed from the sum of the breakpoints.
-#[inline]
+#[inline(always)]
 fn from_the_middle<T: Real>(lower: T, upper: T, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
     let (minimum, maximum) = (sweep.minimum(), sweep.maximum());
     let hold = |at: T| at.max(minimum).min(maximum);

@@ -46,13 +46,14 @@ impl Lanes {
         below: impl FnOnce() -> [Self; N],
         above: impl FnOnce() -> [Self; N],
     ) -> [Self; N] {
-        if answers.all() {
-            return above();
+        // Each side in one place, so that it is worth inlining.
+        let mut chosen = [Self(answers); N];
+        if !answers.all() {
+            chosen = below();
         }
-        let mut chosen = below();
         if answers.any() {
-            for (below, above) in chosen.iter_mut().zip(above()) {
-                below.0 = answers.select(above.0, below.0);
+            for (chosen, above) in chosen.iter_mut().zip(above()) {
+                chosen.0 = answers.select(above.0, chosen.0);
             }
         }
         chosen

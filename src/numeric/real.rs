@@ -109,7 +109,12 @@ pub trait Real:
     #[must_use]
     #[inline]
     fn prefer(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
-        let [preferred] = self.prefer_all(|| [below()], || [above()]);
+        let [preferred] = self.prefer_all(
+            #[inline(always)]
+            || [below()],
+            #[inline(always)]
+            || [above()],
+        );
         preferred
     }
     /// The reciprocal of [`pi`](Self::pi): dividing by a constant costs a division each time.

@@ -83,20 +83,40 @@ pub(super) fn atan(x: f64x4) -> f64x4 {
 #[inline(always)]
 fn rotated(slope: f64x4) -> f64x4 {
     let splat = f64x4::splat;
+    let rotations = [BY_HALF, BY_ONE, BY_ONE_AND_A_HALF, BY_A_QUARTER_TURN];
+    let beyond = rotations.map(|(from, _)| slope.simd_ge(splat(from)));
+    // Neighbours are mostly rotated alike: then nothing has to be chosen lane by lane.
+    let passed = beyond.iter().take_while(|beyond| beyond.all()).count();
+    if passed > 0 && beyond[passed..].iter().all(|beyond| beyond.none()) {
+        let (over, under) = by(passed, slope);
+        let [high, low] = rotations[passed - 1].1;
+        return less_bend(over, under, splat(high), splat(low));
+    }
     let (mut over, mut under, mut high, mut low) = (slope, splat(1.0), splat(0.0), splat(0.0));
-    let mut turn = |(from, [by_high, by_low]): Rotation, by_over: f64x4, by_under: f64x4| {
-        let beyond = slope.simd_ge(splat(from));
+    for (rotation, ((_, [by_high, by_low]), beyond)) in rotations.into_iter().zip(beyond).enumerate() {
+        let (by_over, by_under) = by(rotation + 1, slope);
         over = beyond.select(by_over, over);
         under = beyond.select(by_under, under);
         high = beyond.select(splat(by_high), high);
         low = beyond.select(splat(by_low), low);
-    };
-    // As `libm` forms them: by one half both are doubled.
-    turn(BY_HALF, slope + slope - 1.0, slope + 2.0);
-    turn(BY_ONE, slope - 1.0, slope + 1.0);
-    turn(BY_ONE_AND_A_HALF, slope - 1.5, slope * 1.5 + 1.0);
-    turn(BY_A_QUARTER_TURN, splat(-1.0), slope);
+    }
+    less_bend(over, under, high, low)
+}
 
+/// The slope after the first rotations, as `libm` forms them: over and under, by one half both doubled.
+#[inline(always)]
+fn by(rotations: usize, slope: f64x4) -> (f64x4, f64x4) {
+    match rotations {
+        1 => (slope + slope - 1.0, slope + 2.0),
+        2 => (slope - 1.0, slope + 1.0),
+        3 => (slope - 1.5, slope * 1.5 + 1.0),
+        _ => (f64x4::splat(-1.0), slope),
+    }
+}
+
+/// The angle of a rotation, in two parts, and of what is left of the slope.
+#[inline(always)]
+fn less_bend(over: f64x4, under: f64x4, high: f64x4, low: f64x4) -> f64x4 {
     let rest = over / under;
     high - (rest * bend(rest) - low - rest)
 }
