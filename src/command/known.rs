@@ -79,7 +79,7 @@ impl Model {
                 "the model is doubtful ({reasons}); identify from a better record, or give --alpha and the others on your own account"
             )));
         }
-        for term in ["beta_cubic", "skew", "coulomb", "stiffness", "lag_s", "ramp_s", "filter_s"] {
+        for term in ["beta_cubic", "skew", "coulomb", "memory", "stiffness", "lag_s", "ramp_s", "filter_s"] {
             if reported[term]["value"].as_f64().is_some_and(|value| value != 0.0) {
                 return Err(unusable(format!(
                     "it has the term {term}, which `tune` does not know; give --alpha and the others of an axis without it"

@@ -230,7 +230,7 @@ fn a_model_with_an_unknown_term_is_not_tuned() {
         output(&["tune", "--model", path.to_str().unwrap(), "--bandwidth", "0.5"])
     };
     assert_eq!(tuned("delay_s").0, Some(0));
-    for term in ["beta_cubic", "skew", "coulomb", "stiffness", "lag_s", "ramp_s", "filter_s"] {
+    for term in ["beta_cubic", "skew", "coulomb", "memory", "stiffness", "lag_s", "ramp_s", "filter_s"] {
         let (status, _, complaint) = tuned(term);
         assert!(status == Some(2) && complaint.contains(term), "{term}: {status:?} {complaint}");
     }

@@ -167,6 +167,10 @@ pub struct Reported {
     pub skew: Option<Estimate>,
     /// Coulomb friction, where the likeliest model has it.
     pub coulomb: Option<Estimate>,
+    /// Factor of the drag that follows the speed late, where the likeliest model has it.
+    pub memory: Option<Estimate>,
+    /// Time constant in s with which it follows, where the likeliest model has it.
+    pub memory_s: Option<Estimate>,
     /// Restoring force per output, where the likeliest model has it.
     pub stiffness: Option<Estimate>,
     /// Time constant of the actuator in s, where the likeliest model has it.

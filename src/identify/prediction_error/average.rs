@@ -3,7 +3,8 @@
 use super::lateness;
 use super::model::{Model, Parameter};
 use super::scoring::{self, Fitted};
-use super::search::{Found, PRICE};
+use super::search::Found;
+use super::term::Term;
 use crate::identify::joint::{ConfidenceInterval, Estimate};
 
 /// A model's word on one parameter: normal, or a point where it has no such parameter.
@@ -16,21 +17,28 @@ struct Component {
 
 /// Intervals of terms that were chosen by the record are wider by this, and by this where one of them makes late: actuators and
 /// sensors have more than one way to, and none of the models may be quite the one.
-pub(super) const CHOSEN: f64 = 1.25;
-pub(super) const CHOSEN_LATE: f64 = 1.6;
+pub(super) const CHOSEN: f64 = 1.15;
+pub(super) const CHOSEN_LATE: f64 = 1.25;
 /// Likelihoods of models that differ in what makes late count by this power: among stand-ins for the true one they say too much.
-const TEMPER: f64 = 0.4;
+const TEMPER: f64 = 0.5;
+
+/// Odds against a lateness beyond the delay, and the logarithm of those against a restoring force: without them what hardly any record
+/// rules out would widen the interval of each.
+const LATE_ODDS: f64 = 4.0;
+const STIFF_LOG_ODDS: f64 = 0.5;
 
 /// Twice the log-likelihood that each parameter more has to gain for a model to count. A structure that the record hardly
 /// shows moves the inertia, so that it counts sooner.
 const IDLE: f64 = 1.0;
 const IDLE_STRUCTURE: f64 = 0.25;
 /// The structures meant.
-const SUBTLE: [Parameter; 7] = [
+const SUBTLE: [Parameter; 9] = [
     Parameter::Stiffness,
     Parameter::CubicDrag,
     Parameter::Skew,
     Parameter::Coulomb,
+    Parameter::Memory,
+    Parameter::MemoryS,
     Parameter::LagS,
     Parameter::RampS,
     Parameter::FilterS,
@@ -50,15 +58,26 @@ pub(super) fn deviations(fitted: &Fitted, free: &[usize]) -> Option<[f64; Parame
     Some(deviations)
 }
 
+/// Logarithm of the odds against what a model has, before the record is looked at.
+pub(super) fn log_odds_against(model: &Model, known_delay_s: Option<f64>) -> f64 {
+    let (had, ways) = lateness::ways(model, known_delay_s);
+    let stiff = if Term::Stiffness.is_in(model) { STIFF_LOG_ODDS } else { 0.0 };
+    // Each way to be late is one of several stand-ins, which share the odds.
+    had as f64 * (LATE_ODDS * ways as f64).ln() + stiff
+}
+
 /// The models of an average with their weights and their deviations.
 pub(super) struct Average<'a> {
     pub(super) members: Vec<(f64, &'a Fitted, [f64; Parameter::COUNT])>,
 }
 
 impl<'a> Average<'a> {
-    /// `movable` names the parameters of a model that are not on a bound.
-    pub(super) fn new(found: &'a Found, movable: impl Fn(&Fitted) -> Vec<usize>) -> Self {
-        let value = |fitted: &Fitted| fitted.log_likelihood - 0.5 * PRICE * fitted.model.freedom() as f64;
+    /// `movable` names the parameters of a model that are not on a bound; `value` is the logarithm of its weight.
+    pub(super) fn new(
+        found: &'a Found,
+        movable: impl Fn(&Fitted) -> Vec<usize>,
+        value: impl Fn(&Fitted) -> f64,
+    ) -> Self {
         let best = &found.tried[found.best];
         let top = value(best);
         let temper = if lateness::is_in(&best.model) { TEMPER } else { 1.0 };
@@ -179,5 +198,8 @@ fn quantile(components: &[Component], probability: f64) -> f64 {
             high = middle;
         }
     }
-    f64::midpoint(low, high)
+    // Rounding must not leave out the point itself that the probability is reached at.
+    let points = components.iter().filter(|c| c.std == 0.0).map(|c| c.mean);
+    let reached = points.into_iter().find(|point| low <= *point && *point <= high);
+    reached.unwrap_or(f64::midpoint(low, high))
 }

@@ -1,21 +1,23 @@
 //! Extended Kalman filter in continuous and discrete time (Jazwinski 1970, chapter 8): predicts each reading from those
 //! before it. The innovations' likelihood is what is maximised; its derivatives are carried along.
 //!
-//! States are position, velocity, process force and coloured error of the reading, and the filtered position where the sensor
-//! filters. The derivatives with respect to
+//! States are position, velocity, process force and coloured error of the reading, the filtered position where the sensor
+//! filters, and the late speed where drag follows it. The derivatives with respect to
 //! structural parameters are those of the predictor with the gain as it is (Ljung 1999, section 10.2: what a change of the
 //! gain adds has expectation zero); with respect to the noise they are complete for the motion as linearised.
 
+mod driven;
 mod pass;
 mod transition;
 
 use super::actuator::{Actuator, Force, Stop};
 use super::model::{Model, Noise, Parameter};
-use super::motion::{Dynamics, Point, Step};
+use super::motion::{Dynamics, Point};
 use super::observations::Observations;
+use driven::Drives;
 use pass::NOISES;
 pub(super) use pass::{Innovation, Pass, Score};
-use transition::{FILTERED, SensorFilter, Square, Transition, Vector, add};
+use transition::{FILTERED, LATE, LateSpeed, LowPass, Square, Transition, Vector, add};
 
 /// Parts of the record whose scores are kept apart.
 pub(super) const PARTS: usize = 8;
@@ -65,6 +67,8 @@ struct Filter<'a, const N: usize> {
     dynamics: Dynamics,
     sizes: Sizes,
     stochastic: bool,
+    /// Place of the state that is read.
+    read: usize,
     state: Vector<N>,
     covariance: Square<N>,
     sensitivities: Sensitivities<N>,
@@ -72,7 +76,9 @@ struct Filter<'a, const N: usize> {
 
 /// Runs through the record; `None` where the motion leaves all bounds. Derivatives only where wanted.
 pub(super) fn run(observations: &Observations, model: &Model, derivatives: bool) -> Option<Pass> {
-    if model.value(Parameter::FilterS) > 0.0 {
+    if model.value(Parameter::MemoryS) > 0.0 {
+        run_with::<6>(observations, model, derivatives)
+    } else if model.value(Parameter::FilterS) > 0.0 {
         run_with::<5>(observations, model, derivatives)
     } else {
         run_with::<4>(observations, model, derivatives)
@@ -162,9 +168,6 @@ fn run_with<const N: usize>(observations: &Observations, model: &Model, derivati
 }
 
 impl<'a, const N: usize> Filter<'a, N> {
-    /// Place of the state that is read.
-    const READ: usize = if N > FILTERED { FILTERED } else { 0 };
-
     fn new(model: &'a Model, observations: &Observations, derivatives: bool) -> Self {
         let dynamics = Dynamics {
             alpha: model.value(Parameter::Alpha),
@@ -183,8 +186,17 @@ impl<'a, const N: usize> Filter<'a, N> {
         // The disturbance is the process force's value where the record begins.
         let unseen_s = observations.time_s[observations.first] - observations.time_s[0];
         covariance[2][2] = sizes.force * unseen_s;
-        let memory = sizes.colour_rate + 1.0 / observations.duration_s();
-        covariance[3][3] = 0.5 * sizes.colour / memory;
+        let forgotten = sizes.colour_rate + 1.0 / observations.duration_s();
+        covariance[3][3] = 0.5 * sizes.colour / forgotten;
+        let read = if N > FILTERED && model.value(Parameter::FilterS) > 0.0 { FILTERED } else { 0 };
+        if read == FILTERED {
+            // How it moved before the record is not known: as evenly as to a tenth of what it covers.
+            covariance[FILTERED][FILTERED] = (0.1 * observations.span).powi(2);
+        }
+        if N > LATE {
+            // How the vehicle moved before the record is not known.
+            covariance[LATE][LATE] = (0.5 * observations.fastest).powi(2);
+        }
         let mut sensitivities = Sensitivities { structure: Vec::new(), noise: Vec::new() };
         if derivatives {
             sensitivities.structure.extend(model.structure().map(|parameter| {
@@ -194,7 +206,7 @@ impl<'a, const N: usize> Filter<'a, N> {
                     Parameter::Velocity => column[1] = 1.0,
                     _ => {}
                 }
-                if N > FILTERED {
+                if read == FILTERED {
                     column[FILTERED] = match parameter {
                         Parameter::Position => 1.0,
                         Parameter::Velocity => -model.value(Parameter::FilterS),
@@ -209,7 +221,7 @@ impl<'a, const N: usize> Filter<'a, N> {
                 match noise {
                     Noise::Force => begin[2][2] = covariance[2][2],
                     Noise::Colour => begin[3][3] = covariance[3][3],
-                    Noise::ColourRate => begin[3][3] = -covariance[3][3] * sizes.colour_rate / memory,
+                    Noise::ColourRate => begin[3][3] = -covariance[3][3] * sizes.colour_rate / forgotten,
                     _ => {}
                 }
                 sensitivities.noise.push((noise, [0.0; N], begin));
@@ -217,39 +229,54 @@ impl<'a, const N: usize> Filter<'a, N> {
         }
         let mut state = [0.0; N];
         (state[0], state[1]) = (model.value(Parameter::Position), model.value(Parameter::Velocity));
-        if N > FILTERED {
+        if read == FILTERED {
             // As if it had moved evenly before.
             state[FILTERED] = state[0] - model.value(Parameter::FilterS) * state[1];
         }
-        Self { model, dynamics, sizes, stochastic: kicked || random, state, covariance, sensitivities }
+        Self {
+            model,
+            dynamics,
+            sizes,
+            stochastic: kicked || random || N > FILTERED,
+            read,
+            state,
+            covariance,
+            sensitivities,
+        }
     }
 
     /// When within a step the velocity passes zero, if well inside.
     fn turn_after(&self, force: &Force, h_s: f64) -> Option<f64> {
         let velocity = self.state[1];
-        let force = force.value + self.model.value(Parameter::Disturbance) + self.state[2];
+        let force = force.value + self.offset();
         let turn = -velocity / self.dynamics.acceleration(self.state[0], velocity, force);
         (turn > 0.02 * h_s && turn < 0.98 * h_s).then_some(turn)
     }
 
+    /// Force beside that of the actuator, at the beginning of a step.
+    fn offset(&self) -> f64 {
+        let late = if N > LATE { self.model.value(Parameter::Memory) * self.state[LATE] } else { 0.0 };
+        self.model.value(Parameter::Disturbance) + self.state[2] - late
+    }
+
     fn advance(&mut self, forces: [Force; 3], h_s: f64) {
         let before = self.state;
-        let offset = self.model.value(Parameter::Disturbance) + before[2];
-        let step = self.dynamics.step((before[0], before[1]), forces.map(|force| force.value + offset), h_s);
         let alpha = self.dynamics.alpha;
-        let gained = |axis: usize| step.begin_weight[axis] + step.middle_weight[axis];
-        let mut transition = Transition {
-            motion: step.transition,
-            by_force: [gained(0) / alpha, (gained(1) + step.end_weight) / alpha],
-            force: (-self.sizes.force_rate * h_s).exp(),
-            colour: (-self.sizes.colour_rate * h_s).exp(),
-            filtered: [0.0; 4],
-        };
         let begin = Point {
             position: before[0],
             velocity: before[1],
-            acceleration: self.dynamics.acceleration(before[0], before[1], forces[0].value + offset),
+            acceleration: self.dynamics.acceleration(before[0], before[1], forces[0].value + self.offset()),
         };
+        let (memory, memory_s) = (self.model.value(Parameter::Memory), self.model.value(Parameter::MemoryS));
+        let late =
+            (N > LATE).then(|| LateSpeed::along(memory_s, h_s, before[LATE], begin.velocity, begin.acceleration));
+        let offset = self.model.value(Parameter::Disturbance) + before[2];
+        let late_force = |k: usize| late.map_or(0.0, |late| memory * late.values[k]);
+        let pushed = core::array::from_fn(|k| forces[k].value + offset - late_force(k));
+        let step = self.dynamics.step((begin.position, begin.velocity), pushed, h_s);
+        let mut transition = Transition::new(&step, alpha);
+        transition.force = (-self.sizes.force_rate * h_s).exp();
+        transition.colour = (-self.sizes.colour_rate * h_s).exp();
         self.state[..4].copy_from_slice(&[
             step.end.position,
             step.end.velocity,
@@ -257,28 +284,34 @@ impl<'a, const N: usize> Filter<'a, N> {
             transition.colour * before[3],
         ]);
         let positions = [before[0], step.middle.position, step.end.position];
-        let time_s = self.model.value(Parameter::FilterS);
-        let sensor = (N > FILTERED).then(|| SensorFilter::new(time_s, h_s));
-        if let Some(sensor) = sensor {
-            let [first, middle, last] = sensor.weights;
-            transition.filtered = [
-                first + middle * step.half[0] + last * step.transition[0][0],
-                middle * step.half[1] + last * step.transition[0][1],
-                middle * 0.125 * h_s * h_s / alpha + last * transition.by_force[0],
-                sensor.kept,
-            ];
-            self.state[FILTERED] = sensor.kept * before[FILTERED] + SensorFilter::weighted(&sensor.weights, &positions);
+        let velocities = [before[1], step.middle.velocity, step.end.velocity];
+        let sensor = (self.read == FILTERED).then(|| LowPass::new(self.model.value(Parameter::FilterS), h_s));
+        if let Some(sensor) = &sensor {
+            transition.filter(sensor, &step, h_s, alpha);
+            self.state[FILTERED] = sensor.after(before[FILTERED], &positions);
         }
+        let wake = late.map(|late| (late, LowPass::new(memory_s, h_s)));
+        if let Some((late, low_pass)) = &wake {
+            transition.remember(late, low_pass, &step, memory / alpha);
+            self.state[LATE] = low_pass.after(before[LATE], &velocities);
+        }
+        let drives =
+            Drives { dynamics: &self.dynamics, step: &step, begin: &begin, forces: &forces, late, memory, h_s };
         for (parameter, column) in &mut self.sensitivities.structure {
-            let [end, velocity, middle] = driven(*parameter, &self.dynamics, &step, &begin, &forces, h_s);
+            let [end, velocity, middle] = drives.by(*parameter);
             *column = transition.apply(column);
             column[0] += end;
             column[1] += velocity;
-            if let Some(sensor) = sensor {
+            if let Some(sensor) = &sensor {
                 column[FILTERED] += sensor.weights[1] * middle + sensor.weights[2] * end;
                 if *parameter == Parameter::FilterS {
-                    column[FILTERED] += sensor.kept_by_time * before[FILTERED]
-                        + SensorFilter::weighted(&sensor.weights_by_time, &positions);
+                    column[FILTERED] += sensor.after_by_time(before[FILTERED], &positions);
+                }
+            }
+            if let Some((_, low_pass)) = &wake {
+                column[LATE] += transition.late[2] * velocity;
+                if *parameter == Parameter::MemoryS {
+                    column[LATE] += low_pass.after_by_time(before[LATE], &velocities);
                 }
             }
         }
@@ -389,7 +422,7 @@ impl<'a, const N: usize> Filter<'a, N> {
 
     /// Takes in a reading; adds its share of the score where there are sensitivities.
     fn observe(&mut self, reading: f64, weight: f64, score: &mut Score) -> Innovation {
-        let read = Self::READ;
+        let read = self.read;
         let error = reading - self.state[read] - self.state[3];
         let stamp = self.sizes.stamp * self.state[1] * self.state[1];
         let p = &self.covariance;
@@ -460,42 +493,4 @@ impl<'a, const N: usize> Filter<'a, N> {
         }
         Innovation { error, variance }
     }
-}
-
-/// What a parameter itself does to position and velocity within a step, and to the position half-way.
-fn driven(
-    parameter: Parameter,
-    dynamics: &Dynamics,
-    step: &Step,
-    begin: &Point,
-    forces: &[Force; 3],
-    h_s: f64,
-) -> [f64; 3] {
-    let by = |point: &Point, force: &Force| {
-        let side = 1.0 + dynamics.skew * point.velocity.signum();
-        match parameter {
-            Parameter::Alpha => -point.acceleration,
-            Parameter::LinearDrag => -side * point.velocity,
-            Parameter::QuadraticDrag => -side * point.velocity * point.velocity.abs(),
-            Parameter::CubicDrag => -side * point.velocity.powi(3),
-            Parameter::Skew => -dynamics.even_drag(point.velocity.abs()),
-            Parameter::Coulomb => -dynamics.sense(point.velocity),
-            Parameter::Stiffness => -point.position,
-            Parameter::Disturbance => 1.0,
-            Parameter::DelayS => force.by_delay,
-            Parameter::LagS => force.by_lag,
-            Parameter::RampS => force.by_ramp,
-            Parameter::FilterS | Parameter::Position | Parameter::Velocity => 0.0,
-        }
-    };
-    if matches!(parameter, Parameter::FilterS | Parameter::Position | Parameter::Velocity) {
-        return [0.0; 3];
-    }
-    let [first, second, third] = [(begin, &forces[0]), (&step.middle, &forces[1]), (&step.end, &forces[2])]
-        .map(|(p, f)| by(p, f) / dynamics.alpha);
-    [
-        step.begin_weight[0] * first + step.middle_weight[0] * second,
-        step.begin_weight[1] * first + step.middle_weight[1] * second + step.end_weight * third,
-        0.25 * h_s * h_s * (first / 3.0 + second / 6.0),
-    ]
 }

@@ -21,6 +21,13 @@ pub(super) fn is_in(model: &Model) -> bool {
     LATE.iter().any(|(term, ..)| term.is_in(model))
 }
 
+/// In how many ways a model is late beyond the delay given, and in how many it could be.
+pub(super) fn ways(model: &Model, known_delay_s: Option<f64>) -> (usize, usize) {
+    let given = known_delay_s.is_some();
+    let had = LATE.iter().filter(|(term, ..)| term.is_in(model)).count();
+    (had + usize::from(given && Term::Delay.is_in(model)), LATE.len() + usize::from(given))
+}
+
 /// The model with its lateness shared among every one and every two of what makes late; nothing for a model that has none of
 /// them, or whose delay is the one given.
 pub(super) fn chains(model: &Model, known_delay_s: Option<f64>, switched: bool) -> Vec<Model> {

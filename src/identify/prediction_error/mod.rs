@@ -2,10 +2,10 @@
 //! parameters, of the motion and of what disturbs it together, that make its innovations likeliest.
 //!
 //! The vehicle is
-//! `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + k x = a(t - T_d) + delta + w(t)`,
-//! `tau a' = u - a`, `y = x + e`, a continuous-discrete stochastic state-space model (Jazwinski 1970; Kristensen, Madsen and Jorgensen 2004; Ljung 1999,
+//! `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + memory s + k x = a(t - T_d) + delta + w(t)`,
+//! `tau a' = u - a`, `memory_s s' = x' - s`, `y = x + e`, a continuous-discrete stochastic state-space model (Jazwinski 1970; Kristensen, Madsen and Jorgensen 2004; Ljung 1999,
 //! chapter 7). Inertia, drag, disturbance and white noise are always there. A lag, a limited rate, a restoring force, cubic
-//! drag, drag that differs by side, Coulomb friction, a filter of the sensor, another delay than the one given, a process force, coloured noise, and instants that err are terms: each is tried,
+//! drag, drag that differs by side, Coulomb friction, drag that follows the speed late, a filter of the sensor, another delay than the one given, a process force, coloured noise, and instants that err are terms: each is tried,
 //! and joins where the record is enough likelier for it. All models tried are averaged, so that an interval allows for the
 //! choice among them too.
 //!
@@ -75,6 +75,10 @@ pub struct Estimator {
 
 /// Half the interval's width over the value from which on an answer is of no use.
 const TOO_WIDE: f64 = 0.5;
+/// Readings that count together less than this part of their number are those of few cycles, again and again.
+const REPEATED: f64 = 0.5;
+/// Intervals are wider by this then: where the motion is slow neighbours are rounded alike, and no other cycle makes up for it.
+const LOCKED: f64 = 1.25;
 /// Weight of a drag law's models below which the other laws are settled.
 const DISTINGUISHABLE: f64 = 0.05;
 
@@ -142,9 +146,11 @@ fn terms_of(fitted: &Fitted, known: Known) -> Vec<Term> {
 fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     let best = &found.tried[found.best];
     let observations = search.observations(&best.model);
-    let average = Average::new(found, |fitted| {
-        scoring::movable(&fitted.model, &fitted.score, search.observations(&fitted.model))
-    });
+    let average = Average::new(
+        found,
+        |fitted| scoring::movable(&fitted.model, &fitted.score, search.observations(&fitted.model)),
+        |fitted| 0.5 * search.value(fitted) - average::log_odds_against(&fitted.model, known.delay_s),
+    );
     let terms = terms_of(best, known);
     let mut reasons: Vec<Reason> = Vec::new();
     for term in &terms {
@@ -158,6 +164,9 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     let count = observations.count();
     let spare = (count - best.model.freedom() as f64).max(1.0);
     let mut factor = (count / spare).sqrt() * residuals::student(spare) / residuals::NORMAL;
+    if count < REPEATED * (observations.time_s.len() - observations.first) as f64 {
+        factor *= LOCKED;
+    }
     if !terms.is_empty() {
         factor *= if lateness::is_in(&best.model) { CHOSEN_LATE } else { CHOSEN };
     }
@@ -207,6 +216,8 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
         skew: present(Parameter::Skew),
         coulomb: present(Parameter::Coulomb).map(not_negative),
         stiffness: present(Parameter::Stiffness),
+        memory: present(Parameter::Memory),
+        memory_s: present(Parameter::MemoryS).map(not_negative),
         lag_s: present(Parameter::LagS).map(not_negative),
         ramp_s: present(Parameter::RampS).map(not_negative),
         filter_s: present(Parameter::FilterS).map(not_negative),
@@ -217,7 +228,7 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     };
     let mut candidates: Vec<Candidate> =
         found.tried.iter().map(|fitted| candidate(fitted, &average, known, search)).collect();
-    let value = |c: &Candidate| c.log_likelihood - 0.5 * search::PRICE * c.freedom as f64;
+    let value = |c: &Candidate| 2.0 * c.log_likelihood - observations.price(c.freedom);
     candidates.sort_by(|a, b| value(b).total_cmp(&value(a)));
     let seen = observations.time_s[observations.first..].iter();
     let innovations = seen.zip(&best.pass.innovations).map(|(t, innovation)| (*t, innovation.standardised())).collect();

@@ -3,8 +3,8 @@
 use crate::identify::DragLaw;
 
 /// Structural parameters of
-/// `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + k x = a(t - T_d) + delta + w(t)`,
-/// `tau a' = u - a`, `filter y' = x - y`, and the state in which the record begins.
+/// `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + memory s + k x = a(t - T_d) + delta + w(t)`,
+/// `tau a' = u - a`, `memory_s s' = x' - s`, `filter y' = x - y`, and the state in which the record begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(usize)]
 pub enum Parameter {
@@ -22,6 +22,10 @@ pub enum Parameter {
     Coulomb,
     /// Restoring force per unit of output, k.
     Stiffness,
+    /// Factor of the drag that follows the speed late, of either sign: the water that the vehicle moved before still moves.
+    Memory,
+    /// Time constant with which it follows, in s.
+    MemoryS,
     /// Constant force delta.
     Disturbance,
     /// Pure delay T_d between command and actuator, in s, zero or more.
@@ -40,7 +44,7 @@ pub enum Parameter {
 
 impl Parameter {
     /// Number of structural parameters.
-    pub const COUNT: usize = 14;
+    pub const COUNT: usize = 16;
     /// All of them, in the order of their numbers.
     pub const ALL: [Self; Self::COUNT] = [
         Self::Alpha,
@@ -50,6 +54,8 @@ impl Parameter {
         Self::Skew,
         Self::Coulomb,
         Self::Stiffness,
+        Self::Memory,
+        Self::MemoryS,
         Self::Disturbance,
         Self::DelayS,
         Self::LagS,

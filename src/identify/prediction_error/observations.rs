@@ -40,6 +40,8 @@ pub(super) struct Observations {
     pub(super) swing_s: f64,
 }
 
+/// Twice the log-likelihood that each parameter has to be worth where readings are many.
+pub(super) const PRICE: f64 = 4.0;
 /// The most distinct values that a switched command has.
 const MOST_LEVELS: usize = 4;
 /// The half cycles of one length with which each is compared.
@@ -102,6 +104,13 @@ impl Observations {
     /// What all readings that the filter sees count together.
     pub(super) fn count(&self) -> f64 {
         self.weight[self.first..].iter().sum()
+    }
+
+    /// Twice the log-likelihood that so many parameters have to be worth: few readings count more against them (Hurvich and Tsai,
+    /// *Biometrika* 76, 1989).
+    pub(super) fn price(&self, parameters: usize) -> f64 {
+        let (count, parameters) = (self.count(), parameters as f64);
+        PRICE * parameters * count / (count - parameters - 1.0).max(1.0)
     }
 }
 

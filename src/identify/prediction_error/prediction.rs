@@ -46,6 +46,8 @@ impl Reported {
             (Parameter::Skew, value(self.skew), false),
             (Parameter::Coulomb, value(self.coulomb), false),
             (Parameter::Stiffness, value(self.stiffness), false),
+            (Parameter::Memory, value(self.memory), false),
+            (Parameter::MemoryS, value(self.memory_s), false),
             (Parameter::DelayS, self.delay_s.value, false),
             (Parameter::LagS, value(self.lag_s), false),
             (Parameter::RampS, value(self.ramp_s), false),

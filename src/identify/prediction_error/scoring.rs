@@ -40,6 +40,7 @@ fn bounds(parameter: Parameter, observations: &Observations) -> (f64, f64) {
         Parameter::Alpha => (1e-9 * observations.range * swing * swing / observations.span, f64::INFINITY),
         Parameter::DelayS => (0.0, swing),
         Parameter::LagS | Parameter::FilterS => (0.02 * interval, 2.0 * swing),
+        Parameter::MemoryS => (0.1 * swing, 5.0 * swing),
         Parameter::Skew => (-0.9, 0.9),
         Parameter::Coulomb => (0.0, observations.range),
         Parameter::RampS => (0.05 * interval, 2.0 * swing),

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::filter;
 use super::lateness;
 use super::model::{Clock, Model, Noise, Parameter, Switching};
-use super::observations::{self, Observations};
+use super::observations::{self, Observations, PRICE};
 use super::scoring::{Fitted, MOST_STEPS, climb, climb_beyond, climb_within};
 use super::start::{self, Start};
 use super::term::Term;
@@ -35,8 +35,6 @@ const RIVALS: [(Term, Term); 13] = [
     (Term::ProcessForce, Term::ColouredNoise),
     (Term::ColouredNoise, Term::ProcessForce),
 ];
-/// What a parameter costs in an average, in twice the log-likelihood.
-pub(super) const PRICE: f64 = 4.0;
 /// Log-likelihood below the best from which on a model hardly counts in an average.
 const COUNTING: f64 = 4.0;
 /// The most terms that a model gets.
@@ -93,6 +91,11 @@ impl<'a> Search<'a> {
             observations.skip(self.unseen_s);
             observations
         })
+    }
+
+    /// Twice the log-likelihood less what its parameters cost.
+    pub(super) fn value(&self, fitted: &Fitted) -> f64 {
+        2.0 * fitted.log_likelihood - self.observations(&fitted.model).price(fitted.model.freedom())
     }
 
     fn climb(&self, model: Model) -> Option<Fitted> {
@@ -156,8 +159,7 @@ impl<'a> Search<'a> {
         let head = Record::new(part(record.time_s()), part(record.output()), part(record.input())).ok()?;
         let (search, mut found) = Search::new(&head, self.known).run()?;
         self.unseen_s = search.unseen_s;
-        let value = |fitted: &Fitted| fitted.log_likelihood - 0.5 * PRICE * fitted.model.freedom() as f64;
-        found.tried.sort_by(|a, b| value(b).total_cmp(&value(a)));
+        found.tried.sort_by(|a, b| search.value(b).total_cmp(&search.value(a)));
         let mut models: Vec<Model> = Vec::new();
         for Fitted { model, .. } in found.tried {
             let same = |other: &Model| {
@@ -221,10 +223,7 @@ impl<'a> Search<'a> {
                 self.smaller(&current.model).into_par_iter().filter_map(|model| self.climb(model)).collect();
             tried.extend(ends);
             let next = self.best_among(&tried, |model| model.freedom() < current.model.freedom());
-            let worth = next.filter(|index| {
-                let lost = 2.0 * (current.log_likelihood - tried[*index].log_likelihood);
-                lost < PRICE * (current.model.freedom() - tried[*index].model.freedom()) as f64
-            });
+            let worth = next.filter(|index| self.value(&tried[*index]) > self.value(&current));
             match worth {
                 Some(index) => best = index,
                 None => break,
@@ -248,8 +247,30 @@ impl<'a> Search<'a> {
             .filter_map(|model| climb_beyond(self.observations(&model), model, MOST_STEPS, worth))
             .collect();
         tried.extend(ends);
+        if self.known.delay_s.is_none() && lateness::is_in(&current.model) {
+            tried.extend(self.late_from_afar(&current.model));
+        }
         let best = self.best(tried);
         if best == from { from } else { self.grow(tried, best, |_| true) }
+    }
+
+    /// What makes late, one at a time, from equations of motion solved for every delay: inertia and lateness are confused, and a
+    /// wrong pair holds a search.
+    fn late_from_afar(&self, model: &Model) -> Vec<Fitted> {
+        let observations = self.observations(model);
+        let delays = start::at_every_delay(observations);
+        let from = |term: &Term| {
+            let starts = delays.iter().flat_map(|start| {
+                let mut plain = self.model(observations, start);
+                plain.set_noise(Noise::White, model.size(Noise::White), true);
+                term.starts(&plain, observations)
+            });
+            self.climb_from(starts.collect(), f64::NEG_INFINITY)
+        };
+        let terms = [Term::Lag, Term::RateLimit, Term::SensorFilter];
+        let terms: Vec<Term> =
+            terms.into_iter().filter(|term| observations.switched || *term != Term::RateLimit).collect();
+        terms.par_iter().filter_map(from).collect()
     }
 
     /// A model with the other drag laws, as far as they have not been tried, so that the laws can be compared.
@@ -275,8 +296,8 @@ impl<'a> Search<'a> {
                 })
                 .collect();
             let gain = |(end, freedom): &(Fitted, f64)| {
-                let price = if *freedom > 0.0 { JOINS - PRICE + PRICE * freedom } else { EXCHANGES };
-                2.0 * (end.log_likelihood - current.log_likelihood) - price
+                let threshold = if *freedom > 0.0 { JOINS - PRICE } else { EXCHANGES };
+                self.value(end) - self.value(&current) - threshold
             };
             let joined = ends.iter().enumerate().map(|(index, end)| (index, gain(end)));
             let joined = joined.max_by(|a, b| a.1.total_cmp(&b.1));
@@ -298,7 +319,12 @@ impl<'a> Search<'a> {
         let estimated = |term: Term| term == Term::Delay && known.is_none();
         for term in Term::ALL.into_iter().filter(|term| admitted(*term) && !estimated(*term)) {
             if term.applies(model, observations) {
-                moves.push((term.starts(model, observations), term.freedom() as f64));
+                let starts = term.starts(model, observations);
+                if term.starts_without_effect() {
+                    moves.extend(starts.into_iter().map(|start| (vec![start], term.freedom() as f64)));
+                    continue;
+                }
+                moves.push((starts, term.freedom() as f64));
                 // Instants left to chance may hide a structure, and a structure may look like such instants.
                 if observations.switched && term.is_structural() && !self.is_long() {
                     let mut starts = term.starts(model, observations);
@@ -357,9 +383,8 @@ impl<'a> Search<'a> {
     }
 
     fn best_among(&self, tried: &[Fitted], admitted: impl Fn(&Model) -> bool) -> Option<usize> {
-        let value = |fitted: &Fitted| 2.0 * fitted.log_likelihood - PRICE * fitted.model.freedom() as f64;
         let admitted = tried.iter().enumerate().filter(|(_, fitted)| admitted(&fitted.model));
-        admitted.max_by(|a, b| value(a.1).total_cmp(&value(b.1))).map(|(index, _)| index)
+        admitted.max_by(|a, b| self.value(a.1).total_cmp(&self.value(b.1))).map(|(index, _)| index)
     }
 }
 

@@ -111,6 +111,8 @@ impl Several {
             beta_quadratic: all(&|r| r.beta_quadratic).0,
             beta_cubic: some(&|r| r.beta_cubic),
             skew: some(&|r| r.skew),
+            memory: some(&|r| r.memory),
+            memory_s: some(&|r| r.memory_s),
             coulomb: some(&|r| r.coulomb),
             stiffness: some(&|r| r.stiffness),
             lag_s: some(&|r| r.lag_s),

@@ -39,6 +39,13 @@ pub(super) fn starts(observations: &Observations, delay_s: Option<f64>) -> Vec<S
     }
 }
 
+/// The best start of each delay that is looked for; none where the equations make no sense.
+pub(super) fn at_every_delay(observations: &Observations) -> Vec<Start> {
+    let rows = Rows::new(observations);
+    let delays = DELAYS.iter().flat_map(|parts| parts.iter().map(|part| part * observations.swing_s));
+    delays.filter_map(|delay_s| rows.solve(observations, delay_s)).collect()
+}
+
 /// Misfit, in ranges of the command, above which the equations are taken for noise.
 const SENSIBLE: f64 = 0.15;
 

@@ -21,6 +21,8 @@ pub enum Term {
     SkewDrag,
     /// Coulomb friction.
     Coulomb,
+    /// Drag that follows the speed late, as of water set in motion before.
+    FluidMemory,
     /// First-order filter of the sensor.
     SensorFilter,
     /// A delay other than the one given.
@@ -38,13 +40,14 @@ pub enum Term {
 }
 
 impl Term {
-    pub(super) const ALL: [Self; 13] = [
+    pub(super) const ALL: [Self; 14] = [
         Self::Lag,
         Self::RateLimit,
         Self::Stiffness,
         Self::CubicDrag,
         Self::SkewDrag,
         Self::Coulomb,
+        Self::FluidMemory,
         Self::SensorFilter,
         Self::Delay,
         Self::ProcessForce,
@@ -64,6 +67,7 @@ impl Term {
             Self::CubicDrag => "cubic-drag",
             Self::SkewDrag => "one-sided-drag",
             Self::Coulomb => "coulomb-friction",
+            Self::FluidMemory => "fluid-memory",
             Self::SensorFilter => "sensor-filter",
             Self::Delay => "delay",
             Self::ProcessForce => "process-force",
@@ -83,6 +87,7 @@ impl Term {
             Self::CubicDrag => "drag grows with the cube of the speed",
             Self::SkewDrag => "drag is larger to one side than to the other",
             Self::Coulomb => "friction acts that does not grow with the speed",
+            Self::FluidMemory => "a part of the drag follows the speed late",
             Self::SensorFilter => "the sensor follows the motion with a lag",
             Self::Delay => "the delay is another than the one given",
             Self::ProcessForce => "a force acts that changes with time",
@@ -93,24 +98,25 @@ impl Term {
         }
     }
 
-    /// The structural parameter that the term consists of, where it is one.
-    fn parameter(self) -> Option<Parameter> {
+    /// The structural parameters that the term consists of; none for what is random.
+    fn parameters(self) -> &'static [Parameter] {
         match self {
-            Self::Lag => Some(Parameter::LagS),
-            Self::RateLimit => Some(Parameter::RampS),
-            Self::Stiffness => Some(Parameter::Stiffness),
-            Self::CubicDrag => Some(Parameter::CubicDrag),
-            Self::SkewDrag => Some(Parameter::Skew),
-            Self::Coulomb => Some(Parameter::Coulomb),
-            Self::SensorFilter => Some(Parameter::FilterS),
-            Self::Delay => Some(Parameter::DelayS),
-            _ => None,
+            Self::Lag => &[Parameter::LagS],
+            Self::RateLimit => &[Parameter::RampS],
+            Self::Stiffness => &[Parameter::Stiffness],
+            Self::CubicDrag => &[Parameter::CubicDrag],
+            Self::SkewDrag => &[Parameter::Skew],
+            Self::Coulomb => &[Parameter::Coulomb],
+            Self::FluidMemory => &[Parameter::Memory, Parameter::MemoryS],
+            Self::SensorFilter => &[Parameter::FilterS],
+            Self::Delay => &[Parameter::DelayS],
+            _ => &[],
         }
     }
 
     /// Whether the term belongs to the motion rather than to what is random.
     pub(super) fn is_structural(self) -> bool {
-        self.parameter().is_some()
+        !self.parameters().is_empty()
     }
 
     fn noises(self) -> &'static [Noise] {
@@ -126,14 +132,12 @@ impl Term {
 
     /// Number of parameters that it adds.
     pub(super) fn freedom(self) -> usize {
-        self.noises().len().max(1)
+        self.parameters().len() + self.noises().len()
     }
 
     pub(super) fn is_in(self, model: &Model) -> bool {
-        self.parameter().map_or_else(
-            || self.noises().iter().all(|noise| model.has_noise(*noise)),
-            |parameter| model.is_free(parameter),
-        )
+        self.parameters().iter().all(|parameter| model.is_free(*parameter))
+            && self.noises().iter().all(|noise| model.has_noise(*noise))
     }
 
     /// Whether the model can have the term besides what it has.
@@ -142,6 +146,8 @@ impl Term {
             && match self {
                 Self::RateLimit | Self::SwitchJitter => observations.switched,
                 Self::ProcessForceMemory => Self::ProcessForce.is_in(model),
+                // A force that changes with time takes in what late drag does.
+                Self::FluidMemory => !Self::ProcessForce.is_in(model),
                 _ => true,
             }
     }
@@ -149,31 +155,33 @@ impl Term {
     /// The model without the term; what rests on it goes too. `known_delay_s` takes the place of one estimated.
     pub(super) fn without(self, model: &Model, known_delay_s: Option<f64>) -> Model {
         let mut model = model.clone();
-        match self.parameter() {
-            Some(Parameter::DelayS) => {
-                let value = known_delay_s.unwrap_or(model.value(Parameter::DelayS));
-                model.set(Parameter::DelayS, value, false);
+        if self == Self::Delay {
+            let value = known_delay_s.unwrap_or(model.value(Parameter::DelayS));
+            model.set(Parameter::DelayS, value, false);
+            return model;
+        }
+        for &parameter in self.parameters() {
+            // The mean delay stays.
+            let late = match parameter {
+                Parameter::LagS | Parameter::FilterS => model.value(parameter),
+                Parameter::RampS => 0.5 * model.value(Parameter::RampS),
+                _ => 0.0,
+            };
+            if model.is_free(Parameter::DelayS) {
+                model.values[Parameter::DelayS as usize] += late;
             }
-            Some(parameter) => {
-                // The mean delay stays.
-                let late = match parameter {
-                    Parameter::LagS | Parameter::FilterS => model.value(parameter),
-                    Parameter::RampS => 0.5 * model.value(Parameter::RampS),
-                    _ => 0.0,
-                };
-                if model.is_free(Parameter::DelayS) {
-                    model.values[Parameter::DelayS as usize] += late;
-                }
-                model.set(parameter, 0.0, false);
-            }
-            None => {
-                let dependent: &[Noise] = if self == Self::ProcessForce { &[Noise::ForceRate] } else { &[] };
-                for noise in self.noises().iter().chain(dependent) {
-                    model.set_noise(*noise, 0.0, false);
-                }
-            }
+            model.set(parameter, 0.0, false);
+        }
+        let dependent: &[Noise] = if self == Self::ProcessForce { &[Noise::ForceRate] } else { &[] };
+        for noise in self.noises().iter().chain(dependent) {
+            model.set_noise(*noise, 0.0, false);
         }
         model
+    }
+
+    /// Whether the starts make the record as likely as each other: none of them stands for the rest.
+    pub(super) fn starts_without_effect(self) -> bool {
+        self == Self::FluidMemory
     }
 
     /// Models with the term from which a search may start.
@@ -193,7 +201,15 @@ impl Term {
         let (interval, swing) = (observations.interval_s, observations.swing_s);
         match self {
             Self::Stiffness | Self::CubicDrag | Self::SkewDrag | Self::Coulomb => {
-                self.parameter().map(|p| with(p, 0.0)).into_iter().collect()
+                self.parameters().iter().map(|parameter| with(*parameter, 0.0)).collect()
+            }
+            Self::FluidMemory => {
+                let slow = |part: f64| {
+                    let mut model = with(Parameter::Memory, 0.0);
+                    model.set(Parameter::MemoryS, part * swing, true);
+                    model
+                };
+                [0.15, 0.5, 1.5].map(slow).to_vec()
             }
             Self::Delay => vec![with(Parameter::DelayS, model.value(Parameter::DelayS))],
             Self::Lag | Self::RateLimit | Self::SensorFilter => {

@@ -1,6 +1,6 @@
 //! The filter against a dense Gaussian likelihood that knows nothing of filters; gradients against differences.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::filter;
 use super::model::{Clock, Model, Noise, Parameter, Switching};
@@ -9,16 +9,23 @@ use crate::experiment::Record;
 
 /// A command that switches, and an output about the motion that [`model`] has.
 fn record() -> Record {
+    record_of(&model())
+}
+
+/// The same about the motion of another model.
+fn record_of(model: &Model) -> Record {
     let time: Vec<f64> = (0..60).map(|k| 0.1 * f64::from(k)).collect();
     let input: Vec<f64> = (0..60).map(|k| if (k / 13) % 2 == 0 { 1.0 } else { -1.0 }).collect();
     // Of a reading that is zero the innovation is the prediction's negative.
-    let mut output = vec![0.0; 60];
-    output[0] = 1.0;
-    let still = Record::new(time.clone(), output, input.clone()).expect("a record");
-    let mut observations = Observations::new(&still, Clock::Stamps, Switching::AtSamples);
-    observations.output[0] = 0.0;
+    let gentle = time.iter().map(|t| (0.5 * t).sin()).collect();
+    let gentle = Record::new(time.clone(), gentle, input.clone()).expect("a record");
+    let mut observations = Observations::new(&gentle, Clock::Stamps, Switching::AtSamples);
+    observations.output.fill(0.0);
     observations.weight.fill(1.0);
-    let pass = filter::run(&observations, &model(), false).expect("a pass");
+    let mut unheeded = model.clone();
+    // Readings of no weight leave the motion to itself.
+    unheeded.set_noise(Noise::White, 1e12, true);
+    let pass = filter::run(&observations, &unheeded, false).expect("a pass");
     let wiggle = |k: usize| 0.02 * (17.0 * time[k]).cos() + 0.01 * (2.3 * time[k]).sin();
     let output = pass.innovations.iter().enumerate().map(|(k, innovation)| wiggle(k) - innovation.error).collect();
     Record::new(time.clone(), output, input).expect("a record")
@@ -51,6 +58,54 @@ fn model() -> Model {
 fn kernel(model: &Model, t: f64) -> f64 {
     let (alpha, beta) = (model.value(Parameter::Alpha), model.value(Parameter::LinearDrag));
     (1.0 - (-beta / alpha * t).exp()) / beta
+}
+
+/// Spacing of a table of responses, in s.
+const SPACING_S: f64 = 5e-4;
+
+/// Positions after a push, or after a late speed of one, [`SPACING_S`] apart: with drag that follows late the axis is linear in
+/// three states, and an exponential takes them over a step.
+fn responses(model: &Model, begin: Vector3<f64>) -> Vec<f64> {
+    let [alpha, beta, memory, time_s] =
+        [Parameter::Alpha, Parameter::LinearDrag, Parameter::Memory, Parameter::MemoryS].map(|p| model.value(p));
+    let rates = Matrix3::new(0.0, 1.0, 0.0, 0.0, -beta / alpha, -memory / alpha, 0.0, 1.0 / time_s, -1.0 / time_s);
+    let step = (rates * SPACING_S).exp();
+    core::iter::successors(Some(begin), |state| Some(step * state)).take(12_000).map(|state| state[0]).collect()
+}
+
+#[test]
+fn with_drag_that_follows_late_too() {
+    let mut model = model();
+    model.set(Parameter::Memory, 0.3, true);
+    model.set(Parameter::MemoryS, 0.7, true);
+    let observations = Observations::new(&record_of(&model), Clock::Stamps, Switching::AtSamples);
+    let alpha = model.value(Parameter::Alpha);
+    let pushed = responses(&model, Vector3::new(0.0, 1.0 / alpha, 0.0));
+    let late = responses(&model, Vector3::new(0.0, 0.0, 1.0));
+    let input = |t: f64| {
+        let at = t - model.value(Parameter::DelayS);
+        let piece = observations.pieces.iter().rev().find(|piece| piece.begin_s <= at + 1e-12);
+        piece.unwrap_or(&observations.pieces[0]).value + model.value(Parameter::Disturbance)
+    };
+    let samples = observations.time_s.len();
+    // Samples are 200 spacings apart; the middles of 100 steps between them are on the table.
+    let mean = |sample: usize| {
+        let forced = |step: usize| {
+            2.0 * SPACING_S * pushed[200 * sample - 2 * step - 1] * input((2 * step + 1) as f64 * SPACING_S)
+        };
+        let moving = alpha * model.value(Parameter::Velocity) * pushed[200 * sample];
+        model.value(Parameter::Position) + moving + (0..100 * sample).map(forced).sum::<f64>()
+    };
+    let unknown = (0.5 * observations.fastest).powi(2);
+    let covariance = DMatrix::from_fn(samples, samples, |i, j| {
+        unknown * late[200 * i] * late[200 * j] + if i == j { model.size(Noise::White) } else { 0.0 }
+    });
+    let off = DVector::from_fn(samples, |k, _| observations.output[k] - mean(k));
+    let factor = covariance.cholesky().expect("a covariance");
+    let determinant: f64 = factor.l().diagonal().iter().map(|d| 2.0 * d.ln()).sum();
+    let expected = -0.5 * (samples as f64 * core::f64::consts::TAU.ln() + determinant + off.dot(&factor.solve(&off)));
+    let found = filter::run(&observations, &model, false).expect("a pass").log_likelihood;
+    assert!((found - expected).abs() < 0.1, "{found} for {expected}");
 }
 
 /// Log-likelihood of the readings as one normal vector: mean by the integral over the kernel, covariance by sums over a grid.
@@ -126,7 +181,6 @@ fn difference(observations: &Observations, model: &Model, step: f64, change: imp
 
 #[test]
 fn scores_of_the_structure_are_the_likelihood_s_slopes() {
-    let observations = Observations::new(&record(), Clock::Stamps, Switching::AtSamples);
     let mut plain = model();
     for (parameter, value) in
         [(Parameter::QuadraticDrag, 0.4), (Parameter::CubicDrag, 0.2), (Parameter::Stiffness, 0.15)]
@@ -141,9 +195,8 @@ fn scores_of_the_structure_are_the_likelihood_s_slopes() {
     uneven.set(Parameter::Skew, 0.2, true);
     let mut rubbing = plain.clone();
     rubbing.set(Parameter::Coulomb, 0.02, true);
-    let mut filtered = lagged.clone();
-    filtered.set(Parameter::FilterS, 0.25, true);
-    for model in [plain, lagged, ramped, uneven, rubbing, filtered] {
+    let observations = Observations::new(&record(), Clock::Stamps, Switching::AtSamples);
+    for model in [plain, lagged, ramped, uneven, rubbing] {
         let score = filter::run(&observations, &model, true).expect("a pass").score();
         for parameter in model.structure() {
             let slope = difference(&observations, &model, 1e-5, |m, by| m.values[parameter as usize] += by);
@@ -174,5 +227,36 @@ fn scores_of_the_noise_are_the_likelihood_s_slopes() {
         let slope = difference(&observations, &model, 1e-4, |m, by| m.noise[noise as usize] += by);
         let found = score.noise[noise as usize];
         assert!((found - slope).abs() < 1e-3 * slope.abs() + 1e-3, "{noise:?}: {found} for {slope}");
+    }
+}
+
+#[test]
+fn scores_of_what_begins_uncertain_are_slopes_but_for_the_variances() {
+    let mut filtered = model();
+    filtered.set(Parameter::FilterS, 0.25, true);
+    let mut remembering = model();
+    remembering.set(Parameter::Memory, 0.3, true);
+    remembering.set(Parameter::MemoryS, 0.7, true);
+    for mut model in [filtered, remembering] {
+        // The gain, whose change the score leaves out, is next to nothing.
+        model.set_noise(Noise::White, 1e8, true);
+        let mut predicted = Observations::new(&record_of(&model), Clock::Stamps, Switching::AtSamples);
+        let pass = filter::run(&predicted, &model, false).expect("a pass");
+        for (output, innovation) in predicted.output.iter_mut().zip(&pass.innovations) {
+            *output -= innovation.error;
+        }
+        for sample in [5, 20, 40, 59] {
+            let mut off = predicted.clone();
+            off.output[sample] += 1e3;
+            let score = filter::run(&off, &model, true).expect("a pass").score();
+            for parameter in model.structure() {
+                let slope = |observations: &Observations| {
+                    difference(observations, &model, 1e-4, |m, by| m.values[parameter as usize] += by)
+                };
+                // What a parameter does to the variances is the same whatever the readings are.
+                let (expected, found) = (slope(&off) - slope(&predicted), score.structure[parameter as usize]);
+                assert!((found - expected).abs() < 1e-3 * expected.abs() + 1e-8, "{parameter:?}: {found} for {expected}");
+            }
+        }
     }
 }

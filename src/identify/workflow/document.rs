@@ -61,6 +61,10 @@ pub struct ReportedModel {
     pub skew: Option<Estimate>,
     /// Coulomb friction.
     pub coulomb: Option<Estimate>,
+    /// Factor of the drag that follows the speed late.
+    pub memory: Option<Estimate>,
+    /// Time constant with which it follows, in s.
+    pub memory_s: Option<Estimate>,
     /// Restoring force per output.
     pub stiffness: Option<Estimate>,
     /// Time constant of the actuator, in s.
@@ -83,7 +87,7 @@ pub struct ReportedModel {
 
 impl From<&Reported> for ReportedModel {
     fn from(reported: &Reported) -> Self {
-        let Reported { drag, alpha, beta_cubic, skew, coulomb, stiffness, .. } = *reported;
+        let Reported { drag, alpha, beta_cubic, skew, coulomb, memory, memory_s, stiffness, .. } = *reported;
         let Reported { lag_s, ramp_s, filter_s, delay_s, trust, .. } = *reported;
         Self {
             drag,
@@ -94,6 +98,8 @@ impl From<&Reported> for ReportedModel {
             beta_cubic,
             skew,
             coulomb,
+            memory,
+            memory_s,
             stiffness,
             lag_s,
             ramp_s,

@@ -189,6 +189,8 @@ fn parameter_table(found: &Identification, reported: &Reported) -> Table {
         ("cubic drag beta_cubic", reported.beta_cubic, &cubic),
         ("one-sidedness of drag skew", reported.skew, &one),
         ("Coulomb friction coulomb", reported.coulomb, &force),
+        ("drag that follows late memory", reported.memory, &beta),
+        ("its time constant", reported.memory_s, &second),
         ("restoring force stiffness", reported.stiffness, &stiffness),
         ("delay", Some(reported.delay_s), &second),
         ("lag of the actuator", reported.lag_s, &second),

@@ -1,10 +1,15 @@
 //! How the states, and what is known of them, go over a step.
 
-/// Position, velocity, process force, coloured error, and the filtered position where the sensor filters.
+use crate::identify::prediction_error::motion::Step;
+
+/// Position, velocity, process force, coloured error, then the filtered position where the sensor filters, and the late speed where
+/// drag follows it.
 pub(super) type Vector<const N: usize> = [f64; N];
 pub(super) type Square<const N: usize> = [[f64; N]; N];
 /// Place of the filtered position.
 pub(super) const FILTERED: usize = 4;
+/// Place of the speed that late drag follows.
+pub(super) const LATE: usize = 5;
 
 /// Transition of the states over a step.
 #[derive(Clone, Copy)]
@@ -16,9 +21,51 @@ pub(super) struct Transition {
     pub(super) colour: f64,
     /// What position, velocity, process force and the filtered position itself make of the filtered position.
     pub(super) filtered: [f64; 4],
+    /// What the late speed makes of position and velocity.
+    pub(super) by_late: [f64; 2],
+    /// What the late speed itself, and velocity at the beginning and at the end, make of it.
+    pub(super) late: [f64; 3],
 }
 
 impl Transition {
+    /// Of position and velocity alone: nothing is left of the rest.
+    pub(super) fn new(step: &Step, alpha: f64) -> Self {
+        let gained = |axis: usize| step.begin_weight[axis] + step.middle_weight[axis];
+        Self {
+            motion: step.transition,
+            by_force: [gained(0) / alpha, (gained(1) + step.end_weight) / alpha],
+            force: 0.0,
+            colour: 0.0,
+            filtered: [0.0; 4],
+            by_late: [0.0; 2],
+            late: [0.0; 3],
+        }
+    }
+
+    /// The sensor filters the position.
+    pub(super) fn filter(&mut self, sensor: &LowPass, step: &Step, h_s: f64, alpha: f64) {
+        let [first, middle, last] = sensor.weights;
+        self.filtered = [
+            first + middle * step.half[0] + last * step.transition[0][0],
+            middle * step.half[1] + last * step.transition[0][1],
+            middle * 0.125 * h_s * h_s / alpha + last * self.by_force[0],
+            sensor.kept,
+        ];
+    }
+
+    /// Drag follows the late speed, to which the velocity adds as if it were constant over the step.
+    pub(super) fn remember(&mut self, late: &LateSpeed, low_pass: &LowPass, step: &Step, memory_over_alpha: f64) {
+        let [_, middle, end] = late.kept;
+        for axis in 0..2 {
+            let at_end = if axis == 1 { step.end_weight } else { 0.0 };
+            let (first, half_way) = (step.begin_weight[axis], step.middle_weight[axis]);
+            self.by_late[axis] = -memory_over_alpha * (first + half_way * middle + at_end * end);
+            self.motion[axis][1] -= memory_over_alpha * (half_way * (1.0 - middle) + at_end * (1.0 - end));
+        }
+        let [first, half_way, last] = low_pass.weights;
+        self.late = [low_pass.kept, first + 0.5 * half_way, 0.5 * half_way + last];
+    }
+
     pub(super) fn apply<const N: usize>(&self, v: &Vector<N>) -> Vector<N> {
         let mut next = [0.0; N];
         next[0] = self.motion[0][0] * v[0] + self.motion[0][1] * v[1] + self.by_force[0] * v[2];
@@ -28,6 +75,12 @@ impl Transition {
         if N > FILTERED {
             let [x, velocity, force, own] = self.filtered;
             next[FILTERED] = x * v[0] + velocity * v[1] + force * v[2] + own * v[FILTERED];
+        }
+        if N > LATE {
+            next[0] += self.by_late[0] * v[LATE];
+            next[1] += self.by_late[1] * v[LATE];
+            let [own, first, last] = self.late;
+            next[LATE] = own * v[LATE] + first * v[1] + last * next[1];
         }
         next
     }
@@ -50,17 +103,17 @@ impl Transition {
     }
 }
 
-/// A first-order filter over a step in which the position is the parabola through its beginning, middle and end: what is left
-/// of the filtered position, the weights of the three, and the derivatives of all with respect to the filter's time.
+/// A first-order low pass over a step in which its input is the parabola through its beginning, middle and end: what is left
+/// of its output, the weights of the three, and the derivatives of all with respect to its time.
 #[derive(Clone, Copy)]
-pub(super) struct SensorFilter {
+pub(super) struct LowPass {
     pub(super) kept: f64,
     pub(super) weights: [f64; 3],
     pub(super) kept_by_time: f64,
     pub(super) weights_by_time: [f64; 3],
 }
 
-impl SensorFilter {
+impl LowPass {
     pub(super) fn new(time_s: f64, h_s: f64) -> Self {
         let q = h_s / time_s;
         let kept = (-q).exp();
@@ -80,8 +133,38 @@ impl SensorFilter {
         }
     }
 
-    pub(super) fn weighted(weights: &[f64; 3], positions: &[f64; 3]) -> f64 {
-        weights.iter().zip(positions).map(|(weight, position)| weight * position).sum()
+    /// The output after the step.
+    pub(super) fn after(&self, before: f64, inputs: &[f64; 3]) -> f64 {
+        self.kept * before + dot(&self.weights, inputs)
+    }
+
+    /// Its derivative with respect to the time of the low pass.
+    pub(super) fn after_by_time(&self, before: f64, inputs: &[f64; 3]) -> f64 {
+        self.kept_by_time * before + dot(&self.weights_by_time, inputs)
+    }
+}
+
+fn dot(weights: &[f64; 3], values: &[f64; 3]) -> f64 {
+    weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
+}
+
+/// The late speed at the beginning, in the middle and at the end of a step over which the velocity is a line, and what is left
+/// there of the first.
+#[derive(Clone, Copy)]
+pub(super) struct LateSpeed {
+    pub(super) values: [f64; 3],
+    pub(super) by_time: [f64; 3],
+    pub(super) kept: [f64; 3],
+}
+
+impl LateSpeed {
+    pub(super) fn along(time_s: f64, h_s: f64, before: f64, velocity: f64, acceleration: f64) -> Self {
+        let since = [0.0, 0.5 * h_s, h_s];
+        let behind = before - velocity + acceleration * time_s;
+        let kept = since.map(|t| (-t / time_s).exp());
+        let at = |k: usize| velocity + acceleration * (since[k] - time_s) + behind * kept[k];
+        let by_time = |k: usize| acceleration * (kept[k] - 1.0) + behind * kept[k] * since[k] / (time_s * time_s);
+        Self { values: [at(0), at(1), at(2)], by_time: [by_time(0), by_time(1), by_time(2)], kept }
     }
 }
 

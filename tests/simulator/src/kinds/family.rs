@@ -3,7 +3,7 @@
 use super::Entry;
 use crate::plan::{DEGREE, Law, Plan};
 use crate::random::Random;
-use crate::vehicle::{Force, Lag, Vehicle};
+use crate::vehicle::{Force, Lag, Memory, Vehicle};
 
 fn any(r: &mut Random) -> Plan {
     Plan::new(r, Law::Any).any_sensor(r)
@@ -132,6 +132,7 @@ pub(super) const KINDS: &[Entry] = &[
     }),
     ("sensor filter 0.2 s", |r| any(r).with(|s| s.sensor.filter_s = 0.2)),
     ("sensor filter 0.5 s, delay unknown", |r| any(r).with(|s| s.sensor.filter_s = 0.5).delay_unknown()),
+    ("entrained water, 1 s", |r| vehicle(r, |v| v.memory = Memory { gain: 0.2 * v.alpha, time_s: 1.0 })),
     ("Coulomb friction 0.03 C", |r| vehicle(r, |v| v.drag.coulomb = 0.03)),
     ("Coulomb friction 0.1 C", |r| vehicle(r, |v| v.drag.coulomb = 0.1)),
     ("drag 10 % larger to one side", |r| vehicle(r, |v| v.drag.asymmetry = 0.05)),

@@ -3,7 +3,7 @@
 use super::Entry;
 use crate::plan::{DEGREE, Law, Plan};
 use crate::random::Random;
-use crate::vehicle::{Force, Lag, Memory, Vehicle};
+use crate::vehicle::{Force, Lag, Vehicle};
 
 fn any(r: &mut Random) -> Plan {
     Plan::new(r, Law::Any).any_sensor(r)
@@ -58,7 +58,6 @@ pub(super) const KINDS: &[Entry] = &[
             v.drag = crate::vehicle::Drag { power: force / speed.powf(1.5), exponent: 1.5, ..Default::default() };
         })
     }),
-    ("entrained water, 1 s", |r| vehicle(r, |v| v.memory = Memory { gain: 0.2 * v.alpha, time_s: 1.0 })),
     ("waves 0.1 C, 4 s", |r| {
         let sine_phase_rad = r.uniform(0.0, core::f64::consts::TAU);
         vehicle(r, |v| v.force = Force { sine: 0.1, sine_period_s: 4.0, sine_phase_rad, ..Force::default() })
