@@ -149,7 +149,7 @@ fn inverse(mut a: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         a[k][k] = 1.0;
         a[k].iter_mut().for_each(|value| *value *= pivot);
         let row = a[k].clone();
-        for (_, other) in a.iter_mut().enumerate().filter(|(i, _)| *i != k) {
+        for (_, other) in a.iter_mut().enumerate().filter(|(row, _)| *row != k) {
             let factor = other[k];
             other[k] = 0.0;
             other.iter_mut().zip(&row).for_each(|(value, row)| *value -= factor * row);
@@ -288,7 +288,7 @@ impl Search<'_> {
             })
             .collect();
         let mut z = Vec::with_capacity(unknowns.len());
-        for row in 0..unknowns.len() {
+        for &row in &unknowns {
             let objective: Vec<(usize, f64)> =
                 (0..=row).map(|column| (column, turned[column][row].midpoint())).collect();
             let range = linear.range(&programme, &objective).map_err(|rows| empty(rows, &linear, at))?;
