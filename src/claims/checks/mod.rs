@@ -16,6 +16,7 @@ mod single;
 mod step;
 mod vehicle_proofs;
 
+pub(super) mod bounded;
 pub(super) mod control;
 pub(super) mod experiment;
 pub(super) mod fourier;

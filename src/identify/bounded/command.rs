@@ -45,6 +45,11 @@ impl Command {
         Interval::point(first).hull(Interval::point(last))
     }
 
+    /// Up to a switching, which is no part of it.
+    pub(super) fn until(&self, edge: usize) -> Self {
+        Self { levels: self.levels[..=edge].to_vec(), spans: self.spans[..edge].to_vec() }
+    }
+
     /// The same with each switching's span replaced.
     pub(super) fn with_spans(&self, spans: impl Iterator<Item = Interval>) -> Self {
         Self { levels: self.levels.clone(), spans: spans.map(|span| (span.lower(), span.upper())).collect() }

@@ -4,9 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::field::Term;
 use super::lp::{Multipliers, Outcome, Programme, Rows};
+use super::mix::{By, Mix};
 use super::problem::{Layout, Readings};
 use super::step::{Fields, Pair};
-use super::trajectory::{By, Drive, Node, Unknowns, follow};
+use super::trajectory::{Drive, Node, Unknowns, follow};
 use crate::numeric::{Interval, Real};
 
 /// Samples at which a hat begins, has its peak, and ends.
@@ -44,6 +45,11 @@ pub(super) struct Span {
     pub(super) to: usize,
 }
 
+/// Each unknown by itself.
+fn singly(by: &[By]) -> Vec<Mix> {
+    by.iter().map(|by| Mix::of([(*by, 1.0)])).collect()
+}
+
 /// Problem data that contraction needs.
 pub(super) struct Model<'a> {
     pub(super) records: &'a [Readings],
@@ -67,7 +73,7 @@ impl Model<'_> {
         let (by, places) = self.layout.columns(span.from);
         let deviations: Vec<Interval> =
             places.iter().map(|place| at[*place] - Interval::point(centre[*place])).collect();
-        self.follow(span, at, centre, &by, &deviations)
+        self.follow(span, at, centre, &singly(&by), &deviations)
     }
 
     /// The outputs of one point over a span of windows.
@@ -90,12 +96,12 @@ impl Model<'_> {
         }))
     }
 
-    fn follow(
+    pub(super) fn follow(
         &self,
         span: Span,
         at: &[Interval],
         centre: &[f64],
-        by: &[By],
+        mixes: &[Mix],
         deviations: &[Interval],
     ) -> Option<Vec<Node>> {
         let stretch = self.layout.windows()[span.from];
@@ -121,7 +127,7 @@ impl Model<'_> {
             fastest: 2.0 * self.fastest,
         };
         let start = Pair { over: self.layout.state_of(span.from, at), at: self.layout.state_of(span.from, &point) };
-        follow(&drive, start, &readings.time_s[stretch.first..=last], Unknowns { by, deviations })
+        follow(&drive, start, &readings.time_s[stretch.first..=last], Unknowns { mixes, deviations })
     }
 
     /// Deviations from a point of a box.
@@ -155,9 +161,14 @@ impl Model<'_> {
 
     /// Adds the inequalities of one span, whose motion over the box and about the same centre is known; those of its end with `linked`.
     pub(super) fn linearise(&self, span: Span, over: &[Node], linked: bool, linear: &mut Linear) {
+        let (_, places) = self.layout.columns(span.from);
+        self.linearise_by(&places, span, over, linked, linear);
+    }
+
+    /// The same by the unknowns at these places.
+    pub(super) fn linearise_by(&self, places: &[usize], span: Span, over: &[Node], linked: bool, linear: &mut Linear) {
         let stretch = self.layout.windows()[span.from];
         let readings = &self.records[stretch.record];
-        let (_, places) = self.layout.columns(span.from);
         for (offset, node) in over.iter().enumerate() {
             let sample = stretch.first + offset;
             let moved = if readings.jitter_s > 0.0 {

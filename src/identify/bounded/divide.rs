@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 
 use super::field::Term;
+use super::frame::Frame;
 use super::search::{Empty, Left, Method, Search};
 use crate::numeric::Interval;
 
@@ -20,6 +21,8 @@ const FOLLOWED: f64 = 4.0;
 pub(super) struct Kept {
     pub(super) at: Vec<Interval>,
     pub(super) left: Left,
+    /// Coordinates in which it is slanted, once they are known.
+    pub(super) frame: Option<Frame>,
 }
 
 /// What is left, and what was excluded last.
@@ -67,6 +70,16 @@ impl Search<'_> {
         (side.lower() < value && value < side.upper()).then_some(parts)
     }
 
+    /// Halves of a box that is left: along a coordinate of its frame, if it has one.
+    fn divide_frame(&self, kept: &Kept, unknown: usize) -> Option<[Kept; 2]> {
+        if let Some(frame) = &kept.frame {
+            let halves = frame.halves(unknown)?;
+            return Some(halves.map(|frame| Kept { frame: Some(frame), ..kept.clone() }));
+        }
+        let parts = self.divide(&kept.at, unknown)?;
+        Some(parts.map(|at| Kept { at, left: kept.left, frame: None }))
+    }
+
     /// Everything in `at`, divided until the motion can be followed over each part that is left.
     pub(super) fn search(&mut self, at: Vec<Interval>, budget: usize) -> Division {
         let mut division = Division { empties: VecDeque::new(), kept: Vec::new(), followed: true };
@@ -106,7 +119,7 @@ impl Search<'_> {
                 division.kept.push(kept);
                 continue;
             }
-            match self.contract_fine(&mut kept.at) {
+            match self.contract_fine(&mut kept.at, &mut kept.frame) {
                 Err(empty) => {
                     division.exclude(empty);
                     continue;
@@ -121,12 +134,12 @@ impl Search<'_> {
                 division.kept.push(kept);
                 continue;
             }
-            let Some(parts) = self.divide(&kept.at, widest) else {
+            let Some(parts) = self.divide_frame(&kept, widest) else {
                 division.kept.push(kept);
                 continue;
             };
             divided += 1;
-            open.extend(parts.map(|at| Kept { at, left: kept.left }));
+            open.extend(parts);
         }
     }
 
@@ -134,7 +147,7 @@ impl Search<'_> {
     pub(super) fn contract_kept(&mut self, division: &mut Division) {
         let boxes: Vec<Kept> = division.kept.drain(..).collect();
         for mut kept in boxes {
-            match self.contract_fine(&mut kept.at) {
+            match self.contract_fine(&mut kept.at, &mut kept.frame) {
                 Err(empty) => division.exclude(empty),
                 Ok(left) => {
                     kept.left = left;
@@ -150,9 +163,13 @@ impl Search<'_> {
         if slack < FINE {
             return false;
         }
-        let Some(parts) = self.divide(&division.kept[index].at, widest) else { return false };
+        let Some(parts) = self.divide_frame(&division.kept[index], widest) else { return false };
         division.kept.swap_remove(index);
-        self.refine(division, parts.into(), budget);
+        if parts[0].frame.is_some() {
+            self.work_off(division, parts.into(), budget);
+        } else {
+            self.refine(division, parts.into_iter().map(|part| part.at).collect(), budget);
+        }
         true
     }
 
@@ -172,7 +189,7 @@ impl Search<'_> {
         while let Some(mut at) = open.pop() {
             if self.passes >= budget {
                 division.followed = false;
-                division.kept.push(Kept { at, left: Left::Wide(0) });
+                division.kept.push(Kept { at, left: Left::Wide(0), frame: None });
                 continue;
             }
             let left = match self.contract(&mut at) {
@@ -184,7 +201,7 @@ impl Search<'_> {
             };
             let unknown = match left {
                 Left::Followed { slack, .. } if slack <= FOLLOWED => {
-                    division.kept.push(Kept { at, left });
+                    division.kept.push(Kept { at, left, frame: None });
                     continue;
                 }
                 Left::Followed { widest, .. } | Left::Wide(widest) => widest,
@@ -193,7 +210,7 @@ impl Search<'_> {
                 Some(parts) => open.extend(parts),
                 None => {
                     division.followed = false;
-                    division.kept.push(Kept { at, left: Left::Wide(unknown) });
+                    division.kept.push(Kept { at, left: Left::Wide(unknown), frame: None });
                 }
             }
         }

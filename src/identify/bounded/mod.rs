@@ -17,13 +17,16 @@ mod command;
 mod contract;
 mod divide;
 mod field;
+mod frame;
 mod lp;
+mod mix;
 mod problem;
 mod report;
 mod rows;
 mod search;
 mod settings;
 mod setup;
+pub(crate) mod soundness;
 mod speeds;
 mod step;
 mod trajectory;
@@ -95,6 +98,9 @@ pub fn enclose_with_certificate(
     Ok((explored.bounds, certificate?))
 }
 
+/// Over wide boxes the beginnings of the records, up to this switching, tell nearly what whole records tell.
+const FIRST_SWINGS: usize = 4;
+
 /// What a search gave.
 struct Explored {
     bounds: Bounds,
@@ -108,8 +114,21 @@ fn explore(
     settings: &BoundedModel,
     witness: impl FnOnce(Option<Witness>),
 ) -> Result<Explored, IdentifyError> {
+    let mut spent = 0;
+    let mut at = setup.search.clone();
+    if let Some(beginnings) = setup.beginnings(settings, FIRST_SWINGS) {
+        let mut search = Search::new(&beginnings);
+        let division = search.search(beginnings.search.clone(), settings.budget);
+        // Passes over part of the records cost so much less.
+        spent = search.passes * beginnings.samples() / setup.samples();
+        // Where nothing is left of them, whole records show by how much they contradict the model.
+        if let Some(hull) = division.hull() {
+            at = setup.within(&hull).search;
+        }
+    }
     let mut search = Search::new(setup);
-    let division = search.search(setup.search.clone(), settings.budget);
+    search.passes = spent;
+    let division = search.search(at, settings.budget);
     let passes = search.passes;
     // A delay that is known better leaves more readings.
     if let (Some(hull), true) = (division.hull(), setup.layout.delay().is_some() && division.followed) {

@@ -2,7 +2,8 @@
 
 use super::command::Command;
 use super::field::{Field, TERMS, Term, Triple};
-use super::trajectory::{By, active};
+use super::mix::By;
+use super::trajectory::active;
 use crate::numeric::Interval;
 
 /// One record: instants, readings, and how far the output may be from each.

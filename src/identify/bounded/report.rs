@@ -11,7 +11,7 @@ use super::witness::Tried;
 use crate::numeric::Interval;
 
 /// Passes after which the bounds are good enough: they hold in any case.
-const SHARPENING: usize = 200;
+const SHARPENING: usize = 400;
 /// How often all sides are cut.
 const ROUNDS: usize = 6;
 /// A round that leaves more than this of every width is the last.

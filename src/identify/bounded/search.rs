@@ -2,6 +2,7 @@
 
 use super::contract::{Hat, Linear, Model, Pass};
 use super::field::Term;
+use super::frame::Frame;
 use super::lp::Multipliers;
 use super::rows::Parted;
 use super::setup::Setup;
@@ -133,7 +134,12 @@ impl<'a> Search<'a> {
 
     /// The largest share of a reading's error that the slopes' ranges take, and the parameter most of it is due to.
     pub(super) fn slack(&self, linear: &Linear) -> (f64, usize) {
-        let mut by = vec![0.0; self.parameters()];
+        self.slack_by(linear, self.parameters())
+    }
+
+    /// The same by the first of the unknowns.
+    pub(super) fn slack_by(&self, linear: &Linear, unknowns: usize) -> (f64, usize) {
+        let mut by = vec![0.0; unknowns];
         let mut largest = 0.0f64;
         let error = self.setup.records.iter().fold(f64::INFINITY, |least, readings| least.min(readings.error));
         for slopes in &linear.rows.slopes {
@@ -221,30 +227,24 @@ impl<'a> Search<'a> {
 
     /// Contracts a box over which the motion is followed, by the motion alone: over whole records, where nothing but their
     /// beginnings is unknown beside the parameters, or window by window if the slopes' ranges take less so.
-    pub(super) fn contract_fine(&mut self, at: &mut [Interval]) -> Result<Left, Empty> {
-        let (whole, parameters) = (self.of_whole(), (0..self.parameters()).collect::<Vec<_>>());
+    pub(super) fn contract_fine(&mut self, at: &mut [Interval], frame: &mut Option<Frame>) -> Result<Left, Empty> {
+        let parameters: Vec<usize> = (0..self.parameters()).collect();
         let places: Vec<usize> = (0..at.len()).collect();
         let (mut left, mut broken) = (Left::Wide(0), false);
         for pass in 0..MOST_PASSES {
             let before = at.to_vec();
             let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
-            let unbroken = if broken { None } else { self.unbroken(at, centre.clone()) };
-            let found =
-                unbroken.map(|linear| (self.slack(&linear), linear)).filter(|((slack, _), _)| *slack <= UNBROKEN);
-            broken = found.is_none();
-            let ((slack, widest), linear) = match found {
-                Some(found) => found,
-                None => match self.chained(at, centre)? {
-                    Some(linear) => (self.slack(&linear), linear),
-                    None => return Ok(left),
-                },
-            };
-            left = Left::Followed { slack, widest };
-            let (method, of, unknowns) =
-                if broken { (Method::Chain, &places, &parameters) } else { (Method::Whole, &whole, &whole) };
-            match linear.contract(at, of, unknowns) {
-                Pass::Empty(multipliers) => return Err(Empty { method, multipliers, linear: Some(linear) }),
-                Pass::Contracted => {}
+            let slanted = if broken { None } else { self.slant(at, frame, UNBROKEN)? };
+            if let Some(followed) = slanted {
+                left = followed;
+            } else {
+                broken = true;
+                let Some(linear) = self.chained(at, centre)? else { return Ok(left) };
+                let (slack, widest) = self.slack(&linear);
+                left = Left::Followed { slack, widest };
+                if let Pass::Empty(multipliers) = linear.contract(at, &places, &parameters) {
+                    return Err(Empty { method: Method::Chain, multipliers, linear: Some(linear) });
+                }
             }
             if pass + 1 >= FINE_PASSES || self.rest(&before, at) > HELPED {
                 break;
@@ -280,8 +280,8 @@ impl<'a> Search<'a> {
             let Some(linear) = self.chained(at, centre)? else { return Ok(Left::Wide(widest)) };
             let (slack, widest) = self.slack(&linear);
             left = Left::Followed { slack, widest };
-            let unknowns: Vec<usize> = (0..self.parameters()).collect();
             let places: Vec<usize> = (0..at.len()).collect();
+            let unknowns: Vec<usize> = (0..self.parameters()).collect();
             match linear.contract(at, &places, &unknowns) {
                 Pass::Empty(multipliers) => {
                     return Err(Empty { method: Method::Chain, multipliers, linear: Some(linear) });

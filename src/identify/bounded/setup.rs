@@ -260,6 +260,40 @@ impl Setup {
         self.search.extend(self.layout.states(&self.records, self.fastest));
     }
 
+    /// The beginnings of all records, up to this switching: what they leave encloses what the whole records leave. `None` where that
+    /// would save little.
+    pub(super) fn beginnings(&self, settings: &BoundedModel, swings: usize) -> Option<Self> {
+        let mut setup = self.clone();
+        for readings in &mut setup.records {
+            // Unknown instants are parameters of their own, and all of them would have to be known after.
+            if settings.switching == SwitchedWhen::Anywhere || readings.command.edges() < 2 * swings {
+                return None;
+            }
+            let (end, _) = readings.command.spans()[swings];
+            let samples = readings.time_s.partition_point(|time| *time < end);
+            readings.time_s.truncate(samples);
+            readings.value.truncate(samples);
+            readings.command = readings.command.until(swings);
+        }
+        let delay_s = setup.layout.delay().map_or(setup.known_delay_s, |place| setup.search[place]);
+        setup.layout = Self::lay(&setup.records, settings, delay_s).ok()?;
+        setup.states();
+        Some(setup)
+    }
+
+    /// Number of readings.
+    pub(super) fn samples(&self) -> usize {
+        self.records.iter().map(|readings| readings.value.len()).sum()
+    }
+
+    /// The same with the parameters known to lie in `at`.
+    pub(super) fn within(&self, at: &[Interval]) -> Self {
+        let mut setup = self.clone();
+        setup.search = at[..self.layout.parameters()].to_vec();
+        setup.states();
+        setup
+    }
+
     /// The same constraints with the parameters known to lie in `at`: a shorter delay leaves more readings.
     pub(super) fn narrowed(&self, settings: &BoundedModel, at: &[Interval]) -> Result<Self, IdentifyError> {
         let Some(place) = self.layout.delay() else { return Ok(self.clone()) };

@@ -5,6 +5,7 @@
 //! the j-th term multiplies in the motion of c alone. So only m has a range.
 
 use super::field::{FORCE, Field, POSITION, TERMS, Term, Triple, VELOCITY};
+use super::mix::{Mix, Weights};
 use crate::numeric::{Interval, Real};
 
 /// Degree whose coefficient over the whole step is the remainder.
@@ -17,20 +18,6 @@ type Series = [Interval; ORDER + 1];
 /// Polynomials in the time since the step's beginning, for the components of the state or of a column; the last coefficient is
 /// over the whole step, so that the values are enclosed at every instant of it.
 type Path = [Series; 3];
-
-/// A column of slopes that is carried: by what started it or by what pushes it.
-#[derive(Clone, Copy, Debug)]
-struct Column {
-    start: Triple,
-    push: Option<Term>,
-}
-
-impl Column {
-    /// Of the state, where it starts.
-    fn component(&self) -> usize {
-        (0..3).find(|k| self.start[*k] == Interval::ONE).unwrap_or(VELOCITY)
-    }
-}
 
 /// The equation over a box, and at a point of it.
 #[derive(Clone, Copy, Debug)]
@@ -58,8 +45,8 @@ pub(super) struct Step {
     pub(super) within: Triple,
     /// Of the state by its start: a path for each component of the start that moves others.
     gain: [Option<Path>; 3],
-    /// Of the state by each term, the start held.
-    by_term: [Option<Path>; TERMS],
+    /// Of the state by what each mix of terms pushes, the start held; none for a mix without terms.
+    by_mix: Vec<Option<Path>>,
     /// What is known of position and velocity at the end besides.
     end: Option<[Interval; 2]>,
 }
@@ -70,7 +57,7 @@ pub(super) struct Arrival {
     pub(super) over: Triple,
     pub(super) at: Option<Triple>,
     gain: [Triple; 3],
-    by_term: [Triple; TERMS],
+    by_mix: Vec<Option<Triple>>,
 }
 
 /// Why a step was not made.
@@ -188,11 +175,10 @@ impl Field {
         self.damping(v, v).magnitude().max(lag).max(swing)
     }
 
-    fn columns(&self) -> impl Iterator<Item = Column> + '_ {
-        let starts = [(POSITION, self.has(Term::Stiffness)), (VELOCITY, true), (FORCE, self.has(Term::LagRate))];
-        let starts = starts.into_iter().filter(|(_, moves)| *moves).map(|(k, _)| Column { start: UNIT[k], push: None });
-        let pushes = Term::ALL.into_iter().filter(|term| self.has(*term));
-        starts.chain(pushes.map(|term| Column { start: [Interval::ZERO; 3], push: Some(term) }))
+    /// Components of the start that move others than themselves.
+    fn moving(&self) -> impl Iterator<Item = usize> {
+        let moving = [(POSITION, self.has(Term::Stiffness)), (VELOCITY, true), (FORCE, self.has(Term::LagRate))];
+        moving.into_iter().filter(|(_, moves)| *moves).map(|(component, _)| component)
     }
 
     /// The sign of the velocity and the state during a step, if it has one.
@@ -217,12 +203,13 @@ impl Field {
         let damping = self.damping(within[VELOCITY], within[VELOCITY]);
         let powers = powers(h);
         let mut gain = UNIT;
-        for column in self.columns().filter(|column| column.push.is_none()) {
-            let enclosure =
-                enclose(&column.start, Interval::ZERO.hull(h), |value| self.column_rate(damping, value, None));
-            let head = head.column(self, &between, &column, &column.start);
-            let rest = rest.column(self, &between_rest, &column, &enclosure.ok_or(Refused::TooLong)?);
-            gain[column.component()] = value(&joined(&head, &rest), &powers);
+        for component in self.moving() {
+            let unit = &UNIT[component];
+            let rate = |value: &Triple| self.column_rate(damping, value, [Interval::ZERO; 2]);
+            let enclosure = enclose(unit, Interval::ZERO.hull(h), rate).ok_or(Refused::TooLong)?;
+            let head = head.column(self, &between, None, unit);
+            let rest = rest.column(self, &between_rest, None, &enclosure);
+            gain[component] = value(&joined(&head, &rest), &powers);
         }
         Ok([about(value(&joined(&from.state, &rest.state), &powers), &gain, &less(start, &middle)), within])
     }
@@ -237,7 +224,14 @@ impl Field {
 impl Fields {
     /// Over a duration `h` with a constant command u, no longer than `longest` against the fastest rate: beyond, polynomial and
     /// remainder cancel.
-    pub(super) fn smooth(&self, start: &Pair, u: Interval, h: Interval, longest: f64) -> Result<Step, Refused> {
+    pub(super) fn smooth(
+        &self,
+        start: &Pair,
+        u: Interval,
+        h: Interval,
+        longest: f64,
+        mixes: &[Mix],
+    ) -> Result<Step, Refused> {
         let span = Interval::ZERO.hull(h);
         let (field, point) = (&self.over, &self.at);
         let within = enclose(&start.over, span, |state| field.rate(state, u)).ok_or(Refused::TooLong)?;
@@ -256,20 +250,21 @@ impl Fields {
             at_about: less(&start.at, &middle),
             within,
             gain: [None; 3],
-            by_term: [None; TERMS],
+            by_mix: Vec::new(),
             end: None,
         };
         let [between, between_rest] =
             [(&head, &head_at), (&rest, &rest_at)].map(|(over, at)| field.dampings(over, at, sign));
         let damping = field.damping(within[VELOCITY], within_at[VELOCITY]);
-        for column in field.columns() {
-            let push = column.push.map(|term| (term, field.push(term, &within_at, u)));
-            let enclosure = enclose(&column.start, span, |value| field.column_rate(damping, value, push));
+        let column = |start: &Triple, weights: Option<&Weights>| {
+            let push = weights.map_or([Interval::ZERO; 2], |weights| field.pushed(weights, &within_at, u));
+            let enclosure = enclose(start, span, |value| field.column_rate(damping, value, push));
             let enclosure = enclosure.ok_or(Refused::TooLong)?;
-            let head = head_at.column(field, &between, &column, &column.start);
-            let rest = rest_at.column(field, &between_rest, &column, &enclosure);
-            step.place(&column, joined(&head, &rest));
-        }
+            let head = head_at.column(field, &between, weights, start);
+            let rest = rest_at.column(field, &between_rest, weights, &enclosure);
+            Ok(joined(&head, &rest))
+        };
+        step.carry(field, mixes, column)?;
         Ok(step)
     }
 
@@ -282,6 +277,7 @@ impl Fields {
         within_at: &Triple,
         u_at: Interval,
         h: Interval,
+        mixes: &[Mix],
     ) -> Result<Step, Refused> {
         let span = Interval::ZERO.hull(h);
         let field = &self.over;
@@ -306,34 +302,35 @@ impl Fields {
             end = Some([start[POSITION] + way, reached]);
         }
         let over = line(start, &field.rate(&within, u));
-        let mut step = Step {
-            over,
-            at: None,
-            at_about: [Interval::ZERO; 3],
-            within,
-            gain: [None; 3],
-            by_term: [None; TERMS],
-            end,
-        };
+        let mut step =
+            Step { over, at: None, at_about: [Interval::ZERO; 3], within, gain: [None; 3], by_mix: Vec::new(), end };
         let damping = field.damping(within[VELOCITY], within_at[VELOCITY]);
-        for column in field.columns() {
-            let push = column.push.map(|term| (term, field.push(term, within_at, u_at)));
+        let column = |start: &Triple, weights: Option<&Weights>| {
+            let push = weights.map_or([Interval::ZERO; 2], |weights| field.pushed(weights, within_at, u_at));
             let rate = |value: &Triple| field.column_rate(damping, value, push);
-            let enclosure = enclose(&column.start, span, rate).ok_or(Refused::TooLong)?;
-            step.place(&column, line(&column.start, &rate(&enclosure)));
-        }
+            let enclosure = enclose(start, span, rate).ok_or(Refused::TooLong)?;
+            Ok(line(start, &rate(&enclosure)))
+        };
+        step.carry(field, mixes, column)?;
         Ok(step)
     }
 }
 
 impl Step {
-    fn place(&mut self, column: &Column, path: Path) {
-        match column.push {
-            Some(term) => self.by_term[term as usize] = Some(path),
-            None => {
-                self.gain[column.component()] = Some(path);
-            }
+    /// Columns of slopes: by each component of the start that moves others, and by what each mix pushes.
+    fn carry(
+        &mut self,
+        field: &Field,
+        mixes: &[Mix],
+        column: impl Fn(&Triple, Option<&Weights>) -> Result<Path, Refused>,
+    ) -> Result<(), Refused> {
+        for component in field.moving() {
+            self.gain[component] = Some(column(&UNIT[component], None)?);
         }
+        let still = [Interval::ZERO; 3];
+        let pushed = mixes.iter().map(|mix| mix.pushes().map(|weights| column(&still, Some(weights))).transpose());
+        self.by_mix = pushed.collect::<Result<_, _>>()?;
+        Ok(())
     }
 
     /// The values at the step's end, `h` after its beginning.
@@ -355,22 +352,22 @@ impl Step {
                 *gain = value(path, &powers);
             }
         }
-        let by_term =
-            core::array::from_fn(|k| self.by_term[k].as_ref().map_or([Interval::ZERO; 3], |path| value(path, &powers)));
+        let by_mix = self.by_mix.iter().map(|path| path.as_ref().map(|path| value(path, &powers))).collect();
         let at = self.at.map(|path| about(value(&path, &powers), &gain, &self.at_about));
-        Arrival { over: value(&self.over, &powers), at, gain, by_term }
+        Arrival { over: value(&self.over, &powers), at, gain, by_mix }
     }
 }
 
 impl Arrival {
-    /// Slopes at the end from those at the start, by a parameter that is not a term.
+    /// Slopes at the end from those at the start.
     pub(super) fn carry(&self, column: &Triple) -> Triple {
         core::array::from_fn(|k| Interval::dot((0..3).map(|from| (self.gain[from][k], column[from]))))
     }
 
-    /// The same, by a term.
-    pub(super) fn carry_term(&self, column: &Triple, term: Term) -> Triple {
-        plus(&self.carry(column), &self.by_term[term as usize])
+    /// The same, by the mix of this number, with what it pushed besides.
+    pub(super) fn carry_mix(&self, column: &Triple, mix: usize) -> Triple {
+        let carried = self.carry(column);
+        self.by_mix[mix].as_ref().map_or(carried, |pushed| plus(&carried, pushed))
     }
 }
 
@@ -429,11 +426,26 @@ impl Base {
         Self { state: [x, v, f], square, pushes }
     }
 
+    /// What a mix of terms pushes: velocity, and force.
+    fn mixed(&self, weights: &Weights) -> [Series; 2] {
+        let mut mixed = [NONE; 2];
+        for term in Term::ALL {
+            let weight = weights[term as usize];
+            if weight != 0.0 {
+                let into = &mut mixed[usize::from(term == Term::LagRate)];
+                for (into, push) in into.iter_mut().zip(&self.pushes[term as usize]) {
+                    *into += Interval::point(weight) * *push;
+                }
+            }
+        }
+        mixed
+    }
+
     /// Coefficients of a column of slopes, from its value at the same instant; this is the point's motion.
-    fn column(&self, field: &Field, damping: &Series, column: &Column, start: &Triple) -> Path {
+    fn column(&self, field: &Field, damping: &Series, weights: Option<&Weights>, start: &Triple) -> Path {
         let (mut x, mut v, mut f) = (NONE, NONE, NONE);
         [x[0], v[0], f[0]] = *start;
-        let push = column.push.map(|term| (term, &self.pushes[term as usize]));
+        let push = weights.map(|weights| self.mixed(weights));
         for k in 0..ORDER {
             let mut acceleration = product(damping, &v, k);
             let mut force = Interval::ZERO;
@@ -444,10 +456,9 @@ impl Base {
                 acceleration += field.term(Term::Gain) * f[k];
                 force -= field.term(Term::LagRate) * f[k];
             }
-            match push {
-                Some((Term::LagRate, push)) => force += push[k],
-                Some((_, push)) => acceleration += push[k],
-                None => {}
+            if let Some([moved, filled]) = &push {
+                acceleration += moved[k];
+                force += filled[k];
             }
             v[k + 1] = acceleration * next(k);
             x[k + 1] = v[k] * next(k);

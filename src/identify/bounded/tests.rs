@@ -72,6 +72,8 @@ const BETA: f64 = 0.6;
 const DELTA: f64 = 0.1;
 const STEP: f64 = 0.02;
 const TURN_S: f64 = 2.0;
+/// Bounds that differ by less of their width are the same.
+const SAME: f64 = 0.01;
 
 /// Linear drag under a square wave, by the solution in closed form, rounded to steps of `STEP`.
 pub(super) fn record(samples: usize) -> Record {
@@ -181,6 +183,20 @@ fn the_true_motion_meets_the_chain_of_windows_and_a_state_shifted_between_two_do
     assert!(!met(&linear, &truth, |origin| matches!(origin, Origin::Link { .. })));
 }
 
+#[test]
+fn a_frame_keeps_what_is_in_the_box_and_one_whose_centre_moves_without_it_does_not() {
+    let (setup, mut at) = setup(0.02);
+    let mut search = Search::new(&setup);
+    let mut frame = None;
+    for _ in 0..3 {
+        search.slant(&mut at, &mut frame, f64::INFINITY).expect("not empty: the truth is inside");
+        let own = frame.as_ref().expect("an enclosure");
+        assert!(own.holds(&truth(&setup), 0.0));
+    }
+    let own = frame.expect("an enclosure");
+    assert!(!own.holds(&truth(&setup), 0.2), "a centre that moved by a fifth of the inertia holds it still");
+}
+
 pub(super) fn settings(law: DragLaw) -> BoundedModel {
     BoundedModel { quantum: Some(STEP), ..BoundedModel::new(law, DelayBound::KnownS(0.0)) }
 }
@@ -192,5 +208,17 @@ fn the_truth_is_inside_from_a_wide_start() {
     for (quantity, value) in [(Quantity::Alpha, ALPHA), (Quantity::Beta, BETA), (Quantity::Delta(0), DELTA)] {
         let [low, high] = wide.of(quantity).expect("a range");
         assert!(low <= value && value <= high, "{quantity}: {value} outside [{low}, {high}]");
+    }
+}
+
+#[test]
+fn a_wide_start_and_a_near_one_end_in_the_same_bounds() {
+    let record = record(300);
+    let near = BoundedModel { reach: 5.0, ..settings(DragLaw::Linear) };
+    let [wide, near] = [settings(DragLaw::Linear), near].map(|model| enclose(&[&record], &model).expect("bounds"));
+    for quantity in [Quantity::Alpha, Quantity::Beta] {
+        let [[low, high], other] = [&wide, &near].map(|bounds| bounds.of(quantity).expect("a range"));
+        let apart = (low - other[0]).abs().max((high - other[1]).abs()) / (high - low);
+        assert!(apart < SAME, "{quantity}: [{low}, {high}] and {other:?}, {apart} of the width apart");
     }
 }

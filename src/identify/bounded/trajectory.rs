@@ -2,6 +2,7 @@
 
 use super::command::Command;
 use super::field::{FORCE, Field, TERMS, Term, Triple, VELOCITY};
+use super::mix::Mix;
 use super::step::{Arrival, Fields, Pair, Refused, Step};
 use crate::numeric::Interval;
 
@@ -16,19 +17,6 @@ const NARROW: f64 = 0.01;
 const CRUDE: f64 = 0.2;
 /// How often a step is made shorter before the motion is given up.
 const MOST_SHORTENED: usize = 40;
-
-/// What a column of slopes is by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum By {
-    /// A component of the state at the beginning.
-    Start(usize),
-    /// A term of the equation.
-    Term(Term),
-    /// The delay: it moves every switching.
-    Delay,
-    /// The instant of one switching, by its number.
-    Instant(usize),
-}
 
 /// The enclosure at a sample.
 #[derive(Clone, Debug)]
@@ -60,7 +48,7 @@ pub(super) struct Drive<'a> {
 /// Unknowns of a motion: what each is, and how far from the point it may be.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unknowns<'a> {
-    pub(super) by: &'a [By],
+    pub(super) mixes: &'a [Mix],
     pub(super) deviations: &'a [Interval],
 }
 
@@ -146,13 +134,7 @@ fn to_rest(field: &Field, state: &Triple, u: Interval, left: f64) -> (f64, bool)
 
 impl Way<'_> {
     fn carried(&self, arrival: &Arrival) -> Vec<Triple> {
-        let pairs = self.columns.iter().zip(self.unknowns.by);
-        pairs
-            .map(|(column, by)| match by {
-                By::Term(term) => arrival.carry_term(column, *term),
-                _ => arrival.carry(column),
-            })
-            .collect()
+        self.columns.iter().enumerate().map(|(mix, column)| arrival.carry_mix(column, mix)).collect()
     }
 
     /// Notes a sample.
@@ -255,7 +237,8 @@ impl Way<'_> {
     /// One step of at most the duration `part`, which it shortens; none where the velocity is about to change its sign.
     fn smooth(&self, u: Interval, part: &mut Interval) -> Option<Option<Step>> {
         for _ in 0..MOST_SHORTENED {
-            let length = match self.drive.fields.smooth(&self.state, u, *part, 1.1 * self.length()) {
+            let length = match self.drive.fields.smooth(&self.state, u, *part, 1.1 * self.length(), self.unknowns.mixes)
+            {
                 Ok(step) => return Some(Some(step)),
                 Err(Refused::TooLong) => 0.5 * part.lower(),
                 Err(Refused::Kink) => match to_rest(&self.drive.fields.over, &self.both(), u, part.upper()) {
@@ -287,7 +270,7 @@ impl Way<'_> {
         }
         for _ in 0..MOST_SHORTENED {
             let [at, passed] = advance_point(&fields.at, self.state.at, u_at, *part)?;
-            if let Ok(step) = fields.crude(&self.state.over, u, &passed, u_at, *part) {
+            if let Ok(step) = fields.crude(&self.state.over, u, &passed, u_at, *part, self.unknowns.mixes) {
                 return Some((step, at, passed));
             }
             *part = Interval::point(0.5 * part.lower());
@@ -298,18 +281,14 @@ impl Way<'_> {
     /// A column with what open switchings may have added.
     fn with_open(&self, index: usize, mut column: Triple) -> Triple {
         for (edge, impulse) in &self.open {
-            if self.moved_by(index, *edge) {
+            let shift = self.unknowns.mixes[index].shift(*edge);
+            if shift != Interval::ZERO {
                 for (value, impulse) in column.iter_mut().zip(impulse) {
-                    *value += self.sized(*edge, *impulse).hull(Interval::ZERO);
+                    *value += shift * self.sized(*edge, *impulse).hull(Interval::ZERO);
                 }
             }
         }
         column
-    }
-
-    fn moved_by(&self, index: usize, edge: usize) -> bool {
-        let by = self.unknowns.by[index];
-        by == By::Delay || by == By::Instant(edge)
     }
 
     /// An impulse of the size that a later switching has.
@@ -330,9 +309,10 @@ impl Way<'_> {
         let Some(place) = self.open.iter().position(|(open, _)| *open == edge) else { return };
         let (_, impulse) = self.open.swap_remove(place);
         for index in 0..self.columns.len() {
-            if self.moved_by(index, edge) {
+            let shift = self.unknowns.mixes[index].shift(edge);
+            if shift != Interval::ZERO {
                 for (k, impulse) in impulse.into_iter().enumerate() {
-                    let added = self.sized(edge, impulse);
+                    let added = shift * self.sized(edge, impulse);
                     self.columns[index][k] += added;
                 }
             }
@@ -342,17 +322,7 @@ impl Way<'_> {
 
 /// The motion at `times` (the first is where it starts). `None` where it cannot be enclosed.
 pub(super) fn follow(drive: &Drive<'_>, start: Pair, times: &[f64], unknowns: Unknowns<'_>) -> Option<Vec<Node>> {
-    let columns: Vec<Triple> = unknowns
-        .by
-        .iter()
-        .map(|by| {
-            let mut column = [Interval::ZERO; 3];
-            if let By::Start(component) = by {
-                column[*component] = Interval::ONE;
-            }
-            column
-        })
-        .collect();
+    let columns: Vec<Triple> = unknowns.mixes.iter().map(|mix| mix.start().map(Interval::point)).collect();
     let mut way = Way { drive, unknowns, state: start, columns, open: Vec::new(), speed: 0.0, nodes: Vec::new() };
     let (begin, end) = (*times.first()?, *times.last()?);
     // Switchings that have certainly, and perhaps, happened; and the point's own, of which at most the order is in doubt.

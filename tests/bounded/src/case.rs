@@ -103,6 +103,13 @@ impl Outcome {
         outcome
     }
 
+    /// How far the ends of alpha's bounds are apart from another's, over their width.
+    pub(crate) fn apart(&self, other: &Self) -> Option<f64> {
+        let alpha = |outcome: &Self| outcome.found.as_ref().ok()?.of(Quantity::Alpha);
+        let ([low, high], other) = (alpha(self)?, alpha(other)?);
+        Some((low - other[0]).abs().max((high - other[1]).abs()) / (high - low))
+    }
+
     pub(crate) fn verdict(&self) -> Option<Consistency> {
         self.found.as_ref().ok().map(|bounds| bounds.verdict)
     }

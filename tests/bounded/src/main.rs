@@ -33,6 +33,9 @@ struct Arguments {
     /// Factor by which parameters are looked for on either side of their order of magnitude.
     #[arg(long)]
     reach: Option<f64>,
+    /// A second start, with this factor: how far its bounds of alpha are apart from the first one's is printed with each case.
+    #[arg(long)]
+    near: Option<f64>,
     /// Threads.
     #[arg(long, default_value_t = 1)]
     threads: usize,
@@ -64,6 +67,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                     });
                 if arguments.list {
                     eprintln!("{} {seed}: {outcome}", kind.name);
+                }
+                if let Some(near) = arguments.near {
+                    let second = Outcome::of(&kind.case(seed), arguments.terms, None, |model| {
+                        model.budget = arguments.budget.unwrap_or(model.budget);
+                        model.reach = near;
+                    });
+                    let apart = outcome.apart(&second).map_or("-".into(), |apart| format!("{:.2} %", 100.0 * apart));
+                    eprintln!("{} {seed}: {apart} of the width from those of the near start", kind.name);
                 }
                 outcome
             })

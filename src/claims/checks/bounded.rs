@@ -1,0 +1,149 @@
+//! What guaranteed bounds of parameters rest on: the dual, the mean-value form, the chain of stretches.
+
+use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Verdict, claim, sample, tolerance};
+use crate::experiment::Record;
+use crate::identify::bounded::soundness::{Surrounded, dual_bound};
+
+/// Whole numbers below this have products of three without loss in 128 bits, while floats round a product of two.
+const LARGEST: f64 = 68_719_476_736.0;
+/// Cases of a motion, which take some milliseconds each.
+const MOTIONS: usize = 200;
+
+claim! {
+    BOUNDED_DUAL = "bounded-dual" "of this project" Theorem
+    "Whatever nonnegative multipliers are given, the dual evaluated in intervals is not below the maximum over the rows and the box" {
+        not_proved: Some("the code is compared with whole numbers at drawn rows: its intervals are not evaluated over a range of them"),
+        domain: &[ClaimPart::whole("whole", "every finite set of rows, multipliers of zero or more, and box")],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| dual(budget, dual_bound)),
+        // In floats, rounded to nearest.
+        falsified: |budget| dual(budget, rounded),
+        depends: &[],
+    }
+}
+
+type Dual = fn(&[Vec<f64>], &[f64], &[f64], &[f64], &[(f64, f64)]) -> f64;
+
+fn rounded(slopes: &[Vec<f64>], limits: &[f64], y: &[f64], objective: &[f64], sides: &[(f64, f64)]) -> f64 {
+    let mut sum: f64 = limits.iter().zip(y).map(|(limit, y)| limit * y).sum();
+    for (j, (low, high)) in sides.iter().enumerate() {
+        let rest = objective[j] - slopes.iter().zip(y).map(|(row, y)| row[j] * y).sum::<f64>();
+        sum += (rest * low).max(rest * high);
+    }
+    sum
+}
+
+/// The same of whole numbers, exactly.
+fn exact(slopes: &[Vec<f64>], limits: &[f64], y: &[f64], objective: &[f64], sides: &[(f64, f64)]) -> i128 {
+    let whole = |value: f64| value as i128;
+    let mut sum: i128 = limits.iter().zip(y).map(|(limit, y)| whole(*limit) * whole(*y)).sum();
+    for (j, (low, high)) in sides.iter().enumerate() {
+        let rest = whole(objective[j]) - slopes.iter().zip(y).map(|(row, y)| whole(row[j]) * whole(*y)).sum::<i128>();
+        sum += (rest * whole(*low)).max(rest * whole(*high));
+    }
+    sum
+}
+
+fn dual(budget: Budget, dual: Dual) -> Verdict {
+    sample(budget, |draw| {
+        let mut any = || draw.unrecorded(-LARGEST, LARGEST).trunc();
+        let slopes: Vec<Vec<f64>> = (0..4).map(|_| (0..3).map(|_| any()).collect()).collect();
+        let limits: Vec<f64> = (0..4).map(|_| any()).collect();
+        let y: Vec<f64> = (0..4).map(|_| any().abs()).collect();
+        let objective: Vec<f64> = (0..3).map(|_| any()).collect();
+        let sides: Vec<(f64, f64)> = (0..3).map(|_| (any(), any())).map(|(a, b)| (a.min(b), a.max(b))).collect();
+        let (bound, exact) =
+            (dual(&slopes, &limits, &y, &objective, &sides), exact(&slopes, &limits, &y, &objective, &sides));
+        draw.note("bound", bound);
+        // A float of this size is a whole number.
+        Case::truth(bound as i128 >= exact)
+    })
+}
+
+const INTERVAL_S: f64 = 0.1;
+const SAMPLES: usize = 40;
+/// Samples between two switchings.
+const SWING: usize = 10;
+
+/// An axis with linear drag under a square wave, by its solution in closed form.
+struct Axis {
+    truth: [f64; 3],
+    states: Vec<[f64; 2]>,
+    record: Record,
+}
+
+impl Axis {
+    fn draw(draw: &mut Draw) -> Option<Self> {
+        let (alpha, beta) = (draw.log_uniform("alpha", 0.5, 2.0), draw.log_uniform("beta", 0.2, 2.0));
+        let delta = draw.uniform("delta", 0.05, 0.3);
+        let (mut x, mut v) = (0.0, draw.uniform("velocity", -0.3, 0.3));
+        let rate = beta / alpha;
+        let decay = (-rate * INTERVAL_S).exp();
+        let (mut time, mut input, mut states) = (Vec::new(), Vec::new(), Vec::new());
+        for sample in 0..SAMPLES {
+            let u = if (sample / SWING).is_multiple_of(2) { 1.0 } else { -1.0 };
+            time.push(sample as f64 * INTERVAL_S);
+            input.push(u);
+            states.push([x, v]);
+            let terminal = (u + delta) / beta;
+            x += terminal * INTERVAL_S + (v - terminal) * (1.0 - decay) / rate;
+            v = terminal + (v - terminal) * decay;
+        }
+        let record = Record::new(time, states.iter().map(|state: &[f64; 2]| state[0]).collect(), input).ok()?;
+        Some(Self { truth: [1.0 / alpha, rate, delta / alpha], states, record })
+    }
+
+    /// In a box of this half-width about the truth.
+    fn surrounded(&self, width: f64) -> Option<Surrounded> {
+        Surrounded::new(&self.record, self.truth, &self.states, width, [0.01, 0.02])
+    }
+}
+
+fn motions(budget: Budget) -> Budget {
+    Budget { cases: budget.cases.min(MOTIONS), ..budget }
+}
+
+claim! {
+    BOUNDED_MEAN_VALUE = "bounded-mean-value" "of this project" Theorem
+    "Over a box, every output lies in the point's own plus the slopes' ranges times what the unknowns differ" {
+        not_proved: Some("compared with the closed form at drawn axes of linear drag: other laws have none to be compared with"),
+        domain: &[ClaimPart::whole("whole", "every axis, command held between switchings, and box over which there is an enclosure")],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| mean_value(budget, false)),
+        // The middles of the slopes in place of their ranges.
+        falsified: |budget| mean_value(budget, true),
+        depends: &[],
+    }
+}
+
+fn mean_value(budget: Budget, middles: bool) -> Verdict {
+    sample(motions(budget), |draw| {
+        let Some(axis) = Axis::draw(draw) else { return Case::Skipped };
+        let width = draw.uniform("half_width", 0.02, 0.1);
+        let outside = axis.surrounded(width).and_then(|all| all.outside(&axis.states, axis.truth, middles));
+        let Some(outside) = outside else { return Case::Skipped };
+        draw.at_most(("outside", outside), ("rounding_of_the_closed_form", tolerance::ROUNDING), 1.0)
+    })
+}
+
+claim! {
+    BOUNDED_CHAIN = "bounded-chain" "of this project" Theorem
+    "A motion meets every inequality of the chain of stretches, each of which begins where the one before ended" {
+        not_proved: Some("compared with the closed form at drawn axes of linear drag: other laws have none to be compared with"),
+        domain: &[ClaimPart::whole("whole", "every axis, command held between switchings, and box over which there is an enclosure")],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| chain(budget, 0.0)),
+        // A stretch that begins with another velocity than the one before ended with.
+        falsified: |budget| chain(budget, 0.3),
+        depends: &["bounded-mean-value"],
+    }
+}
+
+fn chain(budget: Budget, shift: f64) -> Verdict {
+    sample(motions(budget), |draw| {
+        let Some(axis) = Axis::draw(draw) else { return Case::Skipped };
+        let missed = axis.surrounded(0.02).and_then(|all| all.missed(&axis.states, axis.truth, shift));
+        let Some(missed) = missed else { return Case::Skipped };
+        draw.at_most(("missed", missed), ("rounding_of_the_closed_form", tolerance::ROUNDING), 1.0)
+    })
+}
