@@ -255,7 +255,10 @@ fn scores_of_what_begins_uncertain_are_slopes_but_for_the_variances() {
                 };
                 // What a parameter does to the variances is the same whatever the readings are.
                 let (expected, found) = (slope(&off) - slope(&predicted), score.structure[parameter as usize]);
-                assert!((found - expected).abs() < 1e-3 * expected.abs() + 1e-8, "{parameter:?}: {found} for {expected}");
+                assert!(
+                    (found - expected).abs() < 1e-3 * expected.abs() + 1e-8,
+                    "{parameter:?}: {found} for {expected}"
+                );
             }
         }
     }

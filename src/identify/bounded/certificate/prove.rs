@@ -9,7 +9,7 @@ use crate::numeric::{Interval, Real};
 
 /// What is left is given wider than it was found by the first of these shares, on either side, with which a proof is found: room for
 /// other enclosures than those of the search, and fewer boxes.
-const ROOMS: [f64; 3] = [0.1, 0.5, 2.0];
+const ROOMS: [f64; 4] = [0.1, 0.5, 2.0, 8.0];
 /// A cut takes this share less than the multipliers give, for the same reason: over wide boxes and over narrow ones.
 const CAUTION: [f64; 2] = [0.2, 0.1];
 /// A contradiction is beyond doubt by this share of the errors that it weighs.
@@ -20,8 +20,9 @@ const LEAST_CUT: f64 = 0.05;
 const HELPED: f64 = 0.8;
 /// A box this much wider than what is left is cut where it sticks out.
 const NEAR: f64 = 4.0;
-/// Steps of a stage.
+/// Steps of a stage; while there is more room to try, fewer.
 const MOST_STEPS: usize = 4000;
+const TRIED_STEPS: usize = 300;
 
 /// A box at hand, and how far it has been worked on.
 #[derive(Clone)]
@@ -55,6 +56,7 @@ struct Prover<'a> {
     search: Search<'a>,
     left: Option<Vec<Interval>>,
     room: f64,
+    most_steps: usize,
     steps: Vec<Step>,
 }
 
@@ -70,11 +72,13 @@ impl Stage {
     pub(super) fn prove(setup: &Setup, hull: Option<&[Interval]>) -> Result<Self, Unproved> {
         // Of what is empty there is nothing to widen.
         let rooms = if hull.is_some() { &ROOMS[..] } else { &ROOMS[..1] };
-        let mut tries = rooms.iter().map(|room| Self::prove_within(setup, hull, *room));
+        let most = |index: usize| if index + 1 < rooms.len() { TRIED_STEPS } else { MOST_STEPS };
+        let mut tries =
+            rooms.iter().enumerate().map(|(index, room)| Self::prove_within(setup, hull, *room, most(index)));
         tries.find(Result::is_ok).unwrap_or(Err(Unproved::NotFound { steps: MOST_STEPS }))
     }
 
-    fn prove_within(setup: &Setup, hull: Option<&[Interval]>, room: f64) -> Result<Self, Unproved> {
+    fn prove_within(setup: &Setup, hull: Option<&[Interval]>, room: f64, most_steps: usize) -> Result<Self, Unproved> {
         let parameters = setup.layout.parameters();
         let left = hull.map(|hull| {
             let wider = |(side, from): (&Interval, &Interval)| {
@@ -83,7 +87,7 @@ impl Stage {
             };
             hull.iter().zip(&setup.search).take(parameters).map(wider).collect::<Vec<_>>()
         });
-        let mut prover = Prover { search: Search::new(setup), left, room, steps: Vec::new() };
+        let mut prover = Prover { search: Search::new(setup), left, room, most_steps, steps: Vec::new() };
         prover.go()?;
         let layout = &setup.layout;
         Ok(Self {
@@ -106,8 +110,8 @@ impl Prover<'_> {
                     self.steps.push(Step::Keep);
                     break;
                 }
-                if self.steps.len() > MOST_STEPS {
-                    return Err(Unproved::NotFound { steps: MOST_STEPS });
+                if self.steps.len() > self.most_steps {
+                    return Err(Unproved::NotFound { steps: self.most_steps });
                 }
                 match self.step(&mut here)? {
                     Next::Excluded => break,
