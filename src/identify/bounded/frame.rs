@@ -3,6 +3,8 @@
 //! `theta = centre + M z` with M unit lower triangular, so that every theta has its z whatever floats stand below the diagonal, and z
 //! follows from theta by substitution in intervals. M is from the readings' information about the centre, and is not trusted.
 
+use nalgebra::{DMatrix, DVector};
+
 use super::contract::{Linear, Model, Origin, Span};
 use super::lp::{Multipliers, Outcome, Programme};
 use super::mix::Mix;
@@ -110,28 +112,23 @@ impl Frame {
     fn informed(&self, linear: &Linear, error: f64) -> Self {
         let n = self.places.len();
         let radius: Vec<f64> = self.z.iter().map(|z| z.radius().max(f64::MIN_POSITIVE)).collect();
-        let mut information = vec![vec![0.0; n]; n];
+        let mut information = DMatrix::identity(n, n);
         for (row, origin) in linear.rows.slopes.iter().zip(&linear.origins) {
             if !matches!(origin, Origin::Reading { above: true, .. }) {
                 continue;
             }
-            let mut slopes = vec![0.0; n];
+            let mut slopes = DVector::zeros(n);
             row.iter().for_each(|(j, slope)| slopes[*j] = slope.midpoint() * radius[*j] / error);
-            for i in 0..n {
-                for j in 0..n {
-                    information[i][j] += slopes[i] * slopes[j];
-                }
-            }
+            information.ger(1.0, &slopes, &slopes, 1.0);
         }
-        (0..n).for_each(|j| information[j][j] += 1.0);
-        let lower = slant(inverse(information));
         let mut frame = self.clone();
+        let Some(lower) = slant(information) else { return frame };
         for row in 0..n {
             for column in 0..row {
                 let sum: f64 = (column..=row)
                     .map(|k| {
                         self.weight(row, k)
-                            * if k == column { 1.0 } else { lower[k][column] * radius[k] / radius[column] }
+                            * if k == column { 1.0 } else { lower[(k, column)] * radius[k] / radius[column] }
                     })
                     .sum();
                 frame.lower[row][column] = if sum.is_finite() { sum } else { 0.0 };
@@ -141,40 +138,14 @@ impl Frame {
     }
 }
 
-/// By Gauss's and Jordan's method, of a positive definite matrix.
-fn inverse(mut a: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    let n = a.len();
-    for k in 0..n {
-        let pivot = 1.0 / a[k][k];
-        a[k][k] = 1.0;
-        a[k].iter_mut().for_each(|value| *value *= pivot);
-        let row = a[k].clone();
-        for (_, other) in a.iter_mut().enumerate().filter(|(row, _)| *row != k) {
-            let factor = other[k];
-            other[k] = 0.0;
-            other.iter_mut().zip(&row).for_each(|(value, row)| *value -= factor * row);
-        }
+/// The unit lower triangular L of `L D L'` of what the inverse of the information is; none where floats give none.
+fn slant(information: DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let mut lower = information.cholesky()?.inverse().cholesky()?.unpack();
+    for column in 0..lower.ncols() {
+        let diagonal = lower[(column, column)];
+        lower.column_mut(column).unscale_mut(diagonal);
     }
-    a
-}
-
-/// The unit lower triangular L of `L D L'`.
-fn slant(a: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    let n = a.len();
-    let mut lower = vec![vec![0.0; n]; n];
-    let mut diagonal = vec![0.0; n];
-    for i in 0..n {
-        for j in 0..=i {
-            let sum: f64 = (0..j).map(|k| lower[i][k] * lower[j][k] * diagonal[k]).sum();
-            if i == j {
-                diagonal[i] = a[i][i] - sum;
-                lower[i][i] = 1.0;
-            } else {
-                lower[i][j] = (a[i][j] - sum) / diagonal[j];
-            }
-        }
-    }
-    lower
+    Some(lower)
 }
 
 impl Model<'_> {
