@@ -16,9 +16,10 @@ FILES = {name: json.loads((FOLDER / f"{name}.json").read_text()) for name in ("r
 
 
 def of_motion(certificate):
-    """Combinations of rows that are verified here, contradictions first: these need all their rows, a cut may say less than its show."""
+    """Combinations of rows that are verified here, contradictions first: these need all their rows. A cut may say less than its rows
+    show, the last ones, over the narrowest boxes, by least."""
     steps = [step for step in certificate["stages"][0]["steps"] if not isinstance(step, str)]
-    for step in sorted(steps, key=lambda step: "exclude" not in step):
+    for step in sorted(reversed(steps), key=lambda step: "exclude" not in step):
         if "divide" in step:
             continue
         (what,) = step.values()
