@@ -64,6 +64,7 @@ fn a_named_term_is_the_one_at_work() {
         ("stiffness 0.1 C/rad", Term::Stiffness),
         ("drag 30 % larger to one side", Term::SkewDrag),
         ("autoregressive noise 0.9", Term::ColouredNoise),
+        ("entrained water, 1 s", Term::FluidMemory),
         ("random-walk force 0.05", Term::ProcessForce),
     ] {
         let (.., answers) = scored(kind, 4);

@@ -203,3 +203,29 @@ fn quantile(components: &[Component], probability: f64) -> f64 {
     let reached = points.into_iter().find(|point| low <= *point && *point <= high);
     reached.unwrap_or(f64::midpoint(low, high))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Component, quantile};
+
+    #[test]
+    fn the_end_of_an_interval_does_not_miss_the_point_it_stands_on() {
+        let point = Component { weight: 0.98, mean: 0.0, std: 0.0 };
+        let beside = |mean: f64| Component { weight: 0.02, mean, std: 0.01 };
+        for mean in [0.3, -0.3, 7.1] {
+            let mixture = [point, beside(mean)];
+            assert_eq!([0.025, 0.975].map(|probability| quantile(&mixture, probability)), [0.0, 0.0], "beside {mean}");
+        }
+        // More than the tail lies above: the upper end is there.
+        let wide = [Component { weight: 0.9, ..point }, Component { weight: 0.1, ..beside(0.3) }];
+        assert_eq!(quantile(&wide, 0.025), 0.0);
+        assert!(quantile(&wide, 0.975) > 0.29);
+    }
+
+    #[test]
+    fn without_points_a_quantile_is_that_of_the_normal_distribution() {
+        let one = [Component { weight: 1.0, mean: 2.0, std: 0.5 }];
+        assert!((quantile(&one, 0.975) - (2.0 + 0.5 * 1.959_963_984_540_054)).abs() < 1e-12);
+        assert!((quantile(&one, 0.025) - (2.0 - 0.5 * 1.959_963_984_540_054)).abs() < 1e-12);
+    }
+}

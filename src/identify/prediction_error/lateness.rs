@@ -16,6 +16,13 @@ fn lateness_s(model: &Model) -> f64 {
     LATE.iter().map(|(_, parameter, mean)| mean * model.value(*parameter)).sum()
 }
 
+/// What can make late: a rate is limited only where the command is switched.
+pub(super) fn terms(switched: bool) -> Vec<Term> {
+    let mut terms = vec![Term::Lag, Term::SensorFilter];
+    terms.extend(switched.then_some(Term::RateLimit));
+    terms
+}
+
 /// Whether the model has one of them.
 pub(super) fn is_in(model: &Model) -> bool {
     LATE.iter().any(|(term, ..)| term.is_in(model))
@@ -43,8 +50,7 @@ pub(super) fn chains(model: &Model, known_delay_s: Option<f64>, switched: bool) 
     if let Some(known) = known_delay_s {
         without.set(Parameter::DelayS, known, false);
     }
-    let mut terms = vec![Term::Lag, Term::SensorFilter];
-    terms.extend(switched.then_some(Term::RateLimit));
+    let mut terms = terms(switched);
     terms.extend(known_delay_s.map(|_| Term::Delay));
     let with = |parts: &[Term]| {
         let share_s = beyond_s.max(0.0) / parts.len() as f64;

@@ -267,10 +267,7 @@ impl<'a> Search<'a> {
             });
             self.climb_from(starts.collect(), f64::NEG_INFINITY)
         };
-        let terms = [Term::Lag, Term::RateLimit, Term::SensorFilter];
-        let terms: Vec<Term> =
-            terms.into_iter().filter(|term| observations.switched || *term != Term::RateLimit).collect();
-        terms.par_iter().filter_map(from).collect()
+        lateness::terms(observations.switched).par_iter().filter_map(from).collect()
     }
 
     /// A model with the other drag laws, as far as they have not been tried, so that the laws can be compared.
