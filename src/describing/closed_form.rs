@@ -34,14 +34,23 @@ impl<C: PiecewiseLinear> ClosedForm for C {
         sweep: &Sinusoid<C::Number>,
     ) -> Result<DescribingFunction<C::Number>, DescribingError> {
         self.periodic(sweep)?;
-        let mut sum = DescribingFunction::zero();
-        self.kernels(
-            sweep,
-            #[inline(always)]
-            |kernel| sum = sum + DescribingFunction::of(kernel, sweep),
-        );
-        finite(sum, sweep)
+        finite(over_kernels(self, sweep), sweep)
     }
+}
+
+/// The sum over the kernels, whatever comes out.
+#[inline(always)]
+pub(super) fn over_kernels<C: PiecewiseLinear>(
+    characteristic: &C,
+    sweep: &Sinusoid<C::Number>,
+) -> DescribingFunction<C::Number> {
+    let mut sum = DescribingFunction::zero();
+    characteristic.kernels(
+        sweep,
+        #[inline(always)]
+        |kernel| sum = sum + DescribingFunction::of(kernel, sweep),
+    );
+    sum
 }
 
 impl<T: Real, A: ClosedForm<Number = T>, B: ClosedForm<Number = T>> ClosedForm for Sum<A, B> {

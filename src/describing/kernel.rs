@@ -185,21 +185,29 @@ pub(crate) fn ramp_by_angle<T: Real>(at: T, phi: T, sweep: &Sinusoid<T>) -> Desc
 ///
 /// Four forms of one value, each accurate where the others cancel: a difference of ramps, for a band near either turning
 /// point; between them, for a band wider than the amplitude, the whole input less what lies outside; and from the middle.
-#[inline]
+#[inline(always)]
 fn band<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
     let (bias, amplitude) = (sweep.bias(), sweep.amplitude());
-    let ramp = |at, side| ramp(at, side, Branches::Both, sweep);
-    let line = || DescribingFunction { p: T::one(), ..flat(bias - origin) };
-    let components = |df: DescribingFunction<T>| [df.f0, df.p];
-    let middle = || components(band_from_the_middle(origin, lower, upper, sweep));
-    let wide = || components(line() + ramp(lower, Side::Below) - ramp(upper, Side::Above));
-    let near_maximum = || components(band_near_the_maximum(origin, lower, upper, sweep));
-    let near_minimum = || components(flat(upper - origin) + ramp(lower, Side::Below) - ramp(upper, Side::Below));
-
     let near = half::<T>() * amplitude;
-    let inner = || (upper - lower - amplitude).prefer_all(middle, wide);
-    let beside_maximum = || (bias - upper - near).prefer_all(inner, near_minimum);
-    let [f0, p] = (lower - bias - near).prefer_all(beside_maximum, near_maximum);
+    let components = |df: DescribingFunction<T>| [df.f0, df.p];
+    // The form from the middle is what most bands take, and worth inlining.
+    let [f0, p] = (lower - bias - near).prefer_all(
+        #[inline(always)]
+        || {
+            (bias - upper - near).prefer_all(
+                #[inline(always)]
+                || {
+                    (upper - lower - amplitude).prefer_all(
+                        #[inline(always)]
+                        || components(band_from_the_middle(origin, lower, upper, sweep)),
+                        || components(wide_band(origin, lower, upper, sweep)),
+                    )
+                },
+                || components(band_near_the_minimum(origin, lower, upper, sweep)),
+            )
+        },
+        || components(band_near_the_maximum(origin, lower, upper, sweep)),
+    );
     DescribingFunction { f0, p, q: T::zero() }
 }
 
@@ -217,7 +225,7 @@ fn ramp<T: Real>(at: T, side: Side, branches: Branches, sweep: &Sinusoid<T>) -> 
 }
 
 /// A band as its lower limit and a ramp from there, less a ramp from its upper limit.
-#[inline]
+#[inline(never)]
 pub(super) fn band_near_the_maximum<T: Real>(
     origin: T,
     lower: T,
@@ -226,6 +234,21 @@ pub(super) fn band_near_the_maximum<T: Real>(
 ) -> DescribingFunction<T> {
     let ramp = |at| ramp(at, Side::Above, Branches::Both, sweep);
     flat(lower - origin) + ramp(lower) - ramp(upper)
+}
+
+/// A band as its upper limit and a ramp down from its lower limit, less one from its upper limit.
+#[inline(never)]
+fn band_near_the_minimum<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
+    let ramp = |at| ramp(at, Side::Below, Branches::Both, sweep);
+    flat(upper - origin) + ramp(lower) - ramp(upper)
+}
+
+/// A band as the whole input, less what lies outside.
+#[inline(never)]
+fn wide_band<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
+    let ramp = |at, side| ramp(at, side, Branches::Both, sweep);
+    let line = DescribingFunction { p: T::one(), ..flat(sweep.bias() - origin) };
+    line + ramp(lower, Side::Below) - ramp(upper, Side::Above)
 }
 
 /// A band as the middle of its limits, and the rest from there.
@@ -245,12 +268,15 @@ pub(super) fn band_from_the_middle<T: Real>(
 fn from_the_middle<T: Real>(lower: T, upper: T, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
     let (minimum, maximum) = (sweep.minimum(), sweep.maximum());
     let hold = |at: T| at.max(minimum).min(maximum);
-    let cosine = |at: T| (at - minimum).max(T::zero()).sqrt() * (maximum - at).max(T::zero()).sqrt();
+    // Products of two distances would leave the range of floats; a power of two rounds nothing and falls out below.
+    let scale = sweep.amplitude().near_reciprocal();
+    let distance = |distance: T| (distance * scale).max(T::zero());
+    let cosine = |at: T| (distance(at - minimum) * distance(maximum - at)).sqrt();
     let overshoot = |at: T| (at - maximum).max(minimum - at).max(T::zero());
     let (low, high) = (hold(lower), hold(upper));
     let (sum, difference) = ((low + high) - (sweep.bias() + sweep.bias()), high - low);
-    let cosines = cosine(low) + cosine(high);
-    let (of_difference, of_sum) = (difference / cosines, sum / cosines);
+    let over_cosines = T::one() / (cosine(low) + cosine(high));
+    let (of_difference, of_sum) = (difference * scale * over_cosines, sum * scale * over_cosines);
     let (difference_squared, sum_squared) = (of_difference.square(), of_sum.square());
     let sine = of_difference * (T::one() - sum_squared) / ((T::one() + difference_squared) * (T::one() + sum_squared));
     let half_angle = of_difference.atan();

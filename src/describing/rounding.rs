@@ -65,7 +65,7 @@ const PROVED: [Row; 20] = [
         [1.8e-15, 4.8e-15, 2.4e-15],
         [7.8e-7, 2.4e-6, 1.2e-6],
     ),
-    ("saturation", &[GAIN, (0.5, 1.0)], QUARTER, BEYOND, [5.3e-15, 5e-15, 0.0], [2.7e-6, 2.6e-6, 0.0]),
+    ("saturation", &[GAIN, (0.5, 1.0)], QUARTER, BEYOND, [5.3e-15, 5e-15, 0.0], [2.7e-6, 2.7e-6, 0.0]),
     (
         "saturation-asymmetric",
         &[GAIN, (-1.0, -0.5), (0.5, 1.0)],

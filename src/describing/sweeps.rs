@@ -1,9 +1,10 @@
 //! Describing functions of many sweeps.
 
-use super::{CatalogueError, ClosedForm, DescribingError, DescribingFunction, Entry};
+use super::closed_form::over_kernels;
+use super::{CatalogueError, DescribingError, DescribingFunction, Entry};
 use crate::nonlinearity::{
-    Absolute, Backlash, Catalogued, DeadZone, DeadZoneSaturation, GainChanging, Preload, Relay, RelayDeadZone,
-    RelayDeadZoneHysteresis, RelayHysteresis, Saturation, SaturationAsymmetric, Sinusoid,
+    Absolute, Backlash, Catalogued, DeadZone, DeadZoneSaturation, GainChanging, PiecewiseLinear, Preload, Relay,
+    RelayDeadZone, RelayDeadZoneHysteresis, RelayHysteresis, Saturation, SaturationAsymmetric, Sinusoid,
 };
 use crate::numeric::{Lanes, Real};
 
@@ -75,14 +76,20 @@ trait Group {
     fn fill(&self, biases: &[f64], amplitudes: &[f64], columns: [&mut [f64]; 3]) -> usize;
 }
 
-impl<C: ClosedForm<Number = Lanes>> Group for C {
+impl<C: PiecewiseLinear<Number = Lanes>> Group for C {
     fn fill(&self, biases: &[f64], amplitudes: &[f64], [f0, p, q]: [&mut [f64]; 3]) -> usize {
         let sweeps = biases.as_chunks().0.iter().zip(amplitudes.as_chunks().0);
         let columns = f0.as_chunks_mut().0.iter_mut().zip(p.as_chunks_mut().0).zip(q.as_chunks_mut().0);
         let mut filled = 0;
         for ((bias, amplitude), ((f0, p), q)) in sweeps.zip(columns) {
-            let Ok(sweep) = Sinusoid::new(Lanes::new(*bias), Lanes::new(*amplitude)) else { break };
-            let Ok(df) = self.describing_function(&sweep) else { break };
+            let Some(sweep) = Sinusoid::if_defined(Lanes::new(*bias), Lanes::new(*amplitude)) else { break };
+            if self.periodic(&sweep).is_err() {
+                break;
+            }
+            let df = over_kernels(self, &sweep);
+            if ![df.f0, df.p, df.q].into_iter().all(Lanes::is_finite) {
+                break;
+            }
             (*f0, *p, *q) = (df.f0.values(), df.p.values(), df.q.values());
             filled += Lanes::COUNT;
         }

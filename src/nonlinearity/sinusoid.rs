@@ -3,6 +3,9 @@
 use super::NonlinearityError;
 use crate::numeric::{Limit, OutOfDomain, Real, domain};
 
+const AMPLITUDE: Limit = Limit::Positive;
+const BIAS: Limit = Limit::Finite;
+
 /// The input `x = bias + amplitude sin(theta)` (eq. 7), in the characteristic's input units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sinusoid<T> {
@@ -23,8 +26,14 @@ impl<T: Real> Sinusoid<T> {
     pub fn new(bias: T, amplitude: T) -> Result<Self, NonlinearityError> {
         checked_amplitude(amplitude)?;
         let remedy = "give the bias B of x = B + X sin(theta)";
-        domain::require("bias", bias, "input units", Limit::Finite, remedy)?;
+        domain::require("bias", bias, "input units", BIAS, remedy)?;
         Ok(Self { bias, amplitude })
+    }
+
+    /// As [`new`](Self::new), without a word where there is none: a caller with many of them asks again one by one.
+    #[inline(always)]
+    pub(crate) fn if_defined(bias: T, amplitude: T) -> Option<Self> {
+        (AMPLITUDE.holds(amplitude) && BIAS.holds(bias)).then_some(Self { bias, amplitude })
     }
 
     /// The mean of the input, x_0.
@@ -53,5 +62,5 @@ impl<T: Real> Sinusoid<T> {
 #[inline]
 pub(crate) fn checked_amplitude<T: Real>(amplitude: T) -> Result<T, OutOfDomain> {
     let remedy = "give the amplitude X of x = B + X sin(theta)";
-    domain::require("amplitude", amplitude, "input units", Limit::Positive, remedy)
+    domain::require("amplitude", amplitude, "input units", AMPLITUDE, remedy)
 }

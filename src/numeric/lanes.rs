@@ -10,7 +10,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use wide::f64x4;
 
 use super::Real;
-use super::real::own_sine_series;
+use super::real::{near_reciprocal, own_sine_series};
 
 /// Floats of which each takes the same operations as it would alone, so that a formula gives the same bits.
 ///
@@ -31,6 +31,13 @@ impl Lanes {
     #[inline(always)]
     pub(crate) fn values(self) -> [f64; Self::COUNT] {
         self.0.to_array()
+    }
+
+    /// Whether all are.
+    #[inline(always)]
+    pub(crate) fn is_finite(self) -> bool {
+        // Zero times a finite number is zero, times another none.
+        (self.0 * 0.0).simd_eq(f64x4::splat(0.0)).all()
     }
 
     /// One after the other.
@@ -112,12 +119,15 @@ impl Real for Lanes {
     }
     #[inline(always)]
     fn bounds(self) -> (f64, f64) {
-        // Zero times a finite number is zero, times another none.
-        if !(self.0 * 0.0).simd_eq(f64x4::splat(0.0)).all() {
+        if !self.is_finite() {
             return (f64::NAN, f64::NAN);
         }
         let [a, b, c, d] = self.values();
         (Real::min(Real::min(a, b), Real::min(c, d)), Real::max(Real::max(a, b), Real::max(c, d)))
+    }
+    #[inline(always)]
+    fn near_reciprocal(self) -> Self {
+        self.each(|lane| near_reciprocal(lane, f64::MIN_POSITIVE))
     }
     #[inline(always)]
     fn vanishes(self) -> bool {

@@ -82,7 +82,7 @@ pub trait Real:
     /// [`select_all`](Self::select_all) between two expressions of the same numbers, each the more accurate on its side of
     /// zero. That they are the same, as functions, is for the caller to know: a jet that straddles zero stays smooth.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     fn prefer_all<const N: usize>(
         self,
         below: impl FnOnce() -> [Self; N],
@@ -121,6 +121,13 @@ pub trait Real:
     #[must_use]
     fn inverse_pi() -> Self {
         Self::one() / Self::pi()
+    }
+    /// A power of two that brings a positive number near one, where there is one: multiplying by it rounds nothing. A constant,
+    /// for what does not hang on it.
+    #[must_use]
+    #[inline]
+    fn near_reciprocal(self) -> Self {
+        Self::from_f64(near_reciprocal(self.bounds().1, f64::MIN_POSITIVE))
     }
     /// Zero.
     #[must_use]
@@ -184,6 +191,14 @@ pub(super) fn magnitude<T: Real>(x: T) -> f64 {
     lower.abs().max(upper.abs())
 }
 
+/// The power of two that brings a positive number near one, as long as neither it nor its own reciprocal is below `smallest`.
+#[inline(always)]
+pub(super) fn near_reciprocal(x: f64, smallest: f64) -> f64 {
+    const LARGEST_POWER: f64 = f64::from_bits(f64::INFINITY.to_bits() - (1 << (f64::MANTISSA_DIGITS - 1)));
+    let exponent = x.to_bits() & f64::INFINITY.to_bits();
+    f64::from_bits(LARGEST_POWER.to_bits().wrapping_sub(exponent)).max(smallest).min(1.0 / smallest)
+}
+
 /// `x - sin x`: the series below one, where the difference cancels.
 #[inline]
 pub(super) fn minus_own_sine<S: Scalar>(x: S, sine: S) -> S {
@@ -227,6 +242,10 @@ macro_rules! float {
             #[inline]
             fn bounds(self) -> (f64, f64) {
                 (f64::from(self), f64::from(self))
+            }
+            #[inline]
+            fn near_reciprocal(self) -> Self {
+                Self::from_f64(near_reciprocal(f64::from(self), f64::from(Self::MIN_POSITIVE)))
             }
             #[inline]
             fn vanishes(self) -> bool {
