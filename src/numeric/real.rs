@@ -107,7 +107,7 @@ pub trait Real:
     }
     /// [`prefer_all`](Self::prefer_all) of one number.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     fn prefer(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
         let [preferred] = self.prefer_all(
             #[inline(always)]
