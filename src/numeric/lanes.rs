@@ -20,6 +20,9 @@ use super::real::{near_reciprocal, own_sine_series};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lanes(f64x4);
 
+/// Whether the processor's minimum and maximum answer with the second number where both are equal, or one is none.
+const AS_ALONE: bool = cfg!(target_feature = "sse2");
+
 impl Lanes {
     /// As many as the vector type has.
     pub(crate) const COUNT: usize = 4;
@@ -139,11 +142,11 @@ impl Real for Lanes {
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        Self(other.0.simd_lt(self.0).select(other.0, self.0))
+        Self(if AS_ALONE { other.0.fast_min(self.0) } else { other.0.simd_lt(self.0).select(other.0, self.0) })
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        Self(other.0.simd_gt(self.0).select(other.0, self.0))
+        Self(if AS_ALONE { other.0.fast_max(self.0) } else { other.0.simd_gt(self.0).select(other.0, self.0) })
     }
     /// The processor's: any square root is rounded correctly.
     #[inline(always)]

@@ -49,3 +49,24 @@ fn bounds_are_those_of_all_lanes_or_none() {
         }
     }
 }
+
+#[test]
+fn the_smaller_and_the_larger_are_those_of_one_float() {
+    let values = [0.0, -0.0, 1.0, -1.0, f64::MAX, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
+    for [a, b] in values.into_iter().flat_map(|a| values.map(|b| [a, b])) {
+        let together =
+            |f: fn(Lanes, Lanes) -> Lanes| f(Lanes::from_f64(a), Lanes::from_f64(b)).values().map(f64::to_bits);
+        assert_eq!(together(Lanes::min), [Real::min(a, b).to_bits(); Lanes::COUNT], "{a} and {b}");
+        assert_eq!(together(Lanes::max), [Real::max(a, b).to_bits(); Lanes::COUNT], "{a} and {b}");
+    }
+}
+
+#[test]
+fn the_power_of_two_is_that_of_one_float_and_rounds_nothing() {
+    for x in arguments().into_iter().filter(|x| *x > 0.0) {
+        let scale = x.near_reciprocal();
+        assert_eq!(Lanes::from_f64(x).near_reciprocal().values(), [scale; Lanes::COUNT]);
+        assert_eq!(x * scale / scale, x);
+        assert!((f64::EPSILON / 4.0..4.0).contains(&(x * scale)), "{x:e} by {scale:e}");
+    }
+}
