@@ -43,7 +43,7 @@ const MOST_TERMS: usize = 8;
 /// A model that does not promise to gain as much in log-likelihood is not followed to its end.
 const WORTH_FOLLOWING: f64 = 0.1;
 /// Samples of a longer record in which terms are looked for first, and how many of the models found there go on.
-const LONGEST_SEARCHED: usize = 6000;
+const LONGEST_SEARCHED: usize = 4000;
 const CONTINUED: usize = 4;
 /// Steps while a white force carries a poor start along, and those that follow without it.
 const FOLLOWING: usize = 12;
@@ -59,9 +59,12 @@ pub(super) struct Known {
 /// All readings of one record.
 pub(super) struct Search<'a> {
     record: &'a Record,
+    /// The first part of a long record.
+    head: Option<Record>,
     known: Known,
     clocks: Vec<Clock>,
     readings: [OnceLock<Observations>; 4],
+    head_readings: [OnceLock<Observations>; 4],
     unseen_s: f64,
 }
 
@@ -77,17 +80,34 @@ impl<'a> Search<'a> {
     pub(super) fn new(record: &'a Record, known: Known) -> Self {
         let clocks =
             if observations::grid(record).is_some() { vec![Clock::Stamps, Clock::Grid] } else { vec![Clock::Stamps] };
-        Self { record, known, clocks, readings: [const { OnceLock::new() }; 4], unseen_s: 0.0 }
+        let part = |values: &[f64]| values[..LONGEST_SEARCHED].to_vec();
+        let head = (record.samples() > LONGEST_SEARCHED)
+            .then(|| Record::new(part(record.time_s()), part(record.output()), part(record.input())).ok())
+            .flatten();
+        let [readings, head_readings] = [const { [const { OnceLock::new() }; 4] }; 2];
+        Self { record, head, known, clocks, readings, head_readings, unseen_s: 0.0 }
     }
 
     pub(super) fn observations(&self, model: &Model) -> &Observations {
-        self.reading(model.clock, model.switching)
+        self.reading(self.record, &self.readings, model)
     }
 
-    fn reading(&self, clock: Clock, switching: Switching) -> &Observations {
-        let index = 2 * usize::from(clock == Clock::Grid) + usize::from(switching == Switching::Between);
-        self.readings[index].get_or_init(|| {
-            let mut observations = Observations::new(self.record, clock, switching);
+    /// Of the first part of a long record, else of all: enough to choose a start by.
+    fn beginning(&self, model: &Model) -> &Observations {
+        self.head
+            .as_ref()
+            .map_or_else(|| self.observations(model), |head| self.reading(head, &self.head_readings, model))
+    }
+
+    fn reading<'b>(
+        &self,
+        record: &Record,
+        readings: &'b [OnceLock<Observations>; 4],
+        model: &Model,
+    ) -> &'b Observations {
+        let index = 2 * usize::from(model.clock == Clock::Grid) + usize::from(model.switching == Switching::Between);
+        readings[index].get_or_init(|| {
+            let mut observations = Observations::new(record, model.clock, model.switching);
             observations.skip(self.unseen_s);
             observations
         })
@@ -104,7 +124,7 @@ impl<'a> Search<'a> {
 
     /// The likeliest of several starts, climbed from.
     fn climb_from(&self, starts: Vec<Model>, worth: f64) -> Option<Fitted> {
-        let value = |model: &Model| filter::run(self.observations(model), model, false).map(|pass| pass.log_likelihood);
+        let value = |model: &Model| filter::run(self.beginning(model), model, false).map(|pass| pass.log_likelihood);
         let valued = starts.into_iter().filter_map(|model| Some((value(&model)?, model)));
         let (_, best) = valued.max_by(|a, b| a.0.total_cmp(&b.0))?;
         climb_beyond(self.observations(&best), best, MOST_STEPS, worth)
@@ -134,7 +154,7 @@ impl<'a> Search<'a> {
     }
 
     fn is_long(&self) -> bool {
-        self.record.samples() > LONGEST_SEARCHED
+        self.head.is_some()
     }
 
     /// The model without terms under every reading of clock and switchings.
@@ -154,10 +174,7 @@ impl<'a> Search<'a> {
 
     /// The likeliest models of the beginning of a long record, fitted to all of it.
     fn continued(&mut self) -> Option<Vec<Fitted>> {
-        let part = |values: &[f64]| values[..LONGEST_SEARCHED].to_vec();
-        let record = self.record;
-        let head = Record::new(part(record.time_s()), part(record.output()), part(record.input())).ok()?;
-        let (search, mut found) = Search::new(&head, self.known).run()?;
+        let (search, mut found) = Search::new(self.head.as_ref()?, self.known).run()?;
         self.unseen_s = search.unseen_s;
         found.tried.sort_by(|a, b| search.value(b).total_cmp(&search.value(a)));
         let mut models: Vec<Model> = Vec::new();
