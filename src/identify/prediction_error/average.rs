@@ -4,7 +4,6 @@ use super::lateness;
 use super::model::{Model, Parameter};
 use super::scoring::{self, Fitted};
 use super::search::Found;
-use super::term::Term;
 use crate::identify::joint::{ConfidenceInterval, Estimate};
 
 /// A model's word on one parameter: normal, or a point where it has no such parameter.
@@ -15,17 +14,15 @@ struct Component {
     std: f64,
 }
 
-/// Intervals of terms that were chosen by the record are wider by this, and by this where one of them makes late: actuators and
-/// sensors have more than one way to, and none of the models may be quite the one.
+/// Intervals of terms that were chosen by the record are wider by this.
 pub(super) const CHOSEN: f64 = 1.15;
-pub(super) const CHOSEN_LATE: f64 = 1.25;
 /// Likelihoods of models that differ in what makes late count by this power: among stand-ins for the true one they say too much.
 const TEMPER: f64 = 0.5;
 
-/// Odds against a lateness beyond the delay, and the logarithm of those against a restoring force: without them what hardly any record
-/// rules out would widen the interval of each.
-const LATE_ODDS: f64 = 4.0;
-const STIFF_LOG_ODDS: f64 = 0.5;
+/// Odds against a lateness beyond the delay: without them what hardly any record rules out would widen the interval of each.
+const LATE_ODDS: f64 = 6.0;
+/// Logarithm of the odds against each parameter that is none of the [`SUBTLE`] ones: these move the inertia, the others hardly.
+const PLAIN_LOG_ODDS: f64 = 0.25;
 
 /// Twice the log-likelihood that each parameter more has to gain for a model to count. A structure that the record hardly
 /// shows moves the inertia, so that it counts sooner.
@@ -61,9 +58,9 @@ pub(super) fn deviations(fitted: &Fitted, free: &[usize]) -> Option<[f64; Parame
 /// Logarithm of the odds against what a model has, before the record is looked at.
 pub(super) fn log_odds_against(model: &Model, known_delay_s: Option<f64>) -> f64 {
     let (had, ways) = lateness::ways(model, known_delay_s);
-    let stiff = if Term::Stiffness.is_in(model) { STIFF_LOG_ODDS } else { 0.0 };
+    let subtle = SUBTLE.iter().filter(|parameter| model.is_free(**parameter)).count();
     // Each way to be late is one of several stand-ins, which share the odds.
-    had as f64 * (LATE_ODDS * ways as f64).ln() + stiff
+    had as f64 * (LATE_ODDS * ways as f64).ln() + PLAIN_LOG_ODDS * (model.freedom() - subtle) as f64
 }
 
 /// The models of an average with their weights and their deviations.

@@ -23,6 +23,7 @@ mod model;
 mod motion;
 mod observations;
 mod prediction;
+mod repeats;
 mod residuals;
 mod scoring;
 mod search;
@@ -46,7 +47,7 @@ use super::joint::{ConfidenceInterval, Delay, Estimate};
 use super::{DragLaw, IdentifyError};
 use crate::experiment::Record;
 use crate::numeric::{Limit, domain};
-use average::{Average, CHOSEN, CHOSEN_LATE};
+use average::{Average, CHOSEN};
 use observations::Observations;
 use scoring::Fitted;
 use search::{Found, Known, Search};
@@ -75,10 +76,6 @@ pub struct Estimator {
 
 /// Half the interval's width over the value from which on an answer is of no use.
 const TOO_WIDE: f64 = 0.5;
-/// Readings that count together less than this part of their number are those of few cycles, again and again.
-const REPEATED: f64 = 0.5;
-/// Intervals are wider by this then: where the motion is slow neighbours are rounded alike, and no other cycle makes up for it.
-const LOCKED: f64 = 1.25;
 /// Weight of a drag law's models below which the other laws are settled.
 const DISTINGUISHABLE: f64 = 0.05;
 
@@ -164,11 +161,8 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     let count = observations.count();
     let spare = (count - best.model.freedom() as f64).max(1.0);
     let mut factor = (count / spare).sqrt() * residuals::student(spare) / residuals::NORMAL;
-    if count < REPEATED * (observations.time_s.len() - observations.first) as f64 {
-        factor *= LOCKED;
-    }
     if !terms.is_empty() {
-        factor *= if lateness::is_in(&best.model) { CHOSEN_LATE } else { CHOSEN };
+        factor *= CHOSEN;
     }
     if observations.outliers > 0 {
         reasons.push(Reason::Outliers { count: observations.outliers });

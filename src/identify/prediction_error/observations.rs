@@ -2,6 +2,7 @@
 
 use super::actuator::Piece;
 use super::model::{Clock, Switching};
+use super::repeats;
 use crate::experiment::Record;
 
 /// A change of the command.
@@ -44,8 +45,6 @@ pub(super) struct Observations {
 pub(super) const PRICE: f64 = 4.0;
 /// The most distinct values that a switched command has.
 const MOST_LEVELS: usize = 4;
-/// The half cycles of one length with which each is compared.
-const MOST_COMPARED: usize = 64;
 
 impl Observations {
     pub(super) fn new(record: &Record, clock: Clock, switching: Switching) -> Self {
@@ -63,17 +62,20 @@ impl Observations {
         };
         let swing_s = swing_s(record);
         let extent = |values: &[f64]| {
-            let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            high - values.iter().copied().fold(f64::INFINITY, f64::min)
+            let (low, high) = ends(values);
+            high - low
         };
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
         let reach = (swing_s / (6.0 * interval_s)).max(1.0) as usize;
         let speed = |k: usize| ((output[k + reach] - output[k]) / (time_s[k + reach] - time_s[k])).abs();
         let fastest = (0..output.len().saturating_sub(reach)).map(speed).fold(0.0, f64::max);
-        let mut weight = if switched { weights(&output, input) } else { vec![1.0; output.len()] };
+        let (range, span) = (extent(input), extent(&output));
+        let mut weight = match record.quantum() {
+            Some(step) if switched => repeats::weights(&output, input, step),
+            _ => vec![1.0; output.len()],
+        };
         let outliers = outliers(record);
         outliers.iter().for_each(|sample| weight[*sample] = 0.0);
-        let (range, span) = (extent(input), extent(&output));
         Self {
             time_s,
             output,
@@ -112,6 +114,11 @@ impl Observations {
         let (count, parameters) = (self.count(), parameters as f64);
         PRICE * parameters * count / (count - parameters - 1.0).max(1.0)
     }
+}
+
+/// The least and the largest.
+pub(super) fn ends(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)))
 }
 
 /// Whether a command is switched between few values rather than moved.
@@ -215,43 +222,6 @@ fn moved(time_s: &[f64], input: &[f64], switching: Switching) -> Vec<Piece> {
         }
     }
     pieces
-}
-
-/// Half cycles that repeat reading for reading, by their mirror image too, are one experiment made several times: each reading
-/// counts one over the number of its likes.
-///
-/// Readings rounded from motions that differ by the part d of a step agree with probability `1 - |d|`, and their roundings
-/// correlate by `1 - 6 |d| + 6 d^2` (Bennett 1948): from how many agree follows how alike two half cycles are.
-fn weights(output: &[f64], input: &[f64]) -> Vec<f64> {
-    let mut bounds = vec![0];
-    bounds.extend((1..input.len()).filter(|k| input[*k] != input[*k - 1]));
-    bounds.push(input.len());
-    let halves: Vec<(usize, usize)> = bounds.windows(2).map(|pair| (pair[0], pair[1])).collect();
-    let mut by_length: std::collections::BTreeMap<usize, Vec<(usize, usize)>> = std::collections::BTreeMap::new();
-    for half in &halves {
-        by_length.entry(half.1 - half.0).or_default().push(*half);
-    }
-    let alike = |a: (usize, usize), b: (usize, usize)| {
-        let sign = if input[a.0] == input[b.0] { 1.0 } else { -1.0 };
-        let pairs = output[a.0..a.1].iter().zip(&output[b.0..b.1]);
-        let equal = pairs.filter(|(x, y)| (*x - sign * *y).abs() <= 1e-9 * x.abs()).count();
-        let apart = 1.0 - equal as f64 / (a.1 - a.0) as f64;
-        if apart < 0.21 { 1.0 - 6.0 * apart * (1.0 - apart) } else { 0.0 }
-    };
-    let mut weight = vec![1.0; output.len()];
-    for (length, group) in by_length {
-        if length < 3 {
-            continue;
-        }
-        let stride = group.len().div_ceil(MOST_COMPARED);
-        for half in &group {
-            let others = group.iter().step_by(stride).filter(|other| *other != half);
-            let (count, sum) = others.fold((0.0, 0.0), |(n, sum), other| (n + 1.0, sum + alike(*half, *other)));
-            let likes = if count > 0.0 { sum / count * (group.len() - 1) as f64 } else { 0.0 };
-            weight[half.0..half.1].fill(1.0 / (1.0 + likes));
-        }
-    }
-    weight
 }
 
 /// Readings further from the line through their neighbours than this many robust standard deviations are left out.

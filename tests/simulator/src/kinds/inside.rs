@@ -93,6 +93,7 @@ pub(super) const KINDS: &[Entry] = &[
     }),
     ("irregular samples", |r| Plan::new(r, Law::Any).any_sensor(r).with(|s| s.sensor.irregular_s = 0.03)),
     ("rounding alone", rounding_alone),
+    ("rounding alone, 280 s", |r| rounding_alone(r).with(|s| s.duration_s = 280.0)),
     ("rounding alone, delay unknown", |r| rounding_alone(r).delay_unknown()),
     ("wrapped heading", |r| {
         let plan = Plan::new(r, Law::Any).any_sensor(r);
