@@ -27,11 +27,11 @@ const LEVEL_OFFSET: [f64; 2] = [-1.0, 2.0];
 /// Factors searched. They cannot be told from the vehicle's own scale, so that a vehicle is asked for without.
 const LEVEL_FACTOR: [f64; 2] = [0.5, 2.0];
 /// A side is not halved further at this part of the domain's.
-const RESOLUTION: f64 = 1.0 / 2048.0;
-/// Boxes looked at in one search for what is left, and in one that asks whether anything is.
-const BUDGETS: [usize; 2] = [20_000, 400];
+const RESOLUTION: f64 = 1.0 / 512.0;
+/// Boxes looked at in one search for what is left, in one that asks whether anything is, and in one that spares a row.
+const BUDGETS: [usize; 3] = [20_000, 400, 200];
 /// Largest growth of the half-units looked at, and the ratio of a bracket that is narrow enough.
-const GROWTH: [f64; 2] = [256.0, 1.1];
+const GROWTH: [f64; 2] = [256.0, 1.15];
 /// Speed in deg/s of which [`Quantity::Drag`] is the drag, over the speed.
 const SHARE_AT_DEG_S: f64 = 50.0;
 
@@ -196,39 +196,55 @@ impl Case {
         (hull, found.unsettled.is_none())
     }
 
-    /// Whether no box is left; `false` proves nothing.
-    fn refuted(&self, rows: &[Row]) -> bool {
-        let found = subdivide(self.whole(), BUDGETS[1], |at| {
+    /// Whether no box is left; `false` where enclosures meet at a point, `None` where the budget was spent.
+    fn refuted(&self, rows: &[Row], budget: usize) -> Option<bool> {
+        let mut met = false;
+        let found = subdivide(self.whole(), budget, |at| {
             let middle = at.map(|side| Interval::point(side.midpoint()));
-            match self.met(rows, at) {
-                false => Visit::Settled,
-                true if self.met(rows, &middle) => Visit::Stop,
-                true => Visit::settled(false),
+            if !self.met(rows, at) {
+                return Visit::Settled;
             }
+            met = self.met(rows, &middle);
+            if met { Visit::Stop } else { Visit::settled(false) }
         });
-        found.unsettled.is_none()
+        if met { Some(false) } else { found.unsettled.is_none().then_some(true) }
     }
 
-    /// A growth of the half-units at which the rows are still refuted, and one at which they are not, or not within the budget.
-    fn growth(&self, table: &PrintedTable) -> [f64; 2] {
-        let refuted = |growth| self.refuted(&rows(table, growth));
-        let mut bracket = [1.0, 2.0];
-        while bracket[1] < GROWTH[0] && refuted(bracket[1]) {
-            bracket = bracket.map(|growth| 2.0 * growth);
+    /// A growth of the half-units at which the rows are still refuted, and one at which their enclosures meet at a point.
+    fn growth(&self, table: &PrintedTable) -> (f64, Option<f64>) {
+        let refuted = |growth| self.refuted(&rows(table, growth), BUDGETS[1]);
+        let (mut low, mut high) = (1.0, 2.0);
+        while high < GROWTH[0] && refuted(high) == Some(true) {
+            (low, high) = (high, 2.0 * high);
         }
-        while bracket[1] / bracket[0] > GROWTH[1] {
-            let middle = (bracket[0] * bracket[1]).sqrt();
-            bracket[usize::from(!refuted(middle))] = middle;
+        while high < GROWTH[0] && refuted(high) != Some(false) {
+            high *= 2.0;
         }
-        bracket
+        if high >= GROWTH[0] {
+            return (low, None);
+        }
+        while high / low > GROWTH[1] {
+            let middle = f64::sqrt(low * high);
+            match refuted(middle) {
+                Some(true) => low = middle,
+                Some(false) => high = middle,
+                None => break,
+            }
+        }
+        (low, Some(high))
     }
 
-    /// Rows that are refuted by themselves, none of which the search can spare, with half-units grown so much.
+    /// Rows that are refuted by themselves, none of which the search can spare, with half-units grown so much; none where the
+    /// search is too long.
     fn contradicting(&self, table: &PrintedTable, growth: f64) -> Vec<u32> {
+        let refuted = |rows: &[Row]| self.refuted(rows, BUDGETS[2]) == Some(true);
         let mut kept = rows(table, growth);
+        if !refuted(&kept) {
+            return Vec::new();
+        }
         for index in (0..kept.len()).rev() {
             let row = kept.remove(index);
-            if !self.refuted(&kept) {
+            if !refuted(&kept) {
                 kept.insert(index, row);
             }
         }
@@ -241,8 +257,8 @@ impl Case {
         let (left, complete) = self.left(&rows(table, 1.0));
         let refuted = left.is_none() && complete;
         let growth = refuted.then(|| self.growth(table));
-        // Half of it, where the rest of the rows is no longer needed and the search is short.
-        let contradicting = growth.map_or_else(Vec::new, |[low, _]| self.contradicting(table, (0.5 * low).max(1.0)));
+        // Well below it, where few rows are enough and the search is short.
+        let contradicting = growth.map_or_else(Vec::new, |(low, _)| self.contradicting(table, (0.25 * low).max(1.0)));
         let left = if complete { left } else { Some(self.whole()) };
         let side = |i: usize| left.map(|left| left[i].bounds());
         Consistency {
@@ -287,9 +303,10 @@ pub struct Consistency {
     pub delay_s: Option<(f64, f64)>,
     /// Bounds of the offsets left, 1e-2 N m: likewise.
     pub level_offset: Option<(f64, f64)>,
-    /// Where refuted: half-units so many times as large are refuted too; larger by the second number they were not.
-    pub growth: Option<[f64; 2]>,
-    /// Experiments that contradict each other, even with half the first growth (and never below one).
+    /// Where refuted: half-units so many times as large are refuted too; and so many times, the enclosures of all rows meet at a
+    /// point, so that this search cannot refute them. Between the two nothing is known.
+    pub growth: Option<(f64, Option<f64>)>,
+    /// Experiments that contradict each other, even with a quarter of the first growth (and never below one); none where that was not found in a short search.
     pub contradicting: Vec<u32>,
 }
 
