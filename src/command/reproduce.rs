@@ -114,6 +114,7 @@ fn document(reproduction: &Reproduction, arguments: &Arguments) -> Value {
         "figure15": asked("fig15", |reproduction| json!(reproduction.figure15)),
         "joint": asked("joint", |reproduction| json!(reproduction.joint)),
         "audit": asked("audit", |reproduction| reproduction.audit.iter().flat_map(items).collect()),
+        "consistency": asked("audit", |reproduction| json!(reproduction.consistency())),
     })
 }
 

@@ -16,6 +16,7 @@
 //! | `thruster_figure` | Fig. 9 (b) |
 //! | `response_figures` | Figs. 12-13, simulated |
 //! | `joint` | all experiments together, by exact limit cycles |
+//! | `consistency` | delays, errors of the relay level and drag laws that no row contradicts, by branch and bound |
 //! | `audit` | every printed number against its recomputation in intervals |
 
 pub mod audit;
@@ -26,6 +27,7 @@ pub use error::PaperError;
 pub use printed::Printed;
 
 internal! {
+    mod consistency;
     mod figure15;
     mod fixtures;
     mod joint;

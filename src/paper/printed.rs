@@ -49,11 +49,16 @@ impl Printed {
 
     /// The numbers that round to it at so many decimals, at least those printed: half a unit either way.
     #[must_use]
-    #[allow(clippy::cast_precision_loss, reason = "15 digits fit a double")]
     pub fn interval(self, decimals: u32) -> Interval {
+        self.within(decimals, 1.0)
+    }
+
+    /// The numbers within so many half units of the last of so many decimals, at least those printed.
+    #[allow(clippy::cast_precision_loss, reason = "15 digits fit a double")]
+    pub(super) fn within(self, decimals: u32, half_units: f64) -> Interval {
         let half_unit = Interval::point(0.5) / Interval::point(Self::unit(decimals.max(self.decimals)));
         let value = Interval::point(self.digits as f64) / Interval::point(Self::unit(self.decimals));
-        value + half_unit * Interval::UNIT
+        value + half_unit * Interval::symmetric(half_units)
     }
 
     /// Ten to the power of the decimals: exact, as there are no more than 22 of them.

@@ -83,7 +83,12 @@ impl PrintedTable {
 
     /// Reads a row's cells as the intervals they stand for.
     pub(super) fn intervals(&self, row: &Experiment) -> impl Fn(Column) -> Interval {
-        move |column| column(row).interval(self.decimals(column))
+        self.within(row, 1.0)
+    }
+
+    /// Reads a row's cells as the intervals of so many half units of the last decimal either way.
+    pub(super) fn within(&self, row: &Experiment, half_units: f64) -> impl Fn(Column) -> Interval {
+        move |column| column(row).within(self.decimals(column), half_units)
     }
 
     /// The parameters as printed, row by row.
@@ -104,7 +109,7 @@ pub(super) fn values(row: &Experiment) -> impl Fn(Column) -> f64 {
     |column| column(row).value()
 }
 
-fn printed<T>(read: &impl Fn(Column) -> T) -> Yaw<T> {
+pub(super) fn printed<T>(read: &impl Fn(Column) -> T) -> Yaw<T> {
     Yaw { alpha: read(|row| row.alpha), beta_r: read(|row| row.beta_r), beta_rr: read(|row| row.beta_rr) }
 }
 

@@ -6,6 +6,7 @@ mod tables;
 
 use super::{Document, Figure, ReportError, Section, Table};
 use crate::paper::audit::{Group, audit};
+use crate::paper::consistency::{Consistency, consistency};
 use crate::paper::figure15::{Counts, figure15};
 use crate::paper::joint::{JointRow, joint};
 use crate::paper::table4::{PrintedTable, Table4, table4};
@@ -35,6 +36,12 @@ impl Reproduction {
         let audit = audit(&printed, &table4)?;
         let levels: Vec<f64> = printed.experiments().iter().map(|row| row.relay_level.value()).collect();
         Ok(Self { figure15: figure15(&levels, &printed.printed())?, joint: joint(&printed)?, table4, audit, printed })
+    }
+
+    /// Which delays, errors of the relay level and drag laws no row of Table 4 contradicts; searched for when asked.
+    #[must_use]
+    pub fn consistency(&self) -> Vec<Consistency> {
+        consistency(&self.printed)
     }
 
     /// One screen: the numbers that people look for first.
@@ -196,8 +203,11 @@ pub const PARTS: &[Part] = &[
         name: "audit",
         title: "Audit: printed against recomputed",
         about: "Printed inputs are known to half a unit of their column's last decimal. A printed number agrees where it meets \
-                the range that such inputs allow, in interval arithmetic.",
-        tables: |reproduction| Ok(vec![reproduction.audit_summary(), reproduction.audit_table()]),
+                the range that such inputs allow, in interval arithmetic. Then all rows at once: which delay of the loop and which \
+                error of the relay level no row of Table 4 contradicts.",
+        tables: |reproduction| {
+            Ok(vec![reproduction.audit_summary(), reproduction.consistency_table(), reproduction.audit_table()])
+        },
         figures: |_| Ok(Vec::new()),
     },
 ];
