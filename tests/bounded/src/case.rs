@@ -179,9 +179,10 @@ impl core::fmt::Display for Outcome {
             write!(f, ", ratio {ratio:.2}")?;
         }
         let [least, most] = bounds.error_factor;
+        let most = if most < f64::MAX { format!("{most:.3}") } else { "-".to_owned() };
         write!(
             f,
-            ", error x [{least:.3}, {most:.3}], {} passes, {} samples, {:.2} s",
+            ", error x [{least:.3}, {most}], {} passes, {} samples, {:.2} s",
             bounds.passes, self.samples, self.seconds
         )?;
         self.certified.iter().try_for_each(|certified| write!(f, "; certificate {certified}"))
