@@ -130,12 +130,13 @@ impl Search<'_> {
         Some(linear)
     }
 
-    /// The inequalities of whole records about a point, and the largest misfit there.
-    fn about_point(&mut self, centre: &[f64]) -> Option<(Linear, f64)> {
+    /// The inequalities of whole records about a point, the largest misfit there, and how wide its motion's enclosure is; both in
+    /// largest errors.
+    fn about_point(&mut self, centre: &[f64]) -> Option<(Linear, f64, f64)> {
         self.passes += 1;
         let point: Vec<Interval> = centre.iter().map(|value| Interval::point(*value)).collect();
         let mut linear = self.model.about(&point, centre.to_vec());
-        let mut largest = 0.0f64;
+        let (mut largest, mut widest) = (0.0f64, 0.0f64);
         for span in self.model.whole() {
             let motion = self.model.motion(span, &point, centre)?;
             let stretch = self.setup.layout.windows()[span.from];
@@ -144,11 +145,12 @@ impl Search<'_> {
             for (node, reading) in motion.iter().zip(&readings.value[stretch.first..]) {
                 let misfit = (node.at[0] - Interval::point(*reading)).abs() / error;
                 largest = largest.max(misfit.upper());
+                widest = widest.max(node.at[0].width() / readings.error);
             }
             self.model.linearise(span, &motion, false, &mut linear);
         }
         self.model.bound(&mut linear);
-        Some((linear, largest))
+        Some((linear, largest, widest))
     }
 
     /// The witness with `unknown` furthest up (or, `sign` negative, down) that linear programmes, one after another from a
@@ -163,7 +165,7 @@ impl Search<'_> {
         let mut centre = from.at.clone();
         let mut best: Option<Tried> = None;
         for _ in 0..MOST_STEPS {
-            let Some((linear, misfit)) = self.about_point(&centre) else { break };
+            let Some((linear, misfit, doubt)) = self.about_point(&centre) else { break };
             if misfit <= 1.0 {
                 let gained = best.as_ref().map_or(f64::INFINITY, |best| sign * (centre[unknown] - best.at[unknown]));
                 if gained > 0.0 {
@@ -177,7 +179,7 @@ impl Search<'_> {
             for place in &places {
                 linear.deviations[*place] = within[*place] - Interval::point(centre[*place]);
             }
-            linear.deviations[tightened] = Interval::point(-inside);
+            linear.deviations[tightened] = Interval::point(-(inside + doubt));
             let all: Vec<usize> = places.iter().copied().chain([tightened]).collect();
             let programme = Programme::of(&linear.rows, &linear.deviations, &all);
             let Outcome::Bounded { at: step, .. } = programme.maximise(&[(unknown, sign)]) else { break };
