@@ -72,7 +72,8 @@ pub(super) fn signed_square(v: Interval) -> Interval {
     square(v.lower()).hull(square(v.upper()))
 }
 
-fn cube(v: Interval) -> Interval {
+/// `v^3` of every element.
+pub(super) fn cube(v: Interval) -> Interval {
     let cube = |end: f64| Interval::point(end) * Interval::point(end).square();
     cube(v.lower()).hull(cube(v.upper()))
 }

@@ -24,7 +24,11 @@ impl Model<'_> {
 
     /// Speeds from the readings, those at the windows' beginnings put into the box; then the hats. `None` where there is no motion.
     pub(super) fn weighed(&self, hats: &[Vec<Hat>], at: &mut [Interval]) -> Option<Linear> {
-        let mut linear = self.about(at, vec![0.0; at.len()]);
+        let mut centre = vec![0.0; at.len()];
+        if let Some(delay) = self.layout.delay() {
+            centre[delay] = at[delay].midpoint();
+        }
+        let mut linear = self.about(at, centre);
         for (record, hats) in hats.iter().enumerate() {
             let speeds = self.speeds(record, at)?;
             if !self.travelled(record, &speeds) {

@@ -5,7 +5,8 @@
 //! from the command and the readings between.
 
 use super::contract::{Hat, Linear, Model, Origin};
-use super::field::{Term, signed_square};
+use super::field::{Term, cube, signed_square};
+use super::problem::Readings;
 use super::speeds::Speeds;
 use crate::numeric::{Interval, Real};
 
@@ -36,37 +37,178 @@ pub(super) fn hats(time_s: &[f64], swing_s: f64) -> Vec<Hat> {
     hats
 }
 
-impl Model<'_> {
-    /// `int K u`, the command delayed by anything in `delay_s` and each switching anywhere in its span.
-    fn pushed(&self, record: usize, [l, m, r]: [f64; 3], delay_s: Interval) -> Interval {
-        let command = &self.records[record].command;
-        let [l, m, r] = [l, m, r].map(Interval::point);
-        // The hat's area up to an instant.
-        let area = |t: f64| -> Interval {
-            let t = Interval::point(t);
-            let half = Interval::point(0.5);
-            if t.upper() <= l.lower() {
-                Interval::ZERO
-            } else if t.upper() <= m.lower() {
-                half * (t - l).square() / (m - l)
-            } else if t.upper() < r.upper() {
-                half * (r - l) - half * (r - t).square() / (r - m)
-            } else {
-                half * (r - l)
-            }
+/// A hat in time: zero at its ends, one at its peak.
+struct Shape {
+    l: Interval,
+    m: Interval,
+    r: Interval,
+}
+
+impl Shape {
+    fn of(instants: [f64; 3]) -> Self {
+        let [l, m, r] = instants.map(Interval::point);
+        Self { l, m, r }
+    }
+    fn left(&self) -> Interval {
+        self.m - self.l
+    }
+    fn right(&self) -> Interval {
+        self.r - self.m
+    }
+    fn area(&self) -> Interval {
+        Interval::point(0.5) * (self.r - self.l)
+    }
+
+    fn height_at(&self, t: f64) -> Interval {
+        let t = Interval::point(t);
+        if t.upper() <= self.l.lower() || t.lower() >= self.r.upper() {
+            Interval::ZERO
+        } else if t.upper() <= self.m.lower() {
+            (t - self.l) / self.left()
+        } else {
+            (self.r - t) / self.right()
+        }
+    }
+
+    /// All heights from one instant to another.
+    fn height(&self, from: f64, to: f64) -> Interval {
+        let ends = self.height_at(from).hull(self.height_at(to));
+        let peak = from <= self.m.lower() && self.m.upper() <= to;
+        if peak { ends.hull(Interval::ONE) } else { ends }
+    }
+
+    /// The area up to an instant.
+    fn area_to(&self, t: f64) -> Interval {
+        let t = Interval::point(t);
+        let half = Interval::point(0.5);
+        if t.upper() <= self.l.lower() {
+            Interval::ZERO
+        } else if t.upper() <= self.m.lower() {
+            half * (t - self.l).square() / self.left()
+        } else if t.upper() < self.r.upper() {
+            self.area() - half * (self.r - t).square() / self.right()
+        } else {
+            self.area()
+        }
+    }
+}
+
+/// A function of velocity about a point: `value + slope (v - point)`, and a range for what that leaves out.
+struct Tangent {
+    slope: f64,
+    /// `value - slope point`.
+    constant: Interval,
+    rest: Interval,
+}
+
+impl Tangent {
+    fn identity() -> Self {
+        Self { slope: 1.0, constant: Interval::ZERO, rest: Interval::ZERO }
+    }
+
+    /// Of `v |v| - 2 middle v` over a range: its second derivative is two, with the sign of v.
+    fn square(range: Interval, middle: f64) -> Self {
+        let point = range.midpoint();
+        let slope = 2.0 * (point.abs() - middle);
+        let value = signed_square(Interval::point(point)) - Interval::point(2.0 * middle) * Interval::point(point);
+        let far = (range - Interval::point(point)).square();
+        let rest = if range.lower() >= 0.0 {
+            far.hull(Interval::ZERO)
+        } else if range.upper() <= 0.0 {
+            (-far).hull(Interval::ZERO)
+        } else {
+            far.hull(-far)
         };
-        let whole = Interval::point(0.5) * (r - l);
-        let mut sum = Interval::point(command.levels()[0]) * whole;
-        for edge in 0..command.edges() {
-            let (open, close) = command.window(edge, delay_s);
-            if open >= r.upper() {
-                break;
-            }
-            // What comes after the switching; the area falls as it comes later.
-            let after = (whole - area(open)).hull(whole - area(close));
-            sum -= command.drop_at(edge) * after;
+        Self { slope, constant: value - Interval::point(slope) * Interval::point(point), rest }
+    }
+
+    /// Of `v^3` over a range: `v^3 = p^3 + 3 p^2 (v - p) + (v - p)^2 (v + 2 p)`.
+    fn cube(range: Interval) -> Self {
+        let point = range.midpoint();
+        let slope = 3.0 * point * point;
+        let p = Interval::point(point);
+        let rest = (range - p).square() * (range + Interval::two() * p);
+        Self { slope, constant: cube(p) - Interval::point(slope) * p, rest }
+    }
+}
+
+/// What one hat needs of the readings under it.
+struct Under<'a> {
+    readings: &'a Readings,
+    speeds: &'a Speeds,
+    hat: &'a Hat,
+    shape: Shape,
+    /// What a reading may be off, with its stamp.
+    error: Interval,
+}
+
+impl Under<'_> {
+    /// `int K f(v)`, where `f` is given about a point for every interval between samples.
+    ///
+    /// The way between two samples is what the readings say, to within their errors, which sum up by how the weights differ from
+    /// one interval to the next.
+    fn weigh(&self, f: impl Fn(Interval) -> Tangent) -> Interval {
+        let (time, value) = (&self.readings.time_s, &self.readings.value);
+        let (mut sum, mut errors, mut before) = (Interval::ZERO, Interval::ZERO, Interval::ZERO);
+        for sample in self.hat[0]..self.hat[2] {
+            let range = self.speeds.between[sample];
+            let Tangent { slope, constant, rest } = f(range);
+            let slope = Interval::point(slope);
+            let lasted = Interval::point(time[sample + 1]) - Interval::point(time[sample]);
+            let (here, next) = (self.shape.height_at(time[sample]), self.shape.height_at(time[sample + 1]));
+            let height = Interval::point(0.5) * (here + next);
+            let way = Interval::point(value[sample + 1]) - Interval::point(value[sample]);
+            // The hat is not at its middle throughout: what it is more in one half it is less in the other.
+            let off = Interval::point(0.25) * (here - next).abs() * lasted;
+            let weight = slope * height;
+            sum += weight * way + slope * off * Interval::symmetric(range.radius());
+            sum += height * lasted * (constant + rest);
+            sum += off * Interval::symmetric(rest.radius());
+            errors += (weight - before).abs();
+            before = weight;
+        }
+        errors += before.abs();
+        sum + Interval::symmetric((self.error * errors).upper())
+    }
+
+    /// `int K x`: between two samples the output is off the chord by no more than the speeds allow.
+    fn place(&self) -> Interval {
+        let (time, value) = (&self.readings.time_s, &self.readings.value);
+        let half = Interval::point(0.5);
+        let mut sum = Interval::ZERO;
+        for sample in self.hat[0]..self.hat[2] {
+            let lasted = Interval::point(time[sample + 1]) - Interval::point(time[sample]);
+            let (here, next) = (self.shape.height_at(time[sample]), self.shape.height_at(time[sample + 1]));
+            let (a, b) = (Interval::point(value[sample]), Interval::point(value[sample + 1]));
+            let bulge = half * Interval::point(self.speeds.between[sample].radius()) * lasted;
+            let near = self.error + bulge;
+            let off = Interval::point(0.25) * (here - next).abs() * lasted;
+            sum += half * (here + next) * lasted * (half * (a + b) + Interval::symmetric(near.upper()));
+            sum += off * Interval::symmetric((half * (b - a).abs() + near).upper());
         }
         sum
+    }
+}
+
+impl Model<'_> {
+    /// `int K u`, each switching anywhere in its span, for the delay in the middle of `delay_s`; and its slope by the delay.
+    fn pushed(&self, record: usize, shape: &Shape, delay_s: Interval) -> [Interval; 2] {
+        let command = &self.records[record].command;
+        let middle = Interval::point(delay_s.midpoint());
+        let mut sum = Interval::point(command.levels()[0]) * shape.area();
+        let mut slope = Interval::ZERO;
+        for edge in 0..command.edges() {
+            let (open, close) = command.window(edge, delay_s);
+            if open >= shape.r.upper() {
+                break;
+            }
+            // What comes after the switching.
+            let (first, last) = command.window(edge, middle);
+            let after = (shape.area() - shape.area_to(first)).hull(shape.area() - shape.area_to(last));
+            sum -= command.drop_at(edge) * after;
+            slope += command.drop_at(edge) * shape.height(open, close);
+        }
+        [sum, slope]
     }
 
     /// Inequalities for all `hats` of a record over a box; `speeds` enclose the velocity at its samples.
@@ -74,85 +216,43 @@ impl Model<'_> {
         let readings = &self.records[record];
         let delay_s = self.delay_s(at);
         let fastest = speeds.between.iter().fold(0.0f64, |fastest, speed| fastest.max(speed.magnitude()));
+        let stray = Interval::point(readings.jitter_s) * Interval::point(fastest);
+        let error = Interval::point(readings.error) + stray;
         let lagged = self.layout.lagged();
         for hat in hats {
-            let [l, m, r] = hat.map(|sample| readings.time_s[sample]);
+            let instants = hat.map(|sample| readings.time_s[sample]);
             // The hat starts once every command that acts is in the log.
-            if Interval::point(l).lower() < readings.time_s[0] + delay_s.upper() {
+            if instants[0] < (Interval::point(readings.time_s[0]) + delay_s).upper() {
                 continue;
             }
-            let [left, right] = [Interval::point(m) - Interval::point(l), Interval::point(r) - Interval::point(m)];
+            let shape = Shape::of(instants);
+            let under = Under { readings, speeds, hat, shape, error };
+            let shape = &under.shape;
             let y = hat.map(|sample| Interval::point(readings.value[sample]));
-            let second = (y[2] - y[1]) / right - (y[1] - y[0]) / left;
-            let share = Interval::ONE / right + Interval::ONE / left;
-            let stray = Interval::point(readings.jitter_s) * Interval::point(fastest);
-            let error = Interval::two() * (Interval::point(readings.error) + stray) * share;
-            let whole = Interval::point(0.5) * (left + right);
-            let peak = |sample: usize| -> Interval {
-                let t = Interval::point(readings.time_s[sample]);
-                if sample <= hat[1] { (t - Interval::point(l)) / left } else { (Interval::point(r) - t) / right }
-            };
-            let (mut velocity, mut drag, mut cube, mut place) =
-                (Interval::ZERO, Interval::ZERO, Interval::ZERO, Interval::ZERO);
-            for sample in hat[0]..hat[2] {
-                let lasted = Interval::point(readings.time_s[sample + 1]) - Interval::point(readings.time_s[sample]);
-                let (here, next) = (peak(sample), peak(sample + 1));
-                let middle = Interval::point(0.5) * (here + next);
-                let range = speeds.between[sample];
-                let way = Interval::point(readings.value[sample + 1]) - Interval::point(readings.value[sample]);
-                // What is left when the hat is taken at its middle weighs both halves oppositely.
-                let off = Interval::point(0.25) * (here - next).abs() * lasted;
-                velocity += middle * way + off * Interval::symmetric(range.radius());
-                let weight = middle * lasted;
-                drag += weight * signed_square(range);
-                cube += weight * range * range.square();
-                place += weight
-                    * (Interval::point(readings.value[sample]).hull(Interval::point(readings.value[sample + 1])))
-                    + weight * Interval::symmetric(readings.error + range.magnitude() * lasted.upper());
-            }
-            // The readings' errors in the way sum up by the hat's own rise and fall.
-            velocity += Interval::symmetric((Interval::two() * (Interval::point(readings.error) + stray)).upper());
-            drag = drag
-                .intersection(square_by_mean(velocity, whole, range_over(&speeds.between[hat[0]..hat[2]])))
-                .unwrap_or(drag);
-            let force = if lagged {
-                whole * Interval::symmetric(readings.command.largest())
+            let second = (y[2] - y[1]) / shape.right() - (y[1] - y[0]) / shape.left();
+            let share = Interval::ONE / shape.right() + Interval::ONE / shape.left();
+            let [force, by_delay] = if lagged {
+                [shape.area() * Interval::symmetric(readings.command.largest()), Interval::ZERO]
             } else {
-                self.pushed(record, [l, m, r], delay_s)
+                self.pushed(record, shape, delay_s)
             };
             let mut slopes: Vec<(usize, Interval)> = Vec::new();
             for (unknown, term) in self.layout.terms().iter().enumerate() {
                 let slope = match term {
                     Term::Gain => force,
-                    Term::Linear => -velocity,
-                    Term::Quadratic => Interval::point(2.0 * self.middle_speed) * velocity - drag,
-                    Term::Cubic => -cube,
-                    Term::Stiffness => -place,
+                    Term::Linear => -under.weigh(|_| Tangent::identity()),
+                    Term::Quadratic => -under.weigh(|range| Tangent::square(range, self.middle_speed)),
+                    Term::Cubic => -under.weigh(Tangent::cube),
+                    Term::Stiffness => -under.place(),
                     Term::Disturbance | Term::LagRate => continue,
                 };
                 slopes.push((unknown, slope));
             }
-            slopes.push((self.layout.disturbance(record), whole));
+            // The command comes later by what the delay is more than its middle.
+            slopes.extend(self.layout.delay().map(|delay| (delay, at[0] * by_delay)));
+            slopes.push((self.layout.disturbance(record), shape.area()));
+            let error = Interval::two() * error * share;
             linear.pair(slopes.into_iter(), -second, error, |above| Origin::Hat { record, samples: *hat, above });
         }
     }
-}
-
-fn range_over(ranges: &[Interval]) -> Interval {
-    ranges.iter().copied().reduce(Interval::hull).unwrap_or(Interval::ENTIRE)
-}
-
-/// `int K v |v|` from `int K v`, for a velocity of one sign: not below the mean's square, nor above the chord over the range.
-fn square_by_mean(velocity: Interval, whole: Interval, range: Interval) -> Interval {
-    if range.upper() <= 0.0 {
-        return -square_by_mean(-velocity, whole, -range);
-    }
-    if !(range.lower() >= 0.0) {
-        return Interval::ENTIRE;
-    }
-    let (low, high) = (Interval::point(range.lower()), Interval::point(range.upper()));
-    let velocity = Interval::new(velocity.lower().max(0.0), velocity.upper().max(0.0)).unwrap_or(velocity);
-    let least = velocity.square() / whole;
-    let most = (low + high) * velocity - low * high * whole;
-    Interval::new(least.lower(), most.upper()).unwrap_or(Interval::ENTIRE)
 }
