@@ -14,7 +14,7 @@ const MOST_OF_A_SLICE: usize = 6;
 /// Boxes excluded last that are remembered: there the contradiction is shown, and the nearest parameter looked for.
 const REMEMBERED: usize = 4;
 /// A box stands for what is left once they take less than this.
-const FOLLOWED: f64 = 4.0;
+const FOLLOWED: f64 = 0.7;
 
 /// A box that is left.
 #[derive(Clone, Debug)]
