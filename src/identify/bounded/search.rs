@@ -12,7 +12,7 @@ use crate::numeric::Interval;
 /// A pass that leaves more than this of every parameter's width did not help.
 const HELPED: f64 = 0.9;
 /// A box is too wide to follow the motion over while a parameter's range is worth more than this share of the command.
-const WIDE: f64 = 0.5;
+const WIDE: f64 = 0.25;
 /// The same where the motion takes many steps.
 const STIFF: f64 = 0.1;
 /// Steps between two samples that are many.
