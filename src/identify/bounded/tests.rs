@@ -8,9 +8,11 @@ use super::lp::Rows;
 use super::search::Search;
 use super::setup::Setup;
 use super::{BoundedModel, Consistency, DelayBound, Quantity, enclose};
-use crate::experiment::Record;
+use crate::experiment::{Record, Sensor, SimulatedExperiment};
 use crate::identify::DragLaw;
+use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::Interval;
+use crate::plant::DragAxis;
 
 /// Integers below this are products of three without loss in 128 bits, while floats round a product of two.
 const LARGEST: i64 = 1 << 36;
@@ -71,7 +73,7 @@ const ALPHA: f64 = 1.3;
 const BETA: f64 = 0.6;
 const DELTA: f64 = 0.1;
 const STEP: f64 = 0.02;
-const TURN_S: f64 = 2.0;
+pub(super) const TURN_S: f64 = 2.0;
 /// Bounds that differ by less of their width are the same.
 const SAME: f64 = 0.01;
 
@@ -195,6 +197,26 @@ fn a_frame_keeps_what_is_in_the_box_and_one_whose_centre_moves_without_it_does_n
     }
     let own = frame.expect("an enclosure");
     assert!(!own.holds(&truth(&setup), 0.2), "a centre that moved by a fifth of the inertia holds it still");
+}
+
+#[test]
+fn witnesses_are_found_towards_both_ends_of_the_bounds() {
+    let axis = DragAxis::mixed(1.2, 0.5, 0.4).expect("an axis");
+    let relay = RelayHysteresis::new(1.0, 0.4, 0.0).expect("a relay");
+    let sensor = Sensor { quantum: STEP, ..Sensor::default() };
+    let experiment = SimulatedExperiment::new(axis, relay, 10.0).expect("an experiment");
+    let record = experiment.held().with_sensor(sensor).expect("a sensor").run(25.0).expect("a record");
+    let setup = Setup::new(&[&record], &settings(DragLaw::Mixed)).expect("a problem");
+    let mut search = Search::new(&setup);
+    let division = search.search(setup.search.clone(), 600);
+    let hull = division.hull().expect("not empty: the truth is inside");
+    let witness = search.nearest(&hull, &hull).filter(|tried| tried.misfit <= 1.0).expect("a witness");
+    for place in 0..setup.layout.common() {
+        let [low, high] = [-1.0, 1.0].map(|sign| search.furthest(&witness, &hull, place, sign).expect("a witness"));
+        assert!(low.misfit <= 1.0 && high.misfit <= 1.0);
+        let reached = (high.at[place] - low.at[place]) / hull[place].width();
+        assert!(reached > 0.05, "unknown {place}: witnesses reach over {reached} of the bounds");
+    }
 }
 
 pub(super) fn settings(law: DragLaw) -> BoundedModel {

@@ -10,6 +10,9 @@ use super::problem::Readings;
 use super::speeds::Speeds;
 use crate::numeric::{Interval, Real};
 
+#[cfg(test)]
+mod tests;
+
 /// Half-widths of the hats, as shares of the time between switchings.
 const SHARES: [f64; 5] = [0.2, 0.4, 0.8, 1.4, 2.2];
 /// Hats of one width, at most.

@@ -1,0 +1,134 @@
+//! Hats over a motion that is known, each with a false variant that is caught.
+
+use super::{Shape, Tangent, Under};
+use crate::identify::DragLaw;
+use crate::identify::bounded::command::Command;
+use crate::identify::bounded::problem::Readings;
+use crate::identify::bounded::search::Search;
+use crate::identify::bounded::setup::Setup;
+use crate::identify::bounded::speeds::Speeds;
+use crate::identify::bounded::{BoundedModel, DelayBound, tests};
+use crate::numeric::Interval;
+
+/// Largest error of a reading.
+const ERROR: f64 = 1e-6;
+/// Between samples.
+const STEP_S: f64 = 0.1;
+/// By how much the speed is known too low, and too high.
+const UNSURE: [f64; 2] = [0.6, 0.05];
+/// Pieces of a step in which sums of midpoints stand for integrals.
+const PIECES: usize = 400;
+/// Room for what these sums miss.
+const MISSED: f64 = 1e-8;
+
+fn position(t: f64) -> f64 {
+    (1.3 * t).sin()
+}
+fn speed(t: f64) -> f64 {
+    1.3 * (1.3 * t).cos()
+}
+
+/// Readings of the motion, alternately too high and too low, and its speeds.
+fn known() -> (Readings, Speeds) {
+    let time_s: Vec<f64> = (0..60).map(|sample| f64::from(sample) * STEP_S).collect();
+    let value =
+        time_s.iter().enumerate().map(|(k, t)| position(*t) + if k % 2 == 0 { ERROR } else { -ERROR }).collect();
+    let range = |t: f64| Interval::new(speed(t) - UNSURE[0], speed(t) + UNSURE[1]).expect("ordered");
+    let at_samples: Vec<Interval> = time_s.iter().map(|t| range(*t)).collect();
+    let between = at_samples.windows(2).map(|pair| pair[0].hull(pair[1])).collect();
+    let command = Command::new(vec![1.0, -1.0], vec![(3.0, 3.0)]);
+    (Readings { time_s, value, error: ERROR, jitter_s: 0.0, command }, Speeds { at_samples, between })
+}
+
+/// `int K f` over a hat with its ends and its peak at these instants.
+fn integral([l, m, r]: [f64; 3], f: impl Fn(f64) -> f64) -> f64 {
+    let half = |from: f64, to: f64, height: &dyn Fn(f64) -> f64| {
+        let pieces = ((to - from) / STEP_S).round() as usize * PIECES;
+        let step = (to - from) / pieces as f64;
+        (0..pieces).map(|k| from + (k as f64 + 0.5) * step).map(|t| height(t) * f(t) * step).sum::<f64>()
+    };
+    half(l, m, &|t| (t - l) / (m - l)) + half(m, r, &|t| (r - t) / (r - m))
+}
+
+fn holds(range: Interval, value: f64) -> bool {
+    range.intersection(Interval::symmetric(MISSED) + Interval::point(value)).is_some()
+}
+
+/// How many hats there are, and how many miss `int K f` of speed when it is weighed by this tangent.
+fn missed(f: impl Fn(f64) -> f64, tangent: impl Fn(Interval) -> Tangent + Copy) -> (usize, usize) {
+    let (readings, speeds) = known();
+    let hats: Vec<[usize; 3]> = (0..40).map(|first| [first, first + 7, first + 19]).collect();
+    let misses = hats.iter().filter(|hat| {
+        let instants = hat.map(|sample| readings.time_s[sample]);
+        let shape = Shape::of(instants);
+        let under = Under { readings: &readings, speeds: &speeds, hat, shape, error: Interval::point(ERROR) };
+        !holds(under.weigh(tangent), integral(instants, |t| f(speed(t))))
+    });
+    (hats.len(), misses.count())
+}
+
+#[test]
+fn weighed_drag_is_enclosed_and_by_its_tangent_alone_it_is_not() {
+    let middle = 0.4;
+    assert_eq!(missed(|v| v, |_| Tangent::identity()).1, 0);
+    let square = |range| Tangent::square(range, middle);
+    assert_eq!(missed(|v| v * v.abs() - 2.0 * middle * v, square).1, 0);
+    assert_eq!(missed(|v| v * v * v, Tangent::cube).1, 0);
+
+    let alone = |tangent: Tangent| Tangent { rest: Interval::ZERO, ..tangent };
+    let (hats, misses) = missed(|v| v * v.abs() - 2.0 * middle * v, |range| alone(square(range)));
+    assert!(misses > hats / 2, "{misses} of {hats}");
+    let (hats, misses) = missed(|v| v * v * v, |range| alone(Tangent::cube(range)));
+    assert!(misses > hats / 2, "{misses} of {hats}");
+}
+
+#[test]
+fn the_weighed_position_is_enclosed_and_by_chords_alone_it_is_not() {
+    // A motion that comes back to the same place at every sample.
+    let turns = 2.0 * core::f64::consts::PI / STEP_S;
+    let (readings, speeds) = known();
+    let readings = Readings { value: vec![0.0; readings.time_s.len()], ..readings };
+    let within = |fastest: f64| Speeds {
+        between: vec![Interval::symmetric(fastest); speeds.between.len()],
+        at_samples: speeds.at_samples.clone(),
+    };
+    let (moving, still) = (within(turns), within(0.0));
+    for first in 0..40 {
+        let hat = [first, first + 7, first + 19];
+        let instants = hat.map(|sample| readings.time_s[sample]);
+        let place = |speeds| {
+            let shape = Shape::of(instants);
+            Under { readings: &readings, speeds, hat: &hat, shape, error: Interval::point(ERROR) }.place()
+        };
+        let exact = integral(instants, |t| 1.0 - (turns * t).cos());
+        assert!(holds(place(&moving), exact));
+        assert!(!holds(place(&still), exact));
+    }
+}
+
+#[test]
+fn the_push_of_every_delay_is_enclosed_and_by_the_middle_slope_it_is_not() {
+    let delays = [0.2, 0.9];
+    let model = BoundedModel { quantum: Some(0.02), ..BoundedModel::new(DragLaw::Linear, DelayBound::WithinS(delays)) };
+    let setup = Setup::new(&[&tests::record(150)], &model).expect("a problem");
+    let search = Search::new(&setup);
+    let range = Interval::new(delays[0], delays[1]).expect("ordered");
+    let (mut missed, mut tried) = (0, 0);
+    for first in 20..100 {
+        let instants = [first, first + 9, first + 15].map(|sample| f64::from(sample) * STEP_S);
+        let [middle, slope] = search.model.pushed(0, &Shape::of(instants), range);
+        for share in [0.0, 0.3, 0.8, 1.0] {
+            let delay_s = delays[0] + share * (delays[1] - delays[0]);
+            // The command of the record turns every two seconds.
+            let command = |t: f64| if ((t - delay_s) / tests::TURN_S).floor() % 2.0 == 0.0 { 1.0 } else { -1.0 };
+            let push = integral(instants, command);
+            let later = Interval::point(delay_s) - Interval::point(range.midpoint());
+            // A sum of midpoints errs by a piece at a jump.
+            let push = Interval::point(push) + Interval::symmetric(4.0 * STEP_S / PIECES as f64);
+            tried += 1;
+            assert!((middle + slope * later).intersection(push).is_some(), "{instants:?} {delay_s}");
+            missed += usize::from((middle + Interval::point(slope.midpoint()) * later).intersection(push).is_none());
+        }
+    }
+    assert!(missed > tried / 10, "{missed} of {tried}");
+}
