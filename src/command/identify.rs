@@ -61,6 +61,12 @@ pub(super) struct Arguments {
     /// Bounded: step of the sensor, output units (with --degrees still radians) [default: found in the record]
     #[arg(long, value_name = "Q", value_parser = positive, allow_negative_numbers = true)]
     quantum: Option<f64>,
+    /// Bounded: largest error of a stamp, in s
+    #[arg(long, value_name = "T", default_value_t = 0.0, value_parser = nonnegative, allow_negative_numbers = true)]
+    jitter: f64,
+    /// Bounded: so many readings may be in error by any amount, whichever they are
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    outliers: usize,
     /// Bounded: the model has a restoring force proportional to the coordinate
     #[arg(long)]
     stiffness: bool,
@@ -74,7 +80,7 @@ pub(super) struct Arguments {
     #[arg(long)]
     either_sign: bool,
     /// Bounded: writes the proof to this file, which `selfosc verify --check FILE` checks without a search
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "outliers")]
     certificate: Option<PathBuf>,
     /// The output is in degrees; a column ending in _deg always is. Every result is in radians
     #[arg(long)]
@@ -254,6 +260,8 @@ impl Arguments {
             half_width: self.half_width,
             error: self.error,
             quantum: self.quantum,
+            jitter_s: self.jitter,
+            outliers: self.outliers,
             stiffness: self.stiffness,
             lag: self.lag,
             cubic: self.cubic,
@@ -286,7 +294,7 @@ impl Arguments {
             }
             Refusal::Settings(SettingsError::NeedsBounded) => {
                 return usage(
-                    "--stiffness, --lag, --cubic, --either-sign and --certificate are of the guaranteed bounds; use --method bounded",
+                    "--stiffness, --lag, --cubic, --either-sign, --jitter, --outliers and --certificate are of the guaranteed bounds; use --method bounded",
                 );
             }
             Refusal::Settings(_) | Refusal::File { .. } => return Err(refusal.into()),

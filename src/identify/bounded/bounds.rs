@@ -140,6 +140,15 @@ pub struct Contradicting {
     pub share: f64,
 }
 
+/// A reading in error by more than is granted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct Outlier {
+    /// Number of the record.
+    pub record: usize,
+    /// Number of the sample.
+    pub sample: usize,
+}
+
 /// What the records leave of a model's parameters.
 ///
 /// Guaranteed: a parameter within the search box that meets every constraint lies within `bounds`; where the verdict is `refuted`
@@ -163,6 +172,9 @@ pub struct Bounds {
     pub error_factor: [f64; 2],
     /// Readings that contradict each other, where refuted, in the part of the box that was hardest to refute.
     pub contradicting: Vec<Contradicting>,
+    /// Readings that no parameter meets which misses no more than [`BoundedModel::outliers`](super::BoundedModel::outliers). Fewer
+    /// than these may be found, and the bounds are wider then: any others could be outliers.
+    pub outliers: Vec<Outlier>,
     /// Passes over the records.
     pub passes: usize,
 }

@@ -20,6 +20,7 @@ mod field;
 mod frame;
 mod lp;
 mod mix;
+mod outliers;
 mod problem;
 mod report;
 mod rows;
@@ -38,7 +39,7 @@ internal! { mod certificate; }
 #[cfg(test)]
 mod tests;
 
-pub use bounds::{Bounds, Consistency, Contradicting, Parameters, Quantity, QuantityRange};
+pub use bounds::{Bounds, Consistency, Contradicting, Outlier, Parameters, Quantity, QuantityRange};
 pub use settings::{BoundedModel, DelayBound, SwitchedWhen};
 
 use super::IdentifyError;
@@ -46,9 +47,11 @@ use crate::experiment::Record;
 use crate::numeric::Interval;
 use certificate::{Certificate, Unproved, Witness};
 use divide::Division;
+use problem::Readings;
 use report::Answer;
 use search::Search;
 use setup::Setup;
+use witness::Tried;
 
 /// Divisions after which a witness is looked for again.
 const DIVISIONS_PER_TRIAL: usize = 8;
@@ -78,8 +81,11 @@ const GOOD: f64 = 0.95;
 /// # Errors
 /// [`IdentifyError::OutOfDomain`] for settings that are none, a record without a switching, and a sensor without an error.
 pub fn enclose(records: &[&Record], settings: &BoundedModel) -> Result<Bounds, IdentifyError> {
+    if settings.outliers > 0 {
+        return outliers::enclose(&Readings::of(records, settings)?, settings);
+    }
     let setup = Setup::new(records, settings)?;
-    Ok(explore(&setup, settings, |_| ())?.bounds)
+    Ok(explore(&setup, settings, |_, _| ())?.bounds)
 }
 
 /// The same with the proof in a form that is checked without a search.
@@ -91,9 +97,14 @@ pub fn enclose_with_certificate(
     records: &[&Record],
     settings: &BoundedModel,
 ) -> Result<(Bounds, Result<Certificate, Unproved>), IdentifyError> {
+    if settings.outliers > 0 {
+        return Ok((enclose(records, settings)?, Err(Unproved::Outliers { allowed: settings.outliers })));
+    }
     let setup = Setup::new(records, settings)?;
     let mut witness = None;
-    let explored = explore(&setup, settings, |found| witness = found)?;
+    let explored = explore(&setup, settings, |search, found| {
+        witness = found.map(|tried| Witness::of(search, &tried.at));
+    })?;
     let certificate = Certificate::prove(&setup, settings, &explored.hulls, witness);
     Ok((explored.bounds, certificate?))
 }
@@ -106,13 +117,15 @@ struct Explored {
     bounds: Bounds,
     /// The box around what was left, and that around what more readings left of it; none for nothing.
     hulls: Vec<Option<Vec<Interval>>>,
+    /// The parameters that are left; `None` where nothing is.
+    left: Option<Vec<Interval>>,
 }
 
 /// The search; `witness` is told of one that was found.
 fn explore(
     setup: &Setup,
     settings: &BoundedModel,
-    witness: impl FnOnce(Option<Witness>),
+    witness: impl FnOnce(&Search<'_>, Option<&Tried>),
 ) -> Result<Explored, IdentifyError> {
     let mut spent = 0;
     let mut at = setup.search.clone();
@@ -137,10 +150,18 @@ fn explore(
         search.passes = passes;
         let division = search.search(narrowed.search.clone(), settings.budget);
         let (bounds, last) = conclude(setup, search, division, settings, witness);
-        return Ok(Explored { bounds, hulls: vec![Some(hull), last] });
+        let left = last.as_ref().map(|last| {
+            let mut left = last[..narrowed.layout.parameters()].to_vec();
+            if let (Some(place), None) = (setup.layout.delay(), narrowed.layout.delay()) {
+                left.insert(place, narrowed.known_delay_s);
+            }
+            left
+        });
+        return Ok(Explored { bounds, hulls: vec![Some(hull), last], left });
     }
     let (bounds, hull) = conclude(setup, search, division, settings, witness);
-    Ok(Explored { bounds, hulls: vec![hull] })
+    let left = hull.as_ref().map(|hull| hull[..setup.layout.parameters()].to_vec());
+    Ok(Explored { bounds, hulls: vec![hull], left })
 }
 
 /// The answer, from what division left; `wide` is where the search began.
@@ -149,7 +170,7 @@ fn conclude(
     mut search: Search<'_>,
     mut division: Division,
     settings: &BoundedModel,
-    witness: impl FnOnce(Option<Witness>),
+    witness: impl FnOnce(&Search<'_>, Option<&Tried>),
 ) -> (Bounds, Option<Vec<Interval>>) {
     let mut answer = Answer::default();
     answer.try_nearest(&mut search, &division);
@@ -167,6 +188,6 @@ fn conclude(
     if answer.witness().is_some() {
         answer.sharpen(&mut search, &mut division, settings.budget, GOOD);
     }
-    witness(answer.witness().map(|tried| Witness::of(&search, &tried.at)));
+    witness(&search, answer.witness());
     (answer.into_bounds(wide, search, &division), division.hull())
 }

@@ -48,6 +48,11 @@ impl Layout {
         Self { delay, ..self }
     }
 
+    /// The same with other windows.
+    pub(super) fn with_windows(self, windows: Vec<Window>) -> Self {
+        Self { windows, ..self }
+    }
+
     pub(super) fn terms(&self) -> &[Term] {
         &self.terms
     }

@@ -125,7 +125,8 @@ impl Answer {
         let least = if verdict == Consistency::Refuted { 1.0 } else { least_misfit(&mut search, division) };
         let point = |tried: &Tried| Parameters { values: values(search.setup, &tried.at), misfit: tried.misfit };
         let contradicting = if verdict == Consistency::Refuted {
-            division.empties.back().map(|empty| contradiction(&search, empty)).unwrap_or_default()
+            let shown = division.empties.iter().rev().map(|empty| contradiction(&search, empty));
+            shown.into_iter().find(|readings| !readings.is_empty()).unwrap_or_default()
         } else {
             Vec::new()
         };
@@ -138,6 +139,7 @@ impl Answer {
             error: search.setup.records.iter().map(|readings| readings.error).collect(),
             error_factor: [least, self.nearest.as_ref().map_or(f64::MAX, |nearest| nearest.misfit)],
             contradicting,
+            outliers: Vec::new(),
             passes: search.passes,
         }
     }

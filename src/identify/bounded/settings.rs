@@ -57,6 +57,8 @@ pub struct BoundedModel {
     pub error: f64,
     /// Largest error of a stamp, in s.
     pub jitter_s: f64,
+    /// Readings, of all records together, that may be in error by any amount, whichever they are.
+    pub outliers: usize,
     /// Factor by which inertia, and drag upwards, are looked for on either side of their order of magnitude in the record.
     pub reach: f64,
     /// Passes over the records that may be spent.
@@ -79,6 +81,7 @@ impl BoundedModel {
             quantum: None,
             error: 0.0,
             jitter_s: 0.0,
+            outliers: 0,
             reach: 100.0,
             budget: 3000,
         }

@@ -48,7 +48,8 @@ fn interval(low: f64, high: f64) -> Interval {
 }
 
 /// A record's orders of magnitude.
-struct Scales {
+#[derive(Clone, Debug)]
+pub(super) struct Scales {
     /// Half the range of the output.
     reach: f64,
     swing_s: f64,
@@ -56,11 +57,11 @@ struct Scales {
     /// Root mean square of the speed.
     speed: f64,
     /// The largest mean speed over a tenth of a swing.
-    fastest: f64,
+    pub(super) fastest: f64,
 }
 
 impl Scales {
-    fn of(readings: &Readings) -> Self {
+    pub(super) fn of(readings: &Readings) -> Self {
         let (time, value) = (&readings.time_s, &readings.value);
         let (low, high) = value.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
         let lasted = time[time.len() - 1] - time[0];
@@ -132,10 +133,12 @@ impl BoundedModel {
     }
 }
 
-impl Setup {
+impl Readings {
+    /// Of every record, with the errors that are granted.
+    ///
     /// # Errors
     /// [`IdentifyError::OutOfDomain`] that names what is missing.
-    pub(super) fn new(records: &[&Record], settings: &BoundedModel) -> Result<Self, IdentifyError> {
+    pub(super) fn of(records: &[&Record], settings: &BoundedModel) -> Result<Vec<Self>, IdentifyError> {
         settings.check()?;
         if records.is_empty() {
             return Err(refuse("number of records", 0.0, "", Limit::AtLeast(1.0), "give a record"));
@@ -162,7 +165,7 @@ impl Setup {
                 let remedy = "give a record in which the command changes";
                 return Err(refuse("switchings of the command", 0.0, "", Limit::AtLeast(1.0), remedy));
             }
-            readings.push(Readings {
+            readings.push(Self {
                 time_s: record.time_s().to_vec(),
                 value: record.output().to_vec(),
                 error,
@@ -170,7 +173,28 @@ impl Setup {
                 command,
             });
         }
+        Ok(readings)
+    }
+}
+
+impl Setup {
+    /// # Errors
+    /// [`IdentifyError::OutOfDomain`] that names what is missing.
+    pub(super) fn new(records: &[&Record], settings: &BoundedModel) -> Result<Self, IdentifyError> {
+        let readings = Readings::of(records, settings)?;
         let scales: Vec<Scales> = readings.iter().map(Scales::of).collect();
+        Self::of(readings, settings, &scales)
+    }
+
+    /// From readings, looking for parameters of these orders of magnitude.
+    ///
+    /// # Errors
+    /// [`IdentifyError::OutOfDomain`] for a record that is too short for its delay.
+    pub(super) fn of(
+        readings: Vec<Readings>,
+        settings: &BoundedModel,
+        scales: &[Scales],
+    ) -> Result<Self, IdentifyError> {
         let swing_s = scales.iter().map(|scale| scale.swing_s).fold(f64::INFINITY, f64::min);
         let delay = match settings.delay {
             DelayBound::KnownS(delay_s) => Interval::point(delay_s),

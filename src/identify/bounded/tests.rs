@@ -69,10 +69,10 @@ fn the_dual_in_intervals_is_never_below_its_exact_value_and_in_floats_sometimes_
     assert!(below > 100, "rounding to nearest was below {below} times of 500");
 }
 
-const ALPHA: f64 = 1.3;
-const BETA: f64 = 0.6;
-const DELTA: f64 = 0.1;
-const STEP: f64 = 0.02;
+pub(super) const ALPHA: f64 = 1.3;
+pub(super) const BETA: f64 = 0.6;
+pub(super) const DELTA: f64 = 0.1;
+pub(super) const STEP: f64 = 0.02;
 pub(super) const TURN_S: f64 = 2.0;
 /// Bounds that differ by less of their width are the same.
 const SAME: f64 = 0.01;

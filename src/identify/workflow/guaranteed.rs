@@ -8,8 +8,8 @@ use super::settings::Settings;
 use crate::experiment::Record;
 use crate::identify::bounded::certificate::{Certificate, Unproved};
 use crate::identify::bounded::{
-    BoundedModel, Bounds, Consistency, Contradicting, DelayBound, Parameters, Quantity, QuantityRange, enclose,
-    enclose_with_certificate,
+    BoundedModel, Bounds, Consistency, Contradicting, DelayBound, Outlier, Parameters, Quantity, QuantityRange,
+    enclose, enclose_with_certificate,
 };
 use crate::identify::joint::Delay;
 use crate::identify::{DragLaw, IdentifyError};
@@ -45,6 +45,8 @@ impl Guaranteed {
         let model = BoundedModel {
             quantum: settings.quantum,
             error: settings.error,
+            jitter_s: settings.jitter_s,
+            outliers: settings.outliers,
             stiffness: settings.stiffness,
             lag: settings.lag,
             cubic: settings.cubic,
@@ -97,6 +99,10 @@ pub struct BoundedConclusion {
     pub error_factor: (f64, Option<f64>),
     /// Readings that contradict each other; empty unless refuted.
     pub contradicting: Vec<Contradicting>,
+    /// Readings that may be in error by any amount: so many were allowed.
+    pub outliers_allowed: usize,
+    /// Those of them that no parameter sought meets.
+    pub outliers: Vec<Outlier>,
 }
 
 fn named(quantity: Quantity, several: bool) -> String {
@@ -133,6 +139,8 @@ impl From<&Guaranteed> for BoundedConclusion {
             error: bounds.error.iter().fold(0.0, |largest, error| error.max(largest)),
             error_factor: (bounds.error_factor[0], Some(bounds.error_factor[1]).filter(|most| *most < f64::MAX)),
             contradicting: bounds.contradicting.clone(),
+            outliers_allowed: found.model.outliers,
+            outliers: bounds.outliers.clone(),
         }
     }
 }

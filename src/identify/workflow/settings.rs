@@ -64,6 +64,10 @@ pub struct Settings {
     pub error: f64,
     /// For the guaranteed bounds: step of the sensor in output units, above 0, if it is not to be read off the record.
     pub quantum: Option<f64>,
+    /// For the guaranteed bounds: largest error of a stamp, in s, 0 or more.
+    pub jitter_s: f64,
+    /// For the guaranteed bounds: readings, of all records together, that may be in error by any amount.
+    pub outliers: usize,
     /// For the guaranteed bounds: whether the model has a restoring force proportional to the coordinate.
     pub stiffness: bool,
     /// For the guaranteed bounds: whether the force follows the command with a first-order lag.
@@ -85,7 +89,8 @@ pub enum SettingsError {
     MixedNeedsFit,
     /// A term or a certificate that only the guaranteed bounds have.
     #[error(
-        "stiffness, lag, cubic drag, drag of either sign and a certificate are of the guaranteed bounds; use the method bounded"
+        "stiffness, lag, cubic drag, drag of either sign, jitter, outliers and a certificate are of the guaranteed bounds; use \
+         the method bounded"
     )]
     NeedsBounded,
     /// A level outside its domain.
@@ -123,7 +128,8 @@ impl Settings {
         if !self.method.includes(Method::Fit) && self.method != Method::Bounded && self.drag == Some(DragLaw::Mixed) {
             return Err(SettingsError::MixedNeedsFit);
         }
-        let of_bounded = [self.stiffness, self.lag, self.cubic, self.either_sign, self.certificate];
+        let doubted = self.jitter_s > 0.0 || self.outliers > 0;
+        let of_bounded = [self.stiffness, self.lag, self.cubic, self.either_sign, self.certificate, doubted];
         if self.method != Method::Bounded && of_bounded.contains(&true) {
             return Err(SettingsError::NeedsBounded);
         }
@@ -138,6 +144,8 @@ impl Settings {
         }
         let remedy = "give the largest error from the sensor's data sheet, 0 for rounding alone";
         require("largest error of a reading", self.error, "output units", Limit::NonNegative, remedy)?;
+        let remedy = "give the largest error of a stamp, 0 for a clock that is right";
+        require("largest error of a stamp", self.jitter_s, "s", Limit::NonNegative, remedy)?;
         if let Delay::KnownS(delay_s) = self.delay {
             require("delay", delay_s, "s", Limit::NonNegative, "leave it out to have it estimated")?;
         }

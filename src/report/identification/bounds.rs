@@ -1,7 +1,7 @@
 //! Guaranteed bounds as tables and sentences.
 
 use super::tables::cell;
-use crate::identify::bounded::{Bounds, Consistency, DelayBound, Quantity};
+use crate::identify::bounded::{Bounds, Consistency, DelayBound, Outlier, Quantity};
 use crate::identify::{Guaranteed, Identification};
 use crate::report::{Cell, Table};
 
@@ -11,6 +11,7 @@ pub(crate) fn bounds_tables(found: &Identification, guaranteed: &Guaranteed) -> 
     let tables = [
         (!bounds.bounds.is_empty()).then(|| bounds_table(found, bounds)),
         (!bounds.contradicting.is_empty()).then(|| contradiction_table(found, bounds)),
+        (!bounds.outliers.is_empty()).then(|| outlier_table(found, bounds)),
     ];
     tables.into_iter().flatten().chain([search_table(found, bounds)]).collect()
 }
@@ -60,6 +61,34 @@ fn contradiction_table(found: &Identification, bounds: &Bounds) -> Table {
     )
 }
 
+fn outlier_table(found: &Identification, bounds: &Bounds) -> Table {
+    let table = Table::new("outliers", "Readings in error by more than is granted", &["record", "time (s)", "reading"]);
+    bounds.outliers.iter().fold(table, |table, Outlier { record, sample }| {
+        let source = &found.sources()[*record];
+        let (time_s, output) = (source.log.record.time_s(), source.log.record.output());
+        table.row([source.name.as_str().into(), Cell::number(time_s[*sample], 3), cell(output[*sample])])
+    })
+}
+
+/// What is said of readings that may be in error by any amount.
+fn doubted(allowed: usize, found: usize) -> String {
+    let rest = allowed - found.min(allowed);
+    match (allowed, found) {
+        (0, _) => String::new(),
+        (_, 0) => format!(" Up to {allowed} readings may be in error by any amount; none is known to be."),
+        (1, 1) => {
+            " One reading may be in error by any amount: that of the table is, and every other one is met.".to_owned()
+        }
+        _ if rest == 0 => format!(
+            " {found} readings may be in error by any amount: those of the table are, and every other one is met."
+        ),
+        _ => format!(
+            " Up to {allowed} readings may be in error by any amount: the {found} of the table are; {rest} more may be, which makes the \
+             bounds wider than with {found} allowed."
+        ),
+    }
+}
+
 /// The answer in sentences.
 #[must_use]
 pub(crate) fn bounds_verdict(guaranteed: &Guaranteed) -> String {
@@ -80,17 +109,22 @@ pub(crate) fn bounds_verdict(guaranteed: &Guaranteed) -> String {
     let of = format!("{} and {delay}", terms.join(", "));
     let errors: Vec<String> = bounds.error.iter().map(|error| format!("{error:.4e}")).collect();
     let [least, most] = bounds.error_factor;
+    let every = match model.outliers {
+        0 => "every reading".to_owned(),
+        1 => "every reading but one at most".to_owned(),
+        several => format!("every reading but {several} at most"),
+    };
     let answer = match bounds.verdict {
         Consistency::Consistent => format!(
-            "Consistent: a parameter of the model with {of} meets every reading, and every parameter in the search box that does lies \
+            "Consistent: a parameter of the model with {of} meets {every}, and every parameter in the search box that does lies \
              within the bounds."
         ),
         Consistency::Refuted => format!(
-            "Refuted: no parameter in the search box lets the model with {of} meet every reading. This is proved by interval \
+            "Refuted: no parameter in the search box lets the model with {of} meet {every}. This is proved by interval \
              arithmetic, without an assumption on the distribution of errors."
         ),
         Consistency::Undecided => format!(
-            "Undecided: the budget was spent before a parameter of the model with {of} was found that meets every reading, or all \
+            "Undecided: the budget was spent before a parameter of the model with {of} was found that meets {every}, or all \
              were excluded. The bounds hold nevertheless."
         ),
     };
@@ -105,5 +139,6 @@ pub(crate) fn bounds_verdict(guaranteed: &Guaranteed) -> String {
         _ if least > 0.0 => format!(" With less than {least:.3} times that error none would."),
         _ => String::new(),
     };
-    format!("{answer}\n{granted}{smallest}")
+    let doubted = doubted(model.outliers, bounds.outliers.len());
+    format!("{answer}\n{granted}{smallest}{doubted}")
 }

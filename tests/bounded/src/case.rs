@@ -4,6 +4,8 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use cpu_time::ThreadTime;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 use selfosc::experiment::Record;
 use selfosc::identify::bounded::certificate::Certificate;
 use selfosc::identify::bounded::{
@@ -39,6 +41,29 @@ pub(crate) struct Outcome {
     pub(crate) samples: usize,
     /// What came of its certificate.
     pub(crate) certified: Option<String>,
+    /// Readings that were moved, and how many of them were found.
+    pub(crate) glitches: usize,
+    pub(crate) found_glitches: usize,
+    /// Readings called outliers that were not moved.
+    pub(crate) wronged: usize,
+}
+
+/// Readings moved by three to a hundred steps of the sensor, as many as asked for: record and sample of each.
+fn glitch(case: &mut Case, glitches: usize) -> Vec<(usize, usize)> {
+    let mut random = Pcg64Mcg::seed_from_u64(case.seed ^ 0x6c69_7463_6867);
+    let mut moved = Vec::new();
+    while moved.len() < glitches {
+        let record = random.random_range(0..case.runs.len());
+        let run = &mut case.runs[record];
+        let sample = random.random_range(0..run.record.output.len());
+        if !moved.contains(&(record, sample)) {
+            let steps = 10f64.powf(random.random_range(0.5..2.0)).round();
+            let sign = if random.random_bool(0.5) { 1.0 } else { -1.0 };
+            run.record.output[sample] += sign * steps * run.scenario.sensor.quantum;
+            moved.push((record, sample));
+        }
+    }
+    moved
 }
 
 fn model(case: &Case, terms: Terms) -> BoundedModel {
@@ -65,9 +90,13 @@ impl Outcome {
     pub(crate) fn of(
         case: &Case,
         terms: Terms,
+        glitches: usize,
         certificates: Option<&Path>,
         change: impl Fn(&mut BoundedModel),
     ) -> Self {
+        let mut case = case.clone();
+        let moved = glitch(&mut case, glitches);
+        let case = &case;
         let mut model = model(case, terms);
         // A user knows what the sensor shows.
         model.quantum = Some(case.runs[0].scenario.sensor.quantum);
@@ -88,8 +117,23 @@ impl Outcome {
         let seconds = clock.elapsed().as_secs_f64();
         let certified = certificates
             .map(|folder| certified(&records, &model, seconds, &folder.join(format!("{}.json", case.seed))));
-        let mut outcome =
-            Self { found, missed: Vec::new(), ratio: None, half_width: None, seconds, samples, certified };
+        let mut outcome = Self {
+            found,
+            missed: Vec::new(),
+            ratio: None,
+            half_width: None,
+            seconds,
+            samples,
+            certified,
+            glitches,
+            found_glitches: 0,
+            wronged: 0,
+        };
+        if let Ok(bounds) = &outcome.found {
+            let right = bounds.outliers.iter().filter(|place| moved.contains(&(place.record, place.sample))).count();
+            outcome.found_glitches = right;
+            outcome.wronged = bounds.outliers.len() - right;
+        }
         if let Ok(bounds) = &outcome.found
             && bounds.verdict != Consistency::Refuted
         {
@@ -185,6 +229,9 @@ impl core::fmt::Display for Outcome {
             ", error x [{least:.3}, {most}], {} passes, {} samples, {:.2} s",
             bounds.passes, self.samples, self.seconds
         )?;
+        if self.glitches > 0 || self.wronged > 0 {
+            write!(f, "; of {} outliers {} found, {} WRONGED", self.glitches, self.found_glitches, self.wronged)?;
+        }
         self.certified.iter().try_for_each(|certified| write!(f, "; certificate {certified}"))
     }
 }

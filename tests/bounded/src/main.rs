@@ -7,6 +7,7 @@ mod table;
 
 use clap::Parser;
 use rayon::prelude::*;
+use selfosc::identify::bounded::BoundedModel;
 use selfosc_simulator::kinds::Kind;
 
 use case::{Outcome, Terms};
@@ -36,6 +37,12 @@ struct Arguments {
     /// A second start, with this factor: how far its bounds of alpha are apart from the first one's is printed with each case.
     #[arg(long)]
     near: Option<f64>,
+    /// Readings that may be in error by any amount.
+    #[arg(long, default_value_t = 0)]
+    outliers: usize,
+    /// Readings of each case that are moved by three to a hundred steps of the sensor.
+    #[arg(long, default_value_t = 0)]
+    glitches: usize,
     /// Threads.
     #[arg(long, default_value_t = 1)]
     threads: usize,
@@ -60,17 +67,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let outcomes: Vec<Outcome> = seeds
             .into_par_iter()
             .map(|seed| {
-                let outcome =
-                    Outcome::of(&kind.case(seed), arguments.terms, arguments.certificates.as_deref(), |model| {
-                        model.budget = arguments.budget.unwrap_or(model.budget);
-                        model.reach = arguments.reach.unwrap_or(model.reach);
-                    });
+                let (case, terms, glitches) = (kind.case(seed), arguments.terms, arguments.glitches);
+                let change = |model: &mut BoundedModel| {
+                    model.budget = arguments.budget.unwrap_or(model.budget);
+                    model.outliers = arguments.outliers;
+                    model.reach = arguments.reach.unwrap_or(model.reach);
+                };
+                let outcome = Outcome::of(&case, terms, glitches, arguments.certificates.as_deref(), change);
                 if arguments.list {
                     eprintln!("{} {seed}: {outcome}", kind.name);
                 }
                 if let Some(near) = arguments.near {
-                    let second = Outcome::of(&kind.case(seed), arguments.terms, None, |model| {
-                        model.budget = arguments.budget.unwrap_or(model.budget);
+                    let second = Outcome::of(&case, terms, glitches, None, |model| {
+                        change(model);
                         model.reach = near;
                     });
                     let apart = outcome.apart(&second).map_or("-".into(), |apart| format!("{:.2} %", 100.0 * apart));

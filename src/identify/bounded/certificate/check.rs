@@ -52,6 +52,12 @@ pub enum Unproved {
         /// What they show.
         expected: String,
     },
+    /// Readings may be in error by any amount, which no certificate says.
+    #[error("no proof is written where {allowed} readings may be in error by any amount; leave them out of the log")]
+    Outliers {
+        /// So many.
+        allowed: usize,
+    },
     /// None was found within the budget.
     #[error("no proof was found within {steps} steps; the bounds printed do not depend on one")]
     NotFound {
@@ -70,6 +76,7 @@ impl Unproved {
             Self::Incomplete { .. } => "incomplete",
             Self::Witness { .. } => "witness",
             Self::Statement { .. } => "statement",
+            Self::Outliers { .. } => "outliers",
             Self::NotFound { .. } => "not-found",
         }
     }
