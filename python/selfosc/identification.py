@@ -279,8 +279,9 @@ def bounded(
         switchings.
     **model
         What else is assumed: ``error`` (largest error of a reading beside half a step, output units), ``quantum`` (step of
-        the sensor; read off the record by default), ``switching`` (``"at-samples"`` or ``"anywhere"``), ``outliers``,
-        ``jitter_s``, ``stiffness``, ``lag``, ``cubic``, ``reach``, ``budget``.
+        the sensor; read off the record by default), ``switching`` (``"at-samples"`` or ``"anywhere"``), ``outliers`` (so many
+        readings may be in error by any amount; the result's own ``outliers`` are those that must be), ``jitter_s``, ``stiffness``,
+        ``lag``, ``cubic``, ``either_sign``, ``reach``, ``budget``.
 
     Returns
     -------

@@ -109,6 +109,36 @@ fn bounds_are_proved_in_a_file() {
     assert!(answer.starts_with("refused   step: "), "{answer}");
 }
 
+/// Two readings damaged: the model is refuted with one granted, and both are named with two.
+#[test]
+fn bounds_with_readings_in_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("damaged.csv").to_str().unwrap().to_owned();
+    let record =
+        ["simulate", "--alpha", "1.2", "--beta", "0.5", "--relay", "1", "--half-width", "0.4", "--cycles", "5"];
+    let log = done(&[&record[..], &["--hold", "--quantum", "0.02"]].concat());
+    let damaged = log.lines().enumerate().map(|(line, text)| {
+        let fields: Vec<&str> = text.split(',').collect();
+        let output = match line {
+            40 => "-0.68",
+            101 => "0.3",
+            _ => fields[1],
+        };
+        format!("{},{output},{}\n", fields[0], fields[2])
+    });
+    std::fs::write(&path, damaged.collect::<String>()).unwrap();
+    let method = ["identify", &path, "--method", "bounded", "--drag", "linear", "--delay", "0", "--outliers"];
+    let answers = ["1", "2", "3"].map(|allowed| {
+        // Columns are as wide as the folder's name.
+        let answer = done(&[&method[..], &[allowed]].concat()).replace(&path, "damaged.csv");
+        let lines: Vec<String> =
+            answer.lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ")).collect();
+        let first = lines.iter().position(|line| line.starts_with("Guaranteed") || line.starts_with("Where")).unwrap();
+        format!("--outliers {allowed}\n{}\n", lines[first..].join("\n"))
+    });
+    golden!("bounded-outliers", answers.join("\n"));
+}
+
 fn with(first: &[&'static str], rest: &[&'static str]) -> Vec<&'static str> {
     first.iter().chain(rest).copied().collect()
 }

@@ -70,21 +70,22 @@ fn outlier_table(found: &Identification, bounds: &Bounds) -> Table {
     })
 }
 
+/// So many readings, in words.
+fn readings(number: usize) -> String {
+    if number == 1 { "one reading".to_owned() } else { format!("{number} readings") }
+}
+
 /// What is said of readings that may be in error by any amount.
 fn doubted(allowed: usize, found: usize) -> String {
     let rest = allowed - found.min(allowed);
+    let up_to = format!(" Up to {} may be in error by any amount", readings(allowed));
     match (allowed, found) {
         (0, _) => String::new(),
-        (_, 0) => format!(" Up to {allowed} readings may be in error by any amount; none is known to be."),
-        (1, 1) => {
-            " One reading may be in error by any amount: that of the table is, and every other one is met.".to_owned()
-        }
-        _ if rest == 0 => format!(
-            " {found} readings may be in error by any amount: those of the table are, and every other one is met."
-        ),
+        (_, 0) => format!("{up_to}; none is known to be."),
+        _ if rest == 0 => format!("{up_to}: those of the table are, and every other one is met."),
         _ => format!(
-            " Up to {allowed} readings may be in error by any amount: the {found} of the table are; {rest} more may be, which makes the \
-             bounds wider than with {found} allowed."
+            "{up_to}: those of the table are. {} more may be, which makes the bounds wider than with {found} allowed.",
+            if rest == 1 { "One".to_owned() } else { rest.to_string() }
         ),
     }
 }
@@ -111,8 +112,7 @@ pub(crate) fn bounds_verdict(guaranteed: &Guaranteed) -> String {
     let [least, most] = bounds.error_factor;
     let every = match model.outliers {
         0 => "every reading".to_owned(),
-        1 => "every reading but one at most".to_owned(),
-        several => format!("every reading but {several} at most"),
+        some => format!("every reading but {} at most", if some == 1 { "one".to_owned() } else { some.to_string() }),
     };
     let answer = match bounds.verdict {
         Consistency::Consistent => format!(
@@ -139,6 +139,9 @@ pub(crate) fn bounds_verdict(guaranteed: &Guaranteed) -> String {
         _ if least > 0.0 => format!(" With less than {least:.3} times that error none would."),
         _ => String::new(),
     };
-    let doubted = doubted(model.outliers, bounds.outliers.len());
+    let doubted = match bounds.verdict {
+        Consistency::Refuted => String::new(),
+        _ => doubted(model.outliers, bounds.outliers.len()),
+    };
     format!("{answer}\n{granted}{smallest}{doubted}")
 }
