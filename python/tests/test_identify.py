@@ -126,6 +126,16 @@ def test_bounds_hold_the_truth():
         selfosc.bounded(record, colour=3)
 
 
+def test_a_reading_in_error_is_found():
+    record = selfosc.simulate(alpha=1, beta=0.5, relay=1, half_width=0.3, cycles=4, hold=True, quantum=0.02)
+    record["output"][60] += 0.2
+    assert selfosc.bounded(record, delay=0.0).verdict == "refuted"
+    found = selfosc.bounded(record, delay=0.0, outliers=1)
+    low, high = found.of("alpha")
+    assert found.verdict == "consistent" and low <= 1.0 <= high
+    assert [(one["record"], one["sample"]) for one in found.outliers] == [(0, 60)]
+
+
 INTERRUPTED = """
 import signal, time, selfosc
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs begin with interrupts ignored
