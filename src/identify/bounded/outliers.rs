@@ -111,17 +111,8 @@ impl Doubted<'_> {
         let mut at = whole.search.clone();
         let mut pieces: Vec<(Pair, Left)> = Vec::new();
         while groups > 2 {
-            pieces.clear();
-            let mut hardest: Option<Bounds> = None;
-            let runs = pairs(groups).count();
-            for pair in pairs(groups) {
-                let piece = self.leave(|own, place| own.within(pair, groups, place), &at, runs)?;
-                if piece.at.is_some() {
-                    pieces.push((pair, piece));
-                } else if hardest.as_ref().is_none_or(|hardest| hardest.passes < piece.bounds.passes) {
-                    hardest = Some(piece.bounds);
-                }
-            }
+            let hardest;
+            (pieces, hardest) = self.pieces(groups, &at)?;
             if let (Some(bounds), true) = (hardest, pieces.is_empty()) {
                 // How much larger errors would have to be is known for this pair alone.
                 return Ok(self.answer(Bounds { nearest: None, error_factor: [1.0, f64::MAX], ..bounds }, &whole));
@@ -135,6 +126,34 @@ impl Doubted<'_> {
             self.found.extend(more);
         }
         self.conclude(&whole, &at, pieces, groups - 2)
+    }
+
+    /// What every pair of groups leaves of a box; and, of the pairs that leave nothing, the answer that took most.
+    fn pieces(&mut self, groups: usize, at: &[Interval]) -> Result<(Vec<(Pair, Left)>, Option<Bounds>), IdentifyError> {
+        let mut pieces: Vec<(Pair, Left)> = Vec::new();
+        let mut hardest: Option<Bounds> = None;
+        // Most pairs are soon known, and the others get what is left of the budget.
+        let mut open: Vec<(Pair, Option<usize>)> = pairs(groups).map(|pair| (pair, None)).collect();
+        while let Some((pair, least)) = open.pop() {
+            let budget = self.settings.budget.saturating_sub(self.passes) / (open.len() + 1);
+            // No pair goes without a first run, whatever is left.
+            if least.is_some_and(|least| budget < least) {
+                continue;
+            }
+            let piece = self.leave(|own, place| own.within(pair, groups, place), at, budget)?;
+            pieces.retain(|(own, _)| *own != pair);
+            if piece.at.is_none() {
+                if hardest.as_ref().is_none_or(|hardest| hardest.passes < piece.bounds.passes) {
+                    hardest = Some(piece.bounds);
+                }
+                continue;
+            }
+            if piece.bounds.verdict == Consistency::Undecided {
+                open.insert(0, (pair, Some(2 * budget.max(1))));
+            }
+            pieces.push((pair, piece));
+        }
+        Ok((pieces, hardest))
     }
 
     /// The records' scales where they are calmest: no outlier makes speeds seem larger there.
@@ -153,16 +172,16 @@ impl Doubted<'_> {
         }
     }
 
-    /// What the readings that are kept leave of a box, in one of so many `runs` that share the budget.
+    /// What the readings that are kept leave of a box, at the cost of so many passes over all.
     fn leave(
         &mut self,
         keep: impl Fn(&Self, Outlier) -> bool,
         at: &[Interval],
-        runs: usize,
+        budget: usize,
     ) -> Result<Left, IdentifyError> {
         let setup = self.setup(|place| keep(self, place))?.within(at);
         let all: usize = self.readings.iter().map(|own| own.value.len()).sum();
-        let budget = self.settings.budget * all / (runs * setup.samples());
+        let budget = budget * all / setup.samples();
         let settings = BoundedModel { budget, ..self.settings.clone() };
         let mut missed = Vec::new();
         let explored = explore(&setup, &settings, |search, witness| {
@@ -243,7 +262,7 @@ impl Doubted<'_> {
         pieces: Vec<(Pair, Left)>,
         allowed: usize,
     ) -> Result<Bounds, IdentifyError> {
-        let all = self.leave(|_, _| true, at, 1)?;
+        let all = self.leave(|_, _| true, at, self.settings.budget)?;
         if allowed == 0 {
             return Ok(self.answer(all.bounds, whole));
         }
@@ -253,7 +272,7 @@ impl Doubted<'_> {
             let missed = pieces.iter().map(|(_, piece)| &piece.missed).filter(|missed| !missed.is_empty());
             let fewest = missed.min_by_key(|missed| missed.len()).cloned().unwrap_or_default();
             let suspects = &fewest[..fewest.len().min(allowed)];
-            tried = self.leave(|_, place| !suspects.contains(&place), at, 1)?.bounds;
+            tried = self.leave(|_, place| !suspects.contains(&place), at, self.settings.budget)?.bounds;
         }
         let verdict = if tried.witness.is_some() { Consistency::Consistent } else { Consistency::Undecided };
         let error_factor = [0.0, tried.error_factor[1]];

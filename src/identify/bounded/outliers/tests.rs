@@ -85,6 +85,16 @@ fn a_reading_that_need_not_be_an_outlier_is_not_called_one() {
 }
 
 #[test]
+fn the_truth_is_inside_whatever_the_budget() {
+    for budget in [0, 1, 5, 20] {
+        let model = BoundedModel { outliers: 2, budget, ..tests::settings(DragLaw::Linear) };
+        let found = enclose(&[&moved(&[(40, 6.0), (101, -50.0)])], &model).expect("bounds");
+        assert!(holds_the_truth(&found), "budget {budget}: {:?}", found.bounds);
+        assert_ne!(found.verdict, Consistency::Refuted);
+    }
+}
+
+#[test]
 fn of_two_more_groups_than_outliers_two_are_free_of_them_and_of_one_more_not() {
     let free = |groups: usize, spoilt: &[usize]| pairs(groups).any(|pair| spoilt.iter().all(|one| !pair.contains(one)));
     for outliers in 1..5 {
