@@ -40,6 +40,8 @@ struct Doubted<'a> {
     offsets: Vec<usize>,
     scales: Vec<Scales>,
     found: Vec<Outlier>,
+    /// Of the answers with nothing left, the one that took most.
+    hardest: Option<Bounds>,
     passes: usize,
 }
 
@@ -75,7 +77,7 @@ pub(super) fn enclose(readings: &[Readings], settings: &BoundedModel) -> Result<
         Some(offset)
     });
     let offsets = offsets.collect();
-    Doubted { settings, readings, offsets, scales: Vec::new(), found: Vec::new(), passes: 0 }.enclose()
+    Doubted { settings, readings, offsets, scales: Vec::new(), found: Vec::new(), hardest: None, passes: 0 }.enclose()
 }
 
 impl Doubted<'_> {
@@ -111,9 +113,8 @@ impl Doubted<'_> {
         let mut at = whole.search.clone();
         let mut pieces: Vec<(Pair, Left)> = Vec::new();
         while groups > 2 {
-            let hardest;
-            (pieces, hardest) = self.pieces(groups, &at)?;
-            if let (Some(bounds), true) = (hardest, pieces.is_empty()) {
+            pieces = self.pieces(groups, &at)?;
+            if let (Some(bounds), true) = (self.hardest.take(), pieces.is_empty()) {
                 // How much larger errors would have to be is known for this pair alone.
                 return Ok(self.answer(Bounds { nearest: None, error_factor: [1.0, f64::MAX], ..bounds }, &whole));
             }
@@ -128,10 +129,9 @@ impl Doubted<'_> {
         self.conclude(&whole, &at, pieces, groups - 2)
     }
 
-    /// What every pair of groups leaves of a box; and, of the pairs that leave nothing, the answer that took most.
-    fn pieces(&mut self, groups: usize, at: &[Interval]) -> Result<(Vec<(Pair, Left)>, Option<Bounds>), IdentifyError> {
+    /// What every pair of groups leaves of a box, but those that leave nothing.
+    fn pieces(&mut self, groups: usize, at: &[Interval]) -> Result<Vec<(Pair, Left)>, IdentifyError> {
         let mut pieces: Vec<(Pair, Left)> = Vec::new();
-        let mut hardest: Option<Bounds> = None;
         // Most pairs are soon known, and the others get what is left of the budget.
         let mut open: Vec<(Pair, Option<usize>)> = pairs(groups).map(|pair| (pair, None)).collect();
         while let Some((pair, least)) = open.pop() {
@@ -143,8 +143,8 @@ impl Doubted<'_> {
             let piece = self.leave(|own, place| own.within(pair, groups, place), at, budget)?;
             pieces.retain(|(own, _)| *own != pair);
             if piece.at.is_none() {
-                if hardest.as_ref().is_none_or(|hardest| hardest.passes < piece.bounds.passes) {
-                    hardest = Some(piece.bounds);
+                if self.hardest.as_ref().is_none_or(|hardest| hardest.passes < piece.bounds.passes) {
+                    self.hardest = Some(piece.bounds);
                 }
                 continue;
             }
@@ -153,7 +153,7 @@ impl Doubted<'_> {
             }
             pieces.push((pair, piece));
         }
-        Ok((pieces, hardest))
+        Ok(pieces)
     }
 
     /// The records' scales where they are calmest: no outlier makes speeds seem larger there.
