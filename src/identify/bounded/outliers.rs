@@ -281,7 +281,9 @@ impl Doubted<'_> {
     }
 
     fn answer(self, bounds: Bounds, whole: &Setup) -> Bounds {
-        Bounds { search_box: whole.ranges(&whole.search), outliers: self.found, passes: self.passes, ..bounds }
+        // A model that is refuted says nothing of readings.
+        let outliers = if bounds.verdict == Consistency::Refuted { Vec::new() } else { self.found };
+        Bounds { search_box: whole.ranges(&whole.search), outliers, passes: self.passes, ..bounds }
     }
 }
 

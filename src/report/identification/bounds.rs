@@ -62,7 +62,11 @@ fn contradiction_table(found: &Identification, bounds: &Bounds) -> Table {
 }
 
 fn outlier_table(found: &Identification, bounds: &Bounds) -> Table {
-    let table = Table::new("outliers", "Readings in error by more than is granted", &["record", "time (s)", "reading"]);
+    let table = Table::new(
+        "outliers",
+        "Outliers: readings missed by every parameter that is left",
+        &["record", "time (s)", "reading"],
+    );
     bounds.outliers.iter().fold(table, |table, Outlier { record, sample }| {
         let source = &found.sources()[*record];
         let (time_s, output) = (source.log.record.time_s(), source.log.record.output());
@@ -76,13 +80,14 @@ fn readings(number: usize) -> String {
 }
 
 /// What is said of readings that may be in error by any amount.
-fn doubted(allowed: usize, found: usize) -> String {
+fn doubted(allowed: usize, found: usize, met: bool) -> String {
     let rest = allowed - found.min(allowed);
     let up_to = format!(" Up to {} may be in error by any amount", readings(allowed));
     match (allowed, found) {
         (0, _) => String::new(),
         (_, 0) => format!("{up_to}; none is known to be."),
-        _ if rest == 0 => format!("{up_to}: those of the table are, and every other one is met."),
+        _ if rest == 0 && met => format!("{up_to}: those of the table are, and every other one is met."),
+        _ if rest == 0 => format!("{up_to}: those of the table are."),
         _ => format!(
             "{up_to}: those of the table are. {} more may be, which makes the bounds wider than with {found} allowed.",
             if rest == 1 { "One".to_owned() } else { rest.to_string() }
@@ -132,7 +137,7 @@ pub(crate) fn bounds_verdict(guaranteed: &Guaranteed) -> String {
     let smallest = match bounds.verdict {
         Consistency::Refuted if most < f64::MAX => {
             format!(
-                " With {most:.3} times that error a parameter would meet every reading; with no more than that error none does."
+                " With {most:.3} times that error a parameter would meet {every}; with no more than that error none does."
             )
         }
         Consistency::Refuted => String::new(),
@@ -141,7 +146,7 @@ pub(crate) fn bounds_verdict(guaranteed: &Guaranteed) -> String {
     };
     let doubted = match bounds.verdict {
         Consistency::Refuted => String::new(),
-        _ => doubted(model.outliers, bounds.outliers.len()),
+        verdict => doubted(model.outliers, bounds.outliers.len(), verdict == Consistency::Consistent),
     };
     format!("{answer}\n{granted}{smallest}{doubted}")
 }
