@@ -14,8 +14,8 @@ use crate::identify::joint::{ConfidenceInterval, Estimate};
 
 /// Below this probability records disagree.
 const DISAGREE: f64 = 0.01;
-/// Ratio of the commands' ranges from which on their levels are different.
-const OTHER_LEVEL: f64 = 1.05;
+/// Relative standard deviation from which on a drag says nothing about the ratio of drag to inertia.
+const VAGUE: f64 = 0.3;
 
 /// What several records say.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,30 +28,33 @@ pub struct Several {
     pub left_out: Vec<Option<Prediction>>,
 }
 
-/// Half the width of an interval in normal standard deviations: also right where it is no normal one.
-fn deviation(spread: ConfidenceInterval) -> f64 {
-    0.5 * (spread.high - spread.low) / NORMAL
+/// How the records' estimates become one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Pooling {
+    /// Their weighted mean, or all of them where they scatter beyond chance.
+    Weighted,
+    /// All of them, whatever their scatter.
+    All,
 }
 
 /// Estimates of one number together, and the scatter between them beyond chance.
-fn pooled(estimates: &[Estimate]) -> (Estimate, Option<f64>) {
+fn pooled(estimates: &[Estimate], pooling: Pooling) -> (Estimate, Option<f64>) {
     let known: Vec<(f64, f64, ConfidenceInterval)> =
-        estimates.iter().filter_map(|e| e.spread.map(|spread| (e.value, deviation(spread), spread))).collect();
+        estimates.iter().filter_map(|e| e.spread.map(|spread| (e.value, spread.deviation(), spread))).collect();
     if known.len() < estimates.len() || known.iter().any(|(_, std, _)| *std <= 0.0) {
         return (
             known.first().map_or(estimates[0], |(value, _, spread)| Estimate { value: *value, spread: Some(*spread) }),
             None,
         );
     }
-    let weight: f64 = known.iter().map(|(_, std, _)| std.powi(-2)).sum();
-    let mean = known.iter().map(|(value, std, _)| value * std.powi(-2)).sum::<f64>() / weight;
-    let scatter: f64 = known.iter().map(|(value, std, _)| ((value - mean) / std).powi(2)).sum();
+    let numbers = known.iter().map(|(value, std, _)| (*value, *std));
+    let weight: f64 = numbers.clone().map(|(_, std)| std.powi(-2)).sum();
+    let mean = numbers.clone().map(|(value, std)| value * std.powi(-2)).sum::<f64>() / weight;
     let std = weight.sqrt().recip();
-    let freedom = known.len() as f64 - 1.0;
-    if freedom > 0.0 && chi_square_tail(scatter, freedom) < DISAGREE {
+    if known.len() > 1 && (pooling == Pooling::All || probability_of_one(numbers) < DISAGREE) {
         let values = known.iter().map(|(value, ..)| *value);
         let value = values.clone().sum::<f64>() / known.len() as f64;
-        let between = (values.map(|v| (v - value).powi(2)).sum::<f64>() / freedom).sqrt();
+        let between = (values.map(|v| (v - value).powi(2)).sum::<f64>() / (known.len() as f64 - 1.0)).sqrt();
         let low = known.iter().map(|(.., spread)| spread.low).fold(f64::INFINITY, f64::min);
         let high = known.iter().map(|(.., spread)| spread.high).fold(f64::NEG_INFINITY, f64::max);
         return (
@@ -68,36 +71,91 @@ fn pooled(estimates: &[Estimate]) -> (Estimate, Option<f64>) {
     )
 }
 
-impl Several {
-    /// The joint answer; there is at least one.
-    pub(super) fn of(answers: Vec<Answer>) -> Self {
-        let all = |part: &dyn Fn(&Reported) -> Estimate| {
-            let parts: Vec<Estimate> = answers.iter().map(|answer| part(&answer.reported)).collect();
-            pooled(&parts)
+/// The estimate with a relative error that all records share.
+fn with_error(mut estimate: Estimate, relative: f64) -> Estimate {
+    if let Some(spread) = &mut estimate.spread {
+        let more = estimate.value.abs() * relative;
+        let (own, std) = (spread.deviation(), spread.deviation().hypot(more));
+        let wider = NORMAL * (std - own);
+        *spread = ConfidenceInterval { std, low: spread.low - wider, high: spread.high + wider };
+    }
+    estimate
+}
+
+/// Whether the ratio of drag to inertia differs between records: no law of thrust changes it.
+fn vehicles_differ(all: &[Reported]) -> bool {
+    let parts: [fn(&Reported) -> Estimate; 2] = [|r| r.beta, |r| r.beta_quadratic];
+    parts.into_iter().any(|drag| {
+        let ratio = |reported: &Reported| {
+            let (alpha, drag) = (reported.alpha, drag(reported));
+            let relative = |e: Estimate| Some(e.spread?.deviation() / e.value.abs()).filter(|part| *part < VAGUE);
+            let ratio = drag.value / alpha.value;
+            Some((ratio, ratio.abs() * relative(drag)?.hypot(relative(alpha)?)))
         };
-        let some = |part: &dyn Fn(&Reported) -> Option<Estimate>| {
-            let parts: Vec<Estimate> = answers.iter().filter_map(|answer| part(&answer.reported)).collect();
-            (!parts.is_empty()).then(|| pooled(&parts).0)
+        let ratios: Option<Vec<(f64, f64)>> = all.iter().map(ratio).collect();
+        ratios.is_some_and(|ratios| probability_of_one(ratios.into_iter()) < 0.5 * DISAGREE)
+    })
+}
+
+/// The records in one unit of force, and how they become one answer.
+struct Together {
+    parts: Vec<Reported>,
+    pooling: Pooling,
+    /// Relative error of the unit, which all parts share.
+    shared: f64,
+    reason: Option<Reason>,
+}
+
+impl Together {
+    fn of(answers: &[Answer], levels: Option<&Levels>) -> Self {
+        let parts: Vec<Reported> = answers.iter().map(|answer| answer.reported.clone()).collect();
+        let alpha = |parts: &[Reported], pooling| {
+            let (alpha, apart) = pooled(&parts.iter().map(|part| part.alpha).collect::<Vec<_>>(), pooling);
+            (alpha, apart.map(|between| between / alpha.value.abs()))
         };
-        let (alpha, apart) = all(&|r| r.alpha);
-        let mut reasons: Vec<Reason> = Vec::new();
-        for reason in answers.iter().flat_map(|answer| &answer.reported.reasons) {
-            if !reasons.iter().any(|other| other.code() == reason.code()) {
-                reasons.push(*reason);
+        let Some(relative) = alpha(&parts, Pooling::Weighted).1 else {
+            return Self { parts, pooling: Pooling::Weighted, shared: 0.0, reason: None };
+        };
+        let in_units = |drawn: &Drawn| answers.iter().map(|answer| drawn.in_its_units(answer)).collect::<Vec<_>>();
+        match levels.filter(|_| !vehicles_differ(&parts)).and_then(|levels| levels.verdict(DISAGREE)) {
+            None => {
+                let reason = Some(Reason::RecordsDisagree { relative });
+                Self { parts, pooling: Pooling::Weighted, shared: 0.0, reason }
+            }
+            Some(Verdict::One(drawn)) => {
+                let parts = in_units(&drawn);
+                let own = alpha(&parts, Pooling::Weighted).0;
+                let chance = own.spread.map_or(0.0, |spread| spread.deviation() / own.value.abs());
+                let shared = (drawn.relative * drawn.relative - chance * chance).max(0.0).sqrt();
+                let reason = Some(match drawn.law {
+                    ThrustLaw::DeadZone { width } => Reason::ThrustDeadZone { width },
+                    ThrustLaw::Power { exponent, level } => Reason::ThrustPower { exponent, level },
+                });
+                Self { parts, pooling: Pooling::Weighted, shared, reason }
+            }
+            Some(Verdict::Open { dead_zone, power }) => {
+                let beyond = dead_zone.iter().flat_map(|drawn| {
+                    in_units(drawn).into_iter().map(|part| part.with_error(drawn.relative))
+                });
+                let parts: Vec<Reported> = parts.into_iter().chain(beyond).collect();
+                let value = alpha(&parts, Pooling::All).0.value;
+                let reason = power.level_of(value).map(|(exponent, level)| Reason::ThrustNotProportional {
+                    relative,
+                    dead_zone: dead_zone.map(|drawn| drawn.width()),
+                    exponent,
+                    level,
+                });
+                Self { parts, pooling: Pooling::All, shared: 0.0, reason }
             }
         }
-        let ranges = answers.iter().map(|answer| answer.command_range);
-        let (least, largest) =
-            ranges.fold((f64::INFINITY, 0.0), |(low, high), range| (range.min(low), range.max(high)));
-        reasons.extend(apart.map(|between| {
-            let relative = between / alpha.value.abs();
-            if largest > OTHER_LEVEL * least {
-                Reason::ThrustNotProportional { relative }
-            } else {
-                Reason::RecordsDisagree { relative }
-            }
-        }));
-        reasons.sort_by_key(|reason| core::cmp::Reverse(reason.trust()));
+    }
+
+    fn estimate(&self, part: &dyn Fn(&Reported) -> Estimate) -> Estimate {
+        let parts: Vec<Estimate> = self.parts.iter().map(part).collect();
+        pooled(&parts, self.pooling).0.with_error(self.shared)
+    }
+}
+@@@        reasons.sort_by_key(|reason| core::cmp::Reverse(reason.trust()));
         let drags: Vec<DragLaw> = answers.iter().map(|answer| answer.reported.drag).collect();
         let mut terms: Vec<_> = answers.iter().flat_map(|answer| answer.reported.terms.iter().copied()).collect();
         terms.sort_unstable();
