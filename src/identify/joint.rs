@@ -110,14 +110,6 @@ pub struct ConfidenceInterval {
     pub high: f64,
 }
 
-impl ConfidenceInterval {
-    /// Half its width in normal standard deviations: right where it is no normal one, too.
-    pub(in crate::identify) fn deviation(self) -> f64 {
-        const NORMAL: f64 = 1.959_963_985;
-        0.5 * (self.high - self.low) / NORMAL
-    }
-}
-
 /// The joint estimate.
 ///
 /// Its intervals hold for residuals that are independent and of equal variance, and for a model that is true up to them: a

@@ -69,14 +69,50 @@ pub enum Reason {
         /// Standard deviation between records over the mean.
         relative: f64,
     },
-    /// The same of records whose commands have different levels: thrust is not proportional to the command, or the vehicles differ.
+    /// The same of records whose commands have different levels, as thrust that is not proportional to the command makes them
+    /// differ; which law it follows is not told.
     ThrustNotProportional {
         /// Standard deviation between records over the mean.
         relative: f64,
+        /// Width of the dead zone that would explain it, in units of the command; `None` where none would.
+        dead_zone: Option<f64>,
+        /// The exponent of the command that would.
+        exponent: f64,
+        /// Level of the command at which the values hold under that exponent; there, thrust is the command.
+        level: f64,
+    },
+    /// Records of three levels or more have a dead zone, and no power of the command explains them.
+    ThrustDeadZone {
+        /// In units of the command.
+        width: f64,
+    },
+    /// Records of three levels or more have a power of the command, and no dead zone explains them.
+    ThrustPower {
+        /// Its exponent.
+        exponent: f64,
+        /// Level of the command at which thrust is the command.
+        level: f64,
+    },
+    /// The constant force grows with the level, as it does where the thrust's two sides differ.
+    ThrustDiffersBySide {
+        /// By this part of it: half the sides' difference over their mean.
+        share: f64,
     },
 }
 
+/// Half the interval's width over the value from which on an answer is of no use.
+const TOO_WIDE: f64 = 0.5;
+
 impl Reason {
+    /// Whether this inertia is too wide to be of use.
+    pub(super) fn too_wide(alpha: Estimate) -> Option<Self> {
+        let relative = alpha.spread.map(|spread| 0.5 * (spread.high - spread.low) / alpha.value.abs());
+        match relative {
+            Some(relative) if relative < TOO_WIDE => None,
+            relative => Some(Self::TooWide { relative: relative.unwrap_or(f64::INFINITY) }),
+        }
+    }
+
     /// The name that scripts see.
     #[must_use]
     pub fn code(self) -> &'static str {
@@ -89,6 +125,9 @@ impl Reason {
             Self::NotSettled => "not-settled",
             Self::RecordsDisagree { .. } => "records-disagree",
             Self::ThrustNotProportional { .. } => "thrust-not-proportional",
+            Self::ThrustDeadZone { .. } => "thrust-dead-zone",
+            Self::ThrustPower { .. } => "thrust-exponent",
+            Self::ThrustDiffersBySide { .. } => "thrust-differs-by-side",
         }
     }
 
@@ -96,7 +135,8 @@ impl Reason {
     #[must_use]
     pub fn trust(self) -> Trust {
         match self {
-            Self::TooWide { .. } | Self::NotSettled | Self::ThrustNotProportional { .. } => Trust::Doubtful,
+            Self::TooWide { .. } | Self::NotSettled => Trust::Doubtful,
+            Self::ThrustDiffersBySide { .. } => Trust::Good,
             _ => Trust::Widened,
         }
     }
@@ -135,12 +175,32 @@ impl core::fmt::Display for Reason {
                 "the records want inertias that scatter by {:.1} % beyond chance; the interval holds their scatter",
                 100.0 * relative
             ),
-            Self::ThrustNotProportional { relative } => write!(
+            Self::ThrustNotProportional { relative, dead_zone, exponent, level } => {
+                write!(
+                    f,
+                    "records of different levels want inertias that scatter by {:.1} % beyond chance: thrust is not \
+                     proportional to the command. Exponent {exponent:.2} explains them (the values hold at level {level:.3})",
+                    100.0 * relative
+                )?;
+                if let Some(width) = dead_zone {
+                    write!(f, ", a dead zone of {width:.3} does as well (a third level tells them apart)")?;
+                }
+                write!(f, "; the intervals hold every record's own{}", dead_zone.map_or("", |_| " and the dead zone's"))
+            }
+            Self::ThrustDeadZone { width } => write!(
                 f,
-                "records of different levels want inertias that scatter by {:.1} % beyond chance: thrust is not proportional to \
-                 the command (a dead zone, another exponent), or the vehicles differ; two levels do not tell these apart, and \
-                 one number does not serve both",
-                100.0 * relative
+                "thrust has a dead zone of {width:.3}, in units of the command: the values are in units of the thrust beyond it"
+            ),
+            Self::ThrustPower { exponent, level } => write!(
+                f,
+                "thrust is the command to the power of {exponent:.2}: the values hold where the level is {level:.3}"
+            ),
+            Self::ThrustDiffersBySide { share } => write!(
+                f,
+                "the constant force grows with the level by {:.1} % of it: the thrust is that much stronger to the {} side than \
+                 the mean of both, or the force changed between the records; the values are in units of the mean",
+                100.0 * share.abs(),
+                if share > 0.0 { "positive" } else { "negative" }
             ),
         }
     }
@@ -238,4 +298,11 @@ pub struct Answer {
     pub effective_samples: f64,
     /// Largest less least command.
     pub command_range: f64,
+}
+
+impl Answer {
+    /// Level of the command: half its range.
+    pub(super) fn level(&self) -> f64 {
+        0.5 * self.command_range
+    }
 }

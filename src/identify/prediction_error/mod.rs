@@ -22,6 +22,7 @@ mod laws;
 mod model;
 mod motion;
 mod observations;
+mod pooling;
 mod prediction;
 mod repeats;
 mod residuals;
@@ -33,6 +34,7 @@ mod tail;
 mod term;
 #[cfg(test)]
 mod tests;
+mod thrust;
 
 pub use answer::{Answer, Candidate, Reason, Reported, Trust};
 pub use laws::{DragVerdict, LawEvidence};
@@ -43,7 +45,7 @@ pub use term::Term;
 
 use rayon::prelude::*;
 
-use super::joint::{ConfidenceInterval, Delay, Estimate};
+use super::joint::{Delay, Estimate};
 use super::{DragLaw, IdentifyError};
 use crate::experiment::Record;
 use crate::numeric::{Limit, domain};
@@ -74,8 +76,6 @@ pub struct Estimator {
     law: Option<DragLaw>,
 }
 
-/// Half the interval's width over the value from which on an answer is of no use.
-const TOO_WIDE: f64 = 0.5;
 /// Weight of a drag law's models below which the other laws are settled.
 const DISTINGUISHABLE: f64 = 0.05;
 
@@ -177,11 +177,7 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
         (spread.low, spread.high) = (spread.low - tests.apart, spread.high + tests.apart);
         spread.std = spread.std.hypot(tests.apart);
     }
-    let relative = |ConfidenceInterval { low, high, .. }: ConfidenceInterval| 0.5 * (high - low) / alpha.value.abs();
-    match alpha.spread.map(relative) {
-        Some(relative) if relative < TOO_WIDE => {}
-        relative => reasons.push(Reason::TooWide { relative: relative.unwrap_or(f64::INFINITY) }),
-    }
+    reasons.extend(Reason::too_wide(alpha));
     if !best.settled {
         reasons.push(Reason::NotSettled);
     }

@@ -2,18 +2,17 @@
 //!
 //! Where they agree, estimates are weighted by their precision; where they do not, the interval holds every record's own, as
 //! far as a mean of random effects would leave any of them out (DerSimonian and Laird 1986 test for it with the same sum).
+//! Records of other levels of the command may differ because thrust is not proportional to it: see [`thrust`](super::thrust).
 
 use super::answer::{Answer, Reason, Reported, Trust};
 use super::laws::LawEvidence;
+use super::pooling::{DISAGREE, known, mean, pooled, probability_of_one};
 use super::prediction::Prediction;
-use super::residuals::NORMAL;
-use super::tail::chi_square_tail;
+use super::thrust::{Drawn, Levels, ThrustLaw, Verdict};
 use crate::experiment::Record;
 use crate::identify::DragLaw;
-use crate::identify::joint::{ConfidenceInterval, Estimate};
+use crate::identify::joint::Estimate;
 
-/// Below this probability records disagree.
-const DISAGREE: f64 = 0.01;
 /// Relative standard deviation from which on a drag says nothing about the ratio of drag to inertia.
 const VAGUE: f64 = 0.3;
 
@@ -28,79 +27,26 @@ pub struct Several {
     pub left_out: Vec<Option<Prediction>>,
 }
 
-/// How the records' estimates become one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Pooling {
-    /// Their weighted mean, or all of them where they scatter beyond chance.
-    Weighted,
-    /// All of them, whatever their scatter.
-    All,
-}
-
-/// Estimates of one number together, and the scatter between them beyond chance.
-fn pooled(estimates: &[Estimate], pooling: Pooling) -> (Estimate, Option<f64>) {
-    let known: Vec<(f64, f64, ConfidenceInterval)> =
-        estimates.iter().filter_map(|e| e.spread.map(|spread| (e.value, spread.deviation(), spread))).collect();
-    if known.len() < estimates.len() || known.iter().any(|(_, std, _)| *std <= 0.0) {
-        return (
-            known.first().map_or(estimates[0], |(value, _, spread)| Estimate { value: *value, spread: Some(*spread) }),
-            None,
-        );
-    }
-    let numbers = known.iter().map(|(value, std, _)| (*value, *std));
-    let weight: f64 = numbers.clone().map(|(_, std)| std.powi(-2)).sum();
-    let mean = numbers.clone().map(|(value, std)| value * std.powi(-2)).sum::<f64>() / weight;
-    let std = weight.sqrt().recip();
-    if known.len() > 1 && (pooling == Pooling::All || probability_of_one(numbers) < DISAGREE) {
-        let values = known.iter().map(|(value, ..)| *value);
-        let value = values.clone().sum::<f64>() / known.len() as f64;
-        let between = (values.map(|v| (v - value).powi(2)).sum::<f64>() / (known.len() as f64 - 1.0)).sqrt();
-        let low = known.iter().map(|(.., spread)| spread.low).fold(f64::INFINITY, f64::min);
-        let high = known.iter().map(|(.., spread)| spread.high).fold(f64::NEG_INFINITY, f64::max);
-        return (
-            Estimate { value, spread: Some(ConfidenceInterval { std: between.hypot(std), low, high }) },
-            Some(between),
-        );
-    }
-    (
-        Estimate {
-            value: mean,
-            spread: Some(ConfidenceInterval { std, low: mean - NORMAL * std, high: mean + NORMAL * std }),
-        },
-        None,
-    )
-}
-
-/// The estimate with a relative error that all records share.
-fn with_error(mut estimate: Estimate, relative: f64) -> Estimate {
-    if let Some(spread) = &mut estimate.spread {
-        let more = estimate.value.abs() * relative;
-        let (own, std) = (spread.deviation(), spread.deviation().hypot(more));
-        let wider = NORMAL * (std - own);
-        *spread = ConfidenceInterval { std, low: spread.low - wider, high: spread.high + wider };
-    }
-    estimate
-}
-
 /// Whether the ratio of drag to inertia differs between records: no law of thrust changes it.
 fn vehicles_differ(all: &[Reported]) -> bool {
-    let parts: [fn(&Reported) -> Estimate; 2] = [|r| r.beta, |r| r.beta_quadratic];
-    parts.into_iter().any(|drag| {
+    let drags: [fn(&Reported) -> Estimate; 2] = [|reported| reported.beta, |reported| reported.beta_quadratic];
+    drags.into_iter().any(|drag| {
         let ratio = |reported: &Reported| {
-            let (alpha, drag) = (reported.alpha, drag(reported));
-            let relative = |e: Estimate| Some(e.spread?.deviation() / e.value.abs()).filter(|part| *part < VAGUE);
-            let ratio = drag.value / alpha.value;
-            Some((ratio, ratio.abs() * relative(drag)?.hypot(relative(alpha)?)))
+            let both = known(&[reported.alpha, drag(reported)])?;
+            let relative = |(value, std): (f64, f64)| Some(std / value.abs()).filter(|part| *part < VAGUE);
+            let ratio = both[1].0 / both[0].0;
+            Some((ratio, ratio.abs() * relative(both[0])?.hypot(relative(both[1])?)))
         };
         let ratios: Option<Vec<(f64, f64)>> = all.iter().map(ratio).collect();
-        ratios.is_some_and(|ratios| probability_of_one(ratios.into_iter()) < 0.5 * DISAGREE)
+        ratios.is_some_and(|ratios| probability_of_one(&ratios) < 0.5 * DISAGREE)
     })
 }
 
 /// The records in one unit of force, and how they become one answer.
 struct Together {
     parts: Vec<Reported>,
-    pooling: Pooling,
+    /// What the intervals hold beside what they would.
+    held: Vec<Reported>,
     /// Relative error of the unit, which all parts share.
     shared: f64,
     reason: Option<Reason>,
@@ -109,53 +55,72 @@ struct Together {
 impl Together {
     fn of(answers: &[Answer], levels: Option<&Levels>) -> Self {
         let parts: Vec<Reported> = answers.iter().map(|answer| answer.reported.clone()).collect();
-        let alpha = |parts: &[Reported], pooling| {
-            let (alpha, apart) = pooled(&parts.iter().map(|part| part.alpha).collect::<Vec<_>>(), pooling);
-            (alpha, apart.map(|between| between / alpha.value.abs()))
-        };
-        let Some(relative) = alpha(&parts, Pooling::Weighted).1 else {
-            return Self { parts, pooling: Pooling::Weighted, shared: 0.0, reason: None };
-        };
+        let (alpha, apart) = pooled(&parts.iter().map(|part| part.alpha).collect::<Vec<_>>());
+        let plain = |reason| Self { parts: parts.clone(), held: Vec::new(), shared: 0.0, reason };
+        let Some(relative) = apart.map(|between| between / alpha.value.abs()) else { return plain(None) };
+        let verdict =
+            levels.filter(|_| !vehicles_differ(&parts)).and_then(|levels| levels.verdict(alpha.value, DISAGREE));
         let in_units = |drawn: &Drawn| answers.iter().map(|answer| drawn.in_its_units(answer)).collect::<Vec<_>>();
-        match levels.filter(|_| !vehicles_differ(&parts)).and_then(|levels| levels.verdict(DISAGREE)) {
-            None => {
-                let reason = Some(Reason::RecordsDisagree { relative });
-                Self { parts, pooling: Pooling::Weighted, shared: 0.0, reason }
-            }
+        match verdict {
+            None => plain(Some(Reason::RecordsDisagree { relative })),
             Some(Verdict::One(drawn)) => {
                 let parts = in_units(&drawn);
-                let own = alpha(&parts, Pooling::Weighted).0;
-                let chance = own.spread.map_or(0.0, |spread| spread.deviation() / own.value.abs());
+                let alphas = known(&parts.iter().map(|part| part.alpha).collect::<Vec<_>>());
+                let chance = alphas.map(|alphas| mean(&alphas)).map_or(0.0, |(value, std)| std / value);
                 let shared = (drawn.relative * drawn.relative - chance * chance).max(0.0).sqrt();
                 let reason = Some(match drawn.law {
                     ThrustLaw::DeadZone { width } => Reason::ThrustDeadZone { width },
                     ThrustLaw::Power { exponent, level } => Reason::ThrustPower { exponent, level },
                 });
-                Self { parts, pooling: Pooling::Weighted, shared, reason }
+                Self { parts, held: Vec::new(), shared, reason }
             }
-            Some(Verdict::Open { dead_zone, power }) => {
-                let beyond = dead_zone.iter().flat_map(|drawn| {
-                    in_units(drawn).into_iter().map(|part| part.with_error(drawn.relative))
-                });
-                let parts: Vec<Reported> = parts.into_iter().chain(beyond).collect();
-                let value = alpha(&parts, Pooling::All).0.value;
-                let reason = power.level_of(value).map(|(exponent, level)| Reason::ThrustNotProportional {
-                    relative,
-                    dead_zone: dead_zone.map(|drawn| drawn.width()),
-                    exponent,
-                    level,
-                });
-                Self { parts, pooling: Pooling::All, shared: 0.0, reason }
+            Some(Verdict::Open { dead_zone, exponent, level }) => {
+                let beyond = dead_zone
+                    .iter()
+                    .flat_map(|drawn| in_units(drawn).into_iter().map(|part| part.with_error(drawn.relative)));
+                let dead_zone = dead_zone.and_then(|drawn| drawn.law.width());
+                let reason = Some(Reason::ThrustNotProportional { relative, dead_zone, exponent, level });
+                let held = parts.iter().cloned().chain(beyond).collect();
+                Self { parts, held, shared: 0.0, reason }
             }
         }
     }
 
-    fn estimate(&self, part: &dyn Fn(&Reported) -> Estimate) -> Estimate {
-        let parts: Vec<Estimate> = self.parts.iter().map(part).collect();
-        pooled(&parts, self.pooling).0.with_error(self.shared)
+    /// Of a number in units of force.
+    fn force(&self, of: impl Fn(&Reported) -> Option<Estimate>) -> Option<Estimate> {
+        let all = |records: &[Reported]| records.iter().filter_map(&of).collect::<Vec<Estimate>>();
+        joint(&all(&self.parts)).map(|one| one.with_error(self.shared).holding(&all(&self.held)))
     }
 }
-@@@        reasons.sort_by_key(|reason| core::cmp::Reverse(reason.trust()));
+
+/// One from those that are there.
+fn joint(estimates: &[Estimate]) -> Option<Estimate> {
+    (!estimates.is_empty()).then(|| pooled(estimates).0)
+}
+
+impl Several {
+    /// The joint answer; there is at least one.
+    pub(super) fn of(answers: Vec<Answer>) -> Self {
+        let levels = Levels::of(&answers);
+        let together = Together::of(&answers, levels.as_ref());
+        let own = |of: &dyn Fn(&Reported) -> Option<Estimate>| {
+            joint(&answers.iter().filter_map(|answer| of(&answer.reported)).collect::<Vec<_>>())
+        };
+        let first = &answers[0].reported;
+        let alpha = together.force(|r| Some(r.alpha)).unwrap_or(first.alpha);
+        let own_deltas: Vec<Estimate> = answers.iter().flat_map(|answer| answer.reported.deltas.clone()).collect();
+        let mut reasons: Vec<Reason> = Vec::new();
+        for reason in answers.iter().flat_map(|answer| &answer.reported.reasons) {
+            let of_one = matches!(reason, Reason::TooWide { .. });
+            if !of_one && !reasons.iter().any(|other| other.code() == reason.code()) {
+                reasons.push(*reason);
+            }
+        }
+        reasons.extend(together.reason);
+        let share = levels.and_then(|levels| levels.asymmetry(&own_deltas, DISAGREE));
+        reasons.extend(share.map(|share| Reason::ThrustDiffersBySide { share }));
+        reasons.extend(Reason::too_wide(alpha));
+        reasons.sort_by_key(|reason| core::cmp::Reverse(reason.trust()));
         let drags: Vec<DragLaw> = answers.iter().map(|answer| answer.reported.drag).collect();
         let mut terms: Vec<_> = answers.iter().flat_map(|answer| answer.reported.terms.iter().copied()).collect();
         terms.sort_unstable();
@@ -165,19 +130,19 @@ impl Together {
             laws: LawEvidence::sum(answers.iter().map(|answer| answer.reported.laws)),
             terms,
             alpha,
-            beta: all(&|r| r.beta).0,
-            beta_quadratic: all(&|r| r.beta_quadratic).0,
-            beta_cubic: some(&|r| r.beta_cubic),
-            skew: some(&|r| r.skew),
-            memory: some(&|r| r.memory),
-            memory_s: some(&|r| r.memory_s),
-            coulomb: some(&|r| r.coulomb),
-            stiffness: some(&|r| r.stiffness),
-            lag_s: some(&|r| r.lag_s),
-            ramp_s: some(&|r| r.ramp_s),
-            filter_s: some(&|r| r.filter_s),
-            deltas: answers.iter().flat_map(|answer| answer.reported.deltas.iter().copied()).collect(),
-            delay_s: all(&|r| r.delay_s).0,
+            beta: together.force(|r| Some(r.beta)).unwrap_or(first.beta),
+            beta_quadratic: together.force(|r| Some(r.beta_quadratic)).unwrap_or(first.beta_quadratic),
+            beta_cubic: together.force(|r| r.beta_cubic),
+            skew: own(&|r| r.skew),
+            memory: together.force(|r| r.memory),
+            memory_s: own(&|r| r.memory_s),
+            coulomb: together.force(|r| r.coulomb),
+            stiffness: together.force(|r| r.stiffness),
+            lag_s: own(&|r| r.lag_s),
+            ramp_s: own(&|r| r.ramp_s),
+            filter_s: own(&|r| r.filter_s),
+            deltas: together.parts.iter().flat_map(|part| part.clone().with_error(together.shared).deltas).collect(),
+            delay_s: own(&|r| Some(r.delay_s)).unwrap_or(first.delay_s),
             trust: reasons.iter().map(|reason| reason.trust()).max().unwrap_or(Trust::Good),
             reasons,
         };

@@ -5,8 +5,9 @@
 //! makes a line of the records, `C / alpha` over C and `ln(C / alpha)` over `ln C`, which two levels draw and three can bend.
 
 use super::answer::{Answer, Reason, Reported};
+use super::pooling::{known, probability_of_one};
 use super::tail::chi_square_tail;
-use crate::identify::joint::{ConfidenceInterval, Estimate};
+use crate::identify::joint::Estimate;
 
 /// Ratio of the commands' ranges from which on their levels are different.
 const OTHER_LEVEL: f64 = 1.05;
@@ -28,26 +29,20 @@ pub(super) enum ThrustLaw {
     },
 }
 
-impl Drawn {
-    /// Everything of a record of this level, in the law's units.
-    pub(super) fn in_its_units(&self, answer: &Answer) -> Reported {
-        let factor = self.law.factor(answer.level()).map_or(1.0, f64::recip);
-        answer.reported.clone().in_units(factor)
-    }
-
-    /// The level at which the inertia is this, under a power.
-    pub(super) fn level_of(&self, alpha: f64) -> Option<(f64, f64)> {
-        let ThrustLaw::Power { exponent, level } = self.law else { return None };
-        Some((exponent, level * (alpha / self.alpha).powf((1.0 - exponent).recip())))
-    }
-}
-
 impl ThrustLaw {
     /// What a record of this level multiplies the parameters by; `None` within the dead zone.
     pub(super) fn factor(self, at: f64) -> Option<f64> {
         match self {
             Self::DeadZone { width } => (at > width).then(|| at / (at - width)),
             Self::Power { exponent, level } => Some((at / level).powf(1.0 - exponent)),
+        }
+    }
+
+    /// Width of the dead zone.
+    pub(super) fn width(self) -> Option<f64> {
+        match self {
+            Self::DeadZone { width } => Some(width),
+            Self::Power { .. } => None,
         }
     }
 }
@@ -64,6 +59,14 @@ pub(super) struct Drawn {
     pub(super) probability: f64,
 }
 
+impl Drawn {
+    /// Everything of a record of this level, in the law's units.
+    pub(super) fn in_its_units(&self, answer: &Answer) -> Reported {
+        let factor = self.law.factor(answer.level()).map_or(1.0, f64::recip);
+        answer.reported.clone().in_units(factor)
+    }
+}
+
 /// What the records say of the law of thrust.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Verdict {
@@ -72,7 +75,9 @@ pub(super) enum Verdict {
     /// It is not told: a power would do, and a dead zone where there is one.
     Open {
         dead_zone: Option<Drawn>,
-        power: Drawn,
+        exponent: f64,
+        /// Where the power has the inertia that was asked about.
+        level: f64,
     },
 }
 
@@ -88,7 +93,8 @@ struct Line {
 impl Line {
     /// Through points `(x, y, standard deviation of y)` at two different x or more.
     fn through(points: &[(f64, f64, f64)]) -> Self {
-        let sum = |part: &dyn Fn(f64, f64) -> f64| points.iter().map(|&(x, y, std)| part(x, y) / (std * std)).sum::<f64>();
+        let sum =
+            |part: &dyn Fn(f64, f64) -> f64| points.iter().map(|&(x, y, std)| part(x, y) / (std * std)).sum::<f64>();
         let weight = sum(&|_, _| 1.0);
         let (mean_x, mean_y) = (sum(&|x, _| x) / weight, sum(&|_, y| y) / weight);
         let square = sum(&|x, _| (x - mean_x).powi(2));
@@ -113,15 +119,9 @@ pub(super) struct Levels(Vec<(f64, f64, f64)>);
 impl Levels {
     /// `None` where the levels are one, or an inertia has no error to judge by.
     pub(super) fn of(answers: &[Answer]) -> Option<Self> {
-        let levels: Option<Vec<_>> = answers
-            .iter()
-            .map(|answer| {
-                let Estimate { value, spread } = answer.reported.alpha;
-                let std = spread.map(ConfidenceInterval::deviation).filter(|std| *std > 0.0)?;
-                Some((answer.level(), value, std))
-            })
-            .collect();
-        let levels = Self(levels?);
+        let alphas = known(&answers.iter().map(|answer| answer.reported.alpha).collect::<Vec<_>>())?;
+        let levels =
+            Self(answers.iter().zip(alphas).map(|(answer, (value, std))| (answer.level(), value, std)).collect());
         (levels.largest() > OTHER_LEVEL * levels.least()).then_some(levels)
     }
 
@@ -140,13 +140,19 @@ impl Levels {
         1 + levels.windows(2).filter(|pair| pair[1] > OTHER_LEVEL * pair[0]).count()
     }
 
-    /// What may lie behind inertias that differ; `None` where no law of thrust makes them one.
-    pub(super) fn verdict(&self, unlikely: f64) -> Option<Verdict> {
+    /// What may lie behind inertias that differ, of which one number is to be told; `None` where no law of thrust makes
+    /// them one.
+    pub(super) fn verdict(&self, alpha: f64, unlikely: f64) -> Option<Verdict> {
         let likely = |drawn: &Drawn| drawn.probability >= unlikely;
-        let (dead_zone, power) = (self.dead_zone().filter(likely), self.power().filter(likely));
+        let line = self.logarithms();
+        let (dead_zone, power) = (self.dead_zone().filter(likely), self.power(&line).filter(likely));
         match (dead_zone, power) {
             (Some(only), None) | (None, Some(only)) if self.count() > 2 => Some(Verdict::One(only)),
-            (_, Some(power)) => Some(Verdict::Open { dead_zone, power }),
+            (dead_zone, Some(power)) => {
+                let exponent = line.slope;
+                let level = self.largest() * (alpha / power.alpha).powf((1.0 - exponent).recip());
+                (level.is_finite() && level > 0.0).then_some(Verdict::Open { dead_zone, exponent, level })
+            }
             (_, None) => None,
         }
     }
@@ -165,63 +171,48 @@ impl Levels {
         })
     }
 
-    /// The power through the records; `None` where thrust would fall with the command.
-    fn power(&self) -> Option<Drawn> {
+    /// The line of the logarithms, that of the largest level being zero.
+    fn logarithms(&self) -> Line {
         let level = self.largest();
         let points: Vec<_> =
             self.0.iter().map(|(at, alpha, std)| ((at / level).ln(), (at / alpha).ln(), std / alpha)).collect();
-        let Line { intercept, slope: exponent, intercept_std, probability, .. } = Line::through(&points);
+        Line::through(&points)
+    }
+
+    /// The power through the records; `None` where thrust would fall with the command.
+    fn power(&self, line: &Line) -> Option<Drawn> {
+        let Line { intercept, slope: exponent, intercept_std: relative, probability, .. } = *line;
+        let level = self.largest();
         let (law, alpha) = (ThrustLaw::Power { exponent, level }, level / intercept.exp());
-        (exponent > 0.0).then_some(Drawn { law, alpha, relative: intercept_std, probability })
+        (exponent > 0.0).then_some(Drawn { law, alpha, relative, probability })
     }
 
-    /// The part of the level that every record's constant force is, where they are not one force; `None` where the records
-    /// do not say so.
+    /// By what part of the level the constant force grows with it; `None` where the records do not say so.
     pub(super) fn asymmetry(&self, deltas: &[Estimate], unlikely: f64) -> Option<f64> {
-        let known: Option<Vec<(f64, f64)>> = deltas
-            .iter()
-            .map(|delta| Some((delta.value, delta.spread?.deviation())).filter(|(_, std)| *std > 0.0))
-            .collect();
-        let known = known.filter(|known| known.len() == self.0.len())?;
-        let one = probability_of_one(known.iter().copied());
-        let parts = known.iter().zip(&self.0).map(|((value, std), (level, ..))| (value / level, std / level));
-        let proportional = probability_of_one(parts.clone());
-        (one < unlikely && proportional >= unlikely).then(|| mean(parts).0)
+        let deltas = known(deltas).filter(|deltas| deltas.len() == self.0.len())?;
+        let points: Vec<_> =
+            self.0.iter().zip(&deltas).map(|((level, ..), (value, std))| (*level, *value, *std)).collect();
+        let Line { slope, probability, .. } = Line::through(&points);
+        (probability_of_one(&deltas) < unlikely && probability >= unlikely).then_some(slope)
     }
-}
-
-/// Mean of numbers with their standard deviations, and its own weight.
-fn mean(numbers: impl Iterator<Item = (f64, f64)>) -> (f64, f64) {
-    let (sum, weight) = numbers.fold((0.0, 0.0), |(sum, weight), (value, std)| {
-        let one = (std * std).recip();
-        (sum + value * one, weight + one)
-    });
-    (sum / weight, weight)
-}
-
-/// Probability that numbers with these standard deviations scatter more if they are one.
-pub(super) fn probability_of_one(numbers: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
-    let (mean, _) = mean(numbers.clone());
-    let (scatter, count) = numbers.fold((0.0, 0.0), |(scatter, count), (value, std)| {
-        (scatter + ((value - mean) / std).powi(2), count + 1.0)
-    });
-    if count > 1.0 { chi_square_tail(scatter, count - 1.0) } else { 1.0 }
 }
 
 impl Reported {
-    /// The same vehicle in other units of force; what it is pushed by stays in units of the command.
-    fn in_units(mut self, factor: f64) -> Self {
-        let times = |estimate: &mut Estimate| {
-            estimate.value *= factor;
-            if let Some(spread) = &mut estimate.spread {
-                for number in [&mut spread.std, &mut spread.low, &mut spread.high] {
-                    *number *= factor;
-                }
-            }
-        };
-        [&mut self.alpha, &mut self.beta, &mut self.beta_quadratic].into_iter().for_each(times);
+    /// The same in other units of force.
+    pub(super) fn in_units(self, factor: f64) -> Self {
+        self.forces(|estimate| estimate.in_units(factor))
+    }
+
+    /// With a relative error of the unit of force.
+    pub(super) fn with_error(self, relative: f64) -> Self {
+        self.forces(|estimate| estimate.with_error(relative))
+    }
+
+    fn forces(mut self, change: impl Fn(Estimate) -> Estimate) -> Self {
+        let always = [&mut self.alpha, &mut self.beta, &mut self.beta_quadratic];
         let others = [&mut self.beta_cubic, &mut self.coulomb, &mut self.memory, &mut self.stiffness];
-        others.into_iter().flatten().for_each(times);
+        let all = always.into_iter().chain(others.into_iter().flatten()).chain(&mut self.deltas);
+        all.for_each(|estimate| *estimate = change(*estimate));
         self
     }
 

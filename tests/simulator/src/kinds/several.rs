@@ -45,6 +45,18 @@ pub(super) const KINDS: &[Entry] = &[
         plan.again(r, at(0.5, 0.8))
     }),
     ("thrust exponent 1.5, two levels", |r| any(r).with(|s| s.vehicle.actuator.exponent = 1.5).again(r, at(0.5, 0.8))),
+    ("dead zone 0.15 C, three levels", |r| {
+        any(r).with(|s| s.vehicle.actuator.dead_zone = 0.15).again(r, at(0.5, 0.8)).again(r, at(0.25, 0.6))
+    }),
+    ("thrust exponent 1.5, three levels", |r| {
+        any(r).with(|s| s.vehicle.actuator.exponent = 1.5).again(r, at(0.5, 0.8)).again(r, at(0.25, 0.6))
+    }),
+    ("two vehicles, 15 % apart, two levels", |r| {
+        any(r).again(r, |s| {
+            s.vehicle.alpha *= 1.15;
+            at(0.5, 0.8)(s);
+        })
+    }),
     ("two vehicles, 2 % apart", |r| apart(r, 1.02)),
     ("two vehicles, 5 % apart", |r| apart(r, 1.05)),
     ("two vehicles, 15 % apart", |r| apart(r, 1.15)),
