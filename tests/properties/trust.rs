@@ -83,6 +83,97 @@ fn vehicles_that_differ_are_said_to() {
     assert!(answers.iter().all(disagree), "{answers:?}");
 }
 
+/// The largest level and the reasons of each case's answer that speak of the thrust, and how many answers are trusted and hold
+/// alpha.
+fn of_thrust(kind: &str, cases: u64) -> (u64, Vec<(f64, Vec<Reason>)>) {
+    let (right, _, answers) = scored(kind, cases);
+    let of_thrust =
+        |reason: &&Reason| reason.code().starts_with("thrust-") && reason.code() != "thrust-differs-by-side";
+    let level = |seed| {
+        let command = &Kind::named(kind).unwrap().case(seed).runs[0].record.input;
+        command.iter().copied().fold(0.0, f64::max)
+    };
+    let of_case =
+        |(answer, seed): (&Reported, u64)| (level(seed), answer.reasons.iter().filter(of_thrust).copied().collect());
+    (right, answers.iter().zip(1..).map(of_case).collect())
+}
+
+#[test]
+fn three_levels_tell_a_dead_zone_from_an_exponent() {
+    let (right, reasons) = of_thrust("dead zone 0.15 C, three levels", 3);
+    let width = |(largest, reasons): &(f64, Vec<Reason>)| match reasons[..] {
+        [Reason::ThrustDeadZone { width }] => (width / largest - 0.15).abs() < 0.01,
+        _ => false,
+    };
+    assert!(right >= 2 && reasons.iter().all(width), "{right}: {reasons:?}");
+    let (right, reasons) = of_thrust("thrust exponent 1.5, three levels", 3);
+    let exponent = |(largest, reasons): &(f64, Vec<Reason>)| match reasons[..] {
+        [Reason::ThrustPower { exponent, level }] => {
+            (exponent - 1.5).abs() < 0.03 && (level / largest - 1.0).abs() < 1e-9
+        }
+        _ => false,
+    };
+    assert!(right >= 2 && reasons.iter().all(exponent), "{right}: {reasons:?}");
+}
+
+#[test]
+fn two_levels_say_what_would_explain_them() {
+    let (right, reasons) = of_thrust("dead zone 0.15 C, two levels", 3);
+    let either = |(largest, reasons): &(f64, Vec<Reason>)| match reasons[..] {
+        [Reason::ThrustNotProportional { dead_zone: Some(width), exponent, level, .. }] => {
+            // The exponent through (1, 0.85) and (0.5, 0.35), and a value between those of the two records.
+            let (width, level) = (width / largest, level / largest);
+            (width - 0.15).abs() < 0.02 && (exponent - 1.28).abs() < 0.05 && 0.5 < level && level < 1.0
+        }
+        _ => false,
+    };
+    assert!(right >= 2 && reasons.iter().all(either), "{right}: {reasons:?}");
+    // Thrust in proportion gives no reason, and vehicles whose ratio of drag to inertia differs are no thrust's doing.
+    let (_, reasons) = of_thrust("two records of two levels", 3);
+    assert!(reasons.iter().all(|(_, reasons)| reasons.is_empty()), "{reasons:?}");
+    let (.., answers) = scored("two vehicles, 15 % apart, two levels", 4);
+    let disagree = |answer: &Reported| answer.reasons.iter().any(|reason| reason.code() == "records-disagree");
+    assert!(answers.iter().any(disagree), "{answers:?}");
+}
+
+/// Records of one vehicle at levels whose thrust is the command to this power, stronger to the positive side by this part.
+fn at_levels(levels: &[f64], thrust: impl Fn(f64) -> f64, share: f64) -> Vec<Record> {
+    let records = levels.iter().zip(1..).map(|(level, seed)| {
+        let force = thrust(*level);
+        let axis = DragAxis::mixed(1.0, 0.3, 0.3).unwrap().with_disturbance(share * force + 0.02).unwrap();
+        let pushed = record(axis.with_delay_s(0.1).unwrap(), force, 0.3, seed);
+        let command = pushed.input().iter().map(|input| level * input.signum()).collect();
+        Record::new(pushed.time_s().to_vec(), pushed.output().to_vec(), command).unwrap()
+    });
+    records.collect()
+}
+
+#[test]
+fn a_constant_force_that_grows_with_the_level_is_the_thrusts() {
+    let share = |share: f64| {
+        let records = at_levels(&[1.0, 0.7, 0.5], |level| level, share);
+        let several = Estimator::new(Delay::KnownS(0.1)).records(&records.iter().collect::<Vec<_>>()).unwrap();
+        several.reported.reasons.iter().find_map(|reason| match reason {
+            Reason::ThrustDiffersBySide { share } => Some(*share),
+            _ => None,
+        })
+    };
+    assert!(share(0.1).is_some_and(|share| (share - 0.1).abs() < 0.01), "{:?}", share(0.1));
+    assert_eq!(Reason::ThrustDiffersBySide { share: 0.1 }.trust(), Trust::Good);
+    assert_eq!(share(0.0), None);
+}
+
+#[test]
+fn a_record_of_another_level_is_predicted_with_the_thrusts_law() {
+    let predicted = |thrust: fn(f64) -> f64| {
+        let records = at_levels(&[1.0, 0.7, 0.5, 0.35], thrust, 0.0);
+        let several = Estimator::new(Delay::KnownS(0.1)).records(&records.iter().collect::<Vec<_>>()).unwrap();
+        several.left_out.iter().map(|predicted| predicted.unwrap().fit_percent).collect::<Vec<_>>()
+    };
+    let (beyond, powered) = (predicted(|level| level - 0.15), predicted(|level| level.powf(1.5)));
+    assert!(beyond.iter().chain(&powered).all(|percent| *percent > 90.0), "{beyond:?}, {powered:?}");
+}
+
 fn laws(linear: f64, quadratic: f64) -> LawEvidence {
     LawEvidence { linear: Some(linear), quadratic: Some(quadratic), mixed: Some(0.0), records: 1 }
 }

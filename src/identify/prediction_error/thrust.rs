@@ -227,3 +227,35 @@ impl Reported {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix2, Vector2};
+
+    use super::Line;
+
+    /// The normal equations, solved by another's decomposition.
+    #[test]
+    fn a_line_is_that_of_the_normal_equations() {
+        let points = [(0.3, 1.0, 0.2), (0.9, 2.5, 0.1), (1.4, 2.2, 0.4), (2.0, 4.1, 0.3)];
+        let (normal, right) =
+            points.iter().fold((Matrix2::zeros(), Vector2::zeros()), |(normal, right), (x, y, std)| {
+                let row = Vector2::new(1.0, *x) / *std;
+                (normal + row * row.transpose(), right + row * (y / std))
+            });
+        let covariance = normal.try_inverse().unwrap();
+        let solution = covariance * right;
+        let line = Line::through(&points);
+        for (found, expected) in [
+            (line.intercept, solution[0]),
+            (line.slope, solution[1]),
+            (line.intercept_std, covariance[(0, 0)].sqrt()),
+            (line.slope_std, covariance[(1, 1)].sqrt()),
+        ] {
+            approx::assert_relative_eq!(found, expected, max_relative = 1e-12);
+        }
+        let scatter: f64 = points.iter().map(|(x, y, std)| ((y - solution[0] - solution[1] * x) / std).powi(2)).sum();
+        // Two degrees of freedom: the tail is exponential.
+        approx::assert_relative_eq!(line.probability, (-0.5 * scatter).exp(), max_relative = 1e-9);
+    }
+}
