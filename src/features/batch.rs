@@ -1,5 +1,6 @@
 //! Features of a whole record.
 
+use super::orders::Orders;
 use super::{Cycle, Cycles, FeatureError, Features, Summary};
 use crate::experiment::Record;
 
@@ -20,42 +21,30 @@ pub struct RecordFeatures {
     pub features: Features<f64>,
     /// The relay's two levels.
     pub relay: RelayLevels,
+    /// Mean time in s that the command takes from level to level, as a rudder does; zero where it is the relay's. Cycles are
+    /// those of the orders: the command's way to a level begins with them.
+    #[serde(default)]
+    pub ramp_s: f64,
     /// Every cycle found, start-up included.
     pub cycles: Vec<Cycle<f64>>,
 }
 
-/// Share of samples that must lie at the two extremes of the input.
-const AT_LEVEL: f64 = 0.95;
-/// How near to an extreme counts as there, against the range.
-const NEAR_LEVEL: f64 = 0.02;
 /// Half periods without a change of the command that count as lost.
 const LOST: f64 = 4.0;
 
 impl RelayLevels {
-    /// The levels of a two-valued input.
+    /// The levels of a two-valued input, or of one that goes straight from value to value at one rate.
     ///
     /// # Errors
     /// [`FeatureError::ConstantInput`], [`FeatureError::NotARelay`].
     pub fn of(record: &Record) -> Result<Self, FeatureError> {
-        let input = record.input();
-        let low = input.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        if low >= high {
-            return Err(FeatureError::ConstantInput { value: low });
-        }
-        let near = NEAR_LEVEL * (high - low);
-        let at = input.iter().filter(|value| **value <= low + near || **value >= high - near).count();
-        #[allow(clippy::cast_precision_loss, reason = "a count of samples")]
-        let share = at as f64 / input.len() as f64;
-        if share < AT_LEVEL {
-            return Err(FeatureError::NotARelay { percent: 100.0 * share, required: 100.0 * AT_LEVEL });
-        }
-        Ok(Self { level: (high - low) / 2.0, offset: f64::midpoint(low, high) })
+        Orders::of(record).map(|orders| orders.relay)
     }
 }
 
 impl RecordFeatures {
-    /// Features of a relay experiment: the stream's, fed with the record.
+    /// Features of a relay experiment: the stream's, fed with the record. Where the command goes from level to level at a
+    /// limited rate, the relay's orders are taken to be given where it begins to move.
     ///
     /// # Errors
     /// [`FeatureError`] that names why the record is not usable.
@@ -71,11 +60,11 @@ impl RecordFeatures {
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     pub fn of(record: &Record) -> Result<Self, FeatureError> {
-        let relay = RelayLevels::of(record)?;
+        let Orders { relay, input, ramp_s } = Orders::of(record)?;
         let mut finder = Cycles::new(relay.offset);
         let mut summary = Summary::new();
         let mut cycles = Vec::new();
-        for ((time, output), input) in record.time_s().iter().zip(record.output()).zip(record.input()) {
+        for ((time, output), input) in record.time_s().iter().zip(record.output()).zip(&input) {
             if let Some(cycle) = finder.step(*time, *output, *input) {
                 summary.push(cycle);
                 cycles.push(cycle);
@@ -85,7 +74,7 @@ impl RecordFeatures {
         if cycles.is_empty() {
             return Err(FeatureError::NoCycle { switchings: finder.switchings() });
         }
-        Ok(Self { features: summary.features()?, relay, cycles })
+        Ok(Self { features: summary.features()?, relay, ramp_s, cycles })
     }
 }
 

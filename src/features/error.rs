@@ -10,10 +10,10 @@ pub enum FeatureError {
         /// The value.
         value: f64,
     },
-    /// The command has more than two values.
+    /// The command has more than two values, and does not go between them as a rudder does.
     #[error(
-        "only {percent:.0} % of the input lie at its two extremes, at least {required:.0} % needed for a relay; fit the \
-         whole record instead"
+        "only {percent:.0} % of the input lie at its two extremes, at least {required:.0} % needed for a relay, and it does not \
+         go straight from one to the other at one rate; fit the whole record instead"
     )]
     NotARelay {
         /// Share of samples at either extreme, in percent.

@@ -6,6 +6,8 @@
 mod batch;
 mod cycle;
 mod error;
+#[cfg(feature = "std")]
+mod orders;
 mod peak;
 mod summary;
 

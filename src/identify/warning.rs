@@ -6,13 +6,18 @@ use super::fit::RecordFit;
 use super::iso;
 use super::joint::Parameter;
 use super::prediction_error::Reported;
-use crate::features::Features;
+use crate::features::RecordFeatures;
 
 /// Something that would mislead. Ratios are plain numbers; one to an estimate of zero is infinite, and written as text in JSON.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(tag = "code", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Warning {
+    /// The command goes from level to level at a limited rate, and the orders behind it were derived.
+    OrdersDerived {
+        /// Time that it takes, in s.
+        ramp_s: f64,
+    },
     /// The oscillation barely passes the switching level: inertia follows from a small difference.
     IllConditioned {
         /// Switching level with magnitude of the bias, over amplitude.
@@ -70,6 +75,7 @@ impl Warning {
     #[must_use]
     pub fn code(&self) -> &'static str {
         match self {
+            Self::OrdersDerived { .. } => "orders-derived",
             Self::IllConditioned { .. } => "ill-conditioned",
             Self::WideInterval { .. } => "wide-interval",
             Self::DelayConfounded { .. } => "delay-confounded",
@@ -81,9 +87,10 @@ impl Warning {
 
     /// Warnings that features give.
     #[must_use]
-    pub fn of_features(features: &Features<f64>) -> Vec<Self> {
+    pub fn of_features(RecordFeatures { features, ramp_s, .. }: &RecordFeatures) -> Vec<Self> {
         let ratio = (features.switch_level.mean + features.bias.mean.abs()) / features.amplitude.mean;
-        if ratio > NEAR_AMPLITUDE { vec![Self::IllConditioned { ratio }] } else { Vec::new() }
+        let derived = (*ramp_s > 0.0).then_some(Self::OrdersDerived { ramp_s: *ramp_s });
+        derived.into_iter().chain((ratio > NEAR_AMPLITUDE).then_some(Self::IllConditioned { ratio })).collect()
     }
 
     /// Warnings that a fit gives; `free_delay` is the same fit with the delay estimated, if there is one.
@@ -156,21 +163,25 @@ fn name(parameter: Parameter) -> &'static str {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
+            Self::OrdersDerived { ramp_s } => write!(
+                f,
+                "the command takes {ramp_s:.2} s from level to level: orders are taken to be given where it begins to move, and \
+                 the methods for mean cycles take it for a relay that is late by half of that"
+            ),
             Self::IllConditioned { ratio } => write!(
                 f,
                 "switching level with bias is {ratio:.2} of the amplitude (above {NEAR_AMPLITUDE}): inertia follows from a \
-                 small difference; repeat with a smaller half-width or a higher relay level"
+                 small difference; `selfosc design` computes which relay determines it better"
             ),
             Self::WideInterval { parameter, ratio } => write!(
                 f,
-                "the interval of {} is {ratio:.1} times its value: this record hardly determines it; log longer or with \
-                 other relay parameters",
+                "the interval of {} is {ratio:.1} times its value: this record hardly determines it; `selfosc design` \
+                 computes which experiment does",
                 name(parameter)
             ),
             Self::DelayConfounded { correlation } => write!(
                 f,
-                "errors of delay and inertia have correlation {correlation:.2}: give the delay, or add a record with other \
-                 relay parameters"
+                "errors of delay and inertia have correlation {correlation:.2}: the record hardly tells them apart"
             ),
             Self::ActuatorLag { given_s, fitted_s } => write!(
                 f,

@@ -127,6 +127,65 @@ proptest! {
     }
 }
 
+/// The record with its command going to each order's level at this rate.
+fn at_rate(record: &Record, rate: f64, way: impl Fn(f64) -> f64) -> Record {
+    let (time, orders) = (record.time_s(), record.input());
+    let (low, high) =
+        orders.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), u| (u.min(low), u.max(high)));
+    let mut command = orders[0];
+    let moved = (0..time.len()).map(|k| {
+        if k > 0 {
+            let step = rate * (time[k] - time[k - 1]);
+            command += (orders[k - 1] - command).clamp(-step, step);
+        }
+        low + (high - low) * way((command - low) / (high - low))
+    });
+    let moved = moved.collect();
+    Record::new(time.to_vec(), record.output().to_vec(), moved).unwrap()
+}
+
+proptest! {
+    #![proptest_config(crate::sampling::config(64))]
+
+    /// A rudder's orders are those that it obeys, every cycle as if they were logged, also where its first samples under way
+    /// look as if it were at rest.
+    #[test]
+    fn a_rudders_orders_are_found(half_width in 0.2..0.6f64, ramp_s in 0.6..1.2f64, rate_hz in prop_oneof![Just(10.0), Just(100.0)]) {
+        let axis = DragAxis::quadratic(1.0, 0.5).unwrap().with_disturbance(0.1).unwrap().with_delay_s(0.1).unwrap();
+        let relay = RelayHysteresis::new(1.0, half_width, 0.0).unwrap();
+        let orders = SimulatedExperiment::new(axis, relay, rate_hz).unwrap().held().run(80.0).unwrap();
+        let found = RecordFeatures::of(&at_rate(&orders, 2.0 / ramp_s, |way| way)).unwrap();
+        let expected = RecordFeatures::of(&orders).unwrap();
+        prop_assert!((found.ramp_s - ramp_s).abs() < 1e-9 * ramp_s, "{}", found.ramp_s);
+        // An order at the very end has not moved anything yet.
+        let all = found.cycles.len();
+        prop_assert!(expected.cycles.len() <= all + 1, "{} of {}", all, expected.cycles.len());
+        prop_assert_eq!(&found.cycles[..], &expected.cycles[..all]);
+        prop_assert_eq!(expected.ramp_s, 0.0);
+    }
+}
+
+#[test]
+fn what_goes_otherwise_from_level_to_level_is_no_rudder() {
+    let orders = experiment(0.4, 0.5, Sensor::default(), 1).0.held().run(80.0).unwrap();
+    assert_eq!(code(&at_rate(&orders, 2.0, |way| way)), "features");
+    // Bent on its way; turned before it is there; at two rates; never at rest.
+    let bent = at_rate(&orders, 2.0, |way| way * way * (3.0 - 2.0 * way));
+    let mut turned = at_rate(&orders, 2.0, |way| way).input().to_vec();
+    let middle = turned.iter().position(|u| u.abs() < 0.2).unwrap();
+    turned[middle + 1] = turned[middle - 2];
+    let turned = Record::new(orders.time_s().to_vec(), orders.output().to_vec(), turned).unwrap();
+    let (slow, fast) = (at_rate(&orders, 1.0, |way| way), at_rate(&orders, 3.0, |way| way));
+    let half = orders.samples() / 2;
+    let two: Vec<f64> = slow.input()[..half].iter().chain(&fast.input()[half..]).copied().collect();
+    let two = Record::new(orders.time_s().to_vec(), orders.output().to_vec(), two).unwrap();
+    let sine: Vec<f64> = orders.time_s().iter().map(|t| t.sin()).collect();
+    let sine = Record::new(orders.time_s().to_vec(), orders.output().to_vec(), sine).unwrap();
+    for (name, record) in [("bent", bent), ("turned", turned), ("two rates", two), ("a sine", sine)] {
+        assert_eq!(code(&record), "not-a-relay", "{name}");
+    }
+}
+
 /// The streaming part holds for f32 as it does for f64: the paper's method on a microcontroller.
 #[test]
 fn single_precision_identifies_too() {

@@ -94,7 +94,7 @@ pub enum Reason {
         level: f64,
     },
     /// The constant force grows with the level, as it does where the thrust's two sides differ.
-    ThrustDiffersBySide {
+    ForceFollowsLevel {
         /// By this part of it: half the sides' difference over their mean.
         share: f64,
     },
@@ -127,7 +127,7 @@ impl Reason {
             Self::ThrustNotProportional { .. } => "thrust-not-proportional",
             Self::ThrustDeadZone { .. } => "thrust-dead-zone",
             Self::ThrustPower { .. } => "thrust-exponent",
-            Self::ThrustDiffersBySide { .. } => "thrust-differs-by-side",
+            Self::ForceFollowsLevel { .. } => "force-follows-level",
         }
     }
 
@@ -136,7 +136,7 @@ impl Reason {
     pub fn trust(self) -> Trust {
         match self {
             Self::TooWide { .. } | Self::NotSettled => Trust::Doubtful,
-            Self::ThrustDiffersBySide { .. } => Trust::Good,
+            Self::ForceFollowsLevel { .. } => Trust::Good,
             _ => Trust::Widened,
         }
     }
@@ -166,7 +166,7 @@ impl core::fmt::Display for Reason {
             Self::Outliers { count } => write!(f, "{count} readings far from all others were left out"),
             Self::TooWide { relative } => write!(
                 f,
-                "the inertia is known to within {:.0} % only: a longer record, a finer sensor or a larger amplitude narrows it",
+                "the inertia is known to within {:.0} % only; `selfosc design` computes which experiment determines it better",
                 100.0 * relative
             ),
             Self::NotSettled => write!(f, "the search for the best parameters did not come to rest"),
@@ -195,7 +195,7 @@ impl core::fmt::Display for Reason {
                 f,
                 "thrust is the command to the power of {exponent:.2}: the values hold where the level is {level:.3}"
             ),
-            Self::ThrustDiffersBySide { share } => write!(
+            Self::ForceFollowsLevel { share } => write!(
                 f,
                 "the constant force grows with the level by {:.1} % of it: the thrust is that much stronger to the {} side than \
                  the mean of both, or the force changed between the records; the values are in units of the mean",

@@ -118,7 +118,7 @@ impl Several {
         }
         reasons.extend(together.reason);
         let share = levels.and_then(|levels| levels.asymmetry(&own_deltas, DISAGREE));
-        reasons.extend(share.map(|share| Reason::ThrustDiffersBySide { share }));
+        reasons.extend(share.map(|share| Reason::ForceFollowsLevel { share }));
         reasons.extend(Reason::too_wide(alpha));
         reasons.sort_by_key(|reason| core::cmp::Reverse(reason.trust()));
         let drags: Vec<DragLaw> = answers.iter().map(|answer| answer.reported.drag).collect();

@@ -219,6 +219,7 @@ impl<'a> Found<'a> {
     /// The methods for mean cycles on one record, and where they disagree with the answer.
     fn attempts(&self, found: &RecordFeatures, delay_s: f64, record: Option<usize>) -> (Vec<Attempt>, Vec<Warning>) {
         let (features, relay) = (&found.features, &found.relay);
+        let delay_s = delay_s + 0.5 * found.ramp_s;
         let switch_level = self.settings.half_width.unwrap_or(features.switch_level.mean);
         let (mut attempts, mut warnings) = (Vec::new(), Vec::new());
         if self.settings.method.includes(Method::Iso) {

@@ -187,7 +187,7 @@ fn source(
     let log = in_units(&name, log, settings)?;
     match RecordFeatures::of(&log.record) {
         Ok(features) => {
-            cautions.extend(Warning::of_features(&features.features).into_iter().map(Caution::from));
+            cautions.extend(Warning::of_features(&features).into_iter().map(Caution::from));
             Ok((Source { name, log, features: Some(features) }, None))
         }
         Err(source @ FeatureError::ConstantInput { .. }) => Err(Refusal::Features { name, source }),
