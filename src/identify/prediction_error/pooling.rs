@@ -19,8 +19,8 @@ impl Estimate {
     pub(super) fn with_error(mut self, relative: f64) -> Self {
         if let Some(spread) = &mut self.spread {
             let more = self.value.abs() * relative;
-            let (own, std) = (spread.deviation(), spread.deviation().hypot(more));
-            let wider = NORMAL * (std - own);
+            let wider = NORMAL * (spread.deviation().hypot(more) - spread.deviation());
+            let std = spread.std.hypot(more);
             *spread = ConfidenceInterval { std, low: spread.low - wider, high: spread.high + wider };
         }
         self

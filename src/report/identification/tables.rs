@@ -70,7 +70,9 @@ pub(crate) fn feature_table(source: &Source) -> Option<Table> {
     let table = row(table, &format!("switching level x_a*{angle}"), &f.switch_level);
     let table = row(table, "time at +C (s)", &f.time_positive_s);
     let table = row(table, "time at -C (s)", &f.time_negative_s);
-    Some(table.row(["relay level C".into(), cell(found.relay.level)]))
+    let table = table.row(["relay level C".into(), cell(found.relay.level)]);
+    let ramp = (found.ramp_s > 0.0).then(|| ["from level to level (s)".into(), cell(found.ramp_s)]);
+    Some(ramp.into_iter().fold(table, Table::row))
 }
 
 /// Every cycle.
