@@ -6,10 +6,11 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use super::number::{number, significant};
+use super::number::number;
 use super::{CommandError, Outcome, files, write_json};
 use crate::balance::{Bias, HarmonicBalance};
 use crate::describing::{Entry, Setting};
+use crate::numeric::significant;
 use crate::plant::TransferFunction;
 use crate::report::nyquist;
 

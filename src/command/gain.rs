@@ -5,10 +5,10 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::number::significant;
 use super::settings::parameters;
 use super::{CommandError, Outcome, write_json};
 use crate::describing::{Boxed, Entry, FittedCharacteristic, amplitudes, fit};
+use crate::numeric::significant;
 
 /// Amplitudes that are searched.
 pub(super) const RANGE: (f64, f64) = (1e-3, 1e3);

@@ -7,10 +7,9 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::axis::AxisArguments;
-use super::number::significant;
 use super::{CommandError, Outcome, write_json};
 use crate::balance::AxisOscillation;
-use crate::numeric::Interval;
+use crate::numeric::{Interval, significant};
 use crate::orbit::{Certificate, LimitCycle, Starts, certify, limit_cycle};
 
 /// The self-oscillation of alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay) + delta under a relay with hysteresis.

@@ -7,13 +7,14 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use super::known::{Known, Model};
-use super::number::{non_negative, number, positive, significant};
+use super::number::{non_negative, number, positive};
 use super::{CommandError, Outcome, write_json};
 use crate::control::{
     Answer, AxisIntervals, ControlError, Controller, Margins, OpenLoop, StepResponse, Structure, Tuning, WorstMargin,
     WorstMargins,
 };
 use crate::numeric::Interval;
+use crate::numeric::significant;
 use crate::plant::DragAxis;
 
 /// Gains of a controller for alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay), and the margins that it has.

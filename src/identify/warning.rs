@@ -195,7 +195,8 @@ impl fmt::Display for Warning {
             ),
             Self::MethodsDisagree { parameter, ratio } => write!(
                 f,
-                "the paper's method gives {ratio:.2} times the {} reported: the oscillation is far from a sinusoid",
+                "the paper's method gives {ratio:.2} times the {} reported: it takes the oscillation for a sinusoid, and knows no \
+                 other term than drag and constant force",
                 name(parameter)
             ),
         }

@@ -13,6 +13,8 @@ mod minimum;
 mod ratio;
 mod real;
 mod root;
+#[cfg(feature = "std")]
+mod significant;
 
 internal! {
     mod power;
@@ -26,6 +28,8 @@ internal! {
 
 #[cfg(feature = "std")]
 pub(crate) use lanes::Lanes;
+#[cfg(feature = "std")]
+pub(crate) use significant::significant;
 
 pub use domain::{Limit, OutOfDomain};
 pub use interval::Interval;

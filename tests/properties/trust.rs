@@ -3,7 +3,7 @@
 use selfosc::experiment::{Record, Sensor, SimulatedExperiment};
 use selfosc::identify::design::{DesignError, Situation};
 use selfosc::identify::fit::Fit;
-use selfosc::identify::joint::{Delay, Parameter};
+use selfosc::identify::joint::{Delay, Estimate, Parameter};
 use selfosc::identify::prediction_error::Estimator;
 use selfosc::identify::{DragLaw, DragVerdict, LawEvidence, Method, Reason, Reported, Session, Settings, Term, Trust};
 use selfosc::nonlinearity::RelayHysteresis;
@@ -27,6 +27,9 @@ fn scored(kind: &str, cases: u64) -> (u64, u64, Vec<Reported>) {
         let estimator = Estimator::new(case.known.delay_s.map_or(Delay::Estimated, Delay::KnownS));
         let reported = estimator.records(&records.iter().collect::<Vec<_>>()).unwrap().reported;
         let spread = reported.alpha.spread.unwrap();
+        for Estimate { value, spread } in [reported.alpha, reported.beta, reported.beta_quadratic, reported.delay_s] {
+            assert!(spread.is_none_or(|spread| spread.low <= value && value <= spread.high), "{reported:?}");
+        }
         let holds = case.truths.iter().all(|truth| spread.low <= truth.alpha && truth.alpha <= spread.high);
         if reported.trust != Trust::Doubtful {
             right += u64::from(holds);

@@ -7,6 +7,7 @@ use super::model::{Clock, Parameter, Switching};
 use super::term::Term;
 use crate::identify::DragLaw;
 use crate::identify::joint::Estimate;
+use crate::numeric::significant;
 
 /// Whether an answer is to be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -179,21 +180,29 @@ impl core::fmt::Display for Reason {
                 write!(
                     f,
                     "records of different levels want inertias that scatter by {:.1} % beyond chance: thrust is not \
-                     proportional to the command. Exponent {exponent:.2} explains them (the values hold at level {level:.3})",
-                    100.0 * relative
+                     proportional to the command, or the vehicles differ. The command to the power of {exponent:.2} would explain \
+                     them (the values hold where the level is {})",
+                    100.0 * relative,
+                    significant(level, 4)
                 )?;
                 if let Some(width) = dead_zone {
-                    write!(f, ", a dead zone of {width:.3} does as well (a third level tells them apart)")?;
+                    write!(
+                        f,
+                        ", a dead zone of {} would as well (a third level tells them apart)",
+                        significant(width, 4)
+                    )?;
                 }
                 write!(f, "; the intervals hold every record's own{}", dead_zone.map_or("", |_| " and the dead zone's"))
             }
             Self::ThrustDeadZone { width } => write!(
                 f,
-                "thrust has a dead zone of {width:.3}, in units of the command: the values are in units of the thrust beyond it"
+                "thrust has a dead zone of {}, in units of the command: the values are in units of the thrust beyond it",
+                significant(width, 4)
             ),
             Self::ThrustPower { exponent, level } => write!(
                 f,
-                "thrust is the command to the power of {exponent:.2}: the values hold where the level is {level:.3}"
+                "thrust is the command to the power of {exponent:.2}: the values hold where the level is {}",
+                significant(level, 4)
             ),
             Self::ForceFollowsLevel { share } => write!(
                 f,

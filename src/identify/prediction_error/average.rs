@@ -135,12 +135,12 @@ impl<'a> Average<'a> {
         }
         // All models have one value where it was given, and rounding of the weights is no spread.
         let given = components.iter().all(|c| c.std == 0.0 && c.mean == components[0].mean);
-        let spread = (!given).then(|| ConfidenceInterval {
-            std,
-            low: quantile(&components, 0.025),
-            high: quantile(&components, 0.975),
-        });
-        Some(Estimate { value: if given { components[0].mean } else { mean }, spread })
+        if given {
+            return Some(Estimate { value: components[0].mean, spread: None });
+        }
+        let (low, high) = (quantile(&components, 0.025), quantile(&components, 0.975));
+        // One that stands far away with less weight than a tail moves the mean, but no end of the interval.
+        Some(Estimate { value: mean.max(low).min(high), spread: Some(ConfidenceInterval { std, low, high }) })
     }
 
     /// Share of one model.

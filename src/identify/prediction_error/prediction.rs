@@ -28,8 +28,7 @@ impl Reported {
     pub fn predict(&self, record: &Record) -> Option<Prediction> {
         let (low, high) =
             record.input().iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), u| (u.min(low), u.max(high)));
-        let units = self.thrust().map_or(Some(1.0), |law| law.factor(0.5 * (high - low)))?;
-        let vehicle = self.clone().in_units(units);
+        let vehicle = self.at_level(0.5 * (high - low))?;
         let ways = [Switching::AtSamples, Switching::Between];
         let ends = ways.into_iter().filter_map(|switching| vehicle.predicted(record, switching));
         ends.min_by(|a, b| a.rms.total_cmp(&b.rms))

@@ -216,8 +216,15 @@ impl Reported {
         self
     }
 
+    /// The same in units of a record's command of this level, as the law of thrust that the records told has it; `None` where
+    /// the command never leaves the dead zone.
+    pub(in crate::identify) fn at_level(&self, level: f64) -> Option<Self> {
+        let factor = self.thrust().map_or(Some(1.0), |law| law.factor(level))?;
+        Some(self.clone().in_units(factor))
+    }
+
     /// The law of the thrust that the records showed, or that agrees with them.
-    pub(super) fn thrust(&self) -> Option<ThrustLaw> {
+    fn thrust(&self) -> Option<ThrustLaw> {
         self.reasons.iter().find_map(|reason| match *reason {
             Reason::ThrustDeadZone { width } => Some(ThrustLaw::DeadZone { width }),
             Reason::ThrustPower { exponent, level } | Reason::ThrustNotProportional { exponent, level, .. } => {

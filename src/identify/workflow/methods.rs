@@ -225,7 +225,8 @@ impl<'a> Found<'a> {
         if self.settings.method.includes(Method::Iso) {
             let of_record = iso::Oscillation::of(features, relay.level, delay_s);
             let parameters = iso::Oscillation { switch_level, ..of_record }.identify();
-            if let (Ok(parameters), Some(reported)) = (&parameters, &self.reported) {
+            let reported = self.reported.as_ref().and_then(|reported| reported.at_level(relay.level));
+            if let (Ok(parameters), Some(reported)) = (&parameters, &reported) {
                 warnings = Warning::of_methods(parameters, reported);
             }
             for law in [DragLaw::Linear, DragLaw::Quadratic] {
