@@ -248,7 +248,7 @@ pub struct Reported {
     pub ramp_s: Option<Estimate>,
     /// Time constant of the sensor's filter in s, where the likeliest model has it.
     pub filter_s: Option<Estimate>,
-    /// Constant force during each record.
+    /// Constant force during each record: in units of the record's own command where two levels leave the law of thrust open.
     pub deltas: Vec<Estimate>,
     /// Delay in s.
     pub delay_s: Estimate,

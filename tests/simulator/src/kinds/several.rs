@@ -51,6 +51,13 @@ pub(super) const KINDS: &[Entry] = &[
     ("thrust exponent 1.5, three levels", |r| {
         any(r).with(|s| s.vehicle.actuator.exponent = 1.5).again(r, at(0.5, 0.8)).again(r, at(0.25, 0.6))
     }),
+    ("drag 30 % larger to one side, forces to both", |r| {
+        let plan = any(r).with(|s| {
+            s.vehicle.drag.asymmetry = 0.15;
+            s.vehicle.delta = 0.3;
+        });
+        plan.again(r, |s| s.vehicle.delta = -0.3)
+    }),
     ("two vehicles, 15 % apart, two levels", |r| {
         any(r).again(r, |s| {
             s.vehicle.alpha *= 1.15;
