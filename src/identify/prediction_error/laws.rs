@@ -51,10 +51,9 @@ impl LawEvidence {
     /// Probability that a vehicle with a simple law would give records that are so much likelier under mixed drag (Wilks 1938);
     /// `None` for a law without a fit.
     #[must_use]
-    #[allow(clippy::cast_precision_loss, reason = "a count of records")]
     pub fn by_chance(&self, law: DragLaw) -> Option<f64> {
         let gained = 2.0 * (self.mixed? - self.of(law)?);
-        Some(if gained > 0.0 { chi_square_tail(gained, self.records.max(1) as f64) } else { 1.0 })
+        Some(if gained > 0.0 { chi_square_tail(gained, self.records.max(1)) } else { 1.0 })
     }
 
     /// The verdict; `None` where a law has no fit, because it was not asked for or failed.

@@ -59,11 +59,10 @@ pub(super) fn mean(numbers: &Known) -> (f64, f64) {
 }
 
 /// Probability that numbers scatter more if they are one; one for a single number.
-#[allow(clippy::cast_precision_loss, reason = "a count of records")]
 pub(super) fn probability_of_one(numbers: &Known) -> f64 {
     let (mean, _) = mean(numbers);
     let scatter: f64 = numbers.iter().map(|(value, std)| ((value - mean) / std).powi(2)).sum();
-    if numbers.len() > 1 { chi_square_tail(scatter, numbers.len() as f64 - 1.0) } else { 1.0 }
+    if numbers.len() > 1 { chi_square_tail(scatter, numbers.len() - 1) } else { 1.0 }
 }
 
 /// Values with their standard deviations; `None` where one has none.
@@ -95,4 +94,52 @@ pub(super) fn pooled(estimates: &[Estimate]) -> (Estimate, Option<f64>) {
     let held = Estimate { value, spread: Some(spread) }.holding(estimates);
     let spread = held.spread.map(|held| ConfidenceInterval { std: spread.std, ..held });
     (Estimate { value, spread }, Some(between))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ConfidenceInterval, Estimate, NORMAL, pooled};
+
+    fn estimate(value: f64, std: f64) -> Estimate {
+        let reach = NORMAL * std;
+        Estimate { value, spread: Some(ConfidenceInterval { std, low: value - reach, high: value + reach }) }
+    }
+
+    fn ends(estimate: Estimate) -> [f64; 3] {
+        estimate.spread.map_or([f64::NAN; 3], |spread| [spread.low, estimate.value, spread.high])
+    }
+
+    #[test]
+    fn estimates_that_agree_are_weighted_and_others_are_held() {
+        // Weights 4 and 1, and a variance of a fifth.
+        let (one, apart) = pooled(&[estimate(2.0, 0.5), estimate(3.0, 1.0)]);
+        let reach = NORMAL * 0.2f64.sqrt();
+        for (found, expected) in ends(one).into_iter().zip([2.2 - reach, 2.2, 2.2 + reach]) {
+            approx::assert_relative_eq!(found, expected, max_relative = 1e-14);
+        }
+        assert_eq!(apart, None);
+        let (one, apart) = pooled(&[estimate(2.0, 0.1), estimate(4.0, 0.2)]);
+        for (found, expected) in ends(one).into_iter().zip([2.0 - 0.1 * NORMAL, 3.0, 4.0 + 0.2 * NORMAL]) {
+            approx::assert_relative_eq!(found, expected, max_relative = 1e-14);
+        }
+        approx::assert_relative_eq!(apart.unwrap_or_default(), 2f64.sqrt(), max_relative = 1e-14);
+        // The one per cent point of chi-square with one degree of freedom is 6.635.
+        let gap = |square: f64| pooled(&[estimate(0.0, 1.0), estimate((2.0 * square).sqrt(), 1.0)]).1.is_some();
+        assert!(gap(6.64) && !gap(6.63));
+    }
+
+    #[test]
+    fn a_shared_error_adds_in_squares_and_intervals_hold_others() {
+        let wider = estimate(2.0, 0.3).with_error(0.2);
+        for (found, expected) in ends(wider).into_iter().zip([2.0 - 0.5 * NORMAL, 2.0, 2.0 + 0.5 * NORMAL]) {
+            approx::assert_relative_eq!(found, expected, max_relative = 1e-14);
+        }
+        assert_eq!(estimate(2.0, 0.3).with_error(0.0), estimate(2.0, 0.3));
+        let held = estimate(2.0, 0.3).holding(&[estimate(1.0, 0.1), estimate(2.1, 0.1)]);
+        assert_eq!(ends(held), [1.0 - 0.1 * NORMAL, 2.0, 2.0 + 0.3 * NORMAL]);
+        assert_eq!(ends(estimate(2.0, 0.3).in_units(2.0)), ends(estimate(4.0, 0.6)));
+        // An estimate without an error is the others'.
+        let exact = Estimate { value: 0.0, spread: None };
+        assert_eq!(pooled(&[exact, estimate(2.0, 0.3)]), (estimate(2.0, 0.3), None));
+    }
 }

@@ -72,5 +72,5 @@ fn halves(fitted: &Fitted, observations: &Observations) -> Option<(f64, f64)> {
     let covariance = c1.inverse() + c2.inverse();
     let statistic = apart.dot(&covariance.cholesky()?.solve(&apart));
     let inertia = free.iter().position(|index| *index == Parameter::Alpha as usize);
-    Some((chi_square_tail(statistic, n as f64), inertia.map_or(0.0, |index| 0.5 * apart[index].abs())))
+    Some((chi_square_tail(statistic, n), inertia.map_or(0.0, |index| 0.5 * apart[index].abs())))
 }

@@ -100,15 +100,13 @@ impl Line {
         let square = sum(&|x, _| (x - mean_x).powi(2));
         let slope = sum(&|x, y| (x - mean_x) * (y - mean_y)) / square;
         let intercept = mean_y - slope * mean_x;
-        #[allow(clippy::cast_precision_loss, reason = "a count of records")]
-        let freedom = points.len() as f64 - 2.0;
         let scatter = sum(&|x, y| (y - intercept - slope * x).powi(2));
         Self {
             intercept,
             slope,
             intercept_std: (1.0 / weight + mean_x * mean_x / square).sqrt(),
             slope_std: square.sqrt().recip(),
-            probability: if freedom > 0.0 { chi_square_tail(scatter, freedom) } else { 1.0 },
+            probability: if points.len() > 2 { chi_square_tail(scatter, points.len() - 2) } else { 1.0 },
         }
     }
 }
