@@ -133,11 +133,6 @@ pub struct Units {
 }
 
 impl Units {
-    /// A unit with the output's own in it.
-    pub(crate) fn written(&self, unit: &str) -> String {
-        unit.replace("output", &self.output)
-    }
-
     pub(crate) fn of(degrees: bool) -> Self {
         Self {
             output: if degrees { "rad" } else { "output" }.into(),

@@ -182,7 +182,7 @@ fn parameter_table(found: &Identification, reported: &Reported) -> Table {
     let (one, second) = (String::new(), "s".to_owned());
     let [alpha, beta, quadratic, cubic, stiffness] =
         [&units.alpha, &units.beta, &units.beta_quadratic, &units.beta_cubic, &units.stiffness]
-            .map(|unit| units.written(unit));
+            .map(|unit| unit.replace("output", &units.output));
     let force = units.delta.clone().into_owned();
     let named = [
         ("inertia alpha", Some(reported.alpha), &alpha),
