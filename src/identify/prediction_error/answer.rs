@@ -196,12 +196,14 @@ impl core::fmt::Display for Reason {
             }
             Self::ThrustDeadZone { width } => write!(
                 f,
-                "thrust has a dead zone of {}, in units of the command: the values are in units of the thrust beyond it",
+                "the records agree on a dead zone of the thrust of {}, in units of the command, and on no power of the command: \
+                 the values are in units of the thrust beyond it",
                 significant(width, 4)
             ),
             Self::ThrustPower { exponent, level } => write!(
                 f,
-                "thrust is the command to the power of {exponent:.2}: the values hold where the level is {}",
+                "the records agree on thrust as the command to the power of {exponent:.2}, and on no dead zone: the values hold \
+                 where the level is {}",
                 significant(level, 4)
             ),
             Self::ForceFollowsLevel { share } => write!(

@@ -8,8 +8,9 @@ use super::settings::{Method, Settings};
 use super::stage::Stage;
 use crate::experiment::{Log, Record};
 use crate::features::{FeatureError, RecordFeatures};
+use crate::identify::fit::RecordFit;
 use crate::identify::joint::{Delay, Parameter};
-use crate::identify::prediction_error::{Estimator, Prediction, Reported};
+use crate::identify::prediction_error::{Estimator, Prediction, Reported, Several};
 use crate::identify::select::likelihood::{Choice, fit_each};
 use crate::identify::{DragLaw, IdentifyError, Warning, exact, iso};
 
@@ -98,14 +99,22 @@ impl<'a> Found<'a> {
     /// By the methods that estimate.
     fn estimate(&mut self, failures: &[(usize, FeatureError)], progress: impl Fn(Stage)) -> Result<(), Refusal> {
         let by_samples = self.settings.method.includes(Method::Fit);
-        if by_samples {
-            progress(Stage::Fit);
-            self.fit();
-        }
         // The methods for mean cycles need a delay from somewhere.
-        if by_samples || self.settings.delay == Delay::Estimated {
-            progress(Stage::Terms);
-            self.report()?;
+        let reporting = by_samples || self.settings.delay == Delay::Estimated;
+        let stages = [by_samples.then_some(Stage::Fit), reporting.then_some(Stage::Terms)];
+        stages.into_iter().flatten().for_each(progress);
+        let laws = self.settings.drag.map_or(DragLaw::ALL.to_vec(), |law| vec![law]);
+        let records = self.records();
+        // Side by side: each leaves cores idle towards its end.
+        let (fits, answer) = rayon::join(
+            || by_samples.then(|| fit_each(&laws, &records, self.settings.delay)),
+            || reporting.then(|| self.estimator().records(&records)),
+        );
+        if let Some(fits) = fits {
+            self.fit(&laws, fits);
+        }
+        if let Some(answer) = answer {
+            self.report(answer)?;
         }
         for (index, error) in failures {
             self.refuse_cycles(*index, error);
@@ -121,11 +130,14 @@ impl<'a> Found<'a> {
         Ok(())
     }
 
-    /// The answer to use: terms found, models averaged. No method makes sense of a command of the opposite sign.
-    fn report(&mut self) -> Result<(), Refusal> {
+    fn estimator(&self) -> Estimator {
         let estimator = Estimator::new(self.settings.delay);
-        let estimator = self.settings.drag.map_or(estimator, |law| estimator.with_law(law));
-        match estimator.records(&self.records()) {
+        self.settings.drag.map_or(estimator, |law| estimator.with_law(law))
+    }
+
+    /// The answer to use: terms found, models averaged. No method makes sense of a command of the opposite sign.
+    fn report(&mut self, answer: Result<Several, IdentifyError>) -> Result<(), Refusal> {
+        match answer {
             Ok(several) => (self.reported, self.left_out) = (Some(several.reported), several.left_out),
             Err(error @ IdentifyError::CommandSign) => return Err(error.into()),
             Err(error) => self.refuse("prediction-error", None, error),
@@ -134,16 +146,13 @@ impl<'a> Found<'a> {
     }
 
     /// Every drag law asked for, fitted to all records.
-    fn fit(&mut self) {
-        let laws = self.settings.drag.map_or(DragLaw::ALL.to_vec(), |law| vec![law]);
-        let records = self.records();
-        let samples = records.iter().map(|record| record.samples()).sum();
-        let results = fit_each(&laws, &records, self.settings.delay);
+    fn fit(&mut self, laws: &[DragLaw], results: Vec<Result<RecordFit, IdentifyError>>) {
         for (law, result) in laws.iter().zip(&results) {
             if let Err(error) = result {
                 self.refuse(Method::Fit.name(), Some((None, *law)), *error);
             }
         }
+        let samples = self.sources.iter().map(|source| source.log.record.samples()).sum();
         if let Ok(fits) = Choice::of(results, samples) {
             self.models.extend(fits.fits().iter().map(Model::of_fit));
             self.fits = Some(fits);

@@ -12,7 +12,7 @@ pub enum Stage {
     Bounds,
     /// The drag laws are fitted.
     Fit,
-    /// Terms of the motion and of what disturbs it are tried.
+    /// Terms of the motion and of what disturbs it are tried, beside the fits.
     Terms,
 }
 
