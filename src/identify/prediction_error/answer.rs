@@ -188,7 +188,7 @@ impl core::fmt::Display for Reason {
                 if let Some(width) = dead_zone {
                     write!(
                         f,
-                        ", a dead zone of {} would as well (a third level tells them apart)",
+                        ", a dead zone of {} would as well (another level can tell them apart)",
                         significant(width, 4)
                     )?;
                 }
