@@ -111,6 +111,12 @@ impl Record {
     pub fn samples(&self) -> usize {
         self.time_s.len()
     }
+    /// Its first samples; `None` where it has no more than these.
+    pub(crate) fn beginning(&self, samples: usize) -> Option<Self> {
+        let part = |values: &[f64]| values[..samples].to_vec();
+        let longer = self.samples() > samples;
+        longer.then(|| Self::new(part(&self.time_s), part(&self.output), part(&self.input)).ok()).flatten()
+    }
     /// Time from the first sample to the last, in s.
     #[must_use]
     pub fn duration_s(&self) -> f64 {

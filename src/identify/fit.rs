@@ -6,6 +6,7 @@
 //! a cost that grows with the samples only. Where the command changed at an unknown instant between two samples, the instant
 //! is estimated with the rest, and integrated out by Laplace's approximation where likelihoods are compared.
 
+mod beginning;
 mod condensing;
 mod covariance;
 mod input;
@@ -96,16 +97,8 @@ impl Fit {
             None => &[Between::AtSamples, Between::Evenly, Between::Bent],
         };
         let search = |law, between| Search::new(records, law, self.delay, between, self.quantum);
-        let mut starts: Vec<Start> = fits.iter().map(|fit| fit.place()).collect();
-        if self.law == DragLaw::Mixed && starts.is_empty() {
-            let simple = |law| ways.par_iter().flat_map(move |way| search(law, *way)?.approach());
-            starts =
-                [DragLaw::Linear, DragLaw::Quadratic].into_par_iter().flat_map(simple).map(|s| s.place()).collect();
-        }
-        starts.retain(|start| ways.contains(&start.between));
-        let own = ways.par_iter().map(|way| search(self.law, *way)?.approach());
-        let given = starts.par_iter().map(|start| search(self.law, start.between)?.starting_at(start).approach());
-        let ends: Vec<Result<Search<'_>, IdentifyError>> = own.chain(given).collect();
+        let given = fits.iter().map(|fit| fit.place()).filter(|start| ways.contains(&start.between));
+        let ends = self.ends(records, ways, given.collect());
         let best = likeliest(ends, Search::evidence).and_then(|best| best.settle()?.finish());
         // With every sample, another start may yet have been the better one.
         let reached = best.as_ref().map_or(f64::INFINITY, RecordFit::log_likelihood);
@@ -122,6 +115,36 @@ impl Fit {
         }
         let other = search(self.law, other)?.starting_at(&best.place()).refine()?.finish()?;
         Ok(if other.log_likelihood() > best.log_likelihood() { other.widened(&best) } else { best.widened(&other) })
+    }
+
+    /// Where searches end that begin anew with each way to take the input, and from what is given.
+    fn ends<'a>(&self, records: &[&'a Record], ways: &[Between], given: Vec<Start>) -> Vec<Ended<'a>> {
+        let short = beginning::of(records);
+        let Some(short) = short.as_ref().map(|short| short.iter().collect::<Vec<_>>()) else {
+            return self.approach(records, ways, &self.simpler(records, ways, given));
+        };
+        let given = self.simpler(&short, ways, given);
+        let places = beginning::places(&self.approach(&short, ways, &given));
+        let ends = self.approach(records, &[], &places);
+        if ends.iter().any(Result::is_ok) { ends } else { self.approach(records, ways, &given) }
+    }
+
+    /// What is given; for mixed drag without it, where simpler drag ends.
+    fn simpler(&self, records: &[&Record], ways: &[Between], given: Vec<Start>) -> Vec<Start> {
+        if self.law != DragLaw::Mixed || !given.is_empty() {
+            return given;
+        }
+        let simple = [DragLaw::Linear, DragLaw::Quadratic].into_par_iter();
+        let ends = simple.flat_map(|law| Self { law, ..*self }.approach(records, ways, &[]));
+        ends.flatten().map(|search| search.place()).collect()
+    }
+
+    /// A search for each way, and one from each start, in parallel.
+    fn approach<'a>(&self, records: &[&'a Record], ways: &[Between], starts: &[Start]) -> Vec<Ended<'a>> {
+        let search = |between| Search::new(records, self.law, self.delay, between, self.quantum);
+        let own = ways.par_iter().map(|way| search(*way)?.approach());
+        let given = starts.par_iter().map(|start| search(start.between)?.starting_at(start).approach());
+        own.chain(given).collect()
     }
 
     fn check(&self, records: &[&Record]) -> Result<(), IdentifyError> {
@@ -141,6 +164,9 @@ impl Fit {
         Ok(())
     }
 }
+
+/// A search at its end, or why it came to none.
+type Ended<'a> = Result<Search<'a>, IdentifyError>;
 
 /// The likeliest of those that succeeded; the first failure where none did.
 fn likeliest<T>(

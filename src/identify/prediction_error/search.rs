@@ -44,7 +44,7 @@ const MOST_TERMS: usize = 8;
 const WORTH_FOLLOWING: f64 = 0.1;
 /// Samples of a longer record in which terms are looked for first, and how many of the models found there go on.
 const LONGEST_SEARCHED: usize = 4000;
-const CONTINUED: usize = 4;
+const CONTINUED: usize = 3;
 /// Steps while a white force carries a poor start along, and those that follow without it.
 const FOLLOWING: usize = 12;
 const APPROACHING: usize = 12;
@@ -80,10 +80,7 @@ impl<'a> Search<'a> {
     pub(super) fn new(record: &'a Record, known: Known) -> Self {
         let clocks =
             if observations::grid(record).is_some() { vec![Clock::Stamps, Clock::Grid] } else { vec![Clock::Stamps] };
-        let part = |values: &[f64]| values[..LONGEST_SEARCHED].to_vec();
-        let head = (record.samples() > LONGEST_SEARCHED)
-            .then(|| Record::new(part(record.time_s()), part(record.output()), part(record.input())).ok())
-            .flatten();
+        let head = record.beginning(LONGEST_SEARCHED);
         let [readings, head_readings] = [const { [const { OnceLock::new() }; 4] }; 2];
         Self { record, head, known, clocks, readings, head_readings, unseen_s: 0.0 }
     }
