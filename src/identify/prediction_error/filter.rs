@@ -15,8 +15,8 @@ use super::model::{Model, Noise, Parameter};
 use super::motion::{Dynamics, Point};
 use super::observations::Observations;
 use driven::Drives;
-use pass::NOISES;
 pub(super) use pass::{Innovation, Pass, Score};
+use pass::{NOISES, STRUCTURE};
 use transition::{FILTERED, LATE, LateSpeed, LowPass, Square, Transition, Vector, add};
 
 /// Parts of the record whose scores are kept apart.
@@ -149,7 +149,7 @@ fn run_with<const N: usize>(observations: &Observations, model: &Model, derivati
         if weight == 0.0 {
             innovations.push(Innovation { error: 0.0, variance: 1.0 });
             if derivatives && done > parts.len() {
-                parts.push(core::mem::replace(&mut part, Score::zero()));
+                parts.push(part.take());
             }
             continue;
         }
@@ -161,7 +161,7 @@ fn run_with<const N: usize>(observations: &Observations, model: &Model, derivati
             0.5 * weight * (core::f64::consts::TAU.ln() + innovation.variance.ln() + innovation.standardised().powi(2));
         innovations.push(innovation);
         if derivatives && done > parts.len() {
-            parts.push(core::mem::replace(&mut part, Score::zero()));
+            parts.push(part.take());
         }
     }
     log_likelihood.is_finite().then_some(Pass { log_likelihood, innovations, parts })
@@ -430,23 +430,25 @@ impl<'a, const N: usize> Filter<'a, N> {
         let variance = seen[read] + seen[3] + self.sizes.white + stamp;
         let gain = seen.map(|value| value / variance);
         let structure = &mut self.sensitivities.structure;
-        for (index, (parameter, column)) in structure.iter().enumerate() {
-            let slope = -(column[read] + column[3]);
-            let i = *parameter as usize;
-            score.structure[i] -= weight * slope * error / variance;
-            for (other, row) in &structure[..=index] {
-                let j = *other as usize;
-                let share = weight * slope * -(row[read] + row[3]) / variance;
-                score.structure_information[i][j] += share;
-                if i != j {
-                    score.structure_information[j][i] += share;
-                }
+        let mut by_structure = [(0, 0.0); STRUCTURE];
+        let slopes = &mut by_structure[..structure.len()];
+        for (slope, (parameter, column)) in slopes.iter_mut().zip(structure.iter()) {
+            *slope = (*parameter as usize, -(column[read] + column[3]));
+        }
+        let precision = weight / variance;
+        for (index, (i, slope)) in slopes.iter().enumerate() {
+            let scaled = precision * slope;
+            score.structure[*i] -= scaled * error;
+            let row = &mut score.structure_information[*i];
+            for (j, other) in &slopes[..=index] {
+                row[*j] += scaled * other;
             }
         }
-        for (_, column) in structure.iter_mut() {
-            let slope = -(column[read] + column[3]);
-            for (value, gain) in column.iter_mut().zip(gain) {
-                *value += gain * slope;
+        if self.stochastic {
+            for ((_, column), (_, slope)) in structure.iter_mut().zip(slopes) {
+                for (value, gain) in column.iter_mut().zip(gain) {
+                    *value += gain * *slope;
+                }
             }
         }
         let mut slopes = [(0, 0.0, 0.0); NOISES];

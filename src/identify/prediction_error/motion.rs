@@ -109,19 +109,16 @@ impl Dynamics {
         }
     }
 
-    /// Exponential of `[[0, 1], [-k/alpha, -damping]] t`, by its series to the fourth power.
+    /// Exponential of `M = [[0, 1], [-k/alpha, -damping]] t` by its series to the fourth power, as `one + by_matrix M`: by
+    /// Cayley and Hamilton no higher power of M is needed.
     fn exponential(&self, damping: f64, t: f64) -> [[f64; 2]; 2] {
-        let matrix = [[0.0, t], [-self.stiffness / self.alpha * t, -damping * t]];
-        let mut sum = [[1.0, 0.0], [0.0, 1.0]];
-        for order in [4.0, 3.0, 2.0, 1.0] {
-            let next = product(&matrix, &sum);
-            for (row, values) in sum.iter_mut().enumerate() {
-                for (column, value) in values.iter_mut().enumerate() {
-                    *value = next[row][column] / order + if row == column { 1.0 } else { 0.0 };
-                }
-            }
+        let (spring, trace) = (self.stiffness / self.alpha * t, -damping * t);
+        let determinant = spring * t;
+        let (mut one, mut by_matrix) = (1.0, 0.0);
+        for share in [1.0 / 4.0, 1.0 / 3.0, 1.0 / 2.0, 1.0] {
+            (one, by_matrix) = (1.0 - share * determinant * by_matrix, share * (one + trace * by_matrix));
         }
-        sum
+        [[one, by_matrix * t], [-by_matrix * spring, one + by_matrix * trace]]
     }
 }
 

@@ -44,8 +44,9 @@ impl Drives<'_> {
                 Parameter::FilterS | Parameter::Position | Parameter::Velocity => 0.0,
             }
         };
+        let per_alpha = 1.0 / dynamics.alpha;
         let [first, second, third] = [(*begin, 0), (&step.middle, 1), (&step.end, 2)]
-            .map(|(point, k)| by(point, &forces[k], late(k)) / dynamics.alpha);
+            .map(|(point, k)| by(point, &forces[k], late(k)) * per_alpha);
         [
             step.begin_weight[0] * first + step.middle_weight[0] * second,
             step.begin_weight[1] * first + step.middle_weight[1] * second + step.end_weight * third,

@@ -38,6 +38,17 @@ impl Score {
         }
     }
 
+    /// What has been summed, and begins anew. Only the half below the diagonal of the structure's information is summed.
+    pub(super) fn take(&mut self) -> Self {
+        let mut sum = core::mem::replace(self, Self::zero());
+        for i in 0..STRUCTURE {
+            for j in 0..i {
+                sum.structure_information[j][i] = sum.structure_information[i][j];
+            }
+        }
+        sum
+    }
+
     pub(super) fn add(&mut self, other: &Self) {
         for i in 0..STRUCTURE {
             self.structure[i] += other.structure[i];
