@@ -69,10 +69,10 @@ pub(super) struct Average<'a> {
 }
 
 impl<'a> Average<'a> {
-    /// `movable` names the parameters of a model that are not on a bound; `value` is the logarithm of its weight.
+    /// `deviations` are those of a model's structural parameters; `value` is the logarithm of its weight.
     pub(super) fn new(
         found: &'a Found,
-        movable: impl Fn(&Fitted) -> Vec<usize>,
+        deviations: impl Fn(&Fitted) -> Option<[f64; Parameter::COUNT]>,
         value: impl Fn(&Fitted) -> f64,
     ) -> Self {
         let best = &found.tried[found.best];
@@ -89,12 +89,12 @@ impl<'a> Average<'a> {
                 if fitted.log_likelihood <= same.1.log_likelihood {
                     continue;
                 }
-                if let Some(deviations) = deviations(fitted, &movable(fitted)) {
+                if let Some(deviations) = deviations(fitted) {
                     *same = (weight, fitted, deviations);
                 }
                 continue;
             }
-            if let Some(deviations) = deviations(fitted, &movable(fitted)) {
+            if let Some(deviations) = deviations(fitted) {
                 members.push((weight, fitted, deviations));
             }
         }
@@ -141,6 +141,11 @@ impl<'a> Average<'a> {
         let (low, high) = (quantile(&components, 0.025), quantile(&components, 0.975));
         // One that stands far away with less weight than a tail moves the mean, but no end of the interval.
         Some(Estimate { value: mean.max(low).min(high), spread: Some(ConfidenceInterval { std, low, high }) })
+    }
+
+    /// Deviations of the structural parameters of one model; `None` where it does not count.
+    pub(super) fn deviations(&self, fitted: &Fitted) -> Option<[f64; Parameter::COUNT]> {
+        self.members.iter().find(|member| core::ptr::eq(member.1, fitted)).map(|member| member.2)
     }
 
     /// Share of one model.

@@ -74,18 +74,30 @@ struct Filter<'a, const N: usize> {
     sensitivities: Sensitivities<N>,
 }
 
-/// Runs through the record; `None` where the motion leaves all bounds. Derivatives only where wanted.
-pub(super) fn run(observations: &Observations, model: &Model, derivatives: bool) -> Option<Pass> {
+/// What a run is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Wanted {
+    /// The likelihood alone.
+    Likelihood,
+    /// Its derivatives too.
+    Score,
+    /// And those of every prediction.
+    Slopes,
+}
+
+/// Runs through the record; `None` where the motion leaves all bounds.
+pub(super) fn run(observations: &Observations, model: &Model, wanted: Wanted) -> Option<Pass> {
     if model.value(Parameter::MemoryS) > 0.0 {
-        run_with::<6>(observations, model, derivatives)
+        run_with::<6>(observations, model, wanted)
     } else if model.value(Parameter::FilterS) > 0.0 {
-        run_with::<5>(observations, model, derivatives)
+        run_with::<5>(observations, model, wanted)
     } else {
-        run_with::<4>(observations, model, derivatives)
+        run_with::<4>(observations, model, wanted)
     }
 }
 
-fn run_with<const N: usize>(observations: &Observations, model: &Model, derivatives: bool) -> Option<Pass> {
+fn run_with<const N: usize>(observations: &Observations, model: &Model, wanted: Wanted) -> Option<Pass> {
+    let derivatives = wanted != Wanted::Likelihood;
     let actuator = Actuator::new(&observations.pieces, model, observations.range);
     let late = model.value(Parameter::DelayS) + model.value(Parameter::LagS) + 0.5 * model.value(Parameter::RampS);
     let uncertain = model.has_noise(Noise::SwitchJitter);
@@ -103,7 +115,7 @@ fn run_with<const N: usize>(observations: &Observations, model: &Model, derivati
     }
     let samples = observations.time_s.len();
     let mut innovations = Vec::with_capacity(samples - first);
-    let mut parts = Vec::new();
+    let (mut parts, mut slopes) = (Vec::new(), Vec::new());
     let mut part = Score::zero();
     let mut log_likelihood = 0.0;
     for sample in first..samples {
@@ -145,6 +157,9 @@ fn run_with<const N: usize>(observations: &Observations, model: &Model, derivati
             }
         }
         let weight = observations.weight[sample];
+        if wanted == Wanted::Slopes {
+            slopes.push(filter.slopes());
+        }
         let done = (sample + 1 - first) * PARTS / (samples - first);
         if weight == 0.0 {
             innovations.push(Innovation { error: 0.0, variance: 1.0 });
@@ -164,7 +179,7 @@ fn run_with<const N: usize>(observations: &Observations, model: &Model, derivati
             parts.push(part.take());
         }
     }
-    log_likelihood.is_finite().then_some(Pass { log_likelihood, innovations, parts })
+    log_likelihood.is_finite().then_some(Pass { log_likelihood, innovations, parts, slopes, stochastic: filter.stochastic })
 }
 
 impl<'a, const N: usize> Filter<'a, N> {
@@ -418,6 +433,15 @@ impl<'a, const N: usize> Filter<'a, N> {
                 column[0] -= 0.5 * per_second * variance / self.dynamics.alpha;
             }
         }
+    }
+
+    /// Derivatives of the prediction's error.
+    fn slopes(&self) -> [f64; STRUCTURE] {
+        let mut slopes = [0.0; STRUCTURE];
+        for (parameter, column) in &self.sensitivities.structure {
+            slopes[*parameter as usize] = -(column[self.read] + column[3]);
+        }
+        slopes
     }
 
     /// Takes in a reading; adds its share of the score where there are sensitivities.

@@ -42,7 +42,7 @@ pub(in crate::identify) fn of_record(
         model.set(parameter, value, true);
     }
     model.set_noise(Noise::White, variance, false);
-    let all = filter::run(&observations, &model, true)?.score().structure_information;
+    let all = filter::run(&observations, &model, filter::Wanted::Score)?.score().structure_information;
     let part = |rows: &[Parameter], columns: &[Parameter]| {
         DMatrix::from_fn(rows.len(), columns.len(), |row, column| all[rows[row] as usize][columns[column] as usize])
     };

@@ -26,6 +26,7 @@ mod pooling;
 mod prediction;
 mod repeats;
 mod residuals;
+mod rounding;
 mod scoring;
 mod search;
 mod several;
@@ -145,7 +146,13 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     let observations = search.observations(&best.model);
     let average = Average::new(
         found,
-        |fitted| scoring::movable(&fitted.model, &fitted.score, search.observations(&fitted.model)),
+        |fitted| {
+            let observations = search.observations(&fitted.model);
+            let movable = scoring::movable(&fitted.model, &fitted.score, observations);
+            let white = average::deviations(fitted, &movable)?;
+            let factors = rounding::factors(fitted, observations, &movable).unwrap_or([1.0; Parameter::COUNT]);
+            Some(core::array::from_fn(|index| white[index] * factors[index]))
+        },
         |fitted| 0.5 * search.value(fitted) - average::log_odds_against(&fitted.model, known.delay_s),
     );
     let terms = terms_of(best, known);
@@ -235,8 +242,10 @@ fn laws_of(found: &Found, best: &Fitted) -> LawEvidence {
 }
 
 fn candidate(fitted: &Fitted, average: &Average<'_>, known: Known, search: &Search<'_>) -> Candidate {
-    let movable = scoring::movable(&fitted.model, &fitted.score, search.observations(&fitted.model));
-    let deviations = average::deviations(fitted, &movable).unwrap_or([f64::INFINITY; Parameter::COUNT]);
+    let deviations = average.deviations(fitted).or_else(|| {
+        let movable = scoring::movable(&fitted.model, &fitted.score, search.observations(&fitted.model));
+        average::deviations(fitted, &movable)
+    });
     let model = &fitted.model;
     Candidate {
         drag: [model.is_free(Parameter::LinearDrag), model.is_free(Parameter::QuadraticDrag)],
@@ -247,7 +256,7 @@ fn candidate(fitted: &Fitted, average: &Average<'_>, known: Known, search: &Sear
         freedom: model.freedom(),
         weight: average.weight(fitted),
         values: model.values,
-        deviations,
+        deviations: deviations.unwrap_or([f64::INFINITY; Parameter::COUNT]),
         settled: fitted.settled,
         iterations: fitted.iterations,
     }

@@ -20,6 +20,8 @@ pub(super) struct Kick {
 pub(super) struct Observations {
     pub(super) time_s: Vec<f64>,
     pub(super) output: Vec<f64>,
+    /// Step to which readings are rounded.
+    pub(super) step: Option<f64>,
     /// What each reading counts.
     pub(super) weight: Vec<f64>,
     pub(super) pieces: Vec<Piece>,
@@ -70,7 +72,8 @@ impl Observations {
         let speed = |k: usize| ((output[k + reach] - output[k]) / (time_s[k + reach] - time_s[k])).abs();
         let fastest = (0..output.len().saturating_sub(reach)).map(speed).fold(0.0, f64::max);
         let (range, span) = (extent(input), extent(&output));
-        let mut weight = match record.quantum() {
+        let step = record.quantum();
+        let mut weight = match step {
             Some(step) if switched => repeats::weights(&output, input, step),
             _ => vec![1.0; output.len()],
         };
@@ -79,6 +82,7 @@ impl Observations {
         Self {
             time_s,
             output,
+            step,
             weight,
             pieces,
             kicks,

@@ -113,7 +113,7 @@ pub(super) fn climb_beyond(
         let value = &mut model.noise[noise as usize];
         *value = value.clamp(low, high);
     }
-    let mut pass = filter::run(observations, &model, true)?;
+    let mut pass = filter::run(observations, &model, filter::Wanted::Score)?;
     let mut damping = 1e-6;
     let mut settled = false;
     let mut steps = 0;
@@ -153,7 +153,7 @@ pub(super) fn climb_beyond(
                 next.noise[*index] =
                     (model.noise[*index] + step.clamp(-LARGEST_LOG_STEP, LARGEST_LOG_STEP)).clamp(low, high);
             }
-            let pass = filter::run(observations, &next, true)?;
+            let pass = filter::run(observations, &next, filter::Wanted::Score)?;
             (pass.log_likelihood > log_likelihood).then_some((next, pass))
         };
         // Far from the maximum the two blocks of the information are not independent: each alone may still gain.

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-use super::filter;
+use super::filter::{self, Wanted};
 use super::model::{Clock, Model, Noise, Parameter, Switching};
 use super::observations::Observations;
 use crate::experiment::Record;
@@ -25,7 +25,7 @@ fn record_of(model: &Model) -> Record {
     let mut unheeded = model.clone();
     // Readings of no weight leave the motion to itself.
     unheeded.set_noise(Noise::White, 1e12, true);
-    let pass = filter::run(&observations, &unheeded, false).expect("a pass");
+    let pass = filter::run(&observations, &unheeded, Wanted::Likelihood).expect("a pass");
     let wiggle = |k: usize| 0.02 * (17.0 * time[k]).cos() + 0.01 * (2.3 * time[k]).sin();
     let output = pass.innovations.iter().enumerate().map(|(k, innovation)| wiggle(k) - innovation.error).collect();
     Record::new(time.clone(), output, input).expect("a record")
@@ -104,7 +104,7 @@ fn with_drag_that_follows_late_too() {
     let factor = covariance.cholesky().expect("a covariance");
     let determinant: f64 = factor.l().diagonal().iter().map(|d| 2.0 * d.ln()).sum();
     let expected = -0.5 * (samples as f64 * core::f64::consts::TAU.ln() + determinant + off.dot(&factor.solve(&off)));
-    let found = filter::run(&observations, &model, false).expect("a pass").log_likelihood;
+    let found = filter::run(&observations, &model, Wanted::Likelihood).expect("a pass").log_likelihood;
     assert!((found - expected).abs() < 0.1, "{found} for {expected}");
 }
 
@@ -162,7 +162,7 @@ fn the_filter_s_likelihood_is_that_of_the_dense_normal_vector() {
     let mut forced = noisy.clone();
     forced.set_noise(Noise::Force, 0.02, true);
     for (model, tolerance) in [(model(), 0.02), (noisy, 0.02), (forced, 0.05)] {
-        let pass = filter::run(&observations, &model, false).expect("a pass");
+        let pass = filter::run(&observations, &model, Wanted::Likelihood).expect("a pass");
         let expected = dense(&observations, &model);
         let off = (pass.log_likelihood - expected).abs();
         assert!(off < tolerance, "{} for {expected}", pass.log_likelihood);
@@ -174,7 +174,7 @@ fn difference(observations: &Observations, model: &Model, step: f64, change: imp
     let at = |by: f64| {
         let mut moved = model.clone();
         change(&mut moved, by);
-        filter::run(observations, &moved, false).expect("a pass").log_likelihood
+        filter::run(observations, &moved, Wanted::Likelihood).expect("a pass").log_likelihood
     };
     (at(step) - at(-step)) / (2.0 * step)
 }
@@ -197,7 +197,7 @@ fn scores_of_the_structure_are_the_likelihood_s_slopes() {
     rubbing.set(Parameter::Coulomb, 0.02, true);
     let observations = Observations::new(&record(), Clock::Stamps, Switching::AtSamples);
     for model in [plain, lagged, ramped, uneven, rubbing] {
-        let score = filter::run(&observations, &model, true).expect("a pass").score();
+        let score = filter::run(&observations, &model, Wanted::Score).expect("a pass").score();
         for parameter in model.structure() {
             let slope = difference(&observations, &model, 1e-5, |m, by| m.values[parameter as usize] += by);
             let found = score.structure[parameter as usize];
@@ -222,7 +222,7 @@ fn scores_of_the_noise_are_the_likelihood_s_slopes() {
     ] {
         model.set_noise(noise, size, true);
     }
-    let score = filter::run(&observations, &model, true).expect("a pass").score();
+    let score = filter::run(&observations, &model, Wanted::Score).expect("a pass").score();
     for noise in Noise::ALL {
         let slope = difference(&observations, &model, 1e-4, |m, by| m.noise[noise as usize] += by);
         let found = score.noise[noise as usize];
@@ -241,14 +241,14 @@ fn scores_of_what_begins_uncertain_are_slopes_but_for_the_variances() {
         // The gain, whose change the score leaves out, is next to nothing.
         model.set_noise(Noise::White, 1e8, true);
         let mut predicted = Observations::new(&record_of(&model), Clock::Stamps, Switching::AtSamples);
-        let pass = filter::run(&predicted, &model, false).expect("a pass");
+        let pass = filter::run(&predicted, &model, Wanted::Likelihood).expect("a pass");
         for (output, innovation) in predicted.output.iter_mut().zip(&pass.innovations) {
             *output -= innovation.error;
         }
         for sample in [5, 20, 40, 59] {
             let mut off = predicted.clone();
             off.output[sample] += 1e3;
-            let score = filter::run(&off, &model, true).expect("a pass").score();
+            let score = filter::run(&off, &model, Wanted::Score).expect("a pass").score();
             for parameter in model.structure() {
                 let slope = |observations: &Observations| {
                     difference(observations, &model, 1e-4, |m, by| m.values[parameter as usize] += by)

@@ -73,6 +73,10 @@ pub(in super::super) struct Pass {
     pub(in super::super) innovations: Vec<Innovation>,
     /// Scores of consecutive parts of the record; empty where no derivatives were asked for.
     pub(in super::super) parts: Vec<Score>,
+    /// Derivatives of each prediction's error by the structural parameters; empty where they were not asked for.
+    pub(in super::super) slopes: Vec<[f64; STRUCTURE]>,
+    /// Whether predictions follow the readings before them, or the motion alone.
+    pub(in super::super) stochastic: bool,
 }
 
 impl Pass {
