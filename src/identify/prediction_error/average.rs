@@ -2,6 +2,8 @@
 
 use super::lateness;
 use super::model::{Model, Parameter};
+use super::observations::Observations;
+use super::rounding;
 use super::scoring::{self, Fitted};
 use super::search::Found;
 use crate::identify::joint::{ConfidenceInterval, Estimate};
@@ -43,14 +45,15 @@ const SUBTLE: [Parameter; 9] = [
 
 /// Standard deviations of the structural parameters of a model, zero for those not estimated; `None` where the record leaves
 /// some of them open.
-pub(super) fn deviations(fitted: &Fitted, free: &[usize]) -> Option<[f64; Parameter::COUNT]> {
+pub(super) fn deviations(fitted: &Fitted, observations: &Observations) -> Option<[f64; Parameter::COUNT]> {
+    let free = scoring::movable(&fitted.model, &fitted.score, observations);
+    let factors = rounding::factors(fitted, observations, &free).unwrap_or([1.0; Parameter::COUNT]);
     let mut deviations = [0.0; Parameter::COUNT];
-    for index in free {
+    for (place, index) in free.iter().enumerate() {
         let mut unit = [0.0; Parameter::COUNT];
         unit[*index] = 1.0;
-        let (column, _) = scoring::solve(&fitted.score.structure_information, &unit, free, 1e-10)?;
-        let place = free.iter().position(|other| other == index)?;
-        deviations[*index] = column[place].sqrt();
+        let (column, _) = scoring::solve(&fitted.score.structure_information, &unit, &free, 1e-10)?;
+        deviations[*index] = factors[*index] * column[place].sqrt();
     }
     Some(deviations)
 }

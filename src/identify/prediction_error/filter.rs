@@ -179,7 +179,13 @@ fn run_with<const N: usize>(observations: &Observations, model: &Model, wanted: 
             parts.push(part.take());
         }
     }
-    log_likelihood.is_finite().then_some(Pass { log_likelihood, innovations, parts, slopes, stochastic: filter.stochastic })
+    log_likelihood.is_finite().then_some(Pass {
+        log_likelihood,
+        innovations,
+        parts,
+        slopes,
+        stochastic: filter.stochastic,
+    })
 }
 
 impl<'a, const N: usize> Filter<'a, N> {

@@ -146,13 +146,7 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     let observations = search.observations(&best.model);
     let average = Average::new(
         found,
-        |fitted| {
-            let observations = search.observations(&fitted.model);
-            let movable = scoring::movable(&fitted.model, &fitted.score, observations);
-            let white = average::deviations(fitted, &movable)?;
-            let factors = rounding::factors(fitted, observations, &movable).unwrap_or([1.0; Parameter::COUNT]);
-            Some(core::array::from_fn(|index| white[index] * factors[index]))
-        },
+        |fitted| average::deviations(fitted, search.observations(&fitted.model)),
         |fitted| 0.5 * search.value(fitted) - average::log_odds_against(&fitted.model, known.delay_s),
     );
     let terms = terms_of(best, known);
@@ -242,10 +236,8 @@ fn laws_of(found: &Found, best: &Fitted) -> LawEvidence {
 }
 
 fn candidate(fitted: &Fitted, average: &Average<'_>, known: Known, search: &Search<'_>) -> Candidate {
-    let deviations = average.deviations(fitted).or_else(|| {
-        let movable = scoring::movable(&fitted.model, &fitted.score, search.observations(&fitted.model));
-        average::deviations(fitted, &movable)
-    });
+    let deviations =
+        average.deviations(fitted).or_else(|| average::deviations(fitted, search.observations(&fitted.model)));
     let model = &fitted.model;
     Candidate {
         drag: [model.is_free(Parameter::LinearDrag), model.is_free(Parameter::QuadraticDrag)],

@@ -1,8 +1,10 @@
-//! What rounding does to the estimates: the errors of readings of one motion belong together, as the motion says.
+//! What rounding does to the estimates: the errors of one motion's readings belong together, as the motion says.
 //!
-//! Where two points of the motion differ by the part d of a step, their roundings correlate by `1 - 6 d + 6 d^2` over all places of
-//! the grid, whose harmonics are `cos(2 pi h d) / h^2` (Bennett 1948; Sripad and Snyder 1977): roundings of a cycle that locks
-//! to the sampling add up, and those of a motion that passes the steps evenly cancel.
+//! Where two points of the motion differ by the part d of a step, their roundings correlate by `1 - 6 d + 6 d^2` over all places
+//! of the grid, of which `cos(2 pi h d)` is the part `6 / (pi h)^2` (Bennett 1948; Sripad and Snyder 1977). Roundings of a cycle
+//! that locks to the sampling add up, those of a motion that passes the steps evenly cancel.
+
+use core::f64::consts::{PI, TAU};
 
 use nalgebra::{DMatrix, DVector};
 
@@ -14,59 +16,183 @@ use super::scoring::Fitted;
 /// Harmonics that are summed; the others count as white.
 const HARMONICS: usize = 16;
 
-/// By how much the deviation of each estimate differs from that under white errors. `None` where readings are not rounded, or the
-/// model follows them by what is random in it.
+/// By how much the deviation of each estimate differs from that of the weighted likelihood, whose errors are white. `None` where
+/// readings are not rounded, or predictions follow them.
 pub(super) fn factors(fitted: &Fitted, observations: &Observations, free: &[usize]) -> Option<[f64; Parameter::COUNT]> {
     let step = observations.step?;
     let model = &fitted.model;
     let pass = filter::run(observations, model, Wanted::Slopes).filter(|pass| !pass.stochastic)?;
-    let rounding = step * step / 12.0;
-    let white = model.size(Noise::White).max(rounding);
-    let beside = noise_beside(white, rounding, observations.count());
-    let strength = |h: f64| {
-        let turn = core::f64::consts::PI * h;
-        step * step / (2.0 * turn * turn) * (-4.0 * turn * turn * beside / (step * step)).exp()
-    };
-    let n = free.len();
-    let mut waves = DMatrix::zeros(n, 2 * HARMONICS);
-    let (mut information, mut square) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
+    let mut sums = Sums::new(free.len());
     let samples = observations.output.iter().zip(&observations.weight).skip(observations.first);
     for (((output, weight), innovation), slopes) in samples.zip(&pass.innovations).zip(&pass.slopes) {
-        if *weight == 0.0 {
-            continue;
-        }
-        let slope = DVector::from_fn(n, |row, _| slopes[free[row]]);
-        information.ger(*weight, &slope, &slope, 1.0);
-        square.ger(weight * weight, &slope, &slope, 1.0);
-        let (sin, cos) = (core::f64::consts::TAU * (output - innovation.error) / step).sin_cos();
-        let (mut real, mut imaginary) = (1.0, 0.0);
-        for h in 0..HARMONICS {
-            (real, imaginary) = (real * cos - imaginary * sin, real * sin + imaginary * cos);
-            waves.column_mut(2 * h).axpy(weight * real, &slope, 1.0);
-            waves.column_mut(2 * h + 1).axpy(weight * imaginary, &slope, 1.0);
+        if *weight > 0.0 {
+            let slopes = DVector::from_fn(free.len(), |row, _| slopes[free[row]]);
+            sums.add((output - innovation.error) / step, *weight, &slopes);
         }
     }
-    let mut rest = white;
-    let mut errors = DMatrix::zeros(n, n);
-    for h in 0..HARMONICS {
-        let strength = strength((h + 1) as f64);
-        rest -= strength;
-        for part in 0..2 {
-            let wave = waves.column(2 * h + part);
-            errors.ger(strength, &wave, &wave, 1.0);
-        }
-    }
-    errors += rest * square;
-    let inverse = information.cholesky()?.inverse();
-    let covariance = &inverse * errors * &inverse;
+    let variance = model.size(Noise::White) / (step * step);
+    let covariance = sums.covariance(variance, noise_beside(variance, observations.count()))?;
+    let [white, independent] = [&sums.information, &sums.unweighted].map(|information| information.clone().cholesky());
+    let (white, independent) = (white?.inverse() * variance, independent?.inverse() * variance);
     let mut factors = [1.0; Parameter::COUNT];
     for (place, index) in free.iter().enumerate() {
-        factors[*index] = (covariance[(place, place)] / (model.size(Noise::White) * inverse[(place, place)])).sqrt();
+        // Roundings that cancel count as independent ones: a structure that hardly shows does not cancel with them.
+        let counted = covariance[(place, place)].max(independent[(place, place)]);
+        factors[*index] = (counted / white[(place, place)]).sqrt();
     }
     Some(factors)
 }
 
-/// Variance of a noise before the rounding, as little as the readings leave possible: the variance of so many roundings varies.
-fn noise_beside(white: f64, rounding: f64, count: f64) -> f64 {
-    (white / (1.0 + 2.0 * (0.8 / count).sqrt()) - rounding).max(0.0)
+/// Variance of a rounding, in squares of its step.
+const ROUNDING: f64 = 1.0 / 12.0;
+/// Variance of its square over the square of its variance.
+const SPREAD: f64 = 0.8;
+
+/// Variance of a noise before the rounding, in squares of the step: as little as so many readings of this variance allow.
+fn noise_beside(variance: f64, count: f64) -> f64 {
+    (variance / (1.0 + 2.0 * (SPREAD / count).sqrt()) - ROUNDING).max(0.0)
+}
+
+/// Sums over the readings of a least-squares estimate.
+struct Sums {
+    information: DMatrix<f64>,
+    unweighted: DMatrix<f64>,
+    of_squares: DMatrix<f64>,
+    /// Slopes against cosine and sine of every harmonic.
+    waves: DMatrix<f64>,
+}
+
+impl Sums {
+    fn new(parameters: usize) -> Self {
+        let square = DMatrix::zeros(parameters, parameters);
+        Self {
+            information: square.clone(),
+            of_squares: square.clone(),
+            unweighted: square,
+            waves: DMatrix::zeros(parameters, 2 * HARMONICS),
+        }
+    }
+
+    /// A reading of a motion that is here, in steps, and what it changes by with each parameter.
+    fn add(&mut self, steps: f64, weight: f64, slopes: &DVector<f64>) {
+        self.information.ger(weight, slopes, slopes, 1.0);
+        self.unweighted.ger(1.0, slopes, slopes, 1.0);
+        self.of_squares.ger(weight * weight, slopes, slopes, 1.0);
+        let (sin, cos) = (TAU * steps).sin_cos();
+        let (mut real, mut imaginary) = (1.0, 0.0);
+        for h in 0..HARMONICS {
+            (real, imaginary) = (real * cos - imaginary * sin, real * sin + imaginary * cos);
+            self.waves.column_mut(2 * h).axpy(weight * real, slopes, 1.0);
+            self.waves.column_mut(2 * h + 1).axpy(weight * imaginary, slopes, 1.0);
+        }
+    }
+
+    /// Covariance of the estimate under errors of this variance, a noise before the rounding among them.
+    fn covariance(&self, variance: f64, noise: f64) -> Option<DMatrix<f64>> {
+        let mut rest = variance.max(ROUNDING);
+        let mut errors = DMatrix::zeros(self.information.nrows(), self.information.ncols());
+        for h in 0..HARMONICS {
+            let turn = PI * (h + 1) as f64;
+            let strength = (-4.0 * turn * turn * noise).exp() / (2.0 * turn * turn);
+            rest -= strength;
+            for wave in [self.waves.column(2 * h), self.waves.column(2 * h + 1)] {
+                errors.ger(strength, &wave, &wave, 1.0);
+            }
+        }
+        errors += rest * &self.of_squares;
+        let inverse = self.information.clone().cholesky()?.inverse();
+        Some(&inverse * errors * &inverse)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, DVector};
+
+    use super::{ROUNDING, Sums, noise_beside};
+
+    /// Variance of the estimates of level and slope of a line beneath a known motion, by rounding it on a grid at every place.
+    fn by_rounding(motion: &[f64], weights: &[f64]) -> [f64; 2] {
+        const PLACES: usize = 2000;
+        let (mut s0, mut s1, mut s2) = (0.0, 0.0, 0.0);
+        for (k, w) in weights.iter().enumerate() {
+            let t = k as f64;
+            (s0, s1, s2) = (s0 + w, s1 + w * t, s2 + w * t * t);
+        }
+        let determinant = s0 * s2 - s1 * s1;
+        let mut variance = [0.0; 2];
+        for place in 0..PLACES {
+            let shift = place as f64 / PLACES as f64;
+            let (mut r0, mut r1) = (0.0, 0.0);
+            for (k, (y, w)) in motion.iter().zip(weights).enumerate() {
+                let error = (y + shift).round() - (y + shift);
+                (r0, r1) = (r0 + w * error, r1 + w * error * k as f64);
+            }
+            let estimate = [(s2 * r0 - s1 * r1) / determinant, (s0 * r1 - s1 * r0) / determinant];
+            (0..2).for_each(|i| variance[i] += estimate[i] * estimate[i] / PLACES as f64);
+        }
+        variance
+    }
+
+    fn computed(motion: &[f64], weights: &[f64], noise: f64) -> DMatrix<f64> {
+        let mut sums = Sums::new(2);
+        for (k, (y, w)) in motion.iter().zip(weights).enumerate() {
+            sums.add(*y, *w, &DVector::from_vec(vec![1.0, k as f64]));
+        }
+        sums.covariance(ROUNDING + noise, noise).expect("two parameters")
+    }
+
+    /// Variance of a level under white errors.
+    fn white(count: usize) -> f64 {
+        ROUNDING / count as f64
+    }
+
+    #[test]
+    fn variance_is_that_of_rounding_at_every_place_of_the_grid() {
+        let motions: [fn(f64) -> f64; 3] =
+            [|t| 9.3 * (0.15 * t).sin() + 0.02 * t, |t| 3.0 * (0.4 * t).sin(), |t| 0.013 * t * t];
+        for (index, motion) in motions.into_iter().enumerate() {
+            let motion: Vec<f64> = (0..90).map(|k| motion(f64::from(k))).collect();
+            let weights: Vec<f64> = (0..90).map(|k| if k % 30 < 15 { 1.0 } else { 0.4 }).collect();
+            let (expected, found) = (by_rounding(&motion, &weights), computed(&motion, &weights, 0.0));
+            for i in 0..2 {
+                let ratio = found[(i, i)] / expected[i];
+                assert!((ratio - 1.0).abs() < 0.05, "motion {index}, parameter {i}: {ratio}");
+            }
+        }
+    }
+
+    #[test]
+    fn repeated_roundings_add_up_and_evenly_passed_steps_cancel() {
+        let weights = [1.0; 120];
+        let locked: Vec<f64> =
+            (0..120).map(|k| 7.3 * (core::f64::consts::TAU * f64::from(k % 4) / 4.0).cos()).collect();
+        assert!(computed(&locked, &weights, 0.0)[(0, 0)] > 10.0 * white(120));
+        // The golden section: as far from every cycle as can be.
+        let even: Vec<f64> = (0..120).map(|k| 0.618_033_988_749_894_9 * f64::from(k)).collect();
+        // At the end of a line of unknown slope white errors leave four times the variance of a level.
+        assert!(computed(&even, &weights, 0.0)[(0, 0)] < 0.1 * 4.0 * white(120));
+    }
+
+    #[test]
+    fn a_noise_of_half_a_step_makes_roundings_white() {
+        let still = [0.2; 100];
+        let weights = [1.0; 100];
+        let alone = computed(&still, &weights, 0.0);
+        let dithered = computed(&still, &weights, 0.25);
+        let both = white(100) + 0.25 / 100.0;
+        // Level at the middle of the record, where level and slope are independent.
+        let at_middle = |c: &DMatrix<f64>| c[(0, 0)] + 99.0 * c[(0, 1)] + 49.5 * 49.5 * c[(1, 1)];
+        assert!(at_middle(&alone) > 0.9 * ROUNDING);
+        assert!((at_middle(&dithered) / both - 1.0).abs() < 0.02);
+    }
+
+    #[test]
+    fn no_more_noise_is_seen_than_the_readings_allow() {
+        assert_eq!(noise_beside(ROUNDING, 600.0), 0.0);
+        assert_eq!(noise_beside(1.06 * ROUNDING, 600.0), 0.0);
+        let seen = noise_beside(ROUNDING + 1.0, 600.0);
+        assert!(seen < 1.0 && seen > 0.9);
+        assert!(noise_beside(ROUNDING + 1.0, 10.0) < seen);
+    }
 }

@@ -121,7 +121,9 @@ impl<'a> Search<'a> {
 
     /// The likeliest of several starts, climbed from.
     fn climb_from(&self, starts: Vec<Model>, worth: f64) -> Option<Fitted> {
-        let value = |model: &Model| filter::run(self.beginning(model), model, filter::Wanted::Likelihood).map(|pass| pass.log_likelihood);
+        let value = |model: &Model| {
+            filter::run(self.beginning(model), model, filter::Wanted::Likelihood).map(|pass| pass.log_likelihood)
+        };
         let valued = starts.into_iter().filter_map(|model| Some((value(&model)?, model)));
         let (_, best) = valued.max_by(|a, b| a.0.total_cmp(&b.0))?;
         climb_beyond(self.observations(&best), best, MOST_STEPS, worth)
