@@ -288,7 +288,8 @@ pub struct Candidate {
     pub weight: f64,
     /// Its structural parameters.
     pub values: [f64; Parameter::COUNT],
-    /// Their standard deviations; zero for those not estimated, infinite where the record leaves them open.
+    /// Their standard deviations; zero for those not estimated, infinite where the record leaves them open. Without a share, those
+    /// under white errors.
     pub deviations: [f64; Parameter::COUNT],
     /// Whether its search came to rest.
     pub settled: bool,

@@ -1,5 +1,7 @@
 //! One estimate from all models tried, weighted by how likely they make the record for their number of parameters.
 
+use rayon::prelude::*;
+
 use super::lateness;
 use super::model::{Model, Parameter};
 use super::observations::Observations;
@@ -43,19 +45,26 @@ const SUBTLE: [Parameter; 9] = [
     Parameter::FilterS,
 ];
 
-/// Standard deviations of the structural parameters of a model, zero for those not estimated; `None` where the record leaves
-/// some of them open.
+/// Standard deviations of the structural parameters of a model under white errors, zero for those not estimated; `None` where the
+/// record leaves some of them open.
 pub(super) fn deviations(fitted: &Fitted, observations: &Observations) -> Option<[f64; Parameter::COUNT]> {
     let free = scoring::movable(&fitted.model, &fitted.score, observations);
-    let factors = rounding::factors(fitted, observations, &free).unwrap_or([1.0; Parameter::COUNT]);
     let mut deviations = [0.0; Parameter::COUNT];
     for (place, index) in free.iter().enumerate() {
         let mut unit = [0.0; Parameter::COUNT];
         unit[*index] = 1.0;
         let (column, _) = scoring::solve(&fitted.score.structure_information, &unit, &free, 1e-10)?;
-        deviations[*index] = factors[*index] * column[place].sqrt();
+        deviations[*index] = column[place].sqrt();
     }
     Some(deviations)
+}
+
+/// The same under the errors that rounding makes, from those under white ones.
+fn under_rounding(fitted: &Fitted, observations: &Observations, deviations: &mut [f64; Parameter::COUNT]) {
+    let free = scoring::movable(&fitted.model, &fitted.score, observations);
+    if let Some(factors) = rounding::factors(fitted, observations, &free) {
+        deviations.iter_mut().zip(factors).for_each(|(deviation, factor)| *deviation *= factor);
+    }
 }
 
 /// Logarithm of the odds against what a model has, before the record is looked at.
@@ -72,10 +81,10 @@ pub(super) struct Average<'a> {
 }
 
 impl<'a> Average<'a> {
-    /// `deviations` are those of a model's structural parameters; `value` is the logarithm of its weight.
+    /// `observations` are those of a model; `value` is the logarithm of its weight.
     pub(super) fn new(
         found: &'a Found,
-        deviations: impl Fn(&Fitted) -> Option<[f64; Parameter::COUNT]>,
+        observations: impl Fn(&Fitted) -> &'a Observations + Sync,
         value: impl Fn(&Fitted) -> f64,
     ) -> Self {
         let best = &found.tried[found.best];
@@ -92,12 +101,12 @@ impl<'a> Average<'a> {
                 if fitted.log_likelihood <= same.1.log_likelihood {
                     continue;
                 }
-                if let Some(deviations) = deviations(fitted) {
+                if let Some(deviations) = deviations(fitted, observations(fitted)) {
                     *same = (weight, fitted, deviations);
                 }
                 continue;
             }
-            if let Some(deviations) = deviations(fitted) {
+            if let Some(deviations) = deviations(fitted, observations(fitted)) {
                 members.push((weight, fitted, deviations));
             }
         }
@@ -112,9 +121,10 @@ impl<'a> Average<'a> {
         let mut keep = idle.iter().map(|idle| !idle);
         members.retain(|_| keep.next().unwrap_or(true));
         let sum: f64 = members.iter().map(|member| member.0).sum();
-        for member in &mut members {
-            member.0 /= sum;
-        }
+        members.par_iter_mut().for_each(|(weight, fitted, deviations)| {
+            *weight /= sum;
+            under_rounding(fitted, observations(fitted), deviations);
+        });
         Self { members }
     }
 

@@ -8,6 +8,7 @@
 //! drag, drag that differs by side, Coulomb friction, drag that follows the speed late, a filter of the sensor, another delay than the one given, a process force, coloured noise, and instants that err are terms: each is tried,
 //! and joins where the record is enough likelier for it. All models tried are averaged, so that an interval allows for the
 //! choice among them too.
+//! Where readings are rounded, their errors belong together as far as the motion says, and the interval follows.
 //!
 //! What it does not guarantee: a term near its threshold of detection may be left out, and a structure that no term has may
 //! pass for one of them. The scale of the thrust cannot be seen in records of one level: all parameters are in its units.
@@ -146,7 +147,7 @@ fn conclude(search: &Search<'_>, found: &Found, known: Known) -> Answer {
     let observations = search.observations(&best.model);
     let average = Average::new(
         found,
-        |fitted| average::deviations(fitted, search.observations(&fitted.model)),
+        |fitted| search.observations(&fitted.model),
         |fitted| 0.5 * search.value(fitted) - average::log_odds_against(&fitted.model, known.delay_s),
     );
     let terms = terms_of(best, known);

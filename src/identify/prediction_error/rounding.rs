@@ -13,27 +13,34 @@ use super::model::{Noise, Parameter};
 use super::observations::Observations;
 use super::scoring::Fitted;
 
+/// Part of the variance below which roundings that belong together do not count.
+const NEGLIGIBLE: f64 = 0.1;
 /// Harmonics that are summed; the others count as white.
 const HARMONICS: usize = 16;
 
 /// By how much the deviation of each estimate differs from that of the weighted likelihood, whose errors are white. `None` where
-/// readings are not rounded, or predictions follow them.
+/// readings are not rounded, a noise hides their steps, or predictions follow them.
 pub(super) fn factors(fitted: &Fitted, observations: &Observations, free: &[usize]) -> Option<[f64; Parameter::COUNT]> {
     let step = observations.step?;
     let model = &fitted.model;
+    let variance = model.size(Noise::White) / (step * step);
+    let noise = noise_beside(variance, observations.count());
+    // A noise hides the steps.
+    if observations.count() * strength(1.0, noise) < NEGLIGIBLE * variance {
+        return None;
+    }
     let pass = filter::run(observations, model, Wanted::Slopes).filter(|pass| !pass.stochastic)?;
     let mut sums = Sums::new(free.len());
+    let mut slopes = vec![0.0; free.len()];
     let samples = observations.output.iter().zip(&observations.weight).skip(observations.first);
-    for (((output, weight), innovation), slopes) in samples.zip(&pass.innovations).zip(&pass.slopes) {
+    for (((output, weight), innovation), by) in samples.zip(&pass.innovations).zip(&pass.slopes) {
         if *weight > 0.0 {
-            let slopes = DVector::from_fn(free.len(), |row, _| slopes[free[row]]);
+            slopes.iter_mut().zip(free).for_each(|(slope, index)| *slope = by[*index]);
             sums.add((output - innovation.error) / step, *weight, &slopes);
         }
     }
-    let variance = model.size(Noise::White) / (step * step);
-    let covariance = sums.covariance(variance, noise_beside(variance, observations.count()))?;
-    let [white, independent] = [&sums.information, &sums.unweighted].map(|information| information.clone().cholesky());
-    let (white, independent) = (white?.inverse() * variance, independent?.inverse() * variance);
+    let covariance = sums.covariance(variance, noise)?;
+    let [white, independent] = sums.under_white()?.map(|covariance| covariance * variance);
     let mut factors = [1.0; Parameter::COUNT];
     for (place, index) in free.iter().enumerate() {
         // Roundings that cancel count as independent ones: a structure that hardly shows does not cancel with them.
@@ -53,61 +60,90 @@ fn noise_beside(variance: f64, count: f64) -> f64 {
     (variance / (1.0 + 2.0 * (SPREAD / count).sqrt()) - ROUNDING).max(0.0)
 }
 
-/// Sums over the readings of a least-squares estimate.
+/// Variance of a harmonic of roundings, in squares of the step, under a noise before them.
+fn strength(harmonic: f64, noise: f64) -> f64 {
+    let turn = PI * harmonic;
+    (-4.0 * turn * turn * noise).exp() / (2.0 * turn * turn)
+}
+
+/// Sums over the readings of a least-squares estimate: matrices below their diagonals, row by row.
 struct Sums {
-    information: DMatrix<f64>,
-    unweighted: DMatrix<f64>,
-    of_squares: DMatrix<f64>,
+    parameters: usize,
+    information: Vec<f64>,
+    unweighted: Vec<f64>,
+    of_squares: Vec<f64>,
     /// Slopes against cosine and sine of every harmonic.
-    waves: DMatrix<f64>,
+    waves: Vec<f64>,
 }
 
 impl Sums {
     fn new(parameters: usize) -> Self {
-        let square = DMatrix::zeros(parameters, parameters);
+        let matrix = vec![0.0; parameters * (parameters + 1) / 2];
         Self {
-            information: square.clone(),
-            of_squares: square.clone(),
-            unweighted: square,
-            waves: DMatrix::zeros(parameters, 2 * HARMONICS),
+            parameters,
+            information: matrix.clone(),
+            of_squares: matrix.clone(),
+            unweighted: matrix,
+            waves: vec![0.0; 2 * HARMONICS * parameters],
         }
     }
 
     /// A reading of a motion that is here, in steps, and what it changes by with each parameter.
-    fn add(&mut self, steps: f64, weight: f64, slopes: &DVector<f64>) {
-        self.information.ger(weight, slopes, slopes, 1.0);
-        self.unweighted.ger(1.0, slopes, slopes, 1.0);
-        self.of_squares.ger(weight * weight, slopes, slopes, 1.0);
-        let (sin, cos) = (TAU * steps).sin_cos();
-        let (mut real, mut imaginary) = (1.0, 0.0);
-        for h in 0..HARMONICS {
-            (real, imaginary) = (real * cos - imaginary * sin, real * sin + imaginary * cos);
-            self.waves.column_mut(2 * h).axpy(weight * real, slopes, 1.0);
-            self.waves.column_mut(2 * h + 1).axpy(weight * imaginary, slopes, 1.0);
+    fn add(&mut self, steps: f64, weight: f64, slopes: &[f64]) {
+        let mut place = 0;
+        for (row, slope) in slopes.iter().enumerate() {
+            for other in &slopes[..=row] {
+                let product = slope * other;
+                self.unweighted[place] += product;
+                self.information[place] += weight * product;
+                self.of_squares[place] += weight * weight * product;
+                place += 1;
+            }
         }
+        let (sin, cos) = (TAU * steps).sin_cos();
+        let (mut real, mut imaginary) = (weight, 0.0);
+        for waves in self.waves.chunks_exact_mut(2 * self.parameters) {
+            (real, imaginary) = (real * cos - imaginary * sin, real * sin + imaginary * cos);
+            let (by_cosine, by_sine) = waves.split_at_mut(self.parameters);
+            for ((by_cosine, by_sine), slope) in by_cosine.iter_mut().zip(by_sine).zip(slopes) {
+                *by_cosine += real * slope;
+                *by_sine += imaginary * slope;
+            }
+        }
+    }
+
+    fn matrix(&self, of: &[f64]) -> DMatrix<f64> {
+        let at = |row: usize, column: usize| of[row * (row + 1) / 2 + column];
+        DMatrix::from_fn(self.parameters, self.parameters, |i, j| at(i.max(j), i.min(j)))
+    }
+
+    /// Covariance of the estimate under white errors of variance one, by the weights and with each reading counted once.
+    fn under_white(&self) -> Option<[DMatrix<f64>; 2]> {
+        let inverse = |of: &[f64]| Some(self.matrix(of).cholesky()?.inverse());
+        Some([inverse(&self.information)?, inverse(&self.unweighted)?])
     }
 
     /// Covariance of the estimate under errors of this variance, a noise before the rounding among them.
     fn covariance(&self, variance: f64, noise: f64) -> Option<DMatrix<f64>> {
         let mut rest = variance.max(ROUNDING);
-        let mut errors = DMatrix::zeros(self.information.nrows(), self.information.ncols());
-        for h in 0..HARMONICS {
-            let turn = PI * (h + 1) as f64;
-            let strength = (-4.0 * turn * turn * noise).exp() / (2.0 * turn * turn);
+        let mut errors = DMatrix::zeros(self.parameters, self.parameters);
+        for (h, waves) in self.waves.chunks_exact(2 * self.parameters).enumerate() {
+            let strength = strength((h + 1) as f64, noise);
             rest -= strength;
-            for wave in [self.waves.column(2 * h), self.waves.column(2 * h + 1)] {
+            for wave in waves.chunks_exact(self.parameters) {
+                let wave = DVector::from_column_slice(wave);
                 errors.ger(strength, &wave, &wave, 1.0);
             }
         }
-        errors += rest * &self.of_squares;
-        let inverse = self.information.clone().cholesky()?.inverse();
+        errors += rest * self.matrix(&self.of_squares);
+        let inverse = self.matrix(&self.information).cholesky()?.inverse();
         Some(&inverse * errors * &inverse)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{DMatrix, DVector};
+    use nalgebra::DMatrix;
 
     use super::{ROUNDING, Sums, noise_beside};
 
@@ -137,7 +173,7 @@ mod tests {
     fn computed(motion: &[f64], weights: &[f64], noise: f64) -> DMatrix<f64> {
         let mut sums = Sums::new(2);
         for (k, (y, w)) in motion.iter().zip(weights).enumerate() {
-            sums.add(*y, *w, &DVector::from_vec(vec![1.0, k as f64]));
+            sums.add(*y, *w, &[1.0, k as f64]);
         }
         sums.covariance(ROUNDING + noise, noise).expect("two parameters")
     }
