@@ -5,6 +5,8 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use super::filter::{self, Wanted};
 use super::model::{Clock, Model, Noise, Parameter, Switching};
 use super::observations::Observations;
+use super::rounding;
+use super::scoring::Fitted;
 use crate::experiment::Record;
 
 /// A command that switches, and an output about the motion that [`model`] has.
@@ -262,4 +264,66 @@ fn scores_of_what_begins_uncertain_are_slopes_but_for_the_variances() {
             }
         }
     }
+}
+
+/// Rounds the motion on a grid at every place, and estimates by linear least squares with slopes from differences.
+#[test]
+fn estimates_of_rounded_readings_scatter_as_said() {
+    const PLACES: usize = 400;
+    let model = model();
+    let structure: Vec<Parameter> = model.structure().collect();
+    let mut observations = Observations::new(&record(), Clock::Stamps, Switching::AtSamples);
+    observations.output.fill(0.0);
+    observations.weight.fill(1.0);
+    let motion = |model: &Model| {
+        let pass = filter::run(&observations, model, Wanted::Likelihood).expect("a pass");
+        DVector::from_iterator(pass.innovations.len(), pass.innovations.iter().map(|innovation| -innovation.error))
+    };
+    let slopes = DMatrix::from_columns(
+        &structure
+            .iter()
+            .map(|parameter| {
+                let at = |by: f64| {
+                    let mut moved = model.clone();
+                    moved.values[*parameter as usize] += by;
+                    motion(&moved)
+                };
+                (at(1e-5) - at(-1e-5)) / 2e-5
+            })
+            .collect::<Vec<_>>(),
+    );
+    let inverse = slopes.tr_mul(&slopes).cholesky().expect("six parameters").inverse();
+    let (mut narrower, mut wider) = (0, 0);
+    for step in [0.02, 0.1, 0.3, 0.8] {
+        let positions = motion(&model);
+        let mut expected = vec![0.0; structure.len()];
+        for place in 0..PLACES {
+            let shift = step * place as f64 / PLACES as f64;
+            let rounding = positions.map(|y| step * ((y + shift) / step).round() - y - shift);
+            let off = &inverse * slopes.tr_mul(&rounding);
+            expected.iter_mut().zip(off.iter()).for_each(|(sum, off)| *sum += off * off / PLACES as f64);
+        }
+        let mut rounded = observations.clone();
+        rounded.step = Some(step);
+        rounded.output = positions.iter().map(|y| step * (y / step).round()).collect();
+        let mut model = model.clone();
+        model.set_noise(Noise::White, step * step / 12.0, true);
+        let pass = filter::run(&rounded, &model, Wanted::Score).expect("a pass");
+        let fitted = Fitted { log_likelihood: 0.0, score: pass.score(), pass, model, settled: true, iterations: 0 };
+        let free: Vec<usize> = structure.iter().map(|parameter| *parameter as usize).collect();
+        let factors = rounding::factors(&fitted, &rounded, &free).expect("rounded readings");
+        for (place, parameter) in structure.iter().enumerate() {
+            let ratio = (expected[place] / (inverse[(place, place)] * step * step / 12.0)).sqrt();
+            let found = factors[*parameter as usize];
+            // Roundings that cancel count as independent ones.
+            assert!((found / ratio.max(1.0) - 1.0).abs() < 0.05, "{parameter:?} at {step}: {found} for {ratio}");
+            narrower += usize::from(ratio < 0.9);
+            wider += usize::from(ratio > 1.1);
+        }
+    }
+    assert!(narrower > 0 && wider > 0, "{narrower} cancel, {wider} add up");
+    observations.step = None;
+    let pass = filter::run(&observations, &model, Wanted::Score).expect("a pass");
+    let fitted = Fitted { log_likelihood: 0.0, score: pass.score(), pass, model, settled: true, iterations: 0 };
+    assert!(rounding::factors(&fitted, &observations, &[0]).is_none());
 }
