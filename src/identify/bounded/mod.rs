@@ -16,6 +16,7 @@ mod bounds;
 mod command;
 mod contract;
 mod divide;
+mod estimate;
 mod field;
 mod frame;
 mod lp;
@@ -47,6 +48,7 @@ use crate::experiment::Record;
 use crate::numeric::Interval;
 use certificate::{Certificate, Unproved, Witness};
 use divide::Division;
+use estimate::estimated;
 use problem::Readings;
 use report::Answer;
 use search::Search;
@@ -85,7 +87,7 @@ pub fn enclose(records: &[&Record], settings: &BoundedModel) -> Result<Bounds, I
         return outliers::enclose(&Readings::of(records, settings)?, settings);
     }
     let setup = Setup::new(records, settings)?;
-    Ok(explore(&setup, settings, |_, _| ())?.bounds)
+    Ok(explore(&setup, settings, || estimated(records, settings), |_, _| ())?.bounds)
 }
 
 /// The same with the proof in a form that is checked without a search.
@@ -102,7 +104,8 @@ pub fn enclose_with_certificate(
     }
     let setup = Setup::new(records, settings)?;
     let mut witness = None;
-    let explored = explore(&setup, settings, |search, found| {
+    let estimates = || estimated(records, settings);
+    let explored = explore(&setup, settings, estimates, |search, found| {
         witness = found.map(|tried| Witness::of(search, &tried.at));
     })?;
     let certificate = Certificate::prove(&setup, settings, &explored.hulls, witness);
@@ -121,10 +124,11 @@ struct Explored {
     left: Option<Vec<Interval>>,
 }
 
-/// The search; `witness` is told of one that was found.
+/// The search; where it finds no witness one is looked for about the `estimates`, and `witness` is told of one that was found.
 fn explore(
     setup: &Setup,
     settings: &BoundedModel,
+    estimates: impl FnOnce() -> Option<Vec<(Quantity, f64)>>,
     witness: impl FnOnce(&Search<'_>, Option<&Tried>),
 ) -> Result<Explored, IdentifyError> {
     let mut spent = 0;
@@ -149,7 +153,7 @@ fn explore(
         let mut search = Search::new(&narrowed);
         search.passes = passes;
         let division = search.search(narrowed.search.clone(), settings.budget);
-        let (bounds, last) = conclude(setup, search, division, settings, witness);
+        let (bounds, last) = conclude(setup, search, division, settings, estimates, witness);
         let left = last.as_ref().map(|last| {
             let mut left = last[..narrowed.layout.parameters()].to_vec();
             if let (Some(place), None) = (setup.layout.delay(), narrowed.layout.delay()) {
@@ -159,7 +163,7 @@ fn explore(
         });
         return Ok(Explored { bounds, hulls: vec![Some(hull), last], left });
     }
-    let (bounds, hull) = conclude(setup, search, division, settings, witness);
+    let (bounds, hull) = conclude(setup, search, division, settings, estimates, witness);
     let left = hull.as_ref().map(|hull| hull[..setup.layout.parameters()].to_vec());
     Ok(Explored { bounds, hulls: vec![hull], left })
 }
@@ -170,10 +174,14 @@ fn conclude(
     mut search: Search<'_>,
     mut division: Division,
     settings: &BoundedModel,
+    estimates: impl FnOnce() -> Option<Vec<(Quantity, f64)>>,
     witness: impl FnOnce(&Search<'_>, Option<&Tried>),
 ) -> (Bounds, Option<Vec<Interval>>) {
     let mut answer = Answer::default();
     answer.try_nearest(&mut search, &division);
+    if answer.witness().is_none() && !division.kept.is_empty() {
+        answer.try_estimates(&mut search, estimates());
+    }
     // Without a witness the parts may yet turn out empty.
     let mut divided = 0usize;
     while answer.witness().is_none()
@@ -185,7 +193,7 @@ fn conclude(
             answer.try_nearest(&mut search, &division);
         }
     }
-    if answer.witness().is_some() {
+    if answer.witness().is_some() && search.passes < settings.budget {
         answer.sharpen(&mut search, &mut division, settings.budget, GOOD);
     }
     witness(&search, answer.witness());

@@ -184,9 +184,14 @@ impl Doubted<'_> {
         let budget = budget * all / setup.samples();
         let settings = BoundedModel { budget, ..self.settings.clone() };
         let mut missed = Vec::new();
-        let explored = explore(&setup, &settings, |search, witness| {
-            missed = witness.map(|witness| self.missed(search, witness)).unwrap_or_default();
-        })?;
+        let explored = explore(
+            &setup,
+            &settings,
+            || None,
+            |search, witness| {
+                missed = witness.map(|witness| self.missed(search, witness)).unwrap_or_default();
+            },
+        )?;
         let mut bounds = explored.bounds;
         for part in &mut bounds.contradicting {
             let own = |place: Outlier| !self.found.contains(&place) && keep(self, place);

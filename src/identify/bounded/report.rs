@@ -69,6 +69,13 @@ impl Answer {
         }
     }
 
+    /// The same about estimates.
+    pub(super) fn try_estimates(&mut self, search: &mut Search<'_>, estimates: Option<Vec<(Quantity, f64)>>) {
+        if let Some(tried) = estimates.and_then(|estimates| search.nearest_to(&estimates)) {
+            self.note(tried);
+        }
+    }
+
     /// Cuts off what is beyond the witnesses, until the bounds are hardly wider than what these reach.
     pub(super) fn sharpen(&mut self, search: &mut Search<'_>, division: &mut Division, budget: usize, good: f64) {
         let budget = budget.min(search.passes + SHARPENING);

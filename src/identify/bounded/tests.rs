@@ -7,7 +7,7 @@ use super::contract::{Origin, Span};
 use super::lp::Rows;
 use super::search::Search;
 use super::setup::Setup;
-use super::{BoundedModel, Consistency, DelayBound, Quantity, enclose};
+use super::{BoundedModel, Consistency, DelayBound, Quantity, enclose, explore};
 use crate::experiment::{Record, Sensor, SimulatedExperiment};
 use crate::identify::DragLaw;
 use crate::nonlinearity::RelayHysteresis;
@@ -243,4 +243,19 @@ fn a_wide_start_and_a_near_one_end_in_the_same_bounds() {
         let apart = (low - other[0]).abs().max((high - other[1]).abs()) / (high - low);
         assert!(apart < SAME, "{quantity}: [{low}, {high}] and {other:?}, {apart} of the width apart");
     }
+}
+
+#[test]
+fn a_witness_is_found_about_the_fit_where_division_has_hardly_begun_and_none_where_there_is_none() {
+    let record = record(300);
+    let brief = BoundedModel { budget: 1, delay: DelayBound::Unknown, ..settings(DragLaw::Mixed) };
+    let found = enclose(&[&record], &brief).expect("bounds");
+    assert_eq!(found.verdict, Consistency::Consistent);
+    let [low, high] = found.of(Quantity::Alpha).expect("a range");
+    assert!(low <= ALPHA && ALPHA <= high && high > 2.0 * low, "[{low}, {high}] after one pass");
+    let setup = Setup::new(&[&record], &brief).expect("a problem");
+    let without = explore(&setup, &brief, || None, |_, _| ()).expect("bounds");
+    assert_eq!(without.bounds.verdict, Consistency::Undecided, "without estimates");
+    let late = BoundedModel { delay: DelayBound::KnownS(0.15), budget: 1, ..settings(DragLaw::Linear) };
+    assert_ne!(enclose(&[&record], &late).expect("bounds").verdict, Consistency::Consistent);
 }

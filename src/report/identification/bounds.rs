@@ -148,5 +148,10 @@ pub(crate) fn bounds_verdict(guaranteed: &Guaranteed) -> String {
         Consistency::Refuted => String::new(),
         verdict => doubted(model.outliers, bounds.outliers.len(), verdict == Consistency::Consistent),
     };
-    format!("{answer}\n{granted}{smallest}{doubted}")
+    let wide = if bounds.verdict == Consistency::Consistent && bounds.passes >= model.budget {
+        " The budget was spent before all of the search box was worked off: the bounds hold, but may be far wider than what the readings leave."
+    } else {
+        ""
+    };
+    format!("{answer}{wide}\n{granted}{smallest}{doubted}")
 }
