@@ -21,6 +21,7 @@ mod field;
 mod frame;
 mod lp;
 mod mix;
+mod monotone;
 mod outliers;
 mod problem;
 mod report;

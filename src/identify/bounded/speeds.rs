@@ -1,11 +1,12 @@
 //! Velocities at the samples, from readings and the accelerations besides drag.
 
 use super::contract::Model;
+use super::monotone::Even;
 use super::field::{Term, signed_square};
 use crate::numeric::{Interval, Real};
 
 /// Spans over which the mean speed is taken, in samples.
-const SPANS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
+pub(super) const SPANS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
 
 /// Speeds are enclosed again where they are below this share of the largest that is looked for.
 const SLOWER: f64 = 0.7;
@@ -19,6 +20,8 @@ struct Push {
     down: f64,
     /// The acceleration besides drag.
     force: Interval,
+    /// Switchings that have acted, if none can act just now.
+    since: Option<usize>,
 }
 
 impl Push {
@@ -28,13 +31,28 @@ impl Push {
     }
 }
 
-const NONE: Push = Push { up: 0.0, down: 0.0, force: Interval::ZERO };
+const NONE: Push = Push { up: 0.0, down: 0.0, force: Interval::ZERO, since: None };
 
 /// Velocities at the samples, and between each and the next.
 #[derive(Clone, Debug)]
 pub(super) struct Speeds {
     pub(super) at_samples: Vec<Interval>,
     pub(super) between: Vec<Interval>,
+}
+
+/// Times of more than one interval between samples in which no switching can act.
+fn evens(pushes: &[Push]) -> Vec<Even> {
+    let mut evens: Vec<Even> = Vec::new();
+    for (interval, push) in pushes.iter().enumerate() {
+        match (evens.last_mut(), push.since) {
+            (_, None) => {}
+            (Some(even), since) if even.last == interval && pushes[interval - 1].since == since => {
+                even.last = interval + 1;
+            }
+            (_, Some(_)) => evens.push(Even { first: interval, last: interval + 1 }),
+        }
+    }
+    evens
 }
 
 /// A half-line up to, or from, a number.
@@ -178,6 +196,7 @@ impl Model<'_> {
                 up: (push + driving).upper().max(0.0),
                 down: (driving - push).upper().max(0.0),
                 force: push,
+                since: (done == begun && !early).then_some(done),
             });
         }
         pushes
@@ -231,6 +250,10 @@ impl Model<'_> {
                 }
             }
         }
+        let evens = if self.autonomous() { evens(&pushes) } else { Vec::new() };
+        for even in &evens {
+            self.one_way(record, *even, &mut speeds)?;
+        }
         for sample in 1..value.len() {
             let [up, down] = pushes[sample - 1].gains(self.lasted(record, sample - 1, sample));
             let before = speeds[sample - 1];
@@ -263,6 +286,13 @@ impl Model<'_> {
             let largest = -drag.least_within(-before.upper(), -push.force, lasted);
             let range = between(before, after, push, lasted);
             between_samples.push(range.intersection(above(least))?.intersection(below(largest))?);
+        }
+        for even in &evens {
+            self.one_way(record, *even, &mut speeds)?;
+            for sample in even.first..even.last {
+                let passed = speeds[sample].hull(speeds[sample + 1]);
+                between_samples[sample] = between_samples[sample].intersection(passed)?;
+            }
         }
         Some(Speeds { at_samples: speeds, between: between_samples })
     }
