@@ -72,6 +72,20 @@ pub(super) fn signed_square(v: Interval) -> Interval {
     square(v.lower()).hull(square(v.upper()))
 }
 
+/// `(|v| - 2 middle) v` of every element.
+pub(super) fn shifted_square(v: Interval, middle: f64) -> Interval {
+    let m = Interval::point(middle);
+    let forwards = |v: Interval| (v - m).square() - m.square();
+    if v.lower() >= 0.0 {
+        return forwards(v);
+    }
+    if v.upper() <= 0.0 {
+        return -forwards(-v);
+    }
+    let half = |end: f64| forwards(Interval::ZERO.hull(Interval::point(end)));
+    half(v.upper()).hull(-half(-v.lower()))
+}
+
 /// `v^3` of every element.
 pub(super) fn cube(v: Interval) -> Interval {
     let cube = |end: f64| Interval::point(end) * Interval::point(end).square();

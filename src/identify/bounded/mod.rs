@@ -19,8 +19,10 @@ mod divide;
 mod estimate;
 mod field;
 mod frame;
+mod galerkin;
 mod lp;
 mod mix;
+mod modulate;
 mod monotone;
 mod outliers;
 mod problem;
@@ -136,8 +138,9 @@ fn explore(
     let mut at = setup.search.clone();
     if let Some(beginnings) = setup.beginnings(settings, FIRST_SWINGS) {
         let mut search = Search::new(&beginnings);
-        let division = search.search(beginnings.search.clone(), settings.budget);
         // Passes over part of the records cost so much less.
+        let budget = settings.budget * setup.samples() / beginnings.samples();
+        let division = search.search(beginnings.search.clone(), budget);
         spent = search.passes * beginnings.samples() / setup.samples();
         // Where nothing is left of them, whole records show by how much they contradict the model.
         if let Some(hull) = division.hull() {

@@ -2,7 +2,7 @@
 
 use super::contract::Model;
 use super::monotone::Even;
-use super::field::{Term, signed_square};
+use super::field::{Term, cube, shifted_square, signed_square};
 use crate::numeric::{Interval, Real};
 
 /// Spans over which the mean speed is taken, in samples.
@@ -38,6 +38,8 @@ const NONE: Push = Push { up: 0.0, down: 0.0, force: Interval::ZERO, since: None
 pub(super) struct Speeds {
     pub(super) at_samples: Vec<Interval>,
     pub(super) between: Vec<Interval>,
+    /// Accelerations between each sample and the next.
+    pub(super) rates: Vec<Interval>,
 }
 
 /// Times of more than one interval between samples in which no switching can act.
@@ -211,6 +213,37 @@ impl Model<'_> {
         if driven && fastest < SLOWER * self.fastest { self.slower(record, at, fastest) } else { Some(speeds) }
     }
 
+    /// Accelerations between samples, over a box, given the velocities and what acts besides drag.
+    fn rates(&self, at: &[Interval], pushes: &[Push], between: &[Interval]) -> Vec<Interval> {
+        let term = |term: Term| self.layout.place_of(term).map_or(Interval::ZERO, |place| at[place]);
+        let [linear, quadratic, cubic] = [Term::Linear, Term::Quadratic, Term::Cubic].map(term);
+        let drag = |v: Interval| linear * v + quadratic * shifted_square(v, self.middle_speed) + cubic * cube(v);
+        pushes.iter().zip(between).map(|(push, v)| push.force - drag(*v)).collect()
+    }
+
+    /// Velocities once more: what the mean over a time is off the velocity at its ends is half of what the acceleration adds.
+    fn accelerated(&self, record: usize, speeds: &mut Speeds) -> Option<()> {
+        let samples = speeds.at_samples.len();
+        let half = Interval::point(0.5);
+        for span in SPANS {
+            for first in 0..samples.saturating_sub(span) {
+                let last = first + span;
+                let rates = speeds.rates[first..last].iter().copied().reduce(Interval::hull)?;
+                let lasted = self.lasted(record, first, last);
+                let (mean, gained) = (self.mean(record, first, last), half * rates * lasted);
+                speeds.at_samples[first] = speeds.at_samples[first].intersection(mean - gained)?;
+                speeds.at_samples[last] = speeds.at_samples[last].intersection(mean + gained)?;
+            }
+        }
+        for sample in 1..samples {
+            let passed = Interval::ZERO.hull(speeds.rates[sample - 1] * self.lasted(record, sample - 1, sample));
+            let (before, after) = (speeds.at_samples[sample - 1] + passed, speeds.at_samples[sample] - passed);
+            let own = &mut speeds.between[sample - 1];
+            *own = own.intersection(before)?.intersection(after)?;
+        }
+        Some(())
+    }
+
     /// The same where no speed exceeds `fastest`.
     ///
     /// Drag only brakes: with the acceleration besides it at most A, a velocity of v needs a way of `v T - A T^2/2` at least in the
@@ -294,7 +327,11 @@ impl Model<'_> {
                 between_samples[sample] = between_samples[sample].intersection(passed)?;
             }
         }
-        Some(Speeds { at_samples: speeds, between: between_samples })
+        let rates = self.rates(at, &pushes, &between_samples);
+        let mut speeds = Speeds { at_samples: speeds, between: between_samples, rates };
+        self.accelerated(record, &mut speeds)?;
+        speeds.rates = self.rates(at, &pushes, &speeds.between);
+        Some(speeds)
     }
 
     /// Whether the ways that the speeds between samples allow are ones that the readings allow, over every span of time.

@@ -37,7 +37,8 @@ fn known() -> (Readings, Speeds) {
     let at_samples: Vec<Interval> = time_s.iter().map(|t| range(*t)).collect();
     let between = at_samples.windows(2).map(|pair| pair[0].hull(pair[1])).collect();
     let command = Command::new(vec![1.0, -1.0], vec![(3.0, 3.0)]);
-    (Readings { time_s, value, error: ERROR, jitter_s: 0.0, command }, Speeds { at_samples, between })
+    let rates = vec![Interval::symmetric(1.3 * 1.3); between.len()];
+    (Readings { time_s, value, error: ERROR, jitter_s: 0.0, command }, Speeds { at_samples, between, rates })
 }
 
 /// `int K f` over a hat with its ends and its peak at these instants.
@@ -90,7 +91,7 @@ fn the_weighed_position_is_enclosed_and_by_chords_alone_it_is_not() {
     let readings = Readings { value: vec![0.0; readings.time_s.len()], ..readings };
     let within = |fastest: f64| Speeds {
         between: vec![Interval::symmetric(fastest); speeds.between.len()],
-        at_samples: speeds.at_samples.clone(),
+        ..speeds.clone()
     };
     let (moving, still) = (within(turns), within(0.0));
     for first in 0..40 {
