@@ -27,8 +27,6 @@ pub(super) enum Origin {
     LeastLinear,
     /// The equation weighed with the hat at these samples: not more, or not less, than the readings allow.
     Hat { record: usize, samples: Hat, above: bool },
-    /// The equation weighed with the modulating function of this number.
-    Weight { index: usize, above: bool },
 }
 
 /// The readings over a box, linearised.

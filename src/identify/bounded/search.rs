@@ -34,8 +34,6 @@ const WEIGHED_PER_PASS: usize = 12;
 pub(super) enum Method {
     /// Speeds from the readings, then the hats.
     Weigh,
-    /// Modulating functions that fit the records.
-    Modulate,
     /// Whole records.
     Whole,
     /// All windows, each linked to the next.
@@ -106,24 +104,6 @@ impl<'a> Search<'a> {
         let places: Vec<usize> = (0..self.parameters()).collect();
         match linear.contract(at, &places, &places) {
             Pass::Empty(multipliers) => Err(Empty { method: Method::Weigh, multipliers, linear: Some(linear) }),
-            Pass::Contracted => Ok(()),
-        }
-    }
-
-    /// By modulating functions that fit the records about the middle of a box.
-    pub(super) fn modulate(&mut self, at: &mut [Interval]) -> Result<(), Empty> {
-        self.passes += 1;
-        let nothing = || Empty { method: Method::Modulate, multipliers: Vec::new(), linear: None };
-        let mut motions = Vec::new();
-        for record in 0..self.setup.records.len() {
-            let speeds = self.model.speeds(record, at).ok_or_else(nothing)?;
-            motions.push(self.model.passing(record, &speeds));
-        }
-        let places: Vec<usize> = (0..self.parameters()).collect();
-        let sets = self.model.fitted(&motions, at, &places);
-        let linear = self.model.modulated(&sets, &motions, at);
-        match linear.contract(at, &places, &places) {
-            Pass::Empty(multipliers) => Err(Empty { method: Method::Modulate, multipliers, linear: Some(linear) }),
             Pass::Contracted => Ok(()),
         }
     }
@@ -277,7 +257,6 @@ impl<'a> Search<'a> {
     pub(super) fn contract(&mut self, at: &mut [Interval]) -> Result<Left, Empty> {
         let mut weighing = true;
         let mut sweeping = true;
-        let mut modulating = self.model.autonomous();
         let mut left = Left::Wide(0);
         for _ in 0..MOST_PASSES {
             let before = at.to_vec();
@@ -291,12 +270,6 @@ impl<'a> Search<'a> {
             let (wide, widest) = self.too_wide(at);
             if wide {
                 return Ok(Left::Wide(widest));
-            }
-            if modulating {
-                let before = at.to_vec();
-                self.modulate(at)?;
-                modulating = self.rest(&before, at) < HELPED;
-                if modulating { continue; }
             }
             if sweeping {
                 self.sweep(at)?;
