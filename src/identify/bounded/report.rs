@@ -133,7 +133,8 @@ impl Answer {
         let point = |tried: &Tried| Parameters { values: values(search.setup, &tried.at), misfit: tried.misfit };
         let contradicting = if verdict == Consistency::Refuted {
             let shown = division.empties.iter().rev().map(|empty| contradiction(&search, empty));
-            shown.into_iter().find(|readings| !readings.is_empty()).unwrap_or_default()
+            // Else those that no parameter of any box meets.
+            shown.into_iter().find(|readings| !readings.is_empty()).unwrap_or_else(|| search.clash.clone())
         } else {
             Vec::new()
         };

@@ -1,5 +1,6 @@
 //! Contraction of one box until nothing helps.
 
+use super::bounds::Contradicting;
 use super::contract::{Hat, Linear, Model, Pass};
 use super::field::Term;
 use super::frame::Frame;
@@ -67,6 +68,8 @@ pub(super) struct Search<'a> {
     /// Passes over the records so far, those by hats counting by the dozen.
     pub(super) passes: usize,
     weighed: usize,
+    /// Readings between two switchings that no motion meets, where such were found.
+    pub(super) clash: Vec<Contradicting>,
 }
 
 impl<'a> Search<'a> {
@@ -80,7 +83,7 @@ impl<'a> Search<'a> {
             fastest: setup.fastest,
         };
         let hats = setup.records.iter().map(|readings| hats(&readings.time_s, setup.swing_s)).collect();
-        Self { setup, model, hats, passes: 0, weighed: 0 }
+        Self { setup, model, hats, passes: 0, weighed: 0, clash: Vec::new() }
     }
 
     fn parameters(&self) -> usize {
@@ -99,6 +102,9 @@ impl<'a> Search<'a> {
             self.passes += 1;
         }
         let weighed = self.weighed(at);
+        if weighed.is_none() && self.clash.is_empty() {
+            self.clash = self.model.clashes(at);
+        }
         let mut linear = weighed.ok_or(Empty { method: Method::Weigh, multipliers: Vec::new(), linear: None })?;
         self.model.bound(&mut linear);
         let places: Vec<usize> = (0..self.parameters()).collect();

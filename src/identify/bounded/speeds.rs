@@ -1,8 +1,9 @@
 //! Velocities at the samples, from readings and the accelerations besides drag.
 
+use super::bounds::Contradicting;
 use super::contract::Model;
-use super::monotone::Even;
 use super::field::{Term, cube, shifted_square, signed_square};
+use super::monotone::Even;
 use crate::numeric::{Interval, Real};
 
 /// Spans over which the mean speed is taken, in samples.
@@ -204,13 +205,56 @@ impl Model<'_> {
         pushes
     }
 
+    /// Readings between two switchings that no motion meets, whatever its parameters, with a delay of the box.
+    pub(super) fn clashes(&self, at: &[Interval]) -> Vec<Contradicting> {
+        if !self.autonomous() {
+            return Vec::new();
+        }
+        let each = (0..self.records.len()).flat_map(|record| {
+            let evens = evens(&self.pushes(record, at, self.fastest));
+            evens.into_iter().map(move |even| self.clash(record, even))
+        });
+        each.into_iter().find(|readings| !readings.is_empty()).unwrap_or_default()
+    }
+
     /// Encloses the velocity at every sample of a record, over a box. `None` where there is none.
     pub(super) fn speeds(&self, record: usize, at: &[Interval]) -> Option<Speeds> {
         let speeds = self.slower(record, at, self.fastest)?;
         let driven = self.least_linear < 0.0 || self.layout.place_of(Term::Stiffness).is_some();
         let fastest = speeds.between.iter().fold(0.0f64, |fastest, speed| fastest.max(speed.magnitude()));
         // What drives in proportion to a speed, or to a way, is less over slower ones.
-        if driven && fastest < SLOWER * self.fastest { self.slower(record, at, fastest) } else { Some(speeds) }
+        let slow = driven && fastest < SLOWER * self.fastest;
+        let speeds = if slow { self.slower(record, at, fastest)? } else { speeds };
+        Some(if self.records[record].jitter_s > 0.0 { self.stamped(record, &speeds) } else { speeds })
+    }
+
+    /// From the instants at which readings were taken to the stamps that they have: what is so at any instant that a stamp may stand for.
+    fn stamped(&self, record: usize, speeds: &Speeds) -> Speeds {
+        let readings = &self.records[record];
+        let (time, stray) = (&readings.time_s, readings.jitter_s);
+        let intervals = speeds.between.len();
+        let near = |interval: usize| {
+            let (from, to) = (plus(time[interval], -stray).lower(), plus(time[interval + 1], stray).upper());
+            let first = time.partition_point(|time| *time < from).saturating_sub(1);
+            first..time.partition_point(|time| *time <= to).min(intervals)
+        };
+        let over = |values: &[Interval], interval: usize| {
+            values[near(interval)].iter().copied().fold(values[interval], Interval::hull)
+        };
+        let rates: Vec<Interval> = (0..intervals).map(|interval| over(&speeds.rates, interval)).collect();
+        let between: Vec<Interval> = (0..intervals)
+            .map(|interval| {
+                let range = near(interval);
+                // Beyond the first and the last reading the acceleration goes on.
+                let ends = range.start == 0 || range.end == intervals;
+                let beyond = if ends { rates[interval] * Interval::symmetric(2.0 * stray) } else { Interval::ZERO };
+                over(&speeds.between, interval) + beyond
+            })
+            .collect();
+        let at_samples = (0..=intervals)
+            .map(|sample| between[sample.saturating_sub(1)].hull(between[sample.min(intervals - 1)]))
+            .collect();
+        Speeds { at_samples, between, rates }
     }
 
     /// Accelerations between samples, over a box, given the velocities and what acts besides drag.
@@ -222,7 +266,7 @@ impl Model<'_> {
     }
 
     /// Velocities once more: what the mean over a time is off the velocity at its ends is half of what the acceleration adds.
-    fn accelerated(&self, record: usize, speeds: &mut Speeds) -> Option<()> {
+    pub(super) fn accelerated(&self, record: usize, speeds: &mut Speeds) -> Option<()> {
         let samples = speeds.at_samples.len();
         let half = Interval::point(0.5);
         for span in SPANS {

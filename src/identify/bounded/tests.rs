@@ -77,24 +77,30 @@ pub(super) const TURN_S: f64 = 2.0;
 /// Bounds that differ by less of their width are the same.
 const SAME: f64 = 0.01;
 
-/// Linear drag under a square wave, by the solution in closed form, rounded to steps of `STEP`.
-pub(super) fn record(samples: usize) -> Record {
+/// Linear drag under a square wave, by the solution in closed form: time, position, velocity and command at every sample.
+pub(super) fn motion(samples: usize) -> Vec<[f64; 4]> {
     let (mut x, mut v) = (0.0f64, 0.2f64);
-    let (mut time, mut output, mut input) = (Vec::new(), Vec::new(), Vec::new());
     let h = 0.1;
-    for sample in 0..samples {
+    let advance = |sample: usize| {
         let now = sample as f64 * h;
         // Just after a switching instant, however the product rounds.
         let u = if ((now + 1e-9) / TURN_S).floor() % 2.0 == 0.0 { 1.0 } else { -1.0 };
-        time.push(now);
-        output.push((x / STEP).round() * STEP);
-        input.push(u);
+        let here = [now, x, v, u];
         let (rate, terminal) = (BETA / ALPHA, (u + DELTA) / BETA);
         let decay = (-rate * h).exp();
         x += terminal * h + (v - terminal) * (1.0 - decay) / rate;
         v = terminal + (v - terminal) * decay;
-    }
-    Record::new(time, output, input).expect("a record")
+        here
+    };
+    (0..samples).map(advance).collect()
+}
+
+/// The same, rounded to steps of `STEP`.
+pub(super) fn record(samples: usize) -> Record {
+    let motion = motion(samples);
+    let of = |value: &dyn Fn(&[f64; 4]) -> f64| motion.iter().map(value).collect();
+    Record::new(of(&|[now, ..]| *now), of(&|[_, x, ..]| (x / STEP).round() * STEP), of(&|[.., u]| *u))
+        .expect("a record")
 }
 
 /// A box about the truth, of this relative half-width, with everything that a search over it needs.

@@ -35,7 +35,7 @@ fn known() -> (Readings, Speeds) {
         time_s.iter().enumerate().map(|(k, t)| position(*t) + if k % 2 == 0 { ERROR } else { -ERROR }).collect();
     let range = |t: f64| Interval::new(speed(t) - UNSURE[0], speed(t) + UNSURE[1]).expect("ordered");
     let at_samples: Vec<Interval> = time_s.iter().map(|t| range(*t)).collect();
-    let between = at_samples.windows(2).map(|pair| pair[0].hull(pair[1])).collect();
+    let between: Vec<Interval> = at_samples.windows(2).map(|pair| pair[0].hull(pair[1])).collect();
     let command = Command::new(vec![1.0, -1.0], vec![(3.0, 3.0)]);
     let rates = vec![Interval::symmetric(1.3 * 1.3); between.len()];
     (Readings { time_s, value, error: ERROR, jitter_s: 0.0, command }, Speeds { at_samples, between, rates })
@@ -89,10 +89,8 @@ fn the_weighed_position_is_enclosed_and_by_chords_alone_it_is_not() {
     let turns = 2.0 * core::f64::consts::PI / STEP_S;
     let (readings, speeds) = known();
     let readings = Readings { value: vec![0.0; readings.time_s.len()], ..readings };
-    let within = |fastest: f64| Speeds {
-        between: vec![Interval::symmetric(fastest); speeds.between.len()],
-        ..speeds.clone()
-    };
+    let within =
+        |fastest: f64| Speeds { between: vec![Interval::symmetric(fastest); speeds.between.len()], ..speeds.clone() };
     let (moving, still) = (within(turns), within(0.0));
     for first in 0..40 {
         let hat = [first, first + 7, first + 19];
