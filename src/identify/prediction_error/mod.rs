@@ -18,6 +18,7 @@ mod answer;
 mod average;
 mod filter;
 pub(in crate::identify) mod information;
+mod instants;
 mod lateness;
 mod laws;
 mod model;

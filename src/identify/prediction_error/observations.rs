@@ -13,6 +13,41 @@ pub(super) struct Kick {
     pub(super) jump: f64,
     /// Their variance.
     pub(super) variance_s2: f64,
+    /// The last sample before the gap that the command changed in, or the sample before.
+    pub(super) begin_s: f64,
+    /// Number of instants of a gap's missing samples at which it may have changed; one where none is missing.
+    pub(super) choices: usize,
+    /// Time between them.
+    pub(super) step_s: f64,
+    switching: Switching,
+}
+
+impl Kick {
+    /// In a gap the command may have changed at any instant of the grid.
+    fn new(begin_s: f64, end_s: f64, jump: f64, interval_s: f64, switching: Switching) -> Self {
+        let window = end_s - begin_s;
+        let instants = (window / interval_s).round().max(1.0);
+        let step = window / instants;
+        let (at_s, variance_s2) = match switching {
+            Switching::AtSamples => {
+                (end_s - 0.5 * (instants - 1.0) * step, step * step * (instants * instants - 1.0) / 12.0)
+            }
+            Switching::Between => (end_s - 0.5 * window, window * window / 12.0),
+        };
+        let missing = window > MISSING * interval_s && instants <= MOST_CHOICES as f64;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
+        let choices = if missing { instants as usize } else { 1 };
+        Self { at_s, jump, variance_s2, begin_s, choices, step_s: step, switching }
+    }
+
+    /// Mean and variance of one of the instants.
+    fn choice(&self, choice: usize) -> (f64, f64) {
+        let end = self.begin_s + (choice + 1) as f64 * self.step_s;
+        match self.switching {
+            Switching::AtSamples => (end, 0.0),
+            Switching::Between => (end - 0.5 * self.step_s, self.step_s * self.step_s / 12.0),
+        }
+    }
 }
 
 /// A record under one reading of its clock and its switchings.
@@ -45,6 +80,10 @@ pub(super) struct Observations {
 
 /// Twice the log-likelihood that each parameter has to be worth where readings are many.
 pub(super) const PRICE: f64 = 4.0;
+/// Sampling intervals between two samples from which on one is missing.
+const MISSING: f64 = 1.75;
+/// The most instants that a switching in a gap is looked for at.
+const MOST_CHOICES: usize = 24;
 /// The most distinct values that a switched command has.
 const MOST_LEVELS: usize = 4;
 
@@ -105,6 +144,34 @@ impl Observations {
     pub(super) fn skip(&mut self, unseen_s: f64) {
         let from = self.time_s[0] + unseen_s;
         self.first = self.time_s.partition_point(|time_s| *time_s < from).min(self.time_s.len() / 2);
+    }
+
+    /// Puts a switching at the mean of its instants.
+    fn place(&mut self, kick: usize, at_s: f64, variance_s2: f64) {
+        // The first piece begins with the record, each other one with a switching.
+        self.pieces[kick + 1].begin_s = at_s;
+        let kick = &mut self.kicks[kick];
+        (kick.at_s, kick.variance_s2) = (at_s, variance_s2);
+    }
+
+    /// Places a switching of a gap at one of its instants.
+    pub(super) fn choose(&mut self, kick: usize, choice: usize) {
+        let (at_s, variance_s2) = self.kicks[kick].choice(choice);
+        self.place(kick, at_s, variance_s2);
+    }
+
+    /// Places it at the mean of its instants by their shares.
+    pub(super) fn weigh(&mut self, kick: usize, shares: &[f64]) {
+        let instants: Vec<(f64, f64)> = (0..shares.len()).map(|choice| self.kicks[kick].choice(choice)).collect();
+        let mean: f64 = shares.iter().zip(&instants).map(|(share, (at_s, _))| share * at_s).sum();
+        let variance = shares.iter().zip(&instants).map(|(share, (at_s, own))| share * (own + (at_s - mean).powi(2)));
+        self.place(kick, mean, variance.sum());
+    }
+
+    /// Leaves its instant open.
+    pub(super) fn open(&mut self, kick: usize) {
+        let choices = self.kicks[kick].choices;
+        self.weigh(kick, &vec![1.0 / choices as f64; choices]);
     }
 
     /// What all readings that the filter sees count together.
@@ -176,7 +243,7 @@ pub(super) fn grid(record: &Record) -> Option<Vec<f64>> {
     (rms > 1e-3 * step && rms < 0.28 * step).then_some(grid)
 }
 
-/// Constant pieces of a switched command, and its changes. In a gap the command may have changed at any instant of the grid.
+/// Constant pieces of a switched command, and its changes.
 fn switchings(time_s: &[f64], input: &[f64], interval_s: f64, switching: Switching) -> (Vec<Piece>, Vec<Kick>) {
     let mut pieces = vec![Piece { begin_s: time_s[0], value: input[0], slope: 0.0 }];
     let mut kicks = Vec::new();
@@ -185,17 +252,9 @@ fn switchings(time_s: &[f64], input: &[f64], interval_s: f64, switching: Switchi
         if jump == 0.0 {
             continue;
         }
-        let window = time_s[after] - time_s[after - 1];
-        let instants = (window / interval_s).round().max(1.0);
-        let step = window / instants;
-        let (at_s, variance_s2) = match switching {
-            Switching::AtSamples => {
-                (time_s[after] - 0.5 * (instants - 1.0) * step, step * step * (instants * instants - 1.0) / 12.0)
-            }
-            Switching::Between => (time_s[after] - 0.5 * window, window * window / 12.0),
-        };
-        pieces.push(Piece { begin_s: at_s, value: input[after], slope: 0.0 });
-        kicks.push(Kick { at_s, jump, variance_s2 });
+        let kick = Kick::new(time_s[after - 1], time_s[after], jump, interval_s, switching);
+        pieces.push(Piece { begin_s: kick.at_s, value: input[after], slope: 0.0 });
+        kicks.push(kick);
     }
     (pieces, kicks)
 }

@@ -1,6 +1,8 @@
 //! Which terms a record has: from inertia and drag alone, the term that makes it likeliest joins, until none is worth it;
 //! then those that are no longer needed leave. Every model tried is kept for the average.
 
+mod gaps;
+
 use std::sync::OnceLock;
 
 use rayon::prelude::*;
@@ -45,6 +47,8 @@ const WORTH_FOLLOWING: f64 = 0.1;
 /// Samples of a longer record in which terms are looked for first, and how many of the models found there go on.
 const LONGEST_SEARCHED: usize = 4000;
 const CONTINUED: usize = 3;
+/// How often instants of switching in gaps are looked for at most.
+const MOST_READINGS: usize = 3;
 /// Steps while a white force carries a poor start along, and those that follow without it.
 const FOLLOWING: usize = 12;
 const APPROACHING: usize = 12;
@@ -102,8 +106,7 @@ impl<'a> Search<'a> {
         readings: &'b [OnceLock<Observations>; 4],
         model: &Model,
     ) -> &'b Observations {
-        let index = 2 * usize::from(model.clock == Clock::Grid) + usize::from(model.switching == Switching::Between);
-        readings[index].get_or_init(|| {
+        readings[reading_index(model)].get_or_init(|| {
             let mut observations = Observations::new(record, model.clock, model.switching);
             observations.skip(self.unseen_s);
             observations
@@ -174,8 +177,8 @@ impl<'a> Search<'a> {
     /// The likeliest models of the beginning of a long record, fitted to all of it.
     fn continued(&mut self) -> Option<Vec<Fitted>> {
         let (search, mut found) = Search::new(self.head.as_ref()?, self.known).run()?;
-        self.unseen_s = search.unseen_s;
         found.tried.sort_by(|a, b| search.value(b).total_cmp(&search.value(a)));
+        (self.unseen_s, self.head_readings) = (search.unseen_s, search.readings);
         let mut models: Vec<Model> = Vec::new();
         for Fitted { model, .. } in found.tried {
             let same = |other: &Model| {
@@ -212,7 +215,24 @@ impl<'a> Search<'a> {
 
     /// The whole search.
     pub(super) fn run(mut self) -> Option<(Self, Found)> {
-        let mut tried = if self.is_long() { self.continued()? } else { self.plain()? };
+        let begin = if self.is_long() { self.continued()? } else { self.plain()? };
+        if self.is_long() {
+            let begin = if self.read_gaps(&begin) { self.again(&begin)? } else { begin };
+            let found = self.search(begin);
+            return Some((self, found));
+        }
+        let mut found = self.search(begin.clone());
+        for _ in 0..MOST_READINGS {
+            if !self.read_gaps(&found.tried) {
+                break;
+            }
+            found = self.search(self.again(&begin)?);
+        }
+        Some((self, found))
+    }
+
+    /// From models that are fitted: terms join, the lateness is looked for anew, what is not needed leaves.
+    fn search(&self, mut tried: Vec<Fitted>) -> Found {
         let start = self.best(&tried);
         // Noise and process force can hide a structure: where they come first, the structure alone is tried too.
         let mut best = self.grow(&mut tried, start, |_| true);
@@ -248,7 +268,7 @@ impl<'a> Search<'a> {
         let others = self.other_laws(&tried, &tried[best].model);
         tried.extend(others.into_par_iter().filter_map(|model| self.climb(model)).collect::<Vec<_>>());
         best = self.best(&tried);
-        Some((self, Found { tried, best }))
+        Found { tried, best }
     }
 
     /// What makes the vehicle late is looked for anew; returns the number of the best model.
@@ -399,6 +419,11 @@ impl<'a> Search<'a> {
         let admitted = tried.iter().enumerate().filter(|(_, fitted)| admitted(&fitted.model));
         admitted.max_by(|a, b| self.value(a.1).total_cmp(&self.value(b.1))).map(|(index, _)| index)
     }
+}
+
+/// Number of the reading of clock and switchings that a model has.
+fn reading_index(model: &Model) -> usize {
+    2 * usize::from(model.clock == Clock::Grid) + usize::from(model.switching == Switching::Between)
 }
 
 /// Orders of magnitude where noise makes equations without sense.

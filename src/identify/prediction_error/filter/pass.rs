@@ -17,6 +17,11 @@ impl Innovation {
     pub(in super::super) fn standardised(self) -> f64 {
         self.error / self.variance.sqrt()
     }
+
+    /// Logarithm of its density.
+    pub(in super::super) fn log_density(self) -> f64 {
+        -0.5 * (core::f64::consts::TAU.ln() + self.variance.ln() + self.standardised().powi(2))
+    }
 }
 
 /// Gradient of the log-likelihood and Fisher's information.
