@@ -170,7 +170,8 @@ pub struct Bounds {
     pub error: Vec<f64>,
     /// The error is to be multiplied by at least the first, at most the second, for the model to be consistent.
     pub error_factor: [f64; 2],
-    /// Readings that contradict each other, where refuted, in the part of the box that was hardest to refute.
+    /// Readings that contradict each other, where refuted, in the part of the box that was hardest to refute; where no part shows any,
+    /// readings between two switchings that no motion meets, whatever its parameters.
     pub contradicting: Vec<Contradicting>,
     /// Readings that no parameter meets which misses no more than [`BoundedModel::outliers`](super::BoundedModel::outliers). Fewer
     /// than these may be found, and the bounds are wider then: any others could be outliers.

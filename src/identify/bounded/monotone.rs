@@ -7,11 +7,13 @@
 use super::bounds::Contradicting;
 use super::contract::Model;
 use super::field::Term;
-use super::speeds::SPANS;
 use crate::numeric::Interval;
 
 #[cfg(test)]
 mod tests;
+
+/// Spans over which the mean speed is taken, in samples.
+pub(super) const SPANS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
 
 /// Samples from the first to the last of a time in which the command certainly did not change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,11 +3,8 @@
 use super::bounds::Contradicting;
 use super::contract::Model;
 use super::field::{Term, cube, shifted_square, signed_square};
-use super::monotone::Even;
+use super::monotone::{Even, SPANS};
 use crate::numeric::{Interval, Real};
-
-/// Spans over which the mean speed is taken, in samples.
-pub(super) const SPANS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
 
 /// Speeds are enclosed again where they are below this share of the largest that is looked for.
 const SLOWER: f64 = 0.7;
