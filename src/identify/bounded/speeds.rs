@@ -294,7 +294,6 @@ impl Model<'_> {
         let readings = &self.records[record];
         let value = &readings.value;
         let mut speeds = vec![Interval::symmetric(fastest); value.len()];
-        let twice = Interval::symmetric(2.0 * readings.error);
         let half = Interval::point(0.5);
         let drag = self.drag(at);
         for span in SPANS {
@@ -304,7 +303,7 @@ impl Model<'_> {
                 if !lasted.is_positive() {
                     continue;
                 }
-                let mean = (Interval::point(value[last]) - Interval::point(value[first]) + twice) / lasted;
+                let mean = self.mean(record, first, last);
                 let most = pushes[first..last].iter().fold(NONE, |most, push| Push {
                     up: most.up.max(push.up),
                     down: most.down.max(push.down),
