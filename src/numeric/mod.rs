@@ -1,5 +1,7 @@
 //! The arithmetics: [`Real`] and [`Scalar`], and the numerical methods the rest stands on.
 
+#[cfg(feature = "std")]
+mod balls;
 mod bessel;
 pub(crate) mod domain;
 #[cfg(feature = "std")]
@@ -26,6 +28,8 @@ internal! {
     mod special;
 }
 
+#[cfg(feature = "std")]
+pub(crate) use balls::{Balls, Sizes};
 #[cfg(feature = "std")]
 pub(crate) use lanes::Lanes;
 #[cfg(feature = "std")]

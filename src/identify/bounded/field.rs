@@ -153,30 +153,4 @@ impl Field {
             Term::LagRate => u - *f,
         }
     }
-
-    /// What a mix of terms does at once: to velocity's rate, and to the force's.
-    pub(super) fn pushed(&self, weights: &[f64; TERMS], at: &Triple, u: Interval) -> [Interval; 2] {
-        let mut pushed = [Interval::ZERO; 2];
-        for term in Term::ALL {
-            let weight = weights[term as usize];
-            if weight != 0.0 {
-                pushed[usize::from(term == Term::LagRate)] += Interval::point(weight) * self.push(term, at, u);
-            }
-        }
-        pushed
-    }
-
-    /// Rate of a column of slopes of the state, given the damping and what pushes velocity and force besides.
-    pub(super) fn column_rate(&self, damping: Interval, column: &Triple, push: [Interval; 2]) -> Triple {
-        let mut acceleration = damping * column[VELOCITY] + push[0];
-        if self.has(Term::Stiffness) {
-            acceleration -= self.term(Term::Stiffness) * column[POSITION];
-        }
-        let mut force = push[1];
-        if self.has(Term::LagRate) {
-            acceleration += self.term(Term::Gain) * column[FORCE];
-            force -= self.term(Term::LagRate) * column[FORCE];
-        }
-        [column[VELOCITY], acceleration, force]
-    }
 }

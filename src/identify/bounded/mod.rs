@@ -27,6 +27,7 @@ mod problem;
 mod report;
 mod rows;
 mod search;
+mod series;
 mod settings;
 mod setup;
 pub(crate) mod soundness;

@@ -2,9 +2,9 @@
 
 use super::command::Command;
 use super::field::{FORCE, Field, TERMS, Term, Triple, VELOCITY};
-use super::mix::Mix;
-use super::step::{Arrival, Fields, Pair, Refused, Step};
-use crate::numeric::Interval;
+use super::mix::{Bundle, Mix};
+use super::step::{Arrival, Fields, Pair, Refused, Step, straddles};
+use crate::numeric::{Balls, Interval};
 
 /// The most steps between two changes of the command.
 const MOST_STEPS: usize = 2000;
@@ -15,6 +15,12 @@ const POINT_STEP: f64 = 0.12;
 const NARROW: f64 = 0.01;
 /// The same for a step by the rates' ranges.
 const CRUDE: f64 = 0.2;
+/// What a step may be longer against the fastest rate on the way than was looked for.
+const ROOM: f64 = 1.1;
+/// How often the velocity at a step's end is looked at before it is made.
+const LOOKS_AHEAD: usize = 3;
+/// A step that would pass a change of sign is made shorter by this.
+const SHORTER: f64 = 0.7;
 /// How often a step is made shorter before the motion is given up.
 const MOST_SHORTENED: usize = 40;
 
@@ -55,9 +61,11 @@ pub(super) struct Unknowns<'a> {
 /// The state, and its slopes, on the way.
 struct Way<'a> {
     drive: &'a Drive<'a>,
-    unknowns: Unknowns<'a>,
+    /// The unknowns.
+    bundles: &'a [Bundle],
     state: Pair,
-    columns: Vec<Triple>,
+    /// Slopes by the unknowns of each bundle.
+    columns: Vec<[Balls; 3]>,
     /// Switchings that may have happened, each with what a unit of impulse then may have become since.
     open: Vec<(usize, Triple)>,
     speed: f64,
@@ -67,41 +75,23 @@ struct Way<'a> {
 /// Advances the motion of one point, of which nothing but the end is wanted; what it passes besides.
 fn advance_point(field: &Field, start: Triple, u: Interval, h: Interval) -> Option<[Triple; 2]> {
     let (mut state, mut passed, mut left) = (start, start, h);
+    let fields = Fields { over: *field, at: *field };
     for _ in 0..MOST_STEPS {
         if left.upper() <= 0.0 {
             return Some([state, passed]);
         }
         let mut part = left;
-        let longest = POINT_STEP / field.fastest(state[VELOCITY]);
-        if longest < part.lower() {
-            part = Interval::point(longest);
-        }
+        let at = Pair { over: state, at: state };
         // A command that changes on the way is known by its range alone.
-        let mut made = if u.is_point() { None } else { field.pass_crude(&state, u, part).ok() };
-        for _ in 0..MOST_SHORTENED {
-            if made.is_some() {
-                break;
+        let step = if u.is_point() { stride(&fields, &at, u, &mut part, POINT_STEP, &[])? } else { None };
+        let [end, within] = match step {
+            Some(step) => [step.at_end(part).at?, step.within],
+            None => {
+                let (done, length) = crude_point(field, &state, u, part)?;
+                part = length;
+                done
             }
-            let length = match field.pass(&state, u, part, 1.1 * POINT_STEP) {
-                Ok(done) => {
-                    made = Some(done);
-                    break;
-                }
-                Err(Refused::TooLong) => 0.5 * part.lower(),
-                Err(Refused::Kink) => match to_rest(field, &state, u, part.upper()) {
-                    (length, false) => length,
-                    (length, true) => {
-                        if length < part.lower() {
-                            part = Interval::point(length);
-                        }
-                        made = field.pass_crude(&state, u, part).ok();
-                        break;
-                    }
-                },
-            };
-            part = Interval::point(length.min(0.9 * part.lower()));
-        }
-        let [end, within] = made?;
+        };
         state = end;
         for (passed, within) in passed.iter_mut().zip(within) {
             *passed = passed.hull(within);
@@ -111,21 +101,90 @@ fn advance_point(field: &Field, start: Triple, u: Interval, h: Interval) -> Opti
     None
 }
 
+/// One step of the point by the rates' ranges, and how long it is.
+fn crude_point(field: &Field, state: &Triple, u: Interval, mut part: Interval) -> Option<([Triple; 2], Interval)> {
+    shorten(&mut part, POINT_STEP / field.fastest(state[VELOCITY]));
+    for _ in 0..MOST_SHORTENED {
+        if let Ok(done) = field.pass_crude(state, u, part) {
+            return Some((done, part));
+        }
+        part = Interval::point(0.5 * part.lower());
+    }
+    None
+}
+
+fn shorten(part: &mut Interval, length: f64) {
+    if length < part.lower() {
+        *part = Interval::point(length);
+    }
+}
+
+/// One step of at most the duration `part`, which it shortens, and of `length` against the fastest rate; none where the velocity is
+/// about to change its sign.
+fn stride(
+    fields: &Fields,
+    state: &Pair,
+    u: Interval,
+    part: &mut Interval,
+    length: f64,
+    bundles: &[Bundle],
+) -> Option<Option<Box<Step>>> {
+    let field = &fields.over;
+    // All states, the point's among them: it need not be in the box.
+    let both: Triple = core::array::from_fn(|k| state.over[k].hull(state.at[k]));
+    let v = both[VELOCITY];
+    let [_, rate, _] = field.rate(&both, u);
+    shorten(part, length / field.fastest(v));
+    let mut ahead = v;
+    for _ in 0..LOOKS_AHEAD {
+        ahead = v.hull(v + rate * Interval::point(part.lower()));
+        shorten(part, libm::sqrt(part.lower() * length / field.fastest(ahead)));
+    }
+    let mut turning = field.has(Term::Quadratic) && straddles(ahead);
+    for _ in 0..MOST_SHORTENED {
+        if turning {
+            let (rest_s, passed) = to_rest(field, &both, u, part.upper());
+            shorten(part, rest_s);
+            if passed {
+                return Some(None);
+            }
+        }
+        let share = match fields.smooth(state, u, *part, ROOM * length, bundles) {
+            Ok(step) => return Some(Some(step)),
+            Err(Refused::TooLong(share)) => share,
+            Err(Refused::Kink) => {
+                turning = true;
+                SHORTER
+            }
+        };
+        *part = Interval::point(share * part.lower());
+    }
+    None
+}
+
 /// How long the velocity certainly keeps its sign; or, where that is nearly over, how long until it has certainly changed it,
 /// and `true`. An estimate.
 fn to_rest(field: &Field, state: &Triple, u: Interval, left: f64) -> (f64, bool) {
-    let v = state[VELOCITY];
-    let [_, rate, _] = field.rate(state, u);
-    let acceleration = rate.midpoint().abs().max(f64::MIN_POSITIVE);
-    let (near, far) = if v.lower() > 0.0 {
-        (v.lower() / acceleration, v.upper() / acceleration)
+    let [x, v, f] = *state;
+    let rate = |v: Interval| field.rate(&[x, v, f], u)[VELOCITY];
+    let now = rate(v);
+    let (first, last) = (now.midpoint(), rate(Interval::ZERO).midpoint());
+    // The mean over the way there, if the rate is linear in the velocity.
+    let ratio = first / last;
+    let mean = if ratio > 0.0 && (ratio - 1.0).abs() > 1e-3 { (first - last) / libm::log(ratio) } else { first };
+    let acceleration = mean.abs().max(f64::MIN_POSITIVE);
+    // Rates of a box are faster, and slower.
+    let spread = 1.0 + now.radius() / first.abs().max(f64::MIN_POSITIVE);
+    let (slow, fast) = if v.lower() > 0.0 {
+        (v.lower(), v.upper())
     } else if v.upper() < 0.0 {
-        (-v.upper() / acceleration, -v.lower() / acceleration)
-    } else if rate.midpoint() < 0.0 {
-        (0.0, v.upper() / acceleration)
+        (-v.upper(), -v.lower())
+    } else if mean < 0.0 {
+        (0.0, v.upper())
     } else {
-        (0.0, -v.lower() / acceleration)
+        (0.0, -v.lower())
     };
+    let (near, far) = (slow / (acceleration * spread), fast * spread / acceleration);
     if near > 1e-7 * left && near > 0.1 * (far - near) {
         return (0.98 * near, false);
     }
@@ -133,14 +192,21 @@ fn to_rest(field: &Field, state: &Triple, u: Interval, left: f64) -> (f64, bool)
 }
 
 impl Way<'_> {
-    fn carried(&self, arrival: &Arrival) -> Vec<Triple> {
-        self.columns.iter().enumerate().map(|(mix, column)| arrival.carry_mix(column, mix)).collect()
+    fn carried(&self, arrival: &Arrival) -> Vec<[Balls; 3]> {
+        self.columns.iter().enumerate().map(|(bundle, columns)| arrival.carry_bundle(columns, bundle)).collect()
     }
 
     /// Notes a sample.
-    fn note(&mut self, over: Triple, at: Triple, columns: &[Triple]) -> Option<()> {
-        let slopes: Vec<Triple> = (0..columns.len()).map(|k| self.with_open(k, columns[k])).collect();
-        let over = self.met(over, &at, &slopes);
+    fn note(&mut self, over: Triple, at: Triple, columns: &[[Balls; 3]]) -> Option<()> {
+        let columns: Vec<[Balls; 3]> =
+            self.bundles.iter().zip(columns).map(|(bundle, columns)| self.with_open(bundle, *columns)).collect();
+        let over = self.met(over, &at, &columns);
+        let slopes: Vec<Triple> = (self.bundles.iter().zip(&columns))
+            .flat_map(|(bundle, columns)| {
+                let components = columns.map(Balls::intervals);
+                (0..bundle.count()).map(move |place| components.map(|values| values[place]))
+            })
+            .collect();
         if !over.iter().chain(slopes.iter().flatten()).all(|value| value.is_bounded()) {
             return None;
         }
@@ -149,11 +215,11 @@ impl Way<'_> {
     }
 
     /// What is both the state, and the point's state with the slopes.
-    fn met(&self, mut over: Triple, at: &Triple, slopes: &[Triple]) -> Triple {
+    fn met(&self, mut over: Triple, at: &Triple, columns: &[[Balls; 3]]) -> Triple {
         let components = if self.lagged() { 3 } else { 2 };
         for k in 0..components {
-            let pairs = slopes.iter().zip(self.unknowns.deviations).map(|(slope, deviation)| (slope[k], *deviation));
-            let mean = at[k] + Interval::dot(pairs);
+            let parts = self.bundles.iter().zip(columns).map(|(bundle, columns)| (columns[k], bundle.deviations));
+            let mean = at[k] + Balls::dot(parts).total();
             // Both enclose the same values, so that they meet.
             over[k] = over[k].intersection(mean).unwrap_or(over[k]);
         }
@@ -175,11 +241,12 @@ impl Way<'_> {
                 return Some(());
             }
             let mut part = left;
-            let longest = self.length() / self.drive.fields.over.fastest(self.state.over[VELOCITY]);
-            if longest < part.lower() {
-                part = Interval::point(longest);
-            }
-            let mut step = if uncertain { None } else { self.smooth(u, &mut part)? };
+            let mut step = if uncertain {
+                shorten(&mut part, self.length() / self.drive.fields.over.fastest(self.state.over[VELOCITY]));
+                None
+            } else {
+                stride(&self.drive.fields, &self.state, u, &mut part, self.length(), self.bundles)?
+            };
             let mut at_end = None;
             if step.is_none() {
                 // The point goes its own way, and the step ends with a sample, that it be known there.
@@ -215,11 +282,13 @@ impl Way<'_> {
             let fresh = self.fresh();
             for (_, impulse) in &mut self.open {
                 // The instant of the impulse may also be this very end.
-                let carried = arrival.carry(impulse);
-                *impulse = core::array::from_fn(|k| carried[k].hull(fresh[k]));
+                let carried = arrival.carry(&impulse.map(Balls::splat));
+                *impulse = core::array::from_fn(|k| carried[k].interval_at(0).hull(fresh[k]));
             }
-            let slopes: Vec<Triple> = (0..self.columns.len()).map(|k| self.with_open(k, self.columns[k])).collect();
-            self.state.over = self.met(arrival.over, &self.state.at, &slopes);
+            let columns: Vec<[Balls; 3]> = (self.bundles.iter().zip(&self.columns))
+                .map(|(bundle, columns)| self.with_open(bundle, *columns))
+                .collect();
+            self.state.over = self.met(arrival.over, &self.state.at, &columns);
             if self.state.over[VELOCITY].magnitude() > self.drive.fastest {
                 return None;
             }
@@ -234,43 +303,14 @@ impl Way<'_> {
         if gain.width() <= NARROW * gain.lower() { POINT_STEP } else { STEP }
     }
 
-    /// One step of at most the duration `part`, which it shortens; none where the velocity is about to change its sign.
-    fn smooth(&self, u: Interval, part: &mut Interval) -> Option<Option<Step>> {
-        for _ in 0..MOST_SHORTENED {
-            let length = match self.drive.fields.smooth(&self.state, u, *part, 1.1 * self.length(), self.unknowns.mixes)
-            {
-                Ok(step) => return Some(Some(step)),
-                Err(Refused::TooLong) => 0.5 * part.lower(),
-                Err(Refused::Kink) => match to_rest(&self.drive.fields.over, &self.both(), u, part.upper()) {
-                    (length, false) => length,
-                    (length, true) => {
-                        if length < part.lower() {
-                            *part = Interval::point(length);
-                        }
-                        return Some(None);
-                    }
-                },
-            };
-            *part = Interval::point(length.min(0.9 * part.lower()));
-        }
-        None
-    }
-
-    /// All states, the point's among them: it need not be in the box.
-    fn both(&self) -> Triple {
-        core::array::from_fn(|k| self.state.over[k].hull(self.state.at[k]))
-    }
-
     /// One step by the rates' ranges, where it takes the point, and what that passes.
-    fn crude(&self, u: Interval, u_at: Interval, part: &mut Interval) -> Option<(Step, Triple, Triple)> {
+    fn crude(&self, u: Interval, u_at: Interval, part: &mut Interval) -> Option<(Box<Step>, Triple, Triple)> {
         let fields = &self.drive.fields;
         let fastest = fields.over.fastest(self.state.over[VELOCITY]);
-        if CRUDE < fastest * part.lower() {
-            *part = Interval::point(CRUDE / fastest);
-        }
+        shorten(part, CRUDE / fastest);
         for _ in 0..MOST_SHORTENED {
             let [at, passed] = advance_point(&fields.at, self.state.at, u_at, *part)?;
-            if let Ok(step) = fields.crude(&self.state.over, u, &passed, u_at, *part, self.unknowns.mixes) {
+            if let Ok(step) = fields.crude(&self.state.over, u, &passed, u_at, *part, self.bundles) {
                 return Some((step, at, passed));
             }
             *part = Interval::point(0.5 * part.lower());
@@ -278,17 +318,16 @@ impl Way<'_> {
         None
     }
 
-    /// A column with what open switchings may have added.
-    fn with_open(&self, index: usize, mut column: Triple) -> Triple {
+    /// Columns with what open switchings may have added.
+    fn with_open(&self, bundle: &Bundle, mut columns: [Balls; 3]) -> [Balls; 3] {
         for (edge, impulse) in &self.open {
-            let shift = self.unknowns.mixes[index].shift(*edge);
-            if shift != Interval::ZERO {
-                for (value, impulse) in column.iter_mut().zip(impulse) {
-                    *value += shift * self.sized(*edge, *impulse).hull(Interval::ZERO);
+            if let Some(shifts) = bundle.shifts(*edge) {
+                for (values, impulse) in columns.iter_mut().zip(impulse) {
+                    *values = *values + shifts * Balls::splat(self.sized(*edge, *impulse).hull(Interval::ZERO));
                 }
             }
         }
-        column
+        columns
     }
 
     /// An impulse of the size that a later switching has.
@@ -308,12 +347,11 @@ impl Way<'_> {
     fn close(&mut self, edge: usize) {
         let Some(place) = self.open.iter().position(|(open, _)| *open == edge) else { return };
         let (_, impulse) = self.open.swap_remove(place);
-        for index in 0..self.columns.len() {
-            let shift = self.unknowns.mixes[index].shift(edge);
-            if shift != Interval::ZERO {
-                for (k, impulse) in impulse.into_iter().enumerate() {
-                    let added = shift * self.sized(edge, impulse);
-                    self.columns[index][k] += added;
+        let added = impulse.map(|impulse| Balls::splat(self.sized(edge, impulse)));
+        for (bundle, columns) in self.bundles.iter().zip(&mut self.columns) {
+            if let Some(shifts) = bundle.shifts(edge) {
+                for (values, added) in columns.iter_mut().zip(added) {
+                    *values = *values + shifts * added;
                 }
             }
         }
@@ -322,8 +360,10 @@ impl Way<'_> {
 
 /// The motion at `times` (the first is where it starts). `None` where it cannot be enclosed.
 pub(super) fn follow(drive: &Drive<'_>, start: Pair, times: &[f64], unknowns: Unknowns<'_>) -> Option<Vec<Node>> {
-    let columns: Vec<Triple> = unknowns.mixes.iter().map(|mix| mix.start().map(Interval::point)).collect();
-    let mut way = Way { drive, unknowns, state: start, columns, open: Vec::new(), speed: 0.0, nodes: Vec::new() };
+    let bundles = Bundle::of(unknowns.mixes, unknowns.deviations);
+    let columns = bundles.iter().map(|bundle| bundle.start).collect();
+    let mut way =
+        Way { drive, bundles: &bundles, state: start, columns, open: Vec::new(), speed: 0.0, nodes: Vec::new() };
     let (begin, end) = (*times.first()?, *times.last()?);
     // Switchings that have certainly, and perhaps, happened; and the point's own, of which at most the order is in doubt.
     let command = drive.command;

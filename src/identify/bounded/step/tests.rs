@@ -1,0 +1,126 @@
+use super::super::field::TERMS;
+use super::super::mix::{By, Mix};
+use super::*;
+
+const LONGEST: f64 = 1.5;
+const U: f64 = 1.0;
+
+/// An axis with quadratic drag: force over inertia and drag over inertia.
+fn field(gain: Interval, quadratic: Interval) -> Field {
+    let (mut terms, mut active) = ([Interval::ZERO; TERMS], [false; TERMS]);
+    for (term, value) in [(Term::Gain, gain), (Term::Quadratic, quadratic), (Term::Disturbance, Interval::ZERO)] {
+        (terms[term as usize], active[term as usize]) = (value, true);
+    }
+    Field { terms, active, middle_speed: 0.0 }
+}
+
+/// Position and velocity after a time from rest at zero and velocity v: hyperbolic tangent and the logarithm of its cosine.
+fn motion([gain, quadratic, v]: [f64; 3], t: f64) -> [f64; 2] {
+    let (terminal, rate) = ((gain * U / quadratic).sqrt(), (gain * U * quadratic).sqrt());
+    let phase = (v / terminal).atanh();
+    let now = rate * t + phase;
+    [terminal / rate * (now.cosh() / phase.cosh()).ln(), terminal * now.tanh()]
+}
+
+fn about(value: f64, share: f64) -> Interval {
+    Interval::point(value).inflate(share * value)
+}
+
+fn state(v: Interval) -> Triple {
+    [Interval::ZERO, v, Interval::point(U)]
+}
+
+/// Room for roundings of the closed form.
+fn holds(range: Interval, value: f64) -> bool {
+    range.inflate(1e-14).contains(value)
+}
+
+const CENTRE: [f64; 3] = [0.8, 0.5, 0.6];
+const H_S: f64 = 0.4;
+
+/// A step over a box about the centre, of this relative half-width, with slopes by gain, drag and the velocity at its start.
+fn step(share: f64) -> Box<Step> {
+    let [gain, quadratic, v] = CENTRE;
+    let fields = Fields {
+        over: field(about(gain, share), about(quadratic, share)),
+        at: field(Interval::point(gain), Interval::point(quadratic)),
+    };
+    let start = Pair { over: state(about(v, share)), at: state(Interval::point(v)) };
+    let mixes = [By::Term(Term::Gain), By::Term(Term::Quadratic)].map(|by| Mix::of([(by, 1.0)]));
+    let bundles = Bundle::of(&mixes, &[Interval::ZERO; 2]);
+    fields.smooth(&start, Interval::point(U), Interval::point(H_S), LONGEST, &bundles).expect("a step")
+}
+
+#[test]
+fn the_closed_form_is_within_a_step_and_without_the_remainder_it_is_not() {
+    let whole = step(0.0);
+    let mut cut = whole.clone();
+    for series in &mut cut.state {
+        let last = series.len() - 1;
+        series[last] = Balls::ZERO;
+    }
+    let mut missed = 0;
+    for part in 1..=20 {
+        let t = H_S * f64::from(part) / 20.0;
+        let at = whole.at(Interval::point(t)).at.expect("the point's own");
+        let short = cut.at(Interval::point(t)).at.expect("the point's own");
+        for (component, value) in motion(CENTRE, t).into_iter().enumerate() {
+            assert!(holds(at[component], value), "{value} outside {:?} after {t}", at[component]);
+            missed += usize::from(!holds(short[component], value));
+        }
+    }
+    assert!(missed > 5, "without the remainder {missed} of 40 were missed");
+}
+
+#[test]
+fn motions_of_a_box_are_within_the_slopes_and_within_their_middles_they_are_not() {
+    let share = 0.05;
+    let step = step(share);
+    let mut missed = 0;
+    for part in [5, 10, 20] {
+        let t = H_S * f64::from(part) / 20.0;
+        let arrival = step.at(Interval::point(t));
+        let at = arrival.at.expect("the point's own");
+        for corner in 0..8 {
+            let sign = |bit: u32| if corner >> bit & 1 == 0 { 1.0 } else { -1.0 };
+            let values: [f64; 3] = core::array::from_fn(|k| CENTRE[k] * (1.0 + 0.999 * share * sign(k as u32)));
+            let start: [Balls; 3] = units();
+            let by_start = arrival.carry(&start);
+            for (component, value) in motion(values, t).into_iter().enumerate() {
+                assert!(holds(arrival.over[component], value));
+                let pushed = arrival.by_push[0][component];
+                let slopes = [pushed.interval_at(0), pushed.interval_at(1), by_start[component].interval_at(VELOCITY)];
+                let form = |slope: &dyn Fn(Interval) -> Interval| {
+                    slopes.iter().zip(values.iter().zip(CENTRE)).fold(at[component], |sum, (own, (value, centre))| {
+                        sum + slope(*own) * (Interval::point(*value) - Interval::point(centre))
+                    })
+                };
+                assert!(holds(form(&|slope| slope), value), "{value} outside {:?}", form(&|slope| slope));
+                missed += usize::from(!holds(form(&|slope| Interval::point(slope.midpoint())), value));
+            }
+        }
+    }
+    assert!(missed > 20, "by the slopes' middles {missed} of 48 were missed");
+}
+
+#[test]
+fn what_is_unsure_of_a_point_outside_of_the_box_is_carried_by_its_own_slopes() {
+    let [gain, quadratic, v] = CENTRE;
+    // The box has four times the drag.
+    let fields = Fields {
+        over: field(about(gain, 0.01), about(4.0 * quadratic, 0.01)),
+        at: field(Interval::point(gain), Interval::point(quadratic)),
+    };
+    let unsure = about(v, 0.01);
+    let short_s = 0.2;
+    let start = Pair { over: state(about(v, 0.02)), at: state(unsure) };
+    let step = fields.smooth(&start, Interval::point(U), Interval::point(short_s), LONGEST, &[]).expect("a step");
+    let mut other = step.clone();
+    other.at_by_start = None;
+    let at_end = |step: &Step| step.at(Interval::point(short_s)).at.expect("the point's own");
+    for end in [unsure.lower(), unsure.upper()] {
+        let [position, velocity] = motion([gain, quadratic, end], short_s);
+        assert!(holds(at_end(&step)[POSITION], position) && holds(at_end(&step)[VELOCITY], velocity));
+        assert!(!holds(at_end(&other)[VELOCITY], velocity), "by the box's slopes it is missed");
+    }
+}
