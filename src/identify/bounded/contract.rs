@@ -1,5 +1,7 @@
 //! One pass of contraction: the readings as linear inequalities over a box, and what they leave of each unknown.
 
+use core::cell::Cell;
+
 use serde::{Deserialize, Serialize};
 
 use super::field::Term;
@@ -61,6 +63,8 @@ pub(super) struct Model<'a> {
     pub(super) least_linear: f64,
     /// No speed beyond this is looked for.
     pub(super) fastest: f64,
+    /// Steps of motions so far.
+    pub(super) steps: Cell<usize>,
 }
 
 impl Model<'_> {
@@ -125,6 +129,7 @@ impl Model<'_> {
             command_at: middle.as_ref().unwrap_or(&readings.command),
             delay_at_s: self.delay_s(&point).midpoint(),
             fastest: 2.0 * self.fastest,
+            steps: &self.steps,
         };
         let start = Pair { over: self.layout.state_of(span.from, at), at: self.layout.state_of(span.from, &point) };
         follow(&drive, start, &readings.time_s[stretch.first..=last], Unknowns { mixes, deviations })

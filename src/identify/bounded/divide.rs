@@ -11,6 +11,8 @@ use crate::numeric::Interval;
 const FINE: f64 = 0.003;
 /// Divisions of a slice that is to be cut off.
 const MOST_OF_A_SLICE: usize = 6;
+/// A slice that is drawn in by less than this of its width is divided.
+const DRAWN: f64 = 0.2;
 /// Boxes excluded last that are remembered: there the contradiction is shown, and the nearest parameter looked for.
 const REMEMBERED: usize = 4;
 /// A box stands for what is left once they take less than this.
@@ -23,6 +25,35 @@ pub(super) struct Kept {
     pub(super) left: Left,
     /// Coordinates in which it is slanted, once they are known.
     pub(super) frame: Option<Frame>,
+}
+
+/// One end of an unknown's range.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End {
+    pub(super) unknown: usize,
+    pub(super) upper: bool,
+}
+
+impl End {
+    /// Where it is; of a lower end the negative, so that further is more.
+    pub(super) fn of(self, at: &[Interval]) -> f64 {
+        if self.upper { at[self.unknown].upper() } else { -at[self.unknown].lower() }
+    }
+}
+
+impl Kept {
+    /// Keeps what is beyond a value, towards the end; the rest, if there is any on either side of it.
+    fn cut(&mut self, end: End, value: f64) -> Option<Self> {
+        let side = self.at[end.unknown];
+        let value = if end.upper { value } else { -value };
+        if !(side.lower() < value && value < side.upper()) {
+            return None;
+        }
+        let [low, high] = [Interval::new(side.lower(), value)?, Interval::new(value, side.upper())?];
+        let mut rest = self.clone();
+        (self.at[end.unknown], rest.at[end.unknown]) = if end.upper { (high, low) } else { (low, high) };
+        Some(rest)
+    }
 }
 
 /// What is left, and what was excluded last.
@@ -44,6 +75,12 @@ impl Division {
             self.empties.pop_front();
         }
         self.empties.push_back(empty);
+    }
+
+    /// The box that reaches furthest to an end, and how far.
+    fn furthest(&self, end: End) -> Option<(usize, f64)> {
+        let reached = self.kept.iter().enumerate().map(|(index, kept)| (index, end.of(&kept.at)));
+        reached.max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// The smallest box around all that is left; `None` where nothing is.
@@ -87,28 +124,43 @@ impl Search<'_> {
         division
     }
 
-    /// Cuts boxes left at a value of an unknown, and works off what is beyond it.
-    pub(super) fn shave(&mut self, division: &mut Division, unknown: usize, upper: bool, value: f64, budget: usize) {
-        let mut beyond = Vec::new();
-        for index in (0..division.kept.len()).rev() {
-            let side = division.kept[index].at[unknown];
-            if !(side.lower() < value && value < side.upper()) {
-                // All of it is beyond, or nothing.
-                let all = if upper { side.lower() >= value } else { side.upper() <= value };
-                if all {
-                    beyond.push(division.kept.swap_remove(index));
+    /// Works off what reaches beyond a value of an unknown, from the furthest: a slice of the box that reaches furthest is contracted,
+    /// and divided where it stays. The box that stays furthest though it need not be divided any more is returned.
+    pub(super) fn draw_in(&mut self, division: &mut Division, end: End, value: f64, budget: usize) -> Option<Kept> {
+        while self.passes < budget {
+            let (index, furthest) = division.furthest(end)?;
+            if furthest <= value {
+                return None;
+            }
+            let mut kept = division.kept.swap_remove(index);
+            if let Some(rest) = kept.cut(end, value) {
+                division.kept.push(rest);
+            }
+            let width = kept.at[end.unknown].width();
+            match self.contract_fine(&mut kept.at, &mut kept.frame) {
+                Err(empty) => {
+                    division.exclude(empty);
+                    continue;
                 }
+                Ok(left) => kept.left = left,
+            }
+            if furthest - end.of(&kept.at) > DRAWN * width {
+                division.kept.push(kept);
                 continue;
             }
-            let halves = [Interval::new(side.lower(), value), Interval::new(value, side.upper())];
-            let [Some(low), Some(high)] = halves else { continue };
-            let mut kept = division.kept.swap_remove(index);
-            let mut outer = kept.clone();
-            (kept.at[unknown], outer.at[unknown]) = if upper { (low, high) } else { (high, low) };
-            division.kept.push(kept);
-            beyond.push(outer);
+            let parts = match kept.left {
+                Left::Followed { slack, widest } if slack > FINE => self.divide_frame(&kept, widest),
+                _ => None,
+            };
+            match parts {
+                Some(parts) => division.kept.extend(parts),
+                None => {
+                    division.kept.push(kept.clone());
+                    return Some(kept);
+                }
+            }
         }
-        self.work_off(division, beyond, budget);
+        None
     }
 
     /// Contracts and divides boxes that are near the end of a parameter's range, each a few times.

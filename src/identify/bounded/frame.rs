@@ -230,7 +230,7 @@ impl Search<'_> {
         if !own.meet(at) {
             return Err(parted());
         }
-        self.passes += 1;
+        self.count_pass();
         let found = self.model.in_frame(at, &own);
         let Some(linear) = found else { return Ok(None) };
         let (slack, widest) = self.slack_by(&linear, own.places.len());

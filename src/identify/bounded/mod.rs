@@ -19,6 +19,8 @@ mod divide;
 mod estimate;
 mod field;
 mod frame;
+mod hat;
+mod impulse;
 mod lp;
 mod mix;
 mod monotone;
@@ -146,15 +148,13 @@ fn explore(
             at = setup.within(&hull).search;
         }
     }
-    let mut search = Search::new(setup);
-    search.passes = spent;
+    let mut search = Search::new(setup).after(spent);
     let division = search.search(at, settings.budget);
     let passes = search.passes;
     // A delay that is known better leaves more readings.
     if let (Some(hull), true) = (division.hull(), setup.layout.delay().is_some() && division.followed) {
         let narrowed = setup.narrowed(settings, &hull)?;
-        let mut search = Search::new(&narrowed);
-        search.passes = passes;
+        let mut search = Search::new(&narrowed).after(passes);
         let division = search.search(narrowed.search.clone(), settings.budget);
         let (bounds, last) = conclude(setup, search, division, settings, estimates, witness);
         let left = last.as_ref().map(|last| {

@@ -2,7 +2,7 @@
 
 use super::bounds::{Bounds, Consistency, Contradicting, Parameters, Quantity, QuantityRange};
 use super::contract::{Linear, Origin};
-use super::divide::Division;
+use super::divide::{Division, End};
 use super::field::Term;
 use super::lp::{Multipliers, Outcome, Programme};
 use super::search::{Empty, Search};
@@ -12,10 +12,10 @@ use crate::numeric::Interval;
 
 /// Passes after which the bounds are good enough: they hold in any case.
 const SHARPENING: usize = 400;
-/// How often all sides are cut.
+/// How often all ends are drawn in.
 const ROUNDS: usize = 6;
-/// A round that leaves more than this of every width is the last.
-const HELPED: f64 = 0.99;
+/// Boxes in each of which a witness is looked for.
+const MOST_NEAREST: usize = 8;
 
 /// Parameters tried so far.
 #[derive(Default)]
@@ -76,45 +76,74 @@ impl Answer {
         }
     }
 
-    /// Cuts off what is beyond the witnesses, until the bounds are hardly wider than what these reach.
+    /// Draws the bounds in to what the witnesses reach, until they are hardly wider.
     pub(super) fn sharpen(&mut self, search: &mut Search<'_>, division: &mut Division, budget: usize, good: f64) {
         let budget = budget.min(search.passes + SHARPENING);
-        let parameters: Vec<usize> = (0..search.setup.layout.common()).collect();
-        let sides: Vec<(usize, bool)> = parameters.iter().flat_map(|&place| [(place, true), (place, false)]).collect();
         search.contract_kept(division);
-        self.reach(search, division, &sides);
-        for _ in 0..ROUNDS {
-            let mut helped = false;
-            for &(place, upper) in &sides {
-                let (Some(hull), Some(inner)) = (division.hull(), self.inner.as_ref()) else { return };
-                let (outer, inner, width) = (hull[place], inner[place], hull[place].width());
-                let gap = if upper { outer.upper() - inner.upper() } else { inner.lower() - outer.lower() };
-                if gap <= 0.5 * (1.0 - good) * width {
-                    continue;
-                }
-                let beyond = 0.25 * (1.0 - good) * inner.width();
-                let value = if upper { inner.upper() + beyond } else { inner.lower() - beyond };
-                search.shave(division, place, upper, value, budget);
-                let Some(hull) = division.hull() else { return };
-                helped |= hull[place].width() < HELPED * width;
-                if search.passes >= budget {
+        self.near_all(search, division);
+        let ends: Vec<End> = (0..search.setup.layout.common())
+            .flat_map(|unknown| [true, false].map(|upper| End { unknown, upper }))
+            .collect();
+        self.reach(search, division, &ends);
+        for round in 1..=ROUNDS {
+            let mut left = ends.len();
+            for &end in &ends {
+                // What one end does not take the others may.
+                let share = (budget.saturating_sub(search.passes)) / left / (ROUNDS + 1 - round).min(2);
+                left -= 1;
+                self.draw_in(search, division, end, search.passes + share, good);
+                if division.kept.is_empty() {
                     return;
                 }
             }
-            if !helped {
+            if search.passes >= budget || ends.iter().all(|end| self.near(division, *end, good)) {
                 return;
             }
-            search.contract_kept(division);
+        }
+    }
+
+    /// How far beyond the witnesses an end may be.
+    fn goal(&self, division: &Division, end: End, share: f64) -> Option<f64> {
+        let (hull, inner) = (division.hull()?, self.inner.as_ref()?);
+        Some(end.of(inner) + share * hull[end.unknown].width())
+    }
+
+    fn near(&self, division: &Division, end: End, good: f64) -> bool {
+        let reached = division.hull().map(|hull| end.of(&hull));
+        reached.zip(self.goal(division, end, 0.5 * (1.0 - good))).is_none_or(|(reached, goal)| reached <= goal)
+    }
+
+    /// One end, with a budget; where a box stays that is as good as a point, a witness is looked for in it.
+    fn draw_in(&mut self, search: &mut Search<'_>, division: &mut Division, end: End, budget: usize, good: f64) {
+        while search.passes < budget && !self.near(division, end, good) {
+            let Some(goal) = self.goal(division, end, 0.25 * (1.0 - good)) else { return };
+            let Some(stays) = search.draw_in(division, end, goal, budget) else { return };
+            let before = self.inner.as_ref().map(|inner| end.of(inner));
+            if let Some(tried) = search.nearest(&stays.at, &stays.at) {
+                self.note(tried);
+            }
+            if self.inner.as_ref().map(|inner| end.of(inner)) == before {
+                return;
+            }
+        }
+    }
+
+    /// The nearest parameters of all that is left.
+    fn near_all(&mut self, search: &mut Search<'_>, division: &Division) {
+        for kept in division.kept.iter().take(MOST_NEAREST) {
+            if let Some(tried) = search.nearest(&kept.at, &kept.at) {
+                self.note(tried);
+            }
         }
     }
 
     /// Witnesses as far to every side as they are found.
-    fn reach(&mut self, search: &mut Search<'_>, division: &Division, sides: &[(usize, bool)]) {
+    fn reach(&mut self, search: &mut Search<'_>, division: &Division, ends: &[End]) {
         let Some(hull) = division.hull() else { return };
-        for &(place, upper) in sides {
+        for end in ends {
             let Some(witness) = self.witness().cloned() else { return };
-            let sign = if upper { 1.0 } else { -1.0 };
-            if let Some(tried) = search.furthest(&witness, &hull, place, sign) {
+            let sign = if end.upper { 1.0 } else { -1.0 };
+            if let Some(tried) = search.furthest(&witness, &hull, end.unknown, sign) {
                 self.note(tried);
             }
         }

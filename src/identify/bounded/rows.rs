@@ -1,6 +1,7 @@
 //! The inequalities of a pass over a box: by hats, of whole records, of windows each linked to the next, of one window alone.
 
 use super::contract::{Hat, Linear, Model, Span};
+use super::field::Term;
 use super::trajectory::Node;
 use crate::numeric::Interval;
 
@@ -25,8 +26,9 @@ impl Model<'_> {
     /// Speeds from the readings, those at the windows' beginnings put into the box; then the hats. `None` where there is no motion.
     pub(super) fn weighed(&self, hats: &[Vec<Hat>], at: &mut [Interval]) -> Option<Linear> {
         let mut centre = vec![0.0; at.len()];
-        if let Some(delay) = self.layout.delay() {
-            centre[delay] = at[delay].midpoint();
+        // What the command's slopes are about.
+        for place in self.layout.delay().into_iter().chain(self.layout.place_of(Term::LagRate)) {
+            centre[place] = at[place].midpoint();
         }
         let mut linear = self.about(at, centre);
         for (record, hats) in hats.iter().enumerate() {

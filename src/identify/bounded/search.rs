@@ -1,5 +1,7 @@
 //! Contraction of one box until nothing helps.
 
+use core::cell::Cell;
+
 use super::bounds::Contradicting;
 use super::contract::{Hat, Linear, Model, Pass};
 use super::field::Term;
@@ -27,6 +29,8 @@ const MOST_PASSES: usize = 30;
 const FINE_PASSES: usize = 6;
 /// Records are followed as a whole where the slopes' ranges take less than this of the readings' error.
 pub(super) const UNBROKEN: f64 = 1.0;
+/// Steps of a pass, besides two for every sample, that count as one.
+const STEPS_PER_PASS: usize = 1000;
 /// Passes by hats that cost as much as one of the motion.
 const WEIGHED_PER_PASS: usize = 12;
 
@@ -65,8 +69,10 @@ pub(super) struct Search<'a> {
     pub(super) model: Model<'a>,
     /// For each record.
     hats: Vec<Vec<Hat>>,
-    /// Passes over the records so far, those by hats counting by the dozen.
+    /// Passes over the records so far, those by hats counting by the dozen, and steps of stiff motions like as many passes.
     pub(super) passes: usize,
+    before: usize,
+    steps_per_pass: usize,
     weighed: usize,
     /// Readings between two switchings that no motion meets, where such were found.
     pub(super) clash: Vec<Contradicting>,
@@ -81,9 +87,21 @@ impl<'a> Search<'a> {
             known_delay_s: setup.known_delay_s,
             least_linear: setup.least_linear,
             fastest: setup.fastest,
+            steps: Cell::new(0),
         };
         let hats = setup.records.iter().map(|readings| hats(&readings.time_s, setup.swing_s)).collect();
-        Self { setup, model, hats, passes: 0, weighed: 0, clash: Vec::new() }
+        let steps_per_pass = STEPS_PER_PASS + 2 * setup.samples();
+        Self { setup, model, hats, passes: 0, before: 0, steps_per_pass, weighed: 0, clash: Vec::new() }
+    }
+
+    /// The same where so many passes were made before.
+    pub(super) fn after(self, passes: usize) -> Self {
+        Self { passes, before: passes, ..self }
+    }
+
+    /// One more pass.
+    pub(super) fn count_pass(&mut self) {
+        self.passes = (self.passes + 1).max(self.before + self.model.steps.get() / self.steps_per_pass);
     }
 
     fn parameters(&self) -> usize {
@@ -99,7 +117,7 @@ impl<'a> Search<'a> {
     pub(super) fn weigh(&mut self, at: &mut [Interval]) -> Result<(), Empty> {
         self.weighed += 1;
         if self.weighed.is_multiple_of(WEIGHED_PER_PASS) {
-            self.passes += 1;
+            self.count_pass();
         }
         let weighed = self.weighed(at);
         if weighed.is_none() && self.clash.is_empty() {
@@ -117,14 +135,14 @@ impl<'a> Search<'a> {
     /// The inequalities of all windows over a box, each linked to the next, about `centre`. What a window's end says of the next
     /// one's beginning goes into the box. `None` where there is no enclosure.
     pub(super) fn chained(&mut self, at: &mut [Interval], centre: Vec<f64>) -> Result<Option<Linear>, Empty> {
-        self.passes += 1;
+        self.count_pass();
         let chained = self.model.chained(at, centre);
         chained.map_err(|Parted| Empty { method: Method::Chain, multipliers: Vec::new(), linear: None })
     }
 
     /// Every window by itself bounds the state at its beginning.
     fn sweep(&mut self, at: &mut [Interval]) -> Result<(), Empty> {
-        self.passes += 1;
+        self.count_pass();
         let layout = &self.setup.layout;
         for index in 0..layout.windows().len() {
             let centre = at.iter().map(|side| side.midpoint()).collect();
@@ -219,7 +237,7 @@ impl<'a> Search<'a> {
 
     /// The inequalities of whole records over a box about `centre`; `None` where there is no enclosure.
     pub(super) fn unbroken(&mut self, at: &[Interval], centre: Vec<f64>) -> Option<Linear> {
-        self.passes += 1;
+        self.count_pass();
         self.model.unbroken(at, centre)
     }
 

@@ -13,6 +13,8 @@ use crate::numeric::{Interval, Limit, OutOfDomain};
 const READING: f64 = 1e-9;
 /// Linear drag that drives is looked for up to this over the mean time between switchings.
 const DRIVING: f64 = 2.5;
+/// Lags are looked for up to the mean time between switchings over this: longer ones change places with drag's own time.
+const LEAST_LAG_RATE: f64 = 4.0;
 /// Windows of a record between two switchings of the command.
 const WINDOWS_PER_SWING: f64 = 1.0;
 /// Fewest samples of a window.
@@ -221,7 +223,7 @@ impl Setup {
                 Term::Quadratic => quadratic,
                 Term::Cubic => interval(0.0, reach * rate / (first.speed * first.speed)),
                 Term::Stiffness => interval(0.0, reach * rate * rate),
-                Term::LagRate => interval(rate, 1000.0 * rate),
+                Term::LagRate => interval(LEAST_LAG_RATE * rate, 1000.0 * rate),
                 Term::Disturbance => Interval::ZERO,
             }
         });

@@ -77,6 +77,14 @@ fn between(first: Interval, second: Interval, push: Push, lasted: Interval) -> I
     Interval::new(lower, upper).unwrap_or(Interval::ENTIRE)
 }
 
+/// What a force has become that follows a command with a lag, after so many lags: it leaves the command's range no further than it was.
+fn followed(force: Interval, command: Interval, lags: Interval) -> Interval {
+    let left = (-lags).exp();
+    let from = |force: f64, command: f64| Interval::point(command) + plus(force, -command) * left;
+    let (lower, upper) = (from(force.lower(), command.lower()), from(force.upper(), command.upper()));
+    Interval::new(lower.lower(), upper.upper()).unwrap_or(force.hull(command))
+}
+
 /// Drag over a box: linear, quadratic and cubic.
 struct Drag([Interval; 3]);
 
@@ -166,6 +174,10 @@ impl Model<'_> {
         let command = &readings.command;
         let windows: Vec<(f64, f64)> = (0..command.edges()).map(|edge| command.window(edge, delay_s)).collect();
         let (mut done, mut begun) = (0, 0);
+        // The force, which follows the command with a lag.
+        let any = Interval::symmetric(command.largest());
+        let lag_rate = self.layout.place_of(Term::LagRate).map(|place| at[place]);
+        let mut behind = any;
         let samples = readings.time_s.len();
         let mut pushes = Vec::with_capacity(samples);
         for sample in 0..samples - 1 {
@@ -179,13 +191,15 @@ impl Model<'_> {
             while windows.get(begun).is_some_and(|(open, _)| *open < to) {
                 begun += 1;
             }
-            // Before the log nobody knows what acted, and a lag keeps what was.
+            // Before the log nobody knows what acted.
             let early = from < plus(readings.time_s[0], delay_s.upper()).upper();
-            let force = if early || self.layout.lagged() {
-                Interval::symmetric(command.largest())
-            } else {
-                command.between(done, begun)
-            };
+            let acts = if early { any } else { command.between(done, begun) };
+            let force = lag_rate.map_or(acts, |rate| {
+                let before = behind;
+                behind = followed(before, acts, rate * self.lasted(record, sample, sample + 1));
+                // A stamp may be off by more than the force takes to change.
+                if stray > 0.0 { any } else { before.hull(behind) }
+            });
             let mut push = gain * force + disturbance;
             if self.layout.place_of(Term::Stiffness).is_some() {
                 let (a, b) = (Interval::point(readings.value[sample]), Interval::point(readings.value[sample + 1]));

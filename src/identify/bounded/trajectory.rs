@@ -1,5 +1,7 @@
 //! The motion along a record over a box of unknowns: enclosures of the output at every sample, and of its slopes about a point.
 
+use core::cell::Cell;
+
 use super::command::Command;
 use super::field::{FORCE, Field, TERMS, Term, Triple, VELOCITY};
 use super::mix::{Bundle, Mix};
@@ -49,6 +51,8 @@ pub(super) struct Drive<'a> {
     pub(super) delay_at_s: f64,
     /// A motion faster than this is given up.
     pub(super) fastest: f64,
+    /// Counts the steps.
+    pub(super) steps: &'a Cell<usize>,
 }
 
 /// Unknowns of a motion: what each is, and how far from the point it may be.
@@ -260,6 +264,7 @@ impl Way<'_> {
                 (step, at_end) = (Some(crude), Some((at, passed)));
             }
             let step = step?;
+            self.drive.steps.set(self.drive.steps.get() + 1);
             self.speed = self.speed.max(step.within[VELOCITY].magnitude());
             let (last, noted) = (part == left, self.nodes.len());
             while let Some(sample) = ahead.first() {

@@ -6,6 +6,8 @@
 
 use super::contract::{Hat, Linear, Model, Origin};
 use super::field::{Term, cube, signed_square};
+use super::hat::Shape;
+use super::impulse::Impulse;
 use super::problem::Readings;
 use super::speeds::Speeds;
 use crate::numeric::{Interval, Real};
@@ -38,62 +40,6 @@ pub(super) fn hats(time_s: &[f64], swing_s: f64) -> Vec<Hat> {
     }
     hats.dedup();
     hats
-}
-
-/// A hat in time: zero at its ends, one at its peak.
-struct Shape {
-    l: Interval,
-    m: Interval,
-    r: Interval,
-}
-
-impl Shape {
-    fn of(instants: [f64; 3]) -> Self {
-        let [l, m, r] = instants.map(Interval::point);
-        Self { l, m, r }
-    }
-    fn left(&self) -> Interval {
-        self.m - self.l
-    }
-    fn right(&self) -> Interval {
-        self.r - self.m
-    }
-    fn area(&self) -> Interval {
-        Interval::point(0.5) * (self.r - self.l)
-    }
-
-    fn height_at(&self, t: f64) -> Interval {
-        let t = Interval::point(t);
-        if t.upper() <= self.l.lower() || t.lower() >= self.r.upper() {
-            Interval::ZERO
-        } else if t.upper() <= self.m.lower() {
-            (t - self.l) / self.left()
-        } else {
-            (self.r - t) / self.right()
-        }
-    }
-
-    /// All heights from one instant to another.
-    fn height(&self, from: f64, to: f64) -> Interval {
-        let ends = self.height_at(from).hull(self.height_at(to));
-        let peak = from <= self.m.lower() && self.m.upper() <= to;
-        if peak { ends.hull(Interval::ONE) } else { ends }
-    }
-
-    /// The area up to an instant.
-    fn area_to(&self, t: f64) -> Interval {
-        let t = Interval::point(t);
-        let half = Interval::point(0.5);
-        if t.upper() <= self.l.lower() {
-            Interval::ZERO
-        } else if t.upper() <= self.m.lower() {
-            half * (t - self.l).square() / self.left()
-        } else if t.upper() < self.r.upper() {
-            self.area() - half * (self.r - t).square() / self.right()
-        } else {
-            self.area()
-        }
-    }
 }
 
 /// A function of velocity about a point: `value + slope (v - point)`, and a range for what that leaves out.
@@ -194,26 +140,6 @@ impl Under<'_> {
 }
 
 impl Model<'_> {
-    /// `int K u`, each switching anywhere in its span, for the delay in the middle of `delay_s`; and its slope by the delay.
-    fn pushed(&self, record: usize, shape: &Shape, delay_s: Interval) -> [Interval; 2] {
-        let command = &self.records[record].command;
-        let middle = Interval::point(delay_s.midpoint());
-        let mut sum = Interval::point(command.levels()[0]) * shape.area();
-        let mut slope = Interval::ZERO;
-        for edge in 0..command.edges() {
-            let (open, close) = command.window(edge, delay_s);
-            if open >= shape.r.upper() {
-                break;
-            }
-            // What comes after the switching.
-            let (first, last) = command.window(edge, middle);
-            let after = (shape.area() - shape.area_to(first)).hull(shape.area() - shape.area_to(last));
-            sum -= command.drop_at(edge) * after;
-            slope += command.drop_at(edge) * shape.height(open, close);
-        }
-        [sum, slope]
-    }
-
     /// Inequalities for all `hats` of a record over a box; `speeds` enclose the velocity at its samples.
     pub(super) fn weigh(&self, record: usize, hats: &[Hat], at: &[Interval], speeds: &Speeds, linear: &mut Linear) {
         let readings = &self.records[record];
@@ -221,7 +147,7 @@ impl Model<'_> {
         let fastest = speeds.between.iter().fold(0.0f64, |fastest, speed| fastest.max(speed.magnitude()));
         let stray = Interval::point(readings.jitter_s) * Interval::point(fastest);
         let error = Interval::point(readings.error) + stray;
-        let lagged = self.layout.lagged();
+        let rate = self.layout.place_of(Term::LagRate).map(|place| at[place]);
         for hat in hats {
             let instants = hat.map(|sample| readings.time_s[sample]);
             // The hat starts once every command that acts is in the log.
@@ -234,10 +160,9 @@ impl Model<'_> {
             let y = hat.map(|sample| Interval::point(readings.value[sample]));
             let second = (y[2] - y[1]) / shape.right() - (y[1] - y[0]) / shape.left();
             let share = Interval::ONE / shape.right() + Interval::ONE / shape.left();
-            let [force, by_delay] = if lagged {
-                [shape.area() * Interval::symmetric(readings.command.largest()), Interval::ZERO]
-            } else {
-                self.pushed(record, shape, delay_s)
+            let Impulse { force, by_delay, by_lag_rate } = match rate {
+                Some(rate) => self.pushed_behind(record, shape, delay_s, rate),
+                None => self.pushed(record, shape, delay_s),
             };
             let mut slopes: Vec<(usize, Interval)> = Vec::new();
             for (unknown, term) in self.layout.terms().iter().enumerate() {
@@ -247,7 +172,8 @@ impl Model<'_> {
                     Term::Quadratic => -under.weigh(|range| Tangent::square(range, self.middle_speed)),
                     Term::Cubic => -under.weigh(Tangent::cube),
                     Term::Stiffness => -under.place(),
-                    Term::Disturbance | Term::LagRate => continue,
+                    Term::LagRate => at[0] * by_lag_rate,
+                    Term::Disturbance => continue,
                 };
                 slopes.push((unknown, slope));
             }

@@ -32,7 +32,7 @@ pub(super) struct Tried {
 impl Search<'_> {
     /// The largest misfit of one parameter over the whole records. `None` where its motion cannot be enclosed.
     pub(super) fn misfit(&mut self, at: &[f64]) -> Option<f64> {
-        self.passes += 1;
+        self.count_pass();
         let spans = self.model.whole().into_iter();
         spans.map(|span| self.model.misfit(span, at)).try_fold(0.0, |largest: f64, misfit| Some(largest.max(misfit?)))
     }
@@ -116,7 +116,7 @@ impl Search<'_> {
     /// The inequalities at a point.
     fn at_point(&mut self, point: &[Interval]) -> Option<Linear> {
         let centre: Vec<f64> = point.iter().map(|side| side.midpoint()).collect();
-        self.passes += 1;
+        self.count_pass();
         let layout = &self.setup.layout;
         let windows = layout.windows();
         let mut linear = self.model.about(point, centre);
@@ -133,7 +133,7 @@ impl Search<'_> {
     /// The inequalities of whole records about a point, the largest misfit there, and how wide its motion's enclosure is; both in
     /// largest errors.
     fn about_point(&mut self, centre: &[f64]) -> Option<(Linear, f64, f64)> {
-        self.passes += 1;
+        self.count_pass();
         let point: Vec<Interval> = centre.iter().map(|value| Interval::point(*value)).collect();
         let mut linear = self.model.about(&point, centre.to_vec());
         let (mut largest, mut widest) = (0.0f64, 0.0f64);

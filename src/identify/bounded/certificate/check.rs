@@ -1,5 +1,6 @@
 //! The check: enclosures over the boxes that are listed, and sums. No search, no linear programme.
 
+use core::cell::Cell;
 use std::collections::BTreeMap;
 
 use super::super::command::Command;
@@ -255,6 +256,7 @@ impl Certificate {
             known_delay_s: Interval::point(stage.delay_s.unwrap_or(0.0)),
             least_linear: self.least_linear,
             fastest: self.fastest,
+            steps: Cell::new(0),
         }
     }
 

@@ -1,13 +1,10 @@
 //! Hats over a motion that is known, each with a false variant that is caught.
 
-use super::{Shape, Tangent, Under};
-use crate::identify::DragLaw;
+use super::{Tangent, Under};
 use crate::identify::bounded::command::Command;
+use crate::identify::bounded::hat::Shape;
 use crate::identify::bounded::problem::Readings;
-use crate::identify::bounded::search::Search;
-use crate::identify::bounded::setup::Setup;
 use crate::identify::bounded::speeds::Speeds;
-use crate::identify::bounded::{BoundedModel, DelayBound, tests};
 use crate::numeric::Interval;
 
 /// Largest error of a reading.
@@ -103,31 +100,4 @@ fn the_weighed_position_is_enclosed_and_by_chords_alone_it_is_not() {
         assert!(holds(place(&moving), exact));
         assert!(!holds(place(&still), exact));
     }
-}
-
-#[test]
-fn the_push_of_every_delay_is_enclosed_and_by_the_middle_slope_it_is_not() {
-    let delays = [0.2, 0.9];
-    let model = BoundedModel { quantum: Some(0.02), ..BoundedModel::new(DragLaw::Linear, DelayBound::WithinS(delays)) };
-    let setup = Setup::new(&[&tests::record(150)], &model).expect("a problem");
-    let search = Search::new(&setup);
-    let range = Interval::new(delays[0], delays[1]).expect("ordered");
-    let (mut missed, mut tried) = (0, 0);
-    for first in 20..100 {
-        let instants = [first, first + 9, first + 15].map(|sample| f64::from(sample) * STEP_S);
-        let [middle, slope] = search.model.pushed(0, &Shape::of(instants), range);
-        for share in [0.0, 0.3, 0.8, 1.0] {
-            let delay_s = delays[0] + share * (delays[1] - delays[0]);
-            // The command of the record turns every two seconds.
-            let command = |t: f64| if ((t - delay_s) / tests::TURN_S).floor() % 2.0 == 0.0 { 1.0 } else { -1.0 };
-            let push = integral(instants, command);
-            let later = Interval::point(delay_s) - Interval::point(range.midpoint());
-            // A sum of midpoints errs by a piece at a jump.
-            let push = Interval::point(push) + Interval::symmetric(4.0 * STEP_S / PIECES as f64);
-            tried += 1;
-            assert!((middle + slope * later).intersection(push).is_some(), "{instants:?} {delay_s}");
-            missed += usize::from((middle + Interval::point(slope.midpoint()) * later).intersection(push).is_none());
-        }
-    }
-    assert!(missed > tried / 10, "{missed} of {tried}");
 }
