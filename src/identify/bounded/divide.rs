@@ -236,9 +236,16 @@ impl Search<'_> {
         coarsest.is_some_and(|index| self.divide_kept(division, index, budget))
     }
 
+    /// The widest of them: what is left when the budget is spent is no wider than need be.
+    fn take_widest(&self, open: &mut Vec<Vec<Interval>>) -> Option<Vec<Interval>> {
+        let widths = open.iter().enumerate().map(|(index, at)| (index, self.widest(at).0));
+        let (widest, _) = widths.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(open.swap_remove(widest))
+    }
+
     /// Works off a list of boxes.
     fn refine(&mut self, division: &mut Division, mut open: Vec<Vec<Interval>>, budget: usize) {
-        while let Some(mut at) = open.pop() {
+        while let Some(mut at) = self.take_widest(&mut open) {
             if self.passes >= budget {
                 division.followed = false;
                 division.kept.push(Kept { at, left: Left::Wide(0), frame: None });

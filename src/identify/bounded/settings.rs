@@ -45,7 +45,7 @@ pub struct BoundedModel {
     pub cubic: bool,
     /// A restoring force proportional to the coordinate.
     pub stiffness: bool,
-    /// The force follows the command with a first-order lag.
+    /// The force follows the command with a first-order lag, of at most a quarter of the mean time between switchings.
     pub lag: bool,
     /// What is known of the delay.
     pub delay: DelayBound,

@@ -11,12 +11,12 @@ use crate::numeric::{Balls, Interval};
 /// The most steps between two changes of the command.
 const MOST_STEPS: usize = 2000;
 /// Length of a step against the equation's fastest rate.
-const STEP: f64 = 0.25;
+const STEP: f64 = 0.15;
 /// The same over a box whose gain's relative width is at most `NARROW`, where the remainders would count.
 const POINT_STEP: f64 = 0.12;
 const NARROW: f64 = 0.01;
 /// The same for a step by the rates' ranges.
-const CRUDE: f64 = 0.2;
+const CRUDE: f64 = 0.1;
 /// What a step may be longer against the fastest rate on the way than was looked for.
 const ROOM: f64 = 1.1;
 /// How often the velocity at a step's end is looked at before it is made.
