@@ -70,7 +70,8 @@ pub(super) struct Arguments {
     /// Bounded: the model has a restoring force proportional to the coordinate
     #[arg(long)]
     stiffness: bool,
-    /// Bounded: the force follows the command with a first-order lag
+    /// Bounded: the force follows the command with a first-order lag, of at most a quarter of the mean time between
+    /// switchings
     #[arg(long)]
     lag: bool,
     /// Bounded: the drag has a part proportional to the cube of speed

@@ -9,8 +9,8 @@ use crate::numeric::Interval;
 
 /// A box is not divided further where the slopes' ranges take less than this of the readings' error.
 const FINE: f64 = 0.003;
-/// Divisions of a slice that is to be cut off.
-const MOST_OF_A_SLICE: usize = 6;
+/// Divisions of the halves of one box that is left, at once.
+const MOST_OF_A_BOX: usize = 6;
 /// A slice that is drawn in by less than this of its width is divided.
 const DRAWN: f64 = 0.2;
 /// Boxes excluded last that are remembered: there the contradiction is shown, and the nearest parameter looked for.
@@ -163,7 +163,7 @@ impl Search<'_> {
         None
     }
 
-    /// Contracts and divides boxes that are near the end of a parameter's range, each a few times.
+    /// Contracts boxes, and divides them a few times.
     fn work_off(&mut self, division: &mut Division, mut open: Vec<Kept>, budget: usize) {
         let mut divided = 0;
         while let Some(mut kept) = open.pop() {
@@ -182,7 +182,7 @@ impl Search<'_> {
                 division.kept.push(kept);
                 continue;
             };
-            if slack < FINE || divided >= MOST_OF_A_SLICE {
+            if slack < FINE || divided >= MOST_OF_A_BOX {
                 division.kept.push(kept);
                 continue;
             }

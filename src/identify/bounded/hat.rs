@@ -2,6 +2,9 @@
 
 use crate::numeric::{Interval, Real};
 
+#[cfg(test)]
+mod tests;
+
 /// A lag's memory of which less is left shows no more.
 const GONE: f64 = 1e-14;
 

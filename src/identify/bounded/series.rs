@@ -5,7 +5,7 @@ use super::mix::Bundle;
 use crate::numeric::{Balls, Interval, Sizes};
 
 /// Degree whose coefficient over the whole step is the remainder.
-pub(super) const ORDER: usize = 10;
+const ORDER: usize = 10;
 
 type Coefficients<T> = [T; ORDER + 1];
 type Series = Coefficients<Balls>;
@@ -194,7 +194,8 @@ impl Equations {
         [v, acceleration, force]
     }
 
-    /// Columns of slopes from their start, and what a bundle's unknowns push. `None` for a duration `h` in which they may grow beyond all bounds.
+    /// Columns of slopes from their start, and what a bundle's unknowns push. `None` for a step in which they may grow beyond all
+    /// bounds.
     pub(super) fn columns(
         &self,
         step: &Slopes<'_>,

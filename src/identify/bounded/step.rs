@@ -225,7 +225,7 @@ impl Fields {
             end = Some([start[POSITION] + way, reached]);
         }
         let [from, rate] = [*start, field.rate(&within, u)].map(|state| state.map(Balls::splat));
-        let own = Equations::of([field; Balls::COUNT]);
+        let own = Equations::splat(field);
         let damping = field.damping(within[VELOCITY], within_at[VELOCITY]);
         let step = Step::of(line(&from, &rate), None, within, bundles, |start, bundle, path| {
             let by = |term: Term| Balls::splat(field.push(term, within_at, u_at));

@@ -1,6 +1,7 @@
 //! What hats see of a square wave, each with a false variant that is caught.
 
 use super::Impulse;
+use crate::experiment::Record;
 use crate::identify::DragLaw;
 use crate::identify::bounded::hat::Shape;
 use crate::identify::bounded::search::Search;
@@ -111,4 +112,39 @@ fn the_push_through_every_lag_is_enclosed_and_by_middle_slopes_or_without_what_c
     assert!(sloped > tried / 10, "{sloped} of {tried} have slopes");
     assert!(missed > 20, "by middle slopes {missed} of {tried} are missed");
     assert!(forgotten > 20, "without what is unknown {forgotten} of {tried} are missed");
+}
+
+#[test]
+fn velocities_behind_a_lag_are_enclosed_and_those_of_a_prompt_force_are_not() {
+    let (lag_s, delay_s, samples, piece) = (0.3, 0.2, 130, STEP_S / PIECES as f64);
+    let (gain, rate, drift) = (1.0 / tests::ALPHA, tests::BETA / tests::ALPHA, tests::DELTA / tests::ALPHA);
+    // Midpoint steps of the velocity, a thousandth of the rounding off at most.
+    let (mut x, mut v) = (0.0, 0.2);
+    let mut fine = vec![[x, v]];
+    for force in behind(lag_s, delay_s, samples * PIECES) {
+        let acceleration = |v: f64| gain * force + drift - rate * v;
+        let middle = v + 0.5 * piece * acceleration(v);
+        (x, v) = (x + piece * middle, v + piece * acceleration(middle));
+        fine.push([x, v]);
+    }
+    let at_sample = |k: usize| fine[k * PIECES];
+    let times: Vec<f64> = (0..samples).map(|k| k as f64 * STEP_S).collect();
+    let output = (0..samples).map(|k| (at_sample(k)[0] / tests::STEP).round() * tests::STEP).collect();
+    let record = Record::new(times.clone(), output, times.iter().map(|t| command(t + 1e-9, 0.0)).collect());
+    let record = record.expect("a record");
+    let missed = |lag: bool, width: f64| {
+        let model = BoundedModel::new(DragLaw::Linear, DelayBound::KnownS(delay_s));
+        let setup = Setup::new(&[&record], &BoundedModel { quantum: Some(tests::STEP), lag, ..model }).ok()?;
+        let mut at = setup.search.clone();
+        let truth = [gain, rate].into_iter().chain(lag.then_some(1.0 / lag_s)).chain([drift]);
+        for (side, value) in at.iter_mut().zip(truth) {
+            *side = Interval::new(value * (1.0 - width), value * (1.0 + width))?;
+        }
+        let speeds = Search::new(&setup).model.speeds(0, &at)?;
+        Some((0..samples).filter(|k| !speeds.at_samples[*k].contains(at_sample(*k)[1])).count())
+    };
+    for width in [0.01, 0.1, 0.5] {
+        assert_eq!(missed(true, width), Some(0), "{width}");
+    }
+    assert!(missed(false, 0.01).is_none_or(|missed| missed > 10), "{:?}", missed(false, 0.01));
 }

@@ -73,6 +73,46 @@ fn the_closed_form_is_within_a_step_and_without_the_remainder_it_is_not() {
 }
 
 #[test]
+fn the_slope_by_the_velocity_at_the_start_is_within_its_column_and_without_the_remainder_it_is_not() {
+    let whole = step(0.0);
+    let mut cut = whole.clone();
+    for series in &mut cut.by_start {
+        let last = series.len() - 1;
+        series[last] = Balls::ZERO;
+    }
+    let slope = |step: &Step, t: f64| step.at(Interval::point(t)).by_start[VELOCITY][VELOCITY].interval_at(0);
+    let mut missed = 0;
+    for part in 1..=20 {
+        let t = H_S * f64::from(part) / 20.0;
+        // The derivative of the hyperbolic tangent, now and at the start.
+        let [gain, quadratic, v] = CENTRE;
+        let terminal = (gain * U / quadratic).sqrt();
+        let left = |v: f64| 1.0 - (v / terminal) * (v / terminal);
+        let exact = left(motion(CENTRE, t)[1]) / left(v);
+        assert!(holds(slope(&whole, t), exact), "{exact} outside {:?} after {t}", slope(&whole, t));
+        missed += usize::from(!holds(slope(&cut, t), exact));
+    }
+    assert!(missed > 5, "without the remainder {missed} of 20 were missed");
+}
+
+#[test]
+fn the_remainder_of_a_slope_is_no_smaller_than_what_linear_drag_leaves_out() {
+    let (mut equation, rate) = (field(Interval::ONE, Interval::ZERO), 2.0);
+    equation.active[Term::Quadratic as usize] = false;
+    equation.terms[Term::Linear as usize] = Interval::point(rate);
+    let start = Pair { over: state(Interval::ZERO), at: state(Interval::ZERO) };
+    let h_s = 0.85 / rate;
+    let fields = Fields { over: equation, at: equation };
+    let step = fields.smooth(&start, Interval::point(U), Interval::point(h_s), LONGEST, &[]).expect("a step");
+    let [position, velocity, _] = step.at(Interval::point(h_s)).by_start[VELOCITY];
+    let left = (-rate * h_s).exp();
+    assert!(holds(velocity.interval_at(0), left), "{left} outside {:?}", velocity.interval_at(0));
+    assert!(holds(position.interval_at(0), (1.0 - left) / rate));
+    // It is what counts here, and not much more than it need be.
+    assert!(velocity.interval_at(0).width() > 1e-8 && velocity.interval_at(0).width() < 1e-5);
+}
+
+#[test]
 fn motions_of_a_box_are_within_the_slopes_and_within_their_middles_they_are_not() {
     let share = 0.05;
     let step = step(share);
