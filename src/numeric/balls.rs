@@ -76,9 +76,12 @@ impl Balls {
     /// Each from a place of its own.
     #[inline]
     pub(crate) fn gather(from: [(&Self, usize); Self::COUNT]) -> Self {
+        let [a, b, c, d] = from;
+        let middle = |(balls, place): (&Self, usize)| balls.middle.as_array()[place];
+        let radius = |(balls, place): (&Self, usize)| balls.radius.as_array()[place];
         Self {
-            middle: f64x4::new(from.map(|(balls, place)| balls.middle.to_array()[place])),
-            radius: f64x4::new(from.map(|(balls, place)| balls.radius.to_array()[place])),
+            middle: f64x4::new([middle(a), middle(b), middle(c), middle(d)]),
+            radius: f64x4::new([radius(a), radius(b), radius(c), radius(d)]),
         }
     }
 
@@ -198,6 +201,25 @@ impl Sizes {
     #[inline]
     pub(crate) fn spread(self, place: usize) -> Self {
         Self(f64x4::splat(self.0.to_array()[place]))
+    }
+
+    /// Each from a place of its own.
+    #[inline]
+    pub(crate) fn gather(from: [(&Self, usize); Balls::COUNT]) -> Self {
+        let [a, b, c, d] = from;
+        let size = |(sizes, place): (&Self, usize)| sizes.0.as_array()[place];
+        Self(f64x4::new([size(a), size(b), size(c), size(d)]))
+    }
+
+    /// The first of them.
+    pub(crate) fn interval(self) -> Interval {
+        Interval::point(self.0.to_array()[0])
+    }
+
+    /// The sum of all of them, at most.
+    pub(crate) fn total(self) -> Interval {
+        let [a, b, c, d] = self.0.to_array().map(Interval::point);
+        (a + b) + (c + d)
     }
 
     /// Of sums of products.

@@ -12,6 +12,9 @@ use super::step::{Fields, Pair};
 use super::trajectory::{Drive, Node, Unknowns, follow};
 use crate::numeric::{Interval, Real};
 
+/// Share of a reading's error that a step's remainder may be.
+const REMAINDER: f64 = 1e-6;
+
 /// Samples at which a hat begins, has its peak, and ends.
 pub(super) type Hat = [usize; 3];
 
@@ -63,8 +66,23 @@ pub(super) struct Model<'a> {
     pub(super) least_linear: f64,
     /// No speed beyond this is looked for.
     pub(super) fastest: f64,
+    /// Reciprocal of the time over which a step's remainder of the velocity matters; none for steps by the fastest rate alone.
+    pub(super) per_s: Option<f64>,
     /// Steps of motions so far.
     pub(super) steps: Cell<usize>,
+}
+
+impl Readings {
+    /// How far the output of a motion may be from a reading, by its number in the motion.
+    pub(super) fn allowed(&self, motion: &[Node], offset: usize) -> Interval {
+        let error = Interval::point(self.error);
+        if self.jitter_s <= 0.0 {
+            return error;
+        }
+        let speed = motion[offset].speed;
+        let next = motion.get(offset + 1).map_or(speed, |next| next.speed);
+        error + Interval::point(self.jitter_s) * Interval::point(speed.max(next))
+    }
 }
 
 impl Model<'_> {
@@ -77,13 +95,13 @@ impl Model<'_> {
         let (by, places) = self.layout.columns(span.from);
         let deviations: Vec<Interval> =
             places.iter().map(|place| at[*place] - Interval::point(centre[*place])).collect();
-        self.follow(span, at, centre, &singly(&by), &deviations)
+        self.follow(span, at, centre, Unknowns { mixes: &singly(&by), deviations: &deviations, bending: false })
     }
 
     /// The outputs of one point over a span of windows.
     pub(super) fn outputs(&self, span: Span, centre: &[f64]) -> Option<Vec<Interval>> {
         let at: Vec<Interval> = centre.iter().map(|value| Interval::point(*value)).collect();
-        Some(self.follow(span, &at, centre, &[], &[])?.iter().map(|node| node.at[0]).collect())
+        Some(self.follow(span, &at, centre, Unknowns::NONE)?.iter().map(|node| node.at[0]).collect())
     }
 
     /// Upper bound of the largest misfit of one point over a span of windows, in largest errors. `None` where its motion cannot
@@ -105,8 +123,7 @@ impl Model<'_> {
         span: Span,
         at: &[Interval],
         centre: &[f64],
-        mixes: &[Mix],
-        deviations: &[Interval],
+        unknowns: Unknowns<'_>,
     ) -> Option<Vec<Node>> {
         let stretch = self.layout.windows()[span.from];
         let last = self.layout.windows()[span.to - 1].last;
@@ -129,10 +146,11 @@ impl Model<'_> {
             command_at: middle.as_ref().unwrap_or(&readings.command),
             delay_at_s: self.delay_s(&point).midpoint(),
             fastest: 2.0 * self.fastest,
+            remainder: self.per_s.map(|per_s| REMAINDER * readings.error * per_s),
             steps: &self.steps,
         };
         let start = Pair { over: self.layout.state_of(span.from, at), at: self.layout.state_of(span.from, &point) };
-        follow(&drive, start, &readings.time_s[stretch.first..=last], Unknowns { mixes, deviations })
+        follow(&drive, start, &readings.time_s[stretch.first..=last], unknowns)
     }
 
     /// Deviations from a point of a box.
@@ -176,13 +194,7 @@ impl Model<'_> {
         let readings = &self.records[stretch.record];
         for (offset, node) in over.iter().enumerate() {
             let sample = stretch.first + offset;
-            let moved = if readings.jitter_s > 0.0 {
-                let next = over.get(offset + 1).map_or(node.speed, |next| next.speed);
-                Interval::point(readings.jitter_s) * Interval::point(node.speed.max(next))
-            } else {
-                Interval::ZERO
-            };
-            let error = Interval::point(readings.error) + moved;
+            let error = readings.allowed(over, offset);
             let residual = node.at[0] - Interval::point(readings.value[sample]);
             let slopes = places.iter().copied().zip(node.slopes.iter().map(|slope| slope[0]));
             linear.pair(slopes, residual, error, |above| Origin::Reading { window: span.from, sample, above });

@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 
 use super::field::Term;
-use super::frame::Frame;
 use super::search::{Empty, Left, Method, Search};
+use super::slanted::Slanted;
 use crate::numeric::Interval;
 
 /// A box is not divided further where the slopes' ranges take less than this of the readings' error.
@@ -23,8 +23,8 @@ const FOLLOWED: f64 = 0.7;
 pub(super) struct Kept {
     pub(super) at: Vec<Interval>,
     pub(super) left: Left,
-    /// Coordinates in which it is slanted, once they are known.
-    pub(super) frame: Option<Frame>,
+    /// The slanted box that it is in, once that is known.
+    pub(super) slanted: Option<Slanted>,
 }
 
 /// One end of an unknown's range.
@@ -35,6 +35,11 @@ pub(super) struct End {
 }
 
 impl End {
+    /// Which way it is.
+    pub(super) fn sign(self) -> f64 {
+        if self.upper { 1.0 } else { -1.0 }
+    }
+
     /// Where it is; of a lower end the negative, so that further is more.
     pub(super) fn of(self, at: &[Interval]) -> f64 {
         if self.upper { at[self.unknown].upper() } else { -at[self.unknown].lower() }
@@ -109,12 +114,12 @@ impl Search<'_> {
 
     /// Halves of a box that is left: along a coordinate of its frame, if it has one.
     fn divide_frame(&self, kept: &Kept, unknown: usize) -> Option<[Kept; 2]> {
-        if let Some(frame) = &kept.frame {
-            let halves = frame.halves(unknown)?;
-            return Some(halves.map(|frame| Kept { frame: Some(frame), ..kept.clone() }));
+        if let Some(slanted) = &kept.slanted {
+            let halves = slanted.halves(unknown)?;
+            return Some(halves.map(|half| Kept { slanted: Some(half), ..kept.clone() }));
         }
         let parts = self.divide(&kept.at, unknown)?;
-        Some(parts.map(|at| Kept { at, left: kept.left, frame: None }))
+        Some(parts.map(|at| Kept { at, left: kept.left, slanted: None }))
     }
 
     /// Everything in `at`, divided until the motion can be followed over each part that is left.
@@ -125,8 +130,16 @@ impl Search<'_> {
     }
 
     /// Works off what reaches beyond a value of an unknown, from the furthest: a slice of the box that reaches furthest is contracted,
-    /// and divided where it stays. The box that stays furthest though it need not be divided any more is returned.
-    pub(super) fn draw_in(&mut self, division: &mut Division, end: End, value: f64, budget: usize) -> Option<Kept> {
+    /// and divided where it stays. The box that stays furthest though what is in doubt takes no more than `fine` of the readings' errors
+    /// is returned.
+    pub(super) fn draw_in(
+        &mut self,
+        division: &mut Division,
+        end: End,
+        value: f64,
+        fine: f64,
+        budget: usize,
+    ) -> Option<Kept> {
         while self.passes < budget {
             let (index, furthest) = division.furthest(end)?;
             if furthest <= value {
@@ -137,7 +150,7 @@ impl Search<'_> {
                 division.kept.push(rest);
             }
             let width = kept.at[end.unknown].width();
-            match self.contract_fine(&mut kept.at, &mut kept.frame) {
+            match self.contract_fine(&mut kept.at, &mut kept.slanted) {
                 Err(empty) => {
                     division.exclude(empty);
                     continue;
@@ -149,7 +162,7 @@ impl Search<'_> {
                 continue;
             }
             let parts = match kept.left {
-                Left::Followed { slack, widest } if slack > FINE => self.divide_frame(&kept, widest),
+                Left::Followed { slack, widest } if slack > fine => self.divide_frame(&kept, widest),
                 _ => None,
             };
             match parts {
@@ -171,7 +184,7 @@ impl Search<'_> {
                 division.kept.push(kept);
                 continue;
             }
-            match self.contract_fine(&mut kept.at, &mut kept.frame) {
+            match self.contract_fine(&mut kept.at, &mut kept.slanted) {
                 Err(empty) => {
                     division.exclude(empty);
                     continue;
@@ -199,7 +212,7 @@ impl Search<'_> {
     pub(super) fn contract_kept(&mut self, division: &mut Division) {
         let boxes: Vec<Kept> = division.kept.drain(..).collect();
         for mut kept in boxes {
-            match self.contract_fine(&mut kept.at, &mut kept.frame) {
+            match self.contract_fine(&mut kept.at, &mut kept.slanted) {
                 Err(empty) => division.exclude(empty),
                 Ok(left) => {
                     kept.left = left;
@@ -217,7 +230,7 @@ impl Search<'_> {
         }
         let Some(parts) = self.divide_frame(&division.kept[index], widest) else { return false };
         division.kept.swap_remove(index);
-        if parts[0].frame.is_some() {
+        if parts[0].slanted.is_some() {
             self.work_off(division, parts.into(), budget);
         } else {
             self.refine(division, parts.into_iter().map(|part| part.at).collect(), budget);
@@ -248,7 +261,7 @@ impl Search<'_> {
         while let Some(mut at) = self.take_widest(&mut open) {
             if self.passes >= budget {
                 division.followed = false;
-                division.kept.push(Kept { at, left: Left::Wide(0), frame: None });
+                division.kept.push(Kept { at, left: Left::Wide(0), slanted: None });
                 continue;
             }
             let left = match self.contract(&mut at) {
@@ -260,7 +273,7 @@ impl Search<'_> {
             };
             let unknown = match left {
                 Left::Followed { slack, .. } if slack <= FOLLOWED => {
-                    division.kept.push(Kept { at, left, frame: None });
+                    division.kept.push(Kept { at, left, slanted: None });
                     continue;
                 }
                 Left::Followed { widest, .. } | Left::Wide(widest) => widest,
@@ -269,7 +282,7 @@ impl Search<'_> {
                 Some(parts) => open.extend(parts),
                 None => {
                     division.followed = false;
-                    division.kept.push(Kept { at, left: Left::Wide(unknown), frame: None });
+                    division.kept.push(Kept { at, left: Left::Wide(unknown), slanted: None });
                 }
             }
         }

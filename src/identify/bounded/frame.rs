@@ -5,49 +5,47 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::contract::{Linear, Model, Origin, Span};
-use super::lp::{Multipliers, Outcome, Programme};
+use super::contract::{Linear, Model, Origin};
 use super::mix::Mix;
-use super::search::{Empty, Left, Method, Search};
-use super::trajectory::Node;
+use super::problem::Layout;
 use crate::numeric::Interval;
 
 /// Parameters and states at records' beginnings, in coordinates that hardly depend on each other.
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
     /// Where each stands in a box.
-    places: Vec<usize>,
-    centre: Vec<f64>,
+    pub(super) places: Vec<usize>,
+    pub(super) centre: Vec<f64>,
     /// Row by row, below the diagonal.
     lower: Vec<Vec<f64>>,
     /// The box in these coordinates.
     pub(super) z: Vec<Interval>,
 }
 
-fn dot(weights: &[(usize, f64)], z: &[Interval]) -> Interval {
+pub(super) fn dot(weights: &[(usize, f64)], z: &[Interval]) -> Interval {
     Interval::dot(weights.iter().map(|(index, weight)| (Interval::point(*weight), z[*index])))
 }
 
 impl Frame {
     /// Along the axes.
-    fn straight(places: Vec<usize>, at: &[Interval]) -> Self {
+    pub(super) fn straight(places: Vec<usize>, at: &[Interval]) -> Self {
         let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
         let z = places.iter().map(|place| at[*place] - Interval::point(centre[*place])).collect();
         let lower = (0..places.len()).map(|row| vec![0.0; row]).collect();
         Self { places, centre, lower, z }
     }
 
-    fn weight(&self, row: usize, column: usize) -> f64 {
+    pub(super) fn weight(&self, row: usize, column: usize) -> f64 {
         if row == column { 1.0 } else { self.lower[row].get(column).copied().unwrap_or(0.0) }
     }
 
     /// What a place is made of.
-    fn row(&self, row: usize) -> Vec<(usize, f64)> {
+    pub(super) fn row(&self, row: usize) -> Vec<(usize, f64)> {
         (0..=row).map(|column| (column, self.weight(row, column))).filter(|(_, weight)| *weight != 0.0).collect()
     }
 
     /// Coordinates of a deviation.
-    fn coordinates(&self, deviation: impl Fn(usize) -> Interval) -> Vec<Interval> {
+    pub(super) fn coordinates(&self, deviation: impl Fn(usize) -> Interval) -> Vec<Interval> {
         let mut z: Vec<Interval> = Vec::with_capacity(self.places.len());
         for (row, lower) in self.lower.iter().enumerate() {
             let known = Interval::dot(lower.iter().map(|weight| Interval::point(*weight)).zip(z.iter().copied()));
@@ -72,7 +70,7 @@ impl Frame {
     }
 
     /// The same slanted further by `lower` and about a new centre, given the coordinates in the slanted frame about the old one.
-    fn moved(mut self, z: Vec<Interval>) -> Self {
+    pub(super) fn moved(mut self, z: Vec<Interval>) -> Self {
         let middle: Vec<f64> = z.iter().map(|side| side.midpoint()).collect();
         let mut shift = Vec::with_capacity(z.len());
         for (row, place) in self.places.iter().enumerate() {
@@ -109,7 +107,7 @@ impl Frame {
     }
 
     /// Where the readings' slopes, those of the rows, tell least: the frame in which what they tell is uncorrelated.
-    fn informed(&self, linear: &Linear, error: f64) -> Self {
+    pub(super) fn informed(&self, linear: &Linear, error: f64) -> Self {
         let n = self.places.len();
         let radius: Vec<f64> = self.z.iter().map(|z| z.radius().max(f64::MIN_POSITIVE)).collect();
         let mut information = DMatrix::identity(n, n);
@@ -148,127 +146,34 @@ fn slant(information: DMatrix<f64>) -> Option<DMatrix<f64>> {
     Some(lower)
 }
 
-impl Model<'_> {
-    /// The motion over a whole record, and how it differs from that of the frame's centre by each coordinate.
-    fn slanted(&self, span: Span, at: &[Interval], frame: &Frame) -> Option<Vec<Node>> {
-        let (by, places) = self.layout.columns(span.from);
-        let mixes: Vec<Mix> = (0..frame.places.len())
+impl Frame {
+    /// What each coordinate moves in the windows that begin with this one.
+    pub(super) fn mixes(&self, layout: &Layout, from: usize) -> Vec<Mix> {
+        let (by, places) = layout.columns(from);
+        (0..self.places.len())
             .map(|column| {
                 Mix::of(by.iter().zip(&places).filter_map(|(by, place)| {
-                    let row = frame.places.iter().position(|own| own == place)?;
-                    Some((*by, if row < column { 0.0 } else { frame.weight(row, column) }))
+                    let row = self.places.iter().position(|own| own == place)?;
+                    Some((*by, if row < column { 0.0 } else { self.weight(row, column) }))
                 }))
             })
-            .collect();
-        self.follow(span, at, &frame.centre, &mixes, &frame.z)
+            .collect()
     }
 
-    /// Whole records in a frame. `None` where there is no enclosure.
-    fn in_frame(&self, at: &[Interval], frame: &Frame) -> Option<Linear> {
-        let mut linear = Linear { centre: frame.centre.clone(), deviations: frame.z.clone(), ..Linear::default() };
-        let unknowns: Vec<usize> = (0..frame.places.len()).collect();
-        for span in self.whole() {
-            let motion = self.slanted(span, at, frame)?;
-            self.linearise_by(&unknowns, span, &motion, false, &mut linear);
-        }
-        let mut own = self.about(at, frame.centre.clone());
-        self.bound(&mut own);
-        for ((slopes, limit), origin) in own.rows.slopes.iter().zip(&own.rows.limits).zip(&own.origins) {
-            let mut turned = vec![Interval::ZERO; unknowns.len()];
-            for (place, slope) in slopes {
-                let Some(row) = frame.places.iter().position(|own| own == place) else { continue };
-                for (column, weight) in frame.row(row) {
+    /// What the search box says, by the coordinates.
+    pub(super) fn sides(&self, model: &Model<'_>, at: &[Interval]) -> Linear {
+        let mut own = model.about(at, self.centre.clone());
+        model.bound(&mut own);
+        for slopes in &mut own.rows.slopes {
+            let mut turned = vec![Interval::ZERO; self.places.len()];
+            for (place, slope) in slopes.iter() {
+                let Some(row) = self.places.iter().position(|own| own == place) else { continue };
+                for (column, weight) in self.row(row) {
                     turned[column] += Interval::point(weight) * *slope;
                 }
             }
-            linear
-                .rows
-                .slopes
-                .push(turned.into_iter().enumerate().filter(|(_, slope)| *slope != Interval::ZERO).collect());
-            linear.rows.limits.push(*limit);
-            linear.origins.push(*origin);
+            *slopes = turned.into_iter().enumerate().filter(|(_, slope)| *slope != Interval::ZERO).collect();
         }
-        Some(linear)
-    }
-}
-
-impl Linear {
-    /// An upper bound of a combination of the deviations.
-    fn most(&self, programme: &Programme, objective: &[(usize, f64)]) -> Result<f64, Multipliers> {
-        match programme.maximise(objective) {
-            Outcome::Empty { multipliers } if self.rows.upper_bound(&[], &multipliers, &self.deviations) < 0.0 => {
-                Err(multipliers)
-            }
-            Outcome::Empty { .. } => Ok(f64::INFINITY),
-            Outcome::Bounded { multipliers, .. } => {
-                Ok(self.rows.upper_bound(objective, &multipliers, &self.deviations))
-            }
-        }
-    }
-
-    /// What the rows leave of a combination; with the multipliers that contradict it, of nothing.
-    fn range(&self, programme: &Programme, objective: &[(usize, f64)]) -> Result<Interval, Multipliers> {
-        let own = dot(objective, &self.deviations);
-        let opposite: Vec<(usize, f64)> = objective.iter().map(|(index, weight)| (*index, -weight)).collect();
-        let (most, least) = (self.most(programme, objective)?, self.most(programme, &opposite)?);
-        let range = Interval::new(-least, most).and_then(|range| range.intersection(own));
-        range.ok_or_else(Multipliers::new)
-    }
-}
-
-impl Search<'_> {
-    /// One pass over whole records in a frame, which it slants and moves. None where the slopes' ranges take more than `most` of
-    /// the readings' error, or there is no enclosure.
-    pub(super) fn slant(
-        &mut self,
-        at: &mut [Interval],
-        frame: &mut Option<Frame>,
-        most: f64,
-    ) -> Result<Option<Left>, Empty> {
-        let mut own = frame.clone().unwrap_or_else(|| Frame::straight(self.of_whole(), at));
-        let parted = || Empty { method: Method::Whole, multipliers: Vec::new(), linear: None };
-        if !own.meet(at) {
-            return Err(parted());
-        }
-        self.count_pass();
-        let found = self.model.in_frame(at, &own);
-        let Some(linear) = found else { return Ok(None) };
-        let (slack, widest) = self.slack_by(&linear, own.places.len());
-        if slack > most {
-            return Ok(None);
-        }
-        let empty = |multipliers, linear: &Linear, at: &[Interval]| {
-            let mut linear = linear.clone();
-            linear.deviations = at.iter().zip(&linear.centre).map(|(side, c)| *side - Interval::point(*c)).collect();
-            Empty { method: Method::Whole, multipliers, linear: Some(linear) }
-        };
-        let unknowns: Vec<usize> = (0..own.places.len()).collect();
-        let programme = Programme::of(&linear.rows, &linear.deviations, &unknowns);
-        for (row, place) in own.places.iter().enumerate() {
-            let range = linear.range(&programme, &own.row(row)).map_err(|rows| empty(rows, &linear, at))?;
-            let side = Interval::point(own.centre[*place]) + range;
-            at[*place] = at[*place].intersection(side).ok_or_else(parted)?;
-        }
-        let error = self.setup.records.iter().fold(f64::INFINITY, |least, readings| least.min(readings.error));
-        let next = own.informed(&linear, error);
-        // Each new coordinate is a combination of the old ones, known to within rounding.
-        let turned: Vec<Vec<Interval>> = unknowns
-            .iter()
-            .map(|column| {
-                next.coordinates(|row| Interval::point(if row < *column { 0.0 } else { own.weight(row, *column) }))
-            })
-            .collect();
-        let mut z = Vec::with_capacity(unknowns.len());
-        for &row in &unknowns {
-            let objective: Vec<(usize, f64)> =
-                (0..=row).map(|column| (column, turned[column][row].midpoint())).collect();
-            let range = linear.range(&programme, &objective).map_err(|rows| empty(rows, &linear, at))?;
-            let rest = objective
-                .iter()
-                .map(|(column, weight)| (turned[*column][row] - Interval::point(*weight), own.z[*column]));
-            z.push(range + Interval::dot(rest));
-        }
-        *frame = Some(next.moved(z));
-        Ok(Some(Left::Followed { slack, widest }))
+        own
     }
 }

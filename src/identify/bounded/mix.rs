@@ -44,6 +44,12 @@ impl Mix {
         mix
     }
 
+    /// Whether it is of anything.
+    pub(super) fn moves(&self) -> bool {
+        let weights = self.start.iter().chain(&self.terms).chain([&self.delay]);
+        !self.instants.is_empty() || weights.into_iter().any(|weight| *weight != 0.0)
+    }
+
     /// By how much a switching comes later.
     fn shift(&self, edge: usize) -> Interval {
         let own = self.instants.iter().filter(|(own, _)| *own == edge);
@@ -115,6 +121,16 @@ impl Bundle {
             Sizes::dot(terms.map(|(term, weight)| (weight.sizes(), by(*term))))
         };
         [of(false), of(true)]
+    }
+
+    /// Terms of the damping that move.
+    pub(super) fn damping_terms(&self) -> impl Iterator<Item = (Term, Balls)> + '_ {
+        self.terms.iter().copied().filter(|(term, _)| matches!(term, Term::Linear | Term::Quadratic | Term::Cubic))
+    }
+
+    /// How much of a term one of them moves.
+    pub(super) fn weight(&self, term: Term, place: usize) -> f64 {
+        self.mixes.get(place).map_or(0.0, |mix| mix.terms[term as usize])
     }
 
     /// By how much a switching comes later; `None` for not at all.

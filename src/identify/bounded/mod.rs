@@ -12,6 +12,7 @@
 //!   *Mathematical Programming* 99, 2004; Jansson, *SIAM Journal on Optimization* 14, 2004); a box that does not shrink is divided;
 //! * the witness's motion is enclosed and meets every reading.
 
+mod bend;
 mod bounds;
 mod command;
 mod contract;
@@ -32,9 +33,11 @@ mod search;
 mod series;
 mod settings;
 mod setup;
+mod slanted;
 pub(crate) mod soundness;
 mod speeds;
 mod step;
+mod surface;
 mod trajectory;
 mod weak;
 mod witness;

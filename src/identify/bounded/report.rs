@@ -1,17 +1,22 @@
 //! From what division left to the answer.
 
 use super::bounds::{Bounds, Consistency, Contradicting, Parameters, Quantity, QuantityRange};
-use super::contract::{Linear, Origin};
+use super::contract::Origin;
 use super::divide::{Division, End};
 use super::field::Term;
-use super::lp::{Multipliers, Outcome, Programme};
+use super::lp::{Outcome, Programme};
 use super::search::{Empty, Search};
 use super::setup::Setup;
+use super::slanted::Held;
 use super::witness::Tried;
 use crate::numeric::Interval;
 
 /// Passes after which the bounds are good enough: they hold in any case.
 const SHARPENING: usize = 400;
+/// A box is as good as a point where what is in doubt takes less than this share of what the nearest parameter leaves of the readings'
+/// errors; and in any case where it takes less than the second of these errors.
+const FINE: f64 = 0.03;
+const LEAST_FINE: f64 = 3e-6;
 /// How often all ends are drawn in.
 const ROUNDS: usize = 6;
 /// Boxes in each of which a witness is looked for.
@@ -117,9 +122,16 @@ impl Answer {
     fn draw_in(&mut self, search: &mut Search<'_>, division: &mut Division, end: End, budget: usize, good: f64) {
         while search.passes < budget && !self.near(division, end, good) {
             let Some(goal) = self.goal(division, end, 0.25 * (1.0 - good)) else { return };
-            let Some(stays) = search.draw_in(division, end, goal, budget) else { return };
+            let room = self.nearest.as_ref().map_or(0.0, |nearest| 1.0 - nearest.misfit);
+            let fine = (FINE * room).max(LEAST_FINE);
+            let Some(stays) = search.draw_in(division, end, goal, fine, budget) else { return };
             let before = self.inner.as_ref().map(|inner| end.of(inner));
             if let Some(tried) = search.nearest(&stays.at, &stays.at) {
+                if let (true, Some(hull)) = (tried.misfit <= 1.0, division.hull()) {
+                    if let Some(far) = search.furthest(&tried, &hull, end.unknown, end.sign()) {
+                        self.note(far);
+                    }
+                }
                 self.note(tried);
             }
             if self.inner.as_ref().map(|inner| end.of(inner)) == before {
@@ -142,8 +154,7 @@ impl Answer {
         let Some(hull) = division.hull() else { return };
         for end in ends {
             let Some(witness) = self.witness().cloned() else { return };
-            let sign = if end.upper { 1.0 } else { -1.0 };
-            if let Some(tried) = search.furthest(&witness, &hull, end.unknown, sign) {
+            if let Some(tried) = search.furthest(&witness, &hull, end.unknown, end.sign()) {
                 self.note(tried);
             }
         }
@@ -157,8 +168,9 @@ impl Answer {
         } else {
             Consistency::Undecided
         };
-        let bounds = ranges(&mut search, division);
-        let least = if verdict == Consistency::Refuted { 1.0 } else { least_misfit(&mut search, division) };
+        let held: Vec<Option<Held>> = division.kept.iter().map(|kept| search.held(kept)).collect();
+        let bounds = ranges(&search, division, &held);
+        let least = if verdict == Consistency::Refuted { 1.0 } else { least_misfit(&search, &held) };
         let point = |tried: &Tried| Parameters { values: values(search.setup, &tried.at), misfit: tried.misfit };
         let contradicting = if verdict == Consistency::Refuted {
             let shown = division.empties.iter().rev().map(|empty| contradiction(&search, empty));
@@ -230,13 +242,10 @@ fn values(setup: &Setup, at: &[f64]) -> Vec<(Quantity, f64)> {
 }
 
 /// Enclosures over all that is left.
-fn ranges(search: &mut Search<'_>, division: &Division) -> Vec<QuantityRange> {
+fn ranges(search: &Search<'_>, division: &Division, held: &[Option<Held>]) -> Vec<QuantityRange> {
     let mut all: Vec<QuantityRange> = Vec::new();
-    for kept in &division.kept {
-        let mut at = kept.at.clone();
-        let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
-        let linear = search.chained(&mut at, centre).ok().flatten();
-        let own = box_ranges(search, &kept.at, linear.as_ref());
+    for (kept, held) in division.kept.iter().zip(held) {
+        let own = box_ranges(search, &kept.at, held.as_ref());
         if all.is_empty() {
             all = own;
         } else {
@@ -249,12 +258,12 @@ fn ranges(search: &mut Search<'_>, division: &Division) -> Vec<QuantityRange> {
     all
 }
 
-fn box_ranges(search: &Search<'_>, at: &[Interval], linear: Option<&Linear>) -> Vec<QuantityRange> {
+fn box_ranges(search: &Search<'_>, at: &[Interval], held: Option<&Held>) -> Vec<QuantityRange> {
     let (setup, layout) = (search.setup, &search.setup.layout);
     let range = |quantity, side: Interval| QuantityRange { quantity, low: side.lower(), high: side.upper() };
     let gain = at[0];
     let mut ranges = vec![range(Quantity::Alpha, Interval::ONE / gain)];
-    let ratio = |parts: &[(usize, f64)]| over_gain(at, linear, parts);
+    let ratio = |parts: &[(usize, f64)]| over_gain(at, held, parts);
     if let Some(place) = layout.place_of(Term::Linear) {
         let mut parts = vec![(place, 1.0)];
         parts.extend(layout.place_of(Term::Quadratic).map(|quadratic| (quadratic, -2.0 * setup.middle_speed)));
@@ -294,39 +303,22 @@ fn box_ranges(search: &Search<'_>, at: &[Interval], linear: Option<&Linear>) -> 
 
 /// A combination of parameters over the gain: by both ranges; and, better, by bounding how far the combination is from its middle
 /// ratio times the gain.
-fn over_gain(at: &[Interval], linear: Option<&Linear>, parts: &[(usize, f64)]) -> Interval {
+fn over_gain(at: &[Interval], held: Option<&Held>, parts: &[(usize, f64)]) -> Interval {
     let gain = at[0];
     let sum = parts.iter().fold(Interval::ZERO, |sum, (place, factor)| sum + Interval::point(*factor) * at[*place]);
     let direct = sum / gain;
-    let Some(linear) = linear else { return direct };
     let middle = sum.midpoint() / gain.midpoint();
-    let places: Vec<usize> = (0..linear.deviations.len()).collect();
-    let programme = Programme::of(&linear.rows, &linear.deviations, &places);
-    let excess = |sign: f64| -> Option<Interval> {
-        let mut objective: Vec<(usize, f64)> = parts.iter().map(|(place, factor)| (*place, sign * factor)).collect();
-        objective.push((0, -sign * middle));
-        let multipliers: Multipliers = match programme.maximise(&objective) {
-            Outcome::Bounded { multipliers, .. } | Outcome::Empty { multipliers } => multipliers,
-        };
-        let bound = linear.rows.upper_bound(&objective, &multipliers, &linear.deviations);
-        let at_centre =
-            objective.iter().map(|(place, factor)| Interval::point(*factor) * Interval::point(linear.centre[*place]));
-        let whole = at_centre.fold(Interval::point(bound), |sum, part| sum + part);
-        Some(whole / gain)
-    };
-    let (Some(above), Some(below)) = (excess(1.0), excess(-1.0)) else { return direct };
-    let better = Interval::new((Interval::point(middle) - below).lower(), (Interval::point(middle) + above).upper());
-    better.and_then(|better| direct.intersection(better)).unwrap_or(direct)
+    let beside: Vec<(usize, f64)> = parts.iter().copied().chain([(0, -middle)]).collect();
+    let Some(rest) = held.and_then(|held| held.combination(&beside)) else { return direct };
+    direct.intersection(Interval::point(middle) + rest / gain).unwrap_or(direct)
 }
 
 /// A lower bound of the largest misfit over all that is left, in largest errors.
-fn least_misfit(search: &mut Search<'_>, division: &Division) -> f64 {
+fn least_misfit(search: &Search<'_>, held: &[Option<Held>]) -> f64 {
     let mut least = 1.0f64;
-    for kept in &division.kept {
-        let mut at = kept.at.clone();
-        let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
-        let Ok(Some(linear)) = search.chained(&mut at, centre) else { return 0.0 };
-        let (mut linear, misfit) = search.with_misfit(&linear);
+    for held in held {
+        let Some(held) = held else { return 0.0 };
+        let (mut linear, misfit) = search.with_misfit(&held.linear);
         linear.deviations[misfit] = Interval::new(-1.0, 1.0).unwrap_or(Interval::ENTIRE);
         let places: Vec<usize> = (0..=misfit).collect();
         let programme = Programme::of(&linear.rows, &linear.deviations, &places);

@@ -5,10 +5,10 @@ use core::cell::Cell;
 use super::bounds::Contradicting;
 use super::contract::{Hat, Linear, Model, Pass};
 use super::field::Term;
-use super::frame::Frame;
 use super::lp::Multipliers;
 use super::rows::Parted;
 use super::setup::Setup;
+use super::slanted::Slanted;
 use super::weak::hats;
 use crate::numeric::Interval;
 
@@ -33,6 +33,9 @@ pub(super) const UNBROKEN: f64 = 1.0;
 const STEPS_PER_PASS: usize = 1000;
 /// Passes by hats that cost as much as one of the motion.
 const WEIGHED_PER_PASS: usize = 12;
+
+/// Contractions by what is known of a motion that cost as much as one.
+const PARTS_PER_PASS: usize = 6;
 
 /// How a pass came about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +77,7 @@ pub(super) struct Search<'a> {
     before: usize,
     steps_per_pass: usize,
     weighed: usize,
+    parts: usize,
     /// Readings between two switchings that no motion meets, where such were found.
     pub(super) clash: Vec<Contradicting>,
 }
@@ -87,11 +91,12 @@ impl<'a> Search<'a> {
             known_delay_s: setup.known_delay_s,
             least_linear: setup.least_linear,
             fastest: setup.fastest,
+            per_s: Some(1.0 / setup.swing_s),
             steps: Cell::new(0),
         };
         let hats = setup.records.iter().map(|readings| hats(&readings.time_s, setup.swing_s)).collect();
         let steps_per_pass = STEPS_PER_PASS + 2 * setup.samples();
-        Self { setup, model, hats, passes: 0, before: 0, steps_per_pass, weighed: 0, clash: Vec::new() }
+        Self { setup, model, hats, passes: 0, before: 0, steps_per_pass, weighed: 0, parts: 0, clash: Vec::new() }
     }
 
     /// The same where so many passes were made before.
@@ -102,6 +107,14 @@ impl<'a> Search<'a> {
     /// One more pass.
     pub(super) fn count_pass(&mut self) {
         self.passes = (self.passes + 1).max(self.before + self.model.steps.get() / self.steps_per_pass);
+    }
+
+    /// A contraction without a motion.
+    pub(super) fn count_part(&mut self) {
+        self.parts += 1;
+        if self.parts.is_multiple_of(PARTS_PER_PASS) {
+            self.count_pass();
+        }
     }
 
     fn parameters(&self) -> usize {
@@ -251,7 +264,7 @@ impl<'a> Search<'a> {
 
     /// Contracts a box over which the motion is followed, by the motion alone: over whole records, where nothing but their
     /// beginnings is unknown beside the parameters, or window by window if the slopes' ranges take less so.
-    pub(super) fn contract_fine(&mut self, at: &mut [Interval], frame: &mut Option<Frame>) -> Result<Left, Empty> {
+    pub(super) fn contract_fine(&mut self, at: &mut [Interval], frame: &mut Option<Slanted>) -> Result<Left, Empty> {
         let parameters: Vec<usize> = (0..self.parameters()).collect();
         let places: Vec<usize> = (0..at.len()).collect();
         let (mut left, mut broken) = (Left::Wide(0), false);

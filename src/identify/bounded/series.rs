@@ -7,7 +7,7 @@ use crate::numeric::{Balls, Interval, Sizes};
 /// Degree whose coefficient over the whole step is the remainder.
 const ORDER: usize = 10;
 
-type Coefficients<T> = [T; ORDER + 1];
+pub(super) type Coefficients<T> = [T; ORDER + 1];
 type Series = Coefficients<Balls>;
 
 /// Polynomials in the time since the step's beginning, for the components of states or of columns of slopes; the last coefficient is
@@ -45,8 +45,10 @@ pub(super) fn powers(time: Interval) -> Series {
 
 /// The values after the time of these powers.
 #[inline]
-pub(super) fn value(path: &Path, powers: &Series) -> [Balls; 3] {
-    core::array::from_fn(|k| Balls::dot(path[k].iter().copied().zip(powers.iter().copied())))
+pub(super) fn value(path: &Path, powers: &Series, lagged: bool) -> [Balls; 3] {
+    core::array::from_fn(|k| {
+        if k == FORCE && !lagged { path[k][0] } else { Balls::dot(path[k].iter().copied().zip(powers.iter().copied())) }
+    })
 }
 
 /// A straight line in the velocity, and the parabola of the way.
@@ -105,7 +107,7 @@ impl Equations {
         self.terms[term as usize]
     }
     #[inline]
-    fn has(&self, term: Term) -> bool {
+    pub(super) fn has(&self, term: Term) -> bool {
         self.active[term as usize]
     }
 
@@ -182,7 +184,7 @@ impl Equations {
 
     /// Rates of columns of slopes, given what damping makes of their velocities and what pushes velocity and force besides.
     #[inline]
-    fn rates(&self, damped: Balls, [x, v, f]: [Balls; 3], push: [Balls; 2]) -> [Balls; 3] {
+    pub(super) fn rates(&self, damped: Balls, [x, v, f]: [Balls; 3], push: [Balls; 2]) -> [Balls; 3] {
         let (mut acceleration, mut force) = (damped + push[0], push[1]);
         if self.has(Term::Stiffness) {
             acceleration = acceleration - self.term(Term::Stiffness) * x;
@@ -230,26 +232,48 @@ impl Equations {
         pushed: impl Fn(usize) -> [Sizes; 2],
         from: [Sizes; 3],
     ) -> [Sizes; 3] {
-        let mut velocity = [Sizes::ZERO; ORDER + 1];
-        let [mut x, v, mut f] = from;
-        velocity[0] = v;
+        self.growth(damping, pushed, from, ORDER).map(|series| series[ORDER])
+    }
+
+    /// How large coefficients of columns are at most over the whole step, up to an order.
+    pub(super) fn growth(
+        &self,
+        damping: &Coefficients<Sizes>,
+        pushed: impl Fn(usize) -> [Sizes; 2],
+        from: [Sizes; 3],
+        order: usize,
+    ) -> [Coefficients<Sizes>; 3] {
+        let mut series = from.map(|from| {
+            let mut series = [Sizes::ZERO; ORDER + 1];
+            series[0] = from;
+            series
+        });
+        let [position, velocity, force] = &mut series;
+        let [mut x, _, mut f] = from;
         let [stiffness, gain, lag] = [Term::Stiffness, Term::Gain, Term::LagRate].map(|term| {
             let moves = self.has(Term::LagRate) || term == Term::Stiffness && self.has(term);
             if moves { self.term(term).sizes() } else { Sizes::ZERO }
         });
-        for k in 0..ORDER {
+        for k in 0..order {
             let damped = Sizes::dot(damping[..=k].iter().copied().zip(velocity[..=k].iter().rev().copied()));
             let [moved, filled] = pushed(k);
             let rate = damped + moved + stiffness * x + gain * f;
             x = velocity[k].share(k + 1);
             velocity[k + 1] = rate.share(k + 1);
             f = (filled + lag * f).share(k + 1);
+            (position[k + 1], force[k + 1]) = (x, f);
         }
-        [x, velocity[ORDER], f]
+        series
     }
 
     /// How large columns are at most within a duration of `h`: by Gronwall's inequality, and what follows from it.
-    fn sizes(&self, damping: Interval, push: [Sizes; 2], start: &[Balls; 3], h: Interval) -> Option<[Sizes; 3]> {
+    pub(super) fn sizes(
+        &self,
+        damping: Interval,
+        push: [Sizes; 2],
+        start: &[Balls; 3],
+        h: Interval,
+    ) -> Option<[Sizes; 3]> {
         let most = |value: Interval| Interval::point(value.magnitude());
         let own = |term: Term| if self.has(term) { most(self.term(term).interval_at(0)) } else { Interval::ZERO };
         let (h_s, stiffness, lag) = (most(h), own(Term::Stiffness), own(Term::LagRate));
@@ -318,15 +342,20 @@ impl Motions {
         }
     }
 
+    /// Velocity and its square in the point's motion; and over the whole step, at most.
+    pub(super) fn point(&self, k: usize) -> [(Balls, Sizes); 2] {
+        [&self.state[VELOCITY], &self.square].map(|series| (series[k].spread(AT), series[k].sizes().spread(WITHIN_AT)))
+    }
+
     /// What the unknowns of a bundle push in the point's motion: velocity, and force.
     #[inline]
-    fn pushed(&self, bundle: &Bundle, k: usize) -> [Balls; 2] {
+    pub(super) fn pushed(&self, bundle: &Bundle, k: usize) -> [Balls; 2] {
         bundle.pushed(|term| self.push(term, k).spread(AT))
     }
 
     /// The same over the whole step, at most.
     #[inline]
-    fn pushed_within(&self, bundle: &Bundle, k: usize) -> [Sizes; 2] {
+    pub(super) fn pushed_within(&self, bundle: &Bundle, k: usize) -> [Sizes; 2] {
         bundle.pushed_at_most(|term| self.push(term, k).sizes().spread(WITHIN_AT))
     }
 }
@@ -334,11 +363,11 @@ impl Motions {
 /// What columns of slopes need of a step of the duration `h`.
 pub(super) struct Slopes<'a> {
     motions: &'a Motions,
-    head: Series,
-    rest: Coefficients<Sizes>,
+    pub(super) head: Series,
+    pub(super) rest: Coefficients<Sizes>,
     /// At every instant of it.
-    damping: Interval,
-    h: Interval,
+    pub(super) damping: Interval,
+    pub(super) h: Interval,
 }
 
 impl<'a> Slopes<'a> {

@@ -4,6 +4,7 @@
 //! equation `e' = -m e + sum (theta_j - c_j) p_j`, in which m is a slope of the drag between the two velocities, and `p_j` is what
 //! the j-th term multiplies in the motion of c alone. So only m has a range.
 
+use super::bend::{Carried, Curve, Ground};
 use super::field::{FORCE, Field, POSITION, Term, Triple, VELOCITY};
 use super::mix::Bundle;
 use super::series::{Equations, NO_PATH, Path, Slopes, abreast, line, powers, value};
@@ -44,10 +45,15 @@ pub(super) struct Step {
     pub(super) within: Triple,
     /// Of the state by each component of its start.
     by_start: Path,
+    /// Whether forces, and positions, move anything.
+    lagged: bool,
+    stiff: bool,
     /// The same of the point's, where it is not in the box.
     at_by_start: Option<Path>,
     /// Of the state by what the unknowns of each bundle push, the start held.
     by_push: Vec<Path>,
+    /// How slopes bend, where they are the point's.
+    pub(super) curve: Option<Curve>,
     /// What is known of position and velocity at the end besides.
     end: Option<[Interval; 2]>,
 }
@@ -58,7 +64,10 @@ pub(super) struct Arrival {
     pub(super) over: Triple,
     pub(super) at: Option<Triple>,
     by_start: [[Balls; 3]; 3],
+    lagged: bool,
+    stiff: bool,
     by_push: Vec<[Balls; 3]>,
+    bent: Option<(Vec<[Balls; 3]>, Triple)>,
 }
 
 /// Why a step was not made.
@@ -143,7 +152,7 @@ impl Field {
     pub(super) fn pass_crude(&self, start: &Triple, u: Interval, h: Interval) -> Result<[Triple; 2], Refused> {
         let within = enclose(start, Interval::ZERO.hull(h), |state| self.rate(state, u)).ok_or(HALF)?;
         let [start, rate] = [*start, self.rate(&within, u)].map(|state| state.map(Balls::splat));
-        Ok([value(&line(&start, &rate), &powers(h)).map(|end| end.interval_at(0)), within])
+        Ok([value(&line(&start, &rate), &powers(h), true).map(|end| end.interval_at(0)), within])
     }
 }
 
@@ -156,7 +165,7 @@ impl Fields {
         u: Interval,
         h: Interval,
         longest: f64,
-        bundles: &[Bundle],
+        carried: &Carried<'_>,
     ) -> Result<Box<Step>, Refused> {
         let span = Interval::ZERO.hull(h);
         let (field, point) = (&self.over, &self.at);
@@ -166,15 +175,34 @@ impl Fields {
         if point.backwards(&within_at, h, longest)? != backwards {
             return Err(Refused::Kink);
         }
+        let middle = middle(&start.at);
+        let about = Some(less(&start.at, &middle));
+        let bundles = carried.bundles;
+        if let Some(pairs) = carried.pairs {
+            let own = Equations::splat(point);
+            let motions = own.motions(&abreast([&middle, &within_at, &start.at, &within_at]), u, backwards);
+            let damping = point.damping(within_at[VELOCITY], within_at[VELOCITY]);
+            let slopes = Slopes::at(&motions, &own.dampings(&motions, backwards), damping, h);
+            let ground = Ground { own: &own, slopes: &slopes, motions: &motions, over: field, at: point, backwards };
+            if let Some(curve) = ground.curve(carried, pairs) {
+                let state = motions.joined(&motions);
+                let mut step = Step::of(field, state, about, within, bundles, |start, bundle, path| {
+                    own.columns(&slopes, bundle, start, path)
+                })?;
+                step.curve = Some(curve);
+                return Ok(step);
+            }
+            if h.upper() * field.fastest(within[VELOCITY]) > 0.15 {
+                return Err(HALF);
+            }
+        }
         let all = Equations::of([field, field, point, point]);
         let motions = all.motions(&abreast([&start.over, &within, &start.at, &within_at]), u, backwards);
-        let middle = middle(&start.at);
         let from = Equations::splat(point).motions(&middle.map(Balls::splat), u, backwards);
         let own = Equations::splat(field);
         let damping = field.damping(within[VELOCITY], within_at[VELOCITY]);
         let slopes = Slopes::over(&motions, &own.dampings(&motions, backwards), damping, h);
-        let about = Some(less(&start.at, &middle));
-        let mut step = Step::of(motions.joined(&from), about, within, bundles, |start, bundle, path| {
+        let mut step = Step::of(field, motions.joined(&from), about, within, bundles, |start, bundle, path| {
             own.columns(&slopes, bundle, start, path)
         })?;
         let parts = within.iter().chain(&start.over).chain(&field.terms);
@@ -227,7 +255,7 @@ impl Fields {
         let [from, rate] = [*start, field.rate(&within, u)].map(|state| state.map(Balls::splat));
         let own = Equations::splat(field);
         let damping = field.damping(within[VELOCITY], within_at[VELOCITY]);
-        let step = Step::of(line(&from, &rate), None, within, bundles, |start, bundle, path| {
+        let step = Step::of(field, line(&from, &rate), None, within, bundles, |start, bundle, path| {
             let by = |term: Term| Balls::splat(field.push(term, within_at, u_at));
             let push = bundle.map_or([Balls::ZERO; 2], |bundle| bundle.pushed(by));
             *path = line(start, &own.rates_within(damping, push, start, h)?);
@@ -240,6 +268,7 @@ impl Fields {
 impl Step {
     /// With columns of slopes by each component of the start, and by what each bundle pushes from rest.
     fn of(
+        field: &Field,
         state: Path,
         at_about: Option<Triple>,
         within: Triple,
@@ -247,13 +276,30 @@ impl Step {
         columns: impl Fn(&[Balls; 3], Option<&Bundle>, &mut Path) -> Option<()>,
     ) -> Result<Box<Self>, Refused> {
         let by_push = vec![NO_PATH; bundles.len()];
-        let mut step =
-            Box::new(Self { state, at_about, within, by_start: NO_PATH, at_by_start: None, by_push, end: None });
+        let mut step = Box::new(Self {
+            state,
+            at_about,
+            within,
+            by_start: NO_PATH,
+            lagged: field.has(Term::LagRate),
+            stiff: field.has(Term::Stiffness),
+            at_by_start: None,
+            by_push,
+            curve: None,
+            end: None,
+        });
         columns(&units(), None, &mut step.by_start).ok_or(HALF)?;
         for (bundle, path) in bundles.iter().zip(&mut step.by_push).filter(|(bundle, _)| bundle.pushes()) {
             columns(&[Balls::ZERO; 3], Some(bundle), path).ok_or(HALF)?;
         }
         Ok(step)
+    }
+
+    /// How much of the point's velocity at the end is unsure on account of the step.
+    pub(super) fn remainder(&self, h: Interval) -> f64 {
+        let velocity = &self.state[VELOCITY];
+        let last = velocity.len() - 1;
+        velocity[last].interval_at(1).magnitude() * libm::pow(h.upper(), last as f64)
     }
 
     /// The values at the step's end, `h` after its beginning.
@@ -269,6 +315,7 @@ impl Step {
     /// The values after `time` of the step.
     pub(super) fn at(&self, time: Interval) -> Arrival {
         let powers = powers(time);
+        let value = |path: &Path, powers: &_| value(path, powers, self.lagged);
         let state = value(&self.state, &powers);
         let units = value(&self.by_start, &powers);
         // By the mean value theorem: the end from a middle, and what a start about it adds.
@@ -280,23 +327,48 @@ impl Step {
             })
         });
         Arrival {
-            over: state.map(|values| values.interval_at(0)),
+            over: if self.curve.is_some() { self.within } else { state.map(|values| values.interval_at(0)) },
             at,
             by_start: core::array::from_fn(|from| units.map(|values| values.spread(from))),
+            lagged: self.lagged,
+            stiff: self.stiff,
             by_push: self.by_push.iter().map(|path| value(path, &powers)).collect(),
+            bent: self.curve.as_ref().map(|curve| (curve.at(&powers), curve.rest)),
         }
     }
 }
 
 impl Arrival {
     /// Slopes at the end from those at the start.
+    #[inline]
     pub(super) fn carry(&self, columns: &[Balls; 3]) -> [Balls; 3] {
-        core::array::from_fn(|k| Balls::dot((0..3).map(|from| (self.by_start[from][k], columns[from]))))
+        if self.lagged || self.stiff {
+            return core::array::from_fn(|k| Balls::dot((0..3).map(|from| (self.by_start[from][k], columns[from]))));
+        }
+        let [position, velocity, force] = columns;
+        let [way, left, _] = &self.by_start[VELOCITY];
+        [*position + *way * *velocity, *left * *velocity, *force]
     }
 
     /// The same, by the bundle of this number, with what it pushed besides.
     pub(super) fn carry_bundle(&self, columns: &[Balls; 3], bundle: usize) -> [Balls; 3] {
         let carried = self.carry(columns);
         core::array::from_fn(|k| carried[k] + self.by_push[bundle][k])
+    }
+
+    /// How slopes bend at the end.
+    pub(super) fn carry_bends(&self, bends: &[[Balls; 3]]) -> Vec<[Balls; 3]> {
+        let carried = bends.iter().map(|bend| self.carry(bend));
+        match &self.bent {
+            Some((bent, _)) => carried.zip(bent).map(|(a, b)| core::array::from_fn(|k| a[k] + b[k])).collect(),
+            None => carried.collect(),
+        }
+    }
+
+    /// What is of the third order at the end.
+    pub(super) fn carry_rest(&self, rest: &Triple) -> Triple {
+        let carried = self.carry(&rest.map(Balls::splat));
+        let added = self.bent.as_ref().map_or([Interval::ZERO; 3], |(_, rest)| *rest);
+        core::array::from_fn(|k| carried[k].interval_at(0) + added[k])
     }
 }

@@ -2,8 +2,9 @@
 
 use core::cell::Cell;
 
+use super::bend::{Carried, Pairs, Switching};
 use super::command::Command;
-use super::field::{FORCE, Field, TERMS, Term, Triple, VELOCITY};
+use super::field::{FORCE, Field, POSITION, TERMS, Term, Triple, VELOCITY};
 use super::mix::{Bundle, Mix};
 use super::step::{Arrival, Fields, Pair, Refused, Step, straddles};
 use crate::numeric::{Balls, Interval};
@@ -15,6 +16,9 @@ const STEP: f64 = 0.15;
 /// The same over a box whose gain's relative width is at most `NARROW`, where the remainders would count.
 const POINT_STEP: f64 = 0.12;
 const NARROW: f64 = 0.01;
+/// The same where the remainder of the step before was small enough.
+const LONG: f64 = 0.5;
+const SAFETY: f64 = 0.8;
 /// The same for a step by the rates' ranges.
 const CRUDE: f64 = 0.1;
 /// What a step may be longer against the fastest rate on the way than was looked for.
@@ -36,6 +40,9 @@ pub(super) struct Node {
     /// Of position, velocity and force by each unknown: what they differ by from the point's is the sum of these times what the
     /// unknowns differ.
     pub(super) slopes: Vec<Triple>,
+    /// Of the position: how its slopes bend by each bundle of pairs, and what is left of the third order; with the slopes over the box none.
+    pub(super) bends: Vec<Balls>,
+    pub(super) rest: Interval,
     /// Largest speed since the sample before.
     pub(super) speed: f64,
 }
@@ -51,6 +58,8 @@ pub(super) struct Drive<'a> {
     pub(super) delay_at_s: f64,
     /// A motion faster than this is given up.
     pub(super) fastest: f64,
+    /// What a step may leave unsure of the velocity; none for steps by the fastest rate alone.
+    pub(super) remainder: Option<f64>,
     /// Counts the steps.
     pub(super) steps: &'a Cell<usize>,
 }
@@ -60,6 +69,23 @@ pub(super) struct Drive<'a> {
 pub(super) struct Unknowns<'a> {
     pub(super) mixes: &'a [Mix],
     pub(super) deviations: &'a [Interval],
+    /// Whether slopes are the point's, and how they bend over the box is followed besides.
+    pub(super) bending: bool,
+}
+
+impl Unknowns<'_> {
+    pub(super) const NONE: Self = Self { mixes: &[], deviations: &[], bending: false };
+}
+
+/// A switching that may have happened.
+struct Open {
+    edge: usize,
+    /// What a unit of impulse then may have become since.
+    impulse: Triple,
+    /// Whether it has not happened before the beginning.
+    whole: bool,
+    /// Slopes of the acceleration by the velocity since.
+    damping: Option<Interval>,
 }
 
 /// The state, and its slopes, on the way.
@@ -70,8 +96,11 @@ struct Way<'a> {
     state: Pair,
     /// Slopes by the unknowns of each bundle.
     columns: Vec<[Balls; 3]>,
+    pairs: Option<Pairs>,
+    bends: Vec<[Balls; 3]>,
+    rest: Triple,
     /// Switchings that may have happened, each with what a unit of impulse then may have become since.
-    open: Vec<(usize, Triple)>,
+    open: Vec<Open>,
     speed: f64,
     nodes: Vec<Node>,
 }
@@ -87,7 +116,11 @@ fn advance_point(field: &Field, start: Triple, u: Interval, h: Interval) -> Opti
         let mut part = left;
         let at = Pair { over: state, at: state };
         // A command that changes on the way is known by its range alone.
-        let step = if u.is_point() { stride(&fields, &at, u, &mut part, POINT_STEP, &[])? } else { None };
+        let step = if u.is_point() {
+            stride(&fields, &at, u, &mut part, POINT_STEP, f64::INFINITY, &Carried::NOTHING)?
+        } else {
+            None
+        };
         let [end, within] = match step {
             Some(step) => [step.at_end(part).at?, step.within],
             None => {
@@ -131,13 +164,15 @@ fn stride(
     u: Interval,
     part: &mut Interval,
     length: f64,
-    bundles: &[Bundle],
+    pace_s: f64,
+    carried: &Carried<'_>,
 ) -> Option<Option<Box<Step>>> {
     let field = &fields.over;
     // All states, the point's among them: it need not be in the box.
     let both: Triple = core::array::from_fn(|k| state.over[k].hull(state.at[k]));
     let v = both[VELOCITY];
     let [_, rate, _] = field.rate(&both, u);
+    shorten(part, pace_s);
     shorten(part, length / field.fastest(v));
     let mut ahead = v;
     for _ in 0..LOOKS_AHEAD {
@@ -153,7 +188,7 @@ fn stride(
                 return Some(None);
             }
         }
-        let share = match fields.smooth(state, u, *part, ROOM * length, bundles) {
+        let share = match fields.smooth(state, u, *part, ROOM * length, carried) {
             Ok(step) => return Some(Some(step)),
             Err(Refused::TooLong(share)) => share,
             Err(Refused::Kink) => {
@@ -200,11 +235,34 @@ impl Way<'_> {
         self.columns.iter().enumerate().map(|(bundle, columns)| arrival.carry_bundle(columns, bundle)).collect()
     }
 
+    fn all(&self) -> Carried<'_> {
+        Carried {
+            bundles: self.bundles,
+            columns: &self.columns,
+            pairs: self.pairs.as_ref(),
+            bends: &self.bends,
+            rest: self.rest,
+        }
+    }
+
+    /// What slopes leave out.
+    fn left_out(&self, bends: &[[Balls; 3]], rest: &Triple) -> Triple {
+        core::array::from_fn(|k| self.pairs.as_ref().map_or(Interval::ZERO, |pairs| pairs.total(bends, k) + rest[k]))
+    }
+
     /// Notes a sample.
-    fn note(&mut self, over: Triple, at: Triple, columns: &[[Balls; 3]]) -> Option<()> {
+    fn note(
+        &mut self,
+        over: Triple,
+        at: Triple,
+        columns: &[[Balls; 3]],
+        bends: &[[Balls; 3]],
+        rest: &Triple,
+    ) -> Option<()> {
         let columns: Vec<[Balls; 3]> =
             self.bundles.iter().zip(columns).map(|(bundle, columns)| self.with_open(bundle, *columns)).collect();
-        let over = self.met(over, &at, &columns);
+        let bend = self.left_out(bends, rest);
+        let over = self.met(over, &at, &columns, &bend);
         let slopes: Vec<Triple> = (self.bundles.iter().zip(&columns))
             .flat_map(|(bundle, columns)| {
                 let components = columns.map(Balls::intervals);
@@ -214,16 +272,20 @@ impl Way<'_> {
         if !over.iter().chain(slopes.iter().flatten()).all(|value| value.is_bounded()) {
             return None;
         }
-        self.nodes.push(Node { over, at, slopes, speed: self.speed });
+        if !bend.iter().all(|value| value.is_bounded()) {
+            return None;
+        }
+        let bends = bends.iter().map(|bend| bend[POSITION]).collect();
+        self.nodes.push(Node { over, at, slopes, bends, rest: rest[POSITION], speed: self.speed });
         Some(())
     }
 
     /// What is both the state, and the point's state with the slopes.
-    fn met(&self, mut over: Triple, at: &Triple, columns: &[[Balls; 3]]) -> Triple {
+    fn met(&self, mut over: Triple, at: &Triple, columns: &[[Balls; 3]], bend: &Triple) -> Triple {
         let components = if self.lagged() { 3 } else { 2 };
         for k in 0..components {
             let parts = self.bundles.iter().zip(columns).map(|(bundle, columns)| (columns[k], bundle.deviations));
-            let mean = at[k] + Balls::dot(parts).total();
+            let mean = at[k] + Balls::dot(parts).total() + bend[k];
             // Both enclose the same values, so that they meet.
             over[k] = over[k].intersection(mean).unwrap_or(over[k]);
         }
@@ -240,6 +302,7 @@ impl Way<'_> {
             (self.state.over[FORCE], self.state.at[FORCE]) = (u, u_at);
         }
         let (mut left, mut gone, mut ahead) = (h, Interval::ZERO, ahead);
+        let (mut pace_s, mut length) = (f64::INFINITY, self.length());
         for _ in 0..MOST_STEPS {
             if left.upper() <= 0.0 {
                 return Some(());
@@ -249,8 +312,12 @@ impl Way<'_> {
                 shorten(&mut part, self.length() / self.drive.fields.over.fastest(self.state.over[VELOCITY]));
                 None
             } else {
-                stride(&self.drive.fields, &self.state, u, &mut part, self.length(), self.bundles)?
+                stride(&self.drive.fields, &self.state, u, &mut part, length, pace_s, &self.all())?
             };
+            if let (Some(most), Some(step), true) = (self.drive.remainder, &step, self.paced()) {
+                pace_s = part.upper() * SAFETY * libm::pow(most / step.remainder(part).max(f64::MIN_POSITIVE), 0.1);
+                length = LONG;
+            }
             let mut at_end = None;
             if step.is_none() {
                 // The point goes its own way, and the step ends with a sample, that it be known there.
@@ -275,7 +342,8 @@ impl Way<'_> {
                 let arrival = step.at(time);
                 let columns = self.carried(&arrival);
                 let at = arrival.at.or(at_end.map(|(at, passed)| if time == part { at } else { passed }))?;
-                self.note(arrival.over, at, &columns)?;
+                let (bends, rest) = (arrival.carry_bends(&self.bends), arrival.carry_rest(&self.rest));
+                self.note(arrival.over, at, &columns, &bends, &rest)?;
                 ahead = &ahead[1..];
             }
             if self.nodes.len() > noted {
@@ -283,9 +351,13 @@ impl Way<'_> {
             }
             let arrival = step.at_end(part);
             self.columns = self.carried(&arrival);
+            (self.bends, self.rest) = (arrival.carry_bends(&self.bends), arrival.carry_rest(&self.rest));
             self.state.at = arrival.at.or(at_end.map(|(at, _)| at))?;
             let fresh = self.fresh();
-            for (_, impulse) in &mut self.open {
+            let passed = at_end.map_or(self.state.at[VELOCITY], |(_, passed): (Triple, Triple)| passed[VELOCITY]);
+            for Open { impulse, damping, .. } in &mut self.open {
+                let own = self.drive.fields.over.damping(step.within[VELOCITY], passed);
+                *damping = Some(damping.map_or(own, |damping| damping.hull(own)));
                 // The instant of the impulse may also be this very end.
                 let carried = arrival.carry(&impulse.map(Balls::splat));
                 *impulse = core::array::from_fn(|k| carried[k].interval_at(0).hull(fresh[k]));
@@ -293,13 +365,19 @@ impl Way<'_> {
             let columns: Vec<[Balls; 3]> = (self.bundles.iter().zip(&self.columns))
                 .map(|(bundle, columns)| self.with_open(bundle, *columns))
                 .collect();
-            self.state.over = self.met(arrival.over, &self.state.at, &columns);
+            let bend = self.left_out(&self.bends, &self.rest);
+            self.state.over = self.met(arrival.over, &self.state.at, &columns, &bend);
             if self.state.over[VELOCITY].magnitude() > self.drive.fastest {
                 return None;
             }
             (left, gone) = if last { (Interval::ZERO, h) } else { (left - part, gone + part) };
         }
         None
+    }
+
+    /// Whether steps are as long as their remainders allow.
+    fn paced(&self) -> bool {
+        self.pairs.is_some()
     }
 
     /// Length of a step against the fastest rate.
@@ -325,7 +403,7 @@ impl Way<'_> {
 
     /// Columns with what open switchings may have added.
     fn with_open(&self, bundle: &Bundle, mut columns: [Balls; 3]) -> [Balls; 3] {
-        for (edge, impulse) in &self.open {
+        for Open { edge, impulse, .. } in &self.open {
             if let Some(shifts) = bundle.shifts(*edge) {
                 for (values, impulse) in columns.iter_mut().zip(impulse) {
                     *values = *values + shifts * Balls::splat(self.sized(*edge, *impulse).hull(Interval::ZERO));
@@ -349,10 +427,24 @@ impl Way<'_> {
         impulse
     }
 
-    fn close(&mut self, edge: usize) {
-        let Some(place) = self.open.iter().position(|(open, _)| *open == edge) else { return };
-        let (_, impulse) = self.open.swap_remove(place);
-        let added = impulse.map(|impulse| Balls::splat(self.sized(edge, impulse)));
+    /// At the end of a window in which a switching has happened, the point's own in a window of its own.
+    fn close(&mut self, edge: usize, window: (f64, f64), own: (f64, f64)) {
+        let Some(place) = self.open.iter().position(|open| open.edge == edge) else { return };
+        let Open { impulse, whole, damping, .. } = self.open.swap_remove(place);
+        let mut added = impulse.map(|impulse| self.sized(edge, impulse));
+        if let (Some(pairs), Some(damping), true, false) = (&self.pairs, damping, whole, self.lagged()) {
+            let Fields { over, at } = &self.drive.fields;
+            let close = Interval::point(window.1);
+            let since_s = (close - Interval::point(own.1)).hull(close - Interval::point(own.0));
+            let doubt_s = (close - Interval::point(window.0)).upper();
+            let switching = Switching::new(over, at, self.drive.command.drop_at(edge), damping, since_s, doubt_s);
+            for k in [POSITION, VELOCITY] {
+                added[k] = switching.first[k];
+                self.rest[k] += switching.rest[k];
+            }
+            switching.bend(pairs, self.bundles, edge, &mut self.bends);
+        }
+        let added = added.map(Balls::splat);
         for (bundle, columns) in self.bundles.iter().zip(&mut self.columns) {
             if let Some(shifts) = bundle.shifts(edge) {
                 for (values, added) in columns.iter_mut().zip(added) {
@@ -367,8 +459,21 @@ impl Way<'_> {
 pub(super) fn follow(drive: &Drive<'_>, start: Pair, times: &[f64], unknowns: Unknowns<'_>) -> Option<Vec<Node>> {
     let bundles = Bundle::of(unknowns.mixes, unknowns.deviations);
     let columns = bundles.iter().map(|bundle| bundle.start).collect();
-    let mut way =
-        Way { drive, bundles: &bundles, state: start, columns, open: Vec::new(), speed: 0.0, nodes: Vec::new() };
+    let pairs = unknowns.bending.then(|| Pairs::of(unknowns.mixes, unknowns.deviations));
+    let bends = vec![[Balls::ZERO; 3]; pairs.as_ref().map_or(0, Pairs::count)];
+    let rest = [Interval::ZERO; 3];
+    let mut way = Way {
+        drive,
+        bundles: &bundles,
+        state: start,
+        columns,
+        pairs,
+        bends,
+        rest,
+        open: Vec::new(),
+        speed: 0.0,
+        nodes: Vec::new(),
+    };
     let (begin, end) = (*times.first()?, *times.last()?);
     // Switchings that have certainly, and perhaps, happened; and the point's own, of which at most the order is in doubt.
     let command = drive.command;
@@ -387,11 +492,13 @@ pub(super) fn follow(drive: &Drive<'_>, start: Pair, times: &[f64], unknowns: Un
     let fresh = way.fresh();
     for edge in done..begun {
         // What happened before the beginning is in the state there.
-        way.open.push((edge, fresh.map(|value| value.hull(Interval::ZERO))));
+        let impulse = fresh.map(|value| value.hull(Interval::ZERO));
+        way.open.push(Open { edge, impulse, whole: false, damping: None });
     }
     way.speed = way.state.over[VELOCITY].magnitude();
     let first = way.columns.clone();
-    way.note(start.over, start.at, &first)?;
+    let bends = way.bends.clone();
+    way.note(start.over, start.at, &first, &bends, &rest)?;
     let mut now = begin;
     loop {
         let next = |list: &[(f64, f64)], index: usize, close: bool| {
@@ -417,14 +524,14 @@ pub(super) fn follow(drive: &Drive<'_>, start: Pair, times: &[f64], unknowns: Un
             now = until;
         }
         if open <= now {
-            way.open.push((begun, fresh));
+            way.open.push(Open { edge: begun, impulse: fresh, whole: true, damping: None });
             begun += 1;
         } else if open_at <= now {
             begun_at += 1;
         } else if close_at <= now {
             done_at += 1;
         } else if close <= now {
-            way.close(done);
+            way.close(done, windows[done], instants[done]);
             done += 1;
         } else if now >= end {
             break;

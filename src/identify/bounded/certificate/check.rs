@@ -256,6 +256,7 @@ impl Certificate {
             known_delay_s: Interval::point(stage.delay_s.unwrap_or(0.0)),
             least_linear: self.least_linear,
             fastest: self.fastest,
+            per_s: None,
             steps: Cell::new(0),
         }
     }

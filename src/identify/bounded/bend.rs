@@ -1,0 +1,445 @@
+//! The second order: how slopes bend over the box.
+//!
+//! With s the difference of two motions and `s' = A(theta) s + sum z_j P_j` its equation, let `J_j' = A J_j + P_j` with the point's own
+//! A. What `s` differs by from `sum z_j J_j` is `sum z_i z_j H_ij` and a rest of the third order: `H_ij' = A H_ij + f_ij`, in which
+//! `f_ij` is what a slope's own bending by the one pushes through the column of the other. Interval slopes over the box add up
+//! over switchings; H, of either sign, does not.
+
+use super::field::{FORCE, Field, POSITION, Term, VELOCITY};
+use super::mix::{Bundle, Mix};
+use super::series::{Equations, Motions, Slopes};
+use crate::numeric::{Balls, Interval, Real, Sizes};
+
+/// Degree whose coefficient over the whole step is the remainder.
+const BEND_ORDER: usize = 4;
+/// Attempts at a size of the rest.
+const ATTEMPTS: usize = 4;
+/// The rest is looked for within so much more than it seemed to be.
+const LARGER: f64 = 1.5;
+
+/// Polynomials of a lower order, the last coefficient over the whole step.
+type Short = [Balls; BEND_ORDER + 1];
+type ShortSizes = [Sizes; BEND_ORDER + 1];
+
+/// All pairs of unknowns that move anything, each with those before it and itself.
+pub(super) fn pairs(mixes: &[Mix]) -> Vec<[usize; 2]> {
+    let moving: Vec<usize> = (0..mixes.len()).filter(|place| mixes[*place].moves()).collect();
+    moving.iter().enumerate().flat_map(|(rank, i)| moving[..=rank].iter().map(move |j| [*i, *j])).collect()
+}
+
+/// Pairs of unknowns, side by side.
+#[derive(Clone, Debug)]
+pub(super) struct Pairs {
+    lanes: Vec<[[usize; 2]; Balls::COUNT]>,
+    /// What `z_i z_j` can be; of a square the half.
+    products: Vec<Balls>,
+}
+
+impl Pairs {
+    /// Of all unknowns that move anything.
+    pub(super) fn of(mixes: &[Mix], deviations: &[Interval]) -> Self {
+        let all = pairs(mixes);
+        let product = |[i, j]: [usize; 2]| {
+            if i == j { deviations[i].square() * Interval::point(0.5) } else { deviations[i] * deviations[j] }
+        };
+        let rows = all.chunks(Balls::COUNT);
+        Self {
+            lanes: rows.clone().map(|row| core::array::from_fn(|lane| *row.get(lane).unwrap_or(&row[0]))).collect(),
+            products: rows
+                .map(|row| {
+                    Balls::new(core::array::from_fn(|lane| row.get(lane).map_or(Interval::ZERO, |p| product(*p))))
+                })
+                .collect(),
+        }
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.lanes.len()
+    }
+
+    /// What all of them add.
+    pub(super) fn total(&self, bends: &[[Balls; 3]], component: usize) -> Interval {
+        Balls::dot(bends.iter().map(|bend| bend[component]).zip(self.products.iter().copied())).total()
+    }
+}
+
+/// What a switching at an instant in doubt does to a motion by the end of the doubt, when it comes later by z: to position and velocity
+/// `first z + twice z^2/2`, and of a change of the gain by g `mixed g z`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Switching {
+    pub(super) first: [Interval; 2],
+    twice: [Interval; 2],
+    mixed: [Interval; 2],
+    /// Of the third order.
+    pub(super) rest: [Interval; 2],
+}
+
+impl Switching {
+    /// By `drop` after `since_s` from the point's own instant, and at most `doubt_s` from any; slopes of the acceleration by the velocity
+    /// were in `damping` meanwhile.
+    pub(super) fn new(
+        over: &Field,
+        at: &Field,
+        drop: Interval,
+        damping: Interval,
+        since_s: Interval,
+        doubt_s: f64,
+    ) -> Self {
+        let (w, half) = (Interval::point(doubt_s), Interval::point(0.5));
+        let stiffness = if over.has(Term::Stiffness) { most(over.term(Term::Stiffness)) } else { Interval::ZERO };
+        let (mean, strong) = (Interval::point(damping.midpoint()), most(damping));
+        let grown = ((strong + stiffness * w) * w).exp();
+        let third = stiffness * w * w * w / Interval::point(6.0);
+        // How far what remains of a unit impulse is off 1 + mean t, and its way off t.
+        let off_way = (strong * half * w * w + third) * grown;
+        let off = Interval::point(damping.radius()) * w
+            + ((strong.square() + stiffness) * half * w * w + strong * third) * grown;
+        let (push, all) = (at.term(Term::Gain) * drop, most(over.term(Term::Gain) * drop));
+        let unit = [since_s, Interval::ONE + mean * since_s];
+        let doubt = [off_way, off].map(|off| Interval::symmetric((all * off).upper()));
+        let apart = most(over.term(Term::Gain) - at.term(Term::Gain)) * most(drop) * half * w * w;
+        Self {
+            first: core::array::from_fn(|k| push * unit[k] + doubt[k]),
+            twice: [-push, -(push * mean)],
+            mixed: unit.map(|unit| drop * unit),
+            rest: [apart, apart * most(mean)].map(|rest| Interval::symmetric(rest.upper())),
+        }
+    }
+
+    /// Adds to how slopes bend.
+    pub(super) fn bend(&self, pairs: &Pairs, bundles: &[Bundle], edge: usize, bends: &mut [[Balls; 3]]) {
+        let shifts: Vec<Balls> = bundles.iter().map(|bundle| bundle.shifts(edge).unwrap_or(Balls::ZERO)).collect();
+        for (lanes, bend) in pairs.lanes.iter().zip(bends) {
+            let of = |side: usize, lane: usize| (lanes[lane][side] / Balls::COUNT, lanes[lane][side] % Balls::COUNT);
+            let shift =
+                |side: usize| Balls::gather(core::array::from_fn(|lane| (&shifts[of(side, lane).0], of(side, lane).1)));
+            let gain = |side: usize| {
+                Balls::points(core::array::from_fn(|lane| {
+                    bundles[of(side, lane).0].weight(Term::Gain, of(side, lane).1)
+                }))
+            };
+            let (both, mixed) = (shift(0) * shift(1), gain(0) * shift(1) + gain(1) * shift(0));
+            for k in [POSITION, VELOCITY] {
+                bend[k] = bend[k] + both * Balls::splat(self.twice[k]) + mixed * Balls::splat(self.mixed[k]);
+            }
+        }
+    }
+}
+
+/// What a motion over a box carries.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Carried<'a> {
+    pub(super) bundles: &'a [Bundle],
+    /// Slopes by the unknowns of each bundle.
+    pub(super) columns: &'a [[Balls; 3]],
+    /// Pairs of unknowns, and how the slopes bend by each; none where slopes are over the box.
+    pub(super) pairs: Option<&'a Pairs>,
+    pub(super) bends: &'a [[Balls; 3]],
+    /// Of the third order.
+    pub(super) rest: [Interval; 3],
+}
+
+impl Carried<'_> {
+    /// One point.
+    pub(super) const NOTHING: Self =
+        Self { bundles: &[], columns: &[], pairs: None, bends: &[], rest: [Interval::ZERO; 3] };
+}
+
+/// What bends during a step.
+#[derive(Clone, Debug)]
+pub(super) struct Curve {
+    paths: Vec<[Short; 3]>,
+    lagged: bool,
+    /// Of the third order, at every instant.
+    pub(super) rest: [Interval; 3],
+}
+
+impl Curve {
+    /// By each bundle of pairs, after a time of the step with these powers.
+    pub(super) fn at(&self, powers: &[Balls]) -> Vec<[Balls; 3]> {
+        let value = |series: &Short| Balls::dot(series.iter().copied().zip(powers.iter().copied()));
+        let components = if self.lagged { 3 } else { 2 };
+        let short =
+            |path: &[Short; 3]| core::array::from_fn(|k| if k < components { value(&path[k]) } else { Balls::ZERO });
+        self.paths.iter().map(short).collect()
+    }
+}
+
+/// A column of slopes, and what of it bends the others.
+struct Column {
+    head: [Short; 3],
+    within: [ShortSizes; 3],
+    /// Bends the damping.
+    damps: Short,
+    damps_within: ShortSizes,
+}
+
+#[inline]
+fn product(a: &[Balls], b: &[Balls], k: usize) -> Balls {
+    Balls::dot(a[..=k].iter().copied().zip(b[..=k].iter().rev().copied()))
+}
+#[inline]
+fn product_within(a: &[Sizes], b: &[Sizes], k: usize) -> Sizes {
+    Sizes::dot(a[..=k].iter().copied().zip(b[..=k].iter().rev().copied()))
+}
+
+const NONE: Short = [Balls::ZERO; BEND_ORDER + 1];
+const NO_SIZES: ShortSizes = [Sizes::ZERO; BEND_ORDER + 1];
+
+/// One of each of four unknowns, given by bundle and place in it.
+#[inline]
+fn gathered(columns: &[Column], [a, b, c, d]: [(usize, usize); 4], of: impl Fn(&Column) -> &Balls) -> Balls {
+    let from = |(bundle, place): (usize, usize)| (of(&columns[bundle]), place);
+    Balls::gather([from(a), from(b), from(c), from(d)])
+}
+#[inline]
+fn gathered_within(columns: &[Column], [a, b, c, d]: [(usize, usize); 4], of: impl Fn(&Column) -> &Sizes) -> Sizes {
+    let from = |(bundle, place): (usize, usize)| (of(&columns[bundle]), place);
+    Sizes::gather([from(a), from(b), from(c), from(d)])
+}
+
+fn size(value: f64) -> Sizes {
+    Sizes::splat(Interval::point(value))
+}
+
+/// The equation over the box and at the point, and the point's motion in a step.
+pub(super) struct Ground<'a> {
+    pub(super) own: &'a Equations,
+    pub(super) slopes: &'a Slopes<'a>,
+    pub(super) motions: &'a Motions,
+    pub(super) over: &'a Field,
+    pub(super) at: &'a Field,
+    pub(super) backwards: bool,
+}
+
+impl Ground<'_> {
+    /// What a term multiplies in the damping, with its sign turned; at the point, and over the step at most.
+    fn damped_by(&self, term: Term, k: usize) -> (Balls, Sizes) {
+        let [velocity, square] = self.motions.point(k);
+        let (own, within) = match term {
+            Term::Linear if k == 0 => (Balls::ONE, size(1.0)),
+            Term::Quadratic => {
+                let twice =
+                    if self.backwards { Balls::ZERO - velocity.0 - velocity.0 } else { velocity.0 + velocity.0 };
+                if k == 0 {
+                    let middle = self.at.twice_middle();
+                    (twice - Balls::splat(middle), velocity.1 + velocity.1 + Sizes::splat(middle))
+                } else {
+                    (twice, velocity.1 + velocity.1)
+                }
+            }
+            Term::Cubic => {
+                let three = Balls::splat(Interval::point(3.0));
+                (three * square.0, size(3.0) * square.1)
+            }
+            _ => (Balls::ZERO, Sizes::ZERO),
+        };
+        (own, within)
+    }
+
+    /// How much the damping changes with the velocity: over `k`.
+    fn kink(&self, k: usize) -> (Balls, Sizes) {
+        let (mut own, mut within) = (Balls::ZERO, Sizes::ZERO);
+        if self.at.has(Term::Quadratic) && k == 0 {
+            let quadratic = self.at.term(Term::Quadratic);
+            own = Balls::splat(if self.backwards { -quadratic } else { quadratic });
+            within = Sizes::splat(quadratic);
+        }
+        if self.at.has(Term::Cubic) {
+            let three = self.at.term(Term::Cubic) * Interval::point(3.0);
+            let [velocity, _] = self.motions.point(k);
+            own = own + Balls::splat(three) * velocity.0;
+            within = within + Sizes::splat(three) * velocity.1;
+        }
+        (own, within)
+    }
+
+    fn column(&self, bundle: &Bundle, start: &[Balls; 3]) -> Option<Column> {
+        let mut column = Column { head: [NONE; 3], within: [NO_SIZES; 3], damps: NONE, damps_within: NO_SIZES };
+        let push = |k: usize| self.motions.pushed(bundle, k);
+        let pushed = |k: usize| self.motions.pushed_within(bundle, k);
+        for (series, start) in column.head.iter_mut().zip(start) {
+            series[0] = *start;
+        }
+        self.own.head_of(self.slopes, push, &mut column.head);
+        let from = self.own.sizes(self.slopes.damping, pushed(0), start, self.slopes.h)?;
+        self.own.within_of(self.slopes, pushed, from, &mut column.within);
+        let mut kinks = (NONE, NO_SIZES);
+        for k in 0..BEND_ORDER {
+            (kinks.0[k], kinks.1[k]) = self.kink(k);
+            let terms: Vec<_> =
+                bundle.damping_terms().map(|(term, weight)| (weight, self.damped_by(term, k))).collect();
+            let own = Balls::dot(terms.iter().map(|(weight, by)| (*weight, by.0)));
+            let within = Sizes::dot(terms.iter().map(|(weight, by)| (weight.sizes(), by.1)));
+            column.damps[k] = own + product(&kinks.0, &column.head[VELOCITY], k);
+            column.damps_within[k] = within + product_within(&kinks.1, &column.within[VELOCITY], k);
+        }
+        Some(column)
+    }
+
+    /// How slopes bend during a step, from where they are. `None` where the rest may grow beyond all bounds.
+    pub(super) fn curve(&self, carried: &Carried<'_>, pairs: &Pairs) -> Option<Curve> {
+        let columns: Option<Vec<Column>> =
+            carried.bundles.iter().zip(carried.columns).map(|(bundle, start)| self.column(bundle, start)).collect();
+        let columns = columns?;
+        let lagged = self.at.has(Term::LagRate);
+        let stiff = self.at.has(Term::Stiffness);
+        let place = |unknown: usize| (unknown / Balls::COUNT, unknown % Balls::COUNT);
+        let mut second = [Sizes::ZERO; 3];
+        let mut paths = Vec::with_capacity(pairs.count());
+        for ((lanes, product_of), start) in pairs.lanes.iter().zip(&pairs.products).zip(carried.bends) {
+            let sides = [0, 1].map(|side| {
+                let [a, b, c, d] = lanes;
+                [place(a[side]), place(b[side]), place(c[side]), place(d[side])]
+            });
+            let weight = |side: usize, term: Term| {
+                Balls::points(lanes.map(|pair| {
+                    let (b, lane) = place(pair[side]);
+                    carried.bundles[b].weight(term, lane)
+                }))
+            };
+            let (mut moved, mut filled) = (NONE, NONE);
+            let (mut moved_within, mut filled_within) = (NO_SIZES, NO_SIZES);
+            for side in [0, 1] {
+                let other = 1 - side;
+                let (mut damps, mut v, mut damps_w, mut v_w) = (NONE, NONE, NO_SIZES, NO_SIZES);
+                for k in 0..BEND_ORDER {
+                    damps[k] = gathered(&columns, sides[side], |c| &c.damps[k]);
+                    v[k] = gathered(&columns, sides[other], |c| &c.head[VELOCITY][k]);
+                    damps_w[k] = gathered_within(&columns, sides[side], |c| &c.damps_within[k]);
+                    v_w[k] = gathered_within(&columns, sides[other], |c| &c.within[VELOCITY][k]);
+                    moved[k] = moved[k] - product(&damps, &v, k);
+                    moved_within[k] = moved_within[k] + product_within(&damps_w, &v_w, k);
+                }
+                if stiff {
+                    let weight = weight(side, Term::Stiffness);
+                    for k in 0..BEND_ORDER {
+                        moved[k] = moved[k] - weight * gathered(&columns, sides[other], |c| &c.head[POSITION][k]);
+                        moved_within[k] = moved_within[k]
+                            + weight.sizes() * gathered_within(&columns, sides[other], |c| &c.within[POSITION][k]);
+                    }
+                }
+                if lagged {
+                    let (gain, lag) = (weight(side, Term::Gain), weight(side, Term::LagRate));
+                    for k in 0..BEND_ORDER {
+                        let (f, f_w) = (
+                            gathered(&columns, sides[other], |c| &c.head[FORCE][k]),
+                            gathered_within(&columns, sides[other], |c| &c.within[FORCE][k]),
+                        );
+                        moved[k] = moved[k] + gain * f;
+                        moved_within[k] = moved_within[k] + gain.sizes() * f_w;
+                        filled[k] = filled[k] - lag * f;
+                        filled_within[k] = filled_within[k] + lag.sizes() * f_w;
+                    }
+                }
+            }
+            let zero = [Balls::ZERO; 3];
+            let mut path = [NONE; 3];
+            self.own.head_of(self.slopes, |k| [moved[k], filled[k]], &mut path);
+            let pushed = |k: usize| [moved_within[k], filled_within[k]];
+            let from = self.own.sizes(self.slopes.damping, pushed(0), &zero, self.slopes.h)?;
+            let mut within = [NO_SIZES; 3];
+            self.own.within_of(self.slopes, pushed, from, &mut within);
+            for (series, within) in path.iter_mut().zip(within) {
+                series[BEND_ORDER] = Balls::within(within[BEND_ORDER]);
+            }
+            let all = self.own.sizes(self.slopes.damping, pushed(0), start, self.slopes.h)?;
+            for (second, all) in second.iter_mut().zip(all) {
+                *second = *second + all * product_of.sizes();
+            }
+            paths.push(path);
+        }
+        let rest = self.rest(carried, &columns, second.map(Sizes::total))?;
+        Some(Curve { paths, lagged, rest })
+    }
+
+    /// What is of the third order at the end of a step, on account of what happens in it.
+    fn rest(&self, carried: &Carried<'_>, columns: &[Column], second: [Interval; 3]) -> Option<[Interval; 3]> {
+        let over = |of: &dyn Fn(&Column) -> Sizes| -> Interval {
+            Sizes::dot(columns.iter().zip(carried.bundles).map(|(c, bundle)| (of(c), bundle.deviations.sizes())))
+                .total()
+        };
+        let first = [POSITION, VELOCITY, FORCE].map(|k| over(&|c| c.within[k][0]));
+        let apart = |term: Term| {
+            if self.at.has(term) { most(self.over.term(term) - self.at.term(term)) } else { Interval::ZERO }
+        };
+        let own = |term: Term| if self.at.has(term) { most(self.over.term(term)) } else { Interval::ZERO };
+        let (_, speed) = self.motions.point(0)[0];
+        let speed = speed.interval();
+        let three = Interval::point(3.0);
+        let kink = own(Term::Quadratic) + three * own(Term::Cubic) * speed;
+        let kink_apart = apart(Term::Quadratic) + three * apart(Term::Cubic) * speed;
+        // Without the kink's share.
+        let damped = {
+            let mut sum = Interval::ZERO;
+            for bundle in carried.bundles {
+                let within = Sizes::dot(
+                    bundle.damping_terms().map(|(term, weight)| (weight.sizes(), self.damped_by(term, 0).1)),
+                );
+                sum += (within * bundle.deviations.sizes()).total();
+            }
+            sum
+        };
+        let lagged = self.at.has(Term::LagRate);
+        let (gain, lag) =
+            if lagged { (apart(Term::Gain), apart(Term::LagRate)) } else { (Interval::ZERO, Interval::ZERO) };
+        let stiff = apart(Term::Stiffness);
+        let push = |rest: &[Interval; 3]| {
+            let [x, v, f] = core::array::from_fn(|k| second[k] + rest[k]);
+            let faster = first[VELOCITY] + v;
+            let cubic = own(Term::Cubic) * faster * faster;
+            let damping = damped + kink * faster + cubic;
+            let bent = (kink * v + kink_apart * first[VELOCITY] + cubic) * first[VELOCITY];
+            [damping * v + stiff * x + gain * f + bent, lag * f]
+        };
+        let start = carried.rest.map(most);
+        let grown = |rest: &[Interval; 3], start: [Interval; 3]| {
+            let push = push(rest).map(Sizes::splat);
+            let sizes = self.own.sizes(self.slopes.damping, push, &start.map(Balls::splat), self.slopes.h)?;
+            Some(sizes.map(|size| most(size.interval())))
+        };
+        let mut guess = start;
+        for _ in 0..ATTEMPTS {
+            let next = grown(&guess, start)?;
+            let room = next.map(|next| Interval::point((LARGER * next.upper()).max(f64::MIN_POSITIVE)));
+            if grown(&room, start)?.iter().zip(&room).all(|(grown, room)| grown.upper() < room.upper()) {
+                let added = grown(&room, [Interval::ZERO; 3])?;
+                return Some(added.map(|added| Interval::symmetric(added.upper())));
+            }
+            guess = room;
+        }
+        None
+    }
+}
+
+fn most(value: Interval) -> Interval {
+    Interval::point(value.magnitude())
+}
+
+impl Equations {
+    /// Coefficients of a column of slopes, from those at its start, but the last.
+    fn head_of(&self, slopes: &Slopes<'_>, push: impl Fn(usize) -> [Balls; 2], path: &mut [Short; 3]) {
+        let components = if self.has(Term::LagRate) { 3 } else { 2 };
+        for k in 0..BEND_ORDER - 1 {
+            let own = [path[POSITION][k], path[VELOCITY][k], path[FORCE][k]];
+            let rates = self.rates(product(&slopes.head, &path[VELOCITY], k), own, push(k));
+            for (series, rate) in path.iter_mut().zip(rates).take(components) {
+                series[k + 1] = rate.share(k + 1);
+            }
+        }
+    }
+
+    /// The same over the whole step at most, from its size there.
+    fn within_of(
+        &self,
+        slopes: &Slopes<'_>,
+        push: impl Fn(usize) -> [Sizes; 2],
+        from: [Sizes; 3],
+        path: &mut [ShortSizes; 3],
+    ) {
+        let series = self.growth(&slopes.rest, push, from, BEND_ORDER);
+        for (path, series) in path.iter_mut().zip(series) {
+            path.copy_from_slice(&series[..=BEND_ORDER]);
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Contraction of slanted boxes, by what the readings are over them to the second order.
+
+use std::rc::Rc;
+
+use super::contract::{Linear, Model, Span};
+use super::divide::Kept;
+use super::frame::{Frame, dot};
+use super::lp::{Multipliers, Outcome, Programme};
+use super::mix::Mix;
+use super::search::{Empty, Left, Method, Search};
+use super::surface::{Doubt, Surface};
+use super::trajectory::{Node, Unknowns};
+use crate::numeric::Interval;
+
+/// A motion is followed anew where what is of the third order takes more than this of what is in doubt.
+const STALE: f64 = 0.6;
+
+impl Model<'_> {
+    /// The motion over a whole record, and how it differs from that of the frame's centre by each coordinate.
+    pub(super) fn slanted(&self, span: Span, at: &[Interval], frame: &Frame, mixes: &[Mix]) -> Option<Vec<Node>> {
+        self.follow(span, at, &frame.centre, Unknowns { mixes, deviations: &frame.z, bending: true })
+    }
+}
+
+impl Linear {
+    /// An upper bound of a combination of the deviations.
+    fn most(&self, programme: &Programme, objective: &[(usize, f64)]) -> Result<f64, Multipliers> {
+        match programme.maximise(objective) {
+            Outcome::Empty { multipliers } if self.rows.upper_bound(&[], &multipliers, &self.deviations) < 0.0 => {
+                Err(multipliers)
+            }
+            Outcome::Empty { .. } => Ok(f64::INFINITY),
+            Outcome::Bounded { multipliers, .. } => {
+                Ok(self.rows.upper_bound(objective, &multipliers, &self.deviations))
+            }
+        }
+    }
+
+    /// What the rows leave of a combination; with the multipliers that contradict it, of nothing.
+    fn range(&self, programme: &Programme, objective: &[(usize, f64)]) -> Result<Interval, Multipliers> {
+        let own = dot(objective, &self.deviations);
+        let opposite: Vec<(usize, f64)> = objective.iter().map(|(index, weight)| (*index, -weight)).collect();
+        let (most, least) = (self.most(programme, objective)?, self.most(programme, &opposite)?);
+        let range = Interval::new(-least, most).and_then(|range| range.intersection(own));
+        range.ok_or_else(Multipliers::new)
+    }
+}
+
+/// A box in a frame, with what the readings are over it once that is known.
+#[derive(Clone, Debug)]
+pub(super) struct Slanted {
+    frame: Frame,
+    surface: Option<Rc<Surface>>,
+    /// Whether the frame is along what the readings tell.
+    informed: bool,
+}
+
+impl Slanted {
+    /// Halves along a coordinate.
+    pub(super) fn halves(&self, unknown: usize) -> Option<[Self; 2]> {
+        Some(self.frame.halves(unknown)?.map(|frame| Self { frame, ..self.clone() }))
+    }
+
+    #[cfg(test)]
+    pub(super) fn holds(&self, point: &[f64], share: f64) -> bool {
+        self.frame.holds(point, share)
+    }
+}
+
+/// What a box that is left says of the readings, as inequalities; and how its unknowns make up parameters.
+pub(super) struct Held {
+    pub(super) linear: Linear,
+    programme: Programme,
+    /// Along which the unknowns are, about their middle; none for unknowns of the model.
+    frame: Option<Frame>,
+}
+
+impl Held {
+    fn new(linear: Linear, frame: Option<Frame>) -> Self {
+        let places: Vec<usize> = (0..linear.deviations.len()).collect();
+        let programme = Programme::of(&linear.rows, &linear.deviations, &places);
+        Self { linear, programme, frame }
+    }
+
+    /// What a combination of parameters can be; `None` where the inequalities leave nothing.
+    pub(super) fn combination(&self, parts: &[(usize, f64)]) -> Option<Interval> {
+        let centre = |place: usize| Interval::point(self.linear.centre[place]);
+        let at_centre = Interval::dot(parts.iter().map(|(place, factor)| (Interval::point(*factor), centre(*place))));
+        let Some(frame) = &self.frame else {
+            return Some(at_centre + self.linear.range(&self.programme, parts).ok()?);
+        };
+        let mut turned = vec![Interval::ZERO; frame.places.len()];
+        for (place, factor) in parts {
+            let row = frame.places.iter().position(|own| own == place)?;
+            for (column, weight) in frame.row(row) {
+                turned[column] += Interval::point(*factor) * Interval::point(weight);
+            }
+        }
+        let objective: Vec<(usize, f64)> = turned.iter().map(|weight| weight.midpoint()).enumerate().collect();
+        let range = self.linear.range(&self.programme, &objective).ok()?;
+        let rounded = turned.iter().map(|weight| *weight - Interval::point(weight.midpoint()));
+        let rounded = Interval::dot(rounded.zip(self.linear.deviations.iter().copied()));
+        let middle = frame.z.iter().map(|side| Interval::point(side.midpoint()));
+        Some(at_centre + Interval::dot(turned.iter().copied().zip(middle)) + range + rounded)
+    }
+}
+
+impl Search<'_> {
+    /// The readings over a box that is left. `None` where there is no enclosure.
+    pub(super) fn held(&mut self, kept: &Kept) -> Option<Held> {
+        if let Some(Slanted { frame, surface, .. }) = &kept.slanted {
+            let surface = surface.clone().or_else(|| {
+                self.count_pass();
+                self.model.surface(&kept.at, frame).map(Rc::new)
+            });
+            if let Some(surface) = surface {
+                let (linear, _) = surface.over(&frame.z, &frame.centre, false);
+                return Some(Held::new(linear, Some(frame.clone())));
+            }
+        }
+        let mut at = kept.at.clone();
+        let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
+        Some(Held::new(self.chained(&mut at, centre).ok().flatten()?, None))
+    }
+
+    /// One contraction over whole records in a frame, which is slanted at first. None where what is in doubt is more than `most` of
+    /// the readings' error, or there is no enclosure.
+    pub(super) fn slant(
+        &mut self,
+        at: &mut [Interval],
+        slanted: &mut Option<Slanted>,
+        most: f64,
+    ) -> Result<Option<Left>, Empty> {
+        let straight = || Slanted { frame: Frame::straight(self.of_whole(), at), surface: None, informed: false };
+        let Slanted { frame: mut own, surface, informed } = slanted.take().unwrap_or_else(straight);
+        let parted = || Empty { method: Method::Whole, multipliers: Vec::new(), linear: None };
+        if !own.meet(at) {
+            return Err(parted());
+        }
+        let surface = match surface {
+            Some(surface) => {
+                self.count_part();
+                surface
+            }
+            None => {
+                self.count_pass();
+                let Some(mut surface) = self.model.surface(at, &own) else { return Ok(None) };
+                if informed {
+                    surface.prune(&own.z);
+                }
+                Rc::new(surface)
+            }
+        };
+        let (linear, Doubt { slack, widest }) = surface.over(&own.z, &own.centre, informed);
+        if slack > most {
+            return Ok(None);
+        }
+        let empty = |multipliers, linear: &Linear, at: &[Interval]| {
+            let mut linear = linear.clone();
+            linear.deviations = at.iter().zip(&linear.centre).map(|(side, c)| *side - Interval::point(*c)).collect();
+            Empty { method: Method::Whole, multipliers, linear: Some(linear) }
+        };
+        let middle: Vec<Interval> = own.z.iter().map(|side| Interval::point(side.midpoint())).collect();
+        let unknowns: Vec<usize> = (0..own.places.len()).collect();
+        let programme = Programme::of(&linear.rows, &linear.deviations, &unknowns);
+        for (row, place) in own.places.iter().enumerate() {
+            let objective = own.row(row);
+            let range = linear.range(&programme, &objective).map_err(|rows| empty(rows, &linear, at))?;
+            let side = Interval::point(own.centre[*place]) + dot(&objective, &middle) + range;
+            at[*place] = at[*place].intersection(side).ok_or_else(parted)?;
+        }
+        let error = self.setup.records.iter().fold(f64::INFINITY, |least, readings| least.min(readings.error));
+        let next = if informed { own.clone() } else { own.informed(&linear, error) };
+        // Each new coordinate is a combination of the old ones, known to within rounding.
+        let turned: Vec<Vec<Interval>> = unknowns
+            .iter()
+            .map(|column| {
+                next.coordinates(|row| Interval::point(if row < *column { 0.0 } else { own.weight(row, *column) }))
+            })
+            .collect();
+        let mut z = Vec::with_capacity(unknowns.len());
+        for &row in &unknowns {
+            let objective: Vec<(usize, f64)> = if informed {
+                vec![(row, 1.0)]
+            } else {
+                (0..=row).map(|column| (column, turned[column][row].midpoint())).collect()
+            };
+            let range = linear.range(&programme, &objective).map_err(|rows| empty(rows, &linear, at))?;
+            if informed {
+                z.push((middle[row] + range).intersection(own.z[row]).ok_or_else(parted)?);
+                continue;
+            }
+            let rest = objective
+                .iter()
+                .map(|(column, weight)| (turned[*column][row] - Interval::point(*weight), own.z[*column]));
+            z.push(dot(&objective, &middle) + range + Interval::dot(rest));
+        }
+        let stale = !informed || surface.rest > STALE * slack;
+        *slanted = Some(if stale {
+            Slanted { frame: next.moved(z), surface: None, informed: true }
+        } else {
+            own.z = z;
+            Slanted { frame: own, surface: Some(surface), informed: true }
+        });
+        Ok(Some(Left::Followed { slack, widest }))
+    }
+}
