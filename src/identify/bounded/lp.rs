@@ -176,15 +176,33 @@ impl Programme {
         let mut z = vec![0.0; n];
         let mut entering = vec![0.0; n];
         let mut shares = vec![0.0; n];
+        // Rows that were missed when all were looked at last.
+        let mut near: Vec<usize> = Vec::new();
         for _ in 0..MOST_PIVOTS {
             for i in 0..n {
                 z[i] = (0..n).map(|k| inverse[i * n + k] * right[k]).sum();
             }
+            let missed = |index: usize| {
+                let row = self.row(index).iter();
+                row.map(|(column, entry)| entry * z[*column as usize]).sum::<f64>() - self.limits[index]
+            };
             let mut worst = (MET, usize::MAX);
-            for (index, limit) in self.limits.iter().enumerate() {
-                let value: f64 = self.row(index).iter().map(|(column, entry)| entry * z[*column as usize]).sum();
-                if value - limit > worst.0 {
-                    worst = (value - limit, index);
+            for &index in &near {
+                let by = missed(index);
+                if by > worst.0 {
+                    worst = (by, index);
+                }
+            }
+            if worst.1 == usize::MAX {
+                near.clear();
+                for index in 0..rows {
+                    let by = missed(index);
+                    if by > MET {
+                        near.push(index);
+                    }
+                    if by > worst.0 {
+                        worst = (by, index);
+                    }
                 }
             }
             for (j, z) in z.iter().enumerate() {

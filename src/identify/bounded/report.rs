@@ -127,10 +127,9 @@ impl Answer {
             let Some(stays) = search.draw_in(division, end, goal, fine, budget) else { return };
             let before = self.inner.as_ref().map(|inner| end.of(inner));
             if let Some(tried) = search.nearest(&stays.at, &stays.at) {
-                if let (true, Some(hull)) = (tried.misfit <= 1.0, division.hull()) {
-                    if let Some(far) = search.furthest(&tried, &hull, end.unknown, end.sign()) {
-                        self.note(far);
-                    }
+                let hull = division.hull().filter(|_| tried.misfit <= 1.0);
+                if let Some(far) = hull.and_then(|hull| search.furthest(&tried, &hull, end.unknown, end.sign())) {
+                    self.note(far);
                 }
                 self.note(tried);
             }

@@ -6,6 +6,9 @@ use super::contract::{Linear, Model, Origin};
 use super::frame::Frame;
 use crate::numeric::{Interval, Real};
 
+#[cfg(test)]
+mod tests;
+
 /// Share of its error up to which a reading is met so well that it tells nothing.
 const PRUNED: f64 = 0.9;
 

@@ -1,3 +1,4 @@
+use super::super::bend::Pairs;
 use super::super::field::TERMS;
 use super::super::mix::{By, Mix};
 use super::*;
@@ -48,7 +49,8 @@ fn step(share: f64) -> Box<Step> {
     let start = Pair { over: state(about(v, share)), at: state(Interval::point(v)) };
     let mixes = [By::Term(Term::Gain), By::Term(Term::Quadratic)].map(|by| Mix::of([(by, 1.0)]));
     let bundles = Bundle::of(&mixes, &[Interval::ZERO; 2]);
-    fields.smooth(&start, Interval::point(U), Interval::point(H_S), LONGEST, &bundles).expect("a step")
+    let carried = Carried { bundles: &bundles, ..Carried::NOTHING };
+    fields.smooth(&start, Interval::point(U), Interval::point(H_S), LONGEST, &carried).expect("a step")
 }
 
 #[test]
@@ -103,7 +105,8 @@ fn the_remainder_of_a_slope_is_no_smaller_than_what_linear_drag_leaves_out() {
     let start = Pair { over: state(Interval::ZERO), at: state(Interval::ZERO) };
     let h_s = 0.85 / rate;
     let fields = Fields { over: equation, at: equation };
-    let step = fields.smooth(&start, Interval::point(U), Interval::point(h_s), LONGEST, &[]).expect("a step");
+    let step =
+        fields.smooth(&start, Interval::point(U), Interval::point(h_s), LONGEST, &Carried::NOTHING).expect("a step");
     let [position, velocity, _] = step.at(Interval::point(h_s)).by_start[VELOCITY];
     let left = (-rate * h_s).exp();
     assert!(holds(velocity.interval_at(0), left), "{left} outside {:?}", velocity.interval_at(0));
@@ -154,7 +157,9 @@ fn what_is_unsure_of_a_point_outside_of_the_box_is_carried_by_its_own_slopes() {
     let unsure = about(v, 0.01);
     let short_s = 0.2;
     let start = Pair { over: state(about(v, 0.02)), at: state(unsure) };
-    let step = fields.smooth(&start, Interval::point(U), Interval::point(short_s), LONGEST, &[]).expect("a step");
+    let step = fields
+        .smooth(&start, Interval::point(U), Interval::point(short_s), LONGEST, &Carried::NOTHING)
+        .expect("a step");
     let mut other = step.clone();
     other.at_by_start = None;
     let at_end = |step: &Step| step.at(Interval::point(short_s)).at.expect("the point's own");
@@ -163,4 +168,90 @@ fn what_is_unsure_of_a_point_outside_of_the_box_is_carried_by_its_own_slopes() {
         assert!(holds(at_end(&step)[POSITION], position) && holds(at_end(&step)[VELOCITY], velocity));
         assert!(!holds(at_end(&other)[VELOCITY], velocity), "by the box's slopes it is missed");
     }
+}
+
+/// The same step to the second order, by gain, drag and the velocity at its start; and what each can be off the centre.
+fn bent_step(share: f64, h_s: f64) -> (Box<Step>, Vec<Bundle>, Pairs) {
+    let [gain, quadratic, v] = CENTRE;
+    let fields = Fields {
+        over: field(about(gain, share), about(quadratic, share)),
+        at: field(Interval::point(gain), Interval::point(quadratic)),
+    };
+    let start = Pair { over: state(about(v, share)), at: state(Interval::point(v)) };
+    let unknowns = [By::Term(Term::Gain), By::Term(Term::Quadratic), By::Start(VELOCITY)];
+    let mixes = unknowns.map(|by| Mix::of([(by, 1.0)]));
+    let deviations = CENTRE.map(|centre| about(centre, share) - Interval::point(centre));
+    let (bundles, pairs) = (Bundle::of(&mixes, &deviations), Pairs::of(&mixes, &deviations));
+    let columns: Vec<[Balls; 3]> = bundles.iter().map(|bundle| bundle.start).collect();
+    let bends = vec![[Balls::ZERO; 3]; pairs.count()];
+    let carried =
+        Carried { bundles: &bundles, columns: &columns, pairs: Some(&pairs), bends: &bends, rest: [Interval::ZERO; 3] };
+    let step = fields.smooth(&start, Interval::point(U), Interval::point(h_s), LONGEST, &carried).expect("a step");
+    assert!(step.curve.is_some());
+    (step, bundles, pairs)
+}
+
+#[test]
+fn the_second_derivative_by_the_velocity_at_the_start_is_within_what_bends() {
+    let short_s = 0.1;
+    let (step, _, pairs) = bent_step(0.0, short_s);
+    let [gain, quadratic, v] = CENTRE;
+    let square = gain * U / quadratic;
+    for part in [5, 10, 20] {
+        let t = short_s * f64::from(part) / 20.0;
+        let arrival = step.at(Interval::point(t));
+        let bends = arrival.carry_bends(&vec![[Balls::ZERO; 3]; pairs.count()]);
+        // Of the hyperbolic tangent, whose slope is 1 - w^2 over that at the start.
+        let now = motion(CENTRE, t)[1];
+        let left = |v: f64| 1.0 - v * v / square;
+        let exact = 2.0 * left(now) * (v - now) / (square * left(v) * left(v));
+        // The pair of the third unknown with itself is the sixth of all.
+        let own = bends[1][VELOCITY].interval_at(1);
+        assert!(holds(own, exact), "{exact} outside {own:?} after {t}");
+        assert!(own.width() < 0.01 * exact.abs(), "{own:?} is {} wide", own.width());
+    }
+}
+
+/// How often corners of a box are missed by the second order and its rest; without the first of them; without the second.
+fn missed_by_bends(share: f64) -> [usize; 3] {
+    let short_s = 0.2;
+    let (step, bundles, pairs) = bent_step(share, short_s);
+    let mut missed = [0; 3];
+    for part in [5, 10, 20] {
+        let t = short_s * f64::from(part) / 20.0;
+        let arrival = step.at(Interval::point(t));
+        let at = arrival.at.expect("the point's own");
+        let columns = arrival.carry_bundle(&bundles[0].start, 0);
+        let bends = arrival.carry_bends(&vec![[Balls::ZERO; 3]; pairs.count()]);
+        let rest = arrival.carry_rest(&[Interval::ZERO; 3]);
+        for corner in 0..8 {
+            let sign = |bit: u32| if corner >> bit & 1 == 0 { 1.0 } else { -1.0 };
+            let values: [f64; 3] = core::array::from_fn(|k| CENTRE[k] * (1.0 + 0.999 * share * sign(k as u32)));
+            let off: [Interval; 3] = core::array::from_fn(|k| Interval::point(values[k]) - Interval::point(CENTRE[k]));
+            for (component, value) in motion(values, t).into_iter().enumerate() {
+                let first = (0..3).fold(at[component], |sum, k| sum + columns[component].interval_at(k) * off[k]);
+                let mut second = first;
+                for (index, (i, j)) in [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)].into_iter().enumerate() {
+                    let bend = bends[index / Balls::COUNT][component].interval_at(index % Balls::COUNT);
+                    let product = if i == j { off[i].square() * Interval::point(0.5) } else { off[i] * off[j] };
+                    second += bend * product;
+                }
+                let forms = [second + rest[component], first + rest[component], second];
+                for (missed, form) in missed.iter_mut().zip(forms) {
+                    *missed += usize::from(!holds(form, value));
+                }
+            }
+        }
+    }
+    missed
+}
+
+#[test]
+fn motions_of_a_box_are_within_the_second_order_and_its_rest_and_without_either_they_are_not() {
+    let [whole, straight, _] = missed_by_bends(0.01);
+    assert_eq!(whole, 0);
+    assert!(straight > 12, "without the second order {straight} of 48 were missed");
+    let [whole, _, restless] = missed_by_bends(0.2);
+    assert_eq!(whole, 0);
+    assert!(restless > 12, "without the rest {restless} of 48 were missed");
 }

@@ -1,0 +1,113 @@
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+use super::super::search::Search;
+use super::super::setup::Setup;
+use super::super::tests::{ALPHA, BETA, DELTA, record};
+use super::super::{BoundedModel, DelayBound};
+use super::*;
+use crate::identify::DragLaw;
+
+/// A model with its parameters, every one in the middle of a box.
+struct Case {
+    model: BoundedModel,
+    middles: Vec<f64>,
+}
+
+fn case(law: DragLaw, drags: &[f64], extend: impl Fn(BoundedModel) -> BoundedModel) -> Case {
+    let model = extend(BoundedModel { quantum: Some(0.02), ..BoundedModel::new(law, DelayBound::KnownS(0.0)) });
+    let middles = [1.0 / ALPHA].iter().chain(drags).chain(&[DELTA / ALPHA]).copied().collect();
+    Case { model, middles }
+}
+
+fn cases() -> Vec<Case> {
+    let rate = BETA / ALPHA;
+    vec![
+        case(DragLaw::Linear, &[rate], |model| model),
+        case(DragLaw::Mixed, &[rate, 0.4 * rate], |model| model),
+        case(DragLaw::Linear, &[rate, 0.2 * rate], |model| BoundedModel { cubic: true, ..model }),
+        case(DragLaw::Quadratic, &[rate, 0.1], |model| BoundedModel { stiffness: true, ..model }),
+        case(DragLaw::Mixed, &[rate, 0.4 * rate, 4.0], |model| BoundedModel { lag: true, ..model }),
+        case(DragLaw::Linear, &[rate, 0.05], |model| BoundedModel { delay: DelayBound::WithinS([0.0, 0.3]), ..model }),
+        case(DragLaw::Quadratic, &[rate, 0.05], |model| BoundedModel {
+            delay: DelayBound::WithinS([0.0, 0.3]),
+            ..model
+        }),
+    ]
+}
+
+/// How often outputs at points of a part of the box are outside of what is known there.
+fn missed(search: &Search<'_>, surface: &Surface, frame: &Frame, z: &[Interval], random: &mut Pcg64Mcg) -> usize {
+    let (linear, _) = surface.over(z, &frame.centre, false);
+    let span = search.model.whole()[0];
+    let readings = &search.model.records[0];
+    let error = Interval::point(readings.error);
+    let mut missed = 0;
+    for _ in 0..8 {
+        let here: Vec<f64> = z
+            .iter()
+            .map(|side| side.lower() + side.width() * if random.random_bool(0.5) { 0.999 } else { 0.001 })
+            .collect();
+        let mut point = frame.centre.clone();
+        for (row, place) in frame.places.iter().enumerate() {
+            point[*place] += (0..=row).map(|column| frame.weight(row, column) * here[column]).sum::<f64>();
+        }
+        let Some(outputs) = search.model.outputs(span, &point) else { continue };
+        let off = |sample: usize| outputs[sample] - Interval::point(readings.value[sample + first(search)]);
+        for (row, (slopes, origin)) in linear.rows.slopes.iter().zip(&linear.origins).enumerate() {
+            let Origin::Reading { sample, above: true, .. } = origin else { continue };
+            // Both rows together say where the output is.
+            let [above, below] = [row, row + 1].map(|row| Interval::point(linear.rows.limits[row]));
+            let residual = (error - above).hull(below - error);
+            let middle = z.iter().map(|side| side.midpoint());
+            let way = slopes.iter().zip(here.iter().zip(middle)).fold(residual, |sum, ((_, slope), (z, middle))| {
+                sum + *slope * (Interval::point(*z) - Interval::point(middle))
+            });
+            missed += usize::from(way.inflate(1e-12).intersection(off(*sample - first(search))).is_none());
+        }
+    }
+    missed
+}
+
+fn first(search: &Search<'_>) -> usize {
+    search.setup.layout.windows()[0].first
+}
+
+/// A surface over a box of this relative half-width.
+fn surface(search: &Search<'_>, middles: &[f64], width: f64) -> (Surface, Frame) {
+    let layout = &search.setup.layout;
+    let mut at = search.setup.search.clone();
+    for (side, middle) in at.iter_mut().zip(middles) {
+        *side = Interval::point(*middle).inflate(width * middle.abs());
+    }
+    at[layout.start(0, 0)] = Interval::point(0.1).inflate(width);
+    at[layout.start(0, 1)] = Interval::point(0.2).inflate(width);
+    if layout.lagged() {
+        at[layout.start(0, 2)] = Interval::point(0.8).inflate(width);
+    }
+    let frame = Frame::straight(search.of_whole(), &at);
+    let surface = search.model.surface(&at, &frame).expect("an enclosure");
+    (surface, frame)
+}
+
+#[test]
+fn outputs_are_where_the_surface_says_and_without_its_bends_they_are_not() {
+    let mut random = Pcg64Mcg::seed_from_u64(5);
+    let record = record(150);
+    for Case { model, middles } in cases() {
+        let setup = Setup::new(&[&record], &model).expect("a problem");
+        let search = Search::new(&setup);
+        let (narrow, frame) = surface(&search, &middles, 0.02);
+        let half = |z: &Interval| Interval::new(0.2 * z.upper(), 0.9 * z.upper()).expect("ordered");
+        let half: Vec<Interval> = frame.z.iter().map(half).collect();
+        for z in [&frame.z, &half] {
+            assert_eq!(missed(&search, &narrow, &frame, z, &mut random), 0, "{model:?}");
+        }
+        let mut straight = narrow.clone();
+        for off in straight.sheets.iter_mut().flat_map(|sheet| &mut sheet.readings) {
+            off.bends.iter_mut().for_each(|bend| *bend = Interval::ZERO);
+        }
+        let count = missed(&search, &straight, &frame, &half, &mut random);
+        assert!(count > 50, "without bends {count} were missed, {model:?}");
+    }
+}
