@@ -1,9 +1,9 @@
 //! The second order: how slopes bend over the box.
 //!
-//! With s the difference of two motions and `s' = A(theta) s + sum z_j P_j` its equation, let `J_j' = A J_j + P_j` with the point's own
-//! A. What `s` differs by from `sum z_j J_j` is `sum z_i z_j H_ij` and a rest of the third order: `H_ij' = A H_ij + f_ij`, in which
-//! `f_ij` is what a slope's own bending by the one pushes through the column of the other. Interval slopes over the box add up
-//! over switchings; H, of either sign, does not.
+//! With s the difference of the motions of theta and of the point, and `s' = A(theta) s + sum z_j P_j` its equation, columns follow
+//! `J_j' = A J_j + P_j` with the point's own A. What `s` differs by from `sum z_j J_j` is `sum z_i z_j H_ij`, of squares the half, and
+//! a rest of the third order. `H_ij' = A H_ij + f_ij`, in which `f_ij` is what A changes by with one unknown times the column by the
+//! other. What slopes over a box leave in doubt adds up from switching to switching; H, of either sign, hardly does.
 
 use super::field::{FORCE, Field, POSITION, Term, VELOCITY};
 use super::mix::{Bundle, Mix};
@@ -30,7 +30,7 @@ pub(super) fn pairs(mixes: &[Mix]) -> Vec<[usize; 2]> {
 /// Pairs of unknowns, side by side.
 #[derive(Clone, Debug)]
 pub(super) struct Pairs {
-    lanes: Vec<[[usize; 2]; Balls::COUNT]>,
+    pub(super) lanes: Vec<[[usize; 2]; Balls::COUNT]>,
     /// What `z_i z_j` can be; of a square the half.
     products: Vec<Balls>,
 }
@@ -60,69 +60,6 @@ impl Pairs {
     /// What all of them add.
     pub(super) fn total(&self, bends: &[[Balls; 3]], component: usize) -> Interval {
         Balls::dot(bends.iter().map(|bend| bend[component]).zip(self.products.iter().copied())).total()
-    }
-}
-
-/// What a switching at an instant in doubt does to a motion by the end of the doubt, when it comes later by z: to position and velocity
-/// `first z + twice z^2/2`, and of a change of the gain by g `mixed g z`.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Switching {
-    pub(super) first: [Interval; 2],
-    twice: [Interval; 2],
-    mixed: [Interval; 2],
-    /// Of the third order.
-    pub(super) rest: [Interval; 2],
-}
-
-impl Switching {
-    /// By `drop` after `since_s` from the point's own instant, and at most `doubt_s` from any; slopes of the acceleration by the velocity
-    /// were in `damping` meanwhile.
-    pub(super) fn new(
-        over: &Field,
-        at: &Field,
-        drop: Interval,
-        damping: Interval,
-        since_s: Interval,
-        doubt_s: f64,
-    ) -> Self {
-        let (w, half) = (Interval::point(doubt_s), Interval::point(0.5));
-        let stiffness = if over.has(Term::Stiffness) { most(over.term(Term::Stiffness)) } else { Interval::ZERO };
-        let (mean, strong) = (Interval::point(damping.midpoint()), most(damping));
-        let grown = ((strong + stiffness * w) * w).exp();
-        let third = stiffness * w * w * w / Interval::point(6.0);
-        // How far what remains of a unit impulse is off 1 + mean t, and its way off t.
-        let off_way = (strong * half * w * w + third) * grown;
-        let off = Interval::point(damping.radius()) * w
-            + ((strong.square() + stiffness) * half * w * w + strong * third) * grown;
-        let (push, all) = (at.term(Term::Gain) * drop, most(over.term(Term::Gain) * drop));
-        let unit = [since_s, Interval::ONE + mean * since_s];
-        let doubt = [off_way, off].map(|off| Interval::symmetric((all * off).upper()));
-        let apart = most(over.term(Term::Gain) - at.term(Term::Gain)) * most(drop) * half * w * w;
-        Self {
-            first: core::array::from_fn(|k| push * unit[k] + doubt[k]),
-            twice: [-push, -(push * mean)],
-            mixed: unit.map(|unit| drop * unit),
-            rest: [apart, apart * most(mean)].map(|rest| Interval::symmetric(rest.upper())),
-        }
-    }
-
-    /// Adds to how slopes bend.
-    pub(super) fn bend(&self, pairs: &Pairs, bundles: &[Bundle], edge: usize, bends: &mut [[Balls; 3]]) {
-        let shifts: Vec<Balls> = bundles.iter().map(|bundle| bundle.shifts(edge).unwrap_or(Balls::ZERO)).collect();
-        for (lanes, bend) in pairs.lanes.iter().zip(bends) {
-            let of = |side: usize, lane: usize| (lanes[lane][side] / Balls::COUNT, lanes[lane][side] % Balls::COUNT);
-            let shift =
-                |side: usize| Balls::gather(core::array::from_fn(|lane| (&shifts[of(side, lane).0], of(side, lane).1)));
-            let gain = |side: usize| {
-                Balls::points(core::array::from_fn(|lane| {
-                    bundles[of(side, lane).0].weight(Term::Gain, of(side, lane).1)
-                }))
-            };
-            let (both, mixed) = (shift(0) * shift(1), gain(0) * shift(1) + gain(1) * shift(0));
-            for k in [POSITION, VELOCITY] {
-                bend[k] = bend[k] + both * Balls::splat(self.twice[k]) + mixed * Balls::splat(self.mixed[k]);
-            }
-        }
     }
 }
 
@@ -219,8 +156,8 @@ impl Ground<'_> {
         let (own, within) = match term {
             Term::Linear if k == 0 => (Balls::ONE, size(1.0)),
             Term::Quadratic => {
-                let twice =
-                    if self.backwards { Balls::ZERO - velocity.0 - velocity.0 } else { velocity.0 + velocity.0 };
+                let twice = velocity.0 + velocity.0;
+                let twice = if self.backwards { -twice } else { twice };
                 if k == 0 {
                     let middle = self.at.twice_middle();
                     (twice - Balls::splat(middle), velocity.1 + velocity.1 + Sizes::splat(middle))
@@ -237,7 +174,7 @@ impl Ground<'_> {
         (own, within)
     }
 
-    /// How much the damping changes with the velocity: over `k`.
+    /// By how much the damping changes with the velocity; the same two.
     fn kink(&self, k: usize) -> (Balls, Sizes) {
         let (mut own, mut within) = (Balls::ZERO, Sizes::ZERO);
         if self.at.has(Term::Quadratic) && k == 0 {
@@ -353,7 +290,7 @@ impl Ground<'_> {
         Some(Curve { paths, lagged, rest })
     }
 
-    /// What is of the third order at the end of a step, on account of what happens in it.
+    /// What is of the third order at every instant of a step, on account of what happens in it.
     fn rest(&self, carried: &Carried<'_>, columns: &[Column], second: [Interval; 3]) -> Option<[Interval; 3]> {
         let over = |of: &dyn Fn(&Column) -> Sizes| -> Interval {
             Sizes::dot(columns.iter().zip(carried.bundles).map(|(c, bundle)| (of(c), bundle.deviations.sizes())))
@@ -369,17 +306,12 @@ impl Ground<'_> {
         let three = Interval::point(3.0);
         let kink = own(Term::Quadratic) + three * own(Term::Cubic) * speed;
         let kink_apart = apart(Term::Quadratic) + three * apart(Term::Cubic) * speed;
-        // Without the kink's share.
-        let damped = {
-            let mut sum = Interval::ZERO;
-            for bundle in carried.bundles {
-                let within = Sizes::dot(
-                    bundle.damping_terms().map(|(term, weight)| (weight.sizes(), self.damped_by(term, 0).1)),
-                );
-                sum += (within * bundle.deviations.sizes()).total();
-            }
-            sum
+        // By what the damping differs at the point's velocity.
+        let by_terms = |bundle: &Bundle| {
+            let terms = bundle.damping_terms().map(|(term, weight)| (weight.sizes(), self.damped_by(term, 0).1));
+            Sizes::dot(terms) * bundle.deviations.sizes()
         };
+        let damped = carried.bundles.iter().fold(Interval::ZERO, |sum, bundle| sum + by_terms(bundle).total());
         let lagged = self.at.has(Term::LagRate);
         let (gain, lag) =
             if lagged { (apart(Term::Gain), apart(Term::LagRate)) } else { (Interval::ZERO, Interval::ZERO) };
@@ -412,7 +344,8 @@ impl Ground<'_> {
     }
 }
 
-fn most(value: Interval) -> Interval {
+/// The magnitude.
+pub(super) fn most(value: Interval) -> Interval {
     Interval::point(value.magnitude())
 }
 

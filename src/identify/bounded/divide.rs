@@ -8,7 +8,7 @@ use super::slanted::Slanted;
 use crate::numeric::Interval;
 
 /// A box is not divided further where the slopes' ranges take less than this of the readings' error.
-const FINE: f64 = 0.003;
+const FINE: f64 = 1e-5;
 /// Divisions of the halves of one box that is left, at once.
 const MOST_OF_A_BOX: usize = 6;
 /// A slice that is drawn in by less than this of its width is divided.

@@ -5,7 +5,7 @@ use super::mix::Bundle;
 use crate::numeric::{Balls, Interval, Sizes};
 
 /// Degree whose coefficient over the whole step is the remainder.
-const ORDER: usize = 10;
+pub(super) const ORDER: usize = 10;
 
 pub(super) type Coefficients<T> = [T; ORDER + 1];
 type Series = Coefficients<Balls>;

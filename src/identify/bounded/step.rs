@@ -7,12 +7,16 @@
 use super::bend::{Carried, Curve, Ground};
 use super::field::{FORCE, Field, POSITION, Term, Triple, VELOCITY};
 use super::mix::Bundle;
-use super::series::{Equations, NO_PATH, Path, Slopes, abreast, line, powers, value};
+use super::series::{Equations, NO_PATH, ORDER, Path, Slopes, abreast, line, powers, value};
 use crate::numeric::{Balls, Interval, Real};
 
 #[cfg(test)]
 mod tests;
 
+/// Length of a step against the equation's fastest rate, where slopes are over the box.
+pub(super) const STEP: f64 = 0.15;
+/// What a step may be longer against the fastest rate on the way than was looked for.
+pub(super) const ROOM: f64 = 1.1;
 /// Attempts at an enclosure before the step is called too long.
 const ATTEMPTS: usize = 6;
 
@@ -192,7 +196,7 @@ impl Fields {
                 step.curve = Some(curve);
                 return Ok(step);
             }
-            if h.upper() * field.fastest(within[VELOCITY]) > 0.15 {
+            if h.upper() * field.fastest(within[VELOCITY]) > ROOM * STEP {
                 return Err(HALF);
             }
         }
@@ -295,11 +299,11 @@ impl Step {
         Ok(step)
     }
 
-    /// How much of the point's velocity at the end is unsure on account of the step.
-    pub(super) fn remainder(&self, h: Interval) -> f64 {
-        let velocity = &self.state[VELOCITY];
-        let last = velocity.len() - 1;
-        velocity[last].interval_at(1).magnitude() * libm::pow(h.upper(), last as f64)
+    /// By how much longer the step, of the duration `h`, may be for its remainder to leave so much of the point's velocity unsure.
+    pub(super) fn longer(&self, h: Interval, most: f64) -> f64 {
+        let last = self.state[VELOCITY][ORDER].interval_at(1).magnitude();
+        let remainder = last * libm::pow(h.upper(), ORDER as f64);
+        libm::pow(most / remainder.max(f64::MIN_POSITIVE), 1.0 / ORDER as f64)
     }
 
     /// The values at the step's end, `h` after its beginning.

@@ -2,27 +2,29 @@
 
 use core::cell::Cell;
 
-use super::bend::{Carried, Pairs, Switching};
+use super::bend::{Carried, Pairs};
 use super::command::Command;
 use super::field::{FORCE, Field, POSITION, TERMS, Term, Triple, VELOCITY};
 use super::mix::{Bundle, Mix};
-use super::step::{Arrival, Fields, Pair, Refused, Step, straddles};
+use super::step::{Arrival, Fields, Pair, ROOM, Refused, STEP, Step, straddles};
 use crate::numeric::{Balls, Interval};
+use open::Open;
+
+mod open;
 
 /// The most steps between two changes of the command.
 const MOST_STEPS: usize = 2000;
-/// Length of a step against the equation's fastest rate.
-const STEP: f64 = 0.15;
 /// The same over a box whose gain's relative width is at most `NARROW`, where the remainders would count.
 const POINT_STEP: f64 = 0.12;
 const NARROW: f64 = 0.01;
-/// The same where the remainder of the step before was small enough.
+/// The same at most where steps are as long as their remainders allow.
 const LONG: f64 = 0.5;
-const SAFETY: f64 = 0.8;
 /// The same for a step by the rates' ranges.
 const CRUDE: f64 = 0.1;
-/// What a step may be longer against the fastest rate on the way than was looked for.
-const ROOM: f64 = 1.1;
+/// A step is made anew where it may be no longer than this share of itself.
+const ENOUGH: f64 = 0.8;
+/// A step is made no longer than this share of what the remainder of the one before would allow.
+const SAFETY: f64 = 0.8;
 /// How often the velocity at a step's end is looked at before it is made.
 const LOOKS_AHEAD: usize = 3;
 /// A step that would pass a change of sign is made shorter by this.
@@ -77,17 +79,6 @@ impl Unknowns<'_> {
     pub(super) const NONE: Self = Self { mixes: &[], deviations: &[], bending: false };
 }
 
-/// A switching that may have happened.
-struct Open {
-    edge: usize,
-    /// What a unit of impulse then may have become since.
-    impulse: Triple,
-    /// Whether it has not happened before the beginning.
-    whole: bool,
-    /// Slopes of the acceleration by the velocity since.
-    damping: Option<Interval>,
-}
-
 /// The state, and its slopes, on the way.
 struct Way<'a> {
     drive: &'a Drive<'a>,
@@ -97,6 +88,8 @@ struct Way<'a> {
     /// Slopes by the unknowns of each bundle.
     columns: Vec<[Balls; 3]>,
     pairs: Option<Pairs>,
+    /// Whether steps are as long as their remainders allow.
+    paced: bool,
     bends: Vec<[Balls; 3]>,
     rest: Triple,
     /// Switchings that may have happened, each with what a unit of impulse then may have become since.
@@ -109,6 +102,7 @@ struct Way<'a> {
 fn advance_point(field: &Field, start: Triple, u: Interval, h: Interval) -> Option<[Triple; 2]> {
     let (mut state, mut passed, mut left) = (start, start, h);
     let fields = Fields { over: *field, at: *field };
+    let pace = Pace { length: POINT_STEP, longest_s: f64::INFINITY, unsure: f64::INFINITY };
     for _ in 0..MOST_STEPS {
         if left.upper() <= 0.0 {
             return Some([state, passed]);
@@ -116,11 +110,7 @@ fn advance_point(field: &Field, start: Triple, u: Interval, h: Interval) -> Opti
         let mut part = left;
         let at = Pair { over: state, at: state };
         // A command that changes on the way is known by its range alone.
-        let step = if u.is_point() {
-            stride(&fields, &at, u, &mut part, POINT_STEP, f64::INFINITY, &Carried::NOTHING)?
-        } else {
-            None
-        };
+        let step = if u.is_point() { stride(&fields, &at, u, &mut part, pace, &Carried::NOTHING)? } else { None };
         let [end, within] = match step {
             Some(step) => [step.at_end(part).at?, step.within],
             None => {
@@ -156,23 +146,31 @@ fn shorten(part: &mut Interval, length: f64) {
     }
 }
 
-/// One step of at most the duration `part`, which it shortens, and of `length` against the fastest rate; none where the velocity is
-/// about to change its sign.
+/// How long a step may be.
+#[derive(Clone, Copy, Debug)]
+struct Pace {
+    /// Against the fastest rate.
+    length: f64,
+    longest_s: f64,
+    /// What it may leave unsure of the point's velocity.
+    unsure: f64,
+}
+
+/// One step of at most the duration `part`, which it shortens; none where the velocity is about to change its sign.
 fn stride(
     fields: &Fields,
     state: &Pair,
     u: Interval,
     part: &mut Interval,
-    length: f64,
-    pace_s: f64,
+    pace: Pace,
     carried: &Carried<'_>,
 ) -> Option<Option<Box<Step>>> {
-    let field = &fields.over;
+    let (field, length) = (&fields.over, pace.length);
     // All states, the point's among them: it need not be in the box.
     let both: Triple = core::array::from_fn(|k| state.over[k].hull(state.at[k]));
     let v = both[VELOCITY];
     let [_, rate, _] = field.rate(&both, u);
-    shorten(part, pace_s);
+    shorten(part, pace.longest_s);
     shorten(part, length / field.fastest(v));
     let mut ahead = v;
     for _ in 0..LOOKS_AHEAD {
@@ -189,7 +187,13 @@ fn stride(
             }
         }
         let share = match fields.smooth(state, u, *part, ROOM * length, carried) {
-            Ok(step) => return Some(Some(step)),
+            Ok(step) => {
+                let longer = SAFETY * step.longer(*part, pace.unsure);
+                if longer >= ENOUGH {
+                    return Some(Some(step));
+                }
+                longer
+            }
             Err(Refused::TooLong(share)) => share,
             Err(Refused::Kink) => {
                 turning = true;
@@ -302,7 +306,8 @@ impl Way<'_> {
             (self.state.over[FORCE], self.state.at[FORCE]) = (u, u_at);
         }
         let (mut left, mut gone, mut ahead) = (h, Interval::ZERO, ahead);
-        let (mut pace_s, mut length) = (f64::INFINITY, self.length());
+        let unsure = self.drive.remainder.filter(|_| self.paced).unwrap_or(f64::INFINITY);
+        let mut pace = Pace { length: self.length(), longest_s: f64::INFINITY, unsure };
         for _ in 0..MOST_STEPS {
             if left.upper() <= 0.0 {
                 return Some(());
@@ -312,11 +317,13 @@ impl Way<'_> {
                 shorten(&mut part, self.length() / self.drive.fields.over.fastest(self.state.over[VELOCITY]));
                 None
             } else {
-                stride(&self.drive.fields, &self.state, u, &mut part, length, pace_s, &self.all())?
+                stride(&self.drive.fields, &self.state, u, &mut part, pace, &self.all())?
             };
-            if let (Some(most), Some(step), true) = (self.drive.remainder, &step, self.paced()) {
-                pace_s = part.upper() * SAFETY * libm::pow(most / step.remainder(part).max(f64::MIN_POSITIVE), 0.1);
-                length = LONG;
+            if let (Some(step), true) = (&step, unsure.is_finite()) {
+                pace.longest_s = part.upper() * SAFETY * step.longer(part, unsure);
+                if self.pairs.is_some() {
+                    pace.length = LONG;
+                }
             }
             let mut at_end = None;
             if step.is_none() {
@@ -375,11 +382,6 @@ impl Way<'_> {
         None
     }
 
-    /// Whether steps are as long as their remainders allow.
-    fn paced(&self) -> bool {
-        self.pairs.is_some()
-    }
-
     /// Length of a step against the fastest rate.
     fn length(&self) -> f64 {
         let gain = self.drive.fields.over.term(Term::Gain);
@@ -400,59 +402,6 @@ impl Way<'_> {
         }
         None
     }
-
-    /// Columns with what open switchings may have added.
-    fn with_open(&self, bundle: &Bundle, mut columns: [Balls; 3]) -> [Balls; 3] {
-        for Open { edge, impulse, .. } in &self.open {
-            if let Some(shifts) = bundle.shifts(*edge) {
-                for (values, impulse) in columns.iter_mut().zip(impulse) {
-                    *values = *values + shifts * Balls::splat(self.sized(*edge, *impulse).hull(Interval::ZERO));
-                }
-            }
-        }
-        columns
-    }
-
-    /// An impulse of the size that a later switching has.
-    fn sized(&self, edge: usize, impulse: Interval) -> Interval {
-        let field = &self.drive.fields.over;
-        let factor = field.term(if self.lagged() { Term::LagRate } else { Term::Gain });
-        factor * self.drive.command.drop_at(edge) * impulse
-    }
-
-    /// A unit impulse just now.
-    fn fresh(&self) -> Triple {
-        let mut impulse = [Interval::ZERO; 3];
-        impulse[if self.lagged() { FORCE } else { VELOCITY }] = Interval::ONE;
-        impulse
-    }
-
-    /// At the end of a window in which a switching has happened, the point's own in a window of its own.
-    fn close(&mut self, edge: usize, window: (f64, f64), own: (f64, f64)) {
-        let Some(place) = self.open.iter().position(|open| open.edge == edge) else { return };
-        let Open { impulse, whole, damping, .. } = self.open.swap_remove(place);
-        let mut added = impulse.map(|impulse| self.sized(edge, impulse));
-        if let (Some(pairs), Some(damping), true, false) = (&self.pairs, damping, whole, self.lagged()) {
-            let Fields { over, at } = &self.drive.fields;
-            let close = Interval::point(window.1);
-            let since_s = (close - Interval::point(own.1)).hull(close - Interval::point(own.0));
-            let doubt_s = (close - Interval::point(window.0)).upper();
-            let switching = Switching::new(over, at, self.drive.command.drop_at(edge), damping, since_s, doubt_s);
-            for k in [POSITION, VELOCITY] {
-                added[k] = switching.first[k];
-                self.rest[k] += switching.rest[k];
-            }
-            switching.bend(pairs, self.bundles, edge, &mut self.bends);
-        }
-        let added = added.map(Balls::splat);
-        for (bundle, columns) in self.bundles.iter().zip(&mut self.columns) {
-            if let Some(shifts) = bundle.shifts(edge) {
-                for (values, added) in columns.iter_mut().zip(added) {
-                    *values = *values + shifts * added;
-                }
-            }
-        }
-    }
 }
 
 /// The motion at `times` (the first is where it starts). `None` where it cannot be enclosed.
@@ -467,6 +416,7 @@ pub(super) fn follow(drive: &Drive<'_>, start: Pair, times: &[f64], unknowns: Un
         bundles: &bundles,
         state: start,
         columns,
+        paced: pairs.is_some() || unknowns.deviations.iter().all(|deviation| deviation.is_point()),
         pairs,
         bends,
         rest,
