@@ -7,7 +7,7 @@ use super::search::{Empty, Left, Method, Search};
 use super::slanted::Slanted;
 use crate::numeric::Interval;
 
-/// A box is not divided further where the slopes' ranges take less than this of the readings' error.
+/// A box is not divided further where what is in doubt takes less than this of the readings' error.
 const FINE: f64 = 1e-5;
 /// Divisions of the halves of one box that is left, at once.
 const MOST_OF_A_BOX: usize = 6;

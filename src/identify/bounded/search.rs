@@ -27,7 +27,7 @@ const MOST_PASSES: usize = 30;
 
 /// Passes over one slice at most.
 const FINE_PASSES: usize = 6;
-/// Records are followed as a whole where the slopes' ranges take less than this of the readings' error.
+/// Records are followed as a whole where less than this of the readings' error is in doubt.
 pub(super) const UNBROKEN: f64 = 1.0;
 /// Steps of a pass, besides two for every sample, that count as one.
 const STEPS_PER_PASS: usize = 1000;
@@ -62,7 +62,7 @@ pub(super) struct Empty {
 pub(super) enum Left {
     /// Too wide for the motion; this parameter is the widest.
     Wide(usize),
-    /// The slopes' ranges take this share of the readings' error, most of it by this parameter.
+    /// So much of the readings' error is in doubt, by the slopes' ranges or by how they bend; most of it by this parameter.
     Followed { slack: f64, widest: usize },
 }
 

@@ -9,6 +9,8 @@ use crate::numeric::{Interval, Real};
 #[cfg(test)]
 mod tests;
 
+/// With more pairs of unknowns a motion to the second order costs more than it saves.
+const MOST_PAIRS: usize = 200;
 /// Share of its error up to which a reading is met so well that it tells nothing.
 const PRUNED: f64 = 0.9;
 
@@ -56,12 +58,15 @@ fn half_square(z: Interval) -> Interval {
 }
 
 impl Model<'_> {
-    /// Whole records in a frame. `None` where there is no enclosure.
+    /// Whole records in a frame. `None` where there is no enclosure, or too many unknowns for one of the second order.
     pub(super) fn surface(&self, at: &[Interval], frame: &Frame) -> Option<Surface> {
         let (mut sheets, mut rest) = (Vec::new(), 0.0f64);
         for span in self.whole() {
             let mixes = frame.mixes(self.layout, span.from);
             let pairs = pairs(&mixes);
+            if pairs.len() > MOST_PAIRS {
+                return None;
+            }
             let motion = self.slanted(span, at, frame, &mixes)?;
             let stretch = self.layout.windows()[span.from];
             let record = &self.records[stretch.record];
