@@ -225,6 +225,29 @@ fn witnesses_are_found_towards_both_ends_of_the_bounds() {
     }
 }
 
+#[test]
+fn a_motion_is_known_much_better_than_the_readings_and_by_the_fastest_rate_alone_it_is_not() {
+    let axis = DragAxis::quadratic(1.2, 0.8).expect("an axis");
+    let relay = RelayHysteresis::new(1.0, 0.4, 0.0).expect("a relay");
+    let sensor = Sensor { quantum: STEP, ..Sensor::default() };
+    let experiment = SimulatedExperiment::new(axis, relay, 10.0).expect("an experiment");
+    let record = experiment.held().with_sensor(sensor).expect("a sensor").run(60.0).expect("a record");
+    let setup = Setup::new(&[&record], &settings(DragLaw::Quadratic)).expect("a problem");
+    let mut search = Search::new(&setup);
+    let mut point: Vec<f64> = setup.search.iter().map(|side| side.midpoint()).collect();
+    point[..3].copy_from_slice(&[1.0 / 1.2, 0.8 / 1.2, 0.0]);
+    // A set of parameters may leave but a thousandth of an error.
+    let unsure = |search: &Search<'_>| {
+        let outputs = search.model.outputs(search.model.whole()[0], &point).expect("an enclosure");
+        outputs.iter().map(|output| output.width()).fold(0.0, f64::max) / (0.5 * STEP)
+    };
+    let paced = unsure(&search);
+    search.model.per_s = None;
+    let unpaced = unsure(&search);
+    assert!(paced < 1e-4, "{paced} of an error");
+    assert!(unpaced > 3.0 * paced, "{unpaced} without, {paced} with");
+}
+
 pub(super) fn settings(law: DragLaw) -> BoundedModel {
     BoundedModel { quantum: Some(STEP), ..BoundedModel::new(law, DelayBound::KnownS(0.0)) }
 }
