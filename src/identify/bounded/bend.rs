@@ -27,11 +27,19 @@ pub(super) fn pairs(mixes: &[Mix]) -> Vec<[usize; 2]> {
     moving.iter().enumerate().flat_map(|(rank, i)| moving[..=rank].iter().map(move |j| [*i, *j])).collect()
 }
 
+/// What `z_i z_j` can be; of a square the half.
+pub(super) fn product_of([i, j]: [usize; 2], z: &[Interval]) -> Interval {
+    if i == j { z[i].square() * Interval::point(0.5) } else { z[i] * z[j] }
+}
+
+/// Where an unknown stands: in which bundle, and at which place of it.
+pub(super) type Seat = (usize, usize);
+
 /// Pairs of unknowns, side by side.
 #[derive(Clone, Debug)]
 pub(super) struct Pairs {
-    pub(super) lanes: Vec<[[usize; 2]; Balls::COUNT]>,
-    /// What `z_i z_j` can be; of a square the half.
+    /// The first of each pair, and the second.
+    pub(super) sides: Vec<[[Seat; Balls::COUNT]; 2]>,
     products: Vec<Balls>,
 }
 
@@ -39,28 +47,35 @@ impl Pairs {
     /// Of all unknowns that move anything.
     pub(super) fn of(mixes: &[Mix], deviations: &[Interval]) -> Self {
         let all = pairs(mixes);
-        let product = |[i, j]: [usize; 2]| {
-            if i == j { deviations[i].square() * Interval::point(0.5) } else { deviations[i] * deviations[j] }
-        };
         let rows = all.chunks(Balls::COUNT);
+        // Places that are left over repeat the first, and count for nothing.
+        let seat = |row: &[[usize; 2]], side: usize, lane: usize| {
+            let unknown = row.get(lane).unwrap_or(&row[0])[side];
+            (unknown / Balls::COUNT, unknown % Balls::COUNT)
+        };
+        let product = |pair: Option<&[usize; 2]>| pair.map_or(Interval::ZERO, |pair| product_of(*pair, deviations));
         Self {
-            lanes: rows.clone().map(|row| core::array::from_fn(|lane| *row.get(lane).unwrap_or(&row[0]))).collect(),
-            products: rows
-                .map(|row| {
-                    Balls::new(core::array::from_fn(|lane| row.get(lane).map_or(Interval::ZERO, |p| product(*p))))
-                })
+            sides: rows
+                .clone()
+                .map(|row| [0, 1].map(|side| core::array::from_fn(|lane| seat(row, side, lane))))
                 .collect(),
+            products: rows.map(|row| Balls::new(core::array::from_fn(|lane| product(row.get(lane))))).collect(),
         }
     }
 
     pub(super) fn count(&self) -> usize {
-        self.lanes.len()
+        self.sides.len()
     }
 
     /// What all of them add.
     pub(super) fn total(&self, bends: &[[Balls; 3]], component: usize) -> Interval {
         Balls::dot(bends.iter().map(|bend| bend[component]).zip(self.products.iter().copied())).total()
     }
+}
+
+/// How much of a term each of four unknowns moves.
+pub(super) fn weights(bundles: &[Bundle], seats: [Seat; Balls::COUNT], term: Term) -> Balls {
+    Balls::points(seats.map(|(bundle, place)| bundles[bundle].weight(term, place)))
 }
 
 /// What a motion over a box carries.
@@ -123,15 +138,15 @@ fn product_within(a: &[Sizes], b: &[Sizes], k: usize) -> Sizes {
 const NONE: Short = [Balls::ZERO; BEND_ORDER + 1];
 const NO_SIZES: ShortSizes = [Sizes::ZERO; BEND_ORDER + 1];
 
-/// One of each of four unknowns, given by bundle and place in it.
+/// Something of each of four unknowns.
 #[inline]
-fn gathered(columns: &[Column], [a, b, c, d]: [(usize, usize); 4], of: impl Fn(&Column) -> &Balls) -> Balls {
-    let from = |(bundle, place): (usize, usize)| (of(&columns[bundle]), place);
+pub(super) fn gathered<T>(columns: &[T], [a, b, c, d]: [Seat; Balls::COUNT], of: impl Fn(&T) -> &Balls) -> Balls {
+    let from = |(bundle, place): Seat| (of(&columns[bundle]), place);
     Balls::gather([from(a), from(b), from(c), from(d)])
 }
 #[inline]
-fn gathered_within(columns: &[Column], [a, b, c, d]: [(usize, usize); 4], of: impl Fn(&Column) -> &Sizes) -> Sizes {
-    let from = |(bundle, place): (usize, usize)| (of(&columns[bundle]), place);
+fn gathered_within(columns: &[Column], [a, b, c, d]: [Seat; Balls::COUNT], of: impl Fn(&Column) -> &Sizes) -> Sizes {
+    let from = |(bundle, place): Seat| (of(&columns[bundle]), place);
     Sizes::gather([from(a), from(b), from(c), from(d)])
 }
 
@@ -221,20 +236,10 @@ impl Ground<'_> {
         let columns = columns?;
         let lagged = self.at.has(Term::LagRate);
         let stiff = self.at.has(Term::Stiffness);
-        let place = |unknown: usize| (unknown / Balls::COUNT, unknown % Balls::COUNT);
         let mut second = [Sizes::ZERO; 3];
         let mut paths = Vec::with_capacity(pairs.count());
-        for ((lanes, product_of), start) in pairs.lanes.iter().zip(&pairs.products).zip(carried.bends) {
-            let sides = [0, 1].map(|side| {
-                let [a, b, c, d] = lanes;
-                [place(a[side]), place(b[side]), place(c[side]), place(d[side])]
-            });
-            let weight = |side: usize, term: Term| {
-                Balls::points(lanes.map(|pair| {
-                    let (b, lane) = place(pair[side]);
-                    carried.bundles[b].weight(term, lane)
-                }))
-            };
+        for ((sides, products), start) in pairs.sides.iter().zip(&pairs.products).zip(carried.bends) {
+            let weight = |side: usize, term: Term| weights(carried.bundles, sides[side], term);
             let (mut moved, mut filled) = (NONE, NONE);
             let (mut moved_within, mut filled_within) = (NO_SIZES, NO_SIZES);
             for side in [0, 1] {
@@ -282,7 +287,7 @@ impl Ground<'_> {
             }
             let all = self.own.sizes(self.slopes.damping, pushed(0), start, self.slopes.h)?;
             for (second, all) in second.iter_mut().zip(all) {
-                *second = *second + all * product_of.sizes();
+                *second = *second + all * products.sizes();
             }
             paths.push(path);
         }

@@ -39,6 +39,11 @@ impl Frame {
         if row == column { 1.0 } else { self.lower[row].get(column).copied().unwrap_or(0.0) }
     }
 
+    /// Of the box.
+    pub(super) fn middle(&self) -> Vec<Interval> {
+        self.z.iter().map(|side| Interval::point(side.midpoint())).collect()
+    }
+
     /// What a place is made of.
     pub(super) fn row(&self, row: usize) -> Vec<(usize, f64)> {
         (0..=row).map(|column| (column, self.weight(row, column))).filter(|(_, weight)| *weight != 0.0).collect()

@@ -263,15 +263,15 @@ impl<'a> Search<'a> {
     }
 
     /// Contracts a box over which the motion is followed, by the motion alone: over whole records, where nothing but their
-    /// beginnings is unknown beside the parameters, or window by window if the slopes' ranges take less so.
-    pub(super) fn contract_fine(&mut self, at: &mut [Interval], frame: &mut Option<Slanted>) -> Result<Left, Empty> {
+    /// beginnings is unknown beside the parameters, or window by window where that leaves too much in doubt.
+    pub(super) fn contract_fine(&mut self, at: &mut [Interval], own: &mut Option<Slanted>) -> Result<Left, Empty> {
         let parameters: Vec<usize> = (0..self.parameters()).collect();
         let places: Vec<usize> = (0..at.len()).collect();
         let (mut left, mut broken) = (Left::Wide(0), false);
         for pass in 0..MOST_PASSES {
             let before = at.to_vec();
             let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
-            let slanted = if broken { None } else { self.slant(at, frame, UNBROKEN)? };
+            let slanted = if broken { None } else { self.slant(at, own, UNBROKEN)? };
             if let Some(followed) = slanted {
                 left = followed;
             } else {

@@ -44,6 +44,28 @@ impl Linear {
         let range = Interval::new(-least, most).and_then(|range| range.intersection(own));
         range.ok_or_else(Multipliers::new)
     }
+
+    /// What they leave of the coordinates of another frame about the same centre, the unknowns being those of `own` about their middle.
+    fn turned(&self, programme: &Programme, own: &Frame, next: &Frame) -> Result<Vec<Interval>, Multipliers> {
+        let middle = own.middle();
+        // Each new coordinate is a combination of the old ones, known to within rounding.
+        let columns: Vec<Vec<Interval>> = (0..own.places.len())
+            .map(|column| {
+                next.coordinates(|row| Interval::point(if row < column { 0.0 } else { own.weight(row, column) }))
+            })
+            .collect();
+        (0..own.places.len())
+            .map(|row| {
+                let objective: Vec<(usize, f64)> =
+                    (0..=row).map(|column| (column, columns[column][row].midpoint())).collect();
+                let range = self.range(programme, &objective)?;
+                let rounded = objective
+                    .iter()
+                    .map(|(column, weight)| (columns[*column][row] - Interval::point(*weight), own.z[*column]));
+                Ok(dot(&objective, &middle) + range + Interval::dot(rounded))
+            })
+            .collect()
+    }
 }
 
 /// A box in a frame, with what the readings are over it once that is known.
@@ -100,8 +122,7 @@ impl Held {
         let range = self.linear.range(&self.programme, &objective).ok()?;
         let rounded = turned.iter().map(|weight| *weight - Interval::point(weight.midpoint()));
         let rounded = Interval::dot(rounded.zip(self.linear.deviations.iter().copied()));
-        let middle = frame.z.iter().map(|side| Interval::point(side.midpoint()));
-        Some(at_centre + Interval::dot(turned.iter().copied().zip(middle)) + range + rounded)
+        Some(at_centre + Interval::dot(turned.iter().copied().zip(frame.middle())) + range + rounded)
     }
 }
 
@@ -160,7 +181,7 @@ impl Search<'_> {
             linear.deviations = at.iter().zip(&linear.centre).map(|(side, c)| *side - Interval::point(*c)).collect();
             Empty { method: Method::Whole, multipliers, linear: Some(linear) }
         };
-        let middle: Vec<Interval> = own.z.iter().map(|side| Interval::point(side.midpoint())).collect();
+        let middle = own.middle();
         let unknowns: Vec<usize> = (0..own.places.len()).collect();
         let programme = Programme::of(&linear.rows, &linear.deviations, &unknowns);
         for (row, place) in own.places.iter().enumerate() {
@@ -169,39 +190,24 @@ impl Search<'_> {
             let side = Interval::point(own.centre[*place]) + dot(&objective, &middle) + range;
             at[*place] = at[*place].intersection(side).ok_or_else(parted)?;
         }
-        let error = self.setup.records.iter().fold(f64::INFINITY, |least, readings| least.min(readings.error));
-        let next = if informed { own.clone() } else { own.informed(&linear, error) };
-        // Each new coordinate is a combination of the old ones, known to within rounding.
-        let turned: Vec<Vec<Interval>> = unknowns
-            .iter()
-            .map(|column| {
-                next.coordinates(|row| Interval::point(if row < *column { 0.0 } else { own.weight(row, *column) }))
-            })
-            .collect();
-        let mut z = Vec::with_capacity(unknowns.len());
-        for &row in &unknowns {
-            let objective: Vec<(usize, f64)> = if informed {
-                vec![(row, 1.0)]
-            } else {
-                (0..=row).map(|column| (column, turned[column][row].midpoint())).collect()
-            };
-            let range = linear.range(&programme, &objective).map_err(|rows| empty(rows, &linear, at))?;
-            if informed {
-                z.push((middle[row] + range).intersection(own.z[row]).ok_or_else(parted)?);
-                continue;
+        let next = if informed {
+            for row in unknowns {
+                let range = linear.range(&programme, &[(row, 1.0)]).map_err(|rows| empty(rows, &linear, at))?;
+                own.z[row] = own.z[row].intersection(middle[row] + range).ok_or_else(parted)?;
             }
-            let rest = objective
-                .iter()
-                .map(|(column, weight)| (turned[*column][row] - Interval::point(*weight), own.z[*column]));
-            z.push(dot(&objective, &middle) + range + Interval::dot(rest));
-        }
-        let stale = !informed || surface.rest > STALE * slack;
-        *slanted = Some(if stale {
-            Slanted { frame: next.moved(z), surface: None, informed: true }
+            if surface.rest > STALE * slack {
+                let z = own.z.clone();
+                Slanted { frame: own.moved(z), surface: None, informed }
+            } else {
+                Slanted { frame: own, surface: Some(surface), informed }
+            }
         } else {
-            own.z = z;
-            Slanted { frame: own, surface: Some(surface), informed: true }
-        });
+            let error = self.setup.records.iter().fold(f64::INFINITY, |least, readings| least.min(readings.error));
+            let next = own.informed(&linear, error);
+            let z = linear.turned(&programme, &own, &next).map_err(|rows| empty(rows, &linear, at))?;
+            Slanted { frame: next.moved(z), surface: None, informed: true }
+        };
+        *slanted = Some(next);
         Ok(Some(Left::Followed { slack, widest }))
     }
 }

@@ -1,10 +1,10 @@
 //! What the readings are over a slanted box, to the second order: a motion is followed once, and parts of the box are contracted by
 //! what is known of it, about a centre of their own.
 
-use super::bend::pairs;
+use super::bend::{pairs, product_of};
 use super::contract::{Linear, Model, Origin};
 use super::frame::Frame;
-use crate::numeric::{Interval, Real};
+use crate::numeric::Interval;
 
 #[cfg(test)]
 mod tests;
@@ -51,10 +51,6 @@ pub(super) struct Surface {
 pub(super) struct Doubt {
     pub(super) slack: f64,
     pub(super) widest: usize,
-}
-
-fn half_square(z: Interval) -> Interval {
-    Interval::point(0.5) * z.square()
 }
 
 impl Model<'_> {
@@ -162,7 +158,6 @@ impl Surface {
     }
 }
 
-/// What the products of pairs can be, of squares the half.
 fn products(pairs: &[[usize; 2]], z: &[Interval]) -> Vec<Interval> {
-    pairs.iter().map(|[i, j]| if i == j { half_square(z[*i]) } else { z[*i] * z[*j] }).collect()
+    pairs.iter().map(|pair| product_of(*pair, z)).collect()
 }

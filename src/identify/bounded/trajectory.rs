@@ -273,10 +273,7 @@ impl Way<'_> {
                 (0..bundle.count()).map(move |place| components.map(|values| values[place]))
             })
             .collect();
-        if !over.iter().chain(slopes.iter().flatten()).all(|value| value.is_bounded()) {
-            return None;
-        }
-        if !bend.iter().all(|value| value.is_bounded()) {
+        if !over.iter().chain(slopes.iter().flatten()).chain(&bend).all(|value| value.is_bounded()) {
             return None;
         }
         let bends = bends.iter().map(|bend| bend[POSITION]).collect();

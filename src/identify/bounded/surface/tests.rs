@@ -7,6 +7,7 @@ use super::super::tests::{ALPHA, BETA, DELTA, record};
 use super::super::{BoundedModel, DelayBound};
 use super::*;
 use crate::identify::DragLaw;
+use crate::numeric::Real;
 
 /// A model with its parameters, every one in the middle of a box.
 struct Case {

@@ -1,11 +1,14 @@
 //! Switchings at instants in doubt: what they may have done so far, and what they have once the doubt is over.
 
-use super::super::bend::{Pairs, most};
+use super::super::bend::{Pairs, gathered, most, weights};
 use super::super::field::{FORCE, Field, POSITION, Term, Triple, VELOCITY};
 use super::super::mix::Bundle;
 use super::super::step::Fields;
 use super::Way;
 use crate::numeric::{Balls, Interval, Real};
+
+#[cfg(test)]
+mod tests;
 
 /// A switching that may have happened.
 pub(super) struct Open {
@@ -57,16 +60,10 @@ impl Switching {
     /// Adds to how slopes bend.
     fn bend(&self, pairs: &Pairs, bundles: &[Bundle], edge: usize, bends: &mut [[Balls; 3]]) {
         let shifts: Vec<Balls> = bundles.iter().map(|bundle| bundle.shifts(edge).unwrap_or(Balls::ZERO)).collect();
-        for (lanes, bend) in pairs.lanes.iter().zip(bends) {
-            let of = |side: usize, lane: usize| (lanes[lane][side] / Balls::COUNT, lanes[lane][side] % Balls::COUNT);
-            let shift =
-                |side: usize| Balls::gather(core::array::from_fn(|lane| (&shifts[of(side, lane).0], of(side, lane).1)));
-            let gain = |side: usize| {
-                Balls::points(core::array::from_fn(|lane| {
-                    bundles[of(side, lane).0].weight(Term::Gain, of(side, lane).1)
-                }))
-            };
-            let (both, mixed) = (shift(0) * shift(1), gain(0) * shift(1) + gain(1) * shift(0));
+        for (sides, bend) in pairs.sides.iter().zip(bends) {
+            let [shift, other] = sides.map(|seats| gathered(&shifts, seats, |shifts| shifts));
+            let [gain, other_gain] = sides.map(|seats| weights(bundles, seats, Term::Gain));
+            let (both, mixed) = (shift * other, gain * other + other_gain * shift);
             for k in [POSITION, VELOCITY] {
                 bend[k] = bend[k] + both * Balls::splat(self.twice[k]) + mixed * Balls::splat(self.mixed[k]);
             }
