@@ -10,6 +10,9 @@ use super::mix::{Bundle, Mix};
 use super::series::{Equations, Motions, Slopes};
 use crate::numeric::{Balls, Interval, Real, Sizes};
 
+#[cfg(test)]
+mod tests;
+
 /// Degree whose coefficient over the whole step is the remainder.
 const BEND_ORDER: usize = 4;
 /// Attempts at a size of the rest.

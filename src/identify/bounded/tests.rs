@@ -203,6 +203,16 @@ fn a_frame_keeps_what_is_in_the_box_and_one_whose_centre_moves_without_it_does_n
     }
     let own = frame.expect("an enclosure");
     assert!(!own.holds(&truth(&setup), 0.2), "a centre that moved by a fifth of the inertia holds it still");
+    // So does the half of a frame that holds it, along every coordinate.
+    for unknown in 0..setup.layout.parameters() {
+        let halves = own.halves(unknown).expect("it has a width");
+        let half = halves.into_iter().find(|half| half.holds(&truth(&setup), 0.0)).expect("one of two");
+        let (mut at, mut half) = (at.clone(), Some(half));
+        for _ in 0..3 {
+            search.slant(&mut at, &mut half, f64::INFINITY).expect("not empty: the truth is inside");
+            assert!(half.as_ref().expect("an enclosure").holds(&truth(&setup), 0.0), "unknown {unknown}");
+        }
+    }
 }
 
 #[test]

@@ -1,4 +1,5 @@
 use super::super::super::field::TERMS;
+use super::super::super::mix::{By, Mix};
 use super::*;
 
 const GAIN: f64 = 1.5;
@@ -61,4 +62,23 @@ fn what_a_switching_in_doubt_adds_is_as_the_exponential_has_it_and_without_a_par
     assert!(doubt > 8, "without the doubt {doubt} of 36 were missed");
     let [_, _, mixed, _] = missed(0.02, 0.1);
     assert!(mixed > 8, "without the gain's share {mixed} of 36 were missed");
+}
+
+#[test]
+fn what_bends_is_shared_among_unknowns_that_each_move_the_delay_and_the_gain() {
+    let [delay, gain, z] = [[1.0, -2.0], [0.5, 1.0], [0.3, -0.7]];
+    let mixes: Vec<Mix> = (0..2).map(|k| Mix::of([(By::Delay, delay[k]), (By::Term(Term::Gain), gain[k])])).collect();
+    let deviations = z.map(Interval::point);
+    let (bundles, pairs) = (Bundle::of(&mixes, &deviations), Pairs::of(&mixes, &deviations));
+    let [drop, damping, since] = [DROP, -RATE, 0.1].map(Interval::point);
+    let switching = Switching::new(&field(0.1), &field(0.0), drop, damping, since, 0.2);
+    let mut bends = vec![[Balls::ZERO; 3]; pairs.count()];
+    switching.bend(&pairs, &bundles, 0, &mut bends);
+    let sum = |weights: [f64; 2]| weights[0] * z[0] + weights[1] * z[1];
+    for k in [POSITION, VELOCITY] {
+        let own = 0.5 * switching.twice[k].midpoint() * sum(delay) * sum(delay)
+            + switching.mixed[k].midpoint() * sum(gain) * sum(delay);
+        let total = pairs.total(&bends, k);
+        assert!((total.midpoint() - own).abs() < 1e-12 && total.width() < 1e-12, "{own} and {total:?}");
+    }
 }
