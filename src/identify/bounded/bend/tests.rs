@@ -33,10 +33,6 @@ impl Case {
         })
     }
 
-    fn has(&self, term: Term) -> bool {
-        self.terms.iter().any(|(own, _)| *own == term)
-    }
-
     /// The state at the end by the classical method of Runge and Kutta, in steps of a hundredth.
     fn end(&self, z: f64) -> [f64; 3] {
         let terms = self.field(z);
