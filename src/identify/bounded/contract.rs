@@ -1,6 +1,7 @@
 //! One pass of contraction: the readings as linear inequalities over a box, and what they leave of each unknown.
 
 use core::cell::Cell;
+use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
@@ -249,6 +250,30 @@ impl Linear {
         self.rows.slopes.push(slopes.map(|(place, slope)| (place, -slope)).collect());
         self.rows.limits.push((error + residual).upper());
         self.origins.push(origin(false));
+    }
+
+    /// The inequalities of a window and of those beside it, and the search box's own.
+    pub(super) fn beside(&self, window: usize) -> Self {
+        let near = |own: usize| own.abs_diff(window) <= 1;
+        let kept = |origin: &Origin| match *origin {
+            Origin::Reading { window: own, .. } => near(own),
+            Origin::Link { window: own, .. } => near(own) && own <= window,
+            Origin::Disturbance { .. } | Origin::LeastLinear => true,
+            Origin::Hat { .. } => false,
+        };
+        let mut linear = Self { centre: self.centre.clone(), deviations: self.deviations.clone(), ..Self::default() };
+        for (row, origin) in self.origins.iter().enumerate().filter(|(_, origin)| kept(origin)) {
+            linear.rows.slopes.push(self.rows.slopes[row].clone());
+            linear.rows.limits.push(self.rows.limits[row]);
+            linear.origins.push(*origin);
+        }
+        linear
+    }
+
+    /// The unknowns that the inequalities have.
+    pub(super) fn places(&self) -> Vec<usize> {
+        let places: BTreeSet<usize> = self.rows.slopes.iter().flatten().map(|(place, _)| *place).collect();
+        places.into_iter().collect()
     }
 
     /// Bounds the `unknowns`, of which the rows are linear inequalities together with the other `places`.

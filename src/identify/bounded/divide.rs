@@ -88,6 +88,16 @@ impl Division {
         reached.max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
+    /// The box in which most is in doubt, and how much.
+    fn coarsest(&self) -> Option<(usize, f64)> {
+        let slack = |kept: &Kept| match kept.left {
+            Left::Followed { slack, .. } => slack,
+            Left::Wide(_) => 0.0,
+        };
+        let slacks = self.kept.iter().enumerate().map(|(index, kept)| (index, slack(kept)));
+        slacks.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
     /// The smallest box around all that is left; `None` where nothing is.
     pub(super) fn hull(&self) -> Option<Vec<Interval>> {
         let boxes = self.kept.iter().map(|kept| kept.at.clone());
@@ -210,7 +220,11 @@ impl Search<'_> {
 
     /// Contracts what is left once more.
     pub(super) fn contract_kept(&mut self, division: &mut Division) {
-        let boxes: Vec<Kept> = division.kept.drain(..).collect();
+        let boxes = core::mem::take(&mut division.kept);
+        self.contract_all(division, boxes);
+    }
+
+    fn contract_all(&mut self, division: &mut Division, boxes: Vec<Kept>) {
         for mut kept in boxes {
             match self.contract_fine(&mut kept.at, &mut kept.slanted) {
                 Err(empty) => division.exclude(empty),
@@ -238,15 +252,21 @@ impl Search<'_> {
         true
     }
 
-    /// Divides the box left whose slopes' ranges take most; `false` where there is none that this would help.
+    /// Divides the box left in which most is in doubt; `false` where there is none that this would help.
     pub(super) fn divide_coarsest(&mut self, division: &mut Division, budget: usize) -> bool {
-        let slack = |kept: &Kept| match kept.left {
-            Left::Followed { slack, .. } => slack,
-            Left::Wide(_) => 0.0,
-        };
-        let coarsest =
-            (0..division.kept.len()).max_by(|a, b| slack(&division.kept[*a]).total_cmp(&slack(&division.kept[*b])));
-        coarsest.is_some_and(|index| self.divide_kept(division, index, budget))
+        division.coarsest().is_some_and(|(index, _)| self.divide_kept(division, index, budget))
+    }
+
+    /// Halves the boxes in which most is in doubt until none leaves more than `coarse` of the readings' errors.
+    pub(super) fn even_out(&mut self, division: &mut Division, coarse: f64, budget: usize) {
+        while self.passes < budget {
+            let coarsest = division.coarsest().filter(|(_, slack)| *slack > coarse);
+            let Some((index, _)) = coarsest else { return };
+            let Left::Followed { widest, .. } = division.kept[index].left else { return };
+            let Some(halves) = self.divide_frame(&division.kept[index], widest) else { return };
+            division.kept.swap_remove(index);
+            self.contract_all(division, halves.into());
+        }
     }
 
     /// The widest of them: what is left when the budget is spent is no wider than need be.

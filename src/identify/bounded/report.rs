@@ -17,6 +17,9 @@ const SHARPENING: usize = 400;
 /// errors; and in any case where it takes less than the second of these errors.
 const FINE: f64 = 0.03;
 const LEAST_FINE: f64 = 3e-6;
+/// Boxes are halved until what is in doubt takes less than this of the readings' errors, before ends are drawn in; with so many passes.
+const COARSE: f64 = 0.03;
+const EVENING: usize = 200;
 /// How often all ends are drawn in.
 const ROUNDS: usize = 6;
 /// Boxes in each of which a witness is looked for.
@@ -85,6 +88,7 @@ impl Answer {
     pub(super) fn sharpen(&mut self, search: &mut Search<'_>, division: &mut Division, budget: usize, good: f64) {
         let budget = budget.min(search.passes + SHARPENING);
         search.contract_kept(division);
+        search.even_out(division, COARSE, budget.min(search.passes + EVENING));
         self.near_all(search, division);
         let ends: Vec<End> = (0..search.setup.layout.common())
             .flat_map(|unknown| [true, false].map(|upper| End { unknown, upper }))

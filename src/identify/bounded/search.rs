@@ -153,17 +153,17 @@ impl<'a> Search<'a> {
         chained.map_err(|Parted| Empty { method: Method::Chain, multipliers: Vec::new(), linear: None })
     }
 
-    /// Every window by itself bounds the state at its beginning.
-    fn sweep(&mut self, at: &mut [Interval]) -> Result<(), Empty> {
-        self.count_pass();
+    /// Velocities, and forces behind a lag, at the windows' beginnings, each by what the windows beside it tell: they go into the box.
+    fn settle(&self, linear: &mut Linear, at: &mut [Interval]) -> Result<(), Empty> {
         let layout = &self.setup.layout;
-        for index in 0..layout.windows().len() {
-            let centre = at.iter().map(|side| side.midpoint()).collect();
-            let Some(linear) = self.model.alone(index, at, centre) else { return Ok(()) };
-            let (_, places) = layout.columns(index);
-            let own: Vec<usize> = (1..layout.state_size()).map(|component| layout.start(index, component)).collect();
-            if let Pass::Empty(multipliers) = linear.contract(at, &places, &own) {
-                return Err(Empty { method: Method::Chain, multipliers, linear: Some(linear) });
+        for window in 0..layout.windows().len() {
+            let beside = linear.beside(window);
+            let own: Vec<usize> = (1..layout.state_size()).map(|component| layout.start(window, component)).collect();
+            if let Pass::Empty(multipliers) = beside.contract(at, &beside.places(), &own) {
+                return Err(Empty { method: Method::Chain, multipliers, linear: Some(beside) });
+            }
+            for place in own {
+                linear.deviations[place] = at[place] - Interval::point(linear.centre[place]);
             }
         }
         Ok(())
@@ -293,7 +293,6 @@ impl<'a> Search<'a> {
     /// Contracts a box until nothing helps.
     pub(super) fn contract(&mut self, at: &mut [Interval]) -> Result<Left, Empty> {
         let mut weighing = true;
-        let mut sweeping = true;
         let mut left = Left::Wide(0);
         for _ in 0..MOST_PASSES {
             let before = at.to_vec();
@@ -308,15 +307,12 @@ impl<'a> Search<'a> {
             if wide {
                 return Ok(Left::Wide(widest));
             }
-            if sweeping {
-                self.sweep(at)?;
-                sweeping = false;
-            }
             let before = at.to_vec();
             let centre = at.iter().map(|side| side.midpoint()).collect();
-            let Some(linear) = self.chained(at, centre)? else { return Ok(Left::Wide(widest)) };
+            let Some(mut linear) = self.chained(at, centre)? else { return Ok(Left::Wide(widest)) };
             let (slack, widest) = self.slack(&linear);
             left = Left::Followed { slack, widest };
+            self.settle(&mut linear, at)?;
             let places: Vec<usize> = (0..at.len()).collect();
             let unknowns: Vec<usize> = (0..self.parameters()).collect();
             match linear.contract(at, &places, &unknowns) {

@@ -15,8 +15,10 @@ const READING: f64 = 1e-9;
 const DRIVING: f64 = 2.5;
 /// Lags are looked for up to the mean time between switchings over this: longer ones change places with drag's own time.
 const LEAST_LAG_RATE: f64 = 4.0;
-/// Windows of a record between two switchings of the command.
+/// Windows of a record between two switchings of the command; and of a beginning, over whose wide boxes longer ones tell less, as what
+/// is in doubt grows with the square of their length.
 const WINDOWS_PER_SWING: f64 = 1.0;
+const BEGINNING_WINDOWS_PER_SWING: f64 = 4.0;
 /// Fewest samples of a window.
 const FEWEST: usize = 6;
 /// Most windows of a record: the linear programmes grow with them.
@@ -207,7 +209,7 @@ impl Setup {
         let speed = scales.iter().map(|scale| scale.speed).sum::<f64>() / scales.len() as f64;
         let middle_speed = if both && settings.law.has_quadratic() { speed } else { 0.0 };
         let fastest = 4.0 * scales.iter().map(|scale| scale.fastest).fold(0.0, f64::max);
-        let layout = Self::lay(&readings, settings, delay)?;
+        let layout = Self::lay(&readings, settings, delay, WINDOWS_PER_SWING)?;
         let first = &scales[0];
         // A force moves the vehicle by its reach in a swing.
         let gain = 4.0 * first.reach / (first.force * first.swing_s * first.swing_s);
@@ -251,7 +253,12 @@ impl Setup {
     }
 
     /// Windows of every record, from where every command that acts is in the log.
-    fn lay(readings: &[Readings], settings: &BoundedModel, delay: Interval) -> Result<Layout, IdentifyError> {
+    fn lay(
+        readings: &[Readings],
+        settings: &BoundedModel,
+        delay: Interval,
+        windows_per_swing: f64,
+    ) -> Result<Layout, IdentifyError> {
         let mut windows = Vec::new();
         let mut instants = Vec::new();
         for (record, readings) in readings.iter().enumerate() {
@@ -269,7 +276,7 @@ impl Setup {
                 ));
             }
             let swings = (readings.command.edges() + 1) as f64;
-            let count = (WINDOWS_PER_SWING * swings).ceil().clamp(2.0, MOST_WINDOWS as f64);
+            let count = (windows_per_swing * swings).ceil().clamp(2.0, MOST_WINDOWS as f64);
             let most = (samples - first) / FEWEST;
             let count = (count as usize).min(most).max(1);
             let nodes: Vec<usize> = (0..=count).map(|index| first + (samples - 1 - first) * index / count).collect();
@@ -302,7 +309,7 @@ impl Setup {
             readings.command = readings.command.until(swings);
         }
         let delay_s = setup.layout.delay().map_or(setup.known_delay_s, |place| setup.search[place]);
-        setup.layout = Self::lay(&setup.records, settings, delay_s).ok()?;
+        setup.layout = Self::lay(&setup.records, settings, delay_s, BEGINNING_WINDOWS_PER_SWING).ok()?;
         setup.states();
         Some(setup)
     }
@@ -324,7 +331,7 @@ impl Setup {
     pub(super) fn narrowed(&self, settings: &BoundedModel, at: &[Interval]) -> Result<Self, IdentifyError> {
         let Some(place) = self.layout.delay() else { return Ok(self.clone()) };
         let mut setup = self.clone();
-        setup.layout = Self::lay(&self.records, settings, at[place])?;
+        setup.layout = Self::lay(&self.records, settings, at[place], WINDOWS_PER_SWING)?;
         setup.search = at[..self.layout.parameters()].to_vec();
         if setup.layout.delay().is_none() {
             setup.known_delay_s = at[place];

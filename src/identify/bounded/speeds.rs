@@ -8,8 +8,10 @@ use crate::numeric::{Interval, Real};
 
 /// Speeds are enclosed again where they are below this share of the largest that is looked for.
 const SLOWER: f64 = 0.7;
-/// Halvings towards a speed that is certain.
-const BISECTIONS: usize = 16;
+/// How often a fall that is certain is looked for, each time twice as deep.
+const DOUBLINGS: usize = 6;
+/// How often a speed that is certain is made better.
+const REFINEMENTS: usize = 3;
 
 /// The largest acceleration besides drag between two samples: forwards and backwards, each zero or more.
 #[derive(Clone, Copy, Debug)]
@@ -105,37 +107,34 @@ impl Drag {
         if !v.is_finite() {
             return f64::NEG_INFINITY;
         }
-        let at_once = self.rate(Interval::point(v), force);
-        let span = |a: f64, b: f64| Interval::point(a).hull(Interval::point(b));
-        let furthest = (Interval::point(at_once) * Interval::point(lasted.upper())).upper().abs();
-        if at_once < 0.0 {
+        // What it gains, as slowly as it may between v and another velocity.
+        let gained = |end: f64, lasted: f64| {
+            let between = Interval::point(v).hull(Interval::point(end));
+            Interval::point(self.rate(between, force)) * Interval::point(lasted)
+        };
+        let after = |end: f64, lasted: f64| (Interval::point(v) + gained(end, lasted)).lower();
+        let (soon, late) = (lasted.lower(), lasted.upper());
+        if self.rate(Interval::point(v), force) < 0.0 {
             // It does not fall to f within the time, as slowly as it falls on the way there; nor where it rises.
-            let holds = |f: f64| {
-                let fallen = Interval::point(v)
-                    + Interval::point(self.rate(span(f, v), force)) * Interval::point(lasted.upper());
-                fallen.lower() >= f || self.rate(Interval::point(f), force) >= 0.0
-            };
-            let Some(mut sure) = (0..6).map(|k| v - f64::from(1 << k) * furthest).find(|f| holds(*f)) else {
+            let holds = |f: f64| after(f, late) >= f || self.rate(Interval::point(f), force) >= 0.0;
+            let furthest = gained(v, late).lower();
+            let Some(mut sure) = (0..DOUBLINGS).map(|k| v + f64::from(1 << k) * furthest).find(|f| holds(*f)) else {
                 return f64::NEG_INFINITY;
             };
-            let mut beyond = v;
-            for _ in 0..BISECTIONS {
-                let middle = 0.5 * (sure + beyond);
-                if holds(middle) { sure = middle } else { beyond = middle }
+            // As it does not fall that far, it falls no faster.
+            for _ in 0..REFINEMENTS {
+                sure = sure.max(after(sure, late).min(v));
             }
             return sure;
         }
-        // It rises to m within the time, even as slowly as it may on the way: the backward Euler step.
-        let reached = |m: f64| {
-            let gained = Interval::point(self.rate(span(v, m), force)) * Interval::point(lasted.lower());
-            plus(m, -v).upper() <= gained.lower()
-        };
-        let (mut sure, mut beyond) = (v, v + furthest);
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (sure + beyond);
-            if reached(middle) { sure = middle } else { beyond = middle }
+        // It rises to m within the time, even as slowly as it may on the way: the backward Euler step. What it would gain up to a
+        // velocity beyond m is no more than what it gains up to m.
+        let (mut sure, mut beyond) = (v, (Interval::point(v) + gained(v, soon)).upper());
+        for _ in 0..REFINEMENTS {
+            sure = after(beyond, soon);
+            beyond = after(sure.max(v), soon);
         }
-        sure
+        if plus(sure, -v).upper() <= gained(sure, soon).lower() { sure.max(v) } else { v }
     }
 }
 
