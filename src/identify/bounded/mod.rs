@@ -120,7 +120,7 @@ pub fn enclose_with_certificate(
 }
 
 /// Over wide boxes the beginnings of the records, up to this switching, tell nearly what whole records tell.
-const FIRST_SWINGS: usize = 3;
+const FIRST_SWINGS: usize = 4;
 
 /// What a search gave.
 struct Explored {
@@ -140,9 +140,7 @@ fn explore(
 ) -> Result<Explored, IdentifyError> {
     let mut spent = 0;
     let mut at = setup.search.clone();
-    // With the delay unknown, what it hides at the beginning is left out.
-    let swings = FIRST_SWINGS + usize::from(setup.layout.delay().is_some());
-    if let Some(beginnings) = setup.beginnings(settings, swings) {
+    if let Some(beginnings) = setup.beginnings(settings, FIRST_SWINGS) {
         let mut search = Search::new(&beginnings);
         // Passes over part of the records cost so much less.
         let budget = settings.budget * setup.samples() / beginnings.samples();
