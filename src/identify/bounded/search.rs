@@ -154,7 +154,7 @@ impl<'a> Search<'a> {
     }
 
     /// Velocities, and forces behind a lag, at the windows' beginnings, each by what the windows beside it tell: they go into the box.
-    fn settle(&self, linear: &mut Linear, at: &mut [Interval]) -> Result<(), Empty> {
+    pub(super) fn settle(&self, linear: &mut Linear, at: &mut [Interval]) -> Result<(), Empty> {
         let layout = &self.setup.layout;
         for window in 0..layout.windows().len() {
             let beside = linear.beside(window);

@@ -6,6 +6,9 @@ use super::field::{Term, cube, shifted_square, signed_square};
 use super::monotone::{Even, SPANS};
 use crate::numeric::{Interval, Real};
 
+#[cfg(test)]
+mod tests;
+
 /// Speeds are enclosed again where they are below this share of the largest that is looked for.
 const SLOWER: f64 = 0.7;
 /// How often a fall that is certain is looked for, each time twice as deep.

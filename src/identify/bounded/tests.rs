@@ -192,6 +192,43 @@ fn the_true_motion_meets_the_chain_of_windows_and_a_state_shifted_between_two_do
 }
 
 #[test]
+fn velocities_by_the_windows_beside_them_hold_the_truth_and_the_fastest_is_refused() {
+    let (setup, mut at) = setup(0.02);
+    let mut search = Search::new(&setup);
+    let centre = at.iter().map(|side| side.midpoint()).collect();
+    let Ok(Some(mut linear)) = search.chained(&mut at, centre) else { panic!("no enclosure") };
+    let truth = truth(&setup);
+    let layout = &setup.layout;
+    for window in 0..layout.windows().len() {
+        let beside = linear.beside(window);
+        assert!(met(&beside, &truth, |_| true));
+        let first = layout.start(window.saturating_sub(1), 0);
+        let last = layout.start(window + 1, layout.state_size() - 1);
+        let own = |place: &usize| *place < layout.parameters() || (first..=last).contains(place);
+        assert!(beside.places().iter().all(own), "window {window}: {:?}", beside.places());
+    }
+    let before = at.clone();
+    search.settle(&mut linear, &mut at).expect("not empty: the truth is inside");
+    for window in 1..layout.windows().len() {
+        let velocity = layout.start(window, 1);
+        assert!(Interval::point(truth[velocity]).is_subset_of(at[velocity]), "window {window}");
+        assert!(at[velocity].width() < 0.5 * before[velocity].width(), "window {window}: {:?}", at[velocity]);
+        assert_eq!(linear.deviations[velocity], at[velocity] - Interval::point(linear.centre[velocity]));
+    }
+    // A velocity that was possible by the readings of one window alone.
+    let velocity = layout.start(2, 1);
+    let mut other = before;
+    other[velocity] = Interval::point(other[velocity].upper());
+    let centre = other.iter().map(|side| side.midpoint()).collect();
+    let settled = match search.chained(&mut other, centre) {
+        Ok(Some(mut linear)) => search.settle(&mut linear, &mut other),
+        Ok(None) => panic!("no enclosure"),
+        Err(empty) => Err(empty),
+    };
+    assert!(settled.is_err(), "a window that begins with the fastest velocity");
+}
+
+#[test]
 fn a_frame_keeps_what_is_in_the_box_and_one_whose_centre_moves_without_it_does_not() {
     let (setup, mut at) = setup(0.02);
     let mut search = Search::new(&setup);

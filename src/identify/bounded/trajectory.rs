@@ -195,10 +195,12 @@ fn stride(
                 longer
             }
             Err(Refused::TooLong(share)) => share,
-            Err(Refused::Kink) => {
+            // Where the sign is passed anyway a shorter step would only leave a rest, and that another.
+            Err(Refused::Kink) if !turning => {
                 turning = true;
-                SHORTER
+                continue;
             }
+            Err(Refused::Kink) => SHORTER,
         };
         *part = Interval::point(share * part.lower());
     }
