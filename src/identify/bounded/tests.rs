@@ -5,13 +5,14 @@ use rand_pcg::Pcg64Mcg;
 
 use super::contract::{Origin, Span};
 use super::lp::Rows;
+use super::problem::Window;
 use super::search::Search;
 use super::setup::Setup;
 use super::{BoundedModel, Consistency, DelayBound, Quantity, enclose, explore};
 use crate::experiment::{Record, Sensor, SimulatedExperiment};
 use crate::identify::DragLaw;
 use crate::nonlinearity::RelayHysteresis;
-use crate::numeric::Interval;
+use crate::numeric::{Interval, Real};
 use crate::plant::DragAxis;
 
 /// Integers below this are products of three without loss in 128 bits, while floats round a product of two.
@@ -293,6 +294,29 @@ fn a_motion_is_known_much_better_than_the_readings_and_by_the_fastest_rate_alone
     let unpaced = unsure(&search);
     assert!(paced < 1e-4, "{paced} of an error");
     assert!(unpaced > 3.0 * paced, "{unpaced} without, {paced} with");
+}
+
+#[test]
+fn a_window_may_end_within_a_change_of_sign() {
+    let axis = DragAxis::quadratic(1.2, 0.8).expect("an axis");
+    let relay = RelayHysteresis::new(1.0, 0.4, 0.0).expect("a relay");
+    let experiment = SimulatedExperiment::new(axis, relay, 50.0).expect("an experiment");
+    let record = experiment.held().run(10.0).expect("a record");
+    let whole = Setup::new(&[&record], &settings(DragLaw::Quadratic)).expect("a problem");
+    let about = |value: f64, room: f64| Interval::point(value).inflate(room);
+    // The vehicle starts from rest, and turns round after every switching.
+    let at =
+        vec![about(1.0 / 1.2, 0.01), about(0.8 / 1.2, 0.01), about(0.0, 0.001), about(0.0, 0.01), about(0.0, 0.02)];
+    let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
+    for last in 10..300 {
+        let layout = whole.layout.clone().with_windows(vec![Window { record: 0, first: 0, last }]);
+        let setup = Setup { layout, ..whole.clone() };
+        let search = Search::new(&setup);
+        let motion = search.model.motion(Span { from: 0, to: 1 }, &at, &centre);
+        assert!(motion.is_some(), "no enclosure up to sample {last}");
+        let steps = search.model.steps.get();
+        assert!(steps < 40 + 2 * last, "{steps} steps up to sample {last}");
+    }
 }
 
 pub(super) fn settings(law: DragLaw) -> BoundedModel {

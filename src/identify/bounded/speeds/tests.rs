@@ -1,0 +1,78 @@
+use super::*;
+
+const FORCES: [f64; 5] = [-2.0, -0.3, 0.0, 0.4, 2.0];
+const VELOCITIES: [f64; 7] = [-1.5, -0.4, -0.01, 0.0, 0.02, 0.5, 1.5];
+/// Linear, quadratic, cubic: with damping alone, mixed, and with linear drag that drives.
+const DRAGS: [[f64; 3]; 4] = [[0.8, 0.0, 0.0], [0.0, 1.1, 0.0], [0.3, 0.4, 0.2], [-0.5, 0.9, 0.0]];
+const LASTED_S: f64 = 0.1;
+const STEPS: usize = 400;
+/// What the classical method leaves in so many steps.
+const MISSED: f64 = 1e-10;
+
+fn rate([linear, quadratic, cubic]: [f64; 3], force: f64, v: f64) -> f64 {
+    force - linear * v - quadratic * v * v.abs() - cubic * v * v * v
+}
+
+/// The velocity at every step, by the classical method of Runge and Kutta.
+fn motion(drag: [f64; 3], force: f64, from: f64) -> Vec<f64> {
+    let h = LASTED_S / STEPS as f64;
+    let mut passed = vec![from];
+    for _ in 0..STEPS {
+        let v = passed[passed.len() - 1];
+        let first = rate(drag, force, v);
+        let second = rate(drag, force, v + 0.5 * h * first);
+        let third = rate(drag, force, v + 0.5 * h * second);
+        let fourth = rate(drag, force, v + h * third);
+        passed.push(v + h / 6.0 * (first + 2.0 * second + 2.0 * third + fourth));
+    }
+    passed
+}
+
+fn cases() -> impl Iterator<Item = ([f64; 3], f64, f64)> {
+    let each = DRAGS.iter().flat_map(|drag| FORCES.iter().map(move |force| (*drag, *force)));
+    each.flat_map(|(drag, force)| VELOCITIES.iter().map(move |v| (drag, force, *v)))
+}
+
+fn end(passed: &[f64]) -> f64 {
+    passed[passed.len() - 1]
+}
+
+#[test]
+fn a_velocity_that_is_certain_is_reached_and_one_by_the_first_rate_alone_is_not() {
+    let lasted = Interval::point(LASTED_S);
+    let mut by_the_first_rate = 0;
+    for (drag, force, v) in cases() {
+        let passed = motion(drag, force, v);
+        let own = Drag(drag.map(Interval::point));
+        let least = own.least(v, Interval::point(force), lasted);
+        assert!(least <= end(&passed) + MISSED, "{drag:?} {force} {v}: {least} is above {}", end(&passed));
+        // Hardly less than it is: rates change by a tenth of themselves.
+        let changed = (end(&passed) - v).abs();
+        assert!(end(&passed) - least <= 0.2 * changed + MISSED, "{drag:?} {force} {v}: {least} for {}", end(&passed));
+        let within = own.least_within(v, Interval::point(force), lasted);
+        let lowest = passed.iter().copied().fold(v, f64::min);
+        assert!(within <= lowest + MISSED, "{drag:?} {force} {v}: {within} is above {lowest}");
+        by_the_first_rate += usize::from(v + LASTED_S * rate(drag, force, v) > end(&passed) + MISSED);
+    }
+    assert!(by_the_first_rate > 20, "the first rate alone is wrong {by_the_first_rate} times");
+}
+
+#[test]
+fn over_a_box_of_drags_and_forces_it_is_below_every_corner_and_the_middle_s_is_not() {
+    let lasted = Interval::point(LASTED_S).inflate(0.01);
+    let mut by_the_middle = 0;
+    for (drag, force, v) in cases() {
+        let room = drag.map(|term| 0.3 * term.abs());
+        let over = core::array::from_fn(|k| Interval::point(drag[k]).inflate(room[k]));
+        let least = Drag(over).least(v, Interval::point(force).inflate(0.2), lasted);
+        let middle = Drag(drag.map(Interval::point)).least(v, Interval::point(force), Interval::point(LASTED_S));
+        for corner in 0..16 {
+            let side = |k: usize| if corner >> k & 1 == 1 { 1.0 } else { -1.0 };
+            let own = core::array::from_fn(|k| drag[k] + side(k) * room[k]);
+            let reached = end(&motion(own, force + 0.2 * side(3), v));
+            assert!(least <= reached + MISSED, "{drag:?} {force} {v}: {least} is above {reached}");
+            by_the_middle += usize::from(middle > reached + MISSED);
+        }
+    }
+    assert!(by_the_middle > 100, "the middle alone is wrong {by_the_middle} times");
+}
