@@ -139,7 +139,7 @@ impl Field {
         self.damping(v, v).magnitude().max(lag).max(swing)
     }
 
-    /// Whether the velocity is backwards during a step in which it has one sign.
+    /// Whether the velocity is backwards during a step in which it has one sign; without quadratic drag that makes no difference.
     fn backwards(&self, within: &Triple, h: Interval, longest: f64) -> Result<bool, Refused> {
         let v = within[VELOCITY];
         if self.has(Term::Quadratic) && straddles(v) {
@@ -149,7 +149,7 @@ impl Field {
         if long > 1.0 {
             return Err(Refused::TooLong((0.95 / long).max(LEAST_SHARE)));
         }
-        Ok(v.upper() <= 0.0)
+        Ok(self.has(Term::Quadratic) && v.upper() <= 0.0)
     }
 
     /// The motion alone where the velocity may change its sign, by the rates' ranges: its end, and what it passes.

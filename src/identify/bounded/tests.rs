@@ -253,13 +253,17 @@ fn a_frame_keeps_what_is_in_the_box_and_one_whose_centre_moves_without_it_does_n
     }
 }
 
-#[test]
-fn witnesses_are_found_towards_both_ends_of_the_bounds() {
-    let axis = DragAxis::mixed(1.2, 0.5, 0.4).expect("an axis");
+/// A self-oscillation from rest, rounded to steps of `STEP`.
+fn oscillation(axis: DragAxis<f64>, samples_per_s: f64, lasted_s: f64) -> Record {
     let relay = RelayHysteresis::new(1.0, 0.4, 0.0).expect("a relay");
     let sensor = Sensor { quantum: STEP, ..Sensor::default() };
-    let experiment = SimulatedExperiment::new(axis, relay, 10.0).expect("an experiment");
-    let record = experiment.held().with_sensor(sensor).expect("a sensor").run(25.0).expect("a record");
+    let experiment = SimulatedExperiment::new(axis, relay, samples_per_s).expect("an experiment");
+    experiment.held().with_sensor(sensor).expect("a sensor").run(lasted_s).expect("a record")
+}
+
+#[test]
+fn witnesses_are_found_towards_both_ends_of_the_bounds() {
+    let record = oscillation(DragAxis::mixed(1.2, 0.5, 0.4).expect("an axis"), 10.0, 25.0);
     let setup = Setup::new(&[&record], &settings(DragLaw::Mixed)).expect("a problem");
     let mut search = Search::new(&setup);
     let division = search.search(setup.search.clone(), 600);
@@ -275,11 +279,7 @@ fn witnesses_are_found_towards_both_ends_of_the_bounds() {
 
 #[test]
 fn a_motion_is_known_much_better_than_the_readings_and_by_the_fastest_rate_alone_it_is_not() {
-    let axis = DragAxis::quadratic(1.2, 0.8).expect("an axis");
-    let relay = RelayHysteresis::new(1.0, 0.4, 0.0).expect("a relay");
-    let sensor = Sensor { quantum: STEP, ..Sensor::default() };
-    let experiment = SimulatedExperiment::new(axis, relay, 10.0).expect("an experiment");
-    let record = experiment.held().with_sensor(sensor).expect("a sensor").run(60.0).expect("a record");
+    let record = oscillation(DragAxis::quadratic(1.2, 0.8).expect("an axis"), 10.0, 60.0);
     let setup = Setup::new(&[&record], &settings(DragLaw::Quadratic)).expect("a problem");
     let mut search = Search::new(&setup);
     let mut point: Vec<f64> = setup.search.iter().map(|side| side.midpoint()).collect();
@@ -298,24 +298,24 @@ fn a_motion_is_known_much_better_than_the_readings_and_by_the_fastest_rate_alone
 
 #[test]
 fn a_window_may_end_within_a_change_of_sign() {
-    let axis = DragAxis::quadratic(1.2, 0.8).expect("an axis");
-    let relay = RelayHysteresis::new(1.0, 0.4, 0.0).expect("a relay");
-    let experiment = SimulatedExperiment::new(axis, relay, 50.0).expect("an experiment");
-    let record = experiment.held().run(10.0).expect("a record");
-    let whole = Setup::new(&[&record], &settings(DragLaw::Quadratic)).expect("a problem");
-    let about = |value: f64, room: f64| Interval::point(value).inflate(room);
-    // The vehicle starts from rest, and turns round after every switching.
-    let at =
-        vec![about(1.0 / 1.2, 0.01), about(0.8 / 1.2, 0.01), about(0.0, 0.001), about(0.0, 0.01), about(0.0, 0.02)];
-    let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
-    for last in 10..300 {
-        let layout = whole.layout.clone().with_windows(vec![Window { record: 0, first: 0, last }]);
-        let setup = Setup { layout, ..whole.clone() };
-        let search = Search::new(&setup);
-        let motion = search.model.motion(Span { from: 0, to: 1 }, &at, &centre);
-        assert!(motion.is_some(), "no enclosure up to sample {last}");
-        let steps = search.model.steps.get();
-        assert!(steps < 40 + 2 * last, "{steps} steps up to sample {last}");
+    let laws = [DragLaw::Linear, DragLaw::Quadratic].into_iter().zip([DragAxis::linear, DragAxis::quadratic]);
+    for (law, axis) in laws {
+        let record = oscillation(axis(1.2, 0.8).expect("an axis"), 50.0, 10.0);
+        let whole = Setup::new(&[&record], &settings(law)).expect("a problem");
+        // The vehicle turns round after every switching; over the box while the point still goes backwards.
+        let about = |value: f64, room: f64| Interval::point(value).inflate(room);
+        let mut at = vec![about(1.0 / 1.2, 0.01), about(0.8 / 1.2, 0.01), about(0.0, 0.001)];
+        at.extend([about(0.0, 0.01), about(0.0, 0.3)]);
+        let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
+        for last in 10..300 {
+            let layout = whole.layout.clone().with_windows(vec![Window { record: 0, first: 0, last }]);
+            let setup = Setup { layout, ..whole.clone() };
+            let search = Search::new(&setup);
+            let motion = search.model.motion(Span { from: 0, to: 1 }, &at, &centre);
+            assert!(motion.is_some(), "{law:?}: no enclosure up to sample {last}");
+            let steps = search.model.steps.get();
+            assert!(steps < 40 + 2 * last, "{law:?}: {steps} steps up to sample {last}");
+        }
     }
 }
 

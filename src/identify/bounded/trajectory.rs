@@ -195,12 +195,10 @@ fn stride(
                 longer
             }
             Err(Refused::TooLong(share)) => share,
-            // Where the sign is passed anyway a shorter step would only leave a rest, and that another.
-            Err(Refused::Kink) if !turning => {
+            Err(Refused::Kink) => {
                 turning = true;
-                continue;
+                SHORTER
             }
-            Err(Refused::Kink) => SHORTER,
         };
         *part = Interval::point(share * part.lower());
     }
