@@ -25,7 +25,10 @@ pub(crate) fn dual_bound(
     rows.upper_bound(&numbered(objective), &numbered(multipliers), &sides)
 }
 
-/// An axis with linear drag and its record, in a box about the truth.
+/// How far the truth is from the middle of its box, in half-widths.
+const BESIDE: f64 = 0.4;
+
+/// An axis with linear drag and its record, in a box with the truth.
 #[derive(Debug)]
 pub(crate) struct Surrounded {
     setup: Setup,
@@ -35,7 +38,7 @@ pub(crate) struct Surrounded {
 
 impl Surrounded {
     /// The truth: force to acceleration, drag and disturbance over inertia; the state at every sample. The box has the half-width
-    /// `width` of the truth on either side, states `state` on either side. `None` for a record that is none.
+    /// `width` of the truth, and states `state` on either side. `None` for a record that is none.
     pub(crate) fn new(
         record: &Record,
         truth: [f64; 3],
@@ -47,7 +50,9 @@ impl Surrounded {
         let model = BoundedModel { quantum, ..BoundedModel::new(DragLaw::Linear, DelayBound::KnownS(0.0)) };
         let setup = Setup::new(&[record], &model).ok()?;
         let about = |value: f64, room: f64| Interval::point(value).inflate(room);
-        let mut at: Vec<Interval> = truth.iter().map(|value| about(*value, width * value.abs())).collect();
+        // Not about the truth: the middles of what is enclosed belong to the middle of the box.
+        let beside = |value: f64| about(value * (1.0 + BESIDE * width), width * value.abs());
+        let mut at: Vec<Interval> = truth.iter().map(|value| beside(*value)).collect();
         for window in setup.layout.windows() {
             let own = states.get(window.first)?;
             at.extend([about(own[0], state[0]), about(own[1], state[1])]);
