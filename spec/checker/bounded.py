@@ -5,12 +5,14 @@ import sys
 from fractions import Fraction
 from pathlib import Path
 
-from flint import arb, fmpq
+from flint import arb
 
+from boxes import Box, Frame, number
 from check import Refused, require
 from motion import Equation, Motion, Products, Unfollowed, advance_point, span, times
+from second_order import Enclosure, ball, exact
 
-FORMAT = 1
+FORMAT = 2
 # Boxes whose inertia is known worse than this are followed with exact products.
 WIDE = 2e-3
 TERMS = ("gain", "linear", "quadratic", "cubic", "stiffness", "lag_rate")
@@ -84,6 +86,10 @@ class Stage:
 
     def start(self, window, component):
         return self.parameters + window * self.size + component
+
+    def framed(self):
+        """What the rows of a frame stand for: the parameters, and the states at the records' beginnings."""
+        return list(range(self.parameters)) + [self.start(first, k) for first, _ in whole(self.windows) for k in range(self.size)]
 
     def equation(self, box, record):
         terms = dict(zip(self.terms, box))
@@ -187,16 +193,6 @@ class Stage:
                 state, now = moved(equation, state, record.levels[done], ball(t - now), self.size), t
             worst = max(worst, (abs(state[0] - reading) / record.error).upper())
         return worst
-
-
-def exact(x):
-    """A ball without a radius as a fraction: instants are added and compared without rounding."""
-    mantissa, exponent = x.man_exp()
-    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
-
-
-def ball(x):
-    return arb(fmpq(x.numerator, x.denominator))
 
 
 def moved(equation, state, level, h, size):
@@ -323,59 +319,88 @@ class Walk:
         self.verified, self.taken = 0, 0
 
     def go(self):
-        boxes = [self.stage.box]
+        boxes = [Box(self.stage.box)]
         for number, step in enumerate(self.stage.item["steps"]):
             require(boxes, f"{self.name}: a step without a box")
             try:
                 boxes += self.step(boxes.pop(), step)
-            except Unfollowed as fault:
-                raise Refused(f"{self.name}, step {number}: {fault}") from fault
-            except Refused as fault:
+            except (Unfollowed, Refused) as fault:
                 raise Refused(f"{self.name}, step {number}: {fault}") from fault
         require(not boxes, f"{self.name}: boxes are left over")
 
     def step(self, box, step):
         """The boxes that are left to deal with, the next one last."""
+        met = box.met()
+        # Of a box that has nothing in common with its frame anything holds.
+        nothing, box = met is None, box if met is None else met
         if step == "keep":
             left = self.stage.left
             require(left is not None, "nothing is said to be left")
-            require(all(a <= f and t <= b for (f, t), (a, b) in zip(box, left)), "the box is not within what is left")
+            require(nothing or all(a <= f and t <= b for (f, t), (a, b) in zip(box.sides, left)), "the box is not within what is left")
             return []
         ((kind, what),) = step.items()
         if kind == "divide":
-            place, at = int(what["unknown"]), float(what["at"])
-            low, high = box[place]
-            require(low <= at <= high, "the division is not within the box")
-            return [box[:place] + [half] + box[place + 1 :] for half in ((at, high), (low, at))]
-        require(kind in ("contract", "exclude"), "an unknown step")
+            return box.divided(int(what["unknown"]), number(what["at"]))
+        if kind == "part":
+            return box.parted(int(what["coordinate"]), number(what["at"]))
+        require(kind in ("contract", "exclude", "turn"), "an unknown step")
         by = what["by"]
+        if kind == "turn":
+            require(by in ("slanted", "same"), "a turn by another enclosure")
+            named = what["frame"]
+            require(named is not None or box.frame is not None, "a turn into no frame")
+            frame = box.frame if named is None else Frame(self.stage.framed(), named["centre"], named["lower"])
+        else:
+            frame = None
         if by == "hats":
             self.taken += 1
-            return [] if kind == "exclude" else shorten(box, what["cuts"])
+            return [] if kind == "exclude" else box.shortened(what["cuts"])
         self.verified += 1
-        found = self.stage.rows(by, box)
-        if found is None:
-            return []
+        if by in ("slanted", "same"):
+            found = None if nothing else self.second_order(box, by)
+            box = box if nothing else box.replaced(known=found)
+            most = lambda objective, rows: found.most(objective and aim(found, kind, *objective, frame), named(found, rows), box)
+        else:
+            found = self.stage.rows(by, box.sides)
+            if found is None:
+                return []
+            most = lambda objective, rows: dual(found, objective, rows) + (objective[1] * found[1][objective[0]] if objective else 0)
         if kind == "exclude":
-            require(dual(found, None, what["rows"]) < 0, "the box is not excluded")
+            require(nothing or below(most(None, what["rows"]), 0), "the box is not excluded")
             return []
         for cut in what["cuts"]:
             place, sign = int(cut["unknown"]), 1 if cut["upper"] else -1
-            end = found[1][place] + sign * dual(found, (place, sign), cut["rows"])
-            reached = end.upper() <= cut["end"] if sign > 0 else end.lower() >= cut["end"]
-            require(reached, f"the range of unknown {place} ends at {float(end.mid()):.6g}, not at {cut['end']:.6g}")
-        return shorten(box, what["cuts"])
+            require(nothing or below(most((place, sign), cut["rows"]), sign * number(cut["end"]), False), f"{kind}: {place} reaches beyond {cut['end']}")
+        return box.turned(frame, what["cuts"]) if kind == "turn" else box.shortened(what["cuts"])
+
+    def second_order(self, box, by):
+        if by == "same":
+            require(box.known is not None, "no motion to the second order is known over the box")
+            return box.known
+        frame = box.frame if box.frame is not None else Frame.straight(self.stage.framed(), box.sides)
+        return Enclosure(self.stage, box, frame, whole(self.stage.windows))
 
 
-def shorten(box, cuts):
-    box = list(box)
-    for cut in cuts:
-        place, end = int(cut["unknown"]), float(cut["end"])
-        low, high = box[place]
-        box[place] = (low, min(high, end)) if cut["upper"] else (max(low, end), high)
-        if box[place][0] > box[place][1]:
-            return []
-    return [box]
+def below(most, end, strictly=True):
+    """Whether an upper bound shows it; none is of what holds nothing."""
+    return most is None or (most < end if strictly else arb(most).upper() <= end)
+
+
+def aim(found, kind, place, sign, frame):
+    """What a cut bounds, by the coordinates of the enclosure."""
+    value = found.coordinate(place, frame) if kind == "turn" else found.theta(place)
+    return value.scaled(arb(sign))
+
+
+def named(found, combination):
+    """Rows with their multipliers."""
+    pairs = []
+    for origin, y in combination:
+        y, name = number(y), key(origin)
+        require(y >= 0, "a multiplier is negative")
+        require(name in found.rows, "a row does not exist")
+        pairs.append((found.rows[name], arb(y)))
+    return pairs
 
 
 def check(certificate):

@@ -12,6 +12,7 @@ from fractions import Fraction
 
 from flint import arb, arb_mat, fmpq
 
+from check import require
 from motion import (
     HALF, LONGEST, ONE, ORDER, SHORTENED, UNITS, ZERO, F, V, X, Kink, Products, Series, Unfollowed, column_series, dampings, line,
     moving, negative, of_one_sign, picard, signed_square, span, to_rest, value,
@@ -335,7 +336,7 @@ class Flow:
     def begin(self, u):
         """Without a lag the force is the command."""
         if not self.field.lagged:
-            self.state[F:] = [self.state[X].space.constant(u)]
+            self.state = self.state[:F] + [self.state[X].space.constant(u)]
 
     def until(self, end, u, doubt=ZERO):
         u = arb(u)
@@ -378,7 +379,6 @@ class Flow:
         for _ in range(8):
             other, part = self.branch(), longest / parts
             try:
-                other.state = list(other.state)
                 for _ in range(parts):
                     other.piece(duration.scaled(ONE / parts), part, u)
                 self.state, self.strays, self.steps = other.state, other.strays, other.steps
@@ -485,10 +485,12 @@ class Enclosure:
         return thetas
 
     def theta(self, place):
+        require(place in self.frame.places, "an unknown of no frame")
         return self.thetas[self.frame.places.index(place)]
 
     def coordinate(self, row, frame):
         """Of another frame, by substitution."""
+        require(0 <= row < len(self.thetas), "no such coordinate")
         own = []
         for r in range(row + 1):
             total = self.thetas[r] - self.space.constant(frame.centre[r])

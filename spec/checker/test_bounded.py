@@ -69,7 +69,7 @@ CHANGES = {
     "a missing step": lambda c: c["stages"][0]["steps"].pop(),
     "a step too many": lambda c: c["stages"][0]["steps"].append("keep"),
     "another statement": lambda c: c.update(statement="no parameter at all"),
-    "another format": lambda c: c.update(format=2),
+    "another format": lambda c: c.update(format=3),
     "another equation": lambda c: c.update(terms=["gain", "sound"]),
     "a window too early": lambda c: c["stages"][0].update(delay_s=1e9),
     "a stage with another delay": lambda c: c["stages"].insert(0, c["stages"][0] | {"delay_s": 0.0, "left": c["stages"][0]["from"], "steps": ["keep"]}),
