@@ -20,6 +20,8 @@ from motion import (
 
 INVERSE = [ONE / (k + 1) for k in range(ORDER + 1)]
 MOST_STEPS = 20000
+# Steps are so short that their series leave out this share of the first order in a unit of time, or of what is of the third.
+SMALL, SHARE, TINY = 1e-9, 0.1, 1e-22
 
 
 def exact(x):
@@ -223,10 +225,15 @@ def orthogonal(columns):
     return found
 
 
-class Step:
-    """The motion during a time h. `doubt` is what the command may be off; `crossing` if the velocity may change its sign."""
+class TooLong(Exception):
+    """What is left of a step's series is this many times what it should be."""
 
-    def __init__(self, field, state, strays, u, h, doubt=ZERO, crossing=False):
+
+class Step:
+    """The motion during a time h. `doubt` is what the command may be off; `crossing` if the velocity may change its sign; what the
+    series leave out should be `small`."""
+
+    def __init__(self, field, state, strays, u, h, doubt=ZERO, crossing=False, small=math.inf):
         eq = self.equation = field.equation
         self.field, self.strays = field, strays
         kinked = "quadratic" in eq.has
@@ -246,10 +253,13 @@ class Step:
         if kinked and not crossing and not of_one_sign(passed[V]):
             raise Kink
         sign = ZERO if crossing else -ONE if negative(passed[V]) else ONE
-        self.heads = field.series(state, u, sign)
         own = [passed[X], passed[V], passed[F] if field.lagged else u]
         rests = Series(eq, own, u, sign)
         self.rests = [path[ORDER] for path in rests.paths()]
+        left_out = float((abs(self.rests[V]) * h**ORDER).upper())
+        if left_out > small:
+            raise TooLong(left_out / small)
+        self.heads = field.series(state, u, sign)
         far = dampings(eq, rests, rests, sign)
         self.rough = crossing or not doubt.is_zero()
         if not self.rough:
@@ -309,6 +319,8 @@ class Flow:
     def __init__(self, field, state, now, samples):
         self.field, self.state, self.strays, self.now = field, state, Strays.none(), now
         self.samples, self.notes, self.next, self.steps = samples, {}, 0, 0
+        # What the last step left of the third order by its length, and how long the next one may be.
+        self.third, self.suited = 0.0, math.inf
         self.note_here()
 
     def branch(self):
@@ -346,10 +358,16 @@ class Flow:
 
     def tried(self, length, u, doubt):
         length, crossing = min(length, Fraction(self.longest(u))), False
+        if self.suited < length:
+            length = Fraction(self.suited)
+        first = SMALL * float(self.state[V].parts()[0].rad())
         for _ in range(SHORTENED):
+            small = max(first, SHARE * self.third) * float(length) + TINY
             try:
-                step = Step(self.field, self.state, self.strays, u, ball(length), doubt, crossing)
+                step = Step(self.field, self.state, self.strays, u, ball(length), doubt, crossing, small)
                 break
+            except TooLong as fault:
+                length *= Fraction(max(0.3, 0.9 * fault.args[0] ** (-1 / (ORDER + 2))))
             except Kink:
                 near, crossing = to_rest(self.field.equation, self.hull(u), u, float(length))
                 length = min(length, Fraction(near)) if crossing else min(Fraction(near), length * 9 / 10)
@@ -357,6 +375,9 @@ class Flow:
                 length /= 2
         else:
             raise Unfollowed("a step")
+        if not crossing:
+            self.third = float(step.heads[V][1].rest.rad())
+            self.suited = 1.25 * float(length)
         self.taken(step)
         until = self.now + length
         while self.next < len(self.samples) and self.samples[self.next][1] <= until:
