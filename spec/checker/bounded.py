@@ -320,12 +320,12 @@ class Walk:
 
     def go(self):
         boxes = [Box(self.stage.box)]
-        for number, step in enumerate(self.stage.item["steps"]):
+        for at, step in enumerate(self.stage.item["steps"]):
             require(boxes, f"{self.name}: a step without a box")
             try:
                 boxes += self.step(boxes.pop(), step)
             except (Unfollowed, Refused) as fault:
-                raise Refused(f"{self.name}, step {number}: {fault}") from fault
+                raise Refused(f"{self.name}, step {at}: {fault}") from fault
         require(not boxes, f"{self.name}: boxes are left over")
 
     def step(self, box, step):
@@ -347,9 +347,9 @@ class Walk:
         by = what["by"]
         if kind == "turn":
             require(by in ("slanted", "same"), "a turn by another enclosure")
-            named = what["frame"]
-            require(named is not None or box.frame is not None, "a turn into no frame")
-            frame = box.frame if named is None else Frame(self.stage.framed(), named["centre"], named["lower"])
+            given = what["frame"]
+            require(given is not None or box.frame is not None, "a turn into no frame")
+            frame = box.frame if given is None else Frame(self.stage.framed(), given["centre"], given["lower"])
         else:
             frame = None
         if by == "hats":
@@ -368,9 +368,12 @@ class Walk:
         if kind == "exclude":
             require(nothing or below(most(None, what["rows"]), 0), "the box is not excluded")
             return []
-        for cut in what["cuts"]:
-            place, sign = int(cut["unknown"]), 1 if cut["upper"] else -1
-            require(nothing or below(most((place, sign), cut["rows"]), sign * number(cut["end"]), False), f"{kind}: {place} reaches beyond {cut['end']}")
+        ranges = box.sides if kind == "contract" else box.along(frame)
+        for cut in what["cuts"] if not nothing and ranges is not None else []:
+            place, sign, end = int(cut["unknown"]), 1 if cut["upper"] else -1, number(cut["end"])
+            require(0 <= place < len(ranges), "a cut of no unknown")
+            known = ranges[place][1] <= end if sign > 0 else ranges[place][0] >= end
+            require(known or below(most((place, sign), cut["rows"]), sign * end, False), f"{kind}: {place} reaches beyond {end:.9g}")
         return box.turned(frame, what["cuts"]) if kind == "turn" else box.shortened(what["cuts"])
 
     def second_order(self, box, by):
@@ -427,8 +430,8 @@ def check(certificate):
             misfit = stage.witness(values[: stage.parameters], record, first, values[at : at + stage.size])
             require(misfit <= 1, "the witness misses a reading")
     verified = taken = 0
-    for number, stage in enumerate(stages):
-        walk = Walk(stage, f"stage {number}")
+    for at, stage in enumerate(stages):
+        walk = Walk(stage, f"stage {at}")
         walk.go()
         verified, taken = verified + walk.verified, taken + walk.taken
     return expected, verified, taken

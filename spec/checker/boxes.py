@@ -103,10 +103,14 @@ class Box:
         require(low <= at <= high, "the part is not within the box")
         return [self.replaced(z=with_side(self.z, row, half)) for half in ((at, high), (low, at))]
 
+    def along(self, frame):
+        """The coordinates of a frame, by substitution."""
+        return frame.coordinates(self.sides, self.z if frame is self.frame else None)
+
     def turned(self, frame, cuts):
         """In a frame, with what its coordinates are shown to be."""
         turned = frame is not self.frame
-        z = frame.coordinates(self.sides, None if turned else self.z)
+        z = self.along(frame)
         z = None if z is None else shortened(z, cuts)
         return [] if z is None else [self.replaced(frame=frame, z=z, known=None if turned else self.known)]
 

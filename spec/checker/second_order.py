@@ -12,6 +12,7 @@ from fractions import Fraction
 
 from flint import arb, arb_mat, fmpq
 
+from boxes import common
 from check import require
 from motion import (
     HALF, LONGEST, ONE, ORDER, SHORTENED, UNITS, ZERO, F, V, X, Kink, Products, Series, Unfollowed, column_series, dampings, line,
@@ -339,6 +340,8 @@ class Flow:
 
     def longest(self, u):
         eq, hull = self.field.equation, self.hull(u)
+        if not all(own.is_finite() for own in hull):
+            raise Unfollowed("no finite states")
         quickest = eq.fastest(hull[V])
         if "quadratic" in eq.has:
             # Near rest drag grows with the speed that is picked up.
@@ -389,14 +392,14 @@ class Flow:
 
     def taken(self, step):
         self.steps += 1
-        if self.steps > MOST_STEPS or not all(p.range().is_finite() for p in self.state):
-            raise Unfollowed("too many steps, or no finite states")
+        if self.steps > MOST_STEPS:
+            raise Unfollowed("too many steps")
 
     def during(self, duration, longest, u):
         """For a time that depends on the coordinates; samples are passed over."""
         u = arb(u)
         self.begin(u)
-        parts = max(1, math.ceil(float(longest.upper()) / self.longest(u)))
+        parts = max(1, math.ceil(4 * float(longest.upper()) / self.longest(u)))
         for _ in range(8):
             other, part = self.branch(), longest / parts
             try:
@@ -463,7 +466,7 @@ class Enclosure:
 
     def __init__(self, stage, box, frame, spans):
         Products.by_ends = False
-        self.frame, self.z = frame, box.z if box.frame is frame else frame.coordinates(box.sides)
+        self.frame, self.z = frame, box.along(frame)
         if self.z is None:
             raise Unfollowed("an empty frame")
         self.middle = [arb(((arb(a) + arb(b)) / 2).mid()) for a, b in self.z]
@@ -524,8 +527,8 @@ class Enclosure:
         """An upper bound of the objective over what meets the rows in a box that this one holds; `None` where there is no such."""
         z = self.frame.coordinates(box.sides, self.z)
         if z is not None and box.frame is self.frame:
-            z = [(max(a, low), min(b, high)) for (a, b), (low, high) in zip(z, box.z)]
-        if z is None or any(not a <= b for a, b in z):
+            z = [common(own, other) for own, other in zip(z, box.z)]
+        if z is None or None in z:
             return None
         total = objective if objective is not None else self.space.constant(ZERO)
         for row, multiplier in combination:

@@ -1,0 +1,242 @@
+"""Outputs to the second order hold motions that are computed another way, and steps in slanted boxes that say too much are refused."""
+
+import copy
+import random
+from fractions import Fraction
+
+import pytest
+from flint import arb, arb_mat
+
+import bounded
+import second_order
+from boxes import Box, Frame
+from check import Refused
+from second_order import ONE, ZERO, Enclosure, Poly, Strays, ball
+
+TERMS = {
+    "linear": {"gain": 1.0, "linear": 0.5},
+    "quadratic": {"gain": 1.0, "quadratic": 0.6},
+    "mixed": {"gain": 1.0, "linear": 0.3, "quadratic": 0.5},
+    "cubic": {"gain": 1.0, "linear": 0.3, "cubic": 0.4},
+    "spring": {"gain": 1.0, "linear": 0.3, "quadratic": 0.5, "stiffness": 0.3},
+    "lag": {"gain": 1.0, "linear": 0.3, "quadratic": 0.5, "lag_rate": 8.0},
+}
+STEP, DISTURBANCE = 0.125, 0.02
+
+
+def certificate(terms, delay=0.25, until=12.0, records=1):
+    """Without readings and steps; a delay of None is unknown, and about a quarter."""
+    count = int(until / STEP) + 1
+    record = {
+        "time_s": [STEP * k for k in range(count)],
+        "reading": [0.0] * count,
+        "error": 0.01,
+        "levels": [1.0, -1.0] * 3,
+        "switched_s": [[1.0 + 2.5 * i] * 2 for i in range(5)],
+        "jitter_s": 0.0,
+    }
+    ranges = [[v / 2, 2 * v] for v in terms.values()] + ([[0.0, 0.5]] if delay is None else []) + [[-1.0, 1.0]] * records
+    windows = [[r, 6, count - 1] for r in range(records)]
+    return {
+        "format": 2,
+        "terms": list(terms),
+        "middle_speed": 0.5 if {"linear", "quadratic"} <= set(terms) else 0.0,
+        "least_linear": -1.0,
+        "fastest": 5.0,
+        "records": [copy.deepcopy(record) for _ in range(records)],
+        "stages": [{"delay_s": delay, "windows": windows, "from": ranges, "left": ranges, "steps": []}],
+        "witness": None,
+        "statement": bounded.STATEMENTS[False, False],
+    }
+
+
+def stage_of(item):
+    return bounded.Stage(item, [bounded.Record(record) for record in item["records"]], item["stages"][0])
+
+
+def truth_of(terms, delay=0.25, records=1):
+    start = [0.0, 0.3] + ([0.9] if "lag_rate" in terms else [])
+    return list(terms.values()) + ([0.25] if delay is None else []) + [DISTURBANCE] * records + start * records
+
+
+def exact_motion(equation, state, u, h):
+    """By the closed form where drag is linear alone, else by a point's motion in steps of its own."""
+    if equation.has == {"gain", "linear", "disturbance"}:
+        b, force = equation.at["linear"], equation.at["gain"] * u + equation.at["disturbance"]
+        fade = (-b * h).exp()
+        return [state[0] + force / b * h + (state[1] - force / b) * (ONE - fade) / b, force / b + (state[1] - force / b) * fade, ZERO]
+    return bounded.moved(equation, state, u, h, 3 if "lag_rate" in equation.has else 2)
+
+
+def outputs(stage, theta, index=0):
+    """At every sample, of one parameter."""
+    record, (first, (_, begin, end)) = stage.records[index], next((w, x) for w, x in enumerate(stage.windows) if x[0] == index)
+    values = [arb(0)] * len(stage.box)
+    for place, value in zip(stage.framed(), theta):
+        values[place] = arb(value)
+    equation = stage.equation(values, index)
+    delay = Fraction(float(values[len(stage.terms)])) if stage.delay is None else Fraction(stage.delay)
+    state = [values[stage.start(first, k)] if k < stage.size else ZERO for k in range(3)]
+    instants = sorted({Fraction(t) for t in record.time[begin:]} | {Fraction(t) + delay for t in record.switched})
+    now, found = Fraction(record.time[begin]), {begin: state[0]}
+    for t in instants:
+        if t > now:
+            u = record.levels[sum(Fraction(s) + delay <= now for s in record.switched)]
+            state, now = exact_motion(equation, state, arb(u), ball(t - now)), t
+        if t in record.time:
+            found[record.time.index(float(t))] = state[0]
+    return {k: x for k, x in found.items() if begin <= k <= end}
+
+
+def enclosure(stage, theta, share, lower=None, aside=0.0):
+    """Over a box about a parameter, or aside of it by so many radii."""
+    places = stage.framed()
+    radii = [share * max(abs(v), 0.1) for v in theta]
+    lower = lower or [[0.0] * r for r in range(len(places))]
+    centre = [v - aside * r for v, r in zip(theta, radii)]
+    frame = Frame(places, centre, lower)
+    z = [((aside - 1) * r, (aside + 1) * r) for r in radii]
+    sides = list(stage.box)
+    for row, place in enumerate(places):
+        sides[place] = frame.side(row, z)
+    return Enclosure(stage, Box(sides, frame, z), frame, bounded.whole(stage.windows)), centre, radii
+
+
+def theta_at(centre, lower, z):
+    return [c + own + sum(m * other for m, other in zip(row, z)) for c, own, row, z_ in zip(centre, z, lower, z) for z in [z]]
+
+
+def misfits(stage, found, centre, lower, z, index=0):
+    """What outputs of one parameter are off the polynomials, over the rests; and the largest."""
+    exact = [arb(c) for c in centre]
+    theta = [c + arb(own) + sum((arb(m) * arb(other) for m, other in zip(row, z)), ZERO) for c, own, row in zip(exact, z, lower)]
+    w = arb_mat([[arb(own) - m] for own, m in zip(z, found.middle)])
+    first = next(window for window, item in enumerate(stage.windows) if item[0] == index)
+    worst = largest = 0.0
+    rest = 0.0
+    for sample, output in outputs(stage, theta, index).items():
+        poly = found.rows["reading", first, sample, True]
+        value = poly.c + stage.records[index].error + (poly.l * w)[0, 0]
+        if poly.q is not None:
+            value += (w.transpose() * (poly.q * w))[0, 0]
+        off = output - value
+        assert poly.rest.union(ZERO).is_finite()
+        if not poly.rest.overlaps(off):
+            worst = max(worst, 2.0)
+        largest, rest = max(largest, float(abs(off).upper())), max(rest, float(poly.rest.rad()))
+    return worst, largest, rest
+
+
+def corners(radii, count, aside=0.0, seed=1):
+    chosen = random.Random(seed)
+    for trial in range(count):
+        ends = [chosen.choice([-1.0, 1.0]) if trial % 2 == 0 else chosen.uniform(-1, 1) for _ in radii]
+        yield [(aside + e * (1 - 2**-30)) * r for e, r in zip(ends, radii)]
+
+
+def slanted(count):
+    return [[0.3 * (-1) ** (r + c) / (1 + r - c) for c in range(r)] for r in range(count)]
+
+
+@pytest.mark.parametrize("delay", [0.25, None])
+@pytest.mark.parametrize("kind", TERMS)
+def test_motions_are_held(kind, delay):
+    # With the delay unknown samples lie within, at the end and outside of the spans in which the command is either level.
+    stage = stage_of(certificate(TERMS[kind], delay))
+    theta = truth_of(TERMS[kind], delay)
+    lower = slanted(len(theta))
+    found, centre, radii = enclosure(stage, theta, 0.004, lower)
+    for z in corners(radii, 4):
+        worst, largest, rest = misfits(stage, found, centre, lower, z)
+        assert worst == 0 and rest < 0.01
+
+
+@pytest.mark.parametrize("kind", ["linear", "mixed"])
+def test_ranges_without_zero_hold_motions(kind):
+    stage = stage_of(certificate(TERMS[kind]))
+    theta = truth_of(TERMS[kind])
+    lower = slanted(len(theta))
+    straight = [[0.0] * r for r in range(len(theta))]
+    found, centre, radii = enclosure(stage, theta, 0.004, straight, 5.0)
+    about, _, _ = enclosure(stage, theta, 0.004, straight)
+    for z in corners(radii, 4, 5.0):
+        assert misfits(stage, found, centre, straight, z)[0] == 0
+    # About the middle the rest is what it is of a box about its centre.
+    name = "reading", 0, 90, True
+    assert float(found.rows[name].rest.rad()) < 1.2 * float(about.rows[name].rest.rad())
+    found, centre, radii = enclosure(stage, theta, 0.002, lower, -3.0)
+    for z in corners(radii, 2, -3.0):
+        assert misfits(stage, found, centre, lower, z)[0] == 0
+
+
+def test_two_records_have_their_own_motions():
+    stage = stage_of(certificate(TERMS["mixed"], records=2, until=6.0))
+    theta = truth_of(TERMS["mixed"], records=2)
+    theta[4], theta[6] = 0.05, 0.2
+    lower = slanted(len(theta))
+    found, centre, radii = enclosure(stage, theta, 0.004, lower)
+    for z in corners(radii, 2):
+        assert all(misfits(stage, found, centre, lower, z, index)[0] == 0 for index in (0, 1))
+
+
+@pytest.mark.parametrize("kind", ["linear", "quadratic", "mixed", "spring", "lag"])
+def test_the_rest_is_of_the_third_order(kind):
+    stage = stage_of(certificate(TERMS[kind], until=10.0))
+    theta = truth_of(TERMS[kind])
+    straight = [[0.0] * r for r in range(len(theta))]
+    rests = []
+    for share in (0.008, 0.004, 0.002):
+        found, _, _ = enclosure(stage, theta, share, straight)
+        rests.append(float(found.rows["reading", 0, 80, True].rest.rad()))
+    assert all(6.5 < a / b < 11 for a, b in zip(rests, rests[1:])), rests
+
+
+def held(kind, delay=0.25, share=0.01):
+    stage = stage_of(certificate(TERMS[kind], delay))
+    theta = truth_of(TERMS[kind], delay)
+    lower = slanted(len(theta))
+    found, centre, radii = enclosure(stage, theta, share, lower)
+    return all(misfits(stage, found, centre, lower, z)[0] == 0 for z in corners(radii, 4))
+
+
+def flat(poly):
+    return Poly(poly.space, poly.c, poly.l, None, poly.rest)
+
+
+def without_squares(monkeypatch):
+    product = Poly.__mul__
+    monkeypatch.setattr(Poly, "__mul__", lambda a, b: flat(product(a, b)))
+
+
+def without_strays(monkeypatch):
+    monkeypatch.setattr(Strays, "moved", lambda self, gain, added: self)
+
+
+def without_the_kink(monkeypatch):
+    monkeypatch.setattr(second_order, "signed_square", lambda v: ZERO)
+    monkeypatch.setattr(second_order, "to_rest", lambda *what: (0.5, True))
+
+
+def without_the_span(monkeypatch):
+    fraction = second_order.exact
+    monkeypatch.setattr(second_order, "exact", lambda x: round(fraction(x) * 100) / Fraction(100))
+
+
+@pytest.mark.parametrize("kind", ["linear", "mixed"])
+@pytest.mark.parametrize("wrong", [without_squares, without_strays])
+def test_without_a_part_corners_are_missed(kind, wrong, monkeypatch):
+    assert held(kind)
+    wrong(monkeypatch)
+    assert not held(kind)
+
+
+def test_a_crossing_without_its_doubt_misses_motions(monkeypatch):
+    assert held("quadratic")
+    without_the_kink(monkeypatch)
+    assert not held("quadratic")
+
+
+def test_switchings_at_one_instant_miss_motions(monkeypatch):
+    assert held("linear", None, 0.01)
+    without_the_span(monkeypatch)
+    assert not held("linear", None, 0.01)
