@@ -16,7 +16,7 @@ from boxes import common
 from check import require
 from motion import (
     HALF, LONGEST, ONE, ORDER, SHORTENED, UNITS, ZERO, F, V, X, Kink, Products, Series, Unfollowed, column_series, dampings, line,
-    moving, negative, of_one_sign, picard, signed_square, span, to_rest, value,
+    moving, negative, of_one_sign, picard, signed_square, span, value,
 )  # fmt: skip
 
 INVERSE = [ONE / (k + 1) for k in range(ORDER + 1)]
@@ -257,7 +257,7 @@ class Step:
         own = [passed[X], passed[V], passed[F] if field.lagged else u]
         rests = Series(eq, own, u, sign)
         self.rests = [path[ORDER] for path in rests.paths()]
-        left_out = float((abs(self.rests[V]) * h**ORDER).upper())
+        left_out = max(float((abs(rest) * h**ORDER).upper()) for rest in self.rests)
         if left_out > small:
             raise TooLong(left_out / small)
         self.heads = field.series(state, u, sign)
@@ -314,6 +314,19 @@ class Step:
         return [p for p, _ in ends], self.strays.moved(self.gain(at), [off for _, off in ends])
 
 
+def to_rest(v, rate, length):
+    """How long the velocity keeps its sign; or how long until it has changed it, and True. Estimates."""
+    pace = max(abs(float(rate.mid())), 1e-300)
+    low, high = float(v.lower()), float(v.upper())
+    first, last = (low / pace, high / pace) if rate.mid() < 0 else (-high / pace, -low / pace)
+    if first > 1e-7 * length and first > 0.05 * (last - first):
+        return 0.98 * first, False
+    if last <= 0:
+        # It leaves zero: crossing is doubted only if its range ends there.
+        return (1e-2 * (last - first) + 1e-6 * length, True) if -last <= 1e-3 * (last - first) else (length / 2, False)
+    return 1.02 * last + 1e-6 * length, True
+
+
 class Flow:
     """A motion from one instant to another, with the outputs at samples on the way."""
 
@@ -361,7 +374,8 @@ class Flow:
 
     def tried(self, length, u, doubt):
         length, crossing = min(length, Fraction(self.longest(u))), False
-        if self.suited < length:
+        suited = self.suited < length
+        if suited:
             length = Fraction(self.suited)
         first = SMALL * float(self.state[V].parts()[0].rad())
         for _ in range(SHORTENED):
@@ -370,9 +384,12 @@ class Flow:
                 step = Step(self.field, self.state, self.strays, u, ball(length), doubt, crossing, small)
                 break
             except TooLong as fault:
+                suited = True
                 length *= Fraction(max(0.3, 0.9 * fault.args[0] ** (-1 / (ORDER + 2))))
             except Kink:
-                near, crossing = to_rest(self.field.equation, self.hull(u), u, float(length))
+                hull = self.hull(u)
+                suited = False
+                near, crossing = to_rest(hull[V], self.field.equation.rate(hull, u)[V], float(length))
                 length = min(length, Fraction(near)) if crossing else min(Fraction(near), length * 9 / 10)
             except Unfollowed:
                 length /= 2
@@ -380,7 +397,8 @@ class Flow:
             raise Unfollowed("a step")
         if not crossing:
             self.third = float(step.heads[V][1].rest.rad())
-            self.suited = 1.25 * float(length)
+            if suited:
+                self.suited = 1.25 * float(length)
         self.taken(step)
         until = self.now + length
         while self.next < len(self.samples) and self.samples[self.next][1] <= until:

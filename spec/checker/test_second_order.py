@@ -24,7 +24,7 @@ TERMS = {
 STEP, DISTURBANCE = 0.125, 0.02
 
 
-def certificate(terms, delay=0.25, until=12.0, records=1):
+def certificate(terms, delay=0.25, until=9.5, records=1):
     """Without readings and steps; a delay of None is unknown, and about a quarter."""
     count = int(until / STEP) + 1
     record = {
@@ -162,7 +162,7 @@ def test_ranges_without_zero_hold_motions(kind):
     for z in corners(radii, 4, 5.0):
         assert misfits(stage, found, centre, straight, z)[0] == 0
     # About the middle the rest is what it is of a box about its centre.
-    name = "reading", 0, 90, True
+    name = "reading", 0, 70, True
     assert float(found.rows[name].rest.rad()) < 1.2 * float(about.rows[name].rest.rad())
     found, centre, radii = enclosure(stage, theta, 0.002, lower, -3.0)
     for z in corners(radii, 2, -3.0):
@@ -181,14 +181,14 @@ def test_two_records_have_their_own_motions():
 
 @pytest.mark.parametrize("kind", ["linear", "quadratic", "mixed", "spring", "lag"])
 def test_the_rest_is_of_the_third_order(kind):
-    stage = stage_of(certificate(TERMS[kind], until=10.0))
+    stage = stage_of(certificate(TERMS[kind]))
     theta = truth_of(TERMS[kind])
     straight = [[0.0] * r for r in range(len(theta))]
     rests = []
     for share in (0.008, 0.004, 0.002):
         found, _, _ = enclosure(stage, theta, share, straight)
-        rests.append(float(found.rows["reading", 0, 80, True].rest.rad()))
-    assert all(6.5 < a / b < 11 for a, b in zip(rests, rests[1:])), rests
+        rests.append(float(found.rows["reading", 0, 76, True].rest.rad()))
+    assert all(6.5 < a / b < 13 for a, b in zip(rests, rests[1:])), rests
 
 
 def held(kind, delay=0.25, share=0.01):
