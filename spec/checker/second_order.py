@@ -3,8 +3,8 @@
 With w the deviations of the coordinates from their middles, a state is `P(w) + B r`: P a polynomial whose coefficients are exact, r balls
 about zero in a basis B that turns with the flow. A step expands the motion from P in time, its coefficients being polynomials in w whose
 products' higher degrees are bounded over the box, and carries r by the flow's derivative, which damping makes smaller. A delay that
-depends on w is a step of a duration that depends on w. Where the velocity changes its sign, `v |v|` is a small unknown input for the
-short time in which not all have the same.
+depends on w is a step of a duration that depends on w. Where the velocity changes its sign, drag has a small unknown part for the
+short time in which not all have the same: it differs from a square of one sign only where the velocity has the other.
 """
 
 import math
@@ -16,11 +16,13 @@ from boxes import common
 from check import require
 from motion import (
     HALF, LONGEST, ONE, ORDER, SHORTENED, UNITS, ZERO, F, V, X, Kink, Products, Series, Unfollowed, column_series, dampings, line,
-    moving, negative, of_one_sign, picard, signed_square, span, value,
+    moving, of_one_sign, picard, span, value,
 )  # fmt: skip
 
 INVERSE = [ONE / (k + 1) for k in range(ORDER + 1)]
 MOST_STEPS = 20000
+# In which a change of sign is passed.
+PIECES = 4
 # Steps are so short that their series leave out this share of the first order in a unit of time, or of what is of the third.
 SMALL, SHARE, TINY = 1e-9, 0.1, 1e-22
 
@@ -151,7 +153,7 @@ class Field:
         terms, has = self.terms, self.has
         x, v, f = [state[X]], [state[V]], [state[F]]
         square = []
-        curved = "cubic" in has or ("quadratic" in has and sign != 0)
+        curved = "cubic" in has or "quadratic" in has
         for k in range(ORDER - 1):
             if curved:
                 square.append(squares(v, k))
@@ -163,7 +165,7 @@ class Field:
                 pushes.append(terms["gain"].scaled(u))
             if self.damp is not None:
                 pushes.append((self.damp * v[k]).scaled(-ONE))
-            if "quadratic" in has and sign != 0:
+            if "quadratic" in has:
                 pushes.append((terms["quadratic"] * square[k]).scaled(-sign))
             if "cubic" in has:
                 for i in range(k + 1):
@@ -226,6 +228,12 @@ def orthogonal(columns):
     return found
 
 
+def beyond(v, sign):
+    """What `v |v|` is more than `sign v^2`."""
+    other = max((-sign * v).upper(), ZERO)
+    return (-2 * sign * other * other).union(ZERO)
+
+
 class TooLong(Exception):
     """What is left of a step's series is this many times what it should be."""
 
@@ -245,15 +253,17 @@ class Step:
         if kinked and not crossing and not of_one_sign(hull[V]):
             raise Kink
 
+        sign = -ONE if hull[V].mid() + HALF * h * eq.rate(hull, commands)[V].mid() < 0 else ONE
+        bent = crossing and kinked
+
         def rate(at):
             x, v, f = eq.rate(at, commands)
             # Both with the kink and without it.
-            return [x, v + (eq.at["quadratic"] * signed_square(at[V])).union(ZERO) if crossing and kinked else v, f]
+            return [x, v + (eq.at["quadratic"] * beyond(at[V], sign)).union(ZERO) if bent else v, f]
 
         passed = picard(hull, h, rate)
         if kinked and not crossing and not of_one_sign(passed[V]):
             raise Kink
-        sign = ZERO if crossing else -ONE if negative(passed[V]) else ONE
         own = [passed[X], passed[V], passed[F] if field.lagged else u]
         rests = Series(eq, own, u, sign)
         self.rests = [path[ORDER] for path in rests.paths()]
@@ -276,7 +286,7 @@ class Step:
         self.pushed = None
         if self.rough:
             name, push = ("lag_rate", eq.at["lag_rate"] * doubt) if field.lagged else ("gain", eq.at["gain"] * doubt)
-            kink = -eq.at["quadratic"] * signed_square(passed[V]) if crossing and kinked else ZERO
+            kink = -eq.at["quadratic"] * beyond(passed[V], sign) if bent else ZERO
 
             def driven(at):
                 x, v, f = eq.column_rate(far[0], at, name, push)
@@ -324,7 +334,7 @@ def to_rest(v, rate, length):
     if last <= 0:
         # It leaves zero: crossing is doubted only if its range ends there.
         return (1e-2 * (last - first) + 1e-6 * length, True) if -last <= 1e-3 * (last - first) else (length / 2, False)
-    return 1.02 * last + 1e-6 * length, True
+    return min(1.02 * last, (last - first) / PIECES) + 1e-6 * length, True
 
 
 class Flow:
@@ -359,7 +369,7 @@ class Flow:
         if "quadratic" in eq.has:
             # Near rest drag grows with the speed that is picked up.
             quickest = max(quickest, float((abs(eq.at["quadratic"] * eq.rate(hull, u)[V])).upper()) ** 0.5)
-        return 2 * LONGEST / quickest
+        return LONGEST / quickest
 
     def begin(self, u):
         """Without a lag the force is the command."""
