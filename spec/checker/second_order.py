@@ -16,7 +16,7 @@ from boxes import common
 from check import require
 from motion import (
     HALF, LONGEST, ONE, ORDER, SHORTENED, UNITS, ZERO, F, V, X, Kink, Products, Series, Unfollowed, column_series, dampings, line,
-    moving, of_one_sign, picard, span, value,
+    moving, negative, of_one_sign, picard, span, value,
 )  # fmt: skip
 
 INVERSE = [ONE / (k + 1) for k in range(ORDER + 1)]
@@ -252,7 +252,7 @@ class Step:
             hull[F] = commands
         if kinked and not crossing and not of_one_sign(hull[V]):
             raise Kink
-
+        # Of a crossing either sign will do; this one leaves less out.
         sign = -ONE if hull[V].mid() + HALF * h * eq.rate(hull, commands)[V].mid() < 0 else ONE
         bent = crossing and kinked
 
@@ -264,6 +264,8 @@ class Step:
         passed = picard(hull, h, rate)
         if kinked and not crossing and not of_one_sign(passed[V]):
             raise Kink
+        if not bent:
+            sign = -ONE if negative(passed[V]) else ONE
         own = [passed[X], passed[V], passed[F] if field.lagged else u]
         rests = Series(eq, own, u, sign)
         self.rests = [path[ORDER] for path in rests.paths()]

@@ -251,11 +251,10 @@ SLANT = [[], [0.5], [0.25, -0.5], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0, -1.5]]
 TIGHT = 0.001
 
 
-def by_readings(kind, above):
+def by_readings(above):
     """The velocity at the beginning by how far the vehicle gets in a second."""
     y = 0.5 / (1 - 2.718281828459045**-0.5)
-    rows = [[{"reading": {"window": 0, "sample": k, "above": own}}, y] for k, own in ((14, above), (6, not above))]
-    return rows
+    return [[{"reading": {"window": 0, "sample": k, "above": own}}, y] for k, own in ((14, above), (6, not above))]
 
 
 def of_steps(*steps, narrowed=True):
@@ -282,7 +281,7 @@ def cut(unknown, upper, end, rows=()):
 
 
 def speed(upper, end):
-    return cut(4, upper, 0.3 + (end if upper else -end), by_readings("linear", upper))
+    return cut(4, upper, 0.3 + (end if upper else -end), by_readings(upper))
 
 
 def contract(by, *cuts):
@@ -308,16 +307,25 @@ def divide(unknown, at):
 # What two readings leave of the velocity at the beginning, drag and inertia being as uncertain as they are.
 REACHED = 0.0055
 BEFORE = contract("slanted", speed(True, REACHED))
-ROWS = by_readings("linear", True)
+ROWS = by_readings(True)
 
 ACCEPTED = {
     "contract": (BEFORE, contract("same", speed(False, REACHED)), "keep"),
     "by the box itself": (contract("slanted", cut(0, True, 1.0021)), "keep"),
-    "turn": (turn("slanted", frame(), cut(4, True, 0.3 * 0 + 0.009, ROWS)), "keep"),
+    "turn": (turn("slanted", frame(), cut(4, True, 0.009, ROWS)), "keep"),
     "turn by the same": (BEFORE, turn("same", frame()), "keep"),
     "turn in the frame": (turn("slanted", frame()), turn("slanted", None, cut(4, True, 0.009, ROWS)), contract("same"), "keep"),
     "part": (turn("slanted", frame()), part(4, 0.001), "keep", contract("slanted"), contract("same"), "keep"),
-    "part and divide": (turn("slanted", frame()), contract("slanted"), part(1, 0.0), divide(0, 1.0), "keep", contract("same"), "keep", "keep"),
+    "part and divide": (
+        turn("slanted", frame()),
+        contract("slanted"),
+        part(1, 0.0),
+        divide(0, 1.0),
+        "keep",
+        contract("same"),
+        "keep",
+        "keep",
+    ),
     "nothing in common": (
         turn("slanted", frame()),
         part(1, 0.0),
