@@ -444,16 +444,17 @@ class Weight:
     def parts(self, k):
         """The areas above and below zero in an interval."""
         a, b, lasted = self.heights[k], self.heights[k + 1], self.track.lasted[k]
-        if a >= 0 and b >= 0:
-            return HALF * (a + b) * lasted, ZERO
-        if a <= 0 and b <= 0:
-            return ZERO, -HALF * (a + b) * lasted
         if (a > 0 and b < 0) or (a < 0 and b > 0):
             parts = [HALF * lasted * end * end / (abs(a) + abs(b)) for end in (a, b)]
             return (parts[0], parts[1]) if a > 0 else (parts[1], parts[0])
-        # A sign that rounding leaves open.
-        most = lasted * (abs(a) + abs(b))
-        return ZERO.union(most), ZERO.union(most)
+        # Of one sign, but for rounding: what has the other is a triangle at most, and the area is known.
+        area = HALF * (a + b) * lasted
+        above, below = (HALF * lasted * max(end, ZERO) for end in (max(a.upper(), b.upper()), max(-a.lower(), -b.lower())))
+        if below < above:
+            below = ZERO.union(below)
+            return area + below, below
+        above = ZERO.union(above)
+        return above, above - area
 
 
 def number(fraction):
