@@ -26,7 +26,7 @@ PARTS = 3
 # Rounds go on while they take this share of the sum of what velocities between samples are in doubt.
 HELPED = 0.02
 HALF = arb(1) / 2
-LARGE = arb(10) ** 300
+NONE = (ZERO, ZERO)
 
 
 class Unsupported(Exception):
@@ -49,10 +49,6 @@ def plus(*ranges):
 
 def minus(a):
     return -a[1], -a[0]
-
-
-def ball(ends):
-    return ends[0].union(ends[1])
 
 
 class Track:
@@ -99,10 +95,9 @@ class Axis:
 
     def __init__(self, stage, box, record):
         ends = {name: (arb(low), arb(high)) for name, (low, high) in zip(stage.terms, box)}
-        none = (ZERO, ZERO)
         self.has = set(stage.terms)
-        self.gain, self.linear, self.quadratic, self.cubic = (ends.get(n, none) for n in ("gain", "linear", "quadratic", "cubic"))
-        self.stiffness, self.rate = ends.get("stiffness", none), ends.get("lag_rate")
+        self.gain, self.linear, self.quadratic, self.cubic = (ends.get(n, NONE) for n in ("gain", "linear", "quadratic", "cubic"))
+        self.stiffness, self.rate = ends.get("stiffness", NONE), ends.get("lag_rate")
         self.disturbance = tuple(map(arb, box[stage.common + record]))
         self.delay = tuple(map(arb, box[len(stage.terms)])) if stage.delay is None else (arb(stage.delay), arb(stage.delay))
         self.middle = arb(stage.middle)
@@ -429,10 +424,9 @@ class Weight:
     def during(self, least, most):
         """All heights from one instant to another."""
         k, until = bisect_right(self.track.instant, least), bisect_right(self.track.instant, most)
-        height = self.at(least)[0].union(self.at(most)[0])
-        for sample in range(max(k, self.first), min(until, self.last + 1)):
-            height = height.union(self.heights[sample])
-        return height
+        heights = [self.at(least)[0], self.at(most)[0]]
+        heights += [self.heights[sample] for sample in range(max(k, self.first), min(until, self.last + 1))]
+        return min(h.lower() for h in heights), max(h.upper() for h in heights)
 
     def intervals(self):
         """Each with the weight's mean, its area, and the integral of how far it is from its mean."""
@@ -481,55 +475,48 @@ class Tangent:
 
 
 class Weighed:
-    """The terms of the equation under a weight, over a box."""
+    """Integrals under a weight, over a box, each by its ends: a ball's radius has few digits."""
 
     def __init__(self, weight, speeds):
         self.weight, self.speeds, self.track = weight, speeds, weight.track
 
     def of_ways(self, slopes):
         """`int W slope v`, with a slope for every interval: readings' errors sum up by how the weights differ from one to the next."""
-        total, errors, before = ZERO, ZERO, ZERO
-        for k, mean, _, off in self.weight.intervals():
-            slope = slopes(k)
+        total, errors, off, before = ZERO, ZERO, ZERO, ZERO
+        for k, mean, _, differs in self.weight.intervals():
+            slope, (low, high) = slopes(k), self.speeds.between[k]
             weight = slope * mean
             total += weight * (self.track.reading[k + 1] - self.track.reading[k])
             errors += abs(weight - before)
             before = weight
             # The weight is not at its mean throughout: what it is more in one half it is less in the other.
-            low, high = self.speeds.between[k]
-            errors += abs(slope) * off * HALF * (high - low) / self.track.error
-        return total + around((errors + abs(before)) * self.track.error)
+            off += abs(slope) * differs * HALF * (high - low)
+        off += (errors + abs(before)) * self.track.error
+        return (total - off).lower(), (total + off).upper()
 
     def of_tangents(self, tangent):
         tangents = {k: tangent(*self.speeds.between[k]) for k, *_ in self.weight.intervals()}
-        total = self.of_ways(lambda k: tangents[k].slope)
+        least = most = ZERO
         for k, _, area, _ in self.weight.intervals():
             own, (above, below) = tangents[k], self.weight.parts(k)
             low, high = own.rest
-            total += own.constant * area + (low * above - high * below).union(high * above - low * below)
-        return total
+            least += own.constant * area + low * above - high * below
+            most += own.constant * area + high * above - low * below
+        return plus(self.of_ways(lambda k: tangents[k].slope), (least.lower(), most.upper()))
 
     def velocity(self):
         return self.of_ways(lambda _: arb(1))
 
     def place(self):
-        """`int W x`: between samples the position is off the chord by what velocities differ."""
-        total = ZERO
-        for k, _, area, off in self.weight.intervals():
-            a, b = self.track.reading[k], self.track.reading[k + 1]
+        """`int W x`: a position is off the chord between samples by a quarter of what velocities differ, times the time, at most."""
+        total = off = ZERO
+        for k, _, area, _ in self.weight.intervals():
+            a, b, lasted = self.track.reading[k], self.track.reading[k + 1], self.track.lasted[k]
             low, high = self.speeds.between[k]
-            above, below = self.weight.parts(k)
-            # Off the chord of the true positions by no more than (high - v)(v - low)/(high - low) times the time, a quarter at most.
-            near = self.track.error + (high - low) * self.track.lasted[k] / 4
-            size = above + below
-            # The chord itself, times the weight: both linear.
-            chord = HALF * (a + b) * area + (self.weight.heights[k + 1] - self.weight.heights[k]) * (b - a) * self.track.lasted[k] / 12
-            total += chord + around(near * size)
-        return total
-
-
-def around(radius):
-    return (-radius).union(radius)
+            rise = self.weight.heights[k + 1] - self.weight.heights[k]
+            total += HALF * (a + b) * area + rise * (b - a) * lasted / 12
+            off += (self.track.error + (high - low) * lasted / 4) * sum(self.weight.parts(k), ZERO)
+        return (total - off).lower(), (total + off).upper()
 
 
 class Hats:
@@ -547,13 +534,45 @@ class Hats:
     def speeds(self, box):
         return [Speeds(self.stage, track, Axis(self.stage, box, n), box, n) for n, track in enumerate(self.tracks)]
 
+    def show(self, box, kind, what):
+        """Whether nothing is left of a box, else that its cuts follow, each over what those before it leave; or Refused."""
+        try:
+            speeds = self.speeds(box)
+        except Nothing:
+            return True
+        if kind == "exclude":
+            require(what["rows"] and self.bound(box, speeds, None, what["rows"]) < 0, "the box is not excluded")
+            return True
+        box = list(box)
+        for cut in what["cuts"]:
+            place, sign, end = int(cut["unknown"]), 1 if cut["upper"] else -1, float(cut["end"])
+            require(0 <= place < len(box), "no such unknown")
+            low, high = box[place]
+            if cut["rows"]:
+                found = sign * self.bound(box, speeds, (place, sign), cut["rows"])
+            else:
+                found = self.beginning(speeds, place, sign)
+            require(sign * found <= sign * end, f"the range of unknown {place} ends at {float(found):.6g}, not at {end:.6g}")
+            box[place] = (low, min(high, end)) if sign > 0 else (max(low, end), high)
+            if box[place][0] > box[place][1]:
+                return True
+        return False
+
+    def beginning(self, speeds, place, sign):
+        """An end of the velocity at a window's beginning."""
+        for window, (record, first, _) in enumerate(self.stage.windows):
+            if place == self.stage.start(window, 1):
+                sample = first - self.tracks[record].first
+                return speeds[record].high[sample] if sign > 0 else speeds[record].low[sample]
+        require(False, "no velocity at a window's beginning")
+
     def bound(self, box, speeds, objective, combination):
         """At least the largest value of an unknown times a sign, or of zero, over what is in a box, from multipliers."""
         stage = self.stage
         total, rest, hats, rows = ZERO, {}, {}, {}
         stage.bound(rows, [ZERO] * len(box))
         if objective:
-            rest[objective[0]] = arb(objective[1])
+            rest[objective[0]] = arb(objective[1]), arb(objective[1])
         for origin, y in combination:
             y = float(y)
             require(0 <= y < float("inf"), "a multiplier is negative")
@@ -570,20 +589,21 @@ class Hats:
             slopes, limit = rows[key_of(origin)]
             total += y * limit
             for place, slope in slopes:
-                rest[place] = rest.get(place, ZERO) - y * slope
+                own = (-y * slope).lower(), (-y * slope).upper()
+                rest[place] = plus(rest.get(place, NONE), own)
         for record, own in hats.items():
             weight = Weight(self.tracks[record], own)
             value, coefficients = self.weighed(weight, speeds[record], record, objective)
             total += value
             for place, slope in coefficients:
-                rest[place] = rest.get(place, ZERO) + slope
+                rest[place] = plus(rest.get(place, NONE), slope)
         for place, slope in rest.items():
             low, high = map(arb, box[place])
             if stage.delay is None and place == len(stage.terms):
                 middle = self.middle_delay(box)
                 total += arb(objective[1]) * middle if objective and objective[0] == place else ZERO
                 low, high = low - middle, high - middle
-            total += corners((slope.lower(), slope.upper()), (low, high))[1]
+            total += corners(slope, (low, high))[1]
         return total.upper()
 
     def middle_delay(self, box):
@@ -592,22 +612,23 @@ class Hats:
 
     def weighed(self, weight, speeds, record, objective):
         """Position's part of the equality under a weight, less all others: a number, and what each unknown multiplies."""
-        stage, track = self.stage, weight.track
-        value = sum((kink * (track.reading[k] + around(track.error)) for k, kink in weight.kinks.items()), ZERO)
-        weighed, coefficients = Weighed(weight, speeds), [(stage.common + record, -weight.area)]
+        stage, track, axis = self.stage, weight.track, speeds.axis
+        value = sum((kink * track.reading[k] + abs(kink) * track.error for k, kink in weight.kinks.items()), ZERO)
+        weighed, area = Weighed(weight, speeds), -weight.area
+        coefficients = [(stage.common + record, (area.lower(), area.upper()))]
         for place, term in enumerate(stage.terms):
             if term == "gain":
-                force, by_delay = self.pushed(weight, speeds.axis)
-                late = by_delay * ball([end - self.middle_delay_of(speeds.axis) for end in speeds.axis.delay])
+                force, by_delay = self.pushed(weight, axis)
                 if stage.delay is None and objective and objective[0] == len(stage.terms):
-                    coefficients.append((len(stage.terms), -ball(corners(speeds.axis.gain, (by_delay.lower(), by_delay.upper())))))
+                    coefficients.append((len(stage.terms), minus(corners(axis.gain, by_delay))))
                 else:
-                    force += late
-                coefficients.append((place, -force))
+                    middle = self.middle_delay_of(axis)
+                    force = plus(force, corners(by_delay, [end - middle for end in axis.delay]))
+                coefficients.append((place, minus(force)))
             elif term == "linear":
                 coefficients.append((place, weighed.velocity()))
             elif term == "quadratic":
-                coefficients.append((place, weighed.of_tangents(lambda a, b: Tangent(a, b, speeds.axis.middle))))
+                coefficients.append((place, weighed.of_tangents(lambda a, b: Tangent(a, b, axis.middle))))
             elif term == "cubic":
                 coefficients.append((place, weighed.of_tangents(Tangent)))
             elif term == "stiffness":
@@ -623,13 +644,13 @@ class Hats:
         """`int W f` at the middle of the delays, and the range of its slope by the delay."""
         record = weight.track.record
         middle, least, most = map(fraction, (self.middle_delay_of(axis), *axis.delay))
-        force, by_delay = arb(record.levels[0]) * weight.area, ZERO
+        force, by_delay = arb(record.levels[0]) * weight.area, NONE
         for edge, at in enumerate(map(Fraction, record.switched)):
             drop = arb(record.levels[edge]) - arb(record.levels[edge + 1])
             force -= drop * weight.at(at + middle)[1]
             if least < most:
-                by_delay += drop * weight.during(at + least, at + most)
-        return force, by_delay
+                by_delay = plus(by_delay, corners((drop.lower(), drop.upper()), weight.during(at + least, at + most)))
+        return (force.lower(), force.upper()), by_delay
 
 
 def fraction(x):

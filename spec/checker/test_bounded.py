@@ -47,8 +47,8 @@ def negate(rows):
 
 @pytest.mark.parametrize("name", FILES)
 def test_what_the_command_writes_is_accepted(name):
-    shown, verified, _ = bounded.check(FILES[name])
-    assert shown.startswith(name) and verified > 0
+    shown, verified, by_hats, taken = bounded.check(FILES[name])
+    assert shown.startswith(name) and verified > 0 and by_hats > 0 and taken == 0
 
 
 @pytest.mark.parametrize("change", [drop, alter, negate])
