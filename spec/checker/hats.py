@@ -22,7 +22,9 @@ from motion import ZERO
 
 SPANS = (1, 2, 3, 5, 8, 13, 21, 34, 55)
 ROUNDS = 4
+# Parts of a time between samples: of each, and of those after the first sample, of which so many are looked at for so many ends.
 PARTS = 3
+FINE, AHEAD, TRIES = 8, 6, 12
 # Rounds go on while they take this share of the sum of what velocities between samples are in doubt.
 HELPED = 0.02
 HALF = arb(1) / 2
@@ -241,6 +243,7 @@ class Speeds:
         up, down = [max(b, ZERO) for _, b in most], [max(a, ZERO) for a, _ in most]
         self.brakes_only(up, down)
         self.one_way()
+        self.begin(pushes)
         self.ahead(pushes, up, down)
         self.back(up, down)
         self.passed(pushes, up, down)
@@ -294,16 +297,16 @@ class Speeds:
             for k, ends in enumerate(zip(*ways)):
                 self.narrow(first + k, min(a for a, _ in ends), max(b for _, b in ends))
 
-    def least(self, v, push, lasted):
-        """No velocity that begins at v or above is below this after a time, and none is below the second during it.
+    def least(self, v, push, lasted, parts=PARTS):
+        """No velocity that begins at v or above is below this after a time, nor below the second during it, nor goes less than the third.
 
         It stays above the solution w of `w' = phi(w)`, phi the least acceleration of the box, which goes one way. Falling, w is above an end
         that it does not reach at the fastest rate before it, or where it would rise; rising, it is beyond m or has gained what it gains up to m
         at the slowest."""
-        push, part, during = (push, push), lasted / PARTS, v
+        push, part, during, way = (push, push), lasted / parts, v, ZERO
         slowest = lambda a, b: (push[0] - self.axis.most(a, b)).lower()
-        for _ in range(PARTS):
-            rate = slowest(v, v)
+        for _ in range(parts):
+            before, rate = v, slowest(v, v)
             if rate < 0:
                 end = (v + part * rate).lower()
                 for _ in range(6):
@@ -312,21 +315,48 @@ class Speeds:
                         break
                     end = (v + 2 * (end - v)).lower()
                 else:
-                    return None, None
+                    return None, None, None
                 during = min(during, v)
             else:
                 # The implicit step's end, in floats, whatever it misses.
                 m = max(arb(self.axis.implicit(float(v), float(push[0]), float(part))), v)
                 v = max(v, min(m, (v + part * slowest(v, m)).lower()))
-        return v, during
+            way += part * min(before, v)
+        return v, during, way
+
+    def goes_too_far(self, v, pushes, sign):
+        """Whether a velocity at the first sample, turned by `sign`, of v or more goes further than the readings allow."""
+        ahead = ZERO
+        for k in range(min(AHEAD, self.track.count - 1)):
+            v, _, way = self.least(v, pushes[k][0] if sign > 0 else -pushes[k][1], self.track.lasted[k], FINE)
+            if v is None:
+                return False
+            ahead += way - sign * (self.track.reading[k + 1] - self.track.reading[k])
+            if ahead > 2 * self.track.error:
+                return True
+        return False
+
+    def begin(self, pushes):
+        """The first velocity has no readings before it: ends are tried."""
+        for sign in (1, -1):
+            low, high = (self.low[0], self.high[0]) if sign > 0 else (-self.high[0], -self.low[0])
+            within, beyond = float(low), None
+            for _ in range(TRIES):
+                middle = 0.5 * (within + float(high if beyond is None else beyond))
+                if self.goes_too_far(arb(middle), pushes, sign):
+                    beyond = middle
+                else:
+                    within = middle
+            if beyond is not None and beyond < high:
+                self.narrow(0, *((None, arb(beyond)) if sign > 0 else (arb(-beyond), None)))
 
     def ahead(self, pushes, up, down):
         self.during = []
         for k, lasted in enumerate(self.track.lasted):
             low, high, push = self.low[k], self.high[k], pushes[k]
             self.narrow(k + 1, (min(low, ZERO) - down[k] * lasted).lower(), (max(high, ZERO) + up[k] * lasted).upper())
-            least, lowest = self.least(low, push[0], lasted)
-            most, highest = self.least(-high, -push[1], lasted)
+            least, lowest, _ = self.least(low, push[0], lasted)
+            most, highest, _ = self.least(-high, -push[1], lasted)
             self.narrow(k + 1, least, None if most is None else -most)
             self.during.append((lowest, None if highest is None else -highest))
 
