@@ -112,19 +112,18 @@ class Axis:
 
     def most(self, a, b):
         """At least the largest drag at velocities from a to b."""
-        quadratic, linear, rest = ZERO, max(x * y for x in self.own for y in (a, b)), ZERO
+        linear, quadratic, cubic = corners(self.own, (a, b))[1], ZERO, ZERO
         if "quadratic" in self.has:
-            quadratic = max(q * b * abs(b) for q in self.quadratic)
+            quadratic = corners(self.quadratic, (b * abs(b),))[1]
         if "cubic" in self.has:
-            rest = max(k * b**3 for k in self.cubic)
-        found = (linear + quadratic + rest).upper()
+            cubic = corners(self.cubic, (b**3,))[1]
+        found = (linear + quadratic + cubic).upper()
         if "quadratic" in self.has and "linear" in self.has:
             # The same by drag at the middle speed; `(|v| - 2 middle) v` is largest at an end or at minus the middle.
             shifted = [v * (abs(v) - 2 * self.middle) for v in (a, b)]
             if a <= -self.middle <= b:
                 shifted.append(self.middle**2)
-            quadratic = max(q * s.upper() for q in self.quadratic for s in shifted)
-            found = min(found, (max(x * y for x in self.linear for y in (a, b)) + quadratic + rest).upper())
+            found = min(found, (corners(self.linear, (a, b))[1] + corners(self.quadratic, shifted)[1] + cubic).upper())
         return found
 
     def implicit(self, v, push, lasted):
