@@ -129,11 +129,11 @@ class Axis:
     def implicit(self, v, push, lasted):
         """About where `m = v + lasted (push - D(m))` for the largest drag D; m is v or more."""
         own, quadratic, cubic = ([float(end) for end in ends] for ends in (self.own, self.quadratic, self.cubic))
-        low, high = v, v + lasted * (push - max(o * v for o in own) + abs(own[0] * v))
+        drag = lambda m: max(o * m for o in own) + max(q * m * abs(m) for q in quadratic) + max(k * m**3 for k in cubic)
+        low, high = v, v + 1.5 * lasted * (push - drag(v))
         for _ in range(14):
             m = 0.5 * (low + high)
-            drag = max(o * m for o in own) + max(q * m * abs(m) for q in quadratic) + max(k * m**3 for k in cubic)
-            low, high = (m, high) if m <= v + lasted * (push - drag) else (low, m)
+            low, high = (m, high) if m <= v + lasted * (push - drag(m)) else (low, m)
         return low
 
     def rates(self, push, a, b):
