@@ -151,7 +151,10 @@ class Speeds:
         self.between = [(-fastest, fastest)] * (track.count - 1)
         self.levels = self.acting()
         forces = [span_of(track.record.levels[a : b + 1]) for a, b in self.levels]
-        forces = forces if axis.rate is None else self.late(forces)
+        if axis.rate is not None:
+            window = next(n for n, (own, _, _) in enumerate(stage.windows) if own == record)
+            self.first_force = tuple(map(arb, box[stage.start(window, 2)]))
+            forces = self.late(forces)
         self.pushed = [plus(corners(axis.gain, force), axis.disturbance) for force in forces]
         self.evens = self.even_times() if axis.rate is None and "stiffness" not in axis.has else []
         for window, (own, first, _) in enumerate(stage.windows):
@@ -200,7 +203,7 @@ class Speeds:
 
     def late(self, forces):
         """Through a lag: the force goes from what it was towards the command, at a rate of the box."""
-        force, late = (-arb(self.track.record.largest()), arb(self.track.record.largest())), []
+        force, late = self.first_force, []
         for command, lasted in zip(forces, self.track.lasted):
             left = [(-rate * lasted).exp() for rate in self.axis.rate]
             low = min((command[0] + (force[0] - command[0]) * part).lower() for part in left)
@@ -299,9 +302,9 @@ class Speeds:
     def least(self, v, push, lasted, parts=PARTS):
         """No velocity that begins at v or above is below this after a time, nor below the second during it, nor goes less than the third.
 
-        It stays above the solution w of `w' = phi(w)`, phi the least acceleration of the box, which goes one way. Falling, w is above an end
-        that it does not reach at the fastest rate before it, or where it would rise; rising, it is beyond m or has gained what it gains up to m
-        at the slowest."""
+        It stays above the solution w of `w' = phi(w)`, phi the least acceleration of the box, which goes one way. Falling, w is above an
+        end that it does not reach at the fastest rate before it, or where it would rise; rising, it is beyond m or has gained what it gains
+        up to m at the slowest."""
         push, part, during, way = (push, push), lasted / parts, v, ZERO
         slowest = lambda a, b: (push[0] - self.axis.most(a, b)).lower()
         for _ in range(parts):
@@ -378,7 +381,8 @@ class Speeds:
             self.narrow_between(k, low, high)
 
     def accelerated(self):
-        """By accelerations' ranges r between samples: `v_i + R(t) - R_i` and `v_j - (R_j - R(t))` bound v, and the way tells v_i and v_j."""
+        """By accelerations' ranges r between samples, R their integral: `v_i + R(t) - R_i` and `v_j - R_j + R(t)` bound v, and the way tells
+        v_i and v_j."""
         (a, aa), (b, bb) = self.sums([r[0] for r in self.rates]), self.sums([r[1] for r in self.rates])
         for i, j, lasted, least, most in self.track.spans:
             self.narrow(i, ((least - bb[j] + bb[i]) / lasted + b[i]).lower(), ((most - aa[j] + aa[i]) / lasted + a[i]).upper())
@@ -424,7 +428,7 @@ class Weight:
     """A sum of hats over the samples of a track: its heights, and by how much its slope changes at each."""
 
     def __init__(self, track, hats):
-        self.track, self.kinks = track, {}
+        self.track, self.hats, self.kinks = track, hats, {}
         for (l, m, r), factor in hats:
             left, right = factor / (track.stamps[m] - track.stamps[l]), factor / (track.stamps[r] - track.stamps[m])
             for sample, kink in ((l, left), (m, -left - right), (r, right)):
@@ -612,7 +616,8 @@ class Hats:
                 track = self.tracks[record]
                 samples = [n - track.first for n in samples]
                 require(samples[2] < track.count, "no such hat")
-                require(samples[0] >= 0, "a hat begins before the first window")
+                if samples[0] < 0:
+                    raise Unsupported
                 hats.setdefault(record, []).append((samples, arb(y if at["above"] else -y)))
                 continue
             slopes, limit = rows[key_of(origin)]
@@ -628,16 +633,18 @@ class Hats:
                 rest[place] = plus(rest.get(place, NONE), slope)
         for place, slope in rest.items():
             low, high = map(arb, box[place])
-            if stage.delay is None and place == len(stage.terms):
-                middle = self.middle_delay(box)
-                total += arb(objective[1]) * middle if objective and objective[0] == place else ZERO
+            if place in self.late_by():
+                # What is known of it is by its difference from its middle.
+                middle = middle_of((low, high))
+                total += arb(objective[1]) * middle
                 low, high = low - middle, high - middle
             total += corners(slope, (low, high))[1]
         return total.upper()
 
-    def middle_delay(self, box):
-        low, high = box[len(self.stage.terms)]
-        return arb(0.5 * (low + high))
+    def late_by(self):
+        """What the command comes late by: the places of the delay and of the lag's rate."""
+        delay, rate = [] if self.stage.delay is not None else [len(self.stage.terms)], "lag_rate"
+        return delay + [place for place, term in enumerate(self.stage.terms) if term == rate]
 
     def weighed(self, weight, speeds, record, objective):
         """Position's part of the equality under a weight, less all others: a number, and what each unknown multiplies."""
@@ -647,12 +654,14 @@ class Hats:
         coefficients = [(stage.common + record, (area.lower(), area.upper()))]
         for place, term in enumerate(stage.terms):
             if term == "gain":
-                force, by_delay = self.pushed(weight, axis)
-                if stage.delay is None and objective and objective[0] == len(stage.terms):
-                    coefficients.append((len(stage.terms), minus(corners(axis.gain, by_delay))))
-                else:
-                    middle = self.middle_delay_of(axis)
-                    force = plus(force, corners(by_delay, [end - middle for end in axis.delay]))
+                whole, force, *slopes = self.pushed(weight, axis) if axis.rate is None else self.behind(weight, speeds)
+                for own, slope, ends in zip(self.late_by(), slopes if stage.delay is None else slopes[1:], self.late_ends(axis)):
+                    if objective and objective[0] == own:
+                        coefficients.append((own, minus(corners(axis.gain, slope))))
+                    else:
+                        force = plus(force, corners(slope, [end - middle_of(ends) for end in ends]))
+                if not (objective and objective[0] in self.late_by()) and whole[1] - whole[0] < force[1] - force[0]:
+                    force = whole
                 coefficients.append((place, minus(force)))
             elif term == "linear":
                 coefficients.append((place, weighed.velocity()))
@@ -662,24 +671,104 @@ class Hats:
                 coefficients.append((place, weighed.of_tangents(Tangent)))
             elif term == "stiffness":
                 coefficients.append((place, weighed.place()))
-            else:
-                raise Unsupported
         return value, coefficients
 
-    def middle_delay_of(self, axis):
-        return arb(0.5 * (float(axis.delay[0]) + float(axis.delay[1])))
+    def late_ends(self, axis):
+        return ([axis.delay] if self.stage.delay is None else []) + ([axis.rate] if axis.rate is not None else [])
 
     def pushed(self, weight, axis):
-        """`int W f` at the middle of the delays, and the range of its slope by the delay."""
+        """`int W f` for all delays, at their middle, and the range of its slope by the delay."""
         record = weight.track.record
-        middle, least, most = map(fraction, (self.middle_delay_of(axis), *axis.delay))
+        middle, least, most = map(fraction, (middle_of(axis.delay), *axis.delay))
         force, by_delay = arb(record.levels[0]) * weight.area, NONE
         for edge, at in enumerate(map(Fraction, record.switched)):
             drop = arb(record.levels[edge]) - arb(record.levels[edge + 1])
             force -= drop * weight.at(at + middle)[1]
             if least < most:
                 by_delay = plus(by_delay, corners((drop.lower(), drop.upper()), weight.during(at + least, at + most)))
-        return (force.lower(), force.upper()), by_delay
+        middle = ends_of(force)
+        return plus(middle, corners(by_delay, [end - middle_of(axis.delay) for end in axis.delay])), middle, by_delay
+
+
+    def behind(self, weight, speeds):
+        """The same through a lag, with the slope by its rate.
+
+        By parts with `f' = rate (u - f)`, `int W f = int W u + sum drop_e M(e) + (f - u at the beginning) M(beginning)`, e the instants at
+        which the command drops, M(t) the integral of `W(t + s) exp(- rate s)` over s >= 0. So a later e adds `drop_e rate M(e)`, a higher rate
+        takes `drop_e int s W(e + s) exp(- rate s)`. Of a hat, which is no less than zero, both integrals fall with the rate."""
+        track, axis, record = weight.track, speeds.axis, weight.track.record
+        (whole, force, _), begin, rate = self.pushed(weight, axis), track.stamps[0], middle_of(axis.rate)
+        level, by_delay, by_rate = 0, NONE, NONE
+        delays = middle_of(axis.delay), axis.delay[0], axis.delay[1]
+        for edge, at in enumerate(map(arb, record.switched)):
+            middle, least, most = (at + delay for delay in delays)
+            if most <= begin:
+                level = edge + 1
+                continue
+            if not least > begin:
+                raise Unsupported
+            drop = arb(record.levels[edge]) - arb(record.levels[edge + 1])
+            drop = drop.lower(), drop.upper()
+            for samples, factor in weight.hats:
+                hat = Late([track.stamps[n] for n in samples])
+                part = corners(drop, (factor,))
+                memory = hat.memory(middle, axis.rate[1]), hat.memory(middle, axis.rate[0])
+                force = plus(force, corners(part, ends_of(hat.memory(middle, rate))))
+                reach, steep = max((most - middle).upper(), (middle - least).upper()), hat.steepest()
+                # Over the instants `rate memory` changes by no more than the hat does, the lever by that over the rate's square.
+                # What is left changes with the instant by the hat less that, by one at most.
+                whole = plus(whole, corners(part, ((memory[0] - reach).lower(), (memory[1] + reach).upper())))
+                low, high = axis.rate[0] * memory[0], axis.rate[1] * memory[1]
+                heights = (low - steep * reach).lower(), (high + steep * reach).upper()
+                low, high = (hat.lever(middle, own) for own in axis.rate[::-1])
+                room = steep * reach / axis.rate[0] ** 2
+                by_delay = plus(by_delay, corners(part, heights))
+                by_rate = plus(by_rate, minus(corners(part, ((low - room).lower(), (high + room).upper()))))
+        ahead = plus(speeds.first_force, (arb(-record.levels[level]),) * 2)
+        for samples, factor in weight.hats:
+            hat = Late([track.stamps[n] for n in samples])
+            memory = hat.memory(begin, axis.rate[1]).lower(), hat.memory(begin, axis.rate[0]).upper()
+            before = corners(corners(ahead, (factor,)), memory)
+            whole, force = plus(whole, before), plus(force, before)
+        return whole, force, by_delay, by_rate
+
+
+class Late:
+    """What is left, at a hat, of what was before it, by the rate at which a lag forgets."""
+
+    def __init__(self, instants):
+        l, m, r = instants
+        left, right = 1 / (m - l), 1 / (r - m)
+        self.corners, self.steep = [(l, left), (m, -left - right), (r, right)], (left, right)
+
+    def steepest(self):
+        return max(steep.upper() for steep in self.steep)
+
+    def sum(self, instant, f):
+        total = ZERO
+        for corner, weight in self.corners:
+            ahead = corner - instant
+            if ahead.upper() > 0:
+                total += weight * f(ahead if ahead.lower() >= 0 else ZERO.union(ahead.upper()))
+        return total
+
+    def memory(self, instant, rate):
+        """`int W(instant + s) exp(- rate s)`: the hat is a sum of `(corner - t)+` by its kinks."""
+        return self.sum(instant, lambda x: x / rate - (1 - (-rate * x).exp()) / rate**2)
+
+    def lever(self, instant, rate):
+        """The same with s times the hat, the slope of `- memory` by the rate."""
+        gone = lambda x: (-rate * x).exp()
+        return self.sum(instant, lambda x: x * (1 + gone(x)) / rate**2 - 2 * (1 - gone(x)) / rate**3)
+
+
+def middle_of(ends):
+    """A float near the middle: any will do."""
+    return arb(0.5 * (float(ends[0]) + float(ends[1])))
+
+
+def ends_of(x):
+    return x.lower(), x.upper()
 
 
 def fraction(x):
