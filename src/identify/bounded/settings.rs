@@ -45,7 +45,8 @@ pub struct BoundedModel {
     pub cubic: bool,
     /// A restoring force proportional to the coordinate.
     pub stiffness: bool,
-    /// The force follows the command with a first-order lag, of at most a quarter of the mean time between switchings.
+    /// The force follows the command with a first-order lag, of at most a quarter of the mean time between switchings. When the record
+    /// is first followed it is taken to be among the commands of the log, whatever came before.
     pub lag: bool,
     /// What is known of the delay.
     pub delay: DelayBound,

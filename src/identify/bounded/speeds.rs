@@ -162,7 +162,14 @@ impl Model<'_> {
         if readings.jitter_s > 0.0 { lasted + Interval::symmetric(2.0 * readings.jitter_s) } else { lasted }
     }
 
-    /// For every interval between samples, over a box in which no speed exceeds `fastest`.
+    /// The first sample from which on every command that acts is in the log. What acted before may have been anything.
+    fn known(&self, record: usize, at: &[Interval]) -> usize {
+        let time_s = &self.records[record].time_s;
+        let begin = Interval::point(time_s[0]) + self.delay_s(at) + Interval::point(self.records[record].jitter_s);
+        time_s.partition_point(|time| *time < begin.upper())
+    }
+
+    /// For every interval between samples, over a box in which no speed exceeds `fastest`; of no meaning before the first that is known.
     fn pushes(&self, record: usize, at: &[Interval], fastest: f64) -> Vec<Push> {
         let readings = &self.records[record];
         let place = |term: Term| self.layout.place_of(term).map_or(Interval::ZERO, |place| at[place]);
@@ -176,8 +183,9 @@ impl Model<'_> {
         let command = &readings.command;
         let windows: Vec<(f64, f64)> = (0..command.edges()).map(|edge| command.window(edge, delay_s)).collect();
         let (mut done, mut begun) = (0, 0);
-        // The force, which follows the command with a lag.
+        // The force, which follows the command with a lag: one that acted before the log was no stronger than those in it.
         let any = Interval::symmetric(command.largest());
+        let known = self.known(record, at);
         let lag_rate = self.layout.place_of(Term::LagRate).map(|place| at[place]);
         let mut behind = any;
         let samples = readings.time_s.len();
@@ -193,11 +201,12 @@ impl Model<'_> {
             while windows.get(begun).is_some_and(|(open, _)| *open < to) {
                 begun += 1;
             }
-            // Before the log nobody knows what acted.
-            let early = from < plus(readings.time_s[0], delay_s.upper()).upper();
-            let acts = if early { any } else { command.between(done, begun) };
+            let acts = command.between(done, begun);
             let force = lag_rate.map_or(acts, |rate| {
                 let before = behind;
+                if sample < known {
+                    return any;
+                }
                 behind = followed(before, acts, rate * self.lasted(record, sample, sample + 1));
                 // A stamp may be off by more than the force takes to change.
                 if stray > 0.0 { any } else { before.hull(behind) }
@@ -212,7 +221,7 @@ impl Model<'_> {
                 up: (push + driving).upper().max(0.0),
                 down: (driving - push).upper().max(0.0),
                 force: push,
-                since: (done == begun && !early).then_some(done),
+                since: (done == begun && sample >= known).then_some(done),
             });
         }
         pushes
@@ -279,11 +288,11 @@ impl Model<'_> {
     }
 
     /// Velocities once more: what the mean over a time is off the velocity at its ends is half of what the acceleration adds.
-    pub(super) fn accelerated(&self, record: usize, speeds: &mut Speeds) -> Option<()> {
+    pub(super) fn accelerated(&self, record: usize, known: usize, speeds: &mut Speeds) -> Option<()> {
         let samples = speeds.at_samples.len();
         let half = Interval::point(0.5);
         for span in SPANS {
-            for first in 0..samples.saturating_sub(span) {
+            for first in known..samples.saturating_sub(span) {
                 let last = first + span;
                 let rates = speeds.rates[first..last].iter().copied().reduce(Interval::hull)?;
                 let lasted = self.lasted(record, first, last);
@@ -292,7 +301,7 @@ impl Model<'_> {
                 speeds.at_samples[last] = speeds.at_samples[last].intersection(mean + gained)?;
             }
         }
-        for sample in 1..samples {
+        for sample in known + 1..samples {
             let passed = Interval::ZERO.hull(speeds.rates[sample - 1] * self.lasted(record, sample - 1, sample));
             let (before, after) = (speeds.at_samples[sample - 1] + passed, speeds.at_samples[sample] - passed);
             let own = &mut speeds.between[sample - 1];
@@ -312,8 +321,9 @@ impl Model<'_> {
         let mut speeds = vec![Interval::symmetric(fastest); value.len()];
         let half = Interval::point(0.5);
         let drag = self.drag(at);
+        let known = self.known(record, at);
         for span in SPANS {
-            for first in 0..value.len().saturating_sub(span) {
+            for first in known..value.len().saturating_sub(span) {
                 let last = first + span;
                 let lasted = self.lasted(record, first, last);
                 if !lasted.is_positive() {
@@ -343,7 +353,7 @@ impl Model<'_> {
         for even in &evens {
             self.one_way(record, *even, &mut speeds)?;
         }
-        for sample in 1..value.len() {
+        for sample in known + 1..value.len() {
             let [up, down] = pushes[sample - 1].gains(self.lasted(record, sample - 1, sample));
             let before = speeds[sample - 1];
             let fast = below(plus(before.upper().max(0.0), up).upper());
@@ -355,7 +365,7 @@ impl Model<'_> {
             let largest = -drag.least(-before.upper(), -force, lasted);
             speeds[sample] = speeds[sample].intersection(above(least))?.intersection(below(largest))?;
         }
-        for sample in (1..value.len()).rev() {
+        for sample in (known + 1..value.len()).rev() {
             // What it is later it was before, less what the push added.
             let [up, down] = pushes[sample - 1].gains(self.lasted(record, sample - 1, sample));
             let (least, largest) =
@@ -367,8 +377,8 @@ impl Model<'_> {
                 speeds[sample - 1] = speeds[sample - 1].intersection(below(largest))?;
             }
         }
-        let mut between_samples = Vec::with_capacity(pushes.len());
-        for sample in 1..value.len() {
+        let mut between_samples = vec![Interval::symmetric(fastest); known.min(pushes.len())];
+        for sample in known + 1..value.len() {
             let (push, lasted) = (pushes[sample - 1], self.lasted(record, sample - 1, sample));
             let (before, after) = (speeds[sample - 1], speeds[sample]);
             let least = drag.least_within(before.lower(), push.force, lasted);
@@ -385,7 +395,7 @@ impl Model<'_> {
         }
         let rates = self.rates(at, &pushes, &between_samples);
         let mut speeds = Speeds { at_samples: speeds, between: between_samples, rates };
-        self.accelerated(record, &mut speeds)?;
+        self.accelerated(record, known, &mut speeds)?;
         speeds.rates = self.rates(at, &pushes, &speeds.between);
         Some(speeds)
     }
