@@ -71,6 +71,10 @@ pub(super) struct Model<'a> {
     pub(super) per_s: Option<f64>,
     /// Steps of motions so far.
     pub(super) steps: Cell<usize>,
+    /// So many windows of each record, from its first on, are followed.
+    pub(super) reach: usize,
+    /// Readings of each record that are heard; all without.
+    pub(super) heard: Option<Vec<BTreeSet<usize>>>,
 }
 
 impl Readings {
@@ -91,7 +95,24 @@ impl Model<'_> {
         self.layout.delay().map_or(self.known_delay_s, |place| at[place])
     }
 
-    /// The motion over a span of windows: over a box, and how it differs from that of `centre`. `None` where it cannot be enclosed.
+    /// Samples of a span of windows, and whether they are heard: its ends always are.
+    fn all_samples(&self, span: Span) -> impl Iterator<Item = (usize, bool)> + '_ {
+        let windows = self.layout.windows();
+        let (stretch, last) = (windows[span.from], windows[span.to - 1].last);
+        let heard = self.heard.as_ref().map(|heard| &heard[stretch.record]);
+        (stretch.first..=last).map(move |sample| {
+            let end = sample == stretch.first || sample == last;
+            (sample, end || heard.is_none_or(|heard| heard.contains(&sample)))
+        })
+    }
+
+    /// Those that are heard.
+    pub(super) fn samples(&self, span: Span) -> Vec<usize> {
+        self.all_samples(span).filter(|(_, heard)| *heard).map(|(sample, _)| sample).collect()
+    }
+
+    /// The motion over a span of windows, at its samples: over a box, and how it differs from that of `centre`. `None` where it cannot
+    /// be enclosed.
     pub(super) fn motion(&self, span: Span, at: &[Interval], centre: &[f64]) -> Option<Vec<Node>> {
         let (by, places) = self.layout.columns(span.from);
         let deviations: Vec<Interval> =
@@ -112,9 +133,9 @@ impl Model<'_> {
         let readings = &self.records[stretch.record];
         let error = Interval::point(readings.error);
         // A stamp's error is granted to no witness.
-        let misfits = self.outputs(span, centre)?.into_iter().zip(&readings.value[stretch.first..]);
-        Some(misfits.fold(0.0, |largest, (output, reading)| {
-            let misfit = (output - Interval::point(*reading)).abs() / error;
+        let misfits = self.outputs(span, centre)?.into_iter().zip(self.samples(span));
+        Some(misfits.fold(0.0, |largest, (output, sample)| {
+            let misfit = (output - Interval::point(readings.value[sample])).abs() / error;
             largest.max(misfit.upper())
         }))
     }
@@ -127,8 +148,9 @@ impl Model<'_> {
         unknowns: Unknowns<'_>,
     ) -> Option<Vec<Node>> {
         let stretch = self.layout.windows()[span.from];
-        let last = self.layout.windows()[span.to - 1].last;
         let readings = &self.records[stretch.record];
+        let times: Vec<(f64, bool)> =
+            self.all_samples(span).map(|(sample, heard)| (readings.time_s[sample], heard)).collect();
         let point: Vec<Interval> = centre.iter().map(|value| Interval::point(*value)).collect();
         let fields = Fields {
             over: self.layout.field(stretch.record, at, self.middle_speed),
@@ -151,7 +173,7 @@ impl Model<'_> {
             steps: &self.steps,
         };
         let start = Pair { over: self.layout.state_of(span.from, at), at: self.layout.state_of(span.from, &point) };
-        follow(&drive, start, &readings.time_s[stretch.first..=last], unknowns)
+        follow(&drive, start, &times, unknowns)
     }
 
     /// Deviations from a point of a box.
@@ -193,8 +215,7 @@ impl Model<'_> {
     pub(super) fn linearise_by(&self, places: &[usize], span: Span, over: &[Node], linked: bool, linear: &mut Linear) {
         let stretch = self.layout.windows()[span.from];
         let readings = &self.records[stretch.record];
-        for (offset, node) in over.iter().enumerate() {
-            let sample = stretch.first + offset;
+        for (offset, (node, sample)) in over.iter().zip(self.samples(span)).enumerate() {
             let error = readings.allowed(over, offset);
             let residual = node.at[0] - Interval::point(readings.value[sample]);
             let slopes = places.iter().copied().zip(node.slopes.iter().map(|slope| slope[0]));

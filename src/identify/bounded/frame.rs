@@ -6,6 +6,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::contract::{Linear, Model, Origin};
+use super::lp::Multipliers;
 use super::mix::Mix;
 use super::problem::Layout;
 use crate::numeric::Interval;
@@ -17,7 +18,7 @@ pub(super) struct Frame {
     pub(super) places: Vec<usize>,
     pub(super) centre: Vec<f64>,
     /// Row by row, below the diagonal.
-    lower: Vec<Vec<f64>>,
+    pub(super) lower: Vec<Vec<f64>>,
     /// The box in these coordinates.
     pub(super) z: Vec<Interval>,
 }
@@ -26,7 +27,58 @@ pub(super) fn dot(weights: &[(usize, f64)], z: &[Interval]) -> Interval {
     Interval::dot(weights.iter().map(|(index, weight)| (Interval::point(*weight), z[*index])))
 }
 
+/// A combination of coordinates: `constant + sum weights_j z_j`.
+#[derive(Clone, Debug)]
+pub(super) struct Affine {
+    constant: Interval,
+    weights: Vec<Interval>,
+}
+
+impl Affine {
+    /// Times `sign`, with weights that are floats: what a linear programme is asked.
+    pub(super) fn objective(&self, sign: f64) -> Vec<(usize, f64)> {
+        self.weights.iter().map(|weight| sign * weight.midpoint()).enumerate().collect()
+    }
+
+    /// An upper bound of it, times `sign`, over a frame's box, of which the rows are inequalities about the middle.
+    pub(super) fn most(&self, sign: f64, frame: &Frame, linear: &Linear, multipliers: &Multipliers) -> f64 {
+        let (objective, sign) = (self.objective(sign), Interval::point(sign));
+        let bound = linear.rows.upper_bound(&objective, multipliers, &linear.deviations);
+        let rounded =
+            objective.iter().zip(&self.weights).map(|((_, float), weight)| sign * *weight - Interval::point(*float));
+        let rounded = Interval::dot(rounded.zip(frame.z.iter().copied()));
+        (sign * self.constant + dot(&objective, &frame.middle()) + rounded + Interval::point(bound)).upper()
+    }
+}
+
 impl Frame {
+    /// A frame about a centre, over a box along the axes.
+    pub(super) fn about(places: Vec<usize>, centre: Vec<f64>, lower: Vec<Vec<f64>>, at: &[Interval]) -> Self {
+        let mut frame = Self { places, centre, lower, z: Vec::new() };
+        frame.z = frame.coordinates(|row| at[frame.places[row]] - Interval::point(frame.centre[frame.places[row]]));
+        frame
+    }
+
+    /// What an unknown is by the coordinates.
+    pub(super) fn unknown(&self, row: usize) -> Affine {
+        let constant = Interval::point(self.centre[self.places[row]]);
+        let weights = (0..self.places.len()).map(|column| if column <= row { self.weight(row, column) } else { 0.0 });
+        Affine { constant, weights: weights.map(Interval::point).collect() }
+    }
+
+    /// What the coordinates of another frame are by its own.
+    pub(super) fn turned(&self, next: &Self) -> Vec<Affine> {
+        let centre = |frame: &Self, row: usize| Interval::point(frame.centre[frame.places[row]]);
+        let constants = next.coordinates(|row| centre(self, row) - centre(next, row));
+        let columns: Vec<Vec<Interval>> = (0..self.places.len())
+            .map(|column| {
+                next.coordinates(|row| Interval::point(if row < column { 0.0 } else { self.weight(row, column) }))
+            })
+            .collect();
+        let affine = |(row, constant)| Affine { constant, weights: columns.iter().map(|column| column[row]).collect() };
+        constants.into_iter().enumerate().map(affine).collect()
+    }
+
     /// Along the axes.
     pub(super) fn straight(places: Vec<usize>, at: &[Interval]) -> Self {
         let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();

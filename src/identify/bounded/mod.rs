@@ -115,7 +115,7 @@ pub fn enclose_with_certificate(
     let explored = explore(&setup, settings, estimates, |search, found| {
         witness = found.map(|tried| Witness::of(search, &tried.at));
     })?;
-    let certificate = Certificate::prove(&setup, settings, &explored.hulls, witness);
+    let certificate = Certificate::prove(&setup, settings, &explored.hulls, witness, explored.bounds.passes);
     Ok((explored.bounds, certificate?))
 }
 

@@ -18,6 +18,28 @@ pub(super) struct Readings {
     pub(super) command: Command,
 }
 
+impl Readings {
+    /// The first ones, as if the record ended there.
+    pub(super) fn until(&self, samples: usize) -> Self {
+        let (time_s, value) = (self.time_s[..samples].to_vec(), self.value[..samples].to_vec());
+        let last = time_s.last().copied().unwrap_or(f64::NEG_INFINITY);
+        let edges = self.command.spans().iter().take_while(|(first, _)| *first <= last).count();
+        Self { time_s, value, command: self.command.until(edges), ..self.clone() }
+    }
+}
+
+impl Readings {
+    /// Mean time between two switchings.
+    pub(super) fn swing_s(&self) -> f64 {
+        (self.time_s[self.time_s.len() - 1] - self.time_s[0]) / (self.command.edges() + 1) as f64
+    }
+}
+
+/// The shortest mean time between switchings of any record.
+pub(super) fn swing_s(records: &[Readings]) -> f64 {
+    records.iter().map(Readings::swing_s).fold(f64::INFINITY, f64::min)
+}
+
 /// A stretch of one record: samples from `first` to `last`, the state unknown at the first. The next stretch of the record
 /// begins with the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,6 +115,12 @@ impl Layout {
     /// Component of the state at the beginning of a window.
     pub(super) fn start(&self, window: usize, component: usize) -> usize {
         self.parameters() + window * self.state_size() + component
+    }
+
+    /// Samples of so many windows of each record, from its first on.
+    pub(super) fn followed(&self, reach: usize) -> f64 {
+        let of = |record| self.windows.iter().filter(move |window| window.record == record).take(reach);
+        (0..self.records()).flat_map(of).map(|window| (window.last - window.first) as f64).sum()
     }
 
     /// The state at every window's beginning as far as the reading there tells, while no speed exceeds `fastest`.

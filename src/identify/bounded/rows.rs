@@ -1,7 +1,8 @@
-//! The inequalities of a pass over a box: by hats, of whole records, of windows each linked to the next, of one window alone.
+//! The inequalities of a pass over a box: by hats, and of windows each linked to the next.
 
 use super::contract::{Hat, Linear, Model, Span};
 use super::field::Term;
+use super::problem::Window;
 use super::trajectory::Node;
 use crate::numeric::Interval;
 
@@ -10,17 +11,31 @@ use crate::numeric::Interval;
 pub(super) struct Parted;
 
 impl Model<'_> {
-    /// Whole records, one span each.
+    /// Windows that are followed.
+    fn followed(&self) -> impl Iterator<Item = (usize, Window)> + '_ {
+        let windows = self.layout.windows().iter().copied().enumerate();
+        let first = |record| self.layout.windows().iter().position(|window| window.record == record).unwrap_or(0);
+        windows.filter(move |(index, window)| index - first(window.record) < self.reach)
+    }
+
+    /// Records as far as they are followed, one span each.
     pub(super) fn whole(&self) -> Vec<Span> {
-        let windows = self.layout.windows();
         let mut spans: Vec<Span> = Vec::new();
-        for (index, window) in windows.iter().enumerate() {
+        for (index, window) in self.followed() {
             match spans.last_mut() {
-                Some(span) if windows[span.from].record == window.record => span.to = index + 1,
+                Some(span) if self.layout.windows()[span.from].record == window.record => span.to = index + 1,
                 _ => spans.push(Span { from: index, to: index + 1 }),
             }
         }
         spans
+    }
+
+    /// Parameters, and the state at every record's beginning.
+    pub(super) fn of_whole(&self) -> Vec<usize> {
+        let starts = self.whole().into_iter();
+        let starts =
+            starts.flat_map(|span| (0..self.layout.state_size()).map(move |k| self.layout.start(span.from, k)));
+        (0..self.layout.parameters()).chain(starts).collect()
     }
 
     /// Speeds from the readings, those at the windows' beginnings put into the box; then the hats. `None` where there is no motion.
@@ -36,7 +51,7 @@ impl Model<'_> {
             if !self.travelled(record, &speeds) {
                 return None;
             }
-            for (index, window) in self.layout.windows().iter().enumerate().filter(|(_, w)| w.record == record) {
+            for (index, window) in self.followed().filter(|(_, window)| window.record == record) {
                 let place = self.layout.start(index, 1);
                 at[place] = at[place].intersection(speeds.at_samples[window.first])?;
             }
@@ -45,35 +60,15 @@ impl Model<'_> {
         Some(linear)
     }
 
-    /// Whole records about `centre`. `None` where there is no enclosure.
-    pub(super) fn unbroken(&self, at: &[Interval], centre: Vec<f64>) -> Option<Linear> {
-        let mut linear = self.about(at, centre);
-        for span in self.whole() {
-            let motion = self.motion(span, at, &linear.centre)?;
-            self.linearise(span, &motion, false, &mut linear);
-        }
-        self.bound(&mut linear);
-        Some(linear)
-    }
-
-    /// One window about `centre`, whatever came before and comes after. `None` where there is no enclosure.
-    pub(super) fn alone(&self, window: usize, at: &[Interval], centre: Vec<f64>) -> Option<Linear> {
-        let span = Span { from: window, to: window + 1 };
-        let motion = self.motion(span, at, &centre)?;
-        let mut linear = self.about(at, centre);
-        self.linearise(span, &motion, false, &mut linear);
-        Some(linear)
-    }
-
-    /// All windows about `centre`, each linked to the next. What a window's end says of the next one's beginning goes into the
+    /// All windows that are followed about `centre`, each linked to the next. What a window's end says of the next one's beginning goes into the
     /// box. `None` where there is no enclosure.
     pub(super) fn chained(&self, at: &mut [Interval], centre: Vec<f64>) -> Result<Option<Linear>, Parted> {
-        let windows = self.layout.windows();
+        let followed: Vec<(usize, Window)> = self.followed().collect();
         let mut linear = self.about(at, centre);
-        for index in 0..windows.len() {
+        for (place, &(index, window)) in followed.iter().enumerate() {
             let span = Span { from: index, to: index + 1 };
             let Some(motion) = self.motion(span, at, &linear.centre) else { return Ok(None) };
-            let linked = windows.get(index + 1).is_some_and(|next| next.record == windows[index].record);
+            let linked = followed.get(place + 1).is_some_and(|(_, next)| next.record == window.record);
             self.linearise(span, &motion, linked, &mut linear);
             if linked {
                 self.carry(at, index + 1, &motion)?;

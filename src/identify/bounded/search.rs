@@ -93,6 +93,8 @@ impl<'a> Search<'a> {
             fastest: setup.fastest,
             per_s: Some(1.0 / setup.swing_s),
             steps: Cell::new(0),
+            reach: usize::MAX,
+            heard: None,
         };
         let hats = setup.records.iter().map(|readings| hats(&readings.time_s, setup.swing_s)).collect();
         let steps_per_pass = STEPS_PER_PASS + 2 * setup.samples();
@@ -246,20 +248,6 @@ impl<'a> Search<'a> {
     pub(super) fn rest(&self, before: &[Interval], after: &[Interval]) -> f64 {
         let shares = before.iter().zip(after).take(self.parameters());
         shares.map(|(b, a)| if b.width() > 0.0 { a.width() / b.width() } else { 1.0 }).fold(1.0, f64::min)
-    }
-
-    /// The inequalities of whole records over a box about `centre`; `None` where there is no enclosure.
-    pub(super) fn unbroken(&mut self, at: &[Interval], centre: Vec<f64>) -> Option<Linear> {
-        self.count_pass();
-        self.model.unbroken(at, centre)
-    }
-
-    /// Parameters, and the state at every record's beginning.
-    pub(super) fn of_whole(&self) -> Vec<usize> {
-        let layout = &self.setup.layout;
-        let starts = self.model.whole().into_iter();
-        let starts = starts.flat_map(|span| (0..layout.state_size()).map(move |k| layout.start(span.from, k)));
-        (0..self.parameters()).chain(starts).collect()
     }
 
     /// Contracts a box over which the motion is followed, by the motion alone: over whole records, where nothing but their

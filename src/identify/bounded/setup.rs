@@ -69,7 +69,7 @@ impl Scales {
         let (time, value) = (&readings.time_s, &readings.value);
         let (low, high) = value.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
         let lasted = time[time.len() - 1] - time[0];
-        let swing_s = lasted / (readings.command.edges() + 1) as f64;
+        let swing_s = readings.swing_s();
         let (mut squares, mut count, mut fastest) = (0.0, 0.0, 0.0f64);
         let mut first = 0;
         for last in 1..time.len() {
@@ -205,9 +205,9 @@ impl Setup {
             DelayBound::WithinS([low, high]) => interval(low, high),
             DelayBound::Unknown => interval(0.0, swing_s),
         };
-        let both = settings.law.has_linear() && settings.law.has_quadratic() || settings.cubic;
+        let both = settings.law.has_linear() && settings.law.has_quadratic();
         let speed = scales.iter().map(|scale| scale.speed).sum::<f64>() / scales.len() as f64;
-        let middle_speed = if both && settings.law.has_quadratic() { speed } else { 0.0 };
+        let middle_speed = if both { speed } else { 0.0 };
         let fastest = 4.0 * scales.iter().map(|scale| scale.fastest).fold(0.0, f64::max);
         let layout = Self::lay(&readings, settings, delay, WINDOWS_PER_SWING)?;
         let first = &scales[0];
@@ -303,15 +303,36 @@ impl Setup {
                 return None;
             }
             let (end, _) = readings.command.spans()[swings];
-            let samples = readings.time_s.partition_point(|time| *time < end);
-            readings.time_s.truncate(samples);
-            readings.value.truncate(samples);
-            readings.command = readings.command.until(swings);
+            *readings = readings.until(readings.time_s.partition_point(|time| *time < end));
         }
         let delay_s = setup.layout.delay().map_or(setup.known_delay_s, |place| setup.search[place]);
         setup.layout = Self::lay(&setup.records, settings, delay_s, BEGINNING_WINDOWS_PER_SWING).ok()?;
         setup.states();
         Some(setup)
+    }
+
+    /// Windows of a record, at most.
+    pub(super) fn most_windows(&self) -> usize {
+        let of = |record| self.layout.windows().iter().filter(|window| window.record == record).count();
+        (0..self.records.len()).map(of).max().unwrap_or(0)
+    }
+
+    /// The same with the windows of the `beginnings` first.
+    pub(super) fn opened(&self, beginnings: &Self) -> Self {
+        let mut windows = Vec::new();
+        for record in 0..self.records.len() {
+            let of = |setup: &Self| -> Vec<Window> {
+                setup.layout.windows().iter().copied().filter(|window| window.record == record).collect()
+            };
+            let opening = of(beginnings);
+            let end = opening.last().map_or(0, |window| window.last);
+            windows.extend(opening);
+            let rest = of(self).into_iter().filter(|window| window.last > end);
+            windows.extend(rest.map(|window| Window { first: window.first.max(end), ..window }));
+        }
+        let mut setup = Self { layout: self.layout.clone().with_windows(windows), ..self.clone() };
+        setup.states();
+        setup
     }
 
     /// Number of readings.
@@ -329,7 +350,7 @@ impl Setup {
 
     /// The same constraints with the parameters known to lie in `at`: a shorter delay leaves more readings.
     pub(super) fn narrowed(&self, settings: &BoundedModel, at: &[Interval]) -> Result<Self, IdentifyError> {
-        let Some(place) = self.layout.delay() else { return Ok(self.clone()) };
+        let Some(place) = self.layout.delay() else { return Ok(self.within(at)) };
         let mut setup = self.clone();
         setup.layout = Self::lay(&self.records, settings, at[place], WINDOWS_PER_SWING)?;
         setup.search = at[..self.layout.parameters()].to_vec();

@@ -13,7 +13,7 @@ use super::trajectory::{Node, Unknowns};
 use crate::numeric::Interval;
 
 /// A motion is followed anew where what is of the third order takes more than this of what is in doubt.
-const STALE: f64 = 0.6;
+pub(super) const STALE: f64 = 0.6;
 
 impl Model<'_> {
     /// The motion over a whole record, and how it differs from that of the frame's centre by each coordinate.
@@ -71,10 +71,10 @@ impl Linear {
 /// A box in a frame, with what the readings are over it once that is known.
 #[derive(Clone, Debug)]
 pub(super) struct Slanted {
-    frame: Frame,
-    surface: Option<Rc<Surface>>,
+    pub(super) frame: Frame,
+    pub(super) surface: Option<Rc<Surface>>,
     /// Whether the frame is along what the readings tell.
-    informed: bool,
+    pub(super) informed: bool,
 }
 
 impl Slanted {
@@ -152,7 +152,7 @@ impl Search<'_> {
         slanted: &mut Option<Slanted>,
         most: f64,
     ) -> Result<Option<Left>, Empty> {
-        let straight = || Slanted { frame: Frame::straight(self.of_whole(), at), surface: None, informed: false };
+        let straight = || Slanted { frame: Frame::straight(self.model.of_whole(), at), surface: None, informed: false };
         let Slanted { frame: mut own, surface, informed } = slanted.take().unwrap_or_else(straight);
         let parted = || Empty { method: Method::Whole, multipliers: Vec::new(), linear: None };
         if !own.meet(at) {

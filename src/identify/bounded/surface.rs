@@ -66,8 +66,8 @@ impl Model<'_> {
             let motion = self.slanted(span, at, frame, &mixes)?;
             let stretch = self.layout.windows()[span.from];
             let record = &self.records[stretch.record];
-            let readings = motion.iter().enumerate().map(|(offset, node)| {
-                let (sample, error) = (stretch.first + offset, record.allowed(&motion, offset));
+            let readings = motion.iter().zip(self.samples(span)).enumerate().map(|(offset, (node, sample))| {
+                let error = record.allowed(&motion, offset);
                 rest = rest.max((node.rest / error).magnitude());
                 Off {
                     window: span.from,

@@ -359,3 +359,53 @@ fn a_witness_is_found_about_the_fit_where_division_has_hardly_begun_and_none_whe
     let late = BoundedModel { delay: DelayBound::KnownS(0.15), budget: 1, ..settings(DragLaw::Linear) };
     assert_ne!(enclose(&[&record], &late).expect("bounds").verdict, Consistency::Consistent);
 }
+
+/// A vehicle that obeys `v' = acceleration(v, u)`, u the logged relay's 0.4 s ago and at first what acted before the log; rounded to a
+/// hundredth.
+fn vehicle(acceleration: impl Fn(f64, f64) -> f64, before: f64) -> Record {
+    const INTERVAL_S: f64 = 0.1;
+    const PARTS: usize = 100;
+    const DELAYED: usize = 4;
+    let command = |sample: usize| if (sample / 15).is_multiple_of(2) { 1.0 } else { -1.0 };
+    let (mut position, mut velocity, h) = (0.0, 0.0, INTERVAL_S / PARTS as f64);
+    let (mut time_s, mut output, mut input) = (Vec::new(), Vec::new(), Vec::new());
+    for sample in 0..300 {
+        time_s.push(INTERVAL_S * sample as f64);
+        output.push((100.0f64 * position).round() / 100.0);
+        input.push(command(sample));
+        let u = if sample < DELAYED { before } else { command(sample - DELAYED) };
+        for _ in 0..PARTS {
+            let middle = velocity + 0.5 * h * acceleration(velocity, u);
+            position += h * middle;
+            velocity += h * acceleration(middle, u);
+        }
+    }
+    Record::new(time_s, output, input).expect("a record")
+}
+
+#[test]
+fn what_acted_before_the_log_may_have_been_anything() {
+    for before in [-6.0, 1.0, 40.0] {
+        let record = vehicle(|v, u| u - 0.5 * v, before);
+        let model = BoundedModel { delay: DelayBound::KnownS(0.4), quantum: Some(0.01), ..settings(DragLaw::Linear) };
+        let found = enclose(&[&record], &model).expect("bounds");
+        let [low, high] = found.of(Quantity::Alpha).expect("bounds of alpha");
+        assert!(found.verdict == Consistency::Consistent && low <= 1.0 && 1.0 <= high, "{before}: {found:?}");
+    }
+}
+
+#[test]
+fn quadratic_and_cubic_drag_without_a_linear_one_are_found() {
+    let record = vehicle(|v, u| u - 0.5 * v * v.abs() - 0.3 * v * v * v, 1.0);
+    let model = BoundedModel {
+        delay: DelayBound::KnownS(0.4),
+        quantum: Some(0.01),
+        cubic: true,
+        ..settings(DragLaw::Quadratic)
+    };
+    let found = enclose(&[&record], &model).expect("bounds");
+    for (quantity, truth) in [(Quantity::Alpha, 1.0), (Quantity::BetaQuadratic, 0.5), (Quantity::BetaCubic, 0.3)] {
+        let [low, high] = found.of(quantity).expect("bounds");
+        assert!(found.verdict == Consistency::Consistent && low <= truth && truth <= high, "{quantity:?}: {found:?}");
+    }
+}

@@ -297,8 +297,16 @@ impl Way<'_> {
         self.drive.fields.over.has(Term::LagRate)
     }
 
-    /// For the duration `h`, the command constant unless it is `uncertain`; notes the samples on the way, `ahead` from here.
-    fn advance(&mut self, u: Interval, u_at: Interval, h: Interval, uncertain: bool, ahead: &[Interval]) -> Option<()> {
+    /// For the duration `h`, the command constant unless it is `uncertain`; notes those samples on the way, `ahead` from here, that are
+    /// heard.
+    fn advance(
+        &mut self,
+        u: Interval,
+        u_at: Interval,
+        h: Interval,
+        uncertain: bool,
+        ahead: &[(Interval, bool)],
+    ) -> Option<()> {
         if !self.lagged() {
             (self.state.over[FORCE], self.state.at[FORCE]) = (u, u_at);
         }
@@ -325,7 +333,7 @@ impl Way<'_> {
             let mut at_end = None;
             if step.is_none() {
                 // The point goes its own way, and the step ends with a sample, that it be known there.
-                if let Some(sample) = ahead.first() {
+                if let Some((sample, _)) = ahead.first() {
                     let until = *sample - gone;
                     if until.lower() > 0.0 && until.upper() < part.lower() {
                         part = until;
@@ -338,17 +346,20 @@ impl Way<'_> {
             self.drive.steps.set(self.drive.steps.get() + 1);
             self.speed = self.speed.max(step.within[VELOCITY].magnitude());
             let (last, noted) = (part == left, self.nodes.len());
-            while let Some(sample) = ahead.first() {
+            while let Some((sample, heard)) = ahead.first() {
                 let time = *sample - gone;
                 if !(last || time.upper() <= part.upper()) {
                     break;
+                }
+                ahead = &ahead[1..];
+                if !heard {
+                    continue;
                 }
                 let arrival = step.at(time);
                 let columns = self.carried(&arrival);
                 let at = arrival.at.or(at_end.map(|(at, passed)| if time == part { at } else { passed }))?;
                 let (bends, rest) = (arrival.carry_bends(&self.bends), arrival.carry_rest(&self.rest));
                 self.note(arrival.over, at, &columns, &bends, &rest)?;
-                ahead = &ahead[1..];
             }
             if self.nodes.len() > noted {
                 self.speed = step.within[VELOCITY].magnitude();
@@ -401,8 +412,13 @@ impl Way<'_> {
     }
 }
 
-/// The motion at `times` (the first is where it starts). `None` where it cannot be enclosed.
-pub(super) fn follow(drive: &Drive<'_>, start: Pair, times: &[f64], unknowns: Unknowns<'_>) -> Option<Vec<Node>> {
+/// The motion at those of the `times` that are heard, the first, where it starts, among them. `None` where it cannot be enclosed.
+pub(super) fn follow(
+    drive: &Drive<'_>,
+    start: Pair,
+    times: &[(f64, bool)],
+    unknowns: Unknowns<'_>,
+) -> Option<Vec<Node>> {
     let bundles = Bundle::of(unknowns.mixes, unknowns.deviations);
     let columns = bundles.iter().map(|bundle| bundle.start).collect();
     let pairs = unknowns.bending.then(|| Pairs::of(unknowns.mixes, unknowns.deviations));
@@ -421,7 +437,7 @@ pub(super) fn follow(drive: &Drive<'_>, start: Pair, times: &[f64], unknowns: Un
         speed: 0.0,
         nodes: Vec::new(),
     };
-    let (begin, end) = (*times.first()?, *times.last()?);
+    let (begin, end) = (times.first()?.0, times.last()?.0);
     // Switchings that have certainly, and perhaps, happened; and the point's own, of which at most the order is in doubt.
     let command = drive.command;
     let instants: Vec<(f64, f64)> =
@@ -446,7 +462,7 @@ pub(super) fn follow(drive: &Drive<'_>, start: Pair, times: &[f64], unknowns: Un
     let first = way.columns.clone();
     let bends = way.bends.clone();
     way.note(start.over, start.at, &first, &bends, &rest)?;
-    let mut now = begin;
+    let (mut now, mut from) = (begin, 1);
     loop {
         let next = |list: &[(f64, f64)], index: usize, close: bool| {
             list.get(index).map_or(f64::INFINITY, |window| if close { window.1 } else { window.0 })
@@ -455,10 +471,11 @@ pub(super) fn follow(drive: &Drive<'_>, start: Pair, times: &[f64], unknowns: Un
         let (close_at, open_at) = (next(&instants, done_at, true), next(&instants, begun_at, false));
         let until = end.min(close).min(open).min(close_at).min(open_at);
         if until > now {
-            let from = way.nodes.len();
-            let to = from + times[from..].partition_point(|time| *time <= until);
-            let ahead: Vec<Interval> =
-                times[from..to].iter().map(|time| Interval::point(*time) - Interval::point(now)).collect();
+            let to = from + times[from..].partition_point(|(time, _)| *time <= until);
+            let ahead = times[from..to].iter();
+            let ahead: Vec<(Interval, bool)> =
+                ahead.map(|(time, heard)| (Interval::point(*time) - Interval::point(now), *heard)).collect();
+            from = to;
             let h = Interval::point(until) - Interval::point(now);
             let uncertain = begun > done || begun_at > done_at || done_at != done;
             way.advance(
@@ -484,7 +501,8 @@ pub(super) fn follow(drive: &Drive<'_>, start: Pair, times: &[f64], unknowns: Un
             break;
         }
     }
-    (way.nodes.len() == times.len()).then_some(way.nodes)
+    let heard = times[1..].iter().filter(|(_, heard)| *heard).count();
+    (way.nodes.len() == 1 + heard).then_some(way.nodes)
 }
 
 /// Terms that are in the model, for a field whose terms are `terms`.

@@ -1,13 +1,13 @@
-//! The check: enclosures over the boxes that are listed, and sums. No search, no linear programme.
+//! The check: what a certificate says of its records, stage by stage. No search, no linear programme.
 
 use core::cell::Cell;
-use std::collections::BTreeMap;
 
 use super::super::command::Command;
-use super::super::contract::{Hat, Linear, Model, Origin};
+use super::super::contract::Model;
 use super::super::field::Term;
-use super::super::problem::{Layout, Readings, Window};
-use super::{By, Certificate, Combination, Cut, FORMAT, Stage, Step, Witness, shorten};
+use super::super::problem::{Layout, Readings, Window, swing_s};
+use super::walk::{Walk, Work};
+use super::{Certificate, FORMAT, Stage, Witness};
 use crate::numeric::Interval;
 
 /// Why a certificate is not accepted.
@@ -102,7 +102,7 @@ pub struct Shown {
     pub readings: usize,
 }
 
-fn malformed(text: &str) -> Unproved {
+pub(super) fn malformed(text: &str) -> Unproved {
     Unproved::Malformed { text: text.to_owned() }
 }
 
@@ -110,7 +110,7 @@ pub(super) fn sides(ends: &[[f64; 2]]) -> Option<Vec<Interval>> {
     ends.iter().map(|[low, high]| Interval::new(*low, *high).filter(|side| side.is_bounded())).collect()
 }
 
-fn within(inner: &[Interval], outer: &[Interval]) -> bool {
+pub(super) fn within(inner: &[Interval], outer: &[Interval]) -> bool {
     inner.iter().zip(outer).all(|(inner, outer)| inner.is_subset_of(*outer))
 }
 
@@ -155,6 +155,12 @@ impl Certificate {
         })
     }
 
+    /// The same of one stage by itself.
+    pub(super) fn accepts(&self, stage: &Stage) -> Result<(), Unproved> {
+        let readings = self.readings()?;
+        Walk::of(self, &readings, stage, self.stages.len())?.go(&mut Work::default())
+    }
+
     /// Ranges of a stage's terms and of its delay, by name.
     fn named(&self, stage: &Stage, ranges: &[[f64; 2]]) -> Vec<(&'static str, [f64; 2])> {
         let names = self.terms.iter().map(|term| term.name()).chain(["delay_s"]);
@@ -186,6 +192,8 @@ impl Certificate {
             || self.terms.contains(&Term::Disturbance)
             || self.records.is_empty()
             || !finite
+            // Its share of the quadratic drag is in the linear one's coefficient.
+            || self.middle_speed != 0.0 && ![Term::Linear, Term::Quadratic].iter().all(|term| self.terms.contains(term))
         {
             return Err(malformed("the equation or its records"));
         }
@@ -218,7 +226,7 @@ impl Certificate {
         each.collect::<Option<_>>().ok_or_else(|| malformed("a record"))
     }
 
-    fn layout(&self, readings: &[Readings], stage: &Stage) -> Option<Layout> {
+    pub(super) fn layout(&self, readings: &[Readings], stage: &Stage) -> Option<Layout> {
         let windows: Vec<Window> =
             stage.windows.iter().map(|&[record, first, last]| Window { record, first, last }).collect();
         // Each record's follow one another, the first from where every command that acts is in the log.
@@ -248,7 +256,7 @@ impl Certificate {
         Some(Layout::new(self.terms.clone(), delayed, instants, windows))
     }
 
-    fn model<'a>(&self, readings: &'a [Readings], layout: &'a Layout, stage: &Stage) -> Model<'a> {
+    pub(super) fn model<'a>(&self, readings: &'a [Readings], layout: &'a Layout, stage: &Stage) -> Model<'a> {
         Model {
             records: readings,
             layout,
@@ -256,8 +264,10 @@ impl Certificate {
             known_delay_s: Interval::point(stage.delay_s.unwrap_or(0.0)),
             least_linear: self.least_linear,
             fastest: self.fastest,
-            per_s: None,
+            per_s: Some(1.0 / swing_s(readings)),
             steps: Cell::new(0),
+            reach: usize::MAX,
+            heard: None,
         }
     }
 
@@ -288,177 +298,4 @@ impl Certificate {
         let misfit = misfits.fold(0.0, f64::max);
         if misfit <= 1.0 { Ok(()) } else { Err(Unproved::Witness { misfit }) }
     }
-}
-
-/// What was done.
-#[derive(Default)]
-struct Work {
-    excluded: usize,
-    enclosures: usize,
-}
-
-/// A stage with what its steps need.
-struct Walk<'a> {
-    stage: &'a Stage,
-    index: usize,
-    certificate: &'a Certificate,
-    readings: &'a [Readings],
-    layout: Layout,
-    left: Option<Vec<Interval>>,
-    from: Vec<Interval>,
-}
-
-impl<'a> Walk<'a> {
-    fn of(
-        certificate: &'a Certificate,
-        readings: &'a [Readings],
-        stage: &'a Stage,
-        index: usize,
-    ) -> Result<Self, Unproved> {
-        let layout = certificate.layout(readings, stage).ok_or_else(|| malformed("a window"))?;
-        let from = sides(&stage.from).filter(|from| from.len() == layout.parameters() && from[0].lower() > 0.0);
-        let mut from = from.ok_or_else(|| malformed("a range"))?;
-        let positive = |term| layout.place_of(term).is_none_or(|place| from[place].lower() >= 0.0);
-        if ![Term::Quadratic, Term::Cubic, Term::Stiffness, Term::LagRate].into_iter().all(positive) {
-            return Err(malformed("a range"));
-        }
-        from.extend(layout.states(readings, certificate.fastest));
-        let left = stage.left.as_ref().map(|left| sides(left).filter(|left| left.len() == layout.parameters()));
-        let left = left.map(|left| left.ok_or_else(|| malformed("what is left"))).transpose()?;
-        Ok(Self { stage, index, certificate, readings, layout, left, from })
-    }
-
-    fn go(&self, work: &mut Work) -> Result<(), Unproved> {
-        let mut open = vec![self.from.clone()];
-        for (step, what) in self.stage.steps.iter().enumerate() {
-            let wrong = |what| Unproved::Step { stage: self.index, step, what };
-            let at = open.pop().ok_or(Unproved::Incomplete { stage: self.index })?;
-            match what {
-                Step::Keep => {
-                    if !self.left.as_ref().is_some_and(|left| within(&at[..left.len()], left)) {
-                        return Err(wrong("the box is not within what is left"));
-                    }
-                }
-                Step::Divide { unknown, at: value } => {
-                    let halves = at
-                        .get(*unknown)
-                        .map(|side| [Interval::new(side.lower(), *value), Interval::new(*value, side.upper())]);
-                    let Some([Some(low), Some(high)]) = halves else {
-                        return Err(wrong("the division is not within the box"));
-                    };
-                    for half in [high, low] {
-                        let mut part = at.clone();
-                        part[*unknown] = half;
-                        open.push(part);
-                    }
-                }
-                Step::Exclude { by, rows } => {
-                    work.enclosures += 1;
-                    let excluded = match self.rows(*by, &at, [rows.as_slice()]).ok_or(wrong("there is no enclosure"))? {
-                        None => true,
-                        Some((linear, _)) => bound(&linear, &[], rows).is_some_and(|bound| bound < 0.0),
-                    };
-                    if !excluded {
-                        return Err(wrong("the box is not excluded"));
-                    }
-                    work.excluded += 1;
-                }
-                Step::Contract { by, cuts } => {
-                    work.enclosures += 1;
-                    let cut = self.rows(*by, &at, cuts.iter().map(|cut| cut.rows.as_slice()));
-                    match cut.ok_or(wrong("there is no enclosure"))? {
-                        None => work.excluded += 1,
-                        Some((linear, direct)) => {
-                            let mut at = at;
-                            for cut in cuts {
-                                let shown = shown(&linear, &direct, &at, cut);
-                                if !shown {
-                                    return Err(wrong("the range is not that short"));
-                                }
-                            }
-                            if cuts.iter().all(|cut| shorten(&mut at, cut)) {
-                                open.push(at);
-                            } else {
-                                work.excluded += 1;
-                            }
-                        }
-                    }
-                }
-            }
-        }
-        if open.is_empty() { Ok(()) } else { Err(Unproved::Incomplete { stage: self.index }) }
-    }
-
-    /// The inequalities over a box and what the enclosure itself leaves of it: `Some(None)` for nothing, `None` where there is no
-    /// enclosure. Of the hats only those in the `combinations`.
-    fn rows<'r>(
-        &self,
-        by: By,
-        at: &[Interval],
-        combinations: impl IntoIterator<Item = &'r [(Origin, f64)]>,
-    ) -> Option<Option<(Linear, Vec<Interval>)>> {
-        let model = self.certificate.model(self.readings, &self.layout, self.stage);
-        let mut own = at.to_vec();
-        let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
-        let linear = match by {
-            By::Hats => {
-                let mut hats: Vec<Vec<Hat>> = vec![Vec::new(); self.readings.len()];
-                for (origin, _) in combinations.into_iter().flatten() {
-                    if let Origin::Hat { record, samples, .. } = origin {
-                        let samples_of = self.readings.get(*record)?.time_s.len();
-                        let [l, m, r] = *samples;
-                        if !(l < m && m < r && r < samples_of) {
-                            return None;
-                        }
-                        hats[*record].push(*samples);
-                    }
-                }
-                hats.iter_mut().for_each(|hats| {
-                    hats.sort_unstable();
-                    hats.dedup();
-                });
-                model.weighed(&hats, &mut own).map(|mut linear| {
-                    model.bound(&mut linear);
-                    linear
-                })
-            }
-            By::Whole => Some(model.unbroken(at, centre)?),
-            By::Window(window) => {
-                if window >= self.layout.windows().len() {
-                    return None;
-                }
-                Some(model.alone(window, at, centre)?)
-            }
-            By::Chain => match model.chained(&mut own, centre) {
-                Ok(linear) => Some(linear?),
-                Err(_) => None,
-            },
-        };
-        Some(linear.map(|linear| (linear, own)))
-    }
-}
-
-/// The value of the multipliers; `None` where one is no multiplier or names no inequality.
-fn bound(linear: &Linear, objective: &[(usize, f64)], rows: &Combination) -> Option<f64> {
-    let places: BTreeMap<Origin, usize> =
-        linear.origins.iter().enumerate().map(|(place, origin)| (*origin, place)).collect();
-    let multipliers = rows.iter().map(|(origin, y)| {
-        (*y >= 0.0 && y.is_finite()).then_some(())?;
-        Some((*places.get(origin)?, *y))
-    });
-    let bound = linear.rows.upper_bound(objective, &multipliers.collect::<Option<_>>()?, &linear.deviations);
-    (!bound.is_nan()).then_some(bound)
-}
-
-/// Whether the end of a range follows.
-fn shown(linear: &Linear, direct: &[Interval], at: &[Interval], cut: &Cut) -> bool {
-    let Some(side) = at.get(cut.unknown) else { return false };
-    let sign = if cut.upper { 1.0 } else { -1.0 };
-    let reached = |side: Interval| if cut.upper { side.upper() <= cut.end } else { side.lower() >= cut.end };
-    if cut.rows.is_empty() {
-        return reached(direct[cut.unknown]);
-    }
-    let Some(bound) = bound(linear, &[(cut.unknown, sign)], &cut.rows) else { return false };
-    // Nothing left of the side is less than any end.
-    linear.cut(*side, cut.unknown, sign, bound).is_none_or(reached)
 }

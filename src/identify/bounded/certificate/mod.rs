@@ -2,15 +2,21 @@
 //!
 //! A stage begins with a box of parameters and goes through it depth first. Each step contracts the box at hand, divides it, excludes
 //! it, or keeps it as a part of what is left; what contracts and excludes are nonnegative multipliers of inequalities that the
-//! readings imply over that box. Whoever checks it encloses the motion over the boxes that the file names, and adds.
+//! readings imply over that box. A box may be slanted: it then lies in a box of other coordinates, too, those of its frame. Whoever
+//! checks it encloses the motion over the boxes that the file names, and adds.
 
 mod check;
 mod prove;
+mod prover;
+mod seek;
+mod slant;
 #[cfg(test)]
 mod tests;
+mod walk;
 
 use serde::{Deserialize, Serialize};
 
+use super::FIRST_SWINGS;
 use super::contract::Origin;
 use super::field::Term;
 use super::search::Search;
@@ -20,9 +26,10 @@ use crate::identify::IdentifyError;
 use crate::numeric::Interval;
 
 pub use check::{Shown, Unproved};
+use prove::Goal;
 
 /// Changes with the meaning of a field.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// What is shown, of which readings, and the steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -91,18 +98,19 @@ pub(super) struct Stage {
     pub(super) steps: Vec<Step>,
 }
 
-/// Whence inequalities are.
+/// Whence inequalities are; of each record so many windows are followed, from its first on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum By {
     /// The equation weighed with hats, and speeds from the readings.
-    Hats,
-    /// Whole records.
-    Whole,
-    /// All windows, each linked to the next.
-    Chain,
-    /// One window alone.
-    Window(usize),
+    Hats(usize),
+    /// The motion over windows, each linked to the next.
+    Chain(usize),
+    /// The motion without a break, to the second order in the coordinates of the box's frame; of a box without one, along the axes
+    /// about its middle.
+    Slanted(usize),
+    /// What [`By::Slanted`] found last over a box that this one is a part of.
+    Same,
 }
 
 /// Inequalities with nonnegative multipliers.
@@ -118,18 +126,45 @@ pub(super) struct Cut {
     pub(super) rows: Combination,
 }
 
+/// Coordinates z of parameters and of the states at records' beginnings: `centre + M z`, M unit lower triangular.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Axes {
+    /// Of each row.
+    pub(super) centre: Vec<f64>,
+    /// Row by row, below the diagonal.
+    pub(super) lower: Vec<Vec<f64>>,
+}
+
 /// What is done with the box at hand.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Step {
-    /// It shrinks; to nothing where a range ends before it begins.
+    /// It shrinks; to nothing where a range ends before it begins. A cut may use what those before it leave.
     Contract { by: By, cuts: Vec<Cut> },
+    /// It shrinks in the coordinates of another frame, or of its own, and has that frame then.
+    Turn { by: By, frame: Option<Axes>, cuts: Vec<Cut> },
     /// Nothing is in it; without rows where enclosures have nothing in common.
     Exclude { by: By, rows: Combination },
     /// In two at a value of an unknown; the upper part is the next but what the lower one leads to.
     Divide { unknown: usize, at: f64 },
+    /// The same at a value of a coordinate.
+    Part { coordinate: usize, at: f64 },
     /// It lies in what is left.
     Keep,
+}
+
+impl Step {
+    /// Windows of each record that are followed; none where nothing is.
+    fn reach(&self) -> Option<usize> {
+        match self {
+            Self::Contract { by, .. } | Self::Exclude { by, .. } | Self::Turn { by, .. } => match by {
+                By::Hats(reach) | By::Chain(reach) | By::Slanted(reach) => Some(*reach),
+                By::Same => None,
+            },
+            Self::Divide { .. } | Self::Part { .. } | Self::Keep => None,
+        }
+    }
 }
 
 /// Whether anything is left of the range.
@@ -147,6 +182,7 @@ fn shorten(at: &mut [Interval], cut: &Cut) -> bool {
 
 impl Certificate {
     /// Of a search from the box of `wide`, and of a second one with more readings where there are two `hulls`: what each left.
+    /// Together they took so many `passes`.
     ///
     /// # Errors
     /// [`Unproved::NotFound`] where a stage takes too many steps, however much room there is around what is left.
@@ -155,16 +191,32 @@ impl Certificate {
         settings: &BoundedModel,
         hulls: &[Option<Vec<Interval>>],
         witness: Option<Witness>,
+        passes: usize,
     ) -> Result<Result<Self, Unproved>, IdentifyError> {
-        let mut stages: Vec<Stage> = Vec::new();
-        for hull in hulls {
-            let left = stages.last().and_then(|stage| check::sides(stage.left.as_ref()?));
+        let mut certificate = Self::of(wide, witness);
+        for (index, hull) in hulls.iter().enumerate() {
+            let left = certificate.stages.last().and_then(|stage| check::sides(stage.left.as_ref()?));
             let narrowed = left.map(|left| wide.narrowed(settings, &left)).transpose()?;
-            match Stage::prove(narrowed.as_ref().unwrap_or(wide), hull.as_deref()) {
-                Ok(stage) => stages.push(stage),
+            let setup = narrowed.as_ref().unwrap_or(wide);
+            let goal = match hull {
+                Some(_) if index + 1 < hulls.len() => Goal::Narrow,
+                Some(hull) => Goal::Within(hull),
+                None => Goal::Nothing,
+            };
+            match certificate.stage(setup, setup.beginnings(settings, FIRST_SWINGS).as_ref(), &goal, passes) {
+                Ok(stage) => certificate.stages.push(stage),
                 Err(error) => return Ok(Err(error)),
             }
+            if certificate.stages.last().is_some_and(|stage| stage.left.is_none()) {
+                break;
+            }
         }
+        certificate.statement = certificate.words();
+        Ok(Ok(certificate))
+    }
+
+    /// One without stages.
+    fn of(wide: &Setup, witness: Option<Witness>) -> Self {
         let sensed = wide.records.iter().map(|readings| Sensed {
             time_s: readings.time_s.clone(),
             reading: readings.value.clone(),
@@ -173,7 +225,7 @@ impl Certificate {
             levels: readings.command.levels().to_vec(),
             switched_s: readings.command.spans().iter().map(|(first, last)| [*first, *last]).collect(),
         });
-        let mut certificate = Self {
+        Self {
             format: FORMAT,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             statement: String::new(),
@@ -182,11 +234,9 @@ impl Certificate {
             least_linear: wide.least_linear,
             fastest: wide.fastest,
             records: sensed.collect(),
-            stages,
+            stages: Vec::new(),
             witness,
-        };
-        certificate.statement = certificate.words();
-        Ok(Ok(certificate))
+        }
     }
 
     /// From the text of a file.

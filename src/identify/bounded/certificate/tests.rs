@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use super::super::tests::{record, settings};
 use super::super::{BoundedModel, Consistency, DelayBound, enclose_with_certificate};
-use super::{Certificate, Combination, Stage, Step, Unproved};
+use super::{By, Certificate, Combination, Stage, Step, Unproved};
 use crate::identify::DragLaw;
 
 fn written(model: &BoundedModel, verdict: Consistency) -> Certificate {
@@ -41,29 +41,26 @@ fn what_is_written_is_accepted_and_read_back() {
     }
 }
 
-/// Every step's first combination, one at a time: how many are refused when changed, and how many there are. A contradiction needs
-/// all its rows; a cut that says less than its rows show may do with fewer, and what is accepted is then shown by the rest.
+/// Every step's first combination, one at a time: how many are refused when changed, and how many there are. What says less than its
+/// rows show may do with fewer, and what is accepted is then shown by the rest.
 fn each_changed(change: impl Fn(&mut Combination)) -> (usize, usize) {
     let (mut refused, mut changed) = (0, 0);
     for certificate in both() {
         for step in 0..certificate.stages[0].steps.len() {
             let mut other = certificate.clone();
-            let (rows, contradiction) = match &mut other.stages[0].steps[step] {
-                Step::Contract { cuts, .. } => {
-                    (cuts.iter_mut().map(|cut| &mut cut.rows).find(|rows| rows.len() > 1), false)
+            let rows = match &mut other.stages[0].steps[step] {
+                Step::Contract { cuts, .. } | Step::Turn { cuts, .. } => {
+                    cuts.iter_mut().map(|cut| &mut cut.rows).find(|rows| rows.len() > 1)
                 }
-                Step::Exclude { rows, .. } => (Some(rows).filter(|rows| rows.len() > 1), true),
-                _ => (None, false),
+                Step::Exclude { rows, .. } => Some(rows).filter(|rows| rows.len() > 1),
+                _ => None,
             };
             let Some(rows) = rows else { continue };
             change(rows);
             changed += 1;
-            match other.check() {
-                Ok(_) => assert!(!contradiction, "step {step} without a constraint"),
-                Err(unproved) => {
-                    assert_eq!(unproved.code(), "step");
-                    refused += 1;
-                }
+            if let Err(unproved) = other.check() {
+                assert_eq!(unproved.code(), "step");
+                refused += 1;
             }
         }
     }
@@ -148,4 +145,73 @@ fn a_witness_that_misses_a_reading_and_words_that_say_more_are_refused() {
     boast.statement = REFUTED.statement.clone();
     assert_eq!(refused(&boast), "statement");
     assert!(matches!(Certificate::read("{}"), Err(Unproved::Malformed { .. })));
+}
+
+/// Steps that turn the box, by their numbers.
+fn turns(certificate: &Certificate) -> Vec<usize> {
+    let steps = certificate.stages[0].steps.iter().enumerate();
+    steps.filter(|(_, step)| matches!(step, Step::Turn { .. })).map(|(number, _)| number).collect()
+}
+
+fn with_step(number: usize, step: Step) -> Certificate {
+    let mut other = CONSISTENT.clone();
+    other.stages[0].steps[number] = step;
+    other
+}
+
+#[test]
+fn a_coordinate_that_is_said_to_be_narrower_than_its_rows_show_is_refused() {
+    let (mut refused, mut changed) = (0, 0);
+    for number in turns(&CONSISTENT) {
+        let mut step = CONSISTENT.stages[0].steps[number].clone();
+        let Step::Turn { cuts, .. } = &mut step else { continue };
+        let Some(pair) = cuts.windows(2).position(|pair| pair[0].unknown == pair[1].unknown) else { continue };
+        cuts[pair].end = 0.6 * cuts[pair].end + 0.4 * cuts[pair + 1].end;
+        changed += 1;
+        refused += usize::from(with_step(number, step).check().is_err());
+    }
+    assert!(changed > 0 && refused == changed, "{refused} of {changed}");
+}
+
+#[test]
+fn a_frame_that_is_none_or_nothing_known_is_refused() {
+    let number = turns(&CONSISTENT)[0];
+    let Step::Turn { by, frame: Some(axes), cuts } = CONSISTENT.stages[0].steps[number].clone() else {
+        panic!("the first turn leads into a frame")
+    };
+    let mut square = axes.clone();
+    square.lower[0].push(0.5);
+    let mut short = axes.clone();
+    short.centre.pop();
+    let mut endless = axes.clone();
+    endless.lower[1][0] = f64::INFINITY;
+    for frame in [Some(square), Some(short), Some(endless), None] {
+        // Into its own frame a box may be turned that has one.
+        let step = Step::Turn { by, frame: frame.clone(), cuts: cuts.clone() };
+        assert_eq!(refused(&with_step(number, step)), "step", "{frame:?}");
+    }
+    for by in [By::Chain(1), By::Slanted(0), By::Hats(1)] {
+        let step = Step::Turn { by, frame: Some(axes.clone()), cuts: cuts.clone() };
+        assert_eq!(refused(&with_step(number, step)), "step", "{by:?}");
+    }
+    let steps = &CONSISTENT.stages[0].steps;
+    let first = steps.iter().position(|step| matches!(step, Step::Contract { by: By::Slanted(_), .. })).expect("one");
+    let Step::Contract { cuts, .. } = steps[first].clone() else { panic!("it contracts") };
+    assert_eq!(refused(&with_step(first, Step::Contract { by: By::Same, cuts })), "step");
+}
+
+#[test]
+fn a_part_without_a_frame_or_outside_of_its_range_is_refused() {
+    let insert = |number: usize, coordinate: usize, at: f64| {
+        let mut other = CONSISTENT.clone();
+        other.stages[0].steps.insert(number, Step::Part { coordinate, at });
+        other
+    };
+    assert_eq!(refused(&insert(0, 0, 0.0)), "step");
+    let after = turns(&CONSISTENT)[0] + 1;
+    for (coordinate, at) in [(0, 1e9), (0, f64::NAN), (99, 0.0)] {
+        assert_eq!(refused(&insert(after, coordinate, at)), "step", "{coordinate} {at}");
+    }
+    // A part that is left over.
+    assert_ne!(insert(after, 0, 0.0).check().map_err(|unproved| unproved.code()).err(), None);
 }

@@ -1,0 +1,155 @@
+//! Multipliers for the steps: linear programmes, of which only what they show in intervals counts.
+
+use super::super::contract::{Linear, Origin};
+use super::super::frame::{Affine, Frame};
+use super::super::lp::{Multipliers, Outcome, Programme};
+use super::{Combination, Cut};
+use crate::numeric::Interval;
+
+/// A contradiction is beyond doubt by this share of the errors that it weighs.
+const BEYOND: f64 = 1e-5;
+/// A cut that takes less than this of a range is left out.
+const LEAST_CUT: f64 = 0.05;
+
+/// Room for other enclosures than the search's, on either side of what the multipliers leave of a range.
+#[derive(Clone, Copy)]
+pub(super) struct Caution {
+    /// A share of what is left, or of how far its ends contradict each other.
+    pub(super) of_left: f64,
+    /// A share of what is taken off.
+    pub(super) of_taken: f64,
+}
+
+/// Inequalities, and the programme of those of their unknowns that are bounded.
+pub(super) struct Seek<'a> {
+    linear: &'a Linear,
+    programme: Programme,
+    caution: Caution,
+    /// The error of each row's reading.
+    error: &'a dyn Fn(&Origin) -> f64,
+}
+
+/// What multipliers show of a combination of unknowns.
+pub(super) enum Sought {
+    /// Lower and upper end of its range, with what shows them.
+    Range([(f64, Multipliers); 2]),
+    /// Nothing meets the inequalities: these contradict each other by so much.
+    Nothing(Multipliers, f64),
+}
+
+/// What a pass gave.
+pub(super) enum Found {
+    /// A contradiction, and by how much.
+    Excluded(Combination, f64),
+    Cuts(Vec<Cut>),
+}
+
+impl Found {
+    /// A contradiction as a cut that leaves nothing of the first unknown: weighed as heavily as that takes.
+    pub(super) fn into_cuts(self, at: &[Interval]) -> Vec<Cut> {
+        match self {
+            Self::Cuts(cuts) => cuts,
+            Self::Excluded(rows, by) => {
+                let weight = 4.0 * at[0].width() / by;
+                let rows = rows.into_iter().map(|(origin, y)| (origin, weight * y)).collect();
+                vec![Cut { unknown: 0, upper: true, end: at[0].lower() - at[0].width(), rows }]
+            }
+        }
+    }
+}
+
+impl<'a> Seek<'a> {
+    pub(super) fn new(
+        linear: &'a Linear,
+        places: &[usize],
+        caution: Caution,
+        error: &'a dyn Fn(&Origin) -> f64,
+    ) -> Self {
+        Self { linear, programme: Programme::of(&linear.rows, &linear.deviations, places), caution, error }
+    }
+
+    /// `None` where a contradiction is not beyond doubt.
+    fn sought(
+        &self,
+        objective: impl Fn(f64) -> Vec<(usize, f64)>,
+        most: impl Fn(f64, &Multipliers) -> f64,
+    ) -> Option<Sought> {
+        let end = |sign: f64| match self.programme.maximise(&objective(sign)) {
+            Outcome::Empty { multipliers } => {
+                let bound = self.linear.rows.upper_bound(&[], &multipliers, &self.linear.deviations);
+                let weighed: f64 =
+                    multipliers.iter().map(|(row, y)| y * (self.error)(&self.linear.origins[*row])).sum();
+                Err((bound < -BEYOND * weighed).then_some((multipliers, -bound)))
+            }
+            Outcome::Bounded { multipliers, .. } => Ok((sign * most(sign, &multipliers), multipliers)),
+        };
+        match (end(-1.0), end(1.0)) {
+            (Ok(low), Ok(high)) => Some(Sought::Range([low, high])),
+            (Err(nothing), _) | (_, Err(nothing)) => nothing.map(|(rows, by)| Sought::Nothing(rows, by)),
+        }
+    }
+
+    /// Of one of the unknowns.
+    pub(super) fn unknown(&self, unknown: usize) -> Option<Sought> {
+        let most = |sign: f64, multipliers: &Multipliers| {
+            let bound = self.linear.rows.upper_bound(&[(unknown, sign)], multipliers, &self.linear.deviations);
+            (Interval::point(sign) * Interval::point(self.linear.centre[unknown]) + Interval::point(bound)).upper()
+        };
+        self.sought(|sign| vec![(unknown, sign)], most)
+    }
+
+    /// Of a combination of a frame's coordinates, which the unknowns are.
+    pub(super) fn combination(&self, affine: &Affine, frame: &Frame) -> Option<Sought> {
+        self.sought(|sign| affine.objective(sign), |sign, rows| affine.most(sign, frame, self.linear, rows))
+    }
+
+    /// Multipliers by what the rows are.
+    pub(super) fn named(&self, multipliers: &Multipliers) -> Combination {
+        multipliers.iter().filter(|(_, y)| *y > 0.0).map(|(row, y)| (self.linear.origins[*row], *y)).collect()
+    }
+
+    /// Cuts of several unknowns, each with its range, or a contradiction.
+    pub(super) fn collect(
+        &self,
+        sought: impl Iterator<Item = (usize, Interval, Option<Sought>)>,
+        face: impl Fn(usize) -> Option<Interval>,
+    ) -> Found {
+        let mut cuts = Vec::new();
+        for (unknown, side, sought) in sought {
+            match sought {
+                Some(Sought::Nothing(multipliers, by)) => return Found::Excluded(self.named(&multipliers), by),
+                Some(Sought::Range(ends)) => cuts.extend(self.cuts(unknown, side, &ends, face(unknown))),
+                None => {}
+            }
+        }
+        Found::Cuts(cuts)
+    }
+
+    /// Cuts that take something off a range of which no more than `face` needs to be left, if that is given; one alone where nothing
+    /// is left.
+    fn cuts(&self, unknown: usize, side: Interval, ends: &[(f64, Multipliers); 2], face: Option<Interval>) -> Vec<Cut> {
+        let [(low, below), (high, above)] = ends;
+        let Caution { of_left, of_taken } = self.caution;
+        let room = of_left * (high - low).abs();
+        let mut cuts = Vec::new();
+        for (upper, end, multipliers) in [(true, *high, above), (false, *low, below)] {
+            let sign = if upper { 1.0 } else { -1.0 };
+            let (now, other) = if upper { (side.upper(), side.lower()) } else { (side.lower(), side.upper()) };
+            let end = end + sign * (room + of_taken * (sign * (now - end)).max(0.0));
+            let gained = sign * (now - end);
+            let reaches = face.is_some_and(|face| {
+                let face = if upper { face.upper() } else { face.lower() };
+                sign * (now - face) > 0.0 && sign * (end - face) <= 0.0
+            });
+            if !(gained > LEAST_CUT * side.width() || reaches && gained > 0.0) {
+                continue;
+            }
+            let cut = Cut { unknown, upper, end, rows: self.named(multipliers) };
+            if sign * (end - other) < 0.0 {
+                return vec![cut];
+            }
+            cuts.push(cut);
+        }
+        cuts
+    }
+}
