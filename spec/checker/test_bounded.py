@@ -16,15 +16,15 @@ FILES = {name: json.loads((FOLDER / f"{name}.json").read_text()) for name in ("r
 
 
 def of_motion(certificate):
-    """Combinations of rows that are verified here, contradictions first: these need all their rows. A cut may say less than its rows
-    show, the last ones, over the narrowest boxes, by least."""
+    """Combinations of rows by the motion, contradictions first: these need all their rows, and a contradiction among cuts is the last of
+    them. A cut may say less than its rows show, the last ones, over the narrowest boxes, by least."""
     steps = [step for step in certificate["stages"][0]["steps"] if not isinstance(step, str)]
     for step in sorted(reversed(steps), key=lambda step: "exclude" not in step):
         if "divide" in step or "part" in step:
             continue
         (what,) = step.values()
         if "hats" not in what["by"] and (what.get("rows") or what.get("cuts")):
-            rows = what["rows"] if "rows" in what else what["cuts"][0]["rows"]
+            rows = what["rows"] if "rows" in what else what["cuts"][-1]["rows"]
             if len(rows) > 1:
                 yield rows
 
