@@ -11,6 +11,7 @@ import bounded
 import second_order
 from boxes import Box, Frame
 from check import Refused
+from motion import advance_point
 from second_order import ONE, ZERO, Enclosure, Poly, Strays, ball
 
 TERMS = {
@@ -65,7 +66,8 @@ def exact_motion(equation, state, u, h):
         b, force = equation.at["linear"], equation.at["gain"] * u + equation.at["disturbance"]
         fade = (-b * h).exp()
         return [state[0] + force / b * h + (state[1] - force / b) * (ONE - fade) / b, force / b + (state[1] - force / b) * fade, ZERO]
-    return bounded.moved(equation, state, u, h, 3 if "lag_rate" in equation.has else 2)
+    start = state if "lag_rate" in equation.has else [state[0], state[1], u]
+    return advance_point(equation, start, u, h)[0]
 
 
 def outputs(stage, theta, index=0):
