@@ -11,7 +11,8 @@ from boxes import Box, Frame, number
 from check import Refused, require
 from hats import Hats, Unsupported
 from motion import Equation, Motion, Products, Unfollowed, span, times
-from second_order import Enclosure, ball, exact
+from polynomials import ball, exact
+from second_order import Enclosure
 
 FORMAT = 2
 # Boxes whose inertia is known worse than this are followed with exact products.

@@ -7,6 +7,7 @@ import pytest
 
 import bounded
 import hats
+import speeds
 from check import Refused
 
 INSIDE = 0.999
@@ -320,7 +321,7 @@ def by_the_earliest_delay(patch):
 
 
 def between_the_ends(patch):
-    patch.setattr(hats, "lowest_between", lambda a, b, rates, lasted: min(a, b))
+    patch.setattr(speeds, "lowest_between", lambda a, b, rates, lasted: min(a, b))
 
 
 def the_spring_left_out(patch):

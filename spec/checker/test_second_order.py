@@ -12,7 +12,8 @@ import second_order
 from boxes import Box, Frame
 from check import Refused
 from motion import advance_point
-from second_order import ONE, ZERO, Enclosure, Poly, Strays, ball
+from polynomials import Poly, ball
+from second_order import ONE, ZERO, Enclosure, Strays
 
 TERMS = {
     "linear": {"gain": 1.0, "linear": 0.5},

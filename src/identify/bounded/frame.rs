@@ -40,6 +40,11 @@ impl Affine {
         self.weights.iter().map(|weight| sign * weight.midpoint()).enumerate().collect()
     }
 
+    /// All that it can be.
+    pub(super) fn over(&self, z: &[Interval]) -> Interval {
+        self.constant + Interval::dot(self.weights.iter().copied().zip(z.iter().copied()))
+    }
+
     /// An upper bound of it, times `sign`, over a frame's box, of which the rows are inequalities about the middle.
     pub(super) fn most(&self, sign: f64, frame: &Frame, linear: &Linear, multipliers: &Multipliers) -> f64 {
         let (objective, sign) = (self.objective(sign), Interval::point(sign));
@@ -64,6 +69,18 @@ impl Frame {
         let constant = Interval::point(self.centre[self.places[row]]);
         let weights = (0..self.places.len()).map(|column| if column <= row { self.weight(row, column) } else { 0.0 });
         Affine { constant, weights: weights.map(Interval::point).collect() }
+    }
+
+    /// What a combination of unknowns is by them; `None` where it has one of no row.
+    pub(super) fn combination(&self, parts: &[(usize, f64)]) -> Option<Affine> {
+        let mut sum = Affine { constant: Interval::ZERO, weights: vec![Interval::ZERO; self.places.len()] };
+        for (place, factor) in parts {
+            let own = self.unknown(self.places.iter().position(|own| own == place)?);
+            let factor = Interval::point(*factor);
+            sum.constant += factor * own.constant;
+            sum.weights.iter_mut().zip(own.weights).for_each(|(sum, weight)| *sum += factor * weight);
+        }
+        Some(sum)
     }
 
     /// What the coordinates of another frame are by its own.

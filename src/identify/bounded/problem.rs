@@ -26,9 +26,7 @@ impl Readings {
         let edges = self.command.spans().iter().take_while(|(first, _)| *first <= last).count();
         Self { time_s, value, command: self.command.until(edges), ..self.clone() }
     }
-}
 
-impl Readings {
     /// Mean time between two switchings.
     pub(super) fn swing_s(&self) -> f64 {
         (self.time_s[self.time_s.len() - 1] - self.time_s[0]) / (self.command.edges() + 1) as f64

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::contract::{Linear, Model, Span};
 use super::divide::Kept;
-use super::frame::{Frame, dot};
+use super::frame::{Affine, Frame, dot};
 use super::lp::{Multipliers, Outcome, Programme};
 use super::mix::Mix;
 use super::search::{Empty, Left, Method, Search};
@@ -23,48 +23,43 @@ impl Model<'_> {
 }
 
 impl Linear {
-    /// An upper bound of a combination of the deviations.
-    fn most(&self, programme: &Programme, objective: &[(usize, f64)]) -> Result<f64, Multipliers> {
+    /// An upper bound of what an objective's multipliers show, as `most` makes one of them.
+    fn shown(
+        &self,
+        programme: &Programme,
+        objective: &[(usize, f64)],
+        most: impl Fn(&Multipliers) -> f64,
+    ) -> Result<f64, Multipliers> {
         match programme.maximise(objective) {
             Outcome::Empty { multipliers } if self.rows.upper_bound(&[], &multipliers, &self.deviations) < 0.0 => {
                 Err(multipliers)
             }
             Outcome::Empty { .. } => Ok(f64::INFINITY),
-            Outcome::Bounded { multipliers, .. } => {
-                Ok(self.rows.upper_bound(objective, &multipliers, &self.deviations))
-            }
+            Outcome::Bounded { multipliers, .. } => Ok(most(&multipliers)),
         }
     }
 
-    /// What the rows leave of a combination; with the multipliers that contradict it, of nothing.
-    fn range(&self, programme: &Programme, objective: &[(usize, f64)]) -> Result<Interval, Multipliers> {
-        let own = dot(objective, &self.deviations);
-        let opposite: Vec<(usize, f64)> = objective.iter().map(|(index, weight)| (*index, -weight)).collect();
-        let (most, least) = (self.most(programme, objective)?, self.most(programme, &opposite)?);
-        let range = Interval::new(-least, most).and_then(|range| range.intersection(own));
+    /// What the rows leave of a combination of the unknowns; with the multipliers that contradict it, of nothing.
+    fn range(&self, programme: &Programme, parts: &[(usize, f64)]) -> Result<Interval, Multipliers> {
+        let end = |sign: f64| {
+            let objective: Vec<(usize, f64)> = parts.iter().map(|(index, weight)| (*index, sign * weight)).collect();
+            self.shown(programme, &objective, |rows| self.rows.upper_bound(&objective, rows, &self.deviations))
+        };
+        let range =
+            Interval::new(-end(-1.0)?, end(1.0)?).and_then(|range| range.intersection(dot(parts, &self.deviations)));
         range.ok_or_else(Multipliers::new)
     }
 
-    /// What they leave of the coordinates of another frame about the same centre, the unknowns being those of `own` about their middle.
+    /// The same of a combination of a frame's coordinates.
+    fn range_of(&self, programme: &Programme, affine: &Affine, own: &Frame) -> Result<Interval, Multipliers> {
+        let end = |sign: f64| self.shown(programme, &affine.objective(sign), |rows| affine.most(sign, own, self, rows));
+        let range = Interval::new(-end(-1.0)?, end(1.0)?).and_then(|range| range.intersection(affine.over(&own.z)));
+        range.ok_or_else(Multipliers::new)
+    }
+
+    /// What they leave of the coordinates of another frame.
     fn turned(&self, programme: &Programme, own: &Frame, next: &Frame) -> Result<Vec<Interval>, Multipliers> {
-        let middle = own.middle();
-        // Each new coordinate is a combination of the old ones, known to within rounding.
-        let columns: Vec<Vec<Interval>> = (0..own.places.len())
-            .map(|column| {
-                next.coordinates(|row| Interval::point(if row < column { 0.0 } else { own.weight(row, column) }))
-            })
-            .collect();
-        (0..own.places.len())
-            .map(|row| {
-                let objective: Vec<(usize, f64)> =
-                    (0..=row).map(|column| (column, columns[column][row].midpoint())).collect();
-                let range = self.range(programme, &objective)?;
-                let rounded = objective
-                    .iter()
-                    .map(|(column, weight)| (columns[*column][row] - Interval::point(*weight), own.z[*column]));
-                Ok(dot(&objective, &middle) + range + Interval::dot(rounded))
-            })
-            .collect()
+        own.turned(next).iter().map(|affine| self.range_of(programme, affine, own)).collect()
     }
 }
 
@@ -111,18 +106,7 @@ impl Held {
         let Some(frame) = &self.frame else {
             return Some(at_centre + self.linear.range(&self.programme, parts).ok()?);
         };
-        let mut turned = vec![Interval::ZERO; frame.places.len()];
-        for (place, factor) in parts {
-            let row = frame.places.iter().position(|own| own == place)?;
-            for (column, weight) in frame.row(row) {
-                turned[column] += Interval::point(*factor) * Interval::point(weight);
-            }
-        }
-        let objective: Vec<(usize, f64)> = turned.iter().map(|weight| weight.midpoint()).enumerate().collect();
-        let range = self.linear.range(&self.programme, &objective).ok()?;
-        let rounded = turned.iter().map(|weight| *weight - Interval::point(weight.midpoint()));
-        let rounded = Interval::dot(rounded.zip(self.linear.deviations.iter().copied()));
-        Some(at_centre + Interval::dot(turned.iter().copied().zip(frame.middle())) + range + rounded)
+        self.linear.range_of(&self.programme, &frame.combination(parts)?, frame).ok()
     }
 }
 
@@ -181,20 +165,14 @@ impl Search<'_> {
             linear.deviations = at.iter().zip(&linear.centre).map(|(side, c)| *side - Interval::point(*c)).collect();
             Empty { method: Method::Whole, multipliers, linear: Some(linear) }
         };
-        let middle = own.middle();
         let unknowns: Vec<usize> = (0..own.places.len()).collect();
         let programme = Programme::of(&linear.rows, &linear.deviations, &unknowns);
         for (row, place) in own.places.iter().enumerate() {
-            let objective = own.row(row);
-            let range = linear.range(&programme, &objective).map_err(|rows| empty(rows, &linear, at))?;
-            let side = Interval::point(own.centre[*place]) + dot(&objective, &middle) + range;
+            let side = linear.range_of(&programme, &own.unknown(row), &own).map_err(|rows| empty(rows, &linear, at))?;
             at[*place] = at[*place].intersection(side).ok_or_else(parted)?;
         }
         let next = if informed {
-            for row in unknowns {
-                let range = linear.range(&programme, &[(row, 1.0)]).map_err(|rows| empty(rows, &linear, at))?;
-                own.z[row] = own.z[row].intersection(middle[row] + range).ok_or_else(parted)?;
-            }
+            own.z = linear.turned(&programme, &own, &own).map_err(|rows| empty(rows, &linear, at))?;
             if surface.rest > STALE * slack {
                 let z = own.z.clone();
                 Slanted { frame: own.moved(z), surface: None, informed }

@@ -43,6 +43,15 @@ pub(super) struct Speeds {
     pub(super) between: Vec<Interval>,
     /// Accelerations between each sample and the next.
     pub(super) rates: Vec<Interval>,
+    /// The first sample at which anything is known; before it the velocity is one that is looked for.
+    pub(super) known: usize,
+}
+
+impl Speeds {
+    /// The largest from the first sample on that is known.
+    pub(super) fn fastest(&self) -> f64 {
+        self.between.iter().skip(self.known).fold(0.0, |fastest, speed| fastest.max(speed.magnitude()))
+    }
 }
 
 /// Times of more than one interval between samples in which no switching can act.
@@ -165,7 +174,8 @@ impl Model<'_> {
     /// The first sample from which on every command that acts is in the log. What acted before may have been anything.
     fn known(&self, record: usize, at: &[Interval]) -> usize {
         let time_s = &self.records[record].time_s;
-        let begin = Interval::point(time_s[0]) + self.delay_s(at) + Interval::point(self.records[record].jitter_s);
+        let begin = Interval::point(time_s[0]) + self.delay_s(at);
+        let begin = plus(begin.upper(), self.records[record].jitter_s);
         time_s.partition_point(|time| *time < begin.upper())
     }
 
@@ -243,7 +253,7 @@ impl Model<'_> {
     pub(super) fn speeds(&self, record: usize, at: &[Interval]) -> Option<Speeds> {
         let speeds = self.slower(record, at, self.fastest)?;
         let driven = self.least_linear < 0.0 || self.layout.place_of(Term::Stiffness).is_some();
-        let fastest = speeds.between.iter().fold(0.0f64, |fastest, speed| fastest.max(speed.magnitude()));
+        let fastest = speeds.fastest();
         // What drives in proportion to a speed, or to a way, is less over slower ones.
         let slow = driven && fastest < SLOWER * self.fastest;
         let speeds = if slow { self.slower(record, at, fastest)? } else { speeds };
@@ -276,7 +286,7 @@ impl Model<'_> {
         let at_samples = (0..=intervals)
             .map(|sample| between[sample.saturating_sub(1)].hull(between[sample.min(intervals - 1)]))
             .collect();
-        Speeds { at_samples, between, rates }
+        Speeds { at_samples, between, rates, known: speeds.known }
     }
 
     /// Accelerations between samples, over a box, given the velocities and what acts besides drag.
@@ -288,8 +298,8 @@ impl Model<'_> {
     }
 
     /// Velocities once more: what the mean over a time is off the velocity at its ends is half of what the acceleration adds.
-    pub(super) fn accelerated(&self, record: usize, known: usize, speeds: &mut Speeds) -> Option<()> {
-        let samples = speeds.at_samples.len();
+    pub(super) fn accelerated(&self, record: usize, speeds: &mut Speeds) -> Option<()> {
+        let (samples, known) = (speeds.at_samples.len(), speeds.known);
         let half = Interval::point(0.5);
         for span in SPANS {
             for first in known..samples.saturating_sub(span) {
@@ -318,10 +328,11 @@ impl Model<'_> {
         let pushes = self.pushes(record, at, fastest);
         let readings = &self.records[record];
         let value = &readings.value;
-        let mut speeds = vec![Interval::symmetric(fastest); value.len()];
         let half = Interval::point(0.5);
         let drag = self.drag(at);
-        let known = self.known(record, at);
+        let known = self.known(record, at).min(value.len() - 1);
+        let mut speeds = vec![Interval::symmetric(self.fastest); known];
+        speeds.resize(value.len(), Interval::symmetric(fastest));
         for span in SPANS {
             for first in known..value.len().saturating_sub(span) {
                 let last = first + span;
@@ -377,7 +388,7 @@ impl Model<'_> {
                 speeds[sample - 1] = speeds[sample - 1].intersection(below(largest))?;
             }
         }
-        let mut between_samples = vec![Interval::symmetric(fastest); known.min(pushes.len())];
+        let mut between_samples = vec![Interval::symmetric(self.fastest); known];
         for sample in known + 1..value.len() {
             let (push, lasted) = (pushes[sample - 1], self.lasted(record, sample - 1, sample));
             let (before, after) = (speeds[sample - 1], speeds[sample]);
@@ -394,8 +405,8 @@ impl Model<'_> {
             }
         }
         let rates = self.rates(at, &pushes, &between_samples);
-        let mut speeds = Speeds { at_samples: speeds, between: between_samples, rates };
-        self.accelerated(record, known, &mut speeds)?;
+        let mut speeds = Speeds { at_samples: speeds, between: between_samples, rates, known };
+        self.accelerated(record, &mut speeds)?;
         speeds.rates = self.rates(at, &pushes, &speeds.between);
         Some(speeds)
     }
@@ -407,7 +418,7 @@ impl Model<'_> {
         // What the least and the largest way are ahead of the readings, and the least of the former so far.
         let (mut least, mut largest) = (Interval::ZERO, Interval::ZERO);
         let (mut lowest, mut highest) = (Interval::ZERO, Interval::ZERO);
-        for sample in 1..speeds.at_samples.len() {
+        for sample in speeds.known + 1..speeds.at_samples.len() {
             let lasted = self.lasted(record, sample - 1, sample);
             let range = speeds.between[sample - 1];
             let way = Interval::point(readings.value[sample]) - Interval::point(readings.value[sample - 1]);

@@ -395,6 +395,25 @@ fn what_acted_before_the_log_may_have_been_anything() {
 }
 
 #[test]
+fn speeds_are_known_from_the_first_window_on_and_are_less_than_those_looked_for() {
+    let record = vehicle(|v, u| u - 0.5 * v, 1.0);
+    let model = BoundedModel {
+        delay: DelayBound::KnownS(0.4),
+        quantum: Some(0.01),
+        either_sign: true,
+        ..settings(DragLaw::Linear)
+    };
+    let setup = Setup::new(&[&record], &model).expect("a setup");
+    let search = Search::new(&setup);
+    let mut at = setup.search.clone();
+    (at[0], at[1]) = (Interval::point(1.0).inflate(0.1), Interval::point(0.5).inflate(0.1));
+    at[2] = Interval::symmetric(0.1);
+    let speeds = search.model.speeds(0, &at).expect("speeds");
+    assert_eq!(speeds.known, setup.layout.windows()[0].first);
+    assert!(speeds.fastest() < 0.7 * setup.fastest, "{} of {}", speeds.fastest(), setup.fastest);
+}
+
+#[test]
 fn quadratic_and_cubic_drag_without_a_linear_one_are_found() {
     let record = vehicle(|v, u| u - 0.5 * v * v.abs() - 0.3 * v * v * v, 1.0);
     let model = BoundedModel {

@@ -144,17 +144,15 @@ impl Model<'_> {
     pub(super) fn weigh(&self, record: usize, hats: &[Hat], at: &[Interval], speeds: &Speeds, linear: &mut Linear) {
         let readings = &self.records[record];
         let delay_s = self.delay_s(at);
-        let fastest = speeds.between.iter().fold(0.0f64, |fastest, speed| fastest.max(speed.magnitude()));
-        let stray = Interval::point(readings.jitter_s) * Interval::point(fastest);
+        let stray = Interval::point(readings.jitter_s) * Interval::point(speeds.fastest());
         let error = Interval::point(readings.error) + stray;
         let rate = self.layout.place_of(Term::LagRate).map(|place| at[place]);
         for hat in hats {
-            let instants = hat.map(|sample| readings.time_s[sample]);
             // The hat starts once every command that acts is in the log.
-            if instants[0] < (Interval::point(readings.time_s[0]) + delay_s).upper() {
+            if hat[0] < speeds.known {
                 continue;
             }
-            let shape = Shape::of(instants);
+            let shape = Shape::of(hat.map(|sample| readings.time_s[sample]));
             let under = Under { readings, speeds, hat, shape, error };
             let shape = &under.shape;
             let y = hat.map(|sample| Interval::point(readings.value[sample]));

@@ -1,6 +1,6 @@
 //! Finding the steps: box by box, each contracted while that helps, and divided.
 
-use super::super::contract::{Linear, Origin};
+use super::super::contract::Linear;
 use super::super::search::Search;
 use super::super::setup::Setup;
 use super::super::slanted::Slanted;
@@ -128,7 +128,11 @@ impl<'a> Prover<'a> {
         let mut left = Vec::new();
         while let Some(mut here) = open.pop() {
             loop {
-                if !self.meet(&mut here) || self.kept(&here) {
+                if !self.meet(&mut here) {
+                    self.push(Step::Keep);
+                    break;
+                }
+                if self.kept(&here) {
                     self.push(Step::Keep);
                     left.push(here.at);
                     break;
@@ -183,15 +187,6 @@ impl<'a> Prover<'a> {
 
     fn parameters(&self) -> Vec<usize> {
         (0..self.search.setup.layout.parameters()).collect()
-    }
-
-    /// The error of a row's reading, which a contradiction must exceed; those of hats are not told apart.
-    pub(super) fn error(&self, origin: &Origin) -> f64 {
-        let setup = self.search.setup;
-        match origin {
-            Origin::Reading { window, .. } => setup.records[setup.layout.windows()[*window].record].error,
-            _ => 0.0,
-        }
     }
 
     fn step(&mut self, here: &mut Open) -> Next {
@@ -310,8 +305,7 @@ impl<'a> Prover<'a> {
 
     /// Cuts of unknowns by themselves.
     fn found(&self, linear: &Linear, caution: Caution, at: &[Interval], places: &[usize], unknowns: &[usize]) -> Found {
-        let error = |origin: &Origin| self.error(origin);
-        let seek = Seek::new(linear, places, caution, &error);
+        let seek = Seek::new(self.search.setup, linear, places, caution);
         let sought = unknowns.iter().map(|unknown| (*unknown, at[*unknown], seek.unknown(*unknown)));
         seek.collect(sought, |place| self.face(place))
     }

@@ -3,6 +3,7 @@
 use super::super::contract::{Linear, Origin};
 use super::super::frame::{Affine, Frame};
 use super::super::lp::{Multipliers, Outcome, Programme};
+use super::super::setup::Setup;
 use super::{Combination, Cut};
 use crate::numeric::Interval;
 
@@ -25,8 +26,7 @@ pub(super) struct Seek<'a> {
     linear: &'a Linear,
     programme: Programme,
     caution: Caution,
-    /// The error of each row's reading.
-    error: &'a dyn Fn(&Origin) -> f64,
+    setup: &'a Setup,
 }
 
 /// What multipliers show of a combination of unknowns.
@@ -59,13 +59,16 @@ impl Found {
 }
 
 impl<'a> Seek<'a> {
-    pub(super) fn new(
-        linear: &'a Linear,
-        places: &[usize],
-        caution: Caution,
-        error: &'a dyn Fn(&Origin) -> f64,
-    ) -> Self {
-        Self { linear, programme: Programme::of(&linear.rows, &linear.deviations, places), caution, error }
+    pub(super) fn new(setup: &'a Setup, linear: &'a Linear, places: &[usize], caution: Caution) -> Self {
+        Self { linear, programme: Programme::of(&linear.rows, &linear.deviations, places), caution, setup }
+    }
+
+    /// The error of a row's reading, which a contradiction must exceed; those of hats are not told apart.
+    fn error(&self, row: usize) -> f64 {
+        match self.linear.origins[row] {
+            Origin::Reading { window, .. } => self.setup.records[self.setup.layout.windows()[window].record].error,
+            _ => 0.0,
+        }
     }
 
     /// `None` where a contradiction is not beyond doubt.
@@ -77,8 +80,7 @@ impl<'a> Seek<'a> {
         let end = |sign: f64| match self.programme.maximise(&objective(sign)) {
             Outcome::Empty { multipliers } => {
                 let bound = self.linear.rows.upper_bound(&[], &multipliers, &self.linear.deviations);
-                let weighed: f64 =
-                    multipliers.iter().map(|(row, y)| y * (self.error)(&self.linear.origins[*row])).sum();
+                let weighed: f64 = multipliers.iter().map(|(row, y)| y * self.error(*row)).sum();
                 Err((bound < -BEYOND * weighed).then_some((multipliers, -bound)))
             }
             Outcome::Bounded { multipliers, .. } => Ok((sign * most(sign, &multipliers), multipliers)),

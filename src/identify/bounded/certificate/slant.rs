@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::super::contract::{Linear, Origin};
+use super::super::contract::Linear;
 use super::super::frame::Frame;
 use super::super::search::UNBROKEN;
 use super::super::slanted::{STALE, Slanted};
@@ -38,7 +38,7 @@ impl Prover<'_> {
             None => (By::Slanted(self.reach(here)), Rc::new(self.search.model.surface(&at, &own).ok_or(None)?)),
         };
         let before = (at.clone(), own.z.clone());
-        let (linear, doubt) = surface.over(&own.z, &own.centre, informed);
+        let (mut linear, doubt) = surface.over(&own.z, &own.centre, informed);
         if doubt.slack > UNBROKEN {
             return Err(Some(doubt.widest));
         }
@@ -60,9 +60,9 @@ impl Prover<'_> {
                     self.push(Step::Keep);
                     return Ok(Next::Excluded);
                 }
+                (linear, _) = surface.over(&own.z, &own.centre, informed);
             }
         }
-        let (linear, _) = surface.over(&own.z, &own.centre, informed);
         let next = if informed {
             (surface.rest > STALE * doubt.slack).then(|| own.clone().moved(self.coordinates(&linear, &own)))
         } else {
@@ -125,11 +125,14 @@ impl Prover<'_> {
         Next::Smaller
     }
 
+    fn seek<'s>(&'s self, linear: &'s Linear, own: &Frame) -> Seek<'s> {
+        let all: Vec<usize> = (0..own.places.len()).collect();
+        Seek::new(self.search.setup, linear, &all, CAUTION)
+    }
+
     /// Cuts of the unknowns that a frame has.
     fn sides(&self, linear: &Linear, own: &Frame, at: &[Interval]) -> Found {
-        let error = |origin: &Origin| self.error(origin);
-        let all: Vec<usize> = (0..own.places.len()).collect();
-        let seek = Seek::new(linear, &all, CAUTION, &error);
+        let seek = self.seek(linear, own);
         let sought = own.places.iter().enumerate();
         let sought = sought.map(|(row, place)| (*place, at[*place], seek.combination(&own.unknown(row), own)));
         seek.collect(sought, |place| self.face(place))
@@ -137,9 +140,7 @@ impl Prover<'_> {
 
     /// Cuts of the coordinates of another frame about the same box.
     fn turns(&self, linear: &Linear, own: &Frame, next: &Frame) -> Found {
-        let error = |origin: &Origin| self.error(origin);
-        let all: Vec<usize> = (0..own.places.len()).collect();
-        let seek = Seek::new(linear, &all, CAUTION, &error);
+        let seek = self.seek(linear, own);
         let turned = own.turned(next);
         let sought = turned.iter().enumerate();
         let sought = sought.map(|(row, affine)| (row, next.z[row], seek.combination(affine, own)));
@@ -148,9 +149,7 @@ impl Prover<'_> {
 
     /// What the inequalities leave of a frame's own coordinates.
     fn coordinates(&self, linear: &Linear, own: &Frame) -> Vec<Interval> {
-        let error = |origin: &Origin| self.error(origin);
-        let all: Vec<usize> = (0..own.places.len()).collect();
-        let seek = Seek::new(linear, &all, CAUTION, &error);
+        let seek = self.seek(linear, own);
         let left = own.turned(own).into_iter().zip(&own.z).map(|(affine, z)| match seek.combination(&affine, own) {
             Some(Sought::Range([(low, _), (high, _)])) => {
                 Interval::new(low, high).and_then(|range| range.intersection(*z)).unwrap_or(*z)

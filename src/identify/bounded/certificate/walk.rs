@@ -227,34 +227,44 @@ impl<'a> Walk<'a> {
                 }
                 Ok(vec![here])
             }
-            Step::Turn { by, frame, cuts } => {
-                if !matches!(by, By::Slanted(_) | By::Same) || frame.is_none() && here.frame.is_none() {
-                    return Err("there is no frame");
-                }
-                let enclosed = self.enclosed(*by, &mut here, cuts.iter().map(|cut| cut.rows.as_slice()), work)?;
-                let Some(enclosed) = enclosed else { return Ok(Vec::new()) };
-                let mut next = match (frame, &enclosed.frame) {
-                    (Some(axes), Some(own)) => {
-                        here.surface = None;
-                        self.frame(axes, &here.at, own).ok_or("there is no such frame")?
-                    }
-                    (None, Some(own)) => own.clone(),
-                    (_, None) => return Err("there is no frame"),
-                };
-                let turned = enclosed.frame.as_ref().map_or_else(Vec::new, |own| own.turned(&next));
-                for cut in cuts {
-                    if !turned.get(cut.unknown).is_some_and(|affine| enclosed.shows_of(affine, cut)) {
-                        return Err("the range is not that short");
-                    }
-                    if !shorten(&mut next.z, cut) {
-                        work.excluded += 1;
-                        return Ok(Vec::new());
-                    }
-                }
-                here.frame = Some(next);
-                Ok(vec![here])
+            Step::Turn { by, frame, cuts } => self.turn(here, *by, frame.as_ref(), cuts, work),
+        }
+    }
+
+    /// The box in the coordinates of another frame, or of its own, and what cuts leave of these.
+    fn turn(
+        &self,
+        mut here: Here,
+        by: By,
+        frame: Option<&Axes>,
+        cuts: &[Cut],
+        work: &mut Work,
+    ) -> Result<Vec<Here>, &'static str> {
+        if !matches!(by, By::Slanted(_) | By::Same) || frame.is_none() && here.frame.is_none() {
+            return Err("there is no frame");
+        }
+        let enclosed = self.enclosed(by, &mut here, [], work)?;
+        let Some((enclosed, own)) = enclosed.as_ref().and_then(|enclosed| Some((enclosed, enclosed.frame.as_ref()?)))
+        else {
+            return Err("there is no frame");
+        };
+        let mut next = own.clone();
+        if let Some(axes) = frame {
+            here.surface = None;
+            next = self.frame(axes, &here.at, own).ok_or("there is no such frame")?;
+        }
+        let turned = own.turned(&next);
+        for cut in cuts {
+            if !turned.get(cut.unknown).is_some_and(|affine| enclosed.shows_of(affine, cut)) {
+                return Err("the range is not that short");
+            }
+            if !shorten(&mut next.z, cut) {
+                work.excluded += 1;
+                return Ok(Vec::new());
             }
         }
+        here.frame = Some(next);
+        Ok(vec![here])
     }
 
     /// The frame that a file names, over a box.

@@ -80,7 +80,7 @@ fn velocities_are_enclosed_and_accelerations_turned_round_miss_them() {
     }
     let mut speeds = search.model.speeds(0, &near(&setup, 0.02)).expect("speeds");
     speeds.rates.iter_mut().for_each(|rate| *rate = -*rate);
-    let turned = search.model.accelerated(0, 0, &mut speeds);
+    let turned = search.model.accelerated(0, &mut speeds);
     assert!(turned.is_none() || truth.iter().zip(&speeds.at_samples).any(|(v, speed)| !speed.contains(*v)));
 }
 

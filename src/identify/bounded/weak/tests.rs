@@ -35,7 +35,7 @@ fn known() -> (Readings, Speeds) {
     let between: Vec<Interval> = at_samples.windows(2).map(|pair| pair[0].hull(pair[1])).collect();
     let command = Command::new(vec![1.0, -1.0], vec![(3.0, 3.0)]);
     let rates = vec![Interval::symmetric(1.3 * 1.3); between.len()];
-    (Readings { time_s, value, error: ERROR, jitter_s: 0.0, command }, Speeds { at_samples, between, rates })
+    (Readings { time_s, value, error: ERROR, jitter_s: 0.0, command }, Speeds { at_samples, between, rates, known: 0 })
 }
 
 /// `int K f` over a hat with its ends and its peak at these instants.
