@@ -77,20 +77,27 @@ pub(super) struct Model<'a> {
     pub(super) heard: Option<Vec<BTreeSet<usize>>>,
 }
 
-impl Readings {
-    /// How far the output of a motion may be from a reading, by its number in the motion.
-    pub(super) fn allowed(&self, motion: &[Node], offset: usize) -> Interval {
-        let error = Interval::point(self.error);
-        if self.jitter_s <= 0.0 {
+impl Model<'_> {
+    /// How far the output of a motion at these samples may be from one of its readings, by its number in the motion: as far as the
+    /// vehicle goes while the stamp is off. Beyond the motion's ends that is by the fastest that is looked for.
+    pub(super) fn allowed(&self, record: usize, motion: &[Node], samples: &[usize], offset: usize) -> Interval {
+        let Readings { time_s, error, jitter_s, .. } = &self.records[record];
+        let error = Interval::point(*error);
+        if *jitter_s <= 0.0 {
             return error;
         }
-        let speed = motion[offset].speed;
-        let next = motion.get(offset + 1).map_or(speed, |next| next.speed);
-        error + Interval::point(self.jitter_s) * Interval::point(speed.max(next))
+        let stamp = |offset: usize| time_s[samples[offset]];
+        let [from, to] = [-*jitter_s, *jitter_s].map(|stray| Interval::point(stamp(offset)) + Interval::point(stray));
+        let (from, to, last) = (from.lower(), to.upper(), samples.len() - 1);
+        let speed = if from < stamp(0) || to > stamp(last) {
+            self.fastest
+        } else {
+            let near = (1..=last).filter(|next| stamp(*next) > from && stamp(next - 1) < to);
+            near.map(|next| motion[next].speed).fold(0.0, f64::max)
+        };
+        error + Interval::point(*jitter_s) * Interval::point(speed)
     }
-}
 
-impl Model<'_> {
     pub(super) fn delay_s(&self, at: &[Interval]) -> Interval {
         self.layout.delay().map_or(self.known_delay_s, |place| at[place])
     }
@@ -213,10 +220,10 @@ impl Model<'_> {
 
     /// The same by the unknowns at these places.
     pub(super) fn linearise_by(&self, places: &[usize], span: Span, over: &[Node], linked: bool, linear: &mut Linear) {
-        let stretch = self.layout.windows()[span.from];
-        let readings = &self.records[stretch.record];
-        for (offset, (node, sample)) in over.iter().zip(self.samples(span)).enumerate() {
-            let error = readings.allowed(over, offset);
+        let record = self.layout.windows()[span.from].record;
+        let (readings, samples) = (&self.records[record], self.samples(span));
+        for (offset, (node, &sample)) in over.iter().zip(&samples).enumerate() {
+            let error = self.allowed(record, over, &samples, offset);
             let residual = node.at[0] - Interval::point(readings.value[sample]);
             let slopes = places.iter().copied().zip(node.slopes.iter().map(|slope| slope[0]));
             linear.pair(slopes, residual, error, |above| Origin::Reading { window: span.from, sample, above });

@@ -64,16 +64,16 @@ impl Model<'_> {
                 return None;
             }
             let motion = self.slanted(span, at, frame, &mixes)?;
-            let stretch = self.layout.windows()[span.from];
-            let record = &self.records[stretch.record];
-            let readings = motion.iter().zip(self.samples(span)).enumerate().map(|(offset, (node, sample))| {
-                let error = record.allowed(&motion, offset);
+            let record = self.layout.windows()[span.from].record;
+            let (readings, samples) = (&self.records[record], self.samples(span));
+            let readings = motion.iter().zip(&samples).enumerate().map(|(offset, (node, &sample))| {
+                let error = self.allowed(record, &motion, &samples, offset);
                 rest = rest.max((node.rest / error).magnitude());
                 Off {
                     window: span.from,
                     sample,
                     error,
-                    at_centre: node.at[0] - Interval::point(record.value[sample]),
+                    at_centre: node.at[0] - Interval::point(readings.value[sample]),
                     slopes: node.slopes.iter().map(|slope| slope[0]).collect(),
                     bends: node.bends.iter().flat_map(|bend| bend.intervals()).take(pairs.len()).collect(),
                     rest: node.rest,

@@ -428,3 +428,43 @@ fn quadratic_and_cubic_drag_without_a_linear_one_are_found() {
         assert!(found.verdict == Consistency::Consistent && low <= truth && truth <= high, "{quantity:?}: {found:?}");
     }
 }
+
+/// `v' = u - v / 2` from a velocity of 1, u being -1 until 1.5 s and 1 after it; before the first instant, too.
+fn braked(t: f64) -> [f64; 2] {
+    let from = |[x, v]: [f64; 2], u: f64, t: f64| {
+        let left = (-0.5 * t).exp();
+        [x + 2.0 * u * t + 2.0 * (v - 2.0 * u) * (1.0 - left), 2.0 * u + (v - 2.0 * u) * left]
+    };
+    if t < 1.5 { from([0.0, 1.0], -1.0, t) } else { from(from([0.0, 1.0], -1.0, 1.5), 1.0, t - 1.5) }
+}
+
+#[test]
+fn a_reading_may_be_from_beyond_what_is_followed_of_the_motion_and_from_beyond_the_next_sample() {
+    for jitter_s in [0.05, 0.15] {
+        for late in [-1.0, 1.0] {
+            let stamp = |sample: usize| 0.1 * sample as f64;
+            let time_s: Vec<f64> = (0..30).map(stamp).collect();
+            let output = time_s.iter().map(|stamp| braked(stamp + late * jitter_s)[0]).collect();
+            let input = (0..30).map(|sample| if sample < 15 { -1.0 } else { 1.0 }).collect();
+            let record = Record::new(time_s, output, input).expect("a record");
+            let model = BoundedModel { quantum: Some(0.0), error: 1e-6, jitter_s, ..settings(DragLaw::Linear) };
+            let setup = Setup::new(&[&record], &model).expect("a setup");
+            let search = Search::new(&setup);
+            let layout = &setup.layout;
+            let mut truth = vec![1.0, 0.5, 0.0];
+            for window in layout.windows() {
+                truth.extend(braked(stamp(window.first)));
+            }
+            let at: Vec<Interval> = truth.iter().map(|value| Interval::point(*value)).collect();
+            let windows = layout.windows().len();
+            let spans = (0..windows).map(|from| Span { from, to: from + 1 }).chain([Span { from: 0, to: windows }]);
+            for span in spans {
+                let motion = search.model.motion(span, &at, &truth).expect("a motion");
+                let mut linear = search.model.about(&at, truth.clone());
+                search.model.linearise(span, &motion, false, &mut linear);
+                let least = linear.rows.limits.iter().copied().fold(f64::INFINITY, f64::min);
+                assert!(least >= 0.0, "{jitter_s} s, {late}, {span:?}: the truth is {least} outside");
+            }
+        }
+    }
+}
