@@ -429,22 +429,23 @@ fn quadratic_and_cubic_drag_without_a_linear_one_are_found() {
     }
 }
 
-/// `v' = u - v / 2` from a velocity of 1, u being -1 until 1.5 s and 1 after it; before the first instant, too.
-fn braked(t: f64) -> [f64; 2] {
+/// `v' = u - v / 2` from a velocity of 1, u being -1 until it is switched and 1 after that; before the first instant, too.
+fn braked(t: f64, switched_s: f64) -> [f64; 2] {
     let from = |[x, v]: [f64; 2], u: f64, t: f64| {
         let left = (-0.5 * t).exp();
         [x + 2.0 * u * t + 2.0 * (v - 2.0 * u) * (1.0 - left), 2.0 * u + (v - 2.0 * u) * left]
     };
-    if t < 1.5 { from([0.0, 1.0], -1.0, t) } else { from(from([0.0, 1.0], -1.0, 1.5), 1.0, t - 1.5) }
+    let before = from([0.0, 1.0], -1.0, t.min(switched_s));
+    if t < switched_s { before } else { from(before, 1.0, t - switched_s) }
 }
 
 #[test]
 fn a_reading_may_be_from_beyond_what_is_followed_of_the_motion_and_from_beyond_the_next_sample() {
-    for jitter_s in [0.05, 0.15] {
+    for (interval_s, jitter_s) in [(0.1, 0.05), (0.5, 2.5)] {
         for late in [-1.0, 1.0] {
-            let stamp = |sample: usize| 0.1 * sample as f64;
+            let stamp = |sample: usize| interval_s * sample as f64;
             let time_s: Vec<f64> = (0..30).map(stamp).collect();
-            let output = time_s.iter().map(|stamp| braked(stamp + late * jitter_s)[0]).collect();
+            let output = time_s.iter().map(|at| braked(at + late * jitter_s, stamp(15))[0]).collect();
             let input = (0..30).map(|sample| if sample < 15 { -1.0 } else { 1.0 }).collect();
             let record = Record::new(time_s, output, input).expect("a record");
             let model = BoundedModel { quantum: Some(0.0), error: 1e-6, jitter_s, ..settings(DragLaw::Linear) };
@@ -453,7 +454,7 @@ fn a_reading_may_be_from_beyond_what_is_followed_of_the_motion_and_from_beyond_t
             let layout = &setup.layout;
             let mut truth = vec![1.0, 0.5, 0.0];
             for window in layout.windows() {
-                truth.extend(braked(stamp(window.first)));
+                truth.extend(braked(stamp(window.first), stamp(15)));
             }
             let at: Vec<Interval> = truth.iter().map(|value| Interval::point(*value)).collect();
             let windows = layout.windows().len();
