@@ -7,7 +7,7 @@ from pathlib import Path
 
 from flint import arb
 
-from boxes import Box, Frame, number
+from boxes import Box, Frame, down, number, reached, up
 from check import Refused, require
 from hats import Hats, Unsupported
 from motion import Equation, Motion, Products, Unfollowed, span, times
@@ -233,14 +233,6 @@ def drive(motion, record, delays, begin, end):
     return nodes
 
 
-def down(x):
-    return float(x) - 1e-15 * abs(float(x))
-
-
-def up(x):
-    return float(x) + 1e-15 * abs(float(x))
-
-
 def source(by):
     """Whence inequalities are, and how many windows of each record are followed; none where nothing is."""
     if by == "same":
@@ -341,12 +333,12 @@ class Walk:
             frame = None
         if by == "hats":
             try:
-                nothing = nothing or self.hats.show(box.sides, kind, what)
+                cuts = None if nothing else self.hats.show(box.sides, kind, what)
                 self.by_hats += 1
             except Unsupported:
-                nothing = kind == "exclude"
+                cuts = None if kind == "exclude" else what["cuts"]
                 self.taken += 1
-            return [] if nothing else box.shortened(what["cuts"])
+            return [] if cuts is None else box.shortened(cuts)
         self.verified += 1
         if by in ("slanted", "same"):
             found = None if nothing else self.second_order(box, reach)
@@ -361,21 +353,24 @@ class Walk:
         if kind == "exclude":
             require(nothing or below(most(None, what["rows"]), 0), "the box is not excluded")
             return []
-        ranges = box.sides if kind == "contract" else box.along(frame)
+        ranges, cuts = box.sides if kind == "contract" else box.along(frame), []
         for cut in what["cuts"] if not nothing and ranges is not None else []:
             place, sign, end = int(cut["unknown"]), 1 if cut["upper"] else -1, number(cut["end"])
             require(0 <= place < len(ranges), "a cut of no unknown")
-            known = ranges[place][1] <= end if sign > 0 else ranges[place][0] >= end
-            require(known or below(most((place, sign), cut["rows"]), sign * end, False), f"{kind}: {place} reaches beyond {end:.9g}")
+            if not (ranges[place][1] <= end if sign > 0 else ranges[place][0] >= end):
+                cut = reached(cut, ranges[place], most((place, sign), cut["rows"]))
+            if cut is None:
+                continue
+            cuts.append(cut)
             if by == "chain":
                 # What is left of a range is known to the cuts that follow.
-                cut = arb(end) - centre[place]
+                side = arb(cut["end"]) - centre[place]
                 low, high = deviations[place].lower(), deviations[place].upper()
-                low, high = (low, min(high, cut.upper())) if sign > 0 else (max(low, cut.lower()), high)
+                low, high = (low, min(high, side.upper())) if sign > 0 else (max(low, side.lower()), high)
                 if not low <= high:
                     return []
                 deviations[place] = span(low, high)
-        return box.turned(frame, what["cuts"]) if kind == "turn" else box.shortened(what["cuts"])
+        return box.turned(frame, cuts) if kind == "turn" else box.shortened(cuts)
 
     def second_order(self, box, reach):
         if reach is None:
@@ -385,9 +380,9 @@ class Walk:
         return Enclosure(self.stage, box, frame, whole(self.stage.windows, reach))
 
 
-def below(most, end, strictly=True):
+def below(most, end):
     """Whether an upper bound shows it; none is of what holds nothing."""
-    return most is None or (most < end if strictly else arb(most).upper() <= end)
+    return most is None or most < end
 
 
 def aim(found, kind, place, sign, frame):

@@ -15,6 +15,14 @@ def number(value):
     return value
 
 
+def down(x):
+    return float(x) - 1e-15 * abs(float(x))
+
+
+def up(x):
+    return float(x) + 1e-15 * abs(float(x))
+
+
 def reach(weights, sides, start=0.0):
     """The ends of `start + sum weight * side`."""
     low = high = arb(start)
@@ -113,6 +121,16 @@ class Box:
         z = self.along(frame)
         z = None if z is None else shortened(z, cuts)
         return [] if z is None else [self.replaced(frame=frame, z=z, known=None if turned else self.known)]
+
+
+def reached(cut, side, most):
+    """A cut as far as an upper bound shows it; `None` where that is nowhere. One that is to leave nothing must leave nothing."""
+    sign, most = 1 if cut["upper"] else -1, None if most is None else arb(most).upper()
+    end = number(cut["end"])
+    if most is None or most <= sign * end:
+        return cut | {"end": end}
+    require(side[0] <= end <= side[1], "a range is said to be empty, and is not")
+    return cut | {"end": sign * up(most)} if most.is_finite() else None
 
 
 def with_side(sides, place, side):

@@ -17,6 +17,7 @@ from fractions import Fraction
 
 from flint import arb, fmpq
 
+from boxes import reached
 from check import require
 from motion import ZERO
 from speeds import Axis, HALF, NONE, Nothing, Speeds, Track, corners, minus, plus
@@ -170,28 +171,31 @@ class Hats:
         return [Speeds(self.stage, track, Axis(self.stage, box, n), box, n) for n, track in enumerate(self.tracks)]
 
     def show(self, box, kind, what):
-        """Whether nothing is left of a box, else that its cuts follow, each over what those before it leave; or Refused."""
+        """The cuts, each over what those before it leave, as far as they follow; `None` where nothing is left of a box, or Refused."""
         try:
             speeds = self.speeds(box)
         except Nothing:
-            return True
+            return None
         if kind == "exclude":
             require(what["rows"] and self.bound(box, speeds, None, what["rows"]) < 0, "the box is not excluded")
-            return True
-        box = list(box)
+            return None
+        box, cuts = list(box), []
         for cut in what["cuts"]:
-            place, sign, end = int(cut["unknown"]), 1 if cut["upper"] else -1, float(cut["end"])
+            place, sign = int(cut["unknown"]), 1 if cut["upper"] else -1
             require(0 <= place < len(box), "no such unknown")
             low, high = box[place]
             if cut["rows"]:
                 found = sign * self.bound(box, speeds, (place, sign), cut["rows"])
             else:
                 found = self.beginning(speeds, place, sign)
-            require(sign * found <= sign * end, f"the range of unknown {place} ends at {float(found):.6g}, not at {end:.6g}")
-            box[place] = (low, min(high, end)) if sign > 0 else (max(low, end), high)
+            cut = reached(cut, box[place], sign * found)
+            if cut is None:
+                continue
+            cuts.append(cut)
+            box[place] = (low, min(high, cut["end"])) if sign > 0 else (max(low, cut["end"]), high)
             if box[place][0] > box[place][1]:
-                return True
-        return False
+                return None
+        return cuts
 
     def beginning(self, speeds, place, sign):
         """An end of the velocity at a window's beginning."""

@@ -7,8 +7,10 @@ import os
 from pathlib import Path
 
 import pytest
+from flint import arb
 
 import bounded
+import boxes
 from check import Refused
 
 FOLDER = Path(os.environ["SELFOSC_BOUNDED"])
@@ -16,17 +18,12 @@ FILES = {name: json.loads((FOLDER / f"{name}.json").read_text()) for name in ("r
 
 
 def of_motion(certificate):
-    """Combinations of rows by the motion, contradictions first: these need all their rows, and a contradiction among cuts is the last of
-    them. A cut may say less than its rows show, the last ones, over the narrowest boxes, by least."""
-    steps = [step for step in certificate["stages"][0]["steps"] if not isinstance(step, str)]
-    for step in sorted(reversed(steps), key=lambda step: "exclude" not in step):
-        if "divide" in step or "part" in step:
-            continue
-        (what,) = step.values()
-        if "hats" not in what["by"] and (what.get("rows") or what.get("cuts")):
-            rows = what["rows"] if "rows" in what else what["cuts"][-1]["rows"]
-            if len(rows) > 1:
-                yield rows
+    """Combinations of rows by the motion. A contradiction needs all its rows; a cut without one of them goes less far, so that of the
+    proof without a contradiction all are changed."""
+    steps = [step for stage in certificate["stages"] for step in stage["steps"] if not isinstance(step, str)]
+    whats = [what for step in steps for what in step.values() if "by" in what and "hats" not in what["by"]]
+    contradictions = [what["rows"] for what in whats if len(what.get("rows", [])) > 1]
+    return contradictions[:1] or [cut["rows"] for what in whats for cut in what["cuts"] if len(cut["rows"]) > 1]
 
 
 def heaviest(rows):
@@ -55,9 +52,34 @@ def test_what_the_command_writes_is_accepted(name):
 @pytest.mark.parametrize("name", FILES)
 def test_a_changed_combination_is_refused(name, change):
     certificate = copy.deepcopy(FILES[name])
-    change(next(of_motion(certificate)))
+    for rows in of_motion(certificate):
+        change(rows)
     with pytest.raises(Refused):
         bounded.check(certificate)
+
+
+@pytest.mark.parametrize("upper", [True, False])
+def test_a_cut_goes_as_far_as_is_shown_and_no_further(upper):
+    sign = 1 if upper else -1
+    cut = lambda end: {"unknown": 0, "upper": upper, "end": sign * end}
+    side = (-2.0, 3.0) if upper else (-3.0, 2.0)
+    end = lambda *given: sign * boxes.reached(*given)["end"]
+    assert end(cut(1.0), side, arb(0.5)) == end(cut(1.0), side, None) == 1.0
+    assert 2.5 <= end(cut(1.0), side, arb(2.5)) <= 2.5 + 1e-14
+    assert boxes.reached(cut(1.0), side, arb("inf")) is None
+    # One that is to leave nothing must leave nothing.
+    assert end(cut(-4.0), side, arb(-5)) == -4.0
+    with pytest.raises(Refused):
+        boxes.reached(cut(-4.0), side, arb(-3))
+
+
+def test_a_cut_that_says_more_than_its_rows_show_changes_nothing():
+    certificate = copy.deepcopy(FILES["consistent"])
+    contracts = [s["contract"] for s in certificate["stages"][0]["steps"] if "contract" in s]
+    cuts = [c for what in contracts for c in what["cuts"] if c["rows"] and "hats" not in what["by"]]
+    assert cuts
+    cuts[-1]["end"] += (-1e-9 if cuts[-1]["upper"] else 1e-9) * abs(cuts[-1]["end"])
+    assert bounded.check(certificate)[0] == bounded.check(FILES["consistent"])[0]
 
 
 def shift_a_reading(certificate):

@@ -263,7 +263,7 @@ def by_readings(above):
 @pytest.fixture(autouse=True)
 def hats_that_show_anything(monkeypatch):
     """They have tests of their own."""
-    monkeypatch.setattr(bounded.Hats, "show", lambda hats, box, kind, what: kind == "exclude")
+    monkeypatch.setattr(bounded.Hats, "show", lambda hats, box, kind, what: None if kind == "exclude" else what["cuts"])
 
 
 def of_steps(*steps, narrowed=True):
@@ -361,11 +361,8 @@ def test_steps_are_accepted(name):
 
 
 REFUSED = {
-    "a cut that says too much": (contract("slanted", speed(True, REACHED / 2)), "keep"),
-    "a cut of the same that says too much": (BEFORE, contract("same", speed(False, REACHED / 2)), "keep"),
-    "a coordinate cut that says too much": (turn("slanted", frame(), cut(4, True, 0.002, ROWS)), "keep"),
-    "a coordinate cut by no rows": (turn("slanted", frame(), cut(4, True, 0.009)), "keep"),
-    "a cut by the box itself": (contract("slanted", cut(0, True, 1.0019)), "keep"),
+    "a range that is not empty": (contract("slanted", cut(4, True, 0.1, ROWS)), "keep"),
+    "a coordinate's that is not empty": (turn("slanted", frame(), cut(4, True, -0.1, ROWS)), "keep"),
     "the same without a motion": (contract("same"), "keep"),
     "the same of another frame": (BEFORE, turn("same", frame()), contract("same"), "keep"),
     "a part without a frame": (part(0, 0.0), "keep", "keep"),
@@ -387,6 +384,31 @@ REFUSED = {
 def test_steps_are_refused(name):
     with pytest.raises(Refused):
         bounded.check(of_steps(*REFUSED[name]))
+
+
+TOO_MUCH = {
+    "by rows": ((contract("slanted", speed(True, REACHED / 2)),), lambda box: box.sides[4][1], (0.3 + REACHED / 2, 0.3 + REACHED)),
+    "by rows of the same": (
+        (BEFORE, contract("same", speed(False, REACHED / 2))),
+        lambda box: -box.sides[4][0],
+        (REACHED / 2 - 0.3, REACHED - 0.3),
+    ),
+    "of a coordinate": ((turn("slanted", frame(), cut(4, True, 0.002, ROWS)),), lambda box: box.z[4][1], (0.002, 0.009)),
+    "of a coordinate, by no rows": ((turn("slanted", frame(), cut(4, True, 0.009)),), lambda box: box.z[4][1], (0.009, 0.05)),
+    "by the box itself": ((contract("slanted", cut(0, True, 1.0019)),), lambda box: box.sides[0][1], (1.0019, 1.0021)),
+}
+
+
+@pytest.mark.parametrize("name", TOO_MUCH)
+def test_a_cut_that_says_too_much_goes_as_far_as_is_shown(name):
+    steps, end, (stated, shown) = TOO_MUCH[name]
+    item = of_steps(*steps)
+    stage = stage_of(item)
+    walk, boxes = bounded.Walk(stage, "stage"), [Box(stage.box)]
+    for step in item["stages"][0]["steps"]:
+        boxes += walk.step(boxes.pop(), step)
+    (box,) = boxes
+    assert stated < end(box) <= shown
 
 
 def test_a_reading_that_is_off_contradicts():

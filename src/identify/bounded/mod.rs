@@ -59,7 +59,7 @@ use estimate::estimated;
 use problem::Readings;
 use report::Answer;
 use search::Search;
-use setup::Setup;
+use setup::{BEGINNING, Setup};
 use witness::Tried;
 
 /// Divisions after which a witness is looked for again.
@@ -140,7 +140,7 @@ fn explore(
 ) -> Result<Explored, IdentifyError> {
     let mut spent = 0;
     let mut at = setup.search.clone();
-    if let Some(beginnings) = setup.beginnings(settings, FIRST_SWINGS) {
+    if let Some(beginnings) = setup.beginnings(settings, FIRST_SWINGS, BEGINNING) {
         let mut search = Search::new(&beginnings);
         // Passes over part of the records cost so much less.
         let budget = settings.budget * setup.samples() / beginnings.samples();

@@ -15,14 +15,24 @@ const READING: f64 = 1e-9;
 const DRIVING: f64 = 2.5;
 /// Lags are looked for up to the mean time between switchings over this: longer ones change places with drag's own time.
 const LEAST_LAG_RATE: f64 = 4.0;
-/// Windows of a record between two switchings of the command; and of a beginning, over whose wide boxes longer ones tell less, as what
-/// is in doubt grows with the square of their length.
-const WINDOWS_PER_SWING: f64 = 1.0;
-const BEGINNING_WINDOWS_PER_SWING: f64 = 4.0;
-/// Fewest samples of a window.
-const FEWEST: usize = 6;
 /// Most windows of a record: the linear programmes grow with them.
 const MOST_WINDOWS: usize = 40;
+
+/// How records are cut into windows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cutting {
+    /// Windows between two switchings of the command.
+    per_swing: f64,
+    /// Fewest samples of a window.
+    fewest: usize,
+}
+
+/// Of whole records.
+const WHOLE: Cutting = Cutting { per_swing: 1.0, fewest: 6 };
+/// Of beginnings, over whose wide boxes longer windows tell less, as what is in doubt grows with the square of their length.
+pub(super) const BEGINNING: Cutting = Cutting { per_swing: 4.0, fewest: 6 };
+/// Of beginnings where fewer boxes are worth larger linear programmes.
+pub(super) const SHORT: Cutting = Cutting { per_swing: 10.0, fewest: 2 };
 
 /// Constraints, unknowns, and the box.
 #[derive(Clone, Debug)]
@@ -209,7 +219,7 @@ impl Setup {
         let speed = scales.iter().map(|scale| scale.speed).sum::<f64>() / scales.len() as f64;
         let middle_speed = if both { speed } else { 0.0 };
         let fastest = 4.0 * scales.iter().map(|scale| scale.fastest).fold(0.0, f64::max);
-        let layout = Self::lay(&readings, settings, delay, WINDOWS_PER_SWING)?;
+        let layout = Self::lay(&readings, settings, delay, WHOLE)?;
         let first = &scales[0];
         // A force moves the vehicle by its reach in a swing.
         let gain = 4.0 * first.reach / (first.force * first.swing_s * first.swing_s);
@@ -257,7 +267,7 @@ impl Setup {
         readings: &[Readings],
         settings: &BoundedModel,
         delay: Interval,
-        windows_per_swing: f64,
+        cutting: Cutting,
     ) -> Result<Layout, IdentifyError> {
         let mut windows = Vec::new();
         let mut instants = Vec::new();
@@ -265,7 +275,7 @@ impl Setup {
             let samples = readings.time_s.len();
             let begin = Interval::point(readings.time_s[0]) + delay;
             let first = readings.time_s.partition_point(|time| *time < begin.upper());
-            if samples < first + 3 * FEWEST {
+            if samples < first + 3 * cutting.fewest {
                 let remedy = "give a longer record, or bound the delay";
                 return Err(refuse(
                     "longest delay",
@@ -276,8 +286,8 @@ impl Setup {
                 ));
             }
             let swings = (readings.command.edges() + 1) as f64;
-            let count = (windows_per_swing * swings).ceil().clamp(2.0, MOST_WINDOWS as f64);
-            let most = (samples - first) / FEWEST;
+            let count = (cutting.per_swing * swings).ceil().clamp(2.0, MOST_WINDOWS as f64);
+            let most = (samples - first) / cutting.fewest;
             let count = (count as usize).min(most).max(1);
             let nodes: Vec<usize> = (0..=count).map(|index| first + (samples - 1 - first) * index / count).collect();
             windows.extend(nodes.windows(2).map(|pair| Window { record, first: pair[0], last: pair[1] }));
@@ -293,9 +303,9 @@ impl Setup {
         self.search.extend(self.layout.states(&self.records, self.fastest));
     }
 
-    /// The beginnings of all records, up to this switching: what they leave encloses what the whole records leave. `None` where that
-    /// would save little.
-    pub(super) fn beginnings(&self, settings: &BoundedModel, swings: usize) -> Option<Self> {
+    /// The beginnings of all records, up to this switching and cut like this: what they leave encloses what the whole records leave.
+    /// `None` where that would save little.
+    pub(super) fn beginnings(&self, settings: &BoundedModel, swings: usize, cutting: Cutting) -> Option<Self> {
         let mut setup = self.clone();
         for readings in &mut setup.records {
             // Unknown instants are parameters of their own, and all of them would have to be known after.
@@ -306,7 +316,7 @@ impl Setup {
             *readings = readings.until(readings.time_s.partition_point(|time| *time < end));
         }
         let delay_s = setup.layout.delay().map_or(setup.known_delay_s, |place| setup.search[place]);
-        setup.layout = Self::lay(&setup.records, settings, delay_s, BEGINNING_WINDOWS_PER_SWING).ok()?;
+        setup.layout = Self::lay(&setup.records, settings, delay_s, cutting).ok()?;
         setup.states();
         Some(setup)
     }
@@ -352,7 +362,7 @@ impl Setup {
     pub(super) fn narrowed(&self, settings: &BoundedModel, at: &[Interval]) -> Result<Self, IdentifyError> {
         let Some(place) = self.layout.delay() else { return Ok(self.within(at)) };
         let mut setup = self.clone();
-        setup.layout = Self::lay(&self.records, settings, at[place], WINDOWS_PER_SWING)?;
+        setup.layout = Self::lay(&self.records, settings, at[place], WHOLE)?;
         setup.search = at[..self.layout.parameters()].to_vec();
         if setup.layout.delay().is_none() {
             setup.known_delay_s = at[place];

@@ -11,9 +11,9 @@ use crate::numeric::{Interval, Real};
 
 /// Steps that leave more than this of every range did not help.
 pub(super) const HELPED: f64 = 0.8;
-/// Speeds from readings and hats differ little, slopes over wide boxes by shares of what they take off.
-const OF_HATS: Caution = Caution { of_left: 0.1, of_taken: 0.0 };
-const OF_CHAINS: Caution = Caution { of_left: 0.1, of_taken: 0.25 };
+/// Speeds from readings and hats differ little, slopes over wide boxes by shares of their ranges.
+const OF_HATS: Caution = Caution { of_left: 0.03, of_slopes: 0.0 };
+const OF_CHAINS: Caution = Caution { of_left: 0.03, of_slopes: 0.25 };
 /// Steps of a stage, at most.
 const MOST_STEPS: usize = 4000;
 /// A box this much wider than what is left is cut where it sticks out.

@@ -7,8 +7,9 @@ use super::super::setup::Setup;
 use super::{Combination, Cut};
 use crate::numeric::Interval;
 
-/// A contradiction is beyond doubt by this share of the errors that it weighs.
-const BEYOND: f64 = 1e-5;
+/// A contradiction is beyond doubt by this share of the errors that it weighs, and a range is empty whose ends contradict each other by
+/// this share of its width.
+const BEYOND: f64 = 0.01;
 /// A cut that takes less than this of a range is left out.
 const LEAST_CUT: f64 = 0.05;
 
@@ -17,8 +18,8 @@ const LEAST_CUT: f64 = 0.05;
 pub(super) struct Caution {
     /// A share of what is left, or of how far its ends contradict each other.
     pub(super) of_left: f64,
-    /// A share of what is taken off.
-    pub(super) of_taken: f64,
+    /// A share of what slopes' ranges add, before a contradiction counts.
+    pub(super) of_slopes: f64,
 }
 
 /// Inequalities, and the programme of those of their unknowns that are bounded.
@@ -71,6 +72,15 @@ impl<'a> Seek<'a> {
         }
     }
 
+    /// What the ranges of slopes add to a combination of rows.
+    fn in_doubt(&self, multipliers: &Multipliers) -> f64 {
+        let row = |row: usize| -> f64 {
+            let slopes = self.linear.rows.slopes[row].iter();
+            slopes.map(|(unknown, slope)| slope.radius() * self.linear.deviations[*unknown].magnitude()).sum()
+        };
+        multipliers.iter().map(|(own, y)| y * row(*own)).sum()
+    }
+
     /// `None` where a contradiction is not beyond doubt.
     fn sought(
         &self,
@@ -81,7 +91,8 @@ impl<'a> Seek<'a> {
             Outcome::Empty { multipliers } => {
                 let bound = self.linear.rows.upper_bound(&[], &multipliers, &self.linear.deviations);
                 let weighed: f64 = multipliers.iter().map(|(row, y)| y * self.error(*row)).sum();
-                Err((bound < -BEYOND * weighed).then_some((multipliers, -bound)))
+                let doubt = BEYOND * weighed + self.caution.of_slopes * self.in_doubt(&multipliers);
+                Err((bound < -doubt).then_some((multipliers, -bound)))
             }
             Outcome::Bounded { multipliers, .. } => Ok((sign * most(sign, &multipliers), multipliers)),
         };
@@ -131,13 +142,14 @@ impl<'a> Seek<'a> {
     /// is left.
     fn cuts(&self, unknown: usize, side: Interval, ends: &[(f64, Multipliers); 2], face: Option<Interval>) -> Vec<Cut> {
         let [(low, below), (high, above)] = ends;
-        let Caution { of_left, of_taken } = self.caution;
+        let Caution { of_left, of_slopes } = self.caution;
         let room = of_left * (high - low).abs();
         let mut cuts = Vec::new();
         for (upper, end, multipliers) in [(true, *high, above), (false, *low, below)] {
+            let doubt = of_slopes * self.in_doubt(multipliers);
             let sign = if upper { 1.0 } else { -1.0 };
             let (now, other) = if upper { (side.upper(), side.lower()) } else { (side.lower(), side.upper()) };
-            let end = end + sign * (room + of_taken * (sign * (now - end)).max(0.0));
+            let end = end + sign * room;
             let gained = sign * (now - end);
             let reaches = face.is_some_and(|face| {
                 let face = if upper { face.upper() } else { face.lower() };
@@ -146,12 +158,58 @@ impl<'a> Seek<'a> {
             if !(gained > LEAST_CUT * side.width() || reaches && gained > 0.0) {
                 continue;
             }
+            let least = BEYOND * side.width();
+            let nothing = sign * (other - end) > least + doubt;
+            // A range that may be empty leaves a sliver to be dealt with.
+            let end = if nothing || sign * (end - other) > least { end } else { other + sign * least };
             let cut = Cut { unknown, upper, end, rows: self.named(multipliers) };
-            if sign * (end - other) < 0.0 {
+            if nothing {
                 return vec![cut];
             }
             cuts.push(cut);
         }
         cuts
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::identify::DragLaw;
+    use crate::identify::bounded::lp::Rows;
+    use crate::identify::bounded::tests::{record, settings};
+
+    const CAUTION: Caution = Caution { of_left: 0.0, of_slopes: 0.25 };
+
+    /// An unknown between -1 and 1, of which a slope between 0.9 and 1.1 is said to take it beyond `limit`: what is found of it.
+    fn found_of(limit: f64) -> Found {
+        let setup = Setup::new(&[&record(300)], &settings(DragLaw::Linear)).expect("a setup");
+        let slope = Interval::new(-1.1, -0.9).expect("a range");
+        let rows = Rows { slopes: vec![vec![(0, slope)]], limits: vec![-limit] };
+        let linear = Linear {
+            rows,
+            origins: vec![Origin::LeastLinear],
+            centre: vec![0.0],
+            deviations: vec![Interval::symmetric(1.0)],
+        };
+        let seek = Seek::new(&setup, &linear, &[0], CAUTION);
+        seek.collect([(0, linear.deviations[0], seek.unknown(0))].into_iter(), |_| None)
+    }
+
+    #[test]
+    fn a_contradiction_counts_where_wider_slopes_would_leave_it() {
+        assert!(matches!(found_of(1.2), Found::Excluded(..)));
+        // By less than a quarter of what the slope's range adds.
+        let Found::Cuts(cuts) = found_of(1.11) else { panic!("beyond doubt") };
+        assert!(cuts.is_empty());
+    }
+
+    #[test]
+    fn a_range_that_may_be_empty_leaves_a_sliver() {
+        let Found::Cuts(cuts) = found_of(1.0999) else { panic!("empty") };
+        assert_eq!(cuts.len(), 1);
+        assert!(!cuts[0].upper && cuts[0].end <= 1.0 - BEYOND && cuts[0].end > 0.9, "{cuts:?}");
+        let Found::Cuts(cuts) = found_of(0.5) else { panic!("empty") };
+        assert!((cuts[0].end - 0.4).abs() < 0.05, "{cuts:?}");
     }
 }

@@ -12,7 +12,7 @@ use super::seek::{Caution, Found, Seek, Sought};
 use super::{Axes, By, Step, shorten};
 use crate::numeric::Interval;
 
-const CAUTION: Caution = Caution { of_left: 0.1, of_taken: 0.0 };
+const CAUTION: Caution = Caution { of_left: 0.1, of_slopes: 0.0 };
 
 /// A box, its frame, and the readings over it.
 struct Over {
