@@ -59,7 +59,7 @@ use estimate::estimated;
 use problem::Readings;
 use report::Answer;
 use search::Search;
-use setup::{BEGINNING, Setup};
+use setup::{SEARCHED, Setup};
 use witness::Tried;
 
 /// Divisions after which a witness is looked for again.
@@ -119,9 +119,6 @@ pub fn enclose_with_certificate(
     Ok((explored.bounds, certificate?))
 }
 
-/// Over wide boxes the beginnings of the records, up to this switching, tell nearly what whole records tell.
-const FIRST_SWINGS: usize = 4;
-
 /// What a search gave.
 struct Explored {
     bounds: Bounds,
@@ -140,7 +137,7 @@ fn explore(
 ) -> Result<Explored, IdentifyError> {
     let mut spent = 0;
     let mut at = setup.search.clone();
-    if let Some(beginnings) = setup.beginnings(settings, FIRST_SWINGS, BEGINNING) {
+    if let Some(beginnings) = setup.beginnings(settings, SEARCHED) {
         let mut search = Search::new(&beginnings);
         // Passes over part of the records cost so much less.
         let budget = settings.budget * setup.samples() / beginnings.samples();

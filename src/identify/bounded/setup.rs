@@ -29,10 +29,18 @@ pub(super) struct Cutting {
 
 /// Of whole records.
 const WHOLE: Cutting = Cutting { per_swing: 1.0, fewest: 6 };
-/// Of beginnings, over whose wide boxes longer windows tell less, as what is in doubt grows with the square of their length.
-pub(super) const BEGINNING: Cutting = Cutting { per_swing: 4.0, fewest: 6 };
-/// Of beginnings where fewer boxes are worth larger linear programmes.
-pub(super) const SHORT: Cutting = Cutting { per_swing: 10.0, fewest: 2 };
+/// How much of every record is its beginning, which over wide boxes tells nearly what all of it tells.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beginning {
+    /// Up to this switching.
+    pub(super) swings: usize,
+    /// Over wide boxes longer windows tell less, as what is in doubt grows with the square of their length.
+    cutting: Cutting,
+}
+
+pub(super) const SEARCHED: Beginning = Beginning { swings: 4, cutting: Cutting { per_swing: 4.0, fewest: 6 } };
+/// Where fewer boxes are worth larger linear programmes.
+pub(super) const PROVED: Beginning = Beginning { swings: 3, cutting: Cutting { per_swing: 10.0, fewest: 2 } };
 
 /// Constraints, unknowns, and the box.
 #[derive(Clone, Debug)]
@@ -303,9 +311,9 @@ impl Setup {
         self.search.extend(self.layout.states(&self.records, self.fastest));
     }
 
-    /// The beginnings of all records, up to this switching and cut like this: what they leave encloses what the whole records leave.
-    /// `None` where that would save little.
-    pub(super) fn beginnings(&self, settings: &BoundedModel, swings: usize, cutting: Cutting) -> Option<Self> {
+    /// The beginnings of all records: what they leave encloses what the whole records leave. `None` where that would save little.
+    pub(super) fn beginnings(&self, settings: &BoundedModel, beginning: Beginning) -> Option<Self> {
+        let Beginning { swings, cutting } = beginning;
         let mut setup = self.clone();
         for readings in &mut setup.records {
             // Unknown instants are parameters of their own, and all of them would have to be known after.

@@ -16,12 +16,11 @@ mod walk;
 
 use serde::{Deserialize, Serialize};
 
-use super::FIRST_SWINGS;
 use super::contract::Origin;
 use super::field::Term;
 use super::search::Search;
 use super::settings::BoundedModel;
-use super::setup::{SHORT, Setup};
+use super::setup::{PROVED, Setup};
 use crate::identify::IdentifyError;
 use crate::numeric::Interval;
 
@@ -203,7 +202,7 @@ impl Certificate {
                 Some(hull) => Goal::Within(hull),
                 None => Goal::Nothing,
             };
-            match certificate.stage(setup, setup.beginnings(settings, FIRST_SWINGS, SHORT).as_ref(), &goal, passes) {
+            match certificate.stage(setup, setup.beginnings(settings, PROVED).as_ref(), &goal, passes) {
                 Ok(stage) => certificate.stages.push(stage),
                 Err(error) => return Ok(Err(error)),
             }

@@ -1,7 +1,6 @@
 //! A stage's steps that are cheap to check, once it is known what is left.
 
-use super::super::FIRST_SWINGS;
-use super::super::setup::Setup;
+use super::super::setup::{PROVED, Setup};
 use super::prover::Prover;
 use super::{Certificate, Stage, Unproved};
 use crate::numeric::Interval;
@@ -38,7 +37,7 @@ impl Certificate {
     ) -> Result<Stage, Unproved> {
         let opened = beginnings.map_or_else(|| setup.clone(), |beginnings| setup.opened(beginnings));
         let (beginning, all) = (beginnings.unwrap_or(&opened).most_windows(), opened.most_windows());
-        let longer = |reach: &usize| Some(2 * reach - beginning + FIRST_SWINGS).filter(|longer| *longer < all);
+        let longer = |reach: &usize| Some(2 * reach - beginning + PROVED.swings).filter(|longer| *longer < all);
         let mut reaches: Vec<usize> =
             core::iter::successors(Some(beginning), longer).filter(|reach| *reach < all).collect();
         reaches.push(all);
