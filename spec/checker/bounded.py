@@ -355,10 +355,9 @@ class Walk:
             return []
         ranges, cuts = box.sides if kind == "contract" else box.along(frame), []
         for cut in what["cuts"] if not nothing and ranges is not None else []:
-            place, sign, end = int(cut["unknown"]), 1 if cut["upper"] else -1, number(cut["end"])
+            place, sign = int(cut["unknown"]), 1 if cut["upper"] else -1
             require(0 <= place < len(ranges), "a cut of no unknown")
-            if not (ranges[place][1] <= end if sign > 0 else ranges[place][0] >= end):
-                cut = reached(cut, ranges[place], most((place, sign), cut["rows"]))
+            cut = reached(cut, ranges[place], lambda: most((place, sign), cut["rows"]))
             if cut is None:
                 continue
             cuts.append(cut)

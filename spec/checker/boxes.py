@@ -124,13 +124,16 @@ class Box:
 
 
 def reached(cut, side, most):
-    """A cut as far as an upper bound shows it; `None` where that is nowhere. One that is to leave nothing must leave nothing."""
-    sign, most = 1 if cut["upper"] else -1, None if most is None else arb(most).upper()
-    end = number(cut["end"])
-    if most is None or most <= sign * end:
+    """A cut as far as an upper bound shows it; `None` where that is nowhere. One that is to leave nothing must leave nothing. `most`
+    gives the bound, of an upper end or of the negative of a lower one, where it is needed."""
+    sign, end = 1 if cut["upper"] else -1, number(cut["end"])
+    low, high = side if sign > 0 else (-side[1], -side[0])
+    bound = None if high <= sign * end else most()
+    if bound is None or bound <= sign * end:
         return cut | {"end": end}
-    require(side[0] <= end <= side[1], "a range is said to be empty, and is not")
-    return cut | {"end": sign * up(most)} if most.is_finite() else None
+    require(low <= sign * end, "a range is said to be empty, and is not")
+    bound = arb(bound).upper()
+    return cut | {"end": sign * up(bound)} if bound.is_finite() else None
 
 
 def with_side(sides, place, side):

@@ -184,11 +184,9 @@ class Hats:
             place, sign = int(cut["unknown"]), 1 if cut["upper"] else -1
             require(0 <= place < len(box), "no such unknown")
             low, high = box[place]
-            if cut["rows"]:
-                found = sign * self.bound(box, speeds, (place, sign), cut["rows"])
-            else:
-                found = self.beginning(speeds, place, sign)
-            cut = reached(cut, box[place], sign * found)
+            by_rows = lambda: self.bound(box, speeds, (place, sign), cut["rows"])
+            by_speeds = lambda: sign * self.beginning(speeds, place, sign)
+            cut = reached(cut, box[place], by_rows if cut["rows"] else by_speeds)
             if cut is None:
                 continue
             cuts.append(cut)

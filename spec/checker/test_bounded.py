@@ -63,23 +63,34 @@ def test_a_cut_goes_as_far_as_is_shown_and_no_further(upper):
     sign = 1 if upper else -1
     cut = lambda end: {"unknown": 0, "upper": upper, "end": sign * end}
     side = (-2.0, 3.0) if upper else (-3.0, 2.0)
-    end = lambda *given: sign * boxes.reached(*given)["end"]
-    assert end(cut(1.0), side, arb(0.5)) == end(cut(1.0), side, None) == 1.0
-    assert 2.5 <= end(cut(1.0), side, arb(2.5)) <= 2.5 + 1e-14
-    assert boxes.reached(cut(1.0), side, arb("inf")) is None
+    reached = lambda end, most: boxes.reached(cut(end), side, lambda: most)
+    end = lambda *given: sign * reached(*given)["end"]
+    assert end(1.0, arb(0.5)) == end(1.0, None) == 1.0
+    assert 2.5 <= end(1.0, arb(2.5)) <= 2.5 + 1e-14
+    assert reached(1.0, arb("inf")) is None and reached(1.0, arb("nan")) is None
+    # Beyond the box nothing needs to be shown.
+    assert end(3.5, arb("inf")) == 3.5
     # One that is to leave nothing must leave nothing.
-    assert end(cut(-4.0), side, arb(-5)) == -4.0
+    assert end(-4.0, arb(-5)) == -4.0
     with pytest.raises(Refused):
-        boxes.reached(cut(-4.0), side, arb(-3))
+        reached(-4.0, arb(-3))
 
 
-def test_a_cut_that_says_more_than_its_rows_show_changes_nothing():
-    certificate = copy.deepcopy(FILES["consistent"])
-    contracts = [s["contract"] for s in certificate["stages"][0]["steps"] if "contract" in s]
-    cuts = [c for what in contracts for c in what["cuts"] if c["rows"] and "hats" not in what["by"]]
-    assert cuts
-    cuts[-1]["end"] += (-1e-9 if cuts[-1]["upper"] else 1e-9) * abs(cuts[-1]["end"])
-    assert bounded.check(certificate)[0] == bounded.check(FILES["consistent"])[0]
+def test_a_cut_that_says_more_than_its_rows_show_changes_nothing(monkeypatch):
+    certificate, asked = copy.deepcopy(FILES["consistent"]), []
+
+    def noted(cut, side, most):
+        asked.append((cut, side, most()))
+        return boxes.reached(cut, side, lambda: asked[-1][2])
+
+    with monkeypatch.context() as patched:
+        patched.setattr(bounded, "reached", noted)
+        shown = bounded.check(certificate)
+    cut, side, most = [own for own in asked if own[0]["rows"]][-1]
+    sign = 1 if cut["upper"] else -1
+    cut["end"] = float((sign * arb(most) + arb(side[0] if cut["upper"] else side[1])) / 2)
+    assert not most <= sign * cut["end"]
+    assert bounded.check(certificate) == shown
 
 
 def shift_a_reading(certificate):

@@ -280,6 +280,12 @@ impl Linear {
         self.origins.push(origin(false));
     }
 
+    /// What the ranges of a row's slopes add to it, by each unknown.
+    pub(super) fn in_doubt(&self, row: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let slopes = self.rows.slopes[row].iter();
+        slopes.map(|(unknown, slope)| (*unknown, slope.radius() * self.deviations[*unknown].magnitude()))
+    }
+
     /// The inequalities of a window and of those beside it, and the search box's own.
     pub(super) fn beside(&self, window: usize) -> Self {
         let near = |own: usize| own.abs_diff(window) <= 1;

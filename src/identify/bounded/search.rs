@@ -181,12 +181,11 @@ impl<'a> Search<'a> {
         let mut by = vec![0.0; unknowns];
         let mut largest = 0.0f64;
         let error = self.setup.records.iter().fold(f64::INFINITY, |least, readings| least.min(readings.error));
-        for slopes in &linear.rows.slopes {
+        for row in 0..linear.rows.slopes.len() {
             let mut sum = 0.0;
-            for (unknown, slope) in slopes {
-                let part = slope.radius() * linear.deviations[*unknown].magnitude();
+            for (unknown, part) in linear.in_doubt(row) {
                 sum += part;
-                if let Some(by) = by.get_mut(*unknown) {
+                if let Some(by) = by.get_mut(unknown) {
                     *by += part;
                 }
             }

@@ -29,6 +29,7 @@ pub(super) struct Cutting {
 
 /// Of whole records.
 const WHOLE: Cutting = Cutting { per_swing: 1.0, fewest: 6 };
+
 /// How much of every record is its beginning, which over wide boxes tells nearly what all of it tells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beginning {

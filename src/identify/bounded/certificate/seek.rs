@@ -74,11 +74,7 @@ impl<'a> Seek<'a> {
 
     /// What the ranges of slopes add to a combination of rows.
     fn in_doubt(&self, multipliers: &Multipliers) -> f64 {
-        let row = |row: usize| -> f64 {
-            let slopes = self.linear.rows.slopes[row].iter();
-            slopes.map(|(unknown, slope)| slope.radius() * self.linear.deviations[*unknown].magnitude()).sum()
-        };
-        multipliers.iter().map(|(own, y)| y * row(*own)).sum()
+        multipliers.iter().map(|(row, y)| y * self.linear.in_doubt(*row).map(|(_, part)| part).sum::<f64>()).sum()
     }
 
     /// `None` where a contradiction is not beyond doubt.
@@ -181,8 +177,9 @@ mod tests {
 
     const CAUTION: Caution = Caution { of_left: 0.0, of_slopes: 0.25 };
 
-    /// An unknown between -1 and 1, of which a slope between 0.9 and 1.1 is said to take it beyond `limit`: what is found of it.
-    fn found_of(limit: f64) -> Found {
+    /// An unknown between -1 and 1, of which a slope between 0.9 and 1.1 is said to take it beyond `limit`: what is found of it, of
+    /// which no more than `most` is left.
+    fn found_of(limit: f64, most: f64) -> Found {
         let setup = Setup::new(&[&record(300)], &settings(DragLaw::Linear)).expect("a setup");
         let slope = Interval::new(-1.1, -0.9).expect("a range");
         let rows = Rows { slopes: vec![vec![(0, slope)]], limits: vec![-limit] };
@@ -193,23 +190,29 @@ mod tests {
             deviations: vec![Interval::symmetric(1.0)],
         };
         let seek = Seek::new(&setup, &linear, &[0], CAUTION);
-        seek.collect([(0, linear.deviations[0], seek.unknown(0))].into_iter(), |_| None)
+        let side = Interval::new(-1.0, most).expect("a range");
+        seek.collect([(0, side, seek.unknown(0))].into_iter(), |_| None)
     }
 
     #[test]
     fn a_contradiction_counts_where_wider_slopes_would_leave_it() {
-        assert!(matches!(found_of(1.2), Found::Excluded(..)));
+        assert!(matches!(found_of(1.2, 1.0), Found::Excluded(..)));
         // By less than a quarter of what the slope's range adds.
-        let Found::Cuts(cuts) = found_of(1.11) else { panic!("beyond doubt") };
+        let Found::Cuts(cuts) = found_of(1.11, 1.0) else { panic!("beyond doubt") };
         assert!(cuts.is_empty());
     }
 
     #[test]
     fn a_range_that_may_be_empty_leaves_a_sliver() {
-        let Found::Cuts(cuts) = found_of(1.0999) else { panic!("empty") };
+        let Found::Cuts(cuts) = found_of(1.0999, 1.0) else { panic!("empty") };
         assert_eq!(cuts.len(), 1);
         assert!(!cuts[0].upper && cuts[0].end <= 1.0 - BEYOND && cuts[0].end > 0.9, "{cuts:?}");
-        let Found::Cuts(cuts) = found_of(0.5) else { panic!("empty") };
+        // Beyond by more than a share of its width, by less with a quarter of what the slope's range adds; and by more than both.
+        let Found::Cuts(cuts) = found_of(1.03, 0.9) else { panic!("empty") };
+        assert!(cuts[0].end < 0.9, "{cuts:?}");
+        let Found::Cuts(cuts) = found_of(1.08, 0.9) else { panic!("empty") };
+        assert!(cuts[0].end > 0.9, "{cuts:?}");
+        let Found::Cuts(cuts) = found_of(0.5, 1.0) else { panic!("empty") };
         assert!((cuts[0].end - 0.4).abs() < 0.05, "{cuts:?}");
     }
 }
