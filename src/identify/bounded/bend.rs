@@ -7,7 +7,8 @@
 
 use super::field::{FORCE, Field, POSITION, Term, VELOCITY};
 use super::mix::{Bundle, Mix};
-use super::series::{Equations, Motions, Slopes};
+use super::series::{Equations, Motions, ORDER, Slopes};
+use super::step::Manner;
 use crate::numeric::{Balls, Interval, Real, Sizes};
 
 #[cfg(test)]
@@ -15,6 +16,8 @@ mod tests;
 
 /// Degree whose coefficient over the whole step is the remainder.
 const BEND_ORDER: usize = 4;
+// A step's powers of time must reach as far.
+const _: () = assert!(BEND_ORDER <= Manner::WIDE.degree && Manner::WIDE.degree <= ORDER);
 /// Attempts at a size of the rest.
 const ATTEMPTS: usize = 4;
 /// The rest is looked for within so much more than it seemed to be.

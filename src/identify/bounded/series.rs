@@ -4,14 +4,14 @@ use super::field::{FORCE, Field, POSITION, TERMS, Term, Triple, VELOCITY};
 use super::mix::Bundle;
 use crate::numeric::{Balls, Interval, Sizes};
 
-/// Degree whose coefficient over the whole step is the remainder.
+/// The highest degree of a step's polynomials.
 pub(super) const ORDER: usize = 10;
 
 pub(super) type Coefficients<T> = [T; ORDER + 1];
 type Series = Coefficients<Balls>;
 
-/// Polynomials in the time since the step's beginning, for the components of states or of columns of slopes; the last coefficient is
-/// over the whole step, so that the values are enclosed at every instant of it.
+/// Polynomials in the time since the step's beginning, for the components of states or of columns of slopes; the coefficient of their
+/// degree is over the whole step, so that the values are enclosed at every instant of it.
 pub(super) type Path = [Series; 3];
 
 const NONE: Series = [Balls::ZERO; ORDER + 1];
@@ -33,11 +33,11 @@ fn product(a: &Series, b: &Series, k: usize) -> Balls {
     Balls::dot(a[..=k].iter().copied().zip(b[..=k].iter().rev().copied()))
 }
 
-/// Powers of a time.
-pub(super) fn powers(time: Interval) -> Series {
+/// Powers of a time, up to a degree.
+pub(super) fn powers(time: Interval, degree: usize) -> Series {
     let time = Balls::splat(time);
     let mut powers = [Balls::ONE; ORDER + 1];
-    for k in 1..=ORDER {
+    for k in 1..=degree {
         powers[k] = powers[k - 1] * time;
     }
     powers
@@ -45,7 +45,7 @@ pub(super) fn powers(time: Interval) -> Series {
 
 /// The values after the time of these powers.
 #[inline]
-pub(super) fn value(path: &Path, powers: &Series, lagged: bool) -> [Balls; 3] {
+pub(super) fn value(path: &Path, powers: &[Balls], lagged: bool) -> [Balls; 3] {
     core::array::from_fn(|k| {
         if k == FORCE && !lagged { path[k][0] } else { Balls::dot(path[k].iter().copied().zip(powers.iter().copied())) }
     })
@@ -67,6 +67,8 @@ pub(super) struct Equations {
     terms: [Balls; TERMS],
     active: [bool; TERMS],
     twice_middle: Balls,
+    /// Of their motions' polynomials.
+    degree: usize,
 }
 
 /// Taylor's coefficients of motions side by side, and of what each term multiplies in them.
@@ -77,6 +79,7 @@ pub(super) struct Motions {
     drag: Series,
     cube: Series,
     ahead: Series,
+    degree: usize,
 }
 
 /// States side by side.
@@ -85,20 +88,22 @@ pub(super) fn abreast(states: [&Triple; Balls::COUNT]) -> [Balls; 3] {
 }
 
 impl Equations {
-    pub(super) fn of(fields: [&Field; Balls::COUNT]) -> Self {
+    pub(super) fn of(fields: [&Field; Balls::COUNT], degree: usize) -> Self {
         Self {
             terms: core::array::from_fn(|term| Balls::new(fields.map(|field| field.terms[term]))),
             active: fields[0].active,
             twice_middle: Balls::splat(fields[0].twice_middle()),
+            degree,
         }
     }
 
     /// One equation in every place.
-    pub(super) fn splat(field: &Field) -> Self {
+    pub(super) fn splat(field: &Field, degree: usize) -> Self {
         Self {
             terms: field.terms.map(Balls::splat),
             active: field.active,
             twice_middle: Balls::splat(field.twice_middle()),
+            degree,
         }
     }
 
@@ -113,13 +118,14 @@ impl Equations {
 
     /// From states at an instant, or at all of them at once; the velocities are all `backwards`, or none is.
     pub(super) fn motions(&self, start: &[Balls; 3], u: Interval, backwards: bool) -> Motions {
-        let mut motions = Motions { state: NO_PATH, square: NONE, drag: NONE, cube: NONE, ahead: NONE };
-        let Motions { state: [x, v, f], square, drag, cube, ahead } = &mut motions;
+        let degree = self.degree;
+        let mut motions = Motions { state: NO_PATH, square: NONE, drag: NONE, cube: NONE, ahead: NONE, degree };
+        let Motions { state: [x, v, f], square, drag, cube, ahead, .. } = &mut motions;
         [x[0], v[0], f[0]] = *start;
         let u = Balls::splat(u);
         let mut shifted = NONE;
         let (quadratic, cubic, lagged) = (self.has(Term::Quadratic), self.has(Term::Cubic), self.has(Term::LagRate));
-        for k in 0..=ORDER {
+        for k in 0..=degree {
             if quadratic {
                 let speed = if backwards { -v[k] } else { v[k] };
                 shifted[k] = if k == 0 { speed - self.twice_middle } else { speed };
@@ -132,7 +138,7 @@ impl Equations {
             if lagged {
                 ahead[k] = if k == 0 { u - f[0] } else { -f[k] };
             }
-            if k == ORDER {
+            if k == degree {
                 break;
             }
             let mut rate = self.term(Term::Gain) * f[k] - self.term(Term::Linear) * v[k];
@@ -165,7 +171,7 @@ impl Equations {
             *beside = v.at_places(BESIDE);
         }
         let mut dampings = NONE;
-        for (k, slope) in dampings.iter_mut().enumerate() {
+        for (k, slope) in dampings.iter_mut().enumerate().take(self.degree + 1) {
             if k == 0 {
                 *slope = -self.term(Term::Linear);
             }
@@ -209,7 +215,7 @@ impl Equations {
         for (series, start) in path.iter_mut().zip(start) {
             series[0] = *start;
         }
-        for k in 0..ORDER {
+        for k in 0..self.degree {
             let own = [path[POSITION][k], path[VELOCITY][k], path[FORCE][k]];
             let push = bundle.map_or([Balls::ZERO; 2], |bundle| step.motions.pushed(bundle, k));
             let rates = self.rates(product(&step.head, &path[VELOCITY], k), own, push);
@@ -220,7 +226,7 @@ impl Equations {
         let pushed = |k: usize| bundle.map_or([Sizes::ZERO; 2], |bundle| step.motions.pushed_within(bundle, k));
         let from = self.sizes(step.damping, pushed(0), start, step.h)?;
         for (series, remainder) in path.iter_mut().zip(self.remainder(&step.rest, pushed, from)) {
-            series[ORDER] = Balls::within(remainder);
+            series[self.degree] = Balls::within(remainder);
         }
         Some(())
     }
@@ -232,7 +238,7 @@ impl Equations {
         pushed: impl Fn(usize) -> [Sizes; 2],
         from: [Sizes; 3],
     ) -> [Sizes; 3] {
-        self.growth(damping, pushed, from, ORDER).map(|series| series[ORDER])
+        self.growth(damping, pushed, from, self.degree).map(|series| series[self.degree])
     }
 
     /// How large coefficients of columns are at most over the whole step, up to an order.
@@ -309,13 +315,13 @@ impl Equations {
 }
 
 impl Motions {
-    /// Of the motion over the box, and of the point's from a middle of its start, `from`; over the whole step in the last coefficient.
+    /// Of the motion over the box, and of the point's from a middle of its start, `from`; the coefficient of their degree over the whole step.
     pub(super) fn joined(&self, from: &Self) -> Path {
         let mut path = NO_PATH;
         for (component, series) in path.iter_mut().enumerate() {
             let (own, middle) = (&self.state[component], &from.state[component]);
-            for (k, into) in series.iter_mut().enumerate() {
-                let pair = if k == ORDER {
+            for (k, into) in series.iter_mut().enumerate().take(self.degree + 1) {
+                let pair = if k == self.degree {
                     [(&own[k], WITHIN), (&own[k], WITHIN_AT)]
                 } else {
                     [(&own[k], OVER), (&middle[k], 0)]
@@ -383,7 +389,7 @@ impl<'a> Slopes<'a> {
 
     fn new(motions: &'a Motions, dampings: &Series, places: [usize; 2], damping: Interval, h: Interval) -> Self {
         let (mut head, mut rest) = (NONE, [Sizes::ZERO; ORDER + 1]);
-        for (k, coefficient) in dampings.iter().enumerate() {
+        for (k, coefficient) in dampings.iter().enumerate().take(motions.degree + 1) {
             head[k] = coefficient.spread(places[0]);
             rest[k] = coefficient.sizes().spread(places[1]);
         }

@@ -7,14 +7,26 @@
 use super::bend::{Carried, Curve, Ground};
 use super::field::{FORCE, Field, POSITION, Term, Triple, VELOCITY};
 use super::mix::Bundle;
-use super::series::{Equations, NO_PATH, ORDER, Path, Slopes, abreast, line, powers, value};
+use super::series::{Equations, NO_PATH, Path, Slopes, abreast, line, powers, value};
 use crate::numeric::{Balls, Interval, Real};
 
 #[cfg(test)]
 mod tests;
 
-/// Length of a step against the equation's fastest rate, where slopes are over the box.
-pub(super) const STEP: f64 = 0.15;
+/// How a step is made.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Manner {
+    /// Its length against the equation's fastest rate, at most.
+    pub(super) length: f64,
+    /// Of its polynomials: their coefficient of this degree is the remainder.
+    pub(super) degree: usize,
+}
+
+impl Manner {
+    /// Where slopes are over a box, so that a remainder hardly counts.
+    pub(super) const WIDE: Self = Self { length: 0.15, degree: 6 };
+}
+
 /// What a step may be longer against the fastest rate on the way than was looked for.
 pub(super) const ROOM: f64 = 1.1;
 /// Attempts at an enclosure before the step is called too long.
@@ -23,6 +35,9 @@ const ATTEMPTS: usize = 6;
 /// A step that is too long is made no shorter at once than this share.
 const LEAST_SHARE: f64 = 0.1;
 const HALF: Refused = Refused::TooLong(0.5);
+
+/// Degree of a straight line's way.
+const LINE: usize = 2;
 
 /// The equation over a box, and at a point of it.
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +67,8 @@ pub(super) struct Step {
     /// Whether forces, and positions, move anything.
     lagged: bool,
     stiff: bool,
+    /// Of the polynomials.
+    degree: usize,
     /// The same of the point's, where it is not in the box.
     at_by_start: Option<Path>,
     /// Of the state by what the unknowns of each bundle push, the start held.
@@ -156,23 +173,25 @@ impl Field {
     pub(super) fn pass_crude(&self, start: &Triple, u: Interval, h: Interval) -> Result<[Triple; 2], Refused> {
         let within = enclose(start, Interval::ZERO.hull(h), |state| self.rate(state, u)).ok_or(HALF)?;
         let [start, rate] = [*start, self.rate(&within, u)].map(|state| state.map(Balls::splat));
-        Ok([value(&line(&start, &rate), &powers(h), true).map(|end| end.interval_at(0)), within])
+        Ok([value(&line(&start, &rate), &powers(h, LINE)[..=LINE], true).map(|end| end.interval_at(0)), within])
     }
 }
 
 impl Fields {
-    /// Over a duration `h` with a constant command u, no longer than `longest` against the fastest rate: beyond, polynomial and
-    /// remainder cancel.
+    /// Over a duration `h` with a constant command u, but for a little no longer against the fastest rate than its manner says: beyond,
+    /// polynomial and remainder cancel.
     pub(super) fn smooth(
         &self,
         start: &Pair,
         u: Interval,
         h: Interval,
-        longest: f64,
+        manner: Manner,
         carried: &Carried<'_>,
     ) -> Result<Box<Step>, Refused> {
         let span = Interval::ZERO.hull(h);
         let (field, point) = (&self.over, &self.at);
+        let Manner { length, degree } = manner;
+        let longest = ROOM * length;
         let within = enclose(&start.over, span, |state| field.rate(state, u)).ok_or(HALF)?;
         let backwards = field.backwards(&within, h, longest)?;
         let within_at = enclose(&start.at, span, |state| point.rate(state, u)).ok_or(HALF)?;
@@ -183,37 +202,38 @@ impl Fields {
         let about = Some(less(&start.at, &middle));
         let bundles = carried.bundles;
         if let Some(pairs) = carried.pairs {
-            let own = Equations::splat(point);
+            let own = Equations::splat(point, degree);
             let motions = own.motions(&abreast([&middle, &within_at, &start.at, &within_at]), u, backwards);
             let damping = point.damping(within_at[VELOCITY], within_at[VELOCITY]);
             let slopes = Slopes::at(&motions, &own.dampings(&motions, backwards), damping, h);
             let ground = Ground { own: &own, slopes: &slopes, motions: &motions, over: field, at: point, backwards };
             if let Some(curve) = ground.curve(carried, pairs) {
                 let state = motions.joined(&motions);
-                let mut step = Step::of(field, state, about, within, bundles, |start, bundle, path| {
+                let mut step = Step::of(field, degree, state, about, within, bundles, |start, bundle, path| {
                     own.columns(&slopes, bundle, start, path)
                 })?;
                 step.curve = Some(curve);
                 return Ok(step);
             }
-            if h.upper() * field.fastest(within[VELOCITY]) > ROOM * STEP {
+            if h.upper() * field.fastest(within[VELOCITY]) > ROOM * Manner::WIDE.length {
                 return Err(HALF);
             }
         }
-        let all = Equations::of([field, field, point, point]);
+        let all = Equations::of([field, field, point, point], degree);
         let motions = all.motions(&abreast([&start.over, &within, &start.at, &within_at]), u, backwards);
-        let from = Equations::splat(point).motions(&middle.map(Balls::splat), u, backwards);
-        let own = Equations::splat(field);
+        let from = Equations::splat(point, degree).motions(&middle.map(Balls::splat), u, backwards);
+        let own = Equations::splat(field, degree);
         let damping = field.damping(within[VELOCITY], within_at[VELOCITY]);
         let slopes = Slopes::over(&motions, &own.dampings(&motions, backwards), damping, h);
-        let mut step = Step::of(field, motions.joined(&from), about, within, bundles, |start, bundle, path| {
-            own.columns(&slopes, bundle, start, path)
-        })?;
+        let mut step =
+            Step::of(field, degree, motions.joined(&from), about, within, bundles, |start, bundle, path| {
+                own.columns(&slopes, bundle, start, path)
+            })?;
         let parts = within.iter().chain(&start.over).chain(&field.terms);
         let parts_at = within_at.iter().chain(&start.at).chain(&point.terms);
         if !parts.zip(parts_at).all(|(over, at)| at.is_subset_of(*over)) {
             // Slopes over the box say nothing of a point outside of it.
-            let own = Equations::splat(point);
+            let own = Equations::splat(point, degree);
             let damping = point.damping(within_at[VELOCITY], within_at[VELOCITY]);
             let slopes = Slopes::at(&motions, &own.dampings(&motions, backwards), damping, h);
             let mut path = NO_PATH;
@@ -257,9 +277,9 @@ impl Fields {
             end = Some([start[POSITION] + way, reached]);
         }
         let [from, rate] = [*start, field.rate(&within, u)].map(|state| state.map(Balls::splat));
-        let own = Equations::splat(field);
+        let own = Equations::splat(field, LINE);
         let damping = field.damping(within[VELOCITY], within_at[VELOCITY]);
-        let step = Step::of(field, line(&from, &rate), None, within, bundles, |start, bundle, path| {
+        let step = Step::of(field, LINE, line(&from, &rate), None, within, bundles, |start, bundle, path| {
             let by = |term: Term| Balls::splat(field.push(term, within_at, u_at));
             let push = bundle.map_or([Balls::ZERO; 2], |bundle| bundle.pushed(by));
             *path = line(start, &own.rates_within(damping, push, start, h)?);
@@ -273,6 +293,7 @@ impl Step {
     /// With columns of slopes by each component of the start, and by what each bundle pushes from rest.
     fn of(
         field: &Field,
+        degree: usize,
         state: Path,
         at_about: Option<Triple>,
         within: Triple,
@@ -287,6 +308,7 @@ impl Step {
             by_start: NO_PATH,
             lagged: field.has(Term::LagRate),
             stiff: field.has(Term::Stiffness),
+            degree,
             at_by_start: None,
             by_push,
             curve: None,
@@ -301,9 +323,9 @@ impl Step {
 
     /// By how much longer the step, of the duration `h`, may be for its remainder to leave so much of the point's velocity unsure.
     pub(super) fn longer(&self, h: Interval, most: f64) -> f64 {
-        let last = self.state[VELOCITY][ORDER].interval_at(1).magnitude();
-        let remainder = last * libm::pow(h.upper(), ORDER as f64);
-        libm::pow(most / remainder.max(f64::MIN_POSITIVE), 1.0 / ORDER as f64)
+        let last = self.state[VELOCITY][self.degree].interval_at(1).magnitude();
+        let remainder = last * libm::pow(h.upper(), self.degree as f64);
+        libm::pow(most / remainder.max(f64::MIN_POSITIVE), 1.0 / self.degree as f64)
     }
 
     /// The values at the step's end, `h` after its beginning.
@@ -318,13 +340,14 @@ impl Step {
 
     /// The values after `time` of the step.
     pub(super) fn at(&self, time: Interval) -> Arrival {
-        let powers = powers(time);
-        let value = |path: &Path, powers: &_| value(path, powers, self.lagged);
-        let state = value(&self.state, &powers);
-        let units = value(&self.by_start, &powers);
+        let powers = powers(time, self.degree);
+        let powers = &powers[..=self.degree];
+        let value = |path: &Path| value(path, powers, self.lagged);
+        let state = value(&self.state);
+        let units = value(&self.by_start);
         // By the mean value theorem: the end from a middle, and what a start about it adds.
         let at = self.at_about.map(|about| {
-            let own = self.at_by_start.as_ref().map_or(units, |path| value(path, &powers));
+            let own = self.at_by_start.as_ref().map_or(units, value);
             core::array::from_fn(|k| {
                 let [x, v, f, _] = own[k].intervals();
                 state[k].interval_at(1) + Interval::dot([x, v, f].into_iter().zip(about))
@@ -336,8 +359,8 @@ impl Step {
             by_start: core::array::from_fn(|from| units.map(|values| values.spread(from))),
             lagged: self.lagged,
             stiff: self.stiff,
-            by_push: self.by_push.iter().map(|path| value(path, &powers)).collect(),
-            bent: self.curve.as_ref().map(|curve| (curve.at(&powers), curve.rest)),
+            by_push: self.by_push.iter().map(value).collect(),
+            bent: self.curve.as_ref().map(|curve| (curve.at(powers), curve.rest)),
         }
     }
 }

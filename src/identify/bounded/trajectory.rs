@@ -6,7 +6,8 @@ use super::bend::{Carried, Pairs};
 use super::command::Command;
 use super::field::{FORCE, Field, POSITION, TERMS, Term, Triple, VELOCITY};
 use super::mix::{Bundle, Mix};
-use super::step::{Arrival, Fields, Pair, ROOM, Refused, STEP, Step, straddles};
+use super::series::ORDER;
+use super::step::{Arrival, Fields, Manner, Pair, Refused, Step, straddles};
 use crate::numeric::{Balls, Interval};
 use open::Open;
 use point::advance_point;
@@ -16,12 +17,12 @@ mod point;
 
 /// The most steps between two changes of the command.
 const MOST_STEPS: usize = 2000;
-/// The same over a box whose gain's relative width is at most `NARROW`, where the remainders would count.
-const POINT_STEP: f64 = 0.12;
+/// Steps over a box whose gain's relative width is at most `NARROW`, where the remainders would count.
+const FINE: Manner = Manner { length: 0.12, degree: ORDER };
 const NARROW: f64 = 0.01;
-/// The same at most where steps are as long as their remainders allow.
-const LONG: f64 = 0.5;
-/// The same for a step by the rates' ranges.
+/// Steps that are as long as their remainders allow.
+const LONG: Manner = Manner { length: 0.5, degree: ORDER };
+/// Length against the fastest rate of a step by the rates' ranges.
 const CRUDE: f64 = 0.1;
 /// A step is made anew where it may be no longer than this share of itself.
 const ENOUGH: f64 = 0.8;
@@ -109,8 +110,7 @@ fn shorten(part: &mut Interval, length: f64) {
 /// How long a step may be.
 #[derive(Clone, Copy, Debug)]
 struct Pace {
-    /// Against the fastest rate.
-    length: f64,
+    manner: Manner,
     longest_s: f64,
     /// What it may leave unsure of the point's velocity.
     unsure: f64,
@@ -125,7 +125,7 @@ fn stride(
     pace: Pace,
     carried: &Carried<'_>,
 ) -> Option<Option<Box<Step>>> {
-    let (field, length) = (&fields.over, pace.length);
+    let (field, length) = (&fields.over, pace.manner.length);
     // All states, the point's among them: it need not be in the box.
     let both: Triple = core::array::from_fn(|k| state.over[k].hull(state.at[k]));
     let v = both[VELOCITY];
@@ -146,7 +146,7 @@ fn stride(
                 return Some(None);
             }
         }
-        let share = match fields.smooth(state, u, *part, ROOM * length, carried) {
+        let share = match fields.smooth(state, u, *part, pace.manner, carried) {
             Ok(step) => {
                 let longer = SAFETY * step.longer(*part, pace.unsure);
                 if longer >= ENOUGH {
@@ -272,23 +272,21 @@ impl Way<'_> {
         }
         let (mut left, mut gone, mut ahead) = (h, Interval::ZERO, ahead);
         let unsure = self.drive.remainder.filter(|_| self.paced).unwrap_or(f64::INFINITY);
-        let mut pace = Pace { length: self.length(), longest_s: f64::INFINITY, unsure };
+        let mut pace = Pace { manner: self.manner(), longest_s: f64::INFINITY, unsure };
         for _ in 0..MOST_STEPS {
             if left.upper() <= 0.0 {
                 return Some(());
             }
             let mut part = left;
             let mut step = if uncertain {
-                shorten(&mut part, self.length() / self.drive.fields.over.fastest(self.state.over[VELOCITY]));
+                shorten(&mut part, self.manner().length / self.drive.fields.over.fastest(self.state.over[VELOCITY]));
                 None
             } else {
                 stride(&self.drive.fields, &self.state, u, &mut part, pace, &self.all())?
             };
             if let (Some(step), true) = (&step, unsure.is_finite()) {
                 pace.longest_s = part.upper() * SAFETY * step.longer(part, unsure);
-                if self.pairs.is_some() {
-                    pace.length = LONG;
-                }
+                pace.manner = LONG;
             }
             let mut at_end = None;
             if step.is_none() {
@@ -350,10 +348,9 @@ impl Way<'_> {
         None
     }
 
-    /// Length of a step against the fastest rate.
-    fn length(&self) -> f64 {
+    fn manner(&self) -> Manner {
         let gain = self.drive.fields.over.term(Term::Gain);
-        if gain.width() <= NARROW * gain.lower() { POINT_STEP } else { STEP }
+        if gain.width() <= NARROW * gain.lower() { FINE } else { Manner::WIDE }
     }
 
     /// One step by the rates' ranges, where it takes the point, and what that passes.

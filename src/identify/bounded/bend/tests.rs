@@ -1,9 +1,10 @@
 use super::super::field::{TERMS, Triple};
 use super::super::mix::By;
-use super::super::step::{Fields, Pair, Step};
+use super::super::series::ORDER;
+use super::super::step::{Fields, Manner, Pair, Step};
 use super::*;
 
-const LONGEST: f64 = 1.5;
+const MANNER: Manner = Manner { length: 1.4, degree: ORDER };
 const H_S: f64 = 0.01;
 const Z: f64 = 0.05;
 
@@ -82,7 +83,7 @@ impl Case {
             rest: [Interval::ZERO; 3],
         };
         let step: Box<Step> = fields
-            .smooth(&start, Interval::point(self.command), Interval::point(H_S), LONGEST, &carried)
+            .smooth(&start, Interval::point(self.command), Interval::point(H_S), MANNER, &carried)
             .expect("a step");
         assert!(step.curve.is_some());
         let arrival = step.at(Interval::point(H_S));

@@ -14,6 +14,9 @@ use crate::numeric::Interval;
 
 const CAUTION: Caution = Caution { of_left: 0.1, of_slopes: 0.0 };
 
+/// A box is followed as far as no more than this share of an error is in doubt.
+const FAR: f64 = 0.5;
+
 /// A box, its frame, and the readings over it.
 struct Over {
     own: Frame,
@@ -109,11 +112,11 @@ impl Prover<'_> {
         if self.narrow {
             return Next::Settled;
         }
-        here.level += 1;
         if !self.meet(here) {
             self.push(Step::Keep);
             return Next::Excluded;
         }
+        here.level = self.further(here);
         if let Some(Slanted { frame: own, surface: Some(surface), .. }) = here.slanted.clone() {
             let at = here.at.clone();
             let (linear, _) = surface.over(&own.z, &own.centre, true);
@@ -123,6 +126,20 @@ impl Prover<'_> {
             }
         }
         Next::Smaller
+    }
+
+    /// The furthest level at which little is in doubt, or the next.
+    fn further(&mut self, here: &Open) -> usize {
+        let next = here.level + 1;
+        let Some(Slanted { frame, .. }) = &here.slanted else { return next };
+        let moved = frame.clone().moved(frame.z.clone());
+        let frame = Frame::about(moved.places.clone(), moved.centre.clone(), moved.lower.clone(), &here.at);
+        let far = (next + 1..self.reaches.len()).rev().find(|level| {
+            self.search.model.reach = self.reaches[*level];
+            let surface = self.search.model.surface(&here.at, &frame);
+            surface.is_some_and(|surface| surface.over(&frame.z, &frame.centre, true).1.slack <= FAR)
+        });
+        far.unwrap_or(next)
     }
 
     fn seek<'s>(&'s self, linear: &'s Linear, own: &Frame) -> Seek<'s> {

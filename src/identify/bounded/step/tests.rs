@@ -1,9 +1,11 @@
 use super::super::bend::Pairs;
 use super::super::field::TERMS;
 use super::super::mix::{By, Mix};
+use super::super::series::ORDER;
 use super::*;
 
-const LONGEST: f64 = 1.5;
+const FINE: Manner = Manner { length: 1.4, degree: ORDER };
+const COARSE: Manner = Manner { degree: 6, ..FINE };
 const U: f64 = 1.0;
 
 /// An axis with quadratic drag: force over inertia and drag over inertia.
@@ -40,7 +42,7 @@ const CENTRE: [f64; 3] = [0.8, 0.5, 0.6];
 const H_S: f64 = 0.4;
 
 /// A step over a box about the centre, of this relative half-width, with slopes by gain, drag and the velocity at its start.
-fn step(share: f64) -> Box<Step> {
+fn step(share: f64, manner: Manner) -> Box<Step> {
     let [gain, quadratic, v] = CENTRE;
     let fields = Fields {
         over: field(about(gain, share), about(quadratic, share)),
@@ -50,51 +52,56 @@ fn step(share: f64) -> Box<Step> {
     let mixes = [By::Term(Term::Gain), By::Term(Term::Quadratic)].map(|by| Mix::of([(by, 1.0)]));
     let bundles = Bundle::of(&mixes, &[Interval::ZERO; 2]);
     let carried = Carried { bundles: &bundles, ..Carried::NOTHING };
-    fields.smooth(&start, Interval::point(U), Interval::point(H_S), LONGEST, &carried).expect("a step")
+    fields.smooth(&start, Interval::point(U), Interval::point(H_S), manner, &carried).expect("a step")
+}
+
+/// Without what is over the whole step.
+fn cut(path: &mut Path, manner: Manner) {
+    for series in path {
+        series[manner.degree] = Balls::ZERO;
+    }
 }
 
 #[test]
 fn the_closed_form_is_within_a_step_and_without_the_remainder_it_is_not() {
-    let whole = step(0.0);
-    let mut cut = whole.clone();
-    for series in &mut cut.state {
-        let last = series.len() - 1;
-        series[last] = Balls::ZERO;
-    }
-    let mut missed = 0;
-    for part in 1..=20 {
-        let t = H_S * f64::from(part) / 20.0;
-        let at = whole.at(Interval::point(t)).at.expect("the point's own");
-        let short = cut.at(Interval::point(t)).at.expect("the point's own");
-        for (component, value) in motion(CENTRE, t).into_iter().enumerate() {
-            assert!(holds(at[component], value), "{value} outside {:?} after {t}", at[component]);
-            missed += usize::from(!holds(short[component], value));
+    for manner in [FINE, COARSE] {
+        let whole = step(0.0, manner);
+        let mut short = whole.clone();
+        cut(&mut short.state, manner);
+        let mut missed = 0;
+        for part in 1..=20 {
+            let t = H_S * f64::from(part) / 20.0;
+            let at = whole.at(Interval::point(t)).at.expect("the point's own");
+            let short = short.at(Interval::point(t)).at.expect("the point's own");
+            for (component, value) in motion(CENTRE, t).into_iter().enumerate() {
+                assert!(holds(at[component], value), "{value} outside {:?} after {t}", at[component]);
+                missed += usize::from(!holds(short[component], value));
+            }
         }
+        assert!(missed > 5, "without the remainder {missed} of 40 were missed by {manner:?}");
     }
-    assert!(missed > 5, "without the remainder {missed} of 40 were missed");
 }
 
 #[test]
 fn the_slope_by_the_velocity_at_the_start_is_within_its_column_and_without_the_remainder_it_is_not() {
-    let whole = step(0.0);
-    let mut cut = whole.clone();
-    for series in &mut cut.by_start {
-        let last = series.len() - 1;
-        series[last] = Balls::ZERO;
+    for manner in [FINE, COARSE] {
+        let whole = step(0.0, manner);
+        let mut short = whole.clone();
+        cut(&mut short.by_start, manner);
+        let slope = |step: &Step, t: f64| step.at(Interval::point(t)).by_start[VELOCITY][VELOCITY].interval_at(0);
+        let mut missed = 0;
+        for part in 1..=20 {
+            let t = H_S * f64::from(part) / 20.0;
+            // The derivative of the hyperbolic tangent, now and at the start.
+            let [gain, quadratic, v] = CENTRE;
+            let terminal = (gain * U / quadratic).sqrt();
+            let left = |v: f64| 1.0 - (v / terminal) * (v / terminal);
+            let exact = left(motion(CENTRE, t)[1]) / left(v);
+            assert!(holds(slope(&whole, t), exact), "{exact} outside {:?} after {t}", slope(&whole, t));
+            missed += usize::from(!holds(slope(&short, t), exact));
+        }
+        assert!(missed > 5, "without the remainder {missed} of 20 were missed by {manner:?}");
     }
-    let slope = |step: &Step, t: f64| step.at(Interval::point(t)).by_start[VELOCITY][VELOCITY].interval_at(0);
-    let mut missed = 0;
-    for part in 1..=20 {
-        let t = H_S * f64::from(part) / 20.0;
-        // The derivative of the hyperbolic tangent, now and at the start.
-        let [gain, quadratic, v] = CENTRE;
-        let terminal = (gain * U / quadratic).sqrt();
-        let left = |v: f64| 1.0 - (v / terminal) * (v / terminal);
-        let exact = left(motion(CENTRE, t)[1]) / left(v);
-        assert!(holds(slope(&whole, t), exact), "{exact} outside {:?} after {t}", slope(&whole, t));
-        missed += usize::from(!holds(slope(&cut, t), exact));
-    }
-    assert!(missed > 5, "without the remainder {missed} of 20 were missed");
 }
 
 #[test]
@@ -106,7 +113,7 @@ fn the_remainder_of_a_slope_is_no_smaller_than_what_linear_drag_leaves_out() {
     let h_s = 0.85 / rate;
     let fields = Fields { over: equation, at: equation };
     let step =
-        fields.smooth(&start, Interval::point(U), Interval::point(h_s), LONGEST, &Carried::NOTHING).expect("a step");
+        fields.smooth(&start, Interval::point(U), Interval::point(h_s), FINE, &Carried::NOTHING).expect("a step");
     let [position, velocity, _] = step.at(Interval::point(h_s)).by_start[VELOCITY];
     let left = (-rate * h_s).exp();
     assert!(holds(velocity.interval_at(0), left), "{left} outside {:?}", velocity.interval_at(0));
@@ -118,7 +125,7 @@ fn the_remainder_of_a_slope_is_no_smaller_than_what_linear_drag_leaves_out() {
 #[test]
 fn motions_of_a_box_are_within_the_slopes_and_within_their_middles_they_are_not() {
     let share = 0.05;
-    let step = step(share);
+    let step = step(share, FINE);
     let mut missed = 0;
     for part in [5, 10, 20] {
         let t = H_S * f64::from(part) / 20.0;
@@ -157,9 +164,8 @@ fn what_is_unsure_of_a_point_outside_of_the_box_is_carried_by_its_own_slopes() {
     let unsure = about(v, 0.01);
     let short_s = 0.2;
     let start = Pair { over: state(about(v, 0.02)), at: state(unsure) };
-    let step = fields
-        .smooth(&start, Interval::point(U), Interval::point(short_s), LONGEST, &Carried::NOTHING)
-        .expect("a step");
+    let step =
+        fields.smooth(&start, Interval::point(U), Interval::point(short_s), FINE, &Carried::NOTHING).expect("a step");
     let mut other = step.clone();
     other.at_by_start = None;
     let at_end = |step: &Step| step.at(Interval::point(short_s)).at.expect("the point's own");
@@ -186,7 +192,7 @@ fn bent_step(share: f64, h_s: f64) -> (Box<Step>, Vec<Bundle>, Pairs) {
     let bends = vec![[Balls::ZERO; 3]; pairs.count()];
     let carried =
         Carried { bundles: &bundles, columns: &columns, pairs: Some(&pairs), bends: &bends, rest: [Interval::ZERO; 3] };
-    let step = fields.smooth(&start, Interval::point(U), Interval::point(h_s), LONGEST, &carried).expect("a step");
+    let step = fields.smooth(&start, Interval::point(U), Interval::point(h_s), FINE, &carried).expect("a step");
     assert!(step.curve.is_some());
     (step, bundles, pairs)
 }

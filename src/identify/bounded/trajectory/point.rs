@@ -3,14 +3,14 @@
 use super::super::bend::Carried;
 use super::super::field::{Field, Triple, VELOCITY};
 use super::super::step::{Fields, Pair};
-use super::{MOST_SHORTENED, MOST_STEPS, POINT_STEP, Pace, shorten, stride};
+use super::{FINE, MOST_SHORTENED, MOST_STEPS, Pace, shorten, stride};
 use crate::numeric::Interval;
 
 /// Advances the motion of one point, of which nothing but the end is wanted; what it passes besides.
 pub(super) fn advance_point(field: &Field, start: Triple, u: Interval, h: Interval) -> Option<[Triple; 2]> {
     let (mut state, mut passed, mut left) = (start, start, h);
     let fields = Fields { over: *field, at: *field };
-    let pace = Pace { length: POINT_STEP, longest_s: f64::INFINITY, unsure: f64::INFINITY };
+    let pace = Pace { manner: FINE, longest_s: f64::INFINITY, unsure: f64::INFINITY };
     for _ in 0..MOST_STEPS {
         if left.upper() <= 0.0 {
             return Some([state, passed]);
@@ -38,7 +38,7 @@ pub(super) fn advance_point(field: &Field, start: Triple, u: Interval, h: Interv
 
 /// One step of the point by the rates' ranges, and how long it is.
 fn crude_point(field: &Field, state: &Triple, u: Interval, mut part: Interval) -> Option<([Triple; 2], Interval)> {
-    shorten(&mut part, POINT_STEP / field.fastest(state[VELOCITY]));
+    shorten(&mut part, FINE.length / field.fastest(state[VELOCITY]));
     for _ in 0..MOST_SHORTENED {
         if let Ok(done) = field.pass_crude(state, u, part) {
             return Some((done, part));
