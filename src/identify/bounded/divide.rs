@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use super::field::Term;
-use super::search::{Empty, Left, Method, Search};
+use super::search::{Empty, Left, Method, Search, UNBROKEN};
 use super::slanted::Slanted;
 use crate::numeric::Interval;
 
@@ -15,8 +15,12 @@ const MOST_OF_A_BOX: usize = 6;
 const DRAWN: f64 = 0.2;
 /// Boxes excluded last that are remembered: there the contradiction is shown, and the nearest parameter looked for.
 const REMEMBERED: usize = 4;
-/// A box stands for what is left once they take less than this.
+/// A box stands for what is left once less than this of a reading's error is in doubt.
 const FOLLOWED: f64 = 0.7;
+/// Else whole records are tried where less than this is in doubt of their windows, and less than the second in a straight frame: there
+/// most is that of the records' beginnings, which the readings tell.
+const NEARLY: f64 = 5.0;
+const STRAIGHT: f64 = 10.0;
 
 /// A box that is left.
 #[derive(Clone, Debug)]
@@ -276,6 +280,15 @@ impl Search<'_> {
         Some(open.swap_remove(widest))
     }
 
+    /// What whole records leave of a box in a frame along what they tell, where little is in doubt of them so; `slack` is of their windows.
+    pub(super) fn unbroken(&mut self, at: &[Interval], slack: f64) -> Result<Option<Kept>, Empty> {
+        let (mut at, mut slanted) = (at.to_vec(), None);
+        if slack > NEARLY || self.slant(&mut at, &mut slanted, STRAIGHT)?.is_none() {
+            return Ok(None);
+        }
+        Ok(self.slant(&mut at, &mut slanted, UNBROKEN)?.map(|left| Kept { at, left, slanted }))
+    }
+
     /// Works off a list of boxes.
     fn refine(&mut self, division: &mut Division, mut open: Vec<Vec<Interval>>, budget: usize) {
         while let Some(mut at) = self.take_widest(&mut open) {
@@ -291,13 +304,25 @@ impl Search<'_> {
                     continue;
                 }
             };
-            let unknown = match left {
+            let (unknown, slack) = match left {
                 Left::Followed { slack, .. } if slack <= FOLLOWED => {
                     division.kept.push(Kept { at, left, slanted: None });
                     continue;
                 }
-                Left::Followed { widest, .. } | Left::Wide(widest) => widest,
+                Left::Followed { slack, widest } => (widest, slack),
+                Left::Wide(widest) => (widest, f64::INFINITY),
             };
+            match self.unbroken(&at, slack) {
+                Err(empty) => {
+                    division.exclude(empty);
+                    continue;
+                }
+                Ok(Some(kept)) => {
+                    division.kept.push(kept);
+                    continue;
+                }
+                Ok(None) => {}
+            }
             match self.divide(&at, unknown) {
                 Some(parts) => open.extend(parts),
                 None => {

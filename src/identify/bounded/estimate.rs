@@ -102,7 +102,7 @@ impl Search<'_> {
             if self.weigh(&mut at).is_err() {
                 continue;
             }
-            if let Some(tried) = self.nearest(&at, &at)
+            if let Some(tried) = self.nearest(&at, &self.setup.search)
                 && best.as_ref().is_none_or(|best| tried.misfit < best.misfit)
             {
                 best = Some(tried);

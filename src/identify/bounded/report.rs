@@ -71,7 +71,7 @@ impl Answer {
                 return;
             }
             let within = if excluded { search.loosened(&at) } else { at.clone() };
-            if let Some(tried) = search.nearest(&at, &within) {
+            if let Some(tried) = search.nearest(&within, &within) {
                 self.note(tried);
             }
         }

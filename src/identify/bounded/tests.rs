@@ -6,7 +6,7 @@ use rand_pcg::Pcg64Mcg;
 use super::contract::{Origin, Span};
 use super::lp::Rows;
 use super::problem::Window;
-use super::search::Search;
+use super::search::{Left, Search};
 use super::setup::Setup;
 use super::{BoundedModel, Consistency, DelayBound, Quantity, enclose, explore};
 use crate::experiment::{Record, Sensor, SimulatedExperiment};
@@ -358,6 +358,42 @@ fn a_witness_is_found_about_the_fit_where_division_has_hardly_begun_and_none_whe
     assert_eq!(without.bounds.verdict, Consistency::Undecided, "without estimates");
     let late = BoundedModel { delay: DelayBound::KnownS(0.15), budget: 1, ..settings(DragLaw::Linear) };
     assert_ne!(enclose(&[&record], &late).expect("bounds").verdict, Consistency::Consistent);
+}
+
+/// A box about parameters off the truth by a share, of this relative half-width.
+fn off(setup: &Setup, share: f64, width: f64) -> Vec<Interval> {
+    let mut at = setup.search.clone();
+    for (side, truth) in at.iter_mut().zip([1.0 / ALPHA, BETA / ALPHA, DELTA / ALPHA]) {
+        *side = Interval::point((1.0 + share) * truth).inflate(width * truth);
+    }
+    at
+}
+
+#[test]
+fn a_witness_is_found_outside_of_the_box_that_a_step_is_as_wide_as() {
+    let setup = Setup::new(&[&record(300)], &settings(DragLaw::Linear)).expect("a problem");
+    let mut search = Search::new(&setup);
+    let from = off(&setup, 0.01, 0.002);
+    let inside = search.nearest(&from, &from).expect("a parameter");
+    let outside = search.nearest(&from, &setup.search).expect("a parameter");
+    assert!(inside.misfit > 1.0 && outside.misfit <= 1.0, "{} and {}", inside.misfit, outside.misfit);
+}
+
+#[test]
+fn whole_records_tell_more_than_their_windows_and_are_tried_where_not_too_much_is_in_doubt_of_these() {
+    let setup = Setup::new(&[&record(150)], &settings(DragLaw::Linear)).expect("a problem");
+    let mut search = Search::new(&setup);
+    let at = off(&setup, 0.0, 0.003);
+    let kept = search.unbroken(&at, 1.0).expect("the truth is inside").expect("little is in doubt");
+    let Left::Followed { slack, .. } = kept.left else { panic!("not followed") };
+    let centre = at.iter().map(|side| side.midpoint()).collect();
+    let linear = search.chained(&mut at.clone(), centre).expect("the truth is inside").expect("an enclosure");
+    assert!(slack < 0.1 * search.slack(&linear).0, "{slack} of {}", search.slack(&linear).0);
+    let truth = [1.0 / ALPHA, BETA / ALPHA, DELTA / ALPHA];
+    assert!(kept.slanted.is_some() && kept.at.iter().zip(truth).all(|(side, value)| side.contains(value)));
+    assert!(search.unbroken(&at, 10.0).expect("the truth is inside").is_none());
+    // Nothing meets the readings one per cent off.
+    assert!(search.unbroken(&off(&setup, 0.01, 0.002), 1.0).is_err());
 }
 
 /// A vehicle that obeys `v' = acceleration(v, u)`, u the logged relay's 0.4 s ago and at first what acted before the log; rounded to a

@@ -6,7 +6,7 @@ use super::search::Search;
 use crate::numeric::{Interval, Real};
 
 /// Steps towards the least largest misfit.
-const MOST_STEPS: usize = 8;
+const MOST_STEPS: usize = 16;
 
 /// A step that gains less than this share of a parameter's width is the last.
 const REACHED: f64 = 0.002;
@@ -54,9 +54,9 @@ impl Search<'_> {
         (linear, misfit)
     }
 
-    /// A parameter with a small largest misfit: linear programmes about one after another, from the middle of a box, and
-    /// within another.
-    pub(super) fn nearest(&mut self, from: &[Interval], at: &[Interval]) -> Option<Tried> {
+    /// A parameter with a small largest misfit: linear programmes about one after another, from the middle of a box, each no further
+    /// from the one before than the box is wide, and within another.
+    pub(super) fn nearest(&mut self, from: &[Interval], within: &[Interval]) -> Option<Tried> {
         let mut centre: Vec<f64> = from.iter().map(|side| side.midpoint()).collect();
         let mut best: Option<Tried> = None;
         // How far from the centre is searched, against the box.
@@ -65,8 +65,8 @@ impl Search<'_> {
             let point: Vec<Interval> = centre.iter().map(|value| Interval::point(*value)).collect();
             let Some(linear) = self.at_point(&point) else { break };
             let (mut linear, misfit) = self.with_misfit(&linear);
-            for (place, side) in at.iter().enumerate() {
-                let width = trust * side.width();
+            for (place, (side, from)) in within.iter().zip(from).enumerate() {
+                let width = trust * from.width();
                 let middle = Interval::point(centre[place]);
                 let room = (middle + Interval::symmetric(width)).intersection(*side).unwrap_or(middle);
                 linear.deviations[place] = room - middle;
