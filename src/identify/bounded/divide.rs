@@ -7,6 +7,9 @@ use super::search::{Empty, Left, Method, Search, UNBROKEN};
 use super::slanted::Slanted;
 use crate::numeric::Interval;
 
+#[cfg(test)]
+mod tests;
+
 /// A box is not divided further where what is in doubt takes less than this of the readings' error.
 const FINE: f64 = 1e-5;
 /// Divisions of the halves of one box that is left, at once.
@@ -17,8 +20,8 @@ const DRAWN: f64 = 0.2;
 const REMEMBERED: usize = 4;
 /// A box stands for what is left once less than this of a reading's error is in doubt.
 const FOLLOWED: f64 = 0.7;
-/// Else whole records are tried where less than this is in doubt of their windows, and less than the second in a straight frame: there
-/// most is that of the records' beginnings, which the readings tell.
+/// Else whole records are tried where less than this is in doubt of their windows, and less than the second in a straight frame, where
+/// most may be due to the records' beginnings, which the readings tell.
 const NEARLY: f64 = 5.0;
 const STRAIGHT: f64 = 10.0;
 
@@ -281,7 +284,7 @@ impl Search<'_> {
     }
 
     /// What whole records leave of a box in a frame along what they tell, where little is in doubt of them so; `slack` is of their windows.
-    pub(super) fn unbroken(&mut self, at: &[Interval], slack: f64) -> Result<Option<Kept>, Empty> {
+    fn unbroken(&mut self, at: &[Interval], slack: f64) -> Result<Option<Kept>, Empty> {
         let (mut at, mut slanted) = (at.to_vec(), None);
         if slack > NEARLY || self.slant(&mut at, &mut slanted, STRAIGHT)?.is_none() {
             return Ok(None);

@@ -64,6 +64,11 @@ impl Frame {
         frame
     }
 
+    /// The same axes and centre, over another box along the axes of the unknowns.
+    pub(super) fn around(&self, at: &[Interval]) -> Self {
+        Self::about(self.places.clone(), self.centre.clone(), self.lower.clone(), at)
+    }
+
     /// What an unknown is by the coordinates.
     pub(super) fn unknown(&self, row: usize) -> Affine {
         let constant = Interval::point(self.centre[self.places[row]]);

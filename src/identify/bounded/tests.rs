@@ -6,9 +6,9 @@ use rand_pcg::Pcg64Mcg;
 use super::contract::{Origin, Span};
 use super::lp::Rows;
 use super::problem::Window;
-use super::search::{Left, Search};
+use super::search::Search;
 use super::setup::Setup;
-use super::{BoundedModel, Consistency, DelayBound, Quantity, enclose, explore};
+use super::{BoundedModel, Consistency, DelayBound, Quantity, enclose};
 use crate::experiment::{Record, Sensor, SimulatedExperiment};
 use crate::identify::DragLaw;
 use crate::nonlinearity::RelayHysteresis;
@@ -254,27 +254,11 @@ fn a_frame_keeps_what_is_in_the_box_and_one_whose_centre_moves_without_it_does_n
 }
 
 /// A self-oscillation from rest, rounded to steps of `STEP`.
-fn oscillation(axis: DragAxis<f64>, samples_per_s: f64, lasted_s: f64) -> Record {
+pub(super) fn oscillation(axis: DragAxis<f64>, samples_per_s: f64, lasted_s: f64) -> Record {
     let relay = RelayHysteresis::new(1.0, 0.4, 0.0).expect("a relay");
     let sensor = Sensor { quantum: STEP, ..Sensor::default() };
     let experiment = SimulatedExperiment::new(axis, relay, samples_per_s).expect("an experiment");
     experiment.held().with_sensor(sensor).expect("a sensor").run(lasted_s).expect("a record")
-}
-
-#[test]
-fn witnesses_are_found_towards_both_ends_of_the_bounds() {
-    let record = oscillation(DragAxis::mixed(1.2, 0.5, 0.4).expect("an axis"), 10.0, 25.0);
-    let setup = Setup::new(&[&record], &settings(DragLaw::Mixed)).expect("a problem");
-    let mut search = Search::new(&setup);
-    let division = search.search(setup.search.clone(), 600);
-    let hull = division.hull().expect("not empty: the truth is inside");
-    let witness = search.nearest(&hull, &hull).filter(|tried| tried.misfit <= 1.0).expect("a witness");
-    for place in 0..setup.layout.common() {
-        let [low, high] = [-1.0, 1.0].map(|sign| search.furthest(&witness, &hull, place, sign).expect("a witness"));
-        assert!(low.misfit <= 1.0 && high.misfit <= 1.0);
-        let reached = (high.at[place] - low.at[place]) / hull[place].width();
-        assert!(reached > 0.05, "unknown {place}: witnesses reach over {reached} of the bounds");
-    }
 }
 
 #[test]
@@ -345,55 +329,13 @@ fn a_wide_start_and_a_near_one_end_in_the_same_bounds() {
     }
 }
 
-#[test]
-fn a_witness_is_found_about_the_fit_where_division_has_hardly_begun_and_none_where_there_is_none() {
-    let record = record(300);
-    let brief = BoundedModel { budget: 1, delay: DelayBound::Unknown, ..settings(DragLaw::Mixed) };
-    let found = enclose(&[&record], &brief).expect("bounds");
-    assert_eq!(found.verdict, Consistency::Consistent);
-    let [low, high] = found.of(Quantity::Alpha).expect("a range");
-    assert!(low <= ALPHA && ALPHA <= high && high > 2.0 * low, "[{low}, {high}] after one pass");
-    let setup = Setup::new(&[&record], &brief).expect("a problem");
-    let without = explore(&setup, &brief, || None, |_, _| ()).expect("bounds");
-    assert_eq!(without.bounds.verdict, Consistency::Undecided, "without estimates");
-    let late = BoundedModel { delay: DelayBound::KnownS(0.15), budget: 1, ..settings(DragLaw::Linear) };
-    assert_ne!(enclose(&[&record], &late).expect("bounds").verdict, Consistency::Consistent);
-}
-
 /// A box about parameters off the truth by a share, of this relative half-width.
-fn off(setup: &Setup, share: f64, width: f64) -> Vec<Interval> {
+pub(super) fn off(setup: &Setup, share: f64, width: f64) -> Vec<Interval> {
     let mut at = setup.search.clone();
     for (side, truth) in at.iter_mut().zip([1.0 / ALPHA, BETA / ALPHA, DELTA / ALPHA]) {
         *side = Interval::point((1.0 + share) * truth).inflate(width * truth);
     }
     at
-}
-
-#[test]
-fn a_witness_is_found_outside_of_the_box_that_a_step_is_as_wide_as() {
-    let setup = Setup::new(&[&record(300)], &settings(DragLaw::Linear)).expect("a problem");
-    let mut search = Search::new(&setup);
-    let from = off(&setup, 0.01, 0.002);
-    let inside = search.nearest(&from, &from).expect("a parameter");
-    let outside = search.nearest(&from, &setup.search).expect("a parameter");
-    assert!(inside.misfit > 1.0 && outside.misfit <= 1.0, "{} and {}", inside.misfit, outside.misfit);
-}
-
-#[test]
-fn whole_records_tell_more_than_their_windows_and_are_tried_where_not_too_much_is_in_doubt_of_these() {
-    let setup = Setup::new(&[&record(150)], &settings(DragLaw::Linear)).expect("a problem");
-    let mut search = Search::new(&setup);
-    let at = off(&setup, 0.0, 0.003);
-    let kept = search.unbroken(&at, 1.0).expect("the truth is inside").expect("little is in doubt");
-    let Left::Followed { slack, .. } = kept.left else { panic!("not followed") };
-    let centre = at.iter().map(|side| side.midpoint()).collect();
-    let linear = search.chained(&mut at.clone(), centre).expect("the truth is inside").expect("an enclosure");
-    assert!(slack < 0.1 * search.slack(&linear).0, "{slack} of {}", search.slack(&linear).0);
-    let truth = [1.0 / ALPHA, BETA / ALPHA, DELTA / ALPHA];
-    assert!(kept.slanted.is_some() && kept.at.iter().zip(truth).all(|(side, value)| side.contains(value)));
-    assert!(search.unbroken(&at, 10.0).expect("the truth is inside").is_none());
-    // Nothing meets the readings one per cent off.
-    assert!(search.unbroken(&off(&setup, 0.01, 0.002), 1.0).is_err());
 }
 
 /// A vehicle that obeys `v' = acceleration(v, u)`, u the logged relay's 0.4 s ago and at first what acted before the log; rounded to a

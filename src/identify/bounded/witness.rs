@@ -5,6 +5,9 @@ use super::lp::{Outcome, Programme};
 use super::search::Search;
 use crate::numeric::{Interval, Real};
 
+#[cfg(test)]
+mod tests;
+
 /// Steps towards the least largest misfit.
 const MOST_STEPS: usize = 16;
 

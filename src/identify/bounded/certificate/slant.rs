@@ -85,10 +85,7 @@ impl Prover<'_> {
     /// Contracts the box in the coordinates of the next frame, or of its own; whether nothing is left.
     fn turn(&mut self, by: By, over: Over, next: Option<Frame>, here: &mut Open) -> bool {
         let Over { own, linear, surface, at } = over;
-        let frame = next.as_ref().map_or_else(
-            || own.clone(),
-            |next| Frame::about(own.places.clone(), next.centre.clone(), next.lower.clone(), &at),
-        );
+        let frame = next.as_ref().map_or_else(|| own.clone(), |next| next.around(&at));
         let axes = next.is_some().then(|| axes(&frame));
         let mut slanted = Slanted { frame, surface: next.is_none().then_some(surface), informed: true };
         match self.turns(&linear, &own, &slanted.frame) {
@@ -116,11 +113,12 @@ impl Prover<'_> {
             self.push(Step::Keep);
             return Next::Excluded;
         }
-        here.level = self.further(here);
-        if let Some(Slanted { frame: own, surface: Some(surface), .. }) = here.slanted.clone() {
+        let Some(Slanted { frame: own, surface, .. }) = here.slanted.clone() else { return Next::Smaller };
+        let next = own.clone().moved(own.z.clone());
+        here.level = self.further(here, &next);
+        if let Some(surface) = surface {
             let at = here.at.clone();
             let (linear, _) = surface.over(&own.z, &own.centre, true);
-            let next = own.clone().moved(own.z.clone());
             if self.turn(By::Same, Over { own, linear, surface, at }, Some(next), here) {
                 return Next::Excluded;
             }
@@ -128,12 +126,9 @@ impl Prover<'_> {
         Next::Smaller
     }
 
-    /// The furthest level at which little is in doubt, or the next.
-    fn further(&mut self, here: &Open) -> usize {
-        let next = here.level + 1;
-        let Some(Slanted { frame, .. }) = &here.slanted else { return next };
-        let moved = frame.clone().moved(frame.z.clone());
-        let frame = Frame::about(moved.places.clone(), moved.centre.clone(), moved.lower.clone(), &here.at);
+    /// The furthest level at which little is in doubt in a frame, or the next.
+    fn further(&mut self, here: &Open, frame: &Frame) -> usize {
+        let (next, frame) = (here.level + 1, frame.around(&here.at));
         let far = (next + 1..self.reaches.len()).rev().find(|level| {
             self.search.model.reach = self.reaches[*level];
             let surface = self.search.model.surface(&here.at, &frame);

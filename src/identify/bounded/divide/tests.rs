@@ -1,0 +1,21 @@
+use super::super::setup::Setup;
+use super::super::tests::{ALPHA, BETA, DELTA, off, record, settings};
+use super::*;
+use crate::identify::DragLaw;
+
+#[test]
+fn whole_records_tell_more_than_their_windows_and_are_tried_where_not_too_much_is_in_doubt_of_these() {
+    let setup = Setup::new(&[&record(150)], &settings(DragLaw::Linear)).expect("a problem");
+    let mut search = Search::new(&setup);
+    let at = off(&setup, 0.0, 0.003);
+    let kept = search.unbroken(&at, 1.0).expect("the truth is inside").expect("little is in doubt");
+    let Left::Followed { slack, .. } = kept.left else { panic!("not followed") };
+    let centre = at.iter().map(|side| side.midpoint()).collect();
+    let linear = search.chained(&mut at.clone(), centre).expect("the truth is inside").expect("an enclosure");
+    assert!(slack < 0.1 * search.slack(&linear).0, "{slack} of {}", search.slack(&linear).0);
+    let truth = [1.0 / ALPHA, BETA / ALPHA, DELTA / ALPHA];
+    assert!(kept.slanted.is_some() && kept.at.iter().zip(truth).all(|(side, value)| side.contains(value)));
+    assert!(search.unbroken(&at, 10.0).expect("the truth is inside").is_none());
+    // Nothing meets the readings one per cent off.
+    assert!(search.unbroken(&off(&setup, 0.01, 0.002), 1.0).is_err());
+}
