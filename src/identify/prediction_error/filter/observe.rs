@@ -1,8 +1,8 @@
 //! What a reading does: to the state and its covariance, to their derivatives, and to the score.
 
+use super::Filter;
 use super::pass::{Innovation, NOISES, STRUCTURE, Score};
 use super::transition::Vector;
-use super::Filter;
 use crate::identify::prediction_error::model::Noise;
 
 impl<const N: usize> Filter<'_, N> {
