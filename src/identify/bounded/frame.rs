@@ -195,7 +195,8 @@ impl Frame {
                 continue;
             }
             let mut slopes = DVector::zeros(n);
-            row.iter().for_each(|(j, slope)| slopes[*j] = slope.midpoint() * radius[*j] / error);
+            let coordinates = row.iter().filter(|(j, _)| *j < n);
+            coordinates.for_each(|(j, slope)| slopes[*j] = slope.midpoint() * radius[*j] / error);
             information.ger(1.0, &slopes, &slopes, 1.0);
         }
         let mut frame = self.clone();

@@ -22,8 +22,6 @@ const COARSE: f64 = 0.03;
 const EVENING: usize = 200;
 /// How often all ends are drawn in.
 const ROUNDS: usize = 6;
-/// Boxes in each of which a witness is looked for.
-const MOST_NEAREST: usize = 8;
 
 /// Parameters tried so far.
 #[derive(Default)]
@@ -89,7 +87,9 @@ impl Answer {
         let budget = budget.min(search.passes + SHARPENING);
         search.contract_kept(division);
         search.even_out(division, COARSE, budget.min(search.passes + EVENING));
-        self.near_all(search, division);
+        if let Some(tried) = division.hull().and_then(|hull| search.nearest(&hull, &hull)) {
+            self.note(tried);
+        }
         let ends: Vec<End> = (0..search.setup.layout.common())
             .flat_map(|unknown| [true, false].map(|upper| End { unknown, upper }))
             .collect();
@@ -139,15 +139,6 @@ impl Answer {
             }
             if self.inner.as_ref().map(|inner| end.of(inner)) == before {
                 return;
-            }
-        }
-    }
-
-    /// The nearest parameters of all that is left.
-    fn near_all(&mut self, search: &mut Search<'_>, division: &Division) {
-        for kept in division.kept.iter().take(MOST_NEAREST) {
-            if let Some(tried) = search.nearest(&kept.at, &kept.at) {
-                self.note(tried);
             }
         }
     }

@@ -13,7 +13,7 @@ use super::trajectory::{Node, Unknowns};
 use crate::numeric::Interval;
 
 /// A motion is followed anew where what is of the third order takes more than this of what is in doubt.
-pub(super) const STALE: f64 = 0.6;
+pub(super) const STALE: f64 = 0.4;
 
 impl Model<'_> {
     /// The motion over a whole record, and how it differs from that of the frame's centre by each coordinate.
@@ -165,7 +165,7 @@ impl Search<'_> {
             linear.deviations = at.iter().zip(&linear.centre).map(|(side, c)| *side - Interval::point(*c)).collect();
             Empty { method: Method::Whole, multipliers, linear: Some(linear) }
         };
-        let unknowns: Vec<usize> = (0..own.places.len()).collect();
+        let unknowns: Vec<usize> = (0..linear.deviations.len()).collect();
         let programme = Programme::of(&linear.rows, &linear.deviations, &unknowns);
         for (row, place) in own.places.iter().enumerate() {
             let side = linear.range_of(&programme, &own.unknown(row), &own).map_err(|rows| empty(rows, &linear, at))?;

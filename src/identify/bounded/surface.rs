@@ -99,8 +99,9 @@ impl Surface {
         }
     }
 
-    /// The readings as inequalities over a part of the box, about its middle, `active` ones alone or all;
-    /// `centre` is that of the frame.
+    /// The readings as inequalities over a part of the box, about its middle, `active` ones alone or all; `centre` is that of the frame.
+    /// Behind the coordinates stand products of two, as unknowns of their own: what bends several readings alike is weighed against
+    /// itself.
     pub(super) fn over(&self, z: &[Interval], centre: &[f64], active: bool) -> (Linear, Doubt) {
         let middle: Vec<Interval> = z.iter().map(|side| Interval::point(side.midpoint())).collect();
         let deviations: Vec<Interval> = z.iter().zip(&middle).map(|(side, middle)| *side - *middle).collect();
@@ -108,6 +109,8 @@ impl Surface {
         let (mut slack, mut by) = (0.0f64, vec![0.0; z.len()]);
         for Sheet { pairs, readings } in &self.sheets {
             let products = products(pairs, &deviations);
+            let behind = linear.deviations.len();
+            linear.deviations.extend(&products);
             for off in readings {
                 let mut bent = vec![Interval::ZERO; z.len()];
                 for ([i, j], bend) in pairs.iter().zip(&off.bends) {
@@ -132,16 +135,15 @@ impl Surface {
                 let unsure =
                     slopes.iter().zip(&deviations).map(|(slope, z)| slope.radius() * z.magnitude()).sum::<f64>();
                 slack = slack.max((unsure + second.radius() + off.rest.magnitude()) / error);
-                let residual = there + second + off.rest;
+                let residual = there + off.rest;
                 let first = Interval::dot(slopes.iter().copied().zip(deviations.iter().copied()));
-                if active && (residual + first).magnitude() <= error {
+                if active && (residual + first + second).magnitude() <= error {
                     continue;
                 }
                 let (window, sample) = (off.window, off.sample);
-                linear.pair(slopes.iter().copied().enumerate(), residual, off.error, |above| Origin::Reading {
-                    window,
-                    sample,
-                    above,
+                let bends = off.bends.iter().enumerate().map(|(pair, bend)| (behind + pair, *bend));
+                linear.pair(slopes.iter().copied().enumerate().chain(bends), residual, off.error, |above| {
+                    Origin::Reading { window, sample, above }
                 });
             }
         }

@@ -137,14 +137,14 @@ impl Prover<'_> {
         far.unwrap_or(next)
     }
 
-    fn seek<'s>(&'s self, linear: &'s Linear, own: &Frame) -> Seek<'s> {
-        let all: Vec<usize> = (0..own.places.len()).collect();
+    fn seek<'s>(&'s self, linear: &'s Linear) -> Seek<'s> {
+        let all: Vec<usize> = (0..linear.deviations.len()).collect();
         Seek::new(self.search.setup, linear, &all, CAUTION)
     }
 
     /// Cuts of the unknowns that a frame has.
     fn sides(&self, linear: &Linear, own: &Frame, at: &[Interval]) -> Found {
-        let seek = self.seek(linear, own);
+        let seek = self.seek(linear);
         let sought = own.places.iter().enumerate();
         let sought = sought.map(|(row, place)| (*place, at[*place], seek.combination(&own.unknown(row), own)));
         seek.collect(sought, |place| self.face(place))
@@ -152,7 +152,7 @@ impl Prover<'_> {
 
     /// Cuts of the coordinates of another frame about the same box.
     fn turns(&self, linear: &Linear, own: &Frame, next: &Frame) -> Found {
-        let seek = self.seek(linear, own);
+        let seek = self.seek(linear);
         let turned = own.turned(next);
         let sought = turned.iter().enumerate();
         let sought = sought.map(|(row, affine)| (row, next.z[row], seek.combination(affine, own)));
@@ -161,7 +161,7 @@ impl Prover<'_> {
 
     /// What the inequalities leave of a frame's own coordinates.
     fn coordinates(&self, linear: &Linear, own: &Frame) -> Vec<Interval> {
-        let seek = self.seek(linear, own);
+        let seek = self.seek(linear);
         let left = own.turned(own).into_iter().zip(&own.z).map(|(affine, z)| match seek.combination(&affine, own) {
             Some(Sought::Range([(low, _), (high, _)])) => {
                 Interval::new(low, high).and_then(|range| range.intersection(*z)).unwrap_or(*z)

@@ -60,10 +60,11 @@ fn missed(search: &Search<'_>, surface: &Surface, frame: &Frame, z: &[Interval],
             // Both rows together say where the output is.
             let [above, below] = [row, row + 1].map(|row| Interval::point(linear.rows.limits[row]));
             let residual = (error - above).hull(below - error);
-            let middle = z.iter().map(|side| side.midpoint());
-            let way = slopes.iter().zip(here.iter().zip(middle)).fold(residual, |sum, ((_, slope), (z, middle))| {
-                sum + *slope * (Interval::point(*z) - Interval::point(middle))
-            });
+            let away: Vec<Interval> =
+                z.iter().zip(&here).map(|(side, z)| Interval::point(*z) - Interval::point(side.midpoint())).collect();
+            let unknowns: Vec<Interval> =
+                away.iter().copied().chain(products(&surface.sheets[0].pairs, &away)).collect();
+            let way = slopes.iter().fold(residual, |sum, (unknown, slope)| sum + *slope * unknowns[*unknown]);
             missed += usize::from(way.inflate(1e-12).intersection(off(*sample - first(search))).is_none());
         }
     }
@@ -110,5 +111,35 @@ fn outputs_are_where_the_surface_says_and_without_its_bends_they_are_not() {
         }
         let count = missed(&search, &straight, &frame, &half, &mut random);
         assert!(count > 50, "without bends {count} were missed, {model:?}");
+    }
+}
+
+/// What bends add at most to the sum of rows, of one reading that above and of the next that below: weighed against each other, and each
+/// row's by itself.
+fn bent(surface: &Surface, frame: &Frame) -> [f64; 2] {
+    let (linear, _) = surface.over(&frame.z, &frame.centre, false);
+    let mut sums = vec![Interval::ZERO; linear.deviations.len()];
+    let mut apart = Interval::ZERO;
+    for (slopes, origin) in linear.rows.slopes.iter().zip(&linear.origins) {
+        if !matches!(origin, Origin::Reading { sample, above, .. } if *above == sample.is_multiple_of(2)) {
+            continue;
+        }
+        for (unknown, slope) in slopes.iter().filter(|(unknown, _)| *unknown >= frame.z.len()) {
+            sums[*unknown] += *slope;
+            apart += *slope * linear.deviations[*unknown];
+        }
+    }
+    [Interval::dot(sums.into_iter().zip(linear.deviations)).upper(), apart.upper()]
+}
+
+#[test]
+fn what_bends_readings_alike_cancels_where_they_are_weighed_against_each_other() {
+    let record = record(150);
+    for Case { model, middles } in cases() {
+        let setup = Setup::new(&[&record], &model).expect("a problem");
+        let search = Search::new(&setup);
+        let (wide, frame) = surface(&search, &middles, 0.02);
+        let [together, apart] = bent(&wide, &frame);
+        assert!(together < 0.5 * apart, "{together} and {apart}, {model:?}");
     }
 }
