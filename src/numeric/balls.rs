@@ -30,41 +30,53 @@ fn larger(products: usize) -> f64 {
 /// Each is every real number that is off its middle by no more than its radius; an infinite or undefined one stands for all numbers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Balls {
-    middle: f64x4,
-    radius: f64x4,
+    middle: [f64; Balls::COUNT],
+    radius: [f64; Balls::COUNT],
 }
 
 impl Balls {
     /// So many.
     pub(crate) const COUNT: usize = 4;
-    pub(crate) const ZERO: Self = Self { middle: f64x4::ZERO, radius: f64x4::ZERO };
-    pub(crate) const ONE: Self = Self { middle: f64x4::ONE, radius: f64x4::ZERO };
+    pub(crate) const ZERO: Self = Self { middle: [0.0; Self::COUNT], radius: [0.0; Self::COUNT] };
+    pub(crate) const ONE: Self = Self { middle: [1.0; Self::COUNT], radius: [0.0; Self::COUNT] };
+
+    #[inline]
+    fn of(middle: f64x4, radius: f64x4) -> Self {
+        Self { middle: middle.to_array(), radius: radius.to_array() }
+    }
+
+    #[inline]
+    fn middle(self) -> f64x4 {
+        f64x4::new(self.middle)
+    }
+
+    #[inline]
+    fn radius(self) -> f64x4 {
+        f64x4::new(self.radius)
+    }
 
     /// One after the other.
     #[inline]
     pub(crate) fn new(values: [Interval; Self::COUNT]) -> Self {
-        Self { middle: f64x4::new(values.map(Interval::midpoint)), radius: f64x4::new(values.map(Interval::radius)) }
+        Self { middle: values.map(Interval::midpoint), radius: values.map(Interval::radius) }
     }
 
     /// The same in every place.
     #[inline]
     pub(crate) fn splat(value: Interval) -> Self {
-        Self { middle: f64x4::splat(value.midpoint()), radius: f64x4::splat(value.radius()) }
+        Self { middle: [value.midpoint(); Self::COUNT], radius: [value.radius(); Self::COUNT] }
     }
 
     /// Finite numbers.
     #[inline]
     pub(crate) fn points(values: [f64; Self::COUNT]) -> Self {
-        Self { middle: f64x4::new(values), radius: f64x4::ZERO }
+        Self { middle: values, radius: [0.0; Self::COUNT] }
     }
 
     /// One of them in every place.
     #[inline]
     pub(crate) fn spread(self, place: usize) -> Self {
-        Self {
-            middle: f64x4::splat(self.middle.to_array()[place]),
-            radius: f64x4::splat(self.radius.to_array()[place]),
-        }
+        Self { middle: [self.middle[place]; Self::COUNT], radius: [self.radius[place]; Self::COUNT] }
     }
 
     /// Those at these places.
@@ -76,12 +88,9 @@ impl Balls {
     /// Each from a place of its own.
     #[inline]
     pub(crate) fn gather(from: [(&Self, usize); Self::COUNT]) -> Self {
-        let [a, b, c, d] = from;
-        let middle = |(balls, place): (&Self, usize)| balls.middle.as_array()[place];
-        let radius = |(balls, place): (&Self, usize)| balls.radius.as_array()[place];
         Self {
-            middle: f64x4::new([middle(a), middle(b), middle(c), middle(d)]),
-            radius: f64x4::new([radius(a), radius(b), radius(c), radius(d)]),
+            middle: from.map(|(balls, place)| balls.middle[place]),
+            radius: from.map(|(balls, place)| balls.radius[place]),
         }
     }
 
@@ -97,35 +106,34 @@ impl Balls {
     /// As intervals.
     #[inline]
     pub(crate) fn intervals(self) -> [Interval; Self::COUNT] {
-        let (middle, radius) = (self.middle.to_array(), self.radius.to_array());
-        core::array::from_fn(|place| Self::interval(middle[place], radius[place]))
+        core::array::from_fn(|place| self.interval_at(place))
     }
 
     /// One of them.
     #[inline]
     pub(crate) fn interval_at(self, place: usize) -> Interval {
-        Self::interval(self.middle.to_array()[place], self.radius.to_array()[place])
+        Self::interval(self.middle[place], self.radius[place])
     }
 
     /// Everything within these sizes.
     #[inline]
     pub(crate) fn within(sizes: Sizes) -> Self {
-        Self { middle: f64x4::ZERO, radius: sizes.0 }
+        Self { middle: [0.0; Self::COUNT], radius: sizes.0 }
     }
 
     /// What no element exceeds in magnitude.
     #[inline]
     pub(crate) fn sizes(self) -> Sizes {
-        Sizes((self.middle.abs() + self.radius) * larger(1))
+        Sizes::of((self.middle().abs() + self.radius()) * larger(1))
     }
 
     /// Divided by a whole number.
     #[inline]
     pub(crate) fn share(self, parts: usize) -> Self {
         let part = 1.0 / parts as f64;
-        let middle = self.middle * part;
+        let middle = self.middle() * part;
         let rounded = middle.abs() * roundings(1);
-        Self { middle, radius: (self.radius * part + rounded) * larger(1) + UNDERFLOW }
+        Self::of(middle, (self.radius() * part + rounded) * larger(1) + UNDERFLOW)
     }
 
     /// The sum of all of them.
@@ -140,13 +148,13 @@ impl Balls {
     pub(crate) fn dot(pairs: impl Iterator<Item = (Self, Self)>) -> Self {
         let (mut middle, mut size, mut radius, mut count) = (f64x4::ZERO, f64x4::ZERO, f64x4::ZERO, 0);
         for (a, b) in pairs {
-            let (product, far) = (a.middle * b.middle, b.middle.abs() + b.radius);
+            let (product, far) = (a.middle() * b.middle(), b.middle().abs() + b.radius());
             middle += product;
             size += product.abs();
-            radius += a.middle.abs() * b.radius + a.radius * far;
+            radius += a.middle().abs() * b.radius() + a.radius() * far;
             count += 1;
         }
-        Self { middle, radius: (radius + size * roundings(count)) * larger(count) + UNDERFLOW }
+        Self::of(middle, (radius + size * roundings(count)) * larger(count) + UNDERFLOW)
     }
 }
 
@@ -154,9 +162,9 @@ impl Add for Balls {
     type Output = Self;
     #[inline]
     fn add(self, other: Self) -> Self {
-        let middle = self.middle + other.middle;
+        let middle = self.middle() + other.middle();
         let rounded = middle.abs() * f64::EPSILON;
-        Self { middle, radius: (self.radius + other.radius + rounded) * larger(1) }
+        Self::of(middle, (self.radius() + other.radius() + rounded) * larger(1))
     }
 }
 
@@ -164,7 +172,7 @@ impl Neg for Balls {
     type Output = Self;
     #[inline]
     fn neg(self) -> Self {
-        Self { middle: -self.middle, radius: self.radius }
+        Self { middle: self.middle.map(|middle| -middle), radius: self.radius }
     }
 }
 
@@ -186,39 +194,47 @@ impl Mul for Balls {
 
 /// Upper bounds of magnitudes, side by side.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sizes(f64x4);
+pub(crate) struct Sizes([f64; Balls::COUNT]);
 
 impl Sizes {
-    pub(crate) const ZERO: Self = Self(f64x4::ZERO);
+    pub(crate) const ZERO: Self = Self([0.0; Balls::COUNT]);
+
+    #[inline]
+    fn of(sizes: f64x4) -> Self {
+        Self(sizes.to_array())
+    }
+
+    #[inline]
+    fn wide(self) -> f64x4 {
+        f64x4::new(self.0)
+    }
 
     /// The same in every place: the magnitude of an interval.
     #[inline]
     pub(crate) fn splat(value: Interval) -> Self {
-        Self(f64x4::splat(value.magnitude()))
+        Self([value.magnitude(); Balls::COUNT])
     }
 
     /// One of them in every place.
     #[inline]
     pub(crate) fn spread(self, place: usize) -> Self {
-        Self(f64x4::splat(self.0.to_array()[place]))
+        Self([self.0[place]; Balls::COUNT])
     }
 
     /// Each from a place of its own.
     #[inline]
     pub(crate) fn gather(from: [(&Self, usize); Balls::COUNT]) -> Self {
-        let [a, b, c, d] = from;
-        let size = |(sizes, place): (&Self, usize)| sizes.0.as_array()[place];
-        Self(f64x4::new([size(a), size(b), size(c), size(d)]))
+        Self(from.map(|(sizes, place)| sizes.0[place]))
     }
 
     /// The first of them.
     pub(crate) fn interval(self) -> Interval {
-        Interval::point(self.0.to_array()[0])
+        Interval::point(self.0[0])
     }
 
     /// The sum of all of them, at most.
     pub(crate) fn total(self) -> Interval {
-        let [a, b, c, d] = self.0.to_array().map(Interval::point);
+        let [a, b, c, d] = self.0.map(Interval::point);
         (a + b) + (c + d)
     }
 
@@ -226,17 +242,17 @@ impl Sizes {
     #[inline]
     pub(crate) fn dot(pairs: impl Iterator<Item = (Self, Self)>) -> Self {
         let (mut sum, mut count) = (f64x4::ZERO, 0);
-        for (Self(a), Self(b)) in pairs {
-            sum += a * b;
+        for (a, b) in pairs {
+            sum += a.wide() * b.wide();
             count += 1;
         }
-        Self(sum * larger(count) + UNDERFLOW)
+        Self::of(sum * larger(count) + UNDERFLOW)
     }
 
     /// Divided by a whole number.
     #[inline]
     pub(crate) fn share(self, parts: usize) -> Self {
-        Self(self.0 * (larger(1) / parts as f64) + UNDERFLOW)
+        Self::of(self.wide() * (larger(1) / parts as f64) + UNDERFLOW)
     }
 }
 
@@ -244,7 +260,7 @@ impl Add for Sizes {
     type Output = Self;
     #[inline]
     fn add(self, other: Self) -> Self {
-        Self((self.0 + other.0) * larger(1))
+        Self::of((self.wide() + other.wide()) * larger(1))
     }
 }
 
@@ -252,6 +268,6 @@ impl Mul for Sizes {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
-        Self(self.0 * other.0 * larger(1) + UNDERFLOW)
+        Self::of(self.wide() * other.wide() * larger(1) + UNDERFLOW)
     }
 }
