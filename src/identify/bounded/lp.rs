@@ -179,8 +179,8 @@ impl Programme {
         // Rows that were missed when all were looked at last.
         let mut near: Vec<usize> = Vec::new();
         for _ in 0..MOST_PIVOTS {
-            for i in 0..n {
-                z[i] = (0..n).map(|k| inverse[i * n + k] * right[k]).sum();
+            for (z, row) in z.iter_mut().zip(inverse.chunks_exact(n)) {
+                *z = row.iter().zip(&right).map(|(entry, right)| entry * right).sum();
             }
             let missed = |index: usize| {
                 let row = self.row(index).iter();
@@ -215,9 +215,9 @@ impl Programme {
             }
             let limit = self.constraint(worst.1, &mut entering);
             shares.fill(0.0);
-            for i in (0..n).filter(|i| entering[*i] != 0.0) {
-                for k in 0..n {
-                    shares[k] += entering[i] * inverse[i * n + k];
+            for (weight, row) in entering.iter().zip(inverse.chunks_exact(n)).filter(|(weight, _)| **weight != 0.0) {
+                for (share, entry) in shares.iter_mut().zip(row) {
+                    *share += weight * entry;
                 }
             }
             let mut leaving = (f64::INFINITY, usize::MAX);
@@ -244,12 +244,12 @@ impl Programme {
             basis[out] = worst.1;
             right[out] = limit;
             let pivot = 1.0 / shares[out];
-            for i in 0..n {
-                let row = &mut inverse[i * n..(i + 1) * n];
+            for row in inverse.chunks_exact_mut(n) {
                 let head = row[out] * pivot;
-                for k in 0..n {
-                    row[k] = if k == out { head } else { row[k] - shares[k] * head };
+                for (entry, share) in row.iter_mut().zip(&shares) {
+                    *entry -= share * head;
                 }
+                row[out] = head;
             }
         }
         let multipliers = (0..n)

@@ -70,7 +70,7 @@ pub(super) struct Step {
     /// Of the polynomials.
     degree: usize,
     /// The same of the point's, where it is not in the box.
-    at_by_start: Option<Path>,
+    at_by_start: Option<Box<Path>>,
     /// Of the state by what the unknowns of each bundle push, the start held.
     by_push: Vec<Path>,
     /// How slopes bend, where they are the point's.
@@ -236,7 +236,7 @@ impl Fields {
             let own = Equations::splat(point, degree);
             let damping = point.damping(within_at[VELOCITY], within_at[VELOCITY]);
             let slopes = Slopes::at(&motions, &own.dampings(&motions, backwards), damping, h);
-            let mut path = NO_PATH;
+            let mut path = Box::new(NO_PATH);
             own.columns(&slopes, None, &units(), &mut path).ok_or(HALF)?;
             step.at_by_start = Some(path);
         }
@@ -347,7 +347,7 @@ impl Step {
         let units = value(&self.by_start);
         // By the mean value theorem: the end from a middle, and what a start about it adds.
         let at = self.at_about.map(|about| {
-            let own = self.at_by_start.as_ref().map_or(units, value);
+            let own = self.at_by_start.as_deref().map_or(units, value);
             core::array::from_fn(|k| {
                 let [x, v, f, _] = own[k].intervals();
                 state[k].interval_at(1) + Interval::dot([x, v, f].into_iter().zip(about))
