@@ -54,16 +54,17 @@ fn missed(search: &Search<'_>, surface: &Surface, frame: &Frame, z: &[Interval],
             point[*place] += (0..=row).map(|column| frame.weight(row, column) * here[column]).sum::<f64>();
         }
         let Some(outputs) = search.model.outputs(span, &point) else { continue };
+        let away: Vec<Interval> =
+            z.iter().zip(&here).map(|(side, z)| Interval::point(*z) - Interval::point(side.midpoint())).collect();
+        let unknowns: Vec<Interval> = away.iter().copied().chain(products(&surface.sheets[0].pairs, &away)).collect();
+        let ranges = unknowns.iter().zip(&linear.deviations);
+        missed += ranges.filter(|(own, range)| own.intersection(**range).is_none()).count();
         let off = |sample: usize| outputs[sample] - Interval::point(readings.value[sample + first(search)]);
         for (row, (slopes, origin)) in linear.rows.slopes.iter().zip(&linear.origins).enumerate() {
             let Origin::Reading { sample, above: true, .. } = origin else { continue };
             // Both rows together say where the output is.
             let [above, below] = [row, row + 1].map(|row| Interval::point(linear.rows.limits[row]));
             let residual = (error - above).hull(below - error);
-            let away: Vec<Interval> =
-                z.iter().zip(&here).map(|(side, z)| Interval::point(*z) - Interval::point(side.midpoint())).collect();
-            let unknowns: Vec<Interval> =
-                away.iter().copied().chain(products(&surface.sheets[0].pairs, &away)).collect();
             let way = slopes.iter().fold(residual, |sum, (unknown, slope)| sum + *slope * unknowns[*unknown]);
             missed += usize::from(way.inflate(1e-12).intersection(off(*sample - first(search))).is_none());
         }
