@@ -116,8 +116,8 @@ fn outputs_are_where_the_surface_says_and_without_its_bends_they_are_not() {
 }
 
 /// What bends add at most to the sum of rows, of one reading that above and of the next that below: weighed against each other, and each
-/// row's by itself.
-fn bent(surface: &Surface, frame: &Frame) -> [f64; 2] {
+/// row's by itself. And what the rows of all readings leave in doubt besides.
+fn bent(surface: &Surface, frame: &Frame) -> [f64; 3] {
     let (linear, _) = surface.over(&frame.z, &frame.centre, false);
     let mut sums = vec![Interval::ZERO; linear.deviations.len()];
     let mut apart = Interval::ZERO;
@@ -130,7 +130,9 @@ fn bent(surface: &Surface, frame: &Frame) -> [f64; 2] {
             apart += *slope * linear.deviations[*unknown];
         }
     }
-    [Interval::dot(sums.into_iter().zip(linear.deviations)).upper(), apart.upper()]
+    let readings = surface.sheets.iter().flat_map(|sheet| &sheet.readings).zip(linear.rows.limits.chunks_exact(2));
+    let besides = readings.map(|(off, limits)| limits[0] + limits[1] - 2.0 * off.error.midpoint()).sum();
+    [Interval::dot(sums.into_iter().zip(linear.deviations)).upper(), apart.upper(), besides]
 }
 
 #[test]
@@ -139,8 +141,8 @@ fn what_bends_readings_alike_cancels_where_they_are_weighed_against_each_other()
     for Case { model, middles } in cases() {
         let setup = Setup::new(&[&record], &model).expect("a problem");
         let search = Search::new(&setup);
-        let (wide, frame) = surface(&search, &middles, 0.02);
-        let [together, apart] = bent(&wide, &frame);
-        assert!(together < 0.5 * apart, "{together} and {apart}, {model:?}");
+        let (wide, frame) = surface(&search, &middles, 0.002);
+        let [together, apart, besides] = bent(&wide, &frame);
+        assert!(together < 0.5 * apart && besides < apart, "{together}, {apart} and {besides}, {model:?}");
     }
 }
