@@ -30,6 +30,7 @@ fn larger(products: usize) -> f64 {
 /// Each is every real number that is off its middle by no more than its radius; an infinite or undefined one stands for all numbers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Balls {
+    // Arrays: the allocator is slow where more than its own alignment is asked for.
     middle: [f64; Balls::COUNT],
     radius: [f64; Balls::COUNT],
 }

@@ -4,6 +4,9 @@
 
 use crate::numeric::Interval;
 
+#[cfg(test)]
+mod tests;
+
 /// Pivots before the method gives up; what it has then still gives a bound.
 const MOST_PIVOTS: usize = 2000;
 /// A row counts as met that is missed by less than this, in units of its scale.
@@ -168,6 +171,8 @@ impl Programme {
         let mut basis: Vec<usize> = (0..n).map(|j| rows + 2 * j + usize::from(scaled[j] < 0.0)).collect();
         // Columns of the inverse: z = inverse . limits of the basis.
         let mut inverse = vec![0.0; n * n];
+        // Of its rows; without an unknown there are none.
+        let across = n.max(1);
         let mut right = vec![1.0; n];
         let mut weights: Vec<f64> = scaled.iter().map(|c| c.abs()).collect();
         for j in 0..n {
@@ -179,7 +184,7 @@ impl Programme {
         // Rows that were missed when all were looked at last.
         let mut near: Vec<usize> = Vec::new();
         for _ in 0..MOST_PIVOTS {
-            for (z, row) in z.iter_mut().zip(inverse.chunks_exact(n)) {
+            for (z, row) in z.iter_mut().zip(inverse.chunks_exact(across)) {
                 *z = row.iter().zip(&right).map(|(entry, right)| entry * right).sum();
             }
             let missed = |index: usize| {
@@ -215,7 +220,8 @@ impl Programme {
             }
             let limit = self.constraint(worst.1, &mut entering);
             shares.fill(0.0);
-            for (weight, row) in entering.iter().zip(inverse.chunks_exact(n)).filter(|(weight, _)| **weight != 0.0) {
+            for (weight, row) in entering.iter().zip(inverse.chunks_exact(across)).filter(|(weight, _)| **weight != 0.0)
+            {
                 for (share, entry) in shares.iter_mut().zip(row) {
                     *share += weight * entry;
                 }
@@ -244,7 +250,7 @@ impl Programme {
             basis[out] = worst.1;
             right[out] = limit;
             let pivot = 1.0 / shares[out];
-            for row in inverse.chunks_exact_mut(n) {
+            for row in inverse.chunks_exact_mut(across) {
                 let head = row[out] * pivot;
                 for (entry, share) in row.iter_mut().zip(&shares) {
                     *entry -= share * head;

@@ -45,8 +45,8 @@ pub(super) struct Surface {
     pub(super) rest: f64,
 }
 
-/// How far from straight the readings are over a box: the largest share of an error that is in doubt, and the coordinate most of it
-/// is due to.
+/// How far from straight the readings are over a box: the largest share of an error that is in doubt of one by itself, and the
+/// coordinate most of it is due to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Doubt {
     pub(super) slack: f64,
