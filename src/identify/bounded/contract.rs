@@ -255,6 +255,18 @@ pub(super) enum Pass {
 }
 
 impl Linear {
+    /// The same about another value of one unknown.
+    pub(super) fn recentre(&mut self, unknown: usize, centre: f64) {
+        let moved = Interval::point(centre) - Interval::point(self.centre[unknown]);
+        for (slopes, limit) in self.rows.slopes.iter().zip(&mut self.rows.limits) {
+            for (_, slope) in slopes.iter().filter(|(place, _)| *place == unknown) {
+                *limit = (Interval::point(*limit) - *slope * moved).upper();
+            }
+        }
+        self.deviations[unknown] -= moved;
+        self.centre[unknown] = centre;
+    }
+
     /// `slopes . theta <= limit` as a row about the centre.
     fn row(&mut self, slopes: Vec<(usize, Interval)>, limit: Interval, origin: Origin) {
         let at_centre = slopes.iter().map(|(place, slope)| *slope * Interval::point(self.centre[*place]));

@@ -6,6 +6,21 @@ use super::problem::Window;
 use super::trajectory::Node;
 use crate::numeric::Interval;
 
+#[cfg(test)]
+mod tests;
+
+/// A window is followed anew where its readings leave less than this of the range of its beginning.
+const DRAWN: f64 = 0.5;
+
+/// What is taken of the windows' beginnings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Starts {
+    /// What the box says, and the window before.
+    Given,
+    /// Besides, what each window's own readings leave of them, one by one.
+    Drawn,
+}
+
 /// An enclosure of the motion and what is known of it otherwise have nothing in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Parted;
@@ -62,12 +77,21 @@ impl Model<'_> {
 
     /// All windows that are followed about `centre`, each linked to the next. What a window's end says of the next one's beginning goes into the
     /// box. `None` where there is no enclosure.
-    pub(super) fn chained(&self, at: &mut [Interval], centre: Vec<f64>) -> Result<Option<Linear>, Parted> {
+    pub(super) fn chained(
+        &self,
+        at: &mut [Interval],
+        centre: Vec<f64>,
+        starts: Starts,
+    ) -> Result<Option<Linear>, Parted> {
         let followed: Vec<(usize, Window)> = self.followed().collect();
         let mut linear = self.about(at, centre);
         for (place, &(index, window)) in followed.iter().enumerate() {
             let span = Span { from: index, to: index + 1 };
-            let Some(motion) = self.motion(span, at, &linear.centre) else { return Ok(None) };
+            let Some(mut motion) = self.motion(span, at, &linear.centre) else { return Ok(None) };
+            if starts == Starts::Drawn && self.draw(span, &motion, at, &mut linear)? {
+                let Some(narrower) = self.motion(span, at, &linear.centre) else { return Ok(None) };
+                motion = narrower;
+            }
             let linked = followed.get(place + 1).is_some_and(|(_, next)| next.record == window.record);
             self.linearise(span, &motion, linked, &mut linear);
             if linked {
@@ -80,6 +104,38 @@ impl Model<'_> {
         }
         self.bound(&mut linear);
         Ok(Some(linear))
+    }
+
+    /// What a window's readings leave of its beginning, but for the position: each by the slope of the output there, however wide the
+    /// slope's range, of which a linear programme takes the middle. Whether that is so little that it is followed about another middle.
+    fn draw(&self, span: Span, motion: &[Node], at: &mut [Interval], linear: &mut Linear) -> Result<bool, Parted> {
+        let (_, places) = self.layout.columns(span.from);
+        let record = self.layout.windows()[span.from].record;
+        let (readings, samples) = (&self.records[record], self.samples(span));
+        let mut little = false;
+        for component in 1..self.layout.state_size() {
+            let own = self.layout.start(span.from, component);
+            let Some(column) = places.iter().position(|place| *place == own) else { continue };
+            let before = at[own].width();
+            for (offset, (node, &sample)) in motion.iter().zip(&samples).enumerate() {
+                let slope = node.slopes[column][0];
+                if slope.contains_zero() {
+                    continue;
+                }
+                let error = Interval::symmetric(self.allowed(record, motion, &samples, offset).upper());
+                let others = places.iter().zip(&node.slopes).filter(|(place, _)| **place != own);
+                let by_others = Interval::dot(others.map(|(place, slope)| (slope[0], linear.deviations[*place])));
+                let way = Interval::point(readings.value[sample]) + error - node.at[0] - by_others;
+                let left = Interval::point(linear.centre[own]) + way / slope;
+                at[own] = at[own].intersection(left).ok_or(Parted)?;
+            }
+            linear.deviations[own] = at[own] - Interval::point(linear.centre[own]);
+            if at[own].width() < DRAWN * before {
+                linear.recentre(own, at[own].midpoint());
+                little = true;
+            }
+        }
+        Ok(little)
     }
 
     /// The state at the end of a motion is that at the beginning of the next window.

@@ -6,7 +6,7 @@ use super::bounds::Contradicting;
 use super::contract::{Hat, Linear, Model, Pass};
 use super::field::Term;
 use super::lp::Multipliers;
-use super::rows::Parted;
+use super::rows::{Parted, Starts};
 use super::setup::Setup;
 use super::slanted::Slanted;
 use super::weak::hats;
@@ -16,10 +16,6 @@ use crate::numeric::Interval;
 const HELPED: f64 = 0.9;
 /// A box is too wide to follow the motion over while a parameter's range is worth more than this share of the command.
 const WIDE: f64 = 0.25;
-/// The same where the motion takes many steps.
-const STIFF: f64 = 0.1;
-/// Steps between two samples that are many.
-const MANY: f64 = 3.0;
 /// The gain is divided first until its ends are within this factor.
 const ORDERS: f64 = 4.0;
 /// Passes over one box at most.
@@ -149,9 +145,14 @@ impl<'a> Search<'a> {
 
     /// The inequalities of all windows over a box, each linked to the next, about `centre`. What a window's end says of the next
     /// one's beginning goes into the box. `None` where there is no enclosure.
-    pub(super) fn chained(&mut self, at: &mut [Interval], centre: Vec<f64>) -> Result<Option<Linear>, Empty> {
+    pub(super) fn chained(
+        &mut self,
+        at: &mut [Interval],
+        centre: Vec<f64>,
+        starts: Starts,
+    ) -> Result<Option<Linear>, Empty> {
         self.count_pass();
-        let chained = self.model.chained(at, centre);
+        let chained = self.model.chained(at, centre, starts);
         chained.map_err(|Parted| Empty { method: Method::Chain, multipliers: Vec::new(), linear: None })
     }
 
@@ -228,19 +229,10 @@ impl<'a> Search<'a> {
         places.into_iter().map(|place| (share(place), place)).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, 0))
     }
 
-    /// Whether following the motion over a box takes many steps.
-    pub(super) fn stiff(&self, at: &[Interval]) -> bool {
-        let field = self.setup.layout.field(0, at, self.setup.middle_speed);
-        let interval_s = self.setup.records.iter().map(|readings| {
-            (readings.time_s[readings.time_s.len() - 1] - readings.time_s[0]) / readings.time_s.len() as f64
-        });
-        field.fastest(Interval::symmetric(self.setup.typical_speed)) * interval_s.fold(0.0, f64::max) > MANY * 0.3
-    }
-
     /// Whether a box is too wide to follow the motion over, and its widest parameter.
     pub(super) fn too_wide(&self, at: &[Interval]) -> (bool, usize) {
         let (share, widest) = self.widest(at);
-        (share > if self.stiff(at) { STIFF } else { WIDE }, widest)
+        (share > WIDE, widest)
     }
 
     /// What is left of each parameter, the least.
@@ -263,7 +255,7 @@ impl<'a> Search<'a> {
                 left = followed;
             } else {
                 broken = true;
-                let Some(linear) = self.chained(at, centre)? else { return Ok(left) };
+                let Some(linear) = self.chained(at, centre, Starts::Given)? else { return Ok(left) };
                 let (slack, widest) = self.slack(&linear);
                 left = Left::Followed { slack, widest };
                 if let Pass::Empty(multipliers) = linear.contract(at, &places, &parameters) {
@@ -296,7 +288,7 @@ impl<'a> Search<'a> {
             }
             let before = at.to_vec();
             let centre = at.iter().map(|side| side.midpoint()).collect();
-            let Some(mut linear) = self.chained(at, centre)? else { return Ok(Left::Wide(widest)) };
+            let Some(mut linear) = self.chained(at, centre, Starts::Drawn)? else { return Ok(Left::Wide(widest)) };
             let (slack, widest) = self.slack(&linear);
             left = Left::Followed { slack, widest };
             self.settle(&mut linear, at)?;

@@ -7,6 +7,7 @@ use super::divide::Kept;
 use super::frame::{Affine, Frame, dot};
 use super::lp::{Multipliers, Outcome, Programme};
 use super::mix::Mix;
+use super::rows::Starts;
 use super::search::{Empty, Left, Method, Search};
 use super::surface::{Doubt, Surface};
 use super::trajectory::{Node, Unknowns};
@@ -125,7 +126,7 @@ impl Search<'_> {
         }
         let mut at = kept.at.clone();
         let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
-        Some(Held::new(self.chained(&mut at, centre).ok().flatten()?, None))
+        Some(Held::new(self.chained(&mut at, centre, Starts::Given).ok().flatten()?, None))
     }
 
     /// One contraction over whole records in a frame, which is slanted at first. None where what is in doubt is more than `most` of

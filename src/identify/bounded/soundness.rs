@@ -2,6 +2,7 @@
 
 use super::contract::Span;
 use super::lp::Rows;
+use super::rows::Starts;
 use super::search::Search;
 use super::setup::Setup;
 use super::{BoundedModel, DelayBound};
@@ -87,7 +88,7 @@ impl Surrounded {
     /// chain of windows, at most. `None` where there is no enclosure.
     pub(crate) fn missed(&self, states: &[[f64; 2]], truth: [f64; 3], shift: f64) -> Option<f64> {
         let mut at = self.at.clone();
-        let linear = Search::new(&self.setup).chained(&mut at, self.centre.clone()).ok()??;
+        let linear = Search::new(&self.setup).chained(&mut at, self.centre.clone(), Starts::Given).ok()??;
         let mut own = truth.to_vec();
         for (index, window) in self.setup.layout.windows().iter().enumerate() {
             let [position, velocity] = states[window.first];

@@ -6,6 +6,7 @@ use rand_pcg::Pcg64Mcg;
 use super::contract::{Origin, Span};
 use super::lp::Rows;
 use super::problem::Window;
+use super::rows::Starts;
 use super::search::Search;
 use super::setup::Setup;
 use super::{BoundedModel, Consistency, DelayBound, Quantity, enclose};
@@ -105,7 +106,7 @@ pub(super) fn record(samples: usize) -> Record {
 }
 
 /// A box about the truth, of this relative half-width, with everything that a search over it needs.
-fn setup(width: f64) -> (Setup, Vec<Interval>) {
+pub(super) fn setup(width: f64) -> (Setup, Vec<Interval>) {
     let model = BoundedModel { quantum: Some(STEP), ..BoundedModel::new(DragLaw::Linear, DelayBound::KnownS(0.0)) };
     let setup = Setup::new(&[&record(150)], &model).expect("a problem");
     let truth = [1.0 / ALPHA, BETA / ALPHA, DELTA / ALPHA];
@@ -150,7 +151,7 @@ fn outputs_lie_within_the_mean_value_form_and_not_within_that_of_the_midpoint() 
 }
 
 /// Whether the truth meets every row: whether some element of every slope does.
-fn met(linear: &super::contract::Linear, truth: &[f64], keep: impl Fn(&Origin) -> bool) -> bool {
+pub(super) fn met(linear: &super::contract::Linear, truth: &[f64], keep: impl Fn(&Origin) -> bool) -> bool {
     linear.rows.slopes.iter().zip(&linear.rows.limits).zip(&linear.origins).filter(|(_, origin)| keep(origin)).all(
         |((slopes, limit), _)| {
             let sum = slopes.iter().fold(Interval::ZERO, |sum, (place, slope)| {
@@ -162,7 +163,7 @@ fn met(linear: &super::contract::Linear, truth: &[f64], keep: impl Fn(&Origin) -
 }
 
 /// All unknowns of the true motion, which at each window's beginning is the one before carried on.
-fn truth(setup: &Setup) -> Vec<f64> {
+pub(super) fn truth(setup: &Setup) -> Vec<f64> {
     let mut all = vec![1.0 / ALPHA, BETA / ALPHA, DELTA / ALPHA];
     let rate = BETA / ALPHA;
     for window in setup.layout.windows() {
@@ -183,7 +184,7 @@ fn the_true_motion_meets_the_chain_of_windows_and_a_state_shifted_between_two_do
     let (setup, mut at) = setup(0.02);
     let mut search = Search::new(&setup);
     let centre = at.iter().map(|side| side.midpoint()).collect();
-    let Ok(Some(linear)) = search.chained(&mut at, centre) else { panic!("no enclosure") };
+    let Ok(Some(linear)) = search.chained(&mut at, centre, Starts::Given) else { panic!("no enclosure") };
     let mut truth = truth(&setup);
     assert!(met(&linear, &truth, |_| true));
     // A window that begins elsewhere than the one before ends is still a motion, but not of one vehicle.
@@ -197,7 +198,7 @@ fn velocities_by_the_windows_beside_them_hold_the_truth_and_the_fastest_is_refus
     let (setup, mut at) = setup(0.02);
     let mut search = Search::new(&setup);
     let centre = at.iter().map(|side| side.midpoint()).collect();
-    let Ok(Some(mut linear)) = search.chained(&mut at, centre) else { panic!("no enclosure") };
+    let Ok(Some(mut linear)) = search.chained(&mut at, centre, Starts::Given) else { panic!("no enclosure") };
     let truth = truth(&setup);
     let layout = &setup.layout;
     for window in 0..layout.windows().len() {
@@ -221,7 +222,7 @@ fn velocities_by_the_windows_beside_them_hold_the_truth_and_the_fastest_is_refus
     let mut other = before;
     other[velocity] = Interval::point(other[velocity].upper());
     let centre = other.iter().map(|side| side.midpoint()).collect();
-    let settled = match search.chained(&mut other, centre) {
+    let settled = match search.chained(&mut other, centre, Starts::Given) {
         Ok(Some(mut linear)) => search.settle(&mut linear, &mut other),
         Ok(None) => panic!("no enclosure"),
         Err(empty) => Err(empty),

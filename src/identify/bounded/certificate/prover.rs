@@ -1,6 +1,7 @@
 //! Finding the steps: box by box, each contracted while that helps, and divided.
 
 use super::super::contract::Linear;
+use super::super::rows::Starts;
 use super::super::search::Search;
 use super::super::setup::Setup;
 use super::super::slanted::Slanted;
@@ -254,7 +255,7 @@ impl<'a> Prover<'a> {
 
     /// By all windows, each linked to the next: velocities at their beginnings first.
     fn chain(&mut self, here: &mut Open) -> Next {
-        let chained = self.search.chained(&mut here.at.clone(), middles(&here.at));
+        let chained = self.search.chained(&mut here.at.clone(), middles(&here.at), Starts::Given);
         let mut linear = match chained {
             Err(_) => {
                 self.push(Step::Exclude { by: By::Chain(self.reach(here)), rows: Vec::new() });

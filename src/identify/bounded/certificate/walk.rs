@@ -8,6 +8,7 @@ use super::super::field::Term;
 use super::super::frame::{Affine, Frame};
 use super::super::lp::Multipliers;
 use super::super::problem::{Layout, Readings};
+use super::super::rows::Starts;
 use super::super::surface::Surface;
 use super::check::{malformed, sides, within};
 use super::{Axes, By, Certificate, Combination, Cut, Stage, Step, Unproved, shorten};
@@ -317,7 +318,7 @@ impl<'a> Walk<'a> {
                 model.reach = reach;
                 model.heard = self.named(combinations);
                 let centre = own.iter().map(|side| side.midpoint()).collect();
-                match model.chained(&mut own, centre) {
+                match model.chained(&mut own, centre, Starts::Given) {
                     Ok(linear) => Some(linear.ok_or(none)?),
                     Err(_) => None,
                 }

@@ -1,3 +1,4 @@
+use super::super::rows::Starts;
 use super::super::setup::Setup;
 use super::super::tests::{ALPHA, BETA, DELTA, off, record, settings};
 use super::*;
@@ -11,7 +12,8 @@ fn whole_records_tell_more_than_their_windows_and_are_tried_where_not_too_much_i
     let kept = search.unbroken(&at, 1.0).expect("the truth is inside").expect("little is in doubt");
     let Left::Followed { slack, .. } = kept.left else { panic!("not followed") };
     let centre = at.iter().map(|side| side.midpoint()).collect();
-    let linear = search.chained(&mut at.clone(), centre).expect("the truth is inside").expect("an enclosure");
+    let linear =
+        search.chained(&mut at.clone(), centre, Starts::Given).expect("the truth is inside").expect("an enclosure");
     assert!(slack < 0.1 * search.slack(&linear).0, "{slack} of {}", search.slack(&linear).0);
     let truth = [1.0 / ALPHA, BETA / ALPHA, DELTA / ALPHA];
     assert!(kept.slanted.is_some() && kept.at.iter().zip(truth).all(|(side, value)| side.contains(value)));
