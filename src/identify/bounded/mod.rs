@@ -66,7 +66,7 @@ use witness::Tried;
 const DIVISIONS_PER_TRIAL: usize = 8;
 
 /// Bounds that are this good, the inner against the outer width, are not sharpened further.
-const GOOD: f64 = 0.95;
+const GOOD: f64 = 0.98;
 
 /// Encloses the parameters with which the model meets every reading of all records, or proves that there are none in the search box.
 ///
