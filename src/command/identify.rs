@@ -1,12 +1,14 @@
 //! `selfosc identify`: from logs to a model with its errors.
 
 use std::io::Write;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
 
+use super::number::count;
 use super::{CommandError, Outcome, files, write_json};
 use crate::experiment::{Columns, TimeUnit};
 use crate::identify::joint::Delay;
@@ -67,6 +69,10 @@ pub(super) struct Arguments {
     /// Bounded: so many readings may be in error by any amount, whichever they are
     #[arg(long, value_name = "N", default_value_t = 0)]
     outliers: usize,
+    /// Bounded: passes over the records that may be spent; with 120 a record of 600 samples takes some 2 s at most
+    /// [default: 3000]
+    #[arg(long, value_name = "PASSES", value_parser = count)]
+    budget: Option<NonZeroUsize>,
     /// Bounded: the model has a restoring force proportional to the coordinate
     #[arg(long)]
     stiffness: bool,
@@ -263,6 +269,7 @@ impl Arguments {
             quantum: self.quantum,
             jitter_s: self.jitter,
             outliers: self.outliers,
+            budget: self.budget,
             stiffness: self.stiffness,
             lag: self.lag,
             cubic: self.cubic,
@@ -295,7 +302,7 @@ impl Arguments {
             }
             Refusal::Settings(SettingsError::NeedsBounded) => {
                 return usage(
-                    "--stiffness, --lag, --cubic, --either-sign, --jitter, --outliers and --certificate are of the guaranteed bounds; use --method bounded",
+                    "--stiffness, --lag, --cubic, --either-sign, --jitter, --outliers, --budget and --certificate are of the guaranteed bounds; use --method bounded",
                 );
             }
             Refusal::Settings(_) | Refusal::File { .. } => return Err(refusal.into()),

@@ -1,5 +1,7 @@
 //! Numbers as a person types them.
 
+use std::num::NonZeroUsize;
+
 /// A number as typed, whatever it is: the library says what it has to be.
 pub(super) fn number(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| "write a number, as 0.2 or 1e-3".to_owned())
@@ -8,6 +10,11 @@ pub(super) fn number(text: &str) -> Result<f64, String> {
 /// A whole number, zero or more.
 pub(super) fn whole(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| format!("write a whole number from 0 to {}", u64::MAX))
+}
+
+/// How many, one or more.
+pub(super) fn count(text: &str) -> Result<NonZeroUsize, String> {
+    text.parse().map_err(|_| format!("write a whole number from 1 to {}", usize::MAX))
 }
 
 /// A number above zero.

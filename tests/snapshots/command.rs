@@ -109,6 +109,26 @@ fn bounds_are_proved_in_a_file() {
     assert!(answer.starts_with("refused   step: "), "{answer}");
 }
 
+/// Fewer passes leave wider bounds, which hold nevertheless.
+#[test]
+fn bounds_within_a_budget() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("log.csv").to_str().unwrap().to_owned();
+    let record = ["simulate", "--alpha", "1", "--beta", "0.5", "--relay", "1", "--half-width", "0.3", "--cycles", "8"];
+    std::fs::write(&path, done(&[&record[..], &["--hold", "--quantum", "0.02"]].concat())).unwrap();
+    let method = ["identify", &path, "--method", "bounded", "--drag", "mixed", "--delay", "0", "--json", "--budget"];
+    let [little, enough] = ["1", "3000"].map(|budget| {
+        let answer: serde_json::Value = serde_json::from_str(&done(&[&method[..], &[budget]].concat())).unwrap();
+        let side = |name: &str| -> [f64; 2] { serde_json::from_value(answer["bounded"][name].clone()).unwrap() };
+        assert_eq!(answer["bounded"]["verdict"], "consistent");
+        ["alpha", "beta", "beta_quadratic"].map(side)
+    });
+    for ((little, enough), truth) in little.iter().zip(&enough).zip([1.0, 0.5, 0.0]) {
+        assert!(little[0] <= enough[0] && enough[0] <= truth && truth <= enough[1] && enough[1] <= little[1]);
+        assert!(enough[1] - enough[0] < 0.5 * (little[1] - little[0]), "{little:?}, {enough:?}");
+    }
+}
+
 /// Two readings damaged: the model is refuted with one granted, and both are named with two.
 #[test]
 fn bounds_with_readings_in_error() {

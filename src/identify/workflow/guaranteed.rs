@@ -1,5 +1,6 @@
 //! Guaranteed bounds within the workflow: asked for by name, under the drag law and the delay of the settings.
 
+use core::num::NonZeroUsize;
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
@@ -42,6 +43,7 @@ impl Guaranteed {
             Delay::Estimated => DelayBound::Unknown,
         };
         let law = settings.drag.unwrap_or(DragLaw::Mixed);
+        let usual = BoundedModel::new(law, delay);
         let model = BoundedModel {
             quantum: settings.quantum,
             error: settings.error,
@@ -51,7 +53,8 @@ impl Guaranteed {
             lag: settings.lag,
             cubic: settings.cubic,
             either_sign: settings.either_sign,
-            ..BoundedModel::new(law, delay)
+            budget: settings.budget.map_or(usual.budget, NonZeroUsize::get),
+            ..usual
         };
         let (bounds, certificate) = if settings.certificate {
             let (bounds, certificate) = enclose_with_certificate(records, &model)?;

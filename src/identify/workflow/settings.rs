@@ -1,5 +1,7 @@
 //! What to find, and what is known beforehand.
 
+use core::num::NonZeroUsize;
+
 use serde::{Deserialize, Serialize};
 
 use crate::identify::DragLaw;
@@ -68,6 +70,9 @@ pub struct Settings {
     pub jitter_s: f64,
     /// For the guaranteed bounds: readings, of all records together, that may be in error by any amount.
     pub outliers: usize,
+    /// For the guaranteed bounds: passes over the records that may be spent, if not as many as
+    /// [`BoundedModel::new`](crate::identify::bounded::BoundedModel::new) has. The fewer, the wider the bounds may be; they hold.
+    pub budget: Option<NonZeroUsize>,
     /// For the guaranteed bounds: whether the model has a restoring force proportional to the coordinate.
     pub stiffness: bool,
     /// For the guaranteed bounds: whether the force follows the command with a first-order lag.
@@ -89,8 +94,8 @@ pub enum SettingsError {
     MixedNeedsFit,
     /// A term or a certificate that only the guaranteed bounds have.
     #[error(
-        "stiffness, lag, cubic drag, drag of either sign, jitter, outliers and a certificate are of the guaranteed bounds; use \
-         the method bounded"
+        "stiffness, lag, cubic drag, drag of either sign, jitter, outliers, a budget and a certificate are of the guaranteed \
+         bounds; use the method bounded"
     )]
     NeedsBounded,
     /// A level outside its domain.
@@ -129,8 +134,9 @@ impl Settings {
             return Err(SettingsError::MixedNeedsFit);
         }
         let doubted = self.jitter_s > 0.0 || self.outliers > 0;
-        let of_bounded = [self.stiffness, self.lag, self.cubic, self.either_sign, self.certificate, doubted];
-        if self.method != Method::Bounded && of_bounded.contains(&true) {
+        let terms = [self.stiffness, self.lag, self.cubic, self.either_sign];
+        let of_bounded = doubted || terms.contains(&true) || self.budget.is_some() || self.certificate;
+        if self.method != Method::Bounded && of_bounded {
             return Err(SettingsError::NeedsBounded);
         }
         let levels = [
