@@ -123,6 +123,9 @@ fn bounds_within_a_budget() {
         assert_eq!(answer["bounded"]["verdict"], "consistent");
         ["alpha", "beta", "beta_quadratic"].map(side)
     });
+    let method = &method[..method.len() - 2];
+    assert!(done(&[method, &["--budget", "1"]].concat()).contains("The budget of one pass was spent"));
+    assert!(!done(&[method, &["--budget", "3000"]].concat()).contains("was spent"));
     for ((little, enough), truth) in little.iter().zip(&enough).zip([1.0, 0.5, 0.0]) {
         assert!(little[0] <= enough[0] && enough[0] <= truth && truth <= enough[1] && enough[1] <= little[1]);
         assert!(enough[1] - enough[0] < 0.5 * (little[1] - little[0]), "{little:?}, {enough:?}");

@@ -119,6 +119,7 @@ pub(crate) fn bounds_verdict(guaranteed: &Guaranteed) -> String {
         0 => "every reading".to_owned(),
         some => format!("every reading but {} at most", if some == 1 { "one".to_owned() } else { some.to_string() }),
     };
+    let budget = if model.budget == 1 { "one pass".to_owned() } else { format!("{} passes", model.budget) };
     let answer = match bounds.verdict {
         Consistency::Consistent => format!(
             "Consistent: a parameter of the model with {of} meets {every}, and every parameter in the search box that does lies \
@@ -129,8 +130,8 @@ pub(crate) fn bounds_verdict(guaranteed: &Guaranteed) -> String {
              arithmetic, without an assumption on the distribution of errors."
         ),
         Consistency::Undecided => format!(
-            "Undecided: the budget was spent before a parameter of the model with {of} was found that meets {every}, or all \
-             were excluded. The bounds hold nevertheless."
+            "Undecided: the budget of {budget} was spent before a parameter of the model with {of} was found that meets \
+             {every}, or all were excluded. The bounds hold nevertheless; a larger --budget may decide."
         ),
     };
     let granted = format!("Every reading was granted an error of {}.", errors.join(", "));
@@ -149,9 +150,12 @@ pub(crate) fn bounds_verdict(guaranteed: &Guaranteed) -> String {
         verdict => doubted(model.outliers, bounds.outliers.len(), verdict == Consistency::Consistent),
     };
     let wide = if bounds.verdict == Consistency::Consistent && bounds.passes >= model.budget {
-        " The budget was spent before all of the search box was worked off: the bounds hold, but may be far wider than what the readings leave."
+        format!(
+            " The budget of {budget} was spent before all of the search box was worked off: the bounds hold, but may be far \
+             wider than what the readings leave; a larger --budget draws them in."
+        )
     } else {
-        ""
+        String::new()
     };
     format!("{answer}{wide}\n{granted}{smallest}{doubted}")
 }
