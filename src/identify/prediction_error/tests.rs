@@ -209,6 +209,20 @@ fn scores_of_the_structure_are_the_likelihood_s_slopes() {
     }
 }
 
+/// Of what moves the output and no variance, where readings correct the state and with it how it depends on the parameters.
+#[test]
+fn scores_under_a_process_force_are_the_likelihood_s_slopes() {
+    let observations = Observations::new(&record(), Clock::Stamps, Switching::AtSamples);
+    let mut model = model();
+    model.set_noise(Noise::Force, 0.02, true);
+    let score = filter::run(&observations, &model, Wanted::Score).expect("a pass").score();
+    for parameter in [Parameter::Disturbance, Parameter::DelayS, Parameter::Position, Parameter::Velocity] {
+        let slope = difference(&observations, &model, 1e-5, |m, by| m.values[parameter as usize] += by);
+        let found = score.structure[parameter as usize];
+        assert!((found - slope).abs() < 1e-4 * slope.abs() + 1e-4, "{parameter:?}: {found} for {slope}");
+    }
+}
+
 #[test]
 fn scores_of_the_noise_are_the_likelihood_s_slopes() {
     let observations = Observations::new(&record(), Clock::Stamps, Switching::Between);
