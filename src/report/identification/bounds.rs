@@ -152,7 +152,7 @@ pub(crate) fn bounds_verdict(guaranteed: &Guaranteed) -> String {
     let wide = if bounds.verdict == Consistency::Consistent && bounds.passes >= model.budget {
         format!(
             " The budget of {budget} was spent before all of the search box was worked off: the bounds hold, but may be far \
-             wider than what the readings leave; a larger --budget draws them in."
+             wider than what the readings leave; a larger --budget may draw them in."
         )
     } else {
         String::new()
