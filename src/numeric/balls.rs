@@ -228,6 +228,16 @@ impl Sizes {
         Self(from.map(|(sizes, place)| sizes.0[place]))
     }
 
+    /// The larger of two in every place.
+    #[inline]
+    pub(crate) fn max(self, other: Self) -> Self {
+        // One that is undefined stays so.
+        Self(core::array::from_fn(|place| {
+            let (a, b) = (self.0[place], other.0[place]);
+            if a >= b || a.is_nan() { a } else { b }
+        }))
+    }
+
     /// The first of them.
     pub(crate) fn interval(self) -> Interval {
         Interval::point(self.0[0])

@@ -8,21 +8,19 @@
 use super::field::{FORCE, Field, POSITION, Term, VELOCITY};
 use super::mix::{Bundle, Mix};
 use super::series::{Equations, Motions, ORDER, Slopes};
-use super::step::Manner;
 use crate::numeric::{Balls, Interval, Real, Sizes};
+use rest::{Course, PARTS};
 
+pub(super) use rest::Rest;
+
+mod rest;
 #[cfg(test)]
 mod tests;
 
 /// Degree whose coefficient over the whole step is the remainder.
-const BEND_ORDER: usize = 4;
-// A step's powers of time must reach as far.
-const _: () = assert!(BEND_ORDER <= Manner::WIDE.degree && Manner::WIDE.degree <= ORDER);
-/// Attempts at a size of the rest.
-const ATTEMPTS: usize = 4;
-/// The rest is looked for within so much more than it seemed to be.
-const LARGER: f64 = 1.5;
-
+pub(super) const BEND_ORDER: usize = 8;
+// A step's powers of time reach as far.
+const _: () = assert!(BEND_ORDER <= ORDER);
 /// Polynomials of a lower order, the last coefficient over the whole step.
 type Short = [Balls; BEND_ORDER + 1];
 type ShortSizes = [Sizes; BEND_ORDER + 1];
@@ -108,8 +106,8 @@ impl Carried<'_> {
 pub(super) struct Curve {
     paths: Vec<[Short; 3]>,
     lagged: bool,
-    /// Of the third order, at every instant.
-    pub(super) rest: [Interval; 3],
+    /// Of the third order.
+    pub(super) rest: Rest,
 }
 
 impl Curve {
@@ -222,6 +220,9 @@ impl Ground<'_> {
         self.own.head_of(self.slopes, push, &mut column.head);
         let from = self.own.sizes(self.slopes.damping, pushed(0), start, self.slopes.h)?;
         self.own.within_of(self.slopes, pushed, from, &mut column.within);
+        for (head, within) in column.head.iter_mut().zip(&column.within) {
+            head[BEND_ORDER] = Balls::within(within[BEND_ORDER]);
+        }
         let mut kinks = (NONE, NO_SIZES);
         for k in 0..BEND_ORDER {
             (kinks.0[k], kinks.1[k]) = self.kink(k);
@@ -242,7 +243,8 @@ impl Ground<'_> {
         let columns = columns?;
         let lagged = self.at.has(Term::LagRate);
         let stiff = self.at.has(Term::Stiffness);
-        let mut second = [Sizes::ZERO; 3];
+        let course = Course::of(self)?;
+        let mut second = [[Sizes::ZERO; 3]; PARTS];
         let mut paths = Vec::with_capacity(pairs.count());
         for ((sides, products), start) in pairs.sides.iter().zip(&pairs.products).zip(carried.bends) {
             let weight = |side: usize, term: Term| weights(carried.bundles, sides[side], term);
@@ -292,66 +294,16 @@ impl Ground<'_> {
                 series[BEND_ORDER] = Balls::within(within[BEND_ORDER]);
             }
             let all = self.own.sizes(self.slopes.damping, pushed(0), start, self.slopes.h)?;
-            for (second, all) in second.iter_mut().zip(all) {
-                *second = *second + all * products.sizes();
+            let bent = self.own.growth(&self.slopes.rest, pushed, all, 2).map(|series| series[2]);
+            for (second, part) in second.iter_mut().zip(course.largest(course.carried(start, &path), bent)) {
+                for (second, size) in second.iter_mut().zip(part) {
+                    *second = *second + size * products.sizes();
+                }
             }
             paths.push(path);
         }
-        let rest = self.rest(carried, &columns, second.map(Sizes::total))?;
+        let rest = self.rest(carried, &columns, &course, second.map(|part| part.map(Sizes::total)))?;
         Some(Curve { paths, lagged, rest })
-    }
-
-    /// What is of the third order at every instant of a step, on account of what happens in it.
-    fn rest(&self, carried: &Carried<'_>, columns: &[Column], second: [Interval; 3]) -> Option<[Interval; 3]> {
-        let over = |of: &dyn Fn(&Column) -> Sizes| -> Interval {
-            Sizes::dot(columns.iter().zip(carried.bundles).map(|(c, bundle)| (of(c), bundle.deviations.sizes())))
-                .total()
-        };
-        let first = [POSITION, VELOCITY, FORCE].map(|k| over(&|c| c.within[k][0]));
-        let apart = |term: Term| {
-            if self.at.has(term) { most(self.over.term(term) - self.at.term(term)) } else { Interval::ZERO }
-        };
-        let own = |term: Term| if self.at.has(term) { most(self.over.term(term)) } else { Interval::ZERO };
-        let (_, speed) = self.motions.point(0)[0];
-        let speed = speed.interval();
-        let three = Interval::point(3.0);
-        let kink = own(Term::Quadratic) + three * own(Term::Cubic) * speed;
-        let kink_apart = apart(Term::Quadratic) + three * apart(Term::Cubic) * speed;
-        // By what the damping differs at the point's velocity.
-        let by_terms = |bundle: &Bundle| {
-            let terms = bundle.damping_terms().map(|(term, weight)| (weight.sizes(), self.damped_by(term, 0).1));
-            Sizes::dot(terms) * bundle.deviations.sizes()
-        };
-        let damped = carried.bundles.iter().fold(Interval::ZERO, |sum, bundle| sum + by_terms(bundle).total());
-        let lagged = self.at.has(Term::LagRate);
-        let (gain, lag) =
-            if lagged { (apart(Term::Gain), apart(Term::LagRate)) } else { (Interval::ZERO, Interval::ZERO) };
-        let stiff = apart(Term::Stiffness);
-        let push = |rest: &[Interval; 3]| {
-            let [x, v, f] = core::array::from_fn(|k| second[k] + rest[k]);
-            let faster = first[VELOCITY] + v;
-            let cubic = own(Term::Cubic) * faster * faster;
-            let damping = damped + kink * faster + cubic;
-            let bent = (kink * v + kink_apart * first[VELOCITY] + cubic) * first[VELOCITY];
-            [damping * v + stiff * x + gain * f + bent, lag * f]
-        };
-        let start = carried.rest.map(most);
-        let grown = |rest: &[Interval; 3], start: [Interval; 3]| {
-            let push = push(rest).map(Sizes::splat);
-            let sizes = self.own.sizes(self.slopes.damping, push, &start.map(Balls::splat), self.slopes.h)?;
-            Some(sizes.map(|size| most(size.interval())))
-        };
-        let mut guess = start;
-        for _ in 0..ATTEMPTS {
-            let next = grown(&guess, start)?;
-            let room = next.map(|next| Interval::point((LARGER * next.upper()).max(f64::MIN_POSITIVE)));
-            if grown(&room, start)?.iter().zip(&room).all(|(grown, room)| grown.upper() < room.upper()) {
-                let added = grown(&room, [Interval::ZERO; 3])?;
-                return Some(added.map(|added| Interval::symmetric(added.upper())));
-            }
-            guess = room;
-        }
-        None
     }
 }
 

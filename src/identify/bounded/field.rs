@@ -114,19 +114,31 @@ impl Field {
     }
 
     /// Derivatives of position, velocity and force with respect to time.
-    pub(super) fn rate(&self, [x, v, f]: &Triple, u: Interval) -> Triple {
-        let mut acceleration = self.term(Term::Gain) * *f + self.term(Term::Disturbance) - self.term(Term::Linear) * *v;
-        if self.has(Term::Quadratic) {
-            acceleration -= self.term(Term::Quadratic) * (signed_square(*v) - self.twice_middle() * *v);
+    pub(super) fn rate(&self, state: &Triple, u: Interval) -> Triple {
+        core::array::from_fn(|component| self.rate_of(component, state, u))
+    }
+
+    /// The derivative of one of them.
+    pub(super) fn rate_of(&self, component: usize, [x, v, f]: &Triple, u: Interval) -> Interval {
+        match component {
+            POSITION => *v,
+            VELOCITY => {
+                let mut acceleration =
+                    self.term(Term::Gain) * *f + self.term(Term::Disturbance) - self.term(Term::Linear) * *v;
+                if self.has(Term::Quadratic) {
+                    acceleration -= self.term(Term::Quadratic) * shifted_square(*v, self.middle_speed);
+                }
+                if self.has(Term::Cubic) {
+                    acceleration -= self.term(Term::Cubic) * cube(*v);
+                }
+                if self.has(Term::Stiffness) {
+                    acceleration -= self.term(Term::Stiffness) * *x;
+                }
+                acceleration
+            }
+            _ if self.has(Term::LagRate) => self.term(Term::LagRate) * (u - *f),
+            _ => Interval::ZERO,
         }
-        if self.has(Term::Cubic) {
-            acceleration -= self.term(Term::Cubic) * cube(*v);
-        }
-        if self.has(Term::Stiffness) {
-            acceleration -= self.term(Term::Stiffness) * *x;
-        }
-        let force = if self.has(Term::LagRate) { self.term(Term::LagRate) * (u - *f) } else { Interval::ZERO };
-        [*v, acceleration, force]
     }
 
     /// Difference of the accelerations over that of the velocities, for velocities v and w at the same place and force.

@@ -4,7 +4,7 @@
 //! equation `e' = -m e + sum (theta_j - c_j) p_j`, in which m is a slope of the drag between the two velocities, and `p_j` is what
 //! the j-th term multiplies in the motion of c alone. So only m has a range.
 
-use super::bend::{Carried, Curve, Ground};
+use super::bend::{BEND_ORDER, Carried, Curve, Ground};
 use super::field::{FORCE, Field, POSITION, Term, Triple, VELOCITY};
 use super::mix::Bundle;
 use super::series::{Equations, NO_PATH, Path, Slopes, abreast, line, powers, value};
@@ -100,19 +100,27 @@ pub(super) enum Refused {
     TooLong(f64),
 }
 
-fn plus(a: &Triple, b: &Triple) -> Triple {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-fn times(a: Interval, b: &Triple) -> Triple {
-    [a * b[0], a * b[1], a * b[2]]
-}
-
-/// Values `y` with `start + span y'` inside themselves, so that no solution leaves them during the span.
-fn enclose(start: &Triple, span: Interval, rate: impl Fn(&Triple) -> Triple) -> Option<Triple> {
-    let mut guess = plus(start, &times(span, &rate(start)));
+/// Values that no solution leaves within a duration of `h`: beyond an end of its start a component goes no faster than it does
+/// between the two, whatever the others are.
+fn enclose(start: &Triple, h: Interval, rate: impl Fn(usize, &Triple) -> Interval) -> Option<Triple> {
+    let long = Interval::point(h.upper());
+    let reached = |guess: &Triple| -> Option<Triple> {
+        let mut next = *guess;
+        for component in [FORCE, VELOCITY, POSITION] {
+            let (own, side) = (start[component], guess[component]);
+            let mut fastest = |from: f64, to: f64| {
+                next[component] = Interval::new(from, to)?;
+                Some(rate(component, &next))
+            };
+            let up = fastest(own.upper(), side.upper())?.upper().max(0.0);
+            let down = fastest(side.lower(), own.lower())?.lower().min(0.0);
+            next[component] = (own + long * Interval::point(up)).hull(own + long * Interval::point(down));
+        }
+        Some(next)
+    };
+    let mut guess = reached(start)?;
     for _ in 0..ATTEMPTS {
-        let next = plus(start, &times(span, &rate(&guess)));
+        let next = reached(&guess)?;
         if next.iter().zip(&guess).all(|(next, guess)| next.is_subset_of(*guess)) {
             return Some(next);
         }
@@ -171,7 +179,7 @@ impl Field {
 
     /// The motion alone where the velocity may change its sign, by the rates' ranges: its end, and what it passes.
     pub(super) fn pass_crude(&self, start: &Triple, u: Interval, h: Interval) -> Result<[Triple; 2], Refused> {
-        let within = enclose(start, Interval::ZERO.hull(h), |state| self.rate(state, u)).ok_or(HALF)?;
+        let within = enclose(start, h, |component, state| self.rate_of(component, state, u)).ok_or(HALF)?;
         let [start, rate] = [*start, self.rate(&within, u)].map(|state| state.map(Balls::splat));
         Ok([value(&line(&start, &rate), &powers(h, LINE)[..=LINE], true).map(|end| end.interval_at(0)), within])
     }
@@ -188,13 +196,12 @@ impl Fields {
         manner: Manner,
         carried: &Carried<'_>,
     ) -> Result<Box<Step>, Refused> {
-        let span = Interval::ZERO.hull(h);
         let (field, point) = (&self.over, &self.at);
         let Manner { length, degree } = manner;
         let longest = ROOM * length;
-        let within = enclose(&start.over, span, |state| field.rate(state, u)).ok_or(HALF)?;
+        let within = enclose(&start.over, h, |component, state| field.rate_of(component, state, u)).ok_or(HALF)?;
         let backwards = field.backwards(&within, h, longest)?;
-        let within_at = enclose(&start.at, span, |state| point.rate(state, u)).ok_or(HALF)?;
+        let within_at = enclose(&start.at, h, |component, state| point.rate_of(component, state, u)).ok_or(HALF)?;
         if point.backwards(&within_at, h, longest)? != backwards {
             return Err(Refused::Kink);
         }
@@ -254,18 +261,17 @@ impl Fields {
         h: Interval,
         bundles: &[Bundle],
     ) -> Result<Box<Step>, Refused> {
-        let span = Interval::ZERO.hull(h);
         let field = &self.over;
-        let within = enclose(start, span, |state| field.rate(state, u)).ok_or(HALF)?;
+        let within = enclose(start, h, |component, state| field.rate_of(component, state, u)).ok_or(HALF)?;
         let half = Interval::point(0.5);
         // Of two motions under the same force the faster stays ahead: the ends' own rates bound all between them.
         let from = |end: f64| {
             let start = [within[POSITION], Interval::point(end), within[FORCE]];
-            let rate = |state: &Triple| {
-                let acceleration = field.rate(&[within[POSITION], state[VELOCITY], within[FORCE]], u)[VELOCITY];
-                [Interval::ZERO, acceleration, Interval::ZERO]
+            let rate = |component: usize, state: &Triple| match component {
+                VELOCITY => field.rate_of(VELOCITY, &[within[POSITION], state[VELOCITY], within[FORCE]], u),
+                _ => Interval::ZERO,
             };
-            Some(rate(&enclose(&start, span, rate)?)[VELOCITY])
+            Some(rate(VELOCITY, &enclose(&start, h, rate)?))
         };
         let v = start[VELOCITY];
         let mut end = None;
@@ -331,6 +337,9 @@ impl Step {
     /// The values at the step's end, `h` after its beginning.
     pub(super) fn at_end(&self, h: Interval) -> Arrival {
         let mut arrival = self.at(h);
+        if let (Some((_, rest)), Some(curve)) = (&mut arrival.bent, &self.curve) {
+            *rest = curve.rest.at_end();
+        }
         for (state, end) in arrival.over.iter_mut().zip(self.end.iter().flatten()) {
             // Both enclose the same values, so that they meet.
             *state = state.intersection(*end).unwrap_or(*state);
@@ -340,8 +349,8 @@ impl Step {
 
     /// The values after `time` of the step.
     pub(super) fn at(&self, time: Interval) -> Arrival {
-        let powers = powers(time, self.degree);
-        let powers = &powers[..=self.degree];
+        let all = powers(time, self.degree.max(if self.curve.is_some() { BEND_ORDER } else { 0 }));
+        let powers = &all[..=self.degree];
         let value = |path: &Path| value(path, powers, self.lagged);
         let state = value(&self.state);
         let units = value(&self.by_start);
@@ -360,7 +369,7 @@ impl Step {
             lagged: self.lagged,
             stiff: self.stiff,
             by_push: self.by_push.iter().map(value).collect(),
-            bent: self.curve.as_ref().map(|curve| (curve.at(powers), curve.rest)),
+            bent: self.curve.as_ref().map(|curve| (curve.at(&all), curve.rest.after(time))),
         }
     }
 }

@@ -261,3 +261,32 @@ fn motions_of_a_box_are_within_the_second_order_and_its_rest_and_without_either_
     assert_eq!(whole, 0);
     assert!(restless > 12, "without the rest {restless} of 48 were missed");
 }
+
+/// Whether what is enclosed holds an exponential that starts between 1 and 1.1, at the end of a step and in its middle.
+fn holds_exponential(within: &Triple, rate: f64, h: f64) -> bool {
+    [0.0, 0.5 * h, h].iter().all(|t| [1.0, 1.1].iter().all(|start| within[VELOCITY].contains(start * (rate * t).exp())))
+}
+
+#[test]
+fn a_long_step_of_what_is_damped_is_enclosed_and_what_grows_is_not_by_its_first_rate_alone() {
+    let v = Interval::new(1.0, 1.1).expect("an interval");
+    let start = [Interval::ZERO, v, Interval::ZERO];
+    let linear = |rate: f64| {
+        move |component: usize, state: &Triple| match component {
+            POSITION => state[VELOCITY],
+            VELOCITY => Interval::point(rate) * state[VELOCITY],
+            _ => Interval::ZERO,
+        }
+    };
+    // Three times as long as the damping's own time.
+    let damped = enclose(&start, Interval::point(3.0), linear(-1.0)).expect("an enclosure");
+    assert!(holds_exponential(&damped, -1.0, 3.0), "{damped:?}");
+    assert_eq!(damped[VELOCITY].upper(), 1.1);
+    let way = 1.1 * (1.0 - (-3.0f64).exp());
+    assert!(damped[POSITION].contains(way) && damped[POSITION].upper() <= 3.3 * (1.0 + 1e-12));
+    let grows = enclose(&start, Interval::point(0.4), linear(1.0)).expect("an enclosure");
+    assert!(holds_exponential(&grows, 1.0, 0.4), "{grows:?}");
+    let by_first = v + Interval::point(0.4) * v;
+    assert!(!holds_exponential(&[Interval::ZERO, v.hull(by_first), Interval::ZERO], 1.0, 0.4));
+    assert!(enclose(&start, Interval::point(3.0), linear(1.0)).is_none());
+}
