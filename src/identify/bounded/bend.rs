@@ -130,13 +130,40 @@ struct Column {
     damps_within: ShortSizes,
 }
 
-#[inline]
-fn product(a: &[Balls], b: &[Balls], k: usize) -> Balls {
-    Balls::dot(a[..=k].iter().copied().zip(b[..=k].iter().rev().copied()))
+/// Coefficients of what bends the damping: of velocities, and of what its terms multiply.
+struct Damping {
+    kinks: (Short, ShortSizes),
+    terms: [(Short, ShortSizes); 3],
 }
+
+impl Damping {
+    fn of(ground: &Ground<'_>) -> Self {
+        let all = |of: &dyn Fn(usize) -> (Balls, Sizes)| {
+            let (mut own, mut within) = (NONE, NO_SIZES);
+            for k in 0..BEND_ORDER {
+                (own[k], within[k]) = of(k);
+            }
+            (own, within)
+        };
+        let term = |term: Term| {
+            if ground.at.has(term) { all(&|k| ground.damped_by(term, k)) } else { (NONE, NO_SIZES) }
+        };
+        Self { kinks: all(&|k| ground.kink(k)), terms: [term(Term::Linear), term(Term::Quadratic), term(Term::Cubic)] }
+    }
+
+    fn by(&self, term: Term) -> &(Short, ShortSizes) {
+        match term {
+            Term::Quadratic => &self.terms[1],
+            Term::Cubic => &self.terms[2],
+            _ => &self.terms[0],
+        }
+    }
+}
+
+/// The pairs of a product's coefficient.
 #[inline]
-fn product_within(a: &[Sizes], b: &[Sizes], k: usize) -> Sizes {
-    Sizes::dot(a[..=k].iter().copied().zip(b[..=k].iter().rev().copied()))
+fn products<'a, T: Copy>(a: &'a [T], b: &'a [T], k: usize) -> impl Iterator<Item = (T, T)> + 'a {
+    a[..=k].iter().copied().zip(b[..=k].iter().rev().copied())
 }
 
 const NONE: Short = [Balls::ZERO; BEND_ORDER + 1];
@@ -210,7 +237,7 @@ impl Ground<'_> {
         (own, within)
     }
 
-    fn column(&self, bundle: &Bundle, start: &[Balls; 3]) -> Option<Column> {
+    fn column(&self, bundle: &Bundle, start: &[Balls; 3], damping: &Damping) -> Option<Column> {
         let mut column = Column { head: [NONE; 3], within: [NO_SIZES; 3], damps: NONE, damps_within: NO_SIZES };
         let push = |k: usize| self.motions.pushed(bundle, k);
         let pushed = |k: usize| self.motions.pushed_within(bundle, k);
@@ -223,44 +250,49 @@ impl Ground<'_> {
         for (head, within) in column.head.iter_mut().zip(&column.within) {
             head[BEND_ORDER] = Balls::within(within[BEND_ORDER]);
         }
-        let mut kinks = (NONE, NO_SIZES);
         for k in 0..BEND_ORDER {
-            (kinks.0[k], kinks.1[k]) = self.kink(k);
-            let terms: Vec<_> =
-                bundle.damping_terms().map(|(term, weight)| (weight, self.damped_by(term, k))).collect();
-            let own = Balls::dot(terms.iter().map(|(weight, by)| (*weight, by.0)));
-            let within = Sizes::dot(terms.iter().map(|(weight, by)| (weight.sizes(), by.1)));
-            column.damps[k] = own + product(&kinks.0, &column.head[VELOCITY], k);
-            column.damps_within[k] = within + product_within(&kinks.1, &column.within[VELOCITY], k);
+            let terms = || bundle.damping_terms().map(|(term, weight)| (weight, damping.by(term)));
+            let own = Balls::dot(terms().map(|(weight, (by, _))| (weight, by[k])));
+            let within = Sizes::dot(terms().map(|(weight, (_, by))| (weight.sizes(), by[k])));
+            let (kinks, kinks_within) = &damping.kinks;
+            column.damps[k] = own + Balls::dot(products(kinks, &column.head[VELOCITY], k));
+            column.damps_within[k] = within + Sizes::dot(products(kinks_within, &column.within[VELOCITY], k));
         }
         Some(column)
     }
 
     /// How slopes bend during a step, from where they are. `None` where the rest may grow beyond all bounds.
     pub(super) fn curve(&self, carried: &Carried<'_>, pairs: &Pairs) -> Option<Curve> {
+        let damping = Damping::of(self);
+        let columns = carried.bundles.iter().zip(carried.columns);
         let columns: Option<Vec<Column>> =
-            carried.bundles.iter().zip(carried.columns).map(|(bundle, start)| self.column(bundle, start)).collect();
+            columns.map(|(bundle, start)| self.column(bundle, start, &damping)).collect();
         let columns = columns?;
         let lagged = self.at.has(Term::LagRate);
         let stiff = self.at.has(Term::Stiffness);
         let course = Course::of(self)?;
         let mut second = [[Sizes::ZERO; 3]; PARTS];
         let mut paths = Vec::with_capacity(pairs.count());
-        for ((sides, products), start) in pairs.sides.iter().zip(&pairs.products).zip(carried.bends) {
+        for ((sides, deviations), start) in pairs.sides.iter().zip(&pairs.products).zip(carried.bends) {
             let weight = |side: usize, term: Term| weights(carried.bundles, sides[side], term);
             let (mut moved, mut filled) = (NONE, NONE);
             let (mut moved_within, mut filled_within) = (NO_SIZES, NO_SIZES);
+            let (mut damps, mut v) = ([NONE; 2], [NONE; 2]);
+            let (mut damps_within, mut v_within) = ([NO_SIZES; 2], [NO_SIZES; 2]);
+            for k in 0..BEND_ORDER {
+                for (side, seats) in sides.iter().enumerate() {
+                    let other = 1 - side;
+                    damps[side][k] = gathered(&columns, *seats, |c| &c.damps[k]);
+                    v[other][k] = gathered(&columns, *seats, |c| &c.head[VELOCITY][k]);
+                    damps_within[side][k] = gathered_within(&columns, *seats, |c| &c.damps_within[k]);
+                    v_within[other][k] = gathered_within(&columns, *seats, |c| &c.within[VELOCITY][k]);
+                }
+                moved[k] = -Balls::dot(products(&damps[0], &v[0], k).chain(products(&damps[1], &v[1], k)));
+                let [first, second] = [0, 1].map(|side| products(&damps_within[side], &v_within[side], k));
+                moved_within[k] = Sizes::dot(first.chain(second));
+            }
             for side in [0, 1] {
                 let other = 1 - side;
-                let (mut damps, mut v, mut damps_w, mut v_w) = (NONE, NONE, NO_SIZES, NO_SIZES);
-                for k in 0..BEND_ORDER {
-                    damps[k] = gathered(&columns, sides[side], |c| &c.damps[k]);
-                    v[k] = gathered(&columns, sides[other], |c| &c.head[VELOCITY][k]);
-                    damps_w[k] = gathered_within(&columns, sides[side], |c| &c.damps_within[k]);
-                    v_w[k] = gathered_within(&columns, sides[other], |c| &c.within[VELOCITY][k]);
-                    moved[k] = moved[k] - product(&damps, &v, k);
-                    moved_within[k] = moved_within[k] + product_within(&damps_w, &v_w, k);
-                }
                 if stiff {
                     let weight = weight(side, Term::Stiffness);
                     for k in 0..BEND_ORDER {
@@ -295,11 +327,7 @@ impl Ground<'_> {
             }
             let all = self.own.sizes(self.slopes.damping, pushed(0), start, self.slopes.h)?;
             let bent = self.own.growth(&self.slopes.rest, pushed, all, 2).map(|series| series[2]);
-            for (second, part) in second.iter_mut().zip(course.largest(course.carried(start, &path), bent)) {
-                for (second, size) in second.iter_mut().zip(part) {
-                    *second = *second + size * products.sizes();
-                }
-            }
+            course.add_largest(&mut second, deviations.sizes(), &course.carried(start, &path), bent);
             paths.push(path);
         }
         let rest = self.rest(carried, &columns, &course, second.map(|part| part.map(Sizes::total)))?;
@@ -318,7 +346,7 @@ impl Equations {
         let components = if self.has(Term::LagRate) { 3 } else { 2 };
         for k in 0..BEND_ORDER - 1 {
             let own = [path[POSITION][k], path[VELOCITY][k], path[FORCE][k]];
-            let rates = self.rates(product(&slopes.head, &path[VELOCITY], k), own, push(k));
+            let rates = self.rates(Balls::dot(products(&slopes.head, &path[VELOCITY], k)), own, push(k));
             for (series, rate) in path.iter_mut().zip(rates).take(components) {
                 series[k + 1] = rate.share(k + 1);
             }

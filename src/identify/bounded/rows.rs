@@ -112,7 +112,7 @@ impl Model<'_> {
         let (_, places) = self.layout.columns(span.from);
         let record = self.layout.windows()[span.from].record;
         let (readings, samples) = (&self.records[record], self.samples(span));
-        let mut little = false;
+        let mut little = Vec::new();
         for component in 1..self.layout.state_size() {
             let own = self.layout.start(span.from, component);
             let Some(column) = places.iter().position(|place| *place == own) else { continue };
@@ -131,11 +131,14 @@ impl Model<'_> {
             }
             linear.deviations[own] = at[own] - Interval::point(linear.centre[own]);
             if at[own].width() < DRAWN * before {
-                linear.recentre(own, at[own].midpoint());
-                little = true;
+                little.push(own);
             }
         }
-        Ok(little)
+        // Not before: what is known of the motion is about the first middles.
+        for &own in &little {
+            linear.recentre(own, at[own].midpoint());
+        }
+        Ok(!little.is_empty())
     }
 
     /// The state at the end of a motion is that at the beginning of the next window.

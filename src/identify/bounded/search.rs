@@ -250,7 +250,11 @@ impl<'a> Search<'a> {
         for pass in 0..MOST_PASSES {
             let before = at.to_vec();
             let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
+            let known = |own: &Option<Slanted>| own.as_ref().is_some_and(|own| own.surface.is_some());
+            let was_known = known(own);
             let slanted = if broken { None } else { self.slant(at, own, UNBROKEN)? };
+            // What was known of a larger box hides what a motion over this one tells; one before it is divided is less than two after.
+            let stale = was_known && !known(own);
             if let Some(followed) = slanted {
                 left = followed;
             } else {
@@ -262,7 +266,7 @@ impl<'a> Search<'a> {
                     return Err(Empty { method: Method::Chain, multipliers, linear: Some(linear) });
                 }
             }
-            if pass + 1 >= FINE_PASSES || self.rest(&before, at) > HELPED {
+            if pass + 1 >= FINE_PASSES || (self.rest(&before, at) > HELPED && !stale) {
                 break;
             }
         }

@@ -83,10 +83,14 @@ impl Course {
 
     /// What polynomials are at the ends.
     fn along(&self, path: &[Short; 3]) -> Ends {
-        core::array::from_fn(|end| match end.checked_sub(1) {
-            None => path.each_ref().map(|series| series[0]),
-            Some(part) => path.each_ref().map(|series| value(series, &self.ends[part].0)),
-        })
+        let mut ends = [[Balls::ZERO; 3]; PARTS + 1];
+        for (k, series) in path.iter().enumerate().take(self.components) {
+            ends[0][k] = series[0];
+            for (end, (powers, _)) in ends[1..].iter_mut().zip(&self.ends) {
+                end[k] = value(series, powers);
+            }
+        }
+        ends
     }
 
     /// The same of states that start somewhere, to which polynomials are added that start at nothing.
@@ -94,20 +98,27 @@ impl Course {
         let mut ends = self.along(added);
         ends[0] = *start;
         for (end, (_, carried)) in ends[1..].iter_mut().zip(&self.ends) {
-            for (k, value) in end.iter_mut().enumerate() {
+            for (k, value) in end.iter_mut().enumerate().take(self.components) {
                 *value = *value + Balls::dot((0..self.components).map(|from| (carried[k].spread(from), start[from])));
             }
         }
         ends
     }
 
-    /// How large states are at most in each part: as at its ends, and as they bend between, where coefficients of the second degree
-    /// are no larger than `bent`.
-    pub(super) fn largest(&self, ends: Ends, bent: [Sizes; 3]) -> [[Sizes; 3]; PARTS] {
+    /// Adds how large states are at most in each part, times a factor: as at its ends, and as they bend between, where coefficients of
+    /// the second degree are no larger than `bent`.
+    pub(super) fn add_largest(&self, sums: &mut [[Sizes; 3]; PARTS], factor: Sizes, ends: &Ends, bent: [Sizes; 3]) {
         // The eighth of the square, times the second derivative: twice the coefficient.
         let bulge = Sizes::splat(Interval::point(0.25) * self.part_s * self.part_s);
-        let sizes = ends.map(|end| end.map(Balls::sizes));
-        core::array::from_fn(|part| core::array::from_fn(|k| sizes[part][k].max(sizes[part + 1][k]) + bulge * bent[k]))
+        for k in 0..self.components {
+            let between = bulge * bent[k];
+            let mut before = ends[0][k].sizes();
+            for (sum, end) in sums.iter_mut().zip(&ends[1..]) {
+                let now = end[k].sizes();
+                sum[k] = sum[k] + (before.max(now) + between) * factor;
+                before = now;
+            }
+        }
     }
 }
 
@@ -209,11 +220,7 @@ impl Ground<'_> {
         let mut first = [[Sizes::ZERO; 3]; PARTS];
         for (column, bundle) in columns.iter().zip(carried.bundles) {
             let bent = column.within.map(|series| series[2]);
-            for (first, part) in first.iter_mut().zip(course.largest(course.along(&column.head), bent)) {
-                for (first, size) in first.iter_mut().zip(part) {
-                    *first = *first + size * bundle.deviations.sizes();
-                }
-            }
+            course.add_largest(&mut first, bundle.deviations.sizes(), &course.along(&column.head), bent);
         }
         let with = |term: Term, value: Interval| if self.at.has(term) { most(value) } else { Interval::ZERO };
         let own = |term: Term| with(term, self.over.term(term));
