@@ -12,6 +12,9 @@ use super::slanted::Slanted;
 use super::weak::hats;
 use crate::numeric::Interval;
 
+#[cfg(test)]
+mod tests;
+
 /// A pass that leaves more than this of every parameter's width did not help.
 const HELPED: f64 = 0.9;
 /// A box is too wide to follow the motion over while a parameter's range is worth more than this share of the command.
