@@ -272,8 +272,8 @@ impl Equations {
         series
     }
 
-    /// How large columns are at most within a duration of `h`: by Gronwall's inequality, and what follows from it. A lag lets no force
-    /// grow, nor does what damps let a velocity.
+    /// How large columns are at most within a duration of `h`: by Gronwall's inequality, and what follows from it. What damps a velocity
+    /// lets it not grow, nor does a lag a force.
     pub(super) fn sizes(
         &self,
         damping: Interval,
@@ -282,17 +282,18 @@ impl Equations {
         h: Interval,
     ) -> Option<[Sizes; 3]> {
         let most = |value: Interval| Interval::point(value.magnitude());
-        let stiff = self.has(Term::Stiffness);
-        let stiffness = if stiff { most(self.term(Term::Stiffness).interval_at(0)) } else { Interval::ZERO };
-        let h_s = most(h);
-        let room = Interval::ONE - h_s * (Interval::point(damping.upper().max(0.0)) + h_s * stiffness);
-        if room.lower() < LEAST_ROOM {
+        let own = |term: Term| if self.has(term) { self.term(term).interval_at(0) } else { Interval::ZERO };
+        let (h_s, stiffness) = (most(h), most(own(Term::Stiffness)));
+        let growing = |rate: Interval| Interval::point(rate.upper().max(0.0));
+        let rooms =
+            [growing(damping) + h_s * stiffness, growing(-own(Term::LagRate))].map(|rate| Interval::ONE - h_s * rate);
+        if rooms.iter().any(|room| room.lower() < LEAST_ROOM) {
             return None;
         }
-        let more = Sizes::splat(Interval::ONE / room);
+        let [more, more_force] = rooms.map(|room| Sizes::splat(Interval::ONE / room));
         let gain = if self.has(Term::LagRate) { self.term(Term::Gain).sizes() } else { Sizes::ZERO };
         let (long, [x, v, f], [moved, filled]) = (Sizes::splat(h_s), start.map(Balls::sizes), push);
-        let f = f + long * filled;
+        let f = (f + long * filled) * more_force;
         let v = (v + long * (Sizes::splat(stiffness) * x + gain * f + moved)) * more;
         Some([x + long * v, v, f])
     }

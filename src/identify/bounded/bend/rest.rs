@@ -252,9 +252,9 @@ impl Ground<'_> {
         let gain = if self.at.has(Term::LagRate) { own(Term::Gain) } else { Interval::ZERO };
         let half = Interval::point(0.5);
         let Growth { kept, mean, longest } = Growth::by(Interval::point(self.slopes.damping.upper()) * h);
-        let [x, v, f] = start;
+        let [x, v, _] = start;
         let pushed = push[0] + own(Term::Stiffness) * within[POSITION] + gain * within[FORCE];
         let way = mean * v + half * longest * h * pushed;
-        [x + h * way, kept * v + h * mean * pushed, f + h * push[1]].map(most)
+        [x + h * way, kept * v + h * mean * pushed, within[FORCE]].map(most)
     }
 }

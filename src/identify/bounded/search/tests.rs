@@ -12,7 +12,7 @@ const SAMPLE_S: f64 = 0.1;
 const STEPS: usize = 20;
 /// What the integration below may be off.
 const OFF: f64 = 1e-7;
-const BOXES: usize = 60;
+const BOXES: usize = 30;
 
 /// Terms over inertia, and what is constant.
 #[derive(Clone, Copy, Default)]

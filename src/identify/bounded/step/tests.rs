@@ -3,6 +3,7 @@ use super::super::field::TERMS;
 use super::super::mix::{By, Mix};
 use super::super::series::ORDER;
 use super::*;
+use crate::numeric::Sizes;
 
 const FINE: Manner = Manner { length: 1.4, degree: ORDER };
 const COARSE: Manner = Manner { degree: 6, ..FINE };
@@ -289,4 +290,25 @@ fn a_long_step_of_what_is_damped_is_enclosed_and_what_grows_is_not_by_its_first_
     let by_first = v + Interval::point(0.4) * v;
     assert!(!holds_exponential(&[Interval::ZERO, v.hull(by_first), Interval::ZERO], 1.0, 0.4));
     assert!(enclose(&start, Interval::point(3.0), linear(1.0)).is_none());
+}
+
+#[test]
+fn what_is_damped_is_no_larger_than_at_first_and_what_grows_is_at_least_the_exponential() {
+    let h = 0.6;
+    let start = [Balls::ZERO, Balls::splat(Interval::ONE), Balls::splat(Interval::ONE)];
+    for (damping, lag_rate) in [(-2.0, 3.0), (-0.1, 0.0), (0.5, -0.4)] {
+        let (mut terms, mut active) = ([Interval::ZERO; TERMS], [false; TERMS]);
+        // No gain: the force moves nothing.
+        for (term, value) in [(Term::Gain, 0.0), (Term::LagRate, lag_rate)] {
+            (terms[term as usize], active[term as usize]) = (Interval::point(value), true);
+        }
+        let equations = Equations::splat(&Field { terms, active, middle_speed: 0.0 }, ORDER);
+        let rates = Interval::new(damping - 3.0, damping).expect("an interval");
+        let sizes = equations.sizes(rates, [Sizes::ZERO; 2], &start, Interval::point(h)).expect("bounds");
+        for (component, rate) in [(VELOCITY, damping), (FORCE, -lag_rate)] {
+            let (size, most) = (sizes[component].interval().upper(), libm::exp(rate * h).max(1.0));
+            assert!(size >= most, "{rate}: {size} for {most}");
+            assert!(rate > 0.0 || size < 1.0 + 1e-12, "{rate}: {size} grew");
+        }
+    }
 }
