@@ -21,6 +21,7 @@ mod tests;
 pub(super) const BEND_ORDER: usize = 8;
 // A step's powers of time reach as far.
 const _: () = assert!(BEND_ORDER <= ORDER);
+
 /// Polynomials of a lower order, the last coefficient over the whole step.
 type Short = [Balls; BEND_ORDER + 1];
 type ShortSizes = [Sizes; BEND_ORDER + 1];
@@ -237,19 +238,32 @@ impl Ground<'_> {
         (own, within)
     }
 
-    fn column(&self, bundle: &Bundle, start: &[Balls; 3], damping: &Damping) -> Option<Column> {
-        let mut column = Column { head: [NONE; 3], within: [NO_SIZES; 3], damps: NONE, damps_within: NO_SIZES };
-        let push = |k: usize| self.motions.pushed(bundle, k);
-        let pushed = |k: usize| self.motions.pushed_within(bundle, k);
-        for (series, start) in column.head.iter_mut().zip(start) {
+    /// Polynomials of a column of slopes from its start, given what pushes velocity and force; and their coefficients over the whole step
+    /// at most. `None` where they may grow beyond all bounds.
+    fn polynomials(
+        &self,
+        start: &[Balls; 3],
+        push: impl Fn(usize) -> [Balls; 2],
+        pushed: impl Fn(usize) -> [Sizes; 2],
+    ) -> Option<([Short; 3], [ShortSizes; 3])> {
+        let (mut head, mut within) = ([NONE; 3], [NO_SIZES; 3]);
+        for (series, start) in head.iter_mut().zip(start) {
             series[0] = *start;
         }
-        self.own.head_of(self.slopes, push, &mut column.head);
+        self.own.head_of(self.slopes, push, &mut head);
         let from = self.own.sizes(self.slopes.damping, pushed(0), start, self.slopes.h)?;
-        self.own.within_of(self.slopes, pushed, from, &mut column.within);
-        for (head, within) in column.head.iter_mut().zip(&column.within) {
-            head[BEND_ORDER] = Balls::within(within[BEND_ORDER]);
+        self.own.within_of(self.slopes, pushed, from, &mut within);
+        for (series, within) in head.iter_mut().zip(&within) {
+            series[BEND_ORDER] = Balls::within(within[BEND_ORDER]);
         }
+        Some((head, within))
+    }
+
+    fn column(&self, bundle: &Bundle, start: &[Balls; 3], damping: &Damping) -> Option<Column> {
+        let push = |k: usize| self.motions.pushed(bundle, k);
+        let pushed = |k: usize| self.motions.pushed_within(bundle, k);
+        let (head, within) = self.polynomials(start, push, pushed)?;
+        let mut column = Column { head, within, damps: NONE, damps_within: NO_SIZES };
         for k in 0..BEND_ORDER {
             let terms = || bundle.damping_terms().map(|(term, weight)| (weight, damping.by(term)));
             let own = Balls::dot(terms().map(|(weight, (by, _))| (weight, by[k])));
@@ -315,22 +329,14 @@ impl Ground<'_> {
                     }
                 }
             }
-            let zero = [Balls::ZERO; 3];
-            let mut path = [NONE; 3];
-            self.own.head_of(self.slopes, |k| [moved[k], filled[k]], &mut path);
             let pushed = |k: usize| [moved_within[k], filled_within[k]];
-            let from = self.own.sizes(self.slopes.damping, pushed(0), &zero, self.slopes.h)?;
-            let mut within = [NO_SIZES; 3];
-            self.own.within_of(self.slopes, pushed, from, &mut within);
-            for (series, within) in path.iter_mut().zip(within) {
-                series[BEND_ORDER] = Balls::within(within[BEND_ORDER]);
-            }
+            let (path, _) = self.polynomials(&[Balls::ZERO; 3], |k| [moved[k], filled[k]], pushed)?;
             let all = self.own.sizes(self.slopes.damping, pushed(0), start, self.slopes.h)?;
             let bent = self.own.growth(&self.slopes.rest, pushed, all, 2).map(|series| series[2]);
             course.add_largest(&mut second, deviations.sizes(), &course.carried(start, &path), bent);
             paths.push(path);
         }
-        let rest = self.rest(carried, &columns, &course, second.map(|part| part.map(Sizes::total)))?;
+        let rest = self.rest(carried, &columns, &damping, &course, second.map(|part| part.map(Sizes::total)))?;
         Some(Curve { paths, lagged, rest })
     }
 }

@@ -33,6 +33,8 @@ mod search;
 mod series;
 mod settings;
 mod setup;
+#[cfg(test)]
+mod simulated;
 mod slanted;
 pub(crate) mod soundness;
 mod speeds;

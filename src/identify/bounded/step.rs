@@ -150,7 +150,7 @@ pub(super) fn straddles(v: Interval) -> bool {
 }
 
 /// Each component of a state by itself.
-fn units() -> [Balls; 3] {
+pub(super) fn units() -> [Balls; 3] {
     core::array::from_fn(|component| {
         Balls::points(core::array::from_fn(|place| if place == component { 1.0 } else { 0.0 }))
     })

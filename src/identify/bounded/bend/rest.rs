@@ -4,7 +4,8 @@
 use super::super::field::{FORCE, POSITION, Term, Triple, VELOCITY};
 use super::super::mix::Bundle;
 use super::super::series::powers;
-use super::{BEND_ORDER, Carried, Column, Ground, NO_SIZES, NONE, Short, most};
+use super::super::step::units;
+use super::{BEND_ORDER, Carried, Column, Damping, Ground, Short, most};
 use crate::numeric::{Balls, Interval, Sizes};
 
 #[cfg(test)]
@@ -57,21 +58,9 @@ fn value(path: &Short, powers: &Short) -> Balls {
 impl Course {
     /// `None` where states may grow beyond all bounds.
     pub(super) fn of(ground: &Ground<'_>) -> Option<Self> {
-        let (own, slopes) = (ground.own, ground.slopes);
-        let unit = |component| core::array::from_fn(|place| if place == component { 1.0 } else { 0.0 });
-        let start: [Balls; 3] = core::array::from_fn(|component| Balls::points(unit(component)));
-        let mut path = [NONE; 3];
-        for (series, start) in path.iter_mut().zip(&start) {
-            series[0] = *start;
-        }
-        own.head_of(slopes, |_| [Balls::ZERO; 2], &mut path);
-        let from = own.sizes(slopes.damping, [Sizes::ZERO; 2], &start, slopes.h)?;
-        let mut within = [NO_SIZES; 3];
-        own.within_of(slopes, |_| [Sizes::ZERO; 2], from, &mut within);
-        for (series, within) in path.iter_mut().zip(within) {
-            series[BEND_ORDER] = Balls::within(within[BEND_ORDER]);
-        }
-        let after = |parts: usize| slopes.h * Interval::point(parts as f64 / PARTS as f64);
+        let h = ground.slopes.h;
+        let (path, _) = ground.polynomials(&units(), |_| [Balls::ZERO; 2], |_| [Sizes::ZERO; 2])?;
+        let after = |parts: usize| h * Interval::point(parts as f64 / PARTS as f64);
         let ends = core::array::from_fn(|part| {
             let all = powers(after(part + 1), BEND_ORDER);
             let powers: Short = core::array::from_fn(|k| all[k]);
@@ -179,10 +168,11 @@ impl Ground<'_> {
         &self,
         carried: &Carried<'_>,
         columns: &[Column],
+        damping: &Damping,
         course: &Course,
         second: [[Interval; 3]; PARTS],
     ) -> Option<Rest> {
-        let push = self.push(carried, columns, course, second);
+        let push = self.push(carried, columns, damping, course, second);
         let h = course.part_s;
         let grown = |push: [Interval; 2], start: [Interval; 3]| {
             let sizes = self.own.sizes(self.slopes.damping, push.map(Sizes::splat), &start.map(Balls::splat), h)?;
@@ -216,7 +206,14 @@ impl Ground<'_> {
         Some(Rest { until, at_end: added.map(|size| Interval::symmetric(size.upper())) })
     }
 
-    fn push(&self, carried: &Carried<'_>, columns: &[Column], course: &Course, second: [[Interval; 3]; PARTS]) -> Push {
+    fn push(
+        &self,
+        carried: &Carried<'_>,
+        columns: &[Column],
+        damping: &Damping,
+        course: &Course,
+        second: [[Interval; 3]; PARTS],
+    ) -> Push {
         let mut first = [[Sizes::ZERO; 3]; PARTS];
         for (column, bundle) in columns.iter().zip(carried.bundles) {
             let bent = column.within.map(|series| series[2]);
@@ -229,7 +226,7 @@ impl Ground<'_> {
         let (speed, three) = (speed.interval(), Interval::point(3.0));
         // By what the damping differs at the point's velocity.
         let by_terms = |bundle: &Bundle| {
-            let terms = bundle.damping_terms().map(|(term, weight)| (weight.sizes(), self.damped_by(term, 0).1));
+            let terms = bundle.damping_terms().map(|(term, weight)| (weight.sizes(), damping.by(term).1[0]));
             Sizes::dot(terms) * bundle.deviations.sizes()
         };
         let lagged = |value: Interval| if self.at.has(Term::LagRate) { value } else { Interval::ZERO };

@@ -1,6 +1,7 @@
 use super::super::field::{TERMS, Triple};
 use super::super::mix::By;
 use super::super::series::ORDER;
+use super::super::simulated::runge_kutta;
 use super::super::step::{Fields, Manner, Pair, Step};
 use super::*;
 
@@ -42,16 +43,9 @@ impl Case {
             let drag = of(Term::Linear) * v + of(Term::Quadratic) * v * v.abs() + of(Term::Cubic) * v * v * v;
             [v, of(Term::Gain) * f - drag - of(Term::Stiffness) * x, of(Term::LagRate) * (self.command - f)]
         };
-        let more = |a: [f64; 3], by: f64, b: [f64; 3]| core::array::from_fn(|k| a[k] + by * b[k]);
         let (mut state, h) = (self.at_start(z), h_s / 100.0);
         for _ in 0..100 {
-            let first = rate(state);
-            let second = rate(more(state, 0.5 * h, first));
-            let third = rate(more(state, 0.5 * h, second));
-            let fourth = rate(more(state, h, third));
-            state = core::array::from_fn(|k| {
-                state[k] + h / 6.0 * (first[k] + 2.0 * second[k] + 2.0 * third[k] + fourth[k])
-            });
+            state = runge_kutta(state, h, rate);
         }
         state
     }

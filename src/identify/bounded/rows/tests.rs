@@ -1,11 +1,9 @@
 use super::super::contract::Origin;
 use super::super::search::Search;
 use super::super::setup::Setup;
+use super::super::simulated::Vehicle;
 use super::super::tests::{met, setup, truth};
-use super::super::{BoundedModel, DelayBound};
 use super::*;
-use crate::experiment::Record;
-use crate::identify::DragLaw;
 
 #[test]
 fn beginnings_drawn_in_by_their_readings_hold_the_truth_and_links_to_where_they_were_do_not() {
@@ -34,51 +32,13 @@ fn beginnings_drawn_in_by_their_readings_hold_the_truth_and_links_to_where_they_
     assert!(!met(&linear, &truth, |origin| matches!(origin, Origin::Link { .. })));
 }
 
-const GAIN: f64 = 1.0;
-const DAMPING: f64 = 0.5;
-const LAG_RATE: f64 = 4.0;
-
-/// Position, velocity and force at every sample, behind a lag and under a square wave: by the classical method of Runge and Kutta.
-fn lagged(samples: usize) -> Vec<([f64; 3], f64)> {
-    let h = 0.01;
-    let mut state = [0.0, 1.2, 0.9];
-    let mut all = Vec::new();
-    for sample in 0..samples {
-        let u = if (sample / 15).is_multiple_of(2) { -1.0 } else { 1.0 };
-        all.push((state, u));
-        let rate = |[_, v, f]: [f64; 3]| [v, GAIN * f - DAMPING * v, LAG_RATE * (u - f)];
-        let more = |a: [f64; 3], by: f64, b: [f64; 3]| core::array::from_fn(|k| a[k] + by * b[k]);
-        for _ in 0..10 {
-            let first = rate(state);
-            let second = rate(more(state, 0.5 * h, first));
-            let third = rate(more(state, 0.5 * h, second));
-            let fourth = rate(more(state, h, third));
-            state = core::array::from_fn(|k| {
-                state[k] + h / 6.0 * (first[k] + 2.0 * second[k] + 2.0 * third[k] + fourth[k])
-            });
-        }
-    }
-    all
-}
-
 #[test]
 fn velocities_and_forces_behind_a_lag_are_drawn_in_about_the_same_middles() {
     const STEP: f64 = 1e-4;
-    let motion = lagged(90);
-    let rounded = |x: f64| (x / STEP).round() * STEP;
-    let record = Record::new(
-        (0..motion.len()).map(|sample| 0.1 * sample as f64).collect(),
-        motion.iter().map(|([x, ..], _)| rounded(*x)).collect(),
-        motion.iter().map(|(_, u)| *u).collect(),
-    )
-    .expect("a record");
-    let model =
-        BoundedModel { lag: true, quantum: Some(STEP), ..BoundedModel::new(DragLaw::Linear, DelayBound::KnownS(0.0)) };
-    let setup = Setup::new(&[&record], &model).expect("a problem");
-    let mut truth = vec![GAIN, DAMPING, LAG_RATE, 0.0];
-    for window in setup.layout.windows() {
-        truth.extend(motion[window.first].0);
-    }
+    let vehicle = Vehicle { gain: 1.0, linear: 0.5, lag_rate: 4.0, ..Vehicle::default() };
+    let motion = vehicle.motion(90);
+    let setup = Setup::new(&[&Vehicle::record(&motion, STEP)], &vehicle.model(true, STEP)).expect("a problem");
+    let truth = vehicle.truth(&setup, &motion);
     let mut at = setup.search.clone();
     for (side, value) in at.iter_mut().zip(&truth[..4]) {
         *side = Interval::point(*value) + Interval::symmetric(1e-4);

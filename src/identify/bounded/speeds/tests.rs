@@ -1,3 +1,4 @@
+use super::super::simulated::runge_kutta;
 use super::*;
 
 const FORCES: [f64; 5] = [-2.0, -0.3, 0.0, 0.4, 2.0];
@@ -19,11 +20,8 @@ fn motion(drag: [f64; 3], force: f64, from: f64) -> Vec<f64> {
     let mut passed = vec![from];
     for _ in 0..STEPS {
         let v = passed[passed.len() - 1];
-        let first = rate(drag, force, v);
-        let second = rate(drag, force, v + 0.5 * h * first);
-        let third = rate(drag, force, v + 0.5 * h * second);
-        let fourth = rate(drag, force, v + h * third);
-        passed.push(v + h / 6.0 * (first + 2.0 * second + 2.0 * third + fourth));
+        let [next] = runge_kutta([v], h, |[v]| [rate(drag, force, v)]);
+        passed.push(next);
     }
     passed
 }

@@ -1,3 +1,4 @@
+use super::super::NONE;
 use super::*;
 use crate::numeric::Real;
 

@@ -1,0 +1,118 @@
+//! Vehicles that move by another method than the one they judge.
+
+use super::field::Term;
+use super::settings::{BoundedModel, DelayBound};
+use super::setup::Setup;
+use crate::experiment::Record;
+use crate::identify::DragLaw;
+
+const SAMPLE_S: f64 = 0.1;
+/// Steps of a sample's interval.
+const STEPS: usize = 20;
+
+/// Position, velocity and force; and the command.
+pub(super) type Sample = ([f64; 3], f64);
+
+/// One step of the classical method of Runge and Kutta.
+pub(super) fn runge_kutta<const N: usize>(state: [f64; N], h: f64, rate: impl Fn([f64; N]) -> [f64; N]) -> [f64; N] {
+    let more = |by: f64, rate: [f64; N]| core::array::from_fn(|k| state[k] + by * rate[k]);
+    let first = rate(state);
+    let second = rate(more(0.5 * h, first));
+    let third = rate(more(0.5 * h, second));
+    let fourth = rate(more(h, third));
+    core::array::from_fn(|k| state[k] + h / 6.0 * (first[k] + 2.0 * second[k] + 2.0 * third[k] + fourth[k]))
+}
+
+/// Terms over inertia, and what is constant.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Vehicle {
+    pub(super) gain: f64,
+    pub(super) linear: f64,
+    pub(super) quadratic: f64,
+    pub(super) cubic: f64,
+    pub(super) stiffness: f64,
+    pub(super) lag_rate: f64,
+    pub(super) disturbance: f64,
+    /// Delay in steps.
+    pub(super) delayed: usize,
+}
+
+impl Vehicle {
+    /// Position, velocity and force at every sample under a square wave; and the command.
+    pub(super) fn motion(&self, samples: usize) -> Vec<Sample> {
+        let command = |sample: usize| if (sample / 16).is_multiple_of(2) { 1.0 } else { -1.0 };
+        let h = SAMPLE_S / STEPS as f64;
+        let lagged = self.lag_rate > 0.0;
+        let (mut state, mut all) = ([0.0, -0.4, -0.7], Vec::new());
+        for sample in 0..samples {
+            all.push((state, command(sample)));
+            for step in 0..STEPS {
+                let u = command((sample * STEPS + step).saturating_sub(self.delayed) / STEPS);
+                let rate = |[x, v, f]: [f64; 3]| {
+                    let force = self.gain * if lagged { f } else { u } + self.disturbance;
+                    let drag = self.linear * v + self.quadratic * v * v.abs() + self.cubic * v * v * v;
+                    [v, force - drag - self.stiffness * x, self.lag_rate * (u - f)]
+                };
+                state = runge_kutta(state, h, rate);
+            }
+        }
+        all
+    }
+
+    /// Positions rounded to steps.
+    pub(super) fn record(motion: &[Sample], quantum: f64) -> Record {
+        let time_s = (0..motion.len()).map(|sample| SAMPLE_S * sample as f64).collect();
+        let output = motion.iter().map(|([x, ..], _)| (x / quantum).round() * quantum).collect();
+        Record::new(time_s, output, motion.iter().map(|(_, u)| *u).collect()).expect("a record")
+    }
+
+    /// The terms that it has.
+    pub(super) fn model(&self, delay_known: bool, quantum: f64) -> BoundedModel {
+        let law = match (self.linear != 0.0, self.quadratic != 0.0) {
+            (true, true) => DragLaw::Mixed,
+            (false, true) => DragLaw::Quadratic,
+            _ => DragLaw::Linear,
+        };
+        let delay = if delay_known { DelayBound::KnownS(self.delay_s()) } else { DelayBound::Unknown };
+        BoundedModel {
+            cubic: self.cubic != 0.0,
+            stiffness: self.stiffness != 0.0,
+            lag: self.lag_rate > 0.0,
+            quantum: Some(quantum),
+            ..BoundedModel::new(law, delay)
+        }
+    }
+
+    fn delay_s(&self) -> f64 {
+        self.delayed as f64 * SAMPLE_S / STEPS as f64
+    }
+
+    /// All unknowns of the search.
+    pub(super) fn truth(&self, setup: &Setup, motion: &[Sample]) -> Vec<f64> {
+        let layout = &setup.layout;
+        let mut truth = vec![0.0; setup.search.len()];
+        for (place, term) in layout.terms().iter().enumerate() {
+            truth[place] = match term {
+                Term::Gain => self.gain,
+                Term::Linear => self.linear + 2.0 * setup.middle_speed * self.quadratic,
+                Term::Quadratic => self.quadratic,
+                Term::Cubic => self.cubic,
+                Term::Stiffness => self.stiffness,
+                Term::LagRate => self.lag_rate,
+                Term::Disturbance => self.disturbance,
+            };
+        }
+        if let Some(place) = layout.delay() {
+            truth[place] = self.delay_s();
+        }
+        truth[layout.disturbance(0)] = self.disturbance;
+        for (index, window) in layout.windows().iter().enumerate() {
+            let at_s = setup.records[0].time_s[window.first];
+            let sample = (at_s / SAMPLE_S).round() as usize;
+            for component in 0..layout.state_size() {
+                truth[layout.start(index, component)] = motion[sample].0[component];
+            }
+        }
+        truth
+    }
+}
