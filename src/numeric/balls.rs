@@ -80,12 +80,6 @@ impl Balls {
         Self { middle: [self.middle[place]; Self::COUNT], radius: [self.radius[place]; Self::COUNT] }
     }
 
-    /// Those at these places.
-    #[inline]
-    pub(crate) fn at_places(self, places: [usize; Self::COUNT]) -> Self {
-        Self::gather(places.map(|place| (&self, place)))
-    }
-
     /// Each from a place of its own.
     #[inline]
     pub(crate) fn gather(from: [(&Self, usize); Self::COUNT]) -> Self {

@@ -20,13 +20,11 @@ pub(super) const NO_PATH: Path = [NONE; 3];
 /// A share of the step in which slopes must not grow beyond all bounds.
 const LEAST_ROOM: f64 = 0.1;
 
-/// Places of motions side by side: from the start and over the whole step, over the box and of the point.
-const OVER: usize = 0;
-const WITHIN: usize = 1;
-const AT: usize = 2;
-const WITHIN_AT: usize = 3;
-/// For each the point's that belongs to it.
-const BESIDE: [usize; Balls::COUNT] = [AT, WITHIN_AT, AT, WITHIN_AT];
+/// Places of a point's motions side by side: from the middle of what is known of its start, from all of that, and from all that it
+/// passes in the step.
+const MIDDLE: usize = 0;
+const AT: usize = 1;
+const WITHIN_AT: usize = 2;
 
 #[inline]
 fn product(a: &Series, b: &Series, k: usize) -> Balls {
@@ -62,7 +60,7 @@ pub(super) fn line(start: &[Balls; 3], rate: &[Balls; 3]) -> Path {
     path
 }
 
-/// Equations side by side, with the same terms.
+/// One equation in every place.
 pub(super) struct Equations {
     terms: [Balls; TERMS],
     active: [bool; TERMS],
@@ -82,23 +80,8 @@ pub(super) struct Motions {
     degree: usize,
 }
 
-/// States side by side.
-pub(super) fn abreast(states: [&Triple; Balls::COUNT]) -> [Balls; 3] {
-    core::array::from_fn(|component| Balls::new(states.map(|state| state[component])))
-}
-
 impl Equations {
-    pub(super) fn of(fields: [&Field; Balls::COUNT], degree: usize) -> Self {
-        Self {
-            terms: core::array::from_fn(|term| Balls::new(fields.map(|field| field.terms[term]))),
-            active: fields[0].active,
-            twice_middle: Balls::splat(fields[0].twice_middle()),
-            degree,
-        }
-    }
-
-    /// One equation in every place.
-    pub(super) fn splat(field: &Field, degree: usize) -> Self {
+    pub(super) fn of(field: &Field, degree: usize) -> Self {
         Self {
             terms: field.terms.map(Balls::splat),
             active: field.active,
@@ -116,12 +99,13 @@ impl Equations {
         self.active[term as usize]
     }
 
-    /// From states at an instant, or at all of them at once; the velocities are all `backwards`, or none is.
-    pub(super) fn motions(&self, start: &[Balls; 3], u: Interval, backwards: bool) -> Motions {
+    /// Of a point from the middle of what is known of its start, from all of that, and from all that it passes; the velocities are all
+    /// `backwards`, or none is.
+    pub(super) fn motions(&self, [middle, start, passed]: [&Triple; 3], u: Interval, backwards: bool) -> Motions {
         let degree = self.degree;
         let mut motions = Motions { state: NO_PATH, square: NONE, drag: NONE, cube: NONE, ahead: NONE, degree };
         let Motions { state: [x, v, f], square, drag, cube, ahead, .. } = &mut motions;
-        [x[0], v[0], f[0]] = *start;
+        [x[0], v[0], f[0]] = core::array::from_fn(|k| Balls::new([middle[k], start[k], passed[k], passed[k]]));
         let u = Balls::splat(u);
         let mut shifted = NONE;
         let (quadratic, cubic, lagged) = (self.has(Term::Quadratic), self.has(Term::Cubic), self.has(Term::LagRate));
@@ -163,26 +147,21 @@ impl Equations {
         motions
     }
 
-    /// Coefficients of the slope of the acceleration between the velocities of motions and of the points' that belong to them.
+    /// Coefficients of the acceleration's slope by the velocity.
     pub(super) fn dampings(&self, motions: &Motions, backwards: bool) -> Series {
         let Motions { state: [_, v, _], square, .. } = motions;
-        let mut beside = NONE;
-        for (beside, v) in beside.iter_mut().zip(v) {
-            *beside = v.at_places(BESIDE);
-        }
         let mut dampings = NONE;
         for (k, slope) in dampings.iter_mut().enumerate().take(self.degree + 1) {
             if k == 0 {
                 *slope = -self.term(Term::Linear);
             }
             if self.has(Term::Quadratic) {
-                let sum = if backwards { -(v[k] + beside[k]) } else { v[k] + beside[k] };
+                let sum = if backwards { -(v[k] + v[k]) } else { v[k] + v[k] };
                 let inner = if k == 0 { sum - self.twice_middle } else { sum };
                 *slope = *slope - self.term(Term::Quadratic) * inner;
             }
             if self.has(Term::Cubic) {
-                let inner = square[k] + product(v, &beside, k) + square[k].at_places(BESIDE);
-                *slope = *slope - self.term(Term::Cubic) * inner;
+                *slope = *slope - self.term(Term::Cubic) * (square[k] + square[k] + square[k]);
             }
         }
         dampings
@@ -318,21 +297,25 @@ impl Equations {
 }
 
 impl Motions {
-    /// Of the motion over the box, and of the point's from a middle of its start, `from`; the coefficient of their degree over the whole step.
-    pub(super) fn joined(&self, from: &Self) -> Path {
+    /// Of the motion from the middle of the point's start; the coefficient of their degree over the whole step.
+    pub(super) fn path(&self) -> Path {
         let mut path = NO_PATH;
-        for (component, series) in path.iter_mut().enumerate() {
-            let (own, middle) = (&self.state[component], &from.state[component]);
-            for (k, into) in series.iter_mut().enumerate().take(self.degree + 1) {
-                let pair = if k == self.degree {
-                    [(&own[k], WITHIN), (&own[k], WITHIN_AT)]
-                } else {
-                    [(&own[k], OVER), (&middle[k], 0)]
-                };
-                *into = Balls::gather([pair[0], pair[1], pair[0], pair[1]]);
+        for (into, own) in path.iter_mut().zip(&self.state) {
+            for (k, into) in into.iter_mut().enumerate().take(self.degree + 1) {
+                *into = own[k].spread(if k == self.degree { WITHIN_AT } else { MIDDLE });
             }
         }
         path
+    }
+
+    /// What a box pushes that is not at the point, at most over the whole step: velocity, and force.
+    pub(super) fn pushed_apart(&self, over: &Field, at: &Field) -> [Sizes; 2] {
+        [false, true].map(|force| {
+            let terms = Term::ALL.into_iter().filter(|term| over.has(*term) && (*term == Term::LagRate) == force);
+            Sizes::dot(terms.map(|term| {
+                (Sizes::splat(over.term(term) - at.term(term)), self.push(term, 0).sizes().spread(WITHIN_AT))
+            }))
+        })
     }
 
     /// What a term multiplies.
@@ -380,21 +363,12 @@ pub(super) struct Slopes<'a> {
 }
 
 impl<'a> Slopes<'a> {
-    /// Between motions over a box and the point's.
-    pub(super) fn over(motions: &'a Motions, dampings: &Series, damping: Interval, h: Interval) -> Self {
-        Self::new(motions, dampings, [OVER, WITHIN], damping, h)
-    }
-
-    /// Between motions of the point from starts of its own.
+    /// Of the point's motion.
     pub(super) fn at(motions: &'a Motions, dampings: &Series, damping: Interval, h: Interval) -> Self {
-        Self::new(motions, dampings, [AT, WITHIN_AT], damping, h)
-    }
-
-    fn new(motions: &'a Motions, dampings: &Series, places: [usize; 2], damping: Interval, h: Interval) -> Self {
         let (mut head, mut rest) = (NONE, [Sizes::ZERO; ORDER + 1]);
         for (k, coefficient) in dampings.iter().enumerate().take(motions.degree + 1) {
-            head[k] = coefficient.spread(places[0]);
-            rest[k] = coefficient.sizes().spread(places[1]);
+            head[k] = coefficient.spread(AT);
+            rest[k] = coefficient.sizes().spread(WITHIN_AT);
         }
         Self { motions, head, rest, damping, h }
     }

@@ -39,7 +39,7 @@ pub(super) struct Beginning {
     cutting: Cutting,
 }
 
-pub(super) const SEARCHED: Beginning = Beginning { swings: 4, cutting: Cutting { per_swing: 4.0, fewest: 6 } };
+pub(super) const SEARCHED: Beginning = Beginning { swings: 3, cutting: Cutting { per_swing: 4.0, fewest: 6 } };
 /// Where fewer boxes are worth larger linear programmes.
 pub(super) const PROVED: Beginning = Beginning { swings: 3, cutting: Cutting { per_swing: 10.0, fewest: 2 } };
 

@@ -6,6 +6,10 @@ use super::setup::Setup;
 use crate::experiment::Record;
 use crate::identify::DragLaw;
 
+pub(super) use ray::{Ray, rays};
+
+mod ray;
+
 const SAMPLE_S: f64 = 0.1;
 /// Steps of a sample's interval.
 const STEPS: usize = 20;

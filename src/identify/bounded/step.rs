@@ -2,14 +2,17 @@
 //!
 //! What is carried besides the state are slopes, not derivatives: with c a point, the difference `v(theta) - v(c)` obeys the linear
 //! equation `e' = -m e + sum (theta_j - c_j) p_j`, in which m is a slope of the drag between the two velocities, and `p_j` is what
-//! the j-th term multiplies in the motion of c alone. So only m has a range.
+//! the j-th term multiplies in the motion of c alone. So only m has a range: slopes are the point's, and off them by a [`Doubt`].
 
 use super::bend::{BEND_ORDER, Carried, Curve, Ground};
 use super::field::{FORCE, Field, POSITION, Term, Triple, VELOCITY};
 use super::mix::Bundle;
-use super::series::{Equations, NO_PATH, Path, Slopes, abreast, line, powers, value};
+use super::series::{Equations, NO_PATH, Path, Slopes, line, powers, value};
 use crate::numeric::{Balls, Interval, Real};
 
+use doubt::Doubt;
+
+mod doubt;
 #[cfg(test)]
 mod tests;
 
@@ -22,11 +25,6 @@ pub(super) struct Manner {
     pub(super) degree: usize,
 }
 
-impl Manner {
-    /// Where slopes are over a box, so that a remainder hardly counts.
-    pub(super) const WIDE: Self = Self { length: 0.15, degree: 6 };
-}
-
 /// What a step may be longer against the fastest rate on the way than was looked for.
 pub(super) const ROOM: f64 = 1.1;
 /// Attempts at an enclosure before the step is called too long.
@@ -35,6 +33,9 @@ const ATTEMPTS: usize = 6;
 /// A step that is too long is made no shorter at once than this share.
 const LEAST_SHARE: f64 = 0.1;
 const HALF: Refused = Refused::TooLong(0.5);
+
+/// Length against the fastest rate, at most, of a step that might bend, and is made without.
+const UNBENT: f64 = 0.15;
 
 /// Degree of a straight line's way.
 const LINE: usize = 2;
@@ -56,7 +57,7 @@ pub(super) struct Pair {
 /// What a step does, at whatever instant of it.
 #[derive(Clone, Debug)]
 pub(super) struct Step {
-    /// Over the box, and of the point from the middle of what is known of its start.
+    /// Of the point from the middle of what is known of its start; over the box where that is followed by the rates' ranges.
     state: Path,
     /// What is known of the point's start about that middle; none where it is followed by itself.
     at_about: Option<Triple>,
@@ -69,12 +70,12 @@ pub(super) struct Step {
     stiff: bool,
     /// Of the polynomials.
     degree: usize,
-    /// The same of the point's, where it is not in the box.
-    at_by_start: Option<Box<Path>>,
     /// Of the state by what the unknowns of each bundle push, the start held.
     by_push: Vec<Path>,
     /// How slopes bend, where they are the point's.
     pub(super) curve: Option<Curve>,
+    /// What slopes are off, where they are the point's and do not bend.
+    doubt: Option<Doubt>,
     /// What is known of position and velocity at the end besides.
     end: Option<[Interval; 2]>,
 }
@@ -207,46 +208,27 @@ impl Fields {
         }
         let middle = middle(&start.at);
         let about = Some(less(&start.at, &middle));
-        let bundles = carried.bundles;
+        let own = Equations::of(point, degree);
+        let motions = own.motions([&middle, &start.at, &within_at], u, backwards);
+        let damping = point.damping(within_at[VELOCITY], within_at[VELOCITY]);
+        let slopes = Slopes::at(&motions, &own.dampings(&motions, backwards), damping, h);
+        let mut step =
+            Step::of(field, degree, motions.path(), about, within, carried.bundles, |start, bundle, path| {
+                own.columns(&slopes, bundle, start, path)
+            })?;
         if let Some(pairs) = carried.pairs {
-            let own = Equations::splat(point, degree);
-            let motions = own.motions(&abreast([&middle, &within_at, &start.at, &within_at]), u, backwards);
-            let damping = point.damping(within_at[VELOCITY], within_at[VELOCITY]);
-            let slopes = Slopes::at(&motions, &own.dampings(&motions, backwards), damping, h);
             let ground = Ground { own: &own, slopes: &slopes, motions: &motions, over: field, at: point, backwards };
-            if let Some(curve) = ground.curve(carried, pairs) {
-                let state = motions.joined(&motions);
-                let mut step = Step::of(field, degree, state, about, within, bundles, |start, bundle, path| {
-                    own.columns(&slopes, bundle, start, path)
-                })?;
-                step.curve = Some(curve);
+            step.curve = ground.curve(carried, pairs);
+            if step.curve.is_some() {
                 return Ok(step);
             }
-            if h.upper() * field.fastest(within[VELOCITY]) > ROOM * Manner::WIDE.length {
+            if h.upper() * field.fastest(within[VELOCITY]) > ROOM * UNBENT {
                 return Err(HALF);
             }
         }
-        let all = Equations::of([field, field, point, point], degree);
-        let motions = all.motions(&abreast([&start.over, &within, &start.at, &within_at]), u, backwards);
-        let from = Equations::splat(point, degree).motions(&middle.map(Balls::splat), u, backwards);
-        let own = Equations::splat(field, degree);
-        let damping = field.damping(within[VELOCITY], within_at[VELOCITY]);
-        let slopes = Slopes::over(&motions, &own.dampings(&motions, backwards), damping, h);
-        let mut step =
-            Step::of(field, degree, motions.joined(&from), about, within, bundles, |start, bundle, path| {
-                own.columns(&slopes, bundle, start, path)
-            })?;
-        let parts = within.iter().chain(&start.over).chain(&field.terms);
-        let parts_at = within_at.iter().chain(&start.at).chain(&point.terms);
-        if !parts.zip(parts_at).all(|(over, at)| at.is_subset_of(*over)) {
-            // Slopes over the box say nothing of a point outside of it.
-            let own = Equations::splat(point, degree);
-            let damping = point.damping(within_at[VELOCITY], within_at[VELOCITY]);
-            let slopes = Slopes::at(&motions, &own.dampings(&motions, backwards), damping, h);
-            let mut path = Box::new(NO_PATH);
-            own.columns(&slopes, None, &units(), &mut path).ok_or(HALF)?;
-            step.at_by_start = Some(path);
-        }
+        let (starts, passed) = ([&start.over, &start.at], [&within, &within_at]);
+        let doubt = Doubt::of(self, &own, starts, passed, &motions, &slopes, carried.bundles).ok_or(HALF)?;
+        step.doubt = Some(doubt);
         Ok(step)
     }
 
@@ -283,7 +265,7 @@ impl Fields {
             end = Some([start[POSITION] + way, reached]);
         }
         let [from, rate] = [*start, field.rate(&within, u)].map(|state| state.map(Balls::splat));
-        let own = Equations::splat(field, LINE);
+        let own = Equations::of(field, LINE);
         let damping = field.damping(within[VELOCITY], within_at[VELOCITY]);
         let step = Step::of(field, LINE, line(&from, &rate), None, within, bundles, |start, bundle, path| {
             let by = |term: Term| Balls::splat(field.push(term, within_at, u_at));
@@ -315,9 +297,9 @@ impl Step {
             lagged: field.has(Term::LagRate),
             stiff: field.has(Term::Stiffness),
             degree,
-            at_by_start: None,
             by_push,
             curve: None,
+            doubt: None,
             end: None,
         });
         columns(&units(), None, &mut step.by_start).ok_or(HALF)?;
@@ -329,7 +311,7 @@ impl Step {
 
     /// By how much longer the step, of the duration `h`, may be for its remainder to leave so much of the point's velocity unsure.
     pub(super) fn longer(&self, h: Interval, most: f64) -> f64 {
-        let last = self.state[VELOCITY][self.degree].interval_at(1).magnitude();
+        let last = self.state[VELOCITY][self.degree].interval_at(0).magnitude();
         let remainder = last * libm::pow(h.upper(), self.degree as f64);
         libm::pow(most / remainder.max(f64::MIN_POSITIVE), 1.0 / self.degree as f64)
     }
@@ -353,22 +335,25 @@ impl Step {
         let powers = &all[..=self.degree];
         let value = |path: &Path| value(path, powers, self.lagged);
         let state = value(&self.state);
-        let units = value(&self.by_start);
+        let mut units = value(&self.by_start);
+        let mut by_push: Vec<[Balls; 3]> = self.by_push.iter().map(value).collect();
         // By the mean value theorem: the end from a middle, and what a start about it adds.
         let at = self.at_about.map(|about| {
-            let own = self.at_by_start.as_deref().map_or(units, value);
             core::array::from_fn(|k| {
-                let [x, v, f, _] = own[k].intervals();
-                state[k].interval_at(1) + Interval::dot([x, v, f].into_iter().zip(about))
+                let [x, v, f, _] = units[k].intervals();
+                state[k].interval_at(0) + Interval::dot([x, v, f].into_iter().zip(about))
             })
         });
+        if let Some(doubt) = &self.doubt {
+            doubt.add(time, &mut units, &mut by_push);
+        }
         Arrival {
-            over: if self.curve.is_some() { self.within } else { state.map(|values| values.interval_at(0)) },
+            over: if at.is_some() { self.within } else { state.map(|values| values.interval_at(0)) },
             at,
             by_start: core::array::from_fn(|from| units.map(|values| values.spread(from))),
             lagged: self.lagged,
             stiff: self.stiff,
-            by_push: self.by_push.iter().map(value).collect(),
+            by_push,
             bent: self.curve.as_ref().map(|curve| (curve.at(&all), curve.rest.after(time))),
         }
     }

@@ -17,11 +17,14 @@ mod point;
 
 /// The most steps between two changes of the command.
 const MOST_STEPS: usize = 2000;
-/// Steps over a box whose gain's relative width is at most `NARROW`, where the remainders would count.
+/// Steps of a point that is followed by itself.
 const FINE: Manner = Manner { length: 0.12, degree: ORDER };
-const NARROW: f64 = 0.01;
-/// Steps that are as long as their remainders allow.
+/// Steps with slopes over a box, and the first of any motion.
+const FIRST: Manner = Manner { length: 0.4, degree: 8 };
+/// Later steps to the second order, and of a point.
 const LONG: Manner = Manner { length: 0.5, degree: ORDER };
+/// With slopes over a box a remainder may be so many times as large.
+const ROUGHLY: f64 = 10.0;
 /// Length against the fastest rate of a step by the rates' ranges.
 const CRUDE: f64 = 0.1;
 /// A step is made anew where it may be no longer than this share of itself.
@@ -271,22 +274,23 @@ impl Way<'_> {
             (self.state.over[FORCE], self.state.at[FORCE]) = (u, u_at);
         }
         let (mut left, mut gone, mut ahead) = (h, Interval::ZERO, ahead);
-        let unsure = self.drive.remainder.filter(|_| self.paced).unwrap_or(f64::INFINITY);
-        let mut pace = Pace { manner: self.manner(), longest_s: f64::INFINITY, unsure };
+        let roughly = if self.paced { 1.0 } else { ROUGHLY };
+        let unsure = self.drive.remainder.map_or(f64::INFINITY, |remainder| roughly * remainder);
+        let mut pace = Pace { manner: FIRST, longest_s: f64::INFINITY, unsure };
         for _ in 0..MOST_STEPS {
             if left.upper() <= 0.0 {
                 return Some(());
             }
             let mut part = left;
-            let mut step = if uncertain {
-                shorten(&mut part, self.manner().length / self.drive.fields.over.fastest(self.state.over[VELOCITY]));
-                None
-            } else {
-                stride(&self.drive.fields, &self.state, u, &mut part, pace, &self.all())?
+            let mut step = match uncertain {
+                true => None,
+                false => stride(&self.drive.fields, &self.state, u, &mut part, pace, &self.all())?,
             };
             if let (Some(step), true) = (&step, unsure.is_finite()) {
                 pace.longest_s = part.upper() * SAFETY * step.longer(part, unsure);
-                pace.manner = LONG;
+                if self.paced {
+                    pace.manner = LONG;
+                }
             }
             let mut at_end = None;
             if step.is_none() {
@@ -346,11 +350,6 @@ impl Way<'_> {
             (left, gone) = if last { (Interval::ZERO, h) } else { (left - part, gone + part) };
         }
         None
-    }
-
-    fn manner(&self) -> Manner {
-        let gain = self.drive.fields.over.term(Term::Gain);
-        if gain.width() <= NARROW * gain.lower() { FINE } else { Manner::WIDE }
     }
 
     /// One step by the rates' ranges, where it takes the point, and what that passes.

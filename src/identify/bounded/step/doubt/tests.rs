@@ -1,0 +1,132 @@
+use super::super::super::bend::Carried;
+use super::super::super::mix::{By, Mix};
+use super::super::super::series::ORDER;
+use super::super::super::simulated::{Ray, rays};
+use super::super::{Manner, Step};
+use super::*;
+
+const MANNER: Manner = Manner { length: 1.4, degree: ORDER };
+const SHORT_S: f64 = 0.01;
+const LONG_S: f64 = 0.5;
+const Z: f64 = 0.05;
+
+fn point(value: f64) -> Interval {
+    Interval::point(value)
+}
+
+/// A step over a ray, and what its unknown is.
+fn step(ray: &Ray, h_s: f64) -> (Box<Step>, Bundle) {
+    let all = Interval::symmetric(Z);
+    let (fields, start) = ray.over(all);
+    let bundles = Bundle::of(&[Mix::of(ray.moved.iter().copied())], &[all]);
+    let columns = [bundles[0].start];
+    let carried = Carried { bundles: &bundles, columns: &columns, ..Carried::NOTHING };
+    let step = fields.smooth(&start, point(ray.command), point(h_s), MANNER, &carried).expect("a step");
+    (step, bundles.into_iter().next().expect("a bundle"))
+}
+
+/// For each component what the point's own slope leaves of the slope to the far end after a share of the step, and the doubt that is
+/// granted.
+fn off(ray: &Ray, h_s: f64, share: f64) -> [(f64, f64); 3] {
+    let (step, bundle) = step(ray, h_s);
+    let arrival = step.at(point(share * h_s));
+    let at = arrival.at.expect("the point's own");
+    let column = arrival.carry_bundle(&bundle.start, 0);
+    let passed = ray.passed(Z, h_s);
+    let exact = passed[(share * (passed.len() - 1) as f64).round() as usize];
+    core::array::from_fn(|k| {
+        let slope = column[k].interval_at(0);
+        ((exact[k] - at[k].midpoint()) / Z - slope.midpoint(), slope.radius())
+    })
+}
+
+/// Rays whose states start nowhere but at the point's.
+fn from_rest() -> Vec<(Ray, Vec<usize>)> {
+    let own = |ray: Ray| {
+        let terms = ray.moved.iter().filter(|(by, _)| matches!(by, By::Term(_)));
+        // A lag that is longer takes force away, as less gain does.
+        let moved = terms.map(|(by, weight)| (*by, if *by == By::Term(Term::LagRate) { -weight } else { *weight }));
+        Ray { moved: moved.collect(), ..ray }
+    };
+    rays().into_iter().map(|(ray, tight)| (own(ray), tight)).collect()
+}
+
+fn straight(ray: Ray) -> Ray {
+    Ray { bent: [0.0; 3], ..ray }
+}
+
+#[test]
+fn what_slopes_over_a_box_are_off_is_within_the_doubt_and_fills_it() {
+    for (index, (ray, tight)) in rays().into_iter().chain(from_rest()).enumerate() {
+        let ray = straight(ray);
+        for share in [0.5, 1.0] {
+            for (component, (off, doubt)) in off(&ray, SHORT_S, share).into_iter().enumerate() {
+                assert!(off.abs() <= doubt + 1e-12, "ray {index}, {component}: {off} off, {doubt} granted");
+                // Each part of the doubt is a tenth of it or more.
+                if tight.contains(&component) {
+                    assert!(off.abs() > 0.9 * doubt, "ray {index}, {component}: {off} off, {doubt} granted");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn over_a_long_step_the_doubt_holds_what_slopes_are_off_and_is_not_many_times_as_much() {
+    for (index, (ray, tight)) in rays().into_iter().chain(from_rest()).enumerate() {
+        let ray = straight(ray);
+        for share in [0.1, 0.5, 1.0] {
+            for (component, (off, doubt)) in off(&ray, LONG_S, share).into_iter().enumerate() {
+                assert!(off.abs() <= doubt + 1e-12, "ray {index}, {component}: {off} off, {doubt} granted");
+                // Of cubic drag the remainder counts for more, in so long a step.
+                if share > 0.1 && tight.contains(&component) && !ray.has(Term::Cubic) {
+                    assert!(off.abs() > 0.3 * doubt, "ray {index}, {component}: {off} off, {doubt} granted");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn velocities_are_no_further_off_the_point_s_than_is_said() {
+    for (index, (ray, _)) in rays().into_iter().chain(from_rest()).enumerate() {
+        let ray = straight(ray);
+        let all = Interval::symmetric(Z);
+        let (fields, start) = ray.over(all);
+        let h = point(LONG_S);
+        let (own, passed) = (Equations::of(&fields.at, ORDER), [ray.passed(0.0, LONG_S), ray.passed(Z, LONG_S)]);
+        let around = |states: &[[f64; 3]]| -> Triple {
+            core::array::from_fn(|k| {
+                states.iter().map(|state| point(state[k])).reduce(|a, b| a.hull(b)).expect("states")
+            })
+        };
+        let (at, over) = (around(&passed[0]), around(&passed.concat()));
+        let backwards = at[VELOCITY].upper() < 0.0;
+        let motions = own.motions([&start.at, &start.at, &at], point(ray.command), backwards);
+        let damping = fields.over.damping(over[VELOCITY], at[VELOCITY]);
+        let equations = Equations::of(&fields.over, 1);
+        let said = super::off(&fields, &equations, [&start.over, &start.at], &motions, damping, h).expect("a bound");
+        let apart = passed[0].iter().zip(&passed[1]).map(|(a, b)| (a[VELOCITY] - b[VELOCITY]).abs());
+        let furthest = apart.fold(0.0, f64::max);
+        assert!(furthest <= said.upper() && said.upper() < 2.5 * furthest, "ray {index}: {furthest}, {said:?}");
+    }
+}
+
+/// The mean over a range from zero to one, by a thousand of its middles.
+fn mean(of: impl Fn(f64) -> f64) -> f64 {
+    (0..1000).map(|k| of((f64::from(k) + 0.5) / 1000.0)).sum::<f64>() / 1000.0
+}
+
+#[test]
+fn what_fading_leaves_is_no_less_than_it_does_and_not_much_more() {
+    for x in [0.01, 0.1, 0.5, 1.0, 3.0] {
+        let evenly = |y: f64| 2.0 * (1.0 - libm::exp(-y) * (1.0 + y)) / (y * y);
+        let exact = [libm::exp(-x), mean(|q| 2.0 * q * libm::exp(-x * q)), mean(|q| 3.0 * q * q * evenly(x * q))];
+        for (k, (bound, exact)) in left(point(x)).into_iter().zip(exact).enumerate() {
+            assert!(bound.upper() >= exact - 1e-6 && bound.upper() <= 1.0, "{k} of {x}: {bound:?} for {exact}");
+            if x <= 0.5 {
+                assert!(bound.upper() < 1.04 * exact, "{k} of {x}: {bound:?} for {exact}");
+            }
+        }
+    }
+}
