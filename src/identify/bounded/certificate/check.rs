@@ -7,7 +7,7 @@ use super::super::contract::Model;
 use super::super::field::Term;
 use super::super::problem::{Layout, Readings, Window, swing_s};
 use super::walk::{Walk, Work};
-use super::{Certificate, FORMAT, Stage, Witness};
+use super::{Certificate, FORMAT, Stage, Witness, roughly};
 use crate::numeric::Interval;
 
 /// Why a certificate is not accepted.
@@ -264,7 +264,7 @@ impl Certificate {
             known_delay_s: Interval::point(stage.delay_s.unwrap_or(0.0)),
             least_linear: self.least_linear,
             fastest: self.fastest,
-            per_s: Some(1.0 / swing_s(readings)),
+            per_s: roughly(swing_s(readings)),
             steps: Cell::new(0),
             reach: usize::MAX,
             heard: None,
@@ -286,7 +286,7 @@ impl Certificate {
         };
         let layout = self.layout(readings, &stage).ok_or_else(|| malformed("the witness"))?;
         let layout = layout.with_delay(delayed);
-        let model = self.model(readings, &layout, &stage);
+        let model = Model { per_s: Some(1.0 / swing_s(readings)), ..self.model(readings, &layout, &stage) };
         let at = &witness.values;
         let inside = sides(&first.from).is_some_and(|from| {
             from.len() == layout.parameters() && from.iter().zip(at).all(|(side, value)| side.contains(*value))

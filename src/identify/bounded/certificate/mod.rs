@@ -29,6 +29,16 @@ use prove::Goal;
 
 /// Changes with the meaning of a field.
 const FORMAT: u32 = 2;
+/// What windows cost against a motion to the second order.
+const BY_HATS: f64 = 0.15;
+const BY_CHAIN: f64 = 0.45;
+/// Remainders of the motions that steps name may be so many times as large as those of a search: fewer steps of a motion for a check.
+const ROUGHLY: f64 = 100.0;
+
+/// What a model has for that.
+fn roughly(swing_s: f64) -> Option<f64> {
+    Some(ROUGHLY / swing_s)
+}
 
 /// What is shown, of which readings, and the steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -162,6 +172,15 @@ impl Step {
                 By::Same => None,
             },
             Self::Divide { .. } | Self::Part { .. } | Self::Keep => None,
+        }
+    }
+
+    /// What it takes to follow as much of a record, against a motion to the second order.
+    fn cost(&self) -> f64 {
+        match self {
+            Self::Contract { by: By::Hats(_), .. } | Self::Exclude { by: By::Hats(_), .. } => BY_HATS,
+            Self::Contract { by: By::Chain(_), .. } | Self::Exclude { by: By::Chain(_), .. } => BY_CHAIN,
+            _ => 1.0,
         }
     }
 }

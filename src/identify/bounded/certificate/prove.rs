@@ -8,10 +8,10 @@ use crate::numeric::Interval;
 /// What is left is given wider than it was found by one of these shares, on either side, by the last with which the check is cheap: room
 /// for other enclosures than those of the search, and fewer boxes.
 const ROOMS: [f64; 6] = [8.0, 2.0, 1.0, 0.5, 0.25, 0.1];
-/// A check is cheap that follows whole records no more often than this, or than this share of the search's passes; or than this many
-/// times as often as with the most room.
-const FEW: f64 = 6.0;
-const CHEAP: f64 = 0.1;
+/// A check is cheap that costs no more than so many motions over whole records to the second order, or than this share of the search's
+/// passes; or than this many times as much as with the most room.
+const FEW: f64 = 2.5;
+const CHEAP: f64 = 0.05;
 const DEARER: f64 = 1.5;
 
 /// What a stage is to leave.

@@ -7,7 +7,7 @@ use super::super::setup::Setup;
 use super::super::slanted::Slanted;
 use super::prove::Goal;
 use super::seek::{Caution, Found, Seek};
-use super::{By, Cut, Stage, Step, Unproved, shorten};
+use super::{By, Cut, Stage, Step, Unproved, roughly, shorten};
 use crate::numeric::{Interval, Real};
 
 /// Steps that leave more than this of every range did not help.
@@ -62,7 +62,7 @@ pub(super) struct Prover<'a> {
     pub(super) narrow: bool,
     pub(super) left: Option<Vec<Interval>>,
     pub(super) steps: Vec<Step>,
-    /// How often whole records were followed, and may be.
+    /// What the check of the steps costs, in motions over whole records to the second order, and may.
     spent: f64,
     most: f64,
 }
@@ -94,7 +94,10 @@ impl<'a> Prover<'a> {
             }
             Goal::Narrow | Goal::Nothing => None,
         };
-        let (search, mut early) = (Search::new(setup), Search::new(early));
+        let (mut search, mut early) = (Search::new(setup), Search::new(early));
+        for search in [&mut search, &mut early] {
+            search.model.per_s = roughly(setup.swing_s);
+        }
         early.model.reach = reaches[0];
         let narrow = matches!(goal, Goal::Narrow);
         Self { search, early, reaches: reaches.to_vec(), narrow, left, steps: Vec::new(), spent: 0.0, most }
@@ -164,7 +167,7 @@ impl<'a> Prover<'a> {
     pub(super) fn push(&mut self, step: Step) {
         if let Some(reach) = step.reach() {
             let layout = &self.search.setup.layout;
-            self.spent += layout.followed(reach) / layout.followed(usize::MAX);
+            self.spent += step.cost() * layout.followed(reach) / layout.followed(usize::MAX);
         }
         self.steps.push(step);
     }
