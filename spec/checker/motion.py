@@ -60,6 +60,12 @@ def of_one_sign(*vs):
     return all(positive(v) for v in vs) or all(negative(v) for v in vs)
 
 
+class Steps:
+    """What is in doubt over a box widens with the length of a step: shorter ones, by this, show more, and take longer."""
+
+    shorter = 1
+
+
 class Products:
     """Of balls: the plain one is quick, and wide where both factors are; that of their ends is not."""
 
@@ -345,7 +351,7 @@ def advance_point(equation, state, u, h):
     for _ in range(2000):
         if float(left.upper()) <= 0:
             return state, passed
-        length = min(LONGEST / equation.fastest(state[V]), float(left.lower()))
+        length = min(LONGEST / (Steps.shorter * equation.fastest(state[V])), float(left.lower()))
         part = left if length >= float(left.lower()) else arb(length)
         for _ in range(SHORTENED):
             try:
@@ -433,13 +439,13 @@ class Motion:
         raise Unfollowed("too many steps")
 
     def step(self, u, u_at, left):
-        longest = LONGEST / self.over_eq.fastest(self.over[V])
+        longest = LONGEST / (Steps.shorter * self.over_eq.fastest(self.over[V]))
         part = min_part(left, longest)
         rough = self.open is not None
         for _ in range(SHORTENED):
             try:
                 if rough:
-                    part = min_part(part, CRUDE / self.over_eq.fastest(self.over[V]))
+                    part = min_part(part, CRUDE / (Steps.shorter * self.over_eq.fastest(self.over[V])))
                     point, passed = advance_point(self.point_eq, self.point, u_at, part)
                     gain, added, over, _ = crude(self.over_eq, self.over, u, passed, u_at, part, self.names)
                 else:

@@ -3,6 +3,7 @@ that bounds."""
 
 import copy
 import json
+import math
 import os
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from flint import arb
 
 import bounded
 import boxes
+import motion
 from check import Refused
 
 FOLDER = Path(os.environ["SELFOSC_BOUNDED"])
@@ -134,3 +136,40 @@ def test_narrower_bounds_are_refused():
     left[0][1] = (left[0][0] + left[0][1]) / 2
     with pytest.raises(Refused):
         bounded.check(certificate)
+
+
+@pytest.mark.parametrize("enough", [1, 2, 4, 8])
+def test_a_walk_that_is_refused_is_made_anew_with_shorter_steps(monkeypatch, enough):
+    class Walk:
+        def __init__(self, stage, name):
+            self.made = stage, name
+
+        def go(self):
+            bounded.require(motion.Steps.shorter >= enough, "steps are too long")
+
+    monkeypatch.setattr(bounded, "Walk", Walk)
+    if enough <= max(bounded.SHORTER):
+        assert bounded.walked("stage", "its name").made == ("stage", "its name")
+    else:
+        with pytest.raises(Refused):
+            bounded.walked("stage", "its name")
+    assert motion.Steps.shorter == 1
+
+
+def test_shorter_steps_leave_less_in_doubt_and_hold_what_a_motion_does(monkeypatch):
+    def slope(shorter):
+        monkeypatch.setattr(motion.Steps, "shorter", shorter)
+        over = motion.Equation({"gain": arb(1), "quadratic": motion.span(0.4, 0.6)}, 0)
+        at = motion.Equation({"gain": arb(1), "quadratic": arb(0.5)}, 0)
+        followed = motion.Motion(
+            over, at, [("start", motion.V)], [motion.span(-0.1, 0.1)], [arb(0), motion.span(0.9, 1.1), arb(1)], [arb(0), arb(1), arb(1)]
+        )
+        followed.advance(arb(1), arb(1), arb(0.6))
+        return followed.slopes[0][motion.V]
+
+    widths = [float(slope(shorter).rad()) for shorter in bounded.SHORTER]
+    assert widths[0] > 1.2 * widths[1] > 1.2 * 1.05 * widths[2]
+    # Of hyperbolic tangents, with the drag in the middle.
+    terminal, rate = 2**0.5, 0.5**0.5
+    ends = [terminal * math.tanh(rate * 0.6 + math.atanh(v / terminal)) for v in (0.9, 1.1)]
+    assert slope(4).contains(arb((ends[1] - ends[0]) / 0.2))
