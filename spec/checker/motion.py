@@ -351,7 +351,7 @@ def advance_point(equation, state, u, h):
     for _ in range(2000):
         if float(left.upper()) <= 0:
             return state, passed
-        length = min(LONGEST / (Steps.shorter * equation.fastest(state[V])), float(left.lower()))
+        length = min(LONGEST / equation.fastest(state[V]), float(left.lower()))
         part = left if length >= float(left.lower()) else arb(length)
         for _ in range(SHORTENED):
             try:

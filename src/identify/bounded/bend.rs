@@ -336,7 +336,8 @@ impl Ground<'_> {
             course.add_largest(&mut second, deviations.sizes(), &course.carried(start, &path), bent);
             paths.push(path);
         }
-        let rest = self.rest(carried, &columns, &damping, &course, second.map(|part| part.map(Sizes::total)))?;
+        let push = self.push(carried, &columns, &damping, &course, second.map(|part| part.map(Sizes::total)));
+        let rest = self.rest(carried.rest, &push, &course)?;
         Some(Curve { paths, lagged, rest })
     }
 }

@@ -354,7 +354,7 @@ impl Motions {
 
 /// What columns of slopes need of a step of the duration `h`.
 pub(super) struct Slopes<'a> {
-    motions: &'a Motions,
+    pub(super) motions: &'a Motions,
     pub(super) head: Series,
     pub(super) rest: Coefficients<Sizes>,
     /// At every instant of it.

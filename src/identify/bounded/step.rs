@@ -227,7 +227,7 @@ impl Fields {
             }
         }
         let (starts, passed) = ([&start.over, &start.at], [&within, &within_at]);
-        let doubt = Doubt::of(self, &own, starts, passed, &motions, &slopes, carried.bundles).ok_or(HALF)?;
+        let doubt = Doubt::of(self, &own, starts, passed, &slopes, carried.bundles).ok_or(HALF)?;
         step.doubt = Some(doubt);
         Ok(step)
     }

@@ -24,7 +24,7 @@ const FIRST: Manner = Manner { length: 0.4, degree: 8 };
 /// Later steps to the second order, and of a point.
 const LONG: Manner = Manner { length: 0.5, degree: ORDER };
 /// With slopes over a box a remainder may be so many times as large.
-const ROUGHLY: f64 = 10.0;
+const LOOSER: f64 = 10.0;
 /// Length against the fastest rate of a step by the rates' ranges.
 const CRUDE: f64 = 0.1;
 /// A step is made anew where it may be no longer than this share of itself.
@@ -94,8 +94,8 @@ struct Way<'a> {
     /// Slopes by the unknowns of each bundle.
     columns: Vec<[Balls; 3]>,
     pairs: Option<Pairs>,
-    /// Whether steps are as long as their remainders allow.
-    paced: bool,
+    /// Whether remainders count: to the second order, and of a point.
+    precise: bool,
     bends: Vec<[Balls; 3]>,
     rest: Triple,
     /// Switchings that may have happened, each with what a unit of impulse then may have become since.
@@ -274,21 +274,22 @@ impl Way<'_> {
             (self.state.over[FORCE], self.state.at[FORCE]) = (u, u_at);
         }
         let (mut left, mut gone, mut ahead) = (h, Interval::ZERO, ahead);
-        let roughly = if self.paced { 1.0 } else { ROUGHLY };
-        let unsure = self.drive.remainder.map_or(f64::INFINITY, |remainder| roughly * remainder);
+        let looser = if self.precise { 1.0 } else { LOOSER };
+        let unsure = self.drive.remainder.map_or(f64::INFINITY, |remainder| looser * remainder);
         let mut pace = Pace { manner: FIRST, longest_s: f64::INFINITY, unsure };
         for _ in 0..MOST_STEPS {
             if left.upper() <= 0.0 {
                 return Some(());
             }
             let mut part = left;
-            let mut step = match uncertain {
-                true => None,
-                false => stride(&self.drive.fields, &self.state, u, &mut part, pace, &self.all())?,
+            let mut step = if uncertain {
+                None
+            } else {
+                stride(&self.drive.fields, &self.state, u, &mut part, pace, &self.all())?
             };
             if let (Some(step), true) = (&step, unsure.is_finite()) {
                 pace.longest_s = part.upper() * SAFETY * step.longer(part, unsure);
-                if self.paced {
+                if self.precise {
                     pace.manner = LONG;
                 }
             }
@@ -385,7 +386,7 @@ pub(super) fn follow(
         bundles: &bundles,
         state: start,
         columns,
-        paced: pairs.is_some() || unknowns.deviations.iter().all(|deviation| deviation.is_point()),
+        precise: pairs.is_some() || unknowns.deviations.iter().all(|deviation| deviation.is_point()),
         pairs,
         bends,
         rest,

@@ -134,7 +134,7 @@ impl Growth {
 }
 
 /// What makes a rest grow, at most, in each part of a step.
-struct Push {
+pub(super) struct Push {
     /// What is of the first order, and of the second.
     first: [[Interval; 3]; PARTS],
     second: [[Interval; 3]; PARTS],
@@ -163,22 +163,14 @@ impl Push {
 }
 
 impl Ground<'_> {
-    /// What is of the third order during a step, on account of what happens in it.
-    pub(super) fn rest(
-        &self,
-        carried: &Carried<'_>,
-        columns: &[Column],
-        damping: &Damping,
-        course: &Course,
-        second: [[Interval; 3]; PARTS],
-    ) -> Option<Rest> {
-        let push = self.push(carried, columns, damping, course, second);
+    /// What is of the third order during a step, on account of what happens in it, from what there is at its beginning.
+    pub(super) fn rest(&self, start: Triple, push: &Push, course: &Course) -> Option<Rest> {
         let h = course.part_s;
         let grown = |push: [Interval; 2], start: [Interval; 3]| {
             let sizes = self.own.sizes(self.slopes.damping, push.map(Sizes::splat), &start.map(Balls::splat), h)?;
             Some(sizes.map(|size| most(size.interval())))
         };
-        let (mut added, mut all) = ([Interval::ZERO; 3], carried.rest.map(most));
+        let (mut added, mut all) = ([Interval::ZERO; 3], start.map(most));
         let (mut until, mut largest) = ([(0.0, [Interval::ZERO; 3]); PARTS], [0.0f64; 3]);
         for (part, until) in until.iter_mut().enumerate() {
             let mut guess = all;
@@ -206,7 +198,8 @@ impl Ground<'_> {
         Some(Rest { until, at_end: added.map(|size| Interval::symmetric(size.upper())) })
     }
 
-    fn push(
+    /// What it is driven by: all that moves in the step.
+    pub(super) fn push(
         &self,
         carried: &Carried<'_>,
         columns: &[Column],

@@ -29,13 +29,13 @@ use prove::Goal;
 
 /// Changes with the meaning of a field.
 const FORMAT: u32 = 2;
-/// What windows cost against a motion to the second order.
+/// What hats and chained windows cost against a motion to the second order over as much of a record.
 const BY_HATS: f64 = 0.15;
 const BY_CHAIN: f64 = 0.45;
 /// Remainders of the motions that steps name may be so many times as large as those of a search: fewer steps of a motion for a check.
 const ROUGHLY: f64 = 100.0;
 
-/// What a model has for that.
+/// Of which a model has the reciprocal time over which they matter.
 fn roughly(swing_s: f64) -> Option<f64> {
     Some(ROUGHLY / swing_s)
 }
@@ -164,23 +164,17 @@ pub(super) enum Step {
 }
 
 impl Step {
-    /// Windows of each record that are followed; none where nothing is.
-    fn reach(&self) -> Option<usize> {
+    /// Windows of each record that are followed, and what it takes to follow them, against a motion to the second order; none where
+    /// nothing is.
+    fn follows(&self) -> Option<(usize, f64)> {
         match self {
             Self::Contract { by, .. } | Self::Exclude { by, .. } | Self::Turn { by, .. } => match by {
-                By::Hats(reach) | By::Chain(reach) | By::Slanted(reach) => Some(*reach),
+                By::Hats(reach) => Some((*reach, BY_HATS)),
+                By::Chain(reach) => Some((*reach, BY_CHAIN)),
+                By::Slanted(reach) => Some((*reach, 1.0)),
                 By::Same => None,
             },
             Self::Divide { .. } | Self::Part { .. } | Self::Keep => None,
-        }
-    }
-
-    /// What it takes to follow as much of a record, against a motion to the second order.
-    fn cost(&self) -> f64 {
-        match self {
-            Self::Contract { by: By::Hats(_), .. } | Self::Exclude { by: By::Hats(_), .. } => BY_HATS,
-            Self::Contract { by: By::Chain(_), .. } | Self::Exclude { by: By::Chain(_), .. } => BY_CHAIN,
-            _ => 1.0,
         }
     }
 }

@@ -165,9 +165,9 @@ impl<'a> Prover<'a> {
     }
 
     pub(super) fn push(&mut self, step: Step) {
-        if let Some(reach) = step.reach() {
+        if let Some((reach, cost)) = step.follows() {
             let layout = &self.search.setup.layout;
-            self.spent += step.cost() * layout.followed(reach) / layout.followed(usize::MAX);
+            self.spent += cost * layout.followed(reach) / layout.followed(usize::MAX);
         }
         self.steps.push(step);
     }

@@ -4,9 +4,9 @@
 //! two velocities and n, that at the point's: so d is known by sizes alone, from how far velocities are apart.
 
 use super::super::bend::most;
-use super::super::field::{FORCE, Field, POSITION, Term, Triple, VELOCITY};
+use super::super::field::{FORCE, POSITION, Term, Triple, VELOCITY};
 use super::super::mix::Bundle;
-use super::super::series::{Equations, Motions, Slopes};
+use super::super::series::{Equations, Slopes};
 use super::{Fields, units};
 use crate::numeric::{Balls, Interval, Real, Sizes};
 
@@ -55,64 +55,51 @@ fn left(x: Interval) -> [Interval; 3] {
 }
 
 impl Doubt {
-    /// Of a step in which states over the box and of the point begin at `start` and stay `within`; the point's motion is `motions`, its
-    /// slopes are `slopes`.
+    /// Of a step in which states over the box and of the point begin at `start` and stay `within`; the point's slopes are `slopes`. `None`
+    /// where it may grow beyond all bounds.
     pub(super) fn of(
         fields: &Fields,
         own: &Equations,
         start: [&Triple; 2],
         within: [&Triple; 2],
-        motions: &Motions,
         slopes: &Slopes<'_>,
         bundles: &[Bundle],
     ) -> Option<Self> {
-        let over = &fields.over;
-        let h = slopes.h;
+        const REST: [Balls; 3] = [Balls::ZERO; 3];
+        let (over, h) = (&fields.over, slopes.h);
         let damping = over.damping(within[0][VELOCITY], within[1][VELOCITY]);
         let equations = Equations::of(over, 1);
-        let off = off(fields, &equations, start, motions, damping, h)?;
+        let off = off(fields, &equations, start, damping, slopes)?;
         let apart = fields.apart(within[1][VELOCITY], off);
-        let sizes =
-            |damping: Interval, of: &Equations, push: [Sizes; 2], from: &[Balls; 3]| of.sizes(damping, push, from, h);
-        let ends = |column: [Sizes; 3]| {
-            let [_, v, f] = sizes(damping, &equations, apart.push(column), &[Balls::ZERO; 3])?;
+        let ends = |push: [Sizes; 2], start: &[Balls; 3]| {
+            let column = own.sizes(slopes.damping, push, start, h)?;
+            let [_, v, f] = equations.sizes(damping, apart.push(column), &REST, h)?;
             Some([v, f])
         };
-        let by_start = ends(sizes(slopes.damping, own, [Sizes::ZERO; 2], &units())?)?;
-        let by_push: Option<Vec<_>> = bundles
-            .iter()
-            .map(|bundle| ends(sizes(slopes.damping, own, motions.pushed_within(bundle, 0), &[Balls::ZERO; 3])?))
-            .collect();
+        let by_start = ends([Sizes::ZERO; 2], &units())?;
+        let by_push: Option<Vec<_>> =
+            bundles.iter().map(|bundle| ends(slopes.motions.pushed_within(bundle, 0), &REST)).collect();
         let alone = !over.has(Term::Stiffness) && !over.has(Term::LagRate);
         let slowest = -damping.upper().max(slopes.damping.upper());
         let fading = if alone { Interval::point(slowest.max(0.0)) } else { Interval::ZERO };
         Some(Self { h, fading, by_start, by_push: by_push? })
     }
 
-    /// By a column's velocity and force at the end, after a time: of columns from a start, and from rest.
-    fn after(&self, time: Interval, from_rest: bool, [v, f]: [Sizes; 2]) -> [Balls; 3] {
-        let share = time / self.h;
-        let [at_once, evenly, ever_more] = left(self.fading * time);
-        let (half, third) = (Interval::point(0.5), Interval::ONE / Interval::point(3.0));
-        let [way, speed, force] = if from_rest {
-            let square = half * share * share;
-            [square * time * third * ever_more, square * evenly, square]
-        } else {
-            [half * share * time * evenly, share * at_once, share]
-        };
-        [v * Sizes::splat(way), v * Sizes::splat(speed), f * Sizes::splat(force)].map(Balls::within)
-    }
-
     /// What columns by each component of a start, `of_start`, and from rest, `of_push`, may be off after a time, added.
     pub(super) fn add(&self, time: Interval, of_start: &mut [Balls; 3], of_push: &mut [[Balls; 3]]) {
-        let add = |to: &mut [Balls; 3], off: [Balls; 3]| {
-            for (to, off) in to.iter_mut().zip(off) {
-                *to = *to + off;
+        let (share, half) = (time / self.h, Interval::point(0.5));
+        let [at_once, evenly, ever_more] = left(self.fading * time);
+        let square = half * share * share;
+        let from_start = [half * share * time * evenly, share * at_once, share].map(Sizes::splat);
+        let from_rest = [square * time / Interval::point(3.0) * ever_more, square * evenly, square].map(Sizes::splat);
+        let add = |to: &mut [Balls; 3], [v, f]: [Sizes; 2], shares: [Sizes; 3]| {
+            for ((to, end), share) in to.iter_mut().zip([v, v, f]).zip(shares) {
+                *to = *to + Balls::within(end * share);
             }
         };
-        add(of_start, self.after(time, false, self.by_start));
+        add(of_start, self.by_start, from_start);
         for (of_push, ends) in of_push.iter_mut().zip(&self.by_push) {
-            add(of_push, self.after(time, true, *ends));
+            add(of_push, *ends, from_rest);
         }
     }
 }
@@ -122,21 +109,19 @@ fn off(
     fields: &Fields,
     equations: &Equations,
     [over, at]: [&Triple; 2],
-    motions: &Motions,
     damping: Interval,
-    h: Interval,
+    slopes: &Slopes<'_>,
 ) -> Option<Interval> {
     let first: Triple = core::array::from_fn(|k| over[k] - at[k]);
-    let push = motions.pushed_apart(&fields.over, &fields.at);
-    let sizes = equations.sizes(damping, push, &first.map(Balls::splat), h)?.map(|size| most(size.interval()));
-    let [moved, _] = push.map(|push| most(push.interval()));
-    let own = |term: Term| if fields.over.has(term) { most(fields.over.term(term)) } else { Interval::ZERO };
-    let lagged = if fields.over.has(Term::LagRate) { own(Term::Gain) } else { Interval::ZERO };
-    let moved = moved + own(Term::Stiffness) * sizes[POSITION] + lagged * sizes[FORCE];
+    let push = slopes.motions.pushed_apart(&fields.over, &fields.at);
+    let sizes = equations.sizes(damping, push, &first.map(Balls::splat), slopes.h)?.map(Sizes::interval);
     let fading = -damping.upper();
     if fading <= 0.0 {
         return Some(sizes[VELOCITY]);
     }
+    let [stiffness, gain] = [Term::Stiffness, Term::Gain].map(|term| most(fields.over.term(term)));
+    let gain = if fields.over.has(Term::LagRate) { gain } else { Interval::ZERO };
+    let moved = push[0].interval() + stiffness * sizes[POSITION] + gain * sizes[FORCE];
     // What fades goes no further than where it is driven as fast as it fades.
     let still = most(first[VELOCITY]).max(moved / Interval::point(fading));
     Some(still.min(sizes[VELOCITY]))
@@ -146,21 +131,15 @@ impl Fields {
     /// By velocities of the point and what others are `off` these.
     fn apart(&self, v: Interval, off: Interval) -> Apart {
         let Self { over, at } = self;
-        let with =
-            |term: Term, value: &dyn Fn(&Field) -> Interval| if over.has(term) { value(over) } else { Interval::ZERO };
-        let apart = |term: Term| with(term, &|over| over.term(term) - at.term(term));
+        let apart = |term: Term| over.term(term) - at.term(term);
         let (three, off) = (Interval::point(3.0), Interval::symmetric(off.upper()));
-        let quadratic = with(Term::Quadratic, &|over| {
-            apart(Term::Quadratic) * (v.abs() + v.abs() - over.twice_middle()) + over.term(Term::Quadratic) * off
-        });
-        let cubic = with(Term::Cubic, &|over| {
-            apart(Term::Cubic) * three * v.square() + over.term(Term::Cubic) * (three * v * off + off.square())
-        });
-        let gain = if over.has(Term::LagRate) { apart(Term::Gain) } else { Interval::ZERO };
+        let quadratic = apart(Term::Quadratic) * (v.abs() + v.abs() - over.twice_middle());
+        let cubic = apart(Term::Cubic) * three * v.square();
+        let faster = over.term(Term::Quadratic) * off + over.term(Term::Cubic) * (three * v * off + off.square());
         Apart {
-            damping: apart(Term::Linear) + quadratic + cubic,
+            damping: apart(Term::Linear) + quadratic + cubic + faster,
             stiffness: apart(Term::Stiffness),
-            gain,
+            gain: if over.has(Term::LagRate) { apart(Term::Gain) } else { Interval::ZERO },
             lag: apart(Term::LagRate),
         }
     }
