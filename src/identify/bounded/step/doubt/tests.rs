@@ -90,6 +90,25 @@ fn over_a_long_step_the_doubt_holds_what_slopes_are_off_and_is_not_many_times_as
 }
 
 #[test]
+fn what_a_lag_or_a_spring_drives_does_not_fade_like_what_comes_in_at_once() {
+    let ray = |term: Term, start: usize, apart: (By, f64)| Ray {
+        terms: vec![(Term::Gain, 1.0), (Term::Linear, 2.0), (term, 0.1)],
+        start: [0.3, 0.6, 0.2],
+        command: 1.0,
+        moved: vec![apart, (By::Start(start), 1.0)],
+        bent: [0.0; 3],
+    };
+    let lagged = ray(Term::LagRate, FORCE, (By::Term(Term::Gain), -1.0));
+    let stiff = ray(Term::Stiffness, POSITION, (By::Term(Term::Stiffness), 1.0));
+    let [at_once, ..] = left(point(2.0 * LONG_S));
+    for ray in [lagged, stiff] {
+        let (off, doubt) = off(&ray, LONG_S, 1.0)[VELOCITY];
+        assert!(off.abs() <= doubt, "{off} off, {doubt} granted");
+        assert!(off.abs() > at_once.upper() * doubt, "{off} off of {doubt} would be within what fades at once");
+    }
+}
+
+#[test]
 fn velocities_are_no_further_off_the_point_s_than_is_said() {
     for (index, ray, _) in cases() {
         let all = Interval::symmetric(Z);
