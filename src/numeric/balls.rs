@@ -131,6 +131,21 @@ impl Balls {
         Self::of(middle, (self.radius() * part + rounded) * larger(1) + UNDERFLOW)
     }
 
+    /// One over each; all numbers over one that may be zero.
+    #[inline]
+    pub(crate) fn reciprocal(self) -> Self {
+        let (mut middle, mut radius) = ([0.0; Self::COUNT], [f64::INFINITY; Self::COUNT]);
+        for place in 0..Self::COUNT {
+            let (own, far) = (self.middle[place].abs(), self.radius[place]);
+            let near = (own - far) * (1.0 - roundings(1));
+            if near > 0.0 {
+                middle[place] = 1.0 / self.middle[place];
+                radius[place] = (far / (own * near) + roundings(1) / own) * larger(1) + UNDERFLOW;
+            }
+        }
+        Self { middle, radius }
+    }
+
     /// The sum of all of them.
     #[inline]
     pub(crate) fn total(self) -> Interval {
@@ -230,6 +245,12 @@ impl Sizes {
             let (a, b) = (self.0[place], other.0[place]);
             if a >= b || a.is_nan() { a } else { b }
         }))
+    }
+
+    /// Whether none is more.
+    #[inline]
+    pub(crate) fn at_most(self, most: f64) -> bool {
+        self.0.iter().all(|size| *size <= most)
     }
 
     /// The first of them.

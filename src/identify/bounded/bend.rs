@@ -100,6 +100,11 @@ impl Carried<'_> {
     /// One point.
     pub(super) const NOTHING: Self =
         Self { bundles: &[], columns: &[], pairs: None, bends: &[], rest: [Interval::ZERO; 3] };
+
+    /// Whether no unknown is off the point.
+    pub(super) fn of_point(&self) -> bool {
+        self.bundles.iter().all(|bundle| bundle.deviations.sizes().at_most(0.0))
+    }
 }
 
 /// What bends during a step.

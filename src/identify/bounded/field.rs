@@ -159,7 +159,7 @@ impl Field {
             Term::Gain => *f,
             Term::Disturbance => Interval::ONE,
             Term::Linear => -*v,
-            Term::Quadratic => self.twice_middle() * *v - signed_square(*v),
+            Term::Quadratic => -shifted_square(*v, self.middle_speed),
             Term::Cubic => -cube(*v),
             Term::Stiffness => -*x,
             Term::LagRate => u - *f,

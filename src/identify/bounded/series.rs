@@ -308,16 +308,6 @@ impl Motions {
         path
     }
 
-    /// What a box pushes that is not at the point, at most over the whole step: velocity, and force.
-    pub(super) fn pushed_apart(&self, over: &Field, at: &Field) -> [Sizes; 2] {
-        [false, true].map(|force| {
-            let terms = Term::ALL.into_iter().filter(|term| over.has(*term) && (*term == Term::LagRate) == force);
-            Sizes::dot(terms.map(|term| {
-                (Sizes::splat(over.term(term) - at.term(term)), self.push(term, 0).sizes().spread(WITHIN_AT))
-            }))
-        })
-    }
-
     /// What a term multiplies.
     #[inline]
     fn push(&self, term: Term, k: usize) -> Balls {

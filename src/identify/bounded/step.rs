@@ -10,8 +10,10 @@ use super::mix::Bundle;
 use super::series::{Equations, NO_PATH, Path, Slopes, line, powers, value};
 use crate::numeric::{Balls, Interval, Real};
 
+use closed::Closed;
 use doubt::Doubt;
 
+mod closed;
 mod doubt;
 #[cfg(test)]
 mod tests;
@@ -21,8 +23,8 @@ mod tests;
 pub(super) struct Manner {
     /// Its length against the equation's fastest rate, at most.
     pub(super) length: f64,
-    /// Of its polynomials: their coefficient of this degree is the remainder.
-    pub(super) degree: usize,
+    /// Of its polynomials: their coefficient of this degree is the remainder. None for a closed form.
+    pub(super) degree: Option<usize>,
 }
 
 /// What a step may be longer against the fastest rate on the way than was looked for.
@@ -57,21 +59,14 @@ pub(super) struct Pair {
 /// What a step does, at whatever instant of it.
 #[derive(Clone, Debug)]
 pub(super) struct Step {
-    /// Of the point from the middle of what is known of its start; over the box where that is followed by the rates' ranges.
-    state: Path,
-    /// What is known of the point's start about that middle; none where it is followed by itself.
+    form: Form,
+    /// What is known of the point's start about its middle; none where the state is over the box, followed by the rates' ranges.
     at_about: Option<Triple>,
     /// State at every instant of the step.
     pub(super) within: Triple,
-    /// Of the state by each component of its start.
-    by_start: Path,
     /// Whether forces, and positions, move anything.
     lagged: bool,
     stiff: bool,
-    /// Of the polynomials.
-    degree: usize,
-    /// Of the state by what the unknowns of each bundle push, the start held.
-    by_push: Vec<Path>,
     /// How slopes bend, where they are the point's.
     pub(super) curve: Option<Curve>,
     /// What slopes are off, where they are the point's and do not bend.
@@ -79,6 +74,29 @@ pub(super) struct Step {
     /// What is known of position and velocity at the end besides.
     end: Option<[Interval; 2]>,
 }
+
+/// By what a step is known.
+#[derive(Clone, Debug)]
+enum Form {
+    Series(Box<Series>),
+    /// And the force.
+    Closed(Box<Closed>, Interval),
+}
+
+/// Polynomials of a step, and their degree.
+#[derive(Clone, Debug)]
+struct Series {
+    /// Of the point from the middle of what is known of its start; over the box where that is followed by the rates' ranges.
+    state: Path,
+    /// Of the state by each component of its start.
+    by_start: Path,
+    /// Of the state by what the unknowns of each bundle push, the start held.
+    by_push: Vec<Path>,
+    degree: usize,
+}
+
+/// The state, its slopes by each component of its start, and from rest by the unknowns of each bundle.
+type Values = ([Balls; 3], [Balls; 3], Vec<[Balls; 3]>);
 
 /// A step's values at one instant.
 #[derive(Clone, Debug)]
@@ -208,28 +226,42 @@ impl Fields {
         }
         let middle = middle(&start.at);
         let about = Some(less(&start.at, &middle));
-        let own = Equations::of(point, degree);
-        let motions = own.motions([&middle, &start.at, &within_at], u, backwards);
         let damping = point.damping(within_at[VELOCITY], within_at[VELOCITY]);
-        let slopes = Slopes::at(&motions, &own.dampings(&motions, backwards), damping, h);
-        let mut step =
-            Step::of(field, degree, motions.path(), about, within, carried.bundles, |start, bundle, path| {
+        let mut step = if let Some(degree) = degree {
+            let own = Equations::of(point, degree);
+            let motions = own.motions([&middle, &start.at, &within_at], u, backwards);
+            let slopes = Slopes::at(&motions, &own.dampings(&motions, backwards), damping, h);
+            let series = Series::of(degree, motions.path(), carried.bundles, |start, bundle, path| {
                 own.columns(&slopes, bundle, start, path)
             })?;
-        if let Some(pairs) = carried.pairs {
-            let ground = Ground { own: &own, slopes: &slopes, motions: &motions, over: field, at: point, backwards };
-            step.curve = ground.curve(carried, pairs);
-            if step.curve.is_some() {
-                return Ok(step);
+            let mut step = Step::of(field, series, about, within);
+            if let Some(pairs) = carried.pairs {
+                let ground =
+                    Ground { own: &own, slopes: &slopes, motions: &motions, over: field, at: point, backwards };
+                step.curve = ground.curve(carried, pairs);
+                if step.curve.is_some() {
+                    return Ok(step);
+                }
+                if h.upper() * field.fastest(within[VELOCITY]) > ROOM * UNBENT {
+                    return Err(HALF);
+                }
             }
-            if h.upper() * field.fastest(within[VELOCITY]) > ROOM * UNBENT {
+            step
+        } else {
+            let closed = Closed::of(point, [&middle, &start.at], u, backwards, carried.bundles);
+            if !closed.suffices(h, within_at[VELOCITY].magnitude()) {
                 return Err(HALF);
             }
-        }
+            Step::of(field, Form::Closed(Box::new(closed), middle[FORCE]), about, within)
+        };
         let (starts, passed) = ([&start.over, &start.at], [&within, &within_at]);
-        let doubt = Doubt::of(self, &own, starts, passed, &slopes, carried.bundles).ok_or(HALF)?;
-        step.doubt = Some(doubt);
+        step.doubt = Some(Doubt::of(self, starts, passed, u, damping, h, carried.bundles).ok_or(HALF)?);
         Ok(step)
+    }
+
+    /// Whether a step can be made in closed form: where slopes do not bend.
+    pub(super) fn closed(&self, carried: &Carried<'_>) -> bool {
+        carried.pairs.is_none() && Closed::exists(&self.at)
     }
 
     /// Over a duration `h` while the command is anywhere in `u`, and velocities may change their sign: by the rates' ranges. The
@@ -267,58 +299,85 @@ impl Fields {
         let [from, rate] = [*start, field.rate(&within, u)].map(|state| state.map(Balls::splat));
         let own = Equations::of(field, LINE);
         let damping = field.damping(within[VELOCITY], within_at[VELOCITY]);
-        let step = Step::of(field, LINE, line(&from, &rate), None, within, bundles, |start, bundle, path| {
+        let series = Series::of(LINE, line(&from, &rate), bundles, |start, bundle, path| {
             let by = |term: Term| Balls::splat(field.push(term, within_at, u_at));
             let push = bundle.map_or([Balls::ZERO; 2], |bundle| bundle.pushed(by));
             *path = line(start, &own.rates_within(damping, push, start, h)?);
             Some(())
         })?;
-        Ok(Box::new(Step { end, ..*step }))
+        Ok(Box::new(Step { end, ..*Step::of(field, series, None, within) }))
+    }
+}
+
+impl Series {
+    /// With columns of slopes by each component of the start, and by what each bundle pushes from rest.
+    fn of(
+        degree: usize,
+        state: Path,
+        bundles: &[Bundle],
+        columns: impl Fn(&[Balls; 3], Option<&Bundle>, &mut Path) -> Option<()>,
+    ) -> Result<Form, Refused> {
+        let by_push = vec![NO_PATH; bundles.len()];
+        let mut series = Box::new(Self { state, by_start: NO_PATH, by_push, degree });
+        columns(&units(), None, &mut series.by_start).ok_or(HALF)?;
+        for (bundle, path) in bundles.iter().zip(&mut series.by_push).filter(|(bundle, _)| bundle.pushes()) {
+            columns(&[Balls::ZERO; 3], Some(bundle), path).ok_or(HALF)?;
+        }
+        Ok(Form::Series(series))
+    }
+
+    /// After a time.
+    fn at(&self, time: Interval, lagged: bool) -> Values {
+        let powers = powers(time, self.degree);
+        let value = |path: &Path| value(path, &powers[..=self.degree], lagged);
+        (value(&self.state), value(&self.by_start), self.by_push.iter().map(value).collect())
     }
 }
 
 impl Step {
-    /// With columns of slopes by each component of the start, and by what each bundle pushes from rest.
-    fn of(
-        field: &Field,
-        degree: usize,
-        state: Path,
-        at_about: Option<Triple>,
-        within: Triple,
-        bundles: &[Bundle],
-        columns: impl Fn(&[Balls; 3], Option<&Bundle>, &mut Path) -> Option<()>,
-    ) -> Result<Box<Self>, Refused> {
-        let by_push = vec![NO_PATH; bundles.len()];
-        let mut step = Box::new(Self {
-            state,
+    fn of(field: &Field, form: Form, at_about: Option<Triple>, within: Triple) -> Box<Self> {
+        Box::new(Self {
+            form,
             at_about,
             within,
-            by_start: NO_PATH,
             lagged: field.has(Term::LagRate),
             stiff: field.has(Term::Stiffness),
-            degree,
-            by_push,
             curve: None,
             doubt: None,
             end: None,
-        });
-        columns(&units(), None, &mut step.by_start).ok_or(HALF)?;
-        for (bundle, path) in bundles.iter().zip(&mut step.by_push).filter(|(bundle, _)| bundle.pushes()) {
-            columns(&[Balls::ZERO; 3], Some(bundle), path).ok_or(HALF)?;
-        }
-        Ok(step)
+        })
     }
 
     /// By how much longer the step, of the duration `h`, may be for its remainder to leave so much of the point's velocity unsure.
     pub(super) fn longer(&self, h: Interval, most: f64) -> f64 {
-        let last = self.state[VELOCITY][self.degree].interval_at(0).magnitude();
-        let remainder = last * libm::pow(h.upper(), self.degree as f64);
-        libm::pow(most / remainder.max(f64::MIN_POSITIVE), 1.0 / self.degree as f64)
+        let Form::Series(series) = &self.form else { return f64::INFINITY };
+        let last = series.state[VELOCITY][series.degree].interval_at(0).magnitude();
+        let remainder = last * libm::pow(h.upper(), series.degree as f64);
+        libm::pow(most / remainder.max(f64::MIN_POSITIVE), 1.0 / series.degree as f64)
     }
 
-    /// The values at the step's end, `h` after its beginning.
-    pub(super) fn at_end(&self, h: Interval) -> Arrival {
-        let mut arrival = self.at(h);
+    /// After each of some times.
+    fn values(&self, times: &[Interval]) -> Vec<Values> {
+        match &self.form {
+            Form::Series(series) => times.iter().map(|time| series.at(*time, self.lagged)).collect(),
+            Form::Closed(closed, force) => {
+                let four = |times: &[Interval]| {
+                    let instants = closed.at(Balls::new(core::array::from_fn(|k| times[k.min(times.len() - 1)])));
+                    (0..times.len()).map(move |place| closed.place(&instants, place, *force))
+                };
+                times.chunks(Balls::COUNT).flat_map(four).collect()
+            }
+        }
+    }
+
+    /// The values after these times of the step.
+    pub(super) fn at_all(&self, times: &[Interval]) -> Vec<Arrival> {
+        let values = self.values(times).into_iter();
+        values.zip(times).map(|(values, time)| self.arrival(values, *time)).collect()
+    }
+
+    /// The values at its end, given those after all of its duration.
+    pub(super) fn ended(&self, mut arrival: Arrival) -> Arrival {
         if let (Some((_, rest)), Some(curve)) = (&mut arrival.bent, &self.curve) {
             *rest = curve.rest.at_end();
         }
@@ -329,14 +388,7 @@ impl Step {
         arrival
     }
 
-    /// The values after `time` of the step.
-    pub(super) fn at(&self, time: Interval) -> Arrival {
-        let all = powers(time, self.degree.max(if self.curve.is_some() { BEND_ORDER } else { 0 }));
-        let powers = &all[..=self.degree];
-        let value = |path: &Path| value(path, powers, self.lagged);
-        let state = value(&self.state);
-        let mut units = value(&self.by_start);
-        let mut by_push: Vec<[Balls; 3]> = self.by_push.iter().map(value).collect();
+    fn arrival(&self, (state, mut units, mut by_push): Values, time: Interval) -> Arrival {
         // By the mean value theorem: the end from a middle, and what a start about it adds.
         let at = self.at_about.map(|about| {
             core::array::from_fn(|k| {
@@ -354,7 +406,7 @@ impl Step {
             lagged: self.lagged,
             stiff: self.stiff,
             by_push,
-            bent: self.curve.as_ref().map(|curve| (curve.at(&all), curve.rest.after(time))),
+            bent: self.curve.as_ref().map(|curve| (curve.at(&powers(time, BEND_ORDER)), curve.rest.after(time))),
         }
     }
 }

@@ -18,13 +18,16 @@ mod point;
 /// The most steps between two changes of the command.
 const MOST_STEPS: usize = 2000;
 /// Steps of a point that is followed by itself.
-const FINE: Manner = Manner { length: 0.12, degree: ORDER };
+const FINE: Manner = Manner { length: 0.12, degree: Some(ORDER) };
 /// Steps with slopes over a box, and the first of any motion.
-const FIRST: Manner = Manner { length: 0.4, degree: 8 };
+const FIRST: Manner = Manner { length: 0.4, degree: Some(8) };
 /// Later steps to the second order, and of a point.
-const LONG: Manner = Manner { length: 0.5, degree: ORDER };
+const LONG: Manner = Manner { length: 0.5, degree: Some(ORDER) };
 /// With slopes over a box a remainder may be so many times as large.
 const LOOSER: f64 = 10.0;
+/// Steps in closed form: over a box, where longer ones leave more in doubt of slopes, and of a point.
+const CLOSED: Manner = Manner { length: 0.4, degree: None };
+const CLOSED_POINT: Manner = Manner { length: 2.0, degree: None };
 /// Length against the fastest rate of a step by the rates' ranges.
 const CRUDE: f64 = 0.1;
 /// A step is made anew where it may be no longer than this share of itself.
@@ -128,7 +131,12 @@ fn stride(
     pace: Pace,
     carried: &Carried<'_>,
 ) -> Option<Option<Box<Step>>> {
-    let (field, length) = (&fields.over, pace.manner.length);
+    let manner = match (fields.closed(carried), carried.of_point()) {
+        (true, true) => CLOSED_POINT,
+        (true, false) => CLOSED,
+        (false, _) => pace.manner,
+    };
+    let (field, length) = (&fields.over, manner.length);
     // All states, the point's among them: it need not be in the box.
     let both: Triple = core::array::from_fn(|k| state.over[k].hull(state.at[k]));
     let v = both[VELOCITY];
@@ -136,7 +144,9 @@ fn stride(
     shorten(part, pace.longest_s);
     shorten(part, length / field.fastest(v));
     let mut ahead = v;
-    for _ in 0..LOOKS_AHEAD {
+    // A closed form is as good where the motion is about to be faster.
+    let looks = if manner.degree.is_some() { LOOKS_AHEAD } else { 0 };
+    for _ in 0..looks {
         ahead = v.hull(v + rate * Interval::point(part.lower()));
         shorten(part, libm::sqrt(part.lower() * length / field.fastest(ahead)));
     }
@@ -149,7 +159,7 @@ fn stride(
                 return Some(None);
             }
         }
-        let share = match fields.smooth(state, u, *part, pace.manner, carried) {
+        let share = match fields.smooth(state, u, *part, manner, carried) {
             Ok(step) => {
                 let longer = SAFETY * step.longer(*part, pace.unsure);
                 if longer >= ENOUGH {
@@ -308,26 +318,24 @@ impl Way<'_> {
             let step = step?;
             self.drive.steps.set(self.drive.steps.get() + 1);
             self.speed = self.speed.max(step.within[VELOCITY].magnitude());
-            let (last, noted) = (part == left, self.nodes.len());
-            while let Some((sample, heard)) = ahead.first() {
-                let time = *sample - gone;
-                if !(last || time.upper() <= part.upper()) {
-                    break;
-                }
-                ahead = &ahead[1..];
-                if !heard {
-                    continue;
-                }
-                let arrival = step.at(time);
-                let columns = self.carried(&arrival);
-                let at = arrival.at.or(at_end.map(|(at, passed)| if time == part { at } else { passed }))?;
+            let last = part == left;
+            let passed =
+                ahead.iter().take_while(|(sample, _)| last || (*sample - gone).upper() <= part.upper()).count();
+            let (within, rest) = ahead.split_at(passed);
+            let heard = within.iter().filter(|(_, heard)| *heard);
+            let times: Vec<Interval> = heard.map(|(sample, _)| *sample - gone).chain([part]).collect();
+            let mut arrivals = step.at_all(&times);
+            let arrival = step.ended(arrivals.pop()?);
+            for (arrival, time) in arrivals.iter().zip(&times) {
+                let columns = self.carried(arrival);
+                let at = arrival.at.or(at_end.map(|(at, passed)| if *time == part { at } else { passed }))?;
                 let (bends, rest) = (arrival.carry_bends(&self.bends), arrival.carry_rest(&self.rest));
                 self.note(arrival.over, at, &columns, &bends, &rest)?;
             }
-            if self.nodes.len() > noted {
+            if !arrivals.is_empty() {
                 self.speed = step.within[VELOCITY].magnitude();
             }
-            let arrival = step.at_end(part);
+            ahead = rest;
             self.columns = self.carried(&arrival);
             (self.bends, self.rest) = (arrival.carry_bends(&self.bends), arrival.carry_rest(&self.rest));
             self.state.at = arrival.at.or(at_end.map(|(at, _)| at))?;

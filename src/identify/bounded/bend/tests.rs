@@ -3,7 +3,7 @@ use super::super::simulated::{Ray, rays};
 use super::super::step::Manner;
 use super::*;
 
-const MANNER: Manner = Manner { length: 1.4, degree: ORDER };
+const MANNER: Manner = Manner { length: 1.4, degree: Some(ORDER) };
 const H_S: f64 = 0.01;
 const Z: f64 = 0.05;
 
@@ -20,7 +20,7 @@ fn left(ray: &Ray, h_s: f64) -> [(f64, f64); 3] {
     let step =
         fields.smooth(&start, Interval::point(ray.command), Interval::point(h_s), MANNER, &carried).expect("a step");
     assert!(step.curve.is_some());
-    let arrival = step.at_end(Interval::point(h_s));
+    let arrival = step.ended(step.at_all(&[Interval::point(h_s)]).pop().expect("one"));
     let at = arrival.at.expect("the point's own");
     let (column, bend) = (arrival.carry_bundle(&columns[0], 0), arrival.carry_bends(&bends));
     let rest = arrival.carry_rest(&[Interval::ZERO; 3]);

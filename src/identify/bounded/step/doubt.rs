@@ -6,7 +6,7 @@
 use super::super::bend::most;
 use super::super::field::{FORCE, POSITION, Term, Triple, VELOCITY};
 use super::super::mix::Bundle;
-use super::super::series::{Equations, Slopes};
+use super::super::series::Equations;
 use super::{Fields, units};
 use crate::numeric::{Balls, Interval, Real, Sizes};
 
@@ -42,45 +42,53 @@ impl Apart {
     }
 }
 
+/// Parts of a time by which what a fading leaves is bounded.
+const PARTS: i32 = 4;
+
 /// How much less a fading leaves in a time of x over it, at most: of what comes in at once; evenly; and ever more.
 fn left(x: Interval) -> [Interval; 3] {
-    let (one, square) = (Interval::ONE, x * x);
-    let term = |x: Interval, over: f64| x / Interval::point(over);
-    [
-        one - x + term(square, 2.0),
-        one - term(x, 1.5) + term(square, 4.0),
-        one - term(x, 2.0) + term(Interval::point(3.0) * square, 20.0),
-    ]
-    .map(|left| most(left.min(one)))
+    // No less than the exponential of a part: its series in the denominator, cut.
+    let part = x / Interval::point(f64::from(PARTS));
+    let term = |product: Interval, over: f64| product / Interval::point(over);
+    let once =
+        (Interval::ONE / (Interval::ONE + part + term(part * part, 2.0) + term(part * part * part, 6.0))).upper();
+    // Convex: no more than straight between the ends of the parts, of which these are the shares in what is left on the mean.
+    let by = |shares: [f64; 5]| {
+        let powers = core::iter::successors(Some(Interval::ONE), |power| Some(*power * Interval::point(once)));
+        let all = Interval::point(shares.iter().sum());
+        most((Interval::dot(powers.zip(shares.map(Interval::point))) / all).min(Interval::ONE))
+    };
+    [by([0.0, 0.0, 0.0, 0.0, 1.0]), by([1.0, 6.0, 12.0, 18.0, 11.0]), by([7.0, 34.0, 46.0, 34.0, 7.0])]
 }
 
 impl Doubt {
-    /// Of a step in which states over the box and of the point begin at `start` and stay `within`; the point's slopes are `slopes`. `None`
-    /// where it may grow beyond all bounds.
+    /// Of a step of the duration `h` in which states over the box and of the point begin at `start` and stay `within`; what damps the
+    /// point's slopes is `damping`. `None` where it may grow beyond all bounds.
     pub(super) fn of(
         fields: &Fields,
-        own: &Equations,
         start: [&Triple; 2],
         within: [&Triple; 2],
-        slopes: &Slopes<'_>,
+        u: Interval,
+        damping: Interval,
+        h: Interval,
         bundles: &[Bundle],
     ) -> Option<Self> {
         const REST: [Balls; 3] = [Balls::ZERO; 3];
-        let (over, h) = (&fields.over, slopes.h);
-        let damping = over.damping(within[0][VELOCITY], within[1][VELOCITY]);
-        let equations = Equations::of(over, 1);
-        let off = off(fields, &equations, start, damping, slopes)?;
-        let apart = fields.apart(within[1][VELOCITY], off);
+        let Fields { over, at } = fields;
+        let apart = over.damping(within[0][VELOCITY], within[1][VELOCITY]);
+        let (equations, own) = (Equations::of(over, 1), Equations::of(at, 1));
+        let push = |term: Term| Sizes::splat(at.push(term, within[1], u));
+        let off = off(fields, &equations, start, apart, push, h)?;
+        let differ = fields.apart(within[1][VELOCITY], off);
         let ends = |push: [Sizes; 2], start: &[Balls; 3]| {
-            let column = own.sizes(slopes.damping, push, start, h)?;
-            let [_, v, f] = equations.sizes(damping, apart.push(column), &REST, h)?;
+            let column = own.sizes(damping, push, start, h)?;
+            let [_, v, f] = equations.sizes(apart, differ.push(column), &REST, h)?;
             Some([v, f])
         };
         let by_start = ends([Sizes::ZERO; 2], &units())?;
-        let by_push: Option<Vec<_>> =
-            bundles.iter().map(|bundle| ends(slopes.motions.pushed_within(bundle, 0), &REST)).collect();
+        let by_push: Option<Vec<_>> = bundles.iter().map(|bundle| ends(bundle.pushed_at_most(push), &REST)).collect();
         let alone = !over.has(Term::Stiffness) && !over.has(Term::LagRate);
-        let slowest = -damping.upper().max(slopes.damping.upper());
+        let slowest = -apart.upper().max(damping.upper());
         let fading = if alone { Interval::point(slowest.max(0.0)) } else { Interval::ZERO };
         Some(Self { h, fading, by_start, by_push: by_push? })
     }
@@ -104,17 +112,18 @@ impl Doubt {
     }
 }
 
-/// How far velocities are off the point's during a step, at most.
+/// How far velocities are off the point's during a step, at most, given what each term multiplies there.
 fn off(
     fields: &Fields,
     equations: &Equations,
     [over, at]: [&Triple; 2],
     damping: Interval,
-    slopes: &Slopes<'_>,
+    push: impl Fn(Term) -> Sizes,
+    h: Interval,
 ) -> Option<Interval> {
     let first: Triple = core::array::from_fn(|k| over[k] - at[k]);
-    let push = slopes.motions.pushed_apart(&fields.over, &fields.at);
-    let sizes = equations.sizes(damping, push, &first.map(Balls::splat), slopes.h)?.map(Sizes::interval);
+    let push = fields.pushed_apart(push);
+    let sizes = equations.sizes(damping, push, &first.map(Balls::splat), h)?.map(Sizes::interval);
     let fading = -damping.upper();
     if fading <= 0.0 {
         return Some(sizes[VELOCITY]);
@@ -128,6 +137,14 @@ fn off(
 }
 
 impl Fields {
+    /// What the box pushes that is not at the point, at most: velocity, and force.
+    fn pushed_apart(&self, push: impl Fn(Term) -> Sizes) -> [Sizes; 2] {
+        [false, true].map(|force| {
+            let terms = Term::ALL.into_iter().filter(|term| self.over.has(*term) && (*term == Term::LagRate) == force);
+            Sizes::dot(terms.map(|term| (Sizes::splat(self.over.term(term) - self.at.term(term)), push(term))))
+        })
+    }
+
     /// By velocities of the point and what others are `off` these.
     fn apart(&self, v: Interval, off: Interval) -> Apart {
         let Self { over, at } = self;

@@ -20,7 +20,7 @@ pub(super) fn advance_point(field: &Field, start: Triple, u: Interval, h: Interv
         // A command that changes on the way is known by its range alone.
         let step = if u.is_point() { stride(&fields, &at, u, &mut part, pace, &Carried::NOTHING)? } else { None };
         let [end, within] = match step {
-            Some(step) => [step.at_end(part).at?, step.within],
+            Some(step) => [step.at_all(&[part]).pop()?.at?, step.within],
             None => {
                 let (done, length) = crude_point(field, &state, u, part)?;
                 part = length;

@@ -1,0 +1,197 @@
+//! A step in closed form: under a constant command, with drag that is linear and quadratic, while the velocity has one sign.
+//!
+//! Then `v' = a - b v - c v^2`. With `z = b^2/4 + a c`, `C = cosh(sqrt(z) t)` and `S = sinh(sqrt(z) t)/sqrt(z)` the velocity from v0 is N/D
+//! for `N = v0 C + (a - b v0/2) S` and `D = C + (b/2 + c v0) S`; a change of v0 becomes `1/D^2` of itself, and the way is
+//! `(ln D - b t/2)/c`. All of it is entire in z, and regular in c: as series no case is told from another.
+
+use super::super::field::{Field, POSITION, Term, Triple, VELOCITY};
+use super::super::mix::Bundle;
+use super::Values;
+use crate::numeric::{Balls, Interval};
+
+#[cfg(test)]
+mod tests;
+
+/// Terms of the series in `z t^2`, and the largest that is put into them.
+const SERIES_TERMS: usize = 12;
+const MOST_Z: f64 = 2.5;
+/// More than `SERIES_TERMS MOST_Z^(SERIES_TERMS - 1)/(2 SERIES_TERMS)!` and all terms behind that.
+const LEFT_OUT: f64 = 1e-18;
+/// The largest way times c, of which half is the area tangent.
+const MOST_WAY: f64 = 1.0;
+/// Terms of its series, and the largest square that is put into it: that of the hyperbolic tangent of half of the largest.
+const AREA_TERMS: usize = 26;
+const MOST_SQUARE: f64 = 0.2136;
+/// What the terms left out of it are at most, over the first of them.
+const AREA_LEFT: f64 = 1.3;
+const _: () = assert!((1.0 - MOST_SQUARE) * AREA_LEFT > 1.0);
+
+/// Of position and velocity.
+type Two = [Balls; 2];
+
+/// A point's equation, and where it starts from, the same in every place.
+#[derive(Clone, Debug)]
+pub(super) struct Closed {
+    a: Balls,
+    b: Balls,
+    c: Balls,
+    /// Position and velocity in the middle of the start, and all velocities of it.
+    middle: Two,
+    start: Balls,
+    /// By how much the unknowns of each bundle move a, b and c; `None` for not at all.
+    moved: Vec<Option<[Balls; 3]>>,
+    quadratic: bool,
+}
+
+/// A step at four instants, side by side.
+pub(super) struct Instants {
+    /// From the middle of the start.
+    state: Two,
+    /// What the state changes by: by the velocity at the start; and by a, b and c.
+    by_velocity: Two,
+    by: [Two; 3],
+}
+
+/// `1 + w/d(1) (1 + w/d(2) (1 + ...))` for denominators that grow beyond twice w.
+fn nested(w: Balls, denominator: impl Fn(usize) -> usize) -> Balls {
+    let left_out = Balls::within((w + w).share(denominator(SERIES_TERMS)).sizes());
+    (1..SERIES_TERMS).rev().fold(Balls::ONE + left_out, |sum, k| Balls::ONE + (w * sum).share(denominator(k)))
+}
+
+/// What the series of C and of S over t change by from `from` to `to`, over that difference.
+fn divided(to: Balls, from: Balls) -> Two {
+    let (mut power, mut sum) = (Balls::ONE, Balls::ONE);
+    let (mut cosine, mut factor) = (Balls::ZERO, Balls::ONE);
+    let mut sine = Balls::ZERO;
+    for k in 1..SERIES_TERMS {
+        // The sum is that of all products of k - 1 factors.
+        factor = factor.share((2 * k - 1) * 2 * k);
+        let term = factor * sum;
+        cosine = cosine + term;
+        sine = sine + term.share(2 * k + 1);
+        power = power * from;
+        sum = to * sum + power;
+    }
+    let left_out = Balls::splat(Interval::symmetric(LEFT_OUT));
+    [cosine + left_out, sine + left_out]
+}
+
+/// The area tangent of w over w.
+fn area(w: Balls) -> Balls {
+    let square = w * w;
+    if !square.sizes().at_most(MOST_SQUARE) {
+        return Balls::splat(Interval::ENTIRE);
+    }
+    let left_out = Balls::splat(Interval::symmetric(AREA_LEFT / (2 * AREA_TERMS + 1) as f64));
+    (0..AREA_TERMS).rev().fold(left_out, |sum, k| Balls::ONE.share(2 * k + 1) + square * sum)
+}
+
+impl Closed {
+    /// Whether an equation has a closed form while the velocity has one sign.
+    pub(super) fn exists(field: &Field) -> bool {
+        ![Term::Cubic, Term::Stiffness, Term::LagRate].into_iter().any(|term| field.has(term))
+            && (!field.has(Term::Quadratic) || field.term(Term::Quadratic).lower() > 0.0)
+    }
+
+    /// Of a point's equation, from a start and the middle of it; velocities are all `backwards`, or none is.
+    pub(super) fn of(field: &Field, start: [&Triple; 2], u: Interval, backwards: bool, bundles: &[Bundle]) -> Self {
+        let [middle, start] = start;
+        let along = Interval::point(if backwards { -1.0 } else { 1.0 });
+        let quadratic = if field.has(Term::Quadratic) { field.term(Term::Quadratic) } else { Interval::ZERO };
+        let moved = |bundle: &Bundle| {
+            let by = |times: &dyn Fn(Term) -> Interval| bundle.pushed(|term| Balls::splat(times(term)))[0];
+            [
+                by(&|term| match term {
+                    Term::Gain => u,
+                    Term::Disturbance => Interval::ONE,
+                    _ => Interval::ZERO,
+                }),
+                by(&|term| match term {
+                    Term::Linear => Interval::ONE,
+                    Term::Quadratic => -field.twice_middle(),
+                    _ => Interval::ZERO,
+                }),
+                by(&|term| if term == Term::Quadratic { along } else { Interval::ZERO }),
+            ]
+        };
+        Self {
+            a: Balls::splat(field.term(Term::Gain) * u + field.term(Term::Disturbance)),
+            b: Balls::splat(field.term(Term::Linear) - field.twice_middle() * quadratic),
+            c: Balls::splat(along * quadratic),
+            middle: [POSITION, VELOCITY].map(|k| Balls::splat(middle[k])),
+            start: Balls::splat(start[VELOCITY]),
+            moved: bundles.iter().map(|bundle| bundle.pushes().then(|| moved(bundle))).collect(),
+            quadratic: field.has(Term::Quadratic),
+        }
+    }
+
+    /// Whether the series suffice for a duration of `h`, in which no velocity is beyond `fastest`.
+    pub(super) fn suffices(&self, h: Interval, fastest: f64) -> bool {
+        let way = Balls::splat(h * Interval::point(fastest)) * self.c;
+        let [_, z_linear, z] = self.arguments(Balls::splat(h));
+        way.sizes().at_most(MOST_WAY) && [z_linear, z].iter().all(|z| z.sizes().at_most(MOST_Z))
+    }
+
+    /// The square of a time; z times that without what drives, and with it.
+    fn arguments(&self, t: Balls) -> [Balls; 3] {
+        let (square, half_b) = (t * t, self.b.share(2));
+        let linear = half_b * half_b * square;
+        [square, linear, linear + self.a * self.c * square]
+    }
+
+    /// After times of a step for which the series suffice.
+    pub(super) fn at(&self, t: Balls) -> Instants {
+        let Self { a, b, c, middle: [x, v], start, .. } = *self;
+        let [square, z_linear, z] = self.arguments(t);
+        let half_b = b.share(2);
+        let cosine = nested(z, |k| (2 * k - 1) * 2 * k);
+        let sine = t * nested(z, |k| 2 * k * (2 * k + 1));
+        // By z over the square of t.
+        let cosine_by = (t * sine).share(2);
+        let sine_by = t * (square * nested(z, |k| 2 * k * (2 * k + 3))).share(6);
+        let from = |v: Balls| {
+            let (alpha, beta) = (a - half_b * v, half_b + c * v);
+            let [n, n_by] = [[cosine, sine], [cosine_by, sine_by]].map(|[c, s]| v * c + alpha * s);
+            let [d, d_by] = [[cosine, sine], [cosine_by, sine_by]].map(|[c, s]| c + beta * s);
+            (n, d, n_by, d_by)
+        };
+        let (n, d, ..) = from(v);
+        let [cosine_over, sine_over] = divided(z, z_linear);
+        let over = square * (a * (cosine_over + half_b * t * sine_over)) + v * sine;
+        let mean = (d + d - c * over).reciprocal();
+        let way = (over + over) * mean * area(c * over * mean);
+        let state = [x + way, n * d.reciprocal()];
+
+        let (n, d, n_by, d_by) = from(start);
+        let over_d = d.reciprocal();
+        let now = n * over_d;
+        let velocity = |n: Balls, d: Balls| (n - now * d) * over_d;
+        let by_velocity = [sine * over_d, over_d * over_d];
+        let by_a = [d_by * over_d, velocity(sine + c * n_by, c * d_by)];
+        let half_sine = sine.share(2);
+        let by_b = [-(n_by * over_d), velocity(half_b * n_by - half_sine * start, half_sine + half_b * d_by)];
+        let mut by_c = [Balls::ZERO, velocity(a * n_by, start * sine + a * d_by)];
+        if self.quadratic {
+            // The way times c is a function of b, a c and c v0 alone.
+            let way = way + by_velocity[0] * (start - v);
+            by_c[0] = (a * by_a[0] + start * by_velocity[0] - way) * c.reciprocal();
+        }
+        Instants { state, by_velocity, by: [by_a, by_b, by_c] }
+    }
+
+    /// The state at one of some instants, its slopes by each component of its start, and from rest by the unknowns of each bundle; the
+    /// force stays.
+    pub(super) fn place(&self, instants: &Instants, place: usize, force: Interval) -> Values {
+        let Instants { state: [x, v], by_velocity: [way, left], by } = instants;
+        let (zero, one) = ((&Balls::ZERO, 0), (&Balls::ONE, 0));
+        let by_start = [[one, (way, place), zero, zero], [zero, (left, place), zero, zero], [zero, zero, one, zero]];
+        let [by_a, by_b, by_c] = by.each_ref().map(|by| by.each_ref().map(|by| by.spread(place)));
+        let by_push = self.moved.iter().map(|moved| {
+            let Some([a, b, c]) = *moved else { return [Balls::ZERO; 3] };
+            let of = |k: usize| Balls::dot([(a, by_a[k]), (b, by_b[k]), (c, by_c[k])].into_iter());
+            [of(POSITION), of(VELOCITY), Balls::ZERO]
+        });
+        let state = [x.spread(place), v.spread(place), Balls::splat(force)];
+        (state, by_start.map(Balls::gather), by_push.collect())
+    }
+}
