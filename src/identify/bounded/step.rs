@@ -79,8 +79,7 @@ pub(super) struct Step {
 #[derive(Clone, Debug)]
 enum Form {
     Series(Box<Series>),
-    /// And the force.
-    Closed(Box<Closed>, Interval),
+    Closed(Box<Closed>),
 }
 
 /// Polynomials of a step, and their degree.
@@ -252,7 +251,7 @@ impl Fields {
             if !closed.suffices(h, within_at[VELOCITY].magnitude()) {
                 return Err(HALF);
             }
-            Step::of(field, Form::Closed(Box::new(closed), middle[FORCE]), about, within)
+            Step::of(field, Form::Closed(Box::new(closed)), about, within)
         };
         let (starts, passed) = ([&start.over, &start.at], [&within, &within_at]);
         step.doubt = Some(Doubt::of(self, starts, passed, u, damping, h, carried.bundles).ok_or(HALF)?);
@@ -360,13 +359,7 @@ impl Step {
     fn values(&self, times: &[Interval]) -> Vec<Values> {
         match &self.form {
             Form::Series(series) => times.iter().map(|time| series.at(*time, self.lagged)).collect(),
-            Form::Closed(closed, force) => {
-                let four = |times: &[Interval]| {
-                    let instants = closed.at(Balls::new(core::array::from_fn(|k| times[k.min(times.len() - 1)])));
-                    (0..times.len()).map(move |place| closed.place(&instants, place, *force))
-                };
-                times.chunks(Balls::COUNT).flat_map(four).collect()
-            }
+            Form::Closed(closed) => closed.values(times),
         }
     }
 

@@ -319,9 +319,9 @@ impl Way<'_> {
             self.drive.steps.set(self.drive.steps.get() + 1);
             self.speed = self.speed.max(step.within[VELOCITY].magnitude());
             let last = part == left;
-            let passed =
+            let reached =
                 ahead.iter().take_while(|(sample, _)| last || (*sample - gone).upper() <= part.upper()).count();
-            let (within, rest) = ahead.split_at(passed);
+            let (within, beyond) = ahead.split_at(reached);
             let heard = within.iter().filter(|(_, heard)| *heard);
             let times: Vec<Interval> = heard.map(|(sample, _)| *sample - gone).chain([part]).collect();
             let mut arrivals = step.at_all(&times);
@@ -335,7 +335,7 @@ impl Way<'_> {
             if !arrivals.is_empty() {
                 self.speed = step.within[VELOCITY].magnitude();
             }
-            ahead = rest;
+            ahead = beyond;
             self.columns = self.carried(&arrival);
             (self.bends, self.rest) = (arrival.carry_bends(&self.bends), arrival.carry_rest(&self.rest));
             self.state.at = arrival.at.or(at_end.map(|(at, _)| at))?;

@@ -2,9 +2,10 @@
 //!
 //! Then `v' = a - b v - c v^2`. With `z = b^2/4 + a c`, `C = cosh(sqrt(z) t)` and `S = sinh(sqrt(z) t)/sqrt(z)` the velocity from v0 is N/D
 //! for `N = v0 C + (a - b v0/2) S` and `D = C + (b/2 + c v0) S`; a change of v0 becomes `1/D^2` of itself, and the way is
-//! `(ln D - b t/2)/c`. All of it is entire in z, and regular in c: as series no case is told from another.
+//! `(ln D - b t/2)/c`. All of it is entire in z, and regular in c: as series no case is told from another. Only the way's slope by c is
+//! divided by it, at the price of digits where it is small.
 
-use super::super::field::{Field, POSITION, Term, Triple, VELOCITY};
+use super::super::field::{FORCE, Field, POSITION, Term, Triple, VELOCITY};
 use super::super::mix::Bundle;
 use super::Values;
 use crate::numeric::{Balls, Interval};
@@ -35,16 +36,17 @@ pub(super) struct Closed {
     a: Balls,
     b: Balls,
     c: Balls,
-    /// Position and velocity in the middle of the start, and all velocities of it.
+    /// Position and velocity in the middle of the start, and all velocities of it; the force, which stays.
     middle: Two,
     start: Balls,
+    force: Balls,
     /// By how much the unknowns of each bundle move a, b and c; `None` for not at all.
     moved: Vec<Option<[Balls; 3]>>,
     quadratic: bool,
 }
 
 /// A step at four instants, side by side.
-pub(super) struct Instants {
+struct Instants {
     /// From the middle of the start.
     state: Two,
     /// What the state changes by: by the velocity at the start; and by a, b and c.
@@ -120,6 +122,7 @@ impl Closed {
             c: Balls::splat(along * quadratic),
             middle: [POSITION, VELOCITY].map(|k| Balls::splat(middle[k])),
             start: Balls::splat(start[VELOCITY]),
+            force: Balls::splat(middle[FORCE]),
             moved: bundles.iter().map(|bundle| bundle.pushes().then(|| moved(bundle))).collect(),
             quadratic: field.has(Term::Quadratic),
         }
@@ -140,7 +143,15 @@ impl Closed {
     }
 
     /// After times of a step for which the series suffice.
-    pub(super) fn at(&self, t: Balls) -> Instants {
+    pub(super) fn values(&self, times: &[Interval]) -> Vec<Values> {
+        let four = |times: &[Interval]| {
+            let instants = self.at(Balls::new(core::array::from_fn(|k| times[k.min(times.len() - 1)])));
+            (0..times.len()).map(move |place| self.place(&instants, place))
+        };
+        times.chunks(Balls::COUNT).flat_map(four).collect()
+    }
+
+    fn at(&self, t: Balls) -> Instants {
         let Self { a, b, c, middle: [x, v], start, .. } = *self;
         let [square, z_linear, z] = self.arguments(t);
         let half_b = b.share(2);
@@ -179,9 +190,8 @@ impl Closed {
         Instants { state, by_velocity, by: [by_a, by_b, by_c] }
     }
 
-    /// The state at one of some instants, its slopes by each component of its start, and from rest by the unknowns of each bundle; the
-    /// force stays.
-    pub(super) fn place(&self, instants: &Instants, place: usize, force: Interval) -> Values {
+    /// One of four.
+    fn place(&self, instants: &Instants, place: usize) -> Values {
         let Instants { state: [x, v], by_velocity: [way, left], by } = instants;
         let (zero, one) = ((&Balls::ZERO, 0), (&Balls::ONE, 0));
         let by_start = [[one, (way, place), zero, zero], [zero, (left, place), zero, zero], [zero, zero, one, zero]];
@@ -191,7 +201,7 @@ impl Closed {
             let of = |k: usize| Balls::dot([(a, by_a[k]), (b, by_b[k]), (c, by_c[k])].into_iter());
             [of(POSITION), of(VELOCITY), Balls::ZERO]
         });
-        let state = [x.spread(place), v.spread(place), Balls::splat(force)];
+        let state = [x.spread(place), v.spread(place), self.force];
         (state, by_start.map(Balls::gather), by_push.collect())
     }
 }

@@ -168,6 +168,19 @@ fn missed_by_middles(manner: Manner) -> usize {
 }
 
 #[test]
+fn a_force_without_a_lag_stays_as_well_known_as_it_was() {
+    let [gain, quadratic, v] = CENTRE;
+    let equation = field(Interval::point(gain), Interval::point(quadratic));
+    let at = [Interval::ZERO, Interval::point(v), about(U, 1e-3)];
+    let (fields, start) = (Fields { over: equation, at: equation }, Pair { over: at, at });
+    for manner in [FINE, CLOSED] {
+        let step = fields.smooth(&start, Interval::point(U), Interval::point(H_S), manner, &Carried::NOTHING);
+        let force = after(&step.expect("a step"), Interval::point(H_S)).at.expect("the point's own")[FORCE];
+        assert!(start.at[FORCE].is_subset_of(force) && force.width() < 1.001 * start.at[FORCE].width(), "{force:?}");
+    }
+}
+
+#[test]
 fn a_point_may_be_outside_of_the_box_and_without_the_doubt_the_box_is_missed() {
     let [gain, quadratic, v] = CENTRE;
     // The box has more drag.

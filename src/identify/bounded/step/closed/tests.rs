@@ -65,9 +65,9 @@ impl Case {
         if !closed.suffices(t, self.v.abs() + 1.5 * self.t) {
             return None;
         }
-        // Others stand beside it.
-        let instants = closed.at(Balls::new([Interval::ZERO, t, Interval::point(0.5 * self.t), t]));
-        let (state, by_start, by_push) = closed.place(&instants, 1, Interval::ZERO);
+        // More than four, of which it is not the first.
+        let times = [0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 0.5].map(|share| Interval::point(share * self.t));
+        let (state, by_start, by_push) = closed.values(&times).swap_remove(5);
         let own = |balls: [Balls; 3], place: usize| [balls[0].interval_at(place), balls[1].interval_at(place)];
         let backwards = self.coefficients[2] < 0.0;
         let by_c = own(by_push[0], 2).map(|slope| if backwards { -slope } else { slope });
