@@ -185,7 +185,7 @@ impl Equations {
     /// bounds.
     pub(super) fn columns(
         &self,
-        step: &Slopes<'_>,
+        step: &Slopes,
         bundle: Option<&Bundle>,
         start: &[Balls; 3],
         path: &mut Path,
@@ -324,9 +324,14 @@ impl Motions {
         }
     }
 
-    /// Velocity and its square in the point's motion; and over the whole step, at most.
-    pub(super) fn point(&self, k: usize) -> [(Balls, Sizes); 2] {
-        [&self.state[VELOCITY], &self.square].map(|series| (series[k].spread(AT), series[k].sizes().spread(WITHIN_AT)))
+    /// Velocity and its square.
+    pub(super) fn velocities(&self, k: usize) -> [Balls; 2] {
+        [self.state[VELOCITY][k], self.square[k]]
+    }
+
+    /// Of something that follows from these: in the point's motion, and over the whole step at most.
+    pub(super) fn of_point(own: Balls) -> (Balls, Sizes) {
+        (own.spread(AT), own.sizes().spread(WITHIN_AT))
     }
 
     /// What the unknowns of a bundle push in the point's motion: velocity, and force.
@@ -343,8 +348,8 @@ impl Motions {
 }
 
 /// What columns of slopes need of a step of the duration `h`.
-pub(super) struct Slopes<'a> {
-    pub(super) motions: &'a Motions,
+pub(super) struct Slopes {
+    pub(super) motions: Motions,
     pub(super) head: Series,
     pub(super) rest: Coefficients<Sizes>,
     /// At every instant of it.
@@ -352,9 +357,9 @@ pub(super) struct Slopes<'a> {
     pub(super) h: Interval,
 }
 
-impl<'a> Slopes<'a> {
+impl Slopes {
     /// Of the point's motion.
-    pub(super) fn at(motions: &'a Motions, dampings: &Series, damping: Interval, h: Interval) -> Self {
+    pub(super) fn at(motions: Motions, dampings: &Series, damping: Interval, h: Interval) -> Self {
         let (mut head, mut rest) = (NONE, [Sizes::ZERO; ORDER + 1]);
         for (k, coefficient) in dampings.iter().enumerate().take(motions.degree + 1) {
             head[k] = coefficient.spread(AT);

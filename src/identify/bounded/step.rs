@@ -4,10 +4,10 @@
 //! equation `e' = -m e + sum (theta_j - c_j) p_j`, in which m is a slope of the drag between the two velocities, and `p_j` is what
 //! the j-th term multiplies in the motion of c alone. So only m has a range: slopes are the point's, and off them by a [`Doubt`].
 
-use super::bend::{BEND_ORDER, Carried, Curve, Ground};
+use super::bend::{BEND_ORDER, BENT, Carried, Curve, Ground, Rest, parts};
 use super::field::{FORCE, Field, POSITION, Term, Triple, VELOCITY};
 use super::mix::Bundle;
-use super::series::{Equations, NO_PATH, Path, Slopes, line, powers, value};
+use super::series::{Equations, NO_PATH, Path, line, powers, value};
 use crate::numeric::{Balls, Interval, Real};
 
 use closed::Closed;
@@ -67,12 +67,14 @@ pub(super) struct Step {
     /// Whether forces, and positions, move anything.
     lagged: bool,
     stiff: bool,
-    /// How slopes bend, where they are the point's.
-    pub(super) curve: Option<Curve>,
+    /// What bends leave of the third order, where slopes are the point's and bend.
+    rest: Option<Rest>,
     /// What slopes are off, where they are the point's and do not bend.
     doubt: Option<Doubt>,
-    /// What is known of position and velocity at the end besides.
-    end: Option<[Interval; 2]>,
+    /// The end, where that is known by itself.
+    end: Option<Arrival>,
+    /// What is known of position and velocity there besides.
+    met: Option<[Interval; 2]>,
 }
 
 /// By what a step is known.
@@ -92,10 +94,19 @@ struct Series {
     /// Of the state by what the unknowns of each bundle push, the start held.
     by_push: Vec<Path>,
     degree: usize,
+    bends: Curve,
 }
 
-/// The state, its slopes by each component of its start, and from rest by the unknowns of each bundle.
-type Values = ([Balls; 3], [Balls; 3], Vec<[Balls; 3]>);
+/// What a form says of one instant.
+struct Values {
+    state: [Balls; 3],
+    /// Slopes by each component of the start.
+    by_start: [Balls; 3],
+    /// From rest by the unknowns of each bundle.
+    by_push: Vec<[Balls; 3]>,
+    /// How slopes that are straight at the start bend, by each bundle of pairs.
+    bends: Vec<[Balls; 3]>,
+}
 
 /// A step's values at one instant.
 #[derive(Clone, Debug)]
@@ -106,7 +117,8 @@ pub(super) struct Arrival {
     lagged: bool,
     stiff: bool,
     by_push: Vec<[Balls; 3]>,
-    bent: Option<(Vec<[Balls; 3]>, Triple)>,
+    bends: Vec<[Balls; 3]>,
+    rest: Triple,
 }
 
 /// Why a step was not made.
@@ -226,41 +238,56 @@ impl Fields {
         let middle = middle(&start.at);
         let about = Some(less(&start.at, &middle));
         let damping = point.damping(within_at[VELOCITY], within_at[VELOCITY]);
-        let mut step = if let Some(degree) = degree {
-            let own = Equations::of(point, degree);
-            let motions = own.motions([&middle, &start.at, &within_at], u, backwards);
-            let slopes = Slopes::at(&motions, &own.dampings(&motions, backwards), damping, h);
-            let series = Series::of(degree, motions.path(), carried.bundles, |start, bundle, path| {
-                own.columns(&slopes, bundle, start, path)
-            })?;
-            let mut step = Step::of(field, series, about, within);
-            if let Some(pairs) = carried.pairs {
-                let ground =
-                    Ground { own: &own, slopes: &slopes, motions: &motions, over: field, at: point, backwards };
-                step.curve = ground.curve(carried, pairs);
-                if step.curve.is_some() {
-                    return Ok(step);
-                }
-                if h.upper() * field.fastest(within[VELOCITY]) > ROOM * UNBENT {
-                    return Err(HALF);
-                }
-            }
-            step
+        let ground = |degree: usize| {
+            let states = [&middle, &start.at, &within_at];
+            Ground::of(self, states, (u, backwards), (damping, h), degree)
+        };
+        let (form, bent) = if let Some(degree) = degree {
+            let ground = ground(degree);
+            let mut series =
+                Series::of(degree, ground.slopes.motions.path(), carried.bundles, |start, bundle, path| {
+                    ground.own.columns(&ground.slopes, bundle, start, path)
+                })?;
+            let bent = carried.pairs.and_then(|pairs| {
+                let largest = ground.largest(carried, pairs, BEND_ORDER)?;
+                series.bends = ground.curve(carried, pairs, &largest)?;
+                Some((pairs, ground, largest))
+            });
+            (Form::Series(series), bent)
         } else {
-            let closed = Closed::of(point, [&middle, &start.at], u, backwards, carried.bundles);
+            let closed = Closed::of(point, [&middle, &start.at], u, backwards, carried);
             if !closed.suffices(h, within_at[VELOCITY].magnitude()) {
                 return Err(HALF);
             }
-            Step::of(field, Form::Closed(Box::new(closed)), about, within)
+            let bent = carried.pairs.and_then(|pairs| {
+                let ground = ground(BENT);
+                let largest = ground.largest(carried, pairs, BENT)?;
+                Some((pairs, ground, largest))
+            });
+            (Form::Closed(Box::new(closed)), bent)
         };
+        let mut step = Step::of(field, form, about, within);
+        if carried.pairs.is_some() {
+            let fastest = field.fastest(within[VELOCITY]);
+            let mut ends = step.at_all(&parts(h, fastest));
+            step.rest = bent.and_then(|(pairs, ground, largest)| ground.rest(carried, pairs, &largest, &ends));
+            if let Some(rest) = &step.rest {
+                step.end = ends.pop().map(|end| Arrival { rest: rest.at_end(), ..end });
+                return Ok(step);
+            }
+            if h.upper() * fastest > ROOM * UNBENT {
+                return Err(HALF);
+            }
+            step.straighten();
+        }
         let (starts, passed) = ([&start.over, &start.at], [&within, &within_at]);
         step.doubt = Some(Doubt::of(self, starts, passed, u, damping, h, carried.bundles).ok_or(HALF)?);
         Ok(step)
     }
 
-    /// Whether a step can be made in closed form: where slopes do not bend.
-    pub(super) fn closed(&self, carried: &Carried<'_>) -> bool {
-        carried.pairs.is_none() && Closed::exists(&self.at)
+    /// Whether a step can be made in closed form.
+    pub(super) fn closed(&self) -> bool {
+        Closed::exists(&self.at)
     }
 
     /// Over a duration `h` while the command is anywhere in `u`, and velocities may change their sign: by the rates' ranges. The
@@ -287,13 +314,13 @@ impl Fields {
             Some(rate(VELOCITY, &enclose(&start, h, rate)?))
         };
         let v = start[VELOCITY];
-        let mut end = None;
+        let mut met = None;
         if let (Some(slow), Some(fast)) = (from(v.lower()), from(v.upper())) {
             let mean = |end: f64, slope: f64| h * (Interval::point(end) + half * h * Interval::point(slope));
             let line = |end: f64, slope: f64| Interval::point(end) + h * Interval::point(slope);
             let reached = line(v.lower(), slow.lower()).hull(line(v.upper(), fast.upper()));
             let way = mean(v.lower(), slow.lower()).hull(mean(v.upper(), fast.upper()));
-            end = Some([start[POSITION] + way, reached]);
+            met = Some([start[POSITION] + way, reached]);
         }
         let [from, rate] = [*start, field.rate(&within, u)].map(|state| state.map(Balls::splat));
         let own = Equations::of(field, LINE);
@@ -304,7 +331,7 @@ impl Fields {
             *path = line(start, &own.rates_within(damping, push, start, h)?);
             Some(())
         })?;
-        Ok(Box::new(Step { end, ..*Step::of(field, series, None, within) }))
+        Ok(Box::new(Step { met, ..*Step::of(field, Form::Series(series), None, within) }))
     }
 }
 
@@ -315,21 +342,26 @@ impl Series {
         state: Path,
         bundles: &[Bundle],
         columns: impl Fn(&[Balls; 3], Option<&Bundle>, &mut Path) -> Option<()>,
-    ) -> Result<Form, Refused> {
+    ) -> Result<Box<Self>, Refused> {
         let by_push = vec![NO_PATH; bundles.len()];
-        let mut series = Box::new(Self { state, by_start: NO_PATH, by_push, degree });
+        let mut series = Box::new(Self { state, by_start: NO_PATH, by_push, degree, bends: Curve::default() });
         columns(&units(), None, &mut series.by_start).ok_or(HALF)?;
         for (bundle, path) in bundles.iter().zip(&mut series.by_push).filter(|(bundle, _)| bundle.pushes()) {
             columns(&[Balls::ZERO; 3], Some(bundle), path).ok_or(HALF)?;
         }
-        Ok(Form::Series(series))
+        Ok(series)
     }
 
     /// After a time.
     fn at(&self, time: Interval, lagged: bool) -> Values {
         let powers = powers(time, self.degree);
         let value = |path: &Path| value(path, &powers[..=self.degree], lagged);
-        (value(&self.state), value(&self.by_start), self.by_push.iter().map(value).collect())
+        Values {
+            state: value(&self.state),
+            by_start: value(&self.by_start),
+            by_push: self.by_push.iter().map(value).collect(),
+            bends: self.bends.at(time),
+        }
     }
 }
 
@@ -341,9 +373,10 @@ impl Step {
             within,
             lagged: field.has(Term::LagRate),
             stiff: field.has(Term::Stiffness),
-            curve: None,
+            rest: None,
             doubt: None,
             end: None,
+            met: None,
         })
     }
 
@@ -353,6 +386,20 @@ impl Step {
         let last = series.state[VELOCITY][series.degree].interval_at(0).magnitude();
         let remainder = last * libm::pow(h.upper(), series.degree as f64);
         libm::pow(most / remainder.max(f64::MIN_POSITIVE), 1.0 / series.degree as f64)
+    }
+
+    /// Whether slopes are the point's, and bend.
+    #[cfg(test)]
+    pub(super) fn bends(&self) -> bool {
+        self.rest.is_some()
+    }
+
+    /// Without what bends.
+    fn straighten(&mut self) {
+        match &mut self.form {
+            Form::Series(series) => series.bends = Curve::default(),
+            Form::Closed(closed) => closed.straighten(),
+        }
     }
 
     /// After each of some times.
@@ -369,19 +416,23 @@ impl Step {
         values.zip(times).map(|(values, time)| self.arrival(values, *time)).collect()
     }
 
-    /// The values at its end, given those after all of its duration.
-    pub(super) fn ended(&self, mut arrival: Arrival) -> Arrival {
-        if let (Some((_, rest)), Some(curve)) = (&mut arrival.bent, &self.curve) {
-            *rest = curve.rest.at_end();
+    /// The values after some times of the step, and at its end, after all of its duration.
+    pub(super) fn arrivals(&mut self, times: &[Interval], duration: Interval) -> Option<(Vec<Arrival>, Arrival)> {
+        if let Some(end) = self.end.take() {
+            return Some((self.at_all(times), end));
         }
-        for (state, end) in arrival.over.iter_mut().zip(self.end.iter().flatten()) {
+        let all: Vec<Interval> = times.iter().copied().chain([duration]).collect();
+        let mut arrivals = self.at_all(&all);
+        let mut end = arrivals.pop()?;
+        for (state, met) in end.over.iter_mut().zip(self.met.iter().flatten()) {
             // Both enclose the same values, so that they meet.
-            *state = state.intersection(*end).unwrap_or(*state);
+            *state = state.intersection(*met).unwrap_or(*state);
         }
-        arrival
+        Some((arrivals, end))
     }
 
-    fn arrival(&self, (state, mut units, mut by_push): Values, time: Interval) -> Arrival {
+    fn arrival(&self, values: Values, time: Interval) -> Arrival {
+        let Values { state, by_start: mut units, mut by_push, bends } = values;
         // By the mean value theorem: the end from a middle, and what a start about it adds.
         let at = self.at_about.map(|about| {
             core::array::from_fn(|k| {
@@ -399,7 +450,8 @@ impl Step {
             lagged: self.lagged,
             stiff: self.stiff,
             by_push,
-            bent: self.curve.as_ref().map(|curve| (curve.at(&powers(time, BEND_ORDER)), curve.rest.after(time))),
+            bends,
+            rest: self.rest.as_ref().map_or([Interval::ZERO; 3], |rest| rest.after(time)),
         }
     }
 }
@@ -424,17 +476,16 @@ impl Arrival {
 
     /// How slopes bend at the end.
     pub(super) fn carry_bends(&self, bends: &[[Balls; 3]]) -> Vec<[Balls; 3]> {
-        let carried = bends.iter().map(|bend| self.carry(bend));
-        match &self.bent {
-            Some((bent, _)) => carried.zip(bent).map(|(a, b)| core::array::from_fn(|k| a[k] + b[k])).collect(),
-            None => carried.collect(),
+        let mut carried: Vec<_> = bends.iter().map(|bend| self.carry(bend)).collect();
+        for (carried, own) in carried.iter_mut().zip(&self.bends) {
+            *carried = core::array::from_fn(|k| carried[k] + own[k]);
         }
+        carried
     }
 
     /// What is of the third order at the end.
     pub(super) fn carry_rest(&self, rest: &Triple) -> Triple {
         let carried = self.carry(&rest.map(Balls::splat));
-        let added = self.bent.as_ref().map_or([Interval::ZERO; 3], |(_, rest)| *rest);
-        core::array::from_fn(|k| carried[k].interval_at(0) + added[k])
+        core::array::from_fn(|k| carried[k].interval_at(0) + self.rest[k])
     }
 }

@@ -28,6 +28,7 @@ const LOOSER: f64 = 10.0;
 /// Steps in closed form: over a box, where longer ones leave more in doubt of slopes, and of a point.
 const CLOSED: Manner = Manner { length: 0.4, degree: None };
 const CLOSED_POINT: Manner = Manner { length: 2.0, degree: None };
+const CLOSED_BENT: Manner = Manner { length: 1.2, degree: None };
 /// Length against the fastest rate of a step by the rates' ranges.
 const CRUDE: f64 = 0.1;
 /// A step is made anew where it may be no longer than this share of itself.
@@ -131,10 +132,11 @@ fn stride(
     pace: Pace,
     carried: &Carried<'_>,
 ) -> Option<Option<Box<Step>>> {
-    let manner = match (fields.closed(carried), carried.of_point()) {
-        (true, true) => CLOSED_POINT,
-        (true, false) => CLOSED,
-        (false, _) => pace.manner,
+    let manner = match (fields.closed(), carried.of_point(), carried.pairs) {
+        (true, true, _) => CLOSED_POINT,
+        (true, false, None) => CLOSED,
+        (true, false, Some(_)) => CLOSED_BENT,
+        (false, ..) => pace.manner,
     };
     let (field, length) = (&fields.over, manner.length);
     // All states, the point's among them: it need not be in the box.
@@ -315,7 +317,7 @@ impl Way<'_> {
                 let (crude, at, passed) = self.crude(u, u_at, &mut part)?;
                 (step, at_end) = (Some(crude), Some((at, passed)));
             }
-            let step = step?;
+            let mut step = step?;
             self.drive.steps.set(self.drive.steps.get() + 1);
             self.speed = self.speed.max(step.within[VELOCITY].magnitude());
             let last = part == left;
@@ -323,9 +325,8 @@ impl Way<'_> {
                 ahead.iter().take_while(|(sample, _)| last || (*sample - gone).upper() <= part.upper()).count();
             let (within, beyond) = ahead.split_at(reached);
             let heard = within.iter().filter(|(_, heard)| *heard);
-            let times: Vec<Interval> = heard.map(|(sample, _)| *sample - gone).chain([part]).collect();
-            let mut arrivals = step.at_all(&times);
-            let arrival = step.ended(arrivals.pop()?);
+            let times: Vec<Interval> = heard.map(|(sample, _)| *sample - gone).collect();
+            let (arrivals, arrival) = step.arrivals(&times, part)?;
             for (arrival, time) in arrivals.iter().zip(&times) {
                 let columns = self.carried(arrival);
                 let at = arrival.at.or(at_end.map(|(at, passed)| if *time == part { at } else { passed }))?;

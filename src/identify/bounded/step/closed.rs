@@ -5,6 +5,7 @@
 //! `(ln D - b t/2)/c`. All of it is entire in z, and regular in c: as series no case is told from another. Only the way's slope by c is
 //! divided by it, at the price of digits where it is small.
 
+use super::super::bend::{Carried, Seat, gathered};
 use super::super::field::{FORCE, Field, POSITION, Term, Triple, VELOCITY};
 use super::super::mix::Bundle;
 use super::Values;
@@ -30,6 +31,14 @@ const _: () = assert!((1.0 - MOST_SQUARE) * AREA_LEFT > 1.0);
 /// Of position and velocity.
 type Two = [Balls; 2];
 
+/// What motions change by: a, b, c and the velocity at the start.
+const A: usize = 0;
+const B: usize = 1;
+const C: usize = 2;
+const V: usize = 3;
+/// All pairs of these.
+const PAIRS: [[usize; 2]; 10] = [[A, A], [A, B], [A, C], [A, V], [B, B], [B, C], [B, V], [C, C], [C, V], [V, V]];
+
 /// A point's equation, and where it starts from, the same in every place.
 #[derive(Clone, Debug)]
 pub(super) struct Closed {
@@ -42,6 +51,8 @@ pub(super) struct Closed {
     force: Balls,
     /// By how much the unknowns of each bundle move a, b and c; `None` for not at all.
     moved: Vec<Option<[Balls; 3]>>,
+    /// By how much each bundle of pairs of unknowns moves the products of these, and of the velocity at the start.
+    bent: Vec<[Balls; PAIRS.len()]>,
     quadratic: bool,
 }
 
@@ -49,9 +60,10 @@ pub(super) struct Closed {
 struct Instants {
     /// From the middle of the start.
     state: Two,
-    /// What the state changes by: by the velocity at the start; and by a, b and c.
-    by_velocity: Two,
-    by: [Two; 3],
+    /// What the state changes by: by a, b, c and the velocity at the start.
+    by: [Two; 4],
+    /// What these change by, by pairs; where they are asked for.
+    second: Option<[Two; PAIRS.len()]>,
 }
 
 /// `1 + w/d(1) (1 + w/d(2) (1 + ...))` for denominators that grow beyond twice w.
@@ -88,6 +100,20 @@ fn area(w: Balls) -> Balls {
     (0..AREA_TERMS).rev().fold(left_out, |sum, k| Balls::ONE.share(2 * k + 1) + square * sum)
 }
 
+/// By how much each of four unknowns moves a, b, c and the velocity.
+fn side(all: &[[Balls; 4]], seats: [Seat; Balls::COUNT]) -> [Balls; 4] {
+    core::array::from_fn(|k| gathered(all, seats, |own| &own[k]))
+}
+
+/// What four pairs of unknowns move of each of the [`PAIRS`].
+fn products([one, other]: [[Balls; 4]; 2]) -> [Balls; PAIRS.len()] {
+    PAIRS.map(
+        |[p, q]| {
+            if p == q { one[p] * other[p] } else { Balls::dot([(one[p], other[q]), (one[q], other[p])].into_iter()) }
+        },
+    )
+}
+
 impl Closed {
     /// Whether an equation has a closed form while the velocity has one sign.
     pub(super) fn exists(field: &Field) -> bool {
@@ -96,7 +122,7 @@ impl Closed {
     }
 
     /// Of a point's equation, from a start and the middle of it; velocities are all `backwards`, or none is.
-    pub(super) fn of(field: &Field, start: [&Triple; 2], u: Interval, backwards: bool, bundles: &[Bundle]) -> Self {
+    pub(super) fn of(field: &Field, start: [&Triple; 2], u: Interval, backwards: bool, carried: &Carried<'_>) -> Self {
         let [middle, start] = start;
         let along = Interval::point(if backwards { -1.0 } else { 1.0 });
         let quadratic = if field.has(Term::Quadratic) { field.term(Term::Quadratic) } else { Interval::ZERO };
@@ -116,6 +142,15 @@ impl Closed {
                 by(&|term| if term == Term::Quadratic { along } else { Interval::ZERO }),
             ]
         };
+        let moved: Vec<_> = carried.bundles.iter().map(|bundle| bundle.pushes().then(|| moved(bundle))).collect();
+        let bent = carried.pairs.map_or_else(Vec::new, |pairs| {
+            let all = moved.iter().zip(carried.columns).map(|(moved, column)| {
+                let [a, b, c] = moved.unwrap_or([Balls::ZERO; 3]);
+                [a, b, c, column[VELOCITY]]
+            });
+            let all: Vec<[Balls; 4]> = all.collect();
+            pairs.sides.iter().map(|sides| products(sides.map(|seats| side(&all, seats)))).collect()
+        });
         Self {
             a: Balls::splat(field.term(Term::Gain) * u + field.term(Term::Disturbance)),
             b: Balls::splat(field.term(Term::Linear) - field.twice_middle() * quadratic),
@@ -123,7 +158,8 @@ impl Closed {
             middle: [POSITION, VELOCITY].map(|k| Balls::splat(middle[k])),
             start: Balls::splat(start[VELOCITY]),
             force: Balls::splat(middle[FORCE]),
-            moved: bundles.iter().map(|bundle| bundle.pushes().then(|| moved(bundle))).collect(),
+            moved,
+            bent,
             quadratic: field.has(Term::Quadratic),
         }
     }
@@ -176,32 +212,108 @@ impl Closed {
         let (n, d, n_by, d_by) = from(start);
         let over_d = d.reciprocal();
         let now = n * over_d;
-        let velocity = |n: Balls, d: Balls| (n - now * d) * over_d;
-        let by_velocity = [sine * over_d, over_d * over_d];
-        let by_a = [d_by * over_d, velocity(sine + c * n_by, c * d_by)];
         let half_sine = sine.share(2);
-        let by_b = [-(n_by * over_d), velocity(half_b * n_by - half_sine * start, half_sine + half_b * d_by)];
-        let mut by_c = [Balls::ZERO, velocity(a * n_by, start * sine + a * d_by)];
+        let n_by_all = [sine + c * n_by, half_b * n_by - half_sine * start, a * n_by];
+        let d_by_all = [c * d_by, half_sine + half_b * d_by, start * sine + a * d_by, c * sine];
+        let velocity = |k: usize| (n_by_all[k] - now * d_by_all[k]) * over_d;
+        let by_start = [sine * over_d, over_d * over_d];
+        let by_a = [d_by * over_d, velocity(A)];
+        let mut by_c = [Balls::ZERO, velocity(C)];
         if self.quadratic {
             // The way times c is a function of b, a c and c v0 alone.
-            let way = way + by_velocity[0] * (start - v);
-            by_c[0] = (a * by_a[0] + start * by_velocity[0] - way) * c.reciprocal();
+            let way = way + by_start[0] * (start - v);
+            by_c[0] = (a * by_a[0] + start * by_start[0] - way) * c.reciprocal();
         }
-        Instants { state, by_velocity, by: [by_a, by_b, by_c] }
+        let by = [by_a, [-(n_by * over_d), velocity(B)], by_c, by_start];
+        let second = (!self.bent.is_empty()).then(|| {
+            let sine_twice = t * (square * square * nested(z, |k| 2 * k * (2 * k + 5))).share(60);
+            let cosines = [cosine_by, (t * sine_by).share(2)];
+            self.second([now, over_d], &by, &d_by_all, cosines, [sine, sine_by, sine_twice])
+        });
+        Instants { state, by, second }
+    }
+
+    /// What slopes change by, from a velocity and one over its denominator, and what that changes by; with C and S by z.
+    fn second(
+        &self,
+        [now, over_d]: Two,
+        by: &[Two; 4],
+        d_by: &[Balls; 4],
+        [cosine_by, cosine_twice]: [Balls; 2],
+        [sine, sine_by, sine_twice]: [Balls; 3],
+    ) -> [Two; PAIRS.len()] {
+        let Self { a, b, c, start: v, .. } = *self;
+        let half_b = b.share(2);
+        let (alpha, beta) = (a - half_b * v, half_b + c * v);
+        let zs = [c, half_b, a, Balls::ZERO];
+        let alphas = [Balls::ONE, -v.share(2), Balls::ZERO, -half_b];
+        let betas = [Balls::ZERO, Balls::ONE.share(2), v, c];
+        // What numerator and denominator change by with z, and what that changes by.
+        let [n_z, d_z] = [v * cosine_by + alpha * sine_by, cosine_by + beta * sine_by];
+        let [n_zz, d_zz] = [v * cosine_twice + alpha * sine_twice, cosine_twice + beta * sine_twice];
+        let sine_of = zs.map(|z| z * sine_by);
+        let mut n_z_of: [Balls; 4] = core::array::from_fn(|k| zs[k] * n_zz + alphas[k] * sine_by);
+        n_z_of[V] = n_z_of[V] + cosine_by;
+        let d_z_of: [Balls; 4] = core::array::from_fn(|k| zs[k] * d_zz + betas[k] * sine_by);
+        let mut second = PAIRS.map(|[p, q]| {
+            let mut n = alphas[q] * sine_of[p] + zs[q] * n_z_of[p];
+            let mut d = betas[q] * sine_of[p] + zs[q] * d_z_of[p];
+            match [p, q] {
+                [A, C] => (n, d) = (n + n_z, d + d_z),
+                [B, B] => (n, d) = (n + n_z.share(2), d + d_z.share(2)),
+                [B, V] => n = n - sine.share(2),
+                [C, V] => d = d + sine,
+                _ => {}
+            }
+            if q == V {
+                n = n + zs[p] * cosine_by;
+            }
+            let velocity = n - Balls::dot([(by[p][1], d_by[q]), (by[q][1], d_by[p]), (now, d)].into_iter());
+            let way = match [p, q] {
+                [A, _] => d_z_of[q] - by[A][0] * d_by[q],
+                [_, V] => sine_of[p] - by[V][0] * d_by[p],
+                [B, _] => -n_z_of[q] - by[B][0] * d_by[q],
+                _ => Balls::ZERO,
+            };
+            [way * over_d, velocity * over_d]
+        });
+        if self.quadratic {
+            let [[a_c, _], [c_v, _]] = [second[2], second[8]];
+            second[7][0] = (a * a_c + v * c_v - by[C][0] - by[C][0]) * c.reciprocal();
+        }
+        second
+    }
+
+    /// Without what bends.
+    pub(super) fn straighten(&mut self) {
+        self.bent.clear();
     }
 
     /// One of four.
     fn place(&self, instants: &Instants, place: usize) -> Values {
-        let Instants { state: [x, v], by_velocity: [way, left], by } = instants;
+        let Instants { state: [x, v], by, second } = instants;
+        let [.., [way, left]] = by;
         let (zero, one) = ((&Balls::ZERO, 0), (&Balls::ONE, 0));
         let by_start = [[one, (way, place), zero, zero], [zero, (left, place), zero, zero], [zero, zero, one, zero]];
-        let [by_a, by_b, by_c] = by.each_ref().map(|by| by.each_ref().map(|by| by.spread(place)));
+        let [by_a, by_b, by_c, _] = by.each_ref().map(|by| by.each_ref().map(|by| by.spread(place)));
         let by_push = self.moved.iter().map(|moved| {
             let Some([a, b, c]) = *moved else { return [Balls::ZERO; 3] };
             let of = |k: usize| Balls::dot([(a, by_a[k]), (b, by_b[k]), (c, by_c[k])].into_iter());
             [of(POSITION), of(VELOCITY), Balls::ZERO]
         });
-        let state = [x.spread(place), v.spread(place), self.force];
-        (state, by_start.map(Balls::gather), by_push.collect())
+        let bends = second.as_ref().map_or_else(Vec::new, |second| {
+            let second = second.each_ref().map(|by| by.each_ref().map(|by| by.spread(place)));
+            let bend = |bent: &[Balls; PAIRS.len()]| {
+                let of = |k: usize| Balls::dot(bent.iter().copied().zip(second.iter().map(|by| by[k])));
+                [of(POSITION), of(VELOCITY), Balls::ZERO]
+            };
+            self.bent.iter().map(bend).collect()
+        });
+        Values {
+            state: [x.spread(place), v.spread(place), self.force],
+            by_start: by_start.map(Balls::gather),
+            by_push: by_push.collect(),
+            bends,
+        }
     }
 }

@@ -212,7 +212,7 @@ fn a_point_may_be_outside_of_the_box_and_without_the_doubt_the_box_is_missed() {
 }
 
 /// The same step to the second order, by gain, drag and the velocity at its start; and what each can be off the centre.
-fn bent_step(share: f64, h_s: f64) -> (Box<Step>, Vec<Bundle>, Pairs) {
+fn bent_step(share: f64, h_s: f64, manner: Manner) -> (Box<Step>, Vec<Bundle>, Pairs) {
     let [gain, quadratic, v] = CENTRE;
     let fields = Fields {
         over: field(about(gain, share), about(quadratic, share)),
@@ -227,15 +227,21 @@ fn bent_step(share: f64, h_s: f64) -> (Box<Step>, Vec<Bundle>, Pairs) {
     let bends = vec![[Balls::ZERO; 3]; pairs.count()];
     let carried =
         Carried { bundles: &bundles, columns: &columns, pairs: Some(&pairs), bends: &bends, rest: [Interval::ZERO; 3] };
-    let step = fields.smooth(&start, Interval::point(U), Interval::point(h_s), FINE, &carried).expect("a step");
-    assert!(step.curve.is_some());
+    let step = fields.smooth(&start, Interval::point(U), Interval::point(h_s), manner, &carried).expect("a step");
+    assert!(step.bends());
     (step, bundles, pairs)
 }
 
 #[test]
 fn the_second_derivative_by_the_velocity_at_the_start_is_within_what_bends() {
+    for manner in [FINE, CLOSED] {
+        second_by_velocity(manner);
+    }
+}
+
+fn second_by_velocity(manner: Manner) {
     let short_s = 0.1;
-    let (step, _, pairs) = bent_step(0.0, short_s);
+    let (step, _, pairs) = bent_step(0.0, short_s, manner);
     let [gain, quadratic, v] = CENTRE;
     let square = gain * U / quadratic;
     for part in [5, 10, 20] {
@@ -254,9 +260,9 @@ fn the_second_derivative_by_the_velocity_at_the_start_is_within_what_bends() {
 }
 
 /// How often corners of a box are missed by the second order and its rest; without the first of them; without the second.
-fn missed_by_bends(share: f64) -> [usize; 3] {
+fn missed_by_bends(share: f64, manner: Manner) -> [usize; 3] {
     let short_s = 0.2;
-    let (step, bundles, pairs) = bent_step(share, short_s);
+    let (step, bundles, pairs) = bent_step(share, short_s, manner);
     let mut missed = [0; 3];
     for part in [5, 10, 20] {
         let t = short_s * f64::from(part) / 20.0;
@@ -289,12 +295,14 @@ fn missed_by_bends(share: f64) -> [usize; 3] {
 
 #[test]
 fn motions_of_a_box_are_within_the_second_order_and_its_rest_and_without_either_they_are_not() {
-    let [whole, straight, _] = missed_by_bends(0.01);
-    assert_eq!(whole, 0);
-    assert!(straight > 12, "without the second order {straight} of 48 were missed");
-    let [whole, _, restless] = missed_by_bends(0.2);
-    assert_eq!(whole, 0);
-    assert!(restless > 12, "without the rest {restless} of 48 were missed");
+    for manner in [FINE, CLOSED] {
+        let [whole, straight, _] = missed_by_bends(0.01, manner);
+        assert_eq!(whole, 0);
+        assert!(straight > 12, "without the second order {straight} of 48 were missed by {manner:?}");
+        let [whole, _, restless] = missed_by_bends(0.2, manner);
+        assert_eq!(whole, 0);
+        assert!(restless > 12, "without the rest {restless} of 48 were missed by {manner:?}");
+    }
 }
 
 /// Whether what is enclosed holds an exponential that starts between 1 and 1.1, at the end of a step and in its middle.

@@ -1,59 +1,57 @@
-use super::super::NONE;
 use super::*;
 use crate::numeric::Real;
 
-const STEP_S: f64 = 0.8;
+const PART_S: f64 = 0.4;
 
 fn point(value: f64) -> Interval {
     Interval::point(value)
 }
 
-/// A step in two parts, and what `t (part - t)` is on it: nothing at both ends of the first.
-fn arch() -> (Course, [Short; 3]) {
-    let part = STEP_S / PARTS as f64;
-    let mut path = [NONE; 3];
-    path[VELOCITY][1] = Balls::splat(point(part));
-    path[VELOCITY][2] = Balls::splat(point(-1.0));
-    let ends = core::array::from_fn(|end| {
-        let all = powers(point(part * (end + 1) as f64), BEND_ORDER);
-        (core::array::from_fn(|k| all[k]), [Balls::ZERO; 3])
-    });
-    (Course { part_s: point(part), ends, components: 2 }, path)
+/// What `t (part - t)` is at most in the first part, of whose ends both are nothing, where it bends by so much.
+fn arch(bent: f64) -> f64 {
+    let mut sums = [[Sizes::ZERO; 2]; 2];
+    let bent = [Sizes::ZERO, Sizes::splat(point(bent))];
+    add_largest(&mut sums, Sizes::splat(point(2.0)), [[Balls::ZERO; 2]; 3].into_iter(), point(PART_S), bent);
+    0.5 * sums[0][1].interval().upper()
 }
 
 #[test]
 fn what_bends_between_the_ends_of_a_part_is_counted_and_by_the_ends_alone_it_is_missed() {
-    let (course, path) = arch();
-    let part = STEP_S / PARTS as f64;
-    let bent = [Sizes::ZERO, Sizes::splat(Interval::ONE), Sizes::ZERO];
-    let [own, none] = [bent, [Sizes::ZERO; 3]].map(|bent| {
-        let mut sums = [[Sizes::ZERO; 3]; PARTS];
-        course.add_largest(&mut sums, Sizes::splat(Interval::ONE), &course.along(&path), bent);
-        sums[0][VELOCITY].interval().upper()
-    });
-    let top = 0.25 * part * part;
+    let (top, own) = (0.25 * PART_S * PART_S, arch(1.0));
     assert!(own >= top && own < 1.0001 * top, "{own} for {top}");
-    assert!(none < top, "without what bends {none} for {top}");
+    assert!(arch(0.0) < top);
 }
 
 #[test]
-fn states_are_carried_to_the_end_of_each_part() {
-    let (mut course, path) = arch();
-    // Every component of a start becomes half of itself.
-    for (end, (_, carried)) in course.ends.iter_mut().enumerate() {
-        for (component, value) in carried.iter_mut().enumerate() {
-            let mut own = [0.0; 4];
-            own[component] = 0.5f64.powi(end as i32 + 1);
-            *value = Balls::points(own);
+fn parts_are_as_many_as_the_fastest_rate_asks_for_and_end_with_the_step() {
+    let h_s = 0.9;
+    for (fastest, count) in [(0.0, 1), (0.2, 1), (1.0, 4), (2.0, 7), (1e3, 16), (f64::INFINITY, 16)] {
+        let ends = parts(point(h_s), fastest);
+        assert_eq!(ends.len(), count, "{fastest}");
+        for (part, end) in ends.iter().enumerate() {
+            let exact = h_s * (part + 1) as f64 / count as f64;
+            assert!(end.inflate(1e-15).contains(exact) && end.width() < 1e-15, "{end:?} for {exact}");
         }
     }
-    let start = [Balls::ZERO, Balls::splat(point(3.0)), Balls::ZERO];
-    let ends = course.carried(&start, &path);
-    let part = STEP_S / PARTS as f64;
-    for (end, kept) in [1.0, 0.5, 0.25].into_iter().enumerate() {
-        let t = part * end as f64;
-        let exact = 3.0 * kept + t * (part - t);
-        assert!(ends[end][VELOCITY].interval_at(2).inflate(1e-14).contains(exact), "{:?}", ends[end][VELOCITY]);
+}
+
+#[test]
+fn states_are_as_large_as_at_the_ends_of_each_part() {
+    let state = |v: f64| [Balls::ZERO, Balls::points([0.0, 0.0, v, 0.0]), Balls::ZERO];
+    for values in [[3.0, 1.0, 2.0], [-1.0, 4.0, -2.0], [0.5, -1.0, 2.0]] {
+        let mut sums = [[Sizes::ZERO; 3]; 2];
+        add_largest(
+            &mut sums,
+            Sizes::splat(Interval::ONE),
+            values.map(state).into_iter(),
+            point(0.4),
+            [Sizes::ZERO; 3],
+        );
+        for (sum, around) in sums.iter().zip(values.windows(2)) {
+            let largest = around.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+            let size = sum[VELOCITY].spread(2).interval().upper();
+            assert!(size >= largest && size < largest + 1e-12, "{size} for {largest}");
+        }
     }
 }
 
@@ -75,7 +73,7 @@ fn growth_is_no_less_than_the_exponential_s_and_without_the_square_it_is() {
 #[test]
 fn a_rest_counts_what_is_left_by_the_end_of_the_part_in_which_it_is_asked_for() {
     let size = |size: f64| [Interval::symmetric(size); 3];
-    let rest = Rest { until: [(0.4, size(1.0)), (0.8, size(2.0))], at_end: size(1.5) };
+    let rest = Rest { until: vec![(0.4, size(1.0)), (0.8, size(2.0))], at_end: size(1.5) };
     for (time_s, exact) in [(0.1, 1.0), (0.4, 1.0), (0.41, 2.0), (0.8, 2.0), (0.9, 2.0)] {
         assert_eq!(rest.after(point(time_s))[VELOCITY].upper(), exact, "after {time_s} s");
     }

@@ -56,7 +56,13 @@ impl Case {
         let state = |v: Interval| [Interval::ZERO, v, Interval::ZERO];
         let start = [0.0, off].map(|off| state(Interval::point(self.v).inflate(off)));
         let bundles = Bundle::of(&by, &[Interval::ZERO; 3]);
-        Closed::of(&field, [&start[0], &start[1]], Interval::ZERO, c < 0.0, &bundles)
+        Closed::of(
+            &field,
+            [&start[0], &start[1]],
+            Interval::ZERO,
+            c < 0.0,
+            &Carried { bundles: &bundles, ..Carried::NOTHING },
+        )
     }
 
     /// The same as [`Self::passed`]; `None` where the series do not suffice.
@@ -67,7 +73,7 @@ impl Case {
         }
         // More than four, of which it is not the first.
         let times = [0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 0.5].map(|share| Interval::point(share * self.t));
-        let (state, by_start, by_push) = closed.values(&times).swap_remove(5);
+        let Values { state, by_start, by_push, .. } = closed.values(&times).swap_remove(5);
         let own = |balls: [Balls; 3], place: usize| [balls[0].interval_at(place), balls[1].interval_at(place)];
         let backwards = self.coefficients[2] < 0.0;
         let by_c = own(by_push[0], 2).map(|slope| if backwards { -slope } else { slope });

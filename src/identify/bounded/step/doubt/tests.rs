@@ -17,7 +17,7 @@ fn point(value: f64) -> Interval {
 /// By a series, and in closed form.
 fn manners(ray: &Ray) -> impl Iterator<Item = Manner> {
     let (fields, _) = ray.over(Interval::ZERO);
-    let closed = fields.closed(&Carried::NOTHING).then_some(Manner { degree: None, ..MANNER });
+    let closed = fields.closed().then_some(Manner { degree: None, ..MANNER });
     core::iter::once(MANNER).chain(closed)
 }
 
