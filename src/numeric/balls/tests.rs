@@ -115,11 +115,10 @@ fn reciprocals_hold_the_exact_ones_and_are_all_numbers_where_zero_may_be() {
         for (place, [middle, radius]) in all.into_iter().enumerate() {
             let own = balls.interval_at(place);
             for end in [middle - radius, middle + radius] {
-                // One over an end is where its product with the end is one, exactly.
-                let [low, high] =
-                    [own.lower(), own.upper()].map(|value| Interval::point(value) * Interval::point(end as f64));
-                let (low, high) = if end > 0 { (low, high) } else { (high, low) };
-                assert!(low.lower() <= 1.0 && high.upper() >= 1.0, "1/{end} outside {own:?}");
+                // One over an end is where its product with the end is one; the sign of what that is off is exact.
+                let off = [own.lower(), own.upper()].map(|value| libm::fma(value, end as f64, -1.0));
+                let [less, more] = if end > 0 { off } else { [off[1], off[0]] };
+                assert!(less <= 0.0 && more >= 0.0, "1/{end} outside {own:?}");
                 let rounded = 1.0 / middle as f64;
                 missed += usize::from(radius == 0 && libm::fma(rounded, middle as f64, -1.0) != 0.0);
             }

@@ -1,6 +1,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+use super::super::super::bend::Pairs;
 use super::super::super::field::TERMS;
 use super::super::super::mix::{By, Mix};
 use super::super::super::simulated::runge_kutta;
@@ -42,8 +43,61 @@ impl Case {
         core::array::from_fn(|k| [state[2 * k], state[2 * k + 1]])
     }
 
-    /// With a start that far off, of which the velocity's is the middle.
-    fn closed(&self, off: f64) -> Closed {
+    /// How these slopes bend by each other, by the same method: for position and velocity.
+    fn bent(&self) -> [[f64; 2]; PAIRS.len()] {
+        const STEPS: usize = 400;
+        const SLOPES: usize = 2;
+        const BENDS: usize = SLOPES + 8;
+        let [a, b, c] = self.coefficients;
+        let rate = |s: [f64; BENDS + 2 * PAIRS.len()]| {
+            let (v, mut rates) = (s[1], [0.0; BENDS + 2 * PAIRS.len()]);
+            let damping = -b - 2.0 * c * v;
+            // By a, b, c and the start: what pushes, and by how much the velocity changes that.
+            let (pushed, by_v) = ([1.0, -v, -v * v, 0.0], [0.0, -1.0, -2.0 * v, 0.0]);
+            (rates[0], rates[1]) = (v, a - b * v - c * v * v);
+            let slope = |p: usize| s[SLOPES + 2 * p + 1];
+            for p in 0..4 {
+                rates[SLOPES + 2 * p] = slope(p);
+                rates[SLOPES + 2 * p + 1] = damping * slope(p) + pushed[p];
+            }
+            for (pair, [p, q]) in PAIRS.into_iter().enumerate() {
+                let own = s[BENDS + 2 * pair + 1];
+                let bent = by_v[p] * slope(q) + by_v[q] * slope(p) - 2.0 * c * slope(p) * slope(q);
+                rates[BENDS + 2 * pair] = own;
+                rates[BENDS + 2 * pair + 1] = damping * own + bent;
+            }
+            rates
+        };
+        let mut state = [0.0; BENDS + 2 * PAIRS.len()];
+        (state[1], state[SLOPES + 7]) = (self.v, 1.0);
+        for _ in 0..STEPS {
+            state = runge_kutta(state, self.t / STEPS as f64, rate);
+        }
+        core::array::from_fn(|pair| [state[BENDS + 2 * pair], state[BENDS + 2 * pair + 1]])
+    }
+
+    /// The same by the closed form, of a start that is that far off.
+    fn bends(&self, off: f64) -> Option<[[Interval; 2]; PAIRS.len()]> {
+        let unknowns = [Term::Disturbance, Term::Linear, Term::Quadratic].map(By::Term);
+        let mixes: Vec<Mix> =
+            unknowns.into_iter().chain([By::Start(VELOCITY)]).map(|by| Mix::of([(by, 1.0)])).collect();
+        let closed = self.closed(off, &mixes);
+        let t = Interval::point(self.t);
+        if !closed.suffices(t, self.v.abs() + 1.5 * self.t) {
+            return None;
+        }
+        let Values { bends, .. } = closed.values(&[t]).pop().expect("one");
+        // Each with those before it and itself; the third is drag backwards.
+        let sign = |k: usize| if k == C && self.coefficients[2] < 0.0 { -1.0 } else { 1.0 };
+        Some(PAIRS.map(|[p, q]| {
+            let place = q * (q + 1) / 2 + p;
+            let sign = Interval::point(sign(p) * sign(q));
+            [POSITION, VELOCITY].map(|k| sign * bends[place / Balls::COUNT][k].interval_at(place % Balls::COUNT))
+        }))
+    }
+
+    /// With a start that far off, of which the velocity's is the middle, and what moves and bends it.
+    fn closed(&self, off: f64, mixes: &[Mix]) -> Closed {
         let [a, b, c] = self.coefficients;
         let (mut terms, mut active) = ([Interval::ZERO; TERMS], [false; TERMS]);
         for (term, value) in [(Term::Disturbance, a), (Term::Linear, b), (Term::Quadratic, c.abs())] {
@@ -52,22 +106,19 @@ impl Case {
         }
         let field = Field { terms, active, middle_speed: 0.0 };
         assert!(Closed::exists(&field));
-        let by = [Term::Disturbance, Term::Linear, Term::Quadratic].map(|term| Mix::of([(By::Term(term), 1.0)]));
         let state = |v: Interval| [Interval::ZERO, v, Interval::ZERO];
         let start = [0.0, off].map(|off| state(Interval::point(self.v).inflate(off)));
-        let bundles = Bundle::of(&by, &[Interval::ZERO; 3]);
-        Closed::of(
-            &field,
-            [&start[0], &start[1]],
-            Interval::ZERO,
-            c < 0.0,
-            &Carried { bundles: &bundles, ..Carried::NOTHING },
-        )
+        let deviations = vec![Interval::ZERO; mixes.len()];
+        let (bundles, pairs) = (Bundle::of(mixes, &deviations), Pairs::of(mixes, &deviations));
+        let columns: Vec<_> = bundles.iter().map(|bundle| bundle.start).collect();
+        let carried = Carried { bundles: &bundles, columns: &columns, pairs: Some(&pairs), ..Carried::NOTHING };
+        Closed::of(&field, [&start[0], &start[1]], Interval::ZERO, c < 0.0, &carried)
     }
 
     /// The same as [`Self::passed`]; `None` where the series do not suffice.
     fn at(&self, off: f64) -> Option<[[Interval; 2]; 5]> {
-        let (closed, t) = (self.closed(off), Interval::point(self.t));
+        let by = [Term::Disturbance, Term::Linear, Term::Quadratic].map(|term| Mix::of([(By::Term(term), 1.0)]));
+        let (closed, t) = (self.closed(off, &by), Interval::point(self.t));
         if !closed.suffices(t, self.v.abs() + 1.5 * self.t) {
             return None;
         }
@@ -111,6 +162,79 @@ fn state_and_slopes_are_those_of_the_motion_in_both_directions() {
         }
     }
     assert!(seen.iter().all(|seen| *seen > 300), "{seen:?} of 1500 were seen");
+}
+
+#[test]
+fn bends_are_those_of_the_motion_in_both_directions() {
+    let mut source = Pcg64Mcg::seed_from_u64(7);
+    let mut seen = [0; 2];
+    for _ in 0..1500 {
+        let case = Case::random(&mut source);
+        let [_, _, c] = case.coefficients;
+        // Still with one sign.
+        if !(case.passed()[0][1] * case.v > 0.0) {
+            continue;
+        }
+        let Some(bends) = case.bends(0.0) else { continue };
+        seen[usize::from(case.v < 0.0)] += 1;
+        for ((pair, own), exact) in PAIRS.into_iter().zip(bends).zip(case.bent()) {
+            for k in 0..2 {
+                assert!(near(own[k], exact[k]), "{case:?}: {pair:?}: {} outside {:?}", exact[k], own[k]);
+            }
+            // The way is divided by c once for each side by it.
+            let sides = pair.into_iter().filter(|side| *side == C).count() as i32;
+            let most = 2e-12 + 3e-13 / c.abs().powi(sides);
+            assert!(own.iter().all(|own| own.width() < most), "{case:?}: {pair:?} is {own:?}");
+        }
+    }
+    assert!(seen.iter().all(|seen| *seen > 300), "{seen:?} of 1500 were seen");
+}
+
+#[test]
+fn bends_are_those_from_all_of_the_start_and_from_its_middle_alone_they_are_not() {
+    let mut source = Pcg64Mcg::seed_from_u64(8);
+    let (off, mut missed) = (1e-4, 0);
+    for _ in 0..100 {
+        let case = Case::random(&mut source);
+        let Some((wide, thin)) = case.bends(off).zip(case.bends(0.0)) else { continue };
+        for v in [case.v - 0.99 * off, case.v + 0.99 * off] {
+            let other = Case { v, ..case };
+            if !(other.passed()[0][1] * case.v > 0.0 && v * case.v > 0.0) {
+                continue;
+            }
+            for ((wide, thin), exact) in wide.into_iter().zip(thin).zip(other.bent()) {
+                for k in 0..2 {
+                    assert!(near(wide[k], exact[k]), "{case:?}: {} outside {:?}", exact[k], wide[k]);
+                    missed += usize::from(!near(thin[k], exact[k]));
+                }
+            }
+        }
+    }
+    assert!(missed > 500, "from the middle alone {missed} were missed");
+}
+
+#[test]
+fn drag_about_a_middle_speed_is_the_same_motion_as_about_none() {
+    // The linear term is that at the middle speed: less by twice the quadratic one's times the speed.
+    let (a, linear, quadratic, middle_speed, v, t) = (0.9, 0.7, 0.8, 0.3, 0.4, 0.5);
+    let case = Case { coefficients: [a, linear - 2.0 * middle_speed * quadratic, quadratic], v, t };
+    let (mut terms, mut active) = ([Interval::ZERO; TERMS], [false; TERMS]);
+    for (term, value) in [(Term::Disturbance, a), (Term::Linear, linear), (Term::Quadratic, quadratic)] {
+        (terms[term as usize], active[term as usize]) = (Interval::point(value), true);
+    }
+    let field = Field { terms, active, middle_speed };
+    let start = [Interval::ZERO, Interval::point(v), Interval::ZERO];
+    let by = [Term::Linear, Term::Quadratic].map(|term| Mix::of([(By::Term(term), 1.0)]));
+    let bundles = Bundle::of(&by, &[Interval::ZERO; 2]);
+    let carried = Carried { bundles: &bundles, ..Carried::NOTHING };
+    let closed = Closed::of(&field, [&start, &start], Interval::ZERO, false, &carried);
+    let Values { state, by_push, .. } = closed.values(&[Interval::point(t)]).pop().expect("one");
+    let [exact, _, by_b, by_c, _] = case.passed();
+    for k in 0..2 {
+        let [of_linear, of_quadratic] = [0, 1].map(|place| by_push[0][k].interval_at(place));
+        assert!(near(state[k].interval_at(0), exact[k]), "{:?} for {}", state[k], exact[k]);
+        assert!(near(of_linear, by_b[k]) && near(of_quadratic, by_c[k] - 2.0 * middle_speed * by_b[k]), "{k}");
+    }
 }
 
 #[test]
