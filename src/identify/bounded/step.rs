@@ -72,7 +72,7 @@ pub(super) struct Step {
     /// What slopes are off, where they are the point's and do not bend.
     doubt: Option<Doubt>,
     /// The end, where that is known by itself.
-    end: Option<Arrival>,
+    end: Option<Box<Arrival>>,
     /// What is known of position and velocity there besides.
     met: Option<[Interval; 2]>,
 }
@@ -157,10 +157,12 @@ fn enclose(start: &Triple, h: Interval, rate: impl Fn(usize, &Triple) -> Interva
         if !next.iter().all(|value| value.is_bounded()) {
             return None;
         }
-        // Force moves velocity, velocity position: each needs more room than what moves it.
+        // Force moves velocity, velocity position: each that was left needs more room than what moves it.
         for ((guess, next), room) in guess.iter_mut().zip(next).zip([0.4, 0.15, 0.05]) {
-            let hull = guess.hull(next);
-            *guess = hull.inflate(room * hull.width() + f64::MIN_POSITIVE);
+            if !next.is_subset_of(*guess) {
+                let hull = guess.hull(next);
+                *guess = hull.inflate(room * hull.width() + f64::MIN_POSITIVE);
+            }
         }
     }
     None
@@ -187,6 +189,28 @@ pub(super) fn units() -> [Balls; 3] {
 }
 
 impl Field {
+    /// Values that no motion leaves within a duration of `h`.
+    fn passed(&self, start: &Triple, u: Interval, h: Interval) -> Option<Triple> {
+        let damped = self.passed_damped(start, u, h);
+        damped.or_else(|| enclose(start, h, |component, state| self.rate_of(component, state, u)))
+    }
+
+    /// The same at once where damping alone changes a velocity's rate: beyond an end of its start it goes no faster than there.
+    fn passed_damped(&self, start: &Triple, u: Interval, h: Interval) -> Option<Triple> {
+        if self.has(Term::Stiffness) || self.has(Term::LagRate) {
+            return None;
+        }
+        let [x, v, f] = *start;
+        let long = Interval::point(h.upper());
+        let rate = |end: f64| self.rate_of(VELOCITY, &[x, Interval::point(end), f], u);
+        let reached = |from: Interval, up: f64, down: f64| {
+            (from + long * Interval::point(up.max(0.0))).hull(from + long * Interval::point(down.min(0.0)))
+        };
+        let within = reached(v, rate(v.upper()).upper(), rate(v.lower()).lower());
+        let damped = within.is_bounded() && self.damping(within, within).upper() <= 0.0;
+        damped.then(|| [reached(x, within.upper(), within.lower()), within, f])
+    }
+
     /// The fastest rate of the equation's own.
     pub(super) fn fastest(&self, v: Interval) -> f64 {
         let lag = if self.has(Term::LagRate) { self.term(Term::LagRate).magnitude() } else { 0.0 };
@@ -209,7 +233,7 @@ impl Field {
 
     /// The motion alone where the velocity may change its sign, by the rates' ranges: its end, and what it passes.
     pub(super) fn pass_crude(&self, start: &Triple, u: Interval, h: Interval) -> Result<[Triple; 2], Refused> {
-        let within = enclose(start, h, |component, state| self.rate_of(component, state, u)).ok_or(HALF)?;
+        let within = self.passed(start, u, h).ok_or(HALF)?;
         let [start, rate] = [*start, self.rate(&within, u)].map(|state| state.map(Balls::splat));
         Ok([value(&line(&start, &rate), &powers(h, LINE)[..=LINE], true).map(|end| end.interval_at(0)), within])
     }
@@ -229,9 +253,9 @@ impl Fields {
         let (field, point) = (&self.over, &self.at);
         let Manner { length, degree } = manner;
         let longest = ROOM * length;
-        let within = enclose(&start.over, h, |component, state| field.rate_of(component, state, u)).ok_or(HALF)?;
+        let within = field.passed(&start.over, u, h).ok_or(HALF)?;
         let backwards = field.backwards(&within, h, longest)?;
-        let within_at = enclose(&start.at, h, |component, state| point.rate_of(component, state, u)).ok_or(HALF)?;
+        let within_at = point.passed(&start.at, u, h).ok_or(HALF)?;
         if point.backwards(&within_at, h, longest)? != backwards {
             return Err(Refused::Kink);
         }
@@ -272,7 +296,7 @@ impl Fields {
             let mut ends = step.at_all(&parts(h, fastest));
             step.rest = bent.and_then(|(pairs, ground, largest)| ground.rest(carried, pairs, &largest, &ends));
             if let Some(rest) = &step.rest {
-                step.end = ends.pop().map(|end| Arrival { rest: rest.at_end(), ..end });
+                step.end = ends.pop().map(|end| Box::new(Arrival { rest: rest.at_end(), ..end }));
                 return Ok(step);
             }
             if h.upper() * fastest > ROOM * UNBENT {
@@ -302,7 +326,7 @@ impl Fields {
         bundles: &[Bundle],
     ) -> Result<Box<Step>, Refused> {
         let field = &self.over;
-        let within = enclose(start, h, |component, state| field.rate_of(component, state, u)).ok_or(HALF)?;
+        let within = field.passed(start, u, h).ok_or(HALF)?;
         let half = Interval::point(0.5);
         // Of two motions under the same force the faster stays ahead: the ends' own rates bound all between them.
         let from = |end: f64| {
@@ -311,7 +335,8 @@ impl Fields {
                 VELOCITY => field.rate_of(VELOCITY, &[within[POSITION], state[VELOCITY], within[FORCE]], u),
                 _ => Interval::ZERO,
             };
-            Some(rate(VELOCITY, &enclose(&start, h, rate)?))
+            let passed = field.passed_damped(&start, u, h).or_else(|| enclose(&start, h, rate))?;
+            Some(rate(VELOCITY, &passed))
         };
         let v = start[VELOCITY];
         let mut met = None;
@@ -419,7 +444,7 @@ impl Step {
     /// The values after some times of the step, and at its end, after all of its duration.
     pub(super) fn arrivals(&mut self, times: &[Interval], duration: Interval) -> Option<(Vec<Arrival>, Arrival)> {
         if let Some(end) = self.end.take() {
-            return Some((self.at_all(times), end));
+            return Some((self.at_all(times), *end));
         }
         let all: Vec<Interval> = times.iter().copied().chain([duration]).collect();
         let mut arrivals = self.at_all(&all);
