@@ -3,7 +3,8 @@
 //! With s the difference of the motions of theta and of the point, and `s' = A(theta) s + sum z_j P_j` its equation, columns follow
 //! `J_j' = A J_j + P_j` with the point's own A. What `s` differs by from `sum z_j J_j` is `sum z_i z_j H_ij`, of squares the half, and
 //! a rest of the third order. `H_ij' = A H_ij + f_ij`, in which `f_ij` is what A changes by with one unknown times the column by the
-//! other. What slopes over a box leave in doubt adds up from switching to switching; H, of either sign, hardly does.
+//! other. What slopes over a box leave in doubt adds up from switching to switching; H, of either sign, hardly does. What drives the rest
+//! are H and the rest times what the damping changes by as a whole, terms and columns of either sign together.
 
 use super::field::{Term, Triple};
 use super::mix::{Bundle, Mix};

@@ -8,13 +8,15 @@ use super::bend::{BEND_ORDER, BENT, Carried, Curve, Ground, Rest, parts};
 use super::field::{FORCE, Field, POSITION, Term, Triple, VELOCITY};
 use super::mix::Bundle;
 use super::series::{Equations, NO_PATH, Path, line, powers, value};
-use crate::numeric::{Balls, Interval, Real};
+use crate::numeric::{Balls, Interval};
 
 use closed::Closed;
 use doubt::Doubt;
+use enclosure::enclose;
 
 mod closed;
 mod doubt;
+mod enclosure;
 #[cfg(test)]
 mod tests;
 
@@ -29,9 +31,6 @@ pub(super) struct Manner {
 
 /// What a step may be longer against the fastest rate on the way than was looked for.
 pub(super) const ROOM: f64 = 1.1;
-/// Attempts at an enclosure before the step is called too long.
-const ATTEMPTS: usize = 6;
-
 /// A step that is too long is made no shorter at once than this share.
 const LEAST_SHARE: f64 = 0.1;
 const HALF: Refused = Refused::TooLong(0.5);
@@ -130,44 +129,6 @@ pub(super) enum Refused {
     TooLong(f64),
 }
 
-/// Values that no solution leaves within a duration of `h`: beyond an end of its start a component goes no faster than it does
-/// between the two, whatever the others are.
-fn enclose(start: &Triple, h: Interval, rate: impl Fn(usize, &Triple) -> Interval) -> Option<Triple> {
-    let long = Interval::point(h.upper());
-    let reached = |guess: &Triple| -> Option<Triple> {
-        let mut next = *guess;
-        for component in [FORCE, VELOCITY, POSITION] {
-            let (own, side) = (start[component], guess[component]);
-            let mut fastest = |from: f64, to: f64| {
-                next[component] = Interval::new(from, to)?;
-                Some(rate(component, &next))
-            };
-            let up = fastest(own.upper(), side.upper())?.upper().max(0.0);
-            let down = fastest(side.lower(), own.lower())?.lower().min(0.0);
-            next[component] = (own + long * Interval::point(up)).hull(own + long * Interval::point(down));
-        }
-        Some(next)
-    };
-    let mut guess = reached(start)?;
-    for _ in 0..ATTEMPTS {
-        let next = reached(&guess)?;
-        if next.iter().zip(&guess).all(|(next, guess)| next.is_subset_of(*guess)) {
-            return Some(next);
-        }
-        if !next.iter().all(|value| value.is_bounded()) {
-            return None;
-        }
-        // Force moves velocity, velocity position: each that was left needs more room than what moves it.
-        for ((guess, next), room) in guess.iter_mut().zip(next).zip([0.4, 0.15, 0.05]) {
-            if !next.is_subset_of(*guess) {
-                let hull = guess.hull(next);
-                *guess = hull.inflate(room * hull.width() + f64::MIN_POSITIVE);
-            }
-        }
-    }
-    None
-}
-
 fn middle(state: &Triple) -> Triple {
     state.map(|value| Interval::point(value.midpoint()))
 }
@@ -189,28 +150,6 @@ pub(super) fn units() -> [Balls; 3] {
 }
 
 impl Field {
-    /// Values that no motion leaves within a duration of `h`.
-    fn passed(&self, start: &Triple, u: Interval, h: Interval) -> Option<Triple> {
-        let damped = self.passed_damped(start, u, h);
-        damped.or_else(|| enclose(start, h, |component, state| self.rate_of(component, state, u)))
-    }
-
-    /// The same at once where damping alone changes a velocity's rate: beyond an end of its start it goes no faster than there.
-    fn passed_damped(&self, start: &Triple, u: Interval, h: Interval) -> Option<Triple> {
-        if self.has(Term::Stiffness) || self.has(Term::LagRate) {
-            return None;
-        }
-        let [x, v, f] = *start;
-        let long = Interval::point(h.upper());
-        let rate = |end: f64| self.rate_of(VELOCITY, &[x, Interval::point(end), f], u);
-        let reached = |from: Interval, up: f64, down: f64| {
-            (from + long * Interval::point(up.max(0.0))).hull(from + long * Interval::point(down.min(0.0)))
-        };
-        let within = reached(v, rate(v.upper()).upper(), rate(v.lower()).lower());
-        let damped = within.is_bounded() && self.damping(within, within).upper() <= 0.0;
-        damped.then(|| [reached(x, within.upper(), within.lower()), within, f])
-    }
-
     /// The fastest rate of the equation's own.
     pub(super) fn fastest(&self, v: Interval) -> f64 {
         let lag = if self.has(Term::LagRate) { self.term(Term::LagRate).magnitude() } else { 0.0 };

@@ -3,7 +3,7 @@
 //! Then `v' = a - b v - c v^2`. With `z = b^2/4 + a c`, `C = cosh(sqrt(z) t)` and `S = sinh(sqrt(z) t)/sqrt(z)` the velocity from v0 is N/D
 //! for `N = v0 C + (a - b v0/2) S` and `D = C + (b/2 + c v0) S`; a change of v0 becomes `1/D^2` of itself, and the way is
 //! `(ln D - b t/2)/c`. All of it is entire in z, and regular in c: as series no case is told from another. Only the way's slope by c is
-//! divided by it, at the price of digits where it is small.
+//! divided by it, at the price of digits where it is small, and what that changes by, twice.
 
 use super::super::bend::{Carried, Seat, gathered};
 use super::super::field::{FORCE, Field, POSITION, Term, Triple, VELOCITY};
@@ -36,8 +36,11 @@ const A: usize = 0;
 const B: usize = 1;
 const C: usize = 2;
 const V: usize = 3;
-/// All pairs of these.
+/// All pairs of these, and where some are.
 const PAIRS: [[usize; 2]; 10] = [[A, A], [A, B], [A, C], [A, V], [B, B], [B, C], [B, V], [C, C], [C, V], [V, V]];
+const A_C: usize = 2;
+const C_C: usize = 7;
+const C_V: usize = 8;
 
 /// A point's equation, and where it starts from, the same in every place.
 #[derive(Clone, Debug)]
@@ -278,8 +281,8 @@ impl Closed {
             [way * over_d, velocity * over_d]
         });
         if self.quadratic {
-            let [[a_c, _], [c_v, _]] = [second[2], second[8]];
-            second[7][0] = (a * a_c + v * c_v - by[C][0] - by[C][0]) * c.reciprocal();
+            let [[a_c, _], [c_v, _]] = [second[A_C], second[C_V]];
+            second[C_C][0] = (a * a_c + v * c_v - by[C][0] - by[C][0]) * c.reciprocal();
         }
         second
     }
