@@ -4,7 +4,7 @@ use super::super::mix::{By, Mix};
 use super::super::series::ORDER;
 use super::super::simulated::runge_kutta;
 use super::*;
-use crate::numeric::Sizes;
+use crate::numeric::{Real, Sizes};
 
 const FINE: Manner = Manner { length: 1.4, degree: Some(ORDER) };
 const COARSE: Manner = Manner { degree: Some(6), ..FINE };
