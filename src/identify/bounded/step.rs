@@ -29,6 +29,16 @@ pub(super) struct Manner {
     pub(super) degree: Option<usize>,
 }
 
+impl Manner {
+    /// Whether its polynomials are of this degree at least; a closed form is of any.
+    pub(super) const fn reaches(self, least: usize) -> bool {
+        match self.degree {
+            Some(degree) => degree >= least,
+            None => true,
+        }
+    }
+}
+
 /// What a step may be longer against the fastest rate on the way than was looked for.
 pub(super) const ROOM: f64 = 1.1;
 /// A step that is too long is made no shorter at once than this share.

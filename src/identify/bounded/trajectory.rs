@@ -2,7 +2,7 @@
 
 use core::cell::Cell;
 
-use super::bend::{Carried, Pairs};
+use super::bend::{BEND_ORDER, Carried, Pairs};
 use super::command::Command;
 use super::field::{FORCE, Field, POSITION, TERMS, Term, Triple, VELOCITY};
 use super::mix::{Bundle, Mix};
@@ -23,6 +23,8 @@ const FINE: Manner = Manner { length: 0.12, degree: Some(ORDER) };
 const FIRST: Manner = Manner { length: 0.4, degree: Some(8) };
 /// Later steps to the second order, and of a point.
 const LONG: Manner = Manner { length: 0.5, degree: Some(ORDER) };
+// What bends is followed to a degree of its own, by the point's coefficients.
+const _: () = assert!(FIRST.reaches(BEND_ORDER) && LONG.reaches(BEND_ORDER));
 /// With slopes over a box a remainder may be so many times as large.
 const LOOSER: f64 = 10.0;
 /// Steps in closed form: over a box, where longer ones leave more in doubt of slopes, and of a point.

@@ -82,8 +82,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                         change(model);
                         model.reach = near;
                     });
-                    let apart = outcome.apart(&second).map_or("-".into(), |apart| format!("{:.2} %", 100.0 * apart));
-                    eprintln!("{} {seed}: {apart} of the width from those of the near start", kind.name);
+                    match outcome.apart(&second) {
+                        Some(apart) => eprintln!(
+                            "{} {seed}: {:.2} % of the width from those of the near start",
+                            kind.name,
+                            100.0 * apart
+                        ),
+                        None => eprintln!("{} {seed}: from the near start: {second}", kind.name),
+                    }
                 }
                 outcome
             })

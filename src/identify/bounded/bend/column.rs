@@ -18,8 +18,7 @@ pub(super) type Short<T> = [T; BEND_ORDER + 1];
 
 /// Numbers side by side, or what they are at most.
 pub(in super::super) trait Number: Copy + Add<Output = Self> + Mul<Output = Self> {
-    const NOTHING: Self;
-    const NONE: Short<Self> = [Self::NOTHING; BEND_ORDER + 1];
+    const NONE: Short<Self>;
 
     fn of(weight: Balls) -> Self;
     /// With the other sign, where it has one.
@@ -30,7 +29,7 @@ pub(in super::super) trait Number: Copy + Add<Output = Self> + Mul<Output = Self
 }
 
 impl Number for Balls {
-    const NOTHING: Self = Self::ZERO;
+    const NONE: Short<Self> = [Self::ZERO; BEND_ORDER + 1];
 
     #[inline]
     fn of(weight: Balls) -> Self {
@@ -51,7 +50,7 @@ impl Number for Balls {
 }
 
 impl Number for Sizes {
-    const NOTHING: Self = Self::ZERO;
+    const NONE: Short<Self> = [Self::ZERO; BEND_ORDER + 1];
 
     #[inline]
     fn of(weight: Balls) -> Self {

@@ -148,7 +148,7 @@ impl Ground<'_> {
         };
         let (mut added, mut all) = ([Interval::ZERO; 3], carried.rest.map(most));
         let (mut until, mut most_so_far) = (Vec::with_capacity(ends.len()), [0.0f64; 3]);
-        for part in self.parts(carried, pairs, largest, ends, h)? {
+        for part in self.driven(carried, pairs, largest, ends, h)? {
             let mut guess = all;
             let mut found = None;
             for _ in 0..ATTEMPTS {
@@ -176,7 +176,7 @@ impl Ground<'_> {
     }
 
     /// What moves in each part of the duration `part_s`, from what is carried to their ends.
-    fn parts(
+    fn driven(
         &self,
         carried: &Carried<'_>,
         pairs: &Pairs,

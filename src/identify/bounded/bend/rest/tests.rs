@@ -103,7 +103,7 @@ fn along(ray: &Ray, h_s: f64) -> (Vec<Part>, f64) {
     let ground = Ground::of(&field, states, (point(ray.command), false), (damping, h), BENT);
     let largest = ground.largest(&carried, &pairs, BENT).expect("bounds");
     let part_s = h / point(ends.len() as f64);
-    (ground.parts(&carried, &pairs, &largest, &ends, part_s).expect("parts"), part_s.midpoint())
+    (ground.driven(&carried, &pairs, &largest, &ends, part_s).expect("parts"), part_s.midpoint())
 }
 
 /// Velocities from the beginning of a part to its end.
