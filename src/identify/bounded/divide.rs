@@ -4,9 +4,10 @@ use std::collections::VecDeque;
 
 use super::field::Term;
 use super::search::{Empty, Left, Method, Search, UNBROKEN};
-use super::slanted::Slanted;
+use super::slanted::{Slant, Slanted};
 use crate::numeric::Interval;
 
+mod further;
 #[cfg(test)]
 mod tests;
 
@@ -78,6 +79,10 @@ pub(super) struct Division {
 }
 
 impl Division {
+    fn new() -> Self {
+        Self { empties: VecDeque::new(), kept: Vec::new(), followed: true }
+    }
+
     /// Notes a box in which nothing is; one that only its readings' speeds exclude shows no motion.
     fn exclude(&mut self, empty: Empty) {
         if empty.method == Method::Weigh || empty.linear.is_none() {
@@ -141,7 +146,7 @@ impl Search<'_> {
 
     /// Everything in `at`, divided until the motion can be followed over each part that is left.
     pub(super) fn search(&mut self, at: Vec<Interval>, budget: usize) -> Division {
-        let mut division = Division { empties: VecDeque::new(), kept: Vec::new(), followed: true };
+        let mut division = Division::new();
         self.refine(&mut division, vec![at], budget);
         division
     }
@@ -286,10 +291,12 @@ impl Search<'_> {
     /// What whole records leave of a box in a frame along what they tell, where little is in doubt of them so; `slack` is of their windows.
     fn unbroken(&mut self, at: &[Interval], slack: f64) -> Result<Option<Kept>, Empty> {
         let (mut at, mut slanted) = (at.to_vec(), None);
-        if slack > NEARLY || self.slant(&mut at, &mut slanted, STRAIGHT)?.is_none() {
+        if slack > NEARLY {
             return Ok(None);
         }
-        Ok(self.slant(&mut at, &mut slanted, UNBROKEN)?.map(|left| Kept { at, left, slanted }))
+        let Slant::Contracted(_) = self.slant(&mut at, &mut slanted, STRAIGHT)? else { return Ok(None) };
+        let Slant::Contracted(left) = self.slant(&mut at, &mut slanted, UNBROKEN)? else { return Ok(None) };
+        Ok(Some(Kept { at, left, slanted }))
     }
 
     /// Works off a list of boxes.

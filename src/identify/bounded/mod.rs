@@ -138,20 +138,22 @@ fn explore(
     witness: impl FnOnce(&Search<'_>, Option<&Tried>),
 ) -> Result<Explored, IdentifyError> {
     let mut spent = 0;
-    let mut at = setup.search.clone();
+    let mut boxes: Vec<Vec<Interval>> = Vec::new();
     if let Some(beginnings) = setup.beginnings(settings, SEARCHED) {
         let mut search = Search::new(&beginnings);
         // Passes over part of the records cost so much less.
         let budget = settings.budget * setup.samples() / beginnings.samples();
         let division = search.search(beginnings.search.clone(), budget);
         spent = search.passes * beginnings.samples() / setup.samples();
-        // Where nothing is left of them, whole records show by how much they contradict the model.
-        if let Some(hull) = division.hull() {
-            at = setup.within(&hull).search;
-        }
+        boxes = division.kept.iter().map(|kept| setup.begun(&beginnings, &kept.at)).collect();
     }
     let mut search = Search::new(setup).after(spent);
-    let division = search.search(at, settings.budget);
+    let division = if boxes.is_empty() {
+        // Where nothing is left of the beginnings, whole records show by how much they contradict the model.
+        search.search(setup.search.clone(), settings.budget)
+    } else {
+        search.follow_further(boxes, &setup.reaches(SEARCHED.swings), settings.budget)
+    };
     let passes = search.passes;
     // A delay that is known better leaves more readings.
     if let (Some(hull), true) = (division.hull(), setup.layout.delay().is_some() && division.followed) {

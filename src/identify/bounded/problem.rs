@@ -115,6 +115,13 @@ impl Layout {
         self.parameters() + window * self.state_size() + component
     }
 
+    /// Parameters, and the state at every record's beginning.
+    pub(super) fn of_whole(&self) -> Vec<usize> {
+        let first = |record| self.windows.iter().position(|window| window.record == record);
+        let states = |window| (0..self.state_size()).map(move |component| self.start(window, component));
+        (0..self.parameters()).chain((0..self.records()).filter_map(first).flat_map(states)).collect()
+    }
+
     /// Samples of so many windows of each record, from its first on.
     pub(super) fn followed(&self, reach: usize) -> f64 {
         let of = |record| self.windows.iter().filter(move |window| window.record == record).take(reach);

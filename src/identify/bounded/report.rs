@@ -15,10 +15,10 @@ use crate::numeric::Interval;
 const SHARPENING: usize = 400;
 /// A box is as good as a point where what is in doubt takes less than this share of what the nearest parameter leaves of the readings'
 /// errors; and in any case where it takes less than the second of these errors.
-const FINE: f64 = 0.03;
+const FINE: f64 = 0.1;
 const LEAST_FINE: f64 = 3e-6;
 /// Boxes are halved until what is in doubt takes less than this of the readings' errors, before ends are drawn in; with so many passes.
-const COARSE: f64 = 0.03;
+const COARSE: f64 = 0.07;
 const EVENING: usize = 200;
 /// How often all ends are drawn in.
 const ROUNDS: usize = 6;

@@ -45,14 +45,6 @@ impl Model<'_> {
         spans
     }
 
-    /// Parameters, and the state at every record's beginning.
-    pub(super) fn of_whole(&self) -> Vec<usize> {
-        let starts = self.whole().into_iter();
-        let starts =
-            starts.flat_map(|span| (0..self.layout.state_size()).map(move |k| self.layout.start(span.from, k)));
-        (0..self.layout.parameters()).chain(starts).collect()
-    }
-
     /// Speeds from the readings, those at the windows' beginnings put into the box; then the hats. `None` where there is no motion.
     pub(super) fn weighed(&self, hats: &[Vec<Hat>], at: &mut [Interval]) -> Option<Linear> {
         let mut centre = vec![0.0; at.len()];

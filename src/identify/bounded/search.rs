@@ -8,7 +8,7 @@ use super::field::Term;
 use super::lp::Multipliers;
 use super::rows::{Parted, Starts};
 use super::setup::Setup;
-use super::slanted::Slanted;
+use super::slanted::{Slant, Slanted};
 use super::weak::hats;
 use crate::numeric::Interval;
 
@@ -17,6 +17,8 @@ mod tests;
 
 /// A pass that leaves more than this of every parameter's width did not help.
 const HELPED: f64 = 0.9;
+/// Nor is another worth it over a box that may be divided where one leaves more than this.
+const WORTH: f64 = 0.75;
 /// A box is too wide to follow the motion over while a parameter's range is worth more than this share of the command.
 const WIDE: f64 = 0.25;
 /// The gain is divided first until its ends are within this factor.
@@ -255,10 +257,10 @@ impl<'a> Search<'a> {
             let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
             let known = |own: &Option<Slanted>| own.as_ref().is_some_and(|own| own.surface.is_some());
             let was_known = known(own);
-            let slanted = if broken { None } else { self.slant(at, own, UNBROKEN)? };
+            let slanted = if broken { Slant::NoEnclosure } else { self.slant(at, own, UNBROKEN)? };
             // What was known of a larger box hides what a motion over this one tells; one before it is divided is less than two after.
             let stale = was_known && !known(own);
-            if let Some(followed) = slanted {
+            if let Slant::Contracted(followed) = slanted {
                 left = followed;
             } else {
                 broken = true;
@@ -284,7 +286,7 @@ impl<'a> Search<'a> {
             let before = at.to_vec();
             if weighing {
                 self.weigh(at)?;
-                weighing = self.rest(&before, at) < HELPED;
+                weighing = self.rest(&before, at) < WORTH;
                 if weighing {
                     continue;
                 }
@@ -307,7 +309,7 @@ impl<'a> Search<'a> {
                 }
                 Pass::Contracted => {}
             }
-            if self.rest(&before, at) > HELPED {
+            if self.rest(&before, at) > WORTH {
                 return Ok(left);
             }
         }

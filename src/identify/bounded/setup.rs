@@ -336,6 +336,23 @@ impl Setup {
         (0..self.records.len()).map(of).max().unwrap_or(0)
     }
 
+    /// A box with what the beginnings leave of the parameters, and of the states at the records' beginnings.
+    pub(super) fn begun(&self, beginnings: &Self, at: &[Interval]) -> Vec<Interval> {
+        let mut own = self.within(at).search;
+        for (place, from) in self.layout.of_whole().into_iter().zip(beginnings.layout.of_whole()) {
+            own[place] = at[from];
+        }
+        own
+    }
+
+    /// Windows of each record that hold so many swings, twice as many, and so on; at last all.
+    pub(super) fn reaches(&self, swings: usize) -> Vec<usize> {
+        let all = self.most_windows();
+        let most = self.records.iter().map(|readings| readings.command.edges() + 1).max().unwrap_or(1);
+        let reaches = core::iter::successors(Some((all * swings).div_ceil(most)), |reach| Some(2 * reach));
+        reaches.take_while(|reach| *reach < all).chain([all]).collect()
+    }
+
     /// The same with the windows of the `beginnings` first.
     pub(super) fn opened(&self, beginnings: &Self) -> Self {
         let mut windows = Vec::new();

@@ -14,7 +14,7 @@ use super::trajectory::{Node, Unknowns};
 use crate::numeric::Interval;
 
 /// A motion is followed anew where what is of the third order takes more than this of what is in doubt.
-pub(super) const STALE: f64 = 0.4;
+pub(super) const STALE: f64 = 0.25;
 
 impl Model<'_> {
     /// The motion over a whole record, and how it differs from that of the frame's centre by each coordinate.
@@ -74,6 +74,12 @@ pub(super) struct Slanted {
 }
 
 impl Slanted {
+    /// About the middle of what is left, to be followed anew.
+    pub(super) fn anew(self) -> Self {
+        let z = self.frame.z.clone();
+        Self { frame: self.frame.moved(z), surface: None, ..self }
+    }
+
     /// Halves along a coordinate.
     pub(super) fn halves(&self, unknown: usize) -> Option<[Self; 2]> {
         Some(self.frame.halves(unknown)?.map(|frame| Self { frame, ..self.clone() }))
@@ -83,6 +89,16 @@ impl Slanted {
     pub(super) fn holds(&self, point: &[f64], share: f64) -> bool {
         self.frame.holds(point, share)
     }
+}
+
+/// What came of a contraction in a frame.
+pub(super) enum Slant {
+    /// What is in the box and in its frame, which were handed over.
+    Contracted(Left),
+    /// Nothing: more is in doubt than was allowed, most of it by this coordinate of the frame.
+    Doubtful { slanted: Slanted, widest: usize },
+    /// Nothing either.
+    NoEnclosure,
 }
 
 /// What a box that is left says of the readings, as inequalities; and how its unknowns make up parameters.
@@ -129,15 +145,16 @@ impl Search<'_> {
         Some(Held::new(self.chained(&mut at, centre, Starts::Given).ok().flatten()?, None))
     }
 
-    /// One contraction over whole records in a frame, which is slanted at first. None where what is in doubt is more than `most` of
-    /// the readings' error, or there is no enclosure.
+    /// One contraction over records, as far as they are followed, in a frame, which is slanted at first. No frame is left where what is
+    /// in doubt is more than `most` of the readings' error, or there is no enclosure.
     pub(super) fn slant(
         &mut self,
         at: &mut [Interval],
         slanted: &mut Option<Slanted>,
         most: f64,
-    ) -> Result<Option<Left>, Empty> {
-        let straight = || Slanted { frame: Frame::straight(self.model.of_whole(), at), surface: None, informed: false };
+    ) -> Result<Slant, Empty> {
+        let straight =
+            || Slanted { frame: Frame::straight(self.setup.layout.of_whole(), at), surface: None, informed: false };
         let Slanted { frame: mut own, surface, informed } = slanted.take().unwrap_or_else(straight);
         let parted = || Empty { method: Method::Whole, multipliers: Vec::new(), linear: None };
         if !own.meet(at) {
@@ -150,7 +167,7 @@ impl Search<'_> {
             }
             None => {
                 self.count_pass();
-                let Some(mut surface) = self.model.surface(at, &own) else { return Ok(None) };
+                let Some(mut surface) = self.model.surface(at, &own) else { return Ok(Slant::NoEnclosure) };
                 if informed {
                     surface.prune(&own.z);
                 }
@@ -158,8 +175,10 @@ impl Search<'_> {
             }
         };
         let (linear, Doubt { slack, widest }) = surface.over(&own.z, &own.centre, informed);
+        let stale = surface.rest > STALE * slack;
         if slack > most {
-            return Ok(None);
+            let slanted = Slanted { frame: own, surface: (!stale).then_some(surface), informed };
+            return Ok(Slant::Doubtful { slanted, widest });
         }
         let empty = |multipliers, linear: &Linear, at: &[Interval]| {
             let mut linear = linear.clone();
@@ -174,12 +193,8 @@ impl Search<'_> {
         }
         let next = if informed {
             own.z = linear.turned(&programme, &own, &own).map_err(|rows| empty(rows, &linear, at))?;
-            if surface.rest > STALE * slack {
-                let z = own.z.clone();
-                Slanted { frame: own.moved(z), surface: None, informed }
-            } else {
-                Slanted { frame: own, surface: Some(surface), informed }
-            }
+            let slanted = Slanted { frame: own, surface: Some(surface), informed };
+            if stale { slanted.anew() } else { slanted }
         } else {
             let error = self.setup.records.iter().fold(f64::INFINITY, |least, readings| least.min(readings.error));
             let next = own.informed(&linear, error);
@@ -187,6 +202,6 @@ impl Search<'_> {
             Slanted { frame: next.moved(z), surface: None, informed: true }
         };
         *slanted = Some(next);
-        Ok(Some(Left::Followed { slack, widest }))
+        Ok(Slant::Contracted(Left::Followed { slack, widest }))
     }
 }

@@ -23,6 +23,9 @@ const FAR: f64 = 30.0;
 /// Misfits up to which a better parameter is looked for, one after the other, beyond what readings allow.
 const MISFITS: [f64; 3] = [1.0, 30.0, 1000.0];
 
+/// A step that gains less than this share of the misfit is the last.
+const LEAST_GAIN: f64 = 1e-4;
+
 /// A parameter with its misfit.
 #[derive(Clone, Debug)]
 pub(super) struct Tried {
@@ -30,6 +33,17 @@ pub(super) struct Tried {
     pub(super) at: Vec<f64>,
     /// Upper bound of the largest misfit of a reading over its largest error.
     pub(super) misfit: f64,
+}
+
+/// Where the unknowns at these places make the misfit least; `None` where no misfit will do.
+fn least(linear: &mut Linear, misfit: usize, places: &[usize]) -> Option<Vec<f64>> {
+    MISFITS.into_iter().find_map(|most| {
+        linear.deviations[misfit] = Interval::new(-1.0, most)?;
+        match Programme::of(&linear.rows, &linear.deviations, places).maximise(&[(misfit, -1.0)]) {
+            Outcome::Bounded { at, .. } => Some(at),
+            Outcome::Empty { .. } => None,
+        }
+    })
 }
 
 impl Search<'_> {
@@ -57,9 +71,42 @@ impl Search<'_> {
         (linear, misfit)
     }
 
-    /// A parameter with a small largest misfit: linear programmes about one after another, from the middle of a box, each no further
-    /// from the one before than the box is wide, and within another.
+    /// A parameter with a small largest misfit, from the middle of a box and within another: by whole records where these lead to a
+    /// witness, else by their windows.
     pub(super) fn nearest(&mut self, from: &[Interval], within: &[Interval]) -> Option<Tried> {
+        let unbroken = self.nearest_unbroken(from, within).filter(|tried| tried.misfit <= 1.0);
+        unbroken.or_else(|| self.nearest_by_windows(from, within))
+    }
+
+    /// By linear programmes about one parameter after another, while the misfit becomes smaller.
+    fn nearest_unbroken(&mut self, from: &[Interval], within: &[Interval]) -> Option<Tried> {
+        let places = self.setup.layout.of_whole();
+        let mut centre: Vec<f64> = from.iter().map(|side| side.midpoint()).collect();
+        let mut best: Option<Tried> = None;
+        for _ in 0..MOST_STEPS {
+            let Some((linear, misfit, _)) = self.about_point(&centre) else { break };
+            let before = best.as_ref().map_or(f64::INFINITY, |best| best.misfit);
+            if misfit < before {
+                best = Some(Tried { at: centre.clone(), misfit });
+            }
+            if before - misfit < LEAST_GAIN * misfit {
+                break;
+            }
+            let (mut linear, excess) = self.with_misfit(&linear);
+            for place in &places {
+                linear.deviations[*place] = within[*place] - Interval::point(centre[*place]);
+            }
+            let all: Vec<usize> = places.iter().copied().chain([excess]).collect();
+            let Some(step) = least(&mut linear, excess, &all) else { break };
+            for (place, step) in places.iter().zip(&step) {
+                centre[*place] += step;
+            }
+        }
+        best
+    }
+
+    /// The same with a state for every window, each step no further from the one before than the box `from` is wide.
+    fn nearest_by_windows(&mut self, from: &[Interval], within: &[Interval]) -> Option<Tried> {
         let mut centre: Vec<f64> = from.iter().map(|side| side.midpoint()).collect();
         let mut best: Option<Tried> = None;
         // How far from the centre is searched, against the box.
@@ -75,19 +122,12 @@ impl Search<'_> {
                 linear.deviations[place] = room - middle;
             }
             let places: Vec<usize> = (0..=misfit).collect();
-            let solution = MISFITS.into_iter().find_map(|most| {
-                linear.deviations[misfit] = Interval::new(-1.0, most)?;
-                match Programme::of(&linear.rows, &linear.deviations, &places).maximise(&[(misfit, -1.0)]) {
-                    Outcome::Bounded { at, .. } => Some(at),
-                    Outcome::Empty { .. } => None,
-                }
-            });
-            let Some(solution) = solution else { break };
+            let Some(solution) = least(&mut linear, misfit, &places) else { break };
             let next: Vec<f64> = centre.iter().zip(&solution).map(|(centre, step)| centre + step).collect();
             let reached = self.misfit(&next);
             let improved = reached.is_some_and(|reached| best.as_ref().is_none_or(|best| reached < best.misfit));
             if let (Some(misfit), true) = (reached, improved) {
-                let small = best.as_ref().is_some_and(|best| best.misfit - misfit < 1e-4 * misfit);
+                let small = best.as_ref().is_some_and(|best| best.misfit - misfit < LEAST_GAIN * misfit);
                 best = Some(Tried { at: next.clone(), misfit });
                 centre = next;
                 if small {
@@ -159,11 +199,7 @@ impl Search<'_> {
     /// The witness with `unknown` furthest up (or, `sign` negative, down) that linear programmes, one after another from a
     /// witness, find in a box.
     pub(super) fn furthest(&mut self, from: &Tried, within: &[Interval], unknown: usize, sign: f64) -> Option<Tried> {
-        let layout = &self.setup.layout;
-        let mut places: Vec<usize> = (0..layout.parameters()).collect();
-        for span in self.model.whole() {
-            places.extend((0..layout.state_size()).map(|component| layout.start(span.from, component)));
-        }
+        let places = self.setup.layout.of_whole();
         let inside = INSIDE * (1.0 - from.misfit);
         let mut centre = from.at.clone();
         let mut best: Option<Tried> = None;

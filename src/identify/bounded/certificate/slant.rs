@@ -30,7 +30,7 @@ impl Prover<'_> {
     /// which too much is in doubt for that, or none without an enclosure.
     pub(super) fn slant(&mut self, here: &mut Open) -> Result<Next, Option<usize>> {
         let straight = || Slanted {
-            frame: Frame::straight(self.search.model.of_whole(), &here.at),
+            frame: Frame::straight(self.search.setup.layout.of_whole(), &here.at),
             surface: None,
             informed: false,
         };

@@ -331,7 +331,7 @@ impl<'a> Walk<'a> {
     /// In the box's frame; where nothing is known of the readings over it yet, the motion is followed.
     fn slanted(&self, model: &Model<'_>, here: &mut Here, work: &mut Work) -> Result<Enclosed, &'static str> {
         let known = here.surface.take();
-        let frame = here.frame.take().unwrap_or_else(|| Frame::straight(model.of_whole(), &here.at));
+        let frame = here.frame.take().unwrap_or_else(|| Frame::straight(model.layout.of_whole(), &here.at));
         let surface = match known {
             Some(known) => known,
             None => {

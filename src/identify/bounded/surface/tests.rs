@@ -88,7 +88,7 @@ fn surface(search: &Search<'_>, middles: &[f64], width: f64) -> (Surface, Frame)
     if layout.lagged() {
         at[layout.start(0, 2)] = Interval::point(0.8).inflate(width);
     }
-    let frame = Frame::straight(search.model.of_whole(), &at);
+    let frame = Frame::straight(search.setup.layout.of_whole(), &at);
     let surface = search.model.surface(&at, &frame).expect("an enclosure");
     (surface, frame)
 }

@@ -45,3 +45,14 @@ fn a_witness_is_found_outside_of_the_box_that_a_step_is_as_wide_as() {
     let outside = search.nearest(&from, &setup.search).expect("a parameter");
     assert!(inside.misfit > 1.0 && outside.misfit <= 1.0, "{} and {}", inside.misfit, outside.misfit);
 }
+
+#[test]
+fn whole_records_lead_to_as_small_a_misfit_as_windows_for_fewer_passes() {
+    let setup = Setup::new(&[&record(300)], &settings(DragLaw::Linear)).expect("a problem");
+    let from = off(&setup, 0.001, 0.002);
+    let (mut whole, mut windows) = (Search::new(&setup), Search::new(&setup));
+    let near = whole.nearest(&from, &setup.search).expect("a parameter");
+    let other = windows.nearest_by_windows(&from, &setup.search).expect("a parameter");
+    assert!(near.misfit <= 1.0 && near.misfit < 1.001 * other.misfit, "{} and {}", near.misfit, other.misfit);
+    assert!(whole.passes < windows.passes, "{} and {} passes", whole.passes, windows.passes);
+}
