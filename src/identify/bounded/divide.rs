@@ -69,6 +69,11 @@ impl Kept {
     }
 }
 
+/// The smallest box around all of these; `None` of none.
+pub(super) fn around(boxes: impl IntoIterator<Item = Vec<Interval>>) -> Option<Vec<Interval>> {
+    boxes.into_iter().reduce(|hull, at| hull.iter().zip(&at).map(|(a, b)| a.hull(*b)).collect())
+}
+
 /// What is left, and what was excluded last.
 pub(super) struct Division {
     /// The last boxes that the motion excluded.
@@ -112,8 +117,7 @@ impl Division {
 
     /// The smallest box around all that is left; `None` where nothing is.
     pub(super) fn hull(&self) -> Option<Vec<Interval>> {
-        let boxes = self.kept.iter().map(|kept| kept.at.clone());
-        boxes.reduce(|hull, at| hull.iter().zip(&at).map(|(a, b)| a.hull(*b)).collect())
+        around(self.kept.iter().map(|kept| kept.at.clone()))
     }
 }
 

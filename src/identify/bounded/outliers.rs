@@ -7,6 +7,7 @@
 use super::bounds::{Bounds, Consistency, Outlier, Quantity, QuantityRange};
 use super::certificate::Witness;
 use super::contract::Span;
+use super::divide::around;
 use super::explore;
 use super::problem::{Readings, Window};
 use super::search::Search;
@@ -118,7 +119,7 @@ impl Doubted<'_> {
                 // How much larger errors would have to be is known for this pair alone.
                 return Ok(self.answer(Bounds { nearest: None, error_factor: [1.0, f64::MAX], ..bounds }, &whole));
             }
-            at = around(&pieces, &at);
+            at = around(pieces.iter().filter_map(|(_, piece)| piece.at.clone())).unwrap_or(at);
             let more = self.contradicted(&pieces, groups)?;
             if more.is_empty() {
                 break;
@@ -290,13 +291,6 @@ impl Doubted<'_> {
         let outliers = if bounds.verdict == Consistency::Refuted { Vec::new() } else { self.found };
         Bounds { search_box: whole.ranges(&whole.search), outliers, passes: self.passes, ..bounds }
     }
-}
-
-/// The box around what pairs leave, within another.
-fn around(pieces: &[(Pair, Left)], within: &[Interval]) -> Vec<Interval> {
-    let lefts = pieces.iter().filter_map(|(_, piece)| piece.at.clone());
-    let hull = lefts.reduce(|hull, next| hull.iter().zip(next).map(|(side, next)| side.hull(next)).collect());
-    hull.unwrap_or_else(|| within.to_vec())
 }
 
 /// What all pairs leave of each quantity; a record's first state is another one's with each pair, and left out.

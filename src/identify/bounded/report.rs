@@ -2,7 +2,7 @@
 
 use super::bounds::{Bounds, Consistency, Contradicting, Parameters, Quantity, QuantityRange};
 use super::contract::Origin;
-use super::divide::{Division, End};
+use super::divide::{Division, End, around};
 use super::field::Term;
 use super::lp::{Outcome, Programme};
 use super::search::{Empty, Search};
@@ -45,11 +45,7 @@ impl Answer {
     fn note(&mut self, tried: Tried) {
         if tried.misfit <= 1.0 {
             let at: Vec<Interval> = tried.at.iter().map(|value| Interval::point(*value)).collect();
-            let inner = self
-                .inner
-                .take()
-                .map_or(at.clone(), |inner| inner.iter().zip(&at).map(|(inner, value)| inner.hull(*value)).collect());
-            self.inner = Some(inner);
+            self.inner = around(self.inner.take().into_iter().chain([at]));
         }
         if self.nearest.as_ref().is_none_or(|nearest| tried.misfit < nearest.misfit) {
             self.nearest = Some(tried);

@@ -7,6 +7,7 @@ use super::divide::Kept;
 use super::frame::{Affine, Frame, dot};
 use super::lp::{Multipliers, Outcome, Programme};
 use super::mix::Mix;
+use super::problem::Layout;
 use super::rows::Starts;
 use super::search::{Empty, Left, Method, Search};
 use super::surface::{Doubt, Surface};
@@ -74,6 +75,11 @@ pub(super) struct Slanted {
 }
 
 impl Slanted {
+    /// A box along the axes, of which nothing is known yet.
+    pub(super) fn straight(layout: &Layout, at: &[Interval]) -> Self {
+        Self { frame: Frame::straight(layout.of_whole(), at), surface: None, informed: false }
+    }
+
     /// About the middle of what is left, to be followed anew.
     pub(super) fn anew(self) -> Self {
         let z = self.frame.z.clone();
@@ -153,9 +159,8 @@ impl Search<'_> {
         slanted: &mut Option<Slanted>,
         most: f64,
     ) -> Result<Slant, Empty> {
-        let straight =
-            || Slanted { frame: Frame::straight(self.setup.layout.of_whole(), at), surface: None, informed: false };
-        let Slanted { frame: mut own, surface, informed } = slanted.take().unwrap_or_else(straight);
+        let Slanted { frame: mut own, surface, informed } =
+            slanted.take().unwrap_or_else(|| Slanted::straight(&self.setup.layout, at));
         let parted = || Empty { method: Method::Whole, multipliers: Vec::new(), linear: None };
         if !own.meet(at) {
             return Err(parted());

@@ -1,6 +1,7 @@
 //! Finding the steps: box by box, each contracted while that helps, and divided.
 
 use super::super::contract::Linear;
+use super::super::divide::around;
 use super::super::rows::Starts;
 use super::super::search::Search;
 use super::super::setup::Setup;
@@ -108,13 +109,7 @@ impl<'a> Prover<'a> {
         let kept = self.go()?;
         let setup = self.search.setup;
         let (layout, parameters) = (&setup.layout, setup.layout.parameters());
-        let left = if self.narrow {
-            let around =
-                |hull: Vec<Interval>, at: Vec<Interval>| hull.iter().zip(&at).map(|(a, b)| a.hull(*b)).collect();
-            kept.into_iter().reduce(around).map(|hull| hull[..parameters].to_vec())
-        } else {
-            self.left
-        };
+        let left = if self.narrow { around(kept).map(|hull| hull[..parameters].to_vec()) } else { self.left };
         let stage = Stage {
             delay_s: layout.delay().is_none().then(|| setup.known_delay_s.midpoint()),
             windows: layout.windows().iter().map(|window| [window.record, window.first, window.last]).collect(),

@@ -29,12 +29,9 @@ impl Prover<'_> {
     /// By whole records to the second order in the box's frame, which is slanted at first. Else the coordinate of
     /// which too much is in doubt for that, or none without an enclosure.
     pub(super) fn slant(&mut self, here: &mut Open) -> Result<Next, Option<usize>> {
-        let straight = || Slanted {
-            frame: Frame::straight(self.search.setup.layout.of_whole(), &here.at),
-            surface: None,
-            informed: false,
-        };
-        let Slanted { frame: mut own, surface, informed } = here.slanted.clone().unwrap_or_else(straight);
+        let layout = &self.search.setup.layout;
+        let Slanted { frame: mut own, surface, informed } =
+            here.slanted.clone().unwrap_or_else(|| Slanted::straight(layout, &here.at));
         let mut at = here.at.clone();
         let (mut by, surface) = match surface {
             Some(surface) => (By::Same, surface),
