@@ -35,6 +35,13 @@ pub(super) struct Kept {
     pub(super) slanted: Option<Slanted>,
 }
 
+/// A box that is not looked at yet.
+struct Part {
+    at: Vec<Interval>,
+    /// Whether the motion was not followed over what it is a part of. Where it was, the readings' speeds tell nothing besides.
+    wide: bool,
+}
+
 /// One end of an unknown's range.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End {
@@ -97,6 +104,13 @@ impl Division {
             self.empties.pop_front();
         }
         self.empties.push_back(empty);
+    }
+
+    /// With what another left and excluded.
+    fn join(&mut self, other: Self) {
+        other.empties.into_iter().for_each(|empty| self.exclude(empty));
+        self.kept.extend(other.kept);
+        self.followed &= other.followed;
     }
 
     /// The box that reaches furthest to an end, and how far.
@@ -286,8 +300,8 @@ impl Search<'_> {
     }
 
     /// The widest of them: what is left when the budget is spent is no wider than need be.
-    fn take_widest(&self, open: &mut Vec<Vec<Interval>>) -> Option<Vec<Interval>> {
-        let widths = open.iter().enumerate().map(|(index, at)| (index, self.widest(at).0));
+    fn take_widest(&self, open: &mut Vec<Part>) -> Option<Part> {
+        let widths = open.iter().enumerate().map(|(index, part)| (index, self.widest(&part.at).0));
         let (widest, _) = widths.max_by(|a, b| a.1.total_cmp(&b.1))?;
         Some(open.swap_remove(widest))
     }
@@ -304,14 +318,15 @@ impl Search<'_> {
     }
 
     /// Works off a list of boxes.
-    fn refine(&mut self, division: &mut Division, mut open: Vec<Vec<Interval>>, budget: usize) {
-        while let Some(mut at) = self.take_widest(&mut open) {
+    fn refine(&mut self, division: &mut Division, boxes: Vec<Vec<Interval>>, budget: usize) {
+        let mut open: Vec<Part> = boxes.into_iter().map(|at| Part { at, wide: true }).collect();
+        while let Some(Part { mut at, wide }) = self.take_widest(&mut open) {
             if self.passes >= budget {
                 division.followed = false;
                 division.kept.push(Kept { at, left: Left::Wide(0), slanted: None });
                 continue;
             }
-            let left = match self.contract(&mut at) {
+            let left = match self.contract(&mut at, wide) {
                 Ok(left) => left,
                 Err(empty) => {
                     division.exclude(empty);
@@ -338,7 +353,7 @@ impl Search<'_> {
                 Ok(None) => {}
             }
             match self.divide(&at, unknown) {
-                Some(parts) => open.extend(parts),
+                Some(parts) => open.extend(parts.map(|at| Part { at, wide: slack.is_infinite() })),
                 None => {
                     division.followed = false;
                     division.kept.push(Kept { at, left: Left::Wide(unknown), slanted: None });

@@ -278,9 +278,8 @@ impl<'a> Search<'a> {
         Ok(left)
     }
 
-    /// Contracts a box until nothing helps.
-    pub(super) fn contract(&mut self, at: &mut [Interval]) -> Result<Left, Empty> {
-        let mut weighing = true;
+    /// Contracts a box until nothing helps; not `weighing`, by the motion alone.
+    pub(super) fn contract(&mut self, at: &mut [Interval], mut weighing: bool) -> Result<Left, Empty> {
         let mut left = Left::Wide(0);
         for _ in 0..MOST_PASSES {
             let before = at.to_vec();

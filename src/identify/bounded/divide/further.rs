@@ -85,6 +85,33 @@ impl Search<'_> {
     ) -> Division {
         let mut division = Division::new();
         let mut open: Vec<Open> = boxes.into_iter().map(Open::new).collect();
+        let mut level = 0;
+        // By windows one box around them takes about as long as one after the other.
+        while let Some(hull) = around(self.in_frames(&mut division, open, reaches, budget)) {
+            level += 1;
+            let whole = level + 1 >= reaches.len() || self.passes >= budget;
+            self.model.reach = if whole { usize::MAX } else { reaches[level] };
+            let mut by_windows = Division::new();
+            self.refine(&mut by_windows, vec![hull], budget);
+            if whole {
+                division.join(by_windows);
+                break;
+            }
+            open = by_windows.kept.drain(..).map(|kept| Open { kept, level, halvings: 0 }).collect();
+            division.join(by_windows);
+        }
+        self.model.reach = usize::MAX;
+        division
+    }
+
+    /// The same as far as frames are of use; boxes of which they are none are left.
+    fn in_frames(
+        &mut self,
+        division: &mut Division,
+        mut open: Vec<Open>,
+        reaches: &[usize],
+        budget: usize,
+    ) -> Vec<Vec<Interval>> {
         let mut broken: Vec<Vec<Interval>> = Vec::new();
         while let Some(here) = open.pop() {
             if self.passes >= budget {
@@ -101,10 +128,7 @@ impl Search<'_> {
                 Ok(Next::Broken(at)) => broken.push(at),
             }
         }
-        self.model.reach = usize::MAX;
-        // By windows one box around them takes about as long as one after the other.
-        self.refine(&mut division, around(broken).into_iter().collect(), budget);
-        division
+        broken
     }
 
     /// One contraction in the box's frame.

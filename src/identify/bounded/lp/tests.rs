@@ -60,3 +60,80 @@ fn without_an_unknown_a_row_is_met_or_it_is_not() {
     assert!(matches!(outcome(1.0), Outcome::Bounded { .. }));
     assert!(matches!(outcome(-1.0), Outcome::Empty { .. }));
 }
+
+/// Inequalities as those of windows: each has some of the unknowns next to each other and one common to all; those that are far off
+/// are met all over the box.
+fn of_windows(random: &mut Pcg64Mcg, unknowns: usize, feasible: bool) -> (Rows, Vec<Interval>) {
+    let deviations: Vec<Interval> = (0..unknowns)
+        .map(|_| {
+            let middle = random.random_range(-0.5..0.5);
+            Interval::new(middle - random.random_range(0.1..2.0), middle + random.random_range(0.1..2.0))
+                .expect("ordered")
+        })
+        .collect();
+    let point: Vec<f64> = deviations.iter().map(|z| z.lower() + random.random_range(0.0..1.0) * z.width()).collect();
+    let mut rows = Rows::default();
+    for row in 0..8 * unknowns {
+        let first = 1 + row / 8 % (unknowns - 1);
+        let places = [0, first, (first + 1).min(unknowns - 1)];
+        let mut slopes: Vec<(usize, Interval)> = Vec::new();
+        for place in places {
+            if slopes.iter().all(|(own, _)| *own != place) {
+                slopes.push((place, Interval::point(random.random_range(-1.0..1.0))));
+            }
+        }
+        let there: f64 = slopes.iter().map(|(place, slope)| slope.midpoint() * point[*place]).sum();
+        let room = if feasible { 10f64.powf(random.random_range(-3.0..1.5)) } else { random.random_range(-0.3..2.0) };
+        rows.slopes.push(slopes);
+        rows.limits.push(there + room);
+    }
+    (rows, deviations)
+}
+
+#[test]
+fn a_point_that_meets_all_rows_and_multipliers_that_allow_no_more_show_each_other() {
+    let mut random = Pcg64Mcg::seed_from_u64(12);
+    let (mut bounded, mut empty, mut short) = (0, 0, 0);
+    for number in 0..200 {
+        let unknowns = random.random_range(2..30);
+        let (rows, deviations) = of_windows(&mut random, unknowns, number % 3 > 0);
+        let places: Vec<usize> = (0..unknowns).collect();
+        let sought: Vec<(usize, f64)> =
+            (0..random.random_range(1..4)).map(|k| (k * 7 % unknowns, random.random_range(-1.0..1.0))).collect();
+        let programme = Programme::of(&rows, &deviations, &places);
+        short += usize::from(programme.rows() < rows.limits.len());
+        match programme.maximise(&sought) {
+            Outcome::Bounded { multipliers, at } => {
+                let shown = rows.upper_bound(&sought, &multipliers, &deviations);
+                let reached: f64 = sought.iter().map(|(place, weight)| weight * at[*place]).sum();
+                assert!((shown - reached).abs() < 1e-6, "{number}: {shown} is shown and {reached} reached");
+                for (slopes, limit) in rows.slopes.iter().zip(&rows.limits) {
+                    let there: f64 = slopes.iter().map(|(place, slope)| slope.midpoint() * at[*place]).sum();
+                    assert!(there <= limit + 1e-7, "{number}: a row is missed by {}", there - limit);
+                }
+                for (at, side) in at.iter().zip(&deviations) {
+                    assert!((at - side.midpoint()).abs() <= side.radius() + 1e-7, "{number}: {at} outside of {side:?}");
+                }
+                bounded += 1;
+            }
+            Outcome::Empty { multipliers } => {
+                let shown = rows.upper_bound(&[], &multipliers, &deviations);
+                assert!(shown < 0.0 && number % 3 == 0, "{number}: {shown}");
+                empty += 1;
+            }
+        }
+    }
+    assert!(bounded > 120 && empty > 20 && short > 100, "{bounded}, {empty}, {short}");
+}
+
+#[test]
+fn rows_that_are_met_all_over_the_box_are_left_out_and_those_that_just_may_be_missed_are_not() {
+    let side = Interval::new(-1.0, 3.0).expect("ordered");
+    let rows = |limit: f64| Rows {
+        slopes: vec![vec![(0, Interval::new(1.0, 2.0).expect("ordered"))], vec![(0, Interval::point(-1.0))]],
+        limits: vec![limit, 1.0],
+    };
+    // By the slope that is met most easily three is the largest.
+    let of = |limit: f64| Programme::of(&rows(limit), &[side], &[0]).rows();
+    assert_eq!([of(3.01), of(2.99), of(-100.0)], [0, 1, 1]);
+}

@@ -34,7 +34,7 @@ fn followed(vehicle: &Vehicle, delay_known: bool, seed: u64) -> usize {
     for number in 0..BOXES {
         let mut at = about(&truth, &setup, &mut random);
         let mut search = Search::new(&setup);
-        let left = search.contract(&mut at).unwrap_or_else(|empty| panic!("box {number} by {:?}", empty.method));
+        let left = search.contract(&mut at, true).unwrap_or_else(|empty| panic!("box {number} by {:?}", empty.method));
         let mut slanted = None;
         if let Left::Followed { .. } = left {
             followed += 1;
@@ -65,4 +65,20 @@ fn contraction_of_a_box_leaves_the_true_motion_in_it() {
         let followed = followed(vehicle, *delay_known, 11 + index as u64);
         assert!(2 * followed > BOXES, "case {index}: only {followed} of {BOXES} were followed");
     }
+}
+
+#[test]
+fn readings_speeds_are_taken_only_where_that_is_asked_for() {
+    let vehicle = Vehicle { gain: 0.9, linear: 0.5, ..Vehicle::default() };
+    let motion = vehicle.motion(110);
+    let setup = Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &vehicle.model(true, QUANTUM)).expect("a problem");
+    let truth = vehicle.truth(&setup, &motion);
+    let at = about(&truth, &setup, &mut Pcg64Mcg::seed_from_u64(31));
+    let weighed = |weighing: bool| {
+        let mut search = Search::new(&setup);
+        search.contract(&mut at.clone(), weighing).unwrap_or_else(|empty| panic!("excluded by {:?}", empty.method));
+        search.weighed
+    };
+    assert!(weighed(true) > 0);
+    assert_eq!(weighed(false), 0);
 }

@@ -127,6 +127,25 @@ fn one_reach_after_the_other_costs_less_than_all_windows_and_than_all_at_once() 
     assert!(at_once[0] < at_once[1], "{at_once:?} steps");
 }
 
+#[test]
+fn windows_of_the_next_reach_come_before_those_of_whole_records() {
+    let (setup, truth) = case_of(&Vehicle { delayed: 5, ..DRAG }, false, 400);
+    let reaches = setup.reaches(3);
+    assert!(reaches.len() > 3, "{reaches:?}");
+    let mut wide = about(&setup, &truth, 0.5, 0.0, &mut Pcg64Mcg::seed_from_u64(67));
+    for place in setup.layout.of_whole().into_iter().skip(setup.layout.parameters()) {
+        wide[place] = setup.search[place];
+    }
+    let (mut further, mut whole) = (Search::new(&setup), Search::new(&setup));
+    assert!(matches!(further.narrow(Open::new(wide.clone())), Ok(Next::Broken(_))));
+    let left = further.follow_further(vec![wide.clone()], &reaches, BUDGET);
+    let close = whole.search(wide, BUDGET);
+    let [left, close] = [left, close].map(|division| division.hull().expect("the truth is inside"));
+    assert!(left[0].contains(truth[0]) && left[0].width() < 1.5 * close[0].width(), "{:?} and {:?}", left[0], close[0]);
+    let [further, whole] = [further, whole].map(|search| search.model.steps.get());
+    assert!(further < whole, "{further} and {whole} steps");
+}
+
 /// A box in a frame along what the readings tell, its coordinates so many times as wide as they are.
 fn informed(search: &mut Search<'_>, at: &[Interval], factor: f64) -> Open {
     let Ok(Next::Again(mut here)) = search.narrow(Open::new(at.to_vec())) else { panic!("no frame") };
