@@ -11,6 +11,9 @@ use super::seek::{Caution, Found, Seek};
 use super::{By, Cut, Stage, Step, Unproved, roughly, shorten};
 use crate::numeric::{Interval, Real};
 
+#[cfg(test)]
+mod tests;
+
 /// Steps that leave more than this of every range did not help.
 pub(super) const HELPED: f64 = 0.8;
 /// Speeds from readings and hats differ little, slopes over wide boxes by shares of their ranges.
@@ -148,8 +151,7 @@ impl<'a> Prover<'a> {
                         break;
                     }
                     Next::Stuck(widest) => {
-                        let (step, [low, high]) = self.divide(&here, widest)?;
-                        self.push(step);
+                        let Some([low, high]) = self.part(&mut here, widest)? else { break };
                         open.push(high);
                         here = low;
                     }
@@ -328,6 +330,17 @@ impl<'a> Prover<'a> {
                 empty
             }
         }
+    }
+
+    /// Divides a box that the last step may have made smaller than its frame; `None` where they have nothing in common.
+    fn part(&mut self, here: &mut Open, widest: Widest) -> Result<Option<[Open; 2]>, Unproved> {
+        if !self.meet(here) {
+            self.push(Step::Keep);
+            return Ok(None);
+        }
+        let (step, parts) = self.divide(here, widest)?;
+        self.push(step);
+        Ok(Some(parts))
     }
 
     /// The step, what it leaves, and its lower part: where the box sticks out of what is left, there; else at the unknown or the

@@ -1,3 +1,4 @@
+use super::super::contract::Linear;
 use super::super::rows::Starts;
 use super::super::setup::Setup;
 use super::super::tests::{ALPHA, BETA, DELTA, off, record, settings};
@@ -20,4 +21,24 @@ fn whole_records_tell_more_than_their_windows_and_are_tried_where_not_too_much_i
     assert!(search.unbroken(&at, 10.0).expect("the truth is inside").is_none());
     // Nothing meets the readings one per cent off.
     assert!(search.unbroken(&off(&setup, 0.01, 0.002), 1.0).is_err());
+}
+
+#[test]
+fn what_two_divisions_left_and_excluded_is_joined() {
+    let part = |end: f64, followed: bool| {
+        let mut part = Division::new();
+        let linear = Some(Linear { centre: vec![end], ..Linear::default() });
+        part.exclude(Empty { method: Method::Chain, multipliers: Vec::new(), linear });
+        let at = vec![Interval::new(0.0, end).expect("ordered")];
+        part.kept.push(Kept { at, left: Left::Wide(0), slanted: None });
+        Division { followed, ..part }
+    };
+    for (followed, other) in [(true, false), (false, true), (true, true)] {
+        let mut all = part(1.0, followed);
+        all.join(part(2.0, other));
+        assert_eq!(all.followed, followed && other);
+        let centres = all.empties.iter().filter_map(|empty| empty.linear.as_ref().map(|linear| linear.centre[0]));
+        assert_eq!(centres.collect::<Vec<f64>>(), [1.0, 2.0]);
+        assert_eq!(all.kept.iter().map(|kept| kept.at[0].upper()).collect::<Vec<f64>>(), [1.0, 2.0]);
+    }
 }

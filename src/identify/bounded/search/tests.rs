@@ -82,3 +82,31 @@ fn readings_speeds_are_taken_only_where_that_is_asked_for() {
     assert!(weighed(true) > 0);
     assert_eq!(weighed(false), 0);
 }
+
+#[test]
+fn parts_of_a_box_are_weighed_where_the_motion_was_not_followed_over_it() {
+    let vehicle = Vehicle { gain: 0.9, linear: 0.5, quadratic: 0.4, disturbance: 0.08, ..Vehicle::default() };
+    let motion = vehicle.motion(110);
+    let problem = |delay_known: bool| {
+        Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &vehicle.model(delay_known, QUANTUM)).expect("a problem")
+    };
+    let weighed = |setup: &Setup, at: &[Interval]| {
+        let (mut first, mut all) = (Search::new(setup), Search::new(setup));
+        let left = first.contract(&mut at.to_vec(), true).expect("the truth is inside");
+        all.search(at.to_vec(), 2000);
+        (left, first.weighed, all.weighed, all.passes - first.passes)
+    };
+    let setup = problem(false);
+    let (left, first, all, _) = weighed(&setup, &setup.search);
+    assert!(matches!(left, Left::Wide(_)) && all > first, "{left:?}: {first} and {all}");
+    let setup = problem(true);
+    let truth = vehicle.truth(&setup, &motion);
+    let mut narrow = setup.search.clone();
+    for (side, value) in narrow.iter_mut().zip(&truth).take(setup.layout.parameters()) {
+        let own = Interval::point(*value) + Interval::symmetric(0.2 * value.abs().max(0.1));
+        *side = side.intersection(own).expect("it is looked for there");
+    }
+    let (left, first, all, divided) = weighed(&setup, &narrow);
+    assert!(matches!(left, Left::Followed { slack, .. } if slack > 1.0) && divided > 2, "{left:?}, {divided}");
+    assert_eq!(first, all);
+}
