@@ -38,7 +38,7 @@ pub(super) struct Kept {
 /// A box that is not looked at yet.
 struct Part {
     at: Vec<Interval>,
-    /// Whether the motion was not followed over what it is a part of. Where it was, the readings' speeds tell nothing besides.
+    /// Whether the motion was not followed over what it is a part of. Where it was, the readings' speeds tell little besides.
     wide: bool,
 }
 

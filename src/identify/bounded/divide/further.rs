@@ -93,18 +93,17 @@ impl Search<'_> {
             self.model.reach = if whole { usize::MAX } else { reaches[level] };
             let mut by_windows = Division::new();
             self.refine(&mut by_windows, vec![hull], budget);
-            if whole {
-                division.join(by_windows);
-                break;
-            }
-            open = by_windows.kept.drain(..).map(|kept| Open { kept, level, halvings: 0 }).collect();
+            open = if whole { Vec::new() } else { core::mem::take(&mut by_windows.kept) }
+                .into_iter()
+                .map(|kept| Open { kept, level, halvings: 0 })
+                .collect();
             division.join(by_windows);
         }
         self.model.reach = usize::MAX;
         division
     }
 
-    /// The same as far as frames are of use; boxes of which they are none are left.
+    /// The same as far as frames are of use; the boxes over which they are of none.
     fn in_frames(
         &mut self,
         division: &mut Division,

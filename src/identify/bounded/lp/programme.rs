@@ -1,6 +1,6 @@
 //! Inequalities in floating point over a box, and the dual simplex method.
 
-use super::vertex::{Constraint, Vertex};
+use super::vertex::{Constraint, Vertex, side_of};
 use super::{Multipliers, Outcome, Rows};
 use crate::numeric::Interval;
 
@@ -118,7 +118,7 @@ impl Programme {
             }
             Constraint::Side { unknown, lower } => {
                 row.fill(0.0);
-                row[unknown] = if lower { -1.0 } else { 1.0 };
+                row[unknown] = side_of(lower);
                 1.0
             }
         }
@@ -173,8 +173,7 @@ fn perturbed(objective: &[f64]) -> Vec<f64> {
     let largest = objective.iter().fold(0.0f64, |largest, weight| largest.max(weight.abs()));
     let unit = PERTURBATION * if largest > 0.0 { largest } else { 1.0 };
     let odd = |index: usize| 1.0 + ((index * 7919 + 13) % 101) as f64 / 101.0;
-    let sign = |weight: f64| if weight < 0.0 { -1.0 } else { 1.0 };
-    objective.iter().enumerate().map(|(index, weight)| weight + unit * sign(*weight) * odd(index)).collect()
+    objective.iter().enumerate().map(|(index, weight)| weight + unit * side_of(*weight < 0.0) * odd(index)).collect()
 }
 
 /// By how much each row is missed by a point, which is followed as it moves.

@@ -31,7 +31,8 @@ pub(super) struct Vertex {
     pub(super) z: Vec<f64>,
 }
 
-fn side_of(lower: bool) -> f64 {
+/// Where a side of the box is.
+pub(super) fn side_of(lower: bool) -> f64 {
     if lower { -1.0 } else { 1.0 }
 }
 
