@@ -35,6 +35,13 @@ pub(super) struct Kept {
     pub(super) slanted: Option<Slanted>,
 }
 
+impl Kept {
+    /// A box of which nothing is known yet.
+    pub(super) fn new(at: Vec<Interval>) -> Self {
+        Self { at, left: Left::Wide(0), slanted: None }
+    }
+}
+
 /// A box that is not looked at yet.
 struct Part {
     at: Vec<Interval>,
@@ -167,6 +174,14 @@ impl Search<'_> {
         let mut division = Division::new();
         self.refine(&mut division, vec![at], budget);
         division
+    }
+
+    /// Goes on where a budget was spent.
+    pub(super) fn go_on(&mut self, division: &mut Division, budget: usize) {
+        let kept = core::mem::take(&mut division.kept).into_iter();
+        let (open, done) = kept.partition(|kept| matches!(kept.left, Left::Wide(_)));
+        (division.kept, division.followed) = (done, true);
+        self.refine(division, open.into_iter().map(|kept: Kept| kept.at).collect(), budget);
     }
 
     /// Works off what reaches beyond a value of an unknown, from the furthest: a slice of the box that reaches furthest is contracted,

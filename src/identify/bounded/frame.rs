@@ -11,6 +11,9 @@ use super::mix::Mix;
 use super::problem::Layout;
 use crate::numeric::Interval;
 
+#[cfg(test)]
+mod tests;
+
 /// Parameters and states at records' beginnings, in coordinates that hardly depend on each other.
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
@@ -99,6 +102,39 @@ impl Frame {
             .collect();
         let affine = |(row, constant)| Affine { constant, weights: columns.iter().map(|column| column[row]).collect() };
         constants.into_iter().enumerate().map(affine).collect()
+    }
+
+    /// The first coordinates of a box in another frame, which begins with the same unknowns, or of one along the axes.
+    fn first(&self, count: usize, at: &[Interval], other: Option<&Self>) -> Vec<Interval> {
+        let straight = || self.coordinates(|row| at[self.places[row]] - Interval::point(self.centre[self.places[row]]));
+        let turned =
+            |other: &Self| other.turned(self).iter().map(|affine| affine.over(&other.z)).collect::<Vec<Interval>>();
+        other.map_or_else(straight, turned).into_iter().take(count).collect()
+    }
+
+    /// Around boxes and their frames, where they have some: so many unknowns, the first of theirs and of `places`, in the frame of
+    /// theirs that holds them best, and the others along the axes as in the box `at`. `None` where no box has a frame.
+    pub(super) fn led_by<'a>(
+        count: usize,
+        boxes: impl Iterator<Item = (&'a [Interval], Option<&'a Self>)> + Clone,
+        places: Vec<usize>,
+        at: &[Interval],
+    ) -> Option<Self> {
+        let around = |own: &'a Self| {
+            let z = boxes.clone().map(|(at, frame)| own.first(count, at, frame));
+            let z: Vec<Interval> = z.reduce(|hull, z| hull.iter().zip(&z).map(|(a, b)| a.hull(*b)).collect())?;
+            let size: f64 = z.iter().map(|z| z.width().max(f64::MIN_POSITIVE).ln()).sum();
+            Some((size, own, z))
+        };
+        let frames = boxes.clone().filter_map(|(_, frame)| frame);
+        let (_, own, mut z) = frames.filter_map(around).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let mut centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
+        for place in &places[..count] {
+            centre[*place] = own.centre[*place];
+        }
+        z.extend(places[count..].iter().map(|place| at[*place] - Interval::point(centre[*place])));
+        let lower = (0..places.len()).map(|row| if row < count { own.lower[row].clone() } else { vec![0.0; row] });
+        Some(Self { lower: lower.collect(), places, centre, z: z.clone() }.moved(z))
     }
 
     /// Along the axes.

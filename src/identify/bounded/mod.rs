@@ -18,6 +18,7 @@ mod command;
 mod contract;
 mod divide;
 mod estimate;
+mod explore;
 mod field;
 mod frame;
 mod hat;
@@ -25,6 +26,7 @@ mod impulse;
 mod lp;
 mod mix;
 mod monotone;
+mod onset;
 mod outliers;
 mod problem;
 mod report;
@@ -54,21 +56,11 @@ pub use settings::{BoundedModel, DelayBound, SwitchedWhen};
 
 use super::IdentifyError;
 use crate::experiment::Record;
-use crate::numeric::Interval;
 use certificate::{Certificate, Unproved, Witness};
-use divide::Division;
 use estimate::estimated;
+use explore::explore;
 use problem::Readings;
-use report::Answer;
-use search::Search;
-use setup::{SEARCHED, Setup};
-use witness::Tried;
-
-/// Divisions after which a witness is looked for again.
-const DIVISIONS_PER_TRIAL: usize = 8;
-
-/// Bounds that are this good, the inner against the outer width, are not sharpened further.
-const GOOD: f64 = 0.98;
+use setup::Setup;
 
 /// Encloses the parameters with which the model meets every reading of all records, or proves that there are none in the search box.
 ///
@@ -119,90 +111,4 @@ pub fn enclose_with_certificate(
     })?;
     let certificate = Certificate::prove(&setup, settings, &explored.hulls, witness, explored.bounds.passes);
     Ok((explored.bounds, certificate?))
-}
-
-/// What a search gave.
-struct Explored {
-    bounds: Bounds,
-    /// The box around what was left, and that around what more readings left of it; none for nothing.
-    hulls: Vec<Option<Vec<Interval>>>,
-    /// The parameters that are left; `None` where nothing is.
-    left: Option<Vec<Interval>>,
-}
-
-/// The search; where it finds no witness one is looked for about the `estimates`, and `witness` is told of one that was found.
-fn explore(
-    setup: &Setup,
-    settings: &BoundedModel,
-    estimates: impl FnOnce() -> Option<Vec<(Quantity, f64)>>,
-    witness: impl FnOnce(&Search<'_>, Option<&Tried>),
-) -> Result<Explored, IdentifyError> {
-    let mut spent = 0;
-    let mut boxes: Vec<Vec<Interval>> = Vec::new();
-    if let Some(beginnings) = setup.beginnings(settings, SEARCHED) {
-        let mut search = Search::new(&beginnings);
-        // Passes over part of the records cost so much less.
-        let budget = settings.budget * setup.samples() / beginnings.samples();
-        let division = search.search(beginnings.search.clone(), budget);
-        spent = search.passes * beginnings.samples() / setup.samples();
-        boxes = division.kept.iter().map(|kept| setup.begun(&beginnings, &kept.at)).collect();
-    }
-    let mut search = Search::new(setup).after(spent);
-    let division = if boxes.is_empty() {
-        // Where nothing is left of the beginnings, whole records show by how much they contradict the model.
-        search.search(setup.search.clone(), settings.budget)
-    } else {
-        search.follow_further(boxes, &setup.reaches(SEARCHED.swings), settings.budget)
-    };
-    let passes = search.passes;
-    // A delay that is known better leaves more readings.
-    if let (Some(hull), true) = (division.hull(), setup.layout.delay().is_some() && division.followed) {
-        let narrowed = setup.narrowed(settings, &hull)?;
-        let mut search = Search::new(&narrowed).after(passes);
-        let division = search.search(narrowed.search.clone(), settings.budget);
-        let (bounds, last) = conclude(setup, search, division, settings, estimates, witness);
-        let left = last.as_ref().map(|last| {
-            let mut left = last[..narrowed.layout.parameters()].to_vec();
-            if let (Some(place), None) = (setup.layout.delay(), narrowed.layout.delay()) {
-                left.insert(place, narrowed.known_delay_s);
-            }
-            left
-        });
-        return Ok(Explored { bounds, hulls: vec![Some(hull), last], left });
-    }
-    let (bounds, hull) = conclude(setup, search, division, settings, estimates, witness);
-    let left = hull.as_ref().map(|hull| hull[..setup.layout.parameters()].to_vec());
-    Ok(Explored { bounds, hulls: vec![hull], left })
-}
-
-/// The answer, from what division left; `wide` is where the search began.
-fn conclude(
-    wide: &Setup,
-    mut search: Search<'_>,
-    mut division: Division,
-    settings: &BoundedModel,
-    estimates: impl FnOnce() -> Option<Vec<(Quantity, f64)>>,
-    witness: impl FnOnce(&Search<'_>, Option<&Tried>),
-) -> (Bounds, Option<Vec<Interval>>) {
-    let mut answer = Answer::default();
-    answer.try_nearest(&mut search, &division);
-    if answer.witness().is_none() && !division.kept.is_empty() {
-        answer.try_estimates(&mut search, estimates());
-    }
-    // Without a witness the parts may yet turn out empty.
-    let mut divided = 0usize;
-    while answer.witness().is_none()
-        && search.passes < settings.budget
-        && search.divide_coarsest(&mut division, settings.budget)
-    {
-        divided += 1;
-        if divided.is_multiple_of(DIVISIONS_PER_TRIAL) {
-            answer.try_nearest(&mut search, &division);
-        }
-    }
-    if answer.witness().is_some() && search.passes < settings.budget {
-        answer.sharpen(&mut search, &mut division, settings.budget, GOOD);
-    }
-    witness(&search, answer.witness());
-    (answer.into_bounds(wide, search, &division), division.hull())
 }

@@ -8,7 +8,7 @@ use super::bounds::{Bounds, Consistency, Outlier, Quantity, QuantityRange};
 use super::certificate::Witness;
 use super::contract::Span;
 use super::divide::around;
-use super::explore;
+use super::explore::explore;
 use super::problem::{Readings, Window};
 use super::search::Search;
 use super::settings::BoundedModel;

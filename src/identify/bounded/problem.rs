@@ -27,6 +27,19 @@ impl Readings {
         Self { time_s, value, command: self.command.until(edges), ..self.clone() }
     }
 
+    /// The same without the first ones.
+    pub(super) fn from(&self, sample: usize) -> Self {
+        let (time_s, value) = (self.time_s[sample..].to_vec(), self.value[sample..].to_vec());
+        Self { time_s, value, ..self.clone() }
+    }
+
+    /// Switchings that are left out where it is followed from a sample on: but for the last of those before, which acts there; none where it is
+    /// followed from the first.
+    pub(super) fn skipped(&self, onset: usize) -> usize {
+        let before = self.command.spans().iter().take_while(|(first, _)| *first <= self.time_s[onset]).count();
+        if onset > 0 { before.saturating_sub(1) } else { 0 }
+    }
+
     /// Mean time between two switchings.
     pub(super) fn swing_s(&self) -> f64 {
         (self.time_s[self.time_s.len() - 1] - self.time_s[0]) / (self.command.edges() + 1) as f64

@@ -72,8 +72,8 @@ impl Answer {
     }
 
     /// The same about estimates.
-    pub(super) fn try_estimates(&mut self, search: &mut Search<'_>, estimates: Option<Vec<(Quantity, f64)>>) {
-        if let Some(tried) = estimates.and_then(|estimates| search.nearest_to(&estimates)) {
+    pub(super) fn try_estimates(&mut self, search: &mut Search<'_>, estimates: Option<&[(Quantity, f64)]>) {
+        if let Some(tried) = estimates.and_then(|estimates| search.nearest_to(estimates)) {
             self.note(tried);
         }
     }

@@ -59,6 +59,8 @@ pub(super) struct Setup {
     pub(super) typical_speed: f64,
     /// Least coefficient of linear drag over alpha.
     pub(super) least_linear: f64,
+    /// Sample of each record from which on it is followed; where the longest delay is not over by then, from when it is.
+    pub(super) onset: Vec<usize>,
     pub(super) search: Vec<Interval>,
 }
 
@@ -228,7 +230,8 @@ impl Setup {
         let speed = scales.iter().map(|scale| scale.speed).sum::<f64>() / scales.len() as f64;
         let middle_speed = if both { speed } else { 0.0 };
         let fastest = 4.0 * scales.iter().map(|scale| scale.fastest).fold(0.0, f64::max);
-        let layout = Self::lay(&readings, settings, delay, WHOLE)?;
+        let onset = vec![0; readings.len()];
+        let layout = Self::lay(&readings, settings, delay, WHOLE, &onset)?;
         let first = &scales[0];
         // A force moves the vehicle by its reach in a swing.
         let gain = 4.0 * first.reach / (first.force * first.swing_s * first.swing_s);
@@ -264,6 +267,7 @@ impl Setup {
             reach: scales.iter().map(|scale| scale.reach).fold(0.0, f64::max),
             typical_speed: speed,
             least_linear,
+            onset,
             search,
             records: readings,
         };
@@ -271,19 +275,20 @@ impl Setup {
         Ok(setup)
     }
 
-    /// Windows of every record, from where every command that acts is in the log.
+    /// Windows of every record from its onset, or from where every command that acts is in the log.
     fn lay(
         readings: &[Readings],
         settings: &BoundedModel,
         delay: Interval,
         cutting: Cutting,
+        onset: &[usize],
     ) -> Result<Layout, IdentifyError> {
         let mut windows = Vec::new();
         let mut instants = Vec::new();
         for (record, readings) in readings.iter().enumerate() {
             let samples = readings.time_s.len();
             let begin = Interval::point(readings.time_s[0]) + delay;
-            let first = readings.time_s.partition_point(|time| *time < begin.upper());
+            let first = readings.time_s.partition_point(|time| *time < begin.upper()).max(onset[record]);
             if samples < first + 3 * cutting.fewest {
                 let remedy = "give a longer record, or bound the delay";
                 return Err(refuse(
@@ -294,7 +299,7 @@ impl Setup {
                     remedy,
                 ));
             }
-            let swings = (readings.command.edges() + 1) as f64;
+            let swings = (readings.command.edges() + 1 - readings.skipped(onset[record])) as f64;
             let count = (cutting.per_swing * swings).ceil().clamp(2.0, MOST_WINDOWS as f64);
             let most = (samples - first) / cutting.fewest;
             let count = (count as usize).min(most).max(1);
@@ -312,20 +317,48 @@ impl Setup {
         self.search.extend(self.layout.states(&self.records, self.fastest));
     }
 
+    fn delay_s(&self) -> Interval {
+        self.layout.delay().map_or(self.known_delay_s, |place| self.search[place])
+    }
+
+    /// The same constraints but for those before the switching of this number of every record, which is after the longest delay. `None`
+    /// where too little is left.
+    pub(super) fn after(&self, settings: &BoundedModel, edge: usize) -> Option<Self> {
+        let delay_s = self.delay_s();
+        let mut setup = self.clone();
+        for (readings, onset) in self.records.iter().zip(&mut setup.onset) {
+            let (first, last) = *readings.command.spans().get(edge)?;
+            let acted = (Interval::point(readings.time_s[0]) + delay_s).upper();
+            *onset = readings.time_s.partition_point(|time| *time < last.max(first));
+            if first < acted || *onset >= readings.time_s.len() {
+                return None;
+            }
+        }
+        setup.layout = Self::lay(&self.records, settings, delay_s, WHOLE, &setup.onset).ok()?;
+        setup.states();
+        Some(setup)
+    }
+
     /// The beginnings of all records: what they leave encloses what the whole records leave. `None` where that would save little.
     pub(super) fn beginnings(&self, settings: &BoundedModel, beginning: Beginning) -> Option<Self> {
         let Beginning { swings, cutting } = beginning;
         let mut setup = self.clone();
-        for readings in &mut setup.records {
+        let delay_s = self.delay_s();
+        for (readings, onset) in setup.records.iter_mut().zip(&mut setup.onset) {
+            let skipped = readings.skipped(*onset);
             // Unknown instants are parameters of their own, and all of them would have to be known after.
-            if settings.switching == SwitchedWhen::Anywhere || readings.command.edges() < 2 * swings {
+            if settings.switching == SwitchedWhen::Anywhere || readings.command.edges() < skipped + 2 * swings {
                 return None;
             }
-            let (end, _) = readings.command.spans()[swings];
+            let (end, _) = readings.command.spans()[skipped + swings];
             *readings = readings.until(readings.time_s.partition_point(|time| *time < end));
+            // What acts later than the longest delay before the onset was commanded after that.
+            let begin = Interval::point(readings.time_s[*onset]) - delay_s;
+            let left_out = readings.time_s.partition_point(|time| *time < begin.lower()).min(*onset).saturating_sub(1);
+            *readings = readings.from(left_out);
+            *onset -= left_out;
         }
-        let delay_s = setup.layout.delay().map_or(setup.known_delay_s, |place| setup.search[place]);
-        setup.layout = Self::lay(&setup.records, settings, delay_s, cutting).ok()?;
+        setup.layout = Self::lay(&setup.records, settings, delay_s, cutting, &setup.onset).ok()?;
         setup.states();
         Some(setup)
     }
@@ -346,10 +379,11 @@ impl Setup {
     }
 
     /// Windows of each record that hold so many swings, twice as many, and so on; at last all.
-    pub(super) fn reaches(&self, swings: usize) -> Vec<usize> {
+    pub(super) fn reaches(&self, beginning: usize) -> Vec<usize> {
         let all = self.most_windows();
-        let most = self.records.iter().map(|readings| readings.command.edges() + 1).max().unwrap_or(1);
-        let reaches = core::iter::successors(Some((all * swings).div_ceil(most)), |reach| Some(2 * reach));
+        let swings = |(readings, onset): (&Readings, &usize)| readings.command.edges() + 1 - readings.skipped(*onset);
+        let most = self.records.iter().zip(&self.onset).map(swings).max().unwrap_or(1);
+        let reaches = core::iter::successors(Some((all * beginning).div_ceil(most)), |reach| Some(2 * reach));
         reaches.take_while(|reach| *reach < all).chain([all]).collect()
     }
 
@@ -373,7 +407,7 @@ impl Setup {
 
     /// Number of readings.
     pub(super) fn samples(&self) -> usize {
-        self.records.iter().map(|readings| readings.value.len()).sum()
+        self.records.iter().zip(&self.onset).map(|(readings, onset)| readings.value.len() - onset).sum()
     }
 
     /// The same with the parameters known to lie in `at`.
@@ -384,13 +418,13 @@ impl Setup {
         setup
     }
 
-    /// The same constraints with the parameters known to lie in `at`: a shorter delay leaves more readings.
+    /// All constraints of the records with the parameters known to lie in `at`: a shorter delay leaves more readings.
     pub(super) fn narrowed(&self, settings: &BoundedModel, at: &[Interval]) -> Result<Self, IdentifyError> {
-        let Some(place) = self.layout.delay() else { return Ok(self.within(at)) };
-        let mut setup = self.clone();
-        setup.layout = Self::lay(&self.records, settings, at[place], WHOLE)?;
+        let mut setup = Self { onset: vec![0; self.records.len()], ..self.clone() };
+        let delay_s = self.layout.delay().map_or(self.known_delay_s, |place| at[place]);
+        setup.layout = Self::lay(&self.records, settings, delay_s, WHOLE, &setup.onset)?;
         setup.search = at[..self.layout.parameters()].to_vec();
-        if setup.layout.delay().is_none() {
+        if let (Some(place), None) = (self.layout.delay(), setup.layout.delay()) {
             setup.known_delay_s = at[place];
             setup.search.remove(place);
         }

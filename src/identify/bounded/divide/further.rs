@@ -17,6 +17,9 @@ const HELPED: f64 = 0.6;
 /// the second is.
 const DOUBTED: f64 = 3.0;
 const SURE: f64 = 0.7;
+/// The same of a box whose frame was found with other readings, at first: states at the records' beginnings are as wide as few readings
+/// leave them.
+const LED: f64 = 30.0;
 /// Halvings of a box, one after the other, that may come to nothing.
 const MOST_HALVINGS: usize = 3;
 
@@ -43,8 +46,8 @@ enum Next {
 }
 
 impl Open {
-    fn new(at: Vec<Interval>) -> Self {
-        Self { kept: Kept { at, left: Left::Wide(0), slanted: None }, level: 0, halvings: 0 }
+    fn new(kept: Kept) -> Self {
+        Self { kept, level: 0, halvings: 0 }
     }
 
     fn informed(&self) -> bool {
@@ -77,12 +80,7 @@ impl Open {
 
 impl Search<'_> {
     /// What is in any of the boxes, over one reach after the other of every record; the last is to be all of it.
-    pub(in super::super) fn follow_further(
-        &mut self,
-        boxes: Vec<Vec<Interval>>,
-        reaches: &[usize],
-        budget: usize,
-    ) -> Division {
+    pub(in super::super) fn follow_further(&mut self, boxes: Vec<Kept>, reaches: &[usize], budget: usize) -> Division {
         let mut division = Division::new();
         let mut open: Vec<Open> = boxes.into_iter().map(Open::new).collect();
         let mut level = 0;
@@ -133,7 +131,8 @@ impl Search<'_> {
     /// One contraction in the box's frame.
     fn narrow(&mut self, mut here: Open) -> Result<Next, Empty> {
         let (informed, before, coordinates) = (here.informed(), here.kept.at.clone(), here.coordinates());
-        let left = match self.slant(&mut here.kept.at, &mut here.kept.slanted, DOUBTED)? {
+        let led = informed && matches!(here.kept.left, Left::Wide(_));
+        let left = match self.slant(&mut here.kept.at, &mut here.kept.slanted, if led { LED } else { DOUBTED })? {
             Slant::Contracted(left) => left,
             Slant::Doubtful { slanted, widest } if informed => {
                 here.kept.slanted = Some(slanted);

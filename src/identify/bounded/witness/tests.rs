@@ -1,6 +1,7 @@
+use super::super::explore::explore;
 use super::super::setup::Setup;
 use super::super::tests::{ALPHA, off, oscillation, record, settings};
-use super::super::{BoundedModel, Consistency, DelayBound, Quantity, enclose, explore};
+use super::super::{BoundedModel, Consistency, DelayBound, Quantity, enclose};
 use super::*;
 use crate::identify::DragLaw;
 use crate::plant::DragAxis;

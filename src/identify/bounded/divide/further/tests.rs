@@ -75,7 +75,7 @@ fn what_is_followed_further_keeps_the_true_motion_and_what_lies_beside_it_is_exc
             let around = about(&setup, &truth, share, 0.0, &mut random);
             let beside = about(&setup, &truth, 0.01, 3.0, &mut random);
             let mut search = Search::new(&setup);
-            let division = search.follow_further(vec![around, beside.clone()], &reaches, BUDGET);
+            let division = search.follow_further(vec![Kept::new(around), Kept::new(beside.clone())], &reaches, BUDGET);
             halved += usize::from(division.kept.len() > 1);
             let hull = division.hull().unwrap_or_else(|| panic!("case {number}: the truth was excluded"));
             assert!(division.followed && search.model.reach == usize::MAX);
@@ -84,7 +84,7 @@ fn what_is_followed_further_keeps_the_true_motion_and_what_lies_beside_it_is_exc
                 assert!(near.contains(truth[place]), "case {number}: {place} is {}, {near:?}", truth[place]);
             }
             let (mut alone, mut whole) = (Search::new(&setup), Search::new(&setup));
-            let left = alone.follow_further(vec![beside.clone()], &reaches, BUDGET);
+            let left = alone.follow_further(vec![Kept::new(beside.clone())], &reaches, BUDGET);
             let close = whole.search(beside, BUDGET);
             assert!(left.kept.is_empty() || !close.kept.is_empty(), "case {number}: windows exclude what is kept");
             fewer += usize::from(left.kept.is_empty());
@@ -101,9 +101,9 @@ fn boxes_whose_frames_leave_too_much_in_doubt_are_followed_window_by_window() {
         wide[place] = setup.search[place];
     }
     let mut search = Search::new(&setup);
-    let straight = Open::new(wide.clone());
+    let straight = Open::new(Kept::new(wide.clone()));
     assert!(matches!(search.narrow(straight), Ok(Next::Broken(_))));
-    let division = search.follow_further(vec![wide], &setup.reaches(3), BUDGET);
+    let division = search.follow_further(vec![Kept::new(wide)], &setup.reaches(3), BUDGET);
     let hull = division.hull().expect("the truth is inside");
     assert!(truth.iter().zip(&hull).take(setup.layout.parameters()).all(|(value, side)| side.contains(*value)));
     assert!(hull[0].width() < 0.05 * truth[0], "{:?}", hull[0]);
@@ -116,14 +116,16 @@ fn one_reach_after_the_other_costs_less_than_all_windows_and_than_all_at_once() 
     let mut left = |share: f64, other: fn(&mut Search<'_>, Vec<Interval>) -> Division| {
         let at = about(&setup, &truth, share, 0.0, &mut random);
         let (mut further, mut otherwise) = (Search::new(&setup), Search::new(&setup));
-        let left = further.follow_further(vec![at.clone()], &setup.reaches(3), BUDGET).hull().expect("the truth");
+        let left =
+            further.follow_further(vec![Kept::new(at.clone())], &setup.reaches(3), BUDGET).hull().expect("the truth");
         let whole = other(&mut otherwise, at).hull().expect("the truth");
         assert!(left[0].width() < 1.5 * whole[0].width(), "{:?} and {:?}", left[0], whole[0]);
         [further, otherwise].map(|search| search.model.steps.get())
     };
     let windows = left(0.05, |search, at| search.search(at, BUDGET));
     assert!(windows[0] < windows[1], "{windows:?} steps");
-    let at_once = left(0.15, |search, at| search.follow_further(vec![at], &[search.setup.most_windows()], BUDGET));
+    let at_once =
+        left(0.15, |search, at| search.follow_further(vec![Kept::new(at)], &[search.setup.most_windows()], BUDGET));
     assert!(at_once[0] < at_once[1], "{at_once:?} steps");
 }
 
@@ -137,8 +139,8 @@ fn windows_of_the_next_reach_come_before_those_of_whole_records() {
         wide[place] = setup.search[place];
     }
     let (mut further, mut whole) = (Search::new(&setup), Search::new(&setup));
-    assert!(matches!(further.narrow(Open::new(wide.clone())), Ok(Next::Broken(_))));
-    let left = further.follow_further(vec![wide.clone()], &reaches, BUDGET);
+    assert!(matches!(further.narrow(Open::new(Kept::new(wide.clone()))), Ok(Next::Broken(_))));
+    let left = further.follow_further(vec![Kept::new(wide.clone())], &reaches, BUDGET);
     let close = whole.search(wide, BUDGET);
     let [left, close] = [left, close].map(|division| division.hull().expect("the truth is inside"));
     assert!(left[0].contains(truth[0]) && left[0].width() < 1.5 * close[0].width(), "{:?} and {:?}", left[0], close[0]);
@@ -148,7 +150,7 @@ fn windows_of_the_next_reach_come_before_those_of_whole_records() {
 
 /// A box in a frame along what the readings tell, its coordinates so many times as wide as they are.
 fn informed(search: &mut Search<'_>, at: &[Interval], factor: f64) -> Open {
-    let Ok(Next::Again(mut here)) = search.narrow(Open::new(at.to_vec())) else { panic!("no frame") };
+    let Ok(Next::Again(mut here)) = search.narrow(Open::new(Kept::new(at.to_vec()))) else { panic!("no frame") };
     let slanted = here.kept.slanted.as_mut().expect("a frame");
     for z in &mut slanted.frame.z {
         *z *= Interval::point(factor);
@@ -213,7 +215,8 @@ fn a_spent_budget_leaves_one_box_around_all() {
     let (setup, truth) = case(&DRAG, true);
     let mut random = Pcg64Mcg::seed_from_u64(64);
     let boxes: Vec<Vec<Interval>> = (0..3).map(|_| about(&setup, &truth, 0.01, 0.0, &mut random)).collect();
-    let division = Search::new(&setup).follow_further(boxes.clone(), &setup.reaches(3), 0);
+    let division =
+        Search::new(&setup).follow_further(boxes.iter().cloned().map(Kept::new).collect(), &setup.reaches(3), 0);
     assert!(!division.followed && division.kept.len() == 1);
     let hull = &division.kept[0].at;
     let ends = |end: fn(&Interval) -> f64| boxes.iter().map(|at| end(&at[0])).collect::<Vec<f64>>();
@@ -236,7 +239,7 @@ fn what_beginnings_leave_of_a_records_first_state_is_known_of_the_record() {
     let motion = DRAG.motion(110);
     let settings = DRAG.model(true, QUANTUM);
     let setup = Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &settings).expect("a problem");
-    let beginnings = setup.beginnings(&settings, super::super::super::SEARCHED).expect("long enough");
+    let beginnings = setup.beginnings(&settings, super::super::super::setup::SEARCHED).expect("long enough");
     let mut at = beginnings.search.clone();
     let velocity = Interval::new(-0.5, -0.3).expect("an interval");
     at[beginnings.layout.start(0, 1)] = velocity;

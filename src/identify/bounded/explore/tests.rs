@@ -1,0 +1,97 @@
+use super::super::simulated::Vehicle;
+use super::super::{Consistency, DelayBound};
+use super::*;
+
+const QUANTUM: f64 = 0.005;
+const SAMPLES: usize = 300;
+const DRAG: Vehicle = Vehicle {
+    gain: 0.9,
+    linear: 0.5,
+    quadratic: 0.4,
+    disturbance: 0.08,
+    cubic: 0.0,
+    stiffness: 0.0,
+    lag_rate: 0.0,
+    delayed: 5,
+};
+
+/// What the fit says, to within this share.
+fn estimates(share: f64) -> Estimates {
+    let near = |value: f64| value * (1.0 + share);
+    Some(vec![
+        (Quantity::Alpha, near(1.0 / DRAG.gain)),
+        (Quantity::Beta, near(DRAG.linear / DRAG.gain)),
+        (Quantity::BetaQuadratic, near(DRAG.quadratic / DRAG.gain)),
+        (Quantity::DelayS, near(0.025)),
+        (Quantity::Delta(0), near(DRAG.disturbance / DRAG.gain)),
+    ])
+}
+
+#[test]
+fn from_wherever_the_search_begins_the_truth_is_inside_and_the_bounds_are_the_same() {
+    let motion = DRAG.motion(SAMPLES);
+    let record = Vehicle::record(&motion, QUANTUM);
+    let settings = BoundedModel { delay: DelayBound::Unknown, ..DRAG.model(false, QUANTUM) };
+    let setup = Setup::new(&[&record], &settings).expect("a problem");
+    let truth = DRAG.truth(&setup, &motion);
+    let mut ends = Vec::new();
+    for edge in [None, Some(3), Some(7)] {
+        let begun = edge.map(|edge| setup.after(&settings, edge).expect("there are readings after it"));
+        let begun = begun.unwrap_or_else(|| setup.clone());
+        let beginnings = begun.beginnings(&settings, SEARCHED).expect("long enough");
+        let division = Search::new(&beginnings).search(beginnings.search.clone(), 20_000);
+        let boxes = begun.boxes(&beginnings, &division);
+        let division = Search::new(&begun).follow_further(boxes, &begun.reaches(SEARCHED.swings), settings.budget);
+        assert!(division.followed);
+        let hull = division.hull().expect("the truth is inside");
+        let all = setup.narrowed(&settings, &hull).expect("a problem");
+        let start = led(&all, &begun, &settings, &division).expect("a frame");
+        // It holds the truth, and one whose frame is not moved with its centre does not.
+        let own = DRAG.truth(&all, &motion);
+        let mut frame = start.slanted.clone().expect("a frame").frame;
+        frame.z.iter_mut().for_each(|z| *z += Interval::symmetric(1e-7));
+        assert!(frame.holds(&own, 0.0), "{edge:?}");
+        assert!(!frame.holds(&own, 0.5), "{edge:?}: with half as much gain besides");
+        let mut search = Search::new(&all);
+        let left = search.follow_further(vec![start], &all.reaches(SEARCHED.swings), settings.budget);
+        let (bounds, hull) = conclude(&setup, search, left, &settings, &Box::new(estimates(0.0)), |_, _| ());
+        assert_eq!(bounds.verdict, Consistency::Consistent);
+        let hull = hull.expect("the truth is inside");
+        let inside = |place: usize| (hull[place] + Interval::symmetric(1e-7)).contains(truth[place]);
+        assert!((0..setup.layout.parameters()).all(inside), "{edge:?}: {hull:?}, {truth:?}");
+        ends.push(bounds.of(Quantity::Alpha).expect("a range"));
+    }
+    let width = ends[0][1] - ends[0][0];
+    for [low, high] in &ends {
+        let apart = (low - ends[0][0]).abs().max((high - ends[0][1]).abs());
+        assert!(apart < 0.02 * width, "{ends:?}");
+    }
+}
+
+#[test]
+fn a_search_without_patience_begins_where_estimates_say_and_without_any_where_the_record_does() {
+    let motion = DRAG.motion(SAMPLES);
+    let settings = DRAG.model(false, QUANTUM);
+    let setup = Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &settings).expect("a problem");
+    let with = |estimates: Estimates, patience: usize| begin(&setup, &settings, &Box::new(estimates), patience);
+    let moved = with(estimates(0.001), 1);
+    let patient = with(estimates(0.001), 20_000);
+    let (alone, unmoved) = (with(None, 1), with(None, 20_000));
+    assert!(matches!(moved.setup, Cow::Owned(_)) && moved.setup.onset[0] > 0);
+    for begun in [&patient, &alone, &unmoved] {
+        assert!(matches!(begun.setup, Cow::Borrowed(_)));
+    }
+    let hull = |begun: &Begun<'_>| {
+        let boxes = begun.boxes.iter().map(|kept| kept.at.clone());
+        super::super::divide::around(boxes).expect("the truth is inside")
+    };
+    let truth = DRAG.truth(&setup, &motion);
+    for begun in [&moved, &patient, &alone, &unmoved] {
+        let hull = hull(begun);
+        assert!((0..setup.layout.parameters()).all(|place| hull[place].contains(truth[place])), "{hull:?}");
+        assert!(begun.spent > 0);
+    }
+    // What is worked off after a budget was spent is what is worked off at once.
+    let [gone_on, at_once] = [hull(&alone)[0], hull(&unmoved)[0]];
+    assert!((gone_on.width() / at_once.width() - 1.0).abs() < 0.2, "{gone_on:?}, {at_once:?}");
+}
