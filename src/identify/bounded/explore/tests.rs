@@ -1,3 +1,4 @@
+use super::super::search::Left;
 use super::super::simulated::Vehicle;
 use super::super::{Consistency, DelayBound};
 use super::*;
@@ -45,6 +46,7 @@ fn from_wherever_the_search_begins_the_truth_is_inside_and_the_bounds_are_the_sa
         assert!(division.followed);
         let hull = division.hull().expect("the truth is inside");
         let all = setup.narrowed(&settings, &hull).expect("a problem");
+        assert!(all.onset == [0] && all.layout.windows()[0].first < SAMPLES / 10, "readings before are not heard");
         let start = led(&all, &begun, &settings, &division).expect("a frame");
         // It holds the truth, and one whose frame is not moved with its centre does not.
         let own = DRAG.truth(&all, &motion);
@@ -81,6 +83,11 @@ fn a_search_without_patience_begins_where_estimates_say_and_without_any_where_th
     for begun in [&patient, &alone, &unmoved] {
         assert!(matches!(begun.setup, Cow::Borrowed(_)));
     }
+    let impatient = with(estimates(0.001), 60);
+    assert!(matches!(impatient.setup, Cow::Owned(_)) && impatient.spent > moved.spent, "what was in vain counts");
+    let known = DRAG.model(true, QUANTUM);
+    let of_known = Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &known).expect("a problem");
+    assert!(matches!(begin(&of_known, &known, &Box::new(estimates(0.001)), 1).setup, Cow::Borrowed(_)));
     let hull = |begun: &Begun<'_>| {
         let boxes = begun.boxes.iter().map(|kept| kept.at.clone());
         super::super::divide::around(boxes).expect("the truth is inside")
@@ -94,4 +101,24 @@ fn a_search_without_patience_begins_where_estimates_say_and_without_any_where_th
     // What is worked off after a budget was spent is what is worked off at once.
     let [gone_on, at_once] = [hull(&alone)[0], hull(&unmoved)[0]];
     assert!((gone_on.width() / at_once.width() - 1.0).abs() < 0.2, "{gone_on:?}, {at_once:?}");
+}
+
+#[test]
+fn boxes_that_are_done_stay_where_a_search_goes_on() {
+    let motion = DRAG.motion(SAMPLES);
+    let settings = DRAG.model(false, QUANTUM);
+    let setup = Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &settings).expect("a problem");
+    let beginnings = setup.beginnings(&settings, SEARCHED).expect("long enough");
+    let mut stayed = 0;
+    for budget in (50..300).step_by(50) {
+        let mut search = Search::new(&beginnings);
+        let mut division = search.search(beginnings.search.clone(), budget);
+        let done = |kept: &&Kept| matches!(kept.left, Left::Followed { .. });
+        let before: Vec<Vec<Interval>> = division.kept.iter().filter(done).map(|kept| kept.at.clone()).collect();
+        search.go_on(&mut division, 20_000);
+        assert!(division.followed && division.kept.iter().all(|kept| done(&kept)));
+        assert!(before.iter().all(|at| division.kept.iter().any(|kept| kept.at == *at)), "after {budget} passes");
+        stayed += before.len();
+    }
+    assert!(stayed > 0, "nothing was done before");
 }

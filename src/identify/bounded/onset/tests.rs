@@ -45,6 +45,9 @@ fn later_beginnings_hold_the_truth_and_those_of_which_a_reading_moved_do_not() {
         for edge in [2, 5, 9] {
             let later = setup.after(&settings, edge).expect("there are readings after it");
             let beginnings = later.beginnings(&settings, SEARCHED).expect("long enough");
+            // A window for every swing, and a reach of as many as the beginnings have.
+            assert!(later.most_windows().abs_diff(SAMPLES / SWING - edge) <= 1, "{} windows", later.most_windows());
+            assert_eq!(later.reaches(SEARCHED.swings)[0], 3);
             let (begin, end) = (beginnings.layout.windows()[0], beginnings.layout.windows().last().expect("windows"));
             let time_s = &beginnings.records[0].time_s;
             let instants = [begin.first, end.last].map(|sample| (10.0 * time_s[sample]).round() as usize);
