@@ -46,7 +46,19 @@ pub(super) fn explore(
     witness: impl FnOnce(&Search<'_>, Option<&Tried>),
 ) -> Result<Explored, IdentifyError> {
     let estimates = LazyCell::new(estimates);
-    let Begun { setup: begun, boxes, spent } = begin(setup, settings, &estimates, PATIENCE);
+    let begun = begin(setup, settings, &estimates, PATIENCE);
+    go_further(setup, begun, settings, &estimates, witness)
+}
+
+/// From what the beginnings leave to what all readings do.
+fn go_further(
+    setup: &Setup,
+    begun: Begun<'_>,
+    settings: &BoundedModel,
+    estimates: &impl Deref<Target = Estimates>,
+    witness: impl FnOnce(&Search<'_>, Option<&Tried>),
+) -> Result<Explored, IdentifyError> {
+    let Begun { setup: begun, boxes, spent } = begun;
     let mut search = Search::new(&begun).after(spent);
     let division = if boxes.is_empty() {
         // Where nothing is left of the beginnings, whole records show by how much they contradict the model.
@@ -54,15 +66,16 @@ pub(super) fn explore(
     } else {
         search.follow_further(boxes, &begun.reaches(SEARCHED.swings), settings.budget)
     };
-    // A delay that is known better leaves more readings; and there are those before the onset.
-    if let (Some(hull), true) = (division.hull(), setup.layout.delay().is_some() && division.followed) {
+    // A delay that is known better leaves more readings; and those before the onset are not heard yet, by a witness either.
+    let partial = setup.layout.delay().is_some() && division.followed || matches!(begun, Cow::Owned(_));
+    if let (Some(hull), true) = (division.hull(), partial) {
         let all = setup.narrowed(settings, &hull)?;
         let mut search = Search::new(&all).after(search.passes);
         let division = match led(&all, &begun, settings, &division) {
             Some(led) => search.follow_further(vec![led], &all.reaches(SEARCHED.swings), settings.budget),
             None => search.search(all.search.clone(), settings.budget),
         };
-        let (bounds, last) = conclude(setup, search, division, settings, &estimates, witness);
+        let (bounds, last) = conclude(setup, search, division, settings, estimates, witness);
         let left = last.as_ref().map(|last| {
             let mut left = last[..all.layout.parameters()].to_vec();
             if let (Some(place), None) = (setup.layout.delay(), all.layout.delay()) {
@@ -72,7 +85,7 @@ pub(super) fn explore(
         });
         return Ok(Explored { bounds, hulls: vec![Some(hull), last], left });
     }
-    let (bounds, hull) = conclude(setup, search, division, settings, &estimates, witness);
+    let (bounds, hull) = conclude(setup, search, division, settings, estimates, witness);
     let left = hull.as_ref().map(|hull| hull[..setup.layout.parameters()].to_vec());
     Ok(Explored { bounds, hulls: vec![hull], left })
 }
@@ -105,8 +118,10 @@ fn begin<'a>(
     let mut search = Search::new(&beginnings);
     let mut division = search.search(beginnings.search.clone(), budget.min(patience));
     if !division.followed && patience < budget {
-        let before = spent(&search);
-        if let Some(later) = later(setup, settings, estimates)
+        let mut near = Search::new(setup);
+        let later = near.later(settings, estimates.as_deref());
+        let before = spent(&search) + near.passes;
+        if let Some(later) = later
             && let Some(beginnings) = later.beginnings(settings, SEARCHED)
         {
             let mut search = Search::new(&beginnings);
@@ -125,13 +140,6 @@ impl Setup {
     fn boxes(&self, beginnings: &Self, division: &Division) -> Vec<Kept> {
         division.kept.iter().map(|kept| Kept::new(self.begun(beginnings, &kept.at))).collect()
     }
-}
-
-/// The records from where a few swings tell most; `None` where that is their beginning.
-fn later(setup: &Setup, settings: &BoundedModel, estimates: &impl Deref<Target = Estimates>) -> Option<Setup> {
-    let mut search = Search::new(setup);
-    let near = search.nearest_to(estimates.as_deref()?)?;
-    search.later(settings, &near.at)
 }
 
 /// One box around all that was found, the parameters in a frame of those that were found and the states as the beginnings tell them. `None`

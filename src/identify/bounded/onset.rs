@@ -3,7 +3,8 @@
 //! What so many readings leave of the parameters is many times larger from one stretch of a record to another, by the luck of their
 //! roundings. Whatever the onset, what is found encloses what all readings leave: those before it are heard at the end.
 
-use super::lp::{Outcome, Programme};
+use super::bounds::Quantity;
+use super::lp::Programme;
 use super::search::Search;
 use super::settings::BoundedModel;
 use super::setup::{SEARCHED, Setup};
@@ -19,9 +20,15 @@ const LESS: f64 = 0.5;
 const LATEST: f64 = 0.5;
 
 impl Search<'_> {
-    /// The records from where their next swings leave least, by linear programmes about a point. `None` where that is their beginning,
-    /// and where the point's motion cannot be enclosed.
-    pub(super) fn later(&mut self, settings: &BoundedModel, point: &[f64]) -> Option<Setup> {
+    /// The records from where their next swings leave least, by linear programmes about what estimates lead to. `None` where that is
+    /// their beginning, and without estimates.
+    pub(super) fn later(&mut self, settings: &BoundedModel, estimates: Option<&[(Quantity, f64)]>) -> Option<Setup> {
+        let near = self.nearest_to(estimates?)?;
+        self.later_about(settings, &near.at)
+    }
+
+    /// The same about a point. `None` where its motion cannot be enclosed.
+    fn later_about(&mut self, settings: &BoundedModel, point: &[f64]) -> Option<Setup> {
         let setup = self.setup;
         self.count_pass();
         let at: Vec<Interval> = point.iter().map(|value| Interval::point(*value)).collect();
@@ -69,10 +76,6 @@ fn left_by(setup: &Setup, settings: &BoundedModel, point: &[f64], motions: &[Vec
     search.model.bound(&mut linear);
     let places = layout.of_whole();
     let programme = Programme::of(&linear.rows, &linear.deviations, &places);
-    let end = |unknown: usize, sign: f64| match programme.maximise(&[(unknown, sign)]) {
-        Outcome::Bounded { at, .. } => Some(sign * at[unknown]),
-        Outcome::Empty { .. } => None,
-    };
-    let widths = (0..layout.parameters()).map(|unknown| Some(end(unknown, 1.0)? + end(unknown, -1.0)?));
-    widths.map(|width| Some(width?.max(f64::MIN_POSITIVE).ln())).sum()
+    let range = |unknown: usize| linear.range(&programme, &[(unknown, 1.0)]).ok();
+    (0..layout.parameters()).map(|unknown| Some(range(unknown)?.width().max(f64::MIN_POSITIVE).ln())).sum()
 }

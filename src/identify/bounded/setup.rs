@@ -418,13 +418,13 @@ impl Setup {
         setup
     }
 
-    /// All constraints of the records with the parameters known to lie in `at`: a shorter delay leaves more readings.
+    /// The same constraints with the parameters known to lie in `at`: a shorter delay leaves more readings.
     pub(super) fn narrowed(&self, settings: &BoundedModel, at: &[Interval]) -> Result<Self, IdentifyError> {
-        let mut setup = Self { onset: vec![0; self.records.len()], ..self.clone() };
-        let delay_s = self.layout.delay().map_or(self.known_delay_s, |place| at[place]);
-        setup.layout = Self::lay(&self.records, settings, delay_s, WHOLE, &setup.onset)?;
+        let Some(place) = self.layout.delay() else { return Ok(self.within(at)) };
+        let mut setup = self.clone();
+        setup.layout = Self::lay(&self.records, settings, at[place], WHOLE, &self.onset)?;
         setup.search = at[..self.layout.parameters()].to_vec();
-        if let (Some(place), None) = (self.layout.delay(), setup.layout.delay()) {
+        if setup.layout.delay().is_none() {
             setup.known_delay_s = at[place];
             setup.search.remove(place);
         }

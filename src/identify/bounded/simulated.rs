@@ -41,6 +41,18 @@ pub(super) struct Vehicle {
     pub(super) delayed: usize,
 }
 
+/// Mixed drag, and nothing besides.
+pub(super) const DRAG: Vehicle = Vehicle {
+    gain: 0.9,
+    linear: 0.5,
+    quadratic: 0.4,
+    disturbance: 0.08,
+    cubic: 0.0,
+    stiffness: 0.0,
+    lag_rate: 0.0,
+    delayed: 0,
+};
+
 impl Vehicle {
     /// Position, velocity and force at every sample under a square wave; and the command.
     pub(super) fn motion(&self, samples: usize) -> Vec<Sample> {

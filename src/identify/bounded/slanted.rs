@@ -42,7 +42,7 @@ impl Linear {
     }
 
     /// What the rows leave of a combination of the unknowns; with the multipliers that contradict it, of nothing.
-    fn range(&self, programme: &Programme, parts: &[(usize, f64)]) -> Result<Interval, Multipliers> {
+    pub(super) fn range(&self, programme: &Programme, parts: &[(usize, f64)]) -> Result<Interval, Multipliers> {
         let end = |sign: f64| {
             let objective: Vec<(usize, f64)> = parts.iter().map(|(index, weight)| (*index, sign * weight)).collect();
             self.shown(programme, &objective, |rows| self.rows.upper_bound(&objective, rows, &self.deviations))

@@ -1,40 +1,31 @@
 use super::super::search::Left;
-use super::super::simulated::Vehicle;
+use super::super::simulated::{DRAG, Vehicle};
 use super::super::{Consistency, DelayBound};
 use super::*;
 
 const QUANTUM: f64 = 0.005;
 const SAMPLES: usize = 300;
-const DRAG: Vehicle = Vehicle {
-    gain: 0.9,
-    linear: 0.5,
-    quadratic: 0.4,
-    disturbance: 0.08,
-    cubic: 0.0,
-    stiffness: 0.0,
-    lag_rate: 0.0,
-    delayed: 5,
-};
+const DELAYED: Vehicle = Vehicle { delayed: 5, ..DRAG };
 
 /// What the fit says, to within this share.
 fn estimates(share: f64) -> Estimates {
     let near = |value: f64| value * (1.0 + share);
     Some(vec![
-        (Quantity::Alpha, near(1.0 / DRAG.gain)),
-        (Quantity::Beta, near(DRAG.linear / DRAG.gain)),
-        (Quantity::BetaQuadratic, near(DRAG.quadratic / DRAG.gain)),
+        (Quantity::Alpha, near(1.0 / DELAYED.gain)),
+        (Quantity::Beta, near(DELAYED.linear / DELAYED.gain)),
+        (Quantity::BetaQuadratic, near(DELAYED.quadratic / DELAYED.gain)),
         (Quantity::DelayS, near(0.025)),
-        (Quantity::Delta(0), near(DRAG.disturbance / DRAG.gain)),
+        (Quantity::Delta(0), near(DELAYED.disturbance / DELAYED.gain)),
     ])
 }
 
 #[test]
 fn from_wherever_the_search_begins_the_truth_is_inside_and_the_bounds_are_the_same() {
-    let motion = DRAG.motion(SAMPLES);
+    let motion = DELAYED.motion(SAMPLES);
     let record = Vehicle::record(&motion, QUANTUM);
-    let settings = BoundedModel { delay: DelayBound::Unknown, ..DRAG.model(false, QUANTUM) };
+    let settings = BoundedModel { delay: DelayBound::Unknown, ..DELAYED.model(false, QUANTUM) };
     let setup = Setup::new(&[&record], &settings).expect("a problem");
-    let truth = DRAG.truth(&setup, &motion);
+    let truth = DELAYED.truth(&setup, &motion);
     let mut ends = Vec::new();
     for edge in [None, Some(3), Some(7)] {
         let begun = edge.map(|edge| setup.after(&settings, edge).expect("there are readings after it"));
@@ -49,7 +40,7 @@ fn from_wherever_the_search_begins_the_truth_is_inside_and_the_bounds_are_the_sa
         assert!(all.onset == [0] && all.layout.windows()[0].first < SAMPLES / 10, "readings before are not heard");
         let start = led(&all, &begun, &settings, &division).expect("a frame");
         // It holds the truth, and one whose frame is not moved with its centre does not.
-        let own = DRAG.truth(&all, &motion);
+        let own = DELAYED.truth(&all, &motion);
         let mut frame = start.slanted.clone().expect("a frame").frame;
         frame.z.iter_mut().for_each(|z| *z += Interval::symmetric(1e-7));
         assert!(frame.holds(&own, 0.0), "{edge:?}");
@@ -72,8 +63,8 @@ fn from_wherever_the_search_begins_the_truth_is_inside_and_the_bounds_are_the_sa
 
 #[test]
 fn a_search_without_patience_begins_where_estimates_say_and_without_any_where_the_record_does() {
-    let motion = DRAG.motion(SAMPLES);
-    let settings = DRAG.model(false, QUANTUM);
+    let motion = DELAYED.motion(SAMPLES);
+    let settings = DELAYED.model(false, QUANTUM);
     let setup = Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &settings).expect("a problem");
     let with = |estimates: Estimates, patience: usize| begin(&setup, &settings, &Box::new(estimates), patience);
     let moved = with(estimates(0.001), 1);
@@ -85,14 +76,14 @@ fn a_search_without_patience_begins_where_estimates_say_and_without_any_where_th
     }
     let impatient = with(estimates(0.001), 60);
     assert!(matches!(impatient.setup, Cow::Owned(_)) && impatient.spent > moved.spent, "what was in vain counts");
-    let known = DRAG.model(true, QUANTUM);
+    let known = DELAYED.model(true, QUANTUM);
     let of_known = Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &known).expect("a problem");
     assert!(matches!(begin(&of_known, &known, &Box::new(estimates(0.001)), 1).setup, Cow::Borrowed(_)));
     let hull = |begun: &Begun<'_>| {
         let boxes = begun.boxes.iter().map(|kept| kept.at.clone());
         super::super::divide::around(boxes).expect("the truth is inside")
     };
-    let truth = DRAG.truth(&setup, &motion);
+    let truth = DELAYED.truth(&setup, &motion);
     for begun in [&moved, &patient, &alone, &unmoved] {
         let hull = hull(begun);
         assert!((0..setup.layout.parameters()).all(|place| hull[place].contains(truth[place])), "{hull:?}");
@@ -105,8 +96,8 @@ fn a_search_without_patience_begins_where_estimates_say_and_without_any_where_th
 
 #[test]
 fn boxes_that_are_done_stay_where_a_search_goes_on() {
-    let motion = DRAG.motion(SAMPLES);
-    let settings = DRAG.model(false, QUANTUM);
+    let motion = DELAYED.motion(SAMPLES);
+    let settings = DELAYED.model(false, QUANTUM);
     let setup = Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &settings).expect("a problem");
     let beginnings = setup.beginnings(&settings, SEARCHED).expect("long enough");
     let mut stayed = 0;
@@ -121,4 +112,22 @@ fn boxes_that_are_done_stay_where_a_search_goes_on() {
         stayed += before.len();
     }
     assert!(stayed > 0, "nothing was done before");
+}
+
+#[test]
+fn a_witness_meets_the_readings_before_the_onset_where_the_budget_is_spent_after_it() {
+    let verdict = |off: f64| {
+        let mut motion = DELAYED.motion(SAMPLES);
+        // After the longest delay, and before the onset.
+        motion[40].0[0] += off;
+        let settings = DELAYED.model(false, QUANTUM);
+        let setup = Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &settings).expect("a problem");
+        let later = setup.after(&settings, 5).expect("there are readings after it");
+        let boxes = vec![Kept::new(later.search.clone())];
+        let begun = Begun { setup: Cow::Owned(later), boxes, spent: settings.budget };
+        let explored = go_further(&setup, begun, &settings, &Box::new(estimates(0.001)), |_, _| ());
+        explored.expect("bounds").bounds.verdict
+    };
+    assert_eq!(verdict(0.0), Consistency::Consistent);
+    assert_eq!(verdict(5.0 * QUANTUM), Consistency::Undecided, "a reading that nothing meets");
 }

@@ -1,6 +1,6 @@
 use super::super::problem::Readings;
 use super::super::setup::Scales;
-use super::super::simulated::{Sample, Vehicle};
+use super::super::simulated::{DRAG, Sample, Vehicle};
 use super::super::{BoundedModel, DelayBound};
 use super::*;
 
@@ -8,20 +8,11 @@ const QUANTUM: f64 = 0.01;
 const SAMPLES: usize = 300;
 /// Samples between two switchings.
 const SWING: usize = 16;
-const DRAG: Vehicle = Vehicle {
-    gain: 0.9,
-    linear: 0.5,
-    quadratic: 0.4,
-    disturbance: 0.08,
-    cubic: 0.0,
-    stiffness: 0.0,
-    lag_rate: 0.0,
-    delayed: 5,
-};
+const DELAYED: Vehicle = Vehicle { delayed: 5, ..DRAG };
 
 fn case(delay_known: bool) -> (Setup, BoundedModel, Vec<Sample>) {
-    let motion = DRAG.motion(SAMPLES);
-    let settings = DRAG.model(delay_known, QUANTUM);
+    let motion = DELAYED.motion(SAMPLES);
+    let settings = DELAYED.model(delay_known, QUANTUM);
     let setup = Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &settings).expect("a problem");
     (setup, settings, motion)
 }
@@ -55,7 +46,7 @@ fn later_beginnings_hold_the_truth_and_those_of_which_a_reading_moved_do_not() {
             assert!(instants[0].abs_diff(SWING * (edge + 1)) <= 1, "edge {edge}: {instants:?}");
             assert!(instants[1].abs_diff(SWING * (edge + 4)) <= 1, "edge {edge}: {instants:?}");
             assert!(beginnings.samples() <= 3 * SWING + 2, "{} samples count", beginnings.samples());
-            let truth = DRAG.truth(&beginnings, &motion);
+            let truth = DELAYED.truth(&beginnings, &motion);
             let mut at = about(&beginnings, &truth, 0.0);
             Search::new(&beginnings).contract(&mut at, true).expect("the truth is inside");
             let inside = |place: usize| (at[place] + Interval::symmetric(1e-7)).contains(truth[place]);
@@ -101,16 +92,16 @@ fn searched(setup: &Setup, settings: &BoundedModel) -> f64 {
 
 #[test]
 fn where_the_search_begins_less_is_left_than_at_the_records_beginning() {
-    let motion = DRAG.motion(SAMPLES);
-    let settings = DRAG.model(false, QUANTUM);
+    let motion = DELAYED.motion(SAMPLES);
+    let settings = DELAYED.model(false, QUANTUM);
     let (mut later, mut less) = (0, 0);
     for shift in 0..6 {
         // Other readings are rounded up, and down.
         let shifted: Vec<Sample> =
             motion.iter().map(|([x, v, f], u)| ([x + 0.23 * QUANTUM * f64::from(shift), *v, *f], *u)).collect();
         let setup = Setup::new(&[&Vehicle::record(&shifted, QUANTUM)], &settings).expect("a problem");
-        let truth = DRAG.truth(&setup, &shifted);
-        let Some(found) = Search::new(&setup).later(&settings, &truth) else { continue };
+        let truth = DELAYED.truth(&setup, &shifted);
+        let Some(found) = Search::new(&setup).later_about(&settings, &truth) else { continue };
         later += 1;
         assert!(found.onset[0] > SWING && found.onset[0] <= SAMPLES / 2 + SWING, "from {}", found.onset[0]);
         less += usize::from(searched(&found, &settings) < searched(&setup, &settings));

@@ -3,7 +3,7 @@ use rand_pcg::Pcg64Mcg;
 
 use super::super::super::BoundedModel;
 use super::super::super::setup::Setup;
-use super::super::super::simulated::Vehicle;
+use super::super::super::simulated::{DRAG, Vehicle};
 use super::*;
 
 const QUANTUM: f64 = 0.01;
@@ -11,16 +11,6 @@ const BOXES: usize = 12;
 const BUDGET: usize = 2000;
 /// What the truth's integration may be off.
 const OFF: f64 = 1e-7;
-const DRAG: Vehicle = Vehicle {
-    gain: 0.9,
-    linear: 0.5,
-    quadratic: 0.4,
-    disturbance: 0.08,
-    cubic: 0.0,
-    stiffness: 0.0,
-    lag_rate: 0.0,
-    delayed: 0,
-};
 
 /// The readings of a vehicle, and its unknowns.
 fn case(vehicle: &Vehicle, delay_known: bool) -> (Setup, Vec<f64>) {
