@@ -1,10 +1,10 @@
 //! One pass of contraction: the readings as linear inequalities over a box, and what they leave of each unknown.
 
-use core::cell::Cell;
 use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
+use super::effort::Effort;
 use super::field::Term;
 use super::lp::{Multipliers, Outcome, Programme, Rows};
 use super::mix::{By, Mix};
@@ -38,6 +38,7 @@ pub(super) enum Origin {
 /// The readings over a box, linearised.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Linear {
+    pub(super) effort: Effort,
     pub(super) rows: Rows,
     pub(super) origins: Vec<Origin>,
     pub(super) centre: Vec<f64>,
@@ -69,8 +70,7 @@ pub(super) struct Model<'a> {
     pub(super) fastest: f64,
     /// Reciprocal of the time over which a step's remainder of the velocity matters; none for steps by the fastest rate alone.
     pub(super) per_s: Option<f64>,
-    /// Steps of motions so far.
-    pub(super) steps: Cell<usize>,
+    pub(super) effort: Effort,
     /// So many windows of each record, from its first on, are followed.
     pub(super) reach: usize,
     /// Readings of each record that are heard; all without.
@@ -177,7 +177,7 @@ impl Model<'_> {
             delay_at_s: self.delay_s(&point).midpoint(),
             fastest: 2.0 * self.fastest,
             remainder: self.per_s.map(|per_s| REMAINDER * readings.error * per_s),
-            steps: &self.steps,
+            effort: &self.effort,
         };
         let start = Pair { over: self.layout.state_of(span.from, at), at: self.layout.state_of(span.from, &point) };
         follow(&drive, start, &times, unknowns)
@@ -186,7 +186,7 @@ impl Model<'_> {
     /// Deviations from a point of a box.
     pub(super) fn about(&self, at: &[Interval], centre: Vec<f64>) -> Linear {
         let deviations = at.iter().zip(&centre).map(|(side, middle)| *side - Interval::point(*middle)).collect();
-        Linear { centre, deviations, ..Linear::default() }
+        Linear { centre, deviations, effort: self.effort.clone(), ..Linear::default() }
     }
 
     /// What the search box says beyond the sides of a box: a disturbance is no stronger than the largest command, and linear drag
@@ -307,7 +307,12 @@ impl Linear {
             Origin::Disturbance { .. } | Origin::LeastLinear => true,
             Origin::Hat { .. } => false,
         };
-        let mut linear = Self { centre: self.centre.clone(), deviations: self.deviations.clone(), ..Self::default() };
+        let mut linear = Self {
+            effort: self.effort.clone(),
+            centre: self.centre.clone(),
+            deviations: self.deviations.clone(),
+            ..Self::default()
+        };
         for (row, origin) in self.origins.iter().enumerate().filter(|(_, origin)| kept(origin)) {
             linear.rows.slopes.push(self.rows.slopes[row].clone());
             linear.rows.limits.push(self.rows.limits[row]);
@@ -322,9 +327,14 @@ impl Linear {
         places.into_iter().collect()
     }
 
+    /// With these unknowns.
+    pub(super) fn programme(&self, places: &[usize]) -> Programme {
+        Programme::of(&self.rows, &self.deviations, places, &self.effort)
+    }
+
     /// Bounds the `unknowns`, of which the rows are linear inequalities together with the other `places`.
     pub(super) fn contract(&self, at: &mut [Interval], places: &[usize], unknowns: &[usize]) -> Pass {
-        let programme = Programme::of(&self.rows, &self.deviations, places);
+        let programme = self.programme(places);
         for &unknown in unknowns {
             for sign in [1.0, -1.0] {
                 let objective = [(unknown, sign)];

@@ -22,7 +22,7 @@ mod tests;
 /// Divisions after which a witness is looked for again.
 const DIVISIONS_PER_TRIAL: usize = 8;
 /// Passes over the beginnings after which it is looked where in the records another search of them is shorter.
-const PATIENCE: usize = 400;
+const PATIENCE: usize = 1000;
 /// Bounds that are this good, the inner against the outer width, are not sharpened further.
 const GOOD: f64 = 0.98;
 
@@ -115,7 +115,7 @@ fn begin<'a>(
     let budget = passes(&beginnings, settings.budget);
     // Where the delay is known nothing else asks for all readings once more at the end.
     let patience = if setup.layout.delay().is_some() { patience } else { budget };
-    let mut search = Search::new(&beginnings);
+    let mut search = Search::new(&beginnings).part_of(setup);
     let mut division = search.search(beginnings.search.clone(), budget.min(patience));
     if !division.followed && patience < budget {
         let mut near = Search::new(setup);
@@ -124,7 +124,7 @@ fn begin<'a>(
         if let Some(later) = later
             && let Some(beginnings) = later.beginnings(settings, SEARCHED)
         {
-            let mut search = Search::new(&beginnings);
+            let mut search = Search::new(&beginnings).part_of(setup);
             let left = settings.budget.saturating_sub(before);
             let division = search.search(beginnings.search.clone(), passes(&beginnings, left));
             let boxes = later.boxes(&beginnings, &division);

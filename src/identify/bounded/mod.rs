@@ -17,6 +17,7 @@ mod bounds;
 mod command;
 mod contract;
 mod divide;
+mod effort;
 mod estimate;
 mod explore;
 mod field;

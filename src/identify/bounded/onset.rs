@@ -4,7 +4,6 @@
 //! roundings. Whatever the onset, what is found encloses what all readings leave: those before it are heard at the end.
 
 use super::bounds::Quantity;
-use super::lp::Programme;
 use super::search::Search;
 use super::settings::BoundedModel;
 use super::setup::{SEARCHED, Setup};
@@ -75,7 +74,7 @@ fn left_by(setup: &Setup, settings: &BoundedModel, point: &[f64], motions: &[Vec
     }
     search.model.bound(&mut linear);
     let places = layout.of_whole();
-    let programme = Programme::of(&linear.rows, &linear.deviations, &places);
+    let programme = linear.programme(&places);
     let range = |unknown: usize| linear.range(&programme, &[(unknown, 1.0)]).ok();
     (0..layout.parameters()).map(|unknown| Some(range(unknown)?.width().max(f64::MIN_POSITIVE).ln())).sum()
 }

@@ -4,7 +4,7 @@ use super::bounds::{Bounds, Consistency, Contradicting, Parameters, Quantity, Qu
 use super::contract::Origin;
 use super::divide::{Division, End, around};
 use super::field::Term;
-use super::lp::{Outcome, Programme};
+use super::lp::Outcome;
 use super::search::{Empty, Search};
 use super::setup::Setup;
 use super::slanted::Held;
@@ -12,14 +12,14 @@ use super::witness::Tried;
 use crate::numeric::Interval;
 
 /// Passes after which the bounds are good enough: they hold in any case.
-const SHARPENING: usize = 400;
+const SHARPENING: usize = 640;
 /// A box is as good as a point where what is in doubt takes less than this share of what the nearest parameter leaves of the readings'
 /// errors; and in any case where it takes less than the second of these errors.
 const FINE: f64 = 0.1;
 const LEAST_FINE: f64 = 3e-6;
 /// Boxes are halved until what is in doubt takes less than this of the readings' errors, before ends are drawn in; with so many passes.
 const COARSE: f64 = 0.07;
-const EVENING: usize = 200;
+const EVENING: usize = 320;
 /// How often all ends are drawn in.
 const ROUNDS: usize = 6;
 
@@ -311,7 +311,7 @@ fn least_misfit(search: &Search<'_>, held: &[Option<Held>]) -> f64 {
         let (mut linear, misfit) = search.with_misfit(&held.linear);
         linear.deviations[misfit] = Interval::new(-1.0, 1.0).unwrap_or(Interval::ENTIRE);
         let places: Vec<usize> = (0..=misfit).collect();
-        let programme = Programme::of(&linear.rows, &linear.deviations, &places);
+        let programme = linear.programme(&places);
         let objective = [(misfit, -1.0)];
         let Outcome::Bounded { multipliers, .. } = programme.maximise(&objective) else { continue };
         let bound = linear.rows.upper_bound(&objective, &multipliers, &linear.deviations);

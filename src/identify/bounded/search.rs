@@ -1,9 +1,8 @@
 //! Contraction of one box until nothing helps.
 
-use core::cell::Cell;
-
 use super::bounds::Contradicting;
 use super::contract::{Hat, Linear, Model, Pass};
+use super::effort::Effort;
 use super::field::Term;
 use super::lp::Multipliers;
 use super::rows::{Parted, Starts};
@@ -30,8 +29,6 @@ const MOST_PASSES: usize = 30;
 const FINE_PASSES: usize = 6;
 /// Records are followed as a whole where less than this of the readings' error is in doubt.
 pub(super) const UNBROKEN: f64 = 1.0;
-/// Steps of a pass, besides two for every sample, that count as one.
-const STEPS_PER_PASS: usize = 1000;
 /// Passes by hats that cost as much as one of the motion.
 const WEIGHED_PER_PASS: usize = 12;
 
@@ -73,10 +70,11 @@ pub(super) struct Search<'a> {
     pub(super) model: Model<'a>,
     /// For each record.
     hats: Vec<Vec<Hat>>,
-    /// Passes over the records so far, those by hats counting by the dozen, and steps of stiff motions like as many passes.
+    /// Passes over the records so far, those by hats counting by the dozen, and those that take longer as so many more.
     pub(super) passes: usize,
     before: usize,
-    steps_per_pass: usize,
+    /// Passes of whose kind such passes are part.
+    whole: usize,
     weighed: usize,
     parts: usize,
     /// Readings between two switchings that no motion meets, where such were found.
@@ -93,13 +91,27 @@ impl<'a> Search<'a> {
             least_linear: setup.least_linear,
             fastest: setup.fastest,
             per_s: Some(1.0 / setup.swing_s),
-            steps: Cell::new(0),
+            effort: Effort::default(),
             reach: usize::MAX,
             heard: None,
         };
         let hats = setup.records.iter().map(|readings| hats(&readings.time_s, setup.swing_s)).collect();
-        let steps_per_pass = STEPS_PER_PASS + 2 * setup.samples();
-        Self { setup, model, hats, passes: 0, before: 0, steps_per_pass, weighed: 0, parts: 0, clash: Vec::new() }
+        Self {
+            setup,
+            model,
+            hats,
+            passes: 0,
+            before: 0,
+            whole: setup.samples(),
+            weighed: 0,
+            parts: 0,
+            clash: Vec::new(),
+        }
+    }
+
+    /// The same where each pass over these records is its part of one over `whole`.
+    pub(super) fn part_of(self, whole: &Setup) -> Self {
+        Self { whole: whole.samples(), ..self }
     }
 
     /// The same where so many passes were made before.
@@ -109,7 +121,9 @@ impl<'a> Search<'a> {
 
     /// One more pass.
     pub(super) fn count_pass(&mut self) {
-        self.passes = (self.passes + 1).max(self.before + self.model.steps.get() / self.steps_per_pass);
+        let parts = self.whole as f64 / self.setup.samples() as f64;
+        let taken = (parts * self.model.effort.passes(self.whole)) as usize;
+        self.passes = (self.passes + 1).max(self.before + taken);
     }
 
     /// A contraction without a motion.
@@ -132,6 +146,7 @@ impl<'a> Search<'a> {
     /// Speeds from the readings; those at the windows' beginnings go into the box. Then the hats.
     pub(super) fn weigh(&mut self, at: &mut [Interval]) -> Result<(), Empty> {
         self.weighed += 1;
+        self.model.effort.weighed(self.setup.samples());
         if self.weighed.is_multiple_of(WEIGHED_PER_PASS) {
             self.count_pass();
         }

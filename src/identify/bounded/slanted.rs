@@ -118,7 +118,7 @@ pub(super) struct Held {
 impl Held {
     fn new(linear: Linear, frame: Option<Frame>) -> Self {
         let places: Vec<usize> = (0..linear.deviations.len()).collect();
-        let programme = Programme::of(&linear.rows, &linear.deviations, &places);
+        let programme = linear.programme(&places);
         Self { linear, programme, frame }
     }
 
@@ -191,7 +191,7 @@ impl Search<'_> {
             Empty { method: Method::Whole, multipliers, linear: Some(linear) }
         };
         let unknowns: Vec<usize> = (0..linear.deviations.len()).collect();
-        let programme = Programme::of(&linear.rows, &linear.deviations, &unknowns);
+        let programme = linear.programme(&unknowns);
         for (row, place) in own.places.iter().enumerate() {
             let side = linear.range_of(&programme, &own.unknown(row), &own).map_err(|rows| empty(rows, &linear, at))?;
             at[*place] = at[*place].intersection(side).ok_or_else(parted)?;

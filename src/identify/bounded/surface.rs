@@ -105,7 +105,9 @@ impl Surface {
     pub(super) fn over(&self, z: &[Interval], centre: &[f64], active: bool) -> (Linear, Doubt) {
         let middle: Vec<Interval> = z.iter().map(|side| Interval::point(side.midpoint())).collect();
         let deviations: Vec<Interval> = z.iter().zip(&middle).map(|(side, middle)| *side - *middle).collect();
-        let mut linear = Linear { centre: centre.to_vec(), deviations: deviations.clone(), ..Linear::default() };
+        let effort = self.sides.effort.clone();
+        let mut linear =
+            Linear { effort, centre: centre.to_vec(), deviations: deviations.clone(), ..Linear::default() };
         let (mut slack, mut by) = (0.0f64, vec![0.0; z.len()]);
         for Sheet { pairs, readings } in &self.sheets {
             let products = products(pairs, &deviations);

@@ -300,8 +300,9 @@ fn a_window_may_end_within_a_change_of_sign() {
             let search = Search::new(&setup);
             let motion = search.model.motion(Span { from: 0, to: 1 }, &at, &centre);
             assert!(motion.is_some(), "{law:?}: no enclosure up to sample {last}");
-            let steps = search.model.steps.get();
-            assert!(steps < 40 + 2 * last, "{law:?}: {steps} steps up to sample {last}");
+            // As much as 40 steps, and two for every sample.
+            let us = search.model.effort.us();
+            assert!(us < 320.0 + 18.0 * last as f64, "{law:?}: {us} us up to sample {last}");
         }
     }
 }

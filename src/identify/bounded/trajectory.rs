@@ -1,9 +1,8 @@
 //! The motion along a record over a box of unknowns: enclosures of the output at every sample, and of its slopes about a point.
 
-use core::cell::Cell;
-
 use super::bend::{BEND_ORDER, Carried, Pairs};
 use super::command::Command;
+use super::effort::Effort;
 use super::field::{FORCE, Field, POSITION, TERMS, Term, Triple, VELOCITY};
 use super::mix::{Bundle, Mix};
 use super::series::ORDER;
@@ -74,8 +73,7 @@ pub(super) struct Drive<'a> {
     pub(super) fastest: f64,
     /// What a step may leave unsure of the velocity; none for steps by the fastest rate alone.
     pub(super) remainder: Option<f64>,
-    /// Counts the steps.
-    pub(super) steps: &'a Cell<usize>,
+    pub(super) effort: &'a Effort,
 }
 
 /// Unknowns of a motion: what each is, and how far from the point it may be.
@@ -254,6 +252,7 @@ impl Way<'_> {
             return None;
         }
         let bends = bends.iter().map(|bend| bend[POSITION]).collect();
+        self.drive.effort.node(self.pairs.is_some());
         self.nodes.push(Node { over, at, slopes, bends, rest: rest[POSITION], speed: self.speed });
         Some(())
     }
@@ -320,7 +319,11 @@ impl Way<'_> {
                 (step, at_end) = (Some(crude), Some((at, passed)));
             }
             let mut step = step?;
-            self.drive.steps.set(self.drive.steps.get() + 1);
+            if self.bundles.is_empty() {
+                self.drive.effort.point();
+            } else {
+                self.drive.effort.step(self.bends.len());
+            }
             self.speed = self.speed.max(step.within[VELOCITY].magnitude());
             let last = part == left;
             let reached =

@@ -1,7 +1,7 @@
 //! Single parameters: the one with the least largest misfit, and ones near the ends of the bounds.
 
 use super::contract::Linear;
-use super::lp::{Outcome, Programme};
+use super::lp::Outcome;
 use super::search::Search;
 use crate::numeric::{Interval, Real};
 
@@ -39,7 +39,7 @@ pub(super) struct Tried {
 fn least(linear: &mut Linear, misfit: usize, places: &[usize]) -> Option<Vec<f64>> {
     MISFITS.into_iter().find_map(|most| {
         linear.deviations[misfit] = Interval::new(-1.0, most)?;
-        match Programme::of(&linear.rows, &linear.deviations, places).maximise(&[(misfit, -1.0)]) {
+        match linear.programme(places).maximise(&[(misfit, -1.0)]) {
             Outcome::Bounded { at, .. } => Some(at),
             Outcome::Empty { .. } => None,
         }
@@ -220,8 +220,10 @@ impl Search<'_> {
             }
             linear.deviations[tightened] = Interval::point(-(inside + doubt));
             let all: Vec<usize> = places.iter().copied().chain([tightened]).collect();
-            let programme = Programme::of(&linear.rows, &linear.deviations, &all);
-            let Outcome::Bounded { at: step, .. } = programme.maximise(&[(unknown, sign)]) else { break };
+            let programme = linear.programme(&all);
+            let Outcome::Bounded { at: step, .. } = programme.maximise(&[(unknown, sign)]) else {
+                break;
+            };
             for (place, step) in places.iter().zip(&step) {
                 centre[*place] += step;
             }

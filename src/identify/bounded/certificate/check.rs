@@ -1,9 +1,9 @@
 //! The check: what a certificate says of its records, stage by stage. No search, no linear programme.
 
-use core::cell::Cell;
 
 use super::super::command::Command;
 use super::super::contract::Model;
+use super::super::effort::Effort;
 use super::super::field::Term;
 use super::super::problem::{Layout, Readings, Window, swing_s};
 use super::walk::{Walk, Work};
@@ -265,7 +265,7 @@ impl Certificate {
             least_linear: self.least_linear,
             fastest: self.fastest,
             per_s: roughly(swing_s(readings)),
-            steps: Cell::new(0),
+            effort: Effort::default(),
             reach: usize::MAX,
             heard: None,
         }

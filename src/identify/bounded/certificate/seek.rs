@@ -61,7 +61,7 @@ impl Found {
 
 impl<'a> Seek<'a> {
     pub(super) fn new(setup: &'a Setup, linear: &'a Linear, places: &[usize], caution: Caution) -> Self {
-        Self { linear, programme: Programme::of(&linear.rows, &linear.deviations, places), caution, setup }
+        Self { linear, programme: linear.programme(places), caution, setup }
     }
 
     /// The error of a row's reading, which a contradiction must exceed; those of hats are not told apart.
@@ -172,6 +172,7 @@ impl<'a> Seek<'a> {
 mod tests {
     use super::*;
     use crate::identify::DragLaw;
+    use crate::identify::bounded::effort::Effort;
     use crate::identify::bounded::lp::Rows;
     use crate::identify::bounded::tests::{record, settings};
 
@@ -184,6 +185,7 @@ mod tests {
         let slope = Interval::new(-1.1, -0.9).expect("a range");
         let rows = Rows { slopes: vec![vec![(0, slope)]], limits: vec![-limit] };
         let linear = Linear {
+            effort: Effort::default(),
             rows,
             origins: vec![Origin::LeastLinear],
             centre: vec![0.0],

@@ -129,5 +129,7 @@ fn a_witness_meets_the_readings_before_the_onset_where_the_budget_is_spent_after
         explored.expect("bounds").bounds.verdict
     };
     assert_eq!(verdict(0.0), Consistency::Consistent);
-    assert_eq!(verdict(5.0 * QUANTUM), Consistency::Undecided, "a reading that nothing meets");
+    for off in [1.5, 5.0] {
+        assert_eq!(verdict(off * QUANTUM), Consistency::Undecided, "a reading that nothing meets, {off} steps off");
+    }
 }

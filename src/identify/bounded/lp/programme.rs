@@ -1,5 +1,6 @@
 //! Inequalities in floating point over a box, and the dual simplex method.
 
+use super::super::effort::Effort;
 use super::vertex::{Constraint, Vertex, side_of};
 use super::{Multipliers, Outcome, Rows};
 use crate::numeric::Interval;
@@ -46,11 +47,13 @@ pub(in super::super) struct Programme {
     numbers: Vec<usize>,
     centre: Vec<f64>,
     radius: Vec<f64>,
+    effort: Effort,
 }
 
 impl Programme {
     /// Of the midpoints, the rest of each slope's range taken from the limit. The rows have no unknowns but `places`.
-    pub(in super::super) fn of(rows: &Rows, deviations: &[Interval], places: &[usize]) -> Self {
+    pub(in super::super) fn of(rows: &Rows, deviations: &[Interval], places: &[usize], effort: &Effort) -> Self {
+        effort.slopes(rows.slopes.iter().map(Vec::len).sum());
         let mut column = vec![usize::MAX; deviations.len()];
         for (index, place) in places.iter().enumerate() {
             column[*place] = index;
@@ -64,6 +67,7 @@ impl Programme {
             numbers: Vec::with_capacity(rows.limits.len()),
             centre: own(&|z| z.midpoint()),
             radius: own(&|z| z.radius().max(f64::MIN_POSITIVE)),
+            effort: effort.clone(),
         };
         let mut entries: Vec<(usize, f64)> = Vec::new();
         for (number, (slopes, limit)) in rows.slopes.iter().zip(&rows.limits).enumerate() {
@@ -160,6 +164,7 @@ impl Programme {
                 return Outcome::Empty { multipliers: self.multipliers(against.chain([(worst, 1.0)])) };
             };
             vertex.put(exchange, worst, limit, &shares);
+            self.effort.pivot(self.columns.len());
         }
         let weights = vertex.weights(&objective);
         let multipliers = self.multipliers(vertex.basis.iter().copied().zip(weights));

@@ -1,6 +1,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+use super::super::effort::Effort;
 use super::*;
 
 /// The largest value of an objective over the corners of `a . z <= b`, each where two of these meet; none where no corner is left.
@@ -31,7 +32,10 @@ fn the_highest_corner_is_reached_and_its_multipliers_show_it() {
         };
         let all: Vec<([f64; 2], f64)> = rows.iter().copied().chain(sides).collect();
         let sought: Vec<(usize, f64)> = objective.into_iter().enumerate().collect();
-        match (Programme::of(&inequalities, &deviations, &[0, 1]).maximise(&sought), highest_corner(&all, objective)) {
+        match (
+            Programme::of(&inequalities, &deviations, &[0, 1], &Effort::default()).maximise(&sought),
+            highest_corner(&all, objective),
+        ) {
             (Outcome::Bounded { multipliers, at }, Some(highest)) => {
                 let shown = inequalities.upper_bound(&sought, &multipliers, &deviations);
                 let reached = objective[0] * at[0] + objective[1] * at[1];
@@ -55,7 +59,7 @@ fn the_highest_corner_is_reached_and_its_multipliers_show_it() {
 fn without_an_unknown_a_row_is_met_or_it_is_not() {
     let outcome = |limit: f64| {
         let rows = Rows { slopes: vec![Vec::new()], limits: vec![limit] };
-        Programme::of(&rows, &[], &[]).maximise(&[])
+        Programme::of(&rows, &[], &[], &Effort::default()).maximise(&[])
     };
     assert!(matches!(outcome(1.0), Outcome::Bounded { .. }));
     assert!(matches!(outcome(-1.0), Outcome::Empty { .. }));
@@ -100,7 +104,7 @@ fn a_point_that_meets_all_rows_and_multipliers_that_allow_no_more_show_each_othe
         let places: Vec<usize> = (0..unknowns).collect();
         let sought: Vec<(usize, f64)> =
             (0..random.random_range(1..4)).map(|k| (k * 7 % unknowns, random.random_range(-1.0..1.0))).collect();
-        let programme = Programme::of(&rows, &deviations, &places);
+        let programme = Programme::of(&rows, &deviations, &places, &Effort::default());
         short += usize::from(programme.rows() < rows.limits.len());
         match programme.maximise(&sought) {
             Outcome::Bounded { multipliers, at } => {
@@ -134,6 +138,6 @@ fn rows_that_are_met_all_over_the_box_are_left_out_and_those_that_just_may_be_mi
         limits: vec![limit, 1.0],
     };
     // By the slope that is met most easily three is the largest.
-    let of = |limit: f64| Programme::of(&rows(limit), &[side], &[0]).rows();
+    let of = |limit: f64| Programme::of(&rows(limit), &[side], &[0], &Effort::default()).rows();
     assert_eq!([of(3.01), of(2.99), of(-100.0)], [0, 1, 1]);
 }

@@ -101,7 +101,7 @@ fn boxes_whose_frames_leave_too_much_in_doubt_are_followed_window_by_window() {
 
 #[test]
 fn one_reach_after_the_other_costs_less_than_all_windows_and_than_all_at_once() {
-    let (setup, truth) = case_of(&DRAG, true, 400);
+    let (setup, truth) = case_of(&DRAG, true, 600);
     let mut random = Pcg64Mcg::seed_from_u64(63);
     let mut left = |share: f64, other: fn(&mut Search<'_>, Vec<Interval>) -> Division| {
         let at = about(&setup, &truth, share, 0.0, &mut random);
@@ -110,18 +110,18 @@ fn one_reach_after_the_other_costs_less_than_all_windows_and_than_all_at_once() 
             further.follow_further(vec![Kept::new(at.clone())], &setup.reaches(3), BUDGET).hull().expect("the truth");
         let whole = other(&mut otherwise, at).hull().expect("the truth");
         assert!(left[0].width() < 1.5 * whole[0].width(), "{:?} and {:?}", left[0], whole[0]);
-        [further, otherwise].map(|search| search.model.steps.get())
+        [further, otherwise].map(|search| search.model.effort.us())
     };
     let windows = left(0.05, |search, at| search.search(at, BUDGET));
-    assert!(windows[0] < windows[1], "{windows:?} steps");
+    assert!(windows[0] < windows[1], "{windows:?}");
     let at_once =
         left(0.15, |search, at| search.follow_further(vec![Kept::new(at)], &[search.setup.most_windows()], BUDGET));
-    assert!(at_once[0] < at_once[1], "{at_once:?} steps");
+    assert!(at_once[0] < at_once[1], "{at_once:?}");
 }
 
 #[test]
 fn windows_of_the_next_reach_come_before_those_of_whole_records() {
-    let (setup, truth) = case_of(&Vehicle { delayed: 5, ..DRAG }, false, 400);
+    let (setup, truth) = case_of(&Vehicle { delayed: 5, ..DRAG }, false, 600);
     let reaches = setup.reaches(3);
     assert!(reaches.len() > 3, "{reaches:?}");
     let mut wide = about(&setup, &truth, 0.5, 0.0, &mut Pcg64Mcg::seed_from_u64(67));
@@ -134,8 +134,8 @@ fn windows_of_the_next_reach_come_before_those_of_whole_records() {
     let close = whole.search(wide, BUDGET);
     let [left, close] = [left, close].map(|division| division.hull().expect("the truth is inside"));
     assert!(left[0].contains(truth[0]) && left[0].width() < 1.5 * close[0].width(), "{:?} and {:?}", left[0], close[0]);
-    let [further, whole] = [further, whole].map(|search| search.model.steps.get());
-    assert!(further < whole, "{further} and {whole} steps");
+    let [further, whole] = [further, whole].map(|search| search.model.effort.us());
+    assert!(further < whole, "{further} and {whole}");
 }
 
 /// A box in a frame along what the readings tell, its coordinates so many times as wide as they are.
