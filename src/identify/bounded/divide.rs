@@ -1,6 +1,6 @@
 //! Division of the search box until every part is empty or as small as it needs to be.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 
 use super::field::Term;
 use super::search::{Empty, Left, Method, Search, UNBROKEN};
@@ -47,6 +47,25 @@ struct Part {
     at: Vec<Interval>,
     /// Whether the motion was not followed over what it is a part of. Where it was, the readings' speeds tell little besides.
     wide: bool,
+}
+
+/// Boxes of which the widest comes first: what is left when the budget is spent is no wider than need be.
+#[derive(Default)]
+struct Queue {
+    /// By width and number: nonnegative floats have the order of their bits.
+    parts: BTreeMap<(u64, usize), Part>,
+    pushed: usize,
+}
+
+impl Queue {
+    fn push(&mut self, width: f64, part: Part) {
+        self.parts.insert((width.to_bits(), self.pushed), part);
+        self.pushed += 1;
+    }
+
+    fn pop(&mut self) -> Option<Part> {
+        self.parts.pop_last().map(|(_, part)| part)
+    }
 }
 
 /// One end of an unknown's range.
@@ -314,13 +333,6 @@ impl Search<'_> {
         }
     }
 
-    /// The widest of them: what is left when the budget is spent is no wider than need be.
-    fn take_widest(&self, open: &mut Vec<Part>) -> Option<Part> {
-        let widths = open.iter().enumerate().map(|(index, part)| (index, self.widest(&part.at).0));
-        let (widest, _) = widths.max_by(|a, b| a.1.total_cmp(&b.1))?;
-        Some(open.swap_remove(widest))
-    }
-
     /// What whole records leave of a box in a frame along what they tell, where little is in doubt of them so; `slack` is of their windows.
     fn unbroken(&mut self, at: &[Interval], slack: f64) -> Result<Option<Kept>, Empty> {
         let (mut at, mut slanted) = (at.to_vec(), None);
@@ -334,8 +346,11 @@ impl Search<'_> {
 
     /// Works off a list of boxes.
     fn refine(&mut self, division: &mut Division, boxes: Vec<Vec<Interval>>, budget: usize) {
-        let mut open: Vec<Part> = boxes.into_iter().map(|at| Part { at, wide: true }).collect();
-        while let Some(Part { mut at, wide }) = self.take_widest(&mut open) {
+        let mut open = Queue::default();
+        for at in boxes {
+            open.push(self.widest(&at).0, Part { at, wide: true });
+        }
+        while let Some(Part { mut at, wide }) = open.pop() {
             if self.passes >= budget {
                 division.followed = false;
                 division.kept.push(Kept { at, left: Left::Wide(0), slanted: None });
@@ -368,7 +383,11 @@ impl Search<'_> {
                 Ok(None) => {}
             }
             match self.divide(&at, unknown) {
-                Some(parts) => open.extend(parts.map(|at| Part { at, wide: slack.is_infinite() })),
+                Some(parts) => {
+                    for at in parts {
+                        open.push(self.widest(&at).0, Part { at, wide: slack.is_infinite() });
+                    }
+                }
                 None => {
                     division.followed = false;
                     division.kept.push(Kept { at, left: Left::Wide(unknown), slanted: None });

@@ -6,15 +6,16 @@ use std::rc::Rc;
 /// What counts as one pass takes at most, in about microseconds of one core: by itself, and for each sample.
 const PASS_US: f64 = 2000.0;
 const PASS_SAMPLE_US: f64 = 2.4;
-/// A step of a point; with slopes; and for each bundle of pairs by which slopes bend.
+/// A step of a point; with slopes; and for each bundle of pairs by which slopes bend. With polynomials it takes so many times as long.
 const POINT_US: f64 = 1.0;
 const STEP_US: f64 = 6.9;
 const BEND_US: f64 = 1.87;
+const SERIES: f64 = 2.0;
 /// The motion at a sample, without bends and with them.
 const NODE_US: f64 = 1.6;
 const BENT_NODE_US: f64 = 2.0;
 /// A sample under hats.
-const WEIGHED_US: f64 = 2.4;
+const WEIGHED_US: f64 = 8.0;
 /// A slope in an inequality of a linear programme; and from one vertex to the next, for each unknown.
 const SLOPE_US: f64 = 0.037;
 const PIVOT_US: f64 = 0.028;
@@ -35,9 +36,10 @@ impl Effort {
         self.take(POINT_US);
     }
 
-    /// A step with slopes, and so many bundles of pairs by which they bend.
-    pub(super) fn step(&self, bends: usize) {
-        self.take(STEP_US + BEND_US * bends as f64);
+    /// A step with slopes, and so many bundles of pairs by which they bend; in closed form or not.
+    pub(super) fn step(&self, bends: usize, closed: bool) {
+        let longer = if closed { 1.0 } else { SERIES };
+        self.take(longer * (STEP_US + BEND_US * bends as f64));
     }
 
     /// The motion at a sample.

@@ -36,6 +36,8 @@ pub(super) struct Explored {
     pub(super) hulls: Vec<Option<Vec<Interval>>>,
     /// The parameters that are left; `None` where nothing is.
     pub(super) left: Option<Vec<Interval>>,
+    /// The records from where the search began, if that is not their beginning.
+    pub(super) later: Option<Setup>,
 }
 
 /// The search; where it takes long, or finds no witness, `estimates` say where to look. `witness` is told of one that was found.
@@ -83,11 +85,19 @@ fn go_further(
             }
             left
         });
-        return Ok(Explored { bounds, hulls: vec![Some(hull), last], left });
+        return Ok(Explored { bounds, hulls: vec![Some(hull), last], left, later: later(begun) });
     }
     let (bounds, hull) = conclude(setup, search, division, settings, estimates, witness);
     let left = hull.as_ref().map(|hull| hull[..setup.layout.parameters()].to_vec());
-    Ok(Explored { bounds, hulls: vec![hull], left })
+    Ok(Explored { bounds, hulls: vec![hull], left, later: later(begun) })
+}
+
+/// The records from another onset.
+fn later(begun: Cow<'_, Setup>) -> Option<Setup> {
+    match begun {
+        Cow::Owned(later) => Some(later),
+        Cow::Borrowed(_) => None,
+    }
 }
 
 /// What the beginnings leave.

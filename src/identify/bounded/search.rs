@@ -95,7 +95,8 @@ impl<'a> Search<'a> {
             reach: usize::MAX,
             heard: None,
         };
-        let hats = setup.records.iter().map(|readings| hats(&readings.time_s, setup.swing_s)).collect();
+        let records = setup.records.iter().zip(&setup.onset);
+        let hats = records.map(|(readings, onset)| hats(&readings.time_s, *onset, setup.swing_s)).collect();
         Self {
             setup,
             model,

@@ -341,10 +341,25 @@ impl Setup {
 
     /// The beginnings of all records: what they leave encloses what the whole records leave. `None` where that would save little.
     pub(super) fn beginnings(&self, settings: &BoundedModel, beginning: Beginning) -> Option<Self> {
-        let Beginning { swings, cutting } = beginning;
-        let mut setup = self.clone();
+        let mut setup = self.ended(settings, beginning)?;
         let delay_s = self.delay_s();
         for (readings, onset) in setup.records.iter_mut().zip(&mut setup.onset) {
+            // What acts later than the longest delay before the onset was commanded after that.
+            let begin = Interval::point(readings.time_s[*onset]) - delay_s;
+            let left_out = readings.time_s.partition_point(|time| *time < begin.lower()).min(*onset).saturating_sub(1);
+            *readings = readings.from(left_out);
+            *onset -= left_out;
+        }
+        setup.layout = Self::lay(&setup.records, settings, delay_s, beginning.cutting, &setup.onset).ok()?;
+        setup.states();
+        Some(setup)
+    }
+
+    /// The same with all readings before the onset, as the records have them.
+    pub(super) fn ended(&self, settings: &BoundedModel, beginning: Beginning) -> Option<Self> {
+        let Beginning { swings, cutting } = beginning;
+        let mut setup = self.clone();
+        for (readings, onset) in setup.records.iter_mut().zip(&setup.onset) {
             let skipped = readings.skipped(*onset);
             // Unknown instants are parameters of their own, and all of them would have to be known after.
             if settings.switching == SwitchedWhen::Anywhere || readings.command.edges() < skipped + 2 * swings {
@@ -352,13 +367,8 @@ impl Setup {
             }
             let (end, _) = readings.command.spans()[skipped + swings];
             *readings = readings.until(readings.time_s.partition_point(|time| *time < end));
-            // What acts later than the longest delay before the onset was commanded after that.
-            let begin = Interval::point(readings.time_s[*onset]) - delay_s;
-            let left_out = readings.time_s.partition_point(|time| *time < begin.lower()).min(*onset).saturating_sub(1);
-            *readings = readings.from(left_out);
-            *onset -= left_out;
         }
-        setup.layout = Self::lay(&setup.records, settings, delay_s, cutting, &setup.onset).ok()?;
+        setup.layout = Self::lay(&setup.records, settings, self.delay_s(), cutting, &setup.onset).ok()?;
         setup.states();
         Some(setup)
     }

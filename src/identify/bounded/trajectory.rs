@@ -322,7 +322,7 @@ impl Way<'_> {
             if self.bundles.is_empty() {
                 self.drive.effort.point();
             } else {
-                self.drive.effort.step(self.bends.len());
+                self.drive.effort.step(self.bends.len(), uncertain || self.drive.fields.closed());
             }
             self.speed = self.speed.max(step.within[VELOCITY].magnitude());
             let last = part == left;

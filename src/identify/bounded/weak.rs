@@ -20,9 +20,9 @@ const SHARES: [f64; 5] = [0.2, 0.4, 0.8, 1.4, 2.2];
 /// Hats of one width, at most.
 const MOST_HATS: usize = 60;
 
-/// Hats all along a record with the mean time between switchings `swing_s`.
-pub(super) fn hats(time_s: &[f64], swing_s: f64) -> Vec<Hat> {
-    let mut hats = Vec::new();
+/// Hats all along a record from a sample on, with the mean time between switchings `swing_s`.
+pub(super) fn hats(time_s: &[f64], from: usize, swing_s: f64) -> Vec<Hat> {
+    let (mut hats, time_s) = (Vec::new(), &time_s[from..]);
     let interval = (time_s[time_s.len() - 1] - time_s[0]) / (time_s.len() - 1) as f64;
     let mut before = 0;
     for share in SHARES {
@@ -34,7 +34,7 @@ pub(super) fn hats(time_s: &[f64], swing_s: f64) -> Vec<Hat> {
         let room = time_s.len() - 1 - 2 * half;
         let count = (2 * room / half + 1).clamp(1, MOST_HATS);
         for index in 0..count {
-            let first = room * index / count.max(2).saturating_sub(1).max(1);
+            let first = from + room * index / count.max(2).saturating_sub(1).max(1);
             hats.push([first, first + half, first + 2 * half]);
         }
     }

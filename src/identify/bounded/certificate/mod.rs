@@ -17,6 +17,7 @@ mod walk;
 use serde::{Deserialize, Serialize};
 
 use super::contract::Origin;
+use super::explore::Explored;
 use super::field::Term;
 use super::search::Search;
 use super::settings::BoundedModel;
@@ -193,29 +194,32 @@ fn shorten(at: &mut [Interval], cut: &Cut) -> bool {
 }
 
 impl Certificate {
-    /// Of a search from the box of `wide`, and of a second one with more readings where there are two `hulls`: what each left.
-    /// Together they took so many `passes`.
+    /// Of what was `explored` from the box of `wide`: with more readings once more where it left two hulls; from where it began where
+    /// that is not the records' beginning and tells enough.
     ///
     /// # Errors
     /// [`Unproved::NotFound`] where a stage takes too many steps, however much room there is around what is left.
     pub(super) fn prove(
         wide: &Setup,
         settings: &BoundedModel,
-        hulls: &[Option<Vec<Interval>>],
+        explored: &Explored,
         witness: Option<Witness>,
-        passes: usize,
     ) -> Result<Result<Self, Unproved>, IdentifyError> {
-        let mut certificate = Self::of(wide, witness);
+        let (mut certificate, passes) = (Self::of(wide, witness), explored.bounds.passes);
+        let Explored { hulls, left, .. } = explored;
+        // What all readings leave is more than nothing, or those from there on leave nothing.
+        let later = explored.later.as_ref().filter(|_| left.is_some() || hulls.len() == 1);
+        let hulls = if later.is_some() { core::slice::from_ref(left) } else { hulls };
         for (index, hull) in hulls.iter().enumerate() {
             let left = certificate.stages.last().and_then(|stage| check::sides(stage.left.as_ref()?));
             let narrowed = left.map(|left| wide.narrowed(settings, &left)).transpose()?;
-            let setup = narrowed.as_ref().unwrap_or(wide);
+            let setup = narrowed.as_ref().or(later).unwrap_or(wide);
             let goal = match hull {
                 Some(_) if index + 1 < hulls.len() => Goal::Narrow,
                 Some(hull) => Goal::Within(hull),
                 None => Goal::Nothing,
             };
-            match certificate.stage(setup, setup.beginnings(settings, PROVED).as_ref(), &goal, passes) {
+            match certificate.stage(setup, setup.ended(settings, PROVED).as_ref(), &goal, passes) {
                 Ok(stage) => certificate.stages.push(stage),
                 Err(error) => return Ok(Err(error)),
             }
