@@ -73,14 +73,13 @@ class Stage:
         require(both or self.middle == 0, "a middle speed without both drags")
         alone = "linear" in self.terms and not both
         require(not alone or own[self.terms.index("linear")][0] >= self.least, "drag below the least")
-        longest = own[len(self.terms)][1] if self.delay is None else self.delay
+        self.longest = Fraction(own[len(self.terms)][1] if self.delay is None else self.delay)
         before = None
         for window in self.windows:
             record, first, last = window
             require(0 <= record < len(records) and 0 <= first < last < len(records[record].time), "a window is malformed")
             follows = record == 0 if before is None else record == before[0] + 1 if record != before[0] else first == before[2]
-            stamps = records[record].time
-            require(follows and Fraction(stamps[first]) - Fraction(stamps[0]) >= Fraction(longest), "a window does not follow, or is too early")
+            require(follows and first >= self.acted(records[record]), "a window does not follow, or is too early")
             before = window
         require(before is not None and before[0] == len(records) - 1, "a record has no window")
         for record, first, _ in self.windows:
@@ -93,6 +92,11 @@ class Stage:
         self.box = [tuple(own[i]) if i < self.parameters else (down(own[i][0]), up(own[i][1])) for i in range(len(own))]
         self.left = None if item["left"] is None else [interval(ends) for ends in item["left"]]
         require(self.left is None or len(self.left) == self.parameters, "what is left is malformed")
+
+    def acted(self, record):
+        """The first sample at which every command that acts is in the file."""
+        since = (Fraction(stamp) - Fraction(record.time[0]) for stamp in record.time)
+        return next((n for n, since in enumerate(since) if since >= self.longest), len(record.time))
 
     def start(self, window, component):
         return self.parameters + window * self.size + component
@@ -408,9 +412,11 @@ def met(certificate, records, first, witness):
     values, begins = [number(v) for v in witness["values"]], [int(n) for n in witness["first"]]
     require(len(values) == first.parameters + first.size * len(records) and len(begins) == len(records), "the witness is malformed")
     sides = [(v, v) for v in values]
-    require(all(a <= v <= b for v, (a, b) in zip(values, first.box)), "the witness is not in the search box")
     windows = [[n, begin, len(records[n].time) - 1] for n, begin in enumerate(begins)]
     stage = Stage(certificate, records, {"delay_s": first.delay, "windows": windows, "from": sides[: first.parameters], "left": None, "steps": []})
+    # The states are those at its own first readings.
+    box = first.box[: first.parameters] + stage.box[first.parameters :]
+    require(all(a <= v <= b for v, (a, b) in zip(values, box)), "the witness is not in the search box")
     # A motion that crosses zero within a small range is passed at once.
     near = [(v - NEAR * abs(v), v + NEAR * abs(v)) for v in values]
     try:

@@ -8,8 +8,8 @@ by how the slope of W changes there. So `v' = gain f + disturbance - D(v) - stif
 an equality that every motion meets, linear in the parameters. Multipliers of hats are the weight that is the sum of these hats, each
 as often as its multiplier says, so that what hats have in common is in doubt once only. Positions are the readings to within their errors,
 `int W v` is by the ways between samples, powers of v are tangents with a range for the rest over the velocities of that interval, and
-these are enclosed from readings, the command and the box (`speeds.py`). Only readings from the first window's beginning on are used, where all
-commands that act are in the file, and no speed beyond the certificate's `fastest` is looked for from there on.
+these are enclosed from readings, the command and the box (`speeds.py`). Only readings from where all commands that act are in the file are
+used, be that before the first window, and no speed beyond the certificate's `fastest` is looked for from there on.
 """
 
 from bisect import bisect_right
@@ -162,10 +162,7 @@ class Hats:
         self.stage = stage
         names = ("quadratic", "cubic", "stiffness", "lag_rate")
         require(all(low >= 0 for name, (low, _) in zip(stage.terms, stage.box) if name in names), "a term's range is negative")
-        firsts = {}
-        for record, first, _ in stage.windows:
-            firsts.setdefault(record, first)
-        self.tracks = [Track(record, firsts[n]) for n, record in enumerate(stage.records)]
+        self.tracks = [Track(record, stage.acted(record)) for record in stage.records]
 
     def speeds(self, box):
         return [Speeds(self.stage, track, Axis(self.stage, box, n), box, n) for n, track in enumerate(self.tracks)]

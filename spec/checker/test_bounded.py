@@ -1,5 +1,5 @@
 """The checker refuses proofs of bounds that are wrong. They come from the folder named by SELFOSC_BOUNDED: one file that refutes, one
-that bounds."""
+that bounds, and one that bounds with an unknown delay."""
 
 import copy
 import json
@@ -17,6 +17,7 @@ from check import Refused
 
 FOLDER = Path(os.environ["SELFOSC_BOUNDED"])
 FILES = {name: json.loads((FOLDER / f"{name}.json").read_text()) for name in ("refuted", "consistent")}
+LATE = json.loads((FOLDER / "late.json").read_text())
 
 
 def of_motion(certificate):
@@ -128,6 +129,35 @@ def test_a_witness_that_misses_a_reading_is_refused():
     shift_a_reading(certificate)
     with pytest.raises(Refused):
         bounded.check(certificate)
+
+
+def test_a_witness_may_begin_before_the_first_window():
+    assert LATE["witness"]["first"][0] < LATE["stages"][0]["windows"][0][1]
+    shown, verified, by_hats, _ = bounded.check(LATE)
+    assert shown.startswith("consistent") and verified > 0 and by_hats > 0
+
+
+@pytest.mark.parametrize("place", ["gain", "position", "velocity"])
+def test_a_witness_outside_of_what_is_searched_is_refused(place):
+    certificate = copy.deepcopy(LATE)
+    values, first = certificate["witness"]["values"], certificate["witness"]["first"][0]
+    if place == "gain":
+        values[0] = 2 * certificate["stages"][0]["from"][0][1]
+    elif place == "position":
+        values[-2] = certificate["records"][0]["reading"][first] + 1.1 * certificate["records"][0]["error"]
+    else:
+        values[-1] = 1.1 * certificate["fastest"]
+    with pytest.raises(Refused, match="not in the search box"):
+        bounded.check(certificate)
+
+
+def test_hats_use_readings_before_the_first_window_where_all_commands_are_known():
+    certificate = copy.deepcopy(LATE)
+    stage = bounded.Stage(certificate, [bounded.Record(item) for item in certificate["records"]], certificate["stages"][0])
+    [track] = bounded.Hats(stage).tracks
+    stamps = certificate["records"][0]["time_s"]
+    longest = certificate["stages"][0]["from"][len(certificate["terms"])][1]
+    assert stamps[track.first] - stamps[0] >= longest > stamps[track.first - 1] - stamps[0]
 
 
 def test_narrower_bounds_are_refused():

@@ -20,6 +20,9 @@ const WEIGHED_US: f64 = 8.0;
 const SLOPE_US: f64 = 0.037;
 const PIVOT_US: f64 = 0.028;
 
+#[cfg(test)]
+mod tests;
+
 /// What has been taken so far: clones count together.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Effort {

@@ -42,3 +42,14 @@ fn what_two_divisions_left_and_excluded_is_joined() {
         assert_eq!(all.kept.iter().map(|kept| kept.at[0].upper()).collect::<Vec<f64>>(), [1.0, 2.0]);
     }
 }
+
+#[test]
+fn the_widest_box_comes_first_and_of_two_as_wide_the_later() {
+    let part = |number: usize| Part { at: vec![Interval::point(number as f64)], wide: true };
+    let mut queue = Queue::default();
+    for (number, width) in [0.3, f64::INFINITY, 0.0, 2.0, 0.3].into_iter().enumerate() {
+        queue.push(width, part(number));
+    }
+    let order: Vec<f64> = core::iter::from_fn(|| queue.pop()).map(|part| part.at[0].lower()).collect();
+    assert_eq!(order, [1.0, 3.0, 4.0, 0.0, 2.0]);
+}

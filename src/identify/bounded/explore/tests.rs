@@ -1,3 +1,4 @@
+use super::super::certificate::Certificate;
 use super::super::search::Left;
 use super::super::simulated::{DRAG, Vehicle};
 use super::super::{Consistency, DelayBound};
@@ -132,4 +133,49 @@ fn a_witness_meets_the_readings_before_the_onset_where_the_budget_is_spent_after
     for off in [1.5, 5.0] {
         assert_eq!(verdict(off * QUANTUM), Consistency::Undecided, "a reading that nothing meets, {off} steps off");
     }
+}
+
+#[test]
+fn a_proof_begins_where_the_search_did_unless_what_follows_does_not_suffice() {
+    let motion = DELAYED.motion(SAMPLES);
+    let settings = DELAYED.model(false, QUANTUM);
+    let setup = Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &settings).expect("a problem");
+    let estimates = Box::new(estimates(0.001));
+    let begun = begin(&setup, &settings, &estimates, 1);
+    assert!(matches!(begun.setup, Cow::Owned(_)));
+    let explored = go_further(&setup, begun, &settings, &estimates, |_, _| ()).expect("bounds");
+    let onset = explored.later.as_ref().expect("another onset").onset[0];
+    let firsts = |explored: &Explored| {
+        let certificate = Certificate::prove(&setup, &settings, explored, None).expect("setups").expect("a proof");
+        certificate.check().expect("accepted");
+        certificate.stages.iter().map(|stage| stage.windows[0][1]).collect::<Vec<usize>>()
+    };
+    assert!(onset > 0);
+    assert_eq!(firsts(&explored), [onset]);
+    // From the record's beginning: readings after the longest delay, then all.
+    let patient = Explored { later: None, ..explored };
+    let [first, second] = firsts(&patient)[..] else { panic!("two stages") };
+    assert!(second < first && first < onset, "{second}, {first}, {onset}");
+}
+
+#[test]
+fn what_only_readings_before_the_onset_contradict_is_shown_from_the_beginning() {
+    let mut motion = DELAYED.motion(SAMPLES);
+    let settings = DELAYED.model(false, QUANTUM);
+    // After the longest delay, and by so little that speeds do not tell.
+    for sample in &mut motion[40..80] {
+        sample.0[0] += 0.7 * QUANTUM;
+    }
+    let setup = Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &settings).expect("a problem");
+    let later = setup.after(&settings, 5).expect("there are readings after it");
+    let beginnings = later.beginnings(&settings, SEARCHED).expect("long enough");
+    let division = Search::new(&beginnings).search(beginnings.search.clone(), 20_000);
+    let boxes = later.boxes(&beginnings, &division);
+    let begun = Begun { setup: Cow::Owned(later), boxes, spent: 0 };
+    let explored = go_further(&setup, begun, &settings, &Box::new(estimates(0.001)), |_, _| ()).expect("bounds");
+    assert_eq!(explored.bounds.verdict, Consistency::Refuted);
+    assert!(explored.left.is_none() && explored.hulls.len() == 2);
+    let certificate = Certificate::prove(&setup, &settings, &explored, None).expect("setups").expect("a proof");
+    certificate.check().expect("accepted");
+    assert!(certificate.stages.last().is_some_and(|stage| stage.left.is_none()));
 }

@@ -1,6 +1,6 @@
 //! Hats over a motion that is known, each with a false variant that is caught.
 
-use super::{Tangent, Under};
+use super::{Tangent, Under, hats};
 use crate::identify::bounded::command::Command;
 use crate::identify::bounded::hat::Shape;
 use crate::identify::bounded::problem::Readings;
@@ -100,4 +100,15 @@ fn the_weighed_position_is_enclosed_and_by_chords_alone_it_is_not() {
         assert!(holds(place(&moving), exact));
         assert!(!holds(place(&still), exact));
     }
+}
+
+#[test]
+fn hats_from_a_sample_on_are_those_of_what_is_left() {
+    let (readings, _) = known();
+    let [all, later] = [0, 23].map(|from| hats(&readings.time_s, from, 1.5));
+    assert!(all.iter().any(|hat| hat[0] < 23) && later.iter().all(|hat| hat[0] >= 23), "{later:?}");
+    let last = readings.time_s.len() - 1;
+    assert!(later.iter().any(|hat| hat[0] == 23) && later.iter().any(|hat| hat[2] == last), "{later:?}");
+    let rest = hats(&readings.time_s[23..], 0, 1.5);
+    assert_eq!(later, rest.iter().map(|hat| hat.map(|sample| sample + 23)).collect::<Vec<_>>());
 }

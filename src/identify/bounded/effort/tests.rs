@@ -1,0 +1,66 @@
+use super::super::search::Search;
+use super::super::setup::{SEARCHED, Setup};
+use super::super::simulated::{DRAG, Vehicle};
+use super::*;
+use crate::identify::bounded::contract::Span;
+use crate::numeric::{Interval, Real};
+
+const QUANTUM: f64 = 0.01;
+
+fn setup_of(vehicle: &Vehicle) -> (Setup, Vec<f64>) {
+    let motion = vehicle.motion(300);
+    let setup = Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &vehicle.model(true, QUANTUM)).expect("a problem");
+    let truth = vehicle.truth(&setup, &motion);
+    (setup, truth)
+}
+
+#[test]
+fn clones_count_together_and_each_search_by_itself() {
+    let effort = Effort::default();
+    effort.clone().pivot(100);
+    effort.slopes(1000);
+    assert!((effort.us() - 100.0 * PIVOT_US - 1000.0 * SLOPE_US).abs() < 1e-9);
+    assert!(Effort::default().us() == 0.0);
+}
+
+#[test]
+fn a_motion_takes_its_steps_and_samples_and_more_with_polynomials() {
+    let taken = |vehicle: &Vehicle| {
+        let (setup, truth) = setup_of(vehicle);
+        let search = Search::new(&setup);
+        let whole = Span { from: 0, to: setup.layout.windows().len() };
+        search.model.outputs(whole, &truth).expect("an enclosure");
+        let of_point = search.model.effort.us();
+        // About as many samples as steps, of a point no more than one and a half microseconds each.
+        assert!(of_point > 300.0 * NODE_US && of_point < 300.0 * (NODE_US + 3.0 * POINT_US), "{of_point} us");
+        let mut at = setup.search.clone();
+        for (side, value) in at.iter_mut().zip(&truth) {
+            *side = Interval::point(*value).inflate(1e-5);
+        }
+        search.model.motion(Span { from: 0, to: 1 }, &at, &truth).expect("an enclosure");
+        search.model.effort.us() - of_point
+    };
+    let closed = taken(&DRAG);
+    let series = taken(&Vehicle { stiffness: 0.3, ..DRAG });
+    assert!(closed > 0.0 && series > 1.5 * closed, "{closed} and {series} us");
+}
+
+#[test]
+fn what_a_search_takes_counts_as_passes_and_over_part_of_the_records_as_its_part() {
+    let (setup, _) = setup_of(&DRAG);
+    let beginnings = setup.beginnings(&DRAG.model(true, QUANTUM), SEARCHED).expect("long enough");
+    let passes = 1000.0;
+    let us = passes * (PASS_US + PASS_SAMPLE_US * setup.samples() as f64);
+    let counted = |mut search: Search<'_>| {
+        search.model.effort.take(us);
+        search.count_pass();
+        search.passes as f64
+    };
+    let whole = counted(Search::new(&setup));
+    assert!((whole - passes).abs() <= 1.0, "{whole}");
+    let part = counted(Search::new(&beginnings).part_of(&setup));
+    let share = beginnings.samples() as f64 / setup.samples() as f64;
+    assert!(share < 0.5 && (share * part - passes).abs() <= 1.0, "{part} of {share}");
+    let after = counted(Search::new(&setup).after(70));
+    assert!((after - passes - 70.0).abs() <= 1.0, "{after}");
+}
