@@ -1,6 +1,5 @@
 //! The check: what a certificate says of its records, stage by stage. No search, no linear programme.
 
-
 use super::super::command::Command;
 use super::super::contract::Model;
 use super::super::effort::Effort;
