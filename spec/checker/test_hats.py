@@ -91,7 +91,7 @@ class Known:
         assert all(low <= value <= high for value, (low, high) in zip(self.theta, box))
 
     def hat(self):
-        first = self.rng.choice((4, self.rng.randrange(4, self.count - 24)))
+        first = self.rng.choice((self.hats.tracks[0].first, self.rng.randrange(4, self.count - 24)))
         middle = first + self.rng.randrange(1, 12)
         return [first, middle, middle + self.rng.randrange(1, 12)]
 
@@ -124,7 +124,8 @@ def outside(known):
         (speeds,) = known.hats.speeds(known.stage.box)
     except hats.Nothing:
         return True
-    true, between = known.speeds[4:], known.between[4:]
+    first = known.hats.tracks[0].first
+    true, between = known.speeds[first:], known.between[first:]
     at = any(not a - 1e-9 <= v <= b + 1e-9 for a, v, b in zip(speeds.low, true, speeds.high))
     return at or any(not a - 1e-9 <= v <= b + 1e-9 for (a, b), passed in zip(speeds.between, between) for v in passed)
 
@@ -392,13 +393,18 @@ def test_a_contradiction_needs_all_its_hats_and_a_cut_says_no_more_than_they_sho
 def test_a_beginning_says_no_more_than_its_speeds():
     known = Known("linear", 2)
     place = known.stage.start(0, 1)
-    end = float(known.hats.speeds(known.stage.box)[0].high[0])
+    end = float(known.hats.speeds(known.stage.box)[0].high[4 - known.hats.tracks[0].first])
     cut = lambda end: {"cuts": [{"unknown": place, "upper": True, "end": end, "rows": []}]}
     assert ends(known.hats.show(known.stage.box, "contract", cut(end + 1e-9))) == [end + 1e-9]
     assert ends(known.hats.show(known.stage.box, "contract", cut(end - 1e-9)))[0] >= end
 
 
-def test_a_hat_before_the_first_window_is_not_verified():
+def test_a_hat_is_verified_where_all_commands_are_known_be_that_before_the_first_window():
     known = Known("linear", 2)
+    first = known.hats.tracks[0].first
+    assert 0 < first < 4
+    hat = lambda l: {"rows": [[{"hat": {"record": 0, "samples": [l, 6, 9], "above": True}}, 1.0]]}
+    with pytest.raises(Refused):
+        known.hats.show(known.stage.box, "exclude", hat(first))
     with pytest.raises(hats.Unsupported):
-        known.hats.show(known.stage.box, "exclude", {"rows": [[{"hat": {"record": 0, "samples": [3, 6, 9], "above": True}}, 1.0]]})
+        known.hats.show(known.stage.box, "exclude", hat(first - 1))

@@ -70,7 +70,7 @@ pub struct Settings {
     pub jitter_s: f64,
     /// For the guaranteed bounds: readings, of all records together, that may be in error by any amount.
     pub outliers: usize,
-    /// For the guaranteed bounds: passes over the records that may be spent, if not as many as
+    /// For the guaranteed bounds: work that may be spent, in passes over the records, if not as much as
     /// [`BoundedModel::new`](crate::identify::bounded::BoundedModel::new) has. The fewer, the wider the bounds may be; they hold.
     pub budget: Option<NonZeroUsize>,
     /// For the guaranteed bounds: whether the model has a restoring force proportional to the coordinate.
