@@ -69,7 +69,7 @@ pub(super) struct Arguments {
     /// Bounded: so many readings may be in error by any amount, whichever they are
     #[arg(long, value_name = "N", default_value_t = 0)]
     outliers: usize,
-    /// Bounded: work that may be spent, counted in passes over the records; of 600 samples 3000 take less than 10 s,
+    /// Bounded: work that may be spent, counted in passes over the records; of 600 samples 3000 take some 10 s,
     /// 600 some 2 s [default: 3000]
     #[arg(long, value_name = "PASSES", value_parser = count)]
     budget: Option<NonZeroUsize>,

@@ -73,7 +73,7 @@ pub(super) struct Search<'a> {
     /// Passes over the records so far, those by hats counting by the dozen, and those that take longer as so many more.
     pub(super) passes: usize,
     before: usize,
-    /// Passes of whose kind such passes are part.
+    /// Samples of the records of which these are all, or a part.
     whole: usize,
     weighed: usize,
     parts: usize,

@@ -221,9 +221,7 @@ impl Search<'_> {
             linear.deviations[tightened] = Interval::point(-(inside + doubt));
             let all: Vec<usize> = places.iter().copied().chain([tightened]).collect();
             let programme = linear.programme(&all);
-            let Outcome::Bounded { at: step, .. } = programme.maximise(&[(unknown, sign)]) else {
-                break;
-            };
+            let Outcome::Bounded { at: step, .. } = programme.maximise(&[(unknown, sign)]) else { break };
             for (place, step) in places.iter().zip(&step) {
                 centre[*place] += step;
             }

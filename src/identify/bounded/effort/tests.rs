@@ -2,7 +2,9 @@ use super::super::search::Search;
 use super::super::setup::{SEARCHED, Setup};
 use super::super::simulated::{DRAG, Vehicle};
 use super::*;
-use crate::identify::bounded::contract::Span;
+use crate::identify::bounded::contract::{Linear, Span};
+use crate::identify::bounded::mix::Mix;
+use crate::identify::bounded::trajectory::Unknowns;
 use crate::numeric::{Interval, Real};
 
 const QUANTUM: f64 = 0.01;
@@ -63,4 +65,40 @@ fn what_a_search_takes_counts_as_passes_and_over_part_of_the_records_as_its_part
     assert!(share < 0.5 && (share * part - passes).abs() <= 1.0, "{part} of {share}");
     let after = counted(Search::new(&setup).after(70));
     assert!((after - passes - 70.0).abs() <= 1.0, "{after}");
+}
+
+#[test]
+fn hats_bends_and_linear_programmes_take_their_part() {
+    let (setup, truth) = setup_of(&DRAG);
+    let mut search = Search::new(&setup);
+    let effort = search.model.effort.clone();
+    search.weigh(&mut setup.search.clone()).expect("the truth is inside");
+    let by_hats = effort.us();
+    assert!(by_hats > WEIGHED_US * setup.samples() as f64, "{by_hats} us with a linear programme");
+    let near = |value: f64| Interval::point(value).inflate(1e-5);
+    let at: Vec<Interval> = truth.iter().map(|value| near(*value)).collect();
+    let whole = Span { from: 0, to: setup.layout.windows().len() };
+    let taken = |bending: bool| {
+        let (by, places) = setup.layout.columns(0);
+        let mixes: Vec<Mix> = by.iter().map(|by| Mix::of([(*by, 1.0)])).collect();
+        let deviations: Vec<Interval> =
+            places.iter().map(|place| at[*place] - Interval::point(truth[*place])).collect();
+        let before = effort.us();
+        let unknowns = Unknowns { mixes: &mixes, deviations: &deviations, bending };
+        search.model.follow(whole, &at, &truth, unknowns).expect("an enclosure");
+        effort.us() - before
+    };
+    let [straight, bent] = [false, true].map(taken);
+    assert!(bent > 1.05 * straight, "{straight} and {bent} us");
+    let linear = Linear {
+        effort: Effort::default(),
+        deviations: vec![Interval::symmetric(1.0); 2],
+        centre: vec![0.0; 2],
+        ..Linear::default()
+    };
+    let mut rows = linear.clone();
+    rows.rows.slopes = vec![vec![(0, Interval::ONE), (1, Interval::ONE)]];
+    rows.rows.limits = vec![0.5];
+    rows.programme(&[0, 1]).maximise(&[(0, 1.0), (1, 1.0)]);
+    assert!(linear.effort.us() >= 2.0 * SLOPE_US + 2.0 * PIVOT_US, "{} us", linear.effort.us());
 }
