@@ -1,0 +1,8 @@
+//! Independent judge of oscillations. See `README.md`.
+
+pub mod ask;
+pub mod linear;
+pub mod plant;
+pub mod random;
+pub mod relay;
+pub mod scalar;
