@@ -6,6 +6,8 @@ use std::time::Instant;
 
 use serde_json::Value;
 
+use crate::describing;
+use crate::describing::loops::DescribingLoop;
 use crate::relay::answer::Line;
 use crate::relay::control_loop::RelayLoop;
 
@@ -57,4 +59,34 @@ pub fn ask(program: &Path, seed: u64, control_loop: RelayLoop) -> std::io::Resul
         Ok(document) => Line { refused: Some(document.to_string()), ..line },
         Err(said) => Line { refused: Some(said), ..line },
     })
+}
+
+/// Arguments of `selfosc balance` for a loop.
+#[must_use]
+pub fn balance_arguments(control_loop: &DescribingLoop) -> Vec<String> {
+    let DescribingLoop { plant, nonlinearity, settings, .. } = control_loop;
+    let mut arguments = vec![
+        "balance".to_owned(),
+        format!("--num={}", list(&plant.num)),
+        format!("--den={}", list(&plant.den)),
+        format!("--delay={}", plant.delay),
+        format!("--nonlinearity={nonlinearity}"),
+    ];
+    arguments.extend(settings.iter().map(|(key, value)| format!("--set={key}={value}")));
+    arguments.push("--json".to_owned());
+    arguments
+}
+
+/// Asks about a describing-function loop.
+///
+/// # Errors
+/// A command that cannot be started.
+pub fn ask_balance(program: &Path, control_loop: DescribingLoop) -> std::io::Result<describing::answer::Line> {
+    let (found, seconds) = answer(program, &balance_arguments(&control_loop))?;
+    let (answer, refused) = match found {
+        Ok(document) if document.get("intersections").is_some() => (Some(document), None),
+        Ok(document) => (None, Some(document.to_string())),
+        Err(said) => (None, Some(said)),
+    };
+    Ok(describing::answer::Line { control_loop, seconds: Some(seconds), answer, refused })
 }

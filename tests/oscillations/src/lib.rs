@@ -1,6 +1,8 @@
 //! Independent judge of oscillations. See `README.md`.
 
 pub mod ask;
+pub mod crossing;
+pub mod describing;
 pub mod linear;
 pub mod plant;
 pub mod random;

@@ -7,11 +7,18 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use rayon::prelude::*;
-use selfosc_oscillations::ask::ask;
+use selfosc_oscillations::ask::{ask, ask_balance};
+use selfosc_oscillations::describing::counterexamples::counterexamples;
+use selfosc_oscillations::describing::judge::truths;
+use selfosc_oscillations::describing::loops::loops;
+use selfosc_oscillations::describing::truth::{Truth, truth};
+use selfosc_oscillations::describing::{self, answer};
 use selfosc_oscillations::relay::answer::Line;
 use selfosc_oscillations::relay::draw::{FIRST_REPORT_SEED, draw};
 use selfosc_oscillations::relay::judge::{judge, own_listing};
 use selfosc_oscillations::relay::report::{markdown, totals};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 
@@ -30,6 +37,32 @@ enum Action {
     /// Exact orbits of linear plants with dead time under a two-level relay
     #[command(subcommand)]
     Relay(Relay),
+    /// Oscillations of linear plants with dead time and a static characteristic
+    #[command(subcommand)]
+    Describing(Describing),
+}
+
+#[derive(Subcommand)]
+enum Describing {
+    /// Prints thirty loops and what is true of each: a table, or JSON for other programs
+    Truth {
+        /// Prints one JSON document
+        #[arg(long)]
+        json: bool,
+    },
+    /// Prints the loops against Theorems 2 and 3 with the figures of their oscillations
+    Counterexamples,
+    /// Asks `selfosc balance` about the thirty loops; prints JSON lines with its answers
+    Ask {
+        /// The command
+        #[arg(long, default_value = "target/release/selfosc")]
+        selfosc: PathBuf,
+    },
+    /// Judges answers; prints a table and every contradiction. Exit status 1 where there is one
+    Judge {
+        /// JSON lines; `-` is standard input
+        file: PathBuf,
+    },
 }
 
 #[derive(Subcommand)]
@@ -78,7 +111,7 @@ impl Seeds {
     }
 }
 
-fn lines(file: &Path) -> Result<Vec<Line>, Failure> {
+fn lines<T: DeserializeOwned>(file: &Path) -> Result<Vec<T>, Failure> {
     let reader: Box<dyn BufRead> =
         if file.as_os_str() == "-" { Box::new(stdin().lock()) } else { Box::new(BufReader::new(File::open(file)?)) };
     let mut lines = Vec::new();
@@ -87,15 +120,23 @@ fn lines(file: &Path) -> Result<Vec<Line>, Failure> {
         if text.trim().is_empty() {
             continue;
         }
-        let at = |why: String| format!("{}, line {}: {why}", file.display(), number + 1);
-        let line: Line = serde_json::from_str(&text).map_err(|why| at(why.to_string()))?;
-        line.control_loop.check().map_err(|why| at(why.to_string()))?;
-        lines.push(line);
+        lines.push(
+            serde_json::from_str(&text).map_err(|why| format!("{}, line {}: {why}", file.display(), number + 1))?,
+        );
     }
     Ok(lines)
 }
 
-fn print(lines: &[Line]) -> Result<(), Failure> {
+/// Lines with loops that can be simulated.
+fn relay_lines(file: &Path) -> Result<Vec<Line>, Failure> {
+    let lines: Vec<Line> = lines(file)?;
+    for line in &lines {
+        line.control_loop.check().map_err(|why| format!("seed {}: {why}", line.seed))?;
+    }
+    Ok(lines)
+}
+
+fn print<T: Serialize>(lines: &[T]) -> Result<(), Failure> {
     let mut output = stdout().lock();
     for line in lines {
         serde_json::to_writer(&mut output, line)?;
@@ -118,10 +159,10 @@ fn relay(action: Relay) -> Result<ExitCode, Failure> {
             let answered = |line: Line| -> Result<Line, Failure> {
                 Ok(Line { answer: Some(serde_json::to_value(own_listing(&line))?), ..line })
             };
-            print(&lines(&file)?.into_par_iter().map(answered).collect::<Result<Vec<_>, _>>()?)?;
+            print(&relay_lines(&file)?.into_par_iter().map(answered).collect::<Result<Vec<_>, _>>()?)?;
         }
         Relay::Judge { file, reached_only } => {
-            let lines = lines(&file)?;
+            let lines = relay_lines(&file)?;
             // Loops take milliseconds or minutes: each is a task of its own.
             let judgements: Vec<_> = lines.par_iter().with_max_len(1).map(|line| judge(line, !reached_only)).collect();
             print!("{}", markdown(&judgements));
@@ -132,10 +173,45 @@ fn relay(action: Relay) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
+fn describing(action: Describing) -> Result<ExitCode, Failure> {
+    match action {
+        Describing::Truth { json } => {
+            let found: Vec<Truth> = loops().into_par_iter().with_max_len(1).map(|one| truth(&one)).collect();
+            if json {
+                serde_json::to_writer_pretty(stdout().lock(), &found)?;
+                println!();
+            } else {
+                print!("{}", truths(&found));
+            }
+        }
+        Describing::Counterexamples => {
+            for one in counterexamples() {
+                let figures = one.figures().ok_or_else(|| format!("{}: no oscillation", one.name))?;
+                println!("{}", serde_json::to_string_pretty(&figures)?);
+            }
+        }
+        // One after the other: the answers are timed.
+        Describing::Ask { selfosc } => {
+            for one in loops() {
+                print(&[ask_balance(&selfosc, one)?])?;
+            }
+        }
+        Describing::Judge { file } => {
+            let lines: Vec<answer::Line> = lines(&file)?;
+            let judgements: Vec<_> = lines.par_iter().with_max_len(1).map(describing::judge::judge).collect();
+            print!("{}", describing::judge::markdown(&judgements));
+            let wrong = judgements.iter().any(|judgement| !judgement.contradictions.is_empty());
+            return Ok(if wrong { ExitCode::FAILURE } else { ExitCode::SUCCESS });
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
 fn main() -> Result<ExitCode, Failure> {
     let Arguments { action, threads } = Arguments::parse();
     rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
     match action {
         Action::Relay(action) => relay(action),
+        Action::Describing(action) => describing(action),
     }
 }

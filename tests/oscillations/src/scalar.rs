@@ -38,6 +38,20 @@ pub trait Scalar:
     /// The number as a float, to its last bit but one.
     fn to_f64(self) -> f64;
 
+    /// Sine and cosine.
+    fn sin_cos(self) -> (Self, Self);
+
+    /// Exponential.
+    #[must_use]
+    fn exp(self) -> Self;
+
+    /// Hyperbolic tangent, `1 - 2/(1 + e^(2 x))`.
+    #[must_use]
+    fn tanh(self) -> Self {
+        let two = Self::ONE + Self::ONE;
+        Self::ONE - two / (Self::ONE + (two * self).exp())
+    }
+
     /// Magnitude.
     #[must_use]
     fn abs(self) -> Self {
@@ -58,6 +72,18 @@ impl Scalar for f64 {
     fn to_f64(self) -> f64 {
         self
     }
+
+    fn sin_cos(self) -> (Self, Self) {
+        f64::sin_cos(self)
+    }
+
+    fn exp(self) -> Self {
+        f64::exp(self)
+    }
+
+    fn tanh(self) -> Self {
+        f64::tanh(self)
+    }
 }
 
 /// Bits of the fraction of [`f256`] in the upper half of its representation.
@@ -73,6 +99,14 @@ impl Scalar for f256 {
 
     fn from_f64(value: f64) -> Self {
         Self::from(value)
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        f256::sin_cos(&self)
+    }
+
+    fn exp(self) -> Self {
+        f256::exp(&self)
     }
 
     fn to_f64(self) -> f64 {

@@ -3,7 +3,7 @@
 pub mod answer;
 pub mod attraction;
 pub mod control_loop;
-pub mod crossing;
+
 pub mod draw;
 pub mod judge;
 pub mod motion;

@@ -5,9 +5,9 @@ use std::collections::VecDeque;
 use f256::f256;
 
 use super::control_loop::Level;
-use super::crossing::range;
 use super::simulation::{Event, Limit, Simulator, State};
 use super::switching_conditions::half_periods;
+use crate::crossing::{leading, range};
 use crate::linear::spectral_radius;
 use crate::scalar::Scalar;
 
@@ -155,8 +155,7 @@ impl Orbit {
         for expected in [self.time_low, self.time_high] {
             let event = simulator.run_observed(&mut state, limit, |step| {
                 let series = simulator.motion.output_series(&step.derivatives, step.duration);
-                let series: Vec<f64> = series.iter().take(f64::ORDER + 1).map(|c| c.to_f64()).collect();
-                let (low, high) = range(&series);
+                let (low, high) = range(&leading(&series));
                 widen(&mut output, low);
                 widen(&mut output, high);
                 let middle = simulator.motion.state(&step.derivatives, step.duration.div2());

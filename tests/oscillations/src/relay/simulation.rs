@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 
 use super::control_loop::{Level, RelayLoop};
-use super::crossing::{Crossing, first_crossing};
 use super::motion::{Derivatives, Motion};
+use crate::crossing::{Crossing, first_crossing};
 use crate::scalar::Scalar;
 
 /// Constants of a loop in one arithmetic.

@@ -15,8 +15,8 @@ pub enum Crossing<S> {
 
 /// Halvings of [0, 1] before a place is called unclear.
 const DEEPEST: usize = 44;
-/// Degree of the polynomial that is searched in floats. With `rho h <= 1` later terms are below their rounding.
-const FLOAT_DEGREE: usize = 22;
+/// Terms from the end whose sum is below this share of the largest are left out of the search in floats.
+const TAIL: f64 = 1e-18;
 /// Rounding errors of hull coefficients in units of roundoff times the largest coefficient: 22 additions and their binomials.
 const HULL_ERRORS: f64 = 64.0;
 /// Halvings that reach 71 digits; Newton needs ten.
@@ -26,7 +26,7 @@ const MOST_ITERATIONS: usize = 240;
 ///
 /// The search runs in floats; where these cannot tell, in the polynomial's own arithmetic.
 pub fn first_crossing<S: Scalar>(coefficients: &[S]) -> Crossing<S> {
-    let floats: Vec<f64> = coefficients.iter().take(FLOAT_DEGREE + 1).map(|c| c.to_f64()).collect();
+    let floats = leading(coefficients);
     let rest: f64 = floats[1..].iter().map(|c| c.abs()).sum();
     if floats[0] > rest * (1.0 + 1e-12) {
         return Crossing::None;
@@ -43,6 +43,21 @@ pub fn first_crossing<S: Scalar>(coefficients: &[S]) -> Crossing<S> {
         Isolated::Within(low, high) => Crossing::At(root(coefficients, low, high)),
         Isolated::Unclear => Crossing::Unclear,
     }
+}
+
+/// The polynomial in floats, without terms that do not matter to them.
+pub fn leading<S: Scalar>(coefficients: &[S]) -> Vec<f64> {
+    let mut floats: Vec<f64> = coefficients.iter().map(|c| c.to_f64()).collect();
+    let largest = floats.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
+    let mut tail = 0.0;
+    while floats.len() > 2 {
+        tail += floats.last().map_or(0.0, |c| c.abs());
+        if tail > TAIL * largest {
+            break;
+        }
+        floats.pop();
+    }
+    floats
 }
 
 /// Largest and smallest value of a polynomial on [0, 1], to `1e-14` of its largest coefficient.
