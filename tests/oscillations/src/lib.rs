@@ -1,4 +1,4 @@
-//! Independent judge of oscillations. See `README.md`.
+#![doc = include_str!("../README.md")]
 
 pub mod ask;
 pub mod crossing;

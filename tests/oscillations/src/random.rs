@@ -11,10 +11,8 @@ impl Random {
     /// The stream of a seed and a purpose's number.
     #[must_use]
     pub fn new(seed: u64, purpose: u64) -> Self {
-        let mut bytes = [0; 32];
-        bytes[..8].copy_from_slice(&seed.to_le_bytes());
-        bytes[8..16].copy_from_slice(&purpose.to_le_bytes());
-        Self(Pcg64::from_seed(bytes))
+        // Neighbouring seeds differ in few bits: the odd multiplier and `seed_from_u64` spread them over all.
+        Self(Pcg64::seed_from_u64(seed.wrapping_add(purpose.wrapping_mul(0x9e37_79b9_7f4a_7c15))))
     }
 
     /// Uniform in `[low, high)`.

@@ -82,6 +82,12 @@ fn an_integrator_with_dead_time() {
     close(case.path.amplitude(), 1.0);
     assert_eq!((case.fate(), case.radius()), (Fate::Returns, 0.0));
     case.is_where_starts_end();
+    // With two more commands under way the instants of switching satisfy t_(k+1) + t_k = 2 t_(k-2) + 2 L: beside the shift of
+    // time, z^2 + 2 z + 2 = 0 for a half-period, so 2 for a period.
+    let fast = Case::near(symmetric(&[1.0], &[1.0, 0.0], 1.0, 0.0), 0.41, 0.39);
+    digits(fast.orbit.period(), f256::from(4.0) / f256::from(5.0));
+    assert_eq!(fast.fate(), Fate::Leaves);
+    assert!((fast.radius() - 2.0).abs() < 1e-9, "{}", fast.radius());
 }
 
 #[test]

@@ -14,8 +14,8 @@ fn contradictions(seed: u64, listing: &Listing) -> Vec<Contradiction> {
     judgement.contradictions
 }
 
-/// A lag with dead time, seed 6: one attracting orbit and three repelling ones in the range of the search.
-const SEED: u64 = 6;
+/// A lag with dead time: one attracting orbit and three repelling ones in the range of the search.
+const SEED: u64 = 28;
 
 fn right() -> Listing {
     let listing = own_listing(&line(SEED));
@@ -37,7 +37,7 @@ fn caught(change: impl Fn(&mut Listing)) -> Contradiction {
 
 #[test]
 fn right_listings_pass() {
-    for seed in [1, 3, 5, SEED, 13, 18, 29, 46, 60] {
+    for seed in [0, 1, 12, 15, 18, 24, 25, SEED, 37] {
         let listing = own_listing(&line(seed));
         assert_eq!(contradictions(seed, &listing), [], "seed {seed}");
     }
