@@ -1,0 +1,184 @@
+//! Feasible points: single parameters whose motion, enclosed in intervals, satisfies every reading. They are sought by successive linear
+//! programming (Fletcher and Sainz de la Maza, *Mathematical Programming* 43, 1989) with the largest misfit as one more unknown.
+
+mod estimate;
+#[cfg(test)]
+mod tests;
+
+use super::contraction::Contractor;
+use super::linear_program::Outcome;
+use super::linear_relaxation::{Origin, Relaxation, Span, points, midpoints};
+use crate::numeric::Interval;
+
+pub(super) use estimate::estimated;
+
+/// Linear programmes of one descent.
+const MOST_STEPS: usize = 16;
+/// A descent ends where a step takes less than this share off the misfit; one along an unknown, off the width of its range.
+const LEAST_GAIN: f64 = 1e-3;
+/// Factor of the trust region after a step that does not improve the misfit.
+const SHRINK: f64 = 0.25;
+/// A feasible point is sought this share of the slack inside the readings' ranges: room for the curvature of the motion.
+const INSIDE: f64 = 0.01;
+/// Misfits that are allowed in turn, in largest errors beyond the first.
+const EXCESSES: [f64; 3] = [1.0, 30.0, 1000.0];
+/// Room about the states of an empty box, in largest errors of a reading.
+const ROOM: f64 = 30.0;
+
+/// A parameter with its misfit.
+#[derive(Clone, Debug)]
+pub(super) struct Point {
+    /// All unknowns; of the states those at the beginning of each record count.
+    pub(super) at: Vec<f64>,
+    /// Upper bound of the largest misfit of a reading over its largest error.
+    pub(super) misfit: f64,
+}
+
+impl Point {
+    pub(super) fn is_feasible(&self) -> bool {
+        self.misfit <= 1.0
+    }
+}
+
+/// The solution with the least excess; `None` where no excess suffices.
+fn least_excess(relaxation: &mut Relaxation, excess: usize) -> Option<(Vec<usize>, Vec<f64>)> {
+    let places = relaxation.places();
+    EXCESSES.into_iter().find_map(|most| {
+        relaxation.deviations[excess] = Interval::new(-1.0, most)?;
+        match relaxation.programme(&places).maximise(&[(excess, -1.0)]) {
+            Outcome::Bounded { at, .. } => Some((places.clone(), at)),
+            Outcome::Empty { .. } => None,
+        }
+    })
+}
+
+impl Contractor {
+    /// The largest misfit of a parameter over whole records. `None` where its motion cannot be enclosed.
+    pub(super) fn misfit(&self, at: &[f64]) -> Option<f64> {
+        let mut misfits = self.problem.single_shooting().into_iter().map(|span| self.problem.misfit(span, at));
+        misfits.try_fold(0.0, |largest: f64, misfit| Some(largest.max(misfit?)))
+    }
+
+    /// Adds the excess of the misfit over one to the unknowns: `a z - E excess <= b` for the rows of readings. Its place.
+    pub(super) fn add_excess(&self, relaxation: &mut Relaxation) -> usize {
+        let excess = relaxation.deviations.len();
+        for (row, origin) in relaxation.inequalities.coefficients.iter_mut().zip(&relaxation.origins) {
+            if let Origin::Reading { interval, .. } = origin {
+                let record = self.problem.unknowns.shooting[*interval].record;
+                row.push((excess, Interval::point(-self.problem.records[record].error)));
+            }
+        }
+        relaxation.deviations.push(Interval::ZERO);
+        relaxation.centre.push(0.0);
+        excess
+    }
+
+    /// The inequalities about a point over these spans, and the largest width of its outputs in largest errors.
+    fn about(&self, centre: &[f64], spans: &[Span]) -> Option<(Relaxation, f64)> {
+        let (problem, point) = (&self.problem, points(centre));
+        let mut relaxation = problem.about(&point, centre.to_vec());
+        let mut widest = 0.0f64;
+        for (index, span) in spans.iter().enumerate() {
+            let motion = problem.motion(*span, &point, centre)?;
+            let record = |span: &Span| problem.unknowns.shooting[span.from].record;
+            let readings = &problem.records[record(span)];
+            widest = motion.iter().fold(widest, |widest, node| widest.max(node.at[0].width() / readings.error));
+            let linked = spans.get(index + 1).is_some_and(|next| record(next) == record(span));
+            problem.add_motion(*span, &motion, linked, &mut relaxation);
+        }
+        problem.add_prior(&mut relaxation);
+        Some((relaxation, widest))
+    }
+
+    /// A parameter with a small misfit, from the middle of a box and within another box: by single shooting, and by multiple shooting where
+    /// that leads to no feasible point.
+    pub(super) fn nearest(&self, from: &[Interval], within: &[Interval]) -> Option<Point> {
+        let single = self.descend(from, within, &self.problem.single_shooting());
+        let single = single.filter(Point::is_feasible);
+        single.or_else(|| self.descend(from, within, &self.problem.multiple_shooting()))
+    }
+
+    fn descend(&self, from: &[Interval], within: &[Interval], spans: &[Span]) -> Option<Point> {
+        let single = spans.len() == self.problem.records.len();
+        let (mut centre, mut best) = (midpoints(from), None::<Point>);
+        // The trust region, against the box from which the descent begins; single shooting begins without one.
+        let mut trust = if single { f64::INFINITY } else { 1.0 };
+        for _ in 0..MOST_STEPS {
+            let Some((mut relaxation, _)) = self.about(&centre, spans) else { break };
+            let excess = self.add_excess(&mut relaxation);
+            for (place, (side, from)) in within.iter().zip(from).enumerate() {
+                let middle = Interval::point(centre[place]);
+                let room = if trust.is_finite() { middle + Interval::symmetric(trust * from.width()) } else { *side };
+                relaxation.deviations[place] = room.intersection(*side).unwrap_or(middle) - middle;
+            }
+            let Some((places, step)) = least_excess(&mut relaxation, excess) else { break };
+            let mut next = centre.clone();
+            for (place, step) in places.into_iter().zip(step).filter(|(place, _)| *place < excess) {
+                next[place] += step;
+            }
+            let before = best.as_ref().map_or(f64::INFINITY, |best| best.misfit);
+            match self.misfit(&next) {
+                Some(misfit) if misfit < before => {
+                    best = Some(Point { at: next.clone(), misfit });
+                    centre = next;
+                    if before - misfit < LEAST_GAIN * misfit {
+                        break;
+                    }
+                }
+                _ => trust = if trust.is_finite() { SHRINK * trust } else { 1.0 },
+            }
+        }
+        best
+    }
+
+    /// A box with room for a parameter that satisfies the readings nearly.
+    pub(super) fn loosened(&self, at: &[Interval]) -> Vec<Interval> {
+        let (problem, unknowns) = (&self.problem, &self.problem.unknowns);
+        let mut loose: Vec<Interval> = at.iter().map(|side| *side + Interval::symmetric(side.width())).collect();
+        for (index, interval) in unknowns.shooting.iter().enumerate() {
+            let room = ROOM * problem.records[interval.record].error;
+            let (position, velocity) = (unknowns.start(index, 0), unknowns.start(index, 1));
+            loose[position] = at[position] + Interval::symmetric(room);
+            loose[velocity] = at[velocity] + Interval::symmetric(room / problem.half_period_s + at[velocity].width());
+        }
+        for (loose, widest) in loose.iter_mut().zip(&problem.search).take(unknowns.parameters()) {
+            *loose = loose.intersection(*widest).unwrap_or(*widest);
+        }
+        loose
+    }
+
+    /// The feasible point with an unknown furthest up (or, `sign` negative, down) that linear programmes from a feasible point find in a
+    /// box.
+    pub(super) fn furthest(&self, from: &Point, within: &[Interval], unknown: usize, sign: f64) -> Option<Point> {
+        let spans = self.problem.single_shooting();
+        let inside = INSIDE * (1.0 - from.misfit);
+        let (mut centre, mut best) = (from.at.clone(), None::<Point>);
+        for _ in 0..MOST_STEPS {
+            let (Some((mut relaxation, width)), Some(misfit)) = (self.about(&centre, &spans), self.misfit(&centre)) else {
+                break;
+            };
+            if misfit <= 1.0 {
+                let gain = best.as_ref().map_or(f64::INFINITY, |best| sign * (centre[unknown] - best.at[unknown]));
+                if gain > 0.0 {
+                    best = Some(Point { at: centre.clone(), misfit });
+                }
+                if gain < LEAST_GAIN * within[unknown].width() {
+                    break;
+                }
+            }
+            let excess = self.add_excess(&mut relaxation);
+            for (place, side) in within.iter().enumerate() {
+                relaxation.deviations[place] = *side - Interval::point(centre[place]);
+            }
+            relaxation.deviations[excess] = Interval::point(-(inside + width));
+            let places = relaxation.places();
+            let Outcome::Bounded { at: step, .. } = relaxation.programme(&places).maximise(&[(unknown, sign)]) else {
+                break;
+            };
+            for (place, step) in places.into_iter().zip(step).filter(|(place, _)| *place < excess) {
+                centre[place] += step;
+            }
+        }
+        best
+    }
+}
