@@ -378,7 +378,8 @@ fn a_reading_may_be_from_beyond_what_is_followed_of_the_motion_and_from_beyond_t
             let model = BoundedModel { quantum: Some(0.0), error: 1e-6, jitter_s, ..settings(DragLaw::Linear) };
             let problem = Problem::new(&[&record], &model).expect("a setup");
                     let layout = &problem.unknowns;
-            let mut truth = vec![1.0, 0.5, 0.0];
+            // With the instant at which the command was switched.
+            let mut truth = vec![1.0, 0.5, 0.0, stamp(15)];
             for window in &layout.shooting {
                 truth.extend(braked(stamp(window.first), stamp(15)));
             }

@@ -139,12 +139,12 @@ class Speeds:
         self.levels = self.acting()
         forces = [span_of(track.record.levels[a : b + 1]) for a, b in self.levels]
         if axis.rate is not None:
-            window = next(n for n, (own, _, _) in enumerate(stage.windows) if own == record)
+            window = next(n for n, (own, _, _) in enumerate(stage.shooting) if own == record)
             self.first_force = tuple(map(arb, box[stage.start(window, 2)]))
             forces = self.late(forces)
         self.pushed = [plus(corners(axis.gain, force), axis.disturbance) for force in forces]
         self.evens = self.even_times() if axis.rate is None and "stiffness" not in axis.has else []
-        for window, (own, first, _) in enumerate(stage.windows):
+        for window, (own, first, _) in enumerate(stage.shooting):
             if own == record:
                 ends = box[stage.start(window, 1)]
                 self.narrow(first - track.first, arb(ends[0]), arb(ends[1]))

@@ -6,8 +6,8 @@ import random
 import pytest
 
 import bounded
-import hats
-import speeds
+import modulating
+import velocities
 from check import Refused
 
 INSIDE = 0.999
@@ -84,36 +84,36 @@ class Known:
         record = {"time_s": times, "reading": readings, "error": error, "jitter_s": 0.0, "levels": levels}
         record["switched_s"] = [[t, t] for t in switched]
         certificate = {"terms": ["gain", *terms], "middle_speed": middle, "least_linear": -2.0, "fastest": 3.0}
-        item = {"delay_s": None if delayed else delay, "windows": [[0, 4, len(times) - 1]], "from": box, "left": None, "steps": []}
+        item = {"delay_s": None if delayed else delay, "shooting": [[0, 4, len(times) - 1]], "from": box, "left": None, "steps": []}
         self.stage = bounded.Stage(certificate, [bounded.Record(record)], item)
-        self.hats = hats.Hats(self.stage)
+        self.modulating = modulating.Modulating(self.stage)
         self.count = len(times)
         assert all(low <= value <= high for value, (low, high) in zip(self.theta, box))
 
     def hat(self):
-        first = self.rng.choice((self.hats.tracks[0].first, self.rng.randrange(4, self.count - 24)))
+        first = self.rng.choice((self.modulating.tracks[0].first, self.rng.randrange(4, self.count - 24)))
         middle = first + self.rng.randrange(1, 12)
         return [first, middle, middle + self.rng.randrange(1, 12)]
 
     def combination(self, most):
-        row = lambda: {"hat": {"record": 0, "samples": self.hat(), "above": self.rng.random() < 0.5}}
+        row = lambda: {"modulated": {"record": 0, "samples": self.hat(), "above": self.rng.random() < 0.5}}
         return [[row(), self.rng.uniform(0.1, 3)] for _ in range(self.rng.randint(1, most))]
 
     def at_truth(self):
         """The box shrunk to the truth in all but the delay and the lag's rate."""
-        keep = self.hats.late_by()
+        keep = self.modulating.late_by()
         box = [side if place in keep else (value, value) for place, (value, side) in enumerate(zip(self.theta, self.stage.box))]
         return box + list(self.stage.box[len(box) :])
 
 
 def missed(known, most=3, tries=20, unsure=(0.0, 0.0)):
     """How many inequalities by multipliers the truth contradicts: over the box, and over the box but for the truth of the terms."""
-    speeds, misses = known.hats.speeds(known.stage.box), 0
+    speeds, misses = known.modulating.speeds(known.stage.box), 0
     speeds[0].between = [(a - unsure[0], b + unsure[1]) for a, b in speeds[0].between]
     for box in (known.stage.box, known.at_truth()):
         for _ in range(tries):
             place, sign = known.rng.randrange(len(known.theta)), known.rng.choice((1, -1))
-            bound = known.hats.bound(box, speeds, (place, sign), known.combination(most))
+            bound = known.modulating.bound(box, speeds, (place, sign), known.combination(most))
             misses += bool(bound < sign * known.theta[place] - 1e-9)
     return misses
 
@@ -121,10 +121,10 @@ def missed(known, most=3, tries=20, unsure=(0.0, 0.0)):
 def outside(known):
     """Whether a true velocity is outside of its enclosure, or nothing is left."""
     try:
-        (speeds,) = known.hats.speeds(known.stage.box)
-    except hats.Nothing:
+        (speeds,) = known.modulating.speeds(known.stage.box)
+    except modulating.Nothing:
         return True
-    first = known.hats.tracks[0].first
+    first = known.modulating.tracks[0].first
     true, between = known.speeds[first:], known.between[first:]
     at = any(not a - 1e-9 <= v <= b + 1e-9 for a, v, b in zip(speeds.low, true, speeds.high))
     return at or any(not a - 1e-9 <= v <= b + 1e-9 for (a, b), passed in zip(speeds.between, between) for v in passed)
@@ -143,81 +143,81 @@ def test_known_motions_meet_all_that_is_shown(drag, delayed):
 
 def without_errors(patch):
     """Velocities are what they were."""
-    bound = hats.Hats.bound
+    bound = modulating.Modulating.bound
 
     def changed(self, box, speeds, *others):
         (track,) = self.tracks
-        error, track.error = track.error, hats.ZERO
+        error, track.error = track.error, modulating.ZERO
         found = bound(self, box, speeds, *others)
         track.error = error
         return found
 
-    patch.setattr(hats.Hats, "bound", changed)
+    patch.setattr(modulating.Modulating, "bound", changed)
 
 
 def without_rest(patch):
-    init = hats.Tangent.__init__
+    init = modulating.Tangent.__init__
 
     def changed(self, *args):
         init(self, *args)
-        self.rest = hats.NONE
+        self.rest = modulating.NONE
 
-    patch.setattr(hats.Tangent, "__init__", changed)
+    patch.setattr(modulating.Tangent, "__init__", changed)
 
 
 def at_mean_throughout(patch):
-    intervals = hats.Weight.intervals
-    patch.setattr(hats.Weight, "intervals", lambda self: ((k, mean, area, hats.ZERO) for k, mean, area, _ in intervals(self)))
+    intervals = modulating.Weight.intervals
+    patch.setattr(modulating.Weight, "intervals", lambda self: ((k, mean, area, modulating.ZERO) for k, mean, area, _ in intervals(self)))
 
 
 def early_instead_of_late(patch):
-    middle = hats.middle_of
-    patch.setattr(hats, "middle_of", lambda ends: -middle(ends))
+    middle = modulating.middle_of
+    patch.setattr(modulating, "middle_of", lambda ends: -middle(ends))
 
 
 def without_the_delays_range(patch):
-    pushed, behind = hats.Hats.pushed, hats.Hats.behind
-    changed = lambda whole, force, by_delay, *by_rate: (force, force, hats.NONE, *by_rate)
-    patch.setattr(hats.Hats, "pushed", lambda *args: changed(*pushed(*args)))
-    patch.setattr(hats.Hats, "behind", lambda *args: changed(*behind(*args)))
+    pushed, behind = modulating.Modulating.pushed, modulating.Modulating.behind
+    changed = lambda whole, force, by_delay, *by_rate: (force, force, modulating.NONE, *by_rate)
+    patch.setattr(modulating.Modulating, "pushed", lambda *args: changed(*pushed(*args)))
+    patch.setattr(modulating.Modulating, "behind", lambda *args: changed(*behind(*args)))
 
 
 def with_the_other_slope_by_the_delay(patch):
-    pushed = hats.Hats.pushed
-    changed = lambda whole, force, by_delay: (whole, force, hats.minus(by_delay))
-    patch.setattr(hats.Hats, "pushed", lambda *args: changed(*pushed(*args)))
+    pushed = modulating.Modulating.pushed
+    changed = lambda whole, force, by_delay: (whole, force, modulating.minus(by_delay))
+    patch.setattr(modulating.Modulating, "pushed", lambda *args: changed(*pushed(*args)))
 
 
 def without_the_middle_speed(patch):
-    init = hats.Tangent.__init__
-    patch.setattr(hats.Tangent, "__init__", lambda self, low, high, middle=None: init(self, low, high, middle and hats.ZERO))
+    init = modulating.Tangent.__init__
+    patch.setattr(modulating.Tangent, "__init__", lambda self, low, high, middle=None: init(self, low, high, middle and modulating.ZERO))
 
 
 def prompt_instead_of_late(patch):
-    patch.setattr(hats.Hats, "behind", lambda self, weight, speeds: (*self.pushed(weight, speeds.axis), hats.NONE))
+    patch.setattr(modulating.Modulating, "behind", lambda self, weight, speeds: (*self.pushed(weight, speeds.axis), modulating.NONE))
 
 
 def by_the_middle_rate(patch):
-    behind = hats.Hats.behind
-    changed = lambda whole, force, by_delay, by_rate: (force, force, by_delay, hats.NONE)
-    patch.setattr(hats.Hats, "behind", lambda *args: changed(*behind(*args)))
+    behind = modulating.Modulating.behind
+    changed = lambda whole, force, by_delay, by_rate: (force, force, by_delay, modulating.NONE)
+    patch.setattr(modulating.Modulating, "behind", lambda *args: changed(*behind(*args)))
 
 
 def nothing_before(patch):
-    behind = hats.Hats.behind
+    behind = modulating.Modulating.behind
 
     def changed(self, weight, speeds):
-        first, speeds.first_force = speeds.first_force, (hats.arb(speeds.track.record.levels[0]),) * 2
+        first, speeds.first_force = speeds.first_force, (modulating.arb(speeds.track.record.levels[0]),) * 2
         found = behind(self, weight, speeds)
         speeds.first_force = first
         return found
 
-    patch.setattr(hats.Hats, "behind", changed)
+    patch.setattr(modulating.Modulating, "behind", changed)
 
 
 def every_area_above(patch):
-    parts = hats.Weight.parts
-    patch.setattr(hats.Weight, "parts", lambda self, k: (sum(parts(self, k), hats.ZERO), hats.ZERO))
+    parts = modulating.Weight.parts
+    patch.setattr(modulating.Weight, "parts", lambda self, k: (sum(parts(self, k), modulating.ZERO), modulating.ZERO))
 
 
 FALSE_HATS = [
@@ -252,15 +252,15 @@ def test_the_weighed_position_is_enclosed_and_by_chords_alone_it_is_not():
     record = bounded.Record(
         {"time_s": [0.1 * k for k in range(40)], "reading": [0.0] * 40, "error": 1e-9, "jitter_s": 0.0, "levels": [1.0], "switched_s": []}
     )
-    track, turns = hats.Track(record, 0), 20 * math.pi
+    track, turns = velocities.Track(record, 0), 20 * math.pi
     for l, m, r in ((0, 3, 9), (5, 6, 8), (11, 20, 31)):
-        weight = hats.Weight(track, [((l, m, r), hats.arb(1))])
+        weight = modulating.Weight(track, [((l, m, r), modulating.arb(1))])
         # `int W (1 - cos)` is that of one: the hat's corners are at whole turns.
-        exact = hats.arb(record.time[r] - record.time[l]) / 2
-        within = lambda fastest: hats.Weighed(weight, Between([(-fastest, fastest)] * 39)).place()
-        low, high = within(hats.arb(turns))
+        exact = modulating.arb(record.time[r] - record.time[l]) / 2
+        within = lambda fastest: modulating.Weighed(weight, Between([(-fastest, fastest)] * 39)).place()
+        low, high = within(modulating.arb(turns))
         assert low <= exact - 1e-6 and exact + 1e-6 <= high
-        low, high = within(hats.ZERO)
+        low, high = within(modulating.ZERO)
         assert high < exact
 
 
@@ -270,47 +270,47 @@ class Between:
 
 
 def errors_left_out(patch):
-    init = hats.Track.__init__
+    init = velocities.Track.__init__
 
     def changed(self, record, first):
         error, record.error = record.error, 0.0
         init(self, record, first)
         record.error = error
 
-    patch.setattr(hats.Track, "__init__", changed)
+    patch.setattr(velocities.Track, "__init__", changed)
 
 
 def one_way_throughout(patch):
-    patch.setattr(hats.Speeds, "even_times", lambda self: [[0, self.track.count - 1, 0]])
+    patch.setattr(velocities.Speeds, "even_times", lambda self: [[0, self.track.count - 1, 0]])
 
 
 def without_pushes(patch):
-    brakes = hats.Speeds.brakes_only
-    patch.setattr(hats.Speeds, "brakes_only", lambda self, up, down: brakes(self, [hats.ZERO] * len(up), [hats.ZERO] * len(down)))
+    brakes = velocities.Speeds.brakes_only
+    patch.setattr(velocities.Speeds, "brakes_only", lambda self, up, down: brakes(self, [modulating.ZERO] * len(up), [modulating.ZERO] * len(down)))
 
 
 def without_drag(patch):
-    patch.setattr(hats.Axis, "most", lambda self, a, b: hats.ZERO)
+    patch.setattr(velocities.Axis, "most", lambda self, a, b: modulating.ZERO)
 
 
 def with_the_least_drag(patch):
-    most = hats.Axis.most
-    patch.setattr(hats.Axis, "most", lambda self, a, b: -most(self, -a, -a))
+    most = velocities.Axis.most
+    patch.setattr(velocities.Axis, "most", lambda self, a, b: -most(self, -a, -a))
 
 
 def without_what_drives(patch):
-    init = hats.Axis.__init__
+    init = velocities.Axis.__init__
 
     def changed(self, *args):
         init(self, *args)
-        self.driving = hats.ZERO
-        self.own = tuple(max(end, hats.ZERO) for end in self.own)
+        self.driving = modulating.ZERO
+        self.own = tuple(max(end, modulating.ZERO) for end in self.own)
 
-    patch.setattr(hats.Axis, "__init__", changed)
+    patch.setattr(velocities.Axis, "__init__", changed)
 
 
 def by_the_earliest_delay(patch):
-    acting = hats.Speeds.acting
+    acting = velocities.Speeds.acting
 
     def changed(self):
         delay, self.axis.delay = self.axis.delay, (self.axis.delay[0],) * 2
@@ -318,15 +318,15 @@ def by_the_earliest_delay(patch):
         self.axis.delay = delay
         return found
 
-    patch.setattr(hats.Speeds, "acting", changed)
+    patch.setattr(velocities.Speeds, "acting", changed)
 
 
 def between_the_ends(patch):
-    patch.setattr(speeds, "lowest_between", lambda a, b, rates, lasted: min(a, b))
+    patch.setattr(velocities, "lowest_between", lambda a, b, rates, lasted: min(a, b))
 
 
 def the_spring_left_out(patch):
-    patch.setattr(hats.Speeds, "pushes", lambda self: self.pushed)
+    patch.setattr(velocities.Speeds, "pushes", lambda self: self.pushed)
 
 
 FALSE_SPEEDS = [
@@ -361,7 +361,7 @@ def contradiction(known):
         for other in range(10, known.count - 20):
             hat, against = [at, at + 6, at + 12], [other, other + 6, other + 12]
             areas = [record.time[h[2]] - record.time[h[0]] for h in (hat, against)]
-            rows = [[{"hat": {"record": 0, "samples": h, "above": a}}, 1 / area] for h, a, area in zip((hat, against), (False, True), areas)]
+            rows = [[{"modulated": {"record": 0, "samples": h, "above": a}}, 1 / area] for h, a, area in zip((hat, against), (False, True), areas)]
             yield box, rows
 
 
@@ -371,40 +371,40 @@ def ends(cuts):
 
 def test_a_contradiction_needs_all_its_hats_and_a_cut_says_no_more_than_they_show():
     known = Known("mixed", 1)
-    (speeds,) = [known.hats.speeds(known.stage.box)]
-    sharp = sorted((float(known.hats.bound(box, speeds, None, rows)), n) for n, (box, rows) in enumerate(contradiction(known)) if n % 97 == 0)
+    (speeds,) = [known.modulating.speeds(known.stage.box)]
+    sharp = sorted((float(known.modulating.bound(box, speeds, None, rows)), n) for n, (box, rows) in enumerate(contradiction(known)) if n % 97 == 0)
     found = list(contradiction(known))[sharp[0][1]]
     assert sharp[0][0] < 0
     box, rows = found
     # The velocities of the whole box hold over a part of it.
-    known.hats.speeds = lambda box: speeds
-    assert known.hats.show(box, "exclude", {"rows": rows}) is None
+    known.modulating.speeds = lambda box: speeds
+    assert known.modulating.show(box, "exclude", {"rows": rows}) is None
     for kept in ([], rows[:1], rows[1:], [[rows[0][0], -rows[0][1]], rows[1]], [[rows[0][0], 3 * rows[0][1]], rows[1]]):
         with pytest.raises(Refused):
-            known.hats.show(box, "exclude", {"rows": kept})
+            known.modulating.show(box, "exclude", {"rows": kept})
     place = known.stage.common
-    shown = float(known.hats.bound(box, speeds, (place, 1), rows[1:]))
+    shown = float(known.modulating.bound(box, speeds, (place, 1), rows[1:]))
     cut = lambda end: {"cuts": [{"unknown": place, "upper": True, "end": end, "rows": rows[1:]}]}
-    assert ends(known.hats.show(box, "contract", cut(shown + 1e-9))) == [shown + 1e-9]
-    assert ends(known.hats.show(box, "contract", cut(shown - 1e-9))) == pytest.approx([shown], rel=1e-14)
-    assert ends(known.hats.show(box, "contract", cut(shown - 1e-9)))[0] >= shown
+    assert ends(known.modulating.show(box, "contract", cut(shown + 1e-9))) == [shown + 1e-9]
+    assert ends(known.modulating.show(box, "contract", cut(shown - 1e-9))) == pytest.approx([shown], rel=1e-14)
+    assert ends(known.modulating.show(box, "contract", cut(shown - 1e-9)))[0] >= shown
 
 
 def test_a_beginning_says_no_more_than_its_speeds():
     known = Known("linear", 2)
     place = known.stage.start(0, 1)
-    end = float(known.hats.speeds(known.stage.box)[0].high[4 - known.hats.tracks[0].first])
+    end = float(known.modulating.speeds(known.stage.box)[0].high[4 - known.modulating.tracks[0].first])
     cut = lambda end: {"cuts": [{"unknown": place, "upper": True, "end": end, "rows": []}]}
-    assert ends(known.hats.show(known.stage.box, "contract", cut(end + 1e-9))) == [end + 1e-9]
-    assert ends(known.hats.show(known.stage.box, "contract", cut(end - 1e-9)))[0] >= end
+    assert ends(known.modulating.show(known.stage.box, "contract", cut(end + 1e-9))) == [end + 1e-9]
+    assert ends(known.modulating.show(known.stage.box, "contract", cut(end - 1e-9)))[0] >= end
 
 
 def test_a_hat_is_verified_where_all_commands_are_known_be_that_before_the_first_window():
     known = Known("linear", 2)
-    first = known.hats.tracks[0].first
+    first = known.modulating.tracks[0].first
     assert 0 < first < 4
-    hat = lambda l: {"rows": [[{"hat": {"record": 0, "samples": [l, 6, 9], "above": True}}, 1.0]]}
+    hat = lambda l: {"rows": [[{"modulated": {"record": 0, "samples": [l, 6, 9], "above": True}}, 1.0]]}
     with pytest.raises(Refused):
-        known.hats.show(known.stage.box, "exclude", hat(first))
-    with pytest.raises(hats.Unsupported):
-        known.hats.show(known.stage.box, "exclude", hat(first - 1))
+        known.modulating.show(known.stage.box, "exclude", hat(first))
+    with pytest.raises(modulating.Unsupported):
+        known.modulating.show(known.stage.box, "exclude", hat(first - 1))

@@ -8,7 +8,7 @@ by how the slope of W changes there. So `v' = gain f + disturbance - D(v) - stif
 an equality that every motion meets, linear in the parameters. Multipliers of hats are the weight that is the sum of these hats, each
 as often as its multiplier says, so that what hats have in common is in doubt once only. Positions are the readings to within their errors,
 `int W v` is by the ways between samples, powers of v are tangents with a range for the rest over the velocities of that interval, and
-these are enclosed from readings, the command and the box (`speeds.py`). Only readings from where all commands that act are in the file are
+these are enclosed from readings, the command and the box (`velocities.py`). Only readings from where all commands that act are in the file are
 used, be that before the first window, and no speed beyond the certificate's `fastest` is looked for from there on.
 """
 
@@ -20,7 +20,7 @@ from flint import arb, fmpq
 from boxes import reached
 from check import require
 from motion import ZERO
-from speeds import Axis, HALF, NONE, Nothing, Speeds, Track, corners, minus, plus
+from velocities import Axis, HALF, NONE, Nothing, Speeds, Track, corners, minus, plus
 
 
 class Unsupported(Exception):
@@ -155,7 +155,7 @@ class Weighed:
         return (total - off).lower(), (total + off).upper()
 
 
-class Hats:
+class Modulating:
     """What steps by hats show of a stage's boxes."""
 
     def __init__(self, stage):
@@ -194,7 +194,7 @@ class Hats:
 
     def beginning(self, speeds, place, sign):
         """An end of the velocity at a window's beginning."""
-        for window, (record, first, _) in enumerate(self.stage.windows):
+        for window, (record, first, _) in enumerate(self.stage.shooting):
             if place == self.stage.start(window, 1):
                 sample = first - self.tracks[record].first
                 return speeds[record].high[sample] if sign > 0 else speeds[record].low[sample]
@@ -210,8 +210,8 @@ class Hats:
         for origin, y in combination:
             y = float(y)
             require(0 <= y < float("inf"), "a multiplier is negative")
-            if isinstance(origin, dict) and "hat" in origin:
-                at = origin["hat"]
+            if isinstance(origin, dict) and "modulated" in origin:
+                at = origin["modulated"]
                 record, samples = int(at["record"]), [int(n) for n in at["samples"]]
                 require(0 <= record < len(self.tracks) and samples == sorted(set(samples)) and len(samples) == 3, "no such hat")
                 track = self.tracks[record]
