@@ -5,6 +5,7 @@
 
 mod architecture;
 mod balance;
+mod bounds;
 mod cases;
 mod catalogue;
 mod certificate;

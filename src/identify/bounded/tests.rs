@@ -8,7 +8,7 @@ use super::linear_program::Inequalities;
 use super::linear_relaxation::{Disjoint, Origin, Relaxation, Span, midpoints, points};
 use super::problem::Problem;
 use super::unknowns::Shooting;
-use super::{BoundedModel, Consistency, DelayBound, Quantity, enclose};
+use super::{BoundedModel, DelayBound};
 use crate::experiment::{Record, Sensor, SimulatedExperiment};
 use crate::identify::DragLaw;
 use crate::nonlinearity::RelayHysteresis;
@@ -75,8 +75,6 @@ pub(super) const BETA: f64 = 0.6;
 pub(super) const DELTA: f64 = 0.1;
 pub(super) const STEP: f64 = 0.02;
 pub(super) const TURN_S: f64 = 2.0;
-/// Bounds that differ by less of their width are the same.
-const SAME: f64 = 0.01;
 
 /// Linear drag under a square wave, by the solution in closed form: time, position, velocity and command at every sample.
 pub(super) fn motion(samples: usize) -> Vec<[f64; 4]> {
@@ -257,28 +255,6 @@ pub(super) fn settings(law: DragLaw) -> BoundedModel {
     BoundedModel { quantum: Some(STEP), ..BoundedModel::new(law, DelayBound::KnownS(0.0)) }
 }
 
-#[test]
-fn the_truth_is_inside_from_a_wide_start() {
-    let wide = enclose(&[&record(300)], &settings(DragLaw::Linear)).expect("bounds");
-    assert_eq!(wide.verdict, Consistency::Consistent);
-    for (quantity, value) in [(Quantity::Alpha, ALPHA), (Quantity::Beta, BETA), (Quantity::Delta(0), DELTA)] {
-        let [low, high] = wide.of(quantity).expect("a range");
-        assert!(low <= value && value <= high, "{quantity}: {value} outside [{low}, {high}]");
-    }
-}
-
-#[test]
-fn a_wide_start_and_a_near_one_end_in_the_same_bounds() {
-    let record = record(300);
-    let near = BoundedModel { reach: 5.0, ..settings(DragLaw::Linear) };
-    let [wide, near] = [settings(DragLaw::Linear), near].map(|model| enclose(&[&record], &model).expect("bounds"));
-    for quantity in [Quantity::Alpha, Quantity::Beta] {
-        let [[low, high], other] = [&wide, &near].map(|bounds| bounds.of(quantity).expect("a range"));
-        let apart = (low - other[0]).abs().max((high - other[1]).abs()) / (high - low);
-        assert!(apart < SAME, "{quantity}: [{low}, {high}] and {other:?}, {apart} of the width apart");
-    }
-}
-
 /// A box about parameters off the truth by a share, of this relative half-width.
 pub(super) fn off(problem: &Problem, share: f64, width: f64) -> Vec<Interval> {
     let mut at = problem.search.clone();
@@ -288,72 +264,14 @@ pub(super) fn off(problem: &Problem, share: f64, width: f64) -> Vec<Interval> {
     at
 }
 
-/// A vehicle that obeys `v' = acceleration(v, u)`, u the logged relay's 0.4 s ago and at first what acted before the log; rounded to a
-/// hundredth.
-fn vehicle(acceleration: impl Fn(f64, f64) -> f64, before: f64) -> Record {
-    const INTERVAL_S: f64 = 0.1;
-    const PARTS: usize = 100;
-    const DELAYED: usize = 4;
-    let command = |sample: usize| if (sample / 15).is_multiple_of(2) { 1.0 } else { -1.0 };
-    let (mut position, mut velocity, h) = (0.0, 0.0, INTERVAL_S / PARTS as f64);
-    let (mut time_s, mut output, mut input) = (Vec::new(), Vec::new(), Vec::new());
-    for sample in 0..300 {
-        time_s.push(INTERVAL_S * sample as f64);
-        output.push((100.0f64 * position).round() / 100.0);
-        input.push(command(sample));
-        let u = if sample < DELAYED { before } else { command(sample - DELAYED) };
-        for _ in 0..PARTS {
-            let middle = velocity + 0.5 * h * acceleration(velocity, u);
-            position += h * middle;
-            velocity += h * acceleration(middle, u);
-        }
-    }
-    Record::new(time_s, output, input).expect("a record")
-}
-
-#[test]
-fn what_acted_before_the_log_may_have_been_anything() {
-    for before in [-6.0, 1.0, 40.0] {
-        let record = vehicle(|v, u| u - 0.5 * v, before);
-        let model = BoundedModel { delay: DelayBound::KnownS(0.4), quantum: Some(0.01), ..settings(DragLaw::Linear) };
-        let found = enclose(&[&record], &model).expect("bounds");
-        let [low, high] = found.of(Quantity::Alpha).expect("bounds of alpha");
-        assert!(found.verdict == Consistency::Consistent && low <= 1.0 && 1.0 <= high, "{before}: {found:?}");
-    }
-}
-
 #[test]
 fn speeds_are_known_from_the_first_window_on_and_are_less_than_those_looked_for() {
-    let record = vehicle(|v, u| u - 0.5 * v, 1.0);
-    let model = BoundedModel {
-        delay: DelayBound::KnownS(0.4),
-        quantum: Some(0.01),
-        either_sign: true,
-        ..settings(DragLaw::Linear)
-    };
-    let problem = Problem::new(&[&record], &model).expect("a setup");
-    let mut at = problem.search.clone();
-    (at[0], at[1]) = (Interval::point(1.0).inflate(0.1), Interval::point(0.5).inflate(0.1));
-    at[2] = Interval::symmetric(0.1);
+    let model = BoundedModel { delay: DelayBound::KnownS(0.4), either_sign: true, ..settings(DragLaw::Linear) };
+    let problem = Problem::new(&[&record(300)], &model).expect("a problem");
+    let at = off(&problem, 0.0, 0.1);
     let speeds = problem.velocities(0, &at).expect("speeds");
     assert_eq!(speeds.known, problem.unknowns.shooting[0].first);
     assert!(speeds.fastest() < 0.7 * problem.fastest, "{} of {}", speeds.fastest(), problem.fastest);
-}
-
-#[test]
-fn quadratic_and_cubic_drag_without_a_linear_one_are_found() {
-    let record = vehicle(|v, u| u - 0.5 * v * v.abs() - 0.3 * v * v * v, 1.0);
-    let model = BoundedModel {
-        delay: DelayBound::KnownS(0.4),
-        quantum: Some(0.01),
-        cubic: true,
-        ..settings(DragLaw::Quadratic)
-    };
-    let found = enclose(&[&record], &model).expect("bounds");
-    for (quantity, truth) in [(Quantity::Alpha, 1.0), (Quantity::BetaQuadratic, 0.5), (Quantity::BetaCubic, 0.3)] {
-        let [low, high] = found.of(quantity).expect("bounds");
-        assert!(found.verdict == Consistency::Consistent && low <= truth && truth <= high, "{quantity:?}: {found:?}");
-    }
 }
 
 /// `v' = u - v / 2` from a velocity of 1, u being -1 until it is switched and 1 after that; before the first instant, too.
@@ -376,7 +294,7 @@ fn a_reading_may_be_from_beyond_what_is_followed_of_the_motion_and_from_beyond_t
             let input = (0..30).map(|sample| if sample < 15 { -1.0 } else { 1.0 }).collect();
             let record = Record::new(time_s, output, input).expect("a record");
             let model = BoundedModel { quantum: Some(0.0), error: 1e-6, jitter_s, ..settings(DragLaw::Linear) };
-            let problem = Problem::new(&[&record], &model).expect("a setup");
+            let problem = Problem::new(&[&record], &model).expect("a problem");
                     let layout = &problem.unknowns;
             // With the instant at which the command was switched.
             let mut truth = vec![1.0, 0.5, 0.0, stamp(15)];
