@@ -18,7 +18,7 @@ WIDE = 2e-3
 # A walk that is refused is made anew with steps shorter by these.
 SHORTER = (1, 2, 4)
 # Rounding of the terms of a witness, against their sizes.
-ROUNDING = 1e-12
+ROUNDING = 1e-9
 # Seconds by which a sum of a stamp and a delay may be rounded up.
 ROUNDED = Fraction(1, 10**9)
 # Around a witness, over itself: a motion that crosses zero within a small range is passed at once.

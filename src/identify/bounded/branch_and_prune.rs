@@ -4,20 +4,16 @@
 #[cfg(test)]
 mod tests;
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
 
 use super::contraction::{Contracted, Contractor, Empty, Method};
 use super::vector_field::Term;
 use crate::numeric::Interval;
 
-/// A box is kept once its inequalities are uncertain by less than this share of a reading's largest error.
-const KEPT: f64 = 0.7;
+/// A box is kept, or followed further, once its inequalities are uncertain by less than this share of a reading's largest error.
+pub(super) const KEPT: f64 = 0.7;
 /// A box is not divided below this uncertainty: the bounds then depend on the readings alone.
-const FINEST: f64 = 1e-5;
-/// A slice is divided where its end moved by less than this share of its width.
-const MOVED: f64 = 0.2;
-/// Empty boxes that are remembered: there the contradiction is shown, and the nearest parameter sought.
-const REMEMBERED: usize = 4;
+pub(super) const FINEST: f64 = 1e-5;
 
 /// A box that is left.
 #[derive(Clone, Debug)]
@@ -102,9 +98,9 @@ pub(super) fn hull(boxes: impl IntoIterator<Item = Vec<Interval>>) -> Option<Vec
     boxes.into_iter().reduce(|hull, at| hull.iter().zip(&at).map(|(a, b)| a.hull(*b)).collect())
 }
 
-/// The boxes that are left, and the last empty ones.
+/// The boxes that are left, and the last empty one with a contradiction of its readings.
 pub(super) struct Division {
-    pub(super) empties: VecDeque<Empty>,
+    pub(super) last_empty: Option<Empty>,
     pub(super) kept: Vec<Kept>,
     /// Whether the motion was followed over every box that is left.
     pub(super) complete: bool,
@@ -112,18 +108,14 @@ pub(super) struct Division {
 
 impl Division {
     fn new() -> Self {
-        Self { empties: VecDeque::new(), kept: Vec::new(), complete: true }
+        Self { last_empty: None, kept: Vec::new(), complete: true }
     }
 
     /// Notes an empty box, where its motion shows a contradiction.
     fn exclude(&mut self, empty: Empty) {
-        if empty.method == Method::ModulatingFunctions || empty.relaxation.is_none() {
-            return;
+        if empty.method == Method::Shooting && empty.relaxation.is_some() {
+            self.last_empty = Some(empty);
         }
-        if self.empties.len() == REMEMBERED {
-            self.empties.pop_front();
-        }
-        self.empties.push_back(empty);
     }
 
     /// The box that extends furthest to an end, and its end.
@@ -242,7 +234,6 @@ impl Contractor {
             }
             let mut kept = division.kept.swap_remove(index);
             division.kept.extend(kept.cut(end, value));
-            let width = kept.at[end.unknown].width();
             match self.contract(&mut kept.at, false) {
                 Err(empty) => {
                     division.exclude(empty);
@@ -250,7 +241,7 @@ impl Contractor {
                 }
                 Ok(contracted) => kept.contracted = contracted,
             }
-            if furthest - end.of(&kept.at) > MOVED * width {
+            if end.of(&kept.at) <= value {
                 division.kept.push(kept);
                 continue;
             }

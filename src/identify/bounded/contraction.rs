@@ -12,7 +12,7 @@ use super::vector_field::Term;
 use crate::numeric::Interval;
 
 /// A contraction is repeated while it leaves less than this share of the width of some parameter.
-const HELPED: f64 = 0.75;
+pub(super) const HELPED: f64 = 0.75;
 /// A box is too wide for shooting while the range of a parameter changes the force by more than this share of the largest command.
 const WIDE: f64 = 0.25;
 /// The gain is divided first until its ends are within this factor: the other parameters scale with it.

@@ -20,8 +20,8 @@ const LEAST_GAIN: f64 = 1e-3;
 const SHRINK: f64 = 0.25;
 /// A feasible point is sought this share of the slack inside the readings' ranges: room for the curvature of the motion.
 const INSIDE: f64 = 0.01;
-/// Misfits that are allowed in turn, in largest errors beyond the first.
-const EXCESSES: [f64; 3] = [1.0, 30.0, 1000.0];
+/// The largest misfit that is allowed in a linear programme, in largest errors beyond the first.
+const MOST_EXCESS: f64 = 1000.0;
 /// Room about the states of an empty box, in largest errors of a reading.
 const ROOM: f64 = 30.0;
 
@@ -43,13 +43,11 @@ impl Point {
 /// The solution with the least excess; `None` where no excess suffices.
 fn least_excess(relaxation: &mut Relaxation, excess: usize) -> Option<(Vec<usize>, Vec<f64>)> {
     let places = relaxation.places();
-    EXCESSES.into_iter().find_map(|most| {
-        relaxation.deviations[excess] = Interval::new(-1.0, most)?;
-        match relaxation.programme(&places).maximise(&[(excess, -1.0)]) {
-            Outcome::Bounded { at, .. } => Some((places.clone(), at)),
-            Outcome::Empty { .. } => None,
-        }
-    })
+    relaxation.deviations[excess] = Interval::new(-1.0, MOST_EXCESS)?;
+    match relaxation.programme(&places).maximise(&[(excess, -1.0)]) {
+        Outcome::Bounded { at, .. } => Some((places, at)),
+        Outcome::Empty { .. } => None,
+    }
 }
 
 impl Contractor {

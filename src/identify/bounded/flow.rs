@@ -4,8 +4,8 @@ mod uncertain_switching;
 
 use super::record::Command;
 use super::sensitivities::{Block, Variable};
-use super::taylor_step::{Arrival, Fields, MOST_LENGTH, Pair, Step, TooLong};
-use super::vector_field::{FORCE, State, Term, VELOCITY, VectorField, changes_sign};
+use super::taylor_step::{Arrival, FlowStep, MOST_LENGTH, TooLong};
+use super::vector_field::{FORCE, Fields, State, StatePair, Term, VELOCITY, VectorField, changes_sign};
 use super::work::Work;
 use crate::numeric::{Balls, Interval};
 use uncertain_switching::Uncertain;
@@ -51,7 +51,7 @@ pub(super) struct Input<'a> {
 struct Flow<'a> {
     input: &'a Input<'a>,
     blocks: &'a [Block],
-    state: Pair,
+    state: StatePair,
     columns: Vec<[Balls; 3]>,
     uncertain: Vec<Uncertain>,
     fastest: [f64; 2],
@@ -67,12 +67,12 @@ fn shorten(part: &mut Interval, length: f64) {
 /// One step of at most the length `part`, which it shortens; `Some(None)` where the velocity is about to change its sign.
 fn stride(
     fields: &Fields,
-    state: &Pair,
+    state: &StatePair,
     u: Interval,
     part: &mut Interval,
     allowed: f64,
     blocks: &[Block],
-) -> Option<Option<Box<Step>>> {
+) -> Option<Option<Box<FlowStep>>> {
     let field = &fields.over;
     // The point need not be in the box.
     let both: State = core::array::from_fn(|k| state.over[k].hull(state.at[k]));
@@ -145,7 +145,7 @@ fn advance_point(field: &VectorField, start: State, u: Interval, h: Interval) ->
             return Some([state, passed]);
         }
         let mut part = left;
-        let pair = Pair { over: state, at: state };
+        let pair = StatePair { over: state, at: state };
         let taylor = if u.is_point() { stride(&fields, &pair, u, &mut part, f64::INFINITY, &[])? } else { None };
         let [end, within] = match taylor {
             Some(step) => [step.at(part).at?, step.within],
@@ -286,7 +286,7 @@ impl Flow<'_> {
     }
 
     /// One step by rates, the end of the point's motion, and the states that it passes.
-    fn by_rates(&self, u: Interval, u_at: Interval, part: &mut Interval) -> Option<(Box<Step>, State, State)> {
+    fn by_rates(&self, u: Interval, u_at: Interval, part: &mut Interval) -> Option<(Box<FlowStep>, State, State)> {
         let fields = &self.input.fields;
         shorten(part, BY_RATES / fields.over.fastest_rate(self.state.over[VELOCITY]));
         halved(part, |part| {
@@ -321,7 +321,7 @@ impl Passed {
 /// deviate so far from the point. `None` where it cannot be enclosed.
 pub(super) fn follow(
     input: &Input<'_>,
-    start: Pair,
+    start: StatePair,
     times: &[(f64, bool)],
     variables: &[Variable],
     deviations: &[Interval],

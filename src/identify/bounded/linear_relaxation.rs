@@ -9,8 +9,7 @@ use super::flow::{Input, Node, follow};
 use super::linear_program::{Inequalities, Multipliers, Outcome, Programme};
 use super::problem::Problem;
 use super::record::Readings;
-use super::taylor_step::{Fields, Pair};
-use super::vector_field::Term;
+use super::vector_field::{Fields, StatePair, Term};
 use super::work::Work;
 use crate::numeric::Interval;
 
@@ -180,7 +179,7 @@ impl Problem {
             allowed: REMAINDER * readings.error / self.half_period_s,
             work: &self.work,
         };
-        let start = Pair { over: unknowns.state(span.from, at), at: unknowns.state(span.from, &point) };
+        let start = StatePair { over: unknowns.state(span.from, at), at: unknowns.state(span.from, &point) };
         let (variables, places) =
             if with_sensitivities { unknowns.variables(span.from) } else { (Vec::new(), Vec::new()) };
         let deviations: Vec<Interval> = places.iter().map(|place| at[*place] - point[*place]).collect();

@@ -12,8 +12,8 @@ use crate::experiment::Record;
 use crate::identify::IdentifyError;
 use crate::numeric::{Interval, Limit, OutOfDomain};
 
-/// Room for the rounding of a reading on its way into the file, in steps of the sensor.
-const ROUNDING: f64 = 1e-9;
+/// Room for the rounding of numbers on their way into a file: of a reading in steps of the sensor, of others in shares of themselves.
+pub(super) const ROUNDING: f64 = 1e-9;
 /// Largest negative drag rate that is searched, over the mean half-period: an unstable vehicle that grows by `e^2.5` in one.
 const DRIVING: f64 = 2.5;
 /// Longest lag that is searched: the mean half-period over this. A longer lag exchanges with the time constant of the drag.

@@ -26,10 +26,10 @@ const PROOF: usize = 100;
 const FEWEST: usize = 40;
 
 /// The numbers of two groups.
-type Pair = [usize; 2];
+type Groups = [usize; 2];
 
 /// The pairs of so many groups.
-fn pairs(groups: usize) -> impl Iterator<Item = Pair> {
+fn pairs(groups: usize) -> impl Iterator<Item = Groups> {
     (0..groups).flat_map(move |second| (0..second).map(move |first| [first, second]))
 }
 
@@ -82,7 +82,7 @@ pub(super) fn enclose(readings: &[Readings], settings: &BoundedModel) -> Result<
 }
 
 impl Relaxed<'_> {
-    fn within(&self, pair: Pair, groups: usize, place: Outlier) -> bool {
+    fn within(&self, pair: Groups, groups: usize, place: Outlier) -> bool {
         pair.contains(&((self.offsets[place.record] + place.sample) % groups))
     }
 
@@ -112,7 +112,7 @@ impl Relaxed<'_> {
         self.measure(groups);
         let whole = self.problem(|_| true)?;
         let mut at = whole.search.clone();
-        let mut pieces: Vec<(Pair, Left)> = Vec::new();
+        let mut pieces: Vec<(Groups, Left)> = Vec::new();
         while groups > 2 {
             pieces = self.pieces(groups, &at)?;
             if let (Some(bounds), true) = (self.hardest.take(), pieces.is_empty()) {
@@ -131,10 +131,10 @@ impl Relaxed<'_> {
     }
 
     /// What every pair of groups leaves of a box, but those that leave nothing.
-    fn pieces(&mut self, groups: usize, at: &[Interval]) -> Result<Vec<(Pair, Left)>, IdentifyError> {
-        let mut pieces: Vec<(Pair, Left)> = Vec::new();
+    fn pieces(&mut self, groups: usize, at: &[Interval]) -> Result<Vec<(Groups, Left)>, IdentifyError> {
+        let mut pieces: Vec<(Groups, Left)> = Vec::new();
         // Most pairs are soon known, and the others get what is left of the budget.
-        let mut open: Vec<(Pair, Option<usize>)> = pairs(groups).map(|pair| (pair, None)).collect();
+        let mut open: Vec<(Groups, Option<usize>)> = pairs(groups).map(|pair| (pair, None)).collect();
         while let Some((pair, least)) = open.pop() {
             let budget = self.settings.budget.saturating_sub(self.passes) / (open.len() + 1);
             // No pair goes without a first run, whatever is left.
@@ -220,7 +220,7 @@ impl Relaxed<'_> {
     }
 
     /// Readings that contradict what every pair leaves, as many as may be outliers at most.
-    fn contradicted(&self, pieces: &[(Pair, Left)], groups: usize) -> Result<Vec<Outlier>, IdentifyError> {
+    fn contradicted(&self, pieces: &[(Groups, Left)], groups: usize) -> Result<Vec<Outlier>, IdentifyError> {
         let allowed = groups - 2;
         let mut suspects: Vec<Outlier> =
             pieces.iter().flat_map(|(_, piece)| piece.missed.iter().take(allowed).copied()).collect();
@@ -242,7 +242,7 @@ impl Relaxed<'_> {
     }
 
     /// Whether nothing is left of what a pair leaves once one more reading has to be met.
-    fn contradicts(&self, suspect: Outlier, pair: Pair, groups: usize, piece: &Left) -> Result<bool, IdentifyError> {
+    fn contradicts(&self, suspect: Outlier, pair: Groups, groups: usize, piece: &Left) -> Result<bool, IdentifyError> {
         let Some(at) = &piece.at else { return Ok(true) };
         let problem = self.problem(|place| place == suspect || self.within(pair, groups, place))?.within(at);
         Ok(Contractor::new(problem.clone()).prune(vec![problem.search], PROOF).kept.is_empty())
@@ -253,7 +253,7 @@ impl Relaxed<'_> {
         mut self,
         whole: &Problem,
         at: &[Interval],
-        pieces: Vec<(Pair, Left)>,
+        pieces: Vec<(Groups, Left)>,
         allowed: usize,
     ) -> Result<Bounds, IdentifyError> {
         let all = self.leave(|_, _| true, at, self.settings.budget)?;
@@ -282,7 +282,7 @@ impl Relaxed<'_> {
 }
 
 /// What all pairs leave of each quantity; a record's first state is another one's with each pair, and left out.
-fn union(pieces: &[(Pair, Left)]) -> Vec<QuantityRange> {
+fn union(pieces: &[(Groups, Left)]) -> Vec<QuantityRange> {
     let mut all: Vec<QuantityRange> = Vec::new();
     for range in pieces.iter().flat_map(|(_, piece)| &piece.bounds.bounds) {
         match all.iter_mut().find(|own| own.quantity == range.quantity) {

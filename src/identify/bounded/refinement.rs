@@ -1,24 +1,19 @@
 //! Refinement of the bounds once a feasible point is known: boxes of low uncertainty, and ends that move in to feasible points.
 
 use super::answer::Quantity;
-use super::branch_and_prune::{Division, End, hull};
+use super::branch_and_prune::{Division, End, FINEST, hull};
 use super::contraction::{Contractor, Empty};
 use super::feasible_point::Point;
 use super::linear_relaxation::points;
 use crate::numeric::Interval;
 
-/// Passes of a refinement; of these, for bisection alone.
+/// Passes of a refinement; half of them for bisection alone.
 const MOST_PASSES: usize = 640;
-const BISECTION_PASSES: usize = 320;
-/// Boxes are bisected until inequalities are uncertain by less than this share of a reading's error.
-const COARSE: f64 = 0.07;
 /// Bounds are good where feasible points reach over this share of their width.
 const GOOD: f64 = 0.98;
-/// A box is not divided further where its uncertainty is below this share of the slack of the nearest point: a feasible point is then
-/// found in it, if there is one.
+/// Boxes are bisected until their uncertainty is below this share of a reading's error; beyond an end, of the slack of the nearest point: a
+/// feasible point is then found in the box, if there is one.
 const FINE: f64 = 0.1;
-/// The least such uncertainty.
-const LEAST_FINE: f64 = 3e-6;
 /// Rounds over all ends.
 const ROUNDS: usize = 6;
 
@@ -56,7 +51,7 @@ impl Points {
         let mut boxes: Vec<Vec<Interval>> = division.kept.iter().map(|kept| kept.at.clone()).take(2).collect();
         boxes.extend(division.hull());
         if boxes.is_empty() {
-            boxes = division.empties.iter().rev().filter_map(box_of).map(|at| contractor.loosened(&at)).collect();
+            boxes = division.last_empty.iter().filter_map(box_of).map(|at| contractor.loosened(&at)).collect();
         }
         for at in boxes {
             if self.feasible().is_some() {
@@ -76,7 +71,7 @@ impl Points {
     pub(super) fn refine(&mut self, contractor: &mut Contractor, division: &mut Division, budget: usize) {
         let begun = contractor.passes();
         let budget = budget.min(begun + MOST_PASSES);
-        while contractor.passes() < budget.min(begun + BISECTION_PASSES) && contractor.bisect_coarsest(division, COARSE) {}
+        while contractor.passes() < budget.min(begun + MOST_PASSES / 2) && contractor.bisect_coarsest(division, FINE) {}
         let Some(hull) = division.hull() else { return };
         contractor.nearest(&hull, &hull).into_iter().for_each(|point| self.note(point));
         let ends: Vec<End> = (0..contractor.problem.unknowns.common())
@@ -119,7 +114,7 @@ impl Points {
         while contractor.passes() < budget && !self.is_good(division, end) {
             let Some(goal) = self.goal(division, end, 0.25 * (1.0 - GOOD)) else { return };
             let slack = self.nearest.as_ref().map_or(0.0, |nearest| 1.0 - nearest.misfit);
-            let fine = (FINE * slack).max(LEAST_FINE);
+            let fine = (FINE * slack).max(FINEST);
             let Some(stays) = contractor.shave(division, end, goal, fine, budget) else { return };
             let before = self.inner.as_ref().map(|inner| end.of(inner));
             if let Some(point) = contractor.nearest(&stays, &stays) {

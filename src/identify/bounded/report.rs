@@ -31,9 +31,9 @@ pub(super) fn answer(wide: &Problem, contractor: &Contractor, division: &Divisio
     let kept: Vec<(Vec<Interval>, Option<Relaxation>)> = division.kept.iter().map(kept).collect();
     let (mut least, mut contradicting) = (1.0f64, Vec::new());
     if verdict == Consistency::Refuted {
-        let shown = division.empties.iter().rev().map(|empty| contradiction(&contractor.problem, empty));
-        let found = shown.into_iter().find(|readings| !readings.is_empty());
-        contradicting = found.unwrap_or_else(|| contractor.contradicting.clone());
+        let shown = division.last_empty.as_ref().map(|empty| contradiction(&contractor.problem, empty));
+        let shown = shown.filter(|readings| !readings.is_empty());
+        contradicting = shown.unwrap_or_else(|| contractor.contradicting.clone());
     } else {
         least = kept.iter().fold(least, |least, (_, relaxation)| least.min(least_misfit(contractor, relaxation.as_ref())));
     }

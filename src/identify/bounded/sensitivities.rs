@@ -8,9 +8,6 @@
 use super::vector_field::{FORCE, POSITION, Term, VELOCITY, VectorField, TERMS};
 use crate::numeric::{Balls, Interval, Sizes};
 
-/// Share of a step that Gronwall's inequality leaves: `1 - h lambda` is at least this.
-const LEAST_DENOMINATOR: f64 = 0.1;
-
 /// By what a column of sensitivities is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Variable {
@@ -134,7 +131,7 @@ impl Equation {
     /// Bounds of columns during a step of the length `h`. Gronwall: `|s|' <= lambda |s| + |b|` leaves
     /// `|s| <= (|s_0| + h |b|)/(1 - h lambda)` for `h lambda < 1`; a negative lambda counts as zero.
     ///
-    /// `None` where `h lambda` is too near to one.
+    /// `None` for `h lambda >= 1`.
     pub(super) fn gronwall(
         &self,
         damping: Interval,
@@ -149,7 +146,7 @@ impl Equation {
         // The position adds h |s_v| to |s_x|, hence h stiffness to lambda.
         let denominators =
             [growing(damping) + h * stiffness, growing(-own(Term::LagRate))].map(|rate| Interval::ONE - h * rate);
-        if denominators.iter().any(|denominator| denominator.lower() < LEAST_DENOMINATOR) {
+        if denominators.iter().any(|denominator| denominator.lower() <= 0.0) {
             return None;
         }
         let [grown, grown_force] = denominators.map(|denominator| Sizes::splat(Interval::ONE / denominator));

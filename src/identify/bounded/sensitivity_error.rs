@@ -5,8 +5,7 @@
 //! distance of the two velocities.
 
 use super::sensitivities::{Block, Equation, units};
-use super::taylor_step::Fields;
-use super::vector_field::{State, Term, VELOCITY};
+use super::vector_field::{Fields, State, Term, VELOCITY};
 use crate::numeric::{Balls, Interval, Real, Sizes};
 
 /// Bounds of d at the end of a step of the length `h`, of velocity and force.

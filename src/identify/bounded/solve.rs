@@ -11,9 +11,6 @@ use super::settings::BoundedModel;
 use crate::identify::IdentifyError;
 use crate::numeric::Interval;
 
-/// Bisections after which a feasible point is sought again.
-const BISECTIONS: usize = 8;
-
 /// A solved problem.
 pub(super) struct Solved {
     pub(super) bounds: Bounds,
@@ -43,13 +40,13 @@ pub(super) fn solve(
     if tried.feasible().is_none() && !division.kept.is_empty() {
         tried.seek_near(&mut contractor, estimates().as_deref());
     }
-    let mut bisections = 0;
+    let mut bisections = 0usize;
     while tried.feasible().is_none()
         && contractor.passes() < settings.budget
         && contractor.bisect_coarsest(&mut division, 0.0)
     {
         bisections += 1;
-        if bisections % BISECTIONS == 0 {
+        if bisections.is_power_of_two() {
             tried.seek(&contractor, &division);
         }
     }

@@ -6,7 +6,7 @@ use super::a_priori_enclosure::enclose;
 use super::sensitivities::{Block, Equation, units};
 use super::sensitivity_error::SensitivityError;
 use super::taylor_series::{DEGREE, LINE, NO_PATH, Path, PointSeries, line, values};
-use super::vector_field::{FORCE, POSITION, State, Term, VELOCITY, VectorField, changes_sign};
+use super::vector_field::{FORCE, Fields, POSITION, State, StatePair, Term, VELOCITY, VectorField, changes_sign};
 use crate::numeric::{Balls, Interval};
 
 #[cfg(test)]
@@ -14,28 +14,12 @@ mod tests;
 
 /// Length of a step against the fastest rate of the equation: the series then gains a digit with every second degree.
 pub(super) const MOST_LENGTH: f64 = 0.4;
-/// A step that is too long is made no shorter at once than this share of itself.
-const LEAST_SHARE: f64 = 0.1;
 /// What may be said of a step without an enclosure.
 const HALF: TooLong = TooLong::Share(0.5);
 
-/// The equation over a box, and at a point of it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Fields {
-    pub(super) over: VectorField,
-    pub(super) at: VectorField,
-}
-
-/// The state over a box, and of the point.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pair {
-    pub(super) over: State,
-    pub(super) at: State,
-}
-
 /// A step, evaluated at any instant of it.
 #[derive(Clone, Debug)]
-pub(super) struct Step {
+pub(super) struct FlowStep {
     /// The point's motion from the middle of its start; of a step by rates the motion over the box.
     state: Path,
     /// Sensitivities by each component of the state at the start.
@@ -83,7 +67,7 @@ impl VectorField {
         }
         let length = self.fastest_rate(v) * h.upper() / MOST_LENGTH;
         if length > 1.0 {
-            return Err(TooLong::Share((0.9 / length).max(LEAST_SHARE)));
+            return Err(TooLong::Share(0.9 / length));
         }
         Ok(self.has(Term::Quadratic) && v.upper() <= 0.0)
     }
@@ -98,7 +82,7 @@ impl VectorField {
 
 impl Fields {
     /// A step of the length `h` under a constant command.
-    pub(super) fn taylor(&self, start: &Pair, u: Interval, h: Interval, blocks: &[Block]) -> Result<Box<Step>, TooLong> {
+    pub(super) fn taylor(&self, start: &StatePair, u: Interval, h: Interval, blocks: &[Block]) -> Result<Box<FlowStep>, TooLong> {
         let Self { over, at } = self;
         let within = over.passed(&start.over, u, h).ok_or(HALF)?;
         let backwards = over.backwards(&within, h)?;
@@ -113,7 +97,7 @@ impl Fields {
         };
         let by_forcing: Option<Vec<Path>> = blocks.iter().map(forced).collect();
         let (starts, passed) = ([&start.over, &start.at], [&within, &within_at]);
-        Ok(Box::new(Step {
+        Ok(Box::new(FlowStep {
             state: series.path(),
             by_start: series.columns(None, &units()).ok_or(HALF)?,
             by_forcing: by_forcing.ok_or(HALF)?,
@@ -137,7 +121,7 @@ impl Fields {
         u_at: Interval,
         h: Interval,
         blocks: &[Block],
-    ) -> Option<Box<Step>> {
+    ) -> Option<Box<FlowStep>> {
         let field = &self.over;
         let within = field.passed(start, u, h)?;
         let [from, rate] = [*start, field.rate(&within, u)].map(|state| state.map(Balls::splat));
@@ -152,7 +136,7 @@ impl Fields {
             if block.is_forced() { columns(Some(block), &[Balls::ZERO; 3]) } else { Some(NO_PATH) }
         };
         let by_forcing: Option<Vec<Path>> = blocks.iter().map(forced).collect();
-        Some(Box::new(Step {
+        Some(Box::new(FlowStep {
             state: line(&from, &rate),
             by_start: columns(None, &units())?,
             by_forcing: by_forcing?,
@@ -191,7 +175,7 @@ impl Fields {
     }
 }
 
-impl Step {
+impl FlowStep {
     /// By which factor the step could be longer for its remainder to leave `allowed` of the point's velocity uncertain.
     pub(super) fn could_be_longer(&self, h: Interval, allowed: f64) -> f64 {
         let last = self.state[VELOCITY][self.degree].interval_at(0).magnitude();

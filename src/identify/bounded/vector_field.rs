@@ -63,6 +63,20 @@ pub(super) struct VectorField {
     pub(super) middle_speed: f64,
 }
 
+/// The equation over a box, and at a point of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fields {
+    pub(super) over: VectorField,
+    pub(super) at: VectorField,
+}
+
+/// The state over a box, and of the point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StatePair {
+    pub(super) over: State,
+    pub(super) at: State,
+}
+
 /// `v |v|` of every element.
 pub(super) fn signed_square(v: Interval) -> Interval {
     let square = |end: f64| {

@@ -12,8 +12,6 @@ use super::vector_field::{Term, cube, shifted_square, signed_square};
 use crate::numeric::{Interval, Real};
 use monotone::{Constant, SPANS};
 
-/// Velocities are bounded once more where they are below this share of the largest speed searched.
-const SLOWER: f64 = 0.7;
 /// Trial decreases of a velocity, each twice the one before.
 const DOUBLINGS: usize = 6;
 /// Iterations of the implicit Euler step.
@@ -239,10 +237,8 @@ impl Problem {
     pub(super) fn velocities(&self, record: usize, at: &[Interval]) -> Option<Velocities> {
         let speeds = self.below_speed(record, at, self.fastest)?;
         let driven = self.least_linear < 0.0 || self.unknowns.place_of(Term::Stiffness).is_some();
-        let fastest = speeds.fastest();
         // Negative drag and a spring drive less where speeds are smaller.
-        let slow = driven && fastest < SLOWER * self.fastest;
-        let speeds = if slow { self.below_speed(record, at, fastest)? } else { speeds };
+        let speeds = if driven { self.below_speed(record, at, speeds.fastest())? } else { speeds };
         Some(if self.records[record].jitter_s > 0.0 { self.stamped(record, &speeds) } else { speeds })
     }
 

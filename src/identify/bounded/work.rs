@@ -5,8 +5,6 @@ use std::rc::Rc;
 
 /// One pass, in units of a step of the flow with one block of sensitivities: a record of some hundred samples takes as many steps.
 const PASS: f64 = 300.0;
-/// A sample under modulating functions.
-const WEIGHTED: f64 = 1.0;
 /// One entry of an inequality, and one unknown of an exchange of the simplex method.
 const ENTRY: f64 = 0.004;
 
@@ -26,9 +24,9 @@ impl Work {
         self.add(0.5 + 0.5 * blocks as f64);
     }
 
-    /// Modulating functions over so many samples.
+    /// Modulating functions over so many samples, each as much as a step.
     pub(super) fn weighted(&self, samples: usize) {
-        self.add(WEIGHTED * samples as f64);
+        self.add(samples as f64);
     }
 
     /// Entries of inequalities, or unknowns of an exchange.

@@ -1,15 +1,12 @@
 //! The check of a certificate: its problem, its words, its stages and its witness. No search, no linear programme.
 
 use super::super::linear_relaxation::points;
-use super::super::problem::Problem;
+use super::super::problem::{Problem, ROUNDING};
 use super::format::{Certificate, Stage, Witness};
 use super::unproved::{Unproved, malformed};
 use super::walk::{Checked, Walk, within};
 use crate::experiment::Record;
 use crate::numeric::Interval;
-
-/// Rounding of the terms of a witness, against their sizes.
-const ROUNDING: f64 = 1e-12;
 
 /// What an accepted certificate shows, and by how much work.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,12 +6,9 @@ use super::super::problem::Problem;
 use super::format::{Combination, Cut};
 use crate::numeric::Interval;
 
-/// A contradiction counts where it exceeds this share of the errors of its readings, and an empty range this share of its width.
-const BEYOND: f64 = 0.01;
-/// A cut that takes less than this share of a range is left out.
-const LEAST_CUT: f64 = 0.05;
-/// Room on either side of a range that a cut leaves, in shares of it.
-const ROOM: f64 = 0.03;
+/// Room for the enclosures of another checker: on either side of a range, in shares of it; and of a contradiction, in shares of the errors of
+/// its readings. A cut that takes less off a range is left out.
+pub(super) const ROOM: f64 = 0.03;
 
 /// The result of a contraction.
 pub(super) enum Found {
@@ -64,7 +61,7 @@ pub(super) fn seek(
                 Outcome::Empty { multipliers } => {
                     let bound = relaxation.upper_bound(&[], &multipliers);
                     let weighed: f64 = multipliers.iter().map(|(row, y)| y * error(*row)).sum();
-                    if bound < -BEYOND * weighed - uncertainty(&multipliers) {
+                    if bound < -ROOM * weighed - uncertainty(&multipliers) {
                         return Found::Contradiction(named(&multipliers), -bound);
                     }
                     continue 'unknowns;
@@ -82,10 +79,10 @@ pub(super) fn seek(
             let sign = if upper { 1.0 } else { -1.0 };
             let of = |side: Interval| if upper { side.upper() } else { side.lower() };
             let (now, other) = (of(side), of(-side) * -1.0);
-            let (end, least) = (end + sign * room, BEYOND * side.width());
+            let (end, least) = (end + sign * room, ROOM * side.width());
             let gained = sign * (now - end);
             let reaches = target.is_some_and(|target| sign * (now - of(*target)) > 0.0 && sign * (end - of(*target)) <= 0.0);
-            if gained <= 0.0 || gained <= LEAST_CUT * side.width() && !reaches {
+            if gained <= 0.0 || gained <= ROOM * side.width() && !reaches {
                 continue;
             }
             let empty = sign * (other - end) > least + uncertainty(multipliers);

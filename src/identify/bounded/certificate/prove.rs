@@ -1,13 +1,13 @@
 //! The proof, once it is known what is left: branch and prune again, towards a box with some room around what is left.
 
-use super::super::branch_and_prune::halves;
-use super::super::contraction::Contractor;
+use super::super::branch_and_prune::{KEPT, halves};
+use super::super::contraction::{Contractor, HELPED};
 use super::super::linear_relaxation::midpoints;
 use super::super::problem::Problem;
 use super::super::settings::BoundedModel;
 use super::super::solve::Solved;
 use super::format::{By, Certificate, Cut, Stage, Step, Witness, ends, sides};
-use super::multipliers::{Found, seek};
+use super::multipliers::{self, Found, seek};
 use super::unproved::Unproved;
 use crate::experiment::Record;
 use crate::identify::IdentifyError;
@@ -17,16 +17,10 @@ use crate::numeric::{Interval, Real};
 const ROOM: f64 = 0.5;
 /// Steps of a stage.
 const MOST_STEPS: usize = 4000;
-/// A contraction helped that leaves less than this share of the width of some parameter.
-const HELPED: f64 = 0.8;
 /// A contradiction by shooting counts where it exceeds this share of the ranges of the coefficients; the second checker's are wider.
 const OF_UNCERTAINTY: f64 = 0.25;
-/// A box is followed further where its inequalities are uncertain by less than this share of a reading's error.
-const FURTHER: f64 = 0.7;
 /// A box at most this much wider than what is left is divided where it extends beyond.
 const NEAR: f64 = 4.0;
-/// Room of a velocity from the readings, in shares of its range.
-const ROOM_OF_VELOCITY: f64 = 0.03;
 
 impl Certificate {
     /// The proof of what was solved; two stages where a narrower delay left more readings.
@@ -58,7 +52,7 @@ impl Certificate {
 
 /// A box at hand.
 #[derive(Clone)]
-struct Open {
+struct Pending {
     at: Vec<Interval>,
     /// Modulating functions help no more.
     modulated: bool,
@@ -100,7 +94,7 @@ impl Prover {
     }
 
     fn stage(mut self) -> Result<Stage, Unproved> {
-        let mut open = vec![Open { at: self.problem().search.clone(), modulated: false, level: 0 }];
+        let mut open = vec![Pending { at: self.problem().search.clone(), modulated: false, level: 0 }];
         while let Some(mut here) = open.pop() {
             loop {
                 if self.is_left(&here.at) {
@@ -137,7 +131,7 @@ impl Prover {
         self.left.as_deref().unwrap_or(&[])
     }
 
-    fn step(&mut self, here: &mut Open) -> Next {
+    fn step(&mut self, here: &mut Pending) -> Next {
         if !here.modulated
             && let Some(next) = self.modulate(here)
         {
@@ -153,7 +147,7 @@ impl Prover {
 
     /// By modulating functions over the first horizon, and once the box is narrow enough the velocities from the readings; `None` where
     /// they help no more.
-    fn modulate(&mut self, here: &mut Open) -> Option<Next> {
+    fn modulate(&mut self, here: &mut Pending) -> Option<Next> {
         let by = By::ModulatingFunctions(self.horizons[0]);
         let contractor = &self.contractors[0];
         let (problem, parameters) = (&contractor.problem, contractor.problem.unknowns.parameters());
@@ -170,7 +164,7 @@ impl Prover {
                 let wide = contractor.too_wide(&at).is_some();
                 here.modulated = !wide || contractor.share_left(&here.at, &at) > HELPED;
                 for unknown in (parameters..at.len()).filter(|_| !wide) {
-                    let known = known[unknown].inflate(ROOM_OF_VELOCITY * known[unknown].width());
+                    let known = known[unknown].inflate(multipliers::ROOM * known[unknown].width());
                     if !at[unknown].is_subset_of(known) {
                         let cut = |upper, end| Cut { unknown, upper, end, rows: Vec::new() };
                         cuts.extend([cut(true, known.upper()), cut(false, known.lower())]);
@@ -185,7 +179,7 @@ impl Prover {
     }
 
     /// By shooting over the box's horizon: states first, then parameters.
-    fn shoot(&mut self, here: &mut Open) -> Next {
+    fn shoot(&mut self, here: &mut Pending) -> Next {
         let by = By::Shooting(self.horizons[here.level]);
         let contractor = &self.contractors[here.level];
         let (problem, unknowns) = (&contractor.problem, &contractor.problem.unknowns);
@@ -231,7 +225,7 @@ impl Prover {
         if helped {
             return Next::Smaller;
         }
-        if uncertainty < FURTHER && here.level + 1 < self.horizons.len() {
+        if uncertainty < KEPT && here.level + 1 < self.horizons.len() {
             here.level += 1;
             return Next::Smaller;
         }
@@ -239,7 +233,7 @@ impl Prover {
     }
 
     /// Notes the result of a contraction, and applies it to the box; whether nothing is left.
-    fn take(&mut self, by: By, found: Found, here: &mut Open) -> bool {
+    fn take(&mut self, by: By, found: Found, here: &mut Pending) -> bool {
         match found {
             Found::Contradiction(rows, _) => {
                 self.steps.push(Step::Exclude { by, rows });

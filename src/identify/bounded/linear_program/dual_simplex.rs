@@ -4,14 +4,12 @@
 //! constraint, that constraint enters the basis and the first whose weight reaches zero leaves it.
 
 use super::super::work::Work;
-use super::vertex::{Constraint, Vertex, side_of};
+use super::vertex::{Constraint, TOLERANCE, Vertex, side_of};
 use super::{Inequalities, Multipliers};
 use crate::numeric::Interval;
 
 /// Exchanges before the method gives up; its multipliers then still give a bound.
 const MOST_EXCHANGES: usize = 2000;
-/// A row that is violated by less than this counts as satisfied, in units of its largest coefficient.
-const FEASIBLE: f64 = 1e-9;
 /// Of the objective, against ties.
 const PERTURBATION: f64 = 1e-8;
 
@@ -227,8 +225,8 @@ impl<'a> Violations<'a> {
         loop {
             self.follow(z);
             let row = largest(&self.by);
-            let mut worst = row.max(FEASIBLE);
-            let mut found = self.by.iter().position(|by| *by > FEASIBLE && *by >= row).map(Constraint::Row);
+            let mut worst = row.max(TOLERANCE);
+            let mut found = self.by.iter().position(|by| *by > TOLERANCE && *by >= row).map(Constraint::Row);
             for (unknown, z) in z.iter().enumerate() {
                 if z.abs() - 1.0 > worst {
                     worst = z.abs() - 1.0;

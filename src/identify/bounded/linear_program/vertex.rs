@@ -1,7 +1,7 @@
 //! A vertex of the dual simplex method: as many constraints as unknowns, each satisfied with equality.
 
-/// Smaller pivots count as zero.
-const LEAST_PIVOT: f64 = 1e-9;
+/// A smaller pivot, and a smaller violation of a row in units of its largest coefficient, counts as zero.
+pub(super) const TOLERANCE: f64 = 1e-9;
 
 /// A constraint of a programme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,7 +77,7 @@ impl Vertex {
         let mut least = f64::INFINITY;
         let mut found = None;
         for (out, (share, weight)) in shares.iter().zip(&self.weights).enumerate() {
-            if *share > LEAST_PIVOT && weight / share < least {
+            if *share > TOLERANCE && weight / share < least {
                 least = weight / share;
                 found = Some(Exchange { out, weight: least });
             }

@@ -42,13 +42,13 @@ const CENTRE: [f64; 3] = [0.8, 0.5, 0.6];
 const H_S: f64 = 0.4;
 
 /// A step over a box about the centre, of this relative half-width, with sensitivities by gain, drag and the initial velocity.
-fn step(share: f64) -> Box<Step> {
+fn step(share: f64) -> Box<FlowStep> {
     let [gain, quadratic, v] = CENTRE;
     let fields = Fields {
         over: field(about(gain, share), about(quadratic, share)),
         at: field(Interval::point(gain), Interval::point(quadratic)),
     };
-    let start = Pair { over: state(about(v, share)), at: state(Interval::point(v)) };
+    let start = StatePair { over: state(about(v, share)), at: state(Interval::point(v)) };
     let variables = [Term::Gain, Term::Quadratic].map(Variable::Term);
     let blocks = Block::of(&variables, &[Interval::ZERO; 2]);
     fields.taylor(&start, Interval::point(U), Interval::point(H_S), &blocks).expect("a step")
@@ -59,7 +59,7 @@ fn cut(path: &mut Path) {
     path.iter_mut().for_each(|series| series[DEGREE] = Balls::ZERO);
 }
 
-fn point_after(step: &Step, t: f64) -> State {
+fn point_after(step: &FlowStep, t: f64) -> State {
     step.at(Interval::point(t)).at.expect("the point's own")
 }
 
@@ -85,7 +85,7 @@ fn the_sensitivity_to_the_initial_velocity_is_within_its_column_and_without_the_
     let whole = step(0.0);
     let mut short = whole.clone();
     cut(&mut short.by_start);
-    let slope = |step: &Step, t: f64| step.at(Interval::point(t)).by_start[VELOCITY][VELOCITY].interval_at(0);
+    let slope = |step: &FlowStep, t: f64| step.at(Interval::point(t)).by_start[VELOCITY][VELOCITY].interval_at(0);
     let mut missed = 0;
     for part in 1..=20 {
         let t = H_S * f64::from(part) / 20.0;
@@ -104,7 +104,7 @@ fn the_remainder_of_a_column_is_no_smaller_than_linear_drag_needs() {
     let (mut equation, rate) = (field(Interval::ONE, Interval::ZERO), 2.0);
     equation.active[Term::Quadratic as usize] = false;
     equation.terms[Term::Linear as usize] = Interval::point(rate);
-    let start = Pair { over: state(Interval::ZERO), at: state(Interval::ZERO) };
+    let start = StatePair { over: state(Interval::ZERO), at: state(Interval::ZERO) };
     let h_s = 0.98 * MOST_LENGTH / rate;
     let fields = Fields { over: equation, at: equation };
     let step = fields.taylor(&start, Interval::point(U), Interval::point(h_s), &[]).expect("a step");
@@ -160,11 +160,11 @@ fn a_point_may_be_outside_of_the_box_and_without_the_error_bound_the_box_is_miss
     };
     let short_s = 0.2;
     let blocks = Block::of(&[Variable::Term(Term::Quadratic)], &[drag - Interval::point(quadratic)]);
-    let start = Pair { over: state(Interval::point(v)), at: state(Interval::point(v)) };
+    let start = StatePair { over: state(Interval::point(v)), at: state(Interval::point(v)) };
     let step = fields.taylor(&start, Interval::point(U), Interval::point(short_s), &blocks).expect("a step");
     let mut certain = step.clone();
     certain.error = None;
-    let reached = |step: &Step, drag: f64, component: usize| {
+    let reached = |step: &FlowStep, drag: f64, component: usize| {
         let arrival = step.at(Interval::point(short_s));
         let off = Interval::point(drag) - Interval::point(quadratic);
         arrival.at.expect("the point's own")[component] + arrival.by_forcing[0][component].interval_at(0) * off
@@ -190,7 +190,7 @@ fn the_error_bound_holds_with_every_term_of_the_equation() {
     let fields = Fields { over: of(share), at: of(0.0) };
     let at = from.map(Interval::point);
     let blocks = Block::of(&Term::ALL.map(Variable::Term), &centre.map(|value| about(value, share) - Interval::point(value)));
-    let step = fields.taylor(&Pair { over: at, at }, Interval::point(U), Interval::point(h_s), &blocks).expect("a step");
+    let step = fields.taylor(&StatePair { over: at, at }, Interval::point(U), Interval::point(h_s), &blocks).expect("a step");
     let motion = |terms: [f64; TERMS]| {
         let [gain, disturbance, linear, quadratic, cubic, stiffness, lag] = terms;
         let rate = |[x, v, f]: [f64; 3]| {
