@@ -122,7 +122,6 @@ impl Balls {
         Self::of(middle, (self.radius() * part + rounded) * larger(1) + UNDERFLOW)
     }
 
-
     /// The sum of all of them.
     #[inline]
     pub(crate) fn total(self) -> Interval {
@@ -212,7 +211,6 @@ impl Sizes {
     pub(crate) fn interval(self) -> Interval {
         Interval::point(self.0[0])
     }
-
 
     /// Of sums of products.
     #[inline]

@@ -99,11 +99,12 @@ impl Contractor {
     }
 
     /// Refines the states: velocities, and forces behind a lag, at the beginning of each shooting interval by the intervals beside it.
-    fn refine_states(&self, relaxation: &mut Relaxation, at: &mut [Interval]) -> Result<(), Empty> {
+    pub(super) fn refine_states(&self, relaxation: &mut Relaxation, at: &mut [Interval]) -> Result<(), Empty> {
         let unknowns = &self.problem.unknowns;
         for (interval, _) in self.problem.followed() {
             let beside = relaxation.beside(interval);
-            let own: Vec<usize> = (1..unknowns.state_size()).map(|component| unknowns.start(interval, component)).collect();
+            let own: Vec<usize> =
+                (1..unknowns.state_size()).map(|component| unknowns.start(interval, component)).collect();
             if let Err(multipliers) = beside.contract(at, &own) {
                 return Err(Empty { method: Method::Shooting, multipliers, relaxation: Some(beside) });
             }

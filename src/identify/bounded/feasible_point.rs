@@ -7,7 +7,7 @@ mod tests;
 
 use super::contraction::Contractor;
 use super::linear_program::Outcome;
-use super::linear_relaxation::{Origin, Relaxation, Span, points, midpoints};
+use super::linear_relaxation::{Origin, Relaxation, Span, midpoints, points};
 use crate::numeric::Interval;
 
 pub(super) use estimate::estimated;
@@ -20,8 +20,8 @@ const LEAST_GAIN: f64 = 1e-3;
 const SHRINK: f64 = 0.25;
 /// A feasible point is sought this share of the slack inside the readings' ranges: room for the curvature of the motion.
 const INSIDE: f64 = 0.01;
-/// The largest misfit that is allowed in a linear programme, in largest errors beyond the first.
-const MOST_EXCESS: f64 = 1000.0;
+/// Largest misfits of a linear programme, in errors beyond the first: the unknowns are scaled by their ranges, and the least suffices mostly.
+const EXCESSES: [f64; 3] = [1.0, 30.0, 1000.0];
 /// Room about the states of an empty box, in largest errors of a reading.
 const ROOM: f64 = 30.0;
 
@@ -43,11 +43,13 @@ impl Point {
 /// The solution with the least excess; `None` where no excess suffices.
 fn least_excess(relaxation: &mut Relaxation, excess: usize) -> Option<(Vec<usize>, Vec<f64>)> {
     let places = relaxation.places();
-    relaxation.deviations[excess] = Interval::new(-1.0, MOST_EXCESS)?;
-    match relaxation.programme(&places).maximise(&[(excess, -1.0)]) {
-        Outcome::Bounded { at, .. } => Some((places, at)),
-        Outcome::Empty { .. } => None,
-    }
+    EXCESSES.into_iter().find_map(|most| {
+        relaxation.deviations[excess] = Interval::new(-1.0, most)?;
+        match relaxation.programme(&places).maximise(&[(excess, -1.0)]) {
+            Outcome::Bounded { at, .. } => Some((places.clone(), at)),
+            Outcome::Empty { .. } => None,
+        }
+    })
 }
 
 impl Contractor {
@@ -92,8 +94,11 @@ impl Contractor {
     /// that leads to no feasible point.
     pub(super) fn nearest(&self, from: &[Interval], within: &[Interval]) -> Option<Point> {
         let single = self.descend(from, within, &self.problem.single_shooting());
-        let single = single.filter(Point::is_feasible);
-        single.or_else(|| self.descend(from, within, &self.problem.multiple_shooting()))
+        if single.as_ref().is_some_and(Point::is_feasible) {
+            return single;
+        }
+        let multiple = self.descend(from, within, &self.problem.multiple_shooting());
+        single.into_iter().chain(multiple).min_by(|a, b| a.misfit.total_cmp(&b.misfit))
     }
 
     fn descend(&self, from: &[Interval], within: &[Interval], spans: &[Span]) -> Option<Point> {
@@ -152,7 +157,8 @@ impl Contractor {
         let inside = INSIDE * (1.0 - from.misfit);
         let (mut centre, mut best) = (from.at.clone(), None::<Point>);
         for _ in 0..MOST_STEPS {
-            let (Some((mut relaxation, width)), Some(misfit)) = (self.about(&centre, &spans), self.misfit(&centre)) else {
+            let (Some((mut relaxation, width)), Some(misfit)) = (self.about(&centre, &spans), self.misfit(&centre))
+            else {
                 break;
             };
             if misfit <= 1.0 {

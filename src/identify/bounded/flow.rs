@@ -79,8 +79,7 @@ fn stride(
     let v = both[VELOCITY];
     shorten(part, SAFETY * MOST_LENGTH / field.fastest_rate(v));
     let [_, rate, _] = field.rate(&both, u);
-    let mut near_rest =
-        field.has(Term::Quadratic) && changes_sign(v.hull(v + rate * Interval::point(part.lower())));
+    let mut near_rest = field.has(Term::Quadratic) && changes_sign(v.hull(v + rate * Interval::point(part.lower())));
     for _ in 0..MOST_SHORTENED {
         if near_rest {
             let (time_s, passed) = to_rest(field, &both, u, part.upper());

@@ -343,7 +343,8 @@ impl Relaxation {
 
     /// The unknowns that the inequalities have.
     pub(super) fn places(&self) -> Vec<usize> {
-        let places: BTreeSet<usize> = self.inequalities.coefficients.iter().flatten().map(|(place, _)| *place).collect();
+        let places: BTreeSet<usize> =
+            self.inequalities.coefficients.iter().flatten().map(|(place, _)| *place).collect();
         places.into_iter().collect()
     }
 
@@ -395,7 +396,8 @@ impl Relaxation {
             }
         };
         let at_centre = parts.iter().map(|(place, weight)| (*weight, self.centre[*place]));
-        let at_centre = Interval::dot(at_centre.map(|(weight, centre)| (Interval::point(weight), Interval::point(centre))));
+        let at_centre =
+            Interval::dot(at_centre.map(|(weight, centre)| (Interval::point(weight), Interval::point(centre))));
         Some(at_centre + Interval::new(-end(-1.0)?, end(1.0)?)?)
     }
 }

@@ -6,9 +6,9 @@
 //! of the command, of velocities and of positions follow from the log.
 
 mod forcing;
-mod weight;
 #[cfg(test)]
 mod tests;
+mod weight;
 
 use super::linear_relaxation::{Origin, Relaxation, Support};
 use super::problem::Problem;

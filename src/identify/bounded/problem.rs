@@ -134,7 +134,8 @@ impl Readings {
             }
             if command.spans().windows(2).any(|pair| pair[0].1 > pair[1].0) {
                 let limit = Limit::Words("at most half the shortest time between two changes of the command");
-                let remedy = "give the largest error that a stamp may have, or a log of a command that changes less often";
+                let remedy =
+                    "give the largest error that a stamp may have, or a log of a command that changes less often";
                 return Err(refuse("largest error of a stamp", settings.jitter_s, "s", limit, remedy));
             }
             let (time_s, value) = (record.time_s().to_vec(), record.output().to_vec());
@@ -159,14 +160,20 @@ fn divide(record: usize, readings: &Readings, delay: Interval) -> Option<Vec<Sho
         (0..count).map(move |index| Shooting { record, first: node(index), last: node(index + 1) })
     };
     let last = samples - 1;
-    let end = readings.command.spans().get(FIRST_HORIZON).map_or(last, |(first, _)| {
-        readings.time_s.partition_point(|time| time < first).saturating_sub(1)
-    });
+    let end = readings
+        .command
+        .spans()
+        .get(FIRST_HORIZON)
+        .map_or(last, |(first, _)| readings.time_s.partition_point(|time| time < first).saturating_sub(1));
     if edges < 2 * FIRST_HORIZON || end < first + FEWEST_SAMPLES || last < end + FEWEST_SAMPLES {
         return Some(split(first, last, (edges + 1).clamp(2, MOST_INTERVALS)).collect());
     }
     let early = FIRST_HORIZON * PER_HALF_PERIOD;
-    Some(split(first, end, early).chain(split(end, last, (edges + 1 - FIRST_HORIZON).min(MOST_INTERVALS - early))).collect())
+    Some(
+        split(first, end, early)
+            .chain(split(end, last, (edges + 1 - FIRST_HORIZON).min(MOST_INTERVALS - early)))
+            .collect(),
+    )
 }
 
 fn unknowns(readings: &[Readings], settings: &BoundedModel, delay: Interval) -> Result<Unknowns, IdentifyError> {
@@ -194,7 +201,11 @@ impl Problem {
     ///
     /// # Errors
     /// [`IdentifyError::OutOfDomain`] for a record that is too short for its delay.
-    pub(super) fn of(records: Vec<Readings>, settings: &BoundedModel, scales: &[Scales]) -> Result<Self, IdentifyError> {
+    pub(super) fn of(
+        records: Vec<Readings>,
+        settings: &BoundedModel,
+        scales: &[Scales],
+    ) -> Result<Self, IdentifyError> {
         let half_period_s = scales.iter().map(|scale| scale.half_period_s).fold(f64::INFINITY, f64::min);
         let delay = match settings.delay {
             DelayBound::KnownS(delay_s) => Interval::point(delay_s),

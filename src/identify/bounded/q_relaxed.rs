@@ -201,7 +201,11 @@ impl Relaxed<'_> {
             let time_s = &self.readings[record].time_s;
             Shooting { record, first: time_s.partition_point(|time| *time < begin), last: time_s.len() - 1 }
         });
-        let all = Problem { unknowns: unknowns.with_shooting(shooting.collect()), records: self.readings.to_vec(), ..of.clone() };
+        let all = Problem {
+            unknowns: unknowns.with_shooting(shooting.collect()),
+            records: self.readings.to_vec(),
+            ..of.clone()
+        };
         let at: Vec<f64> = unknowns.of_single_shooting().into_iter().map(|place| point.at[place]).collect();
         let mut missed: Vec<(f64, Outlier)> = Vec::new();
         for (index, interval) in all.unknowns.shooting.iter().enumerate() {

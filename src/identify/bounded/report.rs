@@ -35,7 +35,8 @@ pub(super) fn answer(wide: &Problem, contractor: &Contractor, division: &Divisio
         let shown = shown.filter(|readings| !readings.is_empty());
         contradicting = shown.unwrap_or_else(|| contractor.contradicting.clone());
     } else {
-        least = kept.iter().fold(least, |least, (_, relaxation)| least.min(least_misfit(contractor, relaxation.as_ref())));
+        least =
+            kept.iter().fold(least, |least, (_, relaxation)| least.min(least_misfit(contractor, relaxation.as_ref())));
     }
     let ranges = kept.iter().map(|(at, relaxation)| box_ranges(&contractor.problem, at, relaxation.as_ref()));
     let union = |mut all: Vec<QuantityRange>, own: Vec<QuantityRange>| {
@@ -122,7 +123,8 @@ fn box_ranges(problem: &Problem, at: &[Interval], relaxation: Option<&Relaxation
     ranges.extend(unknowns.place_of(Term::LagRate).map(|place| (Quantity::LagS, Interval::ONE / at[place])));
     ranges.push((Quantity::DelayS, problem.delay_s(at)));
     let records = 0..unknowns.records();
-    ranges.extend(records.clone().map(|record| (Quantity::Delta(record), ratio(&[(unknowns.disturbance(record), 1.0)]))));
+    ranges
+        .extend(records.clone().map(|record| (Quantity::Delta(record), ratio(&[(unknowns.disturbance(record), 1.0)]))));
     for record in records {
         let first = unknowns.first(record);
         ranges.push((Quantity::Position(record), at[unknowns.start(first, 0)]));

@@ -5,7 +5,7 @@
 //! c alone. So `e = sum (theta_j - c_j) s_j` with `s_j' = A s_j + b_j`: a mean value form in which only the drag's slope has a range
 //! (Moore 1979; Neumaier, *Interval Methods for Systems of Equations*, 1990, section 2.3).
 
-use super::vector_field::{FORCE, POSITION, Term, VELOCITY, VectorField, TERMS};
+use super::vector_field::{FORCE, POSITION, TERMS, Term, VELOCITY, VectorField};
 use crate::numeric::{Balls, Interval, Sizes};
 
 /// By what a column of sensitivities is.

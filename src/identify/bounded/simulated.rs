@@ -1,8 +1,8 @@
 //! Vehicles that move by another method than the one they judge.
 
-use super::vector_field::Term;
-use super::settings::{BoundedModel, DelayBound};
 use super::problem::Problem;
+use super::settings::{BoundedModel, DelayBound};
+use super::vector_field::Term;
 use crate::experiment::Record;
 use crate::identify::DragLaw;
 
@@ -36,18 +36,6 @@ pub(super) struct Vehicle {
     /// Delay in steps.
     pub(super) delayed: usize,
 }
-
-/// Mixed drag, and nothing besides.
-pub(super) const DRAG: Vehicle = Vehicle {
-    gain: 0.9,
-    linear: 0.5,
-    quadratic: 0.4,
-    disturbance: 0.08,
-    cubic: 0.0,
-    stiffness: 0.0,
-    lag_rate: 0.0,
-    delayed: 0,
-};
 
 impl Vehicle {
     /// Position, velocity and force at every sample under a square wave; and the command.

@@ -141,9 +141,9 @@ impl PointSeries {
 
     /// The motion from the middle of the start, with its remainder.
     pub(super) fn path(&self) -> Path {
-        self.state.each_ref().map(|own| {
-            core::array::from_fn(|k| own[k].spread(if k == DEGREE { WITHIN } else { MIDDLE }))
-        })
+        self.state
+            .each_ref()
+            .map(|own| core::array::from_fn(|k| own[k].spread(if k == DEGREE { WITHIN } else { MIDDLE })))
     }
 
     /// The k-th coefficient of the vector field's derivative by a term, along the motion.

@@ -82,7 +82,13 @@ impl VectorField {
 
 impl Fields {
     /// A step of the length `h` under a constant command.
-    pub(super) fn taylor(&self, start: &StatePair, u: Interval, h: Interval, blocks: &[Block]) -> Result<Box<FlowStep>, TooLong> {
+    pub(super) fn taylor(
+        &self,
+        start: &StatePair,
+        u: Interval,
+        h: Interval,
+        blocks: &[Block],
+    ) -> Result<Box<FlowStep>, TooLong> {
         let Self { over, at } = self;
         let within = over.passed(&start.over, u, h).ok_or(HALF)?;
         let backwards = over.backwards(&within, h)?;

@@ -7,6 +7,7 @@ use super::contraction::Contractor;
 use super::linear_program::Inequalities;
 use super::linear_relaxation::{Disjoint, Origin, Relaxation, Span, midpoints, points};
 use super::problem::Problem;
+use super::simulated::Vehicle;
 use super::unknowns::Shooting;
 use super::{BoundedModel, DelayBound};
 use crate::experiment::{Record, Sensor, SimulatedExperiment};
@@ -146,14 +147,19 @@ fn outputs_lie_within_the_mean_value_form_and_not_within_that_of_the_midpoint() 
 
 /// Whether the truth meets every row: whether some element of every slope does.
 pub(super) fn satisfies(linear: &Relaxation, truth: &[f64], keep: impl Fn(&Origin) -> bool) -> bool {
-    linear.inequalities.coefficients.iter().zip(&linear.inequalities.limits).zip(&linear.origins).filter(|(_, origin)| keep(origin)).all(
-        |((slopes, limit), _)| {
+    linear
+        .inequalities
+        .coefficients
+        .iter()
+        .zip(&linear.inequalities.limits)
+        .zip(&linear.origins)
+        .filter(|(_, origin)| keep(origin))
+        .all(|((slopes, limit), _)| {
             let sum = slopes.iter().fold(Interval::ZERO, |sum, (place, slope)| {
                 sum + *slope * (Interval::point(truth[*place]) - Interval::point(linear.centre[*place]))
             });
             sum.lower() <= *limit
-        },
-    )
+        })
 }
 
 /// All unknowns of the true motion, which at each window's beginning is the one before carried on.
@@ -265,13 +271,17 @@ pub(super) fn off(problem: &Problem, share: f64, width: f64) -> Vec<Interval> {
 }
 
 #[test]
-fn speeds_are_known_from_the_first_window_on_and_are_less_than_those_looked_for() {
-    let model = BoundedModel { delay: DelayBound::KnownS(0.4), either_sign: true, ..settings(DragLaw::Linear) };
-    let problem = Problem::new(&[&record(300)], &model).expect("a problem");
-    let at = off(&problem, 0.0, 0.1);
-    let speeds = problem.velocities(0, &at).expect("speeds");
-    assert_eq!(speeds.known, problem.unknowns.shooting[0].first);
-    assert!(speeds.fastest() < 0.7 * problem.fastest, "{} of {}", speeds.fastest(), problem.fastest);
+fn velocities_are_known_from_the_first_shooting_interval_on_and_are_less_than_those_searched() {
+    let vehicle = Vehicle { gain: 1.0, linear: 0.5, delayed: 80, ..Vehicle::default() };
+    let motion = vehicle.motion(200);
+    let model = BoundedModel { either_sign: true, ..vehicle.model(true, STEP) };
+    let problem = Problem::new(&[&Vehicle::record(&motion, STEP)], &model).expect("a problem");
+    let mut at = problem.search.clone();
+    (at[0], at[1]) = (Interval::point(1.0).inflate(0.1), Interval::point(0.5).inflate(0.1));
+    at[2] = Interval::symmetric(0.1);
+    let velocities = problem.velocities(0, &at).expect("velocities");
+    assert_eq!(velocities.known, problem.unknowns.shooting[0].first);
+    assert!(velocities.fastest() < 0.7 * problem.fastest, "{} of {}", velocities.fastest(), problem.fastest);
 }
 
 /// `v' = u - v / 2` from a velocity of 1, u being -1 until it is switched and 1 after that; before the first instant, too.
@@ -295,7 +305,7 @@ fn a_reading_may_be_from_beyond_what_is_followed_of_the_motion_and_from_beyond_t
             let record = Record::new(time_s, output, input).expect("a record");
             let model = BoundedModel { quantum: Some(0.0), error: 1e-6, jitter_s, ..settings(DragLaw::Linear) };
             let problem = Problem::new(&[&record], &model).expect("a problem");
-                    let layout = &problem.unknowns;
+            let layout = &problem.unknowns;
             // With the instant at which the command was switched.
             let mut truth = vec![1.0, 0.5, 0.0, stamp(15)];
             for window in &layout.shooting {

@@ -109,8 +109,7 @@ impl Unknowns {
         let terms = self.terms.iter().enumerate().map(|(place, term)| (Variable::Term(*term), place));
         let delay = self.delay().map(|place| (Variable::Delay, place));
         let disturbance = (Variable::Term(Term::Disturbance), self.disturbance(record));
-        let instants =
-            (0..self.instants[record]).map(|edge| (Variable::Switching(edge), self.instant(record, edge)));
+        let instants = (0..self.instants[record]).map(|edge| (Variable::Switching(edge), self.instant(record, edge)));
         let states = (0..self.state_size()).map(|k| (Variable::Initial(k), self.start(interval, k)));
         terms.chain(delay).chain([disturbance]).chain(instants).chain(states).unzip()
     }

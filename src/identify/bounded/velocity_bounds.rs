@@ -273,8 +273,7 @@ impl Problem {
 
     /// Accelerations between samples over a box, given the velocities.
     fn rates(&self, at: &[Interval], pushes: &[Push], between: &[Interval]) -> Vec<Interval> {
-        let [linear, quadratic, cubic] =
-            [Term::Linear, Term::Quadratic, Term::Cubic].map(|term| self.term(term, at));
+        let [linear, quadratic, cubic] = [Term::Linear, Term::Quadratic, Term::Cubic].map(|term| self.term(term, at));
         let drag = |v: Interval| linear * v + quadratic * shifted_square(v, self.middle_speed) + cubic * cube(v);
         pushes.iter().zip(between).map(|(push, v)| push.force - drag(*v)).collect()
     }

@@ -28,7 +28,10 @@ fn the_highest_corner_is_reached_and_its_multipliers_show_it() {
         let sides = [([1.0, 0.0], 2.0), ([-1.0, 0.0], 1.0), ([0.0, 1.0], 0.5), ([0.0, -1.0], 1.5)];
         let deviations = [(-1.0, 2.0), (-1.5, 0.5)].map(|(low, high)| Interval::new(low, high).expect("ordered"));
         let inequalities = Inequalities {
-            coefficients: rows.iter().map(|(a, _)| a.iter().copied().map(Interval::point).enumerate().collect()).collect(),
+            coefficients: rows
+                .iter()
+                .map(|(a, _)| a.iter().copied().map(Interval::point).enumerate().collect())
+                .collect(),
             limits: rows.iter().map(|(_, limit)| *limit).collect(),
         };
         let all: Vec<([f64; 2], f64)> = rows.iter().copied().chain(sides).collect();

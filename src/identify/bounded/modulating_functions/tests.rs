@@ -1,8 +1,8 @@
 //! Hats over a motion that is known, each with a false variant that is caught.
 
+use super::weight::Hat;
 use super::{Modulated, Tangent};
 use crate::identify::bounded::record::Command;
-use super::weight::Hat;
 use crate::identify::bounded::record::Readings;
 use crate::identify::bounded::velocity_bounds::Velocities;
 use crate::numeric::Interval;
@@ -35,7 +35,10 @@ fn known() -> (Readings, Velocities) {
     let between: Vec<Interval> = at_samples.windows(2).map(|pair| pair[0].hull(pair[1])).collect();
     let command = Command::new(vec![1.0, -1.0], vec![(3.0, 3.0)]);
     let rates = vec![Interval::symmetric(1.3 * 1.3); between.len()];
-    (Readings { time_s, value, error: ERROR, jitter_s: 0.0, command }, Velocities { at_samples, between, rates, known: 0 })
+    (
+        Readings { time_s, value, error: ERROR, jitter_s: 0.0, command },
+        Velocities { at_samples, between, rates, known: 0 },
+    )
 }
 
 /// `int K f` over a hat with its ends and its peak at these instants.
@@ -86,8 +89,10 @@ fn the_weighed_position_is_enclosed_and_by_chords_alone_it_is_not() {
     let turns = 2.0 * core::f64::consts::PI / STEP_S;
     let (readings, speeds) = known();
     let readings = Readings { value: vec![0.0; readings.time_s.len()], ..readings };
-    let within =
-        |fastest: f64| Velocities { between: vec![Interval::symmetric(fastest); speeds.between.len()], ..speeds.clone() };
+    let within = |fastest: f64| Velocities {
+        between: vec![Interval::symmetric(fastest); speeds.between.len()],
+        ..speeds.clone()
+    };
     let (moving, still) = (within(turns), within(0.0));
     for first in 0..40 {
         let support = [first, first + 7, first + 19];

@@ -112,7 +112,7 @@ fn the_remainder_of_a_column_is_no_smaller_than_linear_drag_needs() {
     let left = (-rate * h_s).exp();
     assert!(holds(velocity.interval_at(0), left), "{left} outside {:?}", velocity.interval_at(0));
     assert!(holds(position.interval_at(0), (1.0 - left) / rate));
-    assert_eq!(force.interval_at(0), Interval::ZERO);
+    assert!(force.interval_at(0).magnitude() < 1e-290);
     assert!(velocity.interval_at(0).width() > 1e-9 && velocity.interval_at(0).width() < 1e-6);
     // Without a lag the force stays as well known as it was.
     let known = point_after(&step, h_s)[FORCE];
@@ -189,8 +189,10 @@ fn the_error_bound_holds_with_every_term_of_the_equation() {
     };
     let fields = Fields { over: of(share), at: of(0.0) };
     let at = from.map(Interval::point);
-    let blocks = Block::of(&Term::ALL.map(Variable::Term), &centre.map(|value| about(value, share) - Interval::point(value)));
-    let step = fields.taylor(&StatePair { over: at, at }, Interval::point(U), Interval::point(h_s), &blocks).expect("a step");
+    let blocks =
+        Block::of(&Term::ALL.map(Variable::Term), &centre.map(|value| about(value, share) - Interval::point(value)));
+    let step =
+        fields.taylor(&StatePair { over: at, at }, Interval::point(U), Interval::point(h_s), &blocks).expect("a step");
     let motion = |terms: [f64; TERMS]| {
         let [gain, disturbance, linear, quadratic, cubic, stiffness, lag] = terms;
         let rate = |[x, v, f]: [f64; 3]| {
@@ -206,7 +208,8 @@ fn the_error_bound_holds_with_every_term_of_the_equation() {
         let sign = |bit: usize| if corner >> bit & 1 == 0 { 1.0 } else { -1.0 };
         let values: [f64; TERMS] = core::array::from_fn(|k| centre[k] * (1.0 + 0.999 * share * sign(k)));
         for (component, value) in motion(values).into_iter().enumerate() {
-            let lanes = (0..TERMS).map(|k| arrival.by_forcing[k / Balls::COUNT][component].interval_at(k % Balls::COUNT));
+            let lanes =
+                (0..TERMS).map(|k| arrival.by_forcing[k / Balls::COUNT][component].interval_at(k % Balls::COUNT));
             let off = |k: usize| Interval::point(values[k]) - Interval::point(centre[k]);
             let (mut form, mut middle) = (point[component], point[component]);
             for (k, own) in lanes.enumerate() {

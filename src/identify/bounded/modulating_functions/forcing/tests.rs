@@ -4,7 +4,7 @@ use super::Forcing;
 use crate::experiment::Record;
 use crate::identify::DragLaw;
 use crate::identify::bounded::modulating_functions::weight::Hat;
-use use crate::identify::bounded::problem::Problem;
+use crate::identify::bounded::problem::Problem;
 use crate::identify::bounded::{BoundedModel, DelayBound, tests};
 use crate::numeric::Interval;
 
@@ -80,7 +80,7 @@ fn the_push_through_every_lag_is_enclosed_and_by_middle_slopes_or_without_what_c
             ..BoundedModel::new(DragLaw::Linear, DelayBound::WithinS(delays))
         };
         let problem = Problem::new(&[&tests::record(150)], &model).expect("a problem");
-            let delay = Interval::new(delays[0], delays[1]).expect("ordered");
+        let delay = Interval::new(delays[0], delays[1]).expect("ordered");
         let rate = Interval::new(1.0 / lags[1], 1.0 / lags[0]).expect("ordered");
         for share in [0.0, 0.3, 0.8, 1.0] {
             let delay_s = delays[0] + share * (delays[1] - delays[0]);

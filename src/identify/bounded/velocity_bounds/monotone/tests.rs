@@ -3,7 +3,7 @@
 use super::Constant;
 use crate::experiment::Record;
 use crate::identify::DragLaw;
-use use crate::identify::bounded::problem::Problem;
+use crate::identify::bounded::problem::Problem;
 use crate::identify::bounded::tests::{ALPHA, BETA, DELTA, STEP, TURN_S, motion, record};
 use crate::identify::bounded::{BoundedModel, DelayBound};
 use crate::numeric::Interval;
