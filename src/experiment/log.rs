@@ -207,8 +207,10 @@ impl Columns {
     /// use selfosc::experiment::Columns;
     /// let names = ["time_s", "yaw_deg", "command"].map(str::to_owned);
     /// let time_s: Vec<f64> = (0..20).map(f64::from).collect();
-    /// let log = Columns::default().table(names, [time_s, vec![90.0; 20], vec![1.0; 20]])?;
+    /// let log = Columns::default().table(names.clone(), [time_s, vec![90.0; 20], vec![1.0; 20]])?;
     /// assert_eq!(log.record.output()[0], core::f64::consts::FRAC_PI_2);
+    /// let uneven = Columns::default().table(names, [vec![0.0; 2], vec![90.0; 1], vec![1.0; 2]]);
+    /// assert_eq!(uneven.unwrap_err().code(), "unequal-columns");
     /// # Ok::<(), selfosc::experiment::ExperimentError>(())
     /// ```
     pub fn table(&self, names: [String; 3], values: [Vec<f64>; 3]) -> Result<Log, ExperimentError> {
@@ -216,6 +218,10 @@ impl Columns {
     }
 
     fn log(&self, columns: [String; 3], mut rows: Rows<'_>) -> Result<Log, ExperimentError> {
+        let [time, output, input] = rows.values.each_ref().map(Vec::len);
+        if (output, input) != (time, time) {
+            return Err(ExperimentError::Lengths { time, output, input });
+        }
         let unit = self.time_unit.unwrap_or_else(|| TimeUnit::of_column(&columns[0]));
         rows.values[0].iter_mut().for_each(|time| *time /= unit.per_second());
         if self.time_unit.is_none() {
