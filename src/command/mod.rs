@@ -13,10 +13,12 @@ mod files;
 mod gain;
 mod identify;
 mod known;
+mod lines;
 mod manual;
 mod number;
 mod predict;
 mod reproduce;
+mod run;
 mod simulate;
 mod suggestion;
 mod terminal;
@@ -61,6 +63,7 @@ enum Action {
     Predict(predict::Arguments),
     Simulate(simulate::Arguments),
     Design(design::Arguments),
+    Run(run::Arguments),
     Identify(identify::Arguments),
     Tune(tune::Arguments),
     Completions(manual::Completions),
@@ -77,6 +80,7 @@ impl Action {
             Self::Predict(arguments) => predict::run(arguments, output),
             Self::Simulate(arguments) => simulate::run(arguments, output),
             Self::Design(arguments) => design::run(arguments, output),
+            Self::Run(arguments) => run::run(arguments, output),
             Self::Identify(arguments) => identify::run(arguments, output),
             Self::Tune(arguments) => tune::run(arguments, output),
             Self::Completions(arguments) => manual::completions(arguments, output),
