@@ -6,6 +6,7 @@
 //! | `open_loop`, `margins` | crossovers, stability and margins with the delay |
 //! | `closed_loop` | poles and bandwidth, computed without the design equations |
 //! | `worst_case` | margins over intervals of the parameters |
+//! | `process`, `robust` | processes with lags, filters, memory; margins and sensitivity proved over a box of them |
 //! | `controller`, `reference` | what runs on the vehicle |
 //! | `response` | the simulated answer to a step, and its figures |
 //! | `ultimate`, `rules` | the critical point from relay experiments, and the classic rules |
@@ -22,7 +23,11 @@ mod margins;
 mod open_loop;
 mod reference;
 #[cfg(feature = "std")]
+mod process;
+#[cfg(feature = "std")]
 mod response;
+#[cfg(feature = "std")]
+mod robust;
 mod roots;
 mod rules;
 mod ultimate;
@@ -40,6 +45,10 @@ pub use open_loop::OpenLoop;
 pub use reference::FeedForward;
 #[cfg(feature = "std")]
 pub use response::{Answer, StepResponse};
+#[cfg(feature = "std")]
+pub use process::LinearProcess;
+#[cfg(feature = "std")]
+pub use robust::{Criterion, Enclosed, ProcessIntervals};
 pub use rules::Rule;
 #[cfg(feature = "std")]
 pub use ultimate::critical_point;
