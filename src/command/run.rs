@@ -102,8 +102,8 @@ fn sample(line: &str) -> [f64; 2] {
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
-    let protocol = arguments.protocol.protocol()?;
-    let mut experiment = Experiment::new(protocol)?;
+    let protocol = arguments.protocol.protocol();
+    let mut experiment = arguments.protocol.experiment()?;
     let mut files = Files::default();
     let log = arguments.log.as_ref().map(|path| files.output(path)?.stream()).transpose().given("--log")?;
     let json = arguments.json.as_ref().and_then(Option::as_ref);
@@ -132,10 +132,9 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
                 step
             }
             Event::TimeOut => {
-                experiment.tick(last_s.unwrap_or(0.0) + wait.as_secs_f64());
-                // A protocol may bear a longer gap than the caller.
-                experiment.abort();
-                Step { command: experiment.command(), phase: experiment.phase() }
+                // The caller's patience ends before that of the protocol may: a gap all the same.
+                let silent_s = wait.as_secs_f64().max(2.0 * Protocol::<f64>::LONGEST_GAP * protocol.interval_s);
+                experiment.tick(last_s.unwrap_or(0.0) + silent_s)
             }
             Event::End | Event::Signal => {
                 experiment.abort();

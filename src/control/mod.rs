@@ -6,6 +6,7 @@
 //! | `open_loop`, `margins` | crossovers, stability and margins with the delay |
 //! | `closed_loop` | poles and bandwidth, computed without the design equations |
 //! | `worst_case` | margins over intervals of the parameters |
+//! | `model` | an axis with every term that an identification may report |
 //! | `process`, `robust` | processes with lags, filters, memory; margins and sensitivity proved over a box of them |
 //! | `controller`, `reference` | what runs on the vehicle |
 //! | `response` | the simulated answer to a step, and its figures |
@@ -20,10 +21,12 @@ mod design;
 mod error;
 mod gains;
 mod margins;
+#[cfg(feature = "std")]
+mod model;
 mod open_loop;
-mod reference;
 #[cfg(feature = "std")]
 mod process;
+mod reference;
 #[cfg(feature = "std")]
 mod response;
 #[cfg(feature = "std")]
@@ -41,12 +44,14 @@ pub(crate) use design::{double_pole, place};
 pub use error::ControlError;
 pub use gains::{Gains, Structure};
 pub use margins::Margins;
+#[cfg(feature = "std")]
+pub use model::{AxisModel, NAMES};
 pub use open_loop::OpenLoop;
+#[cfg(feature = "std")]
+pub use process::LinearProcess;
 pub use reference::FeedForward;
 #[cfg(feature = "std")]
 pub use response::{Answer, StepResponse};
-#[cfg(feature = "std")]
-pub use process::LinearProcess;
 #[cfg(feature = "std")]
 pub use robust::{Criterion, Enclosed, ProcessIntervals};
 pub use rules::Rule;

@@ -51,11 +51,7 @@ impl<T: Real> LinearProcess<T> {
     pub(super) fn open_loop(&self, gains: [T; 4]) -> Fraction<T> {
         let [proportional, integral, derivative, gain_filter_s] = gains;
         let (zero, one) = (T::zero(), T::one());
-        let controller = [
-            integral,
-            proportional + integral * gain_filter_s,
-            derivative + proportional * gain_filter_s,
-        ];
+        let controller = [integral, proportional + integral * gain_filter_s, derivative + proportional * gain_filter_s];
         // (alpha s^2 + drag s + stiffness)(memory_s s + 1) + memory s.
         let body = [
             self.stiffness,
@@ -67,12 +63,16 @@ impl<T: Real> LinearProcess<T> {
         // Without integral action numerator and denominator have the factor s in common.
         let common = integral.vanishes();
         let controller = if common { [controller[1], controller[2], zero] } else { controller };
-        let body = if common { [body[0], body[1], body[2], body[3], zero] } else { [zero, body[0], body[1], body[2], body[3]] };
+        let body = if common {
+            [body[0], body[1], body[2], body[3], zero]
+        } else {
+            [zero, body[0], body[1], body[2], body[3]]
+        };
         let numerator = times(times(spread(controller), self.zero_s), self.memory_s);
-        let denominator = [gain_filter_s, self.lag_s, self.filter_s].map(first_order).iter().fold(
-            spread(body),
-            |product, factor| times(product, factor[1]),
-        );
+        let denominator = [gain_filter_s, self.lag_s, self.filter_s]
+            .map(first_order)
+            .iter()
+            .fold(spread(body), |product, factor| times(product, factor[1]));
         Fraction { numerator, denominator }
     }
 }

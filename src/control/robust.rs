@@ -90,6 +90,9 @@ pub struct Enclosed {
 }
 
 impl ProcessIntervals {
+    /// A gain without a limit is one within this factor.
+    pub const NO_LIMIT: f64 = 1e3;
+
     /// Intervals of a process.
     ///
     /// # Errors
@@ -97,7 +100,15 @@ impl ProcessIntervals {
     /// is above zero throughout.
     pub fn new(process: LinearProcess<Interval>) -> Result<Self, ControlError> {
         let names = [
-            "inertia", "drag", "stiffness", "late drag", "time of late drag", "lag", "filter of the sensor", "zero", "delay",
+            "inertia",
+            "drag",
+            "stiffness",
+            "late drag",
+            "time of late drag",
+            "lag",
+            "filter of the sensor",
+            "zero",
+            "delay",
         ];
         for (index, (name, part)) in names.into_iter().zip(process.parts()).enumerate() {
             domain::finite(name, part.lower(), "")?;
@@ -194,17 +205,20 @@ impl ProcessIntervals {
             let Some(u) = Interval::new(0.0, 1.0 / omega) else { return false };
             // |N| <= sum |n_k| omega^k, |D| >= |d_n| omega^n - the rest.
             let reversed = |polynomial: &[Interval], last: usize| {
-                (0..=last).fold(Interval::ZERO, |sum, k| sum + Interval::point(polynomial[k].magnitude()) * power(u, last - k))
+                (0..=last).fold(Interval::ZERO, |sum, k| {
+                    sum + Interval::point(polynomial[k].magnitude()) * power(u, last - k)
+                })
             };
             let above = reversed(&numerator, m);
             let leading = denominator[n];
             let least = leading.lower().max(-leading.upper());
-            let rest = (0..n).fold(Interval::ZERO, |sum, k| {
-                sum + Interval::point(denominator[k].magnitude()) * power(u, n - k)
-            });
+            let rest = (0..n)
+                .fold(Interval::ZERO, |sum, k| sum + Interval::point(denominator[k].magnitude()) * power(u, n - k));
             let below = Interval::point(least) - rest;
             let shift = power(u, n.saturating_sub(m));
-            n >= m && below.is_positive() && (Interval::point(largest) * above * shift).upper() < (Interval::point(most) * below).lower()
+            n >= m
+                && below.is_positive()
+                && (Interval::point(largest) * above * shift).upper() < (Interval::point(most) * below).lower()
         })
     }
 
@@ -212,14 +226,14 @@ impl ProcessIntervals {
     /// number near it that is proved. `of` makes the criterion from its number.
     ///
     /// # Errors
-    /// [`ControlError::Unstable`] with a process of the box that the gains do not stabilise.
+    /// [`ControlError::NotStabilised`] with a process of the box whose stability under the gains is not proved.
     pub fn enclose(&self, gains: &Gains<f64>, of: fn(f64) -> Criterion) -> Result<Enclosed, ControlError> {
         let met = self.worst_met(gains, of)?;
         let limited = met.is_finite();
         let proved = GIVEN_UP.iter().find_map(|share| {
             let number = match of(1.0) {
                 Criterion::Sensitivity(_) => met * (1.0 + share),
-                Criterion::Gain(_) | Criterion::GainReduction(_) if !limited => NO_LIMIT,
+                Criterion::Gain(_) | Criterion::GainReduction(_) if !limited => Self::NO_LIMIT,
                 Criterion::Gain(_) | Criterion::GainReduction(_) => 1.0 + (met - 1.0) * (1.0 - share),
                 _ => met * (1.0 - share),
             };
@@ -244,6 +258,23 @@ impl ProcessIntervals {
         core::iter::once(self.process.middle()).chain((0..1 << wide.len()).map(corner)).collect()
     }
 
+    /// Whether the middle and the corners of the box meet the criterion, up to rounding: no proof.
+    #[must_use]
+    pub fn meets(&self, gains: &Gains<f64>, criterion: Criterion) -> bool {
+        let high = self.highest_frequency(gains, Criterion::Gain(1.0)).unwrap_or(f64::INFINITY);
+        let wanted = match criterion {
+            Criterion::Sensitivity(number)
+            | Criterion::Gain(number)
+            | Criterion::GainReduction(number)
+            | Criterion::PhaseRad(number)
+            | Criterion::DelayS(number) => number,
+        };
+        self.points().iter().all(|process| {
+            let found = Figures::of(process, gains, high).number(criterion);
+            if matches!(criterion, Criterion::Sensitivity(_)) { found <= wanted } else { found >= wanted }
+        })
+    }
+
     /// The worst number of the criterion at the points of the box.
     fn worst_met(&self, gains: &Gains<f64>, of: fn(f64) -> Criterion) -> Result<f64, ControlError> {
         let mut worst: Option<f64> = None;
@@ -262,7 +293,7 @@ impl ProcessIntervals {
                 !point.all_stable(gains)
             });
             if let Some(LinearProcess { alpha, drag, delay_s, .. }) = unstable {
-                return Err(ControlError::Unstable { poles: 1, alpha, drag, delay_s });
+                return Err(ControlError::NotStabilised { alpha, drag, delay_s });
             }
         }
         Ok(worst.unwrap_or(f64::NAN))
@@ -279,9 +310,10 @@ struct Figures {
     delay_s: f64,
 }
 
-/// Frequencies an octave, and octaves below the highest.
+/// Frequencies an octave; octaves below and above the highest frequency at which the gain may be one.
 const AN_OCTAVE: i32 = 40;
 const BELOW: i32 = 24;
+const ABOVE: i32 = 6;
 
 impl Figures {
     fn of(process: &LinearProcess<f64>, gains: &Gains<f64>, high: f64) -> Self {
@@ -302,7 +334,7 @@ impl Figures {
             },
             None::<(f64, [f64; 2])>,
         );
-        for k in 0..=AN_OCTAVE * BELOW {
+        for k in 0..=AN_OCTAVE * (BELOW + ABOVE) {
             let omega = high * 2f64.powf(f64::from(k) / f64::from(AN_OCTAVE) - f64::from(BELOW));
             let here = response(omega);
             let peak = |omega: f64| {
@@ -359,8 +391,6 @@ fn bisect(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 
 /// What is given up of the worst that was met, so that a proof is found: the least first.
 const GIVEN_UP: [f64; 4] = [0.003, 0.02, 0.1, 0.3];
-/// A gain without a limit is one within this factor.
-const NO_LIMIT: f64 = 1e3;
 
 fn power(base: Interval, exponent: usize) -> Interval {
     (0..exponent).fold(Interval::ONE, |product, _| product * base)
@@ -416,9 +446,9 @@ fn undecided(
         }
         // Mean value form: F(x) >= F(m) - sum |F'_i| r_i.
         let middle = at.map(|side| Interval::point(side.midpoint()));
-        let form = (0..VARIABLES).filter(|k| !at[*k].is_point()).fold(value(&middle), |sum, k| {
-            sum + slopes[k] * (at[k] - middle[k])
-        });
+        let form = (0..VARIABLES)
+            .filter(|k| !at[*k].is_point())
+            .fold(value(&middle), |sum, k| sum + slopes[k] * (at[k] - middle[k]));
         if form.is_positive() {
             return None;
         }

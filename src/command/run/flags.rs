@@ -3,8 +3,9 @@
 use clap::Args;
 
 use crate::command::CommandError;
-use crate::command::number::{number, positive};
-use crate::on_board::{Coordinate, Protocol};
+use crate::command::number::{finite, positive, small_count};
+use crate::numeric::OutOfDomain;
+use crate::on_board::{Coordinate, Experiment, Protocol};
 
 /// The numbers of [`Protocol`]; those that are not given are its own.
 #[derive(Debug, Args)]
@@ -25,52 +26,52 @@ pub(super) struct ProtocolArguments {
     #[arg(long, value_name = "X", value_parser = positive, allow_negative_numbers = true)]
     excursion: Option<f64>,
     /// Value of the coordinate to oscillate about
-    #[arg(long, value_name = "R", default_value_t = 0.0, value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", default_value_t = 0.0, value_parser = finite, allow_negative_numbers = true)]
     reference: f64,
     /// Command before, after, and upon a fault; the relay's levels lie about it
-    #[arg(long, value_name = "U", default_value_t = 0.0, value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "U", default_value_t = 0.0, value_parser = finite, allow_negative_numbers = true)]
     neutral: f64,
     /// Least command ever given [default: 2 relay levels below neutral]
-    #[arg(long, value_name = "U", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "U", value_parser = finite, allow_negative_numbers = true)]
     lowest: Option<f64>,
     /// Largest command ever given [default: 2 relay levels above neutral]
-    #[arg(long, value_name = "U", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "U", value_parser = finite, allow_negative_numbers = true)]
     highest: Option<f64>,
     /// Way back under the first command that counts as the wrong sign [default: 2 half-widths]
-    #[arg(long, value_name = "X", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", value_parser = finite, allow_negative_numbers = true)]
     wrong_way: Option<f64>,
     /// Least time between two switchings, s [default: 4 intervals]
-    #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = finite, allow_negative_numbers = true)]
     dwell: Option<f64>,
     /// Step of the sensor, or a few standard deviations of its noise, units of the reading
-    #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = finite, allow_negative_numbers = true)]
     resolution: f64,
     /// Largest rate of the reading that the vehicle is capable of, per s [default: the excursion per s]
-    #[arg(long, value_name = "V", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "V", value_parser = finite, allow_negative_numbers = true)]
     largest_rate: Option<f64>,
     /// A reading that stays unchanged for longer is a fault, s [default: 5]
-    #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = finite, allow_negative_numbers = true)]
     unchanged: Option<f64>,
     /// An attempt fails without a switching for longer, s [default: 20]
-    #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = finite, allow_negative_numbers = true)]
     patience: Option<f64>,
     /// The experiment fails after this time, s [default: 300]
-    #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = finite, allow_negative_numbers = true)]
     duration: Option<f64>,
     /// Cycles in a row that have to be alike [default: 3]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = small_count, allow_negative_numbers = true)]
     cycles: Option<u8>,
     /// How alike, as a share of amplitude and half-period [default: 0.1]
-    #[arg(long, value_name = "SHARE", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", value_parser = finite, allow_negative_numbers = true)]
     spread: Option<f64>,
     /// An attempt fails after so many cycles [default: 12]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = small_count, allow_negative_numbers = true)]
     most_cycles: Option<u8>,
     /// Attempts in all, each with other relay parameters [default: 3]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = small_count, allow_negative_numbers = true)]
     attempts: Option<u8>,
     /// Factor between the relay parameters of two attempts [default: 1.5]
-    #[arg(long, value_name = "F", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "F", value_parser = finite, allow_negative_numbers = true)]
     factor: Option<f64>,
 }
 
@@ -87,15 +88,47 @@ fn coordinate(text: &str) -> Result<Coordinate, String> {
     }
 }
 
+/// The flag of a number that the protocol refuses.
+fn flag(fault: &OutOfDomain) -> &'static str {
+    match fault.quantity {
+        "reference" => "--reference",
+        "neutral command" => "--neutral",
+        "lowest command" => "--lowest",
+        "highest command" => "--highest",
+        "relay level" => "--relay",
+        "half-width" => "--half-width",
+        "largest excursion" => "--excursion",
+        "way in the wrong direction" => "--wrong-way",
+        "least time between switchings" => "--dwell",
+        "sampling interval" => "--interval",
+        "resolution of the reading" => "--resolution",
+        "largest rate" => "--largest-rate",
+        "time of one reading" => "--unchanged",
+        "patience" => "--patience",
+        "duration" => "--duration",
+        "spread of cycles" => "--spread",
+        "factor between attempts" => "--factor",
+        "cycles alike" => "--cycles",
+        "cycles of an attempt" => "--most-cycles",
+        "attempts" => "--attempts",
+        _ => "the protocol",
+    }
+}
+
 impl ProtocolArguments {
-    pub(super) fn protocol(&self) -> Result<Protocol<f64>, CommandError> {
+    pub(super) fn experiment(&self) -> Result<Experiment<f64>, CommandError> {
+        Experiment::new(self.protocol())
+            .map_err(|fault| CommandError::Given { flag: flag(&fault), error: fault.into() })
+    }
+
+    pub(super) fn protocol(&self) -> Protocol<f64> {
         let excursion = self.excursion.unwrap_or(match self.coordinate {
             Coordinate::HeadingRad => core::f64::consts::FRAC_PI_2,
             Coordinate::HeadingDegrees => 90.0,
             Coordinate::Position | Coordinate::Speed => EXCURSION * self.half_width,
         });
         let usual = Protocol::new(self.coordinate, self.relay, self.half_width, excursion, self.interval);
-        Ok(Protocol {
+        Protocol {
             reference: self.reference,
             neutral_command: self.neutral,
             lowest_command: self.lowest.unwrap_or(self.neutral + usual.lowest_command),
@@ -113,6 +146,6 @@ impl ProtocolArguments {
             attempts: self.attempts.unwrap_or(usual.attempts),
             factor: self.factor.unwrap_or(usual.factor),
             ..usual
-        })
+        }
     }
 }
