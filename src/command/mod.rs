@@ -3,6 +3,7 @@
 //! Answers go to standard output, everything else to standard error. Exit status: 0 done, 1 the answer is no, 2 usage or
 //! unreadable input.
 
+mod autotune;
 mod axis;
 mod balance;
 mod certificates;
@@ -66,6 +67,7 @@ enum Action {
     Run(run::Arguments),
     Identify(identify::Arguments),
     Tune(tune::Arguments),
+    Autotune(autotune::Arguments),
     Completions(manual::Completions),
     Man(manual::Manual),
 }
@@ -83,6 +85,7 @@ impl Action {
             Self::Run(arguments) => run::run(arguments, output),
             Self::Identify(arguments) => identify::run(arguments, output),
             Self::Tune(arguments) => tune::run(arguments, output),
+            Self::Autotune(arguments) => autotune::run(arguments, output),
             Self::Completions(arguments) => manual::completions(arguments, output),
             Self::Man(arguments) => manual::manual(arguments),
         }

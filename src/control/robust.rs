@@ -68,8 +68,8 @@ const OMEGA: usize = PARAMETERS;
 const EXTRA: usize = PARAMETERS + 1;
 /// Boxes that one proof may take: some two seconds.
 const BOXES: usize = 100_000;
-/// Octaves in which the end of the frequencies is looked for.
-const OCTAVES: usize = 200;
+/// Octaves below and above 1 rad/s in which the end of the frequencies is looked for.
+const OCTAVES: i32 = 100;
 /// Sides smaller than this, relative to the whole, are not halved any more.
 const SMALLEST: f64 = 1e-12;
 
@@ -200,8 +200,7 @@ impl ProcessIntervals {
             Criterion::Sensitivity(most) => 1.0 - 1.0 / most,
             _ => 1.0,
         };
-        let start = 1.0;
-        (0..OCTAVES).map(|k| start * 2f64.powi(k as i32)).find(|omega| {
+        (-OCTAVES..OCTAVES).map(|k| 2f64.powi(k)).find(|omega| {
             let Some(u) = Interval::new(0.0, 1.0 / omega) else { return false };
             // |N| <= sum |n_k| omega^k, |D| >= |d_n| omega^n - the rest.
             let reversed = |polynomial: &[Interval], last: usize| {
@@ -244,6 +243,12 @@ impl ProcessIntervals {
 }
 
 impl ProcessIntervals {
+    /// The corners of the box.
+    #[must_use]
+    pub fn corners(&self) -> Vec<LinearProcess<f64>> {
+        self.points().split_off(1)
+    }
+
     /// Points of the box: its middle, and its corners.
     fn points(&self) -> Vec<LinearProcess<f64>> {
         let parts = self.process.parts();
@@ -270,7 +275,7 @@ impl ProcessIntervals {
             | Criterion::DelayS(number) => number,
         };
         self.points().iter().all(|process| {
-            let found = Figures::of(process, gains, high).number(criterion);
+            let found = Figures::of(process, gains, high, FEW).number(criterion);
             if matches!(criterion, Criterion::Sensitivity(_)) { found <= wanted } else { found >= wanted }
         })
     }
@@ -280,7 +285,7 @@ impl ProcessIntervals {
         let mut worst: Option<f64> = None;
         let high = self.highest_frequency(gains, Criterion::Gain(1.0)).unwrap_or(f64::INFINITY);
         for process in self.points() {
-            let number = Figures::of(&process, gains, high).number(of(1.0));
+            let number = Figures::of(&process, gains, high, AN_OCTAVE).number(of(1.0));
             worst = Some(match (worst, of(1.0)) {
                 (None, _) => number,
                 (Some(worst), Criterion::Sensitivity(_)) => worst.max(number),
@@ -310,13 +315,14 @@ struct Figures {
     delay_s: f64,
 }
 
-/// Frequencies an octave; octaves below and above the highest frequency at which the gain may be one.
+/// Frequencies an octave, to judge by and to choose by; octaves below and above the highest frequency at which the gain may be one.
 const AN_OCTAVE: i32 = 40;
-const BELOW: i32 = 24;
+const FEW: i32 = 12;
+const BELOW: i32 = 16;
 const ABOVE: i32 = 6;
 
 impl Figures {
-    fn of(process: &LinearProcess<f64>, gains: &Gains<f64>, high: f64) -> Self {
+    fn of(process: &LinearProcess<f64>, gains: &Gains<f64>, high: f64, an_octave: i32) -> Self {
         let open_loop = process.open_loop(constants(gains));
         // L at a frequency: magnitude, and angle above -pi up to turns.
         let response = |omega: f64| {
@@ -334,8 +340,8 @@ impl Figures {
             },
             None::<(f64, [f64; 2])>,
         );
-        for k in 0..=AN_OCTAVE * (BELOW + ABOVE) {
-            let omega = high * 2f64.powf(f64::from(k) / f64::from(AN_OCTAVE) - f64::from(BELOW));
+        for k in 0..=an_octave * (BELOW + ABOVE) {
+            let omega = high * 2f64.powf(f64::from(k) / f64::from(an_octave) - f64::from(BELOW));
             let here = response(omega);
             let peak = |omega: f64| {
                 let [re, im] = response(omega);
