@@ -9,7 +9,6 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 
-use super::error::Given;
 use super::number::{finite, number, positive};
 use super::{CommandError, Outcome, files, refused, write_json};
 use crate::autotune::{Actions, ProcessRecord, Proved, Ruled, Wanted, rules, ultimate};
@@ -201,7 +200,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     let tuned = Tuned {
         proved: found.gains(interval_s, &wanted),
         rules: rules(&nominal),
-        ultimate: ultimate_range(&found, interval_s),
+        ultimate: ultimate_range(&found),
         log,
         found,
         interval_s,
@@ -217,9 +216,9 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
 }
 
 /// Ultimate gain and frequency over the corners of every structure's set.
-fn ultimate_range(found: &ProcessRecord, interval_s: f64) -> Option<[Interval; 2]> {
+fn ultimate_range(found: &ProcessRecord) -> Option<[Interval; 2]> {
     let best = ultimate(&found.models.first()?.process())?;
-    let corners = found.sets(interval_s)?.into_iter().flat_map(|set| set.corners());
+    let corners = found.sets(0.0)?.into_iter().flat_map(|set| set.corners());
     let all = corners.filter_map(|corner| ultimate(&corner));
     Some(all.fold(best.map(Interval::point), |range, one| [0, 1].map(|k| range[k].hull(Interval::point(one[k])))))
 }

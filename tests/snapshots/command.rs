@@ -42,6 +42,8 @@ helps! {
     predict_help "predict-help" ["predict"];
     simulate_help "simulate-help" ["simulate"];
     tune_help "tune-help" ["tune"];
+    autotune_help "autotune-help" ["autotune"];
+    run_help "run-help" ["run"];
     design_help "design-help" ["design"];
 }
 
