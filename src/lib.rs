@@ -7,6 +7,7 @@
 //! | predict an oscillation | [`orbit::limit_cycle`], [`orbit::RelayLoop`], [`balance::HarmonicBalance`] |
 //! | identify a vehicle from logs | `identify::Session` (with the feature `std`) |
 //! | tune a controller for it | [`control::Tuning`] |
+//! | tune any process from a relay record | `autotune::Autotune` (with the feature `std`) |
 //! | verify the theory | `claims::verify` (with the feature `std`) |
 //!
 //! The page `guide` works through a log, an orbit and a claim, says what units there are, and where other tools are better.
@@ -80,6 +81,9 @@ pub mod on_board;
 pub mod vehicle;
 
 pub mod control;
+
+#[cfg(feature = "std")]
+pub mod autotune;
 
 #[cfg(feature = "std")]
 pub mod claims;

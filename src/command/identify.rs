@@ -264,6 +264,7 @@ impl Arguments {
             radians: self.radians,
             degrees: self.degrees,
             wrap: self.wrap,
+            process: false,
         }
     }
 

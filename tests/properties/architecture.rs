@@ -16,6 +16,7 @@ const ORDER: &[&[&str]] = &[
     &["on_board"],
     &["vehicle"],
     &["control"],
+    &["autotune"],
     &["claims", "paper"],
     &["report"],
     &["error"],

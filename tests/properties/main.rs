@@ -4,6 +4,7 @@
 #![allow(clippy::type_complexity, reason = "oracles are boxed closures")]
 
 mod architecture;
+mod autotune;
 mod balance;
 mod cases;
 mod catalogue;
