@@ -3,7 +3,7 @@
     [-8/(pi k (k^2 - 4))]; so the first harmonic is [8/(3 pi)], and the third is minus a fifth of it. Every amplitude. *)
 From Coq Require Import Reals Lra Lia Psatz.
 From Coquelicot Require Import Coquelicot.
-From Interval Require Import Tactic.
+From Selfosc Require Import Enclosure.
 From Selfosc Require Import Common.
 Open Scope R_scope.
 
@@ -87,6 +87,6 @@ Qed.
 
 (** The rounded constant is not the coefficient. *)
 Theorem not_0_85 : coefficient 1 < 0.85.
-Proof. unfold coefficient. simpl. interval. Qed.
+Proof. unfold coefficient. simpl. interval with (i_prec 30). Qed.
 
 Print Assumptions statement.
