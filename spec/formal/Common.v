@@ -200,12 +200,8 @@ Proof. rewrite <- (cos_period t 1). f_equal. simpl. ring. Qed.
 Lemma sin2_cos2' t : sin t * sin t + cos t * cos t = 1.
 Proof. pose proof (sin2_cos2 t) as S. unfold Rsqr in S. exact S. Qed.
 
-Lemma div_lt_one a b : 0 < b -> (a / b < 1 <-> a < b).
-Proof.
-  intros Hb. split; intros H.
-  - apply (Rmult_lt_compat_r b) in H; [|lra]. unfold Rdiv in H. rewrite Rmult_assoc, Rinv_l in H by lra. lra.
-  - apply (Rmult_lt_reg_r b); [lra|]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra. lra.
-Qed.
+Lemma div_lt_one a b : 0 < b -> a < b -> a / b < 1.
+Proof. intros Hb H. apply (Rmult_lt_reg_r b); [lra|]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l; lra. Qed.
 
 (** A periodic function has the same integral over every turn. *)
 Lemma any_turn (f : R -> R) (l a : R) : (forall t, f (t + 2 * PI) = f t) ->
