@@ -29,6 +29,19 @@ Record turns_at_level (instants : R -> Prop) (C x_a : R) (input output : R -> R)
   low_at : forall t, instants t -> input t <= - x_a -> input t < x_a -> output t = - C }.
 
 Definition always (t : R) : Prop := True.
+Definition later (t : R) : Prop := 0 < t.
+
+(** An axis under a force, from an instant on: [x' = v], and [alpha v' + beta_1 v + beta_2 v abs(v) = force + delta] wherever the force
+    stays constant near by; the velocity does not jump anywhere. *)
+Record axis (start alpha beta_1 beta_2 delta : R) (force x v : R -> R) : Prop := {
+  velocity : forall t, start < t -> is_derive x t (v t);
+  no_jump : forall t, start < t -> continuous v t;
+  newton : forall t, start < t -> locally t (fun s => force s = force t) ->
+    is_derive v t ((force t + delta - drag beta_1 beta_2 (v t)) / alpha) }.
+
+(** The loop of axis and relay, reference zero, no delay: the command u is the relay's output for the error [-x]. *)
+Definition relay_loop (alpha beta_1 beta_2 delta C x_a : R) (x v u : R -> R) : Prop :=
+  axis 0 alpha beta_1 beta_2 delta u x v /\ relay later C x_a (fun t => - x t) u.
 
 (** * Tactics *)
 
