@@ -19,9 +19,9 @@ Record relay (instants : R -> Prop) (C x_a : R) (input output : R -> R) : Prop :
   high : forall t, instants t -> x_a < input t -> output t = C;
   low : forall t, instants t -> input t < - x_a -> output t = - C;
   stays_high : forall s t, instants s -> instants t -> s <= t -> output s = C ->
-    (forall r, instants r -> s <= r <= t -> - x_a < input r) -> output t = C;
+    (forall r, instants r -> s < r <= t -> - x_a < input r) -> output t = C;
   stays_low : forall s t, instants s -> instants t -> s <= t -> output s = - C ->
-    (forall r, instants r -> s <= r <= t -> input r < x_a) -> output t = - C }.
+    (forall r, instants r -> s < r <= t -> input r < x_a) -> output t = - C }.
 
 (** The relay of the program turns at the level itself; where both levels are zero, upwards. *)
 Record turns_at_level (instants : R -> Prop) (C x_a : R) (input output : R -> R) : Prop := {
