@@ -272,6 +272,20 @@ Proof.
     destruct (Rtotal_order (half_v t) 0) as [L|[-> |L]]; [left; apply way_falls; try assumption; try lra|lra|left; apply way_rises; lra].
     destruct HAB as [_ [_ [F _]]]. pose proof (force_le beta_1 beta_2 c Hb1 Hb2 (- B) (half_v t) V1). lra.
 Qed.
+
+(** The turning point is passed once. *)
+Lemma half_turns_once t : 0 <= t <= half_time -> half_x t = x_a + way alpha beta_1 beta_2 c A -> t = passing A.
+Proof.
+  intros Ht E. rewrite half_x_is in E. destruct (half_v_range t Ht) as [[V1 _] _].
+  assert (V : half_v t = 0).
+  { destruct (Rtotal_order (half_v t) 0) as [L|[L|L]]; [exfalso|exact L|exfalso].
+    - assert (F : 0 < force beta_1 beta_2 c (half_v t)).
+      { destruct HAB as [_ [_ [F _]]]. pose proof (force_le beta_1 beta_2 c Hb1 Hb2 (- B) (half_v t) V1). lra. }
+      pose proof (way_falls alpha beta_1 beta_2 c Ha Hb1 Hb2 Hc (half_v t) 0 F L (Rle_refl 0)). rewrite way_0 in *. lra.
+    - pose proof (way_rises alpha beta_1 beta_2 c Ha Hb1 Hb2 Hc 0 (half_v t) (Rle_refl 0) L). rewrite way_0 in *. lra. }
+  destruct (speed_at_is alpha beta_1 beta_2 c half_low (A + 1) Hb1 Hb2 Hc low_pushed low_below _ (half_inside t Ht)) as [_ S].
+  change (speed_at _ _ _ _ _ _ _ _ _ _ _ _) with (half_v t) in S. rewrite V, time_0 in S. lra.
+Qed.
 End Half.
 
 (** * The cycle *)
@@ -555,5 +569,23 @@ Proof.
     destruct (second_half 0 (time_down + time alpha beta_1 beta_2 (c_up delta C) Q)) as [_ [-> _]]; [unfold period; lra|].
     replace (time_down + time alpha beta_1 beta_2 (c_up delta C) Q - (0 * period + time_down)) with (time alpha beta_1 beta_2 (c_up delta C) Q) by ring.
     unfold low. rewrite X2. reflexivity.
+Qed.
+
+(** No shorter time will do: the upper turning point is passed once in each period. *)
+Lemma cycle_no_sooner T : 0 < T -> (forall t, 0 < t -> cycle_x (t + T) = cycle_x t) -> period <= T.
+Proof.
+  intros HT R. pose proof times_positive as [T1 T2].
+  set (peak := time alpha beta_1 beta_2 (c_down delta C) P).
+  destruct (half_turns _ _ _ _ x_a P Q Ha Hb1 Hb2 Hb C1 P0 HQ) as [_ [X1 [S1 _]]]. fold time_down in S1. fold peak in S1, X1.
+  assert (W : 0 < way alpha beta_1 beta_2 (c_down delta C) P).
+  { pose proof (way_rises alpha beta_1 beta_2 (c_down delta C) Ha Hb1 Hb2 C1 0 P (Rle_refl 0) P0) as W. rewrite way_0 in W. exact W. }
+  assert (E : cycle_x peak = x_a + way alpha beta_1 beta_2 (c_down delta C) P).
+  { destruct (first_half 0 peak) as [_ [-> _]]; [lra|]. rewrite Rmult_0_l, Rminus_0_r. exact X1. }
+  rewrite <- (R peak) in E by lra. destruct (by_command (peak + T)) as [k [[Ht [_ L]]|[Ht [_ L]]]]; [|exfalso; lra].
+  destruct (first_half k (peak + T) ltac:(lra)) as [_ [X _]]. rewrite X in E.
+  apply half_turns_once in E; [|exact Ha|fold time_down; lra]. fold peak in E.
+  assert (K : T = IZR k * period) by lra. assert (0 < period) by (unfold period; lra).
+  assert (0 < k)%Z. { apply lt_IZR. apply (Rmult_lt_reg_r period); lra. }
+  assert (1 <= k)%Z by lia. apply IZR_le in H1. rewrite K. nra.
 Qed.
 End Cycle.
