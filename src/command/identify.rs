@@ -66,7 +66,7 @@ pub(super) struct Arguments {
     /// Bounded: step of the sensor, output units (with --degrees still radians) [default: found in the record]
     #[arg(long, value_name = "Q", value_parser = positive, allow_negative_numbers = true)]
     quantum: Option<f64>,
-    /// Bounded: largest error of a stamp, in s
+    /// Bounded: largest error of a stamp, in s, of every row, those in which the command changes among them
     #[arg(long, value_name = "T", default_value_t = 0.0, value_parser = non_negative, allow_negative_numbers = true)]
     jitter: f64,
     /// Bounded: so many readings may be in error by any amount, whichever they are

@@ -24,7 +24,7 @@ Examples:
   selfosc verify --claim lemma-1 --claim lemma-2 --cases 100000 --seed 7
   selfosc verify --certificates proofs
   selfosc verify --check proofs
-  selfosc verify --check bounds.json
+  selfosc verify --check bounds.json --log log.csv
   selfosc verify --json")]
 pub(super) struct Arguments {
     /// Only this claim; repeat or list several
@@ -42,6 +42,9 @@ pub(super) struct Arguments {
     /// Checks such files, or one that `identify --certificate` wrote, without searching for anything, in place of the claims
     #[arg(long, value_name = "DIR|FILE", conflicts_with_all = ["claims", "cases", "seed", "certificates", "json"])]
     check: Option<PathBuf>,
+    /// Compares the stamps, readings and commands in the file of bounds with those of these logs
+    #[arg(long, value_name = "LOG", num_args = 1.., requires = "check")]
+    log: Vec<PathBuf>,
     /// Shows on a terminal which claim is being checked
     #[arg(long)]
     progress: bool,
@@ -60,7 +63,7 @@ fn cases(text: &str) -> Result<usize, String> {
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     if let Some(folder) = &arguments.check {
-        return certificates::check(folder, output);
+        return certificates::check(folder, &arguments.log, output);
     }
     let chosen = chosen(&arguments.claims)?;
     let written = arguments.certificates.as_deref().map(certificates::write).transpose()?;

@@ -47,6 +47,7 @@ mod sampling;
 mod serialised;
 mod session;
 mod special;
+mod stamps_off;
 mod sweeps;
 mod tolerance;
 mod trust;

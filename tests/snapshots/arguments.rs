@@ -29,12 +29,13 @@ const CALLS: [&str; 17] = [
     "verify --claim lemma-1 --cases 1 --seed 1 --certificates FOLDER/proofs",
 ];
 /// Other options, each with the test that holds it.
-const ELSEWHERE: [&str; 7] = [
+const ELSEWHERE: [&str; 8] = [
     "color",       // an enumeration of the parser's
     "only",        // the same
     "out",         // files.rs
     "check",       // files.rs
     "certificate", // files.rs
+    "log",         // forgeries.rs
     "claim",       // bad_inputs.txt
     "set",         // bad_inputs.txt
 ];

@@ -6,6 +6,7 @@ mod catalogue;
 mod clinic;
 mod command;
 mod files;
+mod forgeries;
 mod identify;
 mod paper;
 mod readme;

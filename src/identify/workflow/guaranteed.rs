@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::settings::Settings;
 use crate::experiment::Record;
-use crate::identify::bounded::certificate::{Certificate, Unproved};
+use crate::identify::bounded::certificate::{Certificate, ReadAs, Unproved};
 use crate::identify::bounded::{
     BoundedModel, Bounds, Consistency, Contradicting, DelayBound, Outlier, Parameters, Quantity, QuantityRange,
     enclose, enclose_with_certificate,
@@ -34,6 +34,12 @@ impl Guaranteed {
     pub fn certificate(&self) -> Option<Result<&dyn core::fmt::Display, &dyn core::error::Error>> {
         let found = self.certificate.as_ref()?.as_ref();
         Some(found.map(|proof| proof as _).map_err(|unproved| unproved as _))
+    }
+
+    /// With a proof that says how its logs were read.
+    pub(super) fn read_as(self, read_as: &ReadAs) -> Self {
+        let proof = self.certificate.map(|proof| proof.map(|proof| proof.read_as(read_as.clone())));
+        Self { certificate: proof, ..self }
     }
 
     /// Under the drag law given, or else under mixed drag, which has the other laws as its ends.

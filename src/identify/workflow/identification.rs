@@ -8,6 +8,7 @@ use super::guaranteed::Guaranteed;
 use super::model::Model;
 use crate::experiment::Log;
 use crate::features::RecordFeatures;
+use crate::identify::bounded::certificate::ReadAs;
 use crate::identify::fit::RecordFit;
 use crate::identify::prediction_error::{Prediction, Reason, Reported};
 use crate::identify::select::likelihood::Choice;
@@ -152,6 +153,11 @@ impl Identification {
     #[must_use]
     pub fn validation(&self) -> &[Validation] {
         &self.validation
+    }
+
+    /// With a proof that says how its logs were read.
+    pub(super) fn read_as(self, read_as: &ReadAs) -> Self {
+        Self { bounded: self.bounded.map(|bounded| bounded.read_as(read_as)), ..self }
     }
 
     /// The guaranteed bounds; `None` where they were not asked for.

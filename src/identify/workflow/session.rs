@@ -12,6 +12,7 @@ use crate::experiment::{Columns, Log, Record};
 use crate::features::{FeatureError, RecordFeatures, RelayLevels};
 use crate::files::Input;
 use crate::identify::Warning;
+use crate::identify::bounded::certificate::ReadAs;
 
 /// One vehicle to be identified: settings, and its records, which are fitted jointly.
 ///
@@ -136,6 +137,15 @@ impl Session {
         self
     }
 
+    /// The records as the methods see them: angles in radians, the command in the units wanted.
+    ///
+    /// # Errors
+    /// [`Refusal`] for a record of which no relay level can be read where one is wanted.
+    pub fn records(self) -> Result<Vec<Record>, Refusal> {
+        let logs = self.logs.into_iter();
+        logs.map(|(name, log)| Ok(in_units(&name, log, &self.settings)?.record)).collect()
+    }
+
     /// Identifies the vehicle: by the fit from all records at once, by the other methods from each record.
     ///
     /// # Errors
@@ -164,7 +174,9 @@ impl Session {
             sources.push(source);
             failures.extend(failure.map(|error| (index, error)));
         }
-        Found::new(&self.settings, sources, cautions).by_all_methods(&failures, validation, progress)
+        let read_as = ReadAs { columns: self.columns, relay_level: self.settings.relay_level };
+        let found = Found::new(&self.settings, sources, cautions).by_all_methods(&failures, validation, progress)?;
+        Ok(found.read_as(&read_as))
     }
 }
 
