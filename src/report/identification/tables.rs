@@ -1,9 +1,10 @@
 //! What was found, as tables and sentences.
 
 use crate::features::CycleStatistics;
-use crate::identify::joint::Estimate;
-use crate::identify::prediction_error::Prediction;
-use crate::identify::{Caution, DragLaw, DragVerdict, Identification, Reason, Reported, Source, Trust, Units};
+use crate::identify::document::Units;
+use crate::identify::{
+    Caution, DragLaw, DragVerdict, Estimate, Identification, Prediction, Reason, Reported, Source, Trust,
+};
 use crate::report::{Cell, Table};
 
 /// Digits that a measured number is shown with, after the first.
