@@ -1,7 +1,7 @@
 //! Roundings that repeat: where the cycle locks to the sampling, wholly or nearly, many half cycles are one experiment made several
 //! times, and their readings count once.
 
-use super::state::ends;
+use super::numbers::ends;
 
 /// The half cycles with which each is compared.
 const MOST_COMPARED: usize = 64;

@@ -7,30 +7,30 @@ pub(super) const NOISES: usize = NoiseParameter::COUNT;
 
 /// Error of a prediction of one step, and its variance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(in super::super) struct Innovation {
-    pub(in super::super) error: f64,
-    pub(in super::super) variance: f64,
+pub(crate) struct Innovation {
+    pub(crate) error: f64,
+    pub(crate) variance: f64,
 }
 
 impl Innovation {
     /// The error in standard deviations.
-    pub(in super::super) fn standardised(self) -> f64 {
+    pub(crate) fn standardised(self) -> f64 {
         self.error / self.variance.sqrt()
     }
 
     /// Logarithm of its density.
-    pub(in super::super) fn log_density(self) -> f64 {
+    pub(crate) fn log_density(self) -> f64 {
         -0.5 * (core::f64::consts::TAU.ln() + self.variance.ln() + self.standardised().powi(2))
     }
 }
 
 /// Gradient of the log-likelihood and Fisher's information.
 #[derive(Clone, Debug)]
-pub(in super::super) struct Score {
-    pub(in super::super) structure: [f64; STRUCTURE],
-    pub(in super::super) structure_information: [[f64; STRUCTURE]; STRUCTURE],
-    pub(in super::super) noise: [f64; NOISES],
-    pub(in super::super) noise_information: [[f64; NOISES]; NOISES],
+pub(crate) struct Score {
+    pub(crate) structure: [f64; STRUCTURE],
+    pub(crate) structure_information: [[f64; STRUCTURE]; STRUCTURE],
+    pub(crate) noise: [f64; NOISES],
+    pub(crate) noise_information: [[f64; NOISES]; NOISES],
 }
 
 impl Score {
@@ -72,20 +72,20 @@ impl Score {
 
 /// One run through the record.
 #[derive(Clone, Debug)]
-pub(in super::super) struct FilterPass {
-    pub(in super::super) log_likelihood: f64,
+pub(crate) struct FilterPass {
+    pub(crate) log_likelihood: f64,
     /// One per sample from [`Observations::first`] on.
-    pub(in super::super) innovations: Vec<Innovation>,
+    pub(crate) innovations: Vec<Innovation>,
     /// Scores of consecutive parts of the record; empty where no derivatives were asked for.
-    pub(in super::super) parts: Vec<Score>,
+    pub(crate) parts: Vec<Score>,
     /// Derivatives of each prediction's error by the structural parameters; empty where they were not asked for.
-    pub(in super::super) slopes: Vec<[f64; STRUCTURE]>,
+    pub(crate) slopes: Vec<[f64; STRUCTURE]>,
     /// Whether predictions follow the readings before them, or the motion alone.
-    pub(in super::super) stochastic: bool,
+    pub(crate) stochastic: bool,
 }
 
 impl FilterPass {
-    pub(in super::super) fn score(&self) -> Score {
+    pub(crate) fn score(&self) -> Score {
         let mut sum = Score::zero();
         for part in &self.parts {
             sum.add(part);
