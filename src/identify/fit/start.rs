@@ -3,6 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::identify::answer::DragLaw;
 use crate::identify::signal::{CommandPiece, Signal, least_squares};
 
 /// Inertia, linear and quadratic drag, disturbance, delay.
@@ -24,7 +25,7 @@ const DELAYS: [&[f64]; 4] = [&[0.0, 0.03, 0.06], &[0.1, 0.14, 0.18], &[0.23, 0.2
 
 /// The best start of each range of delays, or that of the known delay.
 pub(crate) fn starts(signal: &Signal, delay_s: Option<f64>) -> Vec<ModulatedStart> {
-    let rows = ModulatedEquations::new(signal);
+    let rows = ModulatedEquations::new(signal, LONGEST_DELAY * signal.half_period_s);
     let best = |delays: &mut dyn Iterator<Item = f64>| {
         let starts = delays.filter_map(|delay_s| rows.solve(signal, delay_s));
         starts.min_by(|a, b| a.misfit.total_cmp(&b.misfit))
@@ -38,9 +39,23 @@ pub(crate) fn starts(signal: &Signal, delay_s: Option<f64>) -> Vec<ModulatedStar
     }
 }
 
+/// Orders of magnitude where noise makes equations without sense.
+pub(crate) fn rough(signal: &Signal, delay_s: Option<f64>) -> ModulatedStart {
+    let speed = signal.fastest.max(signal.span / signal.half_period_s);
+    let force = 0.5 * signal.range;
+    ModulatedStart {
+        alpha: 0.3 * force * signal.half_period_s / speed,
+        linear: 0.15 * force / speed,
+        quadratic: 0.15 * force / (speed * speed),
+        disturbance: 0.0,
+        delay_s: delay_s.unwrap_or(0.05 * signal.half_period_s),
+        misfit: f64::INFINITY,
+    }
+}
+
 /// The best start of each delay that is looked for; none where the equations make no sense.
 pub(crate) fn at_every_delay(signal: &Signal) -> Vec<ModulatedStart> {
-    let rows = ModulatedEquations::new(signal);
+    let rows = ModulatedEquations::new(signal, LONGEST_DELAY * signal.half_period_s);
     let delays = DELAYS.iter().flat_map(|parts| parts.iter().map(|part| part * signal.half_period_s));
     delays.filter_map(|delay_s| rows.solve(signal, delay_s)).collect()
 }
@@ -68,13 +83,13 @@ struct ModulatedEquations {
 }
 
 impl ModulatedEquations {
-    fn new(signal: &Signal) -> Self {
+    fn new(signal: &Signal, longest_delay_s: f64) -> Self {
         let Signal { time_s, output, half_period_s, interval_s, .. } = signal;
         let (half_period, last) = (*half_period_s, time_s.len() - 1);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
         let reach = (half_period / (8.0 * interval_s)).max(1.0) as usize;
         let (mut begins, mut integrals) = (Vec::new(), Vec::new());
-        let mut begin = time_s[0] + LONGEST_DELAY * half_period;
+        let mut begin = time_s[0] + longest_delay_s;
         while begin + half_period <= time_s[last] {
             let from = time_s.partition_point(|t| *t < begin).max(1);
             let to = time_s.partition_point(|t| *t <= begin + half_period).min(last);
@@ -99,25 +114,33 @@ impl ModulatedEquations {
         Self { begins, integrals }
     }
 
+    /// The command under every weight, acting after a delay.
+    fn command(&self, signal: &Signal, delay_s: f64) -> Vec<f64> {
+        self.begins.iter().map(|begin| weighted(&signal.pieces, begin - delay_s, signal.half_period_s)).collect()
+    }
+
+    /// Inertia, linear drag, quadratic drag and disturbance by least squares, those of `columns` alone.
+    fn parameters(&self, columns: &[usize], right: &[f64]) -> [f64; 4] {
+        let rows = self.begins.len();
+        let matrix = DMatrix::from_fn(rows, columns.len(), |row, column| self.integrals[row][columns[column]]);
+        let solution = least_squares(matrix, DVector::from_fn(rows, |row, _| right[row]));
+        let mut values = [0.0; 4];
+        for (index, column) in columns.iter().enumerate() {
+            values[*column] = solution[index];
+        }
+        values
+    }
+
     fn solve(&self, signal: &Signal, delay_s: f64) -> Option<ModulatedStart> {
-        let right: Vec<f64> = self
-            .begins
-            .iter()
-            .map(|begin| weighted(&signal.pieces, begin - delay_s, signal.half_period_s))
-            .collect();
+        let right = self.command(signal, delay_s);
         // Laws with one kind of drag stand in where both together come out without sense.
-        let laws: [&[usize]; 3] = [&[0, 1, 2, 3], &[0, 1, 3], &[0, 2, 3]];
+        let laws: [&[usize]; 3] = [&[0, 1, 2, 3], LINEAR, QUADRATIC];
         let solved = laws.iter().filter_map(|columns| {
             let rows = self.begins.len();
             if rows < columns.len() + 2 {
                 return None;
             }
-            let matrix = DMatrix::from_fn(rows, columns.len(), |row, column| self.integrals[row][columns[column]]);
-            let solution = least_squares(matrix, DVector::from_fn(rows, |row, _| right[row]));
-            let mut values = [0.0; 4];
-            for (index, column) in columns.iter().enumerate() {
-                values[*column] = solution[index];
-            }
+            let values = self.parameters(columns, &right);
             let square: f64 = self
                 .integrals
                 .iter()
@@ -127,17 +150,37 @@ impl ModulatedEquations {
             let misfit = (square / (rows - columns.len()) as f64).sqrt();
             let [alpha, linear, quadratic, disturbance] = values;
             let drag = linear + quadratic * signal.fastest;
-            (alpha > 0.0 && drag > 0.0 && quadratic >= 0.0 && misfit.is_finite()).then_some(ModulatedStart {
-                alpha,
-                linear,
-                quadratic,
-                disturbance,
-                delay_s,
-                misfit,
-            })
+            let sensible = alpha > 0.0 && drag > 0.0 && quadratic >= 0.0 && misfit.is_finite();
+            sensible.then_some(ModulatedStart { alpha, linear, quadratic, disturbance, delay_s, misfit })
         });
         solved.min_by(|a, b| a.misfit.total_cmp(&b.misfit))
     }
+}
+
+/// Columns of the equations of an axis with one kind of drag.
+const LINEAR: &[usize] = &[0, 1, 3];
+const QUADRATIC: &[usize] = &[0, 2, 3];
+/// Solutions within this factor of their orders of magnitude count, on either side.
+const SENSIBLE_FACTOR: f64 = 50.0;
+/// The part of an order of magnitude that stands in for a solution.
+const STAND_IN: f64 = 0.3;
+
+/// Inertia, the coefficient of one kind of drag, and disturbance at a delay; their orders of magnitude where noise makes equations
+/// without sense. `None` for a record that is too short.
+pub(crate) fn with_one_drag(signal: &Signal, law: DragLaw, delay_s: f64) -> Option<[f64; 3]> {
+    let equations = ModulatedEquations::new(signal, delay_s);
+    if equations.begins.len() < 4 {
+        return None;
+    }
+    let columns = if law == DragLaw::Quadratic { QUADRATIC } else { LINEAR };
+    let [alpha, linear, quadratic, disturbance] = equations.parameters(columns, &equations.command(signal, delay_s));
+    let (force, speed) = (0.25 * signal.range, signal.span / signal.half_period_s);
+    let unit = if law == DragLaw::Quadratic { speed * speed } else { speed };
+    let or = |value: f64, order: f64| {
+        if value > order / SENSIBLE_FACTOR && value < order * SENSIBLE_FACTOR { value } else { STAND_IN * order }
+    };
+    let disturbance = if disturbance.is_finite() { disturbance.clamp(-force, force) } else { 0.0 };
+    Some([or(alpha, force * signal.half_period_s / speed), or(linear + quadratic, force / unit), disturbance])
 }
 
 /// The command under the weight that begins at a time, integrated piece by piece.

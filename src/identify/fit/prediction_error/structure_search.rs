@@ -137,7 +137,7 @@ impl<'a> StructureSearch<'a> {
     fn approach(&mut self) -> Option<Fitted> {
         let mut first = Observations::new(self.record, Clock::Stamps, SwitchingInstant::AtSamples);
         let mut starts = start::starts(&first, self.known.delay_s);
-        starts.push(rough(&first, self.known.delay_s));
+        starts.push(start::rough(&first, self.known.delay_s));
         let likely = starts.iter().min_by(|a, b| a.misfit.total_cmp(&b.misfit)).map_or(0.0, |start| start.delay_s);
         let (short, long) = (0.05 * first.half_period_s, 0.25 * first.half_period_s);
         self.unseen_s = (1.3 * likely + short).min(long).max(self.known.delay_s.map_or(0.0, |known| known + short));
@@ -424,18 +424,4 @@ impl<'a> StructureSearch<'a> {
 /// Number of the reading of clock and switchings that a model has.
 fn reading_index(model: &VehicleModel) -> usize {
     2 * usize::from(model.clock == Clock::Grid) + usize::from(model.switching == SwitchingInstant::Between)
-}
-
-/// Orders of magnitude where noise makes equations without sense.
-fn rough(observations: &Observations, delay_s: Option<f64>) -> ModulatedStart {
-    let speed = observations.fastest.max(observations.span / observations.half_period_s);
-    let force = 0.5 * observations.range;
-    ModulatedStart {
-        alpha: 0.3 * force * observations.half_period_s / speed,
-        linear: 0.15 * force / speed,
-        quadratic: 0.15 * force / (speed * speed),
-        disturbance: 0.0,
-        delay_s: delay_s.unwrap_or(0.05 * observations.half_period_s),
-        misfit: f64::INFINITY,
-    }
 }

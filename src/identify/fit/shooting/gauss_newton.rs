@@ -10,10 +10,10 @@ use super::sensitivity::{
 };
 use super::sensitivity::{DISTURBANCE, INSTANT, POSITION, VELOCITY};
 use super::noise::ReadingNoise;
-use super::start;
 use crate::experiment::Record;
 use crate::identify::answer::{Delay, DragLaw, IdentifyError};
-use crate::identify::signal::half_period_s;
+use crate::identify::fit::start::with_one_drag;
+use crate::identify::signal::{Clock, Signal, SwitchingInstant};
 
 /// Steps allowed; a dozen are usual.
 const MAX_STEPS: usize = 60;
@@ -33,6 +33,10 @@ const LEAST_DRAG: f64 = 1e-3;
 const DELAY_SHARE: f64 = 1e-2;
 /// Samples per swing while the search is far from its end.
 const COARSE: f64 = 24.0;
+/// Readings within this part of the half-period tell the state at a node.
+const NODE_REACH: f64 = 0.125;
+/// Delay at which the search starts, in half-periods.
+const FIRST_DELAY: f64 = 0.02;
 /// Least noise taken for a rounding sensor, in steps: with less, a step of the search sees hardly any reading.
 pub(super) const LEAST_NOISE_STEPS: f64 = 0.15;
 /// Least noise for any sensor, against the output's range: below it there is only rounding of the arithmetic.
@@ -81,20 +85,26 @@ pub(super) struct GaussNewton<'a> {
 }
 
 impl<'a> ShotTrajectory<'a> {
-    fn new(record: &'a Record, between: Between, delay_s: f64, disturbance: f64, quantum: Option<f64>) -> Self {
+    fn new(
+        record: &'a Record,
+        signal: &Signal,
+        between: Between,
+        delay_s: f64,
+        disturbance: f64,
+        quantum: Option<f64>,
+    ) -> Self {
         let mut edges = edges(record, between);
-        let time = record.time_s();
+        let (time, half_period_s, range) = (record.time_s(), signal.half_period_s, signal.span);
         let last = time[time.len() - 1];
-        let swing = half_period_s(record);
         // What acted before the log began is not known: the model starts when all of its commands are.
         let begin = (time[0] + delay_s).min(time[time.len() / 2]);
         let mut nodes = vec![begin];
         let acting = |edge: &Edge| edge.time_s + delay_s;
         if between == Between::Evenly || between == Between::Bent || edges.len() > record.samples() / 3 {
-            let mut next = begin + swing;
-            while next + 0.5 * swing < last {
+            let mut next = begin + half_period_s;
+            while next + 0.5 * half_period_s < last {
                 nodes.push(next);
-                next += swing;
+                next += half_period_s;
             }
         } else {
             // One uncertain edge to a stretch, as far from its ends as can be.
@@ -108,16 +118,13 @@ impl<'a> ShotTrajectory<'a> {
         let stretches = nodes.windows(2).enumerate().map(|(index, pair)| {
             let from = time.partition_point(|t| *t < pair[0]);
             let to = if index + 2 == nodes.len() { time.len() } else { time.partition_point(|t| *t < pair[1]) };
-            let start = start::state_near(record, pair[0], swing / 8.0);
+            let start = signal.state_near(pair[0], (NODE_REACH * half_period_s).max(1.6 * signal.interval_s));
             ShootingInterval { begin_s: pair[0], end_s: pair[1], samples: from..to, start }
         });
         let stretches = stretches.collect();
-        let output = record.output();
-        let range = output.iter().copied().fold(f64::NEG_INFINITY, f64::max)
-            - output.iter().copied().fold(f64::INFINITY, f64::min);
         let quantum = quantum.or_else(|| record.quantum()).unwrap_or(0.0);
         let noise = ReadingNoise { std: 0.02 * range + quantum + f64::MIN_POSITIVE, quantum };
-        Self { record, deviations: vec![0.0; edges.len()], edges, stretches, disturbance, noise, range, half_period_s: swing }
+        Self { record, deviations: vec![0.0; edges.len()], edges, stretches, disturbance, noise, range, half_period_s }
     }
 
     pub(super) fn linearise(&self, shared: &CommonParameters, stride: usize) -> Result<LinearisedTrajectory, IdentifyError> {
@@ -263,12 +270,14 @@ impl<'a> GaussNewton<'a> {
         quantum: Option<f64>,
     ) -> Result<Self, IdentifyError> {
         let too_few = IdentifyError::TooFewEquations { equations: 0, parameters: UNKNOWNS };
-        let first = *records.first().ok_or(too_few)?;
+        let signal = |record: &&Record| Signal::new(record, Clock::Stamps, SwitchingInstant::AtSamples);
+        let signals: Vec<Signal> = records.iter().map(signal).collect();
+        let first = signals.first().ok_or(too_few)?;
         let (estimate_delay, delay_s) = match delay {
             Delay::KnownS(delay_s) => (false, delay_s),
-            Delay::Estimated => (true, (0.02 * half_period_s(first)).max(0.5 * first.interval_s())),
+            Delay::Estimated => (true, (FIRST_DELAY * first.half_period_s).max(0.5 * first.interval_s)),
         };
-        let of = |law| start::parameters(first, law, delay_s).ok_or(too_few);
+        let of = |law| with_one_drag(first, law, delay_s).ok_or(too_few);
         let (alpha, linear, quadratic) = match law {
             DragLaw::Linear => of(law).map(|[alpha, drag, _]| (alpha, drag, 0.0))?,
             DragLaw::Quadratic => of(law).map(|[alpha, drag, _]| (alpha, 0.0, drag))?,
@@ -277,10 +286,10 @@ impl<'a> GaussNewton<'a> {
                 (0.5 * (linear[0] + quadratic[0]), 0.5 * linear[1], 0.5 * quadratic[1])
             }
         };
-        let motions = records.iter().map(|record| {
+        let motions = records.iter().zip(&signals).map(|(record, signal)| {
             let single = if law == DragLaw::Quadratic { law } else { DragLaw::Linear };
-            let disturbance = start::parameters(record, single, delay_s).map_or(0.0, |[.., disturbance]| disturbance);
-            ShotTrajectory::new(record, between, delay_s, disturbance, quantum)
+            let disturbance = with_one_drag(signal, single, delay_s).map_or(0.0, |[.., disturbance]| disturbance);
+            ShotTrajectory::new(record, signal, between, delay_s, disturbance, quantum)
         });
         let motions = motions.collect();
         let shared = [alpha, linear, quadratic, delay_s];

@@ -14,7 +14,6 @@ mod input;
 mod noise;
 mod record_fit;
 mod sensitivity;
-mod start;
 
 pub use input::Between;
 pub use record_fit::{FittedRecord, RecordFit};
