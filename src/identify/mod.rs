@@ -29,7 +29,10 @@ mod session;
 pub use answer::{DragLaw, IdentifyError};
 #[cfg(feature = "std")]
 pub use {
-    answer::{ConfidenceInterval, Delay, DragVerdict, Estimate, LawEvidence, Reason, Reported, Term, Trust, Warning},
+    answer::{
+        ConfidenceInterval, Delay, Disturbances, DragVerdict, Estimate, LawEvidence, Reason, Reported, Term, Trust,
+        Warning,
+    },
     fit::prediction_error::Prediction,
     session::{
         Caution, Conclusion, Guaranteed, Identification, Method, Model, Refusal, Session, Settings, SettingsError,

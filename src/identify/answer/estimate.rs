@@ -53,6 +53,58 @@ pub struct ConfidenceInterval {
     pub high: f64,
 }
 
+/// The constant force during each record. In JSON the only record's stands beside the list as `delta`, null for several.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(into = "DisturbanceFields", from = "DisturbanceFields")]
+pub struct Disturbances(Vec<Estimate>);
+
+#[derive(serde::Serialize, serde::Deserialize)]
+struct DisturbanceFields {
+    #[serde(skip_deserializing)]
+    delta: Option<Estimate>,
+    deltas: Vec<Estimate>,
+}
+
+impl Disturbances {
+    /// That of the only record.
+    #[must_use]
+    pub fn single(&self) -> Option<Estimate> {
+        if let [only] = self.0[..] { Some(only) } else { None }
+    }
+}
+
+impl From<Disturbances> for DisturbanceFields {
+    fn from(all: Disturbances) -> Self {
+        Self { delta: all.single(), deltas: all.0 }
+    }
+}
+
+impl From<DisturbanceFields> for Disturbances {
+    fn from(fields: DisturbanceFields) -> Self {
+        Self(fields.deltas)
+    }
+}
+
+impl FromIterator<Estimate> for Disturbances {
+    fn from_iter<I: IntoIterator<Item = Estimate>>(estimates: I) -> Self {
+        Self(estimates.into_iter().collect())
+    }
+}
+
+impl core::ops::Deref for Disturbances {
+    type Target = [Estimate];
+
+    fn deref(&self) -> &[Estimate] {
+        &self.0
+    }
+}
+
+impl core::ops::DerefMut for Disturbances {
+    fn deref_mut(&mut self) -> &mut [Estimate] {
+        &mut self.0
+    }
+}
+
 impl ConfidenceInterval {
     /// The 95 % interval of a normal error about a value.
     pub(crate) fn normal(value: f64, std: f64) -> Self {

@@ -38,6 +38,11 @@ pub enum DragVerdict {
 const REFUTED: f64 = 0.01;
 
 impl LawEvidence {
+    /// Whether it is of no record.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.records == 0
+    }
+
     /// The difference of a law.
     #[must_use]
     pub fn of(&self, law: DragLaw) -> Option<f64> {

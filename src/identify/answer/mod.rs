@@ -26,7 +26,7 @@ pub use error::IdentifyError;
 pub(crate) use error::READ_AGAIN;
 #[cfg(feature = "std")]
 pub use {
-    estimate::{ConfidenceInterval, Estimate},
+    estimate::{ConfidenceInterval, Disturbances, Estimate},
     laws::{DragVerdict, LawEvidence},
     parameter::{AxisParameter, Delay},
     reported::Reported,

@@ -2,23 +2,27 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{DragLaw, Estimate, LawEvidence, Reason, Term, Trust};
+use super::{Disturbances, DragLaw, Estimate, LawEvidence, Reason, Term, Trust};
 
 /// The one answer to use. All models that the records do not refute are averaged: a parameter of one that they do is absent.
+///
+/// In the document a drag that the law excludes is null, and a reason is its code and text: there `Drag` is `Option<Estimate>`, and
+/// `Why` is [`Caution`](crate::identify::Caution).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Reported {
+pub struct Reported<Drag = Estimate, Why = Reason> {
     /// Drag terms that count; mixed where the record does not tell the laws apart.
     pub drag: DragLaw,
-    /// How much likelier each law makes the records.
+    /// How much likelier each law makes the records; left to the choice of the law in the document.
+    #[serde(default, skip_serializing_if = "LawEvidence::is_empty")]
     pub laws: LawEvidence,
     /// Terms of the likeliest model.
     pub terms: Vec<Term>,
     /// Inertia.
     pub alpha: Estimate,
     /// Linear drag, of either sign; without error where no model that counts has it.
-    pub beta: Estimate,
+    pub beta: Drag,
     /// Quadratic drag.
-    pub beta_quadratic: Estimate,
+    pub beta_quadratic: Drag,
     /// Cubic drag, where the likeliest model has it.
     pub beta_cubic: Option<Estimate>,
     /// Part by which drag is larger to the positive side than the mean of both, where the likeliest model has it.
@@ -38,13 +42,14 @@ pub struct Reported {
     /// Time constant of the sensor's filter in s, where the likeliest model has it.
     pub filter_s: Option<Estimate>,
     /// Constant force during each record: in units of the record's own command where two levels leave the law of thrust open.
-    pub deltas: Vec<Estimate>,
+    #[serde(flatten)]
+    pub deltas: Disturbances,
     /// Delay in s.
     pub delay_s: Estimate,
     /// Whether to use it.
     pub trust: Trust,
     /// Why not simply good, the weightiest first.
-    pub reasons: Vec<Reason>,
+    pub reasons: Vec<Why>,
 }
 
 impl Reported {
@@ -68,7 +73,7 @@ impl Reported {
     fn forces(mut self, change: impl Fn(Estimate) -> Estimate) -> Self {
         let always = [&mut self.alpha, &mut self.beta, &mut self.beta_quadratic];
         let others = [&mut self.beta_cubic, &mut self.coulomb, &mut self.memory, &mut self.stiffness];
-        let all = always.into_iter().chain(others.into_iter().flatten()).chain(&mut self.deltas);
+        let all = always.into_iter().chain(others.into_iter().flatten()).chain(self.deltas.iter_mut());
         all.for_each(|estimate| *estimate = change(*estimate));
         self
     }

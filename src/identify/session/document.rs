@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 pub use super::guaranteed::BoundedConclusion;
 pub use super::identification::MethodRefusal;
 use super::identification::{Caution, Identification, Source, Validation};
-use super::model::{Model, single};
+use super::model::Model;
 use super::refusal::Refusal;
 use crate::features::{CycleStatistics, RecordFeatures};
-use crate::identify::answer::{DragLaw, DragVerdict, Estimate, LawEvidence, Reported, Term, Trust};
+use crate::identify::answer::{DragVerdict, Estimate, LawEvidence, Reported};
 use crate::identify::fit::prediction_error::Prediction;
 
 /// The document: everything found but the samples. SI units, angles in radians, full precision; what is missing is null.
@@ -43,47 +43,7 @@ pub struct Conclusion {
 }
 
 /// The answer to use. Numbers are absent where the drag law or the terms have them not.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ReportedModel {
-    /// Drag terms that count; mixed where the record does not tell the laws apart.
-    pub drag: DragLaw,
-    /// What it has beside inertia, drag, constant force and delay.
-    pub terms: Vec<Term>,
-    /// Inertia with added mass.
-    pub alpha: Estimate,
-    /// Linear drag.
-    pub beta: Option<Estimate>,
-    /// Quadratic drag.
-    pub beta_quadratic: Option<Estimate>,
-    /// Cubic drag.
-    pub beta_cubic: Option<Estimate>,
-    /// Part by which drag is larger to the positive side than the mean of both.
-    pub skew: Option<Estimate>,
-    /// Coulomb friction.
-    pub coulomb: Option<Estimate>,
-    /// Factor of the drag that follows the speed late.
-    pub memory: Option<Estimate>,
-    /// Time constant with which it follows, in s.
-    pub memory_s: Option<Estimate>,
-    /// Restoring force per output.
-    pub stiffness: Option<Estimate>,
-    /// Time constant of the actuator, in s.
-    pub lag_s: Option<Estimate>,
-    /// Time that an actuator of limited rate takes over the command's range, in s.
-    pub ramp_s: Option<Estimate>,
-    /// Time constant of the sensor's filter, in s.
-    pub filter_s: Option<Estimate>,
-    /// Constant force of the only record; null for several.
-    pub delta: Option<Estimate>,
-    /// Constant force during each record.
-    pub deltas: Vec<Estimate>,
-    /// Delay, in s.
-    pub delay_s: Estimate,
-    /// Whether to use it.
-    pub trust: Trust,
-    /// Why it is not simply good, the weightiest first.
-    pub reasons: Vec<Caution>,
-}
+pub type ReportedModel = Reported<Option<Estimate>, Caution>;
 
 impl From<&Reported> for ReportedModel {
     fn from(reported: &Reported) -> Self {
@@ -91,6 +51,7 @@ impl From<&Reported> for ReportedModel {
         let Reported { lag_s, ramp_s, filter_s, delay_s, trust, .. } = *reported;
         Self {
             drag,
+            laws: LawEvidence::default(),
             terms: reported.terms.clone(),
             alpha,
             beta: drag.has_linear().then_some(reported.beta),
@@ -104,7 +65,6 @@ impl From<&Reported> for ReportedModel {
             lag_s,
             ramp_s,
             filter_s,
-            delta: single(&reported.deltas),
             deltas: reported.deltas.clone(),
             delay_s,
             trust,

@@ -4,21 +4,20 @@ use serde::{Deserialize, Serialize};
 
 use super::settings::Method;
 use crate::features::RelayLevels;
-use crate::identify::answer::{AxisParameter, DragLaw, Estimate, Term};
+use crate::identify::answer::{AxisParameter, Disturbances, DragLaw, Estimate, Term};
 use crate::identify::fit::shooting::RecordFit;
 use crate::identify::iso;
 use crate::plant::DragAxis;
 
 /// What one method found under one drag law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(into = "Entry", from = "Entry")]
 pub struct Model {
     /// The method.
     pub method: Method,
-    /// Number of the record it is from; `None` for all at once.
-    pub record: Option<usize>,
     /// The drag law.
     pub drag: DragLaw,
+    /// Number of the record it is from; `None` for all at once.
+    pub record: Option<usize>,
     /// What it has beside inertia, drag, constant force and delay.
     pub terms: Vec<Term>,
     /// Inertia with added mass.
@@ -27,10 +26,11 @@ pub struct Model {
     pub beta: Option<Estimate>,
     /// Quadratic drag, if the law has it.
     pub beta_quadratic: Option<Estimate>,
+    /// Constant force during each of the records that it is from.
+    #[serde(flatten)]
+    pub deltas: Disturbances,
     /// Delay of the whole loop, given or estimated.
     pub delay_s: Estimate,
-    /// Constant force during each of the records that it is from.
-    pub deltas: Vec<Estimate>,
     /// Share of the output's variation that the model explains, in percent; `None` unless samples were fitted.
     pub fit_percent: Option<f64>,
     /// Root mean square of the residuals, in output units.
@@ -39,79 +39,11 @@ pub struct Model {
     pub log_likelihood: Option<f64>,
 }
 
-/// A model in a document: the disturbance of a single record is at hand without counting records.
-#[derive(Serialize, Deserialize)]
-struct Entry {
-    method: Method,
-    drag: DragLaw,
-    record: Option<usize>,
-    terms: Vec<Term>,
-    alpha: Estimate,
-    beta: Option<Estimate>,
-    beta_quadratic: Option<Estimate>,
-    #[serde(skip_deserializing)]
-    delta: Option<Estimate>,
-    deltas: Vec<Estimate>,
-    delay_s: Estimate,
-    fit_percent: Option<f64>,
-    residual_rms: Option<f64>,
-    log_likelihood: Option<f64>,
-}
-
-impl From<Model> for Entry {
-    fn from(model: Model) -> Self {
-        let delta = model.delta();
-        let Model { method, record, drag, terms, alpha, beta, beta_quadratic, delay_s, deltas, .. } = model;
-        let Model { fit_percent, residual_rms, log_likelihood, .. } = model;
-        Self {
-            method,
-            drag,
-            record,
-            terms,
-            alpha,
-            beta,
-            beta_quadratic,
-            delta,
-            deltas,
-            delay_s,
-            fit_percent,
-            residual_rms,
-            log_likelihood,
-        }
-    }
-}
-
-impl From<Entry> for Model {
-    fn from(entry: Entry) -> Self {
-        let Entry { method, drag, record, terms, alpha, beta, beta_quadratic, deltas, delay_s, .. } = entry;
-        let Entry { fit_percent, residual_rms, log_likelihood, .. } = entry;
-        Self {
-            method,
-            record,
-            drag,
-            terms,
-            alpha,
-            beta,
-            beta_quadratic,
-            delay_s,
-            deltas,
-            fit_percent,
-            residual_rms,
-            log_likelihood,
-        }
-    }
-}
-
-/// The only one.
-pub(super) fn single(deltas: &[Estimate]) -> Option<Estimate> {
-    if let [delta] = deltas { Some(*delta) } else { None }
-}
-
 impl Model {
     /// The constant force, where the model is from one record.
     #[must_use]
     pub fn delta(&self) -> Option<Estimate> {
-        single(&self.deltas)
+        self.deltas.single()
     }
 
     pub(super) fn of_fit(fit: &RecordFit) -> Self {
@@ -164,7 +96,7 @@ impl Model {
             beta: drag.has_linear().then_some(beta),
             beta_quadratic: drag.has_quadratic().then_some(beta_quadratic),
             delay_s,
-            deltas: vec![delta],
+            deltas: [delta].into_iter().collect(),
             fit_percent: None,
             residual_rms: None,
             log_likelihood: None,

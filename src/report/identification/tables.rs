@@ -205,7 +205,7 @@ fn parameter_table(found: &Identification, reported: &Reported) -> Table {
         ("filter of the sensor", reported.filter_s, &second),
     ];
     let shared = named.into_iter().filter_map(|(name, estimate, unit)| Some((name.to_owned(), estimate?, unit)));
-    let deltas = found.sources().iter().zip(&reported.deltas).map(|(source, delta)| match found.sources().len() {
+    let deltas = found.sources().iter().zip(&*reported.deltas).map(|(source, delta)| match found.sources().len() {
         1 => ("disturbance delta".to_owned(), *delta, &force),
         _ => (format!("disturbance delta in {}", source.name), *delta, &force),
     });

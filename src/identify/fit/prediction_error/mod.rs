@@ -210,7 +210,7 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: Given) -
         lag_s: present(Parameter::LagS).map(not_negative),
         ramp_s: present(Parameter::RampS).map(not_negative),
         filter_s: present(Parameter::FilterS).map(not_negative),
-        deltas: vec![estimate(Parameter::Disturbance)],
+        deltas: [estimate(Parameter::Disturbance)].into_iter().collect(),
         delay_s: not_negative(estimate(Parameter::DelayS)),
         trust,
         reasons,

@@ -106,7 +106,7 @@ impl Several {
         };
         let first = &answers[0].reported;
         let alpha = together.force(|r| Some(r.alpha)).unwrap_or(first.alpha);
-        let own_deltas: Vec<Estimate> = answers.iter().flat_map(|answer| answer.reported.deltas.clone()).collect();
+        let own_deltas: Vec<Estimate> = answers.iter().flat_map(|answer| answer.reported.deltas.to_vec()).collect();
         let mut reasons: Vec<Reason> = Vec::new();
         for reason in answers.iter().flat_map(|answer| &answer.reported.reasons) {
             let of_one = matches!(reason, Reason::TooWide { .. });
@@ -139,7 +139,7 @@ impl Several {
             lag_s: own(&|r| r.lag_s),
             ramp_s: own(&|r| r.ramp_s),
             filter_s: own(&|r| r.filter_s),
-            deltas: together.parts.iter().flat_map(|part| part.clone().with_error(together.shared).deltas).collect(),
+            deltas: together.parts.iter().flat_map(|part| part.clone().with_error(together.shared).deltas.to_vec()).collect(),
             delay_s: own(&|r| Some(r.delay_s)).unwrap_or(first.delay_s),
             trust: reasons.iter().map(|reason| reason.trust()).max().unwrap_or(Trust::Good),
             reasons,
