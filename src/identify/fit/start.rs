@@ -18,9 +18,9 @@ pub(crate) struct ModulatedStart {
     pub(crate) misfit: f64,
 }
 
-/// Longest delay tried, in swings.
+/// Longest delay tried, in half-periods.
 const LONGEST_DELAY: f64 = 0.6;
-/// Delays tried, in swings: inertia and delay turn the phase alike, so that one equation's misfit does not choose between them.
+/// Delays tried, in half-periods: inertia and delay turn the phase alike, so that one equation's misfit does not choose between them.
 const DELAYS: [&[f64]; 4] = [&[0.0, 0.03, 0.06], &[0.1, 0.14, 0.18], &[0.23, 0.28, 0.33], &[0.4, 0.5, LONGEST_DELAY]];
 
 /// The best start of each range of delays, or that of the known delay.
@@ -44,11 +44,11 @@ pub(crate) fn rough(signal: &Signal, delay_s: Option<f64>) -> ModulatedStart {
     let speed = signal.fastest.max(signal.span / signal.half_period_s);
     let force = 0.5 * signal.range;
     ModulatedStart {
-        alpha: 0.3 * force * signal.half_period_s / speed,
-        linear: 0.15 * force / speed,
-        quadratic: 0.15 * force / (speed * speed),
+        alpha: STAND_IN * force * signal.half_period_s / speed,
+        linear: 0.5 * STAND_IN * force / speed,
+        quadratic: 0.5 * STAND_IN * force / (speed * speed),
         disturbance: 0.0,
-        delay_s: delay_s.unwrap_or(0.05 * signal.half_period_s),
+        delay_s: delay_s.unwrap_or(ROUGH_DELAY * signal.half_period_s),
         misfit: f64::INFINITY,
     }
 }
@@ -60,6 +60,14 @@ pub(crate) fn at_every_delay(signal: &Signal) -> Vec<ModulatedStart> {
     delays.filter_map(|delay_s| rows.solve(signal, delay_s)).collect()
 }
 
+/// A delay where none is known, in half-periods.
+const ROUGH_DELAY: f64 = 0.05;
+/// Distance of successive weights, in half-periods.
+const STRIDE: f64 = 0.3;
+/// The speed under a weight is a difference quotient over twice this part of the half-period: one over so many.
+const SPEED_SPANS: f64 = 8.0;
+/// How many times as well the command's opposite has to fit.
+const CONTRARY: f64 = 3.0;
 /// Misfit, in ranges of the command, above which the equations are taken for noise.
 const SENSIBLE: f64 = 0.15;
 
@@ -73,7 +81,7 @@ pub(crate) fn answers_against(signal: &Signal, delay_s: Option<f64>) -> bool {
         (piece.value, piece.slope) = (-piece.value, -piece.slope);
     }
     let against = misfit(&opposite);
-    against < SENSIBLE * signal.range && misfit(signal) > 3.0 * against
+    against < SENSIBLE * signal.range && misfit(signal) > CONTRARY * against
 }
 
 /// The integrals that do not depend on the delay.
@@ -87,7 +95,7 @@ impl ModulatedEquations {
         let Signal { time_s, output, half_period_s, interval_s, .. } = signal;
         let (half_period, last) = (*half_period_s, time_s.len() - 1);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
-        let reach = (half_period / (8.0 * interval_s)).max(1.0) as usize;
+        let reach = (half_period / (SPEED_SPANS * interval_s)).max(1.0) as usize;
         let (mut begins, mut integrals) = (Vec::new(), Vec::new());
         let mut begin = time_s[0] + longest_delay_s;
         while begin + half_period <= time_s[last] {
@@ -109,7 +117,7 @@ impl ModulatedEquations {
             }
             begins.push(begin);
             integrals.push(sums);
-            begin += 0.3 * half_period;
+            begin += STRIDE * half_period;
         }
         Self { begins, integrals }
     }

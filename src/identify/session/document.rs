@@ -37,7 +37,7 @@ pub struct Conclusion {
     /// Records that were predicted and took no part in the estimate.
     pub validation: Vec<Validation>,
     /// Units of the numbers.
-    pub units: Units,
+    pub units: UnitNames,
     /// Version of this library.
     pub version: Cow<'static, str>,
 }
@@ -75,7 +75,7 @@ impl From<&Reported> for ReportedModel {
 
 /// Units of the numbers: `command` and `output` are those of the log's columns, angles in radians.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Units {
+pub struct UnitNames {
     /// Of the output column as read.
     pub output: Cow<'static, str>,
     /// Of alpha.
@@ -92,7 +92,7 @@ pub struct Units {
     pub delta: Cow<'static, str>,
 }
 
-impl Units {
+impl UnitNames {
     pub(crate) fn of(degrees: bool) -> Self {
         Self {
             output: if degrees { "rad" } else { "output" }.into(),
@@ -212,7 +212,7 @@ impl Identification {
             warnings: self.cautions.clone(),
             records,
             validation: self.validation.clone(),
-            units: Units::of(self.sources.iter().any(|source| source.log.degrees)),
+            units: UnitNames::of(self.sources.iter().any(|source| source.log.degrees)),
             version: env!("CARGO_PKG_VERSION").into(),
         }
     }

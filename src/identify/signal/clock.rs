@@ -11,6 +11,12 @@ pub enum Clock {
     Grid,
 }
 
+/// Part of each deviation by which the phase of a grid follows the stamps.
+const PHASE_SHARE: f64 = 0.1;
+/// Deviations, in steps, below which the stamps are on a grid, and above which they are on none: uniform ones have 0.289.
+const ON_GRID: f64 = 1e-3;
+const OFF_GRID: f64 = 0.28;
+
 /// Times of a regular grid through the stamps; `None` where they are on one already, or on none.
 pub(crate) fn grid(record: &Record) -> Option<Vec<f64>> {
     let (time, interval) = (record.time_s(), record.interval_s());
@@ -30,7 +36,7 @@ pub(crate) fn grid(record: &Record) -> Option<Vec<f64>> {
     let mut numbers = vec![0.0];
     for t in &time[1..] {
         number = ((t - phase) / interval).round().max(number + 1.0);
-        phase += 0.1 * (t - phase - number * interval);
+        phase += PHASE_SHARE * (t - phase - number * interval);
         numbers.push(number);
     }
     let (mut begin, mut step) = fit(&numbers);
@@ -45,5 +51,5 @@ pub(crate) fn grid(record: &Record) -> Option<Vec<f64>> {
     let grid: Vec<f64> = numbers.iter().map(|n| begin + step * n).collect();
     let square: f64 = grid.iter().zip(time).map(|(g, t)| (g - t).powi(2)).sum();
     let rms = (square / time.len() as f64).sqrt();
-    (rms > 1e-3 * step && rms < 0.28 * step).then_some(grid)
+    (rms > ON_GRID * step && rms < OFF_GRID * step).then_some(grid)
 }

@@ -26,6 +26,8 @@ impl SwitchingInstant {
     }
 }
 
+/// A corner within this part of an interval from a sample is at the sample.
+const CORNER_INSIDE: f64 = 1e-3;
 /// Sampling intervals between two samples from which on one is missing.
 const MISSING: f64 = 1.75;
 /// The most instants that a switching in a gap is looked for at.
@@ -131,7 +133,7 @@ pub(crate) fn pieces_between(time_s: &[f64], input: &[f64], switching: Switching
             (before, after, (input[k + 1] - value - after * interval) / (before - after))
         });
         match corner {
-            Some((before, after, at)) if at > 1e-3 * interval && at < 0.999 * interval => {
+            Some((before, after, at)) if at > CORNER_INSIDE * interval && at < (1.0 - CORNER_INSIDE) * interval => {
                 pieces.push(CommandPiece { begin_s, value, slope: before });
                 pieces.push(CommandPiece { begin_s: begin_s + at, value: value + before * at, slope: after });
             }

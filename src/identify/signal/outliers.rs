@@ -2,6 +2,12 @@
 
 use crate::experiment::Record;
 
+/// Standard deviation of a normal distribution over the median of its magnitude.
+const NORMAL_OVER_MEDIAN: f64 = 1.483;
+/// And no nearer than so many steps of the sensor.
+const FAR_STEPS: f64 = 3.0;
+/// Neighbours further apart than so many intervals say nothing.
+const NEIGHBOURHOOD: f64 = 4.5;
 /// Readings further from the line through their neighbours than this many robust standard deviations are left out.
 const FAR: f64 = 6.0;
 /// A record with a larger share of them has no outliers but another noise.
@@ -16,8 +22,8 @@ pub(crate) fn outliers(record: &Record) -> Vec<usize> {
     };
     let mut sizes: Vec<f64> = (1..output.len() - 1).map(|k| off(k - 1, k, k + 1).abs()).collect();
     let middle = sizes.len() / 2;
-    let typical = 1.483 * *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
-    let limit = (FAR * typical).max(3.0 * record.quantum().unwrap_or(0.0));
+    let typical = NORMAL_OVER_MEDIAN * *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let limit = (FAR * typical).max(FAR_STEPS * record.quantum().unwrap_or(0.0));
     let mut kept: Vec<usize> = (0..output.len()).collect();
     loop {
         let size = |place: usize| {
@@ -25,7 +31,7 @@ pub(crate) fn outliers(record: &Record) -> Vec<usize> {
                 return 0.0;
             }
             let (a, b, c) = (kept[place - 1], kept[place], kept[place + 1]);
-            if time[c] - time[a] > 4.5 * record.interval_s() { 0.0 } else { off(a, b, c).abs() }
+            if time[c] - time[a] > NEIGHBOURHOOD * record.interval_s() { 0.0 } else { off(a, b, c).abs() }
         };
         let far = |place: usize| {
             let here = size(place);

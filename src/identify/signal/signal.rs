@@ -73,13 +73,19 @@ impl Signal {
     }
 }
 
+/// A crossing of the mean counts beyond this part of the standard deviation.
+const CROSSING_MARGIN: f64 = 0.3;
+/// The fewest half-periods in a record, and the fewest samples in a half-period.
+const FEWEST_HALF_PERIODS: f64 = 5.0;
+const FEWEST_SAMPLES: f64 = 6.0;
+
 /// Half-period of a record in s, its characteristic time: the mean time between crossings of the mean, of which a dozen weights
 /// as long must overlap.
 pub(crate) fn half_period_s(record: &Record) -> f64 {
     let output = record.output();
     let count = output.len() as f64;
     let mean = output.iter().sum::<f64>() / count;
-    let margin = 0.3 * (output.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
+    let margin = CROSSING_MARGIN * (output.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
     let (mut side, mut crossings) = (0.0, 0.0);
     for value in output {
         let now = if (value - mean).abs() > margin { (value - mean).signum() } else { side };
@@ -88,5 +94,7 @@ pub(crate) fn half_period_s(record: &Record) -> f64 {
         }
         side = now;
     }
-    (record.duration_s() / (crossings + 1.0)).min(record.duration_s() / 5.0).max(6.0 * record.interval_s())
+    (record.duration_s() / (crossings + 1.0))
+        .min(record.duration_s() / FEWEST_HALF_PERIODS)
+        .max(FEWEST_SAMPLES * record.interval_s())
 }

@@ -1,7 +1,7 @@
 //! What was found, as tables and sentences.
 
 use crate::features::CycleStatistics;
-use crate::identify::document::Units;
+use crate::identify::document::UnitNames;
 use crate::identify::{
     Caution, DragLaw, DragVerdict, Estimate, Identification, Prediction, Reason, Reported, Source, Trust,
 };
@@ -183,7 +183,7 @@ fn parameter_table(found: &Identification, reported: &Reported) -> Table {
     let terms = if terms.is_empty() { String::new() } else { format!(", with {}", terms.join(", ")) };
     let title = format!("Reported: {} drag{terms}", reported.drag.name());
     let columns = ["parameter", "value", "std", "95 % from", "to", "unit"];
-    let units = Units::of(found.sources().iter().any(|source| source.log.degrees));
+    let units = UnitNames::of(found.sources().iter().any(|source| source.log.degrees));
     let (one, second) = (String::new(), "s".to_owned());
     let [alpha, beta, quadratic, cubic, stiffness] =
         [&units.alpha, &units.beta, &units.beta_quadratic, &units.beta_cubic, &units.stiffness]

@@ -44,6 +44,9 @@ const SETTLED: f64 = 1e-9;
 /// Cosine of the angle between the residuals and what parameters can change, at which it ends: below the root of the rounding
 /// the cost no longer falls.
 const ANGLE: f64 = 1e-8;
+/// Damping of the first step, in parts of the largest eigenvalue, and its factor after every step (Marquardt 1963).
+const FIRST_DAMPING: f64 = 1e-3;
+const DAMPING_FACTOR: f64 = 10.0;
 /// Ratio of singular values below which two combinations of parameters are not told apart.
 const RANK: f64 = 1e-9;
 
@@ -59,7 +62,7 @@ pub(super) fn minimise(
     if equations <= parameters {
         return Err(IdentifyError::TooFewEquations { equations, parameters });
     }
-    let mut damping = 1e-3;
+    let mut damping = FIRST_DAMPING;
     for _ in 0..MAX_STEPS {
         let free = std::array::from_fn(|j| estimated[j] && (values[j] > 0.0 || here.slope(j) < 0.0));
         let system = here.decompose(&start, &free)?;
@@ -76,9 +79,9 @@ pub(super) fn minimise(
         match evaluate(&next) {
             Ok(there) if sum_of_squares(&there.residuals) < cost => {
                 (values, here) = (next, there);
-                damping /= 10.0;
+                damping /= DAMPING_FACTOR;
             }
-            _ => damping *= 10.0,
+            _ => damping *= DAMPING_FACTOR,
         }
     }
     Err(IdentifyError::NotSettled {

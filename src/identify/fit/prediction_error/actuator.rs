@@ -17,7 +17,7 @@ pub(super) struct Force {
 
 /// The force from one instant on. `input` and `input_by_ramp` are what the lag is fed with.
 #[derive(Clone, Copy, Debug)]
-struct Stretch {
+struct ForceSegment {
     begin_s: f64,
     input: [f64; 2],
     input_by_ramp: [f64; 2],
@@ -29,8 +29,8 @@ struct Stretch {
 /// Where the integration has to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum IntegrationStop {
-    /// The force enters its next stretch and jumps by so much.
-    Stretch { jump: f64 },
+    /// The force enters its next segment and jumps by so much.
+    Segment { jump: f64 },
     /// The force bends here; only the step's length matters.
     Refine,
     /// A change of the command by `jump` whose instant has the variance `variance_s2` takes effect.
@@ -41,7 +41,7 @@ pub(super) enum IntegrationStop {
 #[derive(Clone, Debug)]
 pub(super) struct Actuator {
     lag_s: f64,
-    stretches: Vec<Stretch>,
+    segments: Vec<ForceSegment>,
 }
 
 /// Where steps end behind a switching, in time constants of the lag: short while the force changes fast.
@@ -52,8 +52,8 @@ impl Actuator {
     pub(super) fn new(pieces: &[CommandPiece], model: &VehicleModel, range: f64) -> Self {
         let (delay_s, lag_s, ramp_s) =
             (model.value(Parameter::DelayS), model.value(Parameter::LagS), model.value(Parameter::RampS));
-        let mut stretches: Vec<Stretch> = Vec::with_capacity(pieces.len());
-        let stretch = |begin_s, input, input_by_ramp| Stretch {
+        let mut segments: Vec<ForceSegment> = Vec::with_capacity(pieces.len());
+        let segment = |begin_s, input, input_by_ramp| ForceSegment {
             begin_s,
             input,
             input_by_ramp,
@@ -62,32 +62,32 @@ impl Actuator {
         };
         if ramp_s > 0.0 {
             limited(pieces, ramp_s, range, |begin_s, input, by_ramp| {
-                stretches.push(stretch(begin_s + delay_s, input, by_ramp));
+                segments.push(segment(begin_s + delay_s, input, by_ramp));
             });
         } else {
-            stretches.extend(pieces.iter().map(|p| stretch(p.begin_s + delay_s, [p.value, p.slope], [0.0; 2])));
+            segments.extend(pieces.iter().map(|p| segment(p.begin_s + delay_s, [p.value, p.slope], [0.0; 2])));
         }
-        let mut actuator = Self { lag_s, stretches };
-        for index in 0..actuator.stretches.len() {
-            let input = actuator.stretches[index].input[0];
+        let mut actuator = Self { lag_s, segments };
+        for index in 0..actuator.segments.len() {
+            let input = actuator.segments[index].input[0];
             let (at_begin, jump) = match index.checked_sub(1) {
                 // Settled before the record.
                 None => (Force { value: input, ..Force::default() }, 0.0),
                 Some(before) => {
-                    let end = actuator.at(before, actuator.stretches[index].begin_s);
+                    let end = actuator.at(before, actuator.segments[index].begin_s);
                     (end, if lag_s > 0.0 { 0.0 } else { input - end.value })
                 }
             };
-            actuator.stretches[index].at_begin = at_begin;
-            actuator.stretches[index].jump = jump;
+            actuator.segments[index].at_begin = at_begin;
+            actuator.segments[index].jump = jump;
         }
         actuator
     }
 
-    /// The force in a stretch, at a time within it.
-    pub(super) fn at(&self, stretch: usize, time_s: f64) -> Force {
-        let Stretch { begin_s, input: [value, slope], input_by_ramp: [ramp, ramp_slope], at_begin, .. } =
-            self.stretches[stretch];
+    /// The force in a segment, at a time within it.
+    pub(super) fn at(&self, segment: usize, time_s: f64) -> Force {
+        let ForceSegment { begin_s, input: [value, slope], input_by_ramp: [ramp, ramp_slope], at_begin, .. } =
+            self.segments[segment];
         let since = time_s - begin_s;
         let (input, by_ramp) = (value + slope * since, ramp + ramp_slope * since);
         if self.lag_s == 0.0 {
@@ -105,9 +105,9 @@ impl Actuator {
         }
     }
 
-    /// The stretch that a time lies in.
-    pub(super) fn stretch_at(&self, time_s: f64) -> usize {
-        self.stretches.partition_point(|stretch| stretch.begin_s <= time_s).saturating_sub(1)
+    /// The segment that a time lies in.
+    pub(super) fn segment_at(&self, time_s: f64) -> usize {
+        self.segments.partition_point(|segment| segment.begin_s <= time_s).saturating_sub(1)
     }
 
     /// Stops after `from_s`, in order of time, those of `kicks` among them.
@@ -117,11 +117,11 @@ impl Actuator {
         kicks: impl Iterator<Item = (f64, IntegrationStop)>,
         refine: bool,
     ) -> Vec<(f64, IntegrationStop)> {
-        let mut stops: Vec<(f64, IntegrationStop)> = Vec::with_capacity(2 * self.stretches.len());
-        for stretch in &self.stretches[1..] {
-            stops.push((stretch.begin_s, IntegrationStop::Stretch { jump: stretch.jump }));
+        let mut stops: Vec<(f64, IntegrationStop)> = Vec::with_capacity(2 * self.segments.len());
+        for segment in &self.segments[1..] {
+            stops.push((segment.begin_s, IntegrationStop::Segment { jump: segment.jump }));
             if refine && self.lag_s > 0.0 {
-                stops.extend(LAG_STEPS.map(|part| (stretch.begin_s + part * self.lag_s, IntegrationStop::Refine)));
+                stops.extend(LAG_STEPS.map(|part| (segment.begin_s + part * self.lag_s, IntegrationStop::Refine)));
             }
         }
         stops.extend(kicks);
@@ -131,7 +131,7 @@ impl Actuator {
     }
 }
 
-/// The command behind a limit of its rate: calls `push` with the beginning, value and slope of each linear stretch, and with
+/// The command behind a limit of its rate: calls `push` with the beginning, value and slope of each linear segment, and with
 /// the derivatives of value and slope with respect to the time of the ramp.
 fn limited(pieces: &[CommandPiece], ramp_s: f64, range: f64, mut push: impl FnMut(f64, [f64; 2], [f64; 2])) {
     let rate = range / ramp_s;

@@ -26,6 +26,21 @@ const LONGEST_STEP: f64 = 0.3;
 /// Steps per sample beyond which a motion is faster than the record can show.
 const MOST_STEPS: f64 = 12.0;
 
+/// Least rate of a motion, per s: a vehicle that nothing slows has none.
+const SLOWEST_RATE: f64 = 1e-12;
+/// The most steps across a gap of the log.
+const MOST_SUBSTEPS: f64 = 1e3;
+/// Innovations that leave all bounds, in ranges of the output.
+const BOUNDS: f64 = 1e3;
+/// Standard deviation of the filtered position where the record begins, in ranges of the output.
+const UNKNOWN_PATH: f64 = 0.1;
+/// The same of the late speed, in highest speeds.
+const UNKNOWN_SPEED: f64 = 0.5;
+/// A turn within this part of a step from its ends does not divide it.
+const TURN_INSIDE: f64 = 0.02;
+/// Decay over a step below which a coloured error is a random walk: the next term is half of it.
+const SLOW_DECAY: f64 = 1e-6;
+
 /// Speed within which Coulomb friction changes its sign, in parts of the highest.
 const CREEP: f64 = 0.04;
 
@@ -107,9 +122,9 @@ fn run_with<const N: usize>(observations: &Observations, model: &VehicleModel, w
     let mut now = observations.time_s[first];
     let stops = actuator.stops(now, kicks, observations.switched);
     let mut next_stop = 0;
-    let mut stretch = actuator.stretch_at(now);
+    let mut segment = actuator.segment_at(now);
     let mut filter = Filter::<N>::new(model, observations, derivatives);
-    let longest = LONGEST_STEP / filter.dynamics.rate(observations.fastest).max(1e-12);
+    let longest = LONGEST_STEP / filter.dynamics.rate(observations.fastest).max(SLOWEST_RATE);
     if longest < observations.interval_s / MOST_STEPS {
         return None;
     }
@@ -126,9 +141,9 @@ fn run_with<const N: usize>(observations: &Observations, model: &VehicleModel, w
             let span = end - now;
             if span > 0.0 {
                 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
-                let steps = (span / longest).ceil().clamp(1.0, 1e3) as usize;
+                let steps = (span / longest).ceil().clamp(1.0, MOST_SUBSTEPS) as usize;
                 let h_s = span / steps as f64;
-                let mut begin = actuator.at(stretch, now);
+                let mut begin = actuator.at(segment, now);
                 for index in 0..steps {
                     let from = now + index as f64 * h_s;
                     // Drag bends where the vehicle turns: a step ends there.
@@ -136,8 +151,8 @@ fn run_with<const N: usize>(observations: &Observations, model: &VehicleModel, w
                     for (since, h_s) in turn.map_or([(0.0, h_s), (h_s, 0.0)], |turn| [(0.0, turn), (turn, h_s - turn)])
                     {
                         if h_s > 0.0 {
-                            let middle = actuator.at(stretch, from + since + 0.5 * h_s);
-                            let last = actuator.at(stretch, from + since + h_s);
+                            let middle = actuator.at(segment, from + since + 0.5 * h_s);
+                            let last = actuator.at(segment, from + since + h_s);
                             filter.advance([begin, middle, last], h_s);
                             begin = last;
                         }
@@ -148,8 +163,8 @@ fn run_with<const N: usize>(observations: &Observations, model: &VehicleModel, w
             let Some((_, stop)) = stop else { break };
             next_stop += 1;
             match *stop {
-                IntegrationStop::Stretch { jump } => {
-                    stretch += 1;
+                IntegrationStop::Segment { jump } => {
+                    segment += 1;
                     filter.jump(jump);
                 }
                 IntegrationStop::Refine => {}
@@ -169,7 +184,7 @@ fn run_with<const N: usize>(observations: &Observations, model: &VehicleModel, w
             continue;
         }
         let innovation = filter.observe(observations.output[sample], weight, &mut part);
-        if !(innovation.variance > 0.0 && innovation.error.abs() < 1e3 * observations.span) {
+        if !(innovation.variance > 0.0 && innovation.error.abs() < BOUNDS * observations.span) {
             return None;
         }
         log_likelihood -=
@@ -212,11 +227,11 @@ impl<'a, const N: usize> Filter<'a, N> {
         let read = if N > FILTERED && model.value(Parameter::FilterS) > 0.0 { FILTERED } else { 0 };
         if read == FILTERED {
             // How it moved before the record is not known: as evenly as to a tenth of what it covers.
-            covariance[FILTERED][FILTERED] = (0.1 * observations.span).powi(2);
+            covariance[FILTERED][FILTERED] = (UNKNOWN_PATH * observations.span).powi(2);
         }
         if N > LATE {
             // How the vehicle moved before the record is not known.
-            covariance[LATE][LATE] = (0.5 * observations.fastest).powi(2);
+            covariance[LATE][LATE] = (UNKNOWN_SPEED * observations.fastest).powi(2);
         }
         let mut sensitivities = Sensitivities { structure: Vec::new(), noise: Vec::new() };
         if derivatives {
@@ -271,7 +286,7 @@ impl<'a, const N: usize> Filter<'a, N> {
         let velocity = self.state[1];
         let force = force.value + self.offset();
         let turn = -velocity / self.dynamics.acceleration(self.state[0], velocity, force);
-        (turn > 0.02 * h_s && turn < 0.98 * h_s).then_some(turn)
+        (turn > TURN_INSIDE * h_s && turn < (1.0 - TURN_INSIDE) * h_s).then_some(turn)
     }
 
     /// Force beside that of the actuator, at the beginning of a step.
@@ -367,7 +382,7 @@ impl<'a, const N: usize> Filter<'a, N> {
         };
         // Variance that the coloured error gains, and its derivative with respect to the logarithm of the rate.
         let decayed = 2.0 * colour_rate * h_s;
-        let (gained, gained_by_rate) = if decayed > 1e-6 {
+        let (gained, gained_by_rate) = if decayed > SLOW_DECAY {
             let gained = -colour * (-decayed).exp_m1() / (2.0 * colour_rate);
             (gained, colour * h_s * (-decayed).exp() - gained)
         } else {

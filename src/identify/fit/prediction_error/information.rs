@@ -15,6 +15,9 @@ pub(crate) const SHARED: [Parameter; 4] =
 /// Every record's own.
 const OWN: [Parameter; 3] = [Parameter::Disturbance, Parameter::Position, Parameter::Velocity];
 
+/// Readings left out at the beginning beyond the delay, in half-periods.
+const UNSEEN: f64 = 0.05;
+
 /// Information about [`SHARED`], in their order.
 pub(crate) type Information = SMatrix<f64, 4, 4>;
 
@@ -26,7 +29,7 @@ pub(crate) fn of_record(
     variance: f64,
 ) -> Option<(Information, f64)> {
     let mut observations = Observations::new(record, Clock::Stamps, SwitchingInstant::AtSamples);
-    observations.skip(axis.delay_s() + 0.05 * observations.half_period_s);
+    observations.skip(axis.delay_s() + UNSEEN * observations.half_period_s);
     let State { position, velocity } = observations.start_state();
     let mut model = VehicleModel::plain(SwitchingInstant::AtSamples);
     for (parameter, value) in [

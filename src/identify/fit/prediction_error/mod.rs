@@ -51,7 +51,7 @@ use crate::numeric::{Limit, domain};
 use average::{Average, CHOSEN};
 use observations::Observations;
 use scoring::Fitted;
-use structure_search::{SearchOutcome, Given, StructureSearch};
+use structure_search::{KnownBefore, SearchOutcome, StructureSearch};
 
 /// What to estimate, and what is known.
 ///
@@ -110,7 +110,7 @@ impl Estimator {
         if start::answers_against(&Observations::new(record, Clock::Stamps, SwitchingInstant::AtSamples), delay_s) {
             return Err(IdentifyError::CommandSign);
         }
-        let known = Given { delay_s, law: self.law };
+        let known = KnownBefore { delay_s, law: self.law };
         let (search, found) = StructureSearch::new(record, known)
             .run()
             .ok_or(IdentifyError::NotSettled { steps: 0, rms: deviation(record.output()) })?;
@@ -133,13 +133,13 @@ impl Estimator {
     }
 }
 
-fn terms_of(fitted: &Fitted, known: Given) -> Vec<Term> {
+fn terms_of(fitted: &Fitted, known: KnownBefore) -> Vec<Term> {
     let has = |term: &Term| term.is_in(&fitted.model) && (*term != Term::Delay || known.delay_s.is_some());
     Term::ALL.into_iter().filter(has).collect()
 }
 
 /// The answer from all models tried.
-fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: Given) -> RecordAnswer {
+fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBefore) -> RecordAnswer {
     let best = &found.tried[found.best];
     let observations = search.observations(&best.model);
     let average = Average::new(
@@ -233,7 +233,7 @@ fn laws_of(found: &SearchOutcome, best: &Fitted) -> LawEvidence {
     }))
 }
 
-fn candidate(fitted: &Fitted, average: &Average<'_>, known: Given, search: &StructureSearch<'_>) -> Candidate {
+fn candidate(fitted: &Fitted, average: &Average<'_>, known: KnownBefore, search: &StructureSearch<'_>) -> Candidate {
     let deviations =
         average.deviations(fitted).or_else(|| average::deviations(fitted, search.observations(&fitted.model)));
     let model = &fitted.model;

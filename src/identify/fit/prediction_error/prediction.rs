@@ -10,6 +10,11 @@ use crate::identify::answer::{Estimate, Reported};
 use crate::plant::State;
 use crate::identify::signal::{Clock, SwitchingInstant};
 
+/// Readings left out at the beginning beyond the delay, in half-periods.
+const UNSEEN: f64 = 0.05;
+/// White variance that the search for the disturbance starts with, in squares of the output's range.
+const FIRST_VARIANCE: f64 = 1e-2;
+
 /// How well an answer predicts a record: parameters from the answer, the disturbance and the initial state from the record itself,
 /// and no reading of it used on the way.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,7 +42,7 @@ impl Reported {
 
     fn predicted(&self, record: &Record, switching: SwitchingInstant) -> Option<Prediction> {
         let mut observations = Observations::new(record, Clock::Stamps, switching);
-        observations.skip(self.mean_delay_s() + 0.05 * observations.half_period_s);
+        observations.skip(self.mean_delay_s() + UNSEEN * observations.half_period_s);
         let State { position, velocity } = observations.start_state();
         let mut model = VehicleModel::plain(switching);
         let value =
@@ -62,7 +67,7 @@ impl Reported {
         ] {
             model.set(parameter, value, free);
         }
-        model.set_noise(NoiseParameter::White, 1e-2 * observations.span * observations.span, true);
+        model.set_noise(NoiseParameter::White, FIRST_VARIANCE * observations.span * observations.span, true);
         let Fitted { model, pass, .. } = climb(&observations, model)?;
         let seen = &observations.output[observations.first..];
         #[allow(clippy::cast_precision_loss, reason = "a count of samples")]

@@ -27,6 +27,12 @@ const NEARLY_SETTLED: f64 = 0.1;
 /// Steps before a search may be given up, and how many times as much as it promises is thought possible.
 const PATIENCE: usize = 3;
 const OPTIMISM: f64 = 2.0;
+/// Damping of the first step, in parts of the information's diagonal, and the least of the noise's.
+const LEAST_DAMPING: f64 = 1e-6;
+const NOISE_DAMPING: f64 = 1e-4;
+/// Damping up to which a negligible promise ends the search, and beyond which no step gains.
+const SETTLED_DAMPING: f64 = 1e-2;
+const MOST_DAMPING: f64 = 1e5;
 /// The largest change of a logarithm in one step.
 const LARGEST_LOG_STEP: f64 = 1.5;
 
@@ -35,31 +41,31 @@ const FINEST: f64 = 3e-5;
 
 /// Least and largest value of a structural parameter.
 fn bounds(parameter: Parameter, observations: &Observations) -> (f64, f64) {
-    let (interval, swing) = (observations.interval_s, observations.half_period_s);
+    let (interval, half_period) = (observations.interval_s, observations.half_period_s);
     match parameter {
-        Parameter::Alpha => (1e-9 * observations.range * swing * swing / observations.span, f64::INFINITY),
-        Parameter::DelayS => (0.0, swing),
-        Parameter::LagS | Parameter::FilterS => (0.02 * interval, 2.0 * swing),
-        Parameter::MemoryS => (0.1 * swing, 5.0 * swing),
+        Parameter::Alpha => (1e-9 * observations.range * half_period * half_period / observations.span, f64::INFINITY),
+        Parameter::DelayS => (0.0, half_period),
+        Parameter::LagS | Parameter::FilterS => (0.02 * interval, 2.0 * half_period),
+        Parameter::MemoryS => (0.1 * half_period, 5.0 * half_period),
         Parameter::Skew => (-0.9, 0.9),
         Parameter::Coulomb => (0.0, observations.range),
-        Parameter::RampS => (0.05 * interval, 2.0 * swing),
+        Parameter::RampS => (0.05 * interval, 2.0 * half_period),
         _ => (f64::NEG_INFINITY, f64::INFINITY),
     }
 }
 
 /// Range of the logarithm of a noise's size.
 fn noise_bounds(noise: NoiseParameter, observations: &Observations) -> (f64, f64) {
-    let (interval, swing, span) = (observations.interval_s, observations.half_period_s, observations.span);
+    let (interval, half_period, span) = (observations.interval_s, observations.half_period_s, observations.span);
     let force = observations.range;
     let (low, high) = match noise {
         NoiseParameter::White => ((FINEST * span).powi(2), span * span),
-        NoiseParameter::Force => (1e-10 * force * force / swing, 10.0 * force * force / swing),
+        NoiseParameter::Force => (1e-10 * force * force / half_period, 10.0 * force * force / half_period),
         NoiseParameter::ForceRate => (0.02 / observations.duration_s(), 3.0 / interval),
-        NoiseParameter::Colour => (1e-12 * span * span / swing, span * span / interval),
+        NoiseParameter::Colour => (1e-12 * span * span / half_period, span * span / interval),
         NoiseParameter::ColourRate => (0.02 / observations.duration_s(), 3.0 / interval),
         NoiseParameter::StampJitter | NoiseParameter::SwitchJitter => (1e-8 * interval * interval, 4.0 * interval * interval),
-        NoiseParameter::Tracking => (1e-10 * (span / swing).powi(2) / swing, 100.0 * (span / swing).powi(2) / swing),
+        NoiseParameter::Tracking => (1e-10 * (span / half_period).powi(2) / half_period, 100.0 * (span / half_period).powi(2) / half_period),
     };
     (low.ln(), high.ln())
 }
@@ -114,7 +120,7 @@ pub(super) fn climb_beyond(
         *value = value.clamp(low, high);
     }
     let mut pass = filter::run(observations, &model, filter::Evaluation::Score)?;
-    let mut damping = 1e-6;
+    let mut damping = LEAST_DAMPING;
     let mut settled = false;
     let mut steps = 0;
     while steps < most_steps {
@@ -126,13 +132,13 @@ pub(super) fn climb_beyond(
             &score.noise_information,
             &score.noise,
             &noise,
-            damping.max(1e-4),
+            damping.max(NOISE_DAMPING),
         ));
         let Some(((by_structure, gain), (by_noise, noise_gain))) = moved else {
-            damping = (10.0 * damping).max(1e-6);
+            damping = (10.0 * damping).max(LEAST_DAMPING);
             continue;
         };
-        if gain + noise_gain < 2.0 * NEGLIGIBLE_GAIN && damping <= 1e-2 {
+        if gain + noise_gain < 2.0 * NEGLIGIBLE_GAIN && damping <= SETTLED_DAMPING {
             settled = true;
             break;
         }
@@ -174,7 +180,7 @@ pub(super) fn climb_beyond(
             }
             None => {
                 damping = (damping * 10.0).max(1e-3);
-                if damping > 1e5 {
+                if damping > MOST_DAMPING {
                     // The predictor's gradient is not quite that of the likelihood: no step improves it any more.
                     settled = gain + noise_gain < 0.5;
                     break;
@@ -185,7 +191,7 @@ pub(super) fn climb_beyond(
     if !settled {
         let score = pass.score();
         let structure = movable(&model, &score, observations);
-        let promised = solve(&score.structure_information, &score.structure, &structure, 1e-6);
+        let promised = solve(&score.structure_information, &score.structure, &structure, LEAST_DAMPING);
         settled = promised.is_some_and(|(_, gain)| gain < NEARLY_SETTLED);
     }
     Some(Fitted { log_likelihood: pass.log_likelihood, score: pass.score(), pass, model, settled, iterations: steps })

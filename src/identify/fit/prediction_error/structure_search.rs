@@ -54,9 +54,20 @@ const MOST_READINGS: usize = 3;
 const FOLLOWING: usize = 12;
 const APPROACHING: usize = 12;
 
+/// Readings left out at the beginning, in delays and in half-periods beyond, and at most: the filter sees no command before the record.
+const UNSEEN_DELAYS: f64 = 1.3;
+const UNSEEN_SHORT: f64 = 0.05;
+const UNSEEN_LONG: f64 = 0.25;
+/// Velocity, in typical speeds, that the white force which carries a start along gives in a half-period.
+const TRACKING_SPEED: f64 = 0.2;
+/// Factor of the white variance once that force is gone.
+const RELEASED_NOISE: f64 = 2.0;
+/// Least white variance of a start, in squares of the output's range.
+const FIRST_VARIANCE: f64 = 1e-4;
+
 /// What is known before the record is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Given {
+pub(super) struct KnownBefore {
     pub(super) delay_s: Option<f64>,
     pub(super) law: Option<DragLaw>,
 }
@@ -66,7 +77,7 @@ pub(super) struct StructureSearch<'a> {
     record: &'a Record,
     /// The first part of a long record.
     head: Option<Record>,
-    known: Given,
+    known: KnownBefore,
     clocks: Vec<Clock>,
     readings: [OnceLock<Observations>; 4],
     head_readings: [OnceLock<Observations>; 4],
@@ -82,7 +93,7 @@ pub(super) struct SearchOutcome {
 }
 
 impl<'a> StructureSearch<'a> {
-    pub(super) fn new(record: &'a Record, known: Given) -> Self {
+    pub(super) fn new(record: &'a Record, known: KnownBefore) -> Self {
         let clocks =
             if grid(record).is_some() { vec![Clock::Stamps, Clock::Grid] } else { vec![Clock::Stamps] };
         let head = record.beginning(LONGEST_SEARCHED);
@@ -139,16 +150,16 @@ impl<'a> StructureSearch<'a> {
         let mut starts = start::starts(&first, self.known.delay_s);
         starts.push(start::rough(&first, self.known.delay_s));
         let likely = starts.iter().min_by(|a, b| a.misfit.total_cmp(&b.misfit)).map_or(0.0, |start| start.delay_s);
-        let (short, long) = (0.05 * first.half_period_s, 0.25 * first.half_period_s);
-        self.unseen_s = (1.3 * likely + short).min(long).max(self.known.delay_s.map_or(0.0, |known| known + short));
+        let (short, long) = (UNSEEN_SHORT * first.half_period_s, UNSEEN_LONG * first.half_period_s);
+        self.unseen_s = (UNSEEN_DELAYS * likely + short).min(long).max(self.known.delay_s.map_or(0.0, |known| known + short));
         first.skip(self.unseen_s);
         let speed = first.span / first.half_period_s;
         let follow = |start: &ModulatedStart| {
             let mut model = self.model(&first, start);
-            model.set_noise(NoiseParameter::Tracking, (0.2 * speed).powi(2) / first.half_period_s, true);
+            model.set_noise(NoiseParameter::Tracking, (TRACKING_SPEED * speed).powi(2) / first.half_period_s, true);
             let mut model = climb_within(&first, model, FOLLOWING)?.model;
             model.set_noise(NoiseParameter::Tracking, 0.0, false);
-            model.set_noise(NoiseParameter::White, 2.0 * model.size(NoiseParameter::White), true);
+            model.set_noise(NoiseParameter::White, RELEASED_NOISE * model.size(NoiseParameter::White), true);
             climb_within(&first, model, APPROACHING)
         };
         let ends: Vec<Fitted> = starts.par_iter().filter_map(follow).collect();
@@ -209,7 +220,7 @@ impl<'a> StructureSearch<'a> {
         model.set(Parameter::Velocity, velocity, true);
         let step = self.record.quantum().unwrap_or(0.0);
         let span = observations.span;
-        model.set_noise(NoiseParameter::White, (step * step / 12.0).max(1e-4 * span * span), true);
+        model.set_noise(NoiseParameter::White, (step * step / 12.0).max(FIRST_VARIANCE * span * span), true);
         model
     }
 

@@ -105,7 +105,7 @@ impl Term {
             }
             model
         };
-        let (interval, swing) = (observations.interval_s, observations.half_period_s);
+        let (interval, half_period) = (observations.interval_s, observations.half_period_s);
         match self {
             Self::Stiffness | Self::CubicDrag | Self::SkewDrag | Self::Coulomb => {
                 self.parameters().iter().map(|parameter| with(*parameter, 0.0)).collect()
@@ -113,7 +113,7 @@ impl Term {
             Self::FluidMemory => {
                 let slow = |part: f64| {
                     let mut model = with(Parameter::Memory, 0.0);
-                    model.set(Parameter::MemoryS, part * swing, true);
+                    model.set(Parameter::MemoryS, part * half_period, true);
                     model
                 };
                 [0.15, 0.5, 1.5].map(slow).to_vec()
@@ -128,7 +128,7 @@ impl Term {
                 let delay_s = model.value(Parameter::DelayS);
                 let late = |part: f64| {
                     // At a known delay the lag comes on top; else it takes the place of a part of the delay.
-                    let time_s = if model.is_free(Parameter::DelayS) { part * delay_s } else { 0.1 * part * swing };
+                    let time_s = if model.is_free(Parameter::DelayS) { part * delay_s } else { 0.1 * part * half_period };
                     let mut model = with(parameter, time_s.max(0.3 * interval) / mean);
                     if model.is_free(Parameter::DelayS) {
                         model.values[Parameter::DelayS as usize] = (delay_s - time_s).max(0.0);
@@ -138,13 +138,13 @@ impl Term {
                 [0.15, 0.4, 0.7, 0.95].map(late).to_vec()
             }
             Self::ProcessForce => {
-                let unit = observations.range * observations.range / swing;
+                let unit = observations.range * observations.range / half_period;
                 [1e-6, 1e-5, 1e-4, 1e-3, 1e-2].map(|part| noisy(&[(NoiseParameter::Force, part * unit)])).to_vec()
             }
             Self::ProcessForceMemory => [0.1, 0.5, 2.0]
                 .map(|rate| {
-                    let (rate, force) = (rate / swing, model.size(NoiseParameter::Force));
-                    noisy(&[(NoiseParameter::ForceRate, rate), (NoiseParameter::Force, force * (1.0 + rate * swing))])
+                    let (rate, force) = (rate / half_period, model.size(NoiseParameter::Force));
+                    noisy(&[(NoiseParameter::ForceRate, rate), (NoiseParameter::Force, force * (1.0 + rate * half_period))])
                 })
                 .to_vec(),
             Self::ColouredNoise => {

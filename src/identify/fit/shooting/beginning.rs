@@ -7,7 +7,7 @@ use crate::identify::signal::half_period_s;
 
 /// Samples of a beginning.
 const SAMPLES: usize = 4000;
-/// A beginning shows less than the record where its swings are longer by this factor.
+/// A beginning shows less than the record where its half-periods are longer by this factor.
 const LIVELY: f64 = 1.5;
 /// Two ends are the same where no parameter differs by more, relative.
 const SAME: f64 = 1e-3;

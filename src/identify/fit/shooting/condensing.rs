@@ -1,8 +1,8 @@
-//! Condensing of multiple shooting: block QR over a chain of stretches (shooting intervals), from the last to the first; the
+//! Condensing of multiple shooting: block QR over a chain of shooting intervals, from the last to the first; the
 //! cost grows with the samples only.
 //!
-//! Each stretch has two unknowns of its own, the state at its beginning, and perhaps a third, the instant of an edge. What
-//! the stretches after it say about its end is a triangle of rows; these are carried to its beginning by the motion's own
+//! Each shooting interval has two unknowns of its own, the state at its beginning, and perhaps a third, the instant of an edge. What
+//! the shooting intervals after it say about its end is a triangle of rows; these are carried to its beginning by the motion's own
 //! derivatives, never against the flow, where they would grow without bound.
 
 use nalgebra::{DMatrix, DMatrixView};
@@ -15,21 +15,21 @@ const CARRIED: usize = UNKNOWNS - 1;
 /// Unknowns of one record alone: initial state and disturbance.
 pub(super) const OWN: usize = CARRIED - SHARED;
 
-/// Rows of one stretch, each divided by its standard deviation: unknowns, then right-hand sides.
+/// Rows of one shooting interval, each divided by its standard deviation: unknowns, then right-hand sides.
 #[derive(Clone, Debug)]
 pub(super) struct Link {
     /// Data and prior of the instant.
     pub(super) rows: DMatrix<f64>,
     /// Position and velocity at the end.
     pub(super) end: [UnknownsGradient; 2],
-    /// What the stretch's end lacks to the next one's beginning: end less beginning.
+    /// What the shooting interval's end lacks to the next one's beginning: end less beginning.
     pub(super) defect: [f64; 2],
 }
 
 /// What the whole record says about the common unknowns, and how its own follow from them.
 #[derive(Clone, Debug)]
 pub(super) struct CondensedChain {
-    /// For each stretch the row that gives its instant.
+    /// For each shooting interval the row that gives its instant.
     instants: Vec<DMatrix<f64>>,
     ends: Vec<([UnknownsGradient; 2], [f64; 2])>,
     /// Triangle of the initial state, the disturbance and the common unknowns.
@@ -58,7 +58,7 @@ fn triangle(rows: &DMatrix<f64>, columns: usize) -> DMatrix<f64> {
 }
 
 impl CondensedChain {
-    /// Eliminates from the last stretch to the first. Every link has as many right-hand sides; defects count for the first.
+    /// Eliminates from the last shooting interval to the first. Every link has as many right-hand sides; defects count for the first.
     pub(super) fn new(links: &[Link]) -> Self {
         let mut instants = Vec::with_capacity(links.len());
         let mut carried: Option<DMatrix<f64>> = None;
@@ -93,7 +93,7 @@ impl CondensedChain {
         self.triangle.view((OWN, OWN), (SHARED, self.triangle.ncols() - OWN))
     }
 
-    /// Sum over the stretches of the logarithm of the instant's information, as a standard deviation's inverse.
+    /// Sum over the shooting intervals of the logarithm of the instant's information, as a standard deviation's inverse.
     pub(super) fn log_information(&self) -> impl Iterator<Item = f64> {
         self.instants.iter().map(|row| row[(0, 0)].abs().ln())
     }
@@ -118,7 +118,7 @@ impl CondensedChain {
         self.triangle.view((0, 0), (OWN, CARRIED))
     }
 
-    /// All unknowns of every stretch, from those of the record and the common ones.
+    /// All unknowns of every shooting interval, from those of the record and the common ones.
     pub(super) fn unfold(&self, own: [f64; OWN], shared: &[f64; SHARED]) -> Vec<UnknownsGradient> {
         let mut unknowns: UnknownsGradient = [0.0; UNKNOWNS];
         unknowns[1..COMMON].copy_from_slice(&own);

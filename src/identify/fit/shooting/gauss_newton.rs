@@ -27,18 +27,34 @@ const NOISE_WEIGHT: f64 = 1e-4;
 const APPROACHED: f64 = 1e-3;
 /// Samples whose motion takes longer than handing it to another thread.
 const SAMPLES_PER_TASK: usize = 2000;
-/// Least drag coefficient that counts, against inertia over the swing: below, the vehicle coasts.
+/// Least drag coefficient that counts, against inertia over the half-period: below, the vehicle coasts.
 const LEAST_DRAG: f64 = 1e-3;
-/// Least delay that counts, against the swing.
+/// Least delay that counts, against the half-period.
 const DELAY_SHARE: f64 = 1e-2;
-/// Samples per swing while the search is far from its end.
+/// Samples per half-period while the search is far from its end.
 const COARSE: f64 = 24.0;
 /// Readings within this part of the half-period tell the state at a node.
 const NODE_REACH: f64 = 0.125;
+/// And within so many intervals between samples at least.
+const LEAST_REACH: f64 = 1.6;
+/// Noise that the search starts with, in ranges of the output.
+const FIRST_NOISE: f64 = 0.02;
+/// Residuals by which the noise of a rounding sensor is estimated.
+const MOST_RESIDUALS: usize = 4000;
+/// How far an instant may move, in standard deviations: a uniform one is within 1.7, and an edge on a sample is estimated on either side of it.
+const FARTHEST_INSTANT: f64 = 2.5;
+/// Largest step of inertia and of a drag, relative: the linearisation holds only so far.
+const LARGEST_INERTIA_STEP: f64 = 0.5;
+const LARGEST_DRAG_STEP: f64 = 2.0;
+/// The first steps, and the share of them that is made.
+const FIRST_STEPS: usize = 2;
+const FIRST_SHARE: f64 = 0.7;
 /// Delay at which the search starts, in half-periods.
 const FIRST_DELAY: f64 = 0.02;
 /// Least noise taken for a rounding sensor, in steps: with less, a step of the search sees hardly any reading.
 pub(super) const LEAST_NOISE_STEPS: f64 = 0.15;
+/// Least noise reported for a rounding sensor, in steps.
+const LEAST_REAL_NOISE_STEPS: f64 = 0.01;
 /// Least noise for any sensor, against the output's range: below it there is only rounding of the arithmetic.
 const LEAST_NOISE: f64 = 1e-10;
 
@@ -48,7 +64,7 @@ pub(super) struct ShotTrajectory<'a> {
     pub(super) record: &'a Record,
     pub(super) edges: Vec<Edge>,
     pub(super) deviations: Vec<f64>,
-    pub(super) stretches: Vec<ShootingInterval>,
+    pub(super) intervals: Vec<ShootingInterval>,
     pub(super) disturbance: f64,
     pub(super) noise: ReadingNoise,
     range: f64,
@@ -57,10 +73,10 @@ pub(super) struct ShotTrajectory<'a> {
 
 /// The model along one record, linearised.
 pub(super) struct LinearisedTrajectory {
-    /// For each stretch: sample, model output with derivatives.
+    /// For each shooting interval: sample, model output with derivatives.
     pub(super) rows: Vec<Vec<(usize, OutputSensitivity)>>,
     ends: Vec<[OutputSensitivity; 2]>,
-    /// For each stretch the edge whose instant is estimated.
+    /// For each shooting interval the edge whose instant is estimated.
     pub(super) instants: Vec<Option<usize>>,
 }
 
@@ -107,7 +123,7 @@ impl<'a> ShotTrajectory<'a> {
                 next += half_period_s;
             }
         } else {
-            // One uncertain edge to a stretch, as far from its ends as can be.
+            // One uncertain edge to a shooting interval, as far from its ends as can be.
             nodes.extend(edges.windows(2).map(|pair| f64::midpoint(acting(&pair[0]), acting(&pair[1]))));
             nodes.retain(|node| *node >= begin && *node < last);
         }
@@ -115,16 +131,16 @@ impl<'a> ShotTrajectory<'a> {
         if between == Between::Bent {
             gather(&mut edges, record.input()[0], |time| nodes.partition_point(|node| *node <= time + delay_s));
         }
-        let stretches = nodes.windows(2).enumerate().map(|(index, pair)| {
+        let intervals = nodes.windows(2).enumerate().map(|(index, pair)| {
             let from = time.partition_point(|t| *t < pair[0]);
             let to = if index + 2 == nodes.len() { time.len() } else { time.partition_point(|t| *t < pair[1]) };
-            let start = signal.state_near(pair[0], (NODE_REACH * half_period_s).max(1.6 * signal.interval_s));
+            let start = signal.state_near(pair[0], (NODE_REACH * half_period_s).max(LEAST_REACH * signal.interval_s));
             ShootingInterval { begin_s: pair[0], end_s: pair[1], samples: from..to, start }
         });
-        let stretches = stretches.collect();
+        let intervals = intervals.collect();
         let quantum = quantum.or_else(|| record.quantum()).unwrap_or(0.0);
-        let noise = ReadingNoise { std: 0.02 * range + quantum + f64::MIN_POSITIVE, quantum };
-        Self { record, deviations: vec![0.0; edges.len()], edges, stretches, disturbance, noise, range, half_period_s }
+        let noise = ReadingNoise { std: FIRST_NOISE * range + quantum + f64::MIN_POSITIVE, quantum };
+        Self { record, deviations: vec![0.0; edges.len()], edges, intervals, disturbance, noise, range, half_period_s }
     }
 
     pub(super) fn linearise(&self, shared: &CommonParameters, stride: usize) -> Result<LinearisedTrajectory, IdentifyError> {
@@ -132,25 +148,25 @@ impl<'a> ShotTrajectory<'a> {
         let acting = |k: usize| self.edges[k].time_s + self.deviations[k] + delay_s;
         let mut next = 0;
         let mut before = self.record.input()[0];
-        let mut drives = Vec::with_capacity(self.stretches.len());
-        for stretch in &self.stretches {
-            while next < self.edges.len() && acting(next) <= stretch.begin_s {
+        let mut drives = Vec::with_capacity(self.intervals.len());
+        for interval in &self.intervals {
+            while next < self.edges.len() && acting(next) <= interval.begin_s {
                 before = self.edges[next].input;
                 next += 1;
             }
             let first = next;
             let mut after = first;
-            while after < self.edges.len() && acting(after) <= stretch.end_s {
+            while after < self.edges.len() && acting(after) <= interval.end_s {
                 after += 1;
             }
             let (edges, deviations) = (&self.edges[first..after], &self.deviations[first..after]);
             drives.push((first, ActingEdges { before, edges, deviations }));
         }
-        let integrated = self.stretches.par_iter().zip(&drives).with_min_len(self.stretches_per_task()).map(
-            |(stretch, (_, drive))| {
-                let mut rows = Vec::with_capacity(stretch.samples.len() / stride + 1);
+        let integrated = self.intervals.par_iter().zip(&drives).with_min_len(self.intervals_per_task()).map(
+            |(interval, (_, drive))| {
+                let mut rows = Vec::with_capacity(interval.samples.len() / stride + 1);
                 let time = self.record.time_s();
-                let end = integrate(stretch, drive, time, (shared, self.disturbance), stride, &mut rows)?;
+                let end = integrate(interval, drive, time, (shared, self.disturbance), stride, &mut rows)?;
                 Ok((rows, end))
             },
         );
@@ -159,9 +175,9 @@ impl<'a> ShotTrajectory<'a> {
         Ok(LinearisedTrajectory { rows, ends, instants })
     }
 
-    /// Stretches that are worth another thread.
-    fn stretches_per_task(&self) -> usize {
-        1 + SAMPLES_PER_TASK * self.stretches.len() / self.record.samples()
+    /// Shooting intervals that are worth another thread.
+    fn intervals_per_task(&self) -> usize {
+        1 + SAMPLES_PER_TASK * self.intervals.len() / self.record.samples()
     }
 
     pub(super) fn residuals(&self, linearised: &LinearisedTrajectory) -> Vec<f64> {
@@ -182,7 +198,7 @@ impl<'a> ShotTrajectory<'a> {
         self.noise.std = if self.noise.quantum == 0.0 {
             rms.max(least)
         } else {
-            let thinned: Vec<f64> = residuals.iter().step_by(residuals.len() / 4000 + 1).copied().collect();
+            let thinned: Vec<f64> = residuals.iter().step_by(residuals.len() / MOST_RESIDUALS + 1).copied().collect();
             ReadingNoise::likeliest_std(&thinned, self.noise.quantum, least, rms.max(2.0 * least))
         };
     }
@@ -196,7 +212,7 @@ impl<'a> ShotTrajectory<'a> {
         mut prior: impl FnMut() -> Vec<f64>,
     ) -> Vec<Link> {
         let output = self.record.output();
-        let mut links = Vec::with_capacity(self.stretches.len());
+        let mut links = Vec::with_capacity(self.intervals.len());
         for (index, rows) in linearised.rows.iter().enumerate() {
             let mut block = DMatrix::zeros(rows.len() + 1, UNKNOWNS + 1 + sides);
             for (row, (sample, model)) in rows.iter().enumerate() {
@@ -224,7 +240,7 @@ impl<'a> ShotTrajectory<'a> {
                 None => block[(last, INSTANT)] = 1.0,
             }
             let end = linearised.ends[index];
-            let defect = match self.stretches.get(index + 1) {
+            let defect = match self.intervals.get(index + 1) {
                 Some(next) => [end[0].value - next.start.position, end[1].value - next.start.velocity],
                 None => [0.0; 2],
             };
@@ -235,12 +251,11 @@ impl<'a> ShotTrajectory<'a> {
 
     /// Moves all unknowns by `share` of the steps.
     fn advance(&mut self, steps: &[UnknownsGradient], instants: &[Option<usize>], share: f64) {
-        for ((stretch, step), instant) in self.stretches.iter_mut().zip(steps).zip(instants) {
-            stretch.start.position += share * step[POSITION];
-            stretch.start.velocity += share * step[VELOCITY];
+        for ((interval, step), instant) in self.intervals.iter_mut().zip(steps).zip(instants) {
+            interval.start.position += share * step[POSITION];
+            interval.start.velocity += share * step[VELOCITY];
             if let Some(edge) = *instant {
-                // Not beyond what is possible, but for a little: an edge on a sample is estimated on either side of it.
-                let limit = 2.5 * self.edges[edge].std_s;
+                let limit = FARTHEST_INSTANT * self.edges[edge].std_s;
                 self.deviations[edge] = (self.deviations[edge] + share * step[INSTANT]).clamp(-limit, limit);
             }
         }
@@ -252,8 +267,8 @@ impl<'a> ShotTrajectory<'a> {
     /// The noise before rounding, however small: not the one that the search works with.
     pub(super) fn real_noise(&self, linearised: &LinearisedTrajectory) -> f64 {
         let residuals = self.residuals(linearised);
-        let thinned: Vec<f64> = residuals.iter().step_by(residuals.len() / 4000 + 1).copied().collect();
-        ReadingNoise::likeliest_std(&thinned, self.noise.quantum, 0.01 * self.noise.quantum, self.noise.std)
+        let thinned: Vec<f64> = residuals.iter().step_by(residuals.len() / MOST_RESIDUALS + 1).copied().collect();
+        ReadingNoise::likeliest_std(&thinned, self.noise.quantum, LEAST_REAL_NOISE_STEPS * self.noise.quantum, self.noise.std)
     }
 
     fn log_likelihood(&self, linearised: &LinearisedTrajectory) -> f64 {
@@ -410,13 +425,12 @@ impl<'a> GaussNewton<'a> {
         for (chain, _) in &chains {
             steps.push(chain.unfold(chain.own(&shared, 0)?, &shared));
         }
-        // Far from the end the linearisation holds only so far.
         let scales = self.scales();
         let relative = |k: usize| shared[k] / scales[k];
-        let share = (0.5 / relative(0).abs()).min(1.0);
+        let share = (LARGEST_INERTIA_STEP / relative(0).abs()).min(1.0);
         let share = (1..SHARED - 1)
-            .fold(share, |share, k| if relative(k) > 2.0 { share.min(2.0 / relative(k)) } else { share });
-        let share = if self.steps < 2 { share.min(0.7) } else { share };
+            .fold(share, |share, k| if relative(k) > LARGEST_DRAG_STEP { share.min(LARGEST_DRAG_STEP / relative(k)) } else { share });
+        let share = if self.steps < FIRST_STEPS { share.min(FIRST_SHARE) } else { share };
         for ((motion, steps), (_, instants)) in self.motions.iter_mut().zip(&steps).zip(&chains) {
             motion.advance(steps, instants, share);
         }
@@ -438,7 +452,7 @@ impl<'a> GaussNewton<'a> {
     }
 
     /// What the common unknowns are measured by: inertia by itself, either drag by both at the record's typical speed, the
-    /// delay by itself or a part of the swing, so that none stands still for being near zero.
+    /// delay by itself or a part of the half-period, so that none stands still for being near zero.
     fn scales(&self) -> CommonParameters {
         let [alpha, linear, quadratic, delay_s] = self.shared;
         let typical = |of: fn(&ShotTrajectory<'_>) -> f64| self.motions.iter().map(of).fold(f64::MIN_POSITIVE, f64::max);

@@ -100,15 +100,18 @@ fn bulges(input: &[f64], before: usize) -> Bulge {
     Bulge { mean: -(alone * corner + (1.0 - alone) * curve), std: 0.0 }
 }
 
-/// Makes the instant of each stretch's largest change uncertain, by as much as the impulses within the stretch are: with what
-/// is left to chance in one place, the least unknowns do for all. `stretch_of` numbers the stretch in which an edge acts.
-pub(super) fn gather(edges: &mut [Edge], before: f64, stretch_of: impl Fn(f64) -> usize) {
+/// Most by which an edge may err, in intervals between samples: it must not change places with another.
+const LARGEST_SHIFT: f64 = 0.2;
+
+/// Makes the instant of each shooting interval's largest change uncertain, by as much as the impulses within the shooting interval are: with what
+/// is left to chance in one place, the least unknowns do for all. `interval_of` numbers the shooting interval in which an edge acts.
+pub(super) fn gather(edges: &mut [Edge], before: f64, interval_of: impl Fn(f64) -> usize) {
     let mut from = 0;
     let mut level = before;
     while from < edges.len() {
-        let stretch = stretch_of(edges[from].time_s);
+        let interval = interval_of(edges[from].time_s);
         let (mut to, mut variance, mut largest) = (from, 0.0, (0.0, from));
-        while to < edges.len() && stretch_of(edges[to].time_s) == stretch {
+        while to < edges.len() && interval_of(edges[to].time_s) == interval {
             variance += edges[to].variance;
             let change = (edges[to].input - level).abs();
             if change > largest.0 {
@@ -118,9 +121,8 @@ pub(super) fn gather(edges: &mut [Edge], before: f64, stretch_of: impl Fn(f64) -
             to += 1;
         }
         if variance > 0.0 {
-            // Not so far that it changes places with another.
             let interval_s = edges.get(largest.1 + 1).map_or(0.0, |next| 2.0 * (next.time_s - edges[largest.1].time_s));
-            edges[largest.1].std_s = (variance.sqrt() / largest.0).min(0.2 * interval_s);
+            edges[largest.1].std_s = (variance.sqrt() / largest.0).min(LARGEST_SHIFT * interval_s);
         }
         from = to;
     }

@@ -1,8 +1,8 @@
 //! Maximum likelihood on whole records: linear, quadratic or mixed drag, disturbance, initial state, perhaps the delay.
 //!
-//! Multiple shooting: the record is cut into stretches (shooting intervals) whose initial states are unknowns too until they
+//! Multiple shooting: the record is cut into shooting intervals whose initial states are unknowns too until they
 //! are continuous, so that a poor start does no harm. Between changes of the command the motion is in closed form, and dual
-//! numbers carry its derivatives. Steps are those of the generalised Gauss-Newton method, condensed from stretch to stretch at
+//! numbers carry its derivatives. Steps are those of the generalised Gauss-Newton method, condensed from shooting interval to shooting interval at
 //! a cost that grows with the samples only. Where the command changed at an unknown instant between two samples, the instant
 //! is estimated with the rest, and integrated out by Laplace's approximation where likelihoods are compared.
 

@@ -14,6 +14,11 @@ pub(super) struct ReadingNoise {
     pub(super) quantum: f64,
 }
 
+/// Standard deviations from which on the tail is its asymptotic series: three terms err by 15/5^6 there (Abramowitz and Stegun 26.2.12).
+const FAR_OUT: f64 = 5.0;
+/// The likeliest noise is found to this power of two.
+const NOISE_TOLERANCE: f64 = 0.01;
+
 /// Likelihood of one reading, about the model's output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Likelihood {
@@ -37,7 +42,7 @@ impl ReadingNoise {
         // The noise lies between these two, in standard deviations; by symmetry nearer to the lower one.
         let (distance, half) = (residual.abs() * precision, 0.5 * self.quantum * precision);
         let (low, high) = (distance - half, distance + half);
-        let (log, lower, upper) = if low > 5.0 {
+        let (log, lower, upper) = if low > FAR_OUT {
             // Far out, the nearer end decides: P = density(low)/low (1 - 1/low^2 + ...).
             let series = 1.0 - 1.0 / (low * low) + 3.0 / low.powi(4);
             let ratio = (-0.5 * (high * high - low * low)).exp();
@@ -66,7 +71,7 @@ impl ReadingNoise {
             -residuals.iter().map(|residual| noise.likelihood(*residual).log).sum::<f64>()
         };
         let (low, high) = (least.ln(), most.max(2.0 * least).ln());
-        golden_section(|ln| Some(cost(ln)), low, high, 0.01 * LN_2)
+        golden_section(|ln| Some(cost(ln)), low, high, NOISE_TOLERANCE * LN_2)
             .map_or(least, |[low, high]| f64::midpoint(low, high).exp())
     }
 }
@@ -81,19 +86,21 @@ pub(super) struct ScoreTable {
 impl ScoreTable {
     /// Cells in a standard deviation or a sensor's step, whichever is less: linear interpolation then errs by 1e-5 of the score.
     const CELLS: f64 = 128.0;
+    /// The most cells: no noise is below a part of a step.
+    const MOST_CELLS: f64 = 1e5;
     /// Reach in steps of the sensor, and in standard deviations beyond.
     const REACH: [f64; 2] = [2.0, 5.0];
 
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "below 1e5: no noise is below a part of a step"
+        reason = "at most MOST_CELLS"
     )]
     pub(super) fn new(noise: ReadingNoise) -> Self {
         let scale = if noise.quantum > 0.0 { noise.std.min(noise.quantum) } else { noise.std };
         let reach = Self::REACH[0] * noise.quantum + Self::REACH[1] * noise.std;
         let cells_per_unit = Self::CELLS / scale;
-        let cells = (reach * cells_per_unit).min(1e5) as u32;
+        let cells = (reach * cells_per_unit).min(Self::MOST_CELLS) as u32;
         let scores = (0..=cells).map(|cell| noise.likelihood(f64::from(cell) / cells_per_unit).score).collect();
         Self { noise, cells_per_unit, scores }
     }

@@ -100,7 +100,7 @@ impl GaussNewton<'_> {
                 let residuals = motion.residuals(rows);
                 let output: Vec<f64> = rows.rows.iter().flatten().map(|(_, model)| model.value).collect();
                 let start =
-                    motion.stretches.first().map_or(State { position: 0.0, velocity: 0.0 }, |first| first.start);
+                    motion.intervals.first().map_or(State { position: 0.0, velocity: 0.0 }, |first| first.start);
                 let first_sample = rows.rows.iter().flatten().next().map_or(0, |(sample, _)| *sample);
                 let readings = &motion.record.output()[first_sample..];
                 let (rms, std) = (mean_square(&residuals, 0.0).sqrt(), mean_square(readings, mean(readings)).sqrt());
@@ -111,7 +111,7 @@ impl GaussNewton<'_> {
                         value: motion.disturbance,
                         spread: Some(ConfidenceInterval::normal(motion.disturbance, variance.sqrt())),
                     },
-                    begin_s: motion.stretches.first().map_or(0.0, |first| first.begin_s),
+                    begin_s: motion.intervals.first().map_or(0.0, |first| first.begin_s),
                     start,
                     first_sample,
                     noise: if motion.noise.quantum > 0.0 { motion.real_noise(rows) } else { motion.noise.std },

@@ -1,4 +1,4 @@
-//! Motion of the model over a stretch of the record, with its derivatives.
+//! Motion of the model over a shooting interval of the record, with its derivatives.
 
 use super::input::Edge;
 use crate::identify::answer::IdentifyError;
@@ -7,7 +7,7 @@ use crate::numeric::{self, Real, Scalar};
 type Partials = numeric::Gradient<f64, 4>;
 use crate::plant::{DragAxis, State};
 
-/// Unknowns of a stretch: instant of its uncertain edge, state at its beginning, disturbance, then what is common to all.
+/// Unknowns of a shooting interval: instant of its uncertain edge, state at its beginning, disturbance, then what is common to all.
 pub(super) const UNKNOWNS: usize = 8;
 pub(super) const INSTANT: usize = 0;
 pub(super) const POSITION: usize = 1;
@@ -29,18 +29,18 @@ pub(super) struct OutputSensitivity {
     pub(super) gradient: UnknownsGradient,
 }
 
-/// A stretch of the record: from one node to the next.
+/// A shooting interval of the record: from one node to the next.
 #[derive(Clone, Debug)]
 pub(super) struct ShootingInterval {
     pub(super) begin_s: f64,
     pub(super) end_s: f64,
     /// Samples in it: indices into the record.
     pub(super) samples: core::ops::Range<usize>,
-    /// Where the model begins it; not where the stretch before ends, until the estimate has settled.
+    /// Where the model begins it; not where the shooting interval before ends, until the estimate has settled.
     pub(super) start: State<f64>,
 }
 
-/// Edges that act during a stretch, and the command before them.
+/// Edges that act during a shooting interval, and the command before them.
 pub(super) struct ActingEdges<'a> {
     pub(super) before: f64,
     pub(super) edges: &'a [Edge],
@@ -102,14 +102,14 @@ impl ConstantForceFlow {
     }
 }
 
-/// Index, among the edges of a stretch, of the one whose instant is estimated.
+/// Index, among the edges of a shooting interval, of the one whose instant is estimated.
 pub(super) fn uncertain(edges: &[Edge]) -> Option<usize> {
     edges.iter().position(|edge| edge.std_s > 0.0)
 }
 
-/// Outputs at the stretch's samples (every `stride`-th) into `rows`, and position and velocity at its end.
+/// Outputs at the shooting interval's samples (every `stride`-th) into `rows`, and position and velocity at its end.
 pub(super) fn integrate(
-    stretch: &ShootingInterval,
+    interval: &ShootingInterval,
     drive: &ActingEdges<'_>,
     time_s: &[f64],
     (shared, disturbance): (&CommonParameters, f64),
@@ -126,9 +126,9 @@ pub(super) fn integrate(
         shared: *shared,
         disturbance,
         input: drive.before,
-        now: exactly(stretch.begin_s),
-        position: seed(stretch.start.position, POSITION),
-        velocity: seed(stretch.start.velocity, VELOCITY),
+        now: exactly(interval.begin_s),
+        position: seed(interval.start.position, POSITION),
+        velocity: seed(interval.start.velocity, VELOCITY),
     };
     let free = uncertain(drive.edges);
     let mut next = 0;
@@ -150,11 +150,11 @@ pub(super) fn integrate(
         }
         Ok::<(), IdentifyError>(())
     };
-    for sample in stretch.samples.clone().step_by(stride) {
+    for sample in interval.samples.clone().step_by(stride) {
         act(time_s[sample], &mut flow)?;
         let [output, _] = flow.at(&exactly(time_s[sample]))?;
         rows.push((sample, output));
     }
-    act(stretch.end_s, &mut flow)?;
-    flow.at(&exactly(stretch.end_s))
+    act(interval.end_s, &mut flow)?;
+    flow.at(&exactly(interval.end_s))
 }
