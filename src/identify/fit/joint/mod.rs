@@ -160,12 +160,6 @@ fn start(rows: &[FeatureRow], law: DragLaw, delay: Delay) -> Result<DragAxis<f64
 }
 
 impl Joint {
-    /// The drag law fitted.
-    #[must_use]
-    pub fn law(&self) -> DragLaw {
-        self.law
-    }
-
     /// The model, without a disturbance: that belongs to an experiment.
     #[must_use]
     pub fn axis(&self) -> &DragAxis<f64> {

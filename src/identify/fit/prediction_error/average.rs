@@ -47,7 +47,7 @@ const SUBTLE: [Parameter; 9] = [
 
 /// Standard deviations of the structural parameters of a model under white errors, zero for those not estimated; `None` where the
 /// record leaves some of them open.
-pub(super) fn deviations(fitted: &Fitted, observations: &Observations) -> Option<[f64; Parameter::COUNT]> {
+fn deviations(fitted: &Fitted, observations: &Observations) -> Option<[f64; Parameter::COUNT]> {
     let free = scoring::movable(&fitted.model, &fitted.score, observations);
     let mut deviations = [0.0; Parameter::COUNT];
     for (place, index) in free.iter().enumerate() {
@@ -154,16 +154,6 @@ impl<'a> Average<'a> {
         let (low, high) = (quantile(&components, 0.025), quantile(&components, 0.975));
         // One that stands far away with less weight than a tail moves the mean, but no end of the interval.
         Some(Estimate { value: mean.max(low).min(high), spread: Some(ConfidenceInterval { std, low, high }) })
-    }
-
-    /// Deviations of the structural parameters of one model; `None` where it does not count.
-    pub(super) fn deviations(&self, fitted: &Fitted) -> Option<[f64; Parameter::COUNT]> {
-        self.members.iter().find(|member| core::ptr::eq(member.1, fitted)).map(|member| member.2)
-    }
-
-    /// Share of one model.
-    pub(super) fn weight(&self, fitted: &Fitted) -> f64 {
-        self.members.iter().find(|member| core::ptr::eq(member.1, fitted)).map_or(0.0, |member| member.0)
     }
 
     /// Weight of the models for which something holds.

@@ -166,15 +166,19 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
     if observations.outliers > 0 {
         reasons.push(Reason::Outliers { count: observations.outliers });
     }
-    let tests = residuals::Tests::of(best, observations);
-    reasons.extend(tests.reasons());
+    let (probability, apart) = residuals::halves(best, observations);
+    if probability < residuals::DISAGREE {
+        reasons.push(Reason::HalvesDisagree { probability });
+    }
     let exact = |parameter: Parameter| Estimate { value: best.model.value(parameter), spread: None };
     let estimate = |parameter: Parameter| average.estimate(parameter, factor).unwrap_or_else(|| exact(parameter));
     let present = |parameter: Parameter| best.model.is_free(parameter).then(|| estimate(parameter));
     let mut alpha = estimate(Parameter::Alpha);
-    if let Some(spread) = &mut alpha.spread {
-        (spread.low, spread.high) = (spread.low - tests.apart, spread.high + tests.apart);
-        spread.std = spread.std.hypot(tests.apart);
+    if let Some(spread) = &mut alpha.spread
+        && probability < residuals::DISAGREE
+    {
+        (spread.low, spread.high) = (spread.low - apart, spread.high + apart);
+        spread.std = spread.std.hypot(apart);
     }
     reasons.extend(Reason::too_wide(alpha));
     if !best.settled {
@@ -215,13 +219,16 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
         trust,
         reasons,
     };
-    let mut candidates: Vec<Candidate> =
-        found.tried.iter().map(|fitted| candidate(fitted, &average, known, search)).collect();
-    let value = |c: &Candidate| 2.0 * c.log_likelihood - observations.price(c.freedom);
-    candidates.sort_by(|a, b| value(b).total_cmp(&value(a)));
-    let seen = observations.time_s[observations.first..].iter();
-    let innovations = seen.zip(&best.pass.innovations).map(|(t, innovation)| (*t, innovation.standardised())).collect();
-    RecordAnswer { reported, candidates, innovations, effective_samples: count, command_range: observations.range }
+    let mut tried: Vec<&Fitted> = found.tried.iter().collect();
+    let value = |fitted: &Fitted| 2.0 * fitted.log_likelihood - observations.price(fitted.model.freedom());
+    tried.sort_by(|a, b| value(b).total_cmp(&value(a)));
+    let candidate = |fitted: &Fitted| Candidate {
+        terms: terms_of(fitted, known),
+        clock: fitted.model.clock,
+        values: fitted.model.values,
+    };
+    let candidates = tried.into_iter().map(candidate).collect();
+    RecordAnswer { reported, candidates, command_level: 0.5 * observations.range }
 }
 
 /// The drag laws beside each other, with the terms of the best model.
@@ -231,25 +238,6 @@ fn laws_of(found: &SearchOutcome, best: &Fitted) -> LawEvidence {
         let alike = found.tried.iter().filter(|fitted| fitted.model.is_alike(&model));
         alike.map(|fitted| fitted.log_likelihood).reduce(f64::max)
     }))
-}
-
-fn candidate(fitted: &Fitted, average: &Average<'_>, known: KnownBefore, search: &StructureSearch<'_>) -> Candidate {
-    let deviations =
-        average.deviations(fitted).or_else(|| average::deviations(fitted, search.observations(&fitted.model)));
-    let model = &fitted.model;
-    Candidate {
-        drag: [model.is_free(Parameter::LinearDrag), model.is_free(Parameter::QuadraticDrag)],
-        terms: terms_of(fitted, known),
-        switching: model.switching,
-        clock: model.clock,
-        log_likelihood: fitted.log_likelihood,
-        freedom: model.freedom(),
-        weight: average.weight(fitted),
-        values: model.values,
-        deviations: deviations.unwrap_or([f64::INFINITY; Parameter::COUNT]),
-        settled: fitted.settled,
-        iterations: fitted.iterations,
-    }
 }
 
 /// Root mean square about the mean: what is left where no model follows.

@@ -3,38 +3,18 @@
 use super::model::Parameter;
 use super::observations::Observations;
 use super::scoring::{self, Fitted};
-use crate::identify::answer::Reason;
 use crate::identify::answer::distribution::chi_square_tail;
 
-/// Results of the tests.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Tests {
-    /// Probability by chance that the halves disagree as much.
-    halves: f64,
-    /// Half the difference of the inertias that they want.
-    pub(super) apart: f64,
-}
-
 /// Below this probability the halves disagree.
-const DISAGREE: f64 = 1e-4;
-impl Tests {
-    pub(super) fn of(fitted: &Fitted, observations: &Observations) -> Self {
-        let (halves, apart) = halves(fitted, observations).unwrap_or((1.0, 0.0));
-        Self { halves, apart: if halves < DISAGREE { apart } else { 0.0 } }
-    }
+pub(super) const DISAGREE: f64 = 1e-4;
 
-    pub(super) fn reasons(&self) -> Vec<Reason> {
-        let mut reasons = Vec::new();
-        if self.halves < DISAGREE {
-            reasons.push(Reason::HalvesDisagree { probability: self.halves });
-        }
-        reasons
-    }
+/// Probability that the scores of the two halves differ so much by chance, and half the difference of the inertias that they want: a
+/// score test of constant parameters (Nyblom 1989 with one known instant). Certainty where a half leaves parameters open.
+pub(super) fn halves(fitted: &Fitted, observations: &Observations) -> (f64, f64) {
+    compared(fitted, observations).unwrap_or((1.0, 0.0))
 }
 
-/// Probability that the scores of the two halves differ so much by chance: a score test of constant parameters (Nyblom 1989
-/// with one known instant).
-fn halves(fitted: &Fitted, observations: &Observations) -> Option<(f64, f64)> {
+fn compared(fitted: &Fitted, observations: &Observations) -> Option<(f64, f64)> {
     let free: Vec<usize> = scoring::movable(&fitted.model, &fitted.score, observations)
         .into_iter()
         .filter(|index| *index != Parameter::Position as usize && *index != Parameter::Velocity as usize)

@@ -15,7 +15,6 @@ pub(super) struct Fitted {
     pub(super) pass: FilterPass,
     /// Whether the search came to rest.
     pub(super) settled: bool,
-    pub(super) iterations: usize,
 }
 
 /// Steps of one search.
@@ -194,7 +193,7 @@ pub(super) fn climb_beyond(
         let promised = solve(&score.structure_information, &score.structure, &structure, LEAST_DAMPING);
         settled = promised.is_some_and(|(_, gain)| gain < NEARLY_SETTLED);
     }
-    Some(Fitted { log_likelihood: pass.log_likelihood, score: pass.score(), pass, model, settled, iterations: steps })
+    Some(Fitted { log_likelihood: pass.log_likelihood, score: pass.score(), pass, model, settled })
 }
 
 /// Numbers of the structural parameters that may move: not those on a bound that the gradient points beyond.

@@ -62,7 +62,7 @@ pub(super) struct Drawn {
 impl Drawn {
     /// Everything of a record of this level, in the law's units.
     pub(super) fn in_its_units(&self, answer: &RecordAnswer) -> Reported {
-        let factor = self.law.factor(answer.level()).map_or(1.0, f64::recip);
+        let factor = self.law.factor(answer.command_level).map_or(1.0, f64::recip);
         answer.reported.clone().in_units(factor)
     }
 }
@@ -119,7 +119,7 @@ impl CommandLevels {
     pub(super) fn of(answers: &[RecordAnswer]) -> Option<Self> {
         let alphas = known(&answers.iter().map(|answer| answer.reported.alpha).collect::<Vec<_>>())?;
         let levels =
-            Self(answers.iter().zip(alphas).map(|(answer, (value, std))| (answer.level(), value, std)).collect());
+            Self(answers.iter().zip(alphas).map(|(answer, (value, std))| (answer.command_level, value, std)).collect());
         (levels.largest() > OTHER_LEVEL * levels.least()).then_some(levels)
     }
 

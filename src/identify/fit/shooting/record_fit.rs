@@ -203,13 +203,6 @@ impl RecordFit {
     pub fn estimate(&self, parameter: AxisParameter) -> Estimate {
         self.estimates[parameter as usize]
     }
-    /// Correlation of the errors of two parameters; `None` unless both have one.
-    #[must_use]
-    pub fn correlation(&self, first: AxisParameter, second: AxisParameter) -> Option<f64> {
-        let (i, j) = (first as usize, second as usize);
-        let scale = (self.covariance[i][i] * self.covariance[j][j]).sqrt();
-        (scale > 0.0).then(|| self.covariance[i][j] / scale)
-    }
     /// The records, in the order given.
     #[must_use]
     pub fn records(&self) -> &[FittedRecord] {
