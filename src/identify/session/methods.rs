@@ -1,4 +1,4 @@
-//! Every method asked for, tried on the same records. One that refuses leaves its reason, and the others their results.
+//! Every method asked for, on the same records. A method that refuses leaves its reason.
 
 use super::guaranteed::Guaranteed;
 use super::identification::{Caution, Identification, MethodRefusal, Source, Validation};
@@ -14,7 +14,7 @@ use crate::identify::fit::select::likelihood::{Choice, fit_each};
 use crate::identify::fit::shooting::RecordFit;
 use crate::identify::{exact, iso};
 
-/// What has been found so far.
+/// The results so far.
 pub(super) struct Findings<'a> {
     settings: &'a Settings,
     sources: Vec<Source>,
@@ -29,7 +29,7 @@ pub(super) struct Findings<'a> {
     failure: Refusal,
 }
 
-/// What one method gave under one law.
+/// A model by one method under one law, or the refusal.
 type Attempt = (Method, DragLaw, Result<Model, IdentifyError>);
 
 impl<'a> Findings<'a> {

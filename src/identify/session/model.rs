@@ -9,7 +9,7 @@ use crate::identify::fit::shooting::RecordFit;
 use crate::identify::iso;
 use crate::plant::DragAxis;
 
-/// What one method found under one drag law.
+/// A model by one method under one drag law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Model {
     /// The method.

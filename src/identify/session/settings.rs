@@ -1,4 +1,4 @@
-//! What to find, and what is known beforehand.
+//! Settings of an identification: methods, drag law, delay, and the assumptions of the bounds.
 
 use core::num::NonZeroUsize;
 
@@ -47,7 +47,7 @@ impl Method {
     }
 }
 
-/// What to find, and what is known beforehand. The default is that of the command: every method, every drag law, the delay
+/// Methods, drag law, delay, and the assumptions of the guaranteed bounds. The default is that of the command: every method, every drag law, the delay
 /// estimated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]

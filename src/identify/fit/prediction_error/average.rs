@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::lateness;
+use super::confounded_lags;
 use super::model::{Parameter, VehicleModel};
 use super::observations::Observations;
 use super::rounding;
@@ -20,10 +20,10 @@ struct MixtureComponent {
 
 /// Intervals of terms that were chosen by the record are wider by this.
 pub(super) const CHOSEN: f64 = 1.15;
-/// Likelihoods of models that differ in what makes late count by this power: among stand-ins for the true one they say too much.
+/// Power of the likelihoods of models with confounded lags: where none of them is the true model, the likelihood is overconfident.
 const TEMPER: f64 = 0.5;
 
-/// Odds against a lateness beyond the delay: without them what hardly any record rules out would widen the interval of each.
+/// Prior odds against each lag beyond the delay: hardly any record rules a small one out, and without them it would widen every interval.
 const LATE_ODDS: f64 = 6.0;
 /// Logarithm of the odds against each parameter that is none of the [`SUBTLE`] ones: these move the inertia, the others hardly.
 const PLAIN_LOG_ODDS: f64 = 0.25;
@@ -69,9 +69,9 @@ fn under_rounding(fitted: &Fitted, observations: &Observations, deviations: &mut
 
 /// Logarithm of the odds against what a model has, before the record is looked at.
 pub(super) fn log_odds_against(model: &VehicleModel, known_delay_s: Option<f64>) -> f64 {
-    let (had, ways) = lateness::ways(model, known_delay_s);
+    let (had, ways) = confounded_lags::ways(model, known_delay_s);
     let subtle = SUBTLE.iter().filter(|parameter| model.is_free(**parameter)).count();
-    // Each way to be late is one of several stand-ins, which share the odds.
+    // The confounded lags share the odds.
     had as f64 * (LATE_ODDS * ways as f64).ln() + PLAIN_LOG_ODDS * (model.freedom() - subtle) as f64
 }
 
@@ -89,7 +89,7 @@ impl<'a> Average<'a> {
     ) -> Self {
         let best = &found.tried[found.best];
         let top = value(best);
-        let temper = if lateness::is_in(&best.model) { TEMPER } else { 1.0 };
+        let temper = if confounded_lags::is_in(&best.model) { TEMPER } else { 1.0 };
         let mut members: Vec<(f64, &Fitted, [f64; Parameter::COUNT])> = Vec::new();
         for fitted in &found.tried {
             let weight = (temper * (value(fitted) - top)).exp();
@@ -110,7 +110,7 @@ impl<'a> Average<'a> {
                 members.push((weight, fitted, deviations));
             }
         }
-        // A model that hardly gains on one that it contains only says what a parameter without effect leaves open.
+        // A model that contains another and hardly gains on it has a parameter without effect.
         let idle = |(_, fitted, _): &(f64, &Fitted, [f64; Parameter::COUNT])| {
             members.iter().any(|(_, other, _)| {
                 contains(&fitted.model, &other.model)

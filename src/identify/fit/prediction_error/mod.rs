@@ -3,11 +3,11 @@
 //!
 //! The vehicle is
 //! `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + memory s + k x = a(t - T_d) + delta + w(t)`,
-//! `tau a' = u - a`, `memory_s s' = x' - s`, `y = x + e`, a continuous-discrete stochastic state-space model (Jazwinski 1970; Kristensen, Madsen and Jorgensen 2004; Ljung 1999,
-//! chapter 7). Inertia, drag, disturbance and white noise are always there. A lag, a limited rate, a restoring force, cubic
-//! drag, drag that differs by side, Coulomb friction, drag that follows the speed late, a filter of the sensor, another delay than the one given, a process force, coloured noise, and instants that err are terms: each is tried,
-//! and joins where the record is enough likelier for it. All models tried are averaged, so that an interval allows for the
-//! choice among them too.
+//! `tau a' = u - a`, `memory_s s' = x' - s`, `y = x + e`, a continuous-discrete stochastic state-space model (Jazwinski 1970;
+//! Kristensen, Madsen and Jorgensen 2004; Ljung 1999, chapter 7). Inertia, drag, disturbance and white noise are always there. Terms are a lag, a limited rate, a restoring force, cubic
+//! and one-sided drag, Coulomb friction, fluid memory, a filter of the sensor and a delay other than the one given; a process force,
+//! coloured noise and jitter. Each is tried, and joins where the record is enough likelier for it. All models tried are averaged, so
+//! that an interval allows for the choice among them.
 //! Where readings are rounded, their errors belong together as far as the motion says, and the interval follows.
 //!
 //! What it does not guarantee: a term near its threshold of detection may be left out, and a structure that no term has may
@@ -19,7 +19,7 @@ mod candidate;
 mod filter;
 pub(crate) mod information;
 mod instants;
-mod lateness;
+mod confounded_lags;
 mod model;
 mod motion;
 mod observations;

@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 use rayon::prelude::*;
 
 use super::filter;
-use super::lateness;
+use super::confounded_lags;
 use super::model::{NoiseParameter, Parameter, VehicleModel};
 use super::observations::{Observations, PRICE};
 use super::scoring::{Fitted, MOST_STEPS, climb, climb_beyond, climb_within};
@@ -65,7 +65,7 @@ const RELEASED_NOISE: f64 = 2.0;
 /// Least white variance of a start, in squares of the output's range.
 const FIRST_VARIANCE: f64 = 1e-4;
 
-/// What is known before the record is read.
+/// The delay and the drag law, where they are known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct KnownBefore {
     pub(super) delay_s: Option<f64>,
@@ -242,7 +242,7 @@ impl<'a> StructureSearch<'a> {
         Some((self, found))
     }
 
-    /// From models that are fitted: terms join, the lateness is looked for anew, what is not needed leaves.
+    /// From models that are fitted: terms join, confounded lags replace each other, unneeded terms leave.
     fn search(&self, mut tried: Vec<Fitted>) -> SearchOutcome {
         let start = self.best(&tried);
         // Noise and process force can hide a structure: where they come first, the structure alone is tried too.
@@ -262,7 +262,7 @@ impl<'a> StructureSearch<'a> {
             self.grow(&mut tried, grown, |_| true);
             best = self.best(&tried);
         }
-        best = self.late_otherwise(&mut tried, best);
+        best = self.confounded_otherwise(&mut tried, best);
         // Leave out what is no longer needed, drag terms too.
         loop {
             let current = tried[best].clone();
@@ -282,11 +282,11 @@ impl<'a> StructureSearch<'a> {
         SearchOutcome { tried, best }
     }
 
-    /// What makes the vehicle late is looked for anew; returns the number of the best model.
-    fn late_otherwise(&self, tried: &mut Vec<Fitted>, from: usize) -> usize {
+    /// Replaces the confounded lags by each other; returns the number of the best model.
+    fn confounded_otherwise(&self, tried: &mut Vec<Fitted>, from: usize) -> usize {
         let current = tried[from].clone();
         let switched = self.observations(&current.model).switched;
-        let mut others = lateness::chains(&current.model, self.known.delay_s, switched);
+        let mut others = confounded_lags::chains(&current.model, self.known.delay_s, switched);
         others.retain(|model| !tried.iter().any(|fitted| fitted.model.is_alike(model)));
         let worth = current.log_likelihood - COUNTING;
         let ends: Vec<Fitted> = others
@@ -294,16 +294,16 @@ impl<'a> StructureSearch<'a> {
             .filter_map(|model| climb_beyond(self.observations(&model), model, MOST_STEPS, worth))
             .collect();
         tried.extend(ends);
-        if self.known.delay_s.is_none() && lateness::is_in(&current.model) {
-            tried.extend(self.late_from_afar(&current.model));
+        if self.known.delay_s.is_none() && confounded_lags::is_in(&current.model) {
+            tried.extend(self.restarted_lags(&current.model));
         }
         let best = self.best(tried);
         if best == from { from } else { self.grow(tried, best, |_| true) }
     }
 
-    /// What makes late, one at a time, from equations of motion solved for every delay: inertia and lateness are confused, and a
-    /// wrong pair holds a search.
-    fn late_from_afar(&self, model: &VehicleModel) -> Vec<Fitted> {
+    /// Restarts each lag-like term from least squares over a grid of delays: inertia and total lag are nearly confounded, and a poor
+    /// start traps the search.
+    fn restarted_lags(&self, model: &VehicleModel) -> Vec<Fitted> {
         let observations = self.observations(model);
         let delays = start::at_every_delay(observations);
         let from = |term: &Term| {
@@ -314,7 +314,7 @@ impl<'a> StructureSearch<'a> {
             });
             self.climb_from(starts.collect(), f64::NEG_INFINITY)
         };
-        lateness::terms(observations.switched).par_iter().filter_map(from).collect()
+        confounded_lags::terms(observations.switched).par_iter().filter_map(from).collect()
     }
 
     /// A model with the other drag laws, as far as they have not been tried, so that the laws can be compared.

@@ -103,8 +103,8 @@ fn bulges(input: &[f64], before: usize) -> Bulge {
 /// Most by which an edge may err, in intervals between samples: it must not change places with another.
 const LARGEST_SHIFT: f64 = 0.2;
 
-/// Makes the instant of each shooting interval's largest change uncertain, by as much as the impulses within the shooting interval are: with what
-/// is left to chance in one place, the least unknowns do for all. `interval_of` numbers the shooting interval in which an edge acts.
+/// Makes the instant of the largest change in each shooting interval uncertain, by as much as the impulses within the interval are: one
+/// instant per interval is the least number of unknowns. `interval_of` numbers the interval in which an edge acts.
 pub(super) fn gather(edges: &mut [Edge], before: f64, interval_of: impl Fn(f64) -> usize) {
     let mut from = 0;
     let mut level = before;

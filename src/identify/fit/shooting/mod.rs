@@ -26,7 +26,7 @@ use crate::identify::answer::{Delay, DragLaw, IdentifyError};
 use crate::identify::signal::is_switched;
 use gauss_newton::{GaussNewton, StartingPoint};
 
-/// What to fit, and what is known.
+/// The fit of one drag law.
 ///
 /// ```
 /// use selfosc::experiment::{SimulatedExperiment, Sensor};

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use rayon::prelude::*;
 
 use super::super::instants;
-use super::super::lateness;
+use super::super::confounded_lags;
 use super::super::model::VehicleModel;
 use super::super::observations::Observations;
 use super::super::scoring::{Fitted, climb};
@@ -14,8 +14,7 @@ use super::{StructureSearch, reading_index};
 impl StructureSearch<'_> {
     /// Places the switchings in gaps where the likeliest model of each reading makes the record likeliest; whether any of them moved.
     ///
-    /// What makes late and where the command changed stand in for each other, so that models that are late in other ways get
-    /// instants of their own before they are compared.
+    /// Total lag and instants of switching are confounded: models with other lags get instants of their own before the comparison.
     pub(super) fn read_gaps(&mut self, tried: &[Fitted]) -> bool {
         let told = |model: &&VehicleModel| {
             let told = instants::told(self.observations(model), model)?;
@@ -25,7 +24,7 @@ impl StructureSearch<'_> {
             Some((2.0 * log_likelihood - told.price(model.freedom()), model, told))
         };
         let mut ends: Vec<(f64, VehicleModel, Observations)> =
-            self.late_in_any_way(tried).par_iter().filter_map(told).collect();
+            self.confounded_models(tried).par_iter().filter_map(told).collect();
         ends.sort_by(|a, b| b.0.total_cmp(&a.0));
         let readings = [const { OnceLock::new() }; 4];
         let mut moved = false;
@@ -42,10 +41,10 @@ impl StructureSearch<'_> {
         moved
     }
 
-    /// The best model of each reading, and those that differ from the best of all in what makes late alone.
-    fn late_in_any_way<'b>(&self, tried: &'b [Fitted]) -> Vec<&'b VehicleModel> {
+    /// The best model of each reading, and those that differ from the best of all in their confounded lags alone.
+    fn confounded_models<'b>(&self, tried: &'b [Fitted]) -> Vec<&'b VehicleModel> {
         let best = &tried[self.best(tried)].model;
-        let others = lateness::chains(best, self.known.delay_s, self.observations(best).switched);
+        let others = confounded_lags::chains(best, self.known.delay_s, self.observations(best).switched);
         let mut order: Vec<&Fitted> = tried.iter().collect();
         order.sort_by(|a, b| self.value(b).total_cmp(&self.value(a)));
         let mut models: Vec<&VehicleModel> = Vec::new();

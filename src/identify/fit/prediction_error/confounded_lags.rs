@@ -1,22 +1,22 @@
-//! What makes the vehicle late: a delay, a lag, a limited rate and a filter of the sensor look much alike, and the first of them
-//! that joins need not be the one at work. So all of them, one and two at a time, are given the lateness found.
+//! Confounded lags: a delay, a lag, a limited rate and a filter of the sensor shift the phase alike, and the first of them that joins
+//! need not be the one at work. Hence models with each one and each two of them share the total lag found.
 
 use super::model::{Parameter, VehicleModel};
 use crate::identify::answer::Term;
 
-/// The parameters that a delay given leaves, with the mean lateness that a unit of each makes.
+/// The parameters beside the delay, with the mean lag per unit of each.
 const LATE: [(Term, Parameter, f64); 3] = [
     (Term::Lag, Parameter::LagS, 1.0),
     (Term::RateLimit, Parameter::RampS, 0.5),
     (Term::SensorFilter, Parameter::FilterS, 1.0),
 ];
 
-/// Mean lateness by all but the delay, in s.
-fn lateness_s(model: &VehicleModel) -> f64 {
+/// Total lag beside the delay, in s.
+fn total_lag_s(model: &VehicleModel) -> f64 {
     LATE.iter().map(|(_, parameter, mean)| mean * model.value(*parameter)).sum()
 }
 
-/// What can make late: a rate is limited only where the command is switched.
+/// The terms that lag: a rate is limited only where the command is switched.
 pub(super) fn terms(switched: bool) -> Vec<Term> {
     let mut terms = vec![Term::Lag, Term::SensorFilter];
     terms.extend(switched.then_some(Term::RateLimit));
@@ -28,18 +28,18 @@ pub(super) fn is_in(model: &VehicleModel) -> bool {
     LATE.iter().any(|(term, ..)| term.is_in(model))
 }
 
-/// In how many ways a model is late beyond the delay given, and in how many it could be.
+/// Number of lags that a model has beyond the delay given, and the number that it could have.
 pub(super) fn ways(model: &VehicleModel, known_delay_s: Option<f64>) -> (usize, usize) {
     let given = known_delay_s.is_some();
     let had = LATE.iter().filter(|(term, ..)| term.is_in(model)).count();
     (had + usize::from(given && Term::Delay.is_in(model)), LATE.len() + usize::from(given))
 }
 
-/// The model with its lateness shared among every one and every two of what makes late; nothing for a model that has none of
-/// them, or whose delay is the one given.
+/// The models that share the total lag among each one and each two of the confounded lags; none for a model without a lag, or with
+/// the delay given.
 pub(super) fn chains(model: &VehicleModel, known_delay_s: Option<f64>, switched: bool) -> Vec<VehicleModel> {
     let delay_s = model.value(Parameter::DelayS);
-    let beyond_s = lateness_s(model) + known_delay_s.map_or(0.0, |known| delay_s - known);
+    let beyond_s = total_lag_s(model) + known_delay_s.map_or(0.0, |known| delay_s - known);
     if !is_in(model) && (known_delay_s.is_none() || !Term::Delay.is_in(model)) {
         return Vec::new();
     }
