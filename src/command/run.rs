@@ -17,7 +17,8 @@ use super::number::positive;
 use super::{CommandError, Outcome};
 use crate::experiment::Columns;
 use crate::files::Files;
-use crate::identify::{DragLaw, Refused, Session, Settings};
+use crate::identify::document::RefusalDocument;
+use crate::identify::{DragLaw, Session, Settings};
 use crate::on_board::{Coordinate, Experiment, Phase, Protocol, Step};
 use display::Display;
 use flags::ProtocolArguments;
@@ -166,7 +167,7 @@ fn conclusion(experiment: &Experiment<f64>, protocol: &Protocol<f64>, log: &str)
     let session = Session::new(Settings::default()).with_columns(columns).reader("the experiment", log.as_bytes());
     let (mut content, identified) = match session.and_then(Session::identify) {
         Ok(found) => (json!(found.conclusion()), found.reported().is_some()),
-        Err(refusal) => (json!(Refused::from(&refusal)), false),
+        Err(refusal) => (json!(RefusalDocument::from(&refusal)), false),
     };
     let outcome = experiment.outcome();
     let fault = match experiment.phase() {

@@ -3,11 +3,11 @@
 //! It takes the oscillation for a sinusoid. The error that this makes depends on the plant and is not in the result; the
 //! exact orbits give it.
 
-use super::IdentifyError;
-use super::error::READ_AGAIN;
+use super::answer::{IdentifyError, READ_AGAIN};
 use crate::describing::{ClosedForm, DescribingFunction};
+use crate::features::Features;
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
-use crate::numeric::{Limit, Real, domain};
+use crate::numeric::{Limit, Real, Scalar, domain};
 
 /// What the method reads off a record: means over its cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +39,34 @@ pub struct Parameters<T> {
     pub beta_quadratic: T,
     /// Disturbance by the one-tone input's own mean output, in command units.
     pub disturbance: T,
+}
+
+impl<S: Scalar> Oscillation<S> {
+    /// The means over steady cycles (steps 1 to 3 of the paper's procedure), with the level of the relay and the delay of the
+    /// loop, which a record alone does not show. Condition 40 (step 4) is checked when parameters are asked for (step 5).
+    ///
+    /// ```
+    /// use selfosc::experiment::SimulatedExperiment;
+    /// use selfosc::features::RecordFeatures;
+    /// use selfosc::identify::iso::Oscillation;
+    /// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
+    /// let axis = DragAxis::quadratic(1.0, 0.5)?;
+    /// let record = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 100.0)?.run(60.0)?;
+    /// let found = RecordFeatures::of(&record)?;
+    /// let parameters = Oscillation::of(&found.features, found.relay.level, 0.0).identify()?;
+    /// assert!((parameters.alpha - 1.0).abs() < 0.05);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    pub fn of(features: &Features<S>, relay_level: S, delay_s: S) -> Self {
+        Self {
+            relay_level,
+            switch_level: features.switch_level.mean,
+            amplitude: features.amplitude.mean,
+            bias: features.bias.mean,
+            period_s: features.period_s.mean,
+            delay_s,
+        }
+    }
 }
 
 impl<T: Real> Oscillation<T> {

@@ -14,8 +14,8 @@ use super::{
     AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Evidence, Verdict, claim, sample, tolerance,
 };
 use crate::describing::{DescribingFunction, by_quadrature};
+use crate::identify::fit::select::pairwise::{Decision, decide, relative_spread_percent};
 use crate::identify::iso::{Oscillation, parameters};
-use crate::identify::select::pairwise::{Decision, decide, relative_spread_percent};
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
 
 /// Features of an oscillation that meets condition 40, with room to differentiate.
