@@ -1,5 +1,7 @@
 //! Why a record has no features.
 
+use crate::numeric::OutOfDomain;
+
 /// Why a record shows no steady self-oscillation. Values are in the record's units.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -71,6 +73,9 @@ pub enum FeatureError {
         /// Change of the middle, in amplitudes.
         amplitudes: f64,
     },
+    /// A mean or a spread that the arithmetic does not have.
+    #[error(transparent)]
+    OutOfDomain(#[from] OutOfDomain),
 }
 
 impl FeatureError {
@@ -86,6 +91,7 @@ impl FeatureError {
             Self::Growing { .. } => "growing",
             Self::Decaying { .. } => "decaying",
             Self::Drift { .. } => "drift",
+            Self::OutOfDomain(_) => "out-of-domain",
         }
     }
 }

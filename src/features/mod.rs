@@ -16,3 +16,7 @@ pub use batch::{RecordFeatures, RelayLevels};
 pub use cycle::{Cycle, Cycles};
 pub use error::FeatureError;
 pub use summary::{CycleStatistics, Features, Summary};
+
+/// Half-periods without a change of the command that count as lost, against the longest seen: a disturbance that grows within one
+/// makes the next longer, and none that the relay overcomes so much longer.
+pub(crate) const LOST: f64 = 4.0;

@@ -5,6 +5,7 @@
 
 mod architecture;
 mod balance;
+mod boundary;
 mod cases;
 mod catalogue;
 mod certificate;

@@ -1,8 +1,8 @@
 //! The state machine of the experiment on board, every state of it over a lattice of readings and times.
 
-use super::machine::{Defect, Event, INTERVALS_S, LATTICES, Lattice, Machine, SOUND, explore};
+use super::machine::{Defect, Event, INTERVALS_S, LATTICES, Lattice, Machine, SOUND, WITH_COARSE, explore};
 use super::{AsPrinted, claim};
-use crate::on_board::{Coordinate, Phase, Protocol};
+use crate::on_board::{Coordinate, Observation, Phase, Protocol};
 
 claim! {
     ON_BOARD_ENDS = "on-board-ends" "of this project" Theorem
@@ -10,9 +10,9 @@ claim! {
     {
         domain: LATTICES,
         printed: AsPrinted::Absent,
-        corrected: Some(|_| explore(Defect::None, ends)),
+        corrected: Some(|_| explore(&Lattice::all(), Defect::None, ends)),
         // Its time over, it begins anew.
-        falsified: |_| explore(Defect::Restarts, ends),
+        falsified: |_| explore(&Lattice::all(), Defect::Restarts, ends),
         hypotheses: &[],
         depends: &[],
     }
@@ -42,9 +42,9 @@ claim! {
     {
         domain: LATTICES,
         printed: AsPrinted::Absent,
-        corrected: Some(|_| explore(Defect::None, switches)),
+        corrected: Some(|_| explore(&Lattice::all(), Defect::None, switches)),
         // A relay without hysteresis.
-        falsified: |_| explore(Defect::NoHysteresis, switches),
+        falsified: |_| explore(&Lattice::all(), Defect::NoHysteresis, switches),
         hypotheses: &[],
         depends: &[],
     }
@@ -79,9 +79,9 @@ claim! {
     {
         domain: LATTICES,
         printed: AsPrinted::Absent,
-        corrected: Some(|_| explore(Defect::None, abort)),
+        corrected: Some(|_| explore(&Lattice::all(), Defect::None, abort)),
         // Obeyed in the first attempt only.
-        falsified: |_| explore(Defect::IgnoresAbort, abort),
+        falsified: |_| explore(&Lattice::all(), Defect::IgnoresAbort, abort),
         hypotheses: &[],
         depends: &[],
     }
@@ -102,9 +102,9 @@ claim! {
     {
         domain: LATTICES,
         printed: AsPrinted::Absent,
-        corrected: Some(|_| explore(Defect::None, limits)),
+        corrected: Some(|_| explore(&Lattice::all(), Defect::None, limits)),
         // The level raised without regard to the limits.
-        falsified: |_| explore(Defect::Unclamped, limits),
+        falsified: |_| explore(&Lattice::all(), Defect::Unclamped, limits),
         hypotheses: &[],
         depends: &[],
     }
@@ -123,9 +123,9 @@ claim! {
     {
         domain: LATTICES,
         printed: AsPrinted::Absent,
-        corrected: Some(|_| explore(Defect::None, faults)),
+        corrected: Some(|_| explore(&Lattice::all(), Defect::None, faults)),
         // Goes on with the next sample after a fault.
-        falsified: |_| explore(Defect::Forgives, faults),
+        falsified: |_| explore(&Lattice::all(), Defect::Forgives, faults),
         hypotheses: &[],
         depends: &["on-board-limits"],
     }
@@ -183,9 +183,9 @@ fn expected(lattice: &Lattice, machine: &Machine, reading: f64, interval_s: f64)
         Coordinate::Speed => (reading - before, position + interval_s * (reading + before) / 2.0),
         _ => (reading - before, reading),
     };
-    let back = match machine.extent() {
-        Some((_, highest)) if machine.command > protocol.neutral_command => highest - next,
-        Some((lowest, _)) => next - lowest,
+    let back = match machine.farthest() {
+        Some(highest) if machine.command > protocol.neutral_command => highest - next,
+        Some(lowest) => next - lowest,
         None => 0.0,
     };
     if change.abs() > protocol.largest_rate * interval_s {
@@ -213,14 +213,46 @@ fn expected_of_time(machine: &Machine, age_s: f64) -> Option<&'static str> {
 }
 
 claim! {
+    ON_BOARD_STILL = "on-board-still" "of this project" Theorem
+    "Readings that go nowhere for four half-periods end the experiment, and raise no level before"
+    {
+        domain: WITH_COARSE,
+        printed: AsPrinted::Absent,
+        corrected: Some(|_| explore(&Lattice::with_coarse(), Defect::None, still)),
+        // A level for want of a switching, whatever the readings.
+        falsified: |_| explore(&Lattice::with_coarse(), Defect::Restless, still),
+        hypotheses: &[],
+        depends: &["on-board-excursion"],
+    }
+}
+
+fn still(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
+    let protocol = &lattice.protocol;
+    let level = |machine: &Machine| (machine.command - protocol.neutral_command).abs();
+    let wrong = successors.iter().position(|(event, after)| {
+        let (Event::Sample { observation, .. }, Some(position)) = (event, after.position()) else { return false };
+        if !machine.running() || machine.seen.is_none() {
+            return false;
+        }
+        let gone = machine.motion.gone(protocol, machine.half_width(), position);
+        let late = !gone && machine.motion.late(protocol, after.time_s);
+        let named = matches!(after.phase(), Phase::Failed(fault) if fault.code() == "no-motion");
+        // A cycle whose end this is may be one of too small an amplitude.
+        let raised = after.running() && level(after) > level(machine);
+        named && !late || after.running() && late || raised && !gone && *observation != Observation::Condition40
+    });
+    wrong.map_or(Ok(()), |index| Err(Some(index)))
+}
+
+claim! {
     ON_BOARD_EXCURSION = "on-board-excursion" "of this project" Theorem
     "Whatever plant and sensor say, the relay drives no further than the largest excursion and one gap at the largest rate"
     {
         domain: LATTICES,
         printed: AsPrinted::Absent,
-        corrected: Some(|_| explore(Defect::None, excursion)),
+        corrected: Some(|_| explore(&Lattice::all(), Defect::None, excursion)),
         // Goes on wherever the coordinate is.
-        falsified: |_| explore(Defect::Boundless, excursion),
+        falsified: |_| explore(&Lattice::all(), Defect::Boundless, excursion),
         hypotheses: &[],
         depends: &["on-board-faults", "on-board-limits"],
     }
