@@ -122,8 +122,7 @@ impl<T: Scalar> RelayTest<T> {
         let lag = T::pi() / T::two() - (n.p / -n.q).atan();
         let angle_above_critical = if n.q < zero { lag } else { zero };
         let frequency = T::two() * T::pi() / self.period_s;
-        let remedy = "the result leaves the range of the arithmetic: choose units in which the numbers are nearer to one";
-        let positive = |quantity, value, unit| domain::require(quantity, value, unit, Limit::Positive, remedy);
+        let positive = |quantity, value, unit| domain::require(quantity, value, unit, Limit::Positive, domain::UNITS);
         Ok(FrequencyPoint {
             omega_rad_s: positive("frequency of the oscillation", frequency, "rad/s")?,
             magnitude: positive("gain of the process", T::one() / size, "output per command units")?,

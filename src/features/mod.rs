@@ -17,6 +17,5 @@ pub use cycle::{Cycle, Cycles};
 pub use error::FeatureError;
 pub use summary::{CycleStatistics, Features, Summary};
 
-/// Half-periods without a change of the command that count as lost, against the longest seen: a disturbance that grows within one
-/// makes the next longer, and none that the relay overcomes so much longer.
+/// Half-periods without a change of the command that count as lost, against the longest seen.
 pub(crate) const LOST: f64 = 4.0;

@@ -234,9 +234,9 @@ impl<S: Scalar> Summary<S> {
             return Err(FeatureError::Drift { amplitudes: drift.0.value() });
         }
         let spreads = self.moments.map(|moments| moments.spread(count));
-        for spread in spreads {
-            domain::representable("sum of squares over the cycles", spread.mean + spread.std, "")?;
-        }
+        let sum =
+            |of: &CycleStatistics<S>| domain::representable("sum of squares over the cycles", of.mean + of.std, "");
+        spreads.iter().try_for_each(|spread| sum(spread).map(drop))?;
         let [amplitude, bias, reference, period_s, switch_level, time_positive_s, time_negative_s] = spreads;
         Ok(Features {
             cycles: self.cycles,

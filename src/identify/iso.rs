@@ -58,9 +58,8 @@ impl<T: Real> Oscillation<T> {
         let relay = RelayHysteresis::new(self.relay_level, self.switch_level, T::zero())?;
         let sweep = Sinusoid::new(self.bias, self.amplitude)?;
         let df = relay.describing_function(&sweep)?.delayed(self.omega_rad_s() * self.delay_s);
-        for part in [df.f0, df.p, df.q] {
-            domain::representable("describing function with the delay", part, "")?;
-        }
+        let sound = |part| domain::representable("describing function with the delay", part, "");
+        [df.f0, df.p, df.q].into_iter().try_for_each(|part| sound(part).map(drop))?;
         Ok(df)
     }
 

@@ -22,8 +22,7 @@ pub enum Fault {
     },
     /// A clock too far on for the arithmetic, as the time since power-up in f32 is after hours.
     #[error(
-        "numbers near {time_s} s are too far apart for samples every {interval_s} s; give the time in s since the start of the \
-         experiment, or use f64"
+        "at {time_s} s no {interval_s} s can be told; give the time in s since the start of the experiment, or use f64"
     )]
     CoarseTime {
         /// Time at which the experiment would be over.

@@ -15,12 +15,6 @@ pub(super) struct Sensor<T> {
 }
 
 impl<T: Scalar> Sensor<T> {
-    /// Before the first sample.
-    pub(super) fn none() -> Self {
-        let zero = T::zero();
-        Self { time_s: zero, reading: zero, position: zero, changed_s: zero }
-    }
-
     /// The first sample; a heading starts within half a turn of the reference.
     pub(super) fn first(protocol: &Protocol<T>, reading: T, time_s: T) -> Result<Self, Fault> {
         finite("reading", reading)?;

@@ -4,8 +4,7 @@ use super::sensor::Sensor;
 use super::{Fault, Protocol};
 use crate::experiment::RelayState;
 use crate::features::LOST;
-use crate::numeric::OutOfDomain;
-use crate::numeric::Scalar;
+use crate::numeric::{OutOfDomain, Scalar};
 
 /// Where an experiment stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,7 +66,7 @@ const SEEN: u8 = 4;
 
 /// All that decides on what a supervisor does next, its protocol being given; exact in its numbers.
 #[cfg(feature = "std")]
-pub(crate) type Key = (&'static str, [u64; 10], [u64; 4], [u8; 6]);
+pub(crate) type Key = (&'static str, [u64; 3], [u64; 7], [u64; 4], [u8; 5]);
 
 /// The experiment but for its cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,9 +84,8 @@ pub(crate) struct Supervisor<T> {
     switchings: u8,
     /// Farthest position on the way of the first command, while that lasts.
     farthest: T,
-    /// Position since which there is a half-width to go: the last switching's, or that of the last motion.
+    /// Position of the last motion or switching, and time of the last motion: away from there by the way of `moves`.
     anchor: T,
-    /// When the coordinate last was a half-width from the anchor.
     moved_s: T,
     /// Half-periods: the longest but for the last, and the last; zero before there is one.
     half_periods_s: (T, T),
@@ -101,20 +99,20 @@ pub(crate) struct Supervisor<T> {
 impl<T: Scalar> Supervisor<T> {
     pub(crate) fn new(protocol: Protocol<T>) -> Result<Self, OutOfDomain> {
         let protocol = protocol.checked()?;
-        let relay = protocol.relay(protocol.relay_level, protocol.half_width)?;
+        let (relay, zero) = (protocol.relay(protocol.relay_level, protocol.half_width)?, T::zero());
         Ok(Self {
             protocol,
             phase: Phase::Running,
             relay: RelayState::new(relay, false),
-            sensor: Sensor::none(),
+            sensor: Sensor { time_s: zero, reading: zero, position: zero, changed_s: zero },
             begun: false,
-            started_s: T::zero(),
-            switched_s: T::zero(),
+            started_s: zero,
+            switched_s: zero,
             switchings: 0,
-            farthest: T::zero(),
-            anchor: T::zero(),
-            moved_s: T::zero(),
-            half_periods_s: (T::zero(), T::zero()),
+            farthest: zero,
+            anchor: zero,
+            moved_s: zero,
+            half_periods_s: (zero, zero),
             attempt: 1,
             cycles: 0,
             early: 0,
@@ -134,8 +132,7 @@ impl<T: Scalar> Supervisor<T> {
 
     /// The command at a time without a sample.
     pub(crate) fn tick(&mut self, time_s: T) -> Step<T> {
-        if self.phase == Phase::Running
-            && self.begun
+        if (self.phase, self.begun) == (Phase::Running, true)
             && let Err(fault) = self.sensor.age_s(&self.protocol, time_s).and_then(|_| self.in_time(time_s))
         {
             self.phase = Phase::Failed(fault);
@@ -193,33 +190,18 @@ impl<T: Scalar> Supervisor<T> {
     /// The state, for a table of visited ones. Of a fault its name: the numbers in it decide nothing.
     #[cfg(feature = "std")]
     pub(crate) fn key(&self) -> Key {
-        let Self { phase, relay, started_s, switched_s, farthest, anchor, moved_s, .. } = self;
+        let Self { phase, relay, started_s, switched_s, farthest, anchor, moved_s, half_periods_s, .. } = self;
         let phase = match phase {
             Phase::Running => "running",
             Phase::Done => "done",
             Phase::Aborted => "aborted",
             Phase::Failed(fault) => fault.code(),
         };
-        let numbers = [
-            relay.output(),
-            relay.characteristic().level(),
-            relay.characteristic().half_width(),
-            *started_s,
-            *switched_s,
-            *farthest,
-            *anchor,
-            *moved_s,
-            self.half_periods_s.0,
-            self.half_periods_s.1,
-        ];
-        let numbers = numbers.map(|value| value.value().to_bits());
-        let flags = [u8::from(self.begun), u8::from(self.hasty)];
-        (
-            phase,
-            numbers,
-            self.sensor.key(),
-            [self.attempt, self.cycles, self.early, self.switchings, flags[0], flags[1]],
-        )
+        let (bits, (longest_s, last_s)) = (|value: T| value.value().to_bits(), *half_periods_s);
+        let relay = [relay.output(), self.relay_level(), self.half_width()].map(bits);
+        let numbers = [*started_s, *switched_s, *farthest, *anchor, *moved_s, longest_s, last_s].map(bits);
+        let flags = u8::from(self.begun) + 2 * u8::from(self.hasty);
+        (phase, relay, numbers, self.sensor.key(), [self.attempt, self.cycles, self.early, self.switchings, flags])
     }
 
     fn in_time(&self, time_s: T) -> Result<(), Fault> {
@@ -247,8 +229,8 @@ impl<T: Scalar> Supervisor<T> {
         if moved <= limit { Ok(()) } else { Err(wrong_way(moved, limit)) }
     }
 
-    /// For how long the relay may not switch and the coordinate not move. A sensor that freezes may end a half-period, and no second:
-    /// the last does not count yet. One of either sign has to count, since a disturbance makes them differ.
+    /// For how long the relay may not switch and the coordinate not move. A sensor that freezes may end one half-period: the last does
+    /// not count yet. One of either sign has to count, since a disturbance makes them differ.
     fn patience_s(&self) -> T {
         let patience_s = self.protocol.patience_s;
         if self.switchings < SEEN { patience_s } else { patience_s.min(T::from_f64(LOST) * self.half_periods_s.0) }
@@ -261,10 +243,9 @@ impl<T: Scalar> Supervisor<T> {
         if T::two() * gone < self.half_width() && time_s - self.moved_s <= self.half_periods_s.0 {
             return Ok(false);
         }
-        // A step of the sensor is no motion. Between two switchings the coordinate goes two half-widths, hence one from any anchor:
-        // a sound oscillation goes the way.
-        let step = T::from_f64(1.5) * self.protocol.resolution;
-        let way = step.max(self.half_width() / T::two()).min(self.half_width());
+        // A step of the sensor is no motion. Between two switchings the coordinate goes two half-widths, hence one from any anchor.
+        let (step, half_width) = (T::from_f64(1.5) * self.protocol.resolution, self.half_width());
+        let way = step.max(half_width / T::two()).min(half_width);
         let moves = gone >= way;
         if moves {
             (self.anchor, self.moved_s) = (position, time_s);
@@ -291,8 +272,8 @@ impl<T: Scalar> Supervisor<T> {
             return before;
         }
         if self.switchings > 0 {
-            let (longest_s, last_s) = self.half_periods_s;
-            self.half_periods_s = (longest_s.max(last_s).min(self.protocol.patience_s), half_period_s);
+            let longest_s = self.half_periods_s.0.max(self.half_periods_s.1);
+            self.half_periods_s = (longest_s.min(self.protocol.patience_s), half_period_s);
         }
         (self.relay, self.switchings, self.hasty) = (relay, (self.switchings + 1).min(SEEN), false);
         (self.switched_s, self.anchor) = (time_s, position);
@@ -377,8 +358,7 @@ impl<T: Scalar> Supervisor<T> {
         (self.switched_s, self.cycles, self.early, self.hasty) = (time_s, 0, 0, false);
         self.farthest = self.sensor.position();
         // Half-periods grow by no more than the half-width does.
-        let wider = (width / half_width).max(T::one());
-        let (longest_s, last_s) = self.half_periods_s;
+        let (wider, (longest_s, last_s)) = ((width / half_width).max(T::one()), self.half_periods_s);
         self.half_periods_s = ((wider * longest_s).min(self.protocol.patience_s), wider * last_s);
         self.attempt += 1;
         observer.begin(&self.protocol);
@@ -395,8 +375,8 @@ fn wrong_way<T: Scalar>(moved: T, limit: T) -> Fault {
     Fault::WrongWay { moved: moved.value(), limit: limit.value() }
 }
 #[cold]
-fn no_motion<T: Scalar>(half_width: T, unchanged_s: T) -> Fault {
-    Fault::NoMotion { range: half_width.value(), unchanged_s: unchanged_s.value() }
+fn no_motion<T: Scalar>(range: T, unchanged_s: T) -> Fault {
+    Fault::NoMotion { range: range.value(), unchanged_s: unchanged_s.value() }
 }
 #[cold]
 fn overtime<T: Scalar>(duration_s: T) -> Fault {

@@ -128,7 +128,7 @@ pub fn limit_cycle<S: Scalar>(axis: &DragAxis<S>, relay: &RelayHysteresis<S>) ->
     let cycle = LimitCycle::between(relay.half_width(), &end(&upward, times[0]), &end(&downward, times[1]));
     let positive = [cycle.amplitude, cycle.time_positive_s, cycle.time_negative_s, cycle.period_s];
     let others = [cycle.bias, cycle.upper_switch.velocity, cycle.lower_switch.velocity, cycle.multiplier];
-    let sound = positive.iter().all(|value| *value > S::zero()) && positive.iter().chain(&others).all(|v| v.is_finite());
+    let sound = positive.iter().all(|v| *v > S::zero()) && positive.iter().chain(&others).all(|v| v.is_finite());
     if sound { Ok(cycle) } else { Err(OrbitError::Unresolved { multiplier: cycle.multiplier.value() }) }
 }
 

@@ -121,9 +121,8 @@ impl<T: Scalar, const AXES: usize, const THRUSTERS: usize> Compensation<T, AXES,
         let delivered = self.delivered(&self.commands(forces)?, actual);
         let bias = self.bias_forces();
         let error = core::array::from_fn(|i| delivered[i] - bias[i] - forces[i]);
-        for value in error {
-            domain::representable("error of the compensation", value, "N, N m")?;
-        }
+        let sound = |value: &T| domain::representable("error of the compensation", *value, "N, N m");
+        error.iter().try_for_each(|value| sound(value).map(drop))?;
         Ok(error)
     }
 

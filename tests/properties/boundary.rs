@@ -142,7 +142,13 @@ fn exempt(module: &str, name: &str) -> bool {
 }
 
 fn probe(draw: Draw, single: bool, rounds: u32) -> Probe {
-    let mut probe = Probe { random: Random(std::env::var("S").map_or(20_261_127, |n| n.parse().unwrap())), draw, single, called: BTreeMap::new(), wrong: BTreeMap::new() };
+    let mut probe = Probe {
+        random: Random(std::env::var("S").map_or(20_261_127, |n| n.parse().unwrap())),
+        draw,
+        single,
+        called: BTreeMap::new(),
+        wrong: BTreeMap::new(),
+    };
     for _ in 0..rounds {
         if single { calls::every::<f32>(&mut probe) } else { calls::every::<f64>(&mut probe) }
     }

@@ -14,9 +14,8 @@ const HEADING: ClaimPart =
 const SPEED: ClaimPart = ClaimPart::whole("speeds", "the machine on the lattice of speeds -1, 0, 1");
 const COARSE: ClaimPart =
     ClaimPart::whole("coarse", "the machine on the lattice of positions -2, 1 and 2 with a resolution of 1, for 10 s");
-/// The lattices of [`Lattice::all`]: readings and times off them are not spoken of.
+/// The first lattices of [`Lattice::all`], and all of them: readings and times off them are not spoken of.
 pub(super) const LATTICES: &[ClaimPart] = &[POSITION, HEADING, SPEED];
-/// Those of [`Lattice::with_coarse`].
 pub(super) const WITH_COARSE: &[ClaimPart] = &[POSITION, HEADING, SPEED, COARSE];
 
 /// A finite world: an experiment, and the samples that may come.
@@ -57,22 +56,17 @@ impl Lattice {
         Self { part, protocol, readings }
     }
 
-    /// One for each kind of coordinate. All numbers are whole or halves: sums are exact.
-    pub(super) fn all() -> [Self; 3] {
+    /// One for each kind of coordinate, and one that sees half-periods. All numbers are whole or halves: sums are exact.
+    pub(super) fn all() -> [Self; 4] {
+        let Self { part, protocol, readings } = Self::of(COARSE, Coordinate::Position, 2.0, &[-2.0, 1.0, 2.0]);
+        let protocol = Protocol { dwell_s: 1.0, patience_s: 5.0, duration_s: 10.0, attempts: 2, ..protocol };
+        let protocol = Protocol { resolution: 1.0, largest_rate: 3.0, ..protocol };
         [
             Self::of(POSITION, Coordinate::Position, 1.0, &[-2.0, -1.0, 0.0, 1.0, 2.0]),
             Self::of(HEADING, Coordinate::HeadingDegrees, 60.0, &[0.0, 60.0, 120.0, 180.0, 240.0, 300.0]),
             Self::of(SPEED, Coordinate::Speed, 1.0, &[-1.0, 0.0, 1.0]),
+            Self { part, protocol, readings },
         ]
-    }
-
-    /// The same, and one in which half-periods are seen and a step of the sensor is no motion.
-    pub(super) fn with_coarse() -> [Self; 4] {
-        let coarse = Self::of(COARSE, Coordinate::Position, 2.0, &[-2.0, 1.0, 2.0]);
-        let protocol = Protocol { dwell_s: 1.0, patience_s: 5.0, duration_s: 10.0, ..coarse.protocol };
-        let protocol = Protocol { resolution: 1.0, largest_rate: 3.0, attempts: 2, ..protocol };
-        let [position, heading, speed] = Self::all();
-        [position, heading, speed, Self { protocol, ..coarse }]
     }
 }
 
@@ -118,38 +112,22 @@ pub(super) struct Motion {
     anchor: f64,
     moved_s: f64,
     switched_s: Option<f64>,
-    /// Half-periods that have ended, the longest but for the last, the last.
+    /// How many half-periods have ended; the longest but for the last, and the last.
     ended: u8,
     longest_s: f64,
     last_s: f64,
 }
 
 impl Motion {
-    /// Half a half-width, or more than a step of the sensor; between two switchings a half-width from anywhere is gone.
+    /// Half a half-width, or more than a step of the sensor: whether a position is so far away.
     pub(super) fn gone(&self, protocol: &Protocol<f64>, half_width: f64, position: f64) -> bool {
         (position - self.anchor).abs() >= half_width.min(1.5 * protocol.resolution.max(half_width / 3.0))
     }
 
-    /// For how long the machine may wait for the next.
-    pub(super) fn patience_s(&self, protocol: &Protocol<f64>) -> f64 {
-        if self.ended < 3 { protocol.patience_s } else { protocol.patience_s.min(4.0 * self.longest_s) }
-    }
-
-    pub(super) fn late(&self, protocol: &Protocol<f64>, time_s: f64) -> bool {
-        time_s - self.moved_s > self.patience_s(protocol)
-    }
-
-    /// Whether the last switching is that long ago.
-    fn waits(&self, protocol: &Protocol<f64>, time_s: f64) -> bool {
-        self.switched_s.is_some_and(|since_s| time_s - since_s > self.patience_s(protocol))
-    }
-
-    fn switch(&mut self, position: f64, time_s: f64) {
-        if let Some(since_s) = self.switched_s {
-            (self.longest_s, self.last_s) = (self.longest_s.max(self.last_s), time_s - since_s);
-            self.ended = (self.ended + 1).min(3);
-        }
-        (self.switched_s, self.anchor) = (Some(time_s), position);
+    /// Whether there has been none at a time for longer than the machine may wait.
+    pub(super) fn still(&self, protocol: &Protocol<f64>, time_s: f64) -> bool {
+        let patience_s = if self.ended < 3 { f64::INFINITY } else { 4.0 * self.longest_s };
+        time_s - self.moved_s > protocol.patience_s.min(patience_s)
     }
 }
 
@@ -184,14 +162,8 @@ impl Machine {
             _ => lattice.protocol,
         };
         let supervisor = Supervisor::new(protocol).ok()?;
-        Some(Self {
-            supervisor,
-            defect,
-            command: supervisor.command(),
-            time_s: 0.0,
-            seen: None,
-            motion: Motion::default(),
-        })
+        let (command, motion) = (supervisor.command(), Motion::default());
+        Some(Self { supervisor, defect, command, time_s: 0.0, seen: None, motion })
     }
 
     pub(super) fn phase(&self) -> Phase {
@@ -259,7 +231,11 @@ impl Machine {
             (motion.anchor, motion.moved_s) = (position, time_s);
         }
         if self.seen.is_some() && high(before) != high(&self.supervisor) {
-            motion.switch(position, time_s);
+            if let Some(since_s) = motion.switched_s {
+                (motion.longest_s, motion.last_s) = (motion.longest_s.max(motion.last_s), time_s - since_s);
+                motion.ended = (motion.ended + 1).min(3);
+            }
+            (motion.switched_s, motion.anchor) = (Some(time_s), position);
         }
         // A wider relay is waited for in proportion.
         let wider = (self.supervisor.half_width() / before.half_width()).max(1.0);
@@ -274,7 +250,7 @@ impl Machine {
         let with = |level: f64, positive: bool| protocol.neutral_command + if positive { level } else { -level };
         match self.defect {
             Defect::NoHysteresis => with(self.supervisor.relay_level(), position < 0.0),
-            Defect::Restless if self.motion.waits(protocol, self.time_s) => {
+            Defect::Restless if self.time_s > self.motion.switched_s.unwrap_or(f64::MAX) + protocol.patience_s => {
                 with(2.0 * self.supervisor.relay_level(), command > protocol.neutral_command)
             }
             Defect::Unclamped => with(raised, command > protocol.neutral_command),
@@ -289,10 +265,11 @@ pub(super) type Property = fn(&Lattice, &Machine, &[(Event, Machine)]) -> Result
 /// States beyond this are not waited for.
 const MOST_STATES: usize = 3_000_000;
 
-/// Every reachable state of every lattice, breadth first, so that a witness is as short as can be.
-pub(super) fn explore(lattices: &[Lattice], defect: Defect, property: Property) -> Verdict {
-    lattices
+/// Every reachable state of the lattices that the parts name, breadth first, so that a witness is as short as can be.
+pub(super) fn explore(parts: &[ClaimPart], defect: Defect, property: Property) -> Verdict {
+    Lattice::all()
         .iter()
+        .take(parts.len())
         .map(|lattice| explore_one(lattice, defect, property))
         .reduce(|a, b| a.and(|| b))
         .unwrap_or(Verdict::Undecided { spent: "no lattice".to_owned() })
