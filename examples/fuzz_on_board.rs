@@ -208,6 +208,7 @@ fn frozen<T: Scalar>(random: &mut Random, seen: &mut Seen) {
     let (mut swings, mut level) = (Swings { wider: 1.0, ..Swings::default() }, 0.0);
     let (mut position, mut velocity, mut attempt) = (0.0, 0.0, 1);
     let (mut farthest, mut before): (f64, Option<f64>) = (0.0, None);
+    let (mut way, mut raised) = ((0.0, 0.0), 0);
     for sample in 0..4000_u32 {
         let time_s = interval_s * f64::from(sample);
         let (sound, offset) = (held.is_none(), random.between(0.0, range));
@@ -233,11 +234,14 @@ fn frozen<T: Scalar>(random: &mut Random, seen: &mut Seen) {
         if experiment.attempt() != attempt && command.abs() <= level {
             swings.wider *= protocol.factor.value();
         }
-        // A cycle may end at the last switching, and ask for more.
-        assert!(
-            sound || switched || command.abs() <= level,
-            "{protocol:?} frozen at {freezes_s} s, raised at {time_s} s"
-        );
+        // A level is raised at a switching, where a cycle ends, or where the readings have gone somewhere since the last: of a frozen
+        // sensor, away from the last that was true, once.
+        way = if switched { (reading, reading) } else { (reading.min(way.0), reading.max(way.1)) };
+        if before.is_some() && !switched && command.abs() > level {
+            assert!(way.1 - way.0 >= 0.4999 * half_width, "{protocol:?} frozen at {freezes_s} s, raised at {time_s} s");
+            raised += u8::from(!sound);
+            assert!(raised <= 1, "{protocol:?} frozen at {freezes_s} s, raised again at {time_s} s");
+        }
         (attempt, level, before) = (experiment.attempt(), command.abs(), Some(command));
         if switched {
             swings.switch(time_s);
@@ -252,7 +256,7 @@ fn frozen<T: Scalar>(random: &mut Random, seen: &mut Seen) {
         }
     }
     let patience_s = swings.patience_s(protocol.patience_s.value());
-    let bound = largest_excursion + 2.0 * rate * (patience_s + 4.0 * interval_s);
+    let bound = largest_excursion + rate * (2.0 * patience_s + 3.0 * interval_s);
     assert!(farthest <= bound, "{protocol:?} frozen at {freezes_s} s went {farthest}, bound {bound}");
     if held.is_some() {
         seen.hastened += u64::from(patience_s < protocol.patience_s.value());

@@ -34,8 +34,8 @@ impl<T: Scalar> ThrustSide<T> {
         domain::finite("squared slope at the largest command", side.squared_slope(side.curve(limit)), "")?;
         // The slope is linear in the command, so its ends decide.
         let (first, last) = (side.slope(dead_zone), side.slope(limit));
-        let starts_forward = quadratic * dead_zone + linear >= T::zero();
-        if !(starts_forward && first >= T::zero() && last >= T::zero() && first + last > T::zero()) {
+        let forward = quadratic * dead_zone + linear >= T::zero() && side.curve(dead_zone) <= side.curve(limit);
+        if !(forward && first >= T::zero() && last >= T::zero() && first + last > T::zero()) {
             return Err(VehicleError::NotMonotone {
                 dead_zone: dead_zone.value(),
                 limit: limit.value(),

@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{Debug, Display};
 
 use selfosc::numeric::Scalar;
+use selfosc::vehicle::{ThrustSide, VehicleError};
 
 /// Splitmix64 (Steele, Lea and Flood, 2014).
 struct Random(u64);
@@ -142,13 +143,7 @@ fn exempt(module: &str, name: &str) -> bool {
 }
 
 fn probe(draw: Draw, single: bool, rounds: u32) -> Probe {
-    let mut probe = Probe {
-        random: Random(std::env::var("S").map_or(20_261_127, |n| n.parse().unwrap())),
-        draw,
-        single,
-        called: BTreeMap::new(),
-        wrong: BTreeMap::new(),
-    };
+    let mut probe = Probe { random: Random(20_261_127), draw, single, called: BTreeMap::new(), wrong: BTreeMap::new() };
     for _ in 0..rounds {
         if single { calls::every::<f32>(&mut probe) } else { calls::every::<f64>(&mut probe) }
     }
@@ -160,7 +155,7 @@ fn every_answer_is_finite_and_in_its_domain() {
     let mut wrong = Vec::new();
     for single in [false, true] {
         for draw in [Draw::Moderate, Draw::Any] {
-            let probe = probe(draw, single, std::env::var("N").map_or(3000, |n| n.parse().unwrap()));
+            let probe = probe(draw, single, 3000);
             wrong.extend(probe.wrong.iter().map(|(name, said)| format!("{name}: {said}")));
             for (name, (called, answered)) in &probe.called {
                 assert!(*called > 0 && (draw == Draw::Any || *answered > 0), "{name} never answered");
@@ -168,6 +163,13 @@ fn every_answer_is_finite_and_in_its_domain() {
         }
     }
     assert!(wrong.is_empty(), "{} functions:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// Found by 60 000 rounds from seed 3: limits that are neighbouring numbers, between which rounding turns the thrust round.
+#[test]
+fn a_thrust_that_rounding_lets_fall_is_refused() {
+    let side = ThrustSide::<f32>::new(-3.2385838, 2.2604365, 0.25504336, 0.2550434);
+    assert!(matches!(side, Err(VehicleError::NotMonotone { .. })), "{side:?}");
 }
 
 #[test]

@@ -190,7 +190,7 @@ fn expected_of_time(machine: &Machine, age_s: f64) -> Option<&'static str> {
 
 explored! {
     ON_BOARD_STILL = "on-board-still"
-    "Readings that go nowhere for four half-periods end the experiment, and raise no level before"
+    "Readings that go nowhere for the patience end the experiment, and no level is raised upon them for want of a switching"
     still over WITH_COARSE, depends on &["on-board-excursion"], but not Restless
 }
 
