@@ -720,7 +720,7 @@ SelfoscStatus selfosc_identify_exact_f32(const SelfoscMeanCycle_f32 *cycle,
                                          SelfoscRefusal *refusal);
 
 // An experiment on one of `SelfoscCoordinate` with this relay, that may go `largest_excursion` from its reference, and sound
-// values for the rest. Nothing is checked before the experiment begins.
+// values for the rest. All are finite; no more is checked before the experiment begins.
 SelfoscStatus selfosc_protocol_f32(uint32_t coordinate,
                                    float relay_level,
                                    float half_width,
@@ -833,7 +833,7 @@ SelfoscStatus selfosc_identify_exact_f64(const SelfoscMeanCycle_f64 *cycle,
                                          SelfoscRefusal *refusal);
 
 // An experiment on one of `SelfoscCoordinate` with this relay, that may go `largest_excursion` from its reference, and sound
-// values for the rest. Nothing is checked before the experiment begins.
+// values for the rest. All are finite; no more is checked before the experiment begins.
 SelfoscStatus selfosc_protocol_f64(uint32_t coordinate,
                                    double relay_level,
                                    double half_width,

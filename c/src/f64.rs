@@ -73,7 +73,7 @@ pub unsafe extern "C" fn selfosc_identify_exact_f64(
 }
 
 /// An experiment on one of `SelfoscCoordinate` with this relay, that may go `largest_excursion` from its reference, and sound
-/// values for the rest. Nothing is checked before the experiment begins.
+/// values for the rest. All are finite; no more is checked before the experiment begins.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selfosc_protocol_f64(
     coordinate: u32,

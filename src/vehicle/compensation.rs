@@ -121,8 +121,7 @@ impl<T: Scalar, const AXES: usize, const THRUSTERS: usize> Compensation<T, AXES,
         let delivered = self.delivered(&self.commands(forces)?, actual);
         let bias = self.bias_forces();
         let error = core::array::from_fn(|i| delivered[i] - bias[i] - forces[i]);
-        let sound = |value: &T| domain::representable("error of the compensation", *value, "N, N m");
-        error.iter().try_for_each(|value| sound(value).map(drop))?;
+        error.iter().try_for_each(|e| domain::representable("error of the compensation", *e, "N, N m").map(drop))?;
         Ok(error)
     }
 

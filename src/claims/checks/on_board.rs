@@ -22,7 +22,7 @@ macro_rules! explored {
 
 explored! {
     ON_BOARD_ENDS = "on-board-ends"
-    "Whatever the samples, the experiment ends within its time, and until then one more sample may complete it"
+    "Whatever the samples, the experiment ends within its time, and until that or its patience is over one more sample may complete it"
     ends over LATTICES, depends on &[], but not Restarts
 }
 
@@ -39,7 +39,8 @@ fn ends(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -
             return Err(Some(index));
         }
     }
-    let time_left = machine.time_s + INTERVALS_S[0] < duration_s;
+    let next_s = machine.time_s + INTERVALS_S[0];
+    let time_left = next_s < duration_s && !machine.motion.still(&lattice.protocol, next_s);
     let may_succeed = successors.iter().any(|(_, after)| after.phase() == Phase::Done);
     if machine.running() && time_left && !may_succeed { Err(None) } else { Ok(()) }
 }
