@@ -13,7 +13,8 @@
 //! The page `guide` works through a log, an orbit and a claim, says what units there are, and where other tools are better.
 //!
 //! [`prelude`] has the names that these jobs need. Without the feature `std` the library neither allocates nor panics on
-//! input; [`on_board`] runs the whole experiment there.
+//! input; [`on_board`] runs the whole experiment there. What can refuse gives finite numbers in the domain that its page states,
+//! or refuses; a plain formula, such as a motion over a time, gives what the arithmetic gives, an infinity included.
 //!
 //! Data flows one way, and the modules stand below in that order.
 //!

@@ -85,7 +85,10 @@ impl<T: Real> Oscillation<T> {
         domain::non_negative("delay", self.delay_s, "s")?;
         let relay = RelayHysteresis::new(self.relay_level, self.switch_level, T::zero())?;
         let sweep = Sinusoid::new(self.bias, self.amplitude)?;
-        Ok(relay.describing_function(&sweep)?.delayed(self.omega_rad_s() * self.delay_s))
+        let df = relay.describing_function(&sweep)?.delayed(self.omega_rad_s() * self.delay_s);
+        let sound = |part| domain::representable("describing function with the delay", part, "");
+        [df.f0, df.p, df.q].into_iter().try_for_each(|part| sound(part).map(drop))?;
+        Ok(df)
     }
 
     /// Parameters under each drag law (Table 3 with eq. 34): step 5 of the paper's procedure, after condition 40.

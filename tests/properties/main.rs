@@ -6,6 +6,7 @@
 mod architecture;
 mod autotune;
 mod balance;
+mod boundary;
 mod cases;
 mod catalogue;
 mod certificate;
