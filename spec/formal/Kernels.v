@@ -133,11 +133,6 @@ Ltac by_cases := repeat match goal with |- context [Rle_dec ?a ?b] =>
 
 (** * Describing functions are linear, and do not see single points *)
 
-Lemma output_plus F G H K B X t :
-  output {| rising := fun x => F x + G x; falling := fun x => H x + K x |} B X t
-  = output {| rising := F; falling := H |} B X t + output {| rising := G; falling := K |} B X t.
-Proof. unfold output; simpl. now destruct (Rlt_dec 0 (cos t)). Qed.
-
 Definition sum_of (c d : characteristic) : characteristic :=
   {| rising := fun x => rising c x + rising d x; falling := fun x => falling c x + falling d x |}.
 Definition multiple_of (k : R) (c : characteristic) : characteristic :=
@@ -199,7 +194,7 @@ Proof.
 Qed.
 
 Lemma describes_off (points : list R) c c' B X d : 0 < X ->
-  (forall x, ~ In x points -> rising c x = rising c' x /\ falling c x = falling c' x) ->
+  (forall x, B - X <= x <= B + X -> ~ In x points -> rising c x = rising c' x /\ falling c x = falling c' x) ->
   describes c B X d -> describes c' B X d.
 Proof.
   intros HX same [A1 [A2 A3]]. pose proof PI_RGT_0.
@@ -216,7 +211,7 @@ Proof.
       - simpl; tauto.
       - right; right; left. apply in_map_iff. exists (t - 2 * PI). split; [ring|]. apply P; [lra|].
         unfold sweep. rewrite <- (sin_turn (t - 2 * PI)). do 3 f_equal. ring. }
-    destruct (same _ N) as [S1 S2]. unfold output. now destruct (Rlt_dec 0 (cos t)). }
+    destruct (same (sweep B X t)) as [S1 S2]; [unfold sweep; destruct (SIN_bound t); nra|exact N|]. unfold output. now destruct (Rlt_dec 0 (cos t)). }
   repeat split.
   - apply (ext_off times (output c B X)); [lra|exact off|exact A1].
   - apply (ext_off times (fun t => output c B X t * sin t)); [lra| |exact A2]. intros t T O. now rewrite off.
