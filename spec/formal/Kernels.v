@@ -193,25 +193,33 @@ Proof.
   symmetry. apply asin_sin. lra.
 Qed.
 
+(** Outputs of characteristics that differ at single inputs differ at single angles. *)
+Lemma output_off (points : list R) c c' B X : 0 < X ->
+  (forall x, B - X <= x <= B + X -> ~ In x points -> rising c x = rising c' x /\ falling c x = falling c' x) ->
+  exists times, forall t, 0 < t < 2 * PI -> ~ In t times -> output c B X t = output c' B X t.
+Proof.
+  intros HX same. pose proof PI_RGT_0.
+  set (angles := map (fun x => asin ((x - B) / X)) points).
+  set (times := angles ++ map (fun t => PI - t) angles ++ map (fun t => t + 2 * PI) angles ++ PI / 2 :: PI / 2 + PI :: nil).
+  exists times. intros t T O. assert (N : ~ In (sweep B X t) points).
+  { intros I. apply O. unfold times. rewrite !in_app_iff.
+    assert (P : forall s, - (PI / 2) < s < PI / 2 -> sweep B X s = sweep B X t -> In s angles).
+    { intros s S E. apply in_map_iff. exists (sweep B X t). split; [|exact I]. symmetry. now apply (passes_once B X s). }
+    destruct (Rtotal_order t (PI / 2)) as [L|[->|L]]; [left; apply P; [lra|reflexivity]|simpl; tauto|].
+    destruct (Rtotal_order t (PI / 2 + PI)) as [M|[->|M]].
+    - right; left. apply in_map_iff. exists (PI - t). split; [ring|]. apply P; [lra|apply sweep_back].
+    - simpl; tauto.
+    - right; right; left. apply in_map_iff. exists (t - 2 * PI). split; [ring|]. apply P; [lra|].
+      unfold sweep. rewrite <- (sin_turn (t - 2 * PI)). do 3 f_equal. ring. }
+  destruct (same (sweep B X t)) as [S1 S2]; [unfold sweep; destruct (SIN_bound t); nra|exact N|].
+  unfold output. now destruct (Rlt_dec 0 (cos t)).
+Qed.
+
 Lemma describes_off (points : list R) c c' B X d : 0 < X ->
   (forall x, B - X <= x <= B + X -> ~ In x points -> rising c x = rising c' x /\ falling c x = falling c' x) ->
   describes c B X d -> describes c' B X d.
 Proof.
-  intros HX same [A1 [A2 A3]]. pose proof PI_RGT_0.
-  set (angles := map (fun x => asin ((x - B) / X)) points).
-  set (times := angles ++ map (fun t => PI - t) angles ++ map (fun t => t + 2 * PI) angles ++ PI / 2 :: PI / 2 + PI :: nil).
-  assert (off : forall t, 0 < t < 2 * PI -> ~ In t times -> output c B X t = output c' B X t).
-  { intros t T O. assert (N : ~ In (sweep B X t) points).
-    { intros I. apply O. unfold times. rewrite !in_app_iff.
-      assert (P : forall s, - (PI / 2) < s < PI / 2 -> sweep B X s = sweep B X t -> In s angles).
-      { intros s S E. apply in_map_iff. exists (sweep B X t). split; [|exact I]. symmetry. now apply (passes_once B X s). }
-      destruct (Rtotal_order t (PI / 2)) as [L|[->|L]]; [left; apply P; [lra|reflexivity]|simpl; tauto|].
-      destruct (Rtotal_order t (PI / 2 + PI)) as [M|[->|M]]; [| |].
-      - right; left. apply in_map_iff. exists (PI - t). split; [ring|]. apply P; [lra|apply sweep_back].
-      - simpl; tauto.
-      - right; right; left. apply in_map_iff. exists (t - 2 * PI). split; [ring|]. apply P; [lra|].
-        unfold sweep. rewrite <- (sin_turn (t - 2 * PI)). do 3 f_equal. ring. }
-    destruct (same (sweep B X t)) as [S1 S2]; [unfold sweep; destruct (SIN_bound t); nra|exact N|]. unfold output. now destruct (Rlt_dec 0 (cos t)). }
+  intros HX same [A1 [A2 A3]]. pose proof PI_RGT_0. destruct (output_off points c c' B X HX same) as [times off].
   repeat split.
   - apply (ext_off times (output c B X)); [lra|exact off|exact A1].
   - apply (ext_off times (fun t => output c B X t * sin t)); [lra| |exact A2]. intros t T O. now rewrite off.

@@ -265,6 +265,9 @@ Proof.
   replace (- (PI / 2) + 2 * PI) with (PI / 2 + PI) by field. rewrite Rplus_0_l. exact E2.
 Qed.
 
+Lemma output_static F B X t : output (static F) B X t = F (sweep B X t).
+Proof. unfold output. simpl. now destruct (Rlt_dec 0 (cos t)). Qed.
+
 Lemma output_period c B X t : output c B X (t + 2 * PI) = output c B X t.
 Proof. unfold output, sweep. now rewrite sin_turn, cos_turn. Qed.
 
@@ -346,3 +349,22 @@ Lemma cos_even k t : cos (INR (2 * k) * (t + PI)) = cos (INR (2 * k) * t).
 Proof.
   rewrite mult_INR. simpl (INR 2). rewrite <- (cos_period ((1 + 1) * INR k * t) k). f_equal. ring.
 Qed.
+
+(** A half-turn image on the falling branch undoes the rising one, under every weight that half a turn leaves alone. *)
+Theorem half_turn_images_cancel c X (w : R -> R) : half_turn_images c -> (forall t, w (t + PI) = w t) ->
+  ex_RInt (fun t => output c 0 X t * w t) 0 (2 * PI) -> is_RInt (fun t => output c 0 X t * w t) 0 (2 * PI) 0.
+Proof.
+  intros image half E. pose proof PI_RGT_0.
+  assert (whole : forall t, w (t + 2 * PI) = w t) by (intros t; rewrite <- (half t), <- (half (t + PI)); f_equal; ring).
+  destruct (by_branches_back c 0 X w whole E) as [Er _]. apply integral_of in Er.
+  set (r := RInt (fun t => rising c (sweep 0 X t) * w t) (- (PI / 2)) (PI / 2)) in *.
+  apply (equal _ _ _ (r + - r)); [|ring]. apply by_branches; [exact whole|exact Er|].
+  apply (ext (fun t => - (rising c (sweep 0 X (0 - t)) * w (0 - t)))); [lra| |].
+  - intros t _. rewrite image. rewrite <- (half (0 - t)). replace (0 - t + PI) with (PI - t) by ring.
+    replace (sweep 0 X (0 - t)) with (- sweep 0 X t); [ring|]. unfold sweep. rewrite Rminus_0_l, sin_neg. ring.
+  - apply negate, (backwards (fun t => rising c (sweep 0 X t) * w t)).
+    replace (0 - PI / 2) with (- (PI / 2)) by ring. replace (0 - - (PI / 2)) with (PI / 2) by ring. exact Er.
+Qed.
+
+Lemma odd_is_its_image F : odd F -> half_turn_images (static F).
+Proof. intros H x. simpl. rewrite H. ring. Qed.
