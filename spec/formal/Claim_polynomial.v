@@ -7,9 +7,6 @@ From Selfosc Require Import Periodic Kernels Moments.
 Import ListNotations.
 Open Scope R_scope.
 
-(** Coefficients, the constant first. *)
-Fixpoint eval (c : list R) (x : R) : R := match c with [] => 0 | a :: c => a + x * eval c x end.
-
 (** Horner's scheme: each pass makes one coefficient about the bias. *)
 Fixpoint pass (B : R) (c : list R) : list R :=
   match c with [] => [] | a :: c => let r := pass B c in (a + B * hd 0 r) :: r end.

@@ -1,8 +1,12 @@
-(** Integrals of powers of the sine. *)
-From Coq Require Import Reals Lra Lia.
+(** Polynomials, and the integrals of powers of the sine. *)
+From Coq Require Import Reals Lra Lia List.
 From Coquelicot Require Import Coquelicot.
 From Selfosc Require Import Periodic.
+Import ListNotations.
 Open Scope R_scope.
+
+(** A polynomial by its coefficients, the constant first. *)
+Fixpoint eval (c : list R) (x : R) : R := match c with [] => 0 | a :: c => a + x * eval c x end.
 
 (** The mean of [sin^(2j)]: 1, 1/2, 3/8, ... *)
 Fixpoint even_mean (j : nat) : R :=
