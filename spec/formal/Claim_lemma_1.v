@@ -25,6 +25,10 @@ Definition without_memory : Prop := forall (F : R -> R) (B X : R), 0 < X ->
   odd F -> nondecreasing F -> (exists x, B - X < x < B + X /\ F x <> 0) ->
   sign_of_bias (static F) B X /\ (mean (output (static F) B X) = 0 <-> B = 0).
 
+(** Nothing less will do: where the rising branch does not rise inside, the mean vanishes at this bias. *)
+Definition only_where_it_rises : Prop := forall (c : characteristic) (B X : R), 0 < X ->
+  nondecreasing (rising c) -> half_turn_images c -> ~ rises_inside (rising c) B X -> mean (output c B X) = 0.
+
 (** "If", without monotony. *)
 Definition unbiased_has_no_mean : Prop := forall (F : R -> R) (X : R), odd F ->
   ex_RInt (output (static F) 0 X) 0 (2 * PI) -> mean (output (static F) 0 X) = 0.
@@ -130,6 +134,24 @@ Proof.
     apply RInt_of in I, Z. rewrite I in Z. rewrite Z. unfold Rdiv. ring.
 Qed.
 
+Lemma only_where_it_rises_holds : only_where_it_rises.
+Proof.
+  intros c B X HX mono image N. pose proof PI_RGT_0. destruct (mean_of_pair c B X HX mono image) as [l [M I]].
+  unfold mean. rewrite (RInt_of _ _ _ _ M). replace l with 0; [field; lra|].
+  rewrite <- (RInt_of _ _ _ _ I). symmetry. apply RInt_of. apply (ext (fun _ => 0)); [lra| |apply zero_integral].
+  intros t T. assert (S : -1 < sin t < 1).
+  { replace 1 with (sin (PI / 2)) by exact sin_PI2. replace (- sin (PI / 2)) with (sin (- (PI / 2))) by now rewrite sin_neg.
+    replace (-1) with (sin (- (PI / 2))) by (rewrite sin_neg, sin_PI2; ring). split; apply sin_increasing_1; lra. }
+  assert (A : forall b, - Rabs B <= b <= Rabs B -> - (X + Rabs B) < sweep b X t < X + Rabs B) by (intros b Hb; unfold sweep; nra).
+  assert (- Rabs B <= B <= Rabs B /\ - Rabs B <= - B <= Rabs B) by (unfold Rabs; destruct (Rcase_abs B); lra).
+  pose proof (A B ltac:(lra)) as A1. pose proof (A (- B) ltac:(lra)) as A2.
+  destruct (Rtotal_order (sweep B X t) (sweep (- B) X t)) as [L|[L|L]]; [| rewrite L; ring|].
+  - assert (rising c (sweep B X t) <= rising c (sweep (- B) X t)) by (apply mono; lra).
+    destruct (Rlt_dec (rising c (sweep B X t)) (rising c (sweep (- B) X t))) as [R|]; [exfalso; apply N; do 2 eexists; repeat split; [| | |exact R]; lra|lra].
+  - assert (rising c (sweep (- B) X t) <= rising c (sweep B X t)) by (apply mono; lra).
+    destruct (Rlt_dec (rising c (sweep (- B) X t)) (rising c (sweep B X t))) as [R|]; [exfalso; apply N; do 2 eexists; repeat split; [| | |exact R]; lra|lra].
+Qed.
+
 Lemma without_memory_holds : without_memory.
 Proof.
   intros F B X HX Hodd mono [x [Hx Fx]].
@@ -165,9 +187,9 @@ Proof.
   - replace (B + x) with (x - B + 2 * B) by ring. rewrite H, <- Hodd. f_equal. ring.
 Qed.
 
-Theorem statement : with_memory /\ without_memory /\ unbiased_has_no_mean /\ at_every_amplitude.
+Theorem statement : with_memory /\ only_where_it_rises /\ without_memory /\ unbiased_has_no_mean /\ at_every_amplitude.
 Proof.
-  split; [|split; [|split]]; [exact with_memory_holds|exact without_memory_holds|exact unbiased_holds|exact at_every_amplitude_holds].
+  exact (conj with_memory_holds (conj only_where_it_rises_holds (conj without_memory_holds (conj unbiased_holds at_every_amplitude_holds)))).
 Qed.
 Print Assumptions statement.
 

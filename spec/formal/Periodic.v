@@ -1,5 +1,5 @@
 (** Outputs under a sinusoid, their integrals over a turn, and what half a turn does: shared by the claims on symmetry. *)
-From Coq Require Import Reals Lra Lia.
+From Coq Require Import Reals Lra Lia Classical.
 From Coquelicot Require Import Coquelicot.
 Open Scope R_scope.
 
@@ -136,6 +136,57 @@ Proof.
   { apply (not_negative (fun t => f t - eps) c d); [lra|apply subtract; [exact E3|apply constant_integral]|].
     intros t T. specialize (H1 t T). lra. }
   assert (0 < (d - c) * eps) by (apply Rmult_lt_0_compat; lra). lra.
+Qed.
+
+(** A positive integral needs an interval on which the function stays above a positive number: of a function that has an
+    integral this is what "on a set of positive measure" says. Else tags could be chosen where it does not. *)
+Lemma low_tags (f : R -> R) (e h : R) : 0 < h -> forall (n : nat) (x : R),
+  (forall i, (i < n)%nat -> exists t, x + INR i * h < t < x + INR (S i) * h /\ f t < e) ->
+  exists s : SF_seq, SF_h s = x /\ seq.last (SF_h s) (SF_lx s) = x + INR n * h /\ pointed_subdiv s /\
+    seq_step (SF_lx s) <= h /\ Riemann_sum f s <= e * (INR n * h).
+Proof.
+  intros Hh. induction n as [|n IH]; intros x low.
+  - exists (SF_nil x). split; [reflexivity|]. split; [simpl; ring|]. split; [intros i Hi; unfold SF_size in Hi; simpl in Hi; lia|].
+    split; [unfold seq_step; simpl; lra|]. unfold Riemann_sum; simpl. unfold zero; simpl. lra.
+  - destruct (low O) as [t [T Ft]]; [lia|]. destruct (IH (x + h)) as [s [S1 [S2 [S3 [S4 S5]]]]].
+    { intros i Hi. destruct (low (S i)) as [u [U Fu]]; [lia|]. exists u. rewrite !S_INR in *. split; [lra|exact Fu]. }
+    simpl in T. exists (SF_cons (x, t) s). split; [reflexivity|]. split; [|split; [|split]].
+    + rewrite S_INR. transitivity (x + h + INR n * h); [exact S2|ring].
+    + intros [|i] Hi; simpl; [rewrite S1; lra|]. apply S3. rewrite SF_size_cons in Hi. lia.
+    + change (Rmax (Rabs (SF_h s - x)) (seq_step (SF_lx s)) <= h). rewrite S1.
+      apply Rmax_lub; [|exact S4]. rewrite Rabs_right; lra.
+    + rewrite Riemann_sum_cons. rewrite S1, S_INR. change ((x + h - x) * f t + Riemann_sum f s <= e * ((INR n + 1) * h)). nra.
+Qed.
+
+Lemma positive_somewhere (f : R -> R) (a b l : R) : a < b -> is_RInt f a b l -> 0 < l ->
+  exists e c d, 0 < e /\ a <= c /\ c < d /\ d <= b /\ forall t, c < t < d -> e <= f t.
+Proof.
+  intros ab I Hl. set (e := l / (2 * (b - a))).
+  assert (He : 0 < e) by (apply Rdiv_lt_0_compat; lra).
+  destruct (classic (exists c d, a <= c /\ c < d /\ d <= b /\ forall t, c < t < d -> e <= f t)) as [[c [d H]]|N].
+  { exists e, c, d. tauto. }
+  exfalso.
+  assert (low : forall c d, a <= c -> c < d -> d <= b -> exists t, c < t < d /\ f t < e).
+  { intros c d ac cd db. destruct (classic (exists t, c < t < d /\ f t < e)) as [|M]; [assumption|]. destruct N.
+    exists c, d. repeat split; trivial. intros t T. destruct (Rle_dec e (f t)) as [|L]; [assumption|]. destruct M. exists t. lra. }
+  assert (Hl2 : 0 < l / 2) by lra.
+  destruct (I (fun y => Rabs (y - l) < l / 2)) as [delta fine].
+  { exists (mkposreal _ Hl2). intros y Hy. exact Hy. }
+  destruct (archimed ((b - a) / delta)) as [A _]. set (n := Z.to_nat (up ((b - a) / delta))). pose proof (cond_pos delta) as Hd.
+  assert (P : 0 < (b - a) / delta) by (apply Rdiv_lt_0_compat; lra).
+  assert (Hn : (b - a) / delta < INR n) by (unfold n; rewrite INR_IZR_INZ, Z2Nat.id; [exact A|apply le_IZR; lra]).
+  set (h := (b - a) / INR n). assert (Eh : INR n * h = b - a) by (unfold h; field; lra).
+  assert (Hh : 0 < h) by (apply Rdiv_lt_0_compat; lra).
+  assert (hd : h < delta).
+  { apply (Rmult_lt_reg_l (INR n)); [lra|]. rewrite Eh. apply (Rmult_lt_compat_r delta) in Hn; [|lra].
+    replace ((b - a) / delta * delta) with (b - a) in Hn by (field; lra). lra. }
+  destruct (low_tags f e h Hh n a) as [s [S1 [S2 [S3 [S4 S5]]]]].
+  { intros i Hi. assert (INR (S i) <= INR n) by (apply le_INR; lia). pose proof (pos_INR i). rewrite S_INR in *. apply low; nra. }
+  assert (whole : pointed_subdiv s /\ SF_h s = Rmin a b /\ seq.last (SF_h s) (SF_lx s) = Rmax a b).
+  { rewrite Rmin_left, Rmax_right by lra. split; [exact S3|split; [exact S1|rewrite S2; lra]]. }
+  assert (near : Rabs (sign (b - a) * Riemann_sum f s - l) < l / 2) by (apply fine; [lra|exact whole]).
+  rewrite sign_eq_1, Rmult_1_l in near by lra. apply Rabs_def2 in near. rewrite Eh in S5.
+  assert (e * (b - a) = l / 2) by (unfold e; field; lra). lra.
 Qed.
 
 (** * A nondecreasing function has an integral *)
