@@ -39,6 +39,12 @@ Definition at_every_amplitude : Prop := forall (F : R -> R) (B : R), odd F -> (f
   ((forall X, 0 < X -> mean (output (static F) B X) = 0) <-> (forall x, F (B + x) = - F (B - x))) /\
   ((forall X, 0 < X -> mean (output (static F) B X) = 0) <-> (forall x, F (x + 2 * B) = F x)).
 
+(** On any waveform of mirrored half waves about a bias, not the sinusoid alone: so the lemma speaks of exact oscillations too. *)
+Definition on_mirrored_half_waves : Prop := forall (F s : R -> R) (B h l : R), 0 < h -> odd F -> nondecreasing F ->
+  continuity s -> (forall t, s (t + h) = - s t) ->
+  (exists x t, Rabs x < Rabs (s t) + Rabs B /\ F x <> 0) ->
+  is_RInt (fun t => F (B + s t)) 0 (h + h) l -> (0 < B -> 0 < l) /\ (B < 0 -> l < 0) /\ (B = 0 -> l = 0).
+
 (** * Proof *)
 
 (** A rise between two points is a rise between two neighbours of a chain between them, as near as one likes. *)
@@ -187,9 +193,81 @@ Proof.
   - replace (B + x) with (x - B + 2 * B) by ring. rewrite H, <- Hodd. f_equal. ring.
 Qed.
 
-Theorem statement : with_memory /\ only_where_it_rises /\ without_memory /\ unbiased_has_no_mean /\ at_every_amplitude.
+(** A value that an odd function does not take at zero is a rise. *)
+Lemma odd_rise (F : R -> R) x : odd F -> nondecreasing F -> F x <> 0 -> 0 < Rabs x /\ F (- Rabs x) < F (Rabs x).
 Proof.
-  exact (conj with_memory_holds (conj only_where_it_rises_holds (conj without_memory_holds (conj unbiased_holds at_every_amplitude_holds)))).
+  intros Hodd mono Fx. assert (N : x <> 0) by (intros ->; apply Fx; specialize (Hodd 0); rewrite Ropp_0 in Hodd; lra).
+  pose proof (Rabs_pos_lt x N). split; [assumption|].
+  assert (L : F (- Rabs x) <= F (Rabs x)) by (apply mono; lra). rewrite Hodd in *.
+  assert (F (Rabs x) <> 0); [|lra]. unfold Rabs. destruct (Rcase_abs x); [rewrite Hodd; lra|exact Fx].
+Qed.
+
+(** Every value between the extremes occurs, and stays near for a while. *)
+Lemma occurs (s : R -> R) h t0 y e : continuity s -> (forall t, s (t + h) = - s t) -> 0 < e -> - Rabs (s t0) <= y <= Rabs (s t0) ->
+  exists t d, s t = y /\ 0 < d /\ forall r, t < r < t + d -> Rabs (s r - y) < e.
+Proof.
+  intros cs flip He Hy.
+  destruct (IVT_gen s t0 (t0 + h) y cs) as [t [_ E]].
+  { rewrite flip. unfold Rabs in Hy. unfold Rmin, Rmax. destruct (Rcase_abs (s t0)), (Rle_dec (s t0) (- s t0)); lra. }
+  destruct (cs t e He) as [d [Hd near]]. exists t, d. split; [exact E|]. split; [exact Hd|]. intros r Hr. rewrite <- E.
+  apply (near r). split; [split; [exact I|lra]|]. simpl. unfold R_dist. rewrite Rabs_right; lra.
+Qed.
+
+Lemma mirrored_positive (F s : R -> R) (B h l : R) : 0 < h -> odd F -> nondecreasing F -> continuity s ->
+  (forall t, s (t + h) = - s t) -> (exists x t, Rabs x < Rabs (s t) + Rabs B /\ F x <> 0) -> 0 < B ->
+  is_RInt (fun t => F (B + s t) - F (- B + s t)) 0 h l -> 0 < l.
+Proof.
+  intros Hh Hodd mono cs flip [x [t0 [Hx Fx]]] HB I. rewrite (Rabs_right B) in Hx by lra.
+  destruct (odd_rise F x Hodd mono Fx) as [Px rise]. set (X := Rabs (s t0)) in *. pose proof (Rabs_pos (s t0)) as HX. fold X in HX.
+  destruct (close_rise F (- Rabs x) (Rabs x) (2 * B)) as [u [v [H1 [H2 [H3 [H4 H5]]]]]]; try lra.
+  set (low := Rmax (v - B) (- X)). set (high := Rmin (u + B) X).
+  assert (S : v - B <= low /\ - X <= low /\ high <= u + B /\ high <= X /\ low <= high /\ (low < high \/ X = 0)).
+  { unfold low, high, Rmax, Rmin. destruct (Rle_dec (v - B) (- X)), (Rle_dec (u + B) X); lra. }
+  set (y := (low + high) / 2).
+  assert (room : exists e, 0 < e /\ forall z, Rabs (z - y) < e -> v - B <= z <= u + B).
+  { destruct S as [S1 [S2 [S3 [S4 [S5 [S6|S6]]]]]].
+    - exists ((high - low) / 2). split; [lra|]. intros z Hz. apply Rabs_def2 in Hz. unfold y in Hz. lra.
+    - assert (Y : y = 0) by (unfold y; lra). exists (B - Rabs x). split; [lra|]. intros z Hz. rewrite Y, Rminus_0_r in Hz.
+      apply Rabs_def2 in Hz. lra. }
+  destruct room as [e [He room]].
+  destruct (occurs s h t0 y e cs flip He) as [t [d [Et [Hd near]]]]; [unfold y; fold X; lra|].
+  assert (per : forall r, F (B + s (r + h)) - F (- B + s (r + h)) = F (B + s r) - F (- B + s r)).
+  { intros r. rewrite flip. replace (B + - s r) with (- (- B + s r)) by ring. replace (- B + - s r) with (- (B + s r)) by ring.
+    rewrite !Hodd. ring. }
+  pose proof (any_period _ h t l Hh per I) as J.
+  apply (positive _ t t (Rmin (t + d) (t + h)) (t + h) (F v - F u) l) in J; trivial; try lra.
+  - unfold Rmin. destruct (Rle_dec (t + d) (t + h)); lra.
+  - apply Rmin_r.
+  - intros r _. assert (F (- B + s r) <= F (B + s r)) by (apply mono; lra). lra.
+  - intros r Hr. assert (Hr' : t < r < t + d) by (pose proof (Rmin_l (t + d) (t + h)); lra).
+    pose proof (room _ (near r Hr')). assert (F v <= F (B + s r)) by (apply mono; lra). assert (F (- B + s r) <= F u) by (apply mono; lra). lra.
+Qed.
+
+Lemma on_mirrored_half_waves_holds : on_mirrored_half_waves.
+Proof.
+  intros F s B h l Hh Hodd mono cs flip inside I.
+  (* the second half wave is the first one's pair *)
+  destruct (both_parts _ 0 h (h + h) ltac:(lra) (ex_intro _ l I)) as [[l1 I1] [l2 I2]].
+  assert (L : l = l1 + l2) by (rewrite <- (RInt_of _ _ _ _ I); apply RInt_of; now apply join with h).
+  assert (I2' : is_RInt (fun t => - F (- B + s t)) 0 h l2).
+  { apply (ext (fun t => F (B + s (t + h)))); [lra| |].
+    - intros t _. rewrite flip, <- Hodd. f_equal. ring.
+    - apply (later (fun t => F (B + s t)) h). rewrite Rplus_0_l. exact I2. }
+  assert (J : is_RInt (fun t => F (B + s t) - F (- B + s t)) 0 h l).
+  { rewrite L. refine (ext _ _ _ _ _ _ _ (add _ _ _ _ _ _ I1 I2')); [lra|intros; ring]. }
+  split; [|split]; intros HB.
+  - now apply (mirrored_positive F s B h l).
+  - assert (0 < - l); [|lra]. apply (mirrored_positive F s (- B) h (- l)); trivial; [now rewrite Rabs_Ropp|lra|].
+    rewrite Ropp_involutive. refine (ext _ _ _ _ _ _ _ (negate _ _ _ _ J)); [lra|intros; ring].
+  - subst B. rewrite <- (RInt_of _ _ _ _ J). apply RInt_of. apply (ext (fun _ => 0)); [lra| |apply zero_integral].
+    intros t _. rewrite Ropp_0. ring.
+Qed.
+
+Theorem statement : with_memory /\ only_where_it_rises /\ without_memory /\ unbiased_has_no_mean /\
+  at_every_amplitude /\ on_mirrored_half_waves.
+Proof.
+  exact (conj with_memory_holds (conj only_where_it_rises_holds (conj without_memory_holds (conj unbiased_holds
+          (conj at_every_amplitude_holds on_mirrored_half_waves_holds))))).
 Qed.
 Print Assumptions statement.
 

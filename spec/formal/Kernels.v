@@ -346,8 +346,8 @@ Qed.
 (** A function that is [below] below the breakpoint and [above] above, whatever at it, under any weight with antiderivatives. *)
 Lemma in_two_parts at_ B X (F w below above AB AA : R -> R) : 0 < X ->
   (forall x, x < at_ -> F x = below x) -> (forall x, at_ < x -> F x = above x) ->
-  (forall t, is_derive AB t (below (sweep B X t) * w t)) -> (forall t : R, ex_derive (fun t => below (sweep B X t) * w t) t) ->
-  (forall t, is_derive AA t (above (sweep B X t) * w t)) -> (forall t : R, ex_derive (fun t => above (sweep B X t) * w t) t) ->
+  (forall t : R, is_derive AB t (below (sweep B X t) * w t)) -> (forall t : R, ex_derive (fun t => below (sweep B X t) * w t) t) ->
+  (forall t : R, is_derive AA t (above (sweep B X t) * w t)) -> (forall t : R, ex_derive (fun t => above (sweep B X t) * w t) t) ->
   let a := asin (ratio at_ B X) in
   is_RInt (fun t => F (sweep B X t) * w t) (- (PI / 2)) (PI / 2) (AB a - AB (- (PI / 2)) + (AA (PI / 2) - AA a)).
 Proof.

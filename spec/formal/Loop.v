@@ -264,24 +264,6 @@ Record relay_orbit (P : linear_process) (C x_a d r high low : R) (u : R -> R) (z
   switches_up : r - response P z 0 = x_a;
   switches_down : r - response P z high = - x_a }.
 
-Lemma shift_by_periods (u : R -> R) (T : R) : (forall t, u (t + T) = u t) -> forall (k : Z) t, u (t + IZR k * T) = u t.
-Proof.
-  intros Ru.
-  assert (N : forall (n : nat) t, u (t + INR n * T) = u t).
-  { induction n as [|n IH]; intros t; [f_equal; simpl; ring|]. rewrite S_INR. replace (t + (INR n + 1) * T) with (t + INR n * T + T) by ring.
-    rewrite Ru. apply IH. }
-  intros k t. destruct (Z_le_gt_dec 0 k) as [L|L].
-  - rewrite <- (N (Z.to_nat k) t). rewrite INR_IZR_INZ, Z2Nat.id by exact L. reflexivity.
-  - rewrite <- (N (Z.to_nat (- k)) (t + IZR k * T)). rewrite INR_IZR_INZ, Z2Nat.id, opp_IZR by lia. f_equal. ring.
-Qed.
-
-(** Every time is some periods after one within the first. *)
-Lemma within_a_period (T t : R) : 0 < T -> exists (k : Z) s, 0 <= s < T /\ t = s + IZR k * T.
-Proof.
-  intros HT. destruct (base_Int_part (t / T)) as [L1 L2]. exists (Int_part (t / T)), (t - IZR (Int_part (t / T)) * T).
-  assert (E : t = t / T * T) by (field; lra). set (ratio := t / T) in *. split; [|ring]. split; nra.
-Qed.
-
 Lemma equal_times_flip P C x_a r h u z : relay_orbit P C x_a 0 r h h u z -> forall t, u (t + h) = - u t.
 Proof.
   intros O t. destruct O as [Hh _ up_ down_ Ru _ _ _ _].

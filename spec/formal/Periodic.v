@@ -1,5 +1,5 @@
 (** Outputs under a sinusoid, their integrals over a turn, and what half a turn does: shared by the claims on symmetry. *)
-From Coq Require Import Reals Lra Lia Classical.
+From Coq Require Import Reals Lra Lia ZArith Classical.
 From Coquelicot Require Import Coquelicot.
 Open Scope R_scope.
 
@@ -87,7 +87,7 @@ Proof.
 Qed.
 
 Lemma by_antiderivative (A f : R -> R) (a b : R) :
-  (forall t, is_derive A t (f t)) -> (forall t : R, ex_derive f t) -> is_RInt f a b (A b - A a).
+  (forall t : R, is_derive A t (f t)) -> (forall t : R, ex_derive f t) -> is_RInt f a b (A b - A a).
 Proof.
   intros HA Hf. apply (is_RInt_derive (V := R_CompleteNormedModule) A f a b); intros; [apply HA|].
   apply (ex_derive_continuous (V := R_NormedModule)), Hf.
@@ -419,3 +419,40 @@ Qed.
 
 Lemma odd_is_its_image F : odd F -> half_turn_images (static F).
 Proof. intros H x. simpl. rewrite H. ring. Qed.
+
+(** * Any period *)
+
+Lemma shift_by_periods (u : R -> R) (T : R) : (forall t, u (t + T) = u t) -> forall (k : Z) t, u (t + IZR k * T) = u t.
+Proof.
+  intros Ru.
+  assert (N : forall (n : nat) t, u (t + INR n * T) = u t).
+  { induction n as [|n IH]; intros t; [f_equal; simpl; ring|]. rewrite S_INR. replace (t + (INR n + 1) * T) with (t + INR n * T + T) by ring.
+    rewrite Ru. apply IH. }
+  intros k t. destruct (Z_le_gt_dec 0 k) as [L|L].
+  - rewrite <- (N (Z.to_nat k) t). rewrite INR_IZR_INZ, Z2Nat.id by exact L. reflexivity.
+  - rewrite <- (N (Z.to_nat (- k)) (t + IZR k * T)). rewrite INR_IZR_INZ, Z2Nat.id, opp_IZR by lia. f_equal. ring.
+Qed.
+
+(** Every time is some periods after one within the first. *)
+Lemma within_a_period (T t : R) : 0 < T -> exists (k : Z) s, 0 <= s < T /\ t = s + IZR k * T.
+Proof.
+  intros HT. destruct (base_Int_part (t / T)) as [L1 L2]. exists (Int_part (t / T)), (t - IZR (Int_part (t / T)) * T).
+  assert (E : t = t / T * T) by (field; lra). set (ratio := t / T) in *. split; [|ring]. split; nra.
+Qed.
+
+(** A periodic function has the same integral over every period. *)
+Theorem any_period (y : R -> R) (T a l : R) : 0 < T -> (forall t, y (t + T) = y t) -> is_RInt y 0 T l -> is_RInt y a (a + T) l.
+Proof.
+  intros HT period I. destruct (within_a_period T a HT) as [k [s [Hs ->]]].
+  assert (J : is_RInt y s (s + T) l).
+  { destruct (both_parts y 0 s T ltac:(lra) (ex_intro _ l I)) as [E1 E2]. apply integral_of in E1, E2.
+    apply (equal _ _ _ (RInt y s T + RInt y 0 s)).
+    - apply join with T; [exact E2|]. apply (ext (fun t => y (t + - T))); [lra| |].
+      + intros t _. rewrite <- (period (t + - T)). f_equal. ring.
+      + apply (later y (- T)). replace (T + - T) with 0 by ring. replace (s + T + - T) with s by ring. exact E1.
+    - rewrite <- (RInt_of _ _ _ _ I). rewrite Rplus_comm. symmetry. apply RInt_of. now apply join with s. }
+  apply (ext (fun t => y (t + - IZR k * T))); [lra| |].
+  - intros t _. rewrite <- (shift_by_periods y T period k). f_equal. ring.
+  - apply (later y (- IZR k * T)). replace (s + IZR k * T + - IZR k * T) with s by ring.
+    replace (s + IZR k * T + T + - IZR k * T) with (s + T) by ring. exact J.
+Qed.

@@ -1,6 +1,17 @@
 Periodic.v
 Kernels.v
+Catalogue.v
+Moments.v
+Abel.v
+Loop.v
 Claim_kernel_step.v
 Claim_kernel_ramp.v
 Claim_kernel_sign.v
 Claim_kernel_band.v
+Claim_describing_function.v
+Claim_polynomial.v
+Claim_odd_harmonics.v
+Claim_odd_harmonics_hysteretic.v
+Claim_lemma_1.v
+Claim_lemma_2.v
+Claim_theorem_2.v
