@@ -15,3 +15,4 @@ Claim_odd_harmonics_hysteretic.v
 Claim_lemma_1.v
 Claim_lemma_2.v
 Claim_theorem_2.v
+Claim_theorem_3.v
