@@ -135,8 +135,8 @@ impl KernelForm {
         [f0, p, q]
     }
 
-    /// Derivative of the integral by phi.
-    fn slope<T: Real>(self, phi: T) -> [T; 3] {
+    /// Derivative of the integral by phi: Leibniz's rule, the weighted kernel at the moving end and the integral of its change.
+    pub(crate) fn slope<T: Real>(self, phi: T) -> [T; 3] {
         let (sine, cosine, pi) = (phi.sin(), phi.cos(), T::pi());
         let step = [T::one() / (pi + pi), cosine / pi, sine / pi];
         // Of the weights from `pi/2 - phi` to `pi/2`.

@@ -54,6 +54,7 @@ claim! {
         by_hand: &[
             "height and amplitude are set to one by linearity and homogeneity",
             "the sides and branches follow from one by reflection",
+            "the derivative of each integral by the angle of the breakpoint is the weighted kernel at the moving end and the integral of its change (Leibniz)",
         ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| closed_is_integral(budget, STEP, 1.0)),
@@ -71,6 +72,7 @@ claim! {
         by_hand: &[
             "height and amplitude are set to one by linearity and homogeneity",
             "the sides and branches follow from one by reflection",
+            "the derivative of each integral by the angle of the breakpoint is the weighted kernel at the moving end and the integral of its change (Leibniz)",
         ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| closed_is_integral(budget, RAMP, 1.0)),
@@ -88,6 +90,7 @@ claim! {
         by_hand: &[
             "height and amplitude are set to one by linearity and homogeneity",
             "the sides and branches follow from one by reflection",
+            "the derivative of each integral by the angle of the breakpoint is the weighted kernel at the moving end and the integral of its change (Leibniz)",
         ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| closed_is_integral(budget, SIGN, 1.0)),
@@ -112,6 +115,7 @@ claim! {
         by_hand: &[
             "height and amplitude are set to one by linearity and homogeneity",
             "the sides and branches follow from one by reflection",
+            "the derivative of each integral by the angle of the breakpoint is the weighted kernel at the moving end and the integral of its change (Leibniz)",
             "an angle below a quarter turn is the inverse tangent of its tangent",
             "the cases of sign that are proved are all that the code accepts, and limits of them",
         ],

@@ -169,6 +169,7 @@ claim! {
         domain: &[EVERY_AXIS],
         by_hand: &[
             "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
+            "the return map is concave and its slope goes to zero as the way grows",
             "existence: the return map takes an interval into itself",
             "every start reaches the map's domain",
         ],
@@ -187,6 +188,7 @@ claim! {
         domain: &[EVERY_AXIS],
         by_hand: &[
             "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
+            "the return map is concave and its slope goes to zero as the way grows",
             "existence: the return map takes an interval into itself",
             "every start reaches the map's domain",
         ],

@@ -65,6 +65,7 @@ claim! {
         by_hand: &[
             "height and amplitude are set to one by linearity and homogeneity",
             "the sides and branches follow from one by reflection",
+            "the derivative of each integral by the angle of the breakpoint is the weighted kernel at the moving end and the integral of its change (Leibniz)",
             "the cases of sign that are proved are all that the code accepts, and limits of them",
         ],
         printed: AsPrinted::Holds(|budget| {
@@ -109,6 +110,7 @@ claim! {
         by_hand: &[
             "height and amplitude are set to one by linearity and homogeneity",
             "the sides and branches follow from one by reflection",
+            "the derivative of each integral by the angle of the breakpoint is the weighted kernel at the moving end and the integral of its change (Leibniz)",
             "the cases of sign that are proved are all that the code accepts, and limits of them",
         ],
         printed: AsPrinted::Holds(|budget| formula(budget, |df| df.p, |s| in_phase(s, s.bias), true)),
@@ -144,6 +146,7 @@ claim! {
         by_hand: &[
             "height and amplitude are set to one by linearity and homogeneity",
             "the sides and branches follow from one by reflection",
+            "the derivative of each integral by the angle of the breakpoint is the weighted kernel at the moving end and the integral of its change (Leibniz)",
             "asin(u) = pi/2 - 2 asin(sqrt((1 - u)/2))",
             "the cases of sign that are proved are all that the code accepts, and limits of them",
         ],

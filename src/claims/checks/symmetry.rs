@@ -4,7 +4,7 @@ use super::family::{mean_of, odd_nondecreasing, output_scale, sweep};
 use super::step::by_steps;
 use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::describing::ClosedForm;
-use crate::nonlinearity::{DeadZone, Sinusoid};
+use crate::nonlinearity::{RelayDeadZone, Sinusoid};
 use crate::numeric::quadrature::integrate;
 
 const LEMMA_1_WHOLE: ClaimPart = ClaimPart::whole(
@@ -14,14 +14,14 @@ const LEMMA_1_WHOLE: ClaimPart = ClaimPart::whole(
 
 claim! {
     LEMMA_1 = "lemma-1" "Lemma 1" Lemma
-    "Odd, nondecreasing and not zero on the whole sweep: the mean output has the sign of the bias, and vanishes with it" {
+    "Odd, nondecreasing and not zero inside the sweep: the mean output has the sign of the bias, and vanishes with it" {
         domain: &[LEMMA_1_WHOLE],
         by_hand: &[
             "with branches that are each other's half-turn image F_0 is half the mean of F_up(B + X s) - F_up(-B + X s), s the unit sinusoid",
             "a nondecreasing function is a constant and a mixture of steps, and the mean is linear",
             "of a breakpoint only its distance from the bias over the amplitude matters",
             "a mean that falls with the breakpoint on the sweep, and rests beyond, is the larger of two the lower the breakpoint",
-            "where the code passes to another form, at half the amplitude and within a millionth of the turning points, the mean is an inverse cosine and falls too",
+            "the derivative of the integral by the angle of the breakpoint is the weighted value of the step at the moving end (Leibniz)",
         ],
         printed: AsPrinted::Refuted(|budget| vanishes_only_unbiased(budget, |x| x * x * x - 2.0 * x)),
         corrected: Some(mean_has_sign_of_bias),
@@ -30,7 +30,7 @@ claim! {
         hypotheses: &[
             Hypothesis { id: "odd", counterexample: Some(|budget| vanishes_only_unbiased(budget, |x| x + 0.5)) },
             Hypothesis { id: "nondecreasing", counterexample: Some(|budget| vanishes_only_unbiased(budget, f64::sin)) },
-            Hypothesis { id: "not-zero-on-sweep", counterexample: Some(inside_the_dead_zone) },
+            Hypothesis { id: "not-zero-inside-sweep", counterexample: Some(inside_the_dead_zone) },
         ],
         depends: &["fourier-coefficients"],
     }
@@ -86,15 +86,15 @@ fn mean_has_sign_of_bias(budget: Budget) -> Verdict {
     })
 }
 
-/// A biased sweep within a dead zone has mean zero.
+/// A biased sweep that a dead zone ends at its turning point, where alone the output is not zero, has mean zero.
 fn inside_the_dead_zone(budget: Budget) -> Verdict {
     sample(budget, |draw| {
         let (bias, amplitude) = (draw.uniform("bias", 0.1, 1.0), draw.uniform("amplitude", 0.1, 1.0));
-        let half_width = draw.note("half_width", bias + amplitude + 0.1);
-        let (Ok(dead_zone), Ok(sweep)) = (DeadZone::new(1.0, half_width), Sinusoid::new(bias, amplitude)) else {
+        let dead_zone = draw.note("dead_zone", bias + amplitude);
+        let (Ok(relay), Ok(sweep)) = (RelayDeadZone::new(1.0, dead_zone), Sinusoid::new(bias, amplitude)) else {
             return Case::Skipped;
         };
-        dead_zone.describing_function(&sweep).map_or(Case::Skipped, |df| Case::truth(draw.note("f0", df.f0) != 0.0))
+        relay.describing_function(&sweep).map_or(Case::Skipped, |df| Case::truth(draw.note("f0", df.f0) != 0.0))
     })
 }
 
@@ -113,7 +113,7 @@ claim! {
             "a nondecreasing function is a constant and a mixture of steps, and the mean is linear",
             "of a breakpoint only its distance from the bias over the amplitude matters",
             "a mean that falls with the breakpoint on the sweep, and rests beyond, is the larger of two the lower the breakpoint",
-            "where the code passes to another form, at half the amplitude and within a millionth of the turning points, the mean is an inverse cosine and falls too",
+            "the derivative of the integral by the angle of the breakpoint is the weighted value of the step at the moving end (Leibniz)",
         ],
         printed: AsPrinted::Refuted(|budget| unbiased_mean_is_not_zero(budget, |x, even| x + even * (x * x - 0.5))),
         corrected: Some(|budget| even_part_decides(budget, |x, even| x * x * x + x + even * (1.0 + (-x * x).exp()))),

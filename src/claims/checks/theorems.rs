@@ -101,7 +101,7 @@ const THEOREM_2_RELAY_ORBITS: ClaimPart = ClaimPart::whole(
 
 claim! {
     THEOREM_2 = "theorem-2" "Theorem 2" Theorem
-    "Odd, nondecreasing and not zero on the sweep: symmetric about any constant reference if the process integrates, and about none but zero if not" {
+    "Odd, nondecreasing and not zero inside the sweep: symmetric about any constant reference if the process integrates, and about none but zero if not" {
         domain: &[THEOREM_2_FIRST_HARMONIC, THEOREM_2_RELAY_ORBITS],
         by_hand: &[
             "the steps of lemma 1",
@@ -127,7 +127,7 @@ claim! {
                 counterexample: Some(|budget| symmetric(budget, &Loop { integrating: true, offset: true, referred: true })),
             },
             Hypothesis { id: "nondecreasing", counterexample: Some(odd_and_astatic_without_bias) },
-            Hypothesis { id: "not-zero-on-sweep", counterexample: None },
+            Hypothesis { id: "not-zero-inside-sweep", counterexample: None },
         ],
         depends: &["lemma-1"],
     }

@@ -1,7 +1,10 @@
 //! Eqs. 5 and 6 as the code has them, in whole numbers: doubles add and multiply these exactly, and what is linear in each of
-//! its arguments vanishes where it does for their units.
+//! its arguments vanishes where it does for their units. The parameters of Table 2 are whole numbers drawn at random, so that no
+//! two axes agree by chance.
 
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
 
 use super::{ClaimPart, Distortion, Evidence, Verdict};
 use crate::vehicle::{Axis, Vehicle, VehicleParameters, coriolis};
@@ -10,7 +13,7 @@ use crate::vehicle::{Axis, Vehicle, VehicleParameters, coriolis};
 fn body(mass_kg: f64) -> VehicleParameters {
     VehicleParameters {
         mass_kg,
-        inertia_kg_m2: Matrix3::identity() * 8.0,
+        inertia_kg_m2: Matrix3::from_diagonal(&Vector3::new(8.0, 16.0, 32.0)),
         centre_of_gravity_m: Vector3::zeros(),
         centre_of_buoyancy_m: Vector3::zeros(),
         buoyancy_n: 0.0,
@@ -132,50 +135,68 @@ pub(super) fn six_axes(part: &ClaimPart, distortion: Distortion) -> Verdict {
     proofs.into_iter().reduce(|all, next| all.and(|| next)).unwrap_or_else(|| Verdict::undecided("nothing"))
 }
 
-/// Vehicles of Table 2's form, each parameter at two whole numbers or more.
+/// Vehicles of Table 2's form, every parameter a whole number drawn at random; inertias of three axes that are those of a body.
 fn table_2() -> impl Iterator<Item = VehicleParameters> {
-    [4.0, 8.0].into_iter().flat_map(|mass_kg| {
-        [0.0, 16.0, 80.0].into_iter().flat_map(move |buoyancy_n| {
-            (0..6).map(move |place| VehicleParameters {
-                buoyancy_n,
-                added_mass: Matrix6::from_diagonal(&(unit(place) * mass_kg)),
-                linear_drag: symmetric().sum::<Matrix6<f64>>() + Matrix6::identity() * (8.0 + place as f64),
-                quadratic_drag: unit(place) * 3.0,
-                centre_of_buoyancy_m: Vector3::new(1.0, -2.0, 3.0),
-                ..body(mass_kg)
-            })
-        })
+    let mut generator = Pcg64::seed_from_u64(2);
+    core::iter::repeat_with(move || {
+        let mut whole = |below: u32| f64::from(generator.random_range(0..below));
+        let [x, y, z] = [whole(50), whole(50), whole(50)].map(|square| square + 1.0);
+        VehicleParameters {
+            inertia_kg_m2: Matrix3::from_diagonal(&Vector3::new(y + z, x + z, x + y)),
+            buoyancy_n: whole(200),
+            added_mass: Matrix6::from_diagonal(&Vector6::from_fn(|_, _| whole(50))),
+            linear_drag: symmetric().map(|matrix| matrix * whole(2)).sum::<Matrix6<f64>>() + Matrix6::identity() * 32.0,
+            quadratic_drag: Vector6::from_fn(|_, _| whole(9)),
+            centre_of_buoyancy_m: Vector3::new(1.0, -2.0, 3.0),
+            ..body(1.0 + whole(40))
+        }
     })
+    .take(200)
 }
 
 /// With the other axes at rest and the vehicle level: no force by `C(nu)` in the axis, Table 2's inertia by itself, drag by its
 /// own coefficients, and weight less buoyancy in heave alone.
 pub(super) fn uncoupled_axis(part: &ClaimPart, distortion: Distortion) -> Verdict {
-    let factor = distortion.factor();
-    let residuals = || {
-        let mut found = Vec::new();
-        for (axis, i) in Axis::ALL.map(|axis| (axis, axis.index())) {
-            for place in 0..6 {
-                let mass = Matrix6::from_diagonal(&unit(place));
-                found.push((coriolis(&mass, &unit(i)) * unit(i))[i]);
-            }
-            for parameters in table_2() {
-                let vehicle = Vehicle::new(parameters).ok()?;
-                let p = vehicle.parameters();
-                let inertia = if axis == Axis::Yaw { p.inertia_kg_m2[(2, 2)] } else { p.mass_kg };
-                let mass = vehicle.mass();
-                found.push(mass[(i, i)] * factor - (inertia + p.added_mass[(i, i)]));
-                found.extend((0..6).filter(|&j| j != i).map(|j| mass[(i, j)]));
-                let surplus = if axis == Axis::Heave { vehicle.weight_n() - p.buoyancy_n } else { 0.0 };
-                found.push(vehicle.restoring(&UnitQuaternion::identity())[i] + surplus);
-                for speed in [-2.0, -1.0, 1.0, 2.0] {
-                    let nu = unit(i) * speed;
-                    let own = (p.linear_drag[(i, i)] + p.quadratic_drag[i] * f64::abs(speed)) * speed;
-                    found.push((vehicle.drag(&nu) * nu)[i] - own);
-                }
+    zero(part.clone(), table_2_entries(distortion.factor(), 2))
+}
+
+/// `turning` is the axis whose moment of inertia yaw takes.
+fn table_2_entries(factor: f64, turning: usize) -> Residuals {
+    let mut found = Vec::new();
+    for (axis, i) in Axis::ALL.map(|axis| (axis, axis.index())) {
+        for place in 0..6 {
+            let mass = Matrix6::from_diagonal(&unit(place));
+            found.push((coriolis(&mass, &unit(i)) * unit(i))[i]);
+        }
+        for parameters in table_2() {
+            let vehicle = Vehicle::new(parameters).ok()?;
+            let p = vehicle.parameters();
+            let inertia = if axis == Axis::Yaw { p.inertia_kg_m2[(turning, turning)] } else { p.mass_kg };
+            let mass = vehicle.mass();
+            found.push(mass[(i, i)] * factor - (inertia + p.added_mass[(i, i)]));
+            found.extend((0..6).filter(|&j| j != i).map(|j| mass[(i, j)]));
+            let surplus = if axis == Axis::Heave { vehicle.weight_n() - p.buoyancy_n } else { 0.0 };
+            found.push(vehicle.restoring(&UnitQuaternion::identity())[i] + surplus);
+            for speed in [-2.0, -1.0, 1.0, 2.0] {
+                let nu = unit(i) * speed;
+                let own = (p.linear_drag[(i, i)] + p.quadratic_drag[i] * f64::abs(speed)) * speed;
+                found.push((vehicle.drag(&nu) * nu)[i] - own);
             }
         }
-        Some(found)
-    };
-    zero(part.clone(), residuals())
+    }
+    Some(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::table_2_entries;
+
+    #[test]
+    fn yaw_takes_no_other_moment_of_inertia() {
+        let largest = |turning| {
+            let residuals = table_2_entries(1.0, turning).unwrap();
+            residuals.into_iter().map(f64::abs).fold(0.0, f64::max)
+        };
+        assert_eq!([0, 1, 2].map(|turning| largest(turning) == 0.0), [false, false, true]);
+    }
 }
