@@ -57,6 +57,7 @@ macro_rules! umbrella {
 }
 
 umbrella! {
+    "A file that cannot be read or written." Files(crate::files::FileError);
     "A proof that is not accepted." Proof(crate::proof::inequality::Refusal);
     "A characteristic or its input." Nonlinearity(crate::nonlinearity::NonlinearityError) numbers;
     "No describing function." Describing(crate::describing::DescribingError) numbers;

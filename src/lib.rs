@@ -54,6 +54,9 @@ macro_rules! internal {
 
 pub mod numeric;
 
+#[cfg(feature = "std")]
+pub mod files;
+
 internal! { mod proof; }
 
 pub mod nonlinearity;

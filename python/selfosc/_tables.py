@@ -15,7 +15,7 @@ from . import _core
 from .errors import RecordRefused, UnreadableLog, UsageError
 
 #: What the native half takes for a log: a path, or name, column names and columns.
-Source = str | tuple[str, list[str], list[NDArray[np.float64]]]
+Source = Path | tuple[str, list[str], list[NDArray[np.float64]]]
 
 #: Files that are tables by themselves and no text.
 _ARROW = {".parquet", ".arrow", ".feather"}
@@ -37,24 +37,29 @@ def _is_table(given: Any) -> bool:
 
 
 def _source(log: Any, name: str, columns: Mapping[str, Any]) -> Source:
-    if isinstance(log, (str, os.PathLike)):
-        path = Path(log)
+    if isinstance(log, (str, bytes, os.PathLike)):
+        path = Path(os.fsdecode(log))
+        try:
+            os.fsencode(path)
+        except UnicodeEncodeError as error:
+            raise UsageError(f"{str(log)!r} is no path that the system can name ({error.reason}); give another") from error
         if path.suffix.lower() in _CHANNELS:
             reader = _CHANNELS[path.suffix.lower()]
             raise UsageError(f"{path} holds channels of several rates; read it with selfosc.logs.{reader} first", "channels")
         if path.suffix.lower() not in _ARROW:
-            return os.fspath(log)
-        name, log = os.fspath(log), _arrow(path)
+            return path
+        name, log = str(path).encode("utf-8", "replace").decode(), _arrow(path)
     if not _is_table(log):
         raise UsageError(
             f"a log of type {type(log).__name__} is unknown; give a path, a pandas or polars frame, a pyarrow table, or a "
             "mapping from names to columns"
         )
     labels = log if isinstance(log, Mapping) else getattr(log, "column_names", None) or log.columns
-    names = [str(one) for one in labels]
+    # A name that is no text to the system is shown as near as may be.
+    names = [str(one).encode("utf-8", "replace").decode() for one in labels]
     places = _core.choose_columns(json.dumps(columns), names)
-    chosen = [names[place] for place in places]
-    return name, chosen, [_numbers(log[column], column, name) for column in chosen]
+    chosen = [(names[place], list(labels)[place]) for place in places]
+    return name, [shown for shown, _ in chosen], [_numbers(log[label], shown, name) for shown, label in chosen]
 
 
 def _arrow(path: Path) -> Any:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 __all__ = ["NoLimitCycle", "OutOfDomain", "RecordRefused", "SelfoscError", "UnreadableLog", "UsageError"]
 
 
@@ -72,8 +74,42 @@ class UnreadableLog(SelfoscError):
 _USAGE = {"usage", "mixed-needs-fit", "needs-bounded", "unknown-characteristic", "unknown-parameter", "missing-parameter", "parameter-kind"}
 
 
+#: Flags of the command whose Python argument has another name.
+_ARGUMENTS = {"from": "from_s", "to": "to_s", "jitter": "jitter_s", "num": "plant", "den": "plant"}
+#: Flags that are switched on.
+_SWITCHES = {"degrees", "even-stamps", "invert", "radians", "skip-bad-rows", "wrap"}
+#: What the command does, as Python does it.
+_CALLS = {
+    "`selfosc df --list`": "selfosc.catalogue()",
+    "`selfosc identify LOG --json > RESULT.json`": "selfosc.identify",
+    "`selfosc verify --certificates DIR`": "the command `selfosc verify`",
+    "`selfosc verify` without --claim": "selfosc.verify()",
+}
+
+
+def _in_python(text: str) -> str:
+    """A message of the command with Python's names of the arguments."""
+    for command, call in _CALLS.items():
+        text = text.replace(command, call)
+    text = text.split("\n\nUsage:")[0].split("\n\nFor more information")[0].removeprefix("error: ")
+
+    def named(flag: re.Match[str]) -> str:
+        name, value = flag["name"], flag["value"]
+        argument = _ARGUMENTS.get(name, name.replace("-", "_"))
+        if name in _SWITCHES:
+            return f"{argument}=True"
+        return f"{argument}={value}" if value else argument
+
+    # A value stands in the parentheses of a remedy; elsewhere a word that follows is one of the sentence.
+    text = re.sub(r"(?<=\()--(?P<name>[a-z][a-z-]*)(?: (?P<value>[^\s,)]+))?(?=[,)])", named, text)
+    text = re.sub(r"--(?P<name>[a-z][a-z-]*)(?P<value>)", named, text)
+    # `alpha: alpha is -1` says it once.
+    return re.sub(r"^(\w+): (?=\1 )", "", text)
+
+
 def of(code: str, text: str, number: tuple[str, float, str, str, str] | None = None, record: bool = False) -> SelfoscError:
     """The exception of a refusal by the native half."""
+    text = _in_python(text)
     if number is not None:
         return (RecordRefused if record else OutOfDomain)(text, code, *number)
     if code == "unreadable":

@@ -57,20 +57,14 @@ class Identification(Result):
         Parameters
         ----------
         path : path-like
-            Of the file; one of the logs is refused.
+            Of the file, which is written whole or not at all. One of the logs, or one that standard output goes to, is refused.
 
         Returns
         -------
         Path
         """
-        place = Path(path)
-        logs = (Path(record["file"]) for record in self.to_dict()["records"])
-        if any(log.exists() and place.exists() and log.samefile(place) for log in logs):
-            raise UsageError(f"{place} is one of the logs; choose another name for the report", "output-is-input")
-        beside = place.with_name(f".{place.name}.{os.getpid()}.part")
-        beside.write_text(self._core.html(), encoding="utf-8")
-        beside.replace(place)
-        return place
+        self._core.report(path)
+        return Path(os.fsdecode(path))
 
     def plot(self) -> Figure:
         """Record, model, residuals and intervals of every record, as one matplotlib figure.
@@ -156,6 +150,9 @@ def identify(
     invert: bool = False,
     from_s: float | None = None,
     to_s: float | None = None,
+    part: int | None = None,
+    even_stamps: bool = False,
+    skip_bad_rows: bool = False,
     validate: Sequence[str | os.PathLike[str]] = (),
     progress: bool | Callable[[str], None] = False,
     **settings: Any,
@@ -194,6 +191,12 @@ def identify(
         The command is logged with the opposite sign.
     from_s, to_s : float, optional
         Only samples from and up to these times, s on the log's clock.
+    part : int, optional
+        The part to use of a log whose clock starts again, counted from 1.
+    even_stamps : bool
+        The samples were taken at even intervals, whatever their stamps: those are of arrival.
+    skip_bad_rows : bool
+        Leaves out rows without three numbers, or with a time that does not come after the one before: at most a fifth of all.
     validate : sequence of paths
         Text logs that are predicted and take no part in the estimate.
     progress : bool or callable
@@ -229,6 +232,7 @@ def identify(
     columns = {
         "time": time, "output": output, "input": input, "degrees": bool(degrees), "wrap": bool(wrap), "radians": bool(radians),
         "time_unit": time_unit, "neutral": _float(neutral), "invert": bool(invert), "from_s": _float(from_s), "to_s": _float(to_s),
+        "part": part, "even_stamps": bool(even_stamps), "skip_bad_rows": bool(skip_bad_rows),
     }  # fmt: skip
     wanted: dict[str, Any] = {"method": method, "relay_level": _float(relay), "half_width": _float(half_width)}
     wanted |= {"error": float(error), "quantum": _float(quantum), **settings}
@@ -238,8 +242,7 @@ def identify(
         wanted["delay"] = "estimated" if delay == "estimate" else {"known_s": _delay(delay)}
     logs = _tables.sources(source, columns)
     with _Shown(progress) as shown:
-        paths = [os.fspath(path) for path in validate]
-        core = _core.identify(logs, paths, _document(wanted), _document(columns), shown)
+        core = _core.identify(logs, list(validate), _document(wanted), _document(columns), shown)
     return Identification(core)
 
 

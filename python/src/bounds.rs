@@ -3,6 +3,7 @@
 use pyo3::prelude::*;
 use selfosc::Error;
 use selfosc::experiment::Columns;
+use selfosc::files::Files;
 use selfosc::identify::bounded::{BoundedModel, DelayBound, enclose};
 use selfosc::identify::{DragLaw, Refusal};
 use serde_json::Value;
@@ -17,7 +18,10 @@ pub(crate) fn bounds(py: Python<'_>, sources: Vec<Source<'_>>, columns: &str, mo
     let model = model_of(py, model)?;
     let sources = sources.into_iter().map(Source::read).collect::<PyResult<Vec<_>>>()?;
     let found = work::interruptible(py, None, move |_| -> Result<_, Error> {
-        let logs = sources.into_iter().map(|source| source.log(&columns)).collect::<Result<Vec<_>, Refusal>>()?;
+        let logs = sources
+            .into_iter()
+            .map(|source| source.log(&columns, &mut Files::default()))
+            .collect::<Result<Vec<_>, Refusal>>()?;
         let records: Vec<_> = logs.iter().map(|(_, log)| &log.record).collect();
         Ok(enclose(&records, &model)?)
     })?;

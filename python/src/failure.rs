@@ -19,6 +19,19 @@ fn exception(py: Python<'_>, code: &str, text: &str, fault: Option<&OutOfDomain>
     exception.map_or_else(|error| error, PyErr::from_value)
 }
 
+/// What a Python text or path is to the system; the package's own error where that has no such name.
+pub(crate) fn named<'py, T: FromPyObjectOwned<'py>>(py: Python<'py>, text: &Bound<'py, PyAny>) -> PyResult<T> {
+    text.extract().map_err(|error: T::Error| {
+        let error: PyErr = error.into();
+        raised(
+            py,
+            "usage",
+            &format!("{text:?} must be text or a path that the system can name ({error}); write it so"),
+            None,
+        )
+    })
+}
+
 /// Any error of the library.
 pub(crate) fn library(py: Python<'_>, error: impl Into<Error>) -> PyErr {
     let error = error.into();

@@ -1,35 +1,47 @@
 //! From logs to a model.
 
-use std::fs::File;
+use std::path::{Path, PathBuf};
 
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use selfosc::Error;
 use selfosc::experiment::{Columns, Log};
+use selfosc::files::Files;
 use selfosc::identify::{Refusal, Session, Settings};
+use selfosc::report::identification as page;
 use serde::de::DeserializeOwned;
 
 use crate::{failure, work};
 
 /// One vehicle identified: its documents are made when they are asked for.
 #[pyclass(frozen)]
-pub(crate) struct Identification(selfosc::identify::Identification);
+pub(crate) struct Identification {
+    found: selfosc::identify::Identification,
+    /// The logs, which no report replaces.
+    files: Files,
+}
 
 #[pymethods]
 impl Identification {
     /// What `selfosc identify --json` prints.
     fn document(&self) -> PyResult<String> {
-        written(&self.0.conclusion())
+        written(&self.found.conclusion())
     }
 
     /// Everything, with records, fitted outputs and residuals.
     fn full(&self) -> PyResult<String> {
-        written(&self.0)
+        written(&self.found)
     }
 
-    /// The report, one HTML file.
-    fn html(&self, py: Python<'_>) -> PyResult<String> {
-        selfosc::report::identification::document(&self.0).html().map_err(|error| failure::library(py, error))
+    /// Writes the report, one HTML file, whole or not at all; onto no log.
+    fn report(&self, py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<()> {
+        let path: PathBuf = failure::named(py, path)?;
+        let written = || -> Result<(), Error> {
+            let document = page::document(&self.found).from_where(self.files.digests().iter().cloned());
+            Ok(self.files.clone().output(&path)?.write(document.html()?.as_bytes())?)
+        };
+        written().map_err(|error| failure::library(py, error))
     }
 }
 
@@ -50,13 +62,13 @@ pub(crate) fn choose_columns(py: Python<'_>, columns: &str, names: Vec<String>) 
 /// A log: a path, or a table's name, its three columns' names, and the columns.
 #[derive(FromPyObject)]
 pub(crate) enum Source<'py> {
-    Path(String),
     Table(String, [String; 3], [PyReadonlyArray1<'py, f64>; 3]),
+    Path(PathBuf),
 }
 
 /// The same, out of Python's reach.
 pub(crate) enum Read {
-    Path(String),
+    Path(PathBuf),
     Table(String, [String; 3], [Vec<f64>; 3]),
 }
 
@@ -74,14 +86,17 @@ impl Source<'_> {
 }
 
 impl Read {
-    /// The log with its name.
-    pub(crate) fn log(self, columns: &Columns) -> Result<(String, Log), Refusal> {
+    /// The log with its name, and its file among those read.
+    pub(crate) fn log(self, columns: &Columns, files: &mut Files) -> Result<(String, Log), Refusal> {
         let (name, log) = match self {
-            Self::Path(name) => match File::open(&name) {
-                Ok(file) => (name, columns.read(file)),
-                Err(error) => return Err(Refusal::File { name, reason: error.to_string() }),
-            },
-            Self::Table(name, names, values) => (name, columns.table(names, values)),
+            Self::Path(path) => {
+                let input = files.read(&path, Columns::LONGEST)?;
+                (input.name().to_owned(), columns.read(input.bytes()))
+            }
+            Self::Table(name, names, values) => {
+                files.protect(Path::new(&name));
+                (name, columns.table(names, values))
+            }
         };
         match log {
             Ok(log) => Ok((name, log)),
@@ -95,7 +110,7 @@ impl Read {
 pub(crate) fn identify(
     py: Python<'_>,
     sources: Vec<Source<'_>>,
-    validation: Vec<String>,
+    validation: Vec<Bound<'_, PyAny>>,
     settings: &str,
     columns: &str,
     progress: Option<Bound<'_, PyAny>>,
@@ -103,15 +118,21 @@ pub(crate) fn identify(
     let settings: Settings = parsed(py, settings)?;
     let columns: Columns = parsed(py, columns)?;
     let sources = sources.into_iter().map(Source::read).collect::<PyResult<Vec<_>>>()?;
-    let found = work::interruptible(py, progress.as_ref(), move |stage| {
+    let validation = validation.iter().map(|path| failure::named(py, path)).collect::<PyResult<Vec<PathBuf>>>()?;
+    let found = work::interruptible(py, progress.as_ref(), move |stage| -> Result<_, Refusal> {
         settings.check()?;
+        let mut files = Files::default();
         let mut session = Session::new(settings).with_columns(columns.clone());
         for source in sources {
-            let (name, log) = source.log(&columns)?;
+            let (name, log) = source.log(&columns, &mut files)?;
             session = session.record(name, log);
         }
-        let session = validation.into_iter().try_fold(session, Session::validation)?;
-        session.identify_with(|next| stage(next.to_string()))
+        for path in validation {
+            let input = files.read(&path, Columns::LONGEST)?;
+            session = session.validation_reader(input.name(), input.bytes())?;
+        }
+        let found = session.identify_with(|next| stage(next.to_string()))?;
+        Ok(Identification { found, files })
     })?;
-    found.map(Identification).map_err(|refusal: Refusal| failure::library(py, refusal))
+    found.map_err(|refusal| failure::library(py, refusal))
 }

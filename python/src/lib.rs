@@ -8,11 +8,14 @@ mod identification;
 mod relay_loop;
 mod work;
 
+use std::ffi::OsString;
+
 use pyo3::prelude::*;
 
 /// The answer of a subcommand to arguments as a shell would pass them: whether it is no, and its text.
 #[pyfunction]
-fn run(py: Python<'_>, arguments: Vec<String>) -> PyResult<(bool, String)> {
+fn run(py: Python<'_>, arguments: Vec<Bound<'_, PyAny>>) -> PyResult<(bool, String)> {
+    let arguments = arguments.iter().map(|one| failure::named(py, one)).collect::<PyResult<Vec<OsString>>>()?;
     let answer = work::interruptible(py, None, |_| selfosc::command::answer(arguments))?;
     answer
         .map(|answer| (answer.no, answer.text))

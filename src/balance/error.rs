@@ -3,6 +3,7 @@
 use crate::describing::DescribingError;
 use crate::nonlinearity::NonlinearityError;
 use crate::numeric::OutOfDomain;
+use crate::numeric::domain::Plain;
 use crate::plant::PlantError;
 
 /// Why a harmonic balance cannot be computed. That there is no intersection is not an error but an empty answer.
@@ -23,8 +24,8 @@ pub enum BalanceError {
     OutOfDomain(#[from] OutOfDomain),
     /// A curve that winds too much for its range.
     #[error(
-        "the curve over {quantity} from {from} to {to} needs more than {limit} points; give a range that begins later or ends \
-         earlier"
+        "the curve over {quantity} from {} to {} needs more than {limit} points; give a range that begins later or ends \
+         earlier, or a plant whose times are nearer to each other", Plain(*.from), Plain(*.to)
     )]
     TooManyPoints {
         /// Amplitude or frequency.

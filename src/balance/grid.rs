@@ -40,6 +40,10 @@ impl Axis {
     ) -> Result<Vec<(f64, Option<V>)>, BalanceError> {
         let (from, to) = (*self.range.start(), *self.range.end());
         let gaps = ((to / from).log10() * PER_DECADE).ceil().max(1.0);
+        let too_many = BalanceError::TooManyPoints { quantity: self.quantity, from, to, limit: POINTS };
+        if gaps >= POINTS as f64 {
+            return Err(too_many);
+        }
         let mut points: Vec<(f64, Option<V>)> = vec![(from, curve(from))];
         for index in 1..=gaps as usize {
             let end = if index == gaps as usize { to } else { from * (to / from).powf(index as f64 / gaps) };
@@ -57,7 +61,7 @@ impl Axis {
                     continue;
                 }
                 if points.len() + stack.len() >= POINTS {
-                    return Err(BalanceError::TooManyPoints { quantity: self.quantity, from, to, limit: POINTS });
+                    return Err(too_many);
                 }
                 let middle = (last * x).sqrt();
                 stack.push((x, value, depth + 1));

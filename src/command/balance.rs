@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
+use super::error::Given;
 use super::number::number;
 use super::{CommandError, Outcome, files, write_json};
 use crate::balance::{Bias, HarmonicBalance};
@@ -52,7 +53,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let plant = TransferFunction::new(&arguments.num, &arguments.den)?.with_delay(arguments.delay)?;
-    let entry = Entry::find(&arguments.nonlinearity)?;
+    let entry = Entry::find(&arguments.nonlinearity).given("--nonlinearity")?;
     let characteristic = entry.build(&entry.values(&arguments.settings)?)?;
     let balance = HarmonicBalance::new(&plant, |sweep| characteristic.describing_function(sweep))?
         .with_bias(Bias::Fixed(arguments.bias))?;
@@ -60,7 +61,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     if let Some(path) = &arguments.svg {
         let describing = |sweep: &_| characteristic.describing_function(sweep);
         let figure = nyquist(&plant, balance.omega_rad_s(), describing, arguments.bias, &found)?;
-        files::write(path, &figure.svg()?)?;
+        files::write(path, &figure.svg()?).given("--svg")?;
     }
     let outcome = if found.is_empty() { Outcome::No } else { Outcome::Done };
     if arguments.json {

@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use super::error::Given;
 use super::{CommandError, Outcome, files};
 use crate::claims::{CLAIMS, Certificate, Claim};
 use crate::identify::bounded::certificate as bounded;
@@ -18,12 +19,12 @@ fn file(folder: &Path, claim: &Claim) -> PathBuf {
 
 /// One file `ID.json` for each theorem; the answer is no where one is not proved.
 pub(super) fn write(folder: &Path) -> Result<Outcome, CommandError> {
-    std::fs::create_dir_all(folder).map_err(|source| CommandError::Write { path: folder.to_owned(), source })?;
+    crate::files::folder(folder).given("--certificates")?;
     let mut outcome = Outcome::Done;
     for claim in theorems() {
         let path = file(folder, claim);
         match Certificate::of(claim) {
-            Some(certificate) => files::write(&path, &certificate.to_string())?,
+            Some(certificate) => files::write(&path, &certificate.to_string()).given("--certificates")?,
             None => outcome = Outcome::No,
         }
     }

@@ -1,12 +1,14 @@
 //! `selfosc design`: which experiment to make.
 
 use std::io::Write;
+use std::num::NonZeroUsize;
 
 use clap::Args;
 use serde_json::json;
 
 use super::axis::MotionArguments;
-use super::{CommandError, Outcome, write_json};
+use super::number::{count, number};
+use super::{CommandError, Outcome, refused, write_json};
 use crate::experiment::Sensor;
 use crate::identify::design::{DesignError, Deviations, Proposal, Run, Situation};
 use crate::identify::joint::Delay;
@@ -26,35 +28,35 @@ pub(super) struct Arguments {
     #[command(flatten)]
     motion: MotionArguments,
     /// Constant disturbance, command units
-    #[arg(long, value_name = "D", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "D", default_value_t = 0.0, allow_negative_numbers = true)]
     delta: f64,
     /// Rough delay of the whole loop in s
-    #[arg(long, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
     delay: f64,
     /// The delay will be known
     #[arg(long)]
     delay_known: bool,
     /// The largest relay level, command units
-    #[arg(long, value_name = "C", allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "C", allow_negative_numbers = true)]
     level: f64,
     /// Length of one record in s
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "S", allow_negative_numbers = true)]
     time: f64,
     /// Samples per second, of sensor and relay
-    #[arg(long, value_name = "HZ", default_value_t = 10.0)]
+    #[arg(long, value_parser = number, value_name = "HZ", default_value_t = 10.0, allow_negative_numbers = true)]
     rate: f64,
     /// Step of the sensor, output units
-    #[arg(long, value_name = "Q", default_value_t = 0.0)]
+    #[arg(long, value_parser = number, value_name = "Q", default_value_t = 0.0, allow_negative_numbers = true)]
     quantum: f64,
     /// Standard deviation of the noise on a reading, output units
-    #[arg(long, value_name = "SD", default_value_t = 0.0)]
+    #[arg(long, value_parser = number, value_name = "SD", default_value_t = 0.0, allow_negative_numbers = true)]
     noise: f64,
     /// The largest amplitude allowed, output units [default: any]
-    #[arg(long, value_name = "X", default_value_t = f64::INFINITY, hide_default_value = true)]
+    #[arg(long, value_parser = number, value_name = "X", default_value_t = f64::INFINITY, hide_default_value = true, allow_negative_numbers = true)]
     largest_amplitude: f64,
     /// Proposals shown
-    #[arg(long, value_name = "N", default_value_t = 5)]
-    proposals: usize,
+    #[arg(long, value_parser = count, value_name = "N", default_value = "5", allow_negative_numbers = true)]
+    proposals: NonZeroUsize,
     /// Prints one JSON document
     #[arg(long)]
     json: bool,
@@ -73,17 +75,10 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     };
     let mut proposals = match situation.experiments() {
         Ok(proposals) => proposals,
-        Err(refusal @ DesignError::NoExperiment { .. }) => {
-            if arguments.json {
-                write_json(output, &json!({ "refused": { "code": refusal.code(), "text": refusal.to_string() } }))?;
-            } else {
-                writeln!(output, "refused ({}): {refusal}", refusal.code())?;
-            }
-            return Ok(Outcome::No);
-        }
+        Err(refusal @ DesignError::NoExperiment { .. }) => return refused(&refusal.into(), arguments.json, output),
         Err(error) => return Err(error.into()),
     };
-    proposals.truncate(arguments.proposals.max(1));
+    proposals.truncate(arguments.proposals.get());
     if arguments.json {
         write_json(output, &json!({ "proposals": proposals }))?;
         return Ok(Outcome::Done);

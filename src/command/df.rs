@@ -7,8 +7,8 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 use serde_json::json;
 
+use super::error::Given;
 use super::number::number;
-use super::settings::parameters;
 use super::{CommandError, Outcome, files, gain, write_json};
 use crate::describing::{CATALOGUE, DescribingFunction, Entry, RoundingBounds, Setting, by_quadrature, certified};
 use crate::nonlinearity::{ParameterSpec, Sinusoid};
@@ -78,46 +78,24 @@ pub(super) fn setting(text: &str) -> Result<(String, Setting), String> {
     Ok((key.to_owned(), setting))
 }
 
-#[derive(Serialize)]
-struct Answer<'a> {
-    nonlinearity: &'a str,
-    params: serde_json::Map<String, serde_json::Value>,
-    amplitude: f64,
-    bias: f64,
-    f0: f64,
-    p: f64,
-    q: f64,
-    method: Method,
-    enclosure: Option<Enclosure>,
-}
-
-/// Lower and upper bounds.
-#[derive(Serialize)]
-struct Enclosure {
-    f0: (f64, f64),
-    p: (f64, f64),
-    q: (f64, f64),
-}
-
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     if let Some(path) = &arguments.fit {
         return gain::recognise(path, arguments.bias, arguments.json, output);
     }
-    if let (Some(name), Some(wanted), false) = (&arguments.name, arguments.gain, arguments.list) {
-        let entry = Entry::find(name)?;
-        let values = entry.values(&arguments.settings)?;
-        let characteristic = entry.build(&values)?;
-        return gain::solve((entry, &values), &characteristic, (arguments.bias, wanted), arguments.json, output);
-    }
-    let (Some(name), Some(amplitude), false) = (&arguments.name, arguments.amplitude, arguments.list) else {
+    let Some(name) = arguments.name.as_ref().filter(|_| !arguments.list) else {
         if let Some(path) = &arguments.page {
-            files::write(path, &characteristics()?.html()?)?;
+            files::write(path, &characteristics()?.html()?).given("--page")?;
         }
         return list(arguments.json, output);
     };
     let entry = Entry::find(name)?;
     let values = entry.values(&arguments.settings)?;
     let characteristic = entry.build(&values)?;
+    if let Some(wanted) = arguments.gain {
+        return gain::solve((entry, &values), &characteristic, (arguments.bias, wanted), arguments.json, output);
+    }
+    // The parser wants it without --gain.
+    let amplitude = arguments.amplitude.unwrap_or(f64::NAN);
     let sweep = Sinusoid::new(arguments.bias, amplitude)?;
     let enclosed = match arguments.method {
         Method::Certified => Some(enclose(entry, &values, arguments.bias, amplitude)?),
@@ -131,10 +109,17 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         }
     };
     if arguments.json {
-        let params = parameters(entry, &values);
-        let (bias, method) = (arguments.bias, arguments.method);
-        let enclosure = enclosed.map(|df| Enclosure { f0: df.f0.bounds(), p: df.p.bounds(), q: df.q.bounds() });
-        let answer = Answer { nonlinearity: entry.name, params, amplitude, bias, f0, p, q, method, enclosure };
+        let answer = json!({
+            "nonlinearity": entry.name,
+            "params": parameters(entry, &values),
+            "amplitude": amplitude,
+            "bias": arguments.bias,
+            "f0": f0,
+            "p": p,
+            "q": q,
+            "method": arguments.method,
+            "enclosure": enclosed,
+        });
         write_json(output, &answer)?;
     } else if let Some(DescribingFunction { f0, p, q }) = enclosed {
         writeln!(output, "F_0 in {f0}\nP   in {p}\nQ   in {q}")?;
@@ -142,6 +127,15 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         writeln!(output, "F_0 = {f0}\nP   = {p}\nQ   = {q}")?;
     }
     Ok(Outcome::Done)
+}
+
+/// Values by the names of the parameters: a number as a number, points as pairs.
+pub(super) fn parameters(entry: &Entry, values: &[f64]) -> serde_json::Map<String, serde_json::Value> {
+    let plain = |setting| match setting {
+        Setting::Number(number) => json!(number),
+        Setting::Points(points) => json!(points),
+    };
+    entry.settings(values).into_iter().map(|(name, value)| (name.to_owned(), plain(value))).collect()
 }
 
 fn enclose(
@@ -157,13 +151,12 @@ fn enclose(
 
 /// Over which values of the parameters, in their order, of bias and of amplitude the closed form is how near to the exact value.
 fn rounding(bounds: &RoundingBounds) -> serde_json::Value {
-    let parts = |df: DescribingFunction<f64>| json!({ "f0": df.f0, "p": df.p, "q": df.q });
     json!({
         "parameters": bounds.parameters,
         "bias": bounds.bias,
         "amplitude": bounds.amplitude,
-        "f64": parts(bounds.double),
-        "f32": parts(bounds.single),
+        "f64": bounds.double,
+        "f32": bounds.single,
     })
 }
 

@@ -1,7 +1,6 @@
 //! What ends a subcommand early.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use super::suggestion;
 use crate::describing::{CATALOGUE, CatalogueError};
@@ -18,85 +17,31 @@ pub(super) enum CommandError {
     #[error("{}", in_context(.0))]
     Library(Error),
     /// The same of a number that one flag gave.
-    #[error("{flag}: {error}")]
-    Given {
-        /// The flag.
-        flag: &'static str,
-        /// What the library says.
-        error: Error,
-    },
+    #[error("{flag}: {}", words(.error))]
+    Given { flag: &'static str, error: Error },
     /// Arguments that contradict each other.
     #[error("{reason}")]
-    Usage {
-        /// What contradicts what, and the remedy.
-        reason: &'static str,
-    },
-    /// A file that cannot be written.
-    #[error("cannot write {}: {source}; choose a folder that you may write to", path.display())]
-    Write {
-        /// The file or folder.
-        path: PathBuf,
-        /// What the system says.
-        source: std::io::Error,
-    },
-    /// A file that would be replaced by what is made from it.
-    #[error("{} is one of the logs; choose another name for what is written", path.display())]
-    OutputIsInput {
-        /// The file.
-        path: PathBuf,
-    },
-    /// A proof that cannot be opened.
-    #[error("cannot read {}: {source}; write the proofs with `selfosc verify --certificates DIR`", path.display())]
-    Certificate {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: std::io::Error,
-    },
+    Usage { reason: String },
     /// A proof that was not found.
     #[error("no certificate: {reason}")]
-    Proof {
-        /// Why, and the remedy.
-        reason: String,
-    },
+    Proof { reason: String },
     /// An id that no claim has.
     #[error("there is no claim `{id}`{}; `selfosc verify` without --claim lists them all", meant(*.nearest))]
-    UnknownClaim {
-        /// The id given.
-        id: String,
-        /// The claim that was perhaps meant.
-        nearest: Option<&'static str>,
-    },
-    /// Numbers that contradict each other.
-    #[error("{reason}")]
-    Contradiction {
-        /// Which ones, and the remedy.
-        reason: String,
-    },
+    UnknownClaim { id: String, nearest: Option<&'static str> },
     /// A model that cannot be used.
-    #[error("cannot use {}: {reason}", path.display())]
-    Model {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it, and the remedy.
-        reason: String,
-    },
+    #[error("{flag}: cannot use {}: {reason}", path.display())]
+    Model { flag: &'static str, path: PathBuf, reason: String },
 }
 
 impl CommandError {
-    /// All of them are input that cannot be used.
-    pub(super) fn status(&self) -> ExitCode {
-        ExitCode::from(2)
-    }
-
     /// Short name for scripts.
     pub(super) fn code(&self) -> &'static str {
         match self {
             Self::Library(error) | Self::Given { error, .. } => error.code(),
-            Self::Usage { .. } | Self::UnknownClaim { .. } | Self::Contradiction { .. } => "usage",
+            Self::Usage { .. } | Self::UnknownClaim { .. } => "usage",
             Self::Model { .. } => "model",
             Self::Proof { .. } => "proof",
-            Self::Output(_) | Self::Write { .. } | Self::OutputIsInput { .. } | Self::Certificate { .. } => "files",
+            Self::Output(_) => "files",
         }
     }
 
@@ -115,6 +60,17 @@ impl<E: Into<Error>> From<E> for CommandError {
     }
 }
 
+/// A result of one flag's value: an error names the flag.
+pub(super) trait Given<T> {
+    fn given(self, flag: &'static str) -> Result<T, CommandError>;
+}
+
+impl<T, E: Into<Error>> Given<T> for Result<T, E> {
+    fn given(self, flag: &'static str) -> Result<T, CommandError> {
+        self.map_err(|error| CommandError::Given { flag, error: error.into() })
+    }
+}
+
 /// ` (did you mean ...)` where a name was probably meant.
 fn meant(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |name| format!(" (did you mean `{name}`?)"))
@@ -127,37 +83,70 @@ fn flag(quantity: &str) -> Option<&'static str> {
         "linear_drag" => "--beta",
         "quadratic_drag" => "--beta-quadratic",
         "disturbance" => "--delta",
-        "delay_s" => "--delay",
-        "quantum" => "--quantum",
+        "delay_s" | "delay" | "longest delay" => "--delay",
+        "relay level" => "--relay",
+        "half-width" => "--half-width",
+        "quantum" | "step of the sensor" => "--quantum",
+        "largest error of a reading" => "--error",
+        "largest error of a stamp" => "--jitter",
         "noise" => "--noise",
-        "rate" => "--rate",
-        "duration" => "--cycles",
+        "rate" | "sampling rate" | "number of samples" => "--rate",
+        "cycles" => "--cycles",
         "bandwidth" => "--bandwidth",
         "size of the step" => "--step",
+        "top speed" => "--top-speed",
         "amplitude" => "--amplitude",
         "bias" => "--bias",
+        "gain" => "--gain",
+        "largest relay level" => "--level",
+        "time limit" => "--time",
+        "largest amplitude" => "--largest-amplitude",
+        _ => return None,
+    })
+}
+
+/// The flags that change what an error without a number of its own speaks of.
+fn flags(error: &Error) -> Option<&'static str> {
+    Some(match (error, error.code()) {
+        (Error::Orbit(_), "no-drag") => "--beta, --beta-quadratic",
+        (Error::Orbit(_), "no-hysteresis") => "--half-width, --delay",
+        (Error::Orbit(_), "drifts-away") => "--relay, --delta",
+        (Error::Orbit(_), _) => "--alpha, --beta, --half-width",
+        (Error::Plant(_), _) => "--num, --den",
+        (Error::Balance(_), _) => "--num, --den, --delay",
+        (Error::Describing(_) | Error::Nonlinearity(_), _) => "--amplitude, --bias, --set",
+        (Error::Control(_), _) => "--bandwidth, --delay",
+        (Error::Identification(_), "condition-40" | "no-orbit") => "--half-width, --delay",
         _ => return None,
     })
 }
 
 /// The error in the words of a subcommand: a number by its flag, a name with the one that was probably meant.
-fn in_context(error: &Error) -> String {
-    let given = error.out_of_domain().and_then(|fault| flag(fault.quantity));
-    if let Some(flag) = given {
-        return format!("{flag}: {error}");
+pub(super) fn in_context(error: &Error) -> String {
+    match error.out_of_domain().and_then(|fault| flag(fault.quantity)) {
+        Some(flag) => format!("{flag}: {error}"),
+        None => words(error),
     }
+}
+
+fn words(error: &Error) -> String {
+    let said = error.to_string();
     match error {
         Error::Catalogue(CatalogueError::UnknownName { name, .. }) => {
             let nearest = suggestion::nearest(name, CATALOGUE.iter().map(|entry| entry.name));
-            format!(
-                "unknown characteristic `{name}`{}\n  `selfosc df --list` shows every one with its parameters",
-                meant(nearest)
-            )
+            let known = "`selfosc df --list` shows every one with its parameters; give one of these";
+            format!("unknown characteristic `{name}`{}\n  {known}", meant(nearest))
         }
-        Error::Catalogue(_) => {
-            format!("{error}\n  `selfosc df --list` shows every characteristic with its parameters")
+        Error::Catalogue(_) => format!("{said}\n  `selfosc df --list` shows every characteristic with its parameters"),
+        // Of a record that is simulated, not read.
+        Error::Experiment(_) if error.out_of_domain().is_none() => {
+            let fault = said.split("; ").next().unwrap_or(&said);
+            format!("{fault}; give more samples (--cycles, --rate), or units in which the numbers are nearer to 1")
         }
-        Error::Orbit(_) => format!("no limit cycle: {error}"),
-        _ => error.to_string(),
+        _ if error.out_of_domain().is_some() => said,
+        _ => {
+            let flags = flags(error).map_or_else(String::new, |flags| format!(" ({flags})"));
+            format!("{}{said}{flags}", if matches!(error, Error::Orbit(_)) { "no limit cycle: " } else { "" })
+        }
     }
 }

@@ -5,9 +5,12 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::settings::parameters;
-use super::{CommandError, Outcome, write_json};
+use super::df::parameters;
+use super::error::Given;
+use super::{CommandError, Outcome, files, write_json};
 use crate::describing::{Boxed, Entry, FittedCharacteristic, amplitudes, fit};
+use crate::files::{LONGEST_WORD, cut};
+use crate::numeric::domain::Plain;
 use crate::numeric::significant;
 
 /// Amplitudes that are searched.
@@ -34,7 +37,13 @@ pub(super) fn solve(
             }),
         )?;
     } else if found.is_empty() {
-        writeln!(output, "no amplitude from {} to {} has P = {gain}", RANGE.0, RANGE.1)?;
+        writeln!(
+            output,
+            "no amplitude from {} to {} has P = {}; give another gain (--gain)",
+            RANGE.0,
+            RANGE.1,
+            Plain(gain)
+        )?;
     } else {
         writeln!(output, "{:>12}  {:>12}  {:>12}  {:>12}", "amplitude", "F_0", "P", "Q")?;
         for one in &found {
@@ -66,20 +75,23 @@ pub(super) fn recognise(path: &Path, bias: f64, json: bool, output: &mut impl Wr
 }
 
 fn points(path: &Path) -> Result<Vec<(f64, f64)>, CommandError> {
-    let unusable = |reason: String| CommandError::Model { path: path.to_owned(), reason };
-    let remedy = "give a CSV file with the columns amplitude and p";
-    let mut reader = csv::Reader::from_path(path).map_err(|error| unusable(format!("{error}; {remedy}")))?;
-    let headers = reader.headers().map_err(|error| unusable(format!("{error}; {remedy}")))?.clone();
+    let unusable = |reason: String| CommandError::Model { flag: "--fit", path: path.to_owned(), reason };
+    let malformed =
+        |what: &dyn core::fmt::Display| unusable(format!("{what}; give a CSV file with the columns amplitude and p"));
+    let text = files::text(path).given("--fit")?;
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let headers = reader.headers().map_err(|error| malformed(&error))?.clone();
     let column = |name: &str| {
-        headers.iter().position(|header| header == name).ok_or_else(|| unusable(format!("no column {name}; {remedy}")))
+        headers.iter().position(|header| header == name).ok_or_else(|| malformed(&format!("no column {name}")))
     };
     let (amplitude, p) = (column("amplitude")?, column("p")?);
     let mut points = Vec::new();
     for (line, row) in (2..).zip(reader.records()) {
-        let row = row.map_err(|error| unusable(format!("{error}; {remedy}")))?;
+        let row = row.map_err(|error| malformed(&error))?;
         let number = |column: usize| {
             let text = row.get(column).unwrap_or_default().trim();
-            text.parse::<f64>().map_err(|_| unusable(format!("line {line}: {text:?} is no number; correct the cell")))
+            let shown = cut(text, LONGEST_WORD);
+            text.parse::<f64>().map_err(|_| unusable(format!("line {line}: {shown:?} is no number; correct the cell")))
         };
         points.push((number(amplitude)?, number(p)?));
     }

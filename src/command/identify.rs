@@ -5,14 +5,17 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use indicatif::ProgressBar;
 
-use super::number::count;
-use super::{CommandError, Outcome, files, write_json};
+use super::error::Given;
+use super::number::{count, finite, non_negative, positive, whole};
+use super::{CommandError, Outcome, files, refused, write_json};
 use crate::experiment::{Columns, TimeUnit};
+use crate::files::{FileError, Files, Input};
 use crate::identify::joint::Delay;
-use crate::identify::{self, DragLaw, Identification, Refusal, Refused, Session, Settings, SettingsError};
+use crate::identify::{DragLaw, Identification, Method, Refusal, Refused, Session, Settings};
 use crate::report::identification as page;
 
 /// A vehicle's inertia, drag, disturbance and delay from logs of relay experiments, with 95 % intervals.
@@ -33,13 +36,13 @@ pub(super) struct Arguments {
     /// Delimiter-separated text with a header; - is standard input
     #[arg(value_name = "LOG", required = true)]
     logs: Vec<PathBuf>,
-    /// Column of times in s [default: the first of time_s, time, t]
+    /// Column of times in s [default: the first of time_s, time, t, timestamp, also with _ms, _us or _ns]
     #[arg(long, value_name = "COL")]
     time: Option<String>,
-    /// Column of the output [default: the first of heading_deg, yaw_deg, heading, yaw, depth_m, position_m, position, output, y]
+    /// Column of the output [default: the first of heading_deg, yaw_deg, heading, yaw, depth_m, position_m, position, output, y, depth, temperature]
     #[arg(long, value_name = "COL")]
     output: Option<String>,
-    /// Column of the command [default: the first of command, input, u]
+    /// Column of the command [default: the first of command, input, u, pwm, duty]
     #[arg(long, value_name = "COL")]
     input: Option<String>,
     /// Relay level C; a command logged in other units is scaled to it [default: as logged]
@@ -52,26 +55,26 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "S|estimate", default_value = "estimate", value_parser = delay, allow_negative_numbers = true)]
     delay: Delay,
     /// Drag law
-    #[arg(long, default_value = "auto")]
-    drag: Drag,
+    #[arg(long, default_value = "auto", value_parser = law())]
+    drag: Law,
     /// How parameters are found
     #[arg(long, default_value = "all")]
     method: Method,
     /// Bounded: largest error of a reading beside its rounding, output units (with --degrees still radians)
-    #[arg(long, value_name = "E", default_value_t = 0.0, value_parser = nonnegative, allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", default_value_t = 0.0, value_parser = non_negative, allow_negative_numbers = true)]
     error: f64,
     /// Bounded: step of the sensor, output units (with --degrees still radians) [default: found in the record]
     #[arg(long, value_name = "Q", value_parser = positive, allow_negative_numbers = true)]
     quantum: Option<f64>,
     /// Bounded: largest error of a stamp, in s
-    #[arg(long, value_name = "T", default_value_t = 0.0, value_parser = nonnegative, allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", default_value_t = 0.0, value_parser = non_negative, allow_negative_numbers = true)]
     jitter: f64,
     /// Bounded: so many readings may be in error by any amount, whichever they are
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<usize>, allow_negative_numbers = true)]
     outliers: usize,
     /// Bounded: work that may be spent, counted in passes over the records; of 600 samples 3000 take some 10 s,
     /// 600 some 2 s [default: 3000]
-    #[arg(long, value_name = "PASSES", value_parser = count)]
+    #[arg(long, value_name = "PASSES", value_parser = count, allow_negative_numbers = true)]
     budget: Option<NonZeroUsize>,
     /// Bounded: the model has a restoring force proportional to the coordinate
     #[arg(long)]
@@ -113,6 +116,15 @@ pub(super) struct Arguments {
     /// Uses samples up to this time, in s on the log's clock
     #[arg(long, value_name = "T", value_parser = finite, allow_negative_numbers = true)]
     to: Option<f64>,
+    /// Uses this part of a log whose clock starts again, counted from 1
+    #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
+    part: Option<NonZeroUsize>,
+    /// The samples were taken at even intervals, whatever their stamps: those are of arrival
+    #[arg(long)]
+    even_stamps: bool,
+    /// Leaves out rows without three numbers, or with a time that does not come after the one before: at most a fifth of all
+    #[arg(long)]
+    skip_bad_rows: bool,
     /// Logs that are predicted and take no part in the estimate: percent of fit of each
     #[arg(long, value_name = "LOG", num_args = 1..)]
     validate: Vec<PathBuf>,
@@ -125,99 +137,59 @@ pub(super) struct Arguments {
 }
 
 /// A drag law, or the question which.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Drag {
-    /// Force proportional to speed
-    Linear,
-    /// Force proportional to speed squared
-    Quadratic,
-    /// The sum of both
-    Mixed,
-    /// The likeliest of the three
-    Auto,
-}
+type Law = Option<DragLaw>;
 
-impl Drag {
-    fn law(self) -> Option<DragLaw> {
-        match self {
-            Self::Linear => Some(DragLaw::Linear),
-            Self::Quadratic => Some(DragLaw::Quadratic),
-            Self::Mixed => Some(DragLaw::Mixed),
-            Self::Auto => None,
-        }
-    }
-}
-
-/// Ways from records to parameters
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Method {
-    /// The paper's: the first harmonic of the mean cycle
-    Iso,
-    /// The exact limit cycle with the mean cycle's features
-    Exact,
-    /// The likelihood of every sample: the answer to use, and each drag law alone
-    Fit,
-    /// Guaranteed bounds: every reading a constraint; consistent, refuted or undecided
-    Bounded,
-    /// All of them but the bounds
-    All,
-}
-
-impl From<Method> for identify::Method {
-    fn from(method: Method) -> Self {
-        match method {
-            Method::Iso => Self::Iso,
-            Method::Exact => Self::Exact,
-            Method::Fit => Self::Fit,
-            Method::Bounded => Self::Bounded,
-            Method::All => Self::All,
-        }
-    }
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
-    value.ok_or_else(|| "must be a finite number above 0".to_owned())
-}
-
-fn finite(text: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| "must be a finite number".to_owned())
+fn law() -> impl TypedValueParser<Value = Law> {
+    let named = [
+        ("linear", "Force proportional to speed"),
+        ("quadratic", "Force proportional to speed squared"),
+        ("mixed", "The sum of both"),
+        ("auto", "The likeliest of the three"),
+    ];
+    PossibleValuesParser::new(named.map(|(name, help)| PossibleValue::new(name).help(help)))
+        .map(|given| DragLaw::ALL.into_iter().find(|law| law.name() == given))
 }
 
 fn time_unit(text: &str) -> Result<TimeUnit, String> {
-    TimeUnit::ALL.into_iter().find(|unit| unit.name() == text).ok_or_else(|| "must be s, ms, us or ns".to_owned())
-}
-
-fn nonnegative(text: &str) -> Result<f64, String> {
-    let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value >= 0.0);
-    value.ok_or_else(|| "must be a finite number, 0 or more".to_owned())
+    TimeUnit::ALL
+        .into_iter()
+        .find(|unit| unit.name() == text)
+        .ok_or_else(|| "must be s, ms, us or ns; name the unit of the log's times".to_owned())
 }
 
 fn delay(text: &str) -> Result<Delay, String> {
     if text == "estimate" {
         return Ok(Delay::Estimated);
     }
-    let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value >= 0.0);
-    value.map(Delay::KnownS).ok_or_else(|| "must be `estimate` or a finite number of seconds, 0 or more".to_owned())
+    non_negative(text).map(Delay::KnownS).map_err(|why| format!("{why}, or `estimate`"))
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
-    for path in [&arguments.report, &arguments.certificate].into_iter().flatten() {
-        files::distinct(path, &arguments.logs)?;
-    }
-    let found = match arguments.identify() {
+    let mut known = Files::default();
+    let read = |known: &mut Files, paths: &[PathBuf]| -> Result<Vec<Input>, FileError> {
+        paths.iter().map(|path| files::input(known, path, Columns::LONGEST)).collect()
+    };
+    let logs = match read(&mut known, &arguments.logs) {
+        Ok(logs) => logs,
+        Err(error) => return arguments.refuse(error.into(), output),
+    };
+    let validation = read(&mut known, &arguments.validate).given("--validate")?;
+    let report = arguments.report.as_ref().map(|path| known.output(path)).transpose().given("--report")?;
+    let certificate =
+        arguments.certificate.as_ref().map(|path| known.output(path)).transpose().given("--certificate")?;
+    let found = match arguments.identify(&logs, &validation) {
         Ok(found) => found,
         Err(refusal) => return arguments.refuse(refusal, output),
     };
-    if let Some(path) = &arguments.report {
-        let document = page::document(&found).from_where(files::provenance(&arguments.logs));
-        files::write(path, &document.html()?)?;
+    if let Some(report) = report {
+        let document = page::document(&found).from_where(files::provenance(&known));
+        report.write(document.html()?.as_bytes()).given("--report")?;
     }
-    let certificate = found.bounded().and_then(|bounded| bounded.certificate());
-    let written = match (&arguments.certificate, certificate) {
-        (Some(path), Some(Ok(certificate))) => {
-            files::write(path, &certificate.to_string())?;
-            Some(Ok(path))
+    let proof = found.bounded().and_then(|bounded| bounded.certificate());
+    let written = match (certificate, proof) {
+        (Some(certificate), Some(Ok(proof))) => {
+            certificate.write(proof.to_string().as_bytes()).given("--certificate")?;
+            arguments.certificate.as_ref().map(Ok)
         }
         (_, Some(Err(unproved))) => Some(Err(unproved)),
         _ => None,
@@ -240,19 +212,17 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
 }
 
 impl Arguments {
-    fn identify(&self) -> Result<Identification, Refusal> {
+    fn identify(&self, logs: &[Input], validation: &[Input]) -> Result<Identification, Refusal> {
         let settings = self.settings();
         settings.check()?;
         // Drawn on standard error, and only where that is a terminal.
         let progress = ProgressBar::new_spinner();
         progress.enable_steady_tick(Duration::from_millis(100));
         let session = Session::new(settings).with_columns(self.columns());
-        let read = |session: Session, path: &PathBuf| match path.to_str() {
-            Some("-") => session.reader("standard input", std::io::stdin()),
-            _ => session.log(path),
-        };
-        let session = self.logs.iter().try_fold(session, read);
-        let session = session.and_then(|session| self.validate.iter().try_fold(session, Session::validation));
+        let session = logs.iter().try_fold(session, |session, log| session.reader(log.name(), log.bytes()));
+        let session = session.and_then(|session| {
+            validation.iter().try_fold(session, |session, log| session.validation_reader(log.name(), log.bytes()))
+        });
         let found = session.and_then(|session| session.identify_with(|stage| progress.set_message(stage.to_string())));
         progress.finish_and_clear();
         found
@@ -260,8 +230,8 @@ impl Arguments {
 
     fn settings(&self) -> Settings {
         Settings {
-            method: self.method.into(),
-            drag: self.drag.law(),
+            method: self.method,
+            drag: self.drag,
             delay: self.delay,
             relay_level: self.relay,
             half_width: self.half_width,
@@ -288,6 +258,9 @@ impl Arguments {
             invert: self.invert,
             from_s: self.from,
             to_s: self.to,
+            part: self.part,
+            even_stamps: self.even_stamps,
+            skip_bad_rows: self.skip_bad_rows,
             radians: self.radians,
             degrees: self.degrees,
             wrap: self.wrap,
@@ -295,18 +268,8 @@ impl Arguments {
     }
 
     fn refuse(&self, refusal: Refusal, output: &mut impl Write) -> Result<Outcome, CommandError> {
-        let usage = |reason| Err(CommandError::Usage { reason });
-        match refusal {
-            Refusal::Settings(SettingsError::MixedNeedsFit) => {
-                return usage("only the fit knows mixed drag; use --method fit, or another --drag");
-            }
-            Refusal::Settings(SettingsError::NeedsBounded) => {
-                return usage(
-                    "--stiffness, --lag, --cubic, --either-sign, --jitter, --outliers, --budget and --certificate are of the guaranteed bounds; use --method bounded",
-                );
-            }
-            Refusal::Settings(_) | Refusal::File { .. } => return Err(refusal.into()),
-            _ => {}
+        if matches!(refusal, Refusal::Settings(_)) {
+            return Err(refusal.into());
         }
         // A script gets its document even where the status says unreadable.
         if self.json {
@@ -315,10 +278,7 @@ impl Arguments {
         if refusal.is_usage() {
             return Err(refusal.into());
         }
-        if !self.json {
-            writeln!(output, "refused ({}): {refusal}", refusal.code())?;
-        }
-        Ok(Outcome::No)
+        if self.json { Ok(Outcome::No) } else { refused(&refusal.into(), false, output) }
     }
 }
 

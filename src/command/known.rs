@@ -4,8 +4,11 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::CommandError;
+use super::error::Given;
+use super::{CommandError, files};
+use crate::files::{LONGEST_WORD, cut};
 use crate::numeric::Interval;
+use crate::numeric::domain::Plain;
 
 /// A parameter.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +37,9 @@ pub(super) struct Model {
 /// Flags that give intervals, in the order of the fields.
 const FLAGS: [&str; 4] = ["--alpha-interval", "--beta-interval", "--beta-quadratic-interval", "--delay-interval"];
 
+/// Where a model comes from.
+const WRITTEN: &str = "write the file by `selfosc identify LOG --json > RESULT.json`";
+
 impl Model {
     /// Parameters without intervals, in the order of the fields.
     pub(super) fn of(values: [f64; 4]) -> Self {
@@ -48,9 +54,10 @@ impl Model {
     pub(super) fn with_intervals(self, intervals: [Option<Interval>; 4]) -> Result<Self, CommandError> {
         let mut parts = [self.alpha, self.beta, self.beta_quadratic, self.delay_s];
         for ((part, given), flag) in parts.iter_mut().zip(intervals).zip(FLAGS) {
-            if given.is_some_and(|interval| !interval.contains(part.value)) {
-                let reason = format!("{flag} does not contain the value {}; give an interval around it", part.value);
-                return Err(CommandError::Contradiction { reason });
+            if let Some(interval) = given.filter(|interval| !interval.contains(part.value)) {
+                let value = Plain(part.value);
+                let reason = format!("{flag}: {interval} must contain the value, {value}; give an interval around it");
+                return Err(CommandError::Usage { reason });
             }
             part.interval = given.or(part.interval);
         }
@@ -59,54 +66,56 @@ impl Model {
 
     /// What `selfosc identify --json` reported.
     pub(super) fn read(path: &Path) -> Result<Self, CommandError> {
-        let unusable = |reason: String| CommandError::Model { path: path.to_owned(), reason };
-        let text = std::fs::read_to_string(path).map_err(|error| unusable(error.to_string()))?;
-        let found: Value = serde_json::from_str(&text)
-            .map_err(|error| unusable(format!("{error}; write it by `selfosc identify LOG --json > RESULT.json`")))?;
+        let unusable = |reason: String| CommandError::Model { flag: "--model", path: path.to_owned(), reason };
+        let text = files::text(path).given("--model")?;
+        let found: Value = serde_json::from_str(&text).map_err(|error| unusable(format!("{error}; {WRITTEN}")))?;
         let reported = &found["reported"];
         if reported.is_null() {
             return Err(unusable("it reports no model; identify again, or give --alpha and the others".to_owned()));
         }
-        if reported["trust"] == "doubtful" {
-            let reasons: Vec<&str> = reported["reasons"]
-                .as_array()
-                .into_iter()
-                .flatten()
-                .filter_map(|reason| reason["code"].as_str())
-                .collect();
-            let reasons = reasons.join(", ");
-            return Err(unusable(format!(
-                "the model is doubtful ({reasons}); identify from a better record, or give --alpha and the others on your own account"
-            )));
+        let wrong = |field: &str, found: &Value, limit: &str| {
+            let found = cut(&found.to_string(), LONGEST_WORD);
+            unusable(format!("reported.{field} is {found}: must be {limit}; {WRITTEN}"))
+        };
+        match reported["trust"].as_str() {
+            Some("good" | "widened") => {}
+            Some("doubtful") => {
+                let reasons = reported["reasons"].as_array().into_iter().flatten();
+                let codes: Vec<&str> = reasons.filter_map(|reason| reason["code"].as_str()).collect();
+                return Err(unusable(format!(
+                    "the model is doubtful ({}); identify from a better record, or give --alpha and the others on your own account",
+                    codes.join(", ")
+                )));
+            }
+            _ => return Err(wrong("trust", &reported["trust"], "\"good\" or \"widened\"")),
         }
+        let part = |name: &str| {
+            let number = |field: &str| match &reported[name][field] {
+                Value::Null => Ok(None),
+                Value::Number(number) => Ok(number.as_f64()),
+                other => Err(wrong(&format!("{name}.{field}"), other, "a number or null")),
+            };
+            let (value, interval) = (number("value")?, number("low")?.zip(number("high")?));
+            match interval {
+                Some((low, high)) if low > high => {
+                    Err(wrong(&format!("{name}.low"), &low.into(), &format!("{high} or less, its high")))
+                }
+                // The interval of a drag may reach below zero, where no axis is.
+                _ => Ok(value.map(|value| Known {
+                    value,
+                    interval: interval.and_then(|(low, high)| Interval::new(low.max(0.0).min(value), high.max(value))),
+                })),
+            }
+        };
         for term in ["beta_cubic", "skew", "coulomb", "memory", "stiffness", "lag_s", "ramp_s", "filter_s"] {
-            if reported[term]["value"].as_f64().is_some_and(|value| value != 0.0) {
+            if part(term)?.is_some_and(|one| one.value != 0.0) {
                 return Err(unusable(format!(
                     "it has the term {term}, which `tune` does not know; give --alpha and the others of an axis without it"
                 )));
             }
         }
-        let part = |name: &str, needed: bool| {
-            let number = |field: &str| reported[name][field].as_f64();
-            match number("value") {
-                None if needed => Err(unusable(format!(
-                    "reported.{name}.value is no number; write the file by `selfosc identify LOG --json`"
-                ))),
-                None => Ok(Known { value: 0.0, interval: None }),
-                // The interval of a drag may reach below zero, where no axis is.
-                Some(value) => Ok(Known {
-                    value,
-                    interval: number("low")
-                        .zip(number("high"))
-                        .and_then(|(low, high)| Interval::new(low.max(0.0).min(value), high.max(value))),
-                }),
-            }
-        };
-        Ok(Self {
-            alpha: part("alpha", true)?,
-            beta: part("beta", false)?,
-            beta_quadratic: part("beta_quadratic", false)?,
-            delay_s: part("delay_s", false)?,
-        })
+        let Some(alpha) = part("alpha")? else { return Err(wrong("alpha.value", &Value::Null, "a number")) };
+        let or_zero = |name| part(name).map(|one| one.unwrap_or(Known { value: 0.0, interval: None }));
+        Ok(Self::from_parts([alpha, or_zero("beta")?, or_zero("beta_quadratic")?, or_zero("delay_s")?]))
     }
 }

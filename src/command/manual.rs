@@ -39,13 +39,13 @@ pub(super) fn completions(arguments: &Completions, output: &mut impl Write) -> R
 }
 
 pub(super) fn manual(arguments: &Manual) -> Result<Outcome, CommandError> {
-    let in_folder = |source| CommandError::Write { path: arguments.folder.clone(), source };
-    std::fs::create_dir_all(&arguments.folder).map_err(in_folder)?;
+    crate::files::folder(&arguments.folder)?;
     let command = Command::command();
     let page = |command: clap::Command, name: &str| {
         let mut text = Vec::new();
         clap_mangen::Man::new(command).title(name.to_owned()).render(&mut text)?;
-        files::write(&arguments.folder.join(format!("{name}.1")), &String::from_utf8_lossy(&text))
+        let path = arguments.folder.join(format!("{name}.1"));
+        Ok::<_, CommandError>(files::write(&path, &String::from_utf8_lossy(&text))?)
     };
     for subcommand in command.get_subcommands() {
         let name = format!("selfosc-{}", subcommand.get_name());

@@ -17,21 +17,26 @@ mod manual;
 mod number;
 mod predict;
 mod reproduce;
-mod settings;
 mod simulate;
 mod suggestion;
 mod terminal;
 mod tune;
 mod verify;
 
-use std::ffi::OsString;
-use std::io::{self, Write};
+use std::ffi::{OsStr, OsString};
+use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
+use serde_json::json;
+
+use crate::error::Error;
+use crate::files::{LONGEST_WORD, cut};
 use crate::numeric::OutOfDomain;
 use error::CommandError;
+use terminal::Shown;
 
 /// Self-oscillations under a relay: the paper reproduced, its theory checked, vehicles identified.
 #[derive(Debug, Parser)]
@@ -94,22 +99,26 @@ enum Outcome {
 /// Does not return for `--help`, `--version` and unusable arguments: they end the process with status 0 or 2.
 #[must_use]
 pub fn run() -> ExitCode {
-    let matches = Command::command().color(wanted_color()).get_matches();
-    let command = match Command::from_arg_matches(&matches) {
-        Ok(command) => command,
-        Err(error) => error.format(&mut Command::command()).exit(),
+    crate::files::remove_on_signal();
+    let (stdout, stderr) = (io::stdout(), io::stderr());
+    let mut complaints = Shown { terminal: stderr.is_terminal(), to: stderr };
+    let mut output = Shown { terminal: stdout.is_terminal(), to: io::BufWriter::new(stdout.lock()) };
+    let outcome = match parsed(std::env::args_os().collect()) {
+        Ok(command) => command.action.run(&mut output),
+        Err(usage) if usage.use_stderr() => {
+            let _ = usage.print();
+            return ExitCode::from(2);
+        }
+        Err(help) => help.print().map(|()| Outcome::Done).map_err(CommandError::from),
     };
-    let mut output = terminal::Shown(io::BufWriter::new(io::stdout().lock()));
-    let outcome = command.action.run(&mut output);
     match outcome.and_then(|outcome| output.flush().map(|()| outcome).map_err(CommandError::from)) {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::No) => ExitCode::from(1),
         // A reader that has seen enough, as `head` does, is no failure.
         Err(CommandError::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
-            drop(output);
-            let _ = writeln!(terminal::Shown(io::stderr()), "selfosc: {error}");
-            error.status()
+            let _ = writeln!(complaints, "selfosc: {error}");
+            ExitCode::from(2)
         }
     }
 }
@@ -126,7 +135,7 @@ pub struct Answer {
 /// Why a subcommand gives no answer: exit status 2.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// Short name for scripts: the library's, or `usage` or `files`.
+    /// Short name for scripts: the library's, or `usage`, `model`, `proof` or `files`.
     pub code: &'static str,
     /// What standard error shows.
     pub text: String,
@@ -147,7 +156,7 @@ pub struct Failure {
 pub fn answer<T: Into<OsString>>(arguments: impl IntoIterator<Item = T>) -> Result<Answer, Failure> {
     let arguments = std::iter::once("selfosc".into()).chain(arguments.into_iter().map(Into::into));
     let usage = |error: clap::Error| Failure { code: "usage", text: error.to_string(), out_of_domain: None };
-    let command = Command::try_parse_from(arguments).map_err(usage)?;
+    let command = parsed(arguments.collect()).map_err(usage)?;
     let mut output = Vec::new();
     let outcome = command.action.run(&mut output).map_err(|error| Failure {
         code: error.code(),
@@ -157,21 +166,54 @@ pub fn answer<T: Into<OsString>>(arguments: impl IntoIterator<Item = T>) -> Resu
     Ok(Answer { text: String::from_utf8_lossy(&output).into_owned(), no: outcome == Outcome::No })
 }
 
+/// The command that these arguments ask for.
+fn parsed(arguments: Vec<OsString>) -> Result<Command, clap::Error> {
+    let mut parser = Command::command().color(wanted_color(&arguments));
+    let matches = parser.try_get_matches_from_mut(&arguments);
+    let found = matches.and_then(|mut matches| Command::from_arg_matches_mut(&mut matches));
+    found.map_err(|mut error| {
+        if error.kind() == ErrorKind::InvalidUtf8 {
+            // Each with the flag before it.
+            let wrong = arguments.windows(2).filter(|pair| pair[1].to_str().is_none());
+            let said = |pair: &[OsString]| terminal::escaped(&pair.join(OsStr::new(" ")).to_string_lossy());
+            let wrong: Vec<_> = wrong.map(said).collect();
+            let text = format!("{}: must be UTF-8 unless it names a file; write it in UTF-8", wrong.join(", "));
+            return parser.error(ErrorKind::InvalidUtf8, text);
+        }
+        let shown = |(kind, value): (ContextKind, &ContextValue)| match value {
+            ContextValue::String(text) => Some((kind, terminal::escaped(&cut(text, LONGEST_WORD)))),
+            _ => None,
+        };
+        for (kind, text) in error.context().filter_map(shown).collect::<Vec<_>>() {
+            error.insert(kind, ContextValue::String(text));
+        }
+        error
+    })
+}
+
 /// What `--color` asks for: help and errors of the parser are shown before the arguments are known.
-fn wanted_color() -> ColorChoice {
-    let given: Vec<String> = std::env::args().skip(1).collect();
-    let after = |at: usize| given.get(at + 1).map(String::as_str);
-    let value = given.iter().enumerate().find_map(|(at, argument)| match argument.strip_prefix("--color") {
-        Some("") => after(at),
-        Some(rest) => rest.strip_prefix('='),
-        None => None,
-    });
+fn wanted_color(given: &[OsString]) -> ColorChoice {
+    let value =
+        given.iter().enumerate().find_map(|(at, argument)| match argument.to_str()?.strip_prefix("--color")? {
+            "" => given.get(at + 1)?.to_str(),
+            rest => rest.strip_prefix('='),
+        });
     value.and_then(|value| ColorChoice::from_str(value, false).ok()).unwrap_or(ColorChoice::Auto)
+}
+
+/// The answer no, with its reason.
+fn refused(error: &Error, json: bool, output: &mut impl Write) -> Result<Outcome, CommandError> {
+    if json {
+        write_json(output, &json!({ "refused": { "code": error.code(), "text": error::in_context(error) } }))?;
+    } else {
+        writeln!(output, "refused ({}): {}", error.code(), error::in_context(error))?;
+    }
+    Ok(Outcome::No)
 }
 
 /// Writes one JSON document and a line end.
 fn write_json(output: &mut impl Write, value: &impl serde::Serialize) -> Result<(), CommandError> {
-    serde_json::to_writer_pretty(&mut *output, value).map_err(io::Error::from)?;
-    writeln!(output)?;
+    let text = serde_json::to_string_pretty(value).map_err(io::Error::from)?;
+    writeln!(output, "{}", terminal::escaped_json(&text))?;
     Ok(())
 }

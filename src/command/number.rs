@@ -1,34 +1,53 @@
-//! Numbers as a person types them.
+//! Numbers as a person types them: an error says what they have to be and how to write them.
 
 use std::num::NonZeroUsize;
+use std::str::FromStr;
+
+use crate::numeric::Limit;
 
 /// A number as typed, whatever it is: the library says what it has to be.
 pub(super) fn number(text: &str) -> Result<f64, String> {
-    text.parse().map_err(|_| "write a number, as 0.2 or 1e-3".to_owned())
+    let value: f64 = text.trim().parse().map_err(|_| written(Limit::Finite))?;
+    if value.is_finite() && value != 0.0 && !(SMALLEST..=LARGEST).contains(&value.abs()) {
+        let remedy = "choose units in which it is nearer to 1";
+        return Err(format!("must be 0 or from {SMALLEST:e} to {LARGEST:e} in magnitude; {remedy}"));
+    }
+    Ok(value)
 }
 
-/// A whole number, zero or more.
-pub(super) fn whole(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| format!("write a whole number from 0 to {}", u64::MAX))
-}
+/// Magnitudes of numbers: with others beyond these, squares and products leave the arithmetic.
+const SMALLEST: f64 = 1e-50;
+const LARGEST: f64 = 1e50;
 
-/// How many, one or more.
-pub(super) fn count(text: &str) -> Result<NonZeroUsize, String> {
-    text.parse().map_err(|_| format!("write a whole number from 1 to {}", usize::MAX))
+/// A finite number.
+pub(super) fn finite(text: &str) -> Result<f64, String> {
+    within(text, Limit::Finite)
 }
 
 /// A number above zero.
 pub(super) fn positive(text: &str) -> Result<f64, String> {
-    number(text)
-        .ok()
-        .filter(|value| value.is_finite() && *value > 0.0)
-        .ok_or_else(|| "must be a finite number above 0".to_owned())
+    within(text, Limit::Positive)
 }
 
 /// A number, zero or more.
 pub(super) fn non_negative(text: &str) -> Result<f64, String> {
-    number(text)
-        .ok()
-        .filter(|value| value.is_finite() && *value >= 0.0)
-        .ok_or_else(|| "must be a finite number, 0 or more".to_owned())
+    within(text, Limit::NonNegative)
+}
+
+fn within(text: &str, limit: Limit) -> Result<f64, String> {
+    number(text).and_then(|value| if limit.holds(value) { Ok(value) } else { Err(written(limit)) })
+}
+
+fn written(limit: Limit) -> String {
+    format!("must be {limit}; write it as 0.2 or 1e-3")
+}
+
+/// A whole number, zero or more.
+pub(super) fn whole<T: FromStr>(text: &str) -> Result<T, String> {
+    text.parse().map_err(|_| format!("must be a whole number from 0 to {}; write it in digits", u64::MAX))
+}
+
+/// How many, one or more.
+pub(super) fn count(text: &str) -> Result<NonZeroUsize, String> {
+    text.parse().map_err(|_| format!("must be a whole number from 1 to {}; write it in digits", usize::MAX))
 }

@@ -7,9 +7,10 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::axis::AxisArguments;
+use super::error::in_context;
 use super::{CommandError, Outcome, write_json};
 use crate::balance::AxisOscillation;
-use crate::numeric::{Interval, significant};
+use crate::numeric::significant;
 use crate::orbit::{Certificate, LimitCycle, Starts, certify, limit_cycle};
 
 /// The self-oscillation of alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay) + delta under a relay with hysteresis.
@@ -31,70 +32,32 @@ pub(super) struct Arguments {
     json: bool,
 }
 
-#[derive(Serialize)]
-struct Exact {
-    amplitude: f64,
-    bias: f64,
-    maximum: f64,
-    minimum: f64,
-    period_s: f64,
-    time_positive_s: f64,
-    time_negative_s: f64,
-    switch_level: f64,
-    multiplier: f64,
-}
-
-impl From<LimitCycle<f64>> for Exact {
-    fn from(cycle: LimitCycle<f64>) -> Self {
-        Self {
-            amplitude: cycle.amplitude,
-            bias: cycle.bias,
-            maximum: cycle.maximum,
-            minimum: cycle.minimum,
-            period_s: cycle.period_s,
-            time_positive_s: cycle.time_positive_s,
-            time_negative_s: cycle.time_negative_s,
-            switch_level: cycle.upper_switch.position,
-            multiplier: cycle.multiplier,
-        }
-    }
-}
-
-/// Each number as its lower and upper bound.
-fn certificate(proof: &Certificate) -> serde_json::Value {
-    let bounds = |interval: Interval| [interval.lower(), interval.upper()];
-    let cycle = &proof.enclosure;
+/// A cycle in numbers, or in their bounds.
+fn cycle<T: Serialize>(cycle: &LimitCycle<T>) -> serde_json::Value {
     json!({
-        "unique": proof.unique,
-        "attracting": proof.attracting,
-        "starts": proof.starts,
-        "enclosure": {
-            "amplitude": bounds(cycle.amplitude),
-            "bias": bounds(cycle.bias),
-            "maximum": bounds(cycle.maximum),
-            "minimum": bounds(cycle.minimum),
-            "period_s": bounds(cycle.period_s),
-            "time_positive_s": bounds(cycle.time_positive_s),
-            "time_negative_s": bounds(cycle.time_negative_s),
-            "switch_level": bounds(cycle.upper_switch.position),
-            "multiplier": bounds(cycle.multiplier),
-        },
+        "amplitude": cycle.amplitude,
+        "bias": cycle.bias,
+        "maximum": cycle.maximum,
+        "minimum": cycle.minimum,
+        "period_s": cycle.period_s,
+        "time_positive_s": cycle.time_positive_s,
+        "time_negative_s": cycle.time_negative_s,
+        "switch_level": cycle.upper_switch.position,
+        "multiplier": cycle.multiplier,
     })
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let (axis, relay) = (arguments.axis.axis()?, arguments.axis.relay()?);
     let exact = match limit_cycle(&axis, &relay) {
-        Ok(cycle) => Exact::from(cycle),
+        Ok(cycle) => cycle,
+        Err(reason) if arguments.json => {
+            let no_cycle = json!({ "code": reason.code(), "text": reason.to_string() });
+            write_json(output, &json!({ "no_limit_cycle": no_cycle }))?;
+            return Ok(Outcome::No);
+        }
         Err(reason) => {
-            if arguments.json {
-                write_json(
-                    output,
-                    &json!({ "no_limit_cycle": { "code": reason.code(), "text": reason.to_string() } }),
-                )?;
-            } else {
-                writeln!(output, "no limit cycle: {reason}")?;
-            }
+            writeln!(output, "{}", in_context(&reason.into()))?;
             return Ok(Outcome::No);
         }
     };
@@ -106,10 +69,17 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         // Without a proof the exact cycle stands as computed.
         let proof = certify(&axis, &relay);
         let refused = proof.as_ref().err().map(|why| json!({ "code": why.code(), "text": why.to_string() }));
-        let certificate = proof.as_ref().ok().map(certificate);
+        let certificate = proof.as_ref().ok().map(|proof| {
+            json!({
+                "unique": proof.unique,
+                "attracting": proof.attracting,
+                "starts": proof.starts,
+                "enclosure": cycle(&proof.enclosure),
+            })
+        });
         let document = json!({
             "harmonic_balance": balance,
-            "exact": exact,
+            "exact": cycle(&exact),
             "certificate": certificate,
             "certificate_refused": refused,
         });
@@ -125,7 +95,11 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
 }
 
 /// The cycle, with what the first harmonic alone makes of it beside it.
-fn table(exact: &Exact, balance: Option<&AxisOscillation>, output: &mut impl Write) -> Result<(), CommandError> {
+fn table(
+    exact: &LimitCycle<f64>,
+    balance: Option<&AxisOscillation>,
+    output: &mut impl Write,
+) -> Result<(), CommandError> {
     let first = |part: fn(&AxisOscillation) -> f64| {
         balance.map_or_else(|| "none".to_owned(), |found| significant(part(found), 6))
     };
@@ -138,7 +112,7 @@ fn table(exact: &Exact, balance: Option<&AxisOscillation>, output: &mut impl Wri
         ("minimum", "output", exact.minimum, None),
         ("time at +C", "s", exact.time_positive_s, None),
         ("time at -C", "s", exact.time_negative_s, None),
-        ("output at switching", "output", exact.switch_level, None),
+        ("output at switching", "output", exact.upper_switch.position, None),
         ("multiplier per cycle", "1", exact.multiplier, None),
     ];
     for (name, unit, value, first) in rows {

@@ -1,15 +1,15 @@
 //! `selfosc reproduce`: the paper from its printed data.
 
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
+use super::error::Given;
 use super::{CommandError, Outcome, files, write_json};
-use crate::paper::audit::Group;
+use crate::paper::audit::{Group, Item};
 use crate::report::paper::{PARTS, Part, Reproduction};
 
 /// The paper's tables and figures from its printed data, and every printed number against its recomputation.
@@ -78,12 +78,12 @@ fn show(reproduction: &Reproduction, parts: &[&Part], output: &mut impl Write) -
 
 /// Every file of these parts; how many there are.
 fn write_files(reproduction: &Reproduction, parts: &[&'static Part], folder: &Path) -> Result<usize, CommandError> {
-    fs::create_dir_all(folder).map_err(|source| CommandError::Write { path: folder.to_owned(), source })?;
+    crate::files::folder(folder).given("--out")?;
     let mut count = 0;
     let mut write = |name: &str, extension: &str, content: &str| {
         let path = folder.join(format!("{name}.{extension}"));
         count += 1;
-        files::write(&path, content)
+        files::write(&path, content).given("--out")
     };
     // The outcome first, where the whole is asked for.
     let story = (parts.len() == PARTS.len()).then(|| reproduction.story());
@@ -120,12 +120,11 @@ fn document(reproduction: &Reproduction, arguments: &Arguments) -> Value {
 
 /// The items of a group, each with the group's name.
 fn items(group: &Group) -> impl Iterator<Item = Value> {
-    group.items.iter().map(|item| {
-        let named = Map::from_iter([("group".to_owned(), json!(group.name))]);
-        let fields = match json!(item) {
-            Value::Object(fields) => fields,
-            _ => Map::new(),
-        };
-        Value::Object(named.into_iter().chain(fields).collect())
-    })
+    #[derive(serde::Serialize)]
+    struct Named<'a> {
+        group: &'a str,
+        #[serde(flatten)]
+        item: &'a Item,
+    }
+    group.items.iter().map(|item| json!(Named { group: &group.name, item }))
 }

@@ -8,6 +8,7 @@ use super::axis::AxisArguments;
 use super::number::{number, whole};
 use super::{CommandError, Outcome, write_json};
 use crate::experiment::{Sensor, SimulatedExperiment};
+use crate::numeric::domain::positive;
 use crate::orbit::limit_cycle;
 
 /// A record of a relay experiment as CSV: time_s,output,input.
@@ -37,7 +38,7 @@ pub(super) struct Arguments {
     #[arg(long)]
     hold: bool,
     /// Seed of the noise
-    #[arg(long, value_parser = whole, value_name = "S", default_value_t = 0, allow_negative_numbers = true)]
+    #[arg(long, value_parser = whole::<u64>, value_name = "S", default_value_t = 0, allow_negative_numbers = true)]
     seed: u64,
     /// Takes the output for radians and writes it in degrees, as a column heading_deg
     #[arg(long)]
@@ -49,7 +50,8 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let (axis, relay) = (arguments.axis.axis()?, arguments.axis.relay()?);
-    let duration_s = arguments.cycles * limit_cycle(&axis, &relay)?.period_s;
+    let cycles = positive("cycles", arguments.cycles, "")?;
+    let duration_s = cycles * limit_cycle(&axis, &relay)?.period_s;
     let sensor = Sensor { delay_s: 0.0, quantum: arguments.quantum, noise: arguments.noise };
     let experiment =
         SimulatedExperiment::new(axis, relay, arguments.rate)?.with_sensor(sensor)?.with_seed(arguments.seed);

@@ -2,21 +2,23 @@
 
 use std::io::{self, Write};
 
-/// A writer of text that shows control characters instead of sending them: the name of a file may hold any.
-pub(super) struct Shown<W>(pub(super) W);
+/// A writer of text; to a terminal it shows control characters instead of sending them: the name of a file may hold any.
+pub(super) struct Shown<W> {
+    pub(super) to: W,
+    pub(super) terminal: bool,
+}
 
 impl<W: Write> Write for Shown<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match core::str::from_utf8(bytes) {
-            Ok(text) if text.contains(unsafe_to_show) => self.0.write_all(escaped(text).as_bytes())?,
-            Ok(_) => self.0.write_all(bytes)?,
-            Err(_) => self.0.write_all(escaped(&String::from_utf8_lossy(bytes)).as_bytes())?,
+        if self.terminal {
+            self.to.write_all(escaped(&String::from_utf8_lossy(bytes)).as_bytes())?;
+            return Ok(bytes.len());
         }
-        Ok(bytes.len())
+        self.to.write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.0.flush()
+        self.to.flush()
     }
 }
 
@@ -26,10 +28,20 @@ fn unsafe_to_show(c: char) -> bool {
     turns || (c.is_control() && !matches!(c, '\n' | '\t'))
 }
 
-fn escaped(text: &str) -> String {
+/// Text for a person.
+pub(super) fn escaped(text: &str) -> String {
+    with_escapes(text, |c| c.escape_default().to_string())
+}
+
+/// A JSON document that means the same: such characters are inside of its strings only.
+pub(super) fn escaped_json(text: &str) -> String {
+    with_escapes(text, |c| format!("\\u{:04x}", u32::from(c)))
+}
+
+fn with_escapes(text: &str, escape: impl Fn(char) -> String) -> String {
     text.chars().fold(String::with_capacity(text.len()), |mut shown, c| {
         if unsafe_to_show(c) {
-            shown.extend(c.escape_default())
+            shown.push_str(&escape(c))
         } else {
             shown.push(c)
         }
@@ -42,10 +54,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_escape_sequence_passes() -> io::Result<()> {
-        let mut shown = Shown(Vec::new());
-        write!(shown, "log \u{1b}[2J\u{7}\r\u{9b}31m\u{202e}.csv: \u{e9}\t1\n")?;
-        assert_eq!(shown.0, "log \\u{1b}[2J\\u{7}\\r\\u{9b}31m\\u{202e}.csv: \u{e9}\t1\n".as_bytes());
+    fn no_escape_sequence_reaches_a_terminal_and_no_escape_anything_else() -> io::Result<()> {
+        let text = "log \u{1b}[2J\u{7}\r\u{9b}31m\u{202e}.csv: \u{e9}\t1\n";
+        let shown = "log \\u{1b}[2J\\u{7}\\r\\u{9b}31m\\u{202e}.csv: \u{e9}\t1\n";
+        for (terminal, expected) in [(true, shown), (false, text)] {
+            let mut written = Shown { to: Vec::new(), terminal };
+            write!(written, "{text}")?;
+            assert_eq!(written.to, expected.as_bytes());
+        }
         Ok(())
     }
 }

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::known::{Known, Model};
 use super::number::{non_negative, number, positive};
-use super::{CommandError, Outcome, write_json};
+use super::{CommandError, Outcome, refused, write_json};
 use crate::control::{
     Answer, AxisIntervals, ControlError, Controller, Margins, OpenLoop, StepResponse, Structure, Tuning, WorstMargin,
     WorstMargins,
@@ -81,13 +81,13 @@ pub(super) struct Arguments {
 
 fn structure(text: &str) -> Result<Structure, String> {
     let all = [Structure::Pd, Structure::Pid, Structure::Ipd];
-    all.into_iter().find(|one| one.name() == text).ok_or_else(|| "choose pd, pid or ipd".to_owned())
+    all.into_iter().find(|one| one.name() == text).ok_or_else(|| "must be pd, pid or ipd; choose one".to_owned())
 }
 
 fn interval(text: &str) -> Result<Interval, String> {
     let ends = text.split_once(',').and_then(|(low, high)| Some((low.trim().parse().ok()?, high.trim().parse().ok()?)));
-    let (low, high) = ends.ok_or("give two numbers as LOW,HIGH")?;
-    Interval::new(low, high).ok_or_else(|| format!("{low} to {high} is no interval; give the lower number first"))
+    ends.and_then(|(low, high)| Interval::new(low, high))
+        .ok_or_else(|| "must be two numbers, the lower first; write them as 0.5,2".to_owned())
 }
 
 /// Samples in the time constant of the double pole, and time constants in the simulated step: the hold is a
@@ -148,14 +148,7 @@ impl Arguments {
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let model = arguments.known()?;
     let tuned = match arguments.tuned(&model) {
-        Err(error @ ControlError::Unstable { .. }) => {
-            if arguments.json {
-                write_json(output, &json!({ "refused": { "code": "unstable", "text": error.to_string() } }))?;
-            } else {
-                writeln!(output, "{error}")?;
-            }
-            return Ok(Outcome::No);
-        }
+        Err(error @ ControlError::Unstable { .. }) => return refused(&error.into(), arguments.json, output),
         other => other?,
     };
     if arguments.json {
@@ -169,28 +162,10 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
 impl Tuned {
     fn json(&self, step: f64) -> Value {
         let (gains, margins, answer) = (self.tuning.gains(), self.tuning.margins(), self.response.answer());
-        let worst = |margin: &WorstMargin| {
-            json!({
-                "gain": margin.gain, "gain_reduction": margin.gain_reduction,
-                "phase_rad": margin.phase_rad, "delay_s": margin.delay_s,
-            })
-        };
         json!({
-            "gains": {
-                "structure": gains.structure().name(),
-                "proportional": gains.proportional(),
-                "integral": gains.integral(),
-                "derivative": gains.derivative(),
-                "filter_s": gains.filter_s(),
-            },
+            "gains": gains,
             "double_pole_rad_s": self.tuning.double_pole_rad_s(),
-            "margins": {
-                "gain": margins.gain,
-                "gain_reduction": margins.gain_reduction,
-                "phase_rad": margins.phase_rad,
-                "delay_s": margins.delay_s,
-                "crossover_rad_s": margins.crossover_rad_s,
-            },
+            "margins": margins,
             "verified": {
                 "poles": self.poles.iter().map(|pole| [pole.re, pole.im]).collect::<Vec<_>>(),
                 "bandwidth_rad_s": self.tuning.achieved_bandwidth_rad_s(),
@@ -205,8 +180,8 @@ impl Tuned {
             },
             "worst_case": self.worst.as_ref().map(|found| json!({
                 "top_speed": self.top_speed,
-                "at_least": worst(&found.at_least),
-                "met": worst(&found.met),
+                "at_least": found.at_least,
+                "met": found.met,
                 "boxes": found.boxes,
             })),
         })

@@ -34,7 +34,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = Budget::default().cases, value_parser = cases, allow_negative_numbers = true)]
     cases: usize,
     /// Seed of the cases
-    #[arg(long, value_parser = whole, value_name = "S", default_value_t = Budget::default().seed, allow_negative_numbers = true)]
+    #[arg(long, value_parser = whole::<u64>, value_name = "S", default_value_t = Budget::default().seed, allow_negative_numbers = true)]
     seed: u64,
     /// Writes the proofs of the orbit theorems to this folder, one file a theorem, with every box
     #[arg(long, value_name = "DIR")]
@@ -50,12 +50,12 @@ pub(super) struct Arguments {
     json: bool,
 }
 
+/// Most cases of a check.
+const MOST_CASES: usize = 10_000_000;
+
 fn cases(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(0) => Err("0 cases check nothing; give 1 or more".to_owned()),
-        Ok(cases) if cases > 10_000_000 => Err(format!("{cases} cases are above the limit of 10000000")),
-        other => other.map_err(|_| format!("`{text}` is not a whole number of 1 or more")),
-    }
+    let cases = text.parse().ok().filter(|cases| (1..=MOST_CASES).contains(cases));
+    cases.ok_or_else(|| format!("must be a whole number from 1 to {MOST_CASES}; write it in digits"))
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {

@@ -1,6 +1,7 @@
 //! Why there is no controller.
 
 use crate::numeric::OutOfDomain;
+use crate::numeric::domain::Plain;
 use crate::plant::PlantError;
 
 /// A refusal of the control layer: which number, which limit, what to do.
@@ -15,8 +16,9 @@ pub enum ControlError {
     Plant(#[from] PlantError),
     /// The axis' own drag damps more than the closed loop asked for.
     #[error(
-        "bandwidth = {bandwidth_rad_s} rad/s is below {least_rad_s} rad/s, under which the drag of the axis alone \
-         damps more than the design and the derivative gain would be negative; ask for at least {least_rad_s} rad/s"
+        "bandwidth = {} rad/s is below {} rad/s, under which the drag of the axis alone \
+         damps more than the design and the derivative gain would be negative; ask for at least {} rad/s",
+        Plain(*.bandwidth_rad_s), Plain(*.least_rad_s), Plain(*.least_rad_s)
     )]
     Overdamped {
         /// The bandwidth asked for, rad/s.
@@ -26,8 +28,9 @@ pub enum ControlError {
     },
     /// The delay leaves too little margin.
     #[error(
-        "bandwidth = {bandwidth_rad_s} rad/s with a delay of {delay_s} s leaves less than a gain margin of {gain} \
-         and a phase margin of {phase_deg} degrees; ask for at most {most_rad_s} rad/s or shorten the delay"
+        "bandwidth = {} rad/s with a delay of {} s leaves less than a gain margin of {gain} \
+         and a phase margin of {phase_deg} degrees; ask for at most {} rad/s or shorten the delay",
+        Plain(*.bandwidth_rad_s), Plain(*.delay_s), Plain(*.most_rad_s)
     )]
     TooFast {
         /// The bandwidth asked for, rad/s.
@@ -43,8 +46,9 @@ pub enum ControlError {
     },
     /// No bandwidth is both above what drag damps and below what the delay allows.
     #[error(
-        "with a delay of {delay_s} s the bandwidth may be {most_rad_s} rad/s at most, and drag wants {least_rad_s} \
-         rad/s at least; shorten the delay"
+        "with a delay of {} s the bandwidth may be {} rad/s at most, and drag wants {} \
+         rad/s at least; shorten the delay",
+        Plain(*.delay_s), Plain(*.most_rad_s), Plain(*.least_rad_s)
     )]
     NoBandwidth {
         /// The delay of the loop, s.
@@ -56,8 +60,9 @@ pub enum ControlError {
     },
     /// A loop that is not stable has no margins.
     #[error(
-        "the closed loop has {poles} poles that do not decay (inertia {alpha}, drag {drag}, delay {delay_s} s): no \
-         margins; lower the gains or shorten the delay"
+        "the closed loop has {poles} poles that do not decay (inertia {}, drag {}, delay {} s), all \
+         must decay for margins; lower the gains or shorten the delay",
+        Plain(*.alpha), Plain(*.drag), Plain(*.delay_s)
     )]
     Unstable {
         /// Poles in the right half plane or, as far as rounding tells, on its edge.

@@ -1,6 +1,7 @@
 //! Every characteristic by name, as the command line and the generated pages know it.
 
 use super::{ClosedForm, Setting};
+use crate::files::{LONGEST_WORD, cut};
 use crate::nonlinearity::{self, Catalogued, NonlinearityError, ParameterDomain, ParameterSpec, every_characteristic};
 use crate::numeric::{OutOfDomain, special::Special};
 
@@ -107,7 +108,7 @@ impl Entry {
     /// [`CatalogueError::UnknownName`], with the names there are.
     pub fn find(name: &str) -> Result<&'static Self, CatalogueError> {
         CATALOGUE.iter().find(|entry| entry.name == name).ok_or_else(|| CatalogueError::UnknownName {
-            name: name.to_owned(),
+            name: cut(name, LONGEST_WORD),
             known: CATALOGUE.iter().map(|entry| entry.name).collect::<Vec<_>>().join(", "),
         })
     }
@@ -124,7 +125,7 @@ impl Entry {
         if let Some((unknown, _)) = settings.iter().find(|(name, _)| self.parameters.iter().all(|p| p.name != name)) {
             return Err(CatalogueError::UnknownParameter {
                 characteristic: self.name,
-                parameter: unknown.clone(),
+                parameter: cut(unknown, LONGEST_WORD),
                 known: self.parameters.iter().map(|p| p.name).collect::<Vec<_>>().join(", "),
             });
         }

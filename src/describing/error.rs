@@ -2,6 +2,7 @@
 
 use crate::nonlinearity::NonlinearityError;
 use crate::numeric::OutOfDomain;
+use crate::numeric::domain::Plain;
 
 /// Why a describing function cannot be given. Values are in the caller's input and output units.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -24,7 +25,7 @@ pub enum DescribingError {
         cells: usize,
     },
     /// The output is not a number somewhere on the sweep.
-    #[error("the output is {output} at input {input}; restrict amplitude and bias to where the function is finite")]
+    #[error("the output is {} at input {}; restrict amplitude and bias to where the function is finite", Plain(*.output), Plain(*.input))]
     NotFinite {
         /// The input.
         input: f64,

@@ -45,6 +45,8 @@ pub fn amplitudes(
     p: f64,
     range: RangeInclusive<f64>,
 ) -> Result<Vec<Solution>, DescribingError> {
+    domain::finite("bias", bias, "input units").map_err(NonlinearityError::from)?;
+    domain::finite("gain", p, "output units per input unit").map_err(NonlinearityError::from)?;
     let excess = |solution: Solution| solution.df.p - p;
     let solve = |amplitude| at(characteristic, bias, amplitude);
     let samples = sampled(characteristic, bias, range)?;

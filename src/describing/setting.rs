@@ -4,6 +4,7 @@ use core::fmt::{Display, Formatter, Result as Written};
 use core::str::FromStr;
 
 use super::CatalogueError;
+use crate::files::{LONGEST_WORD, cut};
 
 /// A number, or the points of a graph.
 ///
@@ -48,7 +49,9 @@ impl FromStr for Setting {
 
     fn from_str(text: &str) -> Result<Self, CatalogueError> {
         let number = |part: &str| {
-            part.trim().parse().map_err(|_| CatalogueError::Setting { text: text.to_owned(), part: part.to_owned() })
+            part.trim()
+                .parse()
+                .map_err(|_| CatalogueError::Setting { text: cut(text, LONGEST_WORD), part: cut(part, LONGEST_WORD) })
         };
         if !text.contains(':') {
             return number(text).map(Self::Number);

@@ -58,14 +58,15 @@ impl TimeUnit {
 
 /// The longest middle interval of a record in which a relay's cycles could be seen, in s.
 const SLOWEST_S: f64 = 10.0;
-/// Headings within these bounds may be in radians: a turn either way, or from zero to a turn.
-const LARGEST_HEADING_RAD: f64 = TAU + 0.01;
+/// Headings in radians count from -pi to pi or from 0 to 2 pi; so much beyond is rounding.
+const HEADING_MARGIN_RAD: f64 = 0.01;
 /// Middle of a command that never changes sign, in halves of its range, from which on its neutral is not zero.
 const FAR_FROM_ZERO: f64 = 4.0;
 
 /// Refuses times that make no sense in seconds, where no unit was given.
 pub(super) fn seconds(time_s: &[f64]) -> Result<(), ExperimentError> {
-    let mut intervals: Vec<f64> = time_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let intervals = time_s.windows(2).map(|pair| pair[1] - pair[0]);
+    let mut intervals: Vec<f64> = intervals.filter(|interval| interval.is_finite()).collect();
     if intervals.is_empty() {
         return Ok(());
     }
@@ -75,14 +76,18 @@ pub(super) fn seconds(time_s: &[f64]) -> Result<(), ExperimentError> {
 }
 
 /// Refuses headings that no angle in radians reaches.
-pub(super) fn radians(column: &str, headings: &[f64], place: impl Fn(usize) -> Place) -> Result<(), ExperimentError> {
-    match headings.iter().position(|heading| heading.abs() > LARGEST_HEADING_RAD) {
-        Some(sample) => {
-            let (place, value) = (place(sample), headings[sample]);
-            Err(ExperimentError::Degrees { place, column: column.to_owned(), value })
-        }
-        None => Ok(()),
+pub(super) fn radians(column: &str, headings: &[f64]) -> Result<(), ExperimentError> {
+    let (low, high) = range(headings);
+    let within = |[least, most]: [f64; 2]| low >= least - HEADING_MARGIN_RAD && high <= most + HEADING_MARGIN_RAD;
+    if low > high || within([-PI, PI]) || within([0.0, TAU]) {
+        return Ok(());
     }
+    Err(ExperimentError::Degrees { column: column.to_owned(), low, high })
+}
+
+/// The least and the largest of them.
+fn range(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)))
 }
 
 /// Refuses an output that jumps by a turn, while its other changes are far smaller.
@@ -116,8 +121,7 @@ pub(super) fn turn(degrees: bool) -> [f64; 2] {
 
 /// Refuses a command that never changes its sign and stays far from zero.
 pub(super) fn neutral(column: &str, input: &[f64]) -> Result<(), ExperimentError> {
-    let low = input.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let (low, high) = range(input);
     let (middle, half) = (f64::midpoint(low, high), 0.5 * (high - low));
     if half > 0.0 && middle.is_finite() && middle.abs() >= FAR_FROM_ZERO * half {
         return Err(ExperimentError::Neutral { column: column.to_owned(), low, high, middle });

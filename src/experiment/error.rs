@@ -3,7 +3,8 @@
 use core::fmt;
 
 use crate::nonlinearity::NonlinearityError;
-use crate::numeric::OutOfDomain;
+use crate::numeric::domain::Plain;
+use crate::numeric::{OutOfDomain, significant};
 
 /// Where in a record something is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,7 +39,9 @@ pub enum ExperimentError {
         input: usize,
     },
     /// Too few samples for any identification.
-    #[error("{samples} samples, at least {required} needed; log longer or faster")]
+    #[error(
+        "{samples} samples, at least {required} needed; log longer or faster, or cut less off (--from, --to, --part)"
+    )]
     TooShort {
         /// Samples found.
         samples: usize,
@@ -46,7 +49,7 @@ pub enum ExperimentError {
         required: usize,
     },
     /// NaN or an infinity.
-    #[error("{place}: {column} = {value} must be finite; remove the line or log a number there")]
+    #[error("{place}: {column} = {value} must be finite; log a number there, or leave such rows out (--skip-bad-rows)")]
     NotFinite {
         /// Where.
         place: Place,
@@ -57,7 +60,8 @@ pub enum ExperimentError {
     },
     /// A number whose square leaves the arithmetic.
     #[error(
-        "{place}: {column} = {value:e} must be at most {limit:e} in magnitude; remove the line or log another unit"
+        "{place}: {column} = {value:e} must be at most {limit:e} in magnitude; log another unit, or leave such rows out \
+         (--skip-bad-rows)"
     )]
     TooLarge {
         /// Where.
@@ -71,8 +75,9 @@ pub enum ExperimentError {
     },
     /// A time that does not come after the one before it.
     #[error(
-        "{place}: time {time_s} s must come after {previous_s} s; sort the log by time, remove repeated samples, or log \
-         times with more digits"
+        "{place}: time {} s must come after {} s; log times in order and with more digits, leave such rows out \
+         (--skip-bad-rows), or say that samples are evenly spaced (--even-stamps)",
+        Plain(*.time_s), Plain(*.previous_s)
     )]
     TimeOrder {
         /// Where.
@@ -84,7 +89,8 @@ pub enum ExperimentError {
     },
     /// Samples are missing: the input in between is not known.
     #[error(
-        "{place}: no sample for {gap_s} s, at most {limit_s} s allowed; use the part before or after (--from, --to)"
+        "{place}: no sample for {} s, at most {} s allowed; use the part before or after (--from, --to)",
+        significant(*gap_s, 6), significant(*limit_s, 6)
     )]
     Gap {
         /// Where the gap ends.
@@ -93,6 +99,58 @@ pub enum ExperimentError {
         gap_s: f64,
         /// The longest interval allowed, in s.
         limit_s: f64,
+    },
+    /// Samples in bursts, with most of the time between them.
+    #[error(
+        "samples come in bursts: {count} gaps of {} s on average, the others {} s apart: such stamps are those of arrival; log \
+         the time of each reading, or say that samples are evenly spaced (--even-stamps)",
+        significant(*gap_s, 3), significant(*interval_s, 3)
+    )]
+    Bursts {
+        /// Gaps.
+        count: usize,
+        /// Their mean duration, in s.
+        gap_s: f64,
+        /// The middle interval, in s.
+        interval_s: f64,
+    },
+    /// A clock that starts again.
+    #[error(
+        "{place}: the clock falls from {} s to {} s, so the log has {parts} parts; choose one by its number (--part 1)",
+        Plain(*.previous_s), Plain(*.time_s)
+    )]
+    Restart {
+        /// Where.
+        place: Place,
+        /// Time there, in s.
+        time_s: f64,
+        /// Time before it, in s.
+        previous_s: f64,
+        /// Parts of the log.
+        parts: usize,
+    },
+    /// More rows that cannot be used than may be left out.
+    #[error(
+        "{bad} of {rows} rows cannot be used, at most {} % may be left out (--skip-bad-rows); use a part with fewer (--from, \
+         --to), or log again", 100.0 * super::Columns::MOST_SKIPPED
+    )]
+    TooManyBad {
+        /// Rows that cannot be used.
+        bad: usize,
+        /// Rows inside of the cut.
+        rows: usize,
+    },
+    /// A row with more or fewer cells than names.
+    #[error(
+        "line {line}: {cells} cells under {columns} names; mend the line, or leave such rows out (--skip-bad-rows)"
+    )]
+    Ragged {
+        /// Line of the file.
+        line: u64,
+        /// Cells there.
+        cells: usize,
+        /// Names in the header.
+        columns: usize,
     },
     /// Nothing to read.
     #[error("the log is empty; it needs a header line with column names and one line for each sample")]
@@ -106,8 +164,10 @@ pub enum ExperimentError {
         character: u32,
     },
     /// A column that is not there.
-    #[error("no column {wanted} among {found}; name one of these")]
+    #[error("no {role} column: none is named {wanted} among {found}; name one of these (--{role} COL)")]
     UnknownColumn {
+        /// What it is wanted for: time, output or input.
+        role: &'static str,
         /// The name, or the names tried.
         wanted: String,
         /// The names in the header.
@@ -115,18 +175,28 @@ pub enum ExperimentError {
     },
     /// Two columns of one name.
     #[error(
-        "column {name} is there {count} times: name the one to read by its number, {name}#1 or another; or rename them"
+        "column {name} is there {count} times: name the one to read by its number (--{role} {name}#1), or rename them"
     )]
     DuplicateColumn {
+        /// What it is wanted for: time, output or input.
+        role: &'static str,
         /// The name.
         name: String,
         /// How often it is there.
         count: usize,
     },
+    /// One column for two things.
+    #[error("column {name} is read as {} and as {}; name another for one of them (--{} COL)", roles[0], roles[1], roles[1])]
+    SameColumn {
+        /// Its name.
+        name: String,
+        /// What it is read as: time, output or input.
+        roles: [&'static str; 2],
+    },
     /// Times that make no sense in seconds.
     #[error(
-        "samples are {interval_s} s apart in the middle, if times are in seconds: say the unit of the log, s, ms, us or ns \
-         (--time-unit)"
+        "samples are {} s apart in the middle, if times are in seconds: say the unit of the log, s, ms, us or ns (--time-unit)",
+        Plain(*.interval_s)
     )]
     TimeUnit {
         /// The middle interval, in s.
@@ -134,20 +204,22 @@ pub enum ExperimentError {
     },
     /// A heading that no angle in radians reaches.
     #[error(
-        "{place}: {column} = {value} is no heading in radians: say that it is in degrees (--degrees), or that it is in radians \
-         all the same (--radians)"
+        "{column} goes from {} to {}, a heading in radians from -pi to pi or from 0 to 2 pi: say that it is in degrees \
+         (--degrees), or in radians all the same (--radians)",
+        Plain(*.low), Plain(*.high)
     )]
     Degrees {
-        /// Where.
-        place: Place,
         /// Name of the column.
         column: String,
-        /// The value.
-        value: f64,
+        /// The least value.
+        low: f64,
+        /// The largest value.
+        high: f64,
     },
     /// An output that jumps by a turn.
     #[error(
-        "{place}: {column} jumps by {jump}, a turn: say that it is an angle (--wrap, with --degrees if it is in degrees)"
+        "{place}: {column} jumps by {}, a turn: say that it is an angle (--wrap, with --degrees if it is in degrees)",
+        significant(*jump, 6)
     )]
     Turns {
         /// Where.
@@ -159,8 +231,8 @@ pub enum ExperimentError {
     },
     /// A command whose neutral is not zero.
     #[error(
-        "{column} lies between {low} and {high} and never changes its sign: say which command is neutral (--neutral {middle}), \
-         or that zero is (--neutral 0)"
+        "{column} lies between {} and {} and never changes its sign: say which command is neutral (--neutral {}), or that zero \
+         is (--neutral 0)", Plain(*.low), Plain(*.high), Plain(*.middle)
     )]
     Neutral {
         /// Name of the column.
@@ -173,7 +245,7 @@ pub enum ExperimentError {
         middle: f64,
     },
     /// A cell without a number.
-    #[error("line {line}, column {column}: the cell is blank; fill it in or remove the line")]
+    #[error("line {line}, column {column}: the cell is blank; fill it in, or leave such rows out (--skip-bad-rows)")]
     Blank {
         /// Line of the file.
         line: u64,
@@ -181,7 +253,9 @@ pub enum ExperimentError {
         column: String,
     },
     /// A cell that is not a number.
-    #[error("line {line}, column {column}: {text:?} is not a number; correct the cell or remove the line")]
+    #[error(
+        "line {line}, column {column}: {text:?} is not a number; correct the cell, or leave such rows out (--skip-bad-rows)"
+    )]
     NotANumber {
         /// Line of the file.
         line: u64,
@@ -223,6 +297,11 @@ impl ExperimentError {
             Self::TooLarge { .. } => "too-large",
             Self::TimeOrder { .. } => "time-order",
             Self::Gap { .. } => "gap",
+            Self::Bursts { .. } => "bursts",
+            Self::Restart { .. } => "clock-restarts",
+            Self::TooManyBad { .. } => "too-many-bad-rows",
+            Self::Ragged { .. } => "ragged-row",
+            Self::SameColumn { .. } => "same-column",
             Self::Empty => "empty",
             Self::Binary { .. } => "not-text",
             Self::UnknownColumn { .. } => "unknown-column",
@@ -240,7 +319,7 @@ impl ExperimentError {
         }
     }
 
-    /// Whether the text itself could not be read, rather than the record in it be used.
+    /// Whether the text or its columns could not be read, rather than the record in it be used.
     #[must_use]
     pub fn is_unreadable(&self) -> bool {
         matches!(
@@ -248,8 +327,7 @@ impl ExperimentError {
             Self::Empty
                 | Self::Binary { .. }
                 | Self::UnknownColumn { .. }
-                | Self::Blank { .. }
-                | Self::NotANumber { .. }
+                | Self::SameColumn { .. }
                 | Self::TooLong { .. }
                 | Self::Unreadable { .. }
         )

@@ -2,15 +2,44 @@
 
 use std::borrow::Cow;
 use std::io::Read;
+use std::num::NonZeroUsize;
 
 use super::clinic::{self, TimeUnit};
+use super::rows::{Chosen, Rows};
 use super::{ExperimentError, Place, Record};
+use crate::files::{LONGEST_WORD, cut};
 
 /// Names tried for each column, best first.
-const TIME: &[&str] = &["time_s", "time", "t", "time_ms", "time_us", "time_ns"];
-const OUTPUT: &[&str] =
-    &["heading_deg", "yaw_deg", "heading", "yaw", "depth_m", "position_m", "position", "output", "y"];
-const INPUT: &[&str] = &["command", "input", "u"];
+const TIME: &[&str] = &[
+    "time_s",
+    "time",
+    "t",
+    "timestamp",
+    "time_ms",
+    "time_us",
+    "time_ns",
+    "timestamp_s",
+    "timestamp_ms",
+    "timestamp_us",
+    "timestamp_ns",
+];
+const OUTPUT: &[&str] = &[
+    "heading_deg",
+    "yaw_deg",
+    "heading",
+    "yaw",
+    "depth_m",
+    "position_m",
+    "position",
+    "output",
+    "y",
+    "depth",
+    "temperature",
+];
+const INPUT: &[&str] = &["command", "input", "u", "pwm", "duty"];
+
+/// Longest list of names that a message shows.
+const LONGEST_LIST: usize = 200;
 
 /// Which columns of a log to read, and how.
 ///
@@ -26,13 +55,13 @@ const INPUT: &[&str] = &["command", "input", "u"];
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Columns {
-    /// Name of the time column; by default the first of `time_s`, `time`, `t`, `time_ms`, `time_us`, `time_ns`. Of several columns
-    /// of one name, `name#2` is the second.
+    /// Name of the time column, in upper or lower case; by default the first of `time_s`, `time`, `t`, `timestamp`, `time_ms`,
+    /// `time_us`, `time_ns`, `timestamp_s` and so on. Of several columns of one name, `name#2` is the second.
     pub time: Option<String>,
     /// Name of the output column; by default the first of `heading_deg`, `yaw_deg`, `heading`, `yaw`, `depth_m`,
-    /// `position_m`, `position`, `output`, `y`.
+    /// `position_m`, `position`, `output`, `y`, `depth`, `temperature`.
     pub output: Option<String>,
-    /// Name of the input column; by default the first of `command`, `input`, `u`.
+    /// Name of the input column; by default the first of `command`, `input`, `u`, `pwm`, `duty`.
     pub input: Option<String>,
     /// Unit of the times; by default that which the column's name ends in, as `_ms` does, else seconds.
     pub time_unit: Option<TimeUnit>,
@@ -44,6 +73,13 @@ pub struct Columns {
     pub from_s: Option<f64>,
     /// Only samples up to this time, in s on the log's clock.
     pub to_s: Option<f64>,
+    /// The part to use of a log whose clock starts again, counted from 1.
+    pub part: Option<NonZeroUsize>,
+    /// The samples were taken at even intervals: the stamps are those of arrival, and the line of least squares through them is used.
+    pub even_stamps: bool,
+    /// Rows without three numbers, or with a time that does not come after the one before, are left out, up to
+    /// [`MOST_SKIPPED`](Self::MOST_SKIPPED) of all.
+    pub skip_bad_rows: bool,
     /// The output is in radians, whatever it looks like.
     pub radians: bool,
     /// The output is in degrees. A column whose name ends in `_deg` always is.
@@ -61,6 +97,9 @@ pub struct Log {
     pub degrees: bool,
     /// Jumps by whole turns taken out.
     pub unwrapped: usize,
+    /// Rows left out because they could not be used.
+    #[serde(default)]
+    pub skipped: usize,
     /// Names of the columns read: time, output, input.
     pub columns: [String; 3],
 }
@@ -69,19 +108,22 @@ pub struct Log {
 impl From<Record> for Log {
     fn from(record: Record) -> Self {
         let columns = ["time_s", "output", "input"].map(str::to_owned);
-        Self { record, degrees: false, unwrapped: 0, columns }
+        Self { record, degrees: false, unwrapped: 0, skipped: 0, columns }
     }
 }
 
 impl Columns {
     /// Most bytes of a log; hours of a fast sensor have fewer.
     pub const LONGEST: u64 = 256 << 20;
+    /// The largest share of rows that may be left out: of the clinic's logs, the one without a sixth of its samples is still
+    /// identified to a hundredth.
+    pub const MOST_SKIPPED: f64 = 0.2;
 
     /// Reads a log: a header line, then a line for each sample. The delimiter (comma, semicolon, tabulator, blanks) is seen
     /// from the header; with any but the comma, a decimal comma is understood. Lines that start with `#` are comments.
     ///
     /// # Errors
-    /// [`ExperimentError`] with line and value; nothing is repaired but whole turns of an angle.
+    /// [`ExperimentError`] with line and value, of the rows inside of the cut; nothing is repaired but whole turns of an angle.
     pub fn read(&self, source: impl Read) -> Result<Log, ExperimentError> {
         let mut bytes = Vec::new();
         let length = source.take(Self::LONGEST + 1).read_to_end(&mut bytes);
@@ -102,36 +144,57 @@ impl Columns {
         let header = text.lines().find(|line| !(line.trim().is_empty() || line.starts_with('#')));
         let Some(header) = header else { return Err(ExperimentError::Empty) };
         let (delimiter, table) = delimiter(header, text);
-        let mut reader = csv::ReaderBuilder::new()
-            .delimiter(delimiter)
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_reader(table.as_bytes());
-        let names: Vec<String> = reader.headers().map_err(unreadable)?.iter().map(str::to_owned).collect();
+        let reader = || {
+            let mut builder = csv::ReaderBuilder::new();
+            builder.delimiter(delimiter).comment(Some(b'#')).trim(csv::Trim::All).flexible(true);
+            builder.from_reader(table.as_bytes())
+        };
+        let mut first = reader();
+        let names: Vec<String> = first.headers().map_err(unreadable)?.iter().map(str::to_owned).collect();
         let columns = self.choose(&names)?;
+        let cell = |row: &csv::StringRecord, column: usize| {
+            let line = row.position().map_or(0, csv::Position::line);
+            if row.len() != names.len() {
+                return Err(ExperimentError::Ragged { line, cells: row.len(), columns: names.len() });
+            }
+            number(row.get(column).unwrap_or(""), delimiter, line, &names[column])
+        };
         let mut values: [Vec<f64>; 3] = Default::default();
         let mut lines = Vec::new();
         let mut row = csv::StringRecord::new();
-        while reader.read_record(&mut row).map_err(unreadable)? {
-            let line = row.position().map_or(0, csv::Position::line);
+        while first.read_record(&mut row).map_err(unreadable)? {
             for (&column, values) in columns.iter().zip(&mut values) {
-                values.push(number(row.get(column).unwrap_or(""), delimiter, line, &names[column])?);
+                values.push(cell(&row, column).unwrap_or(f64::NAN));
             }
-            lines.push(line);
+            lines.push(row.position().map_or(0, csv::Position::line));
         }
-        self.log(columns.map(|column| names[column].clone()), values, |sample| Place::Line(lines[sample]))
+        // What is wrong with a row is read again, only where it matters.
+        let fault = |row: usize| {
+            let row = reader().into_records().nth(row)?.ok()?;
+            columns.iter().find_map(|&column| cell(&row, column).err())
+        };
+        let rows = Rows { values, place: &|row| Place::Line(lines[row]), fault: &fault };
+        self.log(columns.map(|column| names[column].clone()), rows)
     }
 
     /// Which of these columns are time, output and input, by their places.
     ///
     /// # Errors
-    /// [`ExperimentError::UnknownColumn`] with the names there are.
+    /// [`ExperimentError::UnknownColumn`] with the names there are; [`ExperimentError::DuplicateColumn`];
+    /// [`ExperimentError::SameColumn`] where one column is named twice.
     pub fn choose(&self, names: &[String]) -> Result<[usize; 3], ExperimentError> {
-        Ok([
-            column(names, self.time.as_deref(), TIME)?,
-            column(names, self.output.as_deref(), OUTPUT)?,
-            column(names, self.input.as_deref(), INPUT)?,
-        ])
+        let chosen = [
+            column(names, "time", self.time.as_deref(), TIME)?,
+            column(names, "output", self.output.as_deref(), OUTPUT)?,
+            column(names, "input", self.input.as_deref(), INPUT)?,
+        ];
+        for [one, other] in [[0, 1], [0, 2], [1, 2]] {
+            if chosen[one] == chosen[other] {
+                let (name, roles) = (cut(&names[chosen[one]], LONGEST_WORD), ["time", "output", "input"]);
+                return Err(ExperimentError::SameColumn { name, roles: [roles[one], roles[other]] });
+            }
+        }
+        Ok(chosen)
     }
 
     /// The log of a table in memory: what reading it as text would give. The columns are time, output and input, as
@@ -149,36 +212,23 @@ impl Columns {
     /// # Ok::<(), selfosc::experiment::ExperimentError>(())
     /// ```
     pub fn table(&self, names: [String; 3], values: [Vec<f64>; 3]) -> Result<Log, ExperimentError> {
-        self.log(names, values, Place::Sample)
+        self.log(names, Rows { values, place: &Place::Sample, fault: &|_| None })
     }
 
-    fn log(
-        &self,
-        columns: [String; 3],
-        [mut time_s, mut output, mut input]: [Vec<f64>; 3],
-        place: impl Fn(usize) -> Place,
-    ) -> Result<Log, ExperimentError> {
+    fn log(&self, columns: [String; 3], mut rows: Rows<'_>) -> Result<Log, ExperimentError> {
         let unit = self.time_unit.unwrap_or_else(|| TimeUnit::of_column(&columns[0]));
-        time_s.iter_mut().for_each(|time| *time /= unit.per_second());
+        rows.values[0].iter_mut().for_each(|time| *time /= unit.per_second());
         if self.time_unit.is_none() {
-            clinic::seconds(&time_s)?;
+            clinic::seconds(&rows.values[0])?;
         }
-        let inside: Vec<bool> = time_s
-            .iter()
-            .map(|time| self.from_s.is_none_or(|from| *time >= from) && self.to_s.is_none_or(|to| *time <= to))
-            .collect();
-        for values in [&mut time_s, &mut output, &mut input] {
-            let mut inside = inside.iter();
-            values.retain(|_| inside.next().copied().unwrap_or(true));
-        }
-        let kept: Vec<usize> = (0..inside.len()).filter(|sample| inside[*sample]).collect();
-        let place = |sample: usize| place(kept[sample]);
+        let Chosen { values: [time_s, mut output, mut input], rows: kept, skipped } = rows.chosen(self)?;
+        let place = |sample: usize| (rows.place)(kept[sample]);
         let name = &columns[1];
         let lower = name.to_lowercase();
         let degrees = !self.radians && (self.degrees || lower.ends_with("_deg"));
         let wrap = self.wrap || lower.contains("heading") || lower.contains("yaw");
         if wrap && !degrees && !self.radians {
-            clinic::radians(name, &output, place)?;
+            clinic::radians(name, &output)?;
         }
         if degrees {
             output.iter_mut().for_each(|angle| *angle = angle.to_radians());
@@ -195,7 +245,7 @@ impl Columns {
             input.iter_mut().for_each(|command| *command = -*command);
         }
         let record = Record::placed(time_s, output, input, place)?;
-        Ok(Log { record, degrees, unwrapped, columns })
+        Ok(Log { record, degrees, unwrapped, skipped, columns })
     }
 }
 
@@ -211,7 +261,12 @@ fn delimiter<'a>(header: &str, text: &'a str) -> (u8, Cow<'a, str>) {
 }
 
 /// Index of the column asked for, or of the first default that is there.
-fn column(names: &[String], wanted: Option<&str>, defaults: &[&str]) -> Result<usize, ExperimentError> {
+fn column(
+    names: &[String],
+    role: &'static str,
+    wanted: Option<&str>,
+    defaults: &[&str],
+) -> Result<usize, ExperimentError> {
     let all = |name: &str| -> Vec<usize> {
         let those = |same: fn(&str, &str) -> bool| {
             (0..names.len()).filter(|index| same(&names[*index], name)).collect::<Vec<_>>()
@@ -231,24 +286,25 @@ fn column(names: &[String], wanted: Option<&str>, defaults: &[&str]) -> Result<u
         ([only], _) => Ok(*only),
         ([], Some(numbered)) => Ok(numbered),
         ([], None) => Err(ExperimentError::UnknownColumn {
-            wanted: wanted.map_or_else(|| defaults.join(", "), str::to_owned),
-            found: names.join(", "),
+            role,
+            wanted: wanted.map_or_else(|| defaults.join(", "), |name| cut(name, LONGEST_WORD)),
+            found: cut(&names.join(", "), LONGEST_LIST),
         }),
-        (several, _) => Err(ExperimentError::DuplicateColumn { name: names[several[0]].clone(), count: several.len() }),
+        (several, _) => {
+            let (name, count) = (cut(&names[several[0]], LONGEST_WORD), several.len());
+            Err(ExperimentError::DuplicateColumn { role, name, count })
+        }
     }
 }
 
 /// The number in a cell.
 fn number(cell: &str, delimiter: u8, line: u64, column: &str) -> Result<f64, ExperimentError> {
+    let column = || cut(column, LONGEST_WORD);
     if cell.is_empty() {
-        return Err(ExperimentError::Blank { line, column: column.to_owned() });
+        return Err(ExperimentError::Blank { line, column: column() });
     }
     let point = if delimiter == b',' { Cow::Borrowed(cell) } else { Cow::Owned(cell.replace(',', ".")) };
-    point.parse().map_err(|_| ExperimentError::NotANumber {
-        line,
-        column: column.to_owned(),
-        text: cell.chars().take(40).collect(),
-    })
+    point.parse().map_err(|_| ExperimentError::NotANumber { line, column: column(), text: cut(cell, LONGEST_WORD) })
 }
 
 fn unreadable(error: csv::Error) -> ExperimentError {

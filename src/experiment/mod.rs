@@ -10,6 +10,8 @@ mod log;
 mod record;
 mod relay;
 #[cfg(feature = "std")]
+mod rows;
+#[cfg(feature = "std")]
 mod simulation;
 
 #[cfg(feature = "std")]

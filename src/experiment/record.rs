@@ -2,6 +2,9 @@
 
 use super::{ExperimentError, Place};
 
+/// Fewer gaps are not bursts. Bursts are where gaps take half of the time.
+const FEWEST_BURSTS: usize = 4;
+
 /// Time, output and input of one experiment, simulated or logged.
 ///
 /// Every value is finite and at most [`LARGEST`](Self::LARGEST) in magnitude, time increases strictly, and no interval is longer than [`LONGEST_GAP`](Self::LONGEST_GAP)
@@ -64,14 +67,10 @@ impl Record {
         if output.len() != samples || input.len() != samples {
             return Err(ExperimentError::Lengths { time: samples, output: output.len(), input: input.len() });
         }
-        for (column, values) in [("time", &time_s), ("output", &output), ("input", &input)] {
-            if let Some((sample, value)) = values.iter().enumerate().find(|(_, value)| !value.is_finite()) {
-                return Err(ExperimentError::NotFinite { place: place(sample), column, value: *value });
-            }
-            if let Some((sample, value)) = values.iter().enumerate().find(|(_, value)| value.abs() > Self::LARGEST) {
-                let (place, limit) = (place(sample), Self::LARGEST);
-                return Err(ExperimentError::TooLarge { place, column, value: *value, limit });
-            }
+        let columns = [&time_s, &output, &input];
+        let unusable = |sample: &usize| columns.iter().any(|values| !(values[*sample].abs() <= Self::LARGEST));
+        if let Some(sample) = (0..samples).find(unusable) {
+            return Err(Self::unusable(place(sample), columns, sample));
         }
         if samples < Self::FEWEST_SAMPLES {
             return Err(ExperimentError::TooShort { samples, required: Self::FEWEST_SAMPLES });
@@ -86,9 +85,27 @@ impl Record {
         let interval_s = *intervals.select_nth_unstable_by(middle, f64::total_cmp).1;
         let limit_s = Self::LONGEST_GAP * interval_s;
         if let Some(sample) = unsorted.iter().position(|interval| *interval > limit_s) {
+            let gaps = || unsorted.iter().filter(|interval| **interval > limit_s);
+            let (count, all_s) = (gaps().count(), gaps().sum::<f64>());
+            if count >= FEWEST_BURSTS && all_s > 0.5 * (time_s[samples - 1] - time_s[0]) {
+                #[allow(clippy::cast_precision_loss, reason = "fewer samples than 2^53")]
+                return Err(ExperimentError::Bursts { count, gap_s: all_s / count as f64, interval_s });
+            }
             return Err(ExperimentError::Gap { place: place(sample + 1), gap_s: unsorted[sample], limit_s });
         }
         Ok(Self { time_s, output, input, interval_s })
+    }
+
+    /// What is wrong with a sample that has a number that is none, or too large.
+    pub(super) fn unusable(place: Place, columns: [&Vec<f64>; 3], sample: usize) -> ExperimentError {
+        let named = ["time", "output", "input"].into_iter().zip(columns.map(|column| column[sample]));
+        // NaN is larger than all.
+        let worst = named.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        let (column, value) = worst.unwrap_or(("time", f64::NAN));
+        if value.is_finite() {
+            return ExperimentError::TooLarge { place, column, value, limit: Self::LARGEST };
+        }
+        ExperimentError::NotFinite { place, column, value }
     }
 
     /// Times of the samples in s.

@@ -1,6 +1,6 @@
 //! The whole loop in simulation: axis, delays, relay, sensor.
 
-use crate::numeric::{Limit, domain};
+use crate::numeric::{Limit, OutOfDomain, domain};
 use std::collections::VecDeque;
 
 use rand::SeedableRng;
@@ -72,10 +72,7 @@ impl SimulatedExperiment {
     /// # Errors
     /// [`ExperimentError::OutOfDomain`] unless all its numbers are finite, zero or more.
     pub fn with_sensor(self, sensor: Sensor) -> Result<Self, ExperimentError> {
-        domain::non_negative("sensor delay", sensor.delay_s, "s")?;
-        domain::non_negative("quantum", sensor.quantum, "output units")?;
-        domain::non_negative("noise", sensor.noise, "output units")?;
-        Ok(Self { sensor, ..self })
+        Ok(Self { sensor: sensor.checked()?, ..self })
     }
 
     /// The same experiment with other noise.
@@ -154,6 +151,14 @@ impl SimulatedExperiment {
 }
 
 impl Sensor {
+    /// The same, where all its numbers are finite, zero or more.
+    pub(crate) fn checked(self) -> Result<Self, OutOfDomain> {
+        domain::non_negative("sensor delay", self.delay_s, "s")?;
+        domain::non_negative("quantum", self.quantum, "output units")?;
+        domain::non_negative("noise", self.noise, "output units")?;
+        Ok(self)
+    }
+
     /// The reading of a value, rounded.
     pub(crate) fn read(&self, value: f64) -> f64 {
         if self.quantum > 0.0 { (value / self.quantum).round() * self.quantum } else { value }

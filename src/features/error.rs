@@ -1,11 +1,13 @@
 //! Why a record has no features.
 
+use crate::numeric::domain::Plain;
+
 /// Why a record shows no steady self-oscillation. Values are in the record's units.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FeatureError {
     /// The command never changes.
-    #[error("the input is {value} throughout; log the relay's command, or choose the column that holds it")]
+    #[error("the input is {} throughout and must change; log the relay's command, or choose its column (--input COL)", Plain(*.value))]
     ConstantInput {
         /// The value.
         value: f64,

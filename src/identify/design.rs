@@ -14,7 +14,7 @@ use super::joint::Delay;
 use super::prediction_error::information::{Information, of_record};
 use crate::experiment::{ExperimentError, Sensor, SimulatedExperiment};
 use crate::nonlinearity::RelayHysteresis;
-use crate::numeric::domain::require;
+use crate::numeric::domain::{Plain, require};
 use crate::numeric::{Limit, OutOfDomain};
 use crate::orbit::limit_cycle;
 use crate::plant::DragAxis;
@@ -119,8 +119,9 @@ pub enum DesignError {
     Experiment(#[from] ExperimentError),
     /// No relay of the grid makes the rough model oscillate as wanted.
     #[error(
-        "no relay up to level {largest_level} makes five cycles of at least eight samples within {time_limit_s} s and amplitude \\
-         {largest_amplitude}; log longer or faster, or allow a larger amplitude"
+        "no relay up to level {} makes five cycles of at least eight samples within {} s and amplitude {}; allow a larger level \
+         (--level) or amplitude (--largest-amplitude), log longer (--time) or faster (--rate)",
+        Plain(*.largest_level), Plain(*.time_limit_s), Plain(*.largest_amplitude)
     )]
     NoExperiment {
         /// The largest level.
@@ -184,7 +185,8 @@ impl Situation {
         if !(self.largest_amplitude > 0.0) {
             positive("largest amplitude", self.largest_amplitude, "output units")?;
         }
-        let error = self.sensor.quantum.hypot(self.sensor.noise);
+        let Sensor { quantum, noise, .. } = self.sensor.checked()?;
+        let error = quantum.hypot(noise);
         // Without an error the scale is how far the largest level drives the axis in a few samples.
         let travel = self.largest_level / self.axis.alpha() * (3.0 / self.rate_hz).powi(2);
         let narrowest = if error > 0.0 { NARROWEST * error } else { travel };

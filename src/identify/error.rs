@@ -3,6 +3,7 @@
 use crate::describing::DescribingError;
 use crate::nonlinearity::NonlinearityError;
 use crate::numeric::OutOfDomain;
+use crate::numeric::domain::Plain;
 use crate::orbit::OrbitError;
 use crate::plant::PlantError;
 
@@ -70,8 +71,9 @@ pub enum IdentifyError {
     CommandSign,
     /// The first harmonic belongs to no vehicle.
     #[error(
-        "{parameter} = {value} by the first harmonic with a delay of {delay_s} s in a period of {period_s} s, but it must be \
-         above 0; check the delay, and the sign of the command"
+        "{parameter} = {} by the first harmonic with a delay of {} s in a period of {} s, but it must be \
+         above 0; check the delay (--delay), and the sign of the command (--invert)",
+        Plain(*.value), Plain(*.delay_s), Plain(*.period_s)
     )]
     Unphysical {
         /// The parameter.

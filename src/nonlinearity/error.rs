@@ -1,6 +1,7 @@
 //! What can be wrong with a characteristic or its input.
 
 use crate::numeric::OutOfDomain;
+use crate::numeric::domain::Plain;
 
 /// Why a characteristic cannot be built or has no periodic output. Values are in the caller's input and output units.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -35,8 +36,9 @@ pub enum NonlinearityError {
     },
     /// The input never reaches a switching level, so that the output does not oscillate (the paper's condition 40).
     #[error(
-        "{characteristic}: amplitude = {amplitude} with bias = {bias} does not switch both ways; \
-         it needs an amplitude of at least {required} (half-width plus magnitude of the bias)"
+        "{characteristic}: amplitude = {} with bias = {} does not switch both ways; \
+         it needs an amplitude of at least {} (half-width plus magnitude of the bias)",
+        Plain(*.amplitude), Plain(*.bias), Plain(*.required)
     )]
     BelowSwitching {
         /// Catalogue name of the characteristic.
@@ -50,8 +52,9 @@ pub enum NonlinearityError {
     },
     /// A sweep over more treads of a quantizer than are summed.
     #[error(
-        "quantizer: amplitude = {amplitude} with bias = {bias} sweeps {treads} treads; at most {limit} are summed, \
-         treat a finer step as a straight line"
+        "quantizer: amplitude = {} with bias = {} sweeps {} treads; at most {limit} are summed, \
+         treat a finer step as a straight line",
+        Plain(*.amplitude), Plain(*.bias), Plain(*.treads)
     )]
     Treads {
         /// Amplitude of the input.

@@ -1,6 +1,7 @@
 //! Why there is no limit cycle.
 
 use crate::numeric::OutOfDomain;
+use crate::numeric::domain::Plain;
 #[cfg(feature = "std")]
 use crate::plant::PlantError;
 
@@ -14,8 +15,9 @@ pub enum OrbitError {
     Plant(#[from] PlantError),
     /// The relay cannot overcome the constant force, so that the axis drifts away.
     #[error(
-        "disturbance {disturbance} plus relay offset {offset} must be smaller in magnitude than the relay level \
-         {level}, or the axis drifts away; raise the level or trim the disturbance"
+        "disturbance {} plus relay offset {} must be smaller in magnitude than the relay level \
+         {}, or the axis drifts away; raise the level or trim the disturbance",
+        Plain(*.disturbance), Plain(*.offset), Plain(*.level)
     )]
     Drift {
         /// Disturbance delta of the axis, in force units.

@@ -16,7 +16,7 @@ pub enum PlantError {
         polynomial: &'static str,
     },
     /// An entry that is not a finite number.
-    #[error("entry {index} of the {part} is {value}; give finite numbers")]
+    #[error("entry {index} of the {part} is {value}: must be finite; give numbers")]
     NotFinite {
         /// Polynomial or matrix.
         part: &'static str,
@@ -26,7 +26,7 @@ pub enum PlantError {
         value: f64,
     },
     /// A polynomial whose first coefficient is zero: its degree is not what its length says.
-    #[error("the {polynomial} begins with 0; leave that coefficient out")]
+    #[error("the {polynomial} must begin with a coefficient other than 0; leave out the zeros before it")]
     LeadingZero {
         /// Numerator or denominator.
         polynomial: &'static str,

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 /// The order of the modules. Those in one row may not import each other.
 const ORDER: &[&[&str]] = &[
-    &["numeric"],
+    &["files", "numeric"],
     &["proof"],
     &["nonlinearity"],
     &["describing"],

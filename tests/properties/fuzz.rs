@@ -3,6 +3,7 @@
 //! `SELFOSC_FUZZ_SECONDS=900 cargo test --test properties fuzz -- --ignored --nocapture` looks for longer; `SELFOSC_FUZZ_SEED` takes
 //! another path. A log that makes trouble is printed; it becomes a test in `findings`.
 
+use std::num::NonZeroUsize;
 use std::ops::Range;
 use std::panic::catch_unwind;
 use std::time::{Duration, Instant};
@@ -119,6 +120,32 @@ fn settings(random: &mut Pcg64Mcg) -> (Columns, Settings) {
     (columns, settings)
 }
 
+/// The same log by other ways of reading it.
+fn reread(log: &[u8], columns: Columns, random: &mut Pcg64Mcg) {
+    for _ in 0..4 {
+        let time_s = |random: &mut Pcg64Mcg| (some(random, 3) == 0).then(|| random.random_range(-1.0..60.0));
+        let columns = Columns {
+            skip_bad_rows: some(random, 3) > 0,
+            even_stamps: some(random, 3) == 0,
+            part: NonZeroUsize::new(some(random, 8)).filter(|part| part.get() < 4),
+            from_s: time_s(random),
+            to_s: time_s(random),
+            ..columns.clone()
+        };
+        match columns.read(log) {
+            Ok(found) => {
+                let rows = found.record.samples() + found.skipped;
+                assert!(found.skipped as f64 <= Columns::MOST_SKIPPED * rows as f64, "{} of {rows}", found.skipped);
+                let inside = |time: &f64| {
+                    columns.from_s.is_none_or(|from| *time >= from) && columns.to_s.is_none_or(|to| *time <= to)
+                };
+                assert!(columns.even_stamps || found.record.time_s().iter().all(inside), "{columns:?}");
+            }
+            Err(refused) => assert!(!refused.to_string().is_empty()),
+        }
+    }
+}
+
 /// Every stage from bytes to a document; messages and numbers without NaN.
 fn identify(log: &[u8], columns: &Columns, settings: &Settings) -> bool {
     let log = match columns.read(log) {
@@ -161,6 +188,7 @@ fn fuzz(first: u64, enough: impl Fn(u64) -> bool) -> (u64, u64) {
             damage(&mut log, &mut random);
         }
         let (columns, settings) = settings(&mut random);
+        let (log_again, columns_again) = (log.clone(), columns.clone());
         let begin = Instant::now();
         let outcome = catch_unwind(|| identify(&log, &columns, &settings));
         let took = begin.elapsed();
@@ -168,7 +196,8 @@ fn fuzz(first: u64, enough: impl Fn(u64) -> bool) -> (u64, u64) {
             slowest = took;
             println!("case {number} took {took:?}");
         }
-        let Ok(model) = outcome else {
+        let again = catch_unwind(move || reread(&log_again, columns_again, &mut random));
+        let Some(model) = outcome.ok().filter(|_| again.is_ok()) else {
             panic!("case {number} with {columns:?}, {settings:?}:\n{}", String::from_utf8_lossy(&log));
         };
         cases += 1;

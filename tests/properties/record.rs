@@ -38,7 +38,7 @@ fn refusals_have_names_and_places() {
         (changed("0.5,2.5,", "0.4,2.5,"), "time-order", "line 7"),
         (changed("0.5,2.5,", "0.3,2.5,"), "time-order", "line 7"),
         (changed("1.9,9.5,", "19,9.5,"), "gap", "line 21"),
-        (changed("0.5,2.5,", "0.5,2.5,7,"), "unreadable", "line 7"),
+        (changed("0.5,2.5,", "0.5,2.5,7,"), "ragged-row", "line 7"),
         (log(5), "too-short", "5 samples"),
     ] {
         let (found, message) = refusal(text.as_bytes());

@@ -147,3 +147,200 @@ fn clinic() {
     ];
     golden!("clinic", entries.join("\n"));
 }
+
+/// What a pool gives beside: each refused by name, and mended by the flag that the refusal names.
+#[test]
+fn dirty() {
+    let log = Log::simulated();
+    let header = "time_s,output,command";
+    let plain = |[t, x, u]: [f64; 3]| format!("{t:.1},{x:.5},{u}");
+    let with = |rows: &dyn Fn(usize, [f64; 3]) -> String| log.text(header, |n, cells| Some(rows(n, cells)));
+    let burst = |n: usize| (n / 10) as f64 + 0.002 * (n % 10) as f64;
+    // The same motion with a sixteenth of the turn: sixteen times the inertia.
+    let turn_deg = 0.0625f64.to_degrees();
+    let entries = [
+        entry(
+            "stamps of arrival, ten readings at once",
+            &with(&|n, [_, x, u]| format!("{:.3},{x:.5},{u}", burst(n))),
+            &[],
+            &["--even-stamps"],
+            1.0,
+        ),
+        entry(
+            "a small heading in degrees",
+            &log.text("time_s,yaw,command", |_, [t, x, u]| Some(format!("{t:.1},{:.3},{u}", turn_deg * x))),
+            &[],
+            &["--degrees"],
+            16.0,
+        ),
+        entry(
+            "a row of units",
+            &with(&|n, row| if n == 0 { "s,rad,N".to_owned() } else { plain(row) }),
+            &[],
+            &["--skip-bad-rows"],
+            1.0,
+        ),
+        entry(
+            "a second header",
+            &with(&|n, row| if n == 200 { header.to_owned() } else { plain(row) }),
+            &[],
+            &["--skip-bad-rows"],
+            1.0,
+        ),
+        entry(
+            "a clock that starts again: its first part",
+            &with(&|n, [t, x, u]| plain([if n < 400 { t } else { t - 40.0 }, x, u])),
+            &[],
+            &["--part", "1"],
+            1.0,
+        ),
+        entry(
+            "a clock that is set back by ten seconds: its second part",
+            &with(&|n, [t, x, u]| plain([if n < 200 { t } else { t - 10.0 }, x, u])),
+            &[],
+            &["--part", "2"],
+            1.0,
+        ),
+        entry(
+            "33 rows without a reading",
+            &with(&|n, [t, x, u]| if n % 14 == 5 && n < 462 { format!("{t:.1},nan,{u}") } else { plain([t, x, u]) }),
+            &[],
+            &["--skip-bad-rows"],
+            1.0,
+        ),
+        entry(
+            "blank cells",
+            &with(&|n, [t, x, u]| if n % 14 == 5 { format!("{t:.1},,{u}") } else { plain([t, x, u]) }),
+            &[],
+            &["--skip-bad-rows"],
+            1.0,
+        ),
+        entry(
+            "rows cut short",
+            &with(&|n, [t, x, u]| if n % 14 == 5 { format!("{t:.1},{x:.2}") } else { plain([t, x, u]) }),
+            &[],
+            &["--skip-bad-rows"],
+            1.0,
+        ),
+        entry(
+            "stamps 2 ms before the one before",
+            &with(&|n, [t, x, u]| format!("{:.3},{x:.5},{u}", if n % 25 == 7 { t - 0.102 } else { t })),
+            &[],
+            &["--skip-bad-rows"],
+            1.0,
+        ),
+        entry(
+            "words after the experiment",
+            &with(&|n, row| if n < 420 { plain(row) } else { format!("{:.1},out of the water,0", row[0]) }),
+            &[],
+            &["--to", "41"],
+            1.0,
+        ),
+        entry(
+            "a third of the rows without a reading",
+            &with(&|n, [t, x, u]| if n % 2 == 1 && n > 180 { format!("{t:.1},nan,{u}") } else { plain([t, x, u]) }),
+            &["--skip-bad-rows"],
+            &["--to", "18"],
+            1.0,
+        ),
+        entry(
+            "one column for two things",
+            &log.text("time_s,depth,command,output", |_, [t, x, u]| Some(format!("{t:.1},{x:.5},{u},0"))),
+            &["--output", "depth", "--input", "depth"],
+            &["--output", "depth"],
+            1.0,
+        ),
+        entry(
+            "names that the default does not know",
+            &log.text("clock,Z,thrust", |_, row| Some(plain(row))),
+            &[],
+            &["--time", "clock", "--output", "z", "--input", "Thrust"],
+            1.0,
+        ),
+        entry(
+            "names in upper case, with a unit",
+            &log.text("Timestamp_MS,Heading,PWM", |_, [t, x, u]| Some(format!("{:.0},{x:.5},{u}", 1e3 * t))),
+            &[],
+            &[],
+            1.0,
+        ),
+        entry("a temperature", &log.text("timestamp,Temperature,duty", |_, row| Some(plain(row))), &[], &[], 1.0),
+    ];
+    golden!("dirty", entries.join("\n"));
+}
+
+/// An axis and its thrusters, integrated by Runge and Kutta's method in steps of a millisecond, under a relay with hysteresis
+/// that looks at every reading. Columns: time in s, reading, command.
+fn experiment(
+    [alpha, beta, quadratic]: [f64; 3],
+    [ahead, astern]: [f64; 2],
+    [level, half_width, delay_s]: [f64; 3],
+    [rate_hz, step]: [f64; 2],
+    duration_s: f64,
+) -> Vec<[f64; 3]> {
+    let dt = 1e-3;
+    let per_sample = (1.0 / rate_hz / dt).round() as usize;
+    let late = (delay_s / dt).round() as usize;
+    let (mut x, mut v, mut command) = (0.0f64, 0.0f64, level);
+    let mut commands = vec![level; late + 1];
+    let mut rows = Vec::new();
+    for tick in 0..(duration_s / dt).round() as usize {
+        if tick % per_sample == 0 {
+            let reading = (x / step).round() * step;
+            command = if reading > half_width {
+                -level
+            } else if reading < -half_width {
+                level
+            } else {
+                command
+            };
+            rows.push([tick as f64 * dt, reading, command]);
+        }
+        commands.push(command);
+        let u = commands[commands.len() - 1 - late];
+        let force = u * if u > 0.0 { ahead } else { astern };
+        let slope = |v: f64| (force - beta * v - quadratic * v * v.abs()) / alpha;
+        let (a1, v1) = (slope(v), v);
+        let (a2, v2) = (slope(v + 0.5 * dt * a1), v + 0.5 * dt * a1);
+        let (a3, v3) = (slope(v + 0.5 * dt * a2), v + 0.5 * dt * a2);
+        let (a4, v4) = (slope(v + dt * a3), v + dt * a3);
+        x += dt / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4);
+        v += dt / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+    }
+    rows
+}
+
+fn number(answer: &Value, parameter: &str, part: &str) -> f64 {
+    answer["reported"][parameter][part].as_f64().unwrap()
+}
+
+/// Thrusters that push 28 N ahead and 22 N astern for each unit of the command are symmetric ones of 25 N and a constant force of
+/// 0.12 of the level: exactly.
+#[test]
+fn thrusters_that_push_unevenly_are_a_constant_force() {
+    let rows = experiment([21.0, 4.0, 35.0], [28.0, 22.0], [0.4, 0.1, 0.3], [20.0, 0.004], 80.0);
+    let (status, answer) =
+        identify(&Log(rows).text("time_s,depth_m,command", |_, [t, x, u]| Some(format!("{t:.2},{x:.3},{u}"))), &[]);
+    assert_eq!(status, Some(0), "{answer}");
+    assert_ne!(answer["reported"]["trust"], "doubtful", "{}", answer["reported"]);
+    for (parameter, truth) in [("alpha", 21.0 / 25.0), ("delta", 0.12 * 0.4)] {
+        let value = number(&answer, parameter, "value");
+        assert!((value / truth - 1.0).abs() < 0.01, "{parameter}: {value} for {truth}");
+    }
+}
+
+/// A command that is logged five times slower than the readings: the inertia is right, what is wrong is named, and the delay is
+/// that of the command as it is logged.
+#[test]
+fn a_command_logged_slowly_is_named() {
+    let rows = experiment([0.05, 0.02, 0.04], [1.0, 1.0], [0.07, 0.35, 0.1], [50.0, 0.0017], 60.0);
+    let slow: Vec<f64> = (0..rows.len()).map(|n| rows[n - n % 5][2]).collect();
+    let (status, answer) =
+        identify(&Log(rows).text("time_s,yaw,command", |n, [t, x, _]| Some(format!("{t:.2},{x:.4},{}", slow[n]))), &[]);
+    assert_eq!(status, Some(0), "{answer}");
+    let reasons = answer["reported"]["reasons"].as_array().unwrap();
+    assert!(reasons.iter().any(|reason| reason["code"] == "switch-jitter"), "{reasons:?}");
+    assert_eq!(answer["reported"]["trust"], "widened");
+    assert!((number(&answer, "alpha", "value") / 0.05 - 1.0).abs() < 0.02);
+    assert!((0.0..=0.1).contains(&number(&answer, "delay_s", "value")));
+}

@@ -1,9 +1,11 @@
 //! Snapshots: what users see, word for word.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
+mod arguments;
 mod catalogue;
 mod clinic;
 mod command;
+mod files;
 mod identify;
 mod paper;
 mod readme;

@@ -37,17 +37,16 @@ fn sensitivity(budget: Budget, index: usize, biased: bool, delayed: bool, factor
 }
 
 const NO_DELAY: &str = "no-delay";
+const RATIO: ClaimPart = ClaimPart::over(
+    "ratio",
+    "no delay; the ratio of amplitude and half-width",
+    const { &[ClaimVariable::number("X/x_a", 1.0, f64::INFINITY)] },
+);
 
 claim! {
     QUANTISATION_ALPHA = "quantisation-alpha" "37" Identity
     "dalpha/alpha = [(2 - r^2)/(r^2 - 1)] dX/X with r = X_m/x_a" {
-        domain: &[
-            ClaimPart::over(
-                "ratio",
-                "no delay; the ratio of amplitude and half-width",
-                const { &[ClaimVariable::number("X/x_a", 1.0, f64::INFINITY)] },
-            ),
-        ],
+        domain: &[RATIO],
         by_hand: &[
             "level, half-width and frequency are set to one by homogeneity",
             "the cases of sign that are proved are all that the code accepts, and limits of them",
@@ -67,13 +66,7 @@ claim! {
 claim! {
     QUANTISATION_BETA = "quantisation-beta" "38" Identity
     "dbeta/beta = -2 dX/X" {
-        domain: &[
-            ClaimPart::over(
-                "ratio",
-                "no delay; the ratio of amplitude and half-width",
-                const { &[ClaimVariable::number("X/x_a", 1.0, f64::INFINITY)] },
-            ),
-        ],
+        domain: &[RATIO],
         by_hand: &[
             "level, half-width and frequency are set to one by homogeneity",
             "every bias: beta does not depend on it",
@@ -91,13 +84,7 @@ claim! {
 claim! {
     QUANTISATION_BETA_XX = "quantisation-beta-xx" "39" Identity
     "dbeta_xx/beta_xx = -3 dX/X" {
-        domain: &[
-            ClaimPart::over(
-                "ratio",
-                "no delay; the ratio of amplitude and half-width",
-                const { &[ClaimVariable::number("X/x_a", 1.0, f64::INFINITY)] },
-            ),
-        ],
+        domain: &[RATIO],
         by_hand: &[
             "level, half-width and frequency are set to one by homogeneity",
             "every bias: beta_xx does not depend on it",

@@ -46,22 +46,25 @@ fn formula(
     })
 }
 
+/// Where a formula of several switching levels is the sum of closed forms of one.
+const TERM_BY_TERM: &[ClaimPart] = &[
+    BREAKPOINT,
+    ClaimPart::over(
+        "term",
+        "each term of the formula is the closed form of one switching level",
+        const { &[ClaimVariable::number("u", -1.0, 1.0)] },
+    ),
+    ClaimPart::over(
+        "sum",
+        "the formula is the sum that the code makes, x_a + abs(x_0) <= X",
+        const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
+    ),
+];
+
 claim! {
     RELAY_Q = "relay-q" "30" Identity
     "Q of a relay with hysteresis is -4 C x_a/(pi X^2), whatever the bias and the offset" {
-        domain: &[
-            BREAKPOINT,
-            ClaimPart::over(
-                "term",
-                "each term of the formula is the closed form of one switching level",
-                const { &[ClaimVariable::number("u", -1.0, 1.0)] },
-            ),
-            ClaimPart::over(
-                "sum",
-                "the formula is the sum that the code makes, x_a + abs(x_0) <= X",
-                const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
-            ),
-        ],
+        domain: TERM_BY_TERM,
         by_hand: &[
             "height and amplitude are set to one by linearity and homogeneity",
             "the sides and branches follow from one by reflection",
@@ -94,19 +97,7 @@ fn formula_below_switching(budget: Budget) -> Verdict {
 claim! {
     RELAY_P = "relay-p" "31" Identity
     "P of a relay with hysteresis is (2C/(pi X)) [sqrt(1 - ((x_a - x_0)/X)^2) + sqrt(1 - ((x_a + x_0)/X)^2)]" {
-        domain: &[
-            BREAKPOINT,
-            ClaimPart::over(
-                "term",
-                "each term of the formula is the closed form of one switching level",
-                const { &[ClaimVariable::number("u", -1.0, 1.0)] },
-            ),
-            ClaimPart::over(
-                "sum",
-                "the formula is the sum that the code makes, x_a + abs(x_0) <= X",
-                const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
-            ),
-        ],
+        domain: TERM_BY_TERM,
         by_hand: &[
             "height and amplitude are set to one by linearity and homogeneity",
             "the sides and branches follow from one by reflection",
@@ -130,19 +121,7 @@ fn in_phase(s: &Switching, bias: f64) -> f64 {
 claim! {
     RELAY_F0 = "relay-f0" "32" Identity
     "The mean output is C (t_high - t_low)/T = (C/pi) [asin((x_a + e_0)/X) - asin((x_a - e_0)/X)], plus the offset" {
-        domain: &[
-            BREAKPOINT,
-            ClaimPart::over(
-                "term",
-                "each term of the formula is the closed form of one switching level",
-                const { &[ClaimVariable::number("u", -1.0, 1.0)] },
-            ),
-            ClaimPart::over(
-                "sum",
-                "the formula is the sum that the code makes, x_a + abs(x_0) <= X",
-                const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
-            ),
-        ],
+        domain: TERM_BY_TERM,
         by_hand: &[
             "height and amplitude are set to one by linearity and homogeneity",
             "the sides and branches follow from one by reflection",

@@ -164,6 +164,9 @@ pub struct RecordConclusion {
     pub file: String,
     /// Samples.
     pub samples: usize,
+    /// Rows left out because they could not be used.
+    #[serde(default)]
+    pub skipped_rows: usize,
     /// Time from the first to the last, in s.
     pub duration_s: f64,
     /// Steady cycles; null where it shows no steady self-oscillation.
@@ -269,6 +272,7 @@ impl RecordConclusion {
             predicted: *predicted,
             file: source.name.clone(),
             samples: source.log.record.samples(),
+            skipped_rows: source.log.skipped,
             duration_s: source.log.record.duration_s(),
             cycles_used: source.features.as_ref().map(|found| found.features.cycles),
             features: source.features.as_ref().map(FeatureMeans::of),

@@ -3,6 +3,7 @@
 use super::settings::SettingsError;
 use crate::experiment::ExperimentError;
 use crate::features::FeatureError;
+use crate::files::FileError;
 use crate::identify::IdentifyError;
 use crate::numeric::OutOfDomain;
 
@@ -13,14 +14,9 @@ pub enum Refusal {
     /// The settings contradict each other.
     #[error(transparent)]
     Settings(#[from] SettingsError),
-    /// The file cannot be opened.
-    #[error("cannot read {name}: {reason}; give the path of a log that you may read")]
-    File {
-        /// The file.
-        name: String,
-        /// What the system says.
-        reason: String,
-    },
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// The log holds no record.
     #[error("{name}: {source}")]
     Record {
@@ -48,7 +44,7 @@ impl Refusal {
     pub fn code(&self) -> &'static str {
         match self {
             Self::Settings(error) => error.code(),
-            Self::File { .. } => "unreadable",
+            Self::File(error) => error.code(),
             Self::Record { source, .. } => source.code(),
             Self::Features { source, .. } => source.code(),
             Self::Model(error) => error.code(),
@@ -62,7 +58,7 @@ impl Refusal {
             Self::Settings(error) => error.out_of_domain(),
             Self::Record { source, .. } => source.out_of_domain(),
             Self::Model(error) => error.out_of_domain(),
-            Self::File { .. } | Self::Features { .. } => None,
+            Self::File(_) | Self::Features { .. } => None,
         }
     }
 
@@ -71,7 +67,7 @@ impl Refusal {
     #[must_use]
     pub fn is_usage(&self) -> bool {
         match self {
-            Self::Settings(_) | Self::File { .. } => true,
+            Self::Settings(_) | Self::File(_) => true,
             Self::Record { source, .. } => source.is_unreadable(),
             Self::Features { .. } | Self::Model(_) => false,
         }

@@ -1,6 +1,5 @@
 //! From logs to an identification.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
@@ -11,6 +10,7 @@ use super::settings::Settings;
 use super::stage::Stage;
 use crate::experiment::{Columns, Log, Record};
 use crate::features::{FeatureError, RecordFeatures, RelayLevels};
+use crate::files::Input;
 use crate::identify::Warning;
 
 /// One vehicle to be identified: settings, and its records, which are fitted jointly.
@@ -73,25 +73,28 @@ impl Session {
     /// Adds the log in a file.
     ///
     /// # Errors
-    /// [`Refusal::File`] where it cannot be opened, [`Refusal::Record`] where it holds no record.
+    /// [`Refusal::File`] where it cannot be read, [`Refusal::Record`] where it holds no record.
     pub fn log(self, path: impl AsRef<Path>) -> Result<Self, Refusal> {
-        let name = path.as_ref().display().to_string();
-        match File::open(path) {
-            Ok(file) if file.metadata().is_ok_and(|about| about.is_dir()) => {
-                Err(Refusal::File { name, reason: "it is a folder".to_owned() })
-            }
-            Ok(file) => self.reader(name, file),
-            Err(error) => Err(Refusal::File { name, reason: error.to_string() }),
-        }
+        let input = Input::open(path.as_ref(), Columns::LONGEST)?;
+        self.reader(input.name(), input.bytes())
     }
 
     /// Adds the log in a file to those that are predicted and take no part in the estimate.
     ///
     /// # Errors
     /// As [`log`](Self::log).
-    pub fn validation(mut self, path: impl AsRef<Path>) -> Result<Self, Refusal> {
+    pub fn validation(self, path: impl AsRef<Path>) -> Result<Self, Refusal> {
+        let input = Input::open(path.as_ref(), Columns::LONGEST)?;
+        self.validation_reader(input.name(), input.bytes())
+    }
+
+    /// Adds the log that a reader gives to those that are predicted and take no part in the estimate.
+    ///
+    /// # Errors
+    /// As [`reader`](Self::reader).
+    pub fn validation_reader(mut self, name: impl Into<String>, source: impl Read) -> Result<Self, Refusal> {
         let logs = self.logs.len();
-        self = self.log(path)?;
+        self = self.reader(name, source)?;
         self.validation.extend(self.logs.drain(logs..));
         Ok(self)
     }

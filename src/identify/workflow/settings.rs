@@ -12,6 +12,7 @@ use crate::numeric::{Limit, OutOfDomain};
 /// Ways from records to parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "command", derive(clap::ValueEnum))]
 pub enum Method {
     /// The paper's: the first harmonic of the mean cycle.
     Iso,
@@ -90,12 +91,12 @@ pub struct Settings {
 #[non_exhaustive]
 pub enum SettingsError {
     /// Mixed drag without the fit.
-    #[error("only the fit knows mixed drag; use the method fit, or another drag law")]
+    #[error("only the fit knows mixed drag; use it (--method fit), or another drag law (--drag)")]
     MixedNeedsFit,
     /// A term or a certificate that only the guaranteed bounds have.
     #[error(
-        "stiffness, lag, cubic drag, drag of either sign, jitter, outliers, a budget and a certificate are of the guaranteed \
-         bounds; use the method bounded"
+        "--stiffness, --lag, --cubic, --either-sign, --jitter, --outliers, --budget and --certificate are of the guaranteed \
+         bounds; use these (--method bounded)"
     )]
     NeedsBounded,
     /// A level outside its domain.

@@ -8,13 +8,14 @@
 //! |---|---|
 //! | `format` | the two formats, and what their functions are known to keep |
 //! | `functions` | the functions of `Real` and `Special` |
-//! | `order` | comparisons |
 
 mod format;
 mod functions;
-#[cfg(feature = "std")]
-mod order;
 #[cfg(all(test, feature = "std"))]
+#[path = "../../../tests/properties/rounded/order.rs"]
+pub(crate) mod order;
+#[cfg(all(test, feature = "std"))]
+#[path = "../../../tests/properties/rounded/testing.rs"]
 #[allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::cast_possible_truncation, reason = "a test may panic")]
 pub(crate) mod testing;
 #[cfg(test)]
@@ -24,8 +25,8 @@ use core::marker::PhantomData;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 pub use format::{Double, Format, Single, Units};
-#[cfg(feature = "std")]
-pub use order::{Compared, every_outcome, every_way};
+#[cfg(all(test, feature = "std"))]
+pub(crate) use order::{Compared, every_outcome};
 
 use super::{Interval, Real};
 

@@ -36,6 +36,10 @@ pub(crate) fn summary(source: &Source) -> String {
         0 => String::new(),
         jumps => format!("; {jumps} jumps by a turn taken out"),
     };
+    let turns = match source.log.skipped {
+        0 => turns,
+        rows => format!("{turns}; {rows} rows that cannot be used left out"),
+    };
     let unit = if source.log.degrees { " in degrees" } else { "" };
     format!(
         "{}: {} samples over {:.1} s{cycles}; columns {}, {}{unit}, {}{turns}.",

@@ -13,7 +13,7 @@ use crate::numeric::{Real, Scalar};
 
 /// A number of a formula with cases.
 #[derive(Clone, Copy, Debug)]
-pub struct Compared<F>(pub Rounded<F>);
+pub(crate) struct Compared<F>(pub(crate) Rounded<F>);
 
 /// Comparisons that a formula may leave open.
 const MOST_OPEN: usize = 24;
@@ -37,12 +37,12 @@ std::thread_local! {
 /// or too many are open.
 ///
 /// Comparisons mean nothing outside of this.
-pub fn every_way<R>(formula: impl Fn() -> R) -> Option<Vec<R>> {
+pub(crate) fn every_way<R>(formula: impl Fn() -> R) -> Option<Vec<R>> {
     follow(false, formula)
 }
 
 /// The same where it does not matter whether float and exact value take the same case: what holds of every result holds of both.
-pub fn every_outcome<R>(formula: impl Fn() -> R) -> Option<Vec<R>> {
+pub(crate) fn every_outcome<R>(formula: impl Fn() -> R) -> Option<Vec<R>> {
     follow(true, formula)
 }
 

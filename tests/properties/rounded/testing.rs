@@ -5,7 +5,8 @@ use dashu_float::round::mode::HalfEven;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-use super::{Compared, Double, Format, Rounded, Single, every_way};
+use super::order::{Compared, every_way};
+use super::{Double, Format, Rounded, Single};
 use crate::numeric::{Interval, Scalar};
 
 pub(crate) type Big = FBig<HalfEven, 2>;
