@@ -14,12 +14,14 @@ mod certificate;
 mod checks;
 mod distortion;
 mod evidence;
+mod formulas;
 mod registry;
 mod sampling;
 #[doc(hidden)]
 pub mod tolerance;
 
 pub use certificate::{Certificate, Shown};
+pub use formulas::formulas;
 pub use evidence::{ClaimDomain, ClaimPart, ClaimVariable, Evidence, Verdict, Witness, Word};
 pub use registry::{AsPrinted, Checker, Claim, Finding, Hypothesis, Kind, verify};
 pub use sampling::Budget;

@@ -8,8 +8,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
 use super::number::whole;
-use super::{CommandError, Outcome, certificates, suggestion, write_json};
-use crate::claims::{Budget, CLAIMS, Claim, Evidence, Finding, Verdict, Word};
+use super::error::Given;
+use super::{CommandError, Outcome, certificates, files, suggestion, write_json};
+use crate::claims::{Budget, CLAIMS, Claim, Evidence, Finding, Verdict, Word, formulas};
 
 /// Checks every claim of the theory, as printed and as corrected, and says on what evidence.
 ///
@@ -24,6 +25,7 @@ Examples:
   selfosc verify --claim lemma-1 --claim lemma-2 --cases 100000 --seed 7
   selfosc verify --certificates proofs
   selfosc verify --check proofs
+  selfosc verify --formulas spec/formal
   selfosc verify --check bounds.json
   selfosc verify --json")]
 pub(super) struct Arguments {
@@ -39,6 +41,9 @@ pub(super) struct Arguments {
     /// Writes the proofs of the orbit theorems to this folder, one file a theorem, with every box
     #[arg(long, value_name = "DIR")]
     certificates: Option<PathBuf>,
+    /// Writes the program's formulas to `Formulas.v` in this folder, as definitions of the proof assistant Coq; checks nothing
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["claims", "cases", "seed", "certificates", "check", "json"])]
+    formulas: Option<PathBuf>,
     /// Checks such files, or one that `identify --certificate` wrote, without searching for anything, in place of the claims
     #[arg(long, value_name = "DIR|FILE", conflicts_with_all = ["claims", "cases", "seed", "certificates", "json"])]
     check: Option<PathBuf>,
@@ -59,6 +64,11 @@ fn cases(text: &str) -> Result<usize, String> {
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
+    if let Some(folder) = &arguments.formulas {
+        crate::files::folder(folder).given("--formulas")?;
+        files::write(&folder.join("Formulas.v"), &formulas()).given("--formulas")?;
+        return Ok(Outcome::Done);
+    }
     if let Some(folder) = &arguments.check {
         return certificates::check(folder, output);
     }

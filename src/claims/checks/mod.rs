@@ -16,6 +16,8 @@ mod single;
 mod step;
 mod vehicle_proofs;
 
+pub(super) use single::Single;
+
 pub(super) mod bounded;
 pub(super) mod control;
 pub(super) mod experiment;
