@@ -122,6 +122,45 @@ Proof.
   repeat match goal with |- _ /\ _ => split end; components; field; lra.
 Qed.
 
+(** A held input, by whichever of its four forms. *)
+Theorem formula_kernel_band : forall origin lower upper slope B X, 0 < X -> lower <= upper ->
+  Formulas.band origin lower upper slope B X = triple (df_times slope (band_df 1 origin lower upper B X)).
+Proof.
+  intros origin lower upper slope B X HX order_. pose proof PI_RGT_0. unfold Formulas.band, band_df.
+  replace ((2 * lower - 2 * B - X) / 2) with (lower - B - 1 / 2 * X) by field.
+  replace ((2 * B - 2 * upper - X) / 2) with (B - upper - 1 / 2 * X) by field.
+  destruct (Rlt_dec 0 (lower - B - 1 / 2 * X)) as [C1|C1]; [|destruct (Rlt_dec 0 (B - upper - 1 / 2 * X)) as [C2|C2];
+    [|destruct (Rlt_dec 0 (upper - lower - X)) as [C3|C3]]].
+  - rewrite ?(above_middle lower B X), ?(above_middle upper B X), ?(above_near lower B X HX), ?(above_near upper B X HX),
+      ?(above_far lower B X HX), ?(above_far upper B X HX), ?(above_short lower B X), ?(above_short upper B X), ?coded_phi.
+    unfold band_near_the_maximum, ramp_both, ramp_at, sided. components; unfold sine; field; lra.
+  - rewrite ?(below_middle lower B X HX), ?(below_middle upper B X HX), ?(below_near lower B X HX), ?(below_near upper B X HX),
+      ?(below_far lower B X HX), ?(below_far upper B X HX), ?(below_short lower B X), ?(below_short upper B X), ?coded_phi.
+    unfold band_near_the_minimum, ramp_both, ramp_at, sided. components; unfold sine;
+    rewrite ?(Rmult_comm (1 + _) (1 - _)); field; lra.
+  - rewrite ?(below_middle lower B X HX), ?(above_middle upper B X), ?(below_near lower B X HX), ?(above_near upper B X HX),
+      ?(below_far lower B X HX), ?(above_far upper B X HX), ?(below_short lower B X), ?(above_short upper B X), ?coded_phi.
+    unfold wide_band, ramp_both, ramp_at, sided. components; unfold sine; rewrite ?(Rmult_comm (1 + _) (1 - _)); field; lra.
+  - pose proof (middle_is_wide_enough lower upper B X HX order_ ltac:(lra) ltac:(lra) ltac:(lra)) as wide.
+    unfold band_from_the_middle.
+    set (low := Rmin (Rmax lower (B - X)) (B + X)). set (high := Rmin (Rmax upper (B - X)) (B + X)).
+    assert (cosine : forall at_ u, at_ = B + X * u -> -1 <= u <= 1 ->
+      sqrt (Rmax (at_ - B + X) 0 * Rmax (B + X - at_) 0) = X * sine u /\
+      sqrt (Rmax ((at_ - (B - X)) * 1) 0 * Rmax ((B + X - at_) * 1) 0) = X * sine u).
+    { intros at_ u -> U. pose proof (code_cosine 1 u B X HX Rlt_0_1 U) as E. replace (X * 1 * sine u) with (X * sine u) in E by ring. split; [|exact E].
+      rewrite <- E, !Rmult_1_r. do 2 f_equal. f_equal. ring. }
+    destruct (cosine low _ (clamp_place lower B X HX) (ratio_range lower B X)) as [L1 L2].
+    destruct (cosine high _ (clamp_place upper B X HX) (ratio_range upper B X)) as [H1 H2].
+    rewrite L1, L2, H1, H2.
+    assert (positive : 0 < X * sine (ratio lower B X) + X * sine (ratio upper B X)) by (rewrite <- Rmult_plus_distr_l; apply Rmult_lt_0_compat; lra).
+    generalize dependent (X * sine (ratio lower B X) + X * sine (ratio upper B X)). intros S HS.
+    replace ((high - low) * 1 * (1 / S)) with ((high - low) / S) by (field; lra).
+    replace ((low + high - (B + B)) * 1 * (1 / S)) with ((low + high - 2 * B) / S) by (field; lra).
+    replace (lower - (B + X)) with (lower - B - X) by ring. replace (upper - (B + X)) with (upper - B - X) by ring.
+    pose proof (pow2_ge_0 (high - low)). pose proof (pow2_ge_0 (low + high - 2 * B)). pose proof (pow_lt S 2 HS).
+    components; field; repeat split; try lra.
+Qed.
+
 (** * The catalogue *)
 
 (** The lists of kernels that the program reports: for the relay with a dead zone and hysteresis and the backlash they depend on the

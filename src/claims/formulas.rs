@@ -123,19 +123,16 @@ fn kernels(theory: &mut Theory) {
 
 /// A kernel as a term of `Catalogue.v`.
 fn term(kernel: Kernel<Expression>) -> String {
-    let [a, b, c, d] = match kernel {
-        Kernel::Constant { value, branches } => return format!("Constant ({}) {branches:?}", value.coq()),
-        Kernel::Line { slope } => return format!("Line ({})", slope.coq()),
-        Kernel::Sign { at, level, branches } => return format!("Sign ({}) ({}) {branches:?}", at.coq(), level.coq()),
-        Kernel::Step { at, height, side, branches } => {
-            return format!("Step ({}) ({}) {side:?} {branches:?}", at.coq(), height.coq());
-        }
-        Kernel::Ramp { at, slope, side, branches } => {
-            return format!("Ramp ({}) ({}) {side:?} {branches:?}", at.coq(), slope.coq());
-        }
-        Kernel::Band { origin, lower, upper, slope } => [origin, lower, upper, slope].map(Expression::coq),
+    let (name, numbers, place) = match kernel {
+        Kernel::Constant { value, branches } => ("Constant", vec![value], format!(" {branches:?}")),
+        Kernel::Line { slope } => ("Line", vec![slope], String::new()),
+        Kernel::Sign { at, level, branches } => ("Sign", vec![at, level], format!(" {branches:?}")),
+        Kernel::Step { at, height, side, branches } => ("Step", vec![at, height], format!(" {side:?} {branches:?}")),
+        Kernel::Ramp { at, slope, side, branches } => ("Ramp", vec![at, slope], format!(" {side:?} {branches:?}")),
+        Kernel::Band { origin, lower, upper, slope } => ("Band", vec![origin, lower, upper, slope], String::new()),
     };
-    format!("Band ({a}) ({b}) ({c}) ({d})")
+    let numbers: Vec<_> = numbers.into_iter().map(Expression::coq_argument).collect();
+    format!("{name} {}{place}", numbers.join(" "))
 }
 
 /// Each member of the piecewise-linear catalogue as its list of kernels.

@@ -15,6 +15,7 @@ mod checks;
 mod distortion;
 mod evidence;
 mod formulas;
+mod kernel_checked;
 mod registry;
 mod sampling;
 #[doc(hidden)]
@@ -22,6 +23,7 @@ pub mod tolerance;
 
 pub use certificate::{Certificate, Shown};
 pub use formulas::formulas;
+pub use kernel_checked::KernelChecked;
 pub use evidence::{ClaimDomain, ClaimPart, ClaimVariable, Evidence, Verdict, Witness, Word};
 pub use registry::{AsPrinted, Checker, Claim, Finding, Hypothesis, Kind, verify};
 pub use sampling::Budget;

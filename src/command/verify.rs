@@ -16,7 +16,8 @@ use crate::claims::{Budget, CLAIMS, Claim, Evidence, Finding, Verdict, Word, for
 ///
 /// Proved means enclosed over the whole domain as stated, proved-in-part over the parts named, exhausted that every state of
 /// a finite model was visited, sampled no more than true of every case drawn. A claim that the paper states and that is false
-/// as printed is refuted with the numbers that refute it. Steps of a proof that no program checks are counted. Exit status 1
+/// as printed is refuted with the numbers that refute it. Steps of a proof that no program checks are counted.
+/// Kernel-checked means that the proof assistant Coq accepts the statement (spec/formal), which this command does not run. Exit status 1
 /// when a verdict is not the one that the claim's file states, or a declared proof does not succeed.
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -128,7 +129,7 @@ fn chosen(ids: &[String]) -> Result<Vec<&'static Claim>, CommandError> {
 }
 
 /// What was found of the parts that are established, then the numbers, in the order of the fields.
-fn evidence(finding: &Finding) -> String {
+fn evidence(claim: &Claim, finding: &Finding) -> String {
     let evidence = match finding.carrying() {
         Some(Verdict::Holds(evidence)) => evidence,
         Some(Verdict::Refuted(witness)) => return format!("refuted by {witness}"),
@@ -147,6 +148,7 @@ fn evidence(finding: &Finding) -> String {
     }));
     let by_hand = finding.by_hand.len();
     said.extend((by_hand > 0).then(|| format!("{by_hand} by hand")));
+    said.extend(claim.kernel_checked().map(|checked| checked.to_string()));
     said.join(", ")
 }
 
@@ -154,7 +156,7 @@ fn evidence(finding: &Finding) -> String {
 fn lines(claim: &Claim, finding: &Finding, width: usize, output: &mut impl Write) -> Result<(), CommandError> {
     let short = |word: Word| if word == Word::NotApplicable { "-" } else { word.as_str() };
     let (printed, corrected) = (short(finding.as_printed()), short(finding.as_corrected()));
-    writeln!(output, "{:width$}  {printed:14}  {corrected:14}  {}", claim.id, evidence(finding))?;
+    writeln!(output, "{:width$}  {printed:14}  {corrected:14}  {}", claim.id, evidence(claim, finding))?;
     if let Some(why) = claim.not_proved {
         writeln!(output, "{:width$}  not proved as a whole: {why}", "")?;
     }
@@ -171,13 +173,18 @@ fn summary(findings: &[(&Claim, Finding)], output: &mut impl Write) -> Result<()
     let words = [Word::Proved, Word::ProvedInPart, Word::Exhausted, Word::Sampled];
     let words = words.map(|word| format!("{} {word}", count(findings, word))).join(", ");
     let (refuted, wrong) = (refuted_as_printed(findings), not_as_stated(findings));
-    let claims = findings.len();
-    writeln!(output, "\n{claims} claims: {words}; {refuted} refuted as printed; {wrong} not as stated")?;
+    let (claims, checked) = (findings.len(), kernel_checked(findings));
+    writeln!(output, "\n{claims} claims: {words}; {checked} kernel-checked as a whole; {refuted} refuted as printed; {wrong} not as stated")?;
     Ok(())
 }
 
 fn count(findings: &[(&Claim, Finding)], word: Word) -> usize {
     findings.iter().filter(|(_, finding)| finding.word() == word).count()
+}
+
+fn kernel_checked(findings: &[(&Claim, Finding)]) -> usize {
+    let whole = |claim: &Claim| claim.kernel_checked().is_some_and(|checked| checked.covers == "whole");
+    findings.iter().filter(|(claim, _)| whole(claim)).count()
 }
 
 fn refuted_as_printed(findings: &[(&Claim, Finding)]) -> usize {
@@ -212,7 +219,8 @@ fn document(findings: &[(&Claim, Finding)]) -> Value {
             "statement": claim.statement,
             "as_printed": finding.as_printed(),
             "as_corrected": finding.as_corrected(),
-            "evidence": evidence(finding),
+            "evidence": evidence(claim, finding),
+            "kernel_checked": claim.kernel_checked().map(|checked| checked.covers),
             "cases": found.cases,
             "boxes": found.boxes,
             "residual_bound": found.residual_bound,
@@ -233,6 +241,7 @@ fn document(findings: &[(&Claim, Finding)]) -> Value {
             "proved_in_part": count(findings, Word::ProvedInPart),
             "exhausted": count(findings, Word::Exhausted),
             "sampled": count(findings, Word::Sampled),
+            "kernel_checked": kernel_checked(findings),
             "undecided": count(findings, Word::Undecided),
             "refuted": count(findings, Word::Refuted),
             "refuted_as_printed": refuted_as_printed(findings),

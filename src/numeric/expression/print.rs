@@ -32,6 +32,12 @@ impl Expression {
         self.print(Notation::Coq)
     }
 
+    /// The same as an argument of a function.
+    #[must_use]
+    pub fn coq_argument(self) -> String {
+        coq_bracketed(&self.coq())
+    }
+
     fn print(self, notation: Notation) -> String {
         match self.0 {
             Node::Symbol { text: PI, .. } if notation == Notation::Coq => "PI".to_owned(),
@@ -110,7 +116,7 @@ impl Notation {
         let below = denominator.join(times);
         match self {
             Self::Latex => format!(r"{sign}\frac{{{above}}}{{{below}}}"),
-            Self::Coq => format!("{sign}{above} / ({below})"),
+            Self::Coq => format!("{sign}{above} / {}", coq_bracketed(&below)),
             Self::Text if denominator.len() > 1 => format!("{sign}{above}/({below})"),
             Self::Text => format!("{sign}{above}/{below}"),
         }
@@ -146,18 +152,29 @@ impl Notation {
 /// A function's value in Coq, without brackets around it.
 fn coq_call(function: Function, arguments: &[String]) -> String {
     let name = match (function, arguments) {
-        (Function::select, [x, below, above]) => return format!("if Rlt_dec 0 ({x}) then {above} else {below}"),
-        (Function::exp_m1, [x]) => return format!("exp ({x}) - 1"),
-        (Function::ln_1p, [x]) => return format!("ln (1 + ({x}))"),
-        (Function::atanh, [x]) => return format!("ln ((1 + ({x})) / (1 - ({x}))) / 2"),
-        (Function::floor, [x]) => return format!("IZR (Int_part ({x}))"),
+        (Function::select, [x, below, above]) => return format!("if Rlt_dec 0 {} then {above} else {below}", coq_bracketed(x)),
+        (Function::exp_m1, [x]) => return format!("exp {} - 1", coq_bracketed(x)),
+        (Function::ln_1p, [x]) => return format!("ln (1 + {})", coq_bracketed(x)),
+        (Function::atanh, [x]) => return format!("ln ((1 + {x}) / (1 - {x})) / 2", x = coq_bracketed(x)),
+        (Function::floor, [x]) => return format!("IZR (Int_part {})", coq_bracketed(x)),
         (Function::abs, _) => "Rabs",
         (Function::min, _) => "Rmin",
         (Function::max, _) => "Rmax",
         (Function::pow, _) => "Rpower",
         _ => function.name(),
     };
-    arguments.iter().fold(name.to_owned(), |call, argument| format!("{call} ({argument})"))
+    arguments.iter().fold(name.to_owned(), |call, argument| format!("{call} {}", coq_bracketed(argument)))
+}
+
+/// A term of Coq as an argument: a name, a number or what is bracketed already as it is.
+fn coq_bracketed(term: &str) -> String {
+    let mut depth = 0;
+    let mut outside = term.char_indices().filter(|&(place, letter)| {
+        depth += i32::from(letter == '(') - i32::from(letter == ')');
+        depth == 0 && place + 1 < term.len()
+    });
+    let is_name = term.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
+    if is_name || outside.next().is_none() { term.to_owned() } else { format!("({term})") }
 }
 
 /// The same fraction of whole numbers, where the numerator is a decimal.
