@@ -68,6 +68,8 @@ pub const CLAIMS: &[Claim] = &[
     checks::quantisation::QUANTISATION_BETA,
     checks::quantisation::QUANTISATION_BETA_XX,
     checks::quantisation::QUANTISATION_ZERO,
+    checks::sentences::CONFIDENCE_BOUNDS,
+    checks::sentences::DISTURBANCE_AND_DRAG,
     checks::identification::RELATIVE_SPREAD,
     checks::identification::DRAG_DECISION,
     checks::identification::ZIG_ZAG,

@@ -32,6 +32,7 @@ pub(super) mod power_law;
 pub(super) mod quantisation;
 pub(super) mod relay;
 pub(super) mod relay_state;
+pub(super) mod sentences;
 pub(super) mod smooth;
 pub(super) mod symmetry;
 pub(super) mod theorems;
