@@ -92,18 +92,24 @@ fn kernels(theory: &mut Theory) {
     let sided = branches.into_iter().flat_map(|on| [Side::Above, Side::Below].map(|side| (side, on)));
     for (side, branches) in sided {
         let place = format!("{side:?}_{branches:?}").to_lowercase();
-        theory.define(&format!("step_{place}"), [("at_", ANY), ("height", ANY), BIAS, AMPLITUDE], |[at, height, b, x]| {
-            of(Kernel::Step { at, height, side, branches }, b, x)
-        });
-        theory.define(&format!("ramp_{place}"), [("at_", ANY), ("slope", ANY), BIAS, AMPLITUDE], |[at, slope, b, x]| {
-            of(Kernel::Ramp { at, slope, side, branches }, b, x)
-        });
+        theory.define(
+            &format!("step_{place}"),
+            [("at_", ANY), ("height", ANY), BIAS, AMPLITUDE],
+            |[at, height, b, x]| of(Kernel::Step { at, height, side, branches }, b, x),
+        );
+        theory.define(
+            &format!("ramp_{place}"),
+            [("at_", ANY), ("slope", ANY), BIAS, AMPLITUDE],
+            |[at, slope, b, x]| of(Kernel::Ramp { at, slope, side, branches }, b, x),
+        );
     }
     for branches in branches {
         let place = format!("{branches:?}").to_lowercase();
-        theory.define(&format!("sign_{place}"), [("at_", ANY), ("level", ANY), BIAS, AMPLITUDE], |[at, level, b, x]| {
-            of(Kernel::Sign { at, level, branches }, b, x)
-        });
+        theory.define(
+            &format!("sign_{place}"),
+            [("at_", ANY), ("level", ANY), BIAS, AMPLITUDE],
+            |[at, level, b, x]| of(Kernel::Sign { at, level, branches }, b, x),
+        );
         theory.define(&format!("constant_{place}"), [("value", ANY), BIAS, AMPLITUDE], |[value, b, x]| {
             of(Kernel::Constant { value, branches }, b, x)
         });
@@ -206,9 +212,11 @@ fn members(theory: &mut Theory) {
 /// From describing function to parameters, and what they rest on.
 fn identification(theory: &mut Theory) {
     let [f0, p, q] = ["f0", "p", "q"].map(|name| (name, ANY));
-    theory.define("relay_f0_by_times", [("level", POSITIVE), ("t_high", POSITIVE), ("t_low", POSITIVE)], |[c, h, l]| {
-        Some(bias_of_output(c, h, l).coq())
-    });
+    theory.define(
+        "relay_f0_by_times",
+        [("level", POSITIVE), ("t_high", POSITIVE), ("t_low", POSITIVE)],
+        |[c, h, l]| Some(bias_of_output(c, h, l).coq()),
+    );
     theory.define("condition_40_least_amplitude", [("half_width", NOT_NEGATIVE), BIAS], |[width, bias]| {
         Some(RelayHysteresis::new(Expression::one(), width, Expression::zero()).ok()?.least_amplitude(bias).coq())
     });
@@ -247,18 +255,14 @@ fn orbits(theory: &mut Theory) {
     theory.define("quadratic_half_cycle", [("y", ANY), ("gap", [0.0, 1.0]), ("ratio", POSITIVE)], |[y, gap, ratio]| {
         Some(orbit::quadratic_half_cycle(y, gap, ratio).coq())
     });
-    theory.define("quadratic_speeds", [("gap", [0.0, 1.0]), MU], |[gap, mu]| {
-        tuple(orbit::quadratic_speeds(gap, mu))
-    });
+    theory.define("quadratic_speeds", [("gap", [0.0, 1.0]), MU], |[gap, mu]| tuple(orbit::quadratic_speeds(gap, mu)));
     theory.define("quadratic_period", [G], |[g]| Some(orbit::quadratic_period(g).coq()));
     let half_cycle = [("speed", NOT_NEGATIVE), ("next", NOT_NEGATIVE), G, ("ratio", POSITIVE)];
     theory.define("linear_half_cycle", half_cycle, |[speed, next, g, ratio]| {
         Some(orbit::linear_half_cycle(speed, next, g, ratio).coq())
     });
     theory.define("linear_half_width", [("z", POSITIVE)], |[z]| Some(orbit::linear_half_width(z).coq()));
-    theory.define("linear_amplitude_excess", [("z", POSITIVE)], |[z]| {
-        Some(orbit::linear_amplitude_excess(z).coq())
-    });
+    theory.define("linear_amplitude_excess", [("z", POSITIVE)], |[z]| Some(orbit::linear_amplitude_excess(z).coq()));
     theory.define("return_slope", [MU, ("d_1", NOT_NEGATIVE), ("d_2", NOT_NEGATIVE)], |[mu, first, second]| {
         tuple(orbit::return_slope(mu, [first, second]))
     });

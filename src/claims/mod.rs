@@ -22,9 +22,9 @@ mod sampling;
 pub mod tolerance;
 
 pub use certificate::{Certificate, Shown};
+pub use evidence::{ClaimDomain, ClaimPart, ClaimVariable, Evidence, Verdict, Witness, Word};
 pub use formulas::formulas;
 pub use kernel_checked::KernelChecked;
-pub use evidence::{ClaimDomain, ClaimPart, ClaimVariable, Evidence, Verdict, Witness, Word};
 pub use registry::{AsPrinted, Checker, Claim, Finding, Hypothesis, Kind, verify};
 pub use sampling::Budget;
 

@@ -7,8 +7,8 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
-use super::number::whole;
 use super::error::Given;
+use super::number::whole;
 use super::{CommandError, Outcome, certificates, files, suggestion, write_json};
 use crate::claims::{Budget, CLAIMS, Claim, Evidence, Finding, Verdict, Word, formulas};
 
@@ -174,7 +174,10 @@ fn summary(findings: &[(&Claim, Finding)], output: &mut impl Write) -> Result<()
     let words = words.map(|word| format!("{} {word}", count(findings, word))).join(", ");
     let (refuted, wrong) = (refuted_as_printed(findings), not_as_stated(findings));
     let (claims, checked) = (findings.len(), kernel_checked(findings));
-    writeln!(output, "\n{claims} claims: {words}; {checked} kernel-checked as a whole; {refuted} refuted as printed; {wrong} not as stated")?;
+    writeln!(
+        output,
+        "\n{claims} claims: {words}; {checked} kernel-checked as a whole; {refuted} refuted as printed; {wrong} not as stated"
+    )?;
     Ok(())
 }
 

@@ -152,7 +152,9 @@ impl Notation {
 /// A function's value in Coq, without brackets around it.
 fn coq_call(function: Function, arguments: &[String]) -> String {
     let name = match (function, arguments) {
-        (Function::select, [x, below, above]) => return format!("if Rlt_dec 0 {} then {above} else {below}", coq_bracketed(x)),
+        (Function::select, [x, below, above]) => {
+            return format!("if Rlt_dec 0 {} then {above} else {below}", coq_bracketed(x));
+        }
         (Function::exp_m1, [x]) => return format!("exp {} - 1", coq_bracketed(x)),
         (Function::ln_1p, [x]) => return format!("ln (1 + {})", coq_bracketed(x)),
         (Function::atanh, [x]) => return format!("ln ((1 + {x}) / (1 - {x})) / 2", x = coq_bracketed(x)),
