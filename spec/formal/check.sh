@@ -37,7 +37,7 @@ for file in Claim_*.v; do
 done
 
 # What each theorem rests on: the statements of the table, and every theorem on a hypothesis or on what is printed.
-grep -oE '^Theorem [A-Za-z0-9_]+' Claim_*.v | sed -E 's/\.v:Theorem /./' | sort -u >"$scratch/theorems"
+grep -oE '^Theorem [A-Za-z0-9_]+' Claim_*.v Link_*.v | sed -E 's/\.v:Theorem /./' | sort -u >"$scratch/theorems"
 awk -F '[.]' '!seen[$1]++ { printf "From Selfosc Require %s.\n", $1 }' "$scratch/theorems" >"$scratch/Assumptions.v"
 sed -E 's/.*/Goal True. idtac "theorem &". Abort.\nPrint Assumptions &./' "$scratch/theorems" >>"$scratch/Assumptions.v"
 coqc -q -R . Selfosc "$scratch/Assumptions.v" >"$scratch/assumptions" || fail "a theorem could not be asked for its axioms"
