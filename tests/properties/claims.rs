@@ -166,7 +166,10 @@ fn kernel_checked_claims_and_theories_name_each_other() {
 fn the_formulas_of_the_theories_are_the_programs() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("spec/formal/Formulas.v");
     let kept = std::fs::read_to_string(file).unwrap();
-    assert!(kept == selfosc::claims::formulas(), "run `selfosc verify --formulas spec/formal`, then spec/formal/check.sh");
+    assert!(
+        kept == selfosc::claims::formulas(),
+        "run `selfosc verify --formulas spec/formal`, then spec/formal/check.sh"
+    );
 }
 
 /// Parts with one side `x` between two ends.
