@@ -257,10 +257,6 @@ const $false: Inequality = within!("false-bound": $law $part on 0.0 to $ten is 0
                 corrected: Some(|_| proved(&$theorem, const { &[UP_TO_TEN] })),
                 theorem: Some((&$theorem, &$false)),
                 domain: &[UP_TO_TEN],
-                by_hand: &[
-                    "the numbers in the statement are those of the ranges enclosed",
-                    "g grows with the coordinate that unrolls the orbit",
-                ],
                 falsified: |_| single(&$false),
                 hypotheses: &[],
                 depends: &[$orbit, "method-bias", $monotone],

@@ -223,11 +223,7 @@ claim! {
     METHOD_BIAS = "method-bias" "of this project" Theorem
     "On symmetric orbits without delay the relative error of the method depends on one number g, whatever the parameters" {
         domain: &[METHOD_BIAS_WHOLE],
-        by_hand: &[
-            "the orbits are those of the closed forms, whose numbers beside inertia, drag and level are functions of g alone",
-            "every positive number is the square of one",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
+        by_hand: &["the cases of sign that are proved are all that the code accepts, and limits of them"],
         proof: Some(prove_method_bias),
         printed: AsPrinted::Absent,
         corrected: Some(|budget| depends_on_g_alone(budget, &LINEAR, &LINEAR, 0.0)

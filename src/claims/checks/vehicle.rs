@@ -180,11 +180,6 @@ claim! {
     "Of a symmetric, level vehicle whose other axes are at rest, an axis accelerates by eq. 5 as by eq. 6"
     {
         domain: &[UNCOUPLED_AXIS_WHOLE],
-        by_hand: &[
-            "inertia, C(nu) and D(nu) are linear in each parameter and in the velocities or their magnitudes",
-            "an axis that no other one is coupled to accelerates by its force over its inertia",
-            "a turn about the vertical leaves the vertical where it is",
-        ],
         printed: AsPrinted::Holds(|budget| reduction(budget, &Assumed::ALL)),
         corrected: None,
         // Inertia without the water's.
