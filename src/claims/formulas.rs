@@ -3,8 +3,8 @@
 use super::CLAIMS;
 use super::checks::Single;
 use crate::describing::{ClosedForm, DescribingFunction, bias_of_output};
-use crate::identify::iso::{amplitude_sensitivity, parameters};
 use crate::identify::fit::select::pairwise::relative_spread_percent;
+use crate::identify::iso::{amplitude_sensitivity, parameters};
 use crate::nonlinearity::{
     Absolute, Backlash, Branches, DeadZone, DeadZoneSaturation, GainChanging, Kernel, PiecewiseLinear, Polyline,
     Polynomial, Preload, Quantizer, Relay, RelayDeadZone, RelayDeadZoneHysteresis, RelayHysteresis, Saturation,

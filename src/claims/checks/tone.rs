@@ -12,10 +12,6 @@ use crate::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
 
 const TONE: ClaimPart = ClaimPart::whole("every-tone", "every alpha, beta_1, beta_2, X, w > 0");
 
-/// The step of each proof here that scales the tone to one.
-const SCALING: &str =
-    "the left side is linear in the three parameters and homogeneous in X and w, so that one tone stands for all";
-
 /// An axis on one tone: parameters, amplitude, angular frequency.
 struct Tone {
     alpha: f64,
