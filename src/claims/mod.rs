@@ -112,6 +112,6 @@ pub const CLAIMS: &[Claim] = &[
     checks::on_board::ON_BOARD_ABORT,
     checks::on_board::ON_BOARD_LIMITS,
     checks::on_board::ON_BOARD_FAULTS,
-    checks::on_board::ON_BOARD_STILL,
     checks::on_board::ON_BOARD_EXCURSION,
+    checks::on_board::ON_BOARD_STILL,
 ];

@@ -33,6 +33,7 @@ const ELSEWHERE: [&str; 8] = [
     "color",       // an enumeration of the parser's
     "only",        // the same
     "out",         // files.rs
+    "formulas",    // claims.rs
     "check",       // files.rs
     "certificate", // files.rs
     "log",         // forgeries.rs
