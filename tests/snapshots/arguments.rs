@@ -29,7 +29,7 @@ const CALLS: [&str; 17] = [
     "verify --claim lemma-1 --cases 1 --seed 1 --certificates FOLDER/proofs",
 ];
 /// Other options, each with the test that holds it.
-const ELSEWHERE: [&str; 8] = [
+const ELSEWHERE: [&str; 9] = [
     "color",       // an enumeration of the parser's
     "only",        // the same
     "out",         // files.rs
