@@ -6,6 +6,8 @@ cd "$(dirname "$0")"
 scratch=$(mktemp -d)
 trap 'rm -r "$scratch"' EXIT
 cp ./*.vo ./Link_*.v "$scratch"
+# The program as it is: accepted.
+for theory in Link_*.v; do (cd "$scratch" && coqc -q -R . Selfosc "$theory" >/dev/null 2>&1) || { echo "$theory: refused unchanged"; exit 1; }; done
 bad=0
 while IFS='|' read -r claims definition from to theory; do
     # Within the one definition, the first occurrence.
@@ -20,7 +22,7 @@ while IFS='|' read -r claims definition from to theory; do
     fi
 done <<'CHANGES'
 kernel-step|step_above_rising|(PI * amplitude)|(2 * PI * amplitude)|describing
-kernel-step|step_below_falling|-2|-1|describing
+kernel-step|step_below_both|-2 * height|2 * height|describing
 kernel-ramp|ramp_above_both|sqrt|sin|describing
 kernel-ramp|ramp_below_rising|Rmax|Rmin|describing
 kernel-sign|sign_both|4 * level|2 * level|describing
@@ -43,7 +45,7 @@ thruster-bilinear|thruster_bilinear|Rabs rate|rate|identification
 allocation, compensation|allocation_thrusts|(force + moment|(force - moment|identification
 orbit-multiplier|return_slope|1 - mu + d_1|1 - mu - d_1|orbits
 orbit-multiplier|orbit_multiplier_denominator|12|13|orbits
-orbit-linear|linear_half_width|z - tanh z|z - sinh z|orbits
+orbit-linear|linear_half_width|z - (tanh z)|z - (sinh z)|orbits
 orbit-quadratic|quadratic_period|4 * g +|5 * g +|orbits
 CHANGES
 [ "$bad" = 0 ]

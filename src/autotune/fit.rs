@@ -33,7 +33,7 @@ struct Problem {
 }
 
 /// Values of the searched parameters: dead time first, then time constants.
-type Point = Vec<f64>;
+type SearchPoint = Vec<f64>;
 
 /// The projection at a point.
 struct Projection {
@@ -141,16 +141,16 @@ impl Problem {
 
 /// The best point of a structure: a grid, then a pattern search from its best places, which steps over the kinks where a delayed
 /// switching meets a reading.
-fn search(problem: &Problem, family: Family, scale_s: f64, longest_s: f64) -> Option<Point> {
+fn search(problem: &Problem, family: Family, scale_s: f64, longest_s: f64) -> Option<SearchPoint> {
     let interval_s = scale_s / 400.0;
     let lags: Vec<f64> = (0..TIME_CONSTANTS)
         .map(|k| 0.02 * scale_s * (500.0_f64).powf(f64::from(k) / f64::from(TIME_CONSTANTS - 1)))
         .collect();
     let delays = (0..DEAD_TIMES).map(|k| longest_s * (f64::from(k) / f64::from(DEAD_TIMES - 1)).powi(2));
-    let mut starts: Vec<(f64, Point)> = Vec::new();
+    let mut starts: Vec<(f64, SearchPoint)> = Vec::new();
     for delay in delays {
         for lag in &lags {
-            let points: Vec<Point> = match family {
+            let points: Vec<SearchPoint> = match family {
                 Family::Integrator if *lag == lags[0] => vec![vec![delay]],
                 Family::Integrator => vec![],
                 Family::SecondOrder | Family::SecondOrderZero => {
@@ -163,7 +163,7 @@ fn search(problem: &Problem, family: Family, scale_s: f64, longest_s: f64) -> Op
     }
     starts.sort_by(|a, b| a.0.total_cmp(&b.0));
     starts.truncate(FOLLOWED);
-    let mut best: Option<(f64, Point)> = None;
+    let mut best: Option<(f64, SearchPoint)> = None;
     for (mut square, mut point) in starts {
         // Steps of the dead time in s, of the time constants relative.
         let mut step: Vec<f64> = (0..point.len()).map(|k| if k == 0 { longest_s / 10.0 } else { 0.5 }).collect();
@@ -237,14 +237,14 @@ fn meaning(family: Family, point: &[f64], linear: &[f64]) -> (Vec<f64>, [f64; 5]
 }
 
 /// What a record says of one structure: square, model without weight, and what is left.
-struct Fitted {
+struct StructureFit {
     family: Family,
     criterion: f64,
     model: ProcessModel,
     plain: DVector<f64>,
 }
 
-fn fitted(problem: &Problem, family: Family, point: &[f64], interval_s: f64, quantum: f64) -> Option<Fitted> {
+fn fitted(problem: &Problem, family: Family, point: &[f64], interval_s: f64, quantum: f64) -> Option<StructureFit> {
     let found = problem.projection(family, point)?;
     let (count, searched) = (found.residual.len() as f64, point.len());
     let free = searched + found.linear.len();
@@ -311,7 +311,7 @@ fn fitted(problem: &Problem, family: Family, point: &[f64], interval_s: f64, qua
         coefficients: core::array::from_fn(|k| ranged(named + k)),
     };
     let finite = values.iter().all(|value| value.is_finite());
-    finite.then_some(Fitted { family, criterion, model, plain: found.plain })
+    finite.then_some(StructureFit { family, criterion, model, plain: found.plain })
 }
 
 /// Coefficients of an autoregression by least squares (the covariance method); none where the errors are as good as white.
@@ -358,7 +358,7 @@ pub(super) fn fit(record: &Record) -> Result<ProcessRecord, ProcessError> {
     let skip_s = (1.2 * dead_s + interval_s).min(duration_s / 3.0);
     problem.first = problem.command.time_s().iter().position(|time| *time > skip_s).unwrap_or(0).max(ORDER);
     let fits = |problem: &Problem| {
-        let mut fits: Vec<Fitted> = Family::ALL
+        let mut fits: Vec<StructureFit> = Family::ALL
             .iter()
             .filter_map(|family| {
                 let point = search(problem, *family, scale_s, longest_s)?;

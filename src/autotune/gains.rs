@@ -2,7 +2,7 @@
 //! of the sensitivity that is proved for all of them.
 
 use super::{ProcessModel, ProcessRecord, Ranged};
-use crate::control::{Criterion, Gains, LinearProcess, ProcessIntervals, Structure};
+use crate::control::{Gains, LinearProcess, ProcessIntervals, RobustCriterion, Structure};
 use crate::numeric::Interval;
 
 /// Which actions the controller has.
@@ -19,7 +19,7 @@ pub enum Actions {
 
 /// What gains are for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wanted {
+pub struct GainsWanted {
     /// Largest sensitivity of any process.
     pub sensitivity: f64,
     /// Actions of the controller.
@@ -28,7 +28,7 @@ pub struct Wanted {
     pub derivative_filter: f64,
 }
 
-impl Default for Wanted {
+impl Default for GainsWanted {
     fn default() -> Self {
         Self { sensitivity: 1.4, actions: Actions::Best, derivative_filter: 10.0 }
     }
@@ -36,7 +36,7 @@ impl Default for Wanted {
 
 /// Gains with what is proved of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Proved {
+pub struct ProvedGains {
     /// For an output that rises with the command; of a reverse process all change their sign.
     pub gains: Gains<f64>,
     /// No process of the record's set has a larger sensitivity.
@@ -166,10 +166,11 @@ fn absolute_error(process: &LinearProcess<f64>, gains: &Gains<f64>, period_s: f6
 }
 
 /// The largest gain at these times with which every process of the sets meets the limit, up to rounding.
-fn largest_gain(sets: &[ProcessIntervals], ku: f64, times: [f64; 2], wanted: &Wanted) -> Option<f64> {
+fn largest_gain(sets: &[ProcessIntervals], ku: f64, times: [f64; 2], wanted: &GainsWanted) -> Option<f64> {
     let meets = |gain: f64| {
-        ideal([gain, times[0], times[1]], wanted.derivative_filter)
-            .is_some_and(|gains| sets.iter().all(|set| set.meets(&gains, Criterion::Sensitivity(wanted.sensitivity))))
+        ideal([gain, times[0], times[1]], wanted.derivative_filter).is_some_and(|gains| {
+            sets.iter().all(|set| set.meets(&gains, RobustCriterion::Sensitivity(wanted.sensitivity)))
+        })
     };
     let grid = |k: u32| ku * 0.8_f64.powi(k as i32);
     let first = (1..24).find(|k| meets(grid(*k)))?;
@@ -186,7 +187,7 @@ fn best(
     nominal: &LinearProcess<f64>,
     sets: &[ProcessIntervals],
     derivative: bool,
-    wanted: &Wanted,
+    wanted: &GainsWanted,
 ) -> Option<([f64; 3], f64)> {
     let [ku, omega] = ultimate(nominal)?;
     let period_s = core::f64::consts::TAU / omega;
@@ -229,7 +230,7 @@ impl ProcessRecord {
 
     /// The gains; `None` where no controller is proved for every process: the set is too wide.
     #[must_use]
-    pub fn gains(&self, interval_s: f64, wanted: &Wanted) -> Option<Proved> {
+    pub fn gains(&self, interval_s: f64, wanted: &GainsWanted) -> Option<ProvedGains> {
         let sets = self.sets(interval_s)?;
         let nominal = self.models.first()?.processes(interval_s)?.process().middle();
         let choice = |derivative| best(&nominal, &sets, derivative, wanted);
@@ -245,8 +246,8 @@ impl ProcessRecord {
         (0..STEPS_BACK).find_map(|back| {
             let less = gain * BACK.powi(back as i32);
             let gains = ideal([less, integral_s, derivative_s], wanted.derivative_filter)?;
-            let proved = sets.iter().all(|set| set.all_have(&gains, Criterion::Sensitivity(wanted.sensitivity)));
-            proved.then_some(Proved { gains, sensitivity: wanted.sensitivity })
+            let proved = sets.iter().all(|set| set.all_have(&gains, RobustCriterion::Sensitivity(wanted.sensitivity)));
+            proved.then_some(ProvedGains { gains, sensitivity: wanted.sensitivity })
         })
     }
 }

@@ -7,7 +7,7 @@ mod gains;
 mod response;
 mod rules;
 
-pub use gains::{Actions, Proved, Wanted, ultimate};
+pub use gains::{Actions, GainsWanted, ProvedGains, ultimate};
 pub use rules::{Ruled, rules};
 
 use crate::experiment::Record;
@@ -203,7 +203,7 @@ impl ProcessError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::FewChanges { .. } => "few-changes",
-            Self::FewSamples { .. } => "too-short",
+            Self::FewSamples { .. } => "few-samples",
             Self::NoAnswer { .. } => "no-answer",
         }
     }

@@ -1,7 +1,7 @@
 //! Rules of thumb on the same process, and the sensitivity that each would have.
 
 use super::gains::ultimate;
-use crate::control::{Criterion, Gains, LinearProcess, ProcessIntervals, Rule, Structure, UltimatePoint};
+use crate::control::{Gains, LinearProcess, ProcessIntervals, RobustCriterion, Rule, Structure, UltimatePoint};
 use crate::numeric::Interval;
 
 /// A rule's gains, with the largest sensitivity that the likeliest process has under them.
@@ -27,7 +27,7 @@ pub fn rules(process: &LinearProcess<f64>) -> Vec<Ruled> {
         let sensitivity = point
             .ok()
             .filter(|point| point.all_stable(&gains))
-            .and_then(|point| point.enclose(&gains, Criterion::Sensitivity).ok().map(|found| found.met));
+            .and_then(|point| point.enclose(&gains, RobustCriterion::Sensitivity).ok().map(|found| found.met));
         found.push(Ruled { name, gains, sensitivity });
     };
     if let Some([ku, omega]) = ultimate(process)

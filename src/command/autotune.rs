@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::number::{finite, number, positive};
 use super::{CommandError, Outcome, files, refused, write_json};
-use crate::autotune::{Actions, ProcessRecord, Proved, Ruled, Wanted, rules, ultimate};
+use crate::autotune::{Actions, GainsWanted, ProcessRecord, ProvedGains, Ruled, rules, ultimate};
 use crate::error::Error;
 use crate::experiment::{Columns, Log};
 use crate::files::Files;
@@ -86,10 +86,10 @@ const WIDE: f64 = 0.25;
 const WANDERS: f64 = 0.8;
 
 /// Everything that is said of a record.
-struct Tuned {
+struct Autotuned {
     log: Log,
     found: ProcessRecord,
-    proved: Option<Proved>,
+    proved: Option<ProvedGains>,
     rules: Vec<Ruled>,
     ultimate: Option<[Interval; 2]>,
     interval_s: f64,
@@ -97,9 +97,9 @@ struct Tuned {
 }
 
 /// A reason for less than full trust: code and text.
-type Reason = (&'static str, String);
+type CodedReason = (&'static str, String);
 
-impl Tuned {
+impl Autotuned {
     /// A quantity of every structure: its range over all, and the likeliest's value.
     fn ranged(&self, of: impl Fn(&crate::autotune::ProcessModel) -> Option<crate::autotune::Ranged>) -> Value {
         let Some(best) = self.found.models.first().and_then(&of) else { return Value::Null };
@@ -109,7 +109,7 @@ impl Tuned {
         json!({ "value": best.value, "std": best.std, "low": low, "high": high })
     }
 
-    fn reasons(&self) -> Vec<Reason> {
+    fn reasons(&self) -> Vec<CodedReason> {
         let mut reasons = Vec::new();
         if self.proved.is_none() {
             reasons.push((
@@ -195,9 +195,9 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         (_, true) => Actions::Pid,
         _ => Actions::Best,
     };
-    let wanted = Wanted { sensitivity: arguments.ms, actions, derivative_filter: arguments.derivative_filter };
+    let wanted = GainsWanted { sensitivity: arguments.ms, actions, derivative_filter: arguments.derivative_filter };
     let nominal = found.models[0].process();
-    let tuned = Tuned {
+    let tuned = Autotuned {
         proved: found.gains(interval_s, &wanted),
         rules: rules(&nominal),
         ultimate: ultimate_range(&found),

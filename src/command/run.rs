@@ -55,12 +55,12 @@ pub(super) struct Arguments {
 }
 
 /// The samples so far as a log, in memory and in the file.
-struct Samples {
+struct LiveLog {
     text: String,
     file: Option<File>,
 }
 
-impl Samples {
+impl LiveLog {
     fn new(coordinate: Coordinate, file: Option<File>) -> Self {
         let column = match coordinate {
             Coordinate::HeadingDegrees => "heading_deg",
@@ -111,7 +111,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     let document = json.map(|path| files.output(path)).transpose().given("--json")?;
     let longest_s = (Protocol::<f64>::LONGEST_GAP * protocol.interval_s).max(1.0);
     let wait = Duration::try_from_secs_f64(arguments.timeout.unwrap_or(longest_s)).unwrap_or(Duration::MAX);
-    let mut samples = Samples::new(protocol.coordinate, log);
+    let mut samples = LiveLog::new(protocol.coordinate, log);
     let mut display = arguments.watch.then(|| Display::new(&protocol, stderr().is_terminal()));
 
     let lines = Lines::of_standard_input();

@@ -15,7 +15,7 @@ use crate::numeric::Interval;
 use crate::plant::DragAxis;
 use clap::{ArgGroup, Args};
 use design::{Target, Tuned};
-use format::Format;
+use format::GainFormat;
 
 /// Gains of a controller for alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay), and the margins that it has.
 ///
@@ -87,8 +87,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "LOW,HIGH", value_parser = interval, allow_hyphen_values = true)]
     delay_interval: Option<Interval>,
     /// In which form the gains are printed
-    #[arg(long, value_enum, value_name = "FORM", default_value_t = Format::Text)]
-    format: Format,
+    #[arg(long, value_enum, value_name = "FORM", default_value_t = GainFormat::Text)]
+    format: GainFormat,
     /// Command at full output of the actuator, command units: a format for autopilots is for commands from -1 to 1
     #[arg(long, value_name = "U", default_value_t = 1.0, value_parser = positive, allow_negative_numbers = true)]
     full_command: f64,
@@ -151,7 +151,7 @@ impl Arguments {
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let model = arguments.known()?;
-    let wanted = design::Wanted {
+    let wanted = design::DesignWanted {
         target: arguments.target(),
         structure: arguments.structure,
         step: arguments.step,
@@ -166,8 +166,8 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     };
     match arguments.format {
         _ if arguments.json => write_json(output, &tuned.json())?,
-        Format::Json => write_json(output, &tuned.json())?,
-        Format::Text => tuned.print(output)?,
+        GainFormat::Json => write_json(output, &tuned.json())?,
+        GainFormat::Text => tuned.print(output)?,
         form => output.write_all(form.text(&tuned, arguments.full_command)?.as_bytes())?,
     }
     Ok(Outcome::Done)

@@ -53,7 +53,7 @@ pub use reference::FeedForward;
 #[cfg(feature = "std")]
 pub use response::{Answer, StepResponse};
 #[cfg(feature = "std")]
-pub use robust::{Criterion, Enclosed, ProcessIntervals};
+pub use robust::{CriterionRange, ProcessIntervals, RobustCriterion};
 pub use rules::Rule;
 #[cfg(feature = "std")]
 pub use ultimate::critical_point;

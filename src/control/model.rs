@@ -165,7 +165,7 @@ impl AxisModel<f64> {
     }
 
     /// Rates of position, speed, late speed, force and reading under a command.
-    fn rates(&self, [position, speed, late, force, reading]: State, command: f64, fast: f64) -> State {
+    fn rates(&self, [position, speed, late, force, reading]: ModelState, command: f64, fast: f64) -> ModelState {
         let follows = |time_s: f64, target: f64, now: f64| if time_s > 0.0 { (target - now) / time_s } else { 0.0 };
         let force = if self.lag_s > 0.0 { force } else { command };
         let total = force + self.delta - self.drag(speed, fast) - self.memory * late - self.stiffness * position;
@@ -179,8 +179,8 @@ impl AxisModel<f64> {
     }
 
     /// The state some time later under a constant command: one step of the classic Runge-Kutta method.
-    pub(super) fn advance(&self, state: State, command: f64, time_s: f64, fast: f64) -> State {
-        let along = |rates: &State, share: f64| core::array::from_fn(|i| state[i] + share * time_s * rates[i]);
+    pub(super) fn advance(&self, state: ModelState, command: f64, time_s: f64, fast: f64) -> ModelState {
+        let along = |rates: &ModelState, share: f64| core::array::from_fn(|i| state[i] + share * time_s * rates[i]);
         let first = self.rates(state, command, fast);
         let second = self.rates(along(&first, 0.5), command, fast);
         let third = self.rates(along(&second, 0.5), command, fast);
@@ -189,13 +189,13 @@ impl AxisModel<f64> {
     }
 
     /// What the sensor says.
-    pub(super) fn reading(&self, state: &State) -> f64 {
+    pub(super) fn reading(&self, state: &ModelState) -> f64 {
         if self.filter_s > 0.0 { state[4] } else { state[0] }
     }
 }
 
 /// Position, speed, late speed, force, reading.
-pub(super) type State = [f64; 5];
+pub(super) type ModelState = [f64; 5];
 
 impl AxisModel<Interval> {
     /// Every linear process that slow signals see at speeds up to `top_speed` either way: drag by its slope

@@ -10,7 +10,7 @@ use crate::numeric::{Gradient, Interval, Real, domain};
 
 /// What every process of a box is to have.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Criterion {
+pub enum RobustCriterion {
     /// `|1/(1 + L)|` is below this at every frequency.
     Sensitivity(f64),
     /// Stable with every gain from its own to this factor of it.
@@ -23,7 +23,7 @@ pub enum Criterion {
     DelayS(f64),
 }
 
-impl Criterion {
+impl RobustCriterion {
     /// The variable that the criterion adds, and `1/M^2`.
     fn variable(self) -> (Interval, f64) {
         let between = |a: f64, b: f64| Interval::new(a, b).unwrap_or(Interval::ENTIRE);
@@ -82,7 +82,7 @@ pub struct ProcessIntervals {
 /// What is known of a criterion over a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
-pub struct Enclosed {
+pub struct CriterionRange {
     /// Every process of the box is at least as good: proved. `None` where nothing was proved.
     pub proved: Option<f64>,
     /// Some process of the box is no better.
@@ -131,7 +131,7 @@ impl ProcessIntervals {
     /// Whether the criterion is proved for every process, and that each is stable under the gains. `false` says nothing.
     ///
     /// ```
-    /// use selfosc::control::{Criterion, Gains, LinearProcess, ProcessIntervals, Structure};
+    /// use selfosc::control::{RobustCriterion, Gains, LinearProcess, ProcessIntervals, Structure};
     /// use selfosc::numeric::Interval;
     /// let between = |low, high| Interval::new(low, high).ok_or("reversed");
     /// let none = Interval::ZERO;
@@ -141,12 +141,12 @@ impl ProcessIntervals {
     /// };
     /// let gains = Gains::new(Structure::Pd, 0.5, 0.0, 0.9, 0.1)?;
     /// let processes = ProcessIntervals::new(process)?;
-    /// assert!(processes.all_have(&gains, Criterion::Sensitivity(1.6)));
-    /// assert!(!processes.all_have(&gains, Criterion::Sensitivity(1.05)));
+    /// assert!(processes.all_have(&gains, RobustCriterion::Sensitivity(1.6)));
+    /// assert!(!processes.all_have(&gains, RobustCriterion::Sensitivity(1.05)));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn all_have(&self, gains: &Gains<f64>, criterion: Criterion) -> bool {
+    pub fn all_have(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> bool {
         self.all_stable(gains) && self.excluded(gains, criterion)
     }
 
@@ -158,11 +158,11 @@ impl ProcessIntervals {
         let all = Self { process: LinearProcess { delay_s: sooner, ..self.process } };
         let one = LinearProcess { delay_s: Interval::ZERO, ..all.process };
         let one = LinearProcess::from_parts(one.parts().map(|part| Interval::point(part.midpoint())));
-        is_hurwitz(&one.open_loop(constants(gains))) && all.excluded(gains, Criterion::Gain(1.0))
+        is_hurwitz(&one.open_loop(constants(gains))) && all.excluded(gains, RobustCriterion::Gain(1.0))
     }
 
     /// Whether the criterion's excess is above zero at every frequency, for every process.
-    fn excluded(&self, gains: &Gains<f64>, criterion: Criterion) -> bool {
+    fn excluded(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> bool {
         let extra = criterion.variable().0;
         let Some(highest) = self.highest_frequency(gains, criterion) else { return false };
         let Some(omega) = Interval::new(0.0, highest) else { return false };
@@ -188,16 +188,16 @@ impl ProcessIntervals {
     }
 
     /// A frequency above which `|L|` is too small for the criterion to fail: with `u = 1/omega` all powers are polynomials of u.
-    fn highest_frequency(&self, gains: &Gains<f64>, criterion: Criterion) -> Option<f64> {
+    fn highest_frequency(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> Option<f64> {
         let Fraction { numerator, denominator } = self.process.open_loop(constants::<Interval>(gains));
         let degree = |polynomial: &[Interval; DEGREE + 1]| polynomial.iter().rposition(|c| *c != Interval::ZERO);
         let (m, n) = (degree(&numerator)?, degree(&denominator)?);
         let largest = match criterion {
-            Criterion::Gain(factor) => factor.max(1.0),
+            RobustCriterion::Gain(factor) => factor.max(1.0),
             _ => 1.0,
         };
         let most = match criterion {
-            Criterion::Sensitivity(most) => 1.0 - 1.0 / most,
+            RobustCriterion::Sensitivity(most) => 1.0 - 1.0 / most,
             _ => 1.0,
         };
         (-OCTAVES..OCTAVES).map(|k| 2f64.powi(k)).find(|omega| {
@@ -226,19 +226,19 @@ impl ProcessIntervals {
     ///
     /// # Errors
     /// [`ControlError::NotStabilised`] with a process of the box whose stability under the gains is not proved.
-    pub fn enclose(&self, gains: &Gains<f64>, of: fn(f64) -> Criterion) -> Result<Enclosed, ControlError> {
+    pub fn enclose(&self, gains: &Gains<f64>, of: fn(f64) -> RobustCriterion) -> Result<CriterionRange, ControlError> {
         let met = self.worst_met(gains, of)?;
         let limited = met.is_finite();
         let proved = GIVEN_UP.iter().find_map(|share| {
             let number = match of(1.0) {
-                Criterion::Sensitivity(_) => met * (1.0 + share),
-                Criterion::Gain(_) | Criterion::GainReduction(_) if !limited => Self::NO_LIMIT,
-                Criterion::Gain(_) | Criterion::GainReduction(_) => 1.0 + (met - 1.0) * (1.0 - share),
+                RobustCriterion::Sensitivity(_) => met * (1.0 + share),
+                RobustCriterion::Gain(_) | RobustCriterion::GainReduction(_) if !limited => Self::NO_LIMIT,
+                RobustCriterion::Gain(_) | RobustCriterion::GainReduction(_) => 1.0 + (met - 1.0) * (1.0 - share),
                 _ => met * (1.0 - share),
             };
             self.all_have(gains, of(number)).then_some(number)
         });
-        Ok(Enclosed { proved, met })
+        Ok(CriterionRange { proved, met })
     }
 }
 
@@ -265,30 +265,30 @@ impl ProcessIntervals {
 
     /// Whether the middle and the corners of the box meet the criterion, up to rounding: no proof.
     #[must_use]
-    pub fn meets(&self, gains: &Gains<f64>, criterion: Criterion) -> bool {
-        let high = self.highest_frequency(gains, Criterion::Gain(1.0)).unwrap_or(f64::INFINITY);
+    pub fn meets(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> bool {
+        let high = self.highest_frequency(gains, RobustCriterion::Gain(1.0)).unwrap_or(f64::INFINITY);
         let wanted = match criterion {
-            Criterion::Sensitivity(number)
-            | Criterion::Gain(number)
-            | Criterion::GainReduction(number)
-            | Criterion::PhaseRad(number)
-            | Criterion::DelayS(number) => number,
+            RobustCriterion::Sensitivity(number)
+            | RobustCriterion::Gain(number)
+            | RobustCriterion::GainReduction(number)
+            | RobustCriterion::PhaseRad(number)
+            | RobustCriterion::DelayS(number) => number,
         };
         self.points().iter().all(|process| {
             let found = Figures::of(process, gains, high, FEW).number(criterion);
-            if matches!(criterion, Criterion::Sensitivity(_)) { found <= wanted } else { found >= wanted }
+            if matches!(criterion, RobustCriterion::Sensitivity(_)) { found <= wanted } else { found >= wanted }
         })
     }
 
     /// The worst number of the criterion at the points of the box.
-    fn worst_met(&self, gains: &Gains<f64>, of: fn(f64) -> Criterion) -> Result<f64, ControlError> {
+    fn worst_met(&self, gains: &Gains<f64>, of: fn(f64) -> RobustCriterion) -> Result<f64, ControlError> {
         let mut worst: Option<f64> = None;
-        let high = self.highest_frequency(gains, Criterion::Gain(1.0)).unwrap_or(f64::INFINITY);
+        let high = self.highest_frequency(gains, RobustCriterion::Gain(1.0)).unwrap_or(f64::INFINITY);
         for process in self.points() {
             let number = Figures::of(&process, gains, high, AN_OCTAVE).number(of(1.0));
             worst = Some(match (worst, of(1.0)) {
                 (None, _) => number,
-                (Some(worst), Criterion::Sensitivity(_)) => worst.max(number),
+                (Some(worst), RobustCriterion::Sensitivity(_)) => worst.max(number),
                 (Some(worst), _) => worst.min(number),
             });
         }
@@ -374,13 +374,13 @@ impl Figures {
         found
     }
 
-    fn number(&self, criterion: Criterion) -> f64 {
+    fn number(&self, criterion: RobustCriterion) -> f64 {
         match criterion {
-            Criterion::Sensitivity(_) => self.sensitivity,
-            Criterion::Gain(_) => self.gain,
-            Criterion::GainReduction(_) => self.gain_reduction,
-            Criterion::PhaseRad(_) => self.phase_rad,
-            Criterion::DelayS(_) => self.delay_s,
+            RobustCriterion::Sensitivity(_) => self.sensitivity,
+            RobustCriterion::Gain(_) => self.gain,
+            RobustCriterion::GainReduction(_) => self.gain_reduction,
+            RobustCriterion::PhaseRad(_) => self.phase_rad,
+            RobustCriterion::DelayS(_) => self.delay_s,
         }
     }
 }
@@ -419,7 +419,7 @@ fn halves(whole: Interval, of_frequency: bool) -> (Interval, Interval) {
 /// `None` where the excess is positive on the box; else a face of the box on which it is least, and the side of that face along
 /// which it changes most.
 fn undecided(
-    criterion: Criterion,
+    criterion: RobustCriterion,
     gains: &Gains<f64>,
     mut at: [Interval; VARIABLES],
 ) -> Option<([Interval; VARIABLES], usize)> {

@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use super::PaperError;
 use super::table4::{DELAY_S, PrintedTable, oscillation, values};
-use crate::identify::{Delay, DragLaw, Estimate};
 use crate::identify::answer::AxisParameter;
 use crate::identify::fit::joint::{FeatureRow, fit_rows};
+use crate::identify::{Delay, DragLaw, Estimate};
 
 /// 95 % interval (Student's t).
 type Range = Option<[f64; 2]>;

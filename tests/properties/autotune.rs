@@ -4,7 +4,7 @@ use nalgebra::Complex;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
-use selfosc::autotune::{Actions, Family, ProcessError, ProcessRecord, Wanted, rules, ultimate};
+use selfosc::autotune::{Actions, Family, GainsWanted, ProcessError, ProcessRecord, rules, ultimate};
 use selfosc::control::Gains;
 use selfosc::experiment::Record;
 
@@ -109,7 +109,8 @@ fn gains_hold_on_the_process_behind_the_record() {
         let swing = 0.05 * truth.gain;
         let record = truth.record(0.02 * swing, 0.02 * swing, seed);
         let found = ProcessRecord::of(&record).unwrap();
-        let wanted = Wanted { actions: if seed % 8 < 4 { Actions::Pi } else { Actions::Best }, ..Wanted::default() };
+        let wanted =
+            GainsWanted { actions: if seed % 8 < 4 { Actions::Pi } else { Actions::Best }, ..GainsWanted::default() };
         let Some(proved) = found.gains(record.interval_s(), &wanted) else { panic!("{seed}: {truth:?} {found:?}") };
         let peak = truth.sensitivity(&proved.gains);
         assert!(peak < 1.45, "{seed}: {peak} {truth:?} {found:?}");
@@ -131,7 +132,7 @@ fn a_reverse_process_is_the_same() {
     let reversed = Record::new(record.time_s().to_vec(), falling, record.input().to_vec()).unwrap();
     let (a, b) = (ProcessRecord::of(&record).unwrap(), ProcessRecord::of(&reversed).unwrap());
     assert!(!a.reverse && b.reverse);
-    let gains = |found: &ProcessRecord| found.gains(0.1, &Wanted::default()).unwrap().gains;
+    let gains = |found: &ProcessRecord| found.gains(0.1, &GainsWanted::default()).unwrap().gains;
     assert!((gains(&a).proportional() / gains(&b).proportional() - 1.0).abs() < 1e-6);
 }
 

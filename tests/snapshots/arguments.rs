@@ -29,10 +29,11 @@ const CALLS: [&str; 17] = [
     "verify --claim lemma-1 --cases 1 --seed 1 --certificates FOLDER/proofs",
 ];
 /// Other options, each with the test that holds it.
-const ELSEWHERE: [&str; 8] = [
+const ELSEWHERE: [&str; 9] = [
     "color",       // an enumeration of the parser's
     "only",        // the same
     "out",         // files.rs
+    "formulas",    // claims.rs
     "check",       // files.rs
     "certificate", // files.rs
     "log",         // forgeries.rs

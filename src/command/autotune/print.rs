@@ -5,10 +5,10 @@ use std::io::Write;
 use serde_json::{Value, json};
 
 use super::form::Form;
-use super::{CommandError, Tuned};
+use super::{Autotuned, CommandError};
 use crate::numeric::significant;
 
-impl Tuned {
+impl Autotuned {
     pub(super) fn json(&self, name: &str) -> Value {
         let sign = self.sign();
         let estimate = |one: &crate::autotune::Ranged| json!(one);

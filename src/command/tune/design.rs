@@ -2,8 +2,8 @@
 
 use crate::command::known::Model;
 use crate::control::{
-    AxisIntervals, AxisModel, ControlError, Controller, Criterion, Enclosed, OpenLoop, ProcessIntervals, StepResponse,
-    Structure, Tuning, WorstMargin,
+    AxisIntervals, AxisModel, ControlError, Controller, CriterionRange, OpenLoop, ProcessIntervals, RobustCriterion,
+    StepResponse, Structure, Tuning, WorstMargin,
 };
 
 /// Samples in the time constant of the double pole, and time constants in the simulated step: the hold is a
@@ -29,7 +29,7 @@ pub(super) enum Target {
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Wanted {
+pub(super) struct DesignWanted {
     pub(super) target: Target,
     pub(super) structure: Structure,
     /// Step of the reference, and the largest command in it.
@@ -60,13 +60,13 @@ pub(super) struct Tuned {
     pub(super) response: StepResponse,
     pub(super) with_force: Option<StepResponse>,
     pub(super) top_speed: f64,
-    pub(super) sensitivity: Enclosed,
+    pub(super) sensitivity: CriterionRange,
     /// `None` where the parameters are points, drag is linear and there are no further terms.
     pub(super) worst: Option<Worst>,
 }
 
 impl Tuned {
-    pub(super) fn new(model: &Model, wanted: &Wanted) -> Result<Self, ControlError> {
+    pub(super) fn new(model: &Model, wanted: &DesignWanted) -> Result<Self, ControlError> {
         let values = model.values();
         let axis = values.design_axis()?;
         let bandwidth_rad_s = match wanted.target {
@@ -87,7 +87,7 @@ impl Tuned {
         } else {
             None
         };
-        let mut sensitivity = processes.enclose(tuning.gains(), Criterion::Sensitivity)?;
+        let mut sensitivity = processes.enclose(tuning.gains(), RobustCriterion::Sensitivity)?;
         if let Target::Sensitivity(limit) = wanted.target {
             // That limit is proved already.
             sensitivity.proved = sensitivity.proved.map(|proved| proved.min(limit)).or(Some(limit));
@@ -105,7 +105,7 @@ impl Tuned {
     }
 }
 
-fn response(model: &AxisModel<f64>, tuning: &Tuning<f64>, wanted: &Wanted) -> Result<StepResponse, ControlError> {
+fn response(model: &AxisModel<f64>, tuning: &Tuning<f64>, wanted: &DesignWanted) -> Result<StepResponse, ControlError> {
     let w = tuning.double_pole_rad_s();
     let controller = Controller::new(tuning.gains());
     let controller = match wanted.limit {
@@ -141,10 +141,10 @@ fn worst(
     }
     let enclose = |of| processes.enclose(tuning.gains(), of);
     let [gain, reduction, phase, delay] = [
-        enclose(Criterion::Gain)?,
-        enclose(Criterion::GainReduction)?,
-        enclose(Criterion::PhaseRad)?,
-        enclose(Criterion::DelayS)?,
+        enclose(RobustCriterion::Gain)?,
+        enclose(RobustCriterion::GainReduction)?,
+        enclose(RobustCriterion::PhaseRad)?,
+        enclose(RobustCriterion::DelayS)?,
     ];
     let limited = |number: f64| Some(number).filter(|number| *number < ProcessIntervals::NO_LIMIT);
     let at_least = WorstMargin {
@@ -164,12 +164,12 @@ fn worst(
 }
 
 /// The largest bandwidth at which the limit is proved for every axis of the intervals.
-fn largest_bandwidth(model: &Model, wanted: &Wanted, limit: Target) -> Result<f64, ControlError> {
+fn largest_bandwidth(model: &Model, wanted: &DesignWanted, limit: Target) -> Result<f64, ControlError> {
     let axis = model.values().design_axis()?;
     let (least, most) = bandwidths(&axis, wanted.structure)?;
     let criterion = match limit {
-        Target::Sensitivity(most) => Criterion::Sensitivity(most),
-        Target::PhaseRad(least) => Criterion::PhaseRad(least),
+        Target::Sensitivity(most) => RobustCriterion::Sensitivity(most),
+        Target::PhaseRad(least) => RobustCriterion::PhaseRad(least),
         Target::BandwidthRadS(bandwidth) => return Ok(bandwidth),
     };
     let calm = AxisModel { delta: 0.0, ..model.values() };

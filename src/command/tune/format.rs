@@ -8,7 +8,7 @@ use crate::control::{Gains, Structure};
 
 /// A form of the gains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Format {
+pub(super) enum GainFormat {
     /// For a person
     Text,
     /// One JSON document
@@ -21,7 +21,7 @@ pub(super) enum Format {
     C,
 }
 
-impl Format {
+impl GainFormat {
     pub(super) fn text(self, tuned: &Tuned, full_command: f64) -> Result<String, CommandError> {
         let gains = tuned.tuning.gains();
         match self {

@@ -94,7 +94,11 @@ mod tests {
         for (n, expected) in
             [(1, 12.706), (2, 4.303), (3, 3.182), (10, 2.228), (35, 2.030), (120, 1.980), (100_000, 1.960)]
         {
-            assert!((student_quantile_95(n) - expected).abs() < 5.01e-4, "{n}: {} for {expected}", student_quantile_95(n));
+            assert!(
+                (student_quantile_95(n) - expected).abs() < 5.01e-4,
+                "{n}: {} for {expected}",
+                student_quantile_95(n)
+            );
         }
     }
 }

@@ -73,9 +73,8 @@ const SENSIBLE: f64 = 0.15;
 
 /// Whether the output answers the command's opposite: with it the equations of motion make sense, and with the command they do not.
 pub(crate) fn answers_against(signal: &Signal, delay_s: Option<f64>) -> bool {
-    let misfit = |signal: &Signal| {
-        starts(signal, delay_s).iter().map(|start| start.misfit).fold(f64::INFINITY, f64::min)
-    };
+    let misfit =
+        |signal: &Signal| starts(signal, delay_s).iter().map(|start| start.misfit).fold(f64::INFINITY, f64::min);
     let mut opposite = signal.clone();
     for piece in &mut opposite.pieces {
         (piece.value, piece.slope) = (-piece.value, -piece.slope);

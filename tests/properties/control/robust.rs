@@ -2,7 +2,7 @@
 
 use nalgebra::Complex;
 use proptest::prelude::*;
-use selfosc::control::{Criterion, Gains, LinearProcess, ProcessIntervals, Structure};
+use selfosc::control::{Gains, LinearProcess, ProcessIntervals, RobustCriterion, Structure};
 use selfosc::numeric::Interval;
 
 use crate::sampling::recorded;
@@ -64,7 +64,7 @@ proptest! {
     ) {
         let process = around([1.1, drag, stiffness, 0.0, 0.0, lag, 0.05, 0.0, delay], share);
         let gains = gains(integral.unwrap_or(0.0));
-        let Ok(found) = ProcessIntervals::new(process).unwrap().enclose(&gains, Criterion::Sensitivity) else { return Ok(()) };
+        let Ok(found) = ProcessIntervals::new(process).unwrap().enclose(&gains, RobustCriterion::Sensitivity) else { return Ok(()) };
         let Some(proved) = found.proved else { return Ok(()) };
         prop_assert!(found.met <= proved && proved <= 1.31 * found.met);
         for at in samples {
@@ -79,13 +79,13 @@ proptest! {
 fn what_is_false_is_not_proved() {
     let narrow = around([1.1, 0.3, 0.05, 0.1, 0.5, 0.1, 0.05, 0.0, 0.2], 0.03);
     let (processes, gains) = (ProcessIntervals::new(narrow).unwrap(), gains(0.0));
-    let met = processes.enclose(&gains, Criterion::Sensitivity).unwrap().met;
-    assert!(processes.all_have(&gains, Criterion::Sensitivity(1.05 * met)));
-    assert!(!processes.all_have(&gains, Criterion::Sensitivity(0.99 * met)));
+    let met = processes.enclose(&gains, RobustCriterion::Sensitivity).unwrap().met;
+    assert!(processes.all_have(&gains, RobustCriterion::Sensitivity(1.05 * met)));
+    assert!(!processes.all_have(&gains, RobustCriterion::Sensitivity(0.99 * met)));
     let late = LinearProcess { delay_s: between(0.1, 3.0), ..narrow };
     let wide = ProcessIntervals::new(late).unwrap();
-    assert!(!wide.all_stable(&gains) && !wide.all_have(&gains, Criterion::Sensitivity(1e6)));
-    assert!(wide.enclose(&gains, Criterion::PhaseRad).is_err());
+    assert!(!wide.all_stable(&gains) && !wide.all_have(&gains, RobustCriterion::Sensitivity(1e6)));
+    assert!(wide.enclose(&gains, RobustCriterion::PhaseRad).is_err());
 }
 
 /// A first-order process with dead time under a proportional controller: margins in closed form.
@@ -108,9 +108,9 @@ fn margins_of_a_known_loop() {
     let processes = ProcessIntervals::new(process).unwrap();
     let (half_pi, pi) = (core::f64::consts::FRAC_PI_2, core::f64::consts::PI);
     for (of, exact) in [
-        (Criterion::Gain as fn(f64) -> Criterion, pi),
-        (Criterion::PhaseRad, half_pi - 0.5),
-        (Criterion::DelayS, half_pi - 0.5),
+        (RobustCriterion::Gain as fn(f64) -> RobustCriterion, pi),
+        (RobustCriterion::PhaseRad, half_pi - 0.5),
+        (RobustCriterion::DelayS, half_pi - 0.5),
     ] {
         let found = processes.enclose(&gains, of).unwrap();
         let Some(proved) = found.proved else { panic!("{found:?}") };

@@ -13,7 +13,9 @@ use crate::numeric::Interval;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unproved {
     /// It is no certificate.
-    #[error("not a certificate of guaranteed bounds: {text}; write one with `selfosc identify LOG --method bounded --certificate FILE`")]
+    #[error(
+        "not a certificate of guaranteed bounds: {text}; write one with `selfosc identify LOG --method bounded --certificate FILE`"
+    )]
     Foreign {
         /// What is wrong.
         text: String,
@@ -176,7 +178,8 @@ impl Certificate {
         if expected != self.statement {
             return Err(Unproved::Statement { expected });
         }
-        let walks = (0..self.stages.len()).map(|index| Walk::of(&setup, self.begin(index)?, &self.stages[index], index));
+        let walks =
+            (0..self.stages.len()).map(|index| Walk::of(&setup, self.begin(index)?, &self.stages[index], index));
         let walks = walks.collect::<Result<Vec<_>, Unproved>>()?;
         let last = self.stages.last().ok_or_else(|| malformed("no stage"))?;
         if let Some(witness) = &self.witness {
@@ -215,7 +218,8 @@ impl Certificate {
     /// Ranges of terms, of the delay and of each record's disturbance, by name.
     fn named(&self, setup: &Setup, ranges: &[[f64; 2]]) -> Vec<(&'static str, [f64; 2])> {
         let terms = &self.searched.terms;
-        let delay = if setup.layout.delay().is_some() { ranges[terms.len()] } else { [setup.known_delay_s.midpoint(); 2] };
+        let delay =
+            if setup.layout.delay().is_some() { ranges[terms.len()] } else { [setup.known_delay_s.midpoint(); 2] };
         let of_terms = terms.iter().map(|term| term.name()).zip(ranges.iter().copied());
         let disturbances = (0..self.records.len()).map(|record| ranges[setup.layout.disturbance(record)]);
         of_terms.chain([("delay_s", delay)]).chain(disturbances.map(|range| ("delta/alpha", range))).collect()
@@ -244,7 +248,9 @@ impl Certificate {
         // What the search box says beside its sides, to within a rounding of the terms.
         let mut beside = model.about(&[], at.clone());
         model.bound(&mut beside);
-        let rounding = |slopes: &[(usize, Interval)]| slopes.iter().map(|(place, slope)| (*slope * Interval::point(at[*place])).magnitude()).sum::<f64>();
+        let rounding = |slopes: &[(usize, Interval)]| {
+            slopes.iter().map(|(place, slope)| (*slope * Interval::point(at[*place])).magnitude()).sum::<f64>()
+        };
         let rows = beside.rows.slopes.iter().zip(&beside.rows.limits);
         if rows.into_iter().any(|(slopes, limit)| *limit < -1e-12 * rounding(slopes)) {
             return Err(malformed("the witness is not in the search box"));

@@ -65,7 +65,8 @@ impl Certificate {
         };
         let BoundedModel { delay, quantum, error, jitter_s, switching, .. } = &self.model;
         // Differences of readings are rounded.
-        let shown = |step: f64| records.iter().all(|own| own.quantum().is_some_and(|own| (own / step - 1.0).abs() < SAME));
+        let shown =
+            |step: f64| records.iter().all(|own| own.quantum().is_some_and(|own| (own / step - 1.0).abs() < SAME));
         let conditions = listed(&[
             (!self.model.usual_reach(), "inertia and drag are within the stated reach, which is not the usual one"),
             (matches!(delay, DelayBound::WithinS(_)), "the delay is within the stated range"),

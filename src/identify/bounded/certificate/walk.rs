@@ -121,12 +121,7 @@ impl Enclosed {
 
 impl<'a> Walk<'a> {
     /// From a box of parameters.
-    pub(super) fn of(
-        setup: &'a Setup,
-        from: &[[f64; 2]],
-        stage: &'a Stage,
-        index: usize,
-    ) -> Result<Self, Unproved> {
+    pub(super) fn of(setup: &'a Setup, from: &[[f64; 2]], stage: &'a Stage, index: usize) -> Result<Self, Unproved> {
         let malformed = |what: &str| malformed(&format!("{what} of stage {index}"));
         let from = sides(from).filter(|from| from.len() == setup.layout.parameters() && within(from, &setup.search));
         let mut from = from.ok_or_else(|| malformed("the box"))?;

@@ -5,9 +5,7 @@
 mod least_squares;
 
 use crate::identify::answer::distribution::student_quantile_95;
-use crate::identify::answer::{
-    AxisParameter, ConfidenceInterval, Delay, DragLaw, Estimate, IdentifyError, READ_AGAIN,
-};
+use crate::identify::answer::{AxisParameter, ConfidenceInterval, Delay, DragLaw, Estimate, IdentifyError, READ_AGAIN};
 use crate::identify::exact::MeanCycle;
 use crate::identify::iso::Oscillation;
 use crate::nonlinearity::RelayHysteresis;
@@ -57,7 +55,11 @@ impl FeatureRow {
     }
 
     /// Appends `ln(X_m/predicted)` and `ln(T/predicted)` under `axis`, whose disturbance is zero.
-    fn residuals(&self, axis: &DragAxis<AxisSensitivity>, residuals: &mut Vec<AxisSensitivity>) -> Result<(), IdentifyError> {
+    fn residuals(
+        &self,
+        axis: &DragAxis<AxisSensitivity>,
+        residuals: &mut Vec<AxisSensitivity>,
+    ) -> Result<(), IdentifyError> {
         let number = AxisSensitivity::from_f64;
         let relay = RelayHysteresis::new(number(self.relay.level()), number(self.relay.half_width()), Real::zero())?;
         let orbit = limit_cycle(axis, &relay)?;

@@ -16,7 +16,7 @@ use super::model::{NoiseParameter, Parameter, VehicleModel};
 use super::motion::{Dynamics, Point};
 use super::observations::Observations;
 use driven::Drives;
-pub(super) use pass::{Innovation, FilterPass, Score};
+pub(super) use pass::{FilterPass, Innovation, Score};
 use transition::{FILTERED, LATE, LateSpeed, LowPass, Square, Transition, Vector, add};
 
 /// Parts of the record whose scores are kept apart.
@@ -111,13 +111,18 @@ pub(super) fn run(observations: &Observations, model: &VehicleModel, wanted: Eva
     }
 }
 
-fn run_with<const N: usize>(observations: &Observations, model: &VehicleModel, wanted: Evaluation) -> Option<FilterPass> {
+fn run_with<const N: usize>(
+    observations: &Observations,
+    model: &VehicleModel,
+    wanted: Evaluation,
+) -> Option<FilterPass> {
     let derivatives = wanted != Evaluation::Likelihood;
     let actuator = Actuator::new(&observations.pieces, model, observations.range);
     let late = model.value(Parameter::DelayS) + model.value(Parameter::LagS) + 0.5 * model.value(Parameter::RampS);
     let uncertain = model.has_noise(NoiseParameter::SwitchJitter);
     let kicks = observations.kicks.iter().filter(|kick| uncertain || kick.variance_s2 > 0.0);
-    let kicks = kicks.map(|kick| (kick.at_s + late, IntegrationStop::Kick { jump: kick.jump, variance_s2: kick.variance_s2 }));
+    let kicks =
+        kicks.map(|kick| (kick.at_s + late, IntegrationStop::Kick { jump: kick.jump, variance_s2: kick.variance_s2 }));
     let first = observations.first;
     let mut now = observations.time_s[first];
     let stops = actuator.stops(now, kicks, observations.switched);

@@ -23,11 +23,7 @@ pub(crate) type Information = SMatrix<f64, 4, 4>;
 
 /// The information of a record that the axis made, read with an error of this variance, and the part of its readings that count
 /// where cycles repeat reading for reading. `None` where the motion leaves all bounds, or the record shows none.
-pub(crate) fn of_record(
-    record: &Record,
-    axis: &DragAxis<f64>,
-    variance: f64,
-) -> Option<(Information, f64)> {
+pub(crate) fn of_record(record: &Record, axis: &DragAxis<f64>, variance: f64) -> Option<(Information, f64)> {
     let mut observations = Observations::new(record, Clock::Stamps, SwitchingInstant::AtSamples);
     observations.skip(axis.delay_s() + UNSEEN * observations.half_period_s);
     let State { position, velocity } = observations.start_state();

@@ -79,8 +79,8 @@ mod tests {
     use super::{differ, told};
     use crate::experiment::{Record, Sensor, SimulatedExperiment};
     use crate::identify::fit::prediction_error::model::{NoiseParameter, Parameter, VehicleModel};
-    use crate::identify::signal::{Clock, SwitchingInstant};
     use crate::identify::fit::prediction_error::observations::Observations;
+    use crate::identify::signal::{Clock, SwitchingInstant};
     use crate::nonlinearity::RelayHysteresis;
     use crate::plant::DragAxis;
 

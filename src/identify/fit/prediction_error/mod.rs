@@ -16,10 +16,10 @@
 mod actuator;
 mod average;
 mod candidate;
+mod confounded_lags;
 mod filter;
 pub(crate) mod information;
 mod instants;
-mod confounded_lags;
 mod model;
 mod motion;
 mod observations;

@@ -7,8 +7,8 @@ use super::observations::Observations;
 use super::scoring::{Fitted, climb};
 use crate::experiment::Record;
 use crate::identify::answer::{Estimate, Reported};
-use crate::plant::State;
 use crate::identify::signal::{Clock, SwitchingInstant};
+use crate::plant::State;
 
 /// Readings left out at the beginning beyond the delay, in half-periods.
 const UNSEEN: f64 = 0.05;
@@ -45,8 +45,7 @@ impl Reported {
         observations.skip(self.mean_delay_s() + UNSEEN * observations.half_period_s);
         let State { position, velocity } = observations.start_state();
         let mut model = VehicleModel::plain(switching);
-        let value =
-            |estimate: Option<Estimate>| estimate.map_or(0.0, |estimate| estimate.value);
+        let value = |estimate: Option<Estimate>| estimate.map_or(0.0, |estimate| estimate.value);
         for (parameter, value, free) in [
             (Parameter::Alpha, self.alpha.value, false),
             (Parameter::LinearDrag, self.beta.value, false),

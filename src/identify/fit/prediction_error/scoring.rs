@@ -63,8 +63,12 @@ fn noise_bounds(noise: NoiseParameter, observations: &Observations) -> (f64, f64
         NoiseParameter::ForceRate => (0.02 / observations.duration_s(), 3.0 / interval),
         NoiseParameter::Colour => (1e-12 * span * span / half_period, span * span / interval),
         NoiseParameter::ColourRate => (0.02 / observations.duration_s(), 3.0 / interval),
-        NoiseParameter::StampJitter | NoiseParameter::SwitchJitter => (1e-8 * interval * interval, 4.0 * interval * interval),
-        NoiseParameter::Tracking => (1e-10 * (span / half_period).powi(2) / half_period, 100.0 * (span / half_period).powi(2) / half_period),
+        NoiseParameter::StampJitter | NoiseParameter::SwitchJitter => {
+            (1e-8 * interval * interval, 4.0 * interval * interval)
+        }
+        NoiseParameter::Tracking => {
+            (1e-10 * (span / half_period).powi(2) / half_period, 100.0 * (span / half_period).powi(2) / half_period)
+        }
     };
     (low.ln(), high.ln())
 }

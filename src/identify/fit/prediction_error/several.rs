@@ -7,7 +7,7 @@
 use super::candidate::RecordAnswer;
 use super::pooling::{DISAGREE, known, mean, pooled, probability_of_one};
 use super::prediction::Prediction;
-use super::thrust::{Drawn, CommandLevels, ThrustLaw, ThrustVerdict};
+use super::thrust::{CommandLevels, Drawn, ThrustLaw, ThrustVerdict};
 use crate::experiment::Record;
 use crate::identify::answer::{DragLaw, Estimate, LawEvidence, Reason, Reported, Trust};
 
@@ -139,7 +139,11 @@ impl Several {
             lag_s: own(&|r| r.lag_s),
             ramp_s: own(&|r| r.ramp_s),
             filter_s: own(&|r| r.filter_s),
-            deltas: together.parts.iter().flat_map(|part| part.clone().with_error(together.shared).deltas.to_vec()).collect(),
+            deltas: together
+                .parts
+                .iter()
+                .flat_map(|part| part.clone().with_error(together.shared).deltas.to_vec())
+                .collect(),
             delay_s: own(&|r| Some(r.delay_s)).unwrap_or(first.delay_s),
             trust: reasons.iter().map(|reason| reason.trust()).max().unwrap_or(Trust::Good),
             reasons,

@@ -7,16 +7,16 @@ use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
-use super::filter;
 use super::confounded_lags;
+use super::filter;
 use super::model::{NoiseParameter, Parameter, VehicleModel};
 use super::observations::{Observations, PRICE};
 use super::scoring::{Fitted, MOST_STEPS, climb, climb_beyond, climb_within};
 use crate::experiment::Record;
 use crate::identify::answer::{DragLaw, Term};
 use crate::identify::fit::start::{self, ModulatedStart};
-use crate::plant::State;
 use crate::identify::signal::{Clock, SwitchingInstant, grid};
+use crate::plant::State;
 
 /// Twice the gain in log-likelihood from which on a term joins.
 pub(super) const JOINS: f64 = 7.0;
@@ -94,8 +94,7 @@ pub(super) struct SearchOutcome {
 
 impl<'a> StructureSearch<'a> {
     pub(super) fn new(record: &'a Record, known: KnownBefore) -> Self {
-        let clocks =
-            if grid(record).is_some() { vec![Clock::Stamps, Clock::Grid] } else { vec![Clock::Stamps] };
+        let clocks = if grid(record).is_some() { vec![Clock::Stamps, Clock::Grid] } else { vec![Clock::Stamps] };
         let head = record.beginning(LONGEST_SEARCHED);
         let [readings, head_readings] = [const { [const { OnceLock::new() }; 4] }; 2];
         Self { record, head, known, clocks, readings, head_readings, unseen_s: 0.0 }
@@ -151,7 +150,8 @@ impl<'a> StructureSearch<'a> {
         starts.push(start::rough(&first, self.known.delay_s));
         let likely = starts.iter().min_by(|a, b| a.misfit.total_cmp(&b.misfit)).map_or(0.0, |start| start.delay_s);
         let (short, long) = (UNSEEN_SHORT * first.half_period_s, UNSEEN_LONG * first.half_period_s);
-        self.unseen_s = (UNSEEN_DELAYS * likely + short).min(long).max(self.known.delay_s.map_or(0.0, |known| known + short));
+        self.unseen_s =
+            (UNSEEN_DELAYS * likely + short).min(long).max(self.known.delay_s.map_or(0.0, |known| known + short));
         first.skip(self.unseen_s);
         let speed = first.span / first.half_period_s;
         let follow = |start: &ModulatedStart| {

@@ -128,7 +128,8 @@ impl Term {
                 let delay_s = model.value(Parameter::DelayS);
                 let late = |part: f64| {
                     // At a known delay the lag comes on top; else it takes the place of a part of the delay.
-                    let time_s = if model.is_free(Parameter::DelayS) { part * delay_s } else { 0.1 * part * half_period };
+                    let time_s =
+                        if model.is_free(Parameter::DelayS) { part * delay_s } else { 0.1 * part * half_period };
                     let mut model = with(parameter, time_s.max(0.3 * interval) / mean);
                     if model.is_free(Parameter::DelayS) {
                         model.values[Parameter::DelayS as usize] = (delay_s - time_s).max(0.0);
@@ -144,7 +145,10 @@ impl Term {
             Self::ProcessForceMemory => [0.1, 0.5, 2.0]
                 .map(|rate| {
                     let (rate, force) = (rate / half_period, model.size(NoiseParameter::Force));
-                    noisy(&[(NoiseParameter::ForceRate, rate), (NoiseParameter::Force, force * (1.0 + rate * half_period))])
+                    noisy(&[
+                        (NoiseParameter::ForceRate, rate),
+                        (NoiseParameter::Force, force * (1.0 + rate * half_period)),
+                    ])
                 })
                 .to_vec(),
             Self::ColouredNoise => {
@@ -162,9 +166,9 @@ impl Term {
             Self::StampJitter => {
                 [0.03, 0.1, 0.3].map(|part| noisy(&[(NoiseParameter::StampJitter, (part * interval).powi(2))])).to_vec()
             }
-            Self::SwitchJitter => {
-                [0.05, 0.2, 0.6].map(|part| noisy(&[(NoiseParameter::SwitchJitter, (part * interval).powi(2))])).to_vec()
-            }
+            Self::SwitchJitter => [0.05, 0.2, 0.6]
+                .map(|part| noisy(&[(NoiseParameter::SwitchJitter, (part * interval).powi(2))]))
+                .to_vec(),
         }
     }
 }

@@ -4,11 +4,11 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::filter::{self, Evaluation};
 use super::model::{NoiseParameter, Parameter, VehicleModel};
-use crate::identify::signal::{Clock, SwitchingInstant};
 use super::observations::Observations;
 use super::rounding;
 use super::scoring::Fitted;
 use crate::experiment::Record;
+use crate::identify::signal::{Clock, SwitchingInstant};
 
 /// A command that switches, and an output about the motion that [`model`] has.
 fn record() -> Record {
@@ -173,7 +173,12 @@ fn the_filter_s_likelihood_is_that_of_the_dense_normal_vector() {
 }
 
 /// Derivative of the log-likelihood by central differences.
-fn difference(observations: &Observations, model: &VehicleModel, step: f64, change: impl Fn(&mut VehicleModel, f64)) -> f64 {
+fn difference(
+    observations: &Observations,
+    model: &VehicleModel,
+    step: f64,
+    change: impl Fn(&mut VehicleModel, f64),
+) -> f64 {
     let at = |by: f64| {
         let mut moved = model.clone();
         change(&mut moved, by);

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use crate::experiment::Record;
-use crate::identify::fit::shooting::{Fit, RecordFit};
 use crate::identify::answer::{Delay, DragLaw, IdentifyError};
+use crate::identify::fit::shooting::{Fit, RecordFit};
 
 /// Odds against each other law from which a law counts as recognised: 95 %.
 pub(crate) const DECIDED: f64 = 19.0;

@@ -14,8 +14,9 @@ const SAME: f64 = 1e-3;
 
 /// The beginnings of records that are all long, and move in them as they do later.
 pub(super) fn of(records: &[&Record]) -> Option<Vec<Record>> {
-    let lively =
-        |record: &&Record| record.beginning(SAMPLES).filter(|beginning| half_period_s(beginning) < LIVELY * half_period_s(record));
+    let lively = |record: &&Record| {
+        record.beginning(SAMPLES).filter(|beginning| half_period_s(beginning) < LIVELY * half_period_s(record))
+    };
     records.iter().map(lively).collect()
 }
 

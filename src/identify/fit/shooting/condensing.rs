@@ -7,7 +7,7 @@
 
 use nalgebra::{DMatrix, DMatrixView};
 
-use super::sensitivity::{COMMON, UnknownsGradient, SHARED, OutputSensitivity, UNKNOWNS};
+use super::sensitivity::{COMMON, OutputSensitivity, SHARED, UNKNOWNS, UnknownsGradient};
 use crate::identify::answer::IdentifyError;
 
 /// Unknowns left when the instant is eliminated.

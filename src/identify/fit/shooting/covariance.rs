@@ -9,9 +9,9 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
 use super::condensing::{CondensedChain, OWN, solve_shared};
-use super::sensitivity::{SHARED, OutputSensitivity};
+use super::gauss_newton::{GaussNewton, LinearisedTrajectory, ShotTrajectory, stack};
 use super::noise::{ReadingNoise, ScoreTable};
-use super::gauss_newton::{LinearisedTrajectory, ShotTrajectory, GaussNewton, stack};
+use super::sensitivity::{OutputSensitivity, SHARED};
 use crate::identify::answer::IdentifyError;
 
 /// Draws of the rounding errors: enough for standard deviations within a tenth.

@@ -5,11 +5,12 @@ use rayon::prelude::*;
 
 use super::condensing::{CondensedChain, Link, OWN, solve_shared, weighted};
 use super::input::{Between, Edge, edges, gather};
+use super::noise::ReadingNoise;
 use super::sensitivity::{
-    COMMON, ActingEdges, UnknownsGradient, SHARED, OutputSensitivity, CommonParameters, ShootingInterval, UNKNOWNS, integrate, uncertain,
+    ActingEdges, COMMON, CommonParameters, OutputSensitivity, SHARED, ShootingInterval, UNKNOWNS, UnknownsGradient,
+    integrate, uncertain,
 };
 use super::sensitivity::{DISTURBANCE, INSTANT, POSITION, VELOCITY};
-use super::noise::ReadingNoise;
 use crate::experiment::Record;
 use crate::identify::answer::{Delay, DragLaw, IdentifyError};
 use crate::identify::fit::start::with_one_drag;
@@ -143,7 +144,11 @@ impl<'a> ShotTrajectory<'a> {
         Self { record, deviations: vec![0.0; edges.len()], edges, intervals, disturbance, noise, range, half_period_s }
     }
 
-    pub(super) fn linearise(&self, shared: &CommonParameters, stride: usize) -> Result<LinearisedTrajectory, IdentifyError> {
+    pub(super) fn linearise(
+        &self,
+        shared: &CommonParameters,
+        stride: usize,
+    ) -> Result<LinearisedTrajectory, IdentifyError> {
         let delay_s = shared[SHARED - 1];
         let acting = |k: usize| self.edges[k].time_s + self.deviations[k] + delay_s;
         let mut next = 0;
@@ -268,7 +273,12 @@ impl<'a> ShotTrajectory<'a> {
     pub(super) fn real_noise(&self, linearised: &LinearisedTrajectory) -> f64 {
         let residuals = self.residuals(linearised);
         let thinned: Vec<f64> = residuals.iter().step_by(residuals.len() / MOST_RESIDUALS + 1).copied().collect();
-        ReadingNoise::likeliest_std(&thinned, self.noise.quantum, LEAST_REAL_NOISE_STEPS * self.noise.quantum, self.noise.std)
+        ReadingNoise::likeliest_std(
+            &thinned,
+            self.noise.quantum,
+            LEAST_REAL_NOISE_STEPS * self.noise.quantum,
+            self.noise.std,
+        )
     }
 
     fn log_likelihood(&self, linearised: &LinearisedTrajectory) -> f64 {
@@ -428,8 +438,9 @@ impl<'a> GaussNewton<'a> {
         let scales = self.scales();
         let relative = |k: usize| shared[k] / scales[k];
         let share = (LARGEST_INERTIA_STEP / relative(0).abs()).min(1.0);
-        let share = (1..SHARED - 1)
-            .fold(share, |share, k| if relative(k) > LARGEST_DRAG_STEP { share.min(LARGEST_DRAG_STEP / relative(k)) } else { share });
+        let share = (1..SHARED - 1).fold(share, |share, k| {
+            if relative(k) > LARGEST_DRAG_STEP { share.min(LARGEST_DRAG_STEP / relative(k)) } else { share }
+        });
         let share = if self.steps < FIRST_STEPS { share.min(FIRST_SHARE) } else { share };
         for ((motion, steps), (_, instants)) in self.motions.iter_mut().zip(&steps).zip(&chains) {
             motion.advance(steps, instants, share);
@@ -455,7 +466,8 @@ impl<'a> GaussNewton<'a> {
     /// delay by itself or a part of the half-period, so that none stands still for being near zero.
     fn scales(&self) -> CommonParameters {
         let [alpha, linear, quadratic, delay_s] = self.shared;
-        let typical = |of: fn(&ShotTrajectory<'_>) -> f64| self.motions.iter().map(of).fold(f64::MIN_POSITIVE, f64::max);
+        let typical =
+            |of: fn(&ShotTrajectory<'_>) -> f64| self.motions.iter().map(of).fold(f64::MIN_POSITIVE, f64::max);
         let speed = typical(|motion| core::f64::consts::FRAC_PI_2 * motion.range / motion.half_period_s);
         let drag = (linear + quadratic * speed).max(LEAST_DRAG * alpha / typical(|motion| motion.half_period_s));
         [alpha, drag, drag / speed, delay_s.max(DELAY_SHARE * typical(|motion| motion.half_period_s))]

@@ -92,7 +92,9 @@ impl Fit {
         self.check(records)?;
         let ways: &[Between] = match self.between {
             Some(ref given) => core::slice::from_ref(given),
-            None if records.iter().all(|record| is_switched(record.input())) => &[Between::AtSamples, Between::Anywhere],
+            None if records.iter().all(|record| is_switched(record.input())) => {
+                &[Between::AtSamples, Between::Anywhere]
+            }
             None => &[Between::AtSamples, Between::Evenly, Between::Bent],
         };
         let search = |law, between| GaussNewton::new(records, law, self.delay, between, self.quantum);

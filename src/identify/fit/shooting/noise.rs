@@ -91,11 +91,7 @@ impl ScoreTable {
     /// Reach in steps of the sensor, and in standard deviations beyond.
     const REACH: [f64; 2] = [2.0, 5.0];
 
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "at most MOST_CELLS"
-    )]
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most MOST_CELLS")]
     pub(super) fn new(noise: ReadingNoise) -> Self {
         let scale = if noise.quantum > 0.0 { noise.std.min(noise.quantum) } else { noise.std };
         let reach = Self::REACH[0] * noise.quantum + Self::REACH[1] * noise.std;

@@ -1,9 +1,9 @@
 //! What a fit found.
 
 use super::covariance::Covariance;
+use super::gauss_newton::{GaussNewton, LinearisedTrajectory, StartingPoint};
 use super::input::Between;
 use super::sensitivity::SHARED;
-use super::gauss_newton::{LinearisedTrajectory, GaussNewton, StartingPoint};
 use crate::identify::answer::{AxisParameter, ConfidenceInterval, DragLaw, Estimate, IdentifyError};
 use crate::plant::{DragAxis, State};
 

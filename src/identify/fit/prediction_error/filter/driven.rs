@@ -3,7 +3,7 @@
 use super::transition::LateSpeed;
 use crate::identify::fit::prediction_error::actuator::Force;
 use crate::identify::fit::prediction_error::model::Parameter;
-use crate::identify::fit::prediction_error::motion::{Dynamics, Point, MotionStep};
+use crate::identify::fit::prediction_error::motion::{Dynamics, MotionStep, Point};
 
 /// A step, and what drove it.
 pub(super) struct Drives<'a> {

@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
-use super::super::instants;
 use super::super::confounded_lags;
+use super::super::instants;
 use super::super::model::VehicleModel;
 use super::super::observations::Observations;
 use super::super::scoring::{Fitted, climb};

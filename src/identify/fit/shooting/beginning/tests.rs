@@ -1,7 +1,7 @@
 use super::*;
 use crate::experiment::{Sensor, SimulatedExperiment};
-use crate::identify::fit::shooting::{Between, Fit, likeliest};
 use crate::identify::answer::{Delay, DragLaw};
+use crate::identify::fit::shooting::{Between, Fit, likeliest};
 use crate::nonlinearity::RelayHysteresis;
 use crate::plant::DragAxis;
 
