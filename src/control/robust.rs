@@ -141,7 +141,7 @@ impl ProcessIntervals {
     /// };
     /// let gains = Gains::new(Structure::Pd, 0.5, 0.0, 0.9, 0.1)?;
     /// let processes = ProcessIntervals::new(process)?;
-    /// assert!(processes.all_have(&gains, RobustCriterion::Sensitivity(1.6)));
+    /// assert!(processes.all_have(&gains, RobustCriterion::Sensitivity(2.5)));
     /// assert!(!processes.all_have(&gains, RobustCriterion::Sensitivity(1.05)));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
