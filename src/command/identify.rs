@@ -14,8 +14,8 @@ use super::number::{count, finite, non_negative, positive, whole};
 use super::{CommandError, Outcome, files, refused, write_json};
 use crate::experiment::{Columns, TimeUnit};
 use crate::files::{FileError, Files, Input};
-use crate::identify::joint::Delay;
-use crate::identify::{DragLaw, Identification, Method, Refusal, Refused, Session, Settings};
+use crate::identify::document::RefusalDocument;
+use crate::identify::{Delay, DragLaw, Identification, Method, Refusal, Session, Settings};
 use crate::report::identification as page;
 
 /// A vehicle's inertia, drag, disturbance and delay from logs of relay experiments, with 95 % intervals.
@@ -264,6 +264,7 @@ impl Arguments {
             radians: self.radians,
             degrees: self.degrees,
             wrap: self.wrap,
+            process: false,
         }
     }
 
@@ -273,7 +274,7 @@ impl Arguments {
         }
         // A script gets its document even where the status says unreadable.
         if self.json {
-            write_json(output, &Refused::from(&refusal))?;
+            write_json(output, &RefusalDocument::from(&refusal))?;
         }
         if refusal.is_usage() {
             return Err(refusal.into());

@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 use serde_json::json;
 
-use super::axis::AxisArguments;
+use super::axis::{AxisArguments, RelayArguments};
 use super::error::in_context;
 use super::{CommandError, Outcome, write_json};
 use crate::balance::AxisOscillation;
@@ -27,6 +27,8 @@ Examples:
 pub(super) struct Arguments {
     #[command(flatten)]
     axis: AxisArguments,
+    #[command(flatten)]
+    relay: RelayArguments,
     /// Prints one JSON document
     #[arg(long)]
     json: bool,
@@ -48,7 +50,7 @@ fn cycle<T: Serialize>(cycle: &LimitCycle<T>) -> serde_json::Value {
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
-    let (axis, relay) = (arguments.axis.axis()?, arguments.axis.relay()?);
+    let (axis, relay) = (arguments.axis.axis()?, arguments.relay.relay()?);
     let exact = match limit_cycle(&axis, &relay) {
         Ok(cycle) => cycle,
         Err(reason) if arguments.json => {

@@ -4,7 +4,9 @@
 #![allow(clippy::type_complexity, reason = "oracles are boxed closures")]
 
 mod architecture;
+mod autotune;
 mod balance;
+mod boundary;
 mod bounds;
 mod cases;
 mod catalogue;

@@ -11,6 +11,7 @@ mod identify;
 mod paper;
 mod readme;
 mod refusals;
+mod run;
 
 /// Compares with `golden/<name>.snap`.
 macro_rules! golden {

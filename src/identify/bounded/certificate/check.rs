@@ -40,7 +40,8 @@ impl Certificate {
         if expected != self.statement {
             return Err(Unproved::Statement { expected });
         }
-        let walks = (0..self.stages.len()).map(|index| Walk::of(&problem, self.begin(index)?, &self.stages[index], index));
+        let walks =
+            (0..self.stages.len()).map(|index| Walk::of(&problem, self.begin(index)?, &self.stages[index], index));
         let walks = walks.collect::<Result<Vec<_>, Unproved>>()?;
         let last = self.stages.last().ok_or_else(|| malformed("no stage"))?;
         if let Some(witness) = &self.witness {

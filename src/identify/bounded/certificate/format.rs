@@ -137,7 +137,8 @@ impl Cut {
     /// Shortens the range; `false` where nothing is left of it.
     pub(super) fn shorten(&self, at: &mut [Interval]) -> bool {
         let side = at[self.unknown];
-        let half = if self.upper { Interval::new(side.lower(), self.end) } else { Interval::new(self.end, side.upper()) };
+        let half =
+            if self.upper { Interval::new(side.lower(), self.end) } else { Interval::new(self.end, side.upper()) };
         let left = half.and_then(|half| half.intersection(side));
         left.inspect(|left| at[self.unknown] = *left).is_some()
     }
@@ -155,7 +156,12 @@ pub(super) fn sides(ends: &[[f64; 2]]) -> Option<Vec<Interval>> {
 
 impl Certificate {
     /// One without stages.
-    pub(super) fn of(records: &[&Record], problem: &Problem, settings: &BoundedModel, witness: Option<Witness>) -> Self {
+    pub(super) fn of(
+        records: &[&Record],
+        problem: &Problem,
+        settings: &BoundedModel,
+        witness: Option<Witness>,
+    ) -> Self {
         let log = |record: &&Record| Log {
             time_s: record.time_s().to_vec(),
             reading: record.output().to_vec(),

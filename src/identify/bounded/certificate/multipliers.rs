@@ -81,7 +81,8 @@ pub(super) fn seek(
             let (now, other) = (of(side), of(-side) * -1.0);
             let (end, least) = (end + sign * room, ROOM * side.width());
             let gained = sign * (now - end);
-            let reaches = target.is_some_and(|target| sign * (now - of(*target)) > 0.0 && sign * (end - of(*target)) <= 0.0);
+            let reaches =
+                target.is_some_and(|target| sign * (now - of(*target)) > 0.0 && sign * (end - of(*target)) <= 0.0);
             if gained <= 0.0 || gained <= ROOM * side.width() && !reaches {
                 continue;
             }

@@ -193,7 +193,8 @@ impl Prover {
         };
         let (before, (uncertainty, widest)) = (here.at.clone(), contractor.uncertainty(&relaxation));
         let states = problem.followed().map(|(interval, _)| {
-            let own: Vec<usize> = (1..unknowns.state_size()).map(|component| unknowns.start(interval, component)).collect();
+            let own: Vec<usize> =
+                (1..unknowns.state_size()).map(|component| unknowns.start(interval, component)).collect();
             (Some(interval), own)
         });
         let parameters = (None, (0..unknowns.parameters()).collect());

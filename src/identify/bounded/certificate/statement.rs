@@ -1,7 +1,7 @@
 //! What a certificate says, by its model and its rows alone: the problem anew, the words, and whether the rows are a log's.
 
-use super::super::settings::{BoundedModel, DelayBound, SwitchedWhen};
 use super::super::problem::{Problem, ROUNDING};
+use super::super::settings::{BoundedModel, DelayBound, SwitchedWhen};
 use super::format::{Certificate, Log, Searched};
 use super::unproved::{Unproved, malformed};
 use crate::experiment::Record;
@@ -62,7 +62,8 @@ impl Certificate {
         };
         let BoundedModel { delay, quantum, error, jitter_s, switching, .. } = &self.model;
         // Differences of readings are rounded.
-        let shown = |step: f64| records.iter().all(|own| own.quantum().is_some_and(|own| (own / step - 1.0).abs() < ROUNDING));
+        let shown =
+            |step: f64| records.iter().all(|own| own.quantum().is_some_and(|own| (own / step - 1.0).abs() < ROUNDING));
         let conditions = listed(&[
             (!self.model.usual_reach(), "inertia and drag are within the stated reach, which is not the usual one"),
             (matches!(delay, DelayBound::WithinS(_)), "the delay is within the stated range"),

@@ -128,7 +128,12 @@ impl<'a> Walk<'a> {
     }
 
     /// The boxes that a step leaves, the next last; or why it is refused.
-    fn step(&self, mut here: Vec<Interval>, what: &Step, work: &mut Checked) -> Result<Vec<Vec<Interval>>, &'static str> {
+    fn step(
+        &self,
+        mut here: Vec<Interval>,
+        what: &Step,
+        work: &mut Checked,
+    ) -> Result<Vec<Vec<Interval>>, &'static str> {
         match what {
             Step::Keep => {
                 let kept = self.left.as_ref().is_some_and(|left| within(&here[..left.len()], left));

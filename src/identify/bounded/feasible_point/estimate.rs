@@ -6,9 +6,8 @@ use super::super::settings::{BoundedModel, DelayBound};
 use super::super::vector_field::Term as Drag;
 use super::Point;
 use crate::experiment::Record;
-use crate::identify::Estimate;
-use crate::identify::joint::Delay;
-use crate::identify::prediction_error::{Candidate, Clock, Estimator, Parameter, Term};
+use crate::identify::fit::prediction_error::{Candidate, Clock, Estimator, Parameter};
+use crate::identify::{Delay, Estimate, Term};
 use crate::numeric::Interval;
 
 /// Half-widths of the boxes about the estimate, in shares of the command.
