@@ -224,10 +224,7 @@ fn no_file_of_identify_imports_from_one_that_imports_it() {
     let modules = modules();
     let arrows = imports_between(&modules);
     let shown = |number: usize| modules[number].path.join("::");
-    let checked = |number: usize| {
-        let path = &modules[number].path;
-        path[0] == "identify" && path.get(1).is_none_or(|room| room != "bounded")
-    };
+    let checked = |number: usize| modules[number].path[0] == "identify";
     let found: Vec<String> = circles(&arrows)
         .into_iter()
         .filter(|(from, to)| checked(*from) && checked(*to))
@@ -294,7 +291,7 @@ fn few_types_share_a_name_and_none_in_the_rooms_of_identify() {
     let modules = modules();
     let shared = shared_names(&modules);
     assert!(shared.len() <= MOST_SHARED_NAMES, "{} names stand in several files: {shared:#?}", shared.len());
-    let own = |file: &&String| file.starts_with("identify::") && !file.starts_with("identify::bounded");
+    let own = |file: &&String| file.starts_with("identify::");
     let twice: Vec<_> = shared.iter().filter(|(_, files)| files.iter().filter(own).count() > 1).collect();
     assert!(twice.is_empty(), "{twice:#?}");
 }
