@@ -19,7 +19,8 @@ if grep -nE '^[[:space:]]*((Local |Global |#\[[^]]*\] *)*(Axiom|Conjecture|Param
 fi
 
 coq_makefile -f _CoqProject "${theories[@]}" -o Makefile.coq
-make -f Makefile.coq -j "$jobs" TIMED=1 2>"$scratch/errors" | tee "$scratch/log" >&2 || { cat "$scratch/errors" >&2; fail "a theory is not accepted"; }
+timed=$([ -x /usr/bin/time ] && echo 1 || true) # seconds of each file, where GNU time is there: for table.sh
+make -f Makefile.coq -j "$jobs" TIMED="$timed" 2>&1 | tee build.log >&2 || fail "a theory is not accepted"
 
 # The table: claim, file, theorem, what it covers, steps left by hand. Every row has its theorem, every claim's file a row.
 tables=(claims.tsv claims_*.tsv)
