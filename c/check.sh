@@ -53,7 +53,7 @@ for precision in f64 f32; do
     sed -e '' "${words[@]}" tests/extremes.c > "$made/extremes.c"
     gcc -std=c99 "${strict[@]}" "${checked[@]}" -c "$made/extremes.c" -o "$made/extremes.o"
     functions=$(grep -o -e "selfosc_[a-z_]*_$precision(" -e 'selfosc_parameter(' include/selfosc.h | tr -d '(' | sort -u)
-    [ "$(wc -l <<< "$functions")" -gt 20 ] || fail "functions of the header: $functions"
+    [ "$(wc -l <<< "$functions")" -ge 20 ] || fail "functions of the header: $functions"
     for function in $functions; do
         nm -u "$made/extremes.o" | grep -q " $function\$" || fail "tests/extremes.c does not call $function"
     done

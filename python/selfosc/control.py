@@ -25,7 +25,10 @@ class Tuned(Result):
     double_pole_rad_s: float
     margins: types.Margins
     verified: types.Verified
+    sensitivity: types.SensitivityRange
     worst_case: types.WorstCase | None
+    offset: float
+    with_force: types.UnderForce | None
 
 
 @_arguments.named

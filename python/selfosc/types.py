@@ -393,7 +393,23 @@ class WorstCase(TypedDict):
     top_speed: float
     at_least: WorstMargin
     met: WorstMargin
-    boxes: int
+    boxes: int | None
+    proved: bool
+
+
+class SensitivityRange(TypedDict):
+    """Largest sensitivity: the worst met, and a bound proved for every process of the intervals."""
+
+    met: float
+    proved_upper: float | None
+
+
+class UnderForce(TypedDict):
+    """The step under the constant force, and the command that takes that force up."""
+
+    delta: float
+    feed_forward: float
+    step: StepResponse
 
 
 class Deviations(TypedDict):
@@ -466,6 +482,7 @@ class Claim(TypedDict):
     residual_bound: float | None
     margin: float | None
     by_hand: list[str] | None
+    kernel_checked: str | None
     not_proved: str | None
     domain: list[ClaimPart]
     established: list[EstablishedPart]
@@ -481,6 +498,7 @@ class ClaimSummary(TypedDict):
     proved_in_part: int
     exhausted: int
     sampled: int
+    kernel_checked: int
     undecided: int
     refuted: int
     refuted_as_printed: int

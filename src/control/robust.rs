@@ -136,12 +136,12 @@ impl ProcessIntervals {
     /// let between = |low, high| Interval::new(low, high).ok_or("reversed");
     /// let none = Interval::ZERO;
     /// let process = LinearProcess {
-    ///     alpha: between(0.9, 1.1)?, drag: between(0.2, 0.4)?, delay_s: between(0.15, 0.25)?, lag_s: between(0.0, 0.1)?,
+    ///     alpha: between(0.9, 1.1)?, drag: between(0.2, 0.4)?, delay_s: between(0.15, 0.25)?, lag_s: between(0.05, 0.1)?,
     ///     stiffness: none, memory: none, memory_s: none, filter_s: none, zero_s: none,
     /// };
     /// let gains = Gains::new(Structure::Pd, 0.5, 0.0, 0.9, 0.1)?;
     /// let processes = ProcessIntervals::new(process)?;
-    /// assert!(processes.all_have(&gains, RobustCriterion::Sensitivity(1.6)));
+    /// assert!(processes.all_have(&gains, RobustCriterion::Sensitivity(2.5)));
     /// assert!(!processes.all_have(&gains, RobustCriterion::Sensitivity(1.05)));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use syn::{Attribute, ImplItem, Item, TraitItem, Type, Visibility};
+use syn::{Attribute, ImplItem, Item, TraitItem, Type, UseTree, Visibility};
 
 /// Whether an item is there without the standard library, and for users.
 fn is_there(attributes: &[Attribute]) -> bool {
@@ -22,24 +22,27 @@ fn is_public(visibility: &Visibility) -> bool {
     matches!(visibility, Visibility::Public(_))
 }
 
-/// Identifiers between the braces of `use module::{...};` and after `mod` in `internal! { ... }`: names for tests only.
-fn internal(tokens: &str) -> BTreeSet<String> {
-    let words =
-        |text: &str| text.split(|c: char| !(c.is_alphanumeric() || c == '_')).map(str::to_owned).collect::<Vec<_>>();
-    let used = tokens
-        .split("use ")
-        .skip(1)
-        .filter_map(|rest| rest.split_once('{')?.1.split_once('}'))
-        .flat_map(|(names, _)| words(names));
-    let declared = tokens.split("mod ").skip(1).filter_map(|rest| words(rest).into_iter().next());
-    used.chain(declared).filter(|name| !name.is_empty()).collect()
+/// Last names of what a `use` brings.
+fn names(tree: &UseTree, into: &mut BTreeSet<String>) {
+    match tree {
+        UseTree::Path(path) => names(&path.tree, into),
+        UseTree::Group(group) => group.items.iter().for_each(|tree| names(tree, into)),
+        UseTree::Name(name) => drop(into.insert(name.ident.to_string())),
+        UseTree::Rename(name) => drop(into.insert(name.rename.to_string())),
+        UseTree::Glob(_) => {}
+    }
 }
 
 #[derive(Default)]
 struct Found {
     /// With the folder that they stand in.
     functions: BTreeSet<(String, String)>,
+    /// Those in modules that only tests see by name: public where another module shows their type.
+    hidden: BTreeSet<(String, String)>,
+    /// Names that public modules show, and those that only tests see.
+    shown: BTreeSet<String>,
     internal: BTreeSet<String>,
+    inside: bool,
 }
 
 impl Found {
@@ -59,7 +62,8 @@ impl Found {
 
     fn item(&mut self, item: &Item, folder: &Path, top: &str) {
         let mut add = |name: String| {
-            self.functions.insert((top.to_owned(), name));
+            let to = if self.inside { &mut self.hidden } else { &mut self.functions };
+            to.insert((top.to_owned(), name));
         };
         match item {
             Item::Mod(module) if is_there(&module.attrs) => {
@@ -100,8 +104,20 @@ impl Found {
                     }
                 }
             }
+            Item::Use(shows) if !self.inside && is_there(&shows.attrs) && is_public(&shows.vis) => {
+                names(&shows.tree, &mut self.shown);
+            }
             Item::Macro(call) if call.mac.path.is_ident("internal") => {
-                self.internal.extend(internal(&call.mac.tokens.to_string()))
+                let outside = self.inside;
+                self.inside = true;
+                for item in &syn::parse2::<syn::File>(call.mac.tokens.clone()).unwrap().items {
+                    if let Item::Use(hides) = item {
+                        names(&hides.tree, &mut self.internal);
+                    } else {
+                        self.item(item, folder, top);
+                    }
+                }
+                self.inside = outside;
             }
             _ => {}
         }
@@ -113,7 +129,8 @@ pub(super) fn functions() -> BTreeSet<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut found = Found::default();
     found.file(&root.join("lib.rs"), "");
-    let Found { mut functions, internal } = found;
-    functions.retain(|(_, name)| !internal.contains(name.split("::").next().unwrap()));
-    functions
+    let Found { functions, hidden, shown, internal, .. } = found;
+    let of = |name: &str| name.split("::").next().unwrap().to_owned();
+    let seen = hidden.into_iter().filter(|(_, name)| shown.contains(&of(name)));
+    functions.into_iter().chain(seen).filter(|(_, name)| !internal.contains(&of(name))).collect()
 }
