@@ -4,7 +4,7 @@
 //! *Applied Mathematics and Computation* 105, 1999). Here each component is bounded by a scalar differential inequality, which is
 //! sharper: beyond an end of its start a component moves no faster than between the two.
 
-use super::vector_field::{FORCE, POSITION, State, Term, VELOCITY, VectorField};
+use super::vector_field::{FORCE, FieldTerm, POSITION, State, VELOCITY, VectorField};
 use crate::numeric::{Interval, Real};
 
 /// Attempts before the step is called too long.
@@ -59,7 +59,7 @@ impl VectorField {
     /// The same without iteration where the rate of the velocity depends on the velocity alone and falls with it: beyond an end of its
     /// start the velocity moves no faster than at that end.
     pub(super) fn passed_damped(&self, start: &State, u: Interval, h: Interval) -> Option<State> {
-        if self.has(Term::Stiffness) || self.has(Term::LagRate) {
+        if self.has(FieldTerm::Stiffness) || self.has(FieldTerm::LagRate) {
             return None;
         }
         let [x, v, f] = *start;

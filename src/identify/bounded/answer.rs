@@ -126,7 +126,7 @@ impl QuantityRange {
 
 /// One parameter of the model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Parameters {
+pub struct ParameterValues {
     /// Its quantities; each record's state is at the first sample that the model covers.
     pub values: Vec<(Quantity, f64)>,
     /// The largest misfit of a reading, over its largest error.
@@ -169,9 +169,9 @@ pub struct Bounds {
     /// What is left; empty where refuted.
     pub bounds: Vec<QuantityRange>,
     /// A parameter whose motion, enclosed in intervals, meets every reading.
-    pub witness: Option<Parameters>,
+    pub witness: Option<ParameterValues>,
     /// The parameter found with the least largest misfit: no error of the sensor below `misfit` times the one taken is known to do.
-    pub nearest: Option<Parameters>,
+    pub nearest: Option<ParameterValues>,
     /// Largest error of a reading that was taken, by record: half the sensor's step and what was given besides.
     pub error: Vec<f64>,
     /// The error is to be multiplied by at least the first, at most the second, for the model to be consistent.

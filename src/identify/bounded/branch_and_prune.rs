@@ -6,8 +6,8 @@ mod tests;
 
 use std::collections::BTreeMap;
 
-use super::contraction::{Contracted, Contractor, Empty, Method};
-use super::vector_field::Term;
+use super::contraction::{ConstraintKind, Contracted, Contractor, Empty};
+use super::vector_field::FieldTerm;
 use crate::numeric::Interval;
 
 /// A box is kept, or followed further, once its inequalities are uncertain by less than this share of a reading's largest error.
@@ -113,7 +113,7 @@ impl Division {
 
     /// Notes an empty box, where its motion shows a contradiction.
     fn exclude(&mut self, empty: Empty) {
-        if empty.method == Method::Shooting && empty.relaxation.is_some() {
+        if empty.method == ConstraintKind::Shooting && empty.relaxation.is_some() {
             self.last_empty = Some(empty);
         }
     }
@@ -140,7 +140,7 @@ impl Contractor {
     /// The halves of a box; gain and lag rate, which are searched over decades, are divided at the geometric mean.
     pub(super) fn bisect(&self, at: &[Interval], unknown: usize) -> Option<[Vec<Interval>; 2]> {
         let side = at[unknown];
-        let geometric = matches!(self.problem.unknowns.terms.get(unknown), Some(Term::Gain | Term::LagRate));
+        let geometric = matches!(self.problem.unknowns.terms.get(unknown), Some(FieldTerm::Gain | FieldTerm::LagRate));
         let positive = side.lower() > 0.0;
         let value = if geometric && positive { libm::sqrt(side.lower() * side.upper()) } else { side.midpoint() };
         let parts = halves(side, value)?.map(|half| {

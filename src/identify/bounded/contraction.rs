@@ -8,7 +8,7 @@ use super::linear_program::Multipliers;
 use super::linear_relaxation::{Disjoint, Relaxation, Support, midpoints};
 use super::modulating_functions::supports;
 use super::problem::Problem;
-use super::vector_field::Term;
+use super::vector_field::FieldTerm;
 use crate::numeric::Interval;
 
 /// A contraction is repeated while it leaves less than this share of the width of some parameter.
@@ -22,7 +22,7 @@ const MOST_CONTRACTIONS: usize = 30;
 
 /// By what a box was proved empty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Method {
+pub(super) enum ConstraintKind {
     ModulatingFunctions,
     Shooting,
 }
@@ -30,14 +30,14 @@ pub(super) enum Method {
 /// An empty box.
 #[derive(Clone, Debug)]
 pub(super) struct Empty {
-    pub(super) method: Method,
+    pub(super) method: ConstraintKind,
     pub(super) multipliers: Multipliers,
     /// The inequalities that contradict each other; `None` where two enclosures have no value in common.
     pub(super) relaxation: Option<Relaxation>,
 }
 
 impl Empty {
-    fn disjoint(method: Method) -> Self {
+    fn disjoint(method: ConstraintKind) -> Self {
         Self { method, multipliers: Multipliers::new(), relaxation: None }
     }
 }
@@ -92,7 +92,7 @@ impl Contractor {
         if weak_form.is_none() && self.contradicting.is_empty() {
             self.contradicting = self.problem.contradiction(at);
         }
-        let method = Method::ModulatingFunctions;
+        let method = ConstraintKind::ModulatingFunctions;
         let relaxation = weak_form.ok_or(Empty::disjoint(method))?;
         let contracted = relaxation.contract(at, &self.parameters());
         contracted.map_err(|multipliers| Empty { method, multipliers, relaxation: Some(relaxation) })
@@ -106,7 +106,7 @@ impl Contractor {
             let own: Vec<usize> =
                 (1..unknowns.state_size()).map(|component| unknowns.start(interval, component)).collect();
             if let Err(multipliers) = beside.contract(at, &own) {
-                return Err(Empty { method: Method::Shooting, multipliers, relaxation: Some(beside) });
+                return Err(Empty { method: ConstraintKind::Shooting, multipliers, relaxation: Some(beside) });
             }
             for place in own {
                 relaxation.deviations[place] = at[place] - Interval::point(relaxation.centre[place]);
@@ -148,14 +148,14 @@ impl Contractor {
                 return if delay { 8.0 * width / problem.half_period_s } else { width / acceleration };
             };
             let unit = match term {
-                Term::Gain => force,
-                Term::Linear => speed,
-                Term::Quadratic if unknowns.place_of(Term::Linear).is_some() => 0.5 * speed * speed,
-                Term::Quadratic => speed * speed,
-                Term::Cubic => speed * speed * speed,
-                Term::Stiffness => problem.amplitude,
-                Term::LagRate => return width / at[place].upper() / (at[place].lower() * problem.half_period_s),
-                Term::Disturbance => 1.0,
+                FieldTerm::Gain => force,
+                FieldTerm::Linear => speed,
+                FieldTerm::Quadratic if unknowns.place_of(FieldTerm::Linear).is_some() => 0.5 * speed * speed,
+                FieldTerm::Quadratic => speed * speed,
+                FieldTerm::Cubic => speed * speed * speed,
+                FieldTerm::Stiffness => problem.amplitude,
+                FieldTerm::LagRate => return width / at[place].upper() / (at[place].lower() * problem.half_period_s),
+                FieldTerm::Disturbance => 1.0,
             };
             width * unit / acceleration
         };
@@ -194,13 +194,13 @@ impl Contractor {
             }
             let before = at.to_vec();
             let shot = self.problem.shoot(at, midpoints(at));
-            let shot = shot.map_err(|Disjoint| Empty::disjoint(Method::Shooting))?;
+            let shot = shot.map_err(|Disjoint| Empty::disjoint(ConstraintKind::Shooting))?;
             let Some(mut relaxation) = shot else { return Ok(Contracted::Wide(self.widest(at).1)) };
             let (uncertainty, widest) = self.uncertainty(&relaxation);
             contracted = Contracted::Followed { uncertainty, widest };
             self.refine_states(&mut relaxation, at)?;
             if let Err(multipliers) = relaxation.contract(at, &self.parameters()) {
-                return Err(Empty { method: Method::Shooting, multipliers, relaxation: Some(relaxation) });
+                return Err(Empty { method: ConstraintKind::Shooting, multipliers, relaxation: Some(relaxation) });
             }
             if self.share_left(&before, at) > HELPED {
                 break;

@@ -1,7 +1,7 @@
 //! Feasible points: single parameters whose motion, enclosed in intervals, satisfies every reading. They are sought by successive linear
 //! programming (Fletcher and Sainz de la Maza, *Mathematical Programming* 43, 1989) with the largest misfit as one more unknown.
 
-mod estimate;
+pub(super) mod estimate;
 #[cfg(test)]
 mod tests;
 
@@ -9,8 +9,6 @@ use super::contraction::Contractor;
 use super::linear_program::Outcome;
 use super::linear_relaxation::{Origin, Relaxation, Span, midpoints, points};
 use crate::numeric::Interval;
-
-pub(super) use estimate::estimated;
 
 /// Linear programmes of one descent.
 const MOST_STEPS: usize = 16;
@@ -27,14 +25,14 @@ const ROOM: f64 = 30.0;
 
 /// A parameter with its misfit.
 #[derive(Clone, Debug)]
-pub(super) struct Point {
+pub(super) struct ParameterPoint {
     /// All unknowns; of the states those at the beginning of each record count.
     pub(super) at: Vec<f64>,
     /// Upper bound of the largest misfit of a reading over its largest error.
     pub(super) misfit: f64,
 }
 
-impl Point {
+impl ParameterPoint {
     pub(super) fn is_feasible(&self) -> bool {
         self.misfit <= 1.0
     }
@@ -92,18 +90,18 @@ impl Contractor {
 
     /// A parameter with a small misfit, from the middle of a box and within another box: by single shooting, and by multiple shooting where
     /// that leads to no feasible point.
-    pub(super) fn nearest(&self, from: &[Interval], within: &[Interval]) -> Option<Point> {
+    pub(super) fn nearest(&self, from: &[Interval], within: &[Interval]) -> Option<ParameterPoint> {
         let single = self.descend(from, within, &self.problem.single_shooting());
-        if single.as_ref().is_some_and(Point::is_feasible) {
+        if single.as_ref().is_some_and(ParameterPoint::is_feasible) {
             return single;
         }
         let multiple = self.descend(from, within, &self.problem.multiple_shooting());
         single.into_iter().chain(multiple).min_by(|a, b| a.misfit.total_cmp(&b.misfit))
     }
 
-    fn descend(&self, from: &[Interval], within: &[Interval], spans: &[Span]) -> Option<Point> {
+    fn descend(&self, from: &[Interval], within: &[Interval], spans: &[Span]) -> Option<ParameterPoint> {
         let single = spans.len() == self.problem.records.len();
-        let (mut centre, mut best) = (midpoints(from), None::<Point>);
+        let (mut centre, mut best) = (midpoints(from), None::<ParameterPoint>);
         // The trust region, against the box from which the descent begins; single shooting begins without one.
         let mut trust = if single { f64::INFINITY } else { 1.0 };
         for _ in 0..MOST_STEPS {
@@ -122,7 +120,7 @@ impl Contractor {
             let before = best.as_ref().map_or(f64::INFINITY, |best| best.misfit);
             match self.misfit(&next) {
                 Some(misfit) if misfit < before => {
-                    best = Some(Point { at: next.clone(), misfit });
+                    best = Some(ParameterPoint { at: next.clone(), misfit });
                     centre = next;
                     if before - misfit < LEAST_GAIN * misfit {
                         break;
@@ -152,10 +150,16 @@ impl Contractor {
 
     /// The feasible point with an unknown furthest up (or, `sign` negative, down) that linear programmes from a feasible point find in a
     /// box.
-    pub(super) fn furthest(&self, from: &Point, within: &[Interval], unknown: usize, sign: f64) -> Option<Point> {
+    pub(super) fn furthest(
+        &self,
+        from: &ParameterPoint,
+        within: &[Interval],
+        unknown: usize,
+        sign: f64,
+    ) -> Option<ParameterPoint> {
         let spans = self.problem.single_shooting();
         let inside = INSIDE * (1.0 - from.misfit);
-        let (mut centre, mut best) = (from.at.clone(), None::<Point>);
+        let (mut centre, mut best) = (from.at.clone(), None::<ParameterPoint>);
         for _ in 0..MOST_STEPS {
             let (Some((mut relaxation, width)), Some(misfit)) = (self.about(&centre, &spans), self.misfit(&centre))
             else {
@@ -164,7 +168,7 @@ impl Contractor {
             if misfit <= 1.0 {
                 let gain = best.as_ref().map_or(f64::INFINITY, |best| sign * (centre[unknown] - best.at[unknown]));
                 if gain > 0.0 {
-                    best = Some(Point { at: centre.clone(), misfit });
+                    best = Some(ParameterPoint { at: centre.clone(), misfit });
                 }
                 if gain < LEAST_GAIN * within[unknown].width() {
                     break;

@@ -1,14 +1,11 @@
 //! The flow along a record: enclosures of the motion at every sample over a box, and its sensitivities about a point of the box.
 
-mod uncertain_switching;
-
 use super::record::Command;
 use super::sensitivities::{Block, Variable};
 use super::taylor_step::{Arrival, FlowStep, MOST_LENGTH, TooLong};
-use super::vector_field::{FORCE, Fields, State, StatePair, Term, VELOCITY, VectorField, changes_sign};
+use super::vector_field::{FORCE, FieldTerm, Fields, State, StatePair, VELOCITY, VectorField, changes_sign};
 use super::work::Work;
 use crate::numeric::{Balls, Interval};
-use uncertain_switching::Uncertain;
 
 /// The most steps between two changes of the command.
 const MOST_STEPS: usize = 2000;
@@ -47,6 +44,13 @@ pub(super) struct Input<'a> {
     pub(super) work: &'a Work,
 }
 
+/// A switching at an uncertain instant, which may have happened.
+struct Uncertain {
+    edge: usize,
+    /// The states to which a unit impulse at the switching may have led by now.
+    impulse: State,
+}
+
 /// The state and its columns on the way.
 struct Flow<'a> {
     input: &'a Input<'a>,
@@ -79,7 +83,8 @@ fn stride(
     let v = both[VELOCITY];
     shorten(part, SAFETY * MOST_LENGTH / field.fastest_rate(v));
     let [_, rate, _] = field.rate(&both, u);
-    let mut near_rest = field.has(Term::Quadratic) && changes_sign(v.hull(v + rate * Interval::point(part.lower())));
+    let mut near_rest =
+        field.has(FieldTerm::Quadratic) && changes_sign(v.hull(v + rate * Interval::point(part.lower())));
     for _ in 0..MOST_SHORTENED {
         if near_rest {
             let (time_s, passed) = to_rest(field, &both, u, part.upper());
@@ -173,7 +178,7 @@ fn halved<T>(part: &mut Interval, step: impl Fn(Interval) -> Option<T>) -> Optio
 
 impl Flow<'_> {
     fn lagged(&self) -> bool {
-        self.input.fields.over.has(Term::LagRate)
+        self.input.fields.over.has(FieldTerm::LagRate)
     }
 
     fn carried(&self, arrival: &Arrival) -> Vec<[Balls; 3]> {
@@ -378,4 +383,48 @@ pub(super) fn follow(
     }
     let used = times[1..].iter().filter(|(_, used)| *used).count();
     (flow.nodes.len() == 1 + used).then_some(flow.nodes)
+}
+
+// Moving a switching later by z subtracts its jump during z: an impulse at the switching of the size `gain (u_before - u_after) z`, which
+// the motion carries on. While the instant is uncertain the impulse may have happened at any time since the earliest instant.
+impl Flow<'_> {
+    /// Columns with the contributions that uncertain switchings may have made.
+    fn with_uncertain(&self, block: &Block, mut columns: [Balls; 3]) -> [Balls; 3] {
+        for Uncertain { edge, impulse } in &self.uncertain {
+            if let Some(shifts) = block.shifts(*edge) {
+                for (values, impulse) in columns.iter_mut().zip(impulse) {
+                    *values = *values + shifts * Balls::splat(self.scaled(*edge, *impulse).hull(Interval::ZERO));
+                }
+            }
+        }
+        columns
+    }
+
+    /// A unit impulse times the size that a later switching gives it.
+    fn scaled(&self, edge: usize, impulse: Interval) -> Interval {
+        let field = &self.input.fields.over;
+        let factor = field.term(if self.lagged() { FieldTerm::LagRate } else { FieldTerm::Gain });
+        factor * self.input.command.drop_at(edge) * impulse
+    }
+
+    /// A unit impulse at this instant.
+    fn unit_impulse(&self) -> State {
+        let mut impulse = [Interval::ZERO; 3];
+        impulse[if self.lagged() { FORCE } else { VELOCITY }] = Interval::ONE;
+        impulse
+    }
+
+    /// At the latest instant of a switching its contribution is certain.
+    fn settle(&mut self, edge: usize) {
+        let Some(place) = self.uncertain.iter().position(|own| own.edge == edge) else { return };
+        let Uncertain { impulse, .. } = self.uncertain.swap_remove(place);
+        let added = impulse.map(|impulse| Balls::splat(self.scaled(edge, impulse)));
+        for (block, columns) in self.blocks.iter().zip(&mut self.columns) {
+            if let Some(shifts) = block.shifts(edge) {
+                for (values, added) in columns.iter_mut().zip(added) {
+                    *values = *values + shifts * added;
+                }
+            }
+        }
+    }
 }

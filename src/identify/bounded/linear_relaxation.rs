@@ -9,7 +9,7 @@ use super::flow::{Input, Node, follow};
 use super::linear_program::{Inequalities, Multipliers, Outcome, Programme};
 use super::problem::Problem;
 use super::record::Readings;
-use super::vector_field::{Fields, StatePair, Term};
+use super::vector_field::{FieldTerm, Fields, StatePair};
 use super::work::Work;
 use crate::numeric::Interval;
 
@@ -215,7 +215,7 @@ impl Problem {
 
     /// Adds the inequalities of the search box: `|disturbance| <= gain max |u|`, and the least linear drag.
     pub(super) fn add_prior(&self, relaxation: &mut Relaxation) {
-        let Some(gain) = self.unknowns.place_of(Term::Gain) else { return };
+        let Some(gain) = self.unknowns.place_of(FieldTerm::Gain) else { return };
         for (record, readings) in self.records.iter().enumerate() {
             let disturbance = self.unknowns.disturbance(record);
             let force = Interval::point(readings.command.largest());
@@ -224,8 +224,8 @@ impl Problem {
                 relaxation.add(coefficients, Interval::ZERO, Origin::Disturbance { record, above });
             }
         }
-        let linear = self.unknowns.place_of(Term::Linear);
-        if let (Some(linear), Some(quadratic)) = (linear, self.unknowns.place_of(Term::Quadratic)) {
+        let linear = self.unknowns.place_of(FieldTerm::Linear);
+        if let (Some(linear), Some(quadratic)) = (linear, self.unknowns.place_of(FieldTerm::Quadratic)) {
             let share = Interval::point(2.0 * self.middle_speed);
             let least = Interval::point(-self.least_linear);
             relaxation.add(vec![(linear, -Interval::ONE), (quadratic, share)], least, Origin::LeastLinear);

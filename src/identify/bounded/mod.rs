@@ -43,13 +43,13 @@ internal! { mod certificate; }
 #[cfg(test)]
 mod tests;
 
-pub use answer::{Bounds, Consistency, Contradicting, Outlier, Parameters, Quantity, QuantityRange};
+pub use answer::{Bounds, Consistency, Contradicting, Outlier, ParameterValues, Quantity, QuantityRange};
 pub use settings::{BoundedModel, DelayBound, SwitchedWhen};
 
 use super::IdentifyError;
 use crate::experiment::Record;
 use certificate::{Certificate, Unproved};
-use feasible_point::estimated;
+use feasible_point::estimate::estimated;
 use problem::Problem;
 use record::Readings;
 use solve::solve;

@@ -13,7 +13,7 @@ mod weight;
 use super::linear_relaxation::{Origin, Relaxation, Support};
 use super::problem::Problem;
 use super::record::Readings;
-use super::vector_field::{Term, cube, signed_square};
+use super::vector_field::{FieldTerm, cube, signed_square};
 use super::velocity_bounds::Velocities;
 use crate::numeric::{Interval, Real};
 use forcing::Forcing;
@@ -155,7 +155,7 @@ impl Problem {
         let delay_s = self.delay_s(at);
         let stray = Interval::point(readings.jitter_s) * Interval::point(velocities.fastest());
         let error = Interval::point(readings.error) + stray;
-        let rate = self.unknowns.place_of(Term::LagRate).map(|place| at[place]);
+        let rate = self.unknowns.place_of(FieldTerm::LagRate).map(|place| at[place]);
         // Before the first known velocity a command may act that is not in the log.
         for support in supports.iter().filter(|support| support[0] >= velocities.known) {
             let hat = Hat::of(support.map(|sample| readings.time_s[sample]));
@@ -171,13 +171,13 @@ impl Problem {
             let mut coefficients: Vec<(usize, Interval)> = Vec::new();
             for (unknown, term) in self.unknowns.terms.iter().enumerate() {
                 let coefficient = match term {
-                    Term::Gain => force,
-                    Term::Linear => -modulated.drag(|_| Tangent::identity()),
-                    Term::Quadratic => -modulated.drag(|range| Tangent::square(range, self.middle_speed)),
-                    Term::Cubic => -modulated.drag(Tangent::cube),
-                    Term::Stiffness => -modulated.position(),
-                    Term::LagRate => at[0] * by_lag_rate,
-                    Term::Disturbance => continue,
+                    FieldTerm::Gain => force,
+                    FieldTerm::Linear => -modulated.drag(|_| Tangent::identity()),
+                    FieldTerm::Quadratic => -modulated.drag(|range| Tangent::square(range, self.middle_speed)),
+                    FieldTerm::Cubic => -modulated.drag(Tangent::cube),
+                    FieldTerm::Stiffness => -modulated.position(),
+                    FieldTerm::LagRate => at[0] * by_lag_rate,
+                    FieldTerm::Disturbance => continue,
                 };
                 coefficients.push((unknown, coefficient));
             }
@@ -194,7 +194,7 @@ impl Problem {
     /// where the box holds no motion.
     pub(super) fn modulate(&self, supports: &[Vec<Support>], at: &mut [Interval]) -> Option<Relaxation> {
         let mut centre = vec![0.0; at.len()];
-        for place in self.unknowns.delay().into_iter().chain(self.unknowns.place_of(Term::LagRate)) {
+        for place in self.unknowns.delay().into_iter().chain(self.unknowns.place_of(FieldTerm::LagRate)) {
             centre[place] = at[place].midpoint();
         }
         let mut relaxation = self.about(at, centre);

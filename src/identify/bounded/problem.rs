@@ -6,7 +6,7 @@ use super::answer::{Quantity, QuantityRange};
 use super::record::{Command, Readings, Scales};
 use super::settings::{BoundedModel, DelayBound, SwitchedWhen};
 use super::unknowns::{Shooting, Unknowns};
-use super::vector_field::Term;
+use super::vector_field::FieldTerm;
 use super::work::Work;
 use crate::experiment::Record;
 use crate::identify::IdentifyError;
@@ -94,14 +94,14 @@ impl BoundedModel {
         self.quantum.or_else(|| record.quantum()).unwrap_or(0.0)
     }
 
-    fn terms(&self) -> Vec<Term> {
+    fn terms(&self) -> Vec<FieldTerm> {
         let used = [
-            (Term::Gain, true),
-            (Term::Linear, self.law.has_linear()),
-            (Term::Quadratic, self.law.has_quadratic()),
-            (Term::Cubic, self.cubic),
-            (Term::Stiffness, self.stiffness),
-            (Term::LagRate, self.lag),
+            (FieldTerm::Gain, true),
+            (FieldTerm::Linear, self.law.has_linear()),
+            (FieldTerm::Quadratic, self.law.has_quadratic()),
+            (FieldTerm::Cubic, self.cubic),
+            (FieldTerm::Stiffness, self.stiffness),
+            (FieldTerm::LagRate, self.lag),
         ];
         used.into_iter().filter(|(_, used)| *used).map(|(term, _)| term).collect()
     }
@@ -221,17 +221,17 @@ impl Problem {
         let gain = 4.0 * first.amplitude / (first.force * first.half_period_s * first.half_period_s);
         let (rate, reach) = (1.0 / first.half_period_s, settings.reach);
         let least_linear = if settings.either_sign { -DRIVING * rate } else { 0.0 };
-        let range = |term: &Term| {
+        let range = |term: &FieldTerm| {
             let linear = interval(least_linear, reach * rate);
             let quadratic = interval(0.0, reach * rate / first.speed);
             match term {
-                Term::Gain => interval(gain / reach, gain * reach),
-                Term::Linear => linear + Interval::point(2.0 * middle_speed) * quadratic,
-                Term::Quadratic => quadratic,
-                Term::Cubic => interval(0.0, reach * rate / (first.speed * first.speed)),
-                Term::Stiffness => interval(0.0, reach * rate * rate),
-                Term::LagRate => interval(LEAST_LAG_RATE * rate, 1000.0 * rate),
-                Term::Disturbance => Interval::ZERO,
+                FieldTerm::Gain => interval(gain / reach, gain * reach),
+                FieldTerm::Linear => linear + Interval::point(2.0 * middle_speed) * quadratic,
+                FieldTerm::Quadratic => quadratic,
+                FieldTerm::Cubic => interval(0.0, reach * rate / (first.speed * first.speed)),
+                FieldTerm::Stiffness => interval(0.0, reach * rate * rate),
+                FieldTerm::LagRate => interval(LEAST_LAG_RATE * rate, 1000.0 * rate),
+                FieldTerm::Disturbance => Interval::ZERO,
             }
         };
         let mut search: Vec<Interval> = unknowns.terms.iter().map(range).collect();
@@ -310,13 +310,14 @@ impl Problem {
     }
 
     /// The range of a term over a box; zero for a term that the equation does not have.
-    pub(super) fn term(&self, term: Term, at: &[Interval]) -> Interval {
+    pub(super) fn term(&self, term: FieldTerm, at: &[Interval]) -> Interval {
         self.unknowns.place_of(term).map_or(Interval::ZERO, |place| at[place])
     }
 
     /// The linear drag over alpha, without the share of the quadratic drag at the middle speed.
     pub(super) fn linear_drag(&self, at: &[Interval]) -> Interval {
-        self.term(Term::Linear, at) - Interval::point(2.0 * self.middle_speed) * self.term(Term::Quadratic, at)
+        self.term(FieldTerm::Linear, at)
+            - Interval::point(2.0 * self.middle_speed) * self.term(FieldTerm::Quadratic, at)
     }
 
     pub(super) fn least_error(&self) -> f64 {
@@ -330,16 +331,17 @@ impl Problem {
     /// A box of parameters by its quantities, in the coordinates of the search.
     pub(super) fn ranges(&self, at: &[Interval]) -> Vec<QuantityRange> {
         let unknowns = &self.unknowns;
-        let quantity = |term: &Term| match term {
-            Term::Gain => Some(Quantity::Gain),
-            Term::Linear => Some(Quantity::LinearRate),
-            Term::Quadratic => Some(Quantity::QuadraticRate),
-            Term::Cubic => Some(Quantity::CubicRate),
-            Term::Stiffness => Some(Quantity::StiffnessRate),
-            Term::LagRate => Some(Quantity::LagRate),
-            Term::Disturbance => None,
+        let quantity = |term: &FieldTerm| match term {
+            FieldTerm::Gain => Some(Quantity::Gain),
+            FieldTerm::Linear => Some(Quantity::LinearRate),
+            FieldTerm::Quadratic => Some(Quantity::QuadraticRate),
+            FieldTerm::Cubic => Some(Quantity::CubicRate),
+            FieldTerm::Stiffness => Some(Quantity::StiffnessRate),
+            FieldTerm::LagRate => Some(Quantity::LagRate),
+            FieldTerm::Disturbance => None,
         };
-        let side = |term: &Term| if *term == Term::Linear { self.linear_drag(at) } else { self.term(*term, at) };
+        let side =
+            |term: &FieldTerm| if *term == FieldTerm::Linear { self.linear_drag(at) } else { self.term(*term, at) };
         let terms = unknowns.terms.iter().filter_map(|term| Some((quantity(term)?, side(term))));
         let delay = unknowns.delay().map(|place| (Quantity::DelayS, at[place]));
         let disturbances =

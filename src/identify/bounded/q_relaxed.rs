@@ -10,7 +10,7 @@ mod tests;
 use super::answer::{Bounds, Consistency, Outlier, Quantity, QuantityRange};
 use super::branch_and_prune::hull;
 use super::contraction::Contractor;
-use super::feasible_point::Point;
+use super::feasible_point::ParameterPoint;
 use super::linear_relaxation::Span;
 use super::problem::Problem;
 use super::record::{Readings, Scales};
@@ -194,7 +194,7 @@ impl Relaxed<'_> {
     }
 
     /// Readings of all that a feasible point of some misses, the furthest off first; from its own first reading on.
-    fn missed(&self, of: &Problem, point: &Point) -> Vec<Outlier> {
+    fn missed(&self, of: &Problem, point: &ParameterPoint) -> Vec<Outlier> {
         let unknowns = &of.unknowns;
         let shooting = (0..self.readings.len()).map(|record| {
             let begin = of.records[record].time_s[unknowns.shooting[unknowns.first(record)].first];

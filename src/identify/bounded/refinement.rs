@@ -3,7 +3,7 @@
 use super::answer::Quantity;
 use super::branch_and_prune::{Division, End, FINEST, hull};
 use super::contraction::{Contractor, Empty};
-use super::feasible_point::Point;
+use super::feasible_point::ParameterPoint;
 use super::linear_relaxation::points;
 use crate::numeric::Interval;
 
@@ -20,7 +20,7 @@ const ROUNDS: usize = 6;
 /// Points that were tried.
 #[derive(Default)]
 pub(super) struct Points {
-    pub(super) nearest: Option<Point>,
+    pub(super) nearest: Option<ParameterPoint>,
     /// The smallest box that contains all feasible points.
     inner: Option<Vec<Interval>>,
 }
@@ -33,11 +33,11 @@ fn box_of(empty: &Empty) -> Option<Vec<Interval>> {
 }
 
 impl Points {
-    pub(super) fn feasible(&self) -> Option<&Point> {
+    pub(super) fn feasible(&self) -> Option<&ParameterPoint> {
         self.nearest.as_ref().filter(|point| point.is_feasible())
     }
 
-    fn note(&mut self, point: Point) {
+    fn note(&mut self, point: ParameterPoint) {
         if point.is_feasible() {
             self.inner = hull(self.inner.take().into_iter().chain([points(&point.at)]));
         }

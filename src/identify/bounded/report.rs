@@ -1,21 +1,21 @@
 //! From the boxes that are left to the answer.
 
-use super::answer::{Bounds, Consistency, Contradicting, Parameters, Quantity, QuantityRange};
+use super::answer::{Bounds, Consistency, Contradicting, ParameterValues, Quantity, QuantityRange};
 use super::branch_and_prune::{Division, Kept};
 use super::contraction::{Contractor, Empty};
-use super::feasible_point::Point;
+use super::feasible_point::ParameterPoint;
 use super::linear_program::Outcome;
 use super::linear_relaxation::{Origin, Relaxation, midpoints};
 use super::problem::Problem;
 use super::refinement::Points;
-use super::vector_field::Term;
+use super::vector_field::FieldTerm;
 use crate::numeric::Interval;
 
 /// Drag and spring coefficients over alpha, as the answer has them.
-const OVER_ALPHA: [(Term, Quantity); 3] = [
-    (Term::Quadratic, Quantity::BetaQuadratic),
-    (Term::Cubic, Quantity::BetaCubic),
-    (Term::Stiffness, Quantity::Stiffness),
+const OVER_ALPHA: [(FieldTerm, Quantity); 3] = [
+    (FieldTerm::Quadratic, Quantity::BetaQuadratic),
+    (FieldTerm::Cubic, Quantity::BetaCubic),
+    (FieldTerm::Stiffness, Quantity::Stiffness),
 ];
 
 /// The answer; `wide` is the problem as it was posed.
@@ -45,7 +45,10 @@ pub(super) fn answer(wide: &Problem, contractor: &Contractor, division: &Divisio
         }
         all
     };
-    let point = |point: &Point| Parameters { values: values(&contractor.problem, &point.at), misfit: point.misfit };
+    let point = |point: &ParameterPoint| ParameterValues {
+        values: values(&contractor.problem, &point.at),
+        misfit: point.misfit,
+    };
     Bounds {
         verdict,
         search_box: wide.ranges(&wide.search),
@@ -87,12 +90,12 @@ fn values(problem: &Problem, at: &[f64]) -> Vec<(Quantity, f64)> {
     let of = |term| unknowns.place_of(term).map(|place| at[place]);
     let gain = at[0];
     let mut values = vec![(Quantity::Alpha, 1.0 / gain)];
-    if let Some(linear) = of(Term::Linear) {
-        let share = 2.0 * problem.middle_speed * of(Term::Quadratic).unwrap_or(0.0);
+    if let Some(linear) = of(FieldTerm::Linear) {
+        let share = 2.0 * problem.middle_speed * of(FieldTerm::Quadratic).unwrap_or(0.0);
         values.push((Quantity::Beta, (linear - share) / gain));
     }
     values.extend(OVER_ALPHA.into_iter().filter_map(|(term, quantity)| Some((quantity, of(term)? / gain))));
-    values.extend(of(Term::LagRate).map(|rate| (Quantity::LagS, 1.0 / rate)));
+    values.extend(of(FieldTerm::LagRate).map(|rate| (Quantity::LagS, 1.0 / rate)));
     values.push((Quantity::DelayS, unknowns.delay().map_or(problem.known_delay_s.midpoint(), |place| at[place])));
     for record in 0..unknowns.records() {
         let first = unknowns.first(record);
@@ -108,8 +111,9 @@ fn box_ranges(problem: &Problem, at: &[Interval], relaxation: Option<&Relaxation
     let (unknowns, gain) = (&problem.unknowns, at[0]);
     let ratio = |parts: &[(usize, f64)]| over_gain(at, relaxation, parts);
     let mut ranges = vec![(Quantity::Alpha, Interval::ONE / gain)];
-    if let Some(place) = unknowns.place_of(Term::Linear) {
-        let quadratic = unknowns.place_of(Term::Quadratic).map(|quadratic| (quadratic, -2.0 * problem.middle_speed));
+    if let Some(place) = unknowns.place_of(FieldTerm::Linear) {
+        let quadratic =
+            unknowns.place_of(FieldTerm::Quadratic).map(|quadratic| (quadratic, -2.0 * problem.middle_speed));
         let parts: Vec<(usize, f64)> = [(place, 1.0)].into_iter().chain(quadratic).collect();
         let mut side = ratio(&parts);
         if problem.least_linear >= 0.0 {
@@ -120,7 +124,7 @@ fn box_ranges(problem: &Problem, at: &[Interval], relaxation: Option<&Relaxation
     }
     let over_alpha = |(term, quantity)| Some((quantity, ratio(&[(unknowns.place_of(term)?, 1.0)])));
     ranges.extend(OVER_ALPHA.into_iter().filter_map(over_alpha));
-    ranges.extend(unknowns.place_of(Term::LagRate).map(|place| (Quantity::LagS, Interval::ONE / at[place])));
+    ranges.extend(unknowns.place_of(FieldTerm::LagRate).map(|place| (Quantity::LagS, Interval::ONE / at[place])));
     ranges.push((Quantity::DelayS, problem.delay_s(at)));
     let records = 0..unknowns.records();
     ranges

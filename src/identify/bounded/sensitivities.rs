@@ -5,7 +5,7 @@
 //! c alone. So `e = sum (theta_j - c_j) s_j` with `s_j' = A s_j + b_j`: a mean value form in which only the drag's slope has a range
 //! (Moore 1979; Neumaier, *Interval Methods for Systems of Equations*, 1990, section 2.3).
 
-use super::vector_field::{FORCE, POSITION, TERMS, Term, VELOCITY, VectorField};
+use super::vector_field::{FORCE, FieldTerm, POSITION, TERMS, VELOCITY, VectorField};
 use crate::numeric::{Balls, Interval, Sizes};
 
 /// By what a column of sensitivities is.
@@ -14,7 +14,7 @@ pub(super) enum Variable {
     /// A component of the initial state.
     Initial(usize),
     /// A term of the equation.
-    Term(Term),
+    FieldTerm(FieldTerm),
     /// The delay, which moves every switching.
     Delay,
     /// The instant of one switching, by its number.
@@ -30,7 +30,7 @@ pub(super) struct Block {
     /// How far each variable may be from the point.
     pub(super) deviations: Balls,
     /// Terms of the equation among the variables, and one in the lane of each.
-    forcing: Vec<(Term, Balls)>,
+    forcing: Vec<(FieldTerm, Balls)>,
 }
 
 impl Block {
@@ -43,12 +43,12 @@ impl Block {
                     let lane = |lane: usize| if variables.get(lane) == Some(&own) { 1.0 } else { 0.0 };
                     Balls::points(core::array::from_fn(lane))
                 };
-                let terms = Term::ALL.into_iter().filter(|term| variables.contains(&Variable::Term(*term)));
+                let terms = FieldTerm::ALL.into_iter().filter(|term| variables.contains(&Variable::FieldTerm(*term)));
                 let deviation = |lane: usize| deviations.get(lane).copied().unwrap_or(Interval::ZERO);
                 Self {
                     initial: core::array::from_fn(|component| lanes_of(Variable::Initial(component))),
                     deviations: Balls::new(core::array::from_fn(deviation)),
-                    forcing: terms.map(|term| (term, lanes_of(Variable::Term(term)))).collect(),
+                    forcing: terms.map(|term| (term, lanes_of(Variable::FieldTerm(term)))).collect(),
                     variables: variables.to_vec(),
                 }
             })
@@ -67,9 +67,9 @@ impl Block {
 
     /// `b_j` of velocity and force, given the derivative of the vector field by each term.
     #[inline]
-    pub(super) fn forcing(&self, by_term: impl Fn(Term) -> Balls) -> [Balls; 2] {
+    pub(super) fn forcing(&self, by_term: impl Fn(FieldTerm) -> Balls) -> [Balls; 2] {
         let of = |force: bool| {
-            let terms = self.forcing.iter().filter(move |(term, _)| (*term == Term::LagRate) == force);
+            let terms = self.forcing.iter().filter(move |(term, _)| (*term == FieldTerm::LagRate) == force);
             Balls::dot(terms.map(|(term, lanes)| (*lanes, by_term(*term))))
         };
         [of(false), of(true)]
@@ -106,11 +106,11 @@ impl Equation {
     }
 
     #[inline]
-    pub(super) fn term(&self, term: Term) -> Balls {
+    pub(super) fn term(&self, term: FieldTerm) -> Balls {
         self.terms[term as usize]
     }
     #[inline]
-    pub(super) fn has(&self, term: Term) -> bool {
+    pub(super) fn has(&self, term: FieldTerm) -> bool {
         self.active[term as usize]
     }
 
@@ -118,12 +118,12 @@ impl Equation {
     #[inline]
     pub(super) fn rates(&self, damped: Balls, [x, v, f]: [Balls; 3], forcing: [Balls; 2]) -> [Balls; 3] {
         let (mut acceleration, mut force) = (damped + forcing[0], forcing[1]);
-        if self.has(Term::Stiffness) {
-            acceleration = acceleration - self.term(Term::Stiffness) * x;
+        if self.has(FieldTerm::Stiffness) {
+            acceleration = acceleration - self.term(FieldTerm::Stiffness) * x;
         }
-        if self.has(Term::LagRate) {
-            acceleration = acceleration + self.term(Term::Gain) * f;
-            force = force - self.term(Term::LagRate) * f;
+        if self.has(FieldTerm::LagRate) {
+            acceleration = acceleration + self.term(FieldTerm::Gain) * f;
+            force = force - self.term(FieldTerm::LagRate) * f;
         }
         [v, acceleration, force]
     }
@@ -140,17 +140,17 @@ impl Equation {
         h: Interval,
     ) -> Option<[Sizes; 3]> {
         let magnitude = |value: Interval| Interval::point(value.magnitude());
-        let own = |term: Term| if self.has(term) { self.term(term).interval_at(0) } else { Interval::ZERO };
-        let (h, stiffness) = (magnitude(h), magnitude(own(Term::Stiffness)));
+        let own = |term: FieldTerm| if self.has(term) { self.term(term).interval_at(0) } else { Interval::ZERO };
+        let (h, stiffness) = (magnitude(h), magnitude(own(FieldTerm::Stiffness)));
         let growing = |rate: Interval| Interval::point(rate.upper().max(0.0));
         // The position adds h |s_v| to |s_x|, hence h stiffness to lambda.
         let denominators =
-            [growing(damping) + h * stiffness, growing(-own(Term::LagRate))].map(|rate| Interval::ONE - h * rate);
+            [growing(damping) + h * stiffness, growing(-own(FieldTerm::LagRate))].map(|rate| Interval::ONE - h * rate);
         if denominators.iter().any(|denominator| denominator.lower() <= 0.0) {
             return None;
         }
         let [grown, grown_force] = denominators.map(|denominator| Sizes::splat(Interval::ONE / denominator));
-        let gain = if self.has(Term::LagRate) { self.term(Term::Gain).sizes() } else { Sizes::ZERO };
+        let gain = if self.has(FieldTerm::LagRate) { self.term(FieldTerm::Gain).sizes() } else { Sizes::ZERO };
         let (h, [x, v, f], [on_velocity, on_force]) = (Sizes::splat(h), start.map(Balls::sizes), forcing);
         let f = (f + h * on_force) * grown_force;
         let v = (v + h * (Sizes::splat(stiffness) * x + gain * f + on_velocity)) * grown;

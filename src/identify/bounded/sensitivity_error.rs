@@ -5,7 +5,7 @@
 //! distance of the two velocities.
 
 use super::sensitivities::{Block, Equation, units};
-use super::vector_field::{Fields, State, Term, VELOCITY};
+use super::vector_field::{FieldTerm, Fields, State, VELOCITY};
 use crate::numeric::{Balls, Interval, Real, Sizes};
 
 /// Bounds of d at the end of a step of the length `h`, of velocity and force.
@@ -50,7 +50,7 @@ impl SensitivityError {
         let slope = over.damping(within[0][VELOCITY], within[1][VELOCITY]);
         let own_slope = at.damping(within[1][VELOCITY], within[1][VELOCITY]);
         let (equation, own) = (Equation::of(over), Equation::of(at));
-        let by_term = |term: Term| Balls::splat(at.by_term(term, within[1], u));
+        let by_term = |term: FieldTerm| Balls::splat(at.by_term(term, within[1], u));
         // |y(theta) - y(c)| from the distance of the starts and of the forces on them.
         let first: State = core::array::from_fn(|k| start[0][k] - start[1][k]);
         let forces = fields.forces_apart(|term| by_term(term).sizes());
@@ -90,9 +90,11 @@ impl SensitivityError {
 
 impl Fields {
     /// Bounds of `sum (theta_j - c_j) b_j` of velocity and force, given the derivative by each term along the point's motion.
-    fn forces_apart(&self, by_term: impl Fn(Term) -> Sizes) -> [Sizes; 2] {
+    fn forces_apart(&self, by_term: impl Fn(FieldTerm) -> Sizes) -> [Sizes; 2] {
         [false, true].map(|force| {
-            let terms = Term::ALL.into_iter().filter(|term| self.over.has(*term) && (*term == Term::LagRate) == force);
+            let terms = FieldTerm::ALL
+                .into_iter()
+                .filter(|term| self.over.has(*term) && (*term == FieldTerm::LagRate) == force);
             Sizes::dot(terms.map(|term| (Sizes::splat(self.over.term(term) - self.at.term(term)), by_term(term))))
         })
     }
@@ -100,17 +102,18 @@ impl Fields {
     /// `A - A_c` where the point has the velocities v, and those over the box are within a distance of them.
     fn apart(&self, v: Interval, distance: Interval) -> Apart {
         let Self { over, at } = self;
-        let apart = |term: Term| over.term(term) - at.term(term);
+        let apart = |term: FieldTerm| over.term(term) - at.term(term);
         let (three, off) = (Interval::point(3.0), Interval::symmetric(distance.upper()));
-        let quadratic = apart(Term::Quadratic) * (v.abs() + v.abs() - over.twice_middle());
-        let cubic = apart(Term::Cubic) * three * v.square();
+        let quadratic = apart(FieldTerm::Quadratic) * (v.abs() + v.abs() - over.twice_middle());
+        let cubic = apart(FieldTerm::Cubic) * three * v.square();
         // |w| - |v| <= |w - v|, and w^2 + w v + v^2 - 3 v^2 = 3 v (w - v) + (w - v)^2.
-        let faster = over.term(Term::Quadratic) * off + over.term(Term::Cubic) * (three * v * off + off.square());
+        let faster =
+            over.term(FieldTerm::Quadratic) * off + over.term(FieldTerm::Cubic) * (three * v * off + off.square());
         Apart {
-            damping: apart(Term::Linear) + quadratic + cubic + faster,
-            stiffness: apart(Term::Stiffness),
-            gain: if over.has(Term::LagRate) { apart(Term::Gain) } else { Interval::ZERO },
-            lag: apart(Term::LagRate),
+            damping: apart(FieldTerm::Linear) + quadratic + cubic + faster,
+            stiffness: apart(FieldTerm::Stiffness),
+            gain: if over.has(FieldTerm::LagRate) { apart(FieldTerm::Gain) } else { Interval::ZERO },
+            lag: apart(FieldTerm::LagRate),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::problem::Problem;
 use super::settings::{BoundedModel, DelayBound};
-use super::vector_field::Term;
+use super::vector_field::FieldTerm;
 use crate::experiment::Record;
 use crate::identify::DragLaw;
 
@@ -93,13 +93,13 @@ impl Vehicle {
         let mut truth = vec![0.0; problem.search.len()];
         for (place, term) in unknowns.terms.iter().enumerate() {
             truth[place] = match term {
-                Term::Gain => self.gain,
-                Term::Linear => self.linear + 2.0 * problem.middle_speed * self.quadratic,
-                Term::Quadratic => self.quadratic,
-                Term::Cubic => self.cubic,
-                Term::Stiffness => self.stiffness,
-                Term::LagRate => self.lag_rate,
-                Term::Disturbance => self.disturbance,
+                FieldTerm::Gain => self.gain,
+                FieldTerm::Linear => self.linear + 2.0 * problem.middle_speed * self.quadratic,
+                FieldTerm::Quadratic => self.quadratic,
+                FieldTerm::Cubic => self.cubic,
+                FieldTerm::Stiffness => self.stiffness,
+                FieldTerm::LagRate => self.lag_rate,
+                FieldTerm::Disturbance => self.disturbance,
             };
         }
         if let Some(place) = unknowns.delay() {

@@ -3,7 +3,7 @@
 use super::answer::{Bounds, Quantity};
 use super::branch_and_prune::Division;
 use super::contraction::Contractor;
-use super::feasible_point::Point;
+use super::feasible_point::ParameterPoint;
 use super::problem::Problem;
 use super::refinement::Points;
 use super::report;
@@ -19,7 +19,7 @@ pub(super) struct Solved {
     /// The parameters that are left, as the problem was posed; `None` for nothing.
     pub(super) left: Option<Vec<Interval>>,
     /// A feasible point, and the problem whose unknowns it has.
-    pub(super) feasible: Option<(Point, Problem)>,
+    pub(super) feasible: Option<(ParameterPoint, Problem)>,
 }
 
 /// Branch and prune over longer and longer horizons, a feasible point, and the refinement of the bounds.

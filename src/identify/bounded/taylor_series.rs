@@ -2,7 +2,7 @@
 //! Makino, *Reliable Computing* 4, 1998). The coefficient of the highest degree is an enclosure over the whole step: Lagrange's remainder.
 
 use super::sensitivities::{Block, Equation};
-use super::vector_field::{FORCE, POSITION, State, Term, VELOCITY, VectorField};
+use super::vector_field::{FORCE, FieldTerm, POSITION, State, VELOCITY, VectorField};
 use crate::numeric::{Balls, Interval, Sizes};
 
 /// Degree of a step's polynomials, the remainder included: at rates of `h lambda = 0.4` it is `0.4^8/8!`, a unit in the eighth digit.
@@ -81,7 +81,7 @@ impl PointSeries {
         let equation = Equation::of(field);
         let (u, twice_middle) = (Balls::splat(u), Balls::splat(field.twice_middle()));
         let (quadratic, cubic, lagged) =
-            (equation.has(Term::Quadratic), equation.has(Term::Cubic), equation.has(Term::LagRate));
+            (equation.has(FieldTerm::Quadratic), equation.has(FieldTerm::Cubic), equation.has(FieldTerm::LagRate));
         let initial = |k: usize| Balls::new([middle[k], start[k], within[k], within[k]]);
         let (mut x, mut v, mut f) = (ZEROS, ZEROS, ZEROS);
         (x[0], v[0], f[0]) = (initial(POSITION), initial(VELOCITY), initial(FORCE));
@@ -89,18 +89,18 @@ impl PointSeries {
         let mut damping = ZEROS;
         for k in 0..=DEGREE {
             let constant = |value: Balls| if k == 0 { value } else { Balls::ZERO };
-            damping[k] = -constant(equation.term(Term::Linear));
+            damping[k] = -constant(equation.term(FieldTerm::Linear));
             if quadratic {
                 let speed = if backwards { -v[k] } else { v[k] };
                 shifted[k] = speed - constant(twice_middle);
                 drag[k] = product(&shifted, &v, k);
                 // d/dv (|v| - 2 m) v = 2 |v| - 2 m.
-                damping[k] = damping[k] - equation.term(Term::Quadratic) * (speed + shifted[k]);
+                damping[k] = damping[k] - equation.term(FieldTerm::Quadratic) * (speed + shifted[k]);
             }
             if cubic {
                 square[k] = product(&v, &v, k);
                 cube[k] = product(&square, &v, k);
-                damping[k] = damping[k] - equation.term(Term::Cubic) * (square[k] + square[k] + square[k]);
+                damping[k] = damping[k] - equation.term(FieldTerm::Cubic) * (square[k] + square[k] + square[k]);
             }
             if lagged {
                 lag_input[k] = constant(u) - f[k];
@@ -109,21 +109,21 @@ impl PointSeries {
                 break;
             }
             // (k + 1) y_(k + 1) is the k-th coefficient of the vector field along y.
-            let mut rate = equation.term(Term::Gain) * f[k] - equation.term(Term::Linear) * v[k]
-                + constant(equation.term(Term::Disturbance));
+            let mut rate = equation.term(FieldTerm::Gain) * f[k] - equation.term(FieldTerm::Linear) * v[k]
+                + constant(equation.term(FieldTerm::Disturbance));
             if quadratic {
-                rate = rate - equation.term(Term::Quadratic) * drag[k];
+                rate = rate - equation.term(FieldTerm::Quadratic) * drag[k];
             }
             if cubic {
-                rate = rate - equation.term(Term::Cubic) * cube[k];
+                rate = rate - equation.term(FieldTerm::Cubic) * cube[k];
             }
-            if equation.has(Term::Stiffness) {
-                rate = rate - equation.term(Term::Stiffness) * x[k];
+            if equation.has(FieldTerm::Stiffness) {
+                rate = rate - equation.term(FieldTerm::Stiffness) * x[k];
             }
             v[k + 1] = rate.share(k + 1);
             x[k + 1] = v[k].share(k + 1);
             if lagged {
-                f[k + 1] = (equation.term(Term::LagRate) * lag_input[k]).share(k + 1);
+                f[k + 1] = (equation.term(FieldTerm::LagRate) * lag_input[k]).share(k + 1);
             }
         }
         Self {
@@ -148,17 +148,17 @@ impl PointSeries {
 
     /// The k-th coefficient of the vector field's derivative by a term, along the motion.
     #[inline]
-    fn by_term(&self, term: Term, k: usize) -> Balls {
+    fn by_term(&self, term: FieldTerm, k: usize) -> Balls {
         let [x, v, f] = &self.state;
         match term {
-            Term::Gain => f[k],
-            Term::Disturbance if k == 0 => Balls::ONE,
-            Term::Disturbance => Balls::ZERO,
-            Term::Linear => -v[k],
-            Term::Quadratic => -self.drag[k],
-            Term::Cubic => -self.cube[k],
-            Term::Stiffness => -x[k],
-            Term::LagRate => self.lag_input[k],
+            FieldTerm::Gain => f[k],
+            FieldTerm::Disturbance if k == 0 => Balls::ONE,
+            FieldTerm::Disturbance => Balls::ZERO,
+            FieldTerm::Linear => -v[k],
+            FieldTerm::Quadratic => -self.drag[k],
+            FieldTerm::Cubic => -self.cube[k],
+            FieldTerm::Stiffness => -x[k],
+            FieldTerm::LagRate => self.lag_input[k],
         }
     }
 
@@ -171,7 +171,7 @@ impl PointSeries {
         for (series, start) in path.iter_mut().zip(start) {
             series[0] = *start;
         }
-        let components = if self.equation.has(Term::LagRate) { 3 } else { 2 };
+        let components = if self.equation.has(FieldTerm::LagRate) { 3 } else { 2 };
         for k in 0..DEGREE - 1 {
             let own = path.each_ref().map(|series| series[k]);
             let rates = self.equation.rates(product(&self.damping, &path[VELOCITY], k), own, forcing(k, START));
@@ -186,11 +186,12 @@ impl PointSeries {
             series[0] = size;
             series
         });
-        let size = |term: Term| {
-            let moves = self.equation.has(Term::LagRate) || term == Term::Stiffness && self.equation.has(term);
+        let size = |term: FieldTerm| {
+            let moves =
+                self.equation.has(FieldTerm::LagRate) || term == FieldTerm::Stiffness && self.equation.has(term);
             if moves { self.equation.term(term).sizes() } else { Sizes::ZERO }
         };
-        let [stiffness, gain, lag] = [Term::Stiffness, Term::Gain, Term::LagRate].map(size);
+        let [stiffness, gain, lag] = [FieldTerm::Stiffness, FieldTerm::Gain, FieldTerm::LagRate].map(size);
         for k in 0..DEGREE {
             let [x, v, f] = within.each_ref().map(|series| series[k]);
             let damping = self.damping_bound[..=k].iter().copied();

@@ -6,7 +6,7 @@ use super::a_priori_enclosure::enclose;
 use super::sensitivities::{Block, Equation, units};
 use super::sensitivity_error::SensitivityError;
 use super::taylor_series::{DEGREE, LINE, NO_PATH, Path, PointSeries, line, values};
-use super::vector_field::{FORCE, Fields, POSITION, State, StatePair, Term, VELOCITY, VectorField, changes_sign};
+use super::vector_field::{FORCE, FieldTerm, Fields, POSITION, State, StatePair, VELOCITY, VectorField, changes_sign};
 use crate::numeric::{Balls, Interval};
 
 #[cfg(test)]
@@ -62,14 +62,14 @@ impl VectorField {
     /// Whether the velocity is negative throughout a step in which it has one sign; without quadratic drag the sign does not matter.
     fn backwards(&self, within: &State, h: Interval) -> Result<bool, TooLong> {
         let v = within[VELOCITY];
-        if self.has(Term::Quadratic) && changes_sign(v) {
+        if self.has(FieldTerm::Quadratic) && changes_sign(v) {
             return Err(TooLong::Kink);
         }
         let length = self.fastest_rate(v) * h.upper() / MOST_LENGTH;
         if length > 1.0 {
             return Err(TooLong::Share(0.9 / length));
         }
-        Ok(self.has(Term::Quadratic) && v.upper() <= 0.0)
+        Ok(self.has(FieldTerm::Quadratic) && v.upper() <= 0.0)
     }
 
     /// The motion by the range of its rates: its end, and the states that it passes.
@@ -112,8 +112,8 @@ impl Fields {
             within,
             error: Some(SensitivityError::of(self, starts, passed, u, h, blocks).ok_or(HALF)?),
             compared: None,
-            lagged: over.has(Term::LagRate),
-            stiff: over.has(Term::Stiffness),
+            lagged: over.has(FieldTerm::LagRate),
+            stiff: over.has(FieldTerm::Stiffness),
         }))
     }
 
@@ -134,7 +134,7 @@ impl Fields {
         let equation = Equation::of(field);
         let damping = field.damping(within[VELOCITY], within_at[VELOCITY]);
         let columns = |block: Option<&Block>, start: &[Balls; 3]| {
-            let by_term = |term: Term| Balls::splat(field.by_term(term, within_at, u_at));
+            let by_term = |term: FieldTerm| Balls::splat(field.by_term(term, within_at, u_at));
             let forcing = block.map_or([Balls::ZERO; 2], |block| block.forcing(by_term));
             Some(line(start, &equation.rates_within(damping, forcing, start, h)?))
         };
@@ -151,8 +151,8 @@ impl Fields {
             compared: self.compared(start, &within, u, h),
             within,
             error: None,
-            lagged: field.has(Term::LagRate),
-            stiff: field.has(Term::Stiffness),
+            lagged: field.has(FieldTerm::LagRate),
+            stiff: field.has(FieldTerm::Stiffness),
         }))
     }
 

@@ -3,7 +3,7 @@
 
 use super::record::Readings;
 use super::sensitivities::Variable;
-use super::vector_field::{State, TERMS, Term, VectorField};
+use super::vector_field::{FieldTerm, State, TERMS, VectorField};
 use crate::numeric::Interval;
 
 /// Samples `first` to `last` of a record, the state unknown at the first. The next shooting interval begins with the last (Bock 1983).
@@ -17,7 +17,7 @@ pub(super) struct Shooting {
 /// The unknowns of a problem.
 #[derive(Clone, Debug)]
 pub(super) struct Unknowns {
-    pub(super) terms: Vec<Term>,
+    pub(super) terms: Vec<FieldTerm>,
     has_delay: bool,
     /// Switchings at unknown instants, by record.
     instants: Vec<usize>,
@@ -25,7 +25,7 @@ pub(super) struct Unknowns {
 }
 
 impl Unknowns {
-    pub(super) fn new(terms: Vec<Term>, has_delay: bool, instants: Vec<usize>, shooting: Vec<Shooting>) -> Self {
+    pub(super) fn new(terms: Vec<FieldTerm>, has_delay: bool, instants: Vec<usize>, shooting: Vec<Shooting>) -> Self {
         Self { terms, has_delay, instants, shooting }
     }
 
@@ -41,14 +41,14 @@ impl Unknowns {
     pub(super) fn common(&self) -> usize {
         self.terms.len() + usize::from(self.has_delay)
     }
-    pub(super) fn place_of(&self, term: Term) -> Option<usize> {
+    pub(super) fn place_of(&self, term: FieldTerm) -> Option<usize> {
         self.terms.iter().position(|own| *own == term)
     }
     pub(super) fn delay(&self) -> Option<usize> {
         self.has_delay.then_some(self.terms.len())
     }
     pub(super) fn state_size(&self) -> usize {
-        if self.terms.contains(&Term::LagRate) { 3 } else { 2 }
+        if self.terms.contains(&FieldTerm::LagRate) { 3 } else { 2 }
     }
     pub(super) fn disturbance(&self, record: usize) -> usize {
         self.common() + record + self.instants[..record].iter().sum::<usize>()
@@ -106,9 +106,9 @@ impl Unknowns {
     /// Of one shooting interval: the variables of its sensitivities, and the place of each in a box.
     pub(super) fn variables(&self, interval: usize) -> (Vec<Variable>, Vec<usize>) {
         let record = self.shooting[interval].record;
-        let terms = self.terms.iter().enumerate().map(|(place, term)| (Variable::Term(*term), place));
+        let terms = self.terms.iter().enumerate().map(|(place, term)| (Variable::FieldTerm(*term), place));
         let delay = self.delay().map(|place| (Variable::Delay, place));
-        let disturbance = (Variable::Term(Term::Disturbance), self.disturbance(record));
+        let disturbance = (Variable::FieldTerm(FieldTerm::Disturbance), self.disturbance(record));
         let instants = (0..self.instants[record]).map(|edge| (Variable::Switching(edge), self.instant(record, edge)));
         let states = (0..self.state_size()).map(|k| (Variable::Initial(k), self.start(interval, k)));
         terms.chain(delay).chain([disturbance]).chain(instants).chain(states).unzip()
@@ -117,7 +117,7 @@ impl Unknowns {
     /// The equation of one record over a box.
     pub(super) fn field(&self, record: usize, at: &[Interval], middle_speed: f64) -> VectorField {
         let (mut terms, mut active) = ([Interval::ZERO; TERMS], [false; TERMS]);
-        let disturbance = (self.disturbance(record), &Term::Disturbance);
+        let disturbance = (self.disturbance(record), &FieldTerm::Disturbance);
         for (place, term) in self.terms.iter().enumerate().chain([disturbance]) {
             (terms[*term as usize], active[*term as usize]) = (at[place], true);
         }

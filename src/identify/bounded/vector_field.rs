@@ -7,7 +7,7 @@ use crate::numeric::{Interval, Real};
 /// Terms of the acceleration, one parameter each. The equation is linear in every parameter but the rate of the lag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub(super) enum Term {
+pub(super) enum FieldTerm {
     /// `1/alpha`, times the force.
     Gain,
     /// Disturbance over alpha.
@@ -24,10 +24,10 @@ pub(super) enum Term {
     LagRate,
 }
 
-/// Number of [`Term`]s.
+/// Number of [`FieldTerm`]s.
 pub(super) const TERMS: usize = 7;
 
-impl Term {
+impl FieldTerm {
     pub(super) const ALL: [Self; TERMS] =
         [Self::Gain, Self::Disturbance, Self::Linear, Self::Quadratic, Self::Cubic, Self::Stiffness, Self::LagRate];
 
@@ -120,11 +120,11 @@ pub(super) fn changes_sign(v: Interval) -> bool {
 
 impl VectorField {
     #[inline]
-    pub(super) fn term(&self, term: Term) -> Interval {
+    pub(super) fn term(&self, term: FieldTerm) -> Interval {
         self.terms[term as usize]
     }
     #[inline]
-    pub(super) fn has(&self, term: Term) -> bool {
+    pub(super) fn has(&self, term: FieldTerm) -> bool {
         self.active[term as usize]
     }
     #[inline]
@@ -142,54 +142,55 @@ impl VectorField {
         match component {
             POSITION => *v,
             VELOCITY => {
-                let mut acceleration =
-                    self.term(Term::Gain) * *f + self.term(Term::Disturbance) - self.term(Term::Linear) * *v;
-                if self.has(Term::Quadratic) {
-                    acceleration -= self.term(Term::Quadratic) * shifted_square(*v, self.middle_speed);
+                let mut acceleration = self.term(FieldTerm::Gain) * *f + self.term(FieldTerm::Disturbance)
+                    - self.term(FieldTerm::Linear) * *v;
+                if self.has(FieldTerm::Quadratic) {
+                    acceleration -= self.term(FieldTerm::Quadratic) * shifted_square(*v, self.middle_speed);
                 }
-                if self.has(Term::Cubic) {
-                    acceleration -= self.term(Term::Cubic) * cube(*v);
+                if self.has(FieldTerm::Cubic) {
+                    acceleration -= self.term(FieldTerm::Cubic) * cube(*v);
                 }
-                if self.has(Term::Stiffness) {
-                    acceleration -= self.term(Term::Stiffness) * *x;
+                if self.has(FieldTerm::Stiffness) {
+                    acceleration -= self.term(FieldTerm::Stiffness) * *x;
                 }
                 acceleration
             }
-            _ if self.has(Term::LagRate) => self.term(Term::LagRate) * (u - *f),
+            _ if self.has(FieldTerm::LagRate) => self.term(FieldTerm::LagRate) * (u - *f),
             _ => Interval::ZERO,
         }
     }
 
     /// `(a(v) - a(w))/(v - w)`, the slope of the acceleration between two velocities at the same position and force.
     pub(super) fn damping(&self, v: Interval, w: Interval) -> Interval {
-        let mut slope = -self.term(Term::Linear);
-        if self.has(Term::Quadratic) {
-            slope -= self.term(Term::Quadratic) * (square_slope(v, w) - self.twice_middle());
+        let mut slope = -self.term(FieldTerm::Linear);
+        if self.has(FieldTerm::Quadratic) {
+            slope -= self.term(FieldTerm::Quadratic) * (square_slope(v, w) - self.twice_middle());
         }
-        if self.has(Term::Cubic) {
+        if self.has(FieldTerm::Cubic) {
             // v^2 + v w + w^2 >= 0.
-            slope -= self.term(Term::Cubic) * (v.square() + v * w + w.square()).max(Interval::ZERO);
+            slope -= self.term(FieldTerm::Cubic) * (v.square() + v * w + w.square()).max(Interval::ZERO);
         }
         slope
     }
 
     /// The derivative of the vector field with respect to a term: of the force's rate for the lag, of the velocity's rate else.
-    pub(super) fn by_term(&self, term: Term, [x, v, f]: &State, u: Interval) -> Interval {
+    pub(super) fn by_term(&self, term: FieldTerm, [x, v, f]: &State, u: Interval) -> Interval {
         match term {
-            Term::Gain => *f,
-            Term::Disturbance => Interval::ONE,
-            Term::Linear => -*v,
-            Term::Quadratic => -shifted_square(*v, self.middle_speed),
-            Term::Cubic => -cube(*v),
-            Term::Stiffness => -*x,
-            Term::LagRate => u - *f,
+            FieldTerm::Gain => *f,
+            FieldTerm::Disturbance => Interval::ONE,
+            FieldTerm::Linear => -*v,
+            FieldTerm::Quadratic => -shifted_square(*v, self.middle_speed),
+            FieldTerm::Cubic => -cube(*v),
+            FieldTerm::Stiffness => -*x,
+            FieldTerm::LagRate => u - *f,
         }
     }
 
     /// The fastest rate of the linearised equation, in 1/s.
     pub(super) fn fastest_rate(&self, v: Interval) -> f64 {
-        let lag = if self.has(Term::LagRate) { self.term(Term::LagRate).magnitude() } else { 0.0 };
-        let spring = if self.has(Term::Stiffness) { libm::sqrt(self.term(Term::Stiffness).magnitude()) } else { 0.0 };
+        let lag = if self.has(FieldTerm::LagRate) { self.term(FieldTerm::LagRate).magnitude() } else { 0.0 };
+        let spring =
+            if self.has(FieldTerm::Stiffness) { libm::sqrt(self.term(FieldTerm::Stiffness).magnitude()) } else { 0.0 };
         self.damping(v, v).magnitude().max(lag).max(spring)
     }
 }

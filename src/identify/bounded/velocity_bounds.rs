@@ -8,7 +8,7 @@ mod tests;
 use super::answer::Contradicting;
 use super::linear_relaxation::half_line;
 use super::problem::Problem;
-use super::vector_field::{Term, cube, shifted_square, signed_square};
+use super::vector_field::{FieldTerm, cube, shifted_square, signed_square};
 use crate::numeric::{Interval, Real};
 use monotone::{Constant, SPANS};
 
@@ -152,9 +152,10 @@ impl Drag {
 impl Problem {
     /// Drag over a box.
     fn drag(&self, at: &[Interval]) -> Drag {
-        let linear = if self.unknowns.place_of(Term::Linear).is_some() { self.linear_drag(at) } else { Interval::ZERO };
+        let linear =
+            if self.unknowns.place_of(FieldTerm::Linear).is_some() { self.linear_drag(at) } else { Interval::ZERO };
         let linear = linear.intersection(above(self.least_linear)).unwrap_or(linear);
-        Drag([linear, self.term(Term::Quadratic, at), self.term(Term::Cubic, at)])
+        Drag([linear, self.term(FieldTerm::Quadratic, at), self.term(FieldTerm::Cubic, at)])
     }
 
     /// The first sample after which every command that acts is in the log, wherever the reading was taken within the jitter.
@@ -167,7 +168,7 @@ impl Problem {
     /// Of every interval between samples over a box, no speed above `fastest`; without meaning before the first known sample.
     fn pushes(&self, record: usize, at: &[Interval], fastest: f64) -> Vec<Push> {
         let readings = &self.records[record];
-        let [gain, stiffness] = [Term::Gain, Term::Stiffness].map(|term| self.term(term, at));
+        let [gain, stiffness] = [FieldTerm::Gain, FieldTerm::Stiffness].map(|term| self.term(term, at));
         let disturbance = at[self.unknowns.disturbance(record)];
         let speed = Interval::symmetric(fastest);
         // Negative linear drag drives.
@@ -180,7 +181,7 @@ impl Problem {
         // A force that acted before the log is within the commands of the log.
         let any = Interval::symmetric(command.largest());
         let known = self.known(record, at);
-        let lag_rate = self.unknowns.place_of(Term::LagRate).map(|place| at[place]);
+        let lag_rate = self.unknowns.place_of(FieldTerm::LagRate).map(|place| at[place]);
         let mut behind = any;
         let samples = readings.time_s.len();
         let mut pushes = Vec::with_capacity(samples);
@@ -206,7 +207,7 @@ impl Problem {
                 if stray > 0.0 { any } else { before.hull(behind) }
             });
             let mut push = gain * force + disturbance;
-            if self.unknowns.place_of(Term::Stiffness).is_some() {
+            if self.unknowns.place_of(FieldTerm::Stiffness).is_some() {
                 let (a, b) = (Interval::point(readings.value[sample]), Interval::point(readings.value[sample + 1]));
                 let stray = Interval::symmetric(readings.error) + speed * readings.lasted(sample, sample + 1);
                 push -= stiffness * (a.hull(b) + stray);
@@ -236,7 +237,7 @@ impl Problem {
     /// Encloses the velocity at every sample of a record over a box. `None` where the box holds no motion.
     pub(super) fn velocities(&self, record: usize, at: &[Interval]) -> Option<Velocities> {
         let speeds = self.below_speed(record, at, self.fastest)?;
-        let driven = self.least_linear < 0.0 || self.unknowns.place_of(Term::Stiffness).is_some();
+        let driven = self.least_linear < 0.0 || self.unknowns.place_of(FieldTerm::Stiffness).is_some();
         // Negative drag and a spring drive less where speeds are smaller.
         let speeds = if driven { self.below_speed(record, at, speeds.fastest())? } else { speeds };
         Some(if self.records[record].jitter_s > 0.0 { self.stamped(record, &speeds) } else { speeds })
@@ -273,7 +274,8 @@ impl Problem {
 
     /// Accelerations between samples over a box, given the velocities.
     fn rates(&self, at: &[Interval], pushes: &[Push], between: &[Interval]) -> Vec<Interval> {
-        let [linear, quadratic, cubic] = [Term::Linear, Term::Quadratic, Term::Cubic].map(|term| self.term(term, at));
+        let [linear, quadratic, cubic] =
+            [FieldTerm::Linear, FieldTerm::Quadratic, FieldTerm::Cubic].map(|term| self.term(term, at));
         let drag = |v: Interval| linear * v + quadratic * shifted_square(v, self.middle_speed) + cubic * cube(v);
         pushes.iter().zip(between).map(|(push, v)| push.force - drag(*v)).collect()
     }

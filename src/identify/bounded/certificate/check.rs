@@ -2,7 +2,7 @@
 
 use super::super::linear_relaxation::points;
 use super::super::problem::{Problem, ROUNDING};
-use super::format::{Certificate, Stage, Witness};
+use super::format::{Certificate, ProofStage, Witness};
 use super::unproved::{Unproved, malformed};
 use super::walk::{Checked, Walk, within};
 use crate::experiment::Record;
@@ -86,7 +86,7 @@ fn check_witness(problem: &Problem, witness: &Witness) -> Result<(), Unproved> {
     let known_delay_s = own_delay.map_or(problem.known_delay_s, Interval::point);
     let records = problem.records.iter().zip(&witness.first).enumerate();
     let shooting = records.map(|(record, (own, first))| [record, *first, own.time_s.len() - 1]).collect();
-    let stage = Stage { shooting, left: None, steps: Vec::new() };
+    let stage = ProofStage { shooting, left: None, steps: Vec::new() };
     let own = stage.unknowns(problem, known_delay_s).ok_or_else(|| malformed("the witness"))?;
     for (record, first) in witness.first.iter().enumerate() {
         let most = unknowns.shooting[unknowns.first(record)].first;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::super::linear_relaxation::Origin;
 use super::super::problem::Problem;
 use super::super::settings::BoundedModel;
-use super::super::vector_field::Term;
+use super::super::vector_field::FieldTerm;
 use super::unproved::Unproved;
 use crate::experiment::{Columns, Record};
 use crate::numeric::Interval;
@@ -32,7 +32,7 @@ pub struct Certificate {
     /// What these and the model come to.
     pub(super) searched: Searched,
     /// One after the other; each begins where the one before ended.
-    pub(super) stages: Vec<Stage>,
+    pub(super) stages: Vec<ProofStage>,
     /// One parameter.
     pub(super) witness: Option<Witness>,
 }
@@ -52,7 +52,7 @@ pub struct ReadAs {
 #[serde(deny_unknown_fields)]
 pub(super) struct Searched {
     /// Of the equation, in the order in which they stand in a box.
-    pub(super) terms: Vec<Term>,
+    pub(super) terms: Vec<FieldTerm>,
     /// The linear term's coefficient is that of the drag plus twice this times the quadratic one's, in output units per s.
     pub(super) middle_speed: f64,
     /// No linear drag below this, over alpha, in 1/s.
@@ -87,7 +87,7 @@ pub(super) struct Log {
 /// The proof that a box has no feasible parameters but those left: the search box, or what the stage before left.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Stage {
+pub(super) struct ProofStage {
     /// Record, first and last sample of each shooting interval.
     pub(super) shooting: Vec<[usize; 3]>,
     /// What is left; null for nothing.

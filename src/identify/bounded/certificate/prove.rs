@@ -6,7 +6,7 @@ use super::super::linear_relaxation::midpoints;
 use super::super::problem::Problem;
 use super::super::settings::BoundedModel;
 use super::super::solve::Solved;
-use super::format::{By, Certificate, Cut, Stage, Step, Witness, ends, sides};
+use super::format::{By, Certificate, Cut, ProofStage, Step, Witness, ends, sides};
 use super::multipliers::{self, Found, seek};
 use super::unproved::Unproved;
 use crate::experiment::Record;
@@ -93,7 +93,7 @@ impl Prover {
         &self.contractors[0].problem
     }
 
-    fn stage(mut self) -> Result<Stage, Unproved> {
+    fn stage(mut self) -> Result<ProofStage, Unproved> {
         let mut open = vec![Pending { at: self.problem().search.clone(), modulated: false, level: 0 }];
         while let Some(mut here) = open.pop() {
             loop {
@@ -119,7 +119,7 @@ impl Prover {
         }
         let shooting = &self.problem().unknowns.shooting;
         let shooting = shooting.iter().map(|own| [own.record, own.first, own.last]).collect();
-        Ok(Stage { shooting, left: self.left.as_deref().map(ends), steps: self.steps })
+        Ok(ProofStage { shooting, left: self.left.as_deref().map(ends), steps: self.steps })
     }
 
     fn is_left(&self, at: &[Interval]) -> bool {

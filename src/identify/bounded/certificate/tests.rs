@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use super::super::tests::{record, settings};
 use super::super::{BoundedModel, Consistency, DelayBound, enclose_with_certificate};
-use super::format::{Certificate, Combination, Stage, Step};
+use super::format::{Certificate, Combination, ProofStage, Step};
 use super::unproved::Unproved;
 use crate::identify::DragLaw;
 
@@ -121,7 +121,7 @@ fn boxes_left_out_or_made_smaller_are_refused() {
 fn a_stage_that_begins_elsewhere_is_refused() {
     let whole = |left: Vec<[f64; 2]>| {
         let mut mixed = REFUTED.clone();
-        let first = Stage { left: Some(left), steps: vec![Step::Keep], ..REFUTED.stages[0].clone() };
+        let first = ProofStage { left: Some(left), steps: vec![Step::Keep], ..REFUTED.stages[0].clone() };
         mixed.stages.insert(0, first);
         mixed
     };

@@ -8,7 +8,7 @@ use super::super::linear_relaxation::{Origin, Relaxation, Support, midpoints};
 use super::super::problem::Problem;
 use super::super::record::Readings;
 use super::super::unknowns::{Shooting, Unknowns};
-use super::format::{By, Combination, Cut, Stage, Step, sides};
+use super::format::{By, Combination, Cut, ProofStage, Step, sides};
 use super::unproved::{Unproved, malformed};
 use crate::numeric::Interval;
 
@@ -24,7 +24,7 @@ pub(super) struct Checked {
 
 /// A stage with the problem over its shooting intervals.
 pub(super) struct Walk<'a> {
-    stage: &'a Stage,
+    stage: &'a ProofStage,
     index: usize,
     problem: Problem,
     left: Option<Vec<Interval>>,
@@ -73,7 +73,7 @@ impl Enclosed {
     }
 }
 
-impl Stage {
+impl ProofStage {
     /// The unknowns over the stage's shooting intervals: of each record they follow one another, the first after every command that acts is
     /// in the log. `None` where they do not.
     pub(super) fn unknowns(&self, problem: &Problem, delay_s: Interval) -> Option<Unknowns> {
@@ -99,7 +99,12 @@ impl Stage {
 
 impl<'a> Walk<'a> {
     /// From a box of parameters.
-    pub(super) fn of(problem: &Problem, from: &[[f64; 2]], stage: &'a Stage, index: usize) -> Result<Self, Unproved> {
+    pub(super) fn of(
+        problem: &Problem,
+        from: &[[f64; 2]],
+        stage: &'a ProofStage,
+        index: usize,
+    ) -> Result<Self, Unproved> {
         let malformed = |what: &str| malformed(&format!("{what} of stage {index}"));
         let parameters = problem.unknowns.parameters();
         let inside = |from: &Vec<Interval>| from.len() == parameters && within(from, &problem.search);

@@ -3,8 +3,8 @@
 use super::super::answer::Quantity;
 use super::super::contraction::Contractor;
 use super::super::settings::{BoundedModel, DelayBound};
-use super::super::vector_field::Term as Drag;
-use super::Point;
+use super::super::vector_field::FieldTerm;
+use super::ParameterPoint;
 use crate::experiment::Record;
 use crate::identify::fit::prediction_error::{Candidate, Clock, Estimator, Parameter};
 use crate::identify::{Delay, Estimate, Term};
@@ -60,17 +60,17 @@ impl Contractor {
         let gain = 1.0 / of(Quantity::Alpha);
         let (acceleration, speed) = (problem.largest_command() * gain, problem.typical_speed);
         // Value, and the change of it that changes the force by the command.
-        let of_term = |term: &Drag| match term {
-            Drag::Gain => (gain, gain),
-            Drag::Linear => {
+        let of_term = |term: &FieldTerm| match term {
+            FieldTerm::Gain => (gain, gain),
+            FieldTerm::Linear => {
                 let linear = of(Quantity::Beta) + 2.0 * problem.middle_speed * of(Quantity::BetaQuadratic);
                 (linear * gain, acceleration / speed)
             }
-            Drag::Quadratic => (of(Quantity::BetaQuadratic) * gain, acceleration / (speed * speed)),
-            Drag::Cubic => (of(Quantity::BetaCubic) * gain, acceleration / (speed * speed * speed)),
-            Drag::Stiffness => (of(Quantity::Stiffness) * gain, acceleration / problem.amplitude),
-            Drag::LagRate => [1.0 / of(Quantity::LagS).max(1e-3 * problem.half_period_s); 2].into(),
-            Drag::Disturbance => (0.0, acceleration),
+            FieldTerm::Quadratic => (of(Quantity::BetaQuadratic) * gain, acceleration / (speed * speed)),
+            FieldTerm::Cubic => (of(Quantity::BetaCubic) * gain, acceleration / (speed * speed * speed)),
+            FieldTerm::Stiffness => (of(Quantity::Stiffness) * gain, acceleration / problem.amplitude),
+            FieldTerm::LagRate => [1.0 / of(Quantity::LagS).max(1e-3 * problem.half_period_s); 2].into(),
+            FieldTerm::Disturbance => (0.0, acceleration),
         };
         let terms = unknowns.terms.iter().map(of_term).enumerate();
         let delay = unknowns.delay().map(|place| (place, (of(Quantity::DelayS), 0.2 * problem.half_period_s)));
@@ -86,8 +86,8 @@ impl Contractor {
     }
 
     /// A parameter with a small misfit about estimates.
-    pub(in super::super) fn nearest_to(&mut self, estimates: &[(Quantity, f64)]) -> Option<Point> {
-        let mut best: Option<Point> = None;
+    pub(in super::super) fn nearest_to(&mut self, estimates: &[(Quantity, f64)]) -> Option<ParameterPoint> {
+        let mut best: Option<ParameterPoint> = None;
         for share in SHARES {
             let Some(mut at) = self.about_estimates(estimates, share) else { continue };
             if self.modulate(&mut at).is_err() {
@@ -95,7 +95,7 @@ impl Contractor {
             }
             let found = self.nearest(&at, &self.problem.search);
             best = best.into_iter().chain(found).min_by(|a, b| a.misfit.total_cmp(&b.misfit));
-            if best.as_ref().is_some_and(Point::is_feasible) {
+            if best.as_ref().is_some_and(ParameterPoint::is_feasible) {
                 break;
             }
         }

@@ -12,7 +12,7 @@ fn feasible_points_are_found_towards_both_ends_of_the_bounds() {
     let problem = Problem::new(&[&record], &settings(DragLaw::Mixed)).expect("a problem");
     let mut contractor = Contractor::new(problem.clone());
     let hull = contractor.prune(vec![problem.search], 2000).hull().expect("not empty: the truth is inside");
-    let nearest = contractor.nearest(&hull, &hull).filter(Point::is_feasible).expect("a feasible point");
+    let nearest = contractor.nearest(&hull, &hull).filter(ParameterPoint::is_feasible).expect("a feasible point");
     for place in 0..contractor.problem.unknowns.common() {
         let [low, high] =
             [-1.0, 1.0].map(|sign| contractor.furthest(&nearest, &hull, place, sign).expect("a feasible point"));

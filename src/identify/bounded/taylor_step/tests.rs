@@ -11,7 +11,9 @@ const U: f64 = 1.0;
 /// An axis with quadratic drag: force over inertia and drag over inertia.
 fn field(gain: Interval, quadratic: Interval) -> VectorField {
     let (mut terms, mut active) = ([Interval::ZERO; TERMS], [false; TERMS]);
-    for (term, value) in [(Term::Gain, gain), (Term::Quadratic, quadratic), (Term::Disturbance, Interval::ZERO)] {
+    for (term, value) in
+        [(FieldTerm::Gain, gain), (FieldTerm::Quadratic, quadratic), (FieldTerm::Disturbance, Interval::ZERO)]
+    {
         (terms[term as usize], active[term as usize]) = (value, true);
     }
     VectorField { terms, active, middle_speed: 0.0 }
@@ -49,7 +51,7 @@ fn step(share: f64) -> Box<FlowStep> {
         at: field(Interval::point(gain), Interval::point(quadratic)),
     };
     let start = StatePair { over: state(about(v, share)), at: state(Interval::point(v)) };
-    let variables = [Term::Gain, Term::Quadratic].map(Variable::Term);
+    let variables = [FieldTerm::Gain, FieldTerm::Quadratic].map(Variable::FieldTerm);
     let blocks = Block::of(&variables, &[Interval::ZERO; 2]);
     fields.taylor(&start, Interval::point(U), Interval::point(H_S), &blocks).expect("a step")
 }
@@ -102,8 +104,8 @@ fn the_sensitivity_to_the_initial_velocity_is_within_its_column_and_without_the_
 #[test]
 fn the_remainder_of_a_column_is_no_smaller_than_linear_drag_needs() {
     let (mut equation, rate) = (field(Interval::ONE, Interval::ZERO), 2.0);
-    equation.active[Term::Quadratic as usize] = false;
-    equation.terms[Term::Linear as usize] = Interval::point(rate);
+    equation.active[FieldTerm::Quadratic as usize] = false;
+    equation.terms[FieldTerm::Linear as usize] = Interval::point(rate);
     let start = StatePair { over: state(Interval::ZERO), at: state(Interval::ZERO) };
     let h_s = 0.98 * MOST_LENGTH / rate;
     let fields = Fields { over: equation, at: equation };
@@ -159,7 +161,7 @@ fn a_point_may_be_outside_of_the_box_and_without_the_error_bound_the_box_is_miss
         at: field(Interval::point(gain), Interval::point(quadratic)),
     };
     let short_s = 0.2;
-    let blocks = Block::of(&[Variable::Term(Term::Quadratic)], &[drag - Interval::point(quadratic)]);
+    let blocks = Block::of(&[Variable::FieldTerm(FieldTerm::Quadratic)], &[drag - Interval::point(quadratic)]);
     let start = StatePair { over: state(Interval::point(v)), at: state(Interval::point(v)) };
     let step = fields.taylor(&start, Interval::point(U), Interval::point(short_s), &blocks).expect("a step");
     let mut certain = step.clone();
@@ -189,8 +191,10 @@ fn the_error_bound_holds_with_every_term_of_the_equation() {
     };
     let fields = Fields { over: of(share), at: of(0.0) };
     let at = from.map(Interval::point);
-    let blocks =
-        Block::of(&Term::ALL.map(Variable::Term), &centre.map(|value| about(value, share) - Interval::point(value)));
+    let blocks = Block::of(
+        &FieldTerm::ALL.map(Variable::FieldTerm),
+        &centre.map(|value| about(value, share) - Interval::point(value)),
+    );
     let step =
         fields.taylor(&StatePair { over: at, at }, Interval::point(U), Interval::point(h_s), &blocks).expect("a step");
     let motion = |terms: [f64; TERMS]| {
@@ -258,8 +262,8 @@ fn a_long_step_of_what_is_damped_is_enclosed_and_what_grows_is_not_by_its_first_
 fn what_a_motion_passes_is_enclosed_whether_it_is_damped_or_grows() {
     let rest = |linear: f64, quadratic: f64| {
         let mut equation = field(Interval::ONE, Interval::point(quadratic));
-        equation.active[Term::Linear as usize] = true;
-        equation.terms[Term::Linear as usize] = Interval::point(linear);
+        equation.active[FieldTerm::Linear as usize] = true;
+        equation.terms[FieldTerm::Linear as usize] = Interval::point(linear);
         equation
     };
     let h_s = 0.4;
@@ -292,7 +296,7 @@ fn what_is_damped_is_no_larger_than_at_first_and_what_grows_is_at_least_the_expo
     for (damping, lag_rate) in [(-2.0, 3.0), (-0.1, 0.0), (0.5, -0.4)] {
         let (mut terms, mut active) = ([Interval::ZERO; TERMS], [false; TERMS]);
         // No gain: the force moves nothing.
-        for (term, value) in [(Term::Gain, 0.0), (Term::LagRate, lag_rate)] {
+        for (term, value) in [(FieldTerm::Gain, 0.0), (FieldTerm::LagRate, lag_rate)] {
             (terms[term as usize], active[term as usize]) = (Interval::point(value), true);
         }
         let equations = Equation::of(&VectorField { terms, active, middle_speed: 0.0 });

@@ -6,7 +6,7 @@
 use super::super::answer::Contradicting;
 use super::super::problem::Problem;
 use super::super::record::Readings;
-use super::super::vector_field::Term;
+use super::super::vector_field::FieldTerm;
 use crate::numeric::Interval;
 
 #[cfg(test)]
@@ -25,7 +25,7 @@ pub(super) struct Constant {
 impl Problem {
     /// Whether the rate of the velocity depends on the velocity alone.
     pub(super) fn is_autonomous(&self) -> bool {
-        [Term::LagRate, Term::Stiffness].into_iter().all(|term| self.unknowns.place_of(term).is_none())
+        [FieldTerm::LagRate, FieldTerm::Stiffness].into_iter().all(|term| self.unknowns.place_of(term).is_none())
     }
 }
 
