@@ -6,7 +6,7 @@ use super::super::problem::Problem;
 use super::format::{Combination, Cut};
 use crate::numeric::Interval;
 
-/// Room for the enclosures of another checker: on either side of a range, in shares of it; and of a contradiction, in shares of the errors of
+/// Room for the enclosures of another checker: on either side of a range, in shares of it; and of a contradiction, in shares of the slack of
 /// its readings. A cut that takes less off a range is left out.
 pub(super) const ROOM: f64 = 0.03;
 
@@ -31,20 +31,29 @@ impl Found {
     }
 }
 
-/// Seeks cuts of the `unknowns` of a box, none of which needs to be narrower than its `target`. A contradiction counts where it exceeds
-/// the share `of_uncertainty` of the ranges of the coefficients.
+/// Shares by which a contradiction counts.
+#[derive(Clone, Copy)]
+pub(super) struct Margin {
+    /// Of the errors of the readings: the slack of the feasible point. Beyond bounds that are wider by half, misfits exceed one by about the
+    /// slack: a larger margin would leave points near the bounds that no step excludes.
+    pub(super) slack: f64,
+    /// Of the ranges of the coefficients.
+    pub(super) of_uncertainty: f64,
+}
+
+/// Seeks cuts of the `unknowns` of a box, none of which needs to be narrower than its `target`.
 pub(super) fn seek(
     problem: &Problem,
     relaxation: &Relaxation,
     at: &[Interval],
     unknowns: &[usize],
     target: &[Interval],
-    of_uncertainty: f64,
+    margin: Margin,
 ) -> Found {
     let programme = relaxation.programme(&relaxation.places());
     let uncertainty = |multipliers: &Multipliers| -> f64 {
         let of = |(row, y): &(usize, f64)| y * relaxation.uncertainty(*row).map(|(_, part)| part).sum::<f64>();
-        of_uncertainty * multipliers.iter().map(of).sum::<f64>()
+        margin.of_uncertainty * multipliers.iter().map(of).sum::<f64>()
     };
     let error = |row: usize| match relaxation.origins[row] {
         Origin::Reading { interval, .. } => problem.records[problem.unknowns.shooting[interval].record].error,
@@ -61,7 +70,7 @@ pub(super) fn seek(
                 Outcome::Empty { multipliers } => {
                     let bound = relaxation.upper_bound(&[], &multipliers);
                     let weighed: f64 = multipliers.iter().map(|(row, y)| y * error(*row)).sum();
-                    if bound < -ROOM * weighed - uncertainty(&multipliers) {
+                    if bound < -ROOM * margin.slack * weighed - uncertainty(&multipliers) {
                         return Found::Contradiction(named(&multipliers), -bound);
                     }
                     continue 'unknowns;

@@ -7,7 +7,7 @@ use super::super::problem::Problem;
 use super::super::settings::BoundedModel;
 use super::super::solve::Solved;
 use super::format::{By, Certificate, Cut, ProofStage, Step, Witness, ends, sides};
-use super::multipliers::{self, Found, seek};
+use super::multipliers::{self, Found, Margin, seek};
 use super::unproved::Unproved;
 use crate::experiment::Record;
 use crate::identify::IdentifyError;
@@ -35,9 +35,10 @@ impl Certificate {
     ) -> Result<Result<Self, Unproved>, IdentifyError> {
         let witness = solved.feasible.as_ref().map(|(point, own)| Witness::of(own, &point.at));
         let mut certificate = Self::of(records, problem, settings, witness);
+        let slack = solved.feasible.as_ref().map_or(1.0, |(point, _)| 1.0 - point.misfit);
         let mut setting = problem.clone();
         for hull in &solved.hulls {
-            match Prover::new(&setting, hull.as_deref()).stage() {
+            match Prover::new(&setting, hull.as_deref(), slack).stage() {
                 Ok(stage) => certificate.stages.push(stage),
                 Err(error) => return Ok(Err(error)),
             }
@@ -73,11 +74,13 @@ struct Prover {
     contractors: Vec<Contractor>,
     horizons: Vec<usize>,
     left: Option<Vec<Interval>>,
+    /// `1 - misfit` of the feasible point.
+    slack: f64,
     steps: Vec<Step>,
 }
 
 impl Prover {
-    fn new(problem: &Problem, hull: Option<&[Interval]>) -> Self {
+    fn new(problem: &Problem, hull: Option<&[Interval]>, slack: f64) -> Self {
         let wider = |(side, from): (&Interval, &Interval)| {
             let room = ROOM * side.width() + f64::EPSILON * side.magnitude();
             side.inflate(room).intersection(*from).unwrap_or(*side)
@@ -86,7 +89,7 @@ impl Prover {
         let left = hull.map(|hull| hull.iter().zip(&problem.search).take(parameters).map(wider).collect());
         let horizons = problem.horizons();
         let contractors = horizons.iter().map(|horizon| Contractor::new(problem.until(*horizon))).collect();
-        Self { contractors, horizons, left, steps: Vec::new() }
+        Self { contractors, horizons, left, slack, steps: Vec::new() }
     }
 
     fn problem(&self) -> &Problem {
@@ -157,7 +160,14 @@ impl Prover {
             return Some(Next::Empty);
         };
         let unknowns: Vec<usize> = (0..parameters).collect();
-        let mut found = seek(problem, &weak_form, &here.at, &unknowns, self.target(), 0.0);
+        let mut found = seek(
+            problem,
+            &weak_form,
+            &here.at,
+            &unknowns,
+            self.target(),
+            Margin { slack: self.slack, of_uncertainty: 0.0 },
+        );
         if let Found::Cuts(cuts) = &mut found {
             let mut at = here.at.clone();
             if cuts.iter().all(|cut| cut.shorten(&mut at)) {
@@ -198,12 +208,13 @@ impl Prover {
             (Some(interval), own)
         });
         let parameters = (None, (0..unknowns.parameters()).collect());
+        let margin = Margin { slack: self.slack, of_uncertainty: OF_UNCERTAINTY };
         let (mut at, mut all) = (here.at.clone(), Vec::new());
         'groups: for (interval, own) in states.chain([parameters]) {
             let beside = interval.map_or_else(|| relaxation.clone(), |interval| relaxation.beside(interval));
             let known: Vec<Interval> =
                 beside.deviations.iter().zip(&beside.centre).map(|(z, centre)| *z + Interval::point(*centre)).collect();
-            let found = seek(problem, &beside, &known, &own, self.target(), OF_UNCERTAINTY);
+            let found = seek(problem, &beside, &known, &own, self.target(), margin);
             if let (Found::Contradiction(rows, _), true) = (&found, all.is_empty()) {
                 self.steps.push(Step::Exclude { by, rows: rows.clone() });
                 return Next::Empty;
