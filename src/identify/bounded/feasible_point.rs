@@ -71,21 +71,22 @@ impl Contractor {
         excess
     }
 
-    /// The inequalities about a point over these spans, and the largest width of its outputs in largest errors.
-    fn about(&self, centre: &[f64], spans: &[Span]) -> Option<(Relaxation, f64)> {
+    /// The inequalities about a point over these spans, of both ends of the enclosure of each output: feasible where its misfit is.
+    fn about(&self, centre: &[f64], spans: &[Span]) -> Option<Relaxation> {
         let (problem, point) = (&self.problem, points(centre));
         let mut relaxation = problem.about(&point, centre.to_vec());
-        let mut widest = 0.0f64;
         for (index, span) in spans.iter().enumerate() {
             let motion = problem.motion(*span, &point, centre)?;
             let record = |span: &Span| problem.unknowns.shooting[span.from].record;
-            let readings = &problem.records[record(span)];
-            widest = motion.iter().fold(widest, |widest, node| widest.max(node.at[0].width() / readings.error));
             let linked = spans.get(index + 1).is_some_and(|next| record(next) == record(span));
+            let before = relaxation.inequalities.limits.len();
             problem.add_motion(*span, &motion, linked, &mut relaxation);
+            // Two rows of each reading: `a z <= E - inf(x - y)` become `a z <= E - sup(x - y)`.
+            let pairs = relaxation.inequalities.limits[before..].chunks_exact_mut(2);
+            pairs.zip(&motion).for_each(|(pair, node)| pair.iter_mut().for_each(|limit| *limit -= node.at[0].width()));
         }
         problem.add_prior(&mut relaxation);
-        Some((relaxation, widest))
+        Some(relaxation)
     }
 
     /// A parameter with a small misfit, from the middle of a box and within another box: by single shooting, and by multiple shooting where
@@ -100,16 +101,15 @@ impl Contractor {
     }
 
     fn descend(&self, from: &[Interval], within: &[Interval], spans: &[Span]) -> Option<ParameterPoint> {
-        let single = spans.len() == self.problem.records.len();
         let (mut centre, mut best) = (midpoints(from), None::<ParameterPoint>);
-        // The trust region, against the box from which the descent begins; single shooting begins without one.
-        let mut trust = if single { f64::INFINITY } else { 1.0 };
+        // The trust region, against the box from which the descent begins.
+        let mut trust = 1.0;
         for _ in 0..MOST_STEPS {
-            let Some((mut relaxation, _)) = self.about(&centre, spans) else { break };
+            let Some(mut relaxation) = self.about(&centre, spans) else { break };
             let excess = self.add_excess(&mut relaxation);
             for (place, (side, from)) in within.iter().zip(from).enumerate() {
                 let middle = Interval::point(centre[place]);
-                let room = if trust.is_finite() { middle + Interval::symmetric(trust * from.width()) } else { *side };
+                let room = middle + Interval::symmetric(trust * from.width());
                 relaxation.deviations[place] = room.intersection(*side).unwrap_or(middle) - middle;
             }
             let Some((places, step)) = least_excess(&mut relaxation, excess) else { break };
@@ -126,7 +126,7 @@ impl Contractor {
                         break;
                     }
                 }
-                _ => trust = if trust.is_finite() { SHRINK * trust } else { 1.0 },
+                _ => trust *= SHRINK,
             }
         }
         best
@@ -161,8 +161,7 @@ impl Contractor {
         let inside = INSIDE * (1.0 - from.misfit);
         let (mut centre, mut best) = (from.at.clone(), None::<ParameterPoint>);
         for _ in 0..MOST_STEPS {
-            let (Some((mut relaxation, width)), Some(misfit)) = (self.about(&centre, &spans), self.misfit(&centre))
-            else {
+            let (Some(mut relaxation), Some(misfit)) = (self.about(&centre, &spans), self.misfit(&centre)) else {
                 break;
             };
             if misfit <= 1.0 {
@@ -178,7 +177,7 @@ impl Contractor {
             for (place, side) in within.iter().enumerate() {
                 relaxation.deviations[place] = *side - Interval::point(centre[place]);
             }
-            relaxation.deviations[excess] = Interval::point(-(inside + width));
+            relaxation.deviations[excess] = Interval::point(-inside);
             let places = relaxation.places();
             let Outcome::Bounded { at: step, .. } = relaxation.programme(&places).maximise(&[(unknown, sign)]) else {
                 break;
