@@ -33,7 +33,7 @@ impl Found {
 
 /// Shares by which a contradiction counts.
 #[derive(Clone, Copy)]
-pub(super) struct Margin {
+pub(super) struct ExclusionMargin {
     /// Of the errors of the readings: the slack of the feasible point. Beyond bounds that are wider by half, misfits exceed one by about the
     /// slack: a larger margin would leave points near the bounds that no step excludes.
     pub(super) slack: f64,
@@ -48,7 +48,7 @@ pub(super) fn seek(
     at: &[Interval],
     unknowns: &[usize],
     target: &[Interval],
-    margin: Margin,
+    margin: ExclusionMargin,
 ) -> Found {
     let programme = relaxation.programme(&relaxation.places());
     let uncertainty = |multipliers: &Multipliers| -> f64 {

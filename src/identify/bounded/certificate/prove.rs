@@ -7,7 +7,7 @@ use super::super::problem::Problem;
 use super::super::settings::BoundedModel;
 use super::super::solve::Solved;
 use super::format::{By, Certificate, Cut, ProofStage, Step, Witness, ends, sides};
-use super::multipliers::{self, Found, Margin, seek};
+use super::multipliers::{self, ExclusionMargin, Found, seek};
 use super::unproved::Unproved;
 use crate::experiment::Record;
 use crate::identify::IdentifyError;
@@ -166,7 +166,7 @@ impl Prover {
             &here.at,
             &unknowns,
             self.target(),
-            Margin { slack: self.slack, of_uncertainty: 0.0 },
+            ExclusionMargin { slack: self.slack, of_uncertainty: 0.0 },
         );
         if let Found::Cuts(cuts) = &mut found {
             let mut at = here.at.clone();
@@ -208,7 +208,7 @@ impl Prover {
             (Some(interval), own)
         });
         let parameters = (None, (0..unknowns.parameters()).collect());
-        let margin = Margin { slack: self.slack, of_uncertainty: OF_UNCERTAINTY };
+        let margin = ExclusionMargin { slack: self.slack, of_uncertainty: OF_UNCERTAINTY };
         let (mut at, mut all) = (here.at.clone(), Vec::new());
         'groups: for (interval, own) in states.chain([parameters]) {
             let beside = interval.map_or_else(|| relaxation.clone(), |interval| relaxation.beside(interval));
