@@ -1,0 +1,307 @@
+//! The plant's periodic answer to one input step a period, over intervals of time and period.
+//!
+//! A two-level input is a constant plus the difference of two such steps, so the periodic output is
+//! `gain u + (high - low)(W(t1) - W(t2))`, with `t1`, `t2` the times since its last rise and fall. For a group of poles away from zero
+//! `W = output(A^-1 exp(A t) (1 - exp(A T))^-1)`, for an unstable one `-output(A^-1 exp(-A (T - t)) (1 - exp(-A T))^-1)`. Where
+//! `abs(A) T <= 1`, and for poles at zero, the mean of the input is split off and
+//! `W = -sum_(j >= 2) (B_j(t/T)/j!) output(A^(j-2)) T^(j-1)`, which does not cancel.
+
+use super::algebra::{Element, ONE, ZERO, add, norm, scaled};
+use super::modes::Mode;
+use crate::numeric::{Interval, Real};
+
+/// Terms of the series in Bernoulli polynomials: the ratio of one to the next is at most `1/(2 pi)`.
+const TERMS: usize = 22;
+/// `B_2k(1/2)/(2k)! = (2^(1 - 2k) - 1) B_2k/(2k)!`: the Bernoulli numbers `B_2k` as fractions.
+const BERNOULLI: [(f64, f64); 12] = [
+    (1.0, 1.0),
+    (1.0, 6.0),
+    (-1.0, 30.0),
+    (1.0, 42.0),
+    (-1.0, 30.0),
+    (5.0, 66.0),
+    (-691.0, 2730.0),
+    (7.0, 6.0),
+    (-3617.0, 510.0),
+    (43867.0, 798.0),
+    (-174_611.0, 330.0),
+    (854_513.0, 138.0),
+];
+
+/// A moment in the period: time since the step, time until the next one, and the share of the period gone.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moment {
+    pub(super) time: Interval,
+    pub(super) rest: Interval,
+    pub(super) share: Interval,
+}
+
+/// `W` with its derivatives by time at constant period, and by period at constant time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Answer {
+    pub(super) value: Interval,
+    pub(super) by_time: Interval,
+    pub(super) by_period: Interval,
+}
+
+/// One group at a given period.
+#[derive(Debug)]
+enum Form {
+    /// `(1 - exp(+-A T))^-1`.
+    Closed(Element),
+    /// `output(A^i) T^(i+1)`, times `T^-degree` where the period is unbounded; the powers of `A T`; a bound of what the
+    /// powers left out add, for `W` itself.
+    Series { weights: Vec<Interval>, powers: Vec<Element>, rest: f64 },
+}
+
+/// All groups at a given period.
+#[derive(Debug)]
+pub(super) struct Periodic<'a> {
+    period: Interval,
+    modes: &'a [Mode],
+    forms: Vec<Form>,
+    needs_series: bool,
+    /// By which the groups away from zero are multiplied, as are those at zero.
+    divisor: Interval,
+}
+
+/// The powers of `1/T` by which equations of a plant with poles at zero are multiplied where the period is unbounded.
+pub(super) fn divisor(modes: &[Mode], period: Interval) -> Interval {
+    let integrators = modes.first().filter(|mode| mode.inverse.is_none()).map_or(0, |mode| mode.algebra.degree);
+    if period.is_bounded() { Interval::ONE } else { (0..integrators).fold(Interval::ONE, |power, _| power / period) }
+}
+
+impl<'a> Periodic<'a> {
+    /// `None` where the period meets a pole on the imaginary axis.
+    pub(super) fn new(modes: &'a [Mode], period: Interval) -> Option<Self> {
+        let mut forms = Vec::with_capacity(modes.len());
+        for mode in modes {
+            let series = mode.inverse.is_none() || mode.algebra.size() * period.upper() <= 1.0;
+            forms.push(if series { Form::series(mode, period) } else { Form::closed(mode, period)? });
+        }
+        let needs_series = forms.iter().any(|form| matches!(form, Form::Series { .. }));
+        Some(Self { period, modes, forms, needs_series, divisor: divisor(modes, period) })
+    }
+
+    pub(super) fn period(&self) -> Interval {
+        self.period
+    }
+
+    /// Gains at s = 0 by which the present input counts, and its mean.
+    pub(super) fn gains(&self) -> (Interval, Interval) {
+        let (mut present, mut mean) = (Interval::ZERO, Interval::ZERO);
+        for (mode, form) in self.modes.iter().zip(&self.forms) {
+            match (mode.static_gain(), form) {
+                (Some(gain), Form::Closed(_)) => present += gain,
+                (Some(gain), Form::Series { .. }) => mean += gain,
+                (None, _) => {}
+            }
+        }
+        (present, mean)
+    }
+
+    /// `W` over the moments.
+    pub(super) fn answer(&self, at: &Moment) -> Answer {
+        let polynomials = if self.needs_series { bernoulli(at.share) } else { [Interval::ZERO; TERMS + 1] };
+        let mut sum = Answer { value: Interval::ZERO, by_time: Interval::ZERO, by_period: Interval::ZERO };
+        for (mode, form) in self.modes.iter().zip(&self.forms) {
+            let one = match form {
+                Form::Closed(factor) => {
+                    let one = closed(mode, factor, at, self.period);
+                    Answer { value: one.value * self.divisor, ..one }
+                }
+                Form::Series { weights, rest, .. } => series(weights, *rest, &polynomials, at.share, self.period),
+            };
+            sum.value += one.value;
+            sum.by_time += one.by_time;
+            sum.by_period += one.by_period;
+        }
+        sum
+    }
+
+    /// The states' rates per unit of the step: `W`'s derivative by time, before the output is read.
+    pub(super) fn rates(&self, at: &Moment) -> Vec<Element> {
+        let polynomials = if self.needs_series { bernoulli(at.share) } else { [Interval::ZERO; TERMS + 1] };
+        let rate = |(mode, form): (&Mode, &Form)| match form {
+            Form::Closed(factor) => decay(mode, factor, at),
+            Form::Series { powers, .. } => {
+                let term = |sum: Element, (power, at): (&Element, usize)| add(&sum, &scaled(power, -polynomials[at + 1]));
+                let sum = powers.iter().zip(0..).fold(ZERO, term);
+                let left_out = Interval::symmetric(REMAINDER);
+                let rest = if mode.inverse.is_none() { Interval::ZERO } else { left_out };
+                core::array::from_fn(|at| if at < mode.algebra.degree { sum[at] + rest } else { sum[at] })
+            }
+        };
+        self.modes.iter().zip(&self.forms).map(rate).collect()
+    }
+}
+
+impl Form {
+    fn closed(mode: &Mode, period: Interval) -> Option<Self> {
+        let gone = mode.algebra.exponential(period, mode.backwards);
+        let left = add(&ONE, &scaled(&gone, -Interval::ONE));
+        Some(Self::Closed(mode.algebra.reciprocal(&left)?))
+    }
+
+    fn series(mode: &Mode, period: Interval) -> Self {
+        let algebra = &mode.algebra;
+        let count = if mode.inverse.is_none() { algebra.degree } else { TERMS - 1 };
+        if !period.is_bounded() {
+            // Poles at zero: the powers of A are those of nu, the period's are negative.
+            let weight = |at: usize| {
+                (at + 1..algebra.degree).fold(mode.output_row()[at], |weight, _| weight / period)
+            };
+            return Self::Series { weights: (0..count).map(weight).collect(), powers: Vec::new(), rest: 0.0 };
+        }
+        let step = scaled(&algebra.generator(), period);
+        let mut powers = vec![ONE];
+        for _ in 1..count {
+            let next = algebra.product(&powers[powers.len() - 1], &step);
+            powers.push(next);
+        }
+        let weights = powers.iter().map(|power| mode.output(power) * period).collect();
+        let rest = if mode.inverse.is_none() { 0.0 } else { (period * Interval::point(mode.reach() * REMAINDER)).upper() };
+        Self::Series { weights, powers, rest }
+    }
+}
+
+/// `exp(A t) (1 - exp(A T))^-1`, or of an unstable group `-exp(-A (T - t)) (1 - exp(-A T))^-1`.
+fn decay(mode: &Mode, factor: &Element, at: &Moment) -> Element {
+    let algebra = &mode.algebra;
+    if mode.backwards {
+        scaled(&algebra.product(&algebra.exponential(at.rest, true), factor), -Interval::ONE)
+    } else {
+        algebra.product(&algebra.exponential(at.time, false), factor)
+    }
+}
+
+fn closed(mode: &Mode, factor: &Element, at: &Moment, period: Interval) -> Answer {
+    let algebra = &mode.algebra;
+    let motion = decay(mode, factor, at);
+    // Differentiated by the period: exp(A t) exp(A T) (1 - exp(A T))^-2, and exp(-A (T - t)) (1 - exp(-A T))^-2.
+    let turned = if mode.backwards {
+        scaled(factor, -Interval::ONE)
+    } else {
+        algebra.product(&algebra.exponential(period, false), factor)
+    };
+    let value = mode.inverse.as_ref().map_or(Interval::ENTIRE, |inverse| mode.output(&algebra.product(inverse, &motion)));
+    Answer { value, by_time: mode.output(&motion), by_period: mode.output(&algebra.product(&motion, &turned)) }
+}
+
+/// Bounds the sum of `(j + 7) abs(B_j(x))/j!` over `j > TERMS`, as `abs(B_j(x))/j! <= 2 zeta(2)/(2 pi)^j <= 4/(2 pi)^j`: less than
+/// `4 (TERMS + 9)/(2 pi)^TERMS/(2 pi - 1)`, with `(2 pi)^22 >= 3.6e17`.
+const REMAINDER: f64 = 4.0 * (TERMS as f64 + 9.0) / (3.6e17 * 5.0);
+
+fn series(weights: &[Interval], rest: f64, polynomials: &[Interval; TERMS + 1], share: Interval, period: Interval) -> Answer {
+    let (mut value, mut by_time, mut by_period) = (Interval::ZERO, Interval::ZERO, Interval::ZERO);
+    for (at, &weight) in weights.iter().enumerate() {
+        let (this, last) = (polynomials[at + 2], polynomials[at + 1]);
+        value += weight * this;
+        by_time += weight * last;
+        by_period += weight * (Interval::point((at + 1) as f64) * this - share * last);
+    }
+    let (left_out, over) = (Interval::symmetric(rest), Interval::ONE / period);
+    Answer { value: -value + left_out, by_time: -(by_time + left_out) * over, by_period: -(by_period + left_out) * over }
+}
+
+/// `B_j(x)/j!` over `x` in [0, 1], by Taylor's formula about 1/2.
+fn bernoulli(share: Interval) -> [Interval; TERMS + 1] {
+    let from_middle = share - Interval::point(0.5);
+    let mut powers = [Interval::ONE; TERMS + 1];
+    for at in 1..=TERMS {
+        // An even power of an interval about zero is not negative.
+        let power = if at % 2 == 0 { powers[at / 2].square() } else { powers[at - 1] * from_middle };
+        powers[at] = power;
+    }
+    let middles = middles();
+    let bound = |j: usize| Interval::symmetric((0..j).fold(4.0, |bound, _| bound / 6.283));
+    core::array::from_fn(|j| {
+        let terms = (0..=j / 2).map(|k| (middles[k], over_factorial(powers[j - 2 * k], j - 2 * k)));
+        let sum = terms.fold(Interval::ZERO, |sum, (middle, power)| sum + middle * power);
+        if j > 1 { sum.intersection(bound(j)).unwrap_or(sum) } else { sum }
+    })
+}
+
+fn over_factorial(value: Interval, of: usize) -> Interval {
+    // Exact up to 22!, which has 53 significant bits once its factors of two are taken out.
+    let factorial = (2..=of).fold(1.0, |product, factor| product * factor as f64);
+    value / Interval::point(factorial)
+}
+
+/// `B_2k(1/2)/(2k)!`.
+fn middles() -> [Interval; TERMS / 2 + 1] {
+    core::array::from_fn(|k| {
+        let (numerator, denominator) = BERNOULLI[k];
+        let factor = Interval::point(0.5_f64.powi(2 * k as i32 - 1) - 1.0);
+        over_factorial(factor * Interval::point(numerator) / Interval::point(denominator), 2 * k)
+    })
+}
+
+/// A bound of `abs(W)` over all moments and all periods up to this one; infinite where the series does not converge.
+pub(super) fn bound(modes: &[Mode], period: f64) -> f64 {
+    let period = Interval::point(period);
+    let four_over = Interval::point(4.0) / (Interval::two() * Interval::PI).square();
+    let one = |mode: &Mode| {
+        let ratio = Interval::point(mode.algebra.size()) * period / (Interval::two() * Interval::PI);
+        let rest = Interval::ONE - ratio;
+        if !rest.is_positive() {
+            return Interval::point(f64::INFINITY);
+        }
+        Interval::point(mode.reach()) * period * four_over / rest
+    };
+    modes.iter().map(one).fold(Interval::ZERO, |sum, one| sum + one).upper()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::orbit::two_level::modes::modes;
+    use crate::plant::TransferFunction;
+
+    fn moment(time: f64, period: f64) -> Moment {
+        let [time, period] = [time, period].map(Interval::point);
+        Moment { time, rest: period - time, share: time / period }
+    }
+
+    #[test]
+    fn series_and_closed_form_agree() {
+        // The same plant on both sides of the switch between the two forms, in differences, which are what counts.
+        for den in [vec![1.0, 1.0], vec![1.0, -0.7], vec![1.0, 0.4, 1.3], vec![1.0, 2.0, 1.0]] {
+            let modes = modes(&TransferFunction::new(&[1.0], &den).unwrap()).unwrap();
+            let period = 0.9 / modes.iter().map(|mode| mode.algebra.size()).fold(0.0, f64::max);
+            let period = Interval::point(period);
+            let build = |form: fn(&Mode, Interval) -> Form| Periodic {
+                period,
+                modes: &modes,
+                forms: modes.iter().map(|mode| form(mode, period)).collect(),
+                needs_series: true,
+                divisor: Interval::ONE,
+            };
+            let (by_series, by_closed) = (build(Form::series), build(|mode, period| Form::closed(mode, period).unwrap()));
+            let [early, late] = [0.2, 0.7].map(|share| moment(share * period.midpoint(), period.midpoint()));
+            let slopes = |periodic: &Periodic| [early, late].map(|at| periodic.answer(&at));
+            let ([a, b], [c, d]) = (slopes(&by_series), slopes(&by_closed));
+            // W differs by gain (t/T) and a function of the period.
+            let gain = modes.iter().fold(Interval::ZERO, |sum, mode| sum + mode.static_gain().unwrap());
+            let share = late.share - early.share;
+            let (left, right) = (b.value - a.value, d.value - c.value - gain * share);
+            assert!(left.intersection(right).is_some() && right.width() < 1e-13, "{den:?}: {left} {right}");
+            let slope = gain / period;
+            assert!(a.by_time.intersection(c.by_time - slope).is_some() && a.by_time.width() < 1e-14, "{den:?}");
+            let bend = gain * share / period;
+            let (left, right) = (b.by_period - a.by_period, d.by_period - c.by_period + bend);
+            assert!(left.intersection(right).is_some() && left.width() < 1e-13, "{den:?}: {left} {right}");
+        }
+    }
+
+    #[test]
+    fn bernoulli_polynomials_are_those_of_the_tables() {
+        let x = 0.3;
+        let found = bernoulli(Interval::point(x));
+        let exact = [1.0, x - 0.5, (x * x - x + 1.0 / 6.0) / 2.0, (x * x * x - 1.5 * x * x + 0.5 * x) / 6.0];
+        for (found, exact) in found.iter().zip(exact) {
+            assert!((found.midpoint() - exact).abs() < 1e-16 && found.width() < 1e-15, "{found} {exact}");
+        }
+        assert!(norm(&ONE) == 1.0);
+    }
+}

@@ -1,0 +1,229 @@
+//! All orbits of a linear plant with dead time under a two-level relay, with proof.
+//!
+//! One switching each way in a period. Between switchings the output is known in closed form, so an orbit is a solution of two
+//! equations in its two half-periods. They are solved in interval arithmetic over all periods of a range: what is not
+//! listed does not exist, except in the sub-ranges named. Three things are shown of each orbit: it exists and is alone in its enclosure
+//! (Krawczyk's operator), the relay does not switch earlier on it, and deviations die out or grow (powers of the
+//! return map, every command under way included).
+
+mod algebra;
+mod attraction;
+mod kernel;
+mod modes;
+mod path;
+mod search;
+mod switching;
+
+use core::ops::RangeInclusive;
+
+use nalgebra::Complex;
+
+use super::OrbitError;
+use crate::numeric::{Interval, domain};
+use crate::plant::TransferFunction;
+use path::{Genuine, Path};
+use search::Range;
+use switching::Conditions;
+
+/// A relay with two levels: `low` from when the output rises past `reference + half_width`, `high` from when it falls past
+/// `reference - half_width`.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
+pub struct TwoLevelRelay {
+    /// Upper level, input units.
+    pub high: f64,
+    /// Lower level, input units.
+    pub low: f64,
+    /// Half the hysteresis, output units.
+    pub half_width: f64,
+    /// Middle of the hysteresis, output units.
+    pub reference: f64,
+}
+
+impl TwoLevelRelay {
+    /// A relay about the reference zero.
+    ///
+    /// # Errors
+    /// [`OrbitError::OutOfDomain`] unless all are finite, `low < high` and `half_width >= 0`.
+    pub fn new(high: f64, low: f64, half_width: f64) -> Result<Self, OrbitError> {
+        domain::finite("lower level", low, "input units")?;
+        let above = crate::numeric::Limit::Above(low);
+        domain::require("upper level", high, "input units", above, "give HIGH,LOW with the larger level first")?;
+        domain::non_negative("half-width", half_width, "output units")?;
+        Ok(Self { high, low, half_width, reference: 0.0 })
+    }
+
+    /// The same about another reference.
+    ///
+    /// # Errors
+    /// [`OrbitError::OutOfDomain`] unless it is finite.
+    pub fn with_reference(self, reference: f64) -> Result<Self, OrbitError> {
+        Ok(Self { reference: domain::finite("reference", reference, "output units")?, ..self })
+    }
+}
+
+/// All orbits with one switching each way, as far as the search reached.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct OrbitListing {
+    /// The orbits, longest period first.
+    pub orbits: Vec<ListedOrbit>,
+    /// Range of periods asked for, s; a missing end is open.
+    pub range_s: [Option<f64>; 2],
+    /// Sub-ranges of periods in which there may be others, s; a missing end is open.
+    pub not_covered: Vec<[Option<f64>; 2]>,
+}
+
+impl OrbitListing {
+    /// Whether every orbit in the range is listed.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.not_covered.is_empty()
+    }
+}
+
+/// An orbit that is shown to exist, enclosed. The plant's coefficients, dead time and levels count as exactly the numbers given.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct ListedOrbit {
+    /// Period, s.
+    pub period_s: Interval,
+    /// Time per period with the upper level commanded, s.
+    pub time_high_s: Interval,
+    /// Time per period with the lower level commanded, s.
+    pub time_low_s: Interval,
+    /// The least output.
+    pub minimum: Interval,
+    /// The largest output.
+    pub maximum: Interval,
+    /// Eigenvalues of the return map, largest first, computed, not enclosed; those that are zero are left out, and all where the map
+    /// is not known.
+    pub multipliers: Vec<Complex<f64>>,
+    /// Whether small deviations die out, where that is shown.
+    pub attracting: Option<bool>,
+}
+
+impl ListedOrbit {
+    /// Half the output's range.
+    #[must_use]
+    pub fn amplitude(&self) -> Interval {
+        (self.maximum - self.minimum) * Interval::point(0.5)
+    }
+    /// Middle of the output's range.
+    #[must_use]
+    pub fn bias(&self) -> Interval {
+        (self.maximum + self.minimum) * Interval::point(0.5)
+    }
+}
+
+/// All orbits of `plant` under `relay` with one switching each way in a period, from the slowest down; within a range of periods in
+/// s, or all.
+///
+/// Where the relay has no hysteresis, or one so narrow that very many orbits share the dead time, the search ends after the
+/// twenty slowest and names the periods below as not covered. An orbit with several switchings each way is none of these.
+///
+/// ```
+/// use selfosc::orbit::{TwoLevelRelay, orbits};
+/// use selfosc::plant::TransferFunction;
+/// let plant = TransferFunction::new(&[1.0], &[1.0, 1.0])?.with_delay(1.0)?;
+/// let found = orbits(&plant, &TwoLevelRelay::new(1.0, -1.0, 0.0)?, None)?;
+/// let slowest = &found.orbits[0];
+/// assert!(slowest.period_s.contains(2.0 * (2.0 * 1f64.exp() - 1.0).ln()) && slowest.period_s.width() < 1e-13);
+/// assert_eq!(slowest.attracting, Some(true));
+/// assert!(found.orbits[1..].iter().all(|faster| faster.attracting == Some(false)));
+/// assert!(!found.is_complete());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`OrbitError::Plant`] for a plant that is not strictly proper; [`OrbitError::CrowdedPoles`];
+/// [`OrbitError::NoHysteresis`] with neither hysteresis nor dead time; [`OrbitError::OutOfDomain`] for a range.
+pub fn orbits(
+    plant: &TransferFunction,
+    relay: &TwoLevelRelay,
+    period_s: Option<RangeInclusive<f64>>,
+) -> Result<OrbitListing, OrbitError> {
+    let TwoLevelRelay { high, low, half_width, reference } = *relay;
+    if half_width == 0.0 && plant.delay_s() == 0.0 {
+        return Err(OrbitError::NoHysteresis);
+    }
+    if let Some(range) = &period_s {
+        domain::ascending(["shortest period", "longest period"], range, "s")?;
+    }
+    let modes = modes::modes(plant)?;
+    let range_s = period_s.as_ref().map_or([None; 2], |range| [Some(*range.start()), Some(*range.end())]);
+    let mut listing = OrbitListing { orbits: Vec::new(), range_s, not_covered: Vec::new() };
+    let [high, low, half_width, reference, delay] =
+        [high, low, half_width, reference, plant.delay_s()].map(Interval::point);
+    let share = if plant.is_integrating() {
+        if !(low.is_negative() && high.is_positive()) {
+            // The input's mean cannot vanish, so that the output drifts.
+            return Ok(listing);
+        }
+        Some(-low / (high - low))
+    } else {
+        None
+    };
+    // The output's constant is free where a pole at zero leaves it free.
+    let middle = if share.is_some() { Interval::ZERO } else { reference };
+    let conditions =
+        Conditions { modes, delay, high, low, upper: middle + half_width, lower: middle - half_width, share };
+    let range = conditions.range(period_s.as_ref());
+    let found = conditions.solutions(&range);
+    let mut open: Vec<Interval> = found.not_covered;
+    for at in &found.solutions {
+        let path = Path::new(&conditions, at);
+        let verdict = path.as_ref().map_or(Genuine::Open, Path::genuine);
+        let extremes = path.as_ref().and_then(Path::extremes);
+        match (verdict, path, extremes) {
+            (Genuine::Yes, Some(path), Some(extremes)) => {
+                let shift = if conditions.share.is_some() { reference } else { Interval::ZERO };
+                let [minimum, maximum] = extremes.map(|extreme| extreme + shift);
+                let attraction = conditions.attraction(&path)?;
+                listing.orbits.push(ListedOrbit {
+                    period_s: at[0] + at[1],
+                    time_high_s: at[0],
+                    time_low_s: at[1],
+                    minimum,
+                    maximum,
+                    multipliers: attraction.multipliers,
+                    attracting: attraction.attracting,
+                });
+            }
+            (Genuine::No, ..) => {}
+            _ => open.push(at[0] + at[1]),
+        }
+    }
+    listing.orbits.sort_by(|a, b| b.period_s.midpoint().total_cmp(&a.period_s.midpoint()));
+    listing.not_covered = merged(open);
+    Ok(listing)
+}
+
+impl Conditions {
+    /// The range of periods searched: from where a period is too short for the output to pass both levels.
+    fn range(&self, period_s: Option<&RangeInclusive<f64>>) -> Range {
+        let times = self.modes.iter().filter(|mode| mode.inverse.is_some()).map(|mode| 1.0 / mode.algebra.size());
+        let slowest = times.fold(self.delay.upper(), f64::max);
+        // Double integrators without delay have no time but that of their hysteresis.
+        let unit = if slowest > 0.0 { slowest } else { 1.0 };
+        let shortest = self.shortest_period(unit);
+        Range {
+            shortest: period_s.map_or(0.0, |range| *range.start()).max(shortest),
+            longest: period_s.map_or(f64::INFINITY, |range| *range.end()),
+            unit,
+        }
+    }
+}
+
+/// Ranges that touch as one, in order.
+fn merged(mut ranges: Vec<Interval>) -> Vec<[Option<f64>; 2]> {
+    ranges.sort_by(|a, b| a.lower().total_cmp(&b.lower()));
+    let mut kept: Vec<Interval> = Vec::new();
+    for range in ranges {
+        match kept.last_mut() {
+            Some(last) if range.lower() <= last.upper() => *last = last.hull(range),
+            _ => kept.push(range),
+        }
+    }
+    kept.into_iter().map(Into::into).collect()
+}
