@@ -15,6 +15,7 @@ mod identify;
 mod known;
 mod manual;
 mod number;
+mod orbits;
 mod predict;
 mod reproduce;
 mod simulate;
