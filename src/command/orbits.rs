@@ -88,7 +88,8 @@ fn table(listing: &OrbitListing, output: &mut impl Write) -> Result<(), CommandE
         writeln!(output, "{}  attracting", head.map(|name| format!("{name:>12}")).join("  "))?;
     }
     for one in &listing.orbits {
-        let largest = one.multipliers.first().map_or_else(|| "not known".to_owned(), |value| significant(value.norm(), 6));
+        let largest =
+            one.multipliers.first().map_or_else(|| "not known".to_owned(), |value| significant(value.norm(), 6));
         let middles = [one.period_s, one.time_high_s, one.time_low_s, one.amplitude(), one.bias()];
         let bias_is_none = one.bias().contains_zero();
         let cell = |(at, value): (usize, &Interval)| {
@@ -104,7 +105,8 @@ fn table(listing: &OrbitListing, output: &mut impl Write) -> Result<(), CommandE
         writeln!(output, "{}  {largest:>12}  {attracting}", cells.join("  "))?;
     }
     if !listing.orbits.is_empty() {
-        let widest = listing.orbits.iter().map(|one| one.period_s.width() / one.period_s.midpoint()).fold(0.0, f64::max);
+        let widest =
+            listing.orbits.iter().map(|one| one.period_s.width() / one.period_s.midpoint()).fold(0.0, f64::max);
         writeln!(output, "\neach proved to exist, its period within {} of itself", significant(widest, 2))?;
     }
     if listing.is_complete() {

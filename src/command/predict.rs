@@ -72,7 +72,9 @@ pub(super) struct Arguments {
 impl Arguments {
     fn axis(&self, alpha: f64) -> Result<AxisArguments, CommandError> {
         let &[relay] = self.relay.as_slice() else {
-            return Err(CommandError::Usage { reason: "--relay takes one level for a drag axis; --delta shifts it".to_owned() });
+            return Err(CommandError::Usage {
+                reason: "--relay takes one level for a drag axis; --delta shifts it".to_owned(),
+            });
         };
         let (beta, beta_quadratic) = (self.beta.unwrap_or(0.0), self.beta_quadratic.unwrap_or(0.0));
         let motion = MotionArguments { alpha, beta, beta_quadratic };
@@ -92,7 +94,16 @@ impl Arguments {
             _ => return Err(CommandError::Usage { reason: "--periods needs SHORTEST,LONGEST".to_owned() }),
         };
         let (half_width, reference) = (self.half_width, self.reference.unwrap_or(0.0));
-        Ok(orbits::Loop { num: &self.num, den: &self.den, delay_s: self.delay, high, low, half_width, reference, periods })
+        Ok(orbits::Loop {
+            num: &self.num,
+            den: &self.den,
+            delay_s: self.delay,
+            high,
+            low,
+            half_width,
+            reference,
+            periods,
+        })
     }
 }
 

@@ -249,7 +249,8 @@ mod tests {
     #[test]
     fn powers_and_reciprocals_agree() {
         for ascending in [vec![0.002, 0.0], vec![1e-9, -1e-9, 1e-9], vec![2.0, 0.0]] {
-            let group = Algebra::new(Interval::point(-0.8), &ascending.iter().map(|&c| Interval::point(c)).collect::<Vec<_>>());
+            let group =
+                Algebra::new(Interval::point(-0.8), &ascending.iter().map(|&c| Interval::point(c)).collect::<Vec<_>>());
             let group = group.unwrap();
             let there = group.exponential(Interval::point(0.9), false);
             let back = group.exponential(Interval::point(0.9), true);

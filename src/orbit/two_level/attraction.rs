@@ -8,7 +8,6 @@ use super::modes::Mode;
 use super::path::Path;
 use super::switching::Conditions;
 use crate::numeric::Interval;
-use crate::orbit::OrbitError;
 use crate::plant::eigenvalues;
 use crate::proof::interval_matrix::norm;
 
@@ -99,13 +98,15 @@ impl Conditions {
         let output: Vec<Interval> = self.modes.iter().flat_map(|mode| mode.output_row().to_vec()).collect();
         let output = RowDVector::from_vec(output);
         // One unit of input raises the first coordinate of every group.
-        let firsts = self.modes.iter().scan(0, |place, mode| Some(core::mem::replace(place, *place + mode.algebra.degree)));
+        let firsts =
+            self.modes.iter().scan(0, |place, mode| Some(core::mem::replace(place, *place + mode.algebra.degree)));
         let mut input = DVector::from_element(order, Interval::ZERO);
         firsts.for_each(|place| input[place] = Interval::ONE);
 
         let identity = Matrix::identity(size, size);
         let mut state = identity.rows(0, order).into_owned();
-        let mut queue: VecDeque<RowDVector<Interval>> = (order..size).map(|row| identity.row(row).into_owned()).collect();
+        let mut queue: VecDeque<RowDVector<Interval>> =
+            (order..size).map(|row| identity.row(row).into_owned()).collect();
         let mut now = Interval::ZERO;
         for (time, event) in events {
             if time.midpoint() > now.midpoint() {
@@ -132,23 +133,27 @@ impl Conditions {
         let rates = rates.iter().zip(&self.modes).flat_map(|(rate, mode)| rate[..mode.algebra.degree].to_vec());
         let rates: Vec<Interval> = rates.collect();
         let along = DVector::from_fn(size, |row, _| if row < order { rates[row] } else { -Interval::ONE });
-        let passage = RowDVector::from_fn(size, |_, column| {
-            if column < order { output[column] / falling } else { Interval::ZERO }
-        });
+        let passage = RowDVector::from_fn(
+            size,
+            |_, column| {
+                if column < order { output[column] / falling } else { Interval::ZERO }
+            },
+        );
         let passed = &passage * &map;
         Some(map - along * passed)
     }
 
     /// Multipliers of an orbit and what they show.
-    pub(super) fn attraction(&self, path: &Path<'_>) -> Result<Attraction, OrbitError> {
+    pub(super) fn attraction(&self, path: &Path<'_>) -> Attraction {
         let Some(map) = self.return_map(path).filter(|map| norm(map).is_finite()) else {
-            return Ok(Attraction { multipliers: Vec::new(), attracting: None });
+            return Attraction { multipliers: Vec::new(), attracting: None };
         };
-        let mut multipliers = eigenvalues(&map.map(Interval::midpoint))?;
+        // Printed only: what is shown rests on the powers of the map.
+        let mut multipliers = eigenvalues(&map.map(Interval::midpoint)).unwrap_or_default();
         multipliers.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
         let largest = multipliers.first().map_or(0.0, |one| one.norm());
         multipliers.retain(|one| one.norm() > NONE * largest.max(1.0));
-        Ok(Attraction { multipliers, attracting: shrinks(map) })
+        Attraction { multipliers, attracting: shrinks(map) }
     }
 }
 

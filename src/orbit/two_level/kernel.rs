@@ -6,6 +6,8 @@
 //! `abs(A) T <= 1`, and for poles at zero, the mean of the input is split off and
 //! `W = -sum_(j >= 2) (B_j(t/T)/j!) output(A^(j-2)) T^(j-1)`, which does not cancel.
 
+use std::sync::LazyLock;
+
 use super::algebra::{Element, ONE, ZERO, add, scaled};
 use super::modes::Mode;
 use crate::numeric::{Interval, Real};
@@ -49,8 +51,7 @@ pub(super) struct Answer {
 enum Form {
     /// `(1 - exp(+-A T))^-1`.
     Closed(Element),
-    /// `output(A^i) T^(i+1)`, times `T^-degree` where the period is unbounded; the powers of `A T`; a bound of what the
-    /// powers left out add, for `W` itself.
+    /// `output(A^i) T^(i+1)`; the powers of `A T`; a bound of what the powers left out add, for `W` itself.
     Series { weights: Vec<Interval>, powers: Vec<Element>, rest: f64 },
 }
 
@@ -60,15 +61,8 @@ pub(super) struct Periodic<'a> {
     period: Interval,
     modes: &'a [Mode],
     forms: Vec<Form>,
-    needs_series: bool,
-    /// By which the groups away from zero are multiplied, as are those at zero.
-    divisor: Interval,
-}
-
-/// The powers of `1/T` by which equations of a plant with poles at zero are multiplied where the period is unbounded.
-pub(super) fn divisor(modes: &[Mode], period: Interval) -> Interval {
-    let integrators = modes.first().filter(|mode| mode.inverse.is_none()).map_or(0, |mode| mode.algebra.degree);
-    if period.is_bounded() { Interval::ONE } else { (0..integrators).fold(Interval::ONE, |power, _| power / period) }
+    /// Degree of the highest Bernoulli polynomial that a form has.
+    degree: usize,
 }
 
 impl<'a> Periodic<'a> {
@@ -79,8 +73,7 @@ impl<'a> Periodic<'a> {
             let series = mode.inverse.is_none() || mode.algebra.size() * period.upper() <= 1.0;
             forms.push(if series { Form::series(mode, period) } else { Form::closed(mode, period)? });
         }
-        let needs_series = forms.iter().any(|form| matches!(form, Form::Series { .. }));
-        Some(Self { period, modes, forms, needs_series, divisor: divisor(modes, period) })
+        Some(Self { period, modes, degree: degree(&forms), forms })
     }
 
     pub(super) fn period(&self) -> Interval {
@@ -102,14 +95,11 @@ impl<'a> Periodic<'a> {
 
     /// `W` over the moments.
     pub(super) fn answer(&self, at: &Moment) -> Answer {
-        let polynomials = if self.needs_series { bernoulli(at.share) } else { [Interval::ZERO; TERMS + 1] };
+        let polynomials = bernoulli(at.share, self.degree);
         let mut sum = Answer { value: Interval::ZERO, by_time: Interval::ZERO, by_period: Interval::ZERO };
         for (mode, form) in self.modes.iter().zip(&self.forms) {
             let one = match form {
-                Form::Closed(factor) => {
-                    let one = closed(mode, factor, at, self.period);
-                    Answer { value: one.value * self.divisor, ..one }
-                }
+                Form::Closed(factor) => closed(mode, factor, at, self.period),
                 Form::Series { weights, rest, .. } => series(weights, *rest, &polynomials, at.share, self.period),
             };
             sum.value += one.value;
@@ -121,11 +111,12 @@ impl<'a> Periodic<'a> {
 
     /// The states' rates per unit of the step: `W`'s derivative by time, before the output is read.
     pub(super) fn rates(&self, at: &Moment) -> Vec<Element> {
-        let polynomials = if self.needs_series { bernoulli(at.share) } else { [Interval::ZERO; TERMS + 1] };
+        let polynomials = bernoulli(at.share, self.degree);
         let rate = |(mode, form): (&Mode, &Form)| match form {
             Form::Closed(factor) => decay(mode, factor, at),
             Form::Series { powers, .. } => {
-                let term = |sum: Element, (power, at): (&Element, usize)| add(&sum, &scaled(power, -polynomials[at + 1]));
+                let term =
+                    |sum: Element, (power, at): (&Element, usize)| add(&sum, &scaled(power, -polynomials[at + 1]));
                 let sum = powers.iter().zip(0..).fold(ZERO, term);
                 let left_out = Interval::symmetric(REMAINDER);
                 let rest = if mode.inverse.is_none() { Interval::ZERO } else { left_out };
@@ -146,13 +137,6 @@ impl Form {
     fn series(mode: &Mode, period: Interval) -> Self {
         let algebra = &mode.algebra;
         let count = if mode.inverse.is_none() { algebra.degree } else { TERMS - 1 };
-        if !period.is_bounded() {
-            // Poles at zero: the powers of A are those of nu, the period's are negative.
-            let weight = |at: usize| {
-                (at + 1..algebra.degree).fold(mode.output_row()[at], |weight, _| weight / period)
-            };
-            return Self::Series { weights: (0..count).map(weight).collect(), powers: Vec::new(), rest: 0.0 };
-        }
         let step = scaled(&algebra.generator(), period);
         let mut powers = vec![ONE];
         for _ in 1..count {
@@ -160,7 +144,8 @@ impl Form {
             powers.push(next);
         }
         let weights = powers.iter().map(|power| mode.output(power) * period).collect();
-        let rest = if mode.inverse.is_none() { 0.0 } else { (period * Interval::point(mode.reach() * REMAINDER)).upper() };
+        let rest =
+            if mode.inverse.is_none() { 0.0 } else { (period * Interval::point(mode.reach() * REMAINDER)).upper() };
         Self::Series { weights, powers, rest }
     }
 }
@@ -175,6 +160,15 @@ fn decay(mode: &Mode, factor: &Element, at: &Moment) -> Element {
     }
 }
 
+/// Degree of the highest Bernoulli polynomial in use; zero for none.
+fn degree(forms: &[Form]) -> usize {
+    let degree = |form: &Form| match form {
+        Form::Closed(_) => 0,
+        Form::Series { weights, .. } => weights.len() + 1,
+    };
+    forms.iter().map(degree).max().unwrap_or(0)
+}
+
 fn closed(mode: &Mode, factor: &Element, at: &Moment, period: Interval) -> Answer {
     let algebra = &mode.algebra;
     let motion = decay(mode, factor, at);
@@ -184,7 +178,8 @@ fn closed(mode: &Mode, factor: &Element, at: &Moment, period: Interval) -> Answe
     } else {
         algebra.product(&algebra.exponential(period, false), factor)
     };
-    let value = mode.inverse.as_ref().map_or(Interval::ENTIRE, |inverse| mode.output(&algebra.product(inverse, &motion)));
+    let value =
+        mode.inverse.as_ref().map_or(Interval::ENTIRE, |inverse| mode.output(&algebra.product(inverse, &motion)));
     Answer { value, by_time: mode.output(&motion), by_period: mode.output(&algebra.product(&motion, &turned)) }
 }
 
@@ -192,7 +187,13 @@ fn closed(mode: &Mode, factor: &Element, at: &Moment, period: Interval) -> Answe
 /// `4 (TERMS + 9)/(2 pi)^TERMS/(2 pi - 1)`, with `(2 pi)^22 >= 3.6e17`.
 const REMAINDER: f64 = 4.0 * (TERMS as f64 + 9.0) / (3.6e17 * 5.0);
 
-fn series(weights: &[Interval], rest: f64, polynomials: &[Interval; TERMS + 1], share: Interval, period: Interval) -> Answer {
+fn series(
+    weights: &[Interval],
+    rest: f64,
+    polynomials: &[Interval; TERMS + 1],
+    share: Interval,
+    period: Interval,
+) -> Answer {
     let (mut value, mut by_time, mut by_period) = (Interval::ZERO, Interval::ZERO, Interval::ZERO);
     for (at, &weight) in weights.iter().enumerate() {
         let (this, last) = (polynomials[at + 2], polynomials[at + 1]);
@@ -201,40 +202,84 @@ fn series(weights: &[Interval], rest: f64, polynomials: &[Interval; TERMS + 1], 
         by_period += weight * (Interval::point((at + 1) as f64) * this - share * last);
     }
     let (left_out, over) = (Interval::symmetric(rest), Interval::ONE / period);
-    Answer { value: -value + left_out, by_time: -(by_time + left_out) * over, by_period: -(by_period + left_out) * over }
+    Answer {
+        value: -value + left_out,
+        by_time: -(by_time + left_out) * over,
+        by_period: -(by_period + left_out) * over,
+    }
 }
 
-/// `B_j(x)/j!` over `x` in [0, 1], by Taylor's formula about 1/2.
-fn bernoulli(share: Interval) -> [Interval; TERMS + 1] {
+/// `B_j(x)/j!` over `x` in [0, 1] for `j` up to a degree, by Taylor's formula about 1/2.
+fn bernoulli(share: Interval, degree: usize) -> [Interval; TERMS + 1] {
+    let mut polynomials = [Interval::ZERO; TERMS + 1];
+    if degree == 0 {
+        return polynomials;
+    }
+    let Table { middles, over_factorials, bounds } = &*TABLE;
     let from_middle = share - Interval::point(0.5);
     let mut powers = [Interval::ONE; TERMS + 1];
-    for at in 1..=TERMS {
+    for at in 1..=degree {
         // An even power of an interval about zero is not negative.
         let power = if at % 2 == 0 { powers[at / 2].square() } else { powers[at - 1] * from_middle };
         powers[at] = power;
     }
-    let middles = middles();
-    let bound = |j: usize| Interval::symmetric((0..j).fold(4.0, |bound, _| bound / 6.283));
-    core::array::from_fn(|j| {
-        let terms = (0..=j / 2).map(|k| (middles[k], over_factorial(powers[j - 2 * k], j - 2 * k)));
-        let sum = terms.fold(Interval::ZERO, |sum, (middle, power)| sum + middle * power);
-        if j > 1 { sum.intersection(bound(j)).unwrap_or(sum) } else { sum }
-    })
+    for at in 1..=degree {
+        powers[at] *= over_factorials[at];
+    }
+    for (j, polynomial) in polynomials.iter_mut().enumerate().take(degree + 1) {
+        let sum = Interval::dot((0..=j / 2).map(|k| (middles[k], powers[j - 2 * k])));
+        *polynomial = if j > 1 { sum.intersection(bounds[j]).unwrap_or(sum) } else { sum };
+    }
+    polynomials
 }
 
-fn over_factorial(value: Interval, of: usize) -> Interval {
-    // Exact up to 22!, which has 53 significant bits once its factors of two are taken out.
-    let factorial = (2..=of).fold(1.0, |product, factor| product * factor as f64);
-    value / Interval::point(factorial)
+/// What the Bernoulli polynomials are made of.
+struct Table {
+    /// `B_2k(1/2)/(2k)!`.
+    middles: [Interval; TERMS / 2 + 1],
+    over_factorials: [Interval; TERMS + 1],
+    /// `4/(2 pi)^j` rounded up, from degree two on.
+    bounds: [Interval; TERMS + 1],
 }
 
-/// `B_2k(1/2)/(2k)!`.
-fn middles() -> [Interval; TERMS / 2 + 1] {
-    core::array::from_fn(|k| {
+static TABLE: LazyLock<Table> = LazyLock::new(|| {
+    // Exact up to 22!, which has 51 significant bits once its factors of two are taken out.
+    let factorial = |of: usize| (2..=of).fold(1.0, |product, factor| product * factor as f64);
+    let over_factorials = core::array::from_fn(|of| Interval::ONE / Interval::point(factorial(of)));
+    let middles = core::array::from_fn(|k| {
         let (numerator, denominator) = BERNOULLI[k];
         let factor = Interval::point(0.5_f64.powi(2 * k as i32 - 1) - 1.0);
-        over_factorial(factor * Interval::point(numerator) / Interval::point(denominator), 2 * k)
-    })
+        factor * Interval::point(numerator) / Interval::point(denominator) / Interval::point(factorial(2 * k))
+    });
+    let bounds = core::array::from_fn(|j| Interval::symmetric((0..j).fold(4.0, |bound, _| bound / 6.283)));
+    Table { middles, over_factorials, bounds }
+});
+
+/// The poles at zero over a long period: the output's rise from the lower to the upper change, per unit of the step, as a polynomial
+/// in the period, ascending. `share` of it is spent at the upper level, and no half-period is below `delay`.
+///
+/// With `W = -sum_j output(A^(j-1)) T^j b_(j+1)(t/T)`, `b_n = B_n/n!`, and Taylor's formula in `delay/T` the rise is
+/// `-sum_j output(A^(j-1)) sum_m T^(j-m) (-delay)^m/m! d_(j+1-m)`, `d_n = b_n(share) + b_n(1 - share) - 2 b_n(1)`, which
+/// vanishes for odd `n > 1` and is -1 for `n = 1`, 0 for `n = 0`.
+pub(super) fn rise_at_zero(modes: &[Mode], share: Interval, delay: Interval) -> Vec<Interval> {
+    let Some(mode) = modes.first().filter(|mode| mode.inverse.is_none()) else { return Vec::new() };
+    let degree = mode.algebra.degree;
+    let (at_share, at_one) = (bernoulli(share, degree + 1), bernoulli(Interval::ONE, degree + 1));
+    let difference = |n: usize| match n {
+        0 => Interval::ZERO,
+        1 => -Interval::ONE,
+        n if n % 2 == 1 => Interval::ZERO,
+        n => (at_share[n] - at_one[n]) * Interval::two(),
+    };
+    let mut ascending = vec![Interval::ZERO; degree + 1];
+    for j in 1..=degree {
+        let mut weight = -mode.output_row()[j - 1];
+        for m in 0..=j {
+            ascending[j - m] += weight * difference(j + 1 - m);
+            weight = weight * -delay / Interval::point((m + 1) as f64);
+        }
+    }
+    ascending
 }
 
 /// A bound of `abs(W)` over all moments and all periods up to this one; infinite where the series does not converge.
@@ -274,10 +319,10 @@ mod tests {
                 period,
                 modes: &modes,
                 forms: modes.iter().map(|mode| form(mode, period)).collect(),
-                needs_series: true,
-                divisor: Interval::ONE,
+                degree: TERMS,
             };
-            let (by_series, by_closed) = (build(Form::series), build(|mode, period| Form::closed(mode, period).unwrap()));
+            let (by_series, by_closed) =
+                (build(Form::series), build(|mode, period| Form::closed(mode, period).unwrap()));
             let [early, late] = [0.2, 0.7].map(|share| moment(share * period.midpoint(), period.midpoint()));
             let slopes = |periodic: &Periodic| [early, late].map(|at| periodic.answer(&at));
             let ([a, b], [c, d]) = (slopes(&by_series), slopes(&by_closed));
@@ -297,7 +342,7 @@ mod tests {
     #[test]
     fn bernoulli_polynomials_are_those_of_the_tables() {
         let x = 0.3;
-        let found = bernoulli(Interval::point(x));
+        let found = bernoulli(Interval::point(x), TERMS);
         let exact = [1.0, x - 0.5, (x * x - x + 1.0 / 6.0) / 2.0, (x * x * x - 1.5 * x * x + 0.5 * x) / 6.0];
         for (found, exact) in found.iter().zip(exact) {
             assert!((found.midpoint() - exact).abs() < 1e-16 && found.width() < 1e-15, "{found} {exact}");

@@ -21,6 +21,7 @@ use nalgebra::Complex;
 use super::OrbitError;
 use crate::numeric::{Interval, domain};
 use crate::plant::TransferFunction;
+use attraction::Attraction;
 use path::{Genuine, Path};
 use search::Range;
 use switching::Conditions;
@@ -120,7 +121,7 @@ impl ListedOrbit {
 /// s, or all.
 ///
 /// Where the relay has no hysteresis, or one so narrow that very many orbits share the dead time, the search ends after the
-/// twenty slowest and names the periods below as not covered. An orbit with several switchings each way is none of these.
+/// eight slowest and names the periods below as not covered. An orbit with several switchings each way is none of these.
 ///
 /// ```
 /// use selfosc::orbit::{TwoLevelRelay, orbits};
@@ -169,37 +170,50 @@ pub fn orbits(
     let conditions =
         Conditions { modes, delay, high, low, upper: middle + half_width, lower: middle - half_width, share };
     let range = conditions.range(period_s.as_ref());
-    let found = conditions.solutions(&range);
-    let mut open: Vec<Interval> = found.not_covered;
-    for at in &found.solutions {
-        let path = Path::new(&conditions, at);
-        let verdict = path.as_ref().map_or(Genuine::Open, Path::genuine);
-        let extremes = path.as_ref().and_then(Path::extremes);
-        match (verdict, path, extremes) {
-            (Genuine::Yes, Some(path), Some(extremes)) => {
-                let shift = if conditions.share.is_some() { reference } else { Interval::ZERO };
-                let [minimum, maximum] = extremes.map(|extreme| extreme + shift);
-                let attraction = conditions.attraction(&path)?;
-                listing.orbits.push(ListedOrbit {
-                    period_s: at[0] + at[1],
-                    time_high_s: at[0],
-                    time_low_s: at[1],
-                    minimum,
-                    maximum,
-                    multipliers: attraction.multipliers,
-                    attracting: attraction.attracting,
-                });
-            }
-            (Genuine::No, ..) => {}
-            _ => open.push(at[0] + at[1]),
+    let shift = if conditions.share.is_some() { reference } else { Interval::ZERO };
+    let mut open: Vec<Interval> = Vec::new();
+    let found = conditions.solutions(&range, |at| match conditions.orbit(at, shift) {
+        Ok(orbit) => {
+            listing.orbits.extend(orbit.clone());
+            orbit.is_some()
         }
-    }
+        Err(Undecided) => {
+            open.push(at[0] + at[1]);
+            false
+        }
+    });
+    open.extend(found.not_covered);
     listing.orbits.sort_by(|a, b| b.period_s.midpoint().total_cmp(&a.period_s.midpoint()));
     listing.not_covered = merged(open);
     Ok(listing)
 }
 
+/// A solution that may be an orbit and may not.
+struct Undecided;
+
 impl Conditions {
+    /// The orbit of a solution of the switching conditions, if it is one.
+    fn orbit(&self, at: &search::HalfPeriods, shift: Interval) -> Result<Option<ListedOrbit>, Undecided> {
+        let path = Path::new(self, at).ok_or(Undecided)?;
+        match path.genuine() {
+            Genuine::Yes => {}
+            Genuine::No => return Ok(None),
+            Genuine::Open => return Err(Undecided),
+        }
+        let [minimum, maximum] = path.extremes().ok_or(Undecided)?.map(|extreme| extreme + shift);
+        let Attraction { multipliers, attracting } = self.attraction(&path);
+        let [time_high_s, time_low_s] = *at;
+        Ok(Some(ListedOrbit {
+            period_s: time_high_s + time_low_s,
+            time_high_s,
+            time_low_s,
+            minimum,
+            maximum,
+            multipliers,
+            attracting,
+        }))
+    }
+
     /// The range of periods searched: from where a period is too short for the output to pass both levels.
     fn range(&self, period_s: Option<&RangeInclusive<f64>>) -> Range {
         let times = self.modes.iter().filter(|mode| mode.inverse.is_some()).map(|mode| 1.0 / mode.algebra.size());

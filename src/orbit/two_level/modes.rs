@@ -132,7 +132,8 @@ fn enclose(near: &[Vec<f64>], monic: &[Interval]) -> Option<Vec<Vec<Interval>>> 
     }
     let (inverse, point) = (inverse?, middle.map(Interval::point));
     let correction = &inverse * miss(&split(&point));
-    let mut radius: Vec<f64> = correction.iter().zip(&middle).map(|(c, m)| 4.0 * c.magnitude() + 1e-16 * m.abs()).collect();
+    let mut radius: Vec<f64> =
+        correction.iter().zip(&middle).map(|(c, m)| 4.0 * c.magnitude() + 1e-16 * m.abs()).collect();
     for _ in 0..8 {
         let spread = DVector::from_fn(size, |row, _| Interval::symmetric(radius[row]));
         let jacobian = columns(&split(&(&point + &spread)));
@@ -233,7 +234,13 @@ mod tests {
 
     #[test]
     fn static_gains_add_up_to_the_plants() {
-        for den in [vec![1.0, 3.0, 2.0], vec![1.0, 2.0, 1.0], vec![2.0, 1.0, 3.0, 0.7], vec![1.0, -1.0, 5.0, 2.0], vec![1.0, 3.0, 3.0, 1.0]] {
+        for den in [
+            vec![1.0, 3.0, 2.0],
+            vec![1.0, 2.0, 1.0],
+            vec![2.0, 1.0, 3.0, 0.7],
+            vec![1.0, -1.0, 5.0, 2.0],
+            vec![1.0, 3.0, 3.0, 1.0],
+        ] {
             let plant = TransferFunction::new(&[0.4, 1.5], &den).unwrap();
             let found = modes(&plant).unwrap();
             let gain = found.iter().fold(Interval::ZERO, |sum, mode| sum + mode.static_gain().unwrap());

@@ -62,11 +62,8 @@ impl<'a> Path<'a> {
         let (high, low) = (self.times.high.value(), self.times.low.value());
         let period = self.periodic.period();
         let moment = |time: Interval, rest: Interval| Moment { time, rest, share: time / period };
-        let since_fall = if input_high {
-            moment(time + low, high - time)
-        } else {
-            moment(time - high, period - time + high)
-        };
+        let since_fall =
+            if input_high { moment(time + low, high - time) } else { moment(time - high, period - time + high) };
         [moment(time, period - time), since_fall].map(|Moment { time, rest, share }| {
             let not_negative = |value: Interval| Interval::new(value.lower().max(0.0), value.upper().max(0.0));
             let unit = |value: Interval| Interval::new(value.lower().clamp(0.0, 1.0), value.upper().clamp(0.0, 1.0));
@@ -105,7 +102,8 @@ impl<'a> Path<'a> {
     /// Rates of all states where the command becomes high, just before.
     pub(super) fn rates(&self) -> Vec<super::algebra::Element> {
         let time = self.conditions.time(&self.times, &self.on);
-        let [since_rise, since_fall] = self.moments(time, self.on.input_high).map(|moment| self.periodic.rates(&moment));
+        let [since_rise, since_fall] =
+            self.moments(time, self.on.input_high).map(|moment| self.periodic.rates(&moment));
         let step = self.conditions.high - self.conditions.low;
         let difference = |(a, b): (&super::algebra::Element, &super::algebra::Element)| {
             core::array::from_fn(|at| (a[at] - b[at]) * step)
@@ -175,7 +173,8 @@ impl<'a> Path<'a> {
         let mut start = from;
         if arc.begins && upper.lower() <= lower.upper() {
             // Without hysteresis it begins at the level.
-            let leaves = |&length: &f64| Interval::new(from, from + length).is_some_and(|cell| left(cell).1.is_positive());
+            let leaves =
+                |&length: &f64| Interval::new(from, from + length).is_some_and(|cell| left(cell).1.is_positive());
             let Some(length) = lengths().find(leaves) else { return Genuine::Open };
             start = from + length;
         }

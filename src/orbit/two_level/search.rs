@@ -9,14 +9,12 @@ use crate::proof::enclosure::{Roots, krawczyk};
 
 /// Boxes looked at before the search ends.
 const BOXES: usize = 20_000;
-/// Solutions after which the search ends: a relay with dead time has infinitely many, ever faster.
-const SOLUTIONS: usize = 20;
+/// Orbits after which the search ends: a relay with dead time and without hysteresis has infinitely many, ever faster.
+const ORBITS: usize = 8;
 /// Newton steps on a box before it is halved.
 const STEPS: usize = 3;
 /// A box of this size relative to its period is not halved further.
 const SMALLEST: f64 = 1e-9;
-/// Longest half-period that is told from infinity, over the loop's own time.
-const FAR: f64 = 1e7;
 
 /// Half-periods at the upper and at the lower level.
 pub(super) type HalfPeriods = [Interval; 2];
@@ -62,93 +60,131 @@ pub(super) struct Range {
     pub(super) unit: f64,
 }
 
+impl Range {
+    /// A half-period as a share of infinity: linear up to the loop's own time, then slower.
+    fn share(&self, time: f64) -> f64 {
+        if time.is_finite() { time / (time + self.unit) } else { 1.0 }
+    }
+
+    /// Where to cut a half-period: in the middle of that share.
+    fn cut(&self, time: Interval) -> f64 {
+        let share = 0.5 * (self.share(time.lower()) + self.share(time.upper()));
+        (self.unit * share / (1.0 - share)).clamp(time.lower(), time.upper().min(f64::MAX))
+    }
+
+    fn width(&self, time: Interval) -> f64 {
+        self.share(time.upper()) - self.share(time.lower())
+    }
+}
+
+/// The equations of a search over `N` unknowns.
+trait Equations<const N: usize> {
+    fn miss(&self, unknowns: [Gradient<N>; N]) -> [Gradient<N>; N];
+    fn times(&self, unknowns: [Gradient<N>; N]) -> Times<N>;
+}
+
+struct Free<'a>(&'a Conditions);
+struct Shared<'a>(&'a Conditions, Interval);
+
+impl Equations<2> for Free<'_> {
+    fn miss(&self, unknowns: [Gradient<2>; 2]) -> [Gradient<2>; 2] {
+        self.0.misses(unknowns)
+    }
+    fn times(&self, unknowns: [Gradient<2>; 2]) -> Times<2> {
+        Times::free(unknowns)
+    }
+}
+
+impl Equations<1> for Shared<'_> {
+    fn miss(&self, [period]: [Gradient<1>; 1]) -> [Gradient<1>; 1] {
+        [self.0.rise_miss(period, self.1)]
+    }
+    fn times(&self, [period]: [Gradient<1>; 1]) -> Times<1> {
+        Times::shared(period, self.1)
+    }
+}
+
 impl Conditions {
-    /// All solutions in a range of periods.
-    pub(super) fn solutions(&self, range: &Range) -> Found {
+    /// All solutions in a range of periods, until enough of them are orbits.
+    pub(super) fn solutions(&self, range: &Range, is_orbit: impl FnMut(&HalfPeriods) -> bool) -> Found {
         let from = |lower: f64| Interval::new(lower, f64::INFINITY).unwrap_or(Interval::ENTIRE);
-        if let Some(share) = self.share {
-            let times = |[period]: [Interval; 1]| [period * share, period * (Interval::ONE - share)];
-            let miss = |[period]: [Gradient<1>; 1]| [self.rise_miss(period, share)];
-            return search(miss, |[period]| period, times, [from(range.shortest)], range);
+        match self.share {
+            Some(share) => self.search(&Shared(self, share), [from(range.shortest)], range, is_orbit),
+            None => self.search(&Free(self), [from(0.0); 2], range, is_orbit),
         }
-        let miss = |unknowns: [Gradient<2>; 2]| self.misses(unknowns);
-        search(miss, |[high, low]| high + low, |times| times, [from(0.0); 2], range)
     }
 
     pub(super) fn times(&self, at: &HalfPeriods) -> Times<2> {
         Times::free(at.map(Gradient::constant))
     }
-}
 
-fn search<const N: usize>(
-    miss: impl Fn([Gradient<N>; N]) -> [Gradient<N>; N],
-    period: impl Fn([Interval; N]) -> Interval,
-    times: impl Fn([Interval; N]) -> HalfPeriods,
-    domain: [Interval; N],
-    range: &Range,
-) -> Found {
-    let mut open = BinaryHeap::from([Part { at: domain, longest: f64::INFINITY }]);
-    let mut found = Found::default();
-    let mut roots: Vec<[Interval; N]> = Vec::new();
-    let mut boxes = 0;
-    let outside = |at: &[Interval; N]| {
-        let period = period(*at);
-        period.upper() < range.shortest || period.lower() > range.longest
-    };
-    while let Some(Part { at, longest }) = open.pop() {
-        boxes += 1;
-        if boxes > BOXES || roots.len() >= SOLUTIONS {
-            found.not_covered.extend(Interval::new(range.shortest, longest.min(range.longest)));
-            break;
-        }
-        let mut push = |half: [Interval; N]| {
-            if !outside(&half) {
-                open.push(Part { at: half, longest: period(half).upper() });
+    fn search<const N: usize>(
+        &self,
+        equations: &impl Equations<N>,
+        domain: [Interval; N],
+        range: &Range,
+        mut is_orbit: impl FnMut(&HalfPeriods) -> bool,
+    ) -> Found {
+        let times = |at: [Interval; N]| equations.times(at.map(Gradient::constant));
+        let period = |at: [Interval; N]| times(at).period.value();
+        let miss = |unknowns: [Gradient<N>; N]| equations.miss(unknowns);
+        let outside = |period: Interval| period.upper() < range.shortest || period.lower() > range.longest;
+        let mut open = BinaryHeap::from([Part { at: domain, longest: f64::INFINITY }]);
+        let mut roots: Vec<[Interval; N]> = Vec::new();
+        let mut found = Found::default();
+        let (mut boxes, mut orbits) = (0, 0);
+        while let Some(Part { at, longest }) = open.pop() {
+            boxes += 1;
+            if boxes > BOXES || orbits >= ORBITS {
+                found.not_covered.extend(Interval::new(range.shortest, longest.min(range.longest)));
+                break;
             }
-        };
-        if let Some(side) = (0..N).filter(|&side| !at[side].is_bounded()).min_by(|&a, &b| at[a].lower().total_cmp(&at[b].lower())) {
-            // Without a middle there is no Newton step.
-            if miss(Gradient::variables(at)).iter().any(|miss| !miss.value().contains_zero()) {
-                continue;
-            }
-            let cut = (2.0 * at[side].lower()).max(range.unit);
-            if cut > FAR * range.unit {
-                found.not_covered.push(period(at));
-                continue;
-            }
-            for (lower, upper) in [(at[side].lower(), cut), (cut, f64::INFINITY)] {
-                let mut half = at;
-                half[side] = Interval::new(lower, upper).unwrap_or(at[side]);
-                push(half);
-            }
-            continue;
-        }
-        let remaining = match krawczyk(&miss, at, STEPS) {
-            Roots::None { .. } => continue,
-            Roots::Unique { enclosure, .. } => {
-                let enclosure = narrowed(&miss, enclosure);
-                // A solution on the border of two boxes is found in both.
-                if !outside(&enclosure) && !roots.iter().any(|known| same(&miss, known, &enclosure)) {
-                    roots.push(enclosure);
+            let bounded = at.iter().all(|side| side.is_bounded());
+            let remaining = if bounded {
+                if self.refuses(&times(at)) {
+                    continue;
                 }
+                match krawczyk(miss, at, STEPS) {
+                    Roots::None { .. } => continue,
+                    Roots::Unique { enclosure, .. } => {
+                        let enclosure = narrowed(miss, enclosure);
+                        // A solution on the border of two boxes is found in both.
+                        if !outside(period(enclosure)) && !roots.iter().any(|known| same(miss, known, &enclosure)) {
+                            roots.push(enclosure);
+                            let half_periods = times(enclosure);
+                            let half_periods = [half_periods.high.value(), half_periods.low.value()];
+                            orbits += usize::from(is_orbit(&half_periods));
+                            found.solutions.push(half_periods);
+                        }
+                        continue;
+                    }
+                    Roots::Undecided { remaining, .. } => remaining,
+                }
+            } else {
+                // Without a middle there is no Newton step.
+                if miss(Gradient::variables(at)).iter().any(|miss| !miss.value().contains_zero()) {
+                    continue;
+                }
+                at
+            };
+            let widths = remaining.map(|side| range.width(side));
+            let side = (0..N).max_by(|&a, &b| widths[a].total_cmp(&widths[b])).unwrap_or(0);
+            if widths[side] <= SMALLEST * range.share(period(remaining).upper()) {
+                found.not_covered.push(period(remaining));
                 continue;
             }
-            Roots::Undecided { remaining, .. } => remaining,
-        };
-        let side = (0..N).max_by(|&a, &b| remaining[a].width().total_cmp(&remaining[b].width())).unwrap_or(0);
-        if remaining[side].width() <= SMALLEST * period(remaining).upper() {
-            found.not_covered.push(period(remaining));
-            continue;
+            let cut = range.cut(remaining[side]);
+            for (lower, upper) in [(remaining[side].lower(), cut), (cut, remaining[side].upper())] {
+                let mut half = remaining;
+                half[side] = Interval::new(lower, upper).unwrap_or(remaining[side]);
+                let period = period(half);
+                if !outside(period) {
+                    open.push(Part { at: half, longest: period.upper() });
+                }
+            }
         }
-        let (lower, upper) = remaining[side].bisect();
-        for part in [lower, upper] {
-            let mut half = remaining;
-            half[side] = part;
-            push(half);
-        }
+        found
     }
-    found.solutions = roots.into_iter().map(times).collect();
-    found
 }
 
 /// The enclosure after as many steps as narrow it.

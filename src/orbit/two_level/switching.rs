@@ -1,6 +1,6 @@
 //! The switching conditions: the periodic output where the command changes, over boxes of half-periods.
 
-use super::kernel::{Moment, Periodic, divisor};
+use super::kernel::{Moment, Periodic, rise_at_zero};
 use super::modes::Mode;
 use crate::numeric::{Interval, Real};
 use crate::proof::Gradient;
@@ -45,6 +45,16 @@ pub(super) enum Change {
     On,
     /// It becomes low: the output rises past the upper level.
     Off,
+}
+
+impl Change {
+    /// Half-periods after the command becomes high.
+    fn offset(self) -> (f64, f64) {
+        match self {
+            Self::On => (0.0, 0.0),
+            Self::Off => (1.0, 0.0),
+        }
+    }
 }
 
 impl Times<2> {
@@ -104,27 +114,21 @@ fn clipped(time: Interval) -> Option<Interval> {
 }
 
 impl Conditions {
-    /// Where a change may be, for some of the half-periods; `None` for too many places.
-    pub(super) fn places<const N: usize>(&self, times: &Times<N>, change: Change) -> Option<Vec<Place>> {
-        let period = times.period.value();
-        let turns = |time: Interval| if time.upper() == 0.0 { Interval::ZERO } else { time / period };
-        // On: 0 <= n T - delay <= T. Off: 0 <= high + m T - delay <= T.
-        let count = match change {
-            Change::On => turns(self.delay),
-            Change::Off => turns(self.delay - times.high.value()),
-        };
-        let (first, last) = (libm::ceil(count.lower()), libm::floor(count.upper()) + 1.0);
-        // The off change is at most a period before the input's rise.
-        let (first, last) = if change == Change::Off { (first.max(0.0), last.max(0.0)) } else { (first, last) };
+    /// Where in the input's period a moment may be, for some of the half-periods: one that comes `high offset.0 + low offset.1`
+    /// after the command becomes high. `None` for too many places.
+    pub(super) fn places<const N: usize>(&self, times: &Times<N>, offset: (f64, f64)) -> Option<Vec<Place>> {
+        // 0 <= offset - delay + n T <= T, and the offset is less than a period.
+        let before = -times.combination(offset.0, offset.1, -self.delay).value();
+        let turns = if before == Interval::ZERO { before } else { before / times.period.value() };
+        let (first, last) = (libm::ceil(turns.lower()).max(0.0), (libm::floor(turns.upper()) + 1.0).max(0.0));
         if !(last - first <= 2.0) {
             return None;
         }
         let mut places = Vec::new();
         for step in 0..=(last - first) as u32 {
-            let falls = first + f64::from(step);
-            let rises = if change == Change::On { falls } else { falls + 1.0 };
+            let turn = first + f64::from(step);
             for input_high in [true, false] {
-                let place = Place { rises, falls, input_high };
+                let place = Place { rises: turn + offset.0, falls: turn + offset.1, input_high };
                 if self.moments(times, &place).is_some() {
                     places.push(place);
                 }
@@ -148,14 +152,15 @@ impl Conditions {
         Some([since_rise, since_fall])
     }
 
-    /// The output less its free constant where a change is, over a box of half-periods; `None` where the box is too wide.
+    /// The output where a change is, over a box of half-periods, less the constant that a pole at zero leaves free; `None` where the
+    /// box is too wide.
     pub(super) fn output<const N: usize>(
         &self,
         periodic: &Periodic<'_>,
         times: &Times<N>,
         change: Change,
     ) -> Option<Gradient<N>> {
-        let places = self.places(times, change)?;
+        let places = self.places(times, change.offset())?;
         places.iter().filter_map(|place| self.output_at(periodic, times, place)).reduce(hull)
     }
 
@@ -177,7 +182,7 @@ impl Conditions {
         let swing = (answer(&moments[0]) - answer(&moments[1])) * Gradient::constant(step);
         let (present, mean) = periodic.gains();
         let input = if place.input_high { self.high } else { self.low };
-        let constant = Gradient::constant(present * input * divisor(&self.modes, times.period.value()));
+        let constant = Gradient::constant(present * input);
         Some(swing + constant + self.mean_input(times) * Gradient::constant(mean))
     }
 
@@ -209,16 +214,69 @@ impl Conditions {
         }
     }
 
-    /// The same where a pole at zero leaves the output's constant free: the output's rise less the hysteresis, divided by a power
-    /// of the period where that is unbounded.
+    /// The same where a pole at zero leaves the output's constant free: the output's rise less the hysteresis.
     pub(super) fn rise_miss(&self, period: Gradient<1>, share: Interval) -> Gradient<1> {
+        if !period.value().is_bounded() {
+            return Gradient::constant(self.rise_far(period.value(), share).unwrap_or(Interval::ENTIRE));
+        }
         let times = Times::shared(period, share);
         let found = Periodic::new(&self.modes, period.value()).and_then(|periodic| {
             let at = |change| self.output(&periodic, &times, change);
-            let hysteresis = (self.upper - self.lower) * divisor(&self.modes, period.value());
-            Some(at(Change::Off)? - at(Change::On)? - Gradient::constant(hysteresis))
+            Some(at(Change::Off)? - at(Change::On)? - Gradient::constant(self.upper - self.lower))
         });
         found.unwrap_or(Gradient::new(Interval::ENTIRE, [Interval::ENTIRE]))
+    }
+
+    /// That miss over an unbounded range of periods, divided by the largest power of the period that it has.
+    fn rise_far(&self, period: Interval, share: Interval) -> Option<Interval> {
+        let rest = Interval::ONE - share;
+        if !(self.delay.upper() <= (share * period).lower() && self.delay.upper() <= (rest * period).lower()) {
+            return None;
+        }
+        let times = Times::shared(Gradient::constant(period), share);
+        let away: Vec<Mode> = self.modes.iter().filter(|mode| mode.inverse.is_some()).cloned().collect();
+        let without = Self { modes: away, ..self.clone() };
+        let periodic = Periodic::new(&without.modes, period)?;
+        let at = |change| without.output(&periodic, &times, change);
+        let bounded = (at(Change::Off)? - at(Change::On)?).value() - (self.upper - self.lower);
+        let mut ascending = rise_at_zero(&self.modes, share, self.delay);
+        ascending.iter_mut().for_each(|coefficient| *coefficient = *coefficient * (self.high - self.low));
+        ascending[0] += bounded;
+        let over = (Interval::ONE / period).intersection(NOT_NEGATIVE)?;
+        let from = ascending.iter().position(|&coefficient| coefficient != Interval::ZERO)?;
+        let last = ascending.iter().rposition(|&coefficient| coefficient != Interval::ZERO)?;
+        Some(ascending[from..=last].iter().fold(Interval::ZERO, |sum, &coefficient| sum * over + coefficient))
+    }
+
+    /// Whether no half-periods of a box are those of an orbit: the output passes a level the wrong way, or is past it earlier.
+    pub(super) fn refuses<const N: usize>(&self, times: &Times<N>) -> bool {
+        let Some(periodic) = Periodic::new(&self.modes, times.period.value()) else { return false };
+        let step = self.high - self.low;
+        let mut lowest = Interval::ZERO;
+        let slope = |change: Change| {
+            let slope_at = |place: &Place| {
+                let [rise, fall] = self.moments(times, place)?;
+                Some((periodic.answer(&rise.1).by_time - periodic.answer(&fall.1).by_time) * step)
+            };
+            self.places(times, change.offset())?.iter().filter_map(slope_at).reduce(Interval::hull)
+        };
+        if slope(Change::Off).is_some_and(Interval::is_negative) || slope(Change::On).is_some_and(Interval::is_positive)
+        {
+            return true;
+        }
+        if self.share.is_some() {
+            let Some(at_on) = self.output(&periodic, times, Change::On) else { return false };
+            lowest = at_on.value() - self.lower;
+        }
+        let past = |offset: (f64, f64)| {
+            let places = self.places(times, offset)?;
+            let values = places.iter().filter_map(|place| self.output_at(&periodic, times, place));
+            Some(values.reduce(hull)?.value() - lowest)
+        };
+        [0.25, 0.5, 0.75].iter().any(|&share| {
+            past((share, 0.0)).is_some_and(|value| self.upper.precedes(value))
+                || past((1.0, share)).is_some_and(|value| value.precedes(self.lower))
+        })
     }
 
     /// The one place of a change, given its enclosed half-periods; just before the input's own change where they coincide
@@ -230,7 +288,7 @@ impl Conditions {
                 Change::Off => Place { rises: 1.0, falls: 0.0, input_high: true },
             });
         }
-        match self.places(times, change)?.as_slice() {
+        match self.places(times, change.offset())?.as_slice() {
             [place] => Some(*place),
             _ => None,
         }
@@ -253,7 +311,8 @@ impl Conditions {
         let width = (self.upper - self.lower).lower();
         let step = Interval::point(4.0) * (self.high - self.low).abs();
         // The output's rise is a sum of four answers.
-        let too_small = |period: f64| (step * Interval::point(super::kernel::bound(&self.modes, period))).upper() < width;
+        let too_small =
+            |period: f64| (step * Interval::point(super::kernel::bound(&self.modes, period))).upper() < width;
         if !(width > 0.0) {
             return 0.0;
         }
