@@ -4,7 +4,7 @@
 //! | job | start with |
 //! |---|---|
 //! | describe a characteristic | [`nonlinearity`], [`describing::ClosedForm`] |
-//! | predict an oscillation | [`orbit::limit_cycle`], [`orbit::RelayLoop`], [`balance::HarmonicBalance`] |
+//! | predict an oscillation | [`orbit::limit_cycle`], [`orbit::orbits`], [`balance::HarmonicBalance`] |
 //! | identify a vehicle from logs | `identify::Session` (with the feature `std`) |
 //! | tune a controller for it | [`control::Tuning`] |
 //! | verify the theory | `claims::verify` (with the feature `std`) |

@@ -8,6 +8,7 @@ mod grid;
 mod harmonics;
 mod intersections;
 mod nyquist;
+mod nyquist_count;
 
 pub use drag_axis::AxisOscillation;
 pub use error::BalanceError;

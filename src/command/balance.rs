@@ -8,17 +8,20 @@ use serde_json::json;
 
 use super::error::Given;
 use super::number::number;
-use super::{CommandError, Outcome, files, write_json};
-use crate::balance::{Bias, HarmonicBalance};
+use super::{CommandError, Outcome, files, orbits, write_json};
+use crate::balance::{Bias, HarmonicBalance, Intersection};
 use crate::describing::{Entry, Setting};
 use crate::numeric::significant;
+use crate::orbit::{ListedOrbit, TwoLevelRelay};
 use crate::plant::TransferFunction;
 use crate::report::nyquist;
 
 /// The oscillations that harmonic balance predicts for a plant in a loop with a characteristic.
 ///
-/// Every intersection of the plant's Nyquist curve with -1/N, with Loeb's verdict on its stability. An approximation: it leaves
-/// out all harmonics but the first. Exit status 1 where no oscillation is predicted.
+/// Every intersection of the plant's Nyquist curve with -1/N. An approximation: it leaves out all harmonics but the first. Stable means
+/// that the amplitude returns (Loeb's criterion) and that the loop with the gain N has no other root in the right half plane
+/// (generalised Nyquist count). Of a relay the exact orbit stands beside it, and its multipliers decide.
+/// Exit status 1 where no oscillation is predicted.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -44,7 +47,7 @@ pub(super) struct Arguments {
     #[arg(long, value_parser = number, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
     bias: f64,
     /// Draws G(jw) and -1/N into this SVG file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, visible_alias = "plot", value_name = "FILE")]
     svg: Option<PathBuf>,
     /// Prints one JSON document
     #[arg(long)]
@@ -57,7 +60,13 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     let characteristic = entry.build(&entry.values(&arguments.settings)?)?;
     let balance = HarmonicBalance::new(&plant, |sweep| characteristic.describing_function(sweep))?
         .with_bias(Bias::Fixed(arguments.bias))?;
-    let found = balance.intersections()?;
+    let mut found = balance.intersections()?;
+    let exact = exact(arguments, entry, &plant, &found)?;
+    let by_loeb: Vec<Option<bool>> = found.iter().map(|one| one.stable).collect();
+    for (one, orbit) in found.iter_mut().zip(&exact) {
+        one.stable = orbit.as_ref().and_then(|orbit| orbit.attracting).or(one.stable);
+    }
+    let found = found;
     if let Some(path) = &arguments.svg {
         let describing = |sweep: &_| characteristic.describing_function(sweep);
         let figure = nyquist(&plant, balance.omega_rad_s(), describing, arguments.bias, &found)?;
@@ -65,8 +74,20 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     }
     let outcome = if found.is_empty() { Outcome::No } else { Outcome::Done };
     if arguments.json {
-        let intersection = |found: &crate::balance::Intersection| json!({ "amplitude": found.amplitude, "omega_rad_s": found.omega_rad_s, "stable": found.stable });
-        write_json(output, &json!({ "intersections": found.iter().map(intersection).collect::<Vec<_>>() }))?;
+        let intersection = |(found, exact): (&Intersection, &Option<ListedOrbit>)| {
+            json!({
+                "amplitude": found.amplitude,
+                "omega_rad_s": found.omega_rad_s,
+                "stable": found.stable,
+                "stability_by": by(exact.as_ref()),
+                "unstable_roots": found.unstable_roots,
+                "exact": exact.as_ref().map(orbits::orbit),
+            })
+        };
+        write_json(
+            output,
+            &json!({ "intersections": found.iter().zip(&exact).map(intersection).collect::<Vec<_>>() }),
+        )?;
         return Ok(outcome);
     }
     if found.is_empty() {
@@ -75,16 +96,68 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         return Ok(outcome);
     }
     writeln!(output, "{:>14}  {:>14}  {:>12}  stable", "amplitude", "omega / rad/s", "period / s")?;
-    for one in &found {
+    for ((one, orbit), loeb) in found.iter().zip(&exact).zip(by_loeb) {
         let stable = one.stable.map_or("not decided", |stable| if stable { "yes" } else { "no" });
         let period_s = core::f64::consts::TAU / one.omega_rad_s;
         writeln!(
             output,
-            "{:>14}  {:>14}  {:>12}  {stable}",
+            "{:>14}  {:>14}  {:>12}  {stable}, by {}",
             significant(one.amplitude, 7),
             significant(one.omega_rad_s, 7),
-            significant(period_s, 7)
+            significant(period_s, 7),
+            by(orbit.as_ref())
+        )?;
+        let Some(orbit) = orbit else { continue };
+        writeln!(
+            output,
+            "{:>14}  {:>14}  {:>12}  (the exact orbit{})",
+            significant(orbit.amplitude().midpoint(), 7),
+            "",
+            significant(orbit.period_s.midpoint(), 7),
+            if loeb.is_some() && orbit.attracting.is_some() && loeb != orbit.attracting {
+                "; the first harmonic's own verdict contradicts it"
+            } else {
+                ""
+            }
         )?;
     }
     Ok(Outcome::Done)
+}
+
+/// What decides the stability of an intersection.
+fn by(exact: Option<&ListedOrbit>) -> &'static str {
+    if exact.is_some_and(|orbit| orbit.attracting.is_some()) { "multipliers" } else { "loeb" }
+}
+
+/// How far the period of an exact orbit may be from that of its first harmonic, as a logarithm: half an octave.
+const NEAR: f64 = 0.35;
+
+/// The exact orbit near each intersection, where the characteristic is a relay: each orbit once, beside the nearest period.
+fn exact(
+    arguments: &Arguments,
+    entry: &Entry,
+    plant: &TransferFunction,
+    found: &[Intersection],
+) -> Result<Vec<Option<ListedOrbit>>, CommandError> {
+    let mut beside = vec![None; found.len()];
+    let (level, half_width, offset) = match (entry.name, entry.values(&arguments.settings)?.as_slice()) {
+        ("relay", &[level]) => (level, 0.0, 0.0),
+        ("relay-hysteresis", &[level, half_width, offset]) => (level, half_width, offset),
+        _ => return Ok(beside),
+    };
+    let switches = half_width > 0.0 || plant.delay_s() > 0.0;
+    if !switches || arguments.bias != 0.0 || found.is_empty() {
+        return Ok(beside);
+    }
+    let relay = TwoLevelRelay::new(offset + level, offset - level, half_width)?;
+    let Ok(listing) = crate::orbit::orbits(plant, &relay, None) else { return Ok(beside) };
+    for orbit in listing.orbits {
+        let away =
+            |one: &Intersection| (one.omega_rad_s * orbit.period_s.midpoint() / core::f64::consts::TAU).ln().abs();
+        let nearest = (0..found.len()).min_by(|&a, &b| away(&found[a]).total_cmp(&away(&found[b])));
+        if let Some(place) = nearest.filter(|&place| away(&found[place]) < NEAR && beside[place].is_none()) {
+            beside[place] = Some(orbit);
+        }
+    }
+    Ok(beside)
 }

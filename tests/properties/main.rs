@@ -37,6 +37,7 @@ mod oracle;
 mod orbit_certified;
 mod orbit_drag_axis;
 mod orbit_linear;
+mod orbit_two_level;
 mod paper;
 mod power_law;
 mod record;

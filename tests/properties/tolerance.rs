@@ -225,3 +225,6 @@ pub(crate) const SINGLE_UNDERFLOW: f64 = f32::MIN_POSITIVE as f64;
 
 /// Describing functions in 32 digits against quadrature in 42: the trapezoidal rule with 144 points leaves 1e-22 of a steep tanh.
 pub(crate) const TWO_ORACLES: f64 = 1e-21;
+
+/// Width of an enclosed orbit's figures over its size: some hundreds of roundings through the partial fractions, and as many again.
+pub(crate) const ENCLOSED_ORBIT: f64 = 1e-11;

@@ -91,6 +91,14 @@ impl Algebra {
         norm(&self.generator())
     }
 
+    /// Half a turn of a complex pair, s, about.
+    pub(super) fn half_turn_s(&self) -> Option<f64> {
+        match self.shape {
+            Shape::Turning(omega) => Some(core::f64::consts::PI / omega.midpoint()),
+            Shape::Nilpotent => None,
+        }
+    }
+
     fn times_nu(&self, element: &Element) -> Element {
         let last = element[self.degree - 1];
         let mut shifted = ZERO;
@@ -105,6 +113,13 @@ impl Algebra {
         if self.degree == 1 {
             let mut product = ZERO;
             product[0] = a[0] * b[0];
+            return product;
+        }
+        if self.degree == 2 {
+            // nu^2 = modulus_0.
+            let mut product = ZERO;
+            product[0] = a[0] * b[0] + a[1] * b[1] * self.modulus[0];
+            product[1] = a[0] * b[1] + a[1] * b[0];
             return product;
         }
         // Horner's rule in nu.

@@ -49,8 +49,8 @@ pub(super) struct Answer {
 /// One group at a given period.
 #[derive(Debug)]
 enum Form {
-    /// `(1 - exp(+-A T))^-1`.
-    Closed(Element),
+    /// `(1 - exp(+-A T))^-1`, and that by which the derivative by the period differs from the one by time.
+    Closed { factor: Element, turned: Element },
     /// `output(A^i) T^(i+1)`; the powers of `A T`; a bound of what the powers left out add, for `W` itself.
     Series { weights: Vec<Interval>, powers: Vec<Element>, rest: f64 },
 }
@@ -85,7 +85,7 @@ impl<'a> Periodic<'a> {
         let (mut present, mut mean) = (Interval::ZERO, Interval::ZERO);
         for (mode, form) in self.modes.iter().zip(&self.forms) {
             match (mode.static_gain(), form) {
-                (Some(gain), Form::Closed(_)) => present += gain,
+                (Some(gain), Form::Closed { .. }) => present += gain,
                 (Some(gain), Form::Series { .. }) => mean += gain,
                 (None, _) => {}
             }
@@ -99,7 +99,7 @@ impl<'a> Periodic<'a> {
         let mut sum = Answer { value: Interval::ZERO, by_time: Interval::ZERO, by_period: Interval::ZERO };
         for (mode, form) in self.modes.iter().zip(&self.forms) {
             let one = match form {
-                Form::Closed(factor) => closed(mode, factor, at, self.period),
+                Form::Closed { factor, turned } => closed(mode, factor, turned, at),
                 Form::Series { weights, rest, .. } => series(weights, *rest, &polynomials, at.share, self.period),
             };
             sum.value += one.value;
@@ -113,12 +113,12 @@ impl<'a> Periodic<'a> {
     pub(super) fn rates(&self, at: &Moment) -> Vec<Element> {
         let polynomials = bernoulli(at.share, self.degree);
         let rate = |(mode, form): (&Mode, &Form)| match form {
-            Form::Closed(factor) => decay(mode, factor, at),
+            Form::Closed { factor, .. } => decay(mode, factor, at),
             Form::Series { powers, .. } => {
                 let term =
                     |sum: Element, (power, at): (&Element, usize)| add(&sum, &scaled(power, -polynomials[at + 1]));
                 let sum = powers.iter().zip(0..).fold(ZERO, term);
-                let left_out = Interval::symmetric(REMAINDER);
+                let left_out = Interval::symmetric(remainder(mode.algebra.size() * self.period.upper()));
                 let rest = if mode.inverse.is_none() { Interval::ZERO } else { left_out };
                 core::array::from_fn(|at| if at < mode.algebra.degree { sum[at] + rest } else { sum[at] })
             }
@@ -131,12 +131,17 @@ impl Form {
     fn closed(mode: &Mode, period: Interval) -> Option<Self> {
         let gone = mode.algebra.exponential(period, mode.backwards);
         let left = add(&ONE, &scaled(&gone, -Interval::ONE));
-        Some(Self::Closed(mode.algebra.reciprocal(&left)?))
+        let factor = mode.algebra.reciprocal(&left)?;
+        // Differentiated by the period: exp(A t) exp(A T) (1 - exp(A T))^-2, and exp(-A (T - t)) (1 - exp(-A T))^-2.
+        let turned =
+            if mode.backwards { scaled(&factor, -Interval::ONE) } else { mode.algebra.product(&gone, &factor) };
+        Some(Self::Closed { factor, turned })
     }
 
     fn series(mode: &Mode, period: Interval) -> Self {
         let algebra = &mode.algebra;
-        let count = if mode.inverse.is_none() { algebra.degree } else { TERMS - 1 };
+        let size = algebra.size() * period.upper();
+        let count = if mode.inverse.is_none() { algebra.degree } else { terms(size) - 1 };
         let step = scaled(&algebra.generator(), period);
         let mut powers = vec![ONE];
         for _ in 1..count {
@@ -144,8 +149,11 @@ impl Form {
             powers.push(next);
         }
         let weights = powers.iter().map(|power| mode.output(power) * period).collect();
-        let rest =
-            if mode.inverse.is_none() { 0.0 } else { (period * Interval::point(mode.reach() * REMAINDER)).upper() };
+        let rest = if mode.inverse.is_none() {
+            0.0
+        } else {
+            (period * Interval::point(mode.reach() * remainder(size))).upper()
+        };
         Self::Series { weights, powers, rest }
     }
 }
@@ -163,29 +171,32 @@ fn decay(mode: &Mode, factor: &Element, at: &Moment) -> Element {
 /// Degree of the highest Bernoulli polynomial in use; zero for none.
 fn degree(forms: &[Form]) -> usize {
     let degree = |form: &Form| match form {
-        Form::Closed(_) => 0,
+        Form::Closed { .. } => 0,
         Form::Series { weights, .. } => weights.len() + 1,
     };
     forms.iter().map(degree).max().unwrap_or(0)
 }
 
-fn closed(mode: &Mode, factor: &Element, at: &Moment, period: Interval) -> Answer {
+fn closed(mode: &Mode, factor: &Element, turned: &Element, at: &Moment) -> Answer {
     let algebra = &mode.algebra;
     let motion = decay(mode, factor, at);
-    // Differentiated by the period: exp(A t) exp(A T) (1 - exp(A T))^-2, and exp(-A (T - t)) (1 - exp(-A T))^-2.
-    let turned = if mode.backwards {
-        scaled(factor, -Interval::ONE)
-    } else {
-        algebra.product(&algebra.exponential(period, false), factor)
-    };
     let value =
         mode.inverse.as_ref().map_or(Interval::ENTIRE, |inverse| mode.output(&algebra.product(inverse, &motion)));
-    Answer { value, by_time: mode.output(&motion), by_period: mode.output(&algebra.product(&motion, &turned)) }
+    Answer { value, by_time: mode.output(&motion), by_period: mode.output(&algebra.product(&motion, turned)) }
 }
 
-/// Bounds the sum of `(j + 7) abs(B_j(x))/j!` over `j > TERMS`, as `abs(B_j(x))/j! <= 2 zeta(2)/(2 pi)^j <= 4/(2 pi)^j`: less than
-/// `4 (TERMS + 9)/(2 pi)^TERMS/(2 pi - 1)`, with `(2 pi)^22 >= 3.6e17`.
-const REMAINDER: f64 = 4.0 * (TERMS as f64 + 9.0) / (3.6e17 * 5.0);
+/// Terms after which the ratio of at most `size/(2 pi)` leaves less than the rounding.
+fn terms(size: f64) -> usize {
+    (8..TERMS).find(|&terms| (size / 6.28).powi(terms as i32) < 1e-18).unwrap_or(TERMS)
+}
+
+/// Bounds the sum of `(j + 7) abs(B_j(x))/j! size^(j-2)` over `j > terms`, as `abs(B_j(x))/j! <= 2 zeta(2)/(2 pi)^j <= 4/(2 pi)^j` and
+/// `size <= 1`: less than `4 (terms + 9)/(2 pi)^2 q^(terms-1)/(1 - q)^2`, `q = size/(2 pi)`; `4/(2 pi)^2 < 0.11` leaves room for
+/// rounding.
+fn remainder(size: f64) -> f64 {
+    let (terms, ratio) = (terms(size), size / 6.283);
+    0.11 * (terms as f64 + 9.0) * ratio.powi(terms as i32 - 1) / (1.0 - ratio).powi(2)
+}
 
 fn series(
     weights: &[Interval],

@@ -22,6 +22,7 @@ use super::OrbitError;
 use crate::numeric::{Interval, domain};
 use crate::plant::TransferFunction;
 use attraction::Attraction;
+use modes::Mode;
 use path::{Genuine, Path};
 use search::Range;
 use switching::Conditions;
@@ -121,7 +122,7 @@ impl ListedOrbit {
 /// s, or all.
 ///
 /// Where the relay has no hysteresis, or one so narrow that very many orbits share the dead time, the search ends after the
-/// eight slowest and names the periods below as not covered. An orbit with several switchings each way is none of these.
+/// five slowest and names the periods below as not covered. An orbit with several switchings each way is none of these.
 ///
 /// ```
 /// use selfosc::orbit::{TwoLevelRelay, orbits};
@@ -216,7 +217,9 @@ impl Conditions {
 
     /// The range of periods searched: from where a period is too short for the output to pass both levels.
     fn range(&self, period_s: Option<&RangeInclusive<f64>>) -> Range {
-        let times = self.modes.iter().filter(|mode| mode.inverse.is_some()).map(|mode| 1.0 / mode.algebra.size());
+        // How long a group takes to decay, or one that does not to turn a hundred times.
+        let time = |mode: &Mode| 1.0 / mode.algebra.shift.magnitude().max(0.01 * mode.algebra.size());
+        let times = self.modes.iter().filter(|mode| mode.inverse.is_some()).map(time);
         let slowest = times.fold(self.delay.upper(), f64::max);
         // Double integrators without delay have no time but that of their hysteresis.
         let unit = if slowest > 0.0 { slowest } else { 1.0 };

@@ -2,17 +2,21 @@
 
 use std::collections::BinaryHeap;
 
+use nalgebra::{DMatrix, DVector};
+
 use super::switching::{Conditions, Times};
 use crate::numeric::Interval;
 use crate::proof::Gradient;
 use crate::proof::enclosure::{Roots, krawczyk};
 
 /// Boxes looked at before the search ends.
-const BOXES: usize = 20_000;
+const BOXES: usize = 12_000;
 /// Orbits after which the search ends: a relay with dead time and without hysteresis has infinitely many, ever faster.
-const ORBITS: usize = 8;
-/// Newton steps on a box before it is halved.
-const STEPS: usize = 3;
+const ORBITS: usize = 5;
+/// Newton steps on a box before it is halved: a second one gains less than it costs.
+const STEPS: usize = 1;
+/// A step that leaves less of every side has come near a solution.
+const SHRUNK: f64 = 0.3;
 /// A box of this size relative to its period is not halved further.
 const SMALLEST: f64 = 1e-9;
 
@@ -141,10 +145,7 @@ impl Conditions {
             }
             let bounded = at.iter().all(|side| side.is_bounded());
             let remaining = if bounded {
-                if self.refuses(&times(at)) {
-                    continue;
-                }
-                match krawczyk(miss, at, STEPS) {
+                match about(miss, at) {
                     Roots::None { .. } => continue,
                     Roots::Unique { enclosure, .. } => {
                         let enclosure = narrowed(miss, enclosure);
@@ -158,7 +159,13 @@ impl Conditions {
                         }
                         continue;
                     }
-                    Roots::Undecided { remaining, .. } => remaining,
+                    Roots::Undecided { remaining, .. } => {
+                        let middle = remaining.map(|side| Interval::point(side.midpoint()));
+                        if self.refuses(&equations.times(Gradient::variables(remaining)), &times(middle), &remaining) {
+                            continue;
+                        }
+                        remaining
+                    }
                 }
             } else {
                 // Without a middle there is no Newton step.
@@ -187,13 +194,44 @@ impl Conditions {
     }
 }
 
-/// The enclosure after as many steps as narrow it.
-fn narrowed<const N: usize>(miss: impl Fn([Gradient<N>; N]) -> [Gradient<N>; N], at: [Interval; N]) -> [Interval; N] {
-    match krawczyk(miss, at, 30) {
-        Roots::Unique { enclosure, .. } => enclosure,
-        Roots::Undecided { remaining, .. } => remaining,
-        Roots::None { .. } => at,
+/// What Newton steps show of a box. Where a step has shrunk it, a solution may be on the border of what is left: then of a larger box,
+/// so that a solution found may lie outside this one.
+fn about<const N: usize>(
+    miss: impl Fn([Gradient<N>; N]) -> [Gradient<N>; N],
+    at: [Interval; N],
+) -> Roots<[Interval; N]> {
+    let found = krawczyk(&miss, at, STEPS);
+    let Roots::Undecided { remaining, .. } = found else { return found };
+    if (0..N).any(|side| remaining[side].width() > SHRUNK * at[side].width()) {
+        return found;
     }
+    let larger = remaining.map(|side| side + Interval::symmetric(side.width().max(1e-14 * side.magnitude())));
+    match krawczyk(&miss, larger, 6) {
+        Roots::Undecided { .. } => found,
+        decided => decided,
+    }
+}
+
+/// The enclosure of the one solution in a box, as narrow as a small box about its floating-point approximation gives it.
+fn narrowed<const N: usize>(miss: impl Fn([Gradient<N>; N]) -> [Gradient<N>; N], at: [Interval; N]) -> [Interval; N] {
+    let mut point = at.map(Interval::midpoint);
+    for _ in 0..20 {
+        let found = miss(Gradient::variables(point.map(Interval::point)));
+        let slopes = DMatrix::from_fn(N, N, |row, column| found[row].slopes()[column].midpoint());
+        let values = DVector::from_fn(N, |row, _| found[row].value().midpoint());
+        let Some(step) = slopes.lu().solve(&values) else { break };
+        for (side, (coordinate, step)) in point.iter_mut().zip(step.iter()).enumerate() {
+            *coordinate = (*coordinate - step).clamp(at[side].lower(), at[side].upper());
+        }
+    }
+    let size = point.iter().fold(0.0_f64, |size, coordinate| size.max(coordinate.abs()));
+    let about = |radius: f64| point.map(|coordinate| Interval::point(coordinate) + Interval::symmetric(radius * size));
+    let enclosed = [1e-12, 1e-10, 1e-8, 1e-6].into_iter().find_map(|radius| match krawczyk(&miss, about(radius), 30) {
+        Roots::Unique { enclosure, .. } => Some(enclosure),
+        _ => None,
+    });
+    // That of the small box is the box's own where it lies inside.
+    enclosed.filter(|enclosure| (0..N).all(|side| enclosure[side].is_subset_of(at[side]))).unwrap_or(at)
 }
 
 /// Whether two enclosures are shown to be of one solution.

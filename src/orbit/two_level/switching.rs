@@ -29,13 +29,22 @@ pub(super) struct Times<const N: usize> {
     share: Option<Interval>,
 }
 
-/// Where in the period of the plant's input a command changes: `rises high + falls low - delay` after the input's rise, with the
-/// input at a level.
+/// A moment in the period of the plant's input: `rises high + falls low - delay + after_s` after the input's rise, with the input at
+/// a level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
     pub(super) rises: f64,
     pub(super) falls: f64,
+    pub(super) after_s: f64,
     pub(super) input_high: bool,
+}
+
+/// A moment after the command becomes high: `high high + low low + after_s`, less than a period.
+#[derive(Clone, Copy, Debug)]
+struct Offset {
+    high: f64,
+    low: f64,
+    after_s: f64,
 }
 
 /// The command's changes.
@@ -48,12 +57,12 @@ pub(super) enum Change {
 }
 
 impl Change {
-    /// Half-periods after the command becomes high.
-    fn offset(self) -> (f64, f64) {
-        match self {
-            Self::On => (0.0, 0.0),
-            Self::Off => (1.0, 0.0),
-        }
+    fn offset(self) -> Offset {
+        let high = match self {
+            Self::On => 0.0,
+            Self::Off => 1.0,
+        };
+        Offset { high, low: 0.0, after_s: 0.0 }
     }
 }
 
@@ -114,11 +123,11 @@ fn clipped(time: Interval) -> Option<Interval> {
 }
 
 impl Conditions {
-    /// Where in the input's period a moment may be, for some of the half-periods: one that comes `high offset.0 + low offset.1`
-    /// after the command becomes high. `None` for too many places.
-    pub(super) fn places<const N: usize>(&self, times: &Times<N>, offset: (f64, f64)) -> Option<Vec<Place>> {
+    /// Where in the input's period a moment may be, for some of the half-periods; `None` for too many places.
+    fn places<const N: usize>(&self, times: &Times<N>, offset: Offset) -> Option<Vec<Place>> {
+        let Offset { high, low, after_s } = offset;
         // 0 <= offset - delay + n T <= T, and the offset is less than a period.
-        let before = -times.combination(offset.0, offset.1, -self.delay).value();
+        let before = -times.combination(high, low, Interval::point(after_s) - self.delay).value();
         let turns = if before == Interval::ZERO { before } else { before / times.period.value() };
         let (first, last) = (libm::ceil(turns.lower()).max(0.0), (libm::floor(turns.upper()) + 1.0).max(0.0));
         if !(last - first <= 2.0) {
@@ -128,7 +137,7 @@ impl Conditions {
         for step in 0..=(last - first) as u32 {
             let turn = first + f64::from(step);
             for input_high in [true, false] {
-                let place = Place { rises: turn + offset.0, falls: turn + offset.1, input_high };
+                let place = Place { rises: turn + high, falls: turn + low, after_s, input_high };
                 if self.moments(times, &place).is_some() {
                     places.push(place);
                 }
@@ -139,12 +148,13 @@ impl Conditions {
 
     /// Times since the input's last rise and fall there, with the moments they are; `None` where no half-periods fit the place.
     fn moments<const N: usize>(&self, times: &Times<N>, place: &Place) -> Option<[(Gradient<N>, Moment); 2]> {
-        let Place { rises, falls, input_high } = *place;
+        let Place { rises, falls, after_s, input_high } = *place;
+        let late = self.delay - Interval::point(after_s);
         let moment = |rises: f64, falls: f64| {
-            let time = times.combination(rises, falls, -self.delay);
-            let rest = times.combination(1.0 - rises, 1.0 - falls, self.delay);
+            let time = times.combination(rises, falls, -late);
+            let rest = times.combination(1.0 - rises, 1.0 - falls, late);
             let (within, rest) = (clipped(time.value())?, clipped(rest.value())?);
-            let share = times.share_of(rises, falls, self.delay, within);
+            let share = times.share_of(rises, falls, late, within);
             Some((time, Moment { time: within, rest, share }))
         };
         let since_rise = moment(rises, falls)?;
@@ -248,35 +258,48 @@ impl Conditions {
         Some(ascending[from..=last].iter().fold(Interval::ZERO, |sum, &coefficient| sum * over + coefficient))
     }
 
-    /// Whether no half-periods of a box are those of an orbit: the output passes a level the wrong way, or is past it earlier.
-    pub(super) fn refuses<const N: usize>(&self, times: &Times<N>) -> bool {
-        let Some(periodic) = Periodic::new(&self.modes, times.period.value()) else { return false };
-        let step = self.high - self.low;
-        let mut lowest = Interval::ZERO;
-        let slope = |change: Change| {
-            let slope_at = |place: &Place| {
-                let [rise, fall] = self.moments(times, place)?;
-                Some((periodic.answer(&rise.1).by_time - periodic.answer(&fall.1).by_time) * step)
-            };
-            self.places(times, change.offset())?.iter().filter_map(slope_at).reduce(Interval::hull)
+    /// Whether no half-periods of a box are those of an orbit: the output is past a level before it may be. `over` is the box,
+    /// `middle` its middle.
+    pub(super) fn refuses<const N: usize>(&self, over: &Times<N>, middle: &Times<N>, sides: &[Interval; N]) -> bool {
+        let (Some(wide), Some(narrow)) =
+            (Periodic::new(&self.modes, over.period.value()), Periodic::new(&self.modes, middle.period.value()))
+        else {
+            return false;
         };
-        if slope(Change::Off).is_some_and(Interval::is_negative) || slope(Change::On).is_some_and(Interval::is_positive)
-        {
+        // By the mean value theorem.
+        let value = |offset: Offset| {
+            let [around, at] = [(&wide, over), (&narrow, middle)].map(|(periodic, times)| {
+                let places = self.places(times, offset)?;
+                places.iter().filter_map(|place| self.output_at(periodic, times, place)).reduce(hull)
+            });
+            let (around, at) = (around?, at?);
+            let spread = around
+                .slopes()
+                .iter()
+                .zip(sides)
+                .fold(at.value(), |sum, (&slope, &side)| sum + slope * (side - Interval::point(side.midpoint())));
+            Some(spread.intersection(around.value()).unwrap_or(spread))
+        };
+        let constant = if self.share.is_some() {
+            let Some(at_on) = value(Change::On.offset()) else { return false };
+            self.lower - at_on
+        } else {
+            Interval::ZERO
+        };
+        let past = |high: Offset, low: Offset| {
+            value(high).is_some_and(|value| self.upper.precedes(value + constant))
+                || value(low).is_some_and(|value| (value + constant).precedes(self.lower))
+        };
+        let at = |high: f64, low: f64, after_s: f64| Offset { high, low, after_s };
+        // In the middle, and late, where the output may have come through the level the wrong way.
+        if [0.5, 0.95].iter().any(|&share| past(at(share, 0.0, 0.0), at(1.0, share, 0.0))) {
             return true;
         }
-        if self.share.is_some() {
-            let Some(at_on) = self.output(&periodic, times, Change::On) else { return false };
-            lowest = at_on.value() - self.lower;
-        }
-        let past = |offset: (f64, f64)| {
-            let places = self.places(times, offset)?;
-            let values = places.iter().filter_map(|place| self.output_at(&periodic, times, place));
-            Some(values.reduce(hull)?.value() - lowest)
-        };
-        [0.25, 0.5, 0.75].iter().any(|&share| {
-            past((share, 0.0)).is_some_and(|value| self.upper.precedes(value))
-                || past((1.0, share)).is_some_and(|value| value.precedes(self.lower))
-        })
+        // Where a pair of poles has swung over.
+        let shortest = over.high.value().lower().min(over.low.value().lower());
+        let swings = self.modes.iter().filter_map(|mode| mode.algebra.half_turn_s());
+        let after = swings.flat_map(|half| [0.5, 1.0, 1.5].map(|turns| self.delay.upper() + turns * half));
+        after.filter(|&after_s| after_s < shortest).any(|after_s| past(at(0.0, 0.0, after_s), at(1.0, 0.0, after_s)))
     }
 
     /// The one place of a change, given its enclosed half-periods; just before the input's own change where they coincide
@@ -284,8 +307,8 @@ impl Conditions {
     pub(super) fn place<const N: usize>(&self, times: &Times<N>, change: Change) -> Option<Place> {
         if self.delay.upper() == 0.0 {
             return Some(match change {
-                Change::On => Place { rises: 1.0, falls: 1.0, input_high: false },
-                Change::Off => Place { rises: 1.0, falls: 0.0, input_high: true },
+                Change::On => Place { rises: 1.0, falls: 1.0, after_s: 0.0, input_high: false },
+                Change::Off => Place { rises: 1.0, falls: 0.0, after_s: 0.0, input_high: true },
             });
         }
         match self.places(times, change.offset())?.as_slice() {
