@@ -6,6 +6,7 @@ use super::suggestion;
 use crate::describing::{CATALOGUE, CatalogueError};
 use crate::error::Error;
 use crate::numeric::OutOfDomain;
+use crate::orbit::OrbitError;
 
 /// Why a subcommand could not answer.
 #[derive(Debug, thiserror::Error)]
@@ -84,6 +85,9 @@ fn flag(quantity: &str) -> Option<&'static str> {
         "quadratic_drag" => "--beta-quadratic",
         "disturbance" => "--delta",
         "delay_s" | "delay" | "longest delay" => "--delay",
+        "upper level" | "lower level" => "--relay",
+        "reference" => "--reference",
+        "shortest period" | "longest period" => "--periods",
         "relay level" => "--relay",
         "half-width" => "--half-width",
         "quantum" | "step of the sensor" => "--quantum",
@@ -111,6 +115,7 @@ fn flags(error: &Error) -> Option<&'static str> {
         (Error::Orbit(_), "no-drag") => "--beta, --beta-quadratic",
         (Error::Orbit(_), "no-hysteresis") => "--half-width, --delay",
         (Error::Orbit(_), "drifts-away") => "--relay, --delta",
+        (Error::Orbit(OrbitError::Plant(_)), _) | (Error::Orbit(_), "crowded-poles") => "--num, --den",
         (Error::Orbit(_), _) => "--alpha, --beta, --half-width",
         (Error::Plant(_), _) => "--num, --den",
         (Error::Balance(_), _) => "--num, --den, --delay",

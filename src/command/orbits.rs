@@ -6,7 +6,6 @@ use std::io::Write;
 use nalgebra::Complex;
 use serde_json::{Value, json};
 
-use super::error::Given;
 use super::{CommandError, Outcome, write_json};
 use crate::numeric::{Interval, significant};
 use crate::orbit::{ListedOrbit, OrbitListing, TwoLevelRelay};
@@ -58,8 +57,8 @@ pub(super) fn orbit(orbit: &ListedOrbit) -> Value {
 
 pub(super) fn run(given: Loop<'_>, as_json: bool, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let plant = TransferFunction::new(given.num, given.den)?.with_delay(given.delay_s)?;
-    let relay = TwoLevelRelay::new(given.high, given.low, given.half_width).given("--relay, --half-width")?;
-    let relay = relay.with_reference(given.reference).given("--reference")?;
+    let relay = TwoLevelRelay::new(given.high, given.low, given.half_width)?;
+    let relay = relay.with_reference(given.reference)?;
     let listing = crate::orbit::orbits(&plant, &relay, given.periods)?;
     if as_json {
         let document = json!({
@@ -82,7 +81,7 @@ fn end(value: Option<f64>, open: &str) -> String {
 
 fn table(listing: &OrbitListing, output: &mut impl Write) -> Result<(), CommandError> {
     if listing.orbits.is_empty() {
-        writeln!(output, "no orbit with one switching each way in a period")?;
+        writeln!(output, "no oscillation with one switching each way in a period")?;
     } else {
         let head = ["period / s", "at HIGH / s", "at LOW / s", "amplitude", "bias", "multiplier"];
         writeln!(output, "{}  attracting", head.map(|name| format!("{name:>12}")).join("  "))?;

@@ -73,7 +73,10 @@ impl Arguments {
     fn axis(&self, alpha: f64) -> Result<AxisArguments, CommandError> {
         let &[relay] = self.relay.as_slice() else {
             return Err(CommandError::Usage {
-                reason: "--relay takes one level for a drag axis; --delta shifts it".to_owned(),
+                reason: format!(
+                    "--relay with {} levels: must be one for a drag axis; shift it by --delta",
+                    self.relay.len()
+                ),
             });
         };
         let (beta, beta_quadratic) = (self.beta.unwrap_or(0.0), self.beta_quadratic.unwrap_or(0.0));
@@ -83,15 +86,19 @@ impl Arguments {
     }
 
     fn linear(&self) -> Result<orbits::Loop<'_>, CommandError> {
+        let given = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+        let usage = |flag: &str, values: &[f64], remedy: &str| CommandError::Usage {
+            reason: format!("{flag} {}: must be {remedy}; give that many numbers", given(values)),
+        };
         let (high, low) = match *self.relay.as_slice() {
             [high] => (high, -high),
             [high, low] => (high, low),
-            _ => return Err(CommandError::Usage { reason: "--relay takes HIGH or HIGH,LOW".to_owned() }),
+            _ => return Err(usage("--relay", &self.relay, "HIGH or HIGH,LOW")),
         };
         let periods = match *self.periods.as_slice() {
             [] => None,
             [shortest, longest] => Some(shortest..=longest),
-            _ => return Err(CommandError::Usage { reason: "--periods needs SHORTEST,LONGEST".to_owned() }),
+            _ => return Err(usage("--periods", &self.periods, "SHORTEST,LONGEST")),
         };
         let (half_width, reference) = (self.half_width, self.reference.unwrap_or(0.0));
         Ok(orbits::Loop {

@@ -7,8 +7,9 @@ use std::panic::catch_unwind;
 use selfosc::command::answer;
 
 /// A call of each subcommand that works, and does little.
-const CALLS: [&str; 13] = [
+const CALLS: [&str; 14] = [
     "predict --alpha 1 --beta 1 --beta-quadratic 0 --delta 0 --delay 0 --relay 1 --half-width 0.2",
+    "predict --num 1 --den 1,1 --delay 0 --relay 1,-1 --half-width 0.2 --reference 0 --periods 0.1,10",
     "simulate --alpha 1 --beta 1 --beta-quadratic 0 --delta 0 --delay 0 --relay 1 --half-width 0.2 --cycles 3 --rate 10 --quantum 0 --noise 0 --seed 0",
     "df relay-hysteresis --set half_width=0.2 --amplitude 1 --bias 0 --method closed-form",
     "df relay-dead-zone --set dead_zone=0.5 --gain 1 --bias 0",
