@@ -99,7 +99,6 @@ pub enum OrbitError {
         half_period_s: f64,
     },
     /// Poles that cannot be told apart, nor taken as one group.
-    #[cfg(feature = "std")]
     #[error(
         "the {order} poles of the plant cannot be enclosed: more than four of them, or two complex pairs, are within a \
          few per cent of each other; move them apart or leave some out"
@@ -156,7 +155,6 @@ impl OrbitError {
             Self::LongDelay { .. } => "long-delay",
             Self::NotProved { .. } => "not-proved",
             Self::TooManyPieces { .. } => "too-many-pieces",
-            #[cfg(feature = "std")]
             Self::CrowdedPoles { .. } => "crowded-poles",
             Self::StepTooSmall { .. } => "step-too-small",
             Self::TooManySteps { .. } => "too-many-steps",

@@ -46,7 +46,9 @@ pub enum PlantError {
         denominator: usize,
     },
     /// A plant that passes its input straight through, where a state space without feedthrough is asked for.
-    #[error("numerator and denominator both have degree {degree}; a state space needs a strictly proper plant")]
+    #[error(
+        "numerator and denominator both have degree {degree}: the numerator's must be lower; add the lag that the plant has"
+    )]
     NotStrictlyProper {
         /// The common degree.
         degree: usize,

@@ -48,6 +48,7 @@ impl TwoLevelRelay {
     /// # Errors
     /// [`OrbitError::OutOfDomain`] unless all are finite, `low < high` and `half_width >= 0`.
     pub fn new(high: f64, low: f64, half_width: f64) -> Result<Self, OrbitError> {
+        domain::finite("upper level", high, "input units")?;
         domain::finite("lower level", low, "input units")?;
         let above = crate::numeric::Limit::Above(low);
         domain::require("upper level", high, "input units", above, "give HIGH,LOW with the larger level first")?;
