@@ -6,6 +6,7 @@
 //! `abs(A) T <= 1`, and for poles at zero, the mean of the input is split off and
 //! `W = -sum_(j >= 2) (B_j(t/T)/j!) output(A^(j-2)) T^(j-1)`, which does not cancel.
 
+use core::f64::consts::TAU;
 use std::sync::LazyLock;
 
 use super::algebra::{Element, ONE, ZERO, add, scaled};
@@ -187,14 +188,14 @@ fn closed(mode: &Mode, factor: &Element, turned: &Element, at: &Moment) -> Answe
 
 /// Terms after which the ratio of at most `size/(2 pi)` leaves less than the rounding.
 fn terms(size: f64) -> usize {
-    (8..TERMS).find(|&terms| (size / 6.28).powi(terms as i32) < 1e-18).unwrap_or(TERMS)
+    (8..TERMS).find(|&terms| (size / TAU).powi(terms as i32) < 1e-18).unwrap_or(TERMS)
 }
 
 /// Bounds the sum of `(j + 7) abs(B_j(x))/j! size^(j-2)` over `j > terms`, as `abs(B_j(x))/j! <= 2 zeta(2)/(2 pi)^j <= 4/(2 pi)^j` and
-/// `size <= 1`: less than `4 (terms + 9)/(2 pi)^2 q^(terms-1)/(1 - q)^2`, `q = size/(2 pi)`; `4/(2 pi)^2 < 0.11` leaves room for
-/// rounding.
+/// `size <= 1`: less than `4 (terms + 9)/(2 pi)^2 q^(terms-1)/(1 - q)^2`, `q = size/(2 pi)`; `4/(2 pi)^2 < 0.102` leaves
+/// room for rounding.
 fn remainder(size: f64) -> f64 {
-    let (terms, ratio) = (terms(size), size / 6.283);
+    let (terms, ratio) = (terms(size), size / TAU);
     0.11 * (terms as f64 + 9.0) * ratio.powi(terms as i32 - 1) / (1.0 - ratio).powi(2)
 }
 
@@ -249,7 +250,7 @@ struct Table {
     /// `B_2k(1/2)/(2k)!`.
     middles: [Interval; TERMS / 2 + 1],
     over_factorials: [Interval; TERMS + 1],
-    /// `4/(2 pi)^j` rounded up, from degree two on.
+    /// `4/(2 pi)^j`, from degree two on, where `2 zeta(2) < 3.3` for 4 would do: more than rounding takes.
     bounds: [Interval; TERMS + 1],
 }
 
@@ -262,7 +263,7 @@ static TABLE: LazyLock<Table> = LazyLock::new(|| {
         let factor = Interval::point(0.5_f64.powi(2 * k as i32 - 1) - 1.0);
         factor * Interval::point(numerator) / Interval::point(denominator) / Interval::point(factorial(2 * k))
     });
-    let bounds = core::array::from_fn(|j| Interval::symmetric((0..j).fold(4.0, |bound, _| bound / 6.283)));
+    let bounds = core::array::from_fn(|j| Interval::symmetric((0..j).fold(4.0, |bound, _| bound / TAU)));
     Table { middles, over_factorials, bounds }
 });
 

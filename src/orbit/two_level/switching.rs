@@ -250,7 +250,7 @@ impl Conditions {
         let at = |change| without.output(&periodic, &times, change);
         let bounded = (at(Change::Off)? - at(Change::On)?).value() - (self.upper - self.lower);
         let mut ascending = rise_at_zero(&self.modes, share, self.delay);
-        ascending.iter_mut().for_each(|coefficient| *coefficient = *coefficient * (self.high - self.low));
+        ascending.iter_mut().for_each(|coefficient| *coefficient *= self.high - self.low);
         ascending[0] += bounded;
         let over = (Interval::ONE / period).intersection(NOT_NEGATIVE)?;
         let from = ascending.iter().position(|&coefficient| coefficient != Interval::ZERO)?;
