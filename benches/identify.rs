@@ -3,12 +3,12 @@
 use divan::{Bencher, black_box};
 use selfosc::experiment::{Record, Sensor, SimulatedExperiment};
 use selfosc::features::RecordFeatures;
-use selfosc::identify::DragLaw;
 use selfosc::identify::exact::MeanCycle;
+use selfosc::identify::fit::joint::{FeatureRow, fit_rows};
+use selfosc::identify::fit::prediction_error::Estimator;
+use selfosc::identify::fit::select::likelihood::Choice;
 use selfosc::identify::iso::Oscillation;
-use selfosc::identify::joint::{Delay, FeatureRow, fit_rows};
-use selfosc::identify::prediction_error::Estimator;
-use selfosc::identify::select::likelihood::Choice;
+use selfosc::identify::{Delay, DragLaw};
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::plant::DragAxis;
 

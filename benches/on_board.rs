@@ -17,7 +17,7 @@ fn main() {
 fn running<T: Scalar>(coordinate: Coordinate) -> Experiment<T> {
     let number = T::from_f64;
     let protocol = Protocol::new(coordinate, number(1.0), number(0.5), number(50.0), number(0.1));
-    Experiment::new(Protocol { cycles: 200, most_cycles: 250, duration_s: number(1e6), ..protocol }).unwrap()
+    Experiment::new(Protocol { cycles: 200, most_cycles: 250, duration_s: number(1e4), ..protocol }).unwrap()
 }
 
 /// Samples of a sinusoid (its integral too passes both levels), in batches of a thousand: the time of one is a thousandth of this.

@@ -46,6 +46,20 @@ done
 say '== tests/header.cpp'
 g++ -std=c++11 "${strict[@]}" "${checked[@]}" tests/header.cpp "$archive" -o "$made/program"
 "$made/program"
+say '== tests/extremes.c'
+for precision in f64 f32; do
+    words=()
+    [ "$precision" = f64 ] || words=(-e 's/f64/f32/g' -e 's/double/float/g' -e 's/DBL_/FLT_/g')
+    sed -e '' "${words[@]}" tests/extremes.c > "$made/extremes.c"
+    gcc -std=c99 "${strict[@]}" "${checked[@]}" -c "$made/extremes.c" -o "$made/extremes.o"
+    functions=$(grep -o -e "selfosc_[a-z_]*_$precision(" -e 'selfosc_parameter(' include/selfosc.h | tr -d '(' | sort -u)
+    [ "$(wc -l <<< "$functions")" -ge 20 ] || fail "functions of the header: $functions"
+    for function in $functions; do
+        nm -u "$made/extremes.o" | grep -q " $function\$" || fail "tests/extremes.c does not call $function"
+    done
+    gcc "${checked[@]}" "$made/extremes.o" "$archive" -lm -o "$made/program"
+    "$made/program"
+done
 # The measurement is built everywhere and run by hand: it takes minutes.
 gcc -std=gnu99 "${strict[@]}" -O2 measure/measure.c "$archive" -lm -o "$target/measure"
 gcc -std=c99 "${strict[@]}" -O2 -s -Wl,--gc-sections examples/task.c "$archive" -lm -o "$made/program"

@@ -1,5 +1,6 @@
 //! Steps of experiments and controllers upon readings and clocks of all bit patterns: no panic, no command beyond its limits, and
-//! a neutral one after an end.
+//! a neutral one after an end. Experiments under a sensor that freezes or toggles: no higher level, and the vehicle no further than
+//! `spec/claims/on-board-still.md` says.
 //!
 //! `cargo run --release --example fuzz_on_board -- STEPS SEED`; without arguments a million steps from seed 1. The longest run so
 //! far is recorded in `fixtures/fuzz_on_board.txt`.
@@ -50,6 +51,12 @@ pub struct Seen {
     pub controllers: u64,
     /// Experiments that ended in each fault.
     pub faults: std::collections::BTreeMap<&'static str, u64>,
+    /// Experiments under a sensor that froze while they ran, by how they ended.
+    pub frozen: std::collections::BTreeMap<&'static str, u64>,
+    /// How many of them had seen enough half-periods to be less patient.
+    pub hastened: u64,
+    /// Largest distance of the vehicle from its reference against the bound, over them.
+    pub nearest_to_bound: f64,
 }
 
 fn protocol<T: Scalar>(random: &mut Random) -> Protocol<T> {
@@ -134,6 +141,129 @@ fn experiment<T: Scalar>(random: &mut Random, seen: &mut Seen) {
     }
 }
 
+/// How a sensor fails.
+#[derive(Clone, Copy)]
+enum Frozen {
+    /// It shows one reading for ever.
+    Still,
+    /// It goes to and fro with every sample.
+    Toggling,
+    /// The same, now and then.
+    Seldom,
+    /// It wanders over all of a range.
+    Wandering,
+}
+
+/// Half-periods of a relay as whoever stands beside sees them.
+#[derive(Default)]
+struct Swings {
+    switched_s: Option<f64>,
+    ended_s: Vec<f64>,
+    wider: f64,
+}
+
+impl Swings {
+    fn switch(&mut self, time_s: f64) {
+        self.ended_s.extend(self.switched_s.map(|since_s| time_s - since_s));
+        self.switched_s = Some(time_s);
+    }
+
+    /// Four of the longest, the last left out, once one of either sign is known.
+    fn patience_s(&self, planned_s: f64) -> f64 {
+        match self.ended_s.split_last() {
+            Some((_, before @ [_, _, ..])) => {
+                let longest_s = before.iter().copied().fold(0.0, f64::max);
+                planned_s.min(4.0 * longest_s * self.wider)
+            }
+            _ => planned_s,
+        }
+    }
+}
+
+/// An experiment on a vehicle whose sensor freezes within a range of less than a half-width.
+fn frozen<T: Scalar>(random: &mut Random, seen: &mut Seen) {
+    let number = T::from_f64;
+    let coordinate =
+        [Coordinate::Position, Coordinate::HeadingRad, Coordinate::HeadingDegrees][random.below(3) as usize];
+    let half_width = if coordinate == Coordinate::HeadingDegrees { 10.0 } else { 0.2 };
+    let (largest_excursion, interval_s) = (half_width * random.between(2.0, 9.0), 0.1);
+    let plain =
+        Protocol::new(coordinate, number(1.0), number(half_width), number(largest_excursion), number(interval_s));
+    let protocol = Protocol {
+        resolution: number([0.0, 0.01, 0.1][random.below(3) as usize] * half_width),
+        cycles: 200,
+        most_cycles: if random.below(3) == 0 { 4 } else { 250 },
+        ..plain
+    };
+    let Ok(mut experiment) = Experiment::new(protocol) else { return };
+    // Terminal speed at the highest level and a disturbance: below the largest rate.
+    let rate = protocol.largest_rate.value();
+    let (speed, drift, lag_s) =
+        (rate * random.between(0.05, 0.4), rate * random.between(-0.15, 0.15), random.between(0.2, 2.0));
+    let freezes_s = random.between(0.0, 60.0);
+    let kind = [Frozen::Still, Frozen::Toggling, Frozen::Seldom, Frozen::Wandering][random.below(4) as usize];
+    // The narrowest relay of three attempts has 4/9 of the half-width.
+    let range = half_width * random.between(0.0, 0.44);
+    let mut held = None;
+    let (mut swings, mut level) = (Swings { wider: 1.0, ..Swings::default() }, 0.0);
+    let (mut position, mut velocity, mut attempt) = (0.0, 0.0, 1);
+    let (mut farthest, mut before): (f64, Option<f64>) = (0.0, None);
+    let (mut way, mut raised) = ((0.0, 0.0), 0);
+    for sample in 0..4000_u32 {
+        let time_s = interval_s * f64::from(sample);
+        let (sound, offset) = (held.is_none(), random.between(0.0, range));
+        let reading = match (held, kind) {
+            (None, _) if time_s < freezes_s => position,
+            (None, _) => *held.insert(position),
+            (Some(at), Frozen::Still) => at,
+            (Some(at), Frozen::Toggling) => at + range * f64::from(sample % 2),
+            (Some(at), Frozen::Seldom) => at + if random.below(40) == 0 { range } else { 0.0 },
+            (Some(at), Frozen::Wandering) => at + offset,
+        };
+        let step = experiment.step(number(reading), number(time_s));
+        seen.steps += 1;
+        if step.phase != Phase::Running {
+            let code = if let Phase::Failed(fault) = step.phase { fault.code() } else { "done" };
+            if held.is_some() {
+                *seen.frozen.entry(code).or_default() += 1;
+            }
+            break;
+        }
+        let command = step.command.value();
+        let switched = before.is_some_and(|before: f64| before * command < 0.0);
+        if experiment.attempt() != attempt && command.abs() <= level {
+            swings.wider *= protocol.factor.value();
+        }
+        // A level is raised at a switching, where a cycle ends, or where the readings have gone somewhere since the last: of a frozen
+        // sensor, away from the last that was true, once.
+        way = if switched { (reading, reading) } else { (reading.min(way.0), reading.max(way.1)) };
+        if before.is_some() && !switched && command.abs() > level {
+            assert!(way.1 - way.0 >= 0.4999 * half_width, "{protocol:?} frozen at {freezes_s} s, raised at {time_s} s");
+            raised += u8::from(!sound);
+            assert!(raised <= 1, "{protocol:?} frozen at {freezes_s} s, raised again at {time_s} s");
+        }
+        (attempt, level, before) = (experiment.attempt(), command.abs(), Some(command));
+        if switched {
+            swings.switch(time_s);
+        }
+        for _ in 0..10 {
+            velocity += 0.1 * interval_s * (speed * command + drift - velocity) / lag_s;
+            position += 0.1 * interval_s * velocity;
+        }
+        assert!(velocity.abs() <= rate);
+        if held.is_some() {
+            farthest = farthest.max(position.abs());
+        }
+    }
+    let patience_s = swings.patience_s(protocol.patience_s.value());
+    let bound = largest_excursion + rate * (2.0 * patience_s + 3.0 * interval_s);
+    assert!(farthest <= bound, "{protocol:?} frozen at {freezes_s} s went {farthest}, bound {bound}");
+    if held.is_some() {
+        seen.hastened += u64::from(patience_s < protocol.patience_s.value());
+        seen.nearest_to_bound = seen.nearest_to_bound.max(farthest / bound);
+    }
+}
+
 /// A controller for a hundred steps.
 fn controller<T: Scalar>(random: &mut Random, seen: &mut Seen) -> ControlFlow<()> {
     let number = T::from_f64;
@@ -171,6 +301,8 @@ pub fn run(steps: u64, seed: u64) -> Seen {
     while seen.steps < steps {
         experiment::<f64>(&mut random, &mut seen);
         experiment::<f32>(&mut random, &mut seen);
+        frozen::<f64>(&mut random, &mut seen);
+        frozen::<f32>(&mut random, &mut seen);
         for _ in 0..4 {
             let held = controller::<f64>(&mut random, &mut seen).is_continue();
             assert!(held && controller::<f32>(&mut random, &mut seen).is_continue(), "a hold was refused");

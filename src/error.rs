@@ -73,6 +73,7 @@ umbrella! {
     "An experiment on board that was broken off." OnBoard(crate::on_board::Fault);
     "A vehicle, a thruster or a demand on them." Vehicle(crate::vehicle::VehicleError) numbers;
     "No controller." Control(crate::control::ControlError) numbers;
+    "No process from a record." Process(crate::autotune::ProcessError);
     "A part of the paper that cannot be regenerated." Paper(crate::paper::PaperError) numbers;
     #[cfg(feature = "report")]
     "No report." Report(crate::report::ReportError) numbers;

@@ -7,12 +7,14 @@
 //! | predict an oscillation | [`orbit::limit_cycle`], [`orbit::orbits`], [`balance::HarmonicBalance`] |
 //! | identify a vehicle from logs | `identify::Session` (with the feature `std`) |
 //! | tune a controller for it | [`control::Tuning`] |
+//! | tune any process from a relay record | `autotune::Autotune` (with the feature `std`) |
 //! | verify the theory | `claims::verify` (with the feature `std`) |
 //!
 //! The page `guide` works through a log, an orbit and a claim, says what units there are, and where other tools are better.
 //!
 //! [`prelude`] has the names that these jobs need. Without the feature `std` the library neither allocates nor panics on
-//! input; [`on_board`] runs the whole experiment there.
+//! input; [`on_board`] runs the whole experiment there. What can refuse gives finite numbers in the domain that its page states,
+//! or refuses; a plain formula, such as a motion over a time, gives what the arithmetic gives, an infinity included.
 //!
 //! Data flows one way, and the modules stand below in that order.
 //!
@@ -80,6 +82,9 @@ pub mod on_board;
 pub mod vehicle;
 
 pub mod control;
+
+#[cfg(feature = "std")]
+pub mod autotune;
 
 #[cfg(feature = "std")]
 pub mod claims;

@@ -277,7 +277,7 @@ typedef struct {
   float largest_rate;
   // A reading unchanged for longer is a fault, s.
   float unchanged_s;
-  // An attempt fails where the relay has not switched for longer, s.
+  // An attempt fails where the relay has not switched for longer, s, or for four times the longest half-period seen.
   float patience_s;
   // The experiment is broken off after this time, s.
   float duration_s;
@@ -537,7 +537,7 @@ typedef struct {
   double largest_rate;
   // A reading unchanged for longer is a fault, s.
   double unchanged_s;
-  // An attempt fails where the relay has not switched for longer, s.
+  // An attempt fails where the relay has not switched for longer, s, or for four times the longest half-period seen.
   double patience_s;
   // The experiment is broken off after this time, s.
   double duration_s;
@@ -720,7 +720,7 @@ SelfoscStatus selfosc_identify_exact_f32(const SelfoscMeanCycle_f32 *cycle,
                                          SelfoscRefusal *refusal);
 
 // An experiment on one of `SelfoscCoordinate` with this relay, that may go `largest_excursion` from its reference, and sound
-// values for the rest. Nothing is checked before the experiment begins.
+// values for the rest. All are finite; no more is checked before the experiment begins.
 SelfoscStatus selfosc_protocol_f32(uint32_t coordinate,
                                    float relay_level,
                                    float half_width,
@@ -734,7 +734,7 @@ SelfoscStatus selfosc_experiment_begin_f32(SelfoscExperiment_f32 *experiment,
                                            const SelfoscProtocol_f32 *protocol,
                                            SelfoscRefusal *refusal);
 
-// Takes a reading and its time: the command to give now. Any numbers at all may come.
+// Takes a reading and its time in s since the start of the experiment: the command to give now. Any numbers at all may come.
 SelfoscStatus selfosc_experiment_step_f32(SelfoscExperiment_f32 *experiment,
                                           float reading,
                                           float time_s,
@@ -833,7 +833,7 @@ SelfoscStatus selfosc_identify_exact_f64(const SelfoscMeanCycle_f64 *cycle,
                                          SelfoscRefusal *refusal);
 
 // An experiment on one of `SelfoscCoordinate` with this relay, that may go `largest_excursion` from its reference, and sound
-// values for the rest. Nothing is checked before the experiment begins.
+// values for the rest. All are finite; no more is checked before the experiment begins.
 SelfoscStatus selfosc_protocol_f64(uint32_t coordinate,
                                    double relay_level,
                                    double half_width,
@@ -847,7 +847,7 @@ SelfoscStatus selfosc_experiment_begin_f64(SelfoscExperiment_f64 *experiment,
                                            const SelfoscProtocol_f64 *protocol,
                                            SelfoscRefusal *refusal);
 
-// Takes a reading and its time: the command to give now. Any numbers at all may come.
+// Takes a reading and its time in s since the start of the experiment: the command to give now. Any numbers at all may come.
 SelfoscStatus selfosc_experiment_step_f64(SelfoscExperiment_f64 *experiment,
                                           double reading,
                                           double time_s,

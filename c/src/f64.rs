@@ -73,7 +73,7 @@ pub unsafe extern "C" fn selfosc_identify_exact_f64(
 }
 
 /// An experiment on one of `SelfoscCoordinate` with this relay, that may go `largest_excursion` from its reference, and sound
-/// values for the rest. Nothing is checked before the experiment begins.
+/// values for the rest. All are finite; no more is checked before the experiment begins.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selfosc_protocol_f64(
     coordinate: u32,
@@ -102,7 +102,7 @@ pub unsafe extern "C" fn selfosc_experiment_begin_f64(
     unsafe { answer(&mut (), refusal, call) }
 }
 
-/// Takes a reading and its time: the command to give now. Any numbers at all may come.
+/// Takes a reading and its time in s since the start of the experiment: the command to give now. Any numbers at all may come.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selfosc_experiment_step_f64(
     experiment: *mut ExperimentF64,

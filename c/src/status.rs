@@ -7,7 +7,7 @@ use selfosc::control::ControlError;
 use selfosc::describing::DescribingError;
 use selfosc::identify::IdentifyError;
 use selfosc::nonlinearity::NonlinearityError;
-use selfosc::numeric::OutOfDomain;
+use selfosc::numeric::{Limit, OutOfDomain};
 use selfosc::orbit::OrbitError;
 use selfosc::plant::PlantError;
 use selfosc::vehicle::VehicleError;
@@ -118,11 +118,89 @@ macro_rules! refusals {
 }
 refusals!(ControlError, DescribingError, IdentifyError, NonlinearityError, OrbitError, PlantError, VehicleError);
 
+/// What a call may give. Nothing else leaves by `answer`, so that no number that is none reaches C.
+pub(crate) trait Answer {
+    /// The first number in it that is none, by its name.
+    fn no_number(&self) -> Option<(&'static str, f64)>;
+}
+
+impl Answer for () {
+    fn no_number(&self) -> Option<(&'static str, f64)> {
+        None
+    }
+}
+
+macro_rules! numbers {
+    ($($number:ty),+) => { $(
+        impl Answer for $number {
+            fn no_number(&self) -> Option<(&'static str, f64)> {
+                if self.is_finite() { None } else { Some(("result", f64::from(*self))) }
+            }
+        }
+    )+ };
+}
+numbers!(f32, f64);
+
+/// Structures: their numbers, then the fields that are none or that the caller gave. A field that is in neither list does not compile.
+macro_rules! answers {
+    ($($name:ident<$number:ident> { $($field:ident),+ $(; $other:ident)* }),+ $(,)?) => { $(
+        impl<$number: Answer> Answer for super::values::$name<$number> {
+            fn no_number(&self) -> Option<(&'static str, f64)> {
+                let Self { $($field,)+ $($other: _,)* } = self;
+                let parts = [$((stringify!($field), $field.no_number())),+];
+                parts.into_iter().find_map(|(name, found)| found.map(|(_, value)| (name, value)))
+            }
+        }
+    )+ };
+}
+answers! {
+    DescribingFunction<T> { f0, p, q },
+    LimitCycle<T> { amplitude, bias, period_s, time_positive_s, time_negative_s, multiplier },
+    Parameters<T> { alpha, beta, beta_quadratic, disturbance },
+    Axis<T> { alpha, linear_drag, quadratic_drag, disturbance, delay_s },
+    Protocol<T> {
+        reference, neutral_command, lowest_command, highest_command, relay_level, half_width, largest_excursion, wrong_way,
+        dwell_s, interval_s, resolution, largest_rate, unchanged_s, patience_s, duration_s, spread, factor
+        ; coordinate; cycles; most_cycles; attempts
+    },
+    ExperimentStep<T> { command; phase; fault },
+    CycleStatistics<T> { mean, std },
+    Outcome<T> {
+        amplitude, bias, period_s, switch_level, time_positive_s, time_negative_s, relay_level, half_width; cycles; attempts
+    },
+    ControllerSettings<T> {
+        proportional, integral, derivative, filter_s
+        ; structure; lowest_command; highest_command; turn; longest_hold_s; neutral_command
+    },
+    Margins<T> { gain, gain_reduction, phase_rad, delay_s, crossover_rad_s },
+    ControlStep<T> { command; limited; fault },
+    Delivered<T> { command, thrust_n },
+}
+
+impl Answer for super::values::Parameter {
+    fn no_number(&self) -> Option<(&'static str, f64)> {
+        None
+    }
+}
+
+const REMEDY: &str =
+    "the result leaves the range of the arithmetic: choose units in which the numbers are nearer to one";
+
+/// The answer, unless a number in it is none.
+fn sound<R: Answer>(value: R) -> Result<R, Refused> {
+    match value.no_number() {
+        None => Ok(value),
+        Some((quantity, value)) => {
+            Err(OutOfDomain { quantity, value, unit: "", limit: Limit::Finite, remedy: REMEDY }.into())
+        }
+    }
+}
+
 /// Writes the answer where the caller wants it, and the reason where there is none.
 ///
 /// # Safety
 /// Each pointer is null or good for one value of its type.
-pub(crate) unsafe fn answer<R>(
+pub(crate) unsafe fn answer<R: Answer>(
     result: *mut R,
     refusal: *mut Refusal,
     call: impl FnOnce() -> Result<R, Refused>,
@@ -130,7 +208,7 @@ pub(crate) unsafe fn answer<R>(
     if !usable(result) {
         return Status::BadPointer;
     }
-    match call() {
+    match call().and_then(sound) {
         Ok(value) => {
             // SAFETY: neither null nor misaligned, and good for one value.
             unsafe { result.write(value) };

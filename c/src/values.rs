@@ -212,7 +212,7 @@ pub struct Protocol<T> {
     pub largest_rate: T,
     /// A reading unchanged for longer is a fault, s.
     pub unchanged_s: T,
-    /// An attempt fails where the relay has not switched for longer, s.
+    /// An attempt fails where the relay has not switched for longer, s, or for four times the longest half-period seen.
     pub patience_s: T,
     /// The experiment is broken off after this time, s.
     pub duration_s: T,

@@ -4,22 +4,31 @@ Describing functions, exact limit cycles and their proofs, identification of veh
 claims that are checked. The numbers are those of the command ``selfosc``, bit for bit.
 """
 
-from . import errors
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from . import errors, export, logs, types
 from ._core import VERSION as __version__
+from ._names import nearest
 from ._results import Result
 from .control import Design, Tuned, design, tune
-from .describing import DescribingFunction, Nonlinearity, catalogue, describing_function, df, nonlinearity
+from .describing import Described, DescribingFunction, Nonlinearity, catalogue, describing_function, df, nonlinearity
 from .errors import NoLimitCycle, OutOfDomain, RecordRefused, SelfoscError, UnreadableLog, UsageError
 from .identification import Bounds, Identification, bounded, identify
 from .inverse import Amplitudes, FittedCharacteristics, amplitudes, fit_characteristic
 from .loops import Balance, Certificate, Prediction, balance, certify, predict, simulate
 from .theory import Reproduction, Verification, reproduce, verify
 
+if TYPE_CHECKING:
+    from . import fleet as fleet
+
 __all__ = [
     "Amplitudes",
     "Balance",
     "Bounds",
     "Certificate",
+    "Described",
     "DescribingFunction",
     "Design",
     "FittedCharacteristics",
@@ -46,12 +55,31 @@ __all__ = [
     "design",
     "df",
     "errors",
+    "export",
     "fit_characteristic",
     "identify",
+    "logs",
     "nonlinearity",
     "predict",
     "reproduce",
     "simulate",
     "tune",
+    "types",
     "verify",
 ]
+
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> Any:
+        """``selfosc.fleet`` on its first use: it needs pyarrow. Every other name that is not there has its remedy."""
+        if name == "fleet":
+            import importlib
+
+            return importlib.import_module(".fleet", __name__)
+        remedy = "" if name.startswith("_") else f"; {nearest(name, [*__all__, 'fleet'])}"
+        raise AttributeError(f"selfosc has no {name}{remedy}")
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "fleet"]

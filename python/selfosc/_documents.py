@@ -6,33 +6,56 @@ import json
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from . import _core
+from . import _arguments, _core
 from .errors import UsageError, of
 
 #: Options of which a sequence is one value, joined by commas; others are repeated.
 _JOINED = {"num", "den", "alpha_interval", "beta_interval", "beta_quadratic_interval", "delay_interval"}
 
 
-def number(value: Any) -> str:
+def number(value: Any, name: str) -> str:
     """A number with every digit that it has, as the command reads it."""
-    return repr(float(value))
+    return repr(_arguments.number(value, name))
 
 
-def setting(value: Any) -> str:
+def points(value: Any, name: str) -> list[tuple[float, float]]:
+    """The points of a characteristic's graph."""
+    try:
+        pairs = [(x, y) for x, y in value]
+    except (TypeError, ValueError) as error:
+        raise UsageError(f"{name} is {_arguments.shown(value)}: must be a number, or pairs of numbers; give one of these") from error
+    return [(_arguments.number(x, name), _arguments.number(y, name)) for x, y in pairs]
+
+
+def setting(value: Any, name: str) -> str:
     """The value of a characteristic's parameter: a number, or points."""
     if isinstance(value, str):
         return value
     if isinstance(value, Iterable):
-        return ",".join(f"{number(x)}:{number(y)}" for x, y in value)
-    return number(value)
+        return ",".join(f"{x!r}:{y!r}" for x, y in points(value, name))
+    return number(value, name)
 
 
-def _text(value: Any) -> str:
+#: Options that count, which the command reads as integers.
+_COUNTS = {"cases", "seed", "proposals"}
+
+
+def _text(value: Any, name: str) -> str:
     if isinstance(value, str):
         return value
-    if isinstance(value, int) and not isinstance(value, bool):
-        return str(value)
-    return number(value)
+    return str(_arguments.whole(value, name)) if name in _COUNTS else number(value, name)
+
+
+def json_of(settings: Mapping[str, Any]) -> str:
+    """Settings as a JSON document."""
+    for name, value in settings.items():
+        # `json` writes texts, numbers and lists of numbers; each is named where it is another.
+        if isinstance(value, bytes) or not isinstance(value, (str, bool, int, float, list, dict, type(None))):
+            raise UsageError(f"{name} is {_arguments.shown(value)}: must be text, a number or None; give one of these")
+    try:
+        return json.dumps(settings, allow_nan=False)
+    except ValueError as error:
+        raise UsageError(f"a setting is not a finite number ({error}); give numbers") from error
 
 
 def flags(**options: Any) -> list[str]:
@@ -44,17 +67,17 @@ def flags(**options: Any) -> list[str]:
             continue
         if value is True:
             arguments.append(flag)
-        elif isinstance(value, Iterable) and not isinstance(value, str):
-            values = [_text(one) for one in value]
+        elif isinstance(value, Iterable) and not isinstance(value, (str, bytes)):
+            values = [_text(one, name) for one in value]
             arguments.append(f"{flag}={','.join(values)}") if name in _JOINED else arguments.extend(f"{flag}={one}" for one in values)
         else:
-            arguments.append(f"{flag}={_text(value)}")
+            arguments.append(f"{flag}={_text(value, name)}")
     return arguments
 
 
 def settings(parameters: Mapping[str, Any]) -> list[str]:
     """Parameters of a characteristic as ``--set`` options."""
-    return [f"--set={name}={setting(value)}" for name, value in parameters.items()]
+    return [f"--set={name}={setting(value, name)}" for name, value in parameters.items()]
 
 
 def answer(subcommand: str, *arguments: str) -> tuple[bool, dict[str, Any]]:
@@ -91,8 +114,12 @@ def coefficients(plant: Any, delay: float) -> tuple[list[float], list[float], fl
                 "or a pair (numerator, denominator) in descending powers of s",
                 "unknown-plant",
             )
-    num, den = ([float(c) for c in part] for part in plant)
+    try:
+        num, den = ([*part] for part in plant)
+    except (TypeError, ValueError) as error:
+        raise UsageError("a plant of coefficients is a pair (numerator, denominator); give two sequences", "unknown-plant") from error
+    num, den = ([_arguments.number(c, name) for c in part] for part, name in ((num, "numerator"), (den, "denominator")))
     # Other packages keep numerator and denominator of one length; here a degree is what its length says.
     while len(num) > 1 and num[0] == 0.0:
         num = num[1:]
-    return num, den, float(delay)
+    return num, den, _arguments.number(delay, "delay")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core
+from . import _arguments, _core, _documents
 from .errors import RecordRefused, UnreadableLog, UsageError
 
 #: What the native half takes for a log: a path, or name, column names and columns.
@@ -38,17 +37,16 @@ def _is_table(given: Any) -> bool:
 
 def _source(log: Any, name: str, columns: Mapping[str, Any]) -> Source:
     if isinstance(log, (str, bytes, os.PathLike)):
-        path = Path(os.fsdecode(log))
-        try:
-            os.fsencode(path)
-        except UnicodeEncodeError as error:
-            raise UsageError(f"{str(log)!r} is no path that the system can name ({error.reason}); give another") from error
+        path = Path(_arguments.path(log, "the log's path"))
         if path.suffix.lower() in _CHANNELS:
             reader = _CHANNELS[path.suffix.lower()]
-            raise UsageError(f"{path} holds channels of several rates; read it with selfosc.logs.{reader} first", "channels")
+            shown = _arguments.in_text(str(path))
+            raise UsageError(f"{shown} holds channels of several rates; read it with selfosc.logs.{reader} first", "channels")
         if path.suffix.lower() not in _ARROW:
             return path
-        name, log = str(path).encode("utf-8", "replace").decode(), _arrow(path)
+        name, log = _arguments.in_text(str(path)), _arrow(path)
+    if any(hasattr(log, collect) for collect in ("collect", "compute")):  # polars.LazyFrame, Dask, Spark
+        raise UsageError(f"{name}: a {type(log).__name__} holds no rows yet; collect it first, as a frame in memory")
     if not _is_table(log):
         raise UsageError(
             f"a log of type {type(log).__name__} is unknown; give a path, a pandas or polars frame, a pyarrow table, or a "
@@ -56,38 +54,47 @@ def _source(log: Any, name: str, columns: Mapping[str, Any]) -> Source:
         )
     labels = log if isinstance(log, Mapping) else getattr(log, "column_names", None) or log.columns
     # A name that is no text to the system is shown as near as may be.
-    names = [str(one).encode("utf-8", "replace").decode() for one in labels]
-    places = _core.choose_columns(json.dumps(columns), names)
-    chosen = [(names[place], list(labels)[place]) for place in places]
-    return name, [shown for shown, _ in chosen], [_numbers(log[label], shown, name) for shown, label in chosen]
+    labels = list(labels)
+    names = [_arguments.in_text(str(one)) for one in labels]
+    places = _core.choose_columns(_documents.json_of(columns), names)
+    chosen = [_numbers(_column(log, labels[place], place), names[place], name) for place in places]
+    return name, [names[place] for place in places], chosen
 
 
 def _arrow(path: Path) -> Any:
-    import pyarrow as pa
-    from pyarrow import feather, parquet
-
     try:
-        if path.suffix.lower() == ".parquet":
-            return parquet.read_table(path)
-        return feather.read_table(path)
-    except FileNotFoundError as error:
-        raise UnreadableLog(f"cannot read {path}: {error}; give the path of a log that you may read", "unreadable") from error
-    except (pa.ArrowException, OSError) as error:
-        raise UnreadableLog(f"{path} is damaged or no {path.suffix[1:]} file: {error}; write it again", "damaged") from error
+        import pyarrow as pa
+        from pyarrow import feather, parquet
+    except ImportError as error:
+        raise UsageError(f'{error.name} is not installed; pip install "selfosc[frames]"', "not-installed") from error
+    shown, kind = _arguments.in_text(str(path)), path.suffix[1:]
+    try:
+        # Arrow takes no name that is not UTF-8.
+        file = open(path, "rb")  # noqa: SIM115 -- closed below: what Arrow refuses is not what the system refuses
+    except OSError as error:
+        raise UnreadableLog(f"cannot read {shown}: {error.strerror}; give the path of a log that you may read", "unreadable") from error
+    with file:
+        try:
+            return parquet.read_table(file) if kind.lower() == "parquet" else feather.read_table(file)
+        except (pa.ArrowException, OSError) as error:
+            raise UnreadableLog(f"{shown} is damaged or no {kind} file: {error}; write it again", "damaged") from error
+
+
+def _column(table: Any, label: Any, place: int) -> Any:
+    """A column by its place where the table has places: two may have one name."""
+    if hasattr(table, "iloc"):
+        return table.iloc[:, place]
+    return table.column(place) if hasattr(table, "column_names") else table[label]
 
 
 def _numbers(column: Any, label: str, name: str) -> NDArray[np.float64]:
-    """A column as floats; what is missing becomes NaN, which the record then refuses with its place."""
-    if hasattr(column, "to_numpy"):
-        column = column.to_numpy()
-    values = np.asarray(column)
-    if values.dtype.kind in "mM":
-        raise RecordRefused(f"{name}: column {label} holds dates or durations; give seconds as numbers", "not-a-number")
-    if values.dtype.kind == "O":
-        values = np.array([np.nan if one is None else one for one in values.ravel()], dtype=object)
+    """A column as floats; what is missing or masked becomes NaN, which the record then refuses with its place."""
     try:
+        values = column if isinstance(column, np.ma.MaskedArray) else np.asarray(column)
+        if values.dtype.kind in "mM":
+            raise TypeError("dates or durations, where seconds are wanted")
         # What comes out of a message may begin at any byte.
-        return np.require(values, dtype=np.float64, requirements=["C", "A"]).reshape(-1)
-    except (TypeError, ValueError) as error:
-        text = f"{name}: column {label} is no column of numbers ({error}); give numbers in it"
+        return np.require(_arguments.floats(values), requirements=["C", "A"]).reshape(-1)
+    except (TypeError, ValueError, OverflowError) as error:
+        text = f"{name}: column {label} is no column of numbers ({_arguments.cut(error)}); give numbers in it"
         raise RecordRefused(text, "not-a-number") from error

@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 import tempfile
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
-from . import _documents
+from . import _arguments, _documents, types
 from ._results import Result, _flat
 from .errors import UsageError
 from .identification import Identification
@@ -15,10 +15,23 @@ from .identification import Identification
 __all__ = ["Design", "Tuned", "design", "tune"]
 
 
+Structure = Literal["pd", "pid", "ipd"]
+
+
 class Tuned(Result):
     """Gains, and what was verified of them without the design equations."""
 
+    gains: types.Gains
+    double_pole_rad_s: float
+    margins: types.Margins
+    verified: types.Verified
+    sensitivity: types.SensitivityRange
+    worst_case: types.WorstCase | None
+    offset: float
+    with_force: types.UnderForce | None
 
+
+@_arguments.named
 def tune(
     model: Identification | None = None,
     *,
@@ -27,7 +40,7 @@ def tune(
     beta: float | None = None,
     beta_quadratic: float | None = None,
     delay: float | None = None,
-    structure: str = "pd",
+    structure: Structure = "pd",
     step: float = 1.0,
     limit: float | None = None,
     top_speed: float | None = None,
@@ -75,13 +88,16 @@ def tune(
     """
     options = {
         "alpha": alpha, "beta": beta, "beta_quadratic": beta_quadratic, "delay": delay, "bandwidth": bandwidth,
-        "structure": structure, "step": step, "limit": limit, "top_speed": top_speed, "alpha_interval": alpha_interval,
+        "structure": _arguments.choice(structure, "structure", Structure),
+        "step": step, "limit": limit, "top_speed": top_speed, "alpha_interval": alpha_interval,
         "beta_interval": beta_interval, "beta_quadratic_interval": beta_quadratic_interval, "delay_interval": delay_interval,
     }  # fmt: skip
     if model is None:
         if alpha is None:
             raise UsageError("there is no inertia; give a model, or alpha")
         return Tuned(_documents.answer("tune", *_documents.flags(**options))[1])
+    if not isinstance(model, Identification):
+        raise UsageError(f"model is {_arguments.shown(model)}: must be an Identification; give one, or alpha, drag and delay")
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "model.json"
         path.write_text(json.dumps(model.to_dict()), encoding="utf-8")
@@ -91,10 +107,13 @@ def tune(
 class Design(Result):
     """Relay experiments, the best for the inertia first."""
 
+    proposals: list[types.Proposal]
+
     def _rows(self) -> list[dict[str, Any]]:
         return [_flat(proposal) for proposal in self.to_dict()["proposals"]]
 
 
+@_arguments.named
 def design(
     *,
     alpha: float,

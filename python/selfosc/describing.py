@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core, _documents
+from . import _arguments, _core, _documents, types
 from ._results import Result
 from .errors import OutOfDomain, SelfoscError, UsageError
 
-__all__ = ["DescribingFunction", "Nonlinearity", "catalogue", "describing_function", "df", "nonlinearity"]
+__all__ = ["Described", "DescribingFunction", "Nonlinearity", "catalogue", "describing_function", "df", "nonlinearity"]
 
 
 #: Characteristics whose output depends on where the input came from.
 _WITH_MEMORY = frozenset({"relay-hysteresis", "relay-dead-zone-hysteresis", "backlash"})
+
+
+Method = Literal["closed-form", "quadrature", "certified"]
+Undefined = Literal["raise", "nan"]
 
 
 class DescribingFunction(NamedTuple):
@@ -39,6 +43,20 @@ class DescribingFunction(NamedTuple):
         return np.asarray(self.p) + 1j * np.asarray(self.q) if np.ndim(self.p) else complex(self.p, self.q)
 
 
+class Described(Result):
+    """A describing function as the command gives it: numbers, and ranges that contain them where they are certified."""
+
+    nonlinearity: str
+    params: types.Parameters
+    amplitude: float
+    bias: float
+    f0: float
+    p: float
+    q: float
+    method: str
+    enclosure: types.DescribingFunctionEnclosure | None
+
+
 class Nonlinearity:
     """A characteristic of the catalogue with its parameters; made by :func:`nonlinearity`.
 
@@ -47,7 +65,9 @@ class Nonlinearity:
     """
 
     def __init__(self, name: str, **parameters: Any) -> None:
-        given = [(key, _parameter(value)) for key, value in parameters.items()]
+        if not isinstance(name, str):
+            raise UsageError(f"{_arguments.shown(name)} is no name of a characteristic; selfosc.catalogue() lists them")
+        given = [(key, _parameter(value, key)) for key, value in parameters.items()]
         self._core = _core.Characteristic(name, given)
         self.name = name
         self._has_memory = name in _WITH_MEMORY
@@ -72,7 +92,7 @@ class Nonlinearity:
     def __hash__(self) -> int:
         return hash((self.name, tuple(self._core.settings())))
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Callable[..., Nonlinearity], tuple[Any, ...]]:
         return _rebuilt, (self.name, self.parameters)
 
     def __call__(self, x: Any) -> Any:
@@ -88,7 +108,7 @@ class Nonlinearity:
         float or ndarray
             Output units, of the shape of ``x``.
         """
-        inputs = np.asarray(x, dtype=float)
+        inputs = _arguments.array(x, "the input")
         if not np.isfinite(inputs).all():
             raise UsageError("the input must be finite; remove what is not a number before the call", "not-finite")
         if self._has_memory:
@@ -137,7 +157,7 @@ class Nonlinearity:
         Where the input is too small to switch a hysteresis or to cross a gap, the output rests, and the gain is 0. Its mean is
         then wherever it came to rest, which :func:`describing_function` refuses to say.
         """
-        amplitude, centre = np.broadcast_arrays(np.asarray(A, dtype=float), np.asarray(bias, dtype=float))
+        amplitude, centre = _broadcast(_arguments.array(A, "amplitude"), _arguments.array(bias, "bias"))
         if (amplitude < 0.0).any():
             value = float(amplitude[amplitude < 0.0].flat[0])
             raise OutOfDomain(
@@ -179,6 +199,7 @@ def _rebuilt(name: str, parameters: dict[str, Any]) -> Nonlinearity:
     return Nonlinearity(name, **parameters)
 
 
+@_arguments.named
 def nonlinearity(name: str, **parameters: Any) -> Nonlinearity:
     """A characteristic by name: callable, and a describing function for python-control.
 
@@ -212,13 +233,14 @@ def nonlinearity(name: str, **parameters: Any) -> Nonlinearity:
     return Nonlinearity(name, **parameters)
 
 
+@_arguments.named
 def describing_function(
     characteristic: str | Nonlinearity | Callable[[float], float],
     amplitude: ArrayLike,
     bias: ArrayLike = 0.0,
     *,
     kinks: Iterable[float] = (),
-    undefined: str = "raise",
+    undefined: Undefined = "raise",
     **parameters: Any,
 ) -> DescribingFunction:
     """``F_0``, ``P`` and ``Q`` of a characteristic under ``bias + amplitude sin(theta)``.
@@ -267,9 +289,9 @@ def describing_function(
     >>> round(describing_function(lambda x: x**3, 2.0).p, 12)
     3.0
     """
-    wide, centre = np.broadcast_arrays(np.asarray(amplitude, dtype=float), np.asarray(bias, dtype=float))
+    sizes = _arguments.array(amplitude, "amplitude"), _arguments.array(bias, "bias")
+    wide, centre = _broadcast(*sizes)
     shape = wide.shape
-    sizes = (np.asarray(amplitude, dtype=float), np.asarray(bias, dtype=float))
     # A single number is not spread out over the other's shape.
     wide, centre = (
         np.require(one if one.size == 1 and shape else full, requirements=["C", "A"]).reshape(-1)
@@ -278,21 +300,29 @@ def describing_function(
     if 0 in shape:
         empty = np.empty(shape)
         return DescribingFunction(empty, empty.copy(), empty.copy())
-    if undefined not in ("raise", "nan"):
-        raise UsageError(f'undefined is {undefined!r}: must be "raise" or "nan"')
+    _arguments.choice(undefined, "undefined", Undefined)
     if isinstance(characteristic, str):
         characteristic = Nonlinearity(characteristic, **parameters)
     elif parameters:
         raise UsageError(f"parameters {', '.join(parameters)} go with a name only; leave them out")
+    parts: Iterable[NDArray[np.float64]]
     if isinstance(characteristic, Nonlinearity):
         parts = characteristic._core.describing_function(wide, centre, undefined == "nan")
     elif callable(characteristic):
-        parts = _core.by_quadrature(_of_branch(characteristic), [float(kink) for kink in kinks], wide, centre)
+        parts = _core.by_quadrature(_of_branch(characteristic), [_arguments.number(kink, "kinks") for kink in kinks], wide, centre)
     else:
         raise UsageError(f"{characteristic!r} is no characteristic: give a name, an object of nonlinearity() or a function")
     if shape:
         return DescribingFunction(*(part.reshape(shape) for part in parts))
     return DescribingFunction(*(float(part[0]) for part in parts))
+
+
+def _broadcast(amplitude: NDArray[np.float64], bias: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
+    try:
+        return tuple(np.broadcast_arrays(amplitude, bias))
+    except ValueError as error:
+        text = f"amplitude and bias have the shapes {amplitude.shape} and {bias.shape}; give shapes that broadcast"
+        raise UsageError(text) from error
 
 
 def _of_branch(function: Callable[..., Any]) -> Callable[[float, bool], float]:
@@ -307,7 +337,15 @@ def _of_branch(function: Callable[..., Any]) -> Callable[[float, bool], float]:
     return lambda x, _: float(np.squeeze(function(x)))
 
 
-def df(name: str, amplitude: float, bias: float = 0.0, *, method: str = "closed-form", **parameters: Any) -> Result:
+@_arguments.named
+def df(
+    name: str,
+    amplitude: float,
+    bias: float = 0.0,
+    *,
+    method: Method = "closed-form",
+    **parameters: Any,
+) -> Described:
     """One describing function as the command ``selfosc df`` gives it, with proof on request.
 
     Parameters
@@ -323,7 +361,7 @@ def df(name: str, amplitude: float, bias: float = 0.0, *, method: str = "closed-
 
     Returns
     -------
-    Result
+    Described
         ``nonlinearity, params, amplitude, bias, f0, p, q, method, enclosure``.
 
     Examples
@@ -333,11 +371,14 @@ def df(name: str, amplitude: float, bias: float = 0.0, *, method: str = "closed-
     >>> low <= 2 / 3.141592653589793 <= high and high - low < 1e-12
     True
     """
-    arguments = _documents.flags(amplitude=amplitude, bias=bias, method=method)
-    return Result(_documents.answer("df", name, *_documents.settings(parameters), *arguments)[1])
+    arguments = _documents.flags(amplitude=amplitude, bias=bias, method=_arguments.choice(method, "method", Method))
+    if not isinstance(name, str):
+        raise UsageError(f"{_arguments.shown(name)} is no name of a characteristic; selfosc.catalogue() lists them")
+    return Described(_documents.answer("df", name, *_documents.settings(parameters), *arguments)[1])
 
 
-def catalogue() -> dict[str, list[dict[str, Any]]]:
+@_arguments.named
+def catalogue() -> dict[str, list[types.Parameter]]:
     """Every characteristic with its parameters: name, meaning, domain and default of each.
 
     Examples
@@ -350,10 +391,10 @@ def catalogue() -> dict[str, list[dict[str, Any]]]:
     return {entry["name"]: entry["parameters"] for entry in json.loads(text)}
 
 
-def _parameter(value: Any) -> float | Sequence[tuple[float, float]]:
-    if isinstance(value, Iterable) and not isinstance(value, (str, bytes)) and np.ndim(value) > 0:  # type: ignore[arg-type]
-        return [(float(x), float(y)) for x, y in value]
-    return float(value)
+def _parameter(value: Any, name: str) -> float | Sequence[tuple[float, float]]:
+    if isinstance(value, Iterable) and not isinstance(value, (str, bytes)) and getattr(value, "ndim", 1) > 0:
+        return _documents.points(value, name)
+    return _arguments.number(value, name)
 
 
 def _value(text: str) -> Any:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from ._names import near
+
 __all__ = ["NoLimitCycle", "OutOfDomain", "RecordRefused", "SelfoscError", "UnreadableLog", "UsageError"]
 
 
@@ -71,7 +73,10 @@ class UnreadableLog(SelfoscError):
 
 
 #: Codes that name wrong arguments; the others are answers.
-_USAGE = {"usage", "mixed-needs-fit", "needs-bounded", "unknown-characteristic", "unknown-parameter", "missing-parameter", "parameter-kind"}
+_USAGE = {
+    "usage", "mixed-needs-fit", "needs-bounded", "unknown-characteristic", "unknown-parameter", "missing-parameter", "parameter-kind",
+    "output-is-input",
+}  # fmt: skip
 
 
 #: Flags of the command whose Python argument has another name.
@@ -80,6 +85,7 @@ _ARGUMENTS = {"from": "from_s", "to": "to_s", "jitter": "jitter_s", "num": "plan
 _SWITCHES = {"degrees", "even-stamps", "invert", "radians", "skip-bad-rows", "wrap"}
 #: What the command does, as Python does it.
 _CALLS = {
+    ", --budget and --certificate are": " and --budget are",
     "`selfosc df --list`": "selfosc.catalogue()",
     "`selfosc identify LOG --json > RESULT.json`": "selfosc.identify",
     "`selfosc verify --certificates DIR`": "the command `selfosc verify`",
@@ -100,11 +106,21 @@ def _in_python(text: str) -> str:
             return f"{argument}=True"
         return f"{argument}={value}" if value else argument
 
+    # A name that is not known stands before those that are.
+    text = re.sub(r"`(?P<name>[^`]+)`; (?:known|it has): (?P<known>.+)", _meant, text)
+    # A flag of which a message shows what it takes.
+    text = re.sub(r"(?<=')(--[a-z-]+) <[A-Z]+>(?:\.\.\.)?(?=')", r"\1", text)
     # A value stands in the parentheses of a remedy; elsewhere a word that follows is one of the sentence.
     text = re.sub(r"(?<=\()--(?P<name>[a-z][a-z-]*)(?: (?P<value>[^\s,)]+))?(?=[,)])", named, text)
+    text = text.replace("--set ", "")
     text = re.sub(r"--(?P<name>[a-z][a-z-]*)(?P<value>)", named, text)
     # `alpha: alpha is -1` says it once.
     return re.sub(r"^(\w+): (?=\1 )", "", text)
+
+
+def _meant(unknown: re.Match[str]) -> str:
+    meant = near(unknown["name"], unknown["known"].split(", "))
+    return unknown[0] if meant is None else f"`{unknown['name']}`; did you mean {meant}? There are: {unknown['known']}"
 
 
 def of(code: str, text: str, number: tuple[str, float, str, str, str] | None = None, record: bool = False) -> SelfoscError:

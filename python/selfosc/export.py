@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
+from . import _arguments, types
 from .control import Tuned
 from .errors import UsageError
 from .identification import Identification
@@ -30,20 +31,27 @@ AXES = {"surge": "xU", "sway": "yV", "heave": "zW", "roll": "kP", "pitch": "mQ",
 def _values(model: Identification | Mapping[str, float]) -> dict[str, float]:
     """Inertia, drags and delay, of an identification or given."""
     if isinstance(model, Mapping):
-        values = {name: float(model.get(name, 0.0)) for name in ("alpha", "beta", "beta_quadratic", "delay")}
+        values = {name: _arguments.number(model.get(name, 0.0), name) for name in ("alpha", "beta", "beta_quadratic", "delay")}
+    elif not isinstance(model, Identification):
+        raise UsageError(f"model is {_arguments.shown(model)}: must be an Identification or a mapping; give one of these")
     else:
         answer = model.reported
         if not answer:
             raise UsageError("the model reports no answer; identify with the method fit or all")
         if model.trust == "doubtful":
             raise UsageError("the model is doubtful; give alpha and drag yourself, or log another record", "doubtful")
-        named = {"alpha": "alpha", "beta": "beta", "beta_quadratic": "beta_quadratic", "delay": "delay_s"}
-        values = {name: float((answer.get(field) or {"value": 0.0})["value"]) for name, field in named.items()}
+        drag = {name: 0.0 if part is None else part["value"] for name, part in _drag_of(answer).items()}
+        values = {"alpha": answer["alpha"]["value"], **drag, "delay": answer["delay_s"]["value"]}
     if not (math.isfinite(values["alpha"]) and values["alpha"] > 0.0):
         raise UsageError(f"alpha is {values['alpha']}: must be above 0; check where it comes from", "out-of-domain")
     return values
 
 
+def _drag_of(answer: types.Reported) -> dict[str, types.Interval | None]:
+    return {"beta": answer["beta"], "beta_quadratic": answer["beta_quadratic"]}
+
+
+@_arguments.named
 def state_space(model: Identification | Mapping[str, float], speed: float = 0.0, *, pade: int = 0) -> control.StateSpace:
     """The axis about a constant speed, from force to output.
 
@@ -71,7 +79,7 @@ def state_space(model: Identification | Mapping[str, float], speed: float = 0.0,
     import control
 
     values = _values(model)
-    slope = values["beta"] + 2.0 * values["beta_quadratic"] * abs(float(speed))
+    slope = values["beta"] + 2.0 * values["beta_quadratic"] * abs(_arguments.number(speed, "speed"))
     alpha = values["alpha"]
     axis = control.ss([[0.0, 1.0], [0.0, -slope / alpha]], [[0.0], [1.0 / alpha]], [[1.0, 0.0]], [[0.0]])
     if pade:
@@ -79,6 +87,7 @@ def state_space(model: Identification | Mapping[str, float], speed: float = 0.0,
     return axis
 
 
+@_arguments.named
 def hydrodynamic_coefficients(
     model: Identification | Mapping[str, float], axis: str, rigid_inertia: float, scale: float = 1.0
 ) -> dict[str, float]:
@@ -117,14 +126,15 @@ def hydrodynamic_coefficients(
     """
     if axis not in AXES:
         raise UsageError(f"{axis!r} is no axis; choose one of {', '.join(AXES)}")
-    values = _values(model)
+    values, scale = _values(model), _arguments.number(scale, "scale")
+    rigid_inertia = _arguments.number(rigid_inertia, "rigid_inertia")
     force, velocity = AXES[axis][0], AXES[axis][1]
-    added = values["alpha"] * scale - float(rigid_inertia)
+    added = values["alpha"] * scale - rigid_inertia
     if added < 0.0:
         raise UsageError(
             f"rigid_inertia is {rigid_inertia}: must be at most what was identified, {values['alpha'] * scale:.6g}; check the "
             "link's inertia and the scale of the command",
-            "out-of-domain", "rigid_inertia", float(rigid_inertia),
+            "out-of-domain", "rigid_inertia", rigid_inertia,
         )  # fmt: skip
     return {
         f"{force}Dot{velocity}": -added,
@@ -133,6 +143,7 @@ def hydrodynamic_coefficients(
     }
 
 
+@_arguments.named
 def gazebo_hydrodynamics(coefficients: Mapping[str, float], link: str, *, water_density: float = 998.0) -> str:
     """The plugin's element for an SDF model, with coefficients of :func:`hydrodynamic_coefficients`, of several axes merged.
 
@@ -147,12 +158,13 @@ def gazebo_hydrodynamics(coefficients: Mapping[str, float], link: str, *, water_
     </plugin>
     """
     plugin = ElementTree.Element("plugin", filename="gz-sim-hydrodynamics-system", name="gz::sim::systems::Hydrodynamics")
-    for name, value in {"link_name": link, "water_density": float(water_density), **coefficients}.items():
+    for name, value in {"link_name": link, "water_density": _arguments.number(water_density, "water_density"), **coefficients}.items():
         ElementTree.SubElement(plugin, name).text = str(value)
     ElementTree.indent(plugin)
     return ElementTree.tostring(plugin, encoding="unicode")
 
 
+@_arguments.named
 def xacro_hydrodynamics(coefficients: Mapping[str, float], name: str = "hydrodynamics") -> str:
     """A xacro macro ``<xacro:NAME link="..."/>`` that puts the plugin into a robot's description.
 
@@ -170,6 +182,7 @@ def xacro_hydrodynamics(coefficients: Mapping[str, float], name: str = "hydrodyn
     return ElementTree.tostring(robot, encoding="unicode")
 
 
+@_arguments.named
 def ardusub_parameters(tuned: Tuned, axis: str = "yaw") -> dict[str, float]:
     """A PD design as the gains of ArduSub's attitude loops.
 
@@ -193,7 +206,9 @@ def ardusub_parameters(tuned: Tuned, axis: str = "yaw") -> dict[str, float]:
     """
     if axis not in ("roll", "pitch", "yaw"):
         raise UsageError(f"{axis!r} has no attitude loop; choose roll, pitch or yaw")
-    gains: dict[str, Any] = tuned.gains
+    if not isinstance(tuned, Tuned):
+        raise UsageError(f"tuned is {_arguments.shown(tuned)}: must be a result of selfosc.tune(); give one")
+    gains = tuned.gains
     if gains["structure"] != "pd":
         raise UsageError(f"the structure {gains['structure']} has no such form; tune with structure pd")
     name = {"roll": "RLL", "pitch": "PIT", "yaw": "YAW"}[axis]

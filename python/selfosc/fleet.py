@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import pyarrow as pa
 
-from . import __version__
+from . import __version__, _arguments
 from .errors import SelfoscError
 from .identification import identify
 
@@ -51,7 +51,7 @@ def identify_record(table: pa.Table, record: str = "record", **settings: Any) ->
     record : str
         Its name.
     **settings
-        As for :func:`selfosc.identify`.
+        As for :func:`selfosc.identify`. One that there is not is no fault of the record, and raises.
 
     Returns
     -------
@@ -69,6 +69,7 @@ def identify_record(table: pa.Table, record: str = "record", **settings: Any) ->
     >>> identify_record(good.slice(0, 5), "dive 8").column("refused")[0].as_py()
     'too-short'
     """
+    _arguments.check(identify, settings)
     row: dict[str, Any] = {"record": record, "version": __version__}
     try:
         row |= _row(identify(table, **settings).to_dict())

@@ -5,16 +5,16 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from . import _core, _tables
+from . import _arguments, _core, _documents, _tables, types
 from ._results import Result, _flat
-from .errors import OutOfDomain, UsageError
+from .errors import OutOfDomain
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -27,14 +27,30 @@ class Identification(Result):
 
     ``reported`` is the one answer to use: ``reported["alpha"]`` is a dictionary with ``value``, ``std``, ``low`` and ``high``
     (95 %), and ``reported["trust"]`` says whether to use it. Numbers are in SI units, angles in radians.
+
+    An identification pickles whole: what comes back is equal, and plots and reports as before. Its logs are then known by
+    their names, so that no report replaces the file that has the name of one.
     """
+
+    record: types.AllRecords
+    features: types.Features | None
+    reported: types.Reported | None
+    estimates: list[types.MethodEstimate]
+    bounded: types.GuaranteedBounds | None
+    refused_methods: list[types.RefusedMethod]
+    choice: types.DragChoice
+    warnings: list[types.Note]
+    records: list[types.RecordSummary]
+    validation: list[types.Validated]
+    units: types.Units
+    version: str
 
     def __init__(self, core: _core.Identification) -> None:
         super().__init__(json.loads(core.document()))
         self._core = core
 
-    def __reduce__(self):
-        raise TypeError("an identification does not travel; send to_dict(), or the log and identify there")
+    def __reduce__(self) -> tuple[Callable[[str], Identification], tuple[str]]:
+        return _arrived, (self._core.travelling(),)
 
     @cached_property
     def details(self) -> dict[str, Any]:
@@ -42,9 +58,9 @@ class Identification(Result):
         return json.loads(self._core.full())
 
     @property
-    def trust(self) -> str | None:
+    def trust(self) -> types.Trust | None:
         """Whether to use ``reported``: ``"good"``, ``"widened"``, ``"doubtful"``; ``None`` without it."""
-        return self.to_dict()["reported"] and self.to_dict()["reported"].get("trust")
+        return None if self.reported is None else self.reported["trust"]
 
     def _rows(self) -> list[dict[str, Any]]:
         answer = self.to_dict().get("reported")
@@ -63,8 +79,9 @@ class Identification(Result):
         -------
         Path
         """
-        self._core.report(path)
-        return Path(os.fsdecode(path))
+        place = _arguments.path(path)
+        self._core.report(place)
+        return Path(place)
 
     def plot(self) -> Figure:
         """Record, model, residuals and intervals of every record, as one matplotlib figure.
@@ -120,6 +137,10 @@ class Identification(Result):
         axes.set_xlabel("95 % interval, percent of the value (of one where that is zero)")
 
 
+def _arrived(text: str) -> Identification:
+    return Identification(_core.Identification.arrived(text))
+
+
 def _fitted(details: dict[str, Any], records: int) -> list[tuple[int, list[float], list[float]] | None]:
     """First sample, model and residuals of every record under the likeliest law; ``None`` without a fit."""
     fits = details.get("fits")
@@ -129,6 +150,13 @@ def _fitted(details: dict[str, Any], records: int) -> list[tuple[int, list[float
     return [(one["first_sample"], one["output"], one["residuals"]) for one in likeliest["records"]]
 
 
+AnyPath = str | bytes | os.PathLike[str] | os.PathLike[bytes]
+Method = Literal["all", "fit", "exact", "iso", "bounded"]
+TimeUnit = Literal["s", "ms", "us", "ns"]
+Switching = Literal["at-samples", "anywhere"]
+
+
+@_arguments.named
 def identify(
     source: Any,
     *,
@@ -139,13 +167,20 @@ def identify(
     wrap: bool = False,
     relay: float | None = None,
     half_width: float | None = None,
-    delay: float | str | None = None,
-    drag: str = "auto",
-    method: str = "all",
+    delay: float | Literal["estimate"] | None = None,
+    drag: Literal["auto"] | types.Drag = "auto",
+    method: Method = "all",
     error: float = 0.0,
     quantum: float | None = None,
+    jitter_s: float = 0.0,
+    outliers: int = 0,
+    budget: int | None = None,
+    stiffness: bool = False,
+    lag: bool = False,
+    cubic: bool = False,
+    either_sign: bool = False,
     radians: bool = False,
-    time_unit: str | None = None,
+    time_unit: TimeUnit | None = None,
     neutral: float | None = None,
     invert: bool = False,
     from_s: float | None = None,
@@ -153,9 +188,8 @@ def identify(
     part: int | None = None,
     even_stamps: bool = False,
     skip_bad_rows: bool = False,
-    validate: Sequence[str | os.PathLike[str]] = (),
-    progress: bool | Callable[[str], None] = False,
-    **settings: Any,
+    validate: AnyPath | Iterable[AnyPath] = (),
+    progress: bool | Callable[[str], object] = False,
 ) -> Identification:
     """A vehicle's inertia, drag, disturbance and delay from records of relay experiments, with 95 % intervals.
 
@@ -181,6 +215,14 @@ def identify(
         ``bounded`` takes every reading for a constraint; its answer is in ``bounded``. ``all`` leaves it out.
     error, quantum : float, optional
         For the bounds: largest error of a reading beside half a step, and step of the sensor, output units.
+    jitter_s : float
+        For the bounds: largest error of a stamp, s.
+    outliers : int
+        For the bounds: readings, of all records together, that may be in error by any amount.
+    budget : int, optional
+        For the bounds: work that may be spent, in passes over the records. The less, the wider the bounds; they hold.
+    stiffness, lag, cubic, either_sign : bool
+        For the bounds: the model has a restoring force, a lag of the force, cubic drag, linear drag that may drive.
     radians : bool
         The output is in radians, whatever it looks like.
     time_unit : {"s", "ms", "us", "ns"}, optional
@@ -197,13 +239,10 @@ def identify(
         The samples were taken at even intervals, whatever their stamps: those are of arrival.
     skip_bad_rows : bool
         Leaves out rows without three numbers, or with a time that does not come after the one before: at most a fifth of all.
-    validate : sequence of paths
+    validate : path, or sequence of paths
         Text logs that are predicted and take no part in the estimate.
     progress : bool or callable
         Called with what comes next; ``True`` shows it with tqdm where that is installed.
-    **settings
-        Further fields of the library's settings.
-
     Returns
     -------
     Identification
@@ -215,11 +254,14 @@ def identify(
     RecordRefused
         For a record that cannot be used; ``code`` says why.
     SelfoscError
-        For settings that contradict each other or are out of their domain.
+        For settings that contradict each other or are out of their domain, and for an argument that there is not.
 
     Notes
     -----
-    The call can be interrupted. What was begun then runs on to its next stage and is dropped.
+    The call can be interrupted. What was begun then runs on to its next stage and is dropped. A process that forks may call
+    it before and after, and so may its children: each has threads of its own.
+
+    A reading that is masked (``numpy.ma``), null or NA is none: the record is refused, or read without it on ``skip_bad_rows``.
 
     Examples
     --------
@@ -231,44 +273,77 @@ def identify(
     """
     columns = {
         "time": time, "output": output, "input": input, "degrees": bool(degrees), "wrap": bool(wrap), "radians": bool(radians),
-        "time_unit": time_unit, "neutral": _float(neutral), "invert": bool(invert), "from_s": _float(from_s), "to_s": _float(to_s),
-        "part": part, "even_stamps": bool(even_stamps), "skip_bad_rows": bool(skip_bad_rows),
+        "time_unit": None if time_unit is None else _arguments.choice(time_unit, "time_unit", TimeUnit), "invert": bool(invert),
+        "neutral": _number(neutral, "neutral"), "from_s": _number(from_s, "from_s"), "to_s": _number(to_s, "to_s"),
+        "part": _arguments.optional(_arguments.whole, part, "part"), "even_stamps": bool(even_stamps),
+        "skip_bad_rows": bool(skip_bad_rows),
     }  # fmt: skip
-    wanted: dict[str, Any] = {"method": method, "relay_level": _float(relay), "half_width": _float(half_width)}
-    wanted |= {"error": float(error), "quantum": _float(quantum), **settings}
-    if drag != "auto":
-        wanted["drag"] = drag
+    wanted: dict[str, Any] = {
+        "method": _arguments.choice(method, "method", Method), "relay_level": _number(relay, "relay"),
+        "half_width": _number(half_width, "half_width"), "error": _arguments.number(error, "error"),
+        "quantum": _number(quantum, "quantum"), "jitter_s": _arguments.number(jitter_s, "jitter_s"),
+        "outliers": _arguments.whole(outliers, "outliers"), "budget": _arguments.optional(_arguments.whole, budget, "budget"),
+        "stiffness": bool(stiffness), "lag": bool(lag), "cubic": bool(cubic), "either_sign": bool(either_sign),
+    }  # fmt: skip
+    if not (isinstance(drag, str) and drag == "auto"):
+        wanted["drag"] = _arguments.choice(drag, "drag", types.Drag)
     if delay is not None:
-        wanted["delay"] = "estimated" if delay == "estimate" else {"known_s": _delay(delay)}
+        wanted["delay"] = "estimated" if isinstance(delay, str) and delay == "estimate" else {"known_s": _delay(delay)}
     logs = _tables.sources(source, columns)
+    paths = [validate] if isinstance(validate, (str, bytes, os.PathLike)) else validate
+    validation = [_arguments.path(one, "validate") for one in paths]
+    settings = _documents.json_of(wanted), _documents.json_of(columns)
     with _Shown(progress) as shown:
-        core = _core.identify(logs, list(validate), _document(wanted), _document(columns), shown)
+        core = _core.identify(logs, validation, *settings, shown)
     return Identification(core)
 
 
 class Bounds(Result):
     """What records leave of a model's parameters: ``verdict``, ``bounds``, ``witness`` and what was assumed."""
 
+    verdict: types.Consistency
+    search_box: list[types.QuantityRange]
+    bounds: list[types.QuantityRange]
+    witness: types.Point | None
+    nearest: types.Point | None
+    error: list[float]
+    error_factor: list[float]
+    contradicting: list[types.Contradicting]
+    outliers: list[types.Outlier]
+    passes: int
+
     def _rows(self) -> list[dict[str, Any]]:
         return self.to_dict()["bounds"] or [{"verdict": self.to_dict()["verdict"]}]
 
-    def of(self, quantity: str) -> tuple[float, float] | None:
-        """The interval of ``"alpha"``, ``"beta"``, ``"beta_quadratic"``, ``"delay_s"``, ...; ``None`` where there is none."""
-        found = next((one for one in self.to_dict()["bounds"] if one["quantity"] == quantity), None)
+    def of(self, quantity: types.Quantity) -> tuple[float, float] | None:
+        """The interval of ``"alpha"``, ``"beta"``, ``"delay_s"``, ..., or of the first record's ``{"delta": 0}``; ``None`` where
+        there is none."""
+        found = next((one for one in self.bounds if one["quantity"] == quantity), None)
         return found and (found["low"], found["high"])
 
 
+@_arguments.named
 def bounded(
     source: Any,
     *,
-    drag: str = "linear",
+    drag: types.Drag = "linear",
     delay: float | tuple[float, float] | None = None,
     time: str | None = None,
     output: str | None = None,
     input: str | None = None,
     degrees: bool = False,
     wrap: bool = False,
-    **model: Any,
+    error: float | None = None,
+    quantum: float | None = None,
+    switching: Switching | None = None,
+    outliers: int | None = None,
+    jitter_s: float | None = None,
+    stiffness: bool | None = None,
+    lag: bool | None = None,
+    cubic: bool | None = None,
+    either_sign: bool | None = None,
+    reach: float | None = None,
+    budget: int | None = None,
 ) -> Bounds:
     """Encloses the parameters with which a model meets every reading, or proves that there are none in the search box.
 
@@ -280,11 +355,21 @@ def bounded(
     delay : float or (float, float), optional
         Known, or between two numbers, s; by default nothing is known but that it is shorter than the mean time between
         switchings.
-    **model
-        What else is assumed: ``error`` (largest error of a reading beside half a step, output units), ``quantum`` (step of
-        the sensor; read off the record by default), ``switching`` (``"at-samples"`` or ``"anywhere"``), ``outliers`` (so many
-        readings may be in error by any amount; the result's own ``outliers`` are those that must be), ``jitter_s``, ``stiffness``,
-        ``lag``, ``cubic``, ``either_sign``, ``reach``, ``budget``.
+    error, quantum : float, optional
+        Largest error of a reading beside half a step, by default 0, and step of the sensor, by default read off the record;
+        output units.
+    switching : {"at-samples", "anywhere"}, optional
+        When the command changed; by default at samples.
+    outliers : int, optional
+        So many readings may be in error by any amount, by default none; the result's own ``outliers`` are those that must be.
+    jitter_s : float, optional
+        Largest error of a stamp, s; by default 0.
+    stiffness, lag, cubic, either_sign : bool, optional
+        The model has a restoring force, a lag of the force, cubic drag, linear drag that may drive; by default none.
+    reach : float, optional
+        Factor by which inertia is looked for on either side of its order of magnitude, by default 100.
+    budget : int, optional
+        Work that may be spent, in passes over the records, by default 3000. The less, the wider the bounds; they hold.
 
     Returns
     -------
@@ -305,41 +390,43 @@ def bounded(
     True
     """
     columns = {"time": time, "output": output, "input": input, "degrees": bool(degrees), "wrap": bool(wrap)}
-    wanted: dict[str, Any] = {"law": drag, **model}
+    numbers = {"error": error, "quantum": quantum, "jitter_s": jitter_s, "reach": reach}
+    counts = {"outliers": outliers, "budget": budget}
+    terms = {"stiffness": stiffness, "lag": lag, "cubic": cubic, "either_sign": either_sign}
+    wanted: dict[str, Any] = {"law": _arguments.choice(drag, "drag", types.Drag)}
+    wanted["switching"] = None if switching is None else _arguments.choice(switching, "switching", Switching)
+    wanted |= {name: _number(value, name) for name, value in numbers.items()}
+    wanted |= {name: _arguments.optional(_arguments.whole, value, name) for name, value in counts.items()}
+    wanted |= {name: None if value is None else bool(value) for name, value in terms.items()}
     if delay is not None:
         wanted["delay"] = (
             {"within-s": [_delay(end) for end in delay]} if isinstance(delay, (tuple, list)) else {"known-s": _delay(delay)}
         )
-    return Bounds(json.loads(_core.bounds(_tables.sources(source, columns), json.dumps(columns), _document(wanted))))
+    given = {name: value for name, value in wanted.items() if value is not None}
+    logs = _tables.sources(source, columns)
+    return Bounds(json.loads(_core.bounds(logs, _documents.json_of(columns), _documents.json_of(given))))
 
 
 def _delay(value: Any) -> float:
-    delay = float(value)
+    delay = _arguments.number(value, "delay")
     if math.isfinite(delay) and delay >= 0.0:
         return delay
     limit, remedy = "a finite number, 0 or more", 'give the loop\'s delay, or "estimate"'
     raise OutOfDomain(f"delay is {delay} (s): must be {limit}; {remedy}", "out-of-domain", "delay", delay, "s", limit, remedy)
 
 
-def _float(value: Any) -> float | None:
-    return None if value is None else float(value)
-
-
-def _document(settings: dict[str, Any]) -> str:
-    try:
-        return json.dumps(settings, allow_nan=False)
-    except ValueError as error:
-        raise UsageError(f"a setting is not a finite number ({error}); give numbers") from error
+def _number(value: Any, name: str) -> float | None:
+    return _arguments.optional(_arguments.number, value, name)
 
 
 class _Shown:
     """What hears of the stages: nobody, a function of the user's, or tqdm."""
 
-    def __init__(self, progress: bool | Callable[[str], None]) -> None:
+    def __init__(self, progress: bool | Callable[[str], object]) -> None:
         self._progress = progress
         self._bar: Any = None
 
-    def __enter__(self) -> Callable[[str], None] | None:
+    def __enter__(self) -> Callable[[str], object] | None:
         if callable(self._progress):
             return self._progress
         if not self._progress:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _documents
+from . import _arguments, _documents, types
 from ._results import Result, _flat
 from .describing import Nonlinearity
 from .errors import UsageError
@@ -20,21 +20,29 @@ __all__ = ["Amplitudes", "FittedCharacteristics", "amplitudes", "fit_characteris
 class Amplitudes(Result):
     """The amplitudes at which a characteristic has a gain, growing."""
 
+    nonlinearity: str
+    params: types.Parameters
+    bias: float
+    gain: float
+    amplitudes: list[types.AmplitudeOfGain]
+
     def _rows(self) -> list[dict[str, Any]]:
         return self.to_dict()["amplitudes"]
 
     def __len__(self) -> int:
         return len(self._rows())
 
-    def __iter__(self):
-        return iter(self._rows())
+    def __iter__(self) -> Iterator[types.AmplitudeOfGain]:
+        return iter(self.amplitudes)
 
-    def __getitem__(self, index: int) -> dict[str, Any]:
-        return self._rows()[index]
+    def __getitem__(self, index: int) -> types.AmplitudeOfGain:
+        return self.amplitudes[index]
 
 
 class FittedCharacteristics(Result):
     """Characteristics fitted to measured gains, the best first."""
+
+    fits: list[types.FittedCharacteristic]
 
     def _rows(self) -> list[dict[str, Any]]:
         return [_flat(fit) for fit in self.to_dict()["fits"]]
@@ -42,13 +50,14 @@ class FittedCharacteristics(Result):
     def __len__(self) -> int:
         return len(self.fits)
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[types.FittedCharacteristic]:
         return iter(self.fits)
 
-    def __getitem__(self, index: int) -> dict[str, Any]:
+    def __getitem__(self, index: int) -> types.FittedCharacteristic:
         return self.fits[index]
 
 
+@_arguments.named
 def amplitudes(characteristic: str | Nonlinearity, gain: float, bias: float = 0.0, **parameters: Any) -> Amplitudes:
     """Every amplitude from 0.001 to 1000 found at which ``P`` has a value.
 
@@ -97,6 +106,7 @@ def amplitudes(characteristic: str | Nonlinearity, gain: float, bias: float = 0.
     return Amplitudes(_documents.answer("df", name, *_documents.settings(parameters), *arguments)[1])
 
 
+@_arguments.named
 def fit_characteristic(amplitude: ArrayLike, p: ArrayLike, bias: float = 0.0) -> FittedCharacteristics:
     """Which characteristics of the catalogue have measured gains, the best first.
 
@@ -133,11 +143,11 @@ def fit_characteristic(amplitude: ArrayLike, p: ArrayLike, bias: float = 0.0) ->
     >>> "saturation" in [one["nonlinearity"] for one in found][:3] and found[0]["residual"] < 1e-9
     True
     """
-    wide, gains = (np.asarray(column, dtype=float) for column in (amplitude, p))
+    wide, gains = (_arguments.array(column, name) for column, name in ((amplitude, "amplitude"), (p, "p")))
     if wide.ndim != 1 or wide.shape != gains.shape:
         raise UsageError(f"amplitude and p have the shapes {wide.shape} and {gains.shape}; give one gain for each amplitude")
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "gains.csv"
-        rows = (f"{_documents.number(x)},{_documents.number(y)}\n" for x, y in zip(wide, gains, strict=True))
+        rows = (f"{float(x)!r},{float(y)!r}\n" for x, y in zip(wide, gains, strict=True))
         path.write_text("amplitude,p\n" + "".join(rows), encoding="utf-8")
         return FittedCharacteristics(_documents.answer("df", f"--fit={path}", *_documents.flags(bias=bias))[1])

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from typing import Any
 
-from . import _core, _documents
+from . import _arguments, _core, _documents, types
 from ._results import Result
 from .describing import Nonlinearity
-from .errors import NoLimitCycle
+from .errors import NoLimitCycle, UsageError
 
 __all__ = ["Balance", "Certificate", "Prediction", "balance", "certify", "predict", "simulate"]
 
@@ -16,25 +17,34 @@ __all__ = ["Balance", "Certificate", "Prediction", "balance", "certify", "predic
 class Balance(Result):
     """The intersections of a Nyquist curve with ``-1/N``."""
 
+    intersections: list[types.Intersection]
+
     def _rows(self) -> list[dict[str, Any]]:
         return self.to_dict()["intersections"]
 
     def __len__(self) -> int:
         return len(self.intersections)
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[types.Intersection]:
         return iter(self.intersections)
 
-    def __getitem__(self, index: int) -> dict[str, Any]:
+    def __getitem__(self, index: int) -> types.Intersection:
         return self.intersections[index]
 
 
 class Prediction(Result):
     """The self-oscillation of a drag axis: ``harmonic_balance``, ``exact``, ``certificate``."""
 
+    harmonic_balance: types.FirstHarmonic | None
+    exact: types.Cycle
+    certificate: types.CycleProof | None
+    certificate_refused: types.Note | None
+
 
 class Certificate(Result):
     """Limit cycles of a relay loop, each with its proof or why there is none."""
+
+    orbits: list[types.Orbit]
 
     def _rows(self) -> list[dict[str, Any]]:
         return self.to_dict()["orbits"]
@@ -42,13 +52,14 @@ class Certificate(Result):
     def __len__(self) -> int:
         return len(self.orbits)
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[types.Orbit]:
         return iter(self.orbits)
 
-    def __getitem__(self, index: int) -> dict[str, Any]:
+    def __getitem__(self, index: int) -> types.Orbit:
         return self.orbits[index]
 
 
+@_arguments.named
 def balance(plant: Any, characteristic: str | Nonlinearity, *, delay: float = 0.0, bias: float = 0.0, **parameters: Any) -> Balance:
     """The oscillations that harmonic balance predicts for a plant in negative feedback with a characteristic.
 
@@ -94,6 +105,7 @@ def balance(plant: Any, characteristic: str | Nonlinearity, *, delay: float = 0.
     return Balance(_documents.answer("balance", *arguments, *_documents.settings(parameters))[1])
 
 
+@_arguments.named
 def predict(
     *,
     alpha: float,
@@ -149,6 +161,7 @@ def predict(
     return Prediction(document)
 
 
+@_arguments.named
 def certify(plant: Any, relay: Nonlinearity, *, delay: float = 0.0, period_s: tuple[float, float] = (1e-2, 1e3)) -> Certificate:
     """The symmetric limit cycles of a linear plant under a relay with hysteresis, each with its proof.
 
@@ -187,15 +200,27 @@ def certify(plant: Any, relay: Nonlinearity, *, delay: float = 0.0, period_s: tu
     >>> low < 1.862223721734969 < high and high - low < 1e-12
     True
     """
+    if not isinstance(relay, Nonlinearity):
+        raise UsageError(f"relay is {_arguments.shown(relay)}: must be an object of selfosc.nonlinearity(); make one")
     parameters = relay.parameters
     if relay.name not in ("relay", "relay-hysteresis") or parameters.get("offset"):
         raise NoLimitCycle(f"{relay!r} is no symmetric relay; give a relay or a relay-hysteresis without offset", "not-a-relay")
     num, den, delay = _documents.coefficients(plant, delay)
     half_width = parameters.get("half_width", 0.0)
-    text = _core.certify(num, den, delay, parameters["level"], half_width, (float(period_s[0]), float(period_s[1])))
+    text = _core.certify(num, den, delay, parameters["level"], half_width, _ends(period_s))
     return Certificate(json.loads(text))
 
 
+def _ends(given: Any) -> tuple[float, float]:
+    """The ends of a range of periods."""
+    try:
+        first, last = given
+    except (TypeError, ValueError) as error:
+        raise UsageError(f"period_s is {_arguments.shown(given)}: must be two numbers, s; give the ends of a range") from error
+    return _arguments.number(first, "period_s"), _arguments.number(last, "period_s")
+
+
+@_arguments.named
 def simulate(
     *,
     alpha: float,

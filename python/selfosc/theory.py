@@ -6,14 +6,19 @@ import os
 from collections.abc import Sequence
 from typing import Any
 
-from . import _documents
+from . import _arguments, _documents, types
+from ._names import nearest
 from ._results import Result
+from .errors import UsageError
 
 __all__ = ["Reproduction", "Verification", "reproduce", "verify"]
 
 
 class Verification(Result):
     """What was found of every claim; ``as_stated`` is whether all are as their files say."""
+
+    claims: list[types.Claim]
+    summary: types.ClaimSummary
 
     @property
     def as_stated(self) -> bool:
@@ -24,17 +29,27 @@ class Verification(Result):
         names = ("id", "equation", "kind", "as_printed", "as_corrected", "evidence", "as_stated")
         return [{name: claim[name] for name in names} for claim in self.to_dict()["claims"]]
 
-    def __getitem__(self, claim: str) -> dict[str, Any]:
-        return next(one for one in self.to_dict()["claims"] if one["id"] == claim)
+    def __getitem__(self, claim: str) -> types.Claim:
+        found = next((one for one in self.claims if one["id"] == claim), None)
+        if found is None:
+            raise UsageError(f"no claim {claim} was checked; {nearest(claim, (one['id'] for one in self.claims))}")
+        return found
 
 
 class Reproduction(Result):
     """The paper's tables and figures, recomputed, and the audit of every printed number."""
 
+    table4: types.Table4 | None
+    figure15: list[types.Counts] | None
+    joint: list[types.JointRow] | None
+    audit: list[types.AuditItem] | None
+    consistency: list[types.PaperConsistency] | None
+
     def _rows(self) -> list[dict[str, Any]]:
         return self.to_dict()["audit"] or []
 
 
+@_arguments.named
 def verify(*claims: str, cases: int | None = None, seed: int | None = None) -> Verification:
     """Checks claims of the theory, all unless some are named.
 
@@ -65,7 +80,8 @@ def verify(*claims: str, cases: int | None = None, seed: int | None = None) -> V
     return Verification(_documents.answer("verify", *arguments)[1])
 
 
-def reproduce(only: Sequence[str] = (), out: str | os.PathLike[str] | None = None) -> Reproduction:
+@_arguments.named
+def reproduce(only: Sequence[str] = (), out: str | bytes | os.PathLike[str] | None = None) -> Reproduction:
     """Regenerates the paper from its printed data.
 
     Parameters
@@ -87,5 +103,5 @@ def reproduce(only: Sequence[str] = (), out: str | os.PathLike[str] | None = Non
     ['alpha', 'beta_r', 'beta_rr']
     """
     only = [only] if isinstance(only, str) else list(only)
-    arguments = _documents.flags(only=only or None, out=None if out is None else os.fspath(out))
+    arguments = _documents.flags(only=only or None, out=_arguments.optional(_arguments.path, out, "out"))
     return Reproduction(_documents.answer("reproduce", *arguments)[1])

@@ -9,7 +9,7 @@ use selfosc::Error;
 use selfosc::describing::{Boxed, DescribingError, DescribingFunction, Entry, Setting};
 use selfosc::nonlinearity::{Branch, Custom, Sinusoid};
 
-use crate::failure;
+use crate::{failure, work};
 
 /// `F_0`, `P`, `Q`, one array each.
 type Arrays<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
@@ -72,15 +72,20 @@ impl Characteristic {
         // Memory from numpy, which asks for large pages.
         let array = PyArray2::zeros(py, [3, count], false);
         let mut rows = array.readwrite();
+        let threads = if count > CHUNK { Some(work::threads(py)?) } else { None };
         let (f0, rest) = rows.as_slice_mut()?.split_at_mut(count);
         let (p, q) = rest.split_at_mut(count);
         for (block, ((f0, p), q)) in f0.chunks_mut(BLOCK).zip(p.chunks_mut(BLOCK)).zip(q.chunks_mut(BLOCK)).enumerate()
         {
             let (from, columns) = (block * BLOCK, [f0, p, q]);
-            let fault = py.detach(|| match (bias, amplitude) {
+            let fill = || match (bias, amplitude) {
                 ([bias], _) => self.fill(|at| (*bias, amplitude[from + at]), skip, columns),
                 (_, [amplitude]) => self.fill(|at| (bias[from + at], *amplitude), skip, columns),
                 _ => self.fill(|at| (bias[from + at], amplitude[from + at]), skip, columns),
+            };
+            let fault = py.detach(|| match &threads {
+                Some(threads) => threads.install(fill),
+                None => fill(),
             });
             if let Some(error) = fault {
                 return Err(failure::library(py, error));

@@ -1,6 +1,7 @@
 //! From logs to a model.
 
-use std::path::{Path, PathBuf};
+use std::ffi::OsString;
+use std::path::{self, Path, PathBuf};
 
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
@@ -11,6 +12,7 @@ use selfosc::files::Files;
 use selfosc::identify::{Refusal, Session, Settings};
 use selfosc::report::identification as page;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 
 use crate::{failure, work};
 
@@ -20,6 +22,28 @@ pub(crate) struct Identification {
     found: selfosc::identify::Identification,
     /// The logs, which no report replaces.
     files: Files,
+    logs: Logs,
+}
+
+/// The logs in files as another process knows them: by name.
+#[derive(Default, Serialize, Deserialize)]
+pub(crate) struct Logs {
+    paths: Vec<OsString>,
+    digests: Vec<String>,
+}
+
+impl Logs {
+    /// A log in a file, by its name from anywhere.
+    fn add(&mut self, path: &Path) {
+        self.paths.push(path::absolute(path).unwrap_or_else(|_| path.to_owned()).into_os_string());
+    }
+}
+
+/// All of an identification, as one process gives it to another.
+#[derive(Serialize, Deserialize)]
+struct Travelling<Found, Names> {
+    found: Found,
+    logs: Names,
 }
 
 #[pymethods]
@@ -34,11 +58,25 @@ impl Identification {
         written(&self.found)
     }
 
+    /// Everything, for [`arrived`](Self::arrived) in another process.
+    fn travelling(&self) -> PyResult<String> {
+        written(&Travelling { found: &self.found, logs: &self.logs })
+    }
+
+    /// What [`travelling`](Self::travelling) wrote. The logs are protected by their names, since other systems number files in other ways.
+    #[staticmethod]
+    fn arrived(py: Python<'_>, text: &str) -> PyResult<Self> {
+        let Travelling::<_, Logs> { found, logs } = parsed(py, text)?;
+        let mut files = Files::default();
+        logs.paths.iter().for_each(|path| files.protect(Path::new(path)));
+        Ok(Self { found, files, logs })
+    }
+
     /// Writes the report, one HTML file, whole or not at all; onto no log.
     fn report(&self, py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<()> {
         let path: PathBuf = failure::named(py, path)?;
         let written = || -> Result<(), Error> {
-            let document = page::document(&self.found).from_where(self.files.digests().iter().cloned());
+            let document = page::document(&self.found).from_where(self.logs.digests.iter().cloned());
             Ok(self.files.clone().output(&path)?.write(document.html()?.as_bytes())?)
         };
         written().map_err(|error| failure::library(py, error))
@@ -86,6 +124,14 @@ impl Source<'_> {
 }
 
 impl Read {
+    /// Its file, or the table's name, which may be the name of the file that held it.
+    fn path(&self) -> &Path {
+        match self {
+            Self::Path(path) => path,
+            Self::Table(name, ..) => Path::new(name),
+        }
+    }
+
     /// The log with its name, and its file among those read.
     pub(crate) fn log(self, columns: &Columns, files: &mut Files) -> Result<(String, Log), Refusal> {
         let (name, log) = match self {
@@ -121,18 +167,21 @@ pub(crate) fn identify(
     let validation = validation.iter().map(|path| failure::named(py, path)).collect::<PyResult<Vec<PathBuf>>>()?;
     let found = work::interruptible(py, progress.as_ref(), move |stage| -> Result<_, Refusal> {
         settings.check()?;
-        let mut files = Files::default();
+        let (mut files, mut logs) = (Files::default(), Logs::default());
         let mut session = Session::new(settings).with_columns(columns.clone());
         for source in sources {
+            logs.add(source.path());
             let (name, log) = source.log(&columns, &mut files)?;
             session = session.record(name, log);
         }
         for path in validation {
+            logs.add(&path);
             let input = files.read(&path, Columns::LONGEST)?;
             session = session.validation_reader(input.name(), input.bytes())?;
         }
         let found = session.identify_with(|next| stage(next.to_string()))?;
-        Ok(Identification { found, files })
+        logs.digests = files.digests().to_vec();
+        Ok(Identification { found, files, logs })
     })?;
     found.map_err(|refusal| failure::library(py, refusal))
 }

@@ -2,6 +2,7 @@
 
 import doctest
 import importlib
+import inspect
 import pkgutil
 from pathlib import Path
 
@@ -16,10 +17,24 @@ MODULES = [
 README = Path(__file__).resolve().parents[1] / "README.md"
 
 
+class Finder(doctest.DocTestFinder):
+    """Finds also what a decorator wraps."""
+
+    def _from_module(self, module, object):
+        return super()._from_module(module, inspect.unwrap(object) if callable(object) else object)
+
+
 @pytest.mark.parametrize("name", MODULES)
 def test_docstrings(name):
-    failed, _ = doctest.testmod(importlib.import_module(name), optionflags=doctest.NORMALIZE_WHITESPACE)
-    assert failed == 0
+    module = importlib.import_module(name)
+    tests = Finder().find(module, name)
+    runner = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE)
+    for test in tests:
+        runner.run(test)
+    assert runner.summarize().failed == 0
+    ran = {test.name.rpartition(".")[2] for test in tests if test.examples}
+    own = [one for one in vars(module).values() if inspect.isfunction(one) and one.__module__ == name]
+    assert {one.__name__ for one in own if "Examples\n" in (one.__doc__ or "")} <= ran
 
 
 def test_readme():
@@ -34,4 +49,4 @@ def test_everything_public_is_described(name):
         assert described.__doc__
         if not isinstance(described, type):
             assert "Examples" in described.__doc__
-            assert "Parameters" in described.__doc__ or not described.__code__.co_argcount
+            assert "Parameters" in described.__doc__ or not inspect.signature(described).parameters

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -57,6 +58,52 @@ def test_a_report_over_the_log_is_refused(record_path):
     with pytest.raises(selfosc.UsageError):
         found.report(record_path)
     assert record_path.read_bytes() == before
+
+
+@pytest.mark.parametrize("way", ["itself", "symbolic", "hard"])
+@pytest.mark.parametrize("role", ["source", "validation"])
+def test_no_report_replaces_a_log_by_any_name(record_path, tmp_path, role, way):
+    other, name = tmp_path / "other.csv", tmp_path / "name.csv"
+    other.write_bytes(record_path.read_bytes())
+    found = selfosc.identify(record_path, method="fit", validate=[other])
+    log = record_path if role == "source" else other
+    before = log.read_bytes()
+    if way == "symbolic":
+        name.symlink_to(log)
+    elif way == "hard":
+        name.hardlink_to(log)
+    with pytest.raises(selfosc.UsageError) as refusal:
+        found.report(log if way == "itself" else name)
+    assert refusal.value.code == "output-is-input"
+    assert log.read_bytes() == before
+
+
+def test_threads_write_one_report(found, tmp_path):
+    from concurrent.futures import ThreadPoolExecutor
+
+    path = tmp_path / "report.html"
+    with ThreadPoolExecutor(8) as pool:
+        assert list(pool.map(found.report, [path] * 64)) == [path] * 64
+    assert path.read_text().rstrip().endswith("</html>")
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no named pipes")
+def test_a_pipe_is_read_once(record_path, tmp_path):
+    import threading
+
+    pipe = tmp_path / "pipe.csv"
+    os.mkfifo(pipe)
+    threading.Thread(target=lambda: pipe.write_bytes(record_path.read_bytes()), daemon=True).start()
+    found = selfosc.identify(pipe, method="fit")
+    pages = [one.report(tmp_path / "report.html").read_text() for one in (found, selfosc.identify(record_path, method="fit"))]
+    assert re.findall("SHA-256 [0-9a-f]+", pages[0]) == re.findall("SHA-256 [0-9a-f]+", pages[1])
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="the system has no full device")
+def test_a_full_disk_is_named(found):
+    with pytest.raises(selfosc.SelfoscError, match="/dev/full"):
+        found.report("/dev/full")
 
 
 def test_from_a_record_to_a_controller(found):
@@ -122,7 +169,7 @@ def test_bounds_hold_the_truth():
     record = selfosc.simulate(alpha=1, beta=0.5, relay=1, half_width=0.3, cycles=4, hold=True, quantum=0.02)
     low, high = selfosc.bounded(record, delay=0.0, budget=200).of("alpha")
     assert low <= 1.0 <= high
-    with pytest.raises(selfosc.UsageError, match="no colour"):
+    with pytest.raises(selfosc.UsageError, match="no argument colour"):
         selfosc.bounded(record, colour=3)
 
 

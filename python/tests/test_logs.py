@@ -185,7 +185,7 @@ def write_arrow(path, record):
 
 
 TABLES = {
-    "csv": (write_csv, {"noise": "not-text", "empty": "empty", "cut": "unreadable"}),
+    "csv": (write_csv, {"noise": "not-text", "empty": "empty", "cut": "ragged-row"}),
     "parquet": (write_parquet, dict.fromkeys(("noise", "empty", "cut"), "damaged")),
     "arrow": (write_arrow, dict.fromkeys(("noise", "empty", "cut"), "damaged")),
 }

@@ -1,35 +1,28 @@
 """Verifies the proofs that `selfosc identify LOG --method bounded --certificate FILE` writes. See README.md."""
 
-import json
 import sys
 from fractions import Fraction
-from pathlib import Path
 
 from flint import arb
 
 from boxes import Box, Frame, down, number, reached, up
-from check import Refused, require
+from check import Refused, checked, require
 from hats import Hats, Unsupported
 from motion import Equation, Motion, Products, Steps, Unfollowed, span, times
 from polynomials import ball, exact
+from problem import assumed, posed, statement
 from second_order import Enclosure
 
-FORMAT = 2
+# Sides that boxes at hand may have together, so that no file takes more memory, however it divides.
+MOST_HELD = 1 << 20
 # Boxes whose inertia is known worse than this are followed with exact products.
 WIDE = 2e-3
 # A walk that is refused is made anew with steps shorter by these.
 SHORTER = (1, 2, 4)
+# Seconds by which a sum of a stamp and a delay may be rounded up.
+ROUNDED = Fraction(1, 10**9)
 # Around a witness, over itself.
 NEAR = 1e-8
-TERMS = ("gain", "linear", "quadratic", "cubic", "stiffness", "lag_rate")
-STATEMENTS = {
-    (False, False): "every parameter in the search box that meets every reading lies within the bounds",
-    (False, True): "consistent: every parameter in the search box that meets every reading lies within the bounds, and the witness "
-    "meets every reading from its own first on",
-    (True, False): "refuted: no parameter in the search box meets every reading",
-    (True, True): "refuted: no parameter in the search box meets every reading",
-}
-
 
 def interval(ends):
     low, high = float(ends[0]), float(ends[1])
@@ -93,10 +86,10 @@ class Stage:
         self.left = None if item["left"] is None else [interval(ends) for ends in item["left"]]
         require(self.left is None or len(self.left) == self.parameters, "what is left is malformed")
 
-    def acted(self, record):
-        """The first sample at which every command that acts is in the file."""
+    def acted(self, record, room=0):
+        """The first sample at which every command that acts is in the file, for that much longer a delay."""
         since = (Fraction(stamp) - Fraction(record.time[0]) for stamp in record.time)
-        return next((n for n, since in enumerate(since) if since >= self.longest), len(record.time))
+        return next((n for n, since in enumerate(since) if since >= self.longest + room), len(record.time))
 
     def start(self, window, component):
         return self.parameters + window * self.size + component
@@ -307,6 +300,7 @@ class Walk:
         boxes = [Box(self.stage.box)]
         for at, step in enumerate(self.stage.item["steps"]):
             require(boxes, f"{self.name}: a step without a box")
+            require(len(boxes) * len(boxes[-1].sides) <= MOST_HELD, f"{self.name}, step {at}: too many boxes are left to deal with")
             try:
                 boxes += self.step(boxes.pop(), step)
             except (Unfollowed, Refused) as fault:
@@ -407,13 +401,15 @@ def named(found, combination):
     return pairs
 
 
-def met(certificate, records, first, witness):
+def met(searched, records, first, witness):
     """Whether a parameter of the first stage's box meets every reading from some sample of each record on."""
     values, begins = [number(v) for v in witness["values"]], [int(n) for n in witness["first"]]
+    late = any(n > first.acted(own, ROUNDED) for n, own in zip(begins, records))
+    require(not late, "the witness begins after the first row at which every command that acts is in the file")
     require(len(values) == first.parameters + first.size * len(records) and len(begins) == len(records), "the witness is malformed")
     sides = [(v, v) for v in values]
     windows = [[n, begin, len(records[n].time) - 1] for n, begin in enumerate(begins)]
-    stage = Stage(certificate, records, {"delay_s": first.delay, "windows": windows, "from": sides[: first.parameters], "left": None, "steps": []})
+    stage = Stage(searched, records, {"delay_s": first.delay, "windows": windows, "from": sides[: first.parameters], "left": None, "steps": []})
     # The states are those at its own first readings.
     box = first.box[: first.parameters] + stage.box[first.parameters :]
     require(all(a <= v <= b for v, (a, b) in zip(values, box)), "the witness is not in the search box")
@@ -434,7 +430,8 @@ def walked(stage, name):
         try:
             walk.go()
         except Refused:
-            if shorter == SHORTER[-1]:
+            # Shorter steps of a motion are of use where there is one.
+            if shorter == SHORTER[-1] or not walk.verified:
                 raise
         else:
             return walk
@@ -444,38 +441,35 @@ def walked(stage, name):
 
 def check(certificate):
     """What it shows, the numbers of steps verified here by the motion and by hats, and of those taken from the file; or Refused."""
-    require(certificate["format"] == FORMAT, "another format")
-    terms = certificate["terms"]
-    require(terms == [t for t in TERMS if t in terms] and terms[0] == "gain", "another equation")
-    records = [Record(item) for item in certificate["records"]]
-    stages = [Stage(certificate, records, item) for item in certificate["stages"]]
-    require(stages and records, "no stage")
-    for before, after in zip(stages, stages[1:]):
-        require(before.item["left"] == after.item["from"], "a stage does not begin where the one before ended")
-        require(before.delay == after.delay, "a stage has another delay than the one before")
+    rows, searched, delay, words = posed(certificate)
+    records, stages, begin = [Record(item) for item in rows], [], searched["from"]
+    for item in certificate["stages"]:
+        require(begin is not None, "a stage begins where nothing is left")
+        stages.append(Stage(searched, records, item | {"from": begin, "delay_s": delay}))
+        require(all(b <= a and c <= d for (a, c), (b, d) in zip(begin, searched["from"])), "a stage begins outside of the search box")
+        begin = item["left"]
+    require(stages, "there is no stage")
     witness = certificate["witness"]
-    expected = STATEMENTS[stages[-1].left is None, witness is not None]
-    require(certificate["statement"] == expected, "another statement")
+    expected = statement(begin is None, witness is not None, words)
+    require(certificate["statement"] == expected, f"the statement is not: {expected}")
     if witness is not None:
-        require(met(certificate, records, stages[0], witness), "the witness misses a reading")
+        require(met(searched, records, stages[0], witness), "the witness misses a reading")
     walks = [walked(stage, f"stage {at}") for at, stage in enumerate(stages)]
     return expected, *(sum(counts) for counts in zip(*((walk.verified, walk.by_hats, walk.taken) for walk in walks)))
 
 
 def check_file(path):
-    try:
-        return check(json.loads(Path(path).read_text()))
-    except (OSError, KeyError, IndexError, TypeError, ValueError) as fault:
-        raise Refused(f"unreadable: {fault!r}") from fault
+    return checked(lambda certificate: (*check(certificate), list(assumed(certificate))), path)
 
 
 def main(paths):
     accepted = True
     for path in paths:
         try:
-            shown, verified, by_hats, taken = check_file(path)
+            shown, verified, by_hats, taken, ranges = check_file(path)
             rest = f"; taken from the file: {taken}" if taken else ""
             print(f"{path}  accepted  {shown}\n  verified here: {verified} steps by the motion, {by_hats} by hats{rest}")
+            print(*(f"  assumed: {line}" for line in ranges), sep="\n")
         except Refused as reason:
             accepted = False
             print(f"{path}  refused   {reason}")

@@ -10,6 +10,7 @@ from check import require
 
 
 def number(value):
+    require(type(value) in (int, float), "what should be a number is none")
     value = float(value)
     require(abs(value) < float("inf"), "what should be a number is none")
     return value

@@ -14,6 +14,7 @@ from range import Range
 
 FORMAT = 1
 VARIABLES = 3
+MOST_BOXES = 20_000
 POINTS = 60
 AGREEMENT = arb("1e-12")
 HALVINGS = 12
@@ -26,6 +27,34 @@ class Refused(Exception):
 def require(condition, reason):
     if not condition:
         raise Refused(reason)
+
+
+def read(path):
+    """The JSON of a file; no number is endless or beyond a double, and no name stands twice."""
+
+    def refuse(text):
+        raise ValueError(f"{text[:20]} is no number")
+
+    def finite(text):
+        value = float(text)
+        return value if abs(value) < float("inf") else refuse(text)
+
+    def fields(pairs):
+        require(len(dict(pairs)) == len(pairs), "a field stands twice")
+        return dict(pairs)
+
+    whole = lambda text: int(text) if len(text) < 17 else refuse(text)
+    return json.loads(Path(path).read_text(), parse_constant=refuse, parse_float=finite, parse_int=whole, object_pairs_hook=fields)
+
+
+def checked(check, path, *given):
+    """The answer of a check of a file. Whatever a file makes fail is a reason to refuse it."""
+    try:
+        return check(read(path), *given)
+    except Refused:
+        raise
+    except Exception as fault:
+        raise Refused(f"malformed: {fault!r:.200}") from fault
 
 
 def margin(form, formula, box):
@@ -121,6 +150,7 @@ def check_inequality(item, form, variables, own):
         require(agree(form, printed, own, domain), f"{name}: the expression is not the formula")
         formulas.append((printed, bound))
     require(bound > AGREEMENT, f"{name}: the bound is not above zero")
+    require(len(item["boxes"]) <= MOST_BOXES, f"{name}: more than {MOST_BOXES} boxes")
     boxes = [pairs(box, len(used)) for box in item["boxes"]]
     require(covered(domain, boxes), f"{name}: the boxes do not cover the domain")
     for box in boxes:
@@ -135,17 +165,18 @@ def check(certificate, claim):
     require(certificate["format"] == FORMAT, "another format")
     require(certificate["claim"] == claim, "another claim")
     require(certificate["statement"] == statements.statement(claim), "another statement")
-    table = statements.inequalities(claim)
+    table, words = statements.inequalities(claim), statements.WORDS[claim]
     found = [item["inequality"] for item in certificate["inequalities"]]
     require(sorted(found) == sorted(table), f"inequalities {found}, not {list(table)}")
+    for name in ("domain", "by_hand"):
+        require(certificate[name] == words[name], f"another {name}")
+    for item in certificate["inequalities"]:
+        require(item["statement"] == words["inequalities"][item["inequality"]], f"{item['inequality']}: another statement")
     return sum(check_inequality(item, *table[item["inequality"]]) for item in certificate["inequalities"])
 
 
 def check_file(path):
-    try:
-        return check(json.loads(path.read_text()), path.stem)
-    except (OSError, KeyError, TypeError, ValueError) as fault:
-        raise Refused(f"unreadable: {fault!r}") from fault
+    return checked(check, path, Path(path).stem)
 
 
 def main(folder):
@@ -155,7 +186,7 @@ def main(folder):
         path = Path(folder, f"{claim}.json")
         try:
             print(f"{claim:{width}}  accepted  {check_file(path)} boxes")
-            for step in json.loads(path.read_text())["by_hand"]:
+            for step in statements.WORDS[claim]["by_hand"]:
                 print(f"{'':{width}}  by hand   {step}")
         except Refused as reason:
             accepted = False

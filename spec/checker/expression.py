@@ -53,8 +53,8 @@ def power(tokens):
     tree, tokens = atom(tokens)
     if is_symbol(tokens, "^"):
         kind, exponent = tokens[1]
-        if kind != "number" or exponent != int(exponent):
-            raise ValueError("an exponent is a whole number")
+        if kind != "number" or not 0 < exponent < 10 or exponent != int(exponent):
+            raise ValueError("an exponent is a whole number below ten")
         return ("^", tree, int(exponent)), tokens[2:]
     return tree, tokens
 

@@ -1,6 +1,9 @@
-"""What is claimed, typed from the theory: statements, inequalities, domains and formulas. Nothing here is read from the crate."""
+"""What is claimed, typed from the theory: statements, inequalities, domains and formulas. Nothing here is read from the crate, but the
+words of `words.json`, which say in the crate's what the formulas do; `test_check.py` holds that no certificate has others."""
 
+import json
 from fractions import Fraction
+from pathlib import Path
 
 from flint import arb
 
@@ -9,6 +12,8 @@ from range import Range
 
 VALUE = {"kind": "value"}
 UP = float("inf")
+# Claim: its domain and steps by hand, and what each of its inequalities says, in words.
+WORDS = json.loads(Path(__file__).with_name("words.json").read_text())
 
 
 def number(text):

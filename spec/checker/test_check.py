@@ -67,6 +67,14 @@ def test_refused(change, tmp_path):
         check.check_file(path)
 
 
+def test_the_words_of_the_table_are_those_that_the_command_writes():
+    for claim in [*statements.CLAIMS, *statements.CURVES]:
+        written = json.loads((FOLDER / f"{claim}.json").read_text())
+        inequalities = {item["inequality"]: item["statement"] for item in written["inequalities"]}
+        assert statements.WORDS[claim] == {"domain": written["domain"], "by_hand": written["by_hand"], "inequalities": inequalities}
+    assert set(statements.WORDS) == {*statements.CLAIMS, *statements.CURVES}
+
+
 def test_a_curve_with_too_narrow_a_bound_is_refused():
     certificate = json.loads((FOLDER / "method-bias-alpha-linear.json").read_text())
     item(certificate, "at-one")["bound"] = 0.1

@@ -40,15 +40,15 @@ def certificate(terms, delay=0.25, until=9.5, records=1):
     ranges = [[v / 2, 2 * v] for v in terms.values()] + ([[0.0, 0.5]] if delay is None else []) + [[-1.0, 1.0]] * records
     windows = [[r, 6, count - 1] for r in range(records)]
     return {
-        "format": 2,
         "terms": list(terms),
         "middle_speed": 0.5 if {"linear", "quadratic"} <= set(terms) else 0.0,
         "least_linear": -1.0,
         "fastest": 5.0,
         "records": [copy.deepcopy(record) for _ in range(records)],
+        "from": ranges,
         "stages": [{"delay_s": delay, "windows": windows, "from": ranges, "left": ranges, "steps": []}],
         "witness": None,
-        "statement": bounded.STATEMENTS[False, False],
+        "statement": bounded.statement(False, False, ("", "")),
     }
 
 
@@ -262,7 +262,8 @@ def by_readings(above):
 
 @pytest.fixture(autouse=True)
 def hats_that_show_anything(monkeypatch):
-    """They have tests of their own."""
+    """They, and how a problem is posed, have tests of their own."""
+    monkeypatch.setattr(bounded, "posed", lambda item: (item["records"], item, item["stages"][0]["delay_s"], ("", "")))
     monkeypatch.setattr(bounded.Hats, "show", lambda hats, box, kind, what: None if kind == "exclude" else what["cuts"])
 
 
@@ -418,7 +419,7 @@ def test_a_reading_that_is_off_contradicts():
         bounded.check(item)
     item["records"][0]["reading"][30] += 0.2
     item["stages"][0].update(left=None)
-    item["statement"] = bounded.STATEMENTS[True, False]
+    item["statement"] = bounded.statement(True, False, ("", ""))
     bounded.check(item)
 
 

@@ -14,6 +14,8 @@ mod certificate;
 mod checks;
 mod distortion;
 mod evidence;
+mod formulas;
+mod kernel_checked;
 mod registry;
 mod sampling;
 #[doc(hidden)]
@@ -21,6 +23,8 @@ pub mod tolerance;
 
 pub use certificate::{Certificate, Shown};
 pub use evidence::{ClaimDomain, ClaimPart, ClaimVariable, Evidence, Verdict, Witness, Word};
+pub use formulas::formulas;
+pub use kernel_checked::KernelChecked;
 pub use registry::{AsPrinted, Checker, Claim, Finding, Hypothesis, Kind, verify};
 pub use sampling::Budget;
 
@@ -64,6 +68,8 @@ pub const CLAIMS: &[Claim] = &[
     checks::quantisation::QUANTISATION_BETA,
     checks::quantisation::QUANTISATION_BETA_XX,
     checks::quantisation::QUANTISATION_ZERO,
+    checks::sentences::CONFIDENCE_BOUNDS,
+    checks::sentences::DISTURBANCE_AND_DRAG,
     checks::identification::RELATIVE_SPREAD,
     checks::identification::DRAG_DECISION,
     checks::identification::ZIG_ZAG,
@@ -107,4 +113,5 @@ pub const CLAIMS: &[Claim] = &[
     checks::on_board::ON_BOARD_LIMITS,
     checks::on_board::ON_BOARD_FAULTS,
     checks::on_board::ON_BOARD_EXCURSION,
+    checks::on_board::ON_BOARD_STILL,
 ];

@@ -34,12 +34,6 @@ pub(super) struct AxisArguments {
     /// Constant disturbance, command units
     #[arg(long, value_parser = number, value_name = "D", default_value_t = 0.0, allow_negative_numbers = true)]
     pub(super) delta: f64,
-    /// Relay level C, command units
-    #[arg(long, value_parser = number, value_name = "C", allow_negative_numbers = true)]
-    pub(super) relay: f64,
-    /// Half-width x_a of the relay's hysteresis, output units
-    #[arg(long, value_parser = number, value_name = "XA", allow_negative_numbers = true)]
-    pub(super) half_width: f64,
     /// Delay of the whole loop in s
     #[arg(long, value_parser = number, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
     pub(super) delay: f64,
@@ -49,7 +43,20 @@ impl AxisArguments {
     pub(super) fn axis(&self) -> Result<DragAxis<f64>, CommandError> {
         Ok(self.motion.axis()?.with_disturbance(self.delta)?.with_delay_s(self.delay)?)
     }
+}
 
+/// A relay with hysteresis about zero.
+#[derive(Debug, Args)]
+pub(super) struct RelayArguments {
+    /// Relay level C, command units
+    #[arg(long, value_parser = number, value_name = "C", allow_negative_numbers = true)]
+    pub(super) relay: f64,
+    /// Half-width x_a of the relay's hysteresis, output units
+    #[arg(long, value_parser = number, value_name = "XA", allow_negative_numbers = true)]
+    pub(super) half_width: f64,
+}
+
+impl RelayArguments {
     pub(super) fn relay(&self) -> Result<RelayHysteresis<f64>, CommandError> {
         RelayHysteresis::new(self.relay, self.half_width, 0.0).map_err(|error| {
             let of_level = error.out_of_domain().is_some_and(|fault| fault.quantity == "level");

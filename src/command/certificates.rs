@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use super::error::Given;
 use super::{CommandError, Outcome, files};
 use crate::claims::{CLAIMS, Certificate, Claim};
+use crate::experiment::Record;
 use crate::identify::bounded::certificate as bounded;
+use crate::identify::{Session, Settings};
 use crate::proof::inequality::Refusal;
 
 fn theorems() -> impl Iterator<Item = &'static Claim> {
@@ -31,14 +33,47 @@ pub(super) fn write(folder: &Path) -> Result<Outcome, CommandError> {
     Ok(outcome)
 }
 
-/// A file of guaranteed bounds: accepted, with what is left in the coordinates of the search, or why not.
-fn check_bounds(path: &Path, output: &mut impl Write) -> Result<Outcome, CommandError> {
-    let read = files::read(path)?;
-    match bounded::Certificate::read(&read).and_then(|certificate| certificate.check()) {
+/// The records of logs, read as the proof says.
+fn records(proof: &bounded::Certificate, logs: &[PathBuf]) -> Result<Vec<Record>, CommandError> {
+    let read_as = proof.reading().cloned();
+    let settings = Settings { relay_level: read_as.as_ref().and_then(|own| own.relay_level), ..Settings::default() };
+    let session = Session::new(settings).with_columns(read_as.map(|own| own.columns).unwrap_or_default());
+    Ok(logs.iter().try_fold(session, Session::log)?.records()?)
+}
+
+/// A file of guaranteed bounds: accepted, with everything that it depends on and what is left in the coordinates of the search, or why
+/// not.
+fn check_bounds(path: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<Outcome, CommandError> {
+    /// Of a theorem's proof, whatever else is wrong with it.
+    #[derive(serde::Deserialize)]
+    struct Named {
+        claim: String,
+    }
+    let text = files::read(path)?;
+    let none = |reason| Err(CommandError::NoCertificate { path: path.to_owned(), reason });
+    if let Ok(Named { claim }) = serde_json::from_str(&text) {
+        let Some(claim) = theorems().find(|own| own.id == claim) else {
+            return none(format!("there is no theorem `{claim}`"));
+        };
+        return match text.parse() {
+            Err(Refusal::Malformed { text }) => none(text),
+            proof => Ok(if shows(proof, claim.id, 0, output)? { Outcome::Done } else { Outcome::No }),
+        };
+    }
+    let checked = match bounded::Certificate::read(&text) {
+        Err(bounded::Unproved::Foreign { text }) => return none(text),
+        Err(unproved) => Err(unproved),
+        Ok(proof) if logs.is_empty() => proof.check(),
+        Ok(proof) => proof.agrees(&records(&proof, logs)?).and_then(|()| proof.check()),
+    };
+    match checked {
         Ok(shown) => {
-            let bounded::Shown { statement, searched, left, fastest, excluded, enclosures, readings } = shown;
+            let bounded::Shown { statement, ranges, searched, left, fastest, excluded, enclosures, readings } = shown;
             writeln!(output, "accepted  {statement}")?;
             writeln!(output, "          {readings} readings, {enclosures} enclosures, {excluded} boxes excluded")?;
+            for range in ranges {
+                writeln!(output, "assumed   {range}")?;
+            }
             for (what, ranges) in [("searched", searched), ("left", left)] {
                 for (quantity, [low, high]) in ranges {
                     if low == high {
@@ -49,6 +84,10 @@ fn check_bounds(path: &Path, output: &mut impl Write) -> Result<Outcome, Command
                 }
             }
             writeln!(output, "searched  speeds up to {fastest:.9e}")?;
+            match logs.len() {
+                0 => writeln!(output, "log       not compared; add --log LOG.csv...")?,
+                _ => writeln!(output, "log       agrees in every stamp, reading and command")?,
+            }
             Ok(Outcome::Done)
         }
         Err(unproved) => {
@@ -58,32 +97,41 @@ fn check_bounds(path: &Path, output: &mut impl Write) -> Result<Outcome, Command
     }
 }
 
-/// A line for each theorem, accepted or why not; or what a file of guaranteed bounds shows.
-pub(super) fn check(folder: &Path, output: &mut impl Write) -> Result<Outcome, CommandError> {
+/// A line for each theorem, accepted or why not; or what a file of guaranteed bounds shows of these logs.
+pub(super) fn check(folder: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<Outcome, CommandError> {
     if folder.is_file() {
-        return check_bounds(folder, output);
+        return check_bounds(folder, logs, output);
     }
     let width = theorems().map(|claim| claim.id.len()).max().unwrap_or(0);
     let mut outcome = Outcome::Done;
     for claim in theorems() {
-        let text = files::read(&file(folder, claim))?;
-        let checked = text.parse().and_then(|certificate: Certificate| {
-            if certificate.claim != claim.id {
-                return Err(Refusal::Other { found: certificate.claim, expected: claim.id });
-            }
-            certificate.check()?;
-            Ok(certificate)
-        });
-        match checked {
-            Ok(certificate) => {
-                let boxes: usize = certificate.inequalities.iter().map(|shown| shown.proof.boxes.len()).sum();
-                writeln!(output, "{:width$}  accepted  {boxes} boxes; {}", claim.id, certificate.domain)?;
-            }
-            Err(refusal) => {
-                writeln!(output, "{:width$}  refused   {refusal}", claim.id)?;
-                outcome = Outcome::No;
-            }
+        let proof = files::read(&file(folder, claim))?.parse();
+        if !shows(proof, claim.id, width, output)? {
+            outcome = Outcome::No;
         }
     }
     Ok(outcome)
+}
+
+/// A line for a theorem: whether this is a proof of it.
+fn shows(
+    proof: Result<Certificate, Refusal>,
+    claim: &'static str,
+    width: usize,
+    output: &mut impl Write,
+) -> Result<bool, CommandError> {
+    let checked = proof.and_then(|proof| {
+        if proof.claim != claim {
+            return Err(Refusal::Other { found: proof.claim, expected: claim });
+        }
+        proof.check().map(|()| proof)
+    });
+    match &checked {
+        Ok(proof) => {
+            let boxes: usize = proof.inequalities.iter().map(|shown| shown.proof.boxes.len()).sum();
+            writeln!(output, "{claim:width$}  accepted  {boxes} boxes; {}", proof.domain)?;
+        }
+        Err(refusal) => writeln!(output, "{claim:width$}  refused   {refusal}")?,
+    }
+    Ok(checked.is_ok())
 }

@@ -10,8 +10,8 @@ use super::axis::MotionArguments;
 use super::number::{count, number};
 use super::{CommandError, Outcome, refused, write_json};
 use crate::experiment::Sensor;
+use crate::identify::Delay;
 use crate::identify::design::{DesignError, Deviations, Proposal, Run, Situation};
-use crate::identify::joint::Delay;
 use crate::report::{Cell, Table};
 
 /// Which relay level and half-width determine the inertia best, and which second level tells the drag laws apart.

@@ -23,6 +23,9 @@ pub(super) enum CommandError {
     /// Arguments that contradict each other.
     #[error("{reason}")]
     Usage { reason: String },
+    /// A file that is no proof.
+    #[error("{} is no certificate: {reason}; write one with `selfosc identify --certificate` or `selfosc verify --certificates`", path.display())]
+    NoCertificate { path: PathBuf, reason: String },
     /// A proof that was not found.
     #[error("no certificate: {reason}")]
     Proof { reason: String },
@@ -41,7 +44,7 @@ impl CommandError {
             Self::Library(error) | Self::Given { error, .. } => error.code(),
             Self::Usage { .. } | Self::UnknownClaim { .. } => "usage",
             Self::Model { .. } => "model",
-            Self::Proof { .. } => "proof",
+            Self::Proof { .. } | Self::NoCertificate { .. } => "proof",
             Self::Output(_) => "files",
         }
     }

@@ -14,8 +14,8 @@ use super::number::{count, finite, non_negative, positive, whole};
 use super::{CommandError, Outcome, files, refused, write_json};
 use crate::experiment::{Columns, TimeUnit};
 use crate::files::{FileError, Files, Input};
-use crate::identify::joint::Delay;
-use crate::identify::{DragLaw, Identification, Method, Refusal, Refused, Session, Settings};
+use crate::identify::document::RefusalDocument;
+use crate::identify::{Delay, DragLaw, Identification, Method, Refusal, Session, Settings};
 use crate::report::identification as page;
 
 /// A vehicle's inertia, drag, disturbance and delay from logs of relay experiments, with 95 % intervals.
@@ -66,7 +66,7 @@ pub(super) struct Arguments {
     /// Bounded: step of the sensor, output units (with --degrees still radians) [default: found in the record]
     #[arg(long, value_name = "Q", value_parser = positive, allow_negative_numbers = true)]
     quantum: Option<f64>,
-    /// Bounded: largest error of a stamp, in s
+    /// Bounded: largest error of a stamp, in s, of every row, those in which the command changes among them
     #[arg(long, value_name = "T", default_value_t = 0.0, value_parser = non_negative, allow_negative_numbers = true)]
     jitter: f64,
     /// Bounded: so many readings may be in error by any amount, whichever they are
@@ -264,6 +264,7 @@ impl Arguments {
             radians: self.radians,
             degrees: self.degrees,
             wrap: self.wrap,
+            process: false,
         }
     }
 
@@ -273,7 +274,7 @@ impl Arguments {
         }
         // A script gets its document even where the status says unreadable.
         if self.json {
-            write_json(output, &Refused::from(&refusal))?;
+            write_json(output, &RefusalDocument::from(&refusal))?;
         }
         if refusal.is_usage() {
             return Err(refusal.into());

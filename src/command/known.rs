@@ -6,12 +6,13 @@ use serde_json::Value;
 
 use super::error::Given;
 use super::{CommandError, files};
+use crate::control::{AxisModel, NAMES};
 use crate::files::{LONGEST_WORD, cut};
 use crate::numeric::Interval;
 use crate::numeric::domain::Plain;
 
 /// A parameter.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Known {
     pub(super) value: f64,
     /// `None` where it counts as exactly the value.
@@ -28,32 +29,38 @@ impl Known {
 /// The parameters of an axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Model {
-    pub(super) alpha: Known,
-    pub(super) beta: Known,
-    pub(super) beta_quadratic: Known,
-    pub(super) delay_s: Known,
+    pub(super) axis: AxisModel<Known>,
+    /// Whether a record told it.
+    pub(super) identified: bool,
+    /// Whether the log was in degrees; the model is in radians all the same.
+    pub(super) degrees: bool,
 }
-
-/// Flags that give intervals, in the order of the fields.
-const FLAGS: [&str; 4] = ["--alpha-interval", "--beta-interval", "--beta-quadratic-interval", "--delay-interval"];
 
 /// Where a model comes from.
 const WRITTEN: &str = "write the file by `selfosc identify LOG --json > RESULT.json`";
+/// Times, which are not negative.
+const TIMES: [&str; 5] = ["memory_s", "lag_s", "ramp_s", "filter_s", "delay_s"];
 
 impl Model {
-    /// Parameters without intervals, in the order of the fields.
-    pub(super) fn of(values: [f64; 4]) -> Self {
-        Self::from_parts(values.map(|value| Known { value, interval: None }))
-    }
-
-    fn from_parts([alpha, beta, beta_quadratic, delay_s]: [Known; 4]) -> Self {
-        Self { alpha, beta, beta_quadratic, delay_s }
+    /// Parameters that are given as numbers.
+    pub(super) fn given([alpha, beta, beta_quadratic, delta, delay_s]: [f64; 5]) -> Self {
+        let number = |value| Known { value, interval: None };
+        let axis = AxisModel {
+            alpha: number(alpha),
+            beta: number(beta),
+            beta_quadratic: number(beta_quadratic),
+            delta: number(delta),
+            delay_s: number(delay_s),
+            ..AxisModel::default()
+        };
+        Self { axis, identified: false, degrees: false }
     }
 
     /// The same with intervals that replace those there are.
-    pub(super) fn with_intervals(self, intervals: [Option<Interval>; 4]) -> Result<Self, CommandError> {
-        let mut parts = [self.alpha, self.beta, self.beta_quadratic, self.delay_s];
-        for ((part, given), flag) in parts.iter_mut().zip(intervals).zip(FLAGS) {
+    pub(super) fn with_intervals(mut self, given: [(&str, Option<Interval>); 4]) -> Result<Self, CommandError> {
+        let axis = &mut self.axis;
+        let parts = [&mut axis.alpha, &mut axis.beta, &mut axis.beta_quadratic, &mut axis.delay_s];
+        for (part, (flag, given)) in parts.into_iter().zip(given) {
             if let Some(interval) = given.filter(|interval| !interval.contains(part.value)) {
                 let value = Plain(part.value);
                 let reason = format!("{flag}: {interval} must contain the value, {value}; give an interval around it");
@@ -61,7 +68,22 @@ impl Model {
             }
             part.interval = given.or(part.interval);
         }
-        Ok(Self::from_parts(parts))
+        Ok(self)
+    }
+
+    /// The values.
+    pub(super) fn values(&self) -> AxisModel<f64> {
+        self.axis.map(|known| known.value)
+    }
+
+    /// The intervals. A record of an oscillation shows the force at speeds, not the slope of the drag at rest, which a law only
+    /// extrapolates: down to none it is possible there.
+    pub(super) fn ranges(&self) -> AxisModel<Interval> {
+        let mut ranges = self.axis.map(|known| known.range());
+        if self.identified {
+            ranges.beta = ranges.beta.hull(Interval::ZERO);
+        }
+        ranges
     }
 
     /// What `selfosc identify --json` reported.
@@ -89,33 +111,39 @@ impl Model {
             }
             _ => return Err(wrong("trust", &reported["trust"], "\"good\" or \"widened\"")),
         }
-        let part = |name: &str| {
-            let number = |field: &str| match &reported[name][field] {
+        let part = |name: &'static str| {
+            let number = |place: &Value, field: &str| match &place[field] {
                 Value::Null => Ok(None),
                 Value::Number(number) => Ok(number.as_f64()),
                 other => Err(wrong(&format!("{name}.{field}"), other, "a number or null")),
             };
-            let (value, interval) = (number("value")?, number("low")?.zip(number("high")?));
-            match interval {
+            let estimate = &reported[name];
+            let Some(value) = number(estimate, "value")? else {
+                return if name == "alpha" {
+                    Err(wrong("alpha.value", &Value::Null, "a number"))
+                } else {
+                    Ok(Known::default())
+                };
+            };
+            // The practical interval, where there is one.
+            let place = if estimate["combined"].is_null() { estimate } else { &estimate["combined"] };
+            let interval = match number(place, "low")?.zip(number(place, "high")?) {
                 Some((low, high)) if low > high => {
-                    Err(wrong(&format!("{name}.low"), &low.into(), &format!("{high} or less, its high")))
+                    return Err(wrong(&format!("{name}.low"), &low.into(), &format!("{high} or less, its high")));
                 }
-                // The interval of a drag may reach below zero, where no axis is.
-                _ => Ok(value.map(|value| Known {
-                    value,
-                    interval: interval.and_then(|(low, high)| Interval::new(low.max(0.0).min(value), high.max(value))),
-                })),
-            }
+                Some((low, high)) => {
+                    let least = if TIMES.contains(&name) { low.max(0.0) } else { low };
+                    Interval::new(least.min(value), high.max(value))
+                }
+                None => None,
+            };
+            Ok(Known { value, interval })
         };
-        for term in ["beta_cubic", "skew", "coulomb", "memory", "stiffness", "lag_s", "ramp_s", "filter_s"] {
-            if part(term)?.is_some_and(|one| one.value != 0.0) {
-                return Err(unusable(format!(
-                    "it has the term {term}, which `tune` does not know; give --alpha and the others of an axis without it"
-                )));
-            }
+        let mut parts = [Known::default(); NAMES.len()];
+        for (place, name) in parts.iter_mut().zip(NAMES) {
+            *place = part(name)?;
         }
-        let Some(alpha) = part("alpha")? else { return Err(wrong("alpha.value", &Value::Null, "a number")) };
-        let or_zero = |name| part(name).map(|one| one.unwrap_or(Known { value: 0.0, interval: None }));
-        Ok(Self::from_parts([alpha, or_zero("beta")?, or_zero("beta_quadratic")?, or_zero("delay_s")?]))
+        let degrees = found["units"]["output"] == "rad";
+        Ok(Self { axis: AxisModel::from_parts(parts), identified: true, degrees })
     }
 }

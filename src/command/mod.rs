@@ -3,6 +3,7 @@
 //! Answers go to standard output, everything else to standard error. Exit status: 0 done, 1 the answer is no, 2 usage or
 //! unreadable input.
 
+mod autotune;
 mod axis;
 mod balance;
 mod certificates;
@@ -13,11 +14,13 @@ mod files;
 mod gain;
 mod identify;
 mod known;
+mod lines;
 mod manual;
 mod number;
 mod orbits;
 mod predict;
 mod reproduce;
+mod run;
 mod simulate;
 mod suggestion;
 mod terminal;
@@ -62,8 +65,10 @@ enum Action {
     Predict(predict::Arguments),
     Simulate(simulate::Arguments),
     Design(design::Arguments),
+    Run(run::Arguments),
     Identify(identify::Arguments),
     Tune(tune::Arguments),
+    Autotune(autotune::Arguments),
     Completions(manual::Completions),
     Man(manual::Manual),
 }
@@ -78,8 +83,10 @@ impl Action {
             Self::Predict(arguments) => predict::run(arguments, output),
             Self::Simulate(arguments) => simulate::run(arguments, output),
             Self::Design(arguments) => design::run(arguments, output),
+            Self::Run(arguments) => run::run(arguments, output),
             Self::Identify(arguments) => identify::run(arguments, output),
             Self::Tune(arguments) => tune::run(arguments, output),
+            Self::Autotune(arguments) => autotune::run(arguments, output),
             Self::Completions(arguments) => manual::completions(arguments, output),
             Self::Man(arguments) => manual::manual(arguments),
         }

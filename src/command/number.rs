@@ -51,3 +51,9 @@ pub(super) fn whole<T: FromStr>(text: &str) -> Result<T, String> {
 pub(super) fn count(text: &str) -> Result<NonZeroUsize, String> {
     text.parse().map_err(|_| format!("must be a whole number from 1 to {}; write it in digits", usize::MAX))
 }
+
+/// How many of what is counted in one byte, one or more.
+pub(super) fn small_count(text: &str) -> Result<u8, String> {
+    let counted = text.parse().ok().filter(|count| *count > 0);
+    counted.ok_or_else(|| format!("must be a whole number from 1 to {}; write it in digits", u8::MAX))
+}

@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 use serde_json::json;
 
-use super::axis::{AxisArguments, MotionArguments};
+use super::axis::{AxisArguments, MotionArguments, RelayArguments};
 use super::error::in_context;
 use super::number::number;
 use super::{CommandError, Outcome, orbits, write_json};
@@ -70,7 +70,7 @@ pub(super) struct Arguments {
 }
 
 impl Arguments {
-    fn axis(&self, alpha: f64) -> Result<AxisArguments, CommandError> {
+    fn axis(&self, alpha: f64) -> Result<(AxisArguments, RelayArguments), CommandError> {
         let &[relay] = self.relay.as_slice() else {
             return Err(CommandError::Usage {
                 reason: format!(
@@ -82,7 +82,8 @@ impl Arguments {
         let (beta, beta_quadratic) = (self.beta.unwrap_or(0.0), self.beta_quadratic.unwrap_or(0.0));
         let motion = MotionArguments { alpha, beta, beta_quadratic };
         let delta = self.delta.unwrap_or(0.0);
-        Ok(AxisArguments { motion, delta, relay, half_width: self.half_width, delay: self.delay })
+        let relay = RelayArguments { relay, half_width: self.half_width };
+        Ok((AxisArguments { motion, delta, delay: self.delay }, relay))
     }
 
     fn linear(&self) -> Result<orbits::Loop<'_>, CommandError> {
@@ -131,8 +132,8 @@ fn cycle<T: Serialize>(cycle: &LimitCycle<T>) -> serde_json::Value {
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let Some(alpha) = arguments.alpha else { return orbits::run(arguments.linear()?, arguments.json, output) };
-    let arguments_of_axis = arguments.axis(alpha)?;
-    let (axis, relay) = (arguments_of_axis.axis()?, arguments_of_axis.relay()?);
+    let (axis, relay) = arguments.axis(alpha)?;
+    let (axis, relay) = (axis.axis()?, relay.relay()?);
     let exact = match limit_cycle(&axis, &relay) {
         Ok(cycle) => cycle,
         Err(reason) if arguments.json => {

@@ -1,27 +1,40 @@
 //! `selfosc simulate`: a record of a relay experiment.
 
 use std::io::Write;
+use std::time::{Duration, Instant};
 
 use clap::Args;
 
-use super::axis::AxisArguments;
+use super::axis::{AxisArguments, RelayArguments};
+use super::lines::{Event, Lines};
 use super::number::{number, whole};
 use super::{CommandError, Outcome, write_json};
-use crate::experiment::{Sensor, SimulatedExperiment};
+use crate::experiment::{LiveVehicle, Sensor, SimulatedExperiment};
 use crate::numeric::domain::positive;
 use crate::orbit::limit_cycle;
 
 /// A record of a relay experiment as CSV: time_s,output,input.
 ///
 /// The axis starts at rest at zero with the positive command. Its motion is in closed form between switchings.
+/// With --live the axis obeys standard input instead of a relay: it writes a line `time_s reading`, waits for a line `command`,
+/// holds that command for one interval, and ends with standard input or once a second word of the line is not `running`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   selfosc simulate --alpha 1 --beta-quadratic 0.5 --relay 1 --half-width 0.3 --delay 0.2 > log.csv
-  selfosc simulate --alpha 1 --beta 1 --relay 1 --half-width 0.3 --hold --quantum 0.0175 --noise 0.005 --degrees")]
+  selfosc simulate --alpha 1 --beta 1 --relay 1 --half-width 0.3 --hold --quantum 0.0175 --noise 0.005 --degrees
+  selfosc simulate --live --alpha 1 --beta 1 --delay 0.2 < commands | selfosc run ... > commands")]
 pub(super) struct Arguments {
     #[command(flatten)]
     axis: AxisArguments,
+    #[command(flatten)]
+    relay: Option<RelayArguments>,
+    /// The axis obeys the commands of standard input
+    #[arg(long, conflicts_with_all = ["relay", "half_width", "cycles", "hold", "json"])]
+    live: bool,
+    /// With --live: readings come at their times, and a command that is late acts late
+    #[arg(long, requires = "live")]
+    real_time: bool,
     /// Cycles of the limit cycle that the record lasts
     #[arg(long, value_parser = number, value_name = "N", default_value_t = 10.0, allow_negative_numbers = true)]
     cycles: f64,
@@ -49,10 +62,20 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
-    let (axis, relay) = (arguments.axis.axis()?, arguments.axis.relay()?);
+    let axis = arguments.axis.axis()?;
+    let sensor = Sensor { delay_s: 0.0, quantum: arguments.quantum, noise: arguments.noise };
+    if arguments.live {
+        let vehicle = LiveVehicle::new(axis, sensor, arguments.rate, arguments.seed)?;
+        let turn = if arguments.degrees { 1f64.to_degrees() } else { 1.0 };
+        return obey(vehicle, turn, arguments.real_time, output);
+    }
+    let Some(relay) = &arguments.relay else {
+        let reason = "--relay and --half-width are missing; give both, or --live for an axis that obeys standard input";
+        return Err(CommandError::Usage { reason: reason.to_owned() });
+    };
+    let relay = relay.relay()?;
     let cycles = positive("cycles", arguments.cycles, "")?;
     let duration_s = cycles * limit_cycle(&axis, &relay)?.period_s;
-    let sensor = Sensor { delay_s: 0.0, quantum: arguments.quantum, noise: arguments.noise };
     let experiment =
         SimulatedExperiment::new(axis, relay, arguments.rate)?.with_sensor(sensor)?.with_seed(arguments.seed);
     let experiment = if arguments.hold { experiment.held() } else { experiment };
@@ -69,4 +92,41 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         writeln!(output, "{time_s},{},{input}", reading * scale)?;
     }
     Ok(Outcome::Done)
+}
+
+/// Readings out and commands in, one for one; in real time the command that is there counts.
+fn obey(
+    mut vehicle: LiveVehicle,
+    unit: f64,
+    real_time: bool,
+    output: &mut impl Write,
+) -> Result<Outcome, CommandError> {
+    let (lines, begun) = (Lines::of_standard_input(), Instant::now());
+    loop {
+        let (time_s, reading) = vehicle.reading();
+        writeln!(output, "{time_s} {}", reading * unit)?;
+        output.flush()?;
+        let due = begun + Duration::try_from_secs_f64(vehicle.time_s()).unwrap_or(Duration::MAX);
+        loop {
+            let line = if real_time {
+                match lines.before(due) {
+                    Event::TimeOut => break,
+                    event => event,
+                }
+            } else {
+                lines.next()
+            };
+            let Event::Line(line) = line else { return Ok(Outcome::Done) };
+            let mut words = line.split_whitespace();
+            if let Some(command) = words.next().and_then(|word| word.parse().ok()) {
+                vehicle.command(command);
+            }
+            if words.next().is_some_and(|phase| phase != "running") {
+                return Ok(Outcome::Done);
+            }
+            if !real_time {
+                break;
+            }
+        }
+    }
 }

@@ -7,15 +7,17 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
+use super::error::Given;
 use super::number::whole;
-use super::{CommandError, Outcome, certificates, suggestion, write_json};
-use crate::claims::{Budget, CLAIMS, Claim, Evidence, Finding, Verdict, Word};
+use super::{CommandError, Outcome, certificates, files, suggestion, write_json};
+use crate::claims::{Budget, CLAIMS, Claim, Evidence, Finding, Verdict, Word, formulas};
 
 /// Checks every claim of the theory, as printed and as corrected, and says on what evidence.
 ///
 /// Proved means enclosed over the whole domain as stated, proved-in-part over the parts named, exhausted that every state of
 /// a finite model was visited, sampled no more than true of every case drawn. A claim that the paper states and that is false
-/// as printed is refuted with the numbers that refute it. Steps of a proof that no program checks are counted. Exit status 1
+/// as printed is refuted with the numbers that refute it. Steps of a proof that no program checks are counted.
+/// Kernel-checked means that the proof assistant Coq accepts the statement (spec/formal), which this command does not run. Exit status 1
 /// when a verdict is not the one that the claim's file states, or a declared proof does not succeed.
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -24,7 +26,8 @@ Examples:
   selfosc verify --claim lemma-1 --claim lemma-2 --cases 100000 --seed 7
   selfosc verify --certificates proofs
   selfosc verify --check proofs
-  selfosc verify --check bounds.json
+  selfosc verify --formulas spec/formal
+  selfosc verify --check bounds.json --log log.csv
   selfosc verify --json")]
 pub(super) struct Arguments {
     /// Only this claim; repeat or list several
@@ -39,9 +42,15 @@ pub(super) struct Arguments {
     /// Writes the proofs of the orbit theorems to this folder, one file a theorem, with every box
     #[arg(long, value_name = "DIR")]
     certificates: Option<PathBuf>,
+    /// Writes the program's formulas to `Formulas.v` in this folder, as definitions of the proof assistant Coq; checks nothing
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["claims", "cases", "seed", "certificates", "check", "json"])]
+    formulas: Option<PathBuf>,
     /// Checks such files, or one that `identify --certificate` wrote, without searching for anything, in place of the claims
     #[arg(long, value_name = "DIR|FILE", conflicts_with_all = ["claims", "cases", "seed", "certificates", "json"])]
     check: Option<PathBuf>,
+    /// Compares the stamps, readings and commands in the file of bounds with those of these logs
+    #[arg(long, value_name = "LOG", num_args = 1.., requires = "check")]
+    log: Vec<PathBuf>,
     /// Shows on a terminal which claim is being checked
     #[arg(long)]
     progress: bool,
@@ -59,8 +68,13 @@ fn cases(text: &str) -> Result<usize, String> {
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
+    if let Some(folder) = &arguments.formulas {
+        crate::files::folder(folder).given("--formulas")?;
+        files::write(&folder.join("Formulas.v"), &formulas()).given("--formulas")?;
+        return Ok(Outcome::Done);
+    }
     if let Some(folder) = &arguments.check {
-        return certificates::check(folder, output);
+        return certificates::check(folder, &arguments.log, output);
     }
     let chosen = chosen(&arguments.claims)?;
     let written = arguments.certificates.as_deref().map(certificates::write).transpose()?;
@@ -118,7 +132,7 @@ fn chosen(ids: &[String]) -> Result<Vec<&'static Claim>, CommandError> {
 }
 
 /// What was found of the parts that are established, then the numbers, in the order of the fields.
-fn evidence(finding: &Finding) -> String {
+fn evidence(claim: &Claim, finding: &Finding) -> String {
     let evidence = match finding.carrying() {
         Some(Verdict::Holds(evidence)) => evidence,
         Some(Verdict::Refuted(witness)) => return format!("refuted by {witness}"),
@@ -137,6 +151,7 @@ fn evidence(finding: &Finding) -> String {
     }));
     let by_hand = finding.by_hand.len();
     said.extend((by_hand > 0).then(|| format!("{by_hand} by hand")));
+    said.extend(claim.kernel_checked().map(|checked| checked.to_string()));
     said.join(", ")
 }
 
@@ -144,7 +159,7 @@ fn evidence(finding: &Finding) -> String {
 fn lines(claim: &Claim, finding: &Finding, width: usize, output: &mut impl Write) -> Result<(), CommandError> {
     let short = |word: Word| if word == Word::NotApplicable { "-" } else { word.as_str() };
     let (printed, corrected) = (short(finding.as_printed()), short(finding.as_corrected()));
-    writeln!(output, "{:width$}  {printed:14}  {corrected:14}  {}", claim.id, evidence(finding))?;
+    writeln!(output, "{:width$}  {printed:14}  {corrected:14}  {}", claim.id, evidence(claim, finding))?;
     if let Some(why) = claim.not_proved {
         writeln!(output, "{:width$}  not proved as a whole: {why}", "")?;
     }
@@ -161,13 +176,21 @@ fn summary(findings: &[(&Claim, Finding)], output: &mut impl Write) -> Result<()
     let words = [Word::Proved, Word::ProvedInPart, Word::Exhausted, Word::Sampled];
     let words = words.map(|word| format!("{} {word}", count(findings, word))).join(", ");
     let (refuted, wrong) = (refuted_as_printed(findings), not_as_stated(findings));
-    let claims = findings.len();
-    writeln!(output, "\n{claims} claims: {words}; {refuted} refuted as printed; {wrong} not as stated")?;
+    let (claims, checked) = (findings.len(), kernel_checked(findings));
+    writeln!(
+        output,
+        "\n{claims} claims: {words}; {checked} kernel-checked as a whole; {refuted} refuted as printed; {wrong} not as stated"
+    )?;
     Ok(())
 }
 
 fn count(findings: &[(&Claim, Finding)], word: Word) -> usize {
     findings.iter().filter(|(_, finding)| finding.word() == word).count()
+}
+
+fn kernel_checked(findings: &[(&Claim, Finding)]) -> usize {
+    let whole = |claim: &Claim| claim.kernel_checked().is_some_and(|checked| checked.covers == "whole");
+    findings.iter().filter(|(claim, _)| whole(claim)).count()
 }
 
 fn refuted_as_printed(findings: &[(&Claim, Finding)]) -> usize {
@@ -202,7 +225,8 @@ fn document(findings: &[(&Claim, Finding)]) -> Value {
             "statement": claim.statement,
             "as_printed": finding.as_printed(),
             "as_corrected": finding.as_corrected(),
-            "evidence": evidence(finding),
+            "evidence": evidence(claim, finding),
+            "kernel_checked": claim.kernel_checked().map(|checked| checked.covers),
             "cases": found.cases,
             "boxes": found.boxes,
             "residual_bound": found.residual_bound,
@@ -223,6 +247,7 @@ fn document(findings: &[(&Claim, Finding)]) -> Value {
             "proved_in_part": count(findings, Word::ProvedInPart),
             "exhausted": count(findings, Word::Exhausted),
             "sampled": count(findings, Word::Sampled),
+            "kernel_checked": kernel_checked(findings),
             "undecided": count(findings, Word::Undecided),
             "refuted": count(findings, Word::Refuted),
             "refuted_as_printed": refuted_as_printed(findings),

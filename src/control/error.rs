@@ -58,6 +58,32 @@ pub enum ControlError {
         /// Above this the delay leaves too little margin, rad/s.
         most_rad_s: f64,
     },
+    /// No bandwidth keeps a limit for every axis of the intervals.
+    #[error(
+        "no bandwidth from {} to {} rad/s is proved to keep the limit for every axis of the intervals; allow more (--ms, --phase-margin) \
+         or identify from a longer record",
+        Plain(*.least_rad_s), Plain(*.most_rad_s)
+    )]
+    OutOfReach {
+        /// Where gains begin, rad/s.
+        least_rad_s: f64,
+        /// Where they end, rad/s.
+        most_rad_s: f64,
+    },
+    /// A process of a box that is not proved to be stable under the gains.
+    #[error(
+        "the closed loop is not proved to be stable for every process of the intervals (not at inertia {}, drag {}, delay {} s); \
+         lower the gains or narrow the intervals",
+        Plain(*.alpha), Plain(*.drag), Plain(*.delay_s)
+    )]
+    NotStabilised {
+        /// Inertia of the process.
+        alpha: f64,
+        /// Slope of its drag.
+        drag: f64,
+        /// Delay of the loop, s.
+        delay_s: f64,
+    },
     /// A loop that is not stable has no margins.
     #[error(
         "the closed loop has {poles} poles that do not decay (inertia {}, drag {}, delay {} s), all \
@@ -119,7 +145,8 @@ impl ControlError {
             Self::Overdamped { .. } => "overdamped",
             Self::TooFast { .. } => "too-fast",
             Self::NoBandwidth { .. } => "no-bandwidth",
-            Self::Unstable { .. } => "unstable",
+            Self::OutOfReach { .. } => "out-of-reach",
+            Self::Unstable { .. } | Self::NotStabilised { .. } => "unstable",
             Self::BelowSwitching { .. } => "below-switching",
             Self::OnePhase { .. } => "one-phase",
             Self::NoCriticalPoint { .. } => "no-critical-point",

@@ -1,7 +1,7 @@
 //! How far a loop is from instability.
 
 use super::{ControlError, OpenLoop};
-use crate::numeric::Scalar;
+use crate::numeric::{Scalar, domain};
 
 /// What a stable loop stands before it is critical. Each margin is for a change of that one kind alone.
 ///
@@ -72,17 +72,21 @@ impl<T: Scalar> OpenLoop<T> {
         let better = |known: Option<T>, new: T| Some(known.map_or(new, |known| known.min(new)));
         self.phase_crossovers(|omega| {
             let size = self.magnitude(omega);
-            // Too small for the arithmetic: no limit worth the name.
-            if !(size > T::zero()) {
+            // Too small for the arithmetic: no limit worth the name. Too large: none either.
+            let gain = T::one() / size;
+            if !gain.is_finite() {
                 return false;
             }
             if size < T::one() {
-                margins.gain = better(margins.gain, T::one() / size);
-            } else {
+                margins.gain = better(margins.gain, gain);
+            } else if size.is_finite() {
                 margins.gain_reduction = better(margins.gain_reduction, size);
             }
             margins.gain.is_none_or(|gain| self.magnitude_bound(omega) * gain > T::one())
         });
+        for (margin, value) in [("phase margin", margins.phase_rad), ("delay margin", margins.delay_s)] {
+            domain::representable(margin, value, "rad or s")?;
+        }
         Ok(margins)
     }
 }

@@ -6,6 +6,8 @@
 //! | `open_loop`, `margins` | crossovers, stability and margins with the delay |
 //! | `closed_loop` | poles and bandwidth, computed without the design equations |
 //! | `worst_case` | margins over intervals of the parameters |
+//! | `model` | an axis with every term that an identification may report |
+//! | `process`, `robust` | processes with lags, filters, memory; margins and sensitivity proved over a box of them |
 //! | `controller`, `reference` | what runs on the vehicle |
 //! | `response` | the simulated answer to a step, and its figures |
 //! | `ultimate`, `rules` | the critical point from relay experiments, and the classic rules |
@@ -19,10 +21,16 @@ mod design;
 mod error;
 mod gains;
 mod margins;
+#[cfg(feature = "std")]
+mod model;
 mod open_loop;
+#[cfg(feature = "std")]
+mod process;
 mod reference;
 #[cfg(feature = "std")]
 mod response;
+#[cfg(feature = "std")]
+mod robust;
 mod roots;
 mod rules;
 mod ultimate;
@@ -36,10 +44,16 @@ pub(crate) use design::{double_pole, place};
 pub use error::ControlError;
 pub use gains::{Gains, Structure};
 pub use margins::Margins;
+#[cfg(feature = "std")]
+pub use model::{AxisModel, NAMES};
 pub use open_loop::OpenLoop;
+#[cfg(feature = "std")]
+pub use process::LinearProcess;
 pub use reference::FeedForward;
 #[cfg(feature = "std")]
 pub use response::{Answer, StepResponse};
+#[cfg(feature = "std")]
+pub use robust::{CriterionRange, ProcessIntervals, RobustCriterion};
 pub use rules::Rule;
 #[cfg(feature = "std")]
 pub use ultimate::critical_point;

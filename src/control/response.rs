@@ -3,7 +3,7 @@
 use crate::numeric::{Limit, domain};
 use std::collections::VecDeque;
 
-use super::{ControlError, Controller};
+use super::{AxisModel, ControlError, Controller};
 use crate::plant::{DragAxis, State};
 
 /// What is read off an answer to a step.
@@ -89,12 +89,55 @@ impl StepResponse {
         rate_hz: f64,
         duration_s: f64,
     ) -> Result<Self, ControlError> {
+        let mut state = State { position: 0.0, velocity: 0.0 };
+        Self::run(axis.delay_s(), &mut controller, size, rate_hz, duration_s, |command, time_s| {
+            if let Some(command) = command {
+                state = axis.advance(state, command, time_s);
+            }
+            [state.position, state.position, state.velocity]
+        })
+    }
+
+    /// The same of an axis with further terms, by Runge-Kutta steps of an eighth of an interval; a limited rate as half its ramp more delay.
+    ///
+    /// # Errors
+    /// As [`simulate`](Self::simulate).
+    pub fn of_model(
+        model: &AxisModel<f64>,
+        mut controller: Controller<f64>,
+        size: f64,
+        rate_hz: f64,
+        duration_s: f64,
+    ) -> Result<Self, ControlError> {
+        const STEPS: u32 = 4;
+        let mut state = [0.0; 5];
+        let fast = size.abs() * rate_hz;
+        let delay_s = model.delay_s + 0.5 * model.ramp_s;
+        Self::run(delay_s, &mut controller, size, rate_hz, duration_s, |command, time_s| {
+            if let Some(command) = command {
+                for _ in 0..STEPS {
+                    state = model.advance(state, command, time_s / f64::from(STEPS), fast);
+                }
+            }
+            [model.reading(&state), state[0], state[1]]
+        })
+    }
+
+    /// A controller in the loop with what `advance` makes of a command over a time: reading, coordinate and speed.
+    fn run(
+        delay_s: f64,
+        controller: &mut Controller<f64>,
+        size: f64,
+        rate_hz: f64,
+        duration_s: f64,
+        mut advance: impl FnMut(Option<f64>, f64) -> [f64; 3],
+    ) -> Result<Self, ControlError> {
         domain::require("size of the step", size, "output units", Limit::NonZero, "give the step of the reference")?;
         domain::positive("rate", rate_hz, "Hz")?;
         let steps = duration_s * rate_hz;
         let limit = Limit::Within(0.0, Self::MOST_SAMPLES);
         domain::require("duration", steps, "samples", limit, "shorten the response or lower its rate")?;
-        let late = axis.delay_s() * rate_hz;
+        let late = delay_s * rate_hz;
         domain::require(
             "delay",
             late,
@@ -106,22 +149,22 @@ impl StepResponse {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
         let (whole, last) = (late.floor() as usize, steps.floor() as usize);
         // The command acts a whole number of intervals and a part of one later.
-        let part_s = axis.delay_s() - whole as f64 * interval_s;
+        let part_s = delay_s - whole as f64 * interval_s;
         let mut under_way: VecDeque<f64> = std::iter::repeat_n(0.0, whole + 1).collect();
-        let mut state = State { position: 0.0, velocity: 0.0 };
+        let [mut reading, mut position, mut velocity] = advance(None, 0.0);
         let mut response =
             Self { size, time_s: Vec::new(), output: Vec::new(), speed: Vec::new(), command: Vec::new() };
         for sample in 0..=last {
-            let command = controller.step(size, state.position, interval_s).command;
+            let command = controller.step(size, reading, interval_s).command;
             response.time_s.push(sample as f64 * interval_s);
-            response.output.push(state.position);
-            response.speed.push(state.velocity);
+            response.output.push(position);
+            response.speed.push(velocity);
             response.command.push(command);
             under_way.push_back(command);
             let before = under_way.pop_front().unwrap_or(command);
             let after = under_way.front().copied().unwrap_or(command);
-            state = axis.advance(state, before, part_s);
-            state = axis.advance(state, after, interval_s - part_s);
+            advance(Some(before), part_s);
+            [reading, position, velocity] = advance(Some(after), interval_s - part_s);
         }
         Ok(response)
     }

@@ -122,9 +122,10 @@ impl<T: Scalar> RelayTest<T> {
         let lag = T::pi() / T::two() - (n.p / -n.q).atan();
         let angle_above_critical = if n.q < zero { lag } else { zero };
         let frequency = T::two() * T::pi() / self.period_s;
+        let positive = |quantity, value, unit| domain::require(quantity, value, unit, Limit::Positive, domain::UNITS);
         Ok(FrequencyPoint {
-            omega_rad_s: domain::representable("frequency of the oscillation", frequency, "rad/s")?,
-            magnitude: domain::representable("gain of the process", T::one() / size, "output per command units")?,
+            omega_rad_s: positive("frequency of the oscillation", frequency, "rad/s")?,
+            magnitude: positive("gain of the process", T::one() / size, "output per command units")?,
             angle_above_critical: domain::representable("angle of the process", angle_above_critical, "rad")?,
         })
     }

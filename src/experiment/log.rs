@@ -37,6 +37,11 @@ const OUTPUT: &[&str] = &[
     "temperature",
 ];
 const INPUT: &[&str] = &["command", "input", "u", "pwm", "duty"];
+/// The same where a controller's output is the command.
+const PROCESS_OUTPUT: &[&str] =
+    &["temperature", "temp", "pv", "process_value", "measured", "y", "output", "level", "position"];
+const PROCESS_INPUT: &[&str] =
+    &["duty", "power", "heater", "heating", "relay", "valve", "pwm", "command", "input", "u", "output"];
 
 /// Longest list of names that a message shows.
 const LONGEST_LIST: usize = 200;
@@ -84,6 +89,9 @@ pub struct Columns {
     pub radians: bool,
     /// The output is in degrees. A column whose name ends in `_deg` always is.
     pub degrees: bool,
+    /// The output is a temperature or another process value and no angle; columns are looked for by the names of controllers: of
+    /// `temperature` and `output` the second is the command.
+    pub process: bool,
     /// The output is an angle that jumps by a turn. Columns named after heading or yaw always count as such.
     pub wrap: bool,
 }
@@ -183,10 +191,11 @@ impl Columns {
     /// [`ExperimentError::UnknownColumn`] with the names there are; [`ExperimentError::DuplicateColumn`];
     /// [`ExperimentError::SameColumn`] where one column is named twice.
     pub fn choose(&self, names: &[String]) -> Result<[usize; 3], ExperimentError> {
+        let (output, input) = if self.process { (PROCESS_OUTPUT, PROCESS_INPUT) } else { (OUTPUT, INPUT) };
         let chosen = [
             column(names, "time", self.time.as_deref(), TIME)?,
-            column(names, "output", self.output.as_deref(), OUTPUT)?,
-            column(names, "input", self.input.as_deref(), INPUT)?,
+            column(names, "output", self.output.as_deref(), output)?,
+            column(names, "input", self.input.as_deref(), input)?,
         ];
         for [one, other] in [[0, 1], [0, 2], [1, 2]] {
             if chosen[one] == chosen[other] {
@@ -207,8 +216,10 @@ impl Columns {
     /// use selfosc::experiment::Columns;
     /// let names = ["time_s", "yaw_deg", "command"].map(str::to_owned);
     /// let time_s: Vec<f64> = (0..20).map(f64::from).collect();
-    /// let log = Columns::default().table(names, [time_s, vec![90.0; 20], vec![1.0; 20]])?;
+    /// let log = Columns::default().table(names.clone(), [time_s, vec![90.0; 20], vec![1.0; 20]])?;
     /// assert_eq!(log.record.output()[0], core::f64::consts::FRAC_PI_2);
+    /// let uneven = Columns::default().table(names, [vec![0.0; 2], vec![90.0; 1], vec![1.0; 2]]);
+    /// assert_eq!(uneven.unwrap_err().code(), "unequal-columns");
     /// # Ok::<(), selfosc::experiment::ExperimentError>(())
     /// ```
     pub fn table(&self, names: [String; 3], values: [Vec<f64>; 3]) -> Result<Log, ExperimentError> {
@@ -216,6 +227,10 @@ impl Columns {
     }
 
     fn log(&self, columns: [String; 3], mut rows: Rows<'_>) -> Result<Log, ExperimentError> {
+        let [time, output, input] = rows.values.each_ref().map(Vec::len);
+        if (output, input) != (time, time) {
+            return Err(ExperimentError::Lengths { time, output, input });
+        }
         let unit = self.time_unit.unwrap_or_else(|| TimeUnit::of_column(&columns[0]));
         rows.values[0].iter_mut().for_each(|time| *time /= unit.per_second());
         if self.time_unit.is_none() {
@@ -225,8 +240,8 @@ impl Columns {
         let place = |sample: usize| (rows.place)(kept[sample]);
         let name = &columns[1];
         let lower = name.to_lowercase();
-        let degrees = !self.radians && (self.degrees || lower.ends_with("_deg"));
-        let wrap = self.wrap || lower.contains("heading") || lower.contains("yaw");
+        let degrees = !self.radians && !self.process && (self.degrees || lower.ends_with("_deg"));
+        let wrap = !self.process && (self.wrap || lower.contains("heading") || lower.contains("yaw"));
         if wrap && !degrees && !self.radians {
             clinic::radians(name, &output)?;
         }
@@ -234,7 +249,7 @@ impl Columns {
             output.iter_mut().for_each(|angle| *angle = angle.to_radians());
         }
         let unwrapped = if wrap { clinic::unwrap(&mut output) } else { 0 };
-        if !wrap {
+        if !wrap && !self.process {
             clinic::turns(name, &output, clinic::turn(degrees), place)?;
         }
         match self.neutral {

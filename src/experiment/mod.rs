@@ -5,6 +5,8 @@ mod clinic;
 #[cfg(feature = "std")]
 mod error;
 #[cfg(feature = "std")]
+mod live;
+#[cfg(feature = "std")]
 mod log;
 #[cfg(feature = "std")]
 mod record;
@@ -18,6 +20,8 @@ mod simulation;
 pub use clinic::TimeUnit;
 #[cfg(feature = "std")]
 pub use error::{ExperimentError, Place};
+#[cfg(feature = "std")]
+pub use live::LiveVehicle;
 #[cfg(feature = "std")]
 pub use log::{Columns, Log};
 #[cfg(feature = "std")]

@@ -166,21 +166,22 @@ impl Sensor {
 }
 
 /// The motion so far, and the commands on their way.
-struct Motion {
+#[derive(Clone, Debug)]
+pub(super) struct Motion {
     axis: DragAxis<f64>,
     /// Beginnings of the stretches with constant command: time, state, command. The last has no end yet.
     stretches: VecDeque<(f64, State<f64>, f64)>,
     /// Up to here the relay has seen the motion.
-    seen_s: f64,
+    pub(super) seen_s: f64,
 }
 
 impl Motion {
-    fn new(axis: DragAxis<f64>, start: State<f64>, command: f64) -> Self {
+    pub(super) fn new(axis: DragAxis<f64>, start: State<f64>, command: f64) -> Self {
         Self { axis, stretches: VecDeque::from([(0.0, start, command)]), seen_s: 0.0 }
     }
 
     /// From `time_s` on, not before the last stretch begins, `command` acts.
-    fn command(&mut self, time_s: f64, command: f64) {
+    pub(super) fn command(&mut self, time_s: f64, command: f64) {
         let Some(&(begin, state, before)) = self.stretches.back() else { return };
         if command != before {
             let state = self.axis.advance(state, before, (time_s - begin).max(0.0));
@@ -189,7 +190,7 @@ impl Motion {
     }
 
     /// The state at a time; before the start, that at the start. Forgets stretches that ended before.
-    fn at(&mut self, time_s: f64) -> State<f64> {
+    pub(super) fn at(&mut self, time_s: f64) -> State<f64> {
         while self.stretches.len() > 1 && self.stretches[1].0 <= time_s.min(self.seen_s) {
             self.stretches.pop_front();
         }

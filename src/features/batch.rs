@@ -1,7 +1,7 @@
 //! Features of a whole record.
 
 use super::orders::Orders;
-use super::{Cycle, Cycles, FeatureError, Features, Summary};
+use super::{Cycle, Cycles, FeatureError, Features, LOST, Summary};
 use crate::experiment::Record;
 
 /// The two levels of a relay's command, as a record shows them.
@@ -28,9 +28,6 @@ pub struct RecordFeatures {
     /// Every cycle found, start-up included.
     pub cycles: Vec<Cycle<f64>>,
 }
-
-/// Half periods without a change of the command that count as lost.
-const LOST: f64 = 4.0;
 
 impl RelayLevels {
     /// The levels of a two-valued input, or of one that goes straight from value to value at one rate.

@@ -74,8 +74,6 @@ pub struct Cycles<S> {
     maximum: Peak<S>,
     minimum: Peak<S>,
     switchings: u32,
-    /// Valid once there was a switching.
-    last_change_s: S,
 }
 
 impl<S: Scalar> Cycles<S> {
@@ -92,7 +90,6 @@ impl<S: Scalar> Cycles<S> {
             maximum: Peak::new(),
             minimum: Peak::new(),
             switchings: 0,
-            last_change_s: S::zero(),
         }
     }
 
@@ -103,7 +100,8 @@ impl<S: Scalar> Cycles<S> {
 
     /// Time of the last change of the command, in s.
     pub fn last_change_s(&self) -> Option<S> {
-        (self.switchings > 0).then_some(self.last_change_s)
+        let last_s = if self.positive == Some(true) { self.begin_s } else { self.change.0 };
+        (self.switchings > 0).then_some(last_s)
     }
 
     /// Takes the next sample; the cycle that it completes, if it does.
@@ -122,7 +120,6 @@ impl<S: Scalar> Cycles<S> {
         let mut complete = None;
         if changed {
             self.switchings = self.switchings.saturating_add(1);
-            self.last_change_s = time_s;
             if positive {
                 complete = self.complete(time_s, output);
                 (self.begun, self.turned, self.begin_s) = (true, false, time_s);

@@ -1,5 +1,6 @@
 //! Why a record has no features.
 
+use crate::numeric::OutOfDomain;
 use crate::numeric::domain::Plain;
 
 /// Why a record shows no steady self-oscillation. Values are in the record's units.
@@ -73,6 +74,9 @@ pub enum FeatureError {
         /// Change of the middle, in amplitudes.
         amplitudes: f64,
     },
+    /// A mean or a spread that the arithmetic does not have.
+    #[error(transparent)]
+    OutOfDomain(#[from] OutOfDomain),
 }
 
 impl FeatureError {
@@ -88,6 +92,7 @@ impl FeatureError {
             Self::Growing { .. } => "growing",
             Self::Decaying { .. } => "decaying",
             Self::Drift { .. } => "drift",
+            Self::OutOfDomain(_) => "out-of-domain",
         }
     }
 }

@@ -16,3 +16,6 @@ pub use batch::{RecordFeatures, RelayLevels};
 pub use cycle::{Cycle, Cycles};
 pub use error::FeatureError;
 pub use summary::{CycleStatistics, Features, Summary};
+
+/// Half-periods without a change of the command that count as lost, against the longest seen.
+pub(crate) const LOST: f64 = 4.0;

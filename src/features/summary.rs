@@ -1,7 +1,7 @@
 //! Means and spreads over the steady cycles.
 
 use super::{Cycle, FeatureError};
-use crate::numeric::Scalar;
+use crate::numeric::{Scalar, domain};
 
 /// Mean and sample standard deviation over cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -211,7 +211,8 @@ impl<S: Scalar> Summary<S> {
     /// Means and spreads so far.
     ///
     /// # Errors
-    /// [`FeatureError::TooFewCycles`], [`FeatureError::Growing`], [`FeatureError::Decaying`], [`FeatureError::Drift`].
+    /// [`FeatureError::TooFewCycles`], [`FeatureError::Growing`], [`FeatureError::Decaying`], [`FeatureError::Drift`];
+    /// [`FeatureError::OutOfDomain`] where squares leave the range of the arithmetic.
     pub fn features(&self) -> Result<Features<S>, FeatureError> {
         if self.cycles < Self::FEWEST_CYCLES {
             if self.run.changes >= Run::<S>::FEWEST {
@@ -232,8 +233,11 @@ impl<S: Scalar> Summary<S> {
         if significant(drift) {
             return Err(FeatureError::Drift { amplitudes: drift.0.value() });
         }
-        let [amplitude, bias, reference, period_s, switch_level, time_positive_s, time_negative_s] =
-            self.moments.map(|moments| moments.spread(count));
+        let spreads = self.moments.map(|moments| moments.spread(count));
+        // Not a number, or infinite, where any of them is.
+        let sum = spreads.iter().fold(S::zero(), |sum, of| sum + of.mean.abs() + of.std);
+        domain::representable("sum over the cycles", sum, "")?;
+        let [amplitude, bias, reference, period_s, switch_level, time_positive_s, time_negative_s] = spreads;
         Ok(Features {
             cycles: self.cycles,
             start_up_cycles: self.start_up,

@@ -11,9 +11,9 @@ mod run;
 pub use error::FileError;
 pub use input::Input;
 #[cfg(feature = "command")]
-pub(crate) use output::remove_on_signal;
-#[cfg(feature = "command")]
 pub use output::{Output, folder};
+#[cfg(feature = "command")]
+pub(crate) use output::{on_signal, remove_on_signal};
 #[cfg(feature = "command")]
 pub use run::Files;
 

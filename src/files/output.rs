@@ -28,6 +28,17 @@ impl Output {
     }
 }
 
+impl Output {
+    /// Opens the file to be written piece by piece: what has been written is there, whatever ends this process.
+    ///
+    /// # Errors
+    /// [`FileError::Unwritable`].
+    pub fn stream(self) -> Result<File, FileError> {
+        let opened = File::create(&self.place);
+        opened.map_err(|error| FileError::Unwritable { name: self.name, reason: error.to_string() })
+    }
+}
+
 /// Makes a folder to write to, where it is not there.
 ///
 /// # Errors
@@ -103,6 +114,14 @@ fn renamed(
     done
 }
 
+/// What the first signal calls instead of ending this process.
+static INSTEAD: Mutex<Option<Box<dyn FnOnce() + Send>>> = Mutex::new(None);
+
+/// The first SIGINT, SIGTERM or SIGHUP from now on calls `act` and lets this process end by itself; the second ends it.
+pub(crate) fn on_signal(act: impl FnOnce() + Send + 'static) {
+    *INSTEAD.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(act));
+}
+
 /// From now on SIGINT, SIGTERM and SIGHUP remove what is unfinished before they end this process. One that is ignored, as
 /// under `nohup`, stays so.
 #[cfg(unix)]
@@ -113,6 +132,10 @@ pub(crate) fn remove_on_signal() {
     let Ok(mut signals) = signal_hook::iterator::Signals::new(ending) else { return };
     std::thread::spawn(move || {
         for signal in signals.forever() {
+            if let Some(act) = INSTEAD.lock().unwrap_or_else(PoisonError::into_inner).take() {
+                act();
+                continue;
+            }
             let unfinished = unfinished();
             for path in &*unfinished {
                 let _ = fs::remove_file(path);

@@ -10,8 +10,8 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::joint::Delay;
-use super::prediction_error::information::{Information, of_record};
+use super::answer::Delay;
+use super::fit::prediction_error::information::{Information, of_record};
 use crate::experiment::{ExperimentError, Sensor, SimulatedExperiment};
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::domain::{Plain, require};
@@ -23,7 +23,7 @@ use crate::plant::DragAxis;
 ///
 /// ```
 /// use selfosc::experiment::Sensor;
-/// use selfosc::identify::{design::Situation, joint::Delay};
+/// use selfosc::identify::{Delay, design::Situation};
 /// use selfosc::plant::DragAxis;
 /// let axis = DragAxis::quadratic(1.0, 0.5)?.with_delay_s(0.1)?;
 /// let sensor = Sensor { quantum: 0.0175, ..Sensor::default() };
@@ -55,16 +55,16 @@ pub struct Situation {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Deviations {
     /// Of the inertia.
-    #[serde(with = "super::any_float")]
+    #[serde(with = "super::answer::any_float")]
     pub alpha: f64,
     /// Of linear drag beside quadratic drag.
-    #[serde(with = "super::any_float")]
+    #[serde(with = "super::answer::any_float")]
     pub beta: f64,
     /// Of quadratic drag beside linear drag.
-    #[serde(with = "super::any_float")]
+    #[serde(with = "super::answer::any_float")]
     pub beta_quadratic: f64,
     /// Of the delay, in s; zero where it is given.
-    #[serde(with = "super::any_float")]
+    #[serde(with = "super::answer::any_float")]
     pub delay_s: f64,
 }
 

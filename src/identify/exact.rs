@@ -4,9 +4,9 @@
 //! period under either command are known; span, speeds at switching and times are closed forms of it. The ratio of
 //! switching level to amplitude increases with the shape, so one equation in one unknown decides.
 
-use super::IdentifyError;
-use super::error::READ_AGAIN;
+use super::answer::{IdentifyError, READ_AGAIN};
 use super::iso::Oscillation;
+use crate::features::Features;
 use crate::numeric::{Limit, Scalar, domain, increasing_root, minus_tanh};
 use crate::orbit::quadratic_speeds;
 use crate::plant::{DragAxis, OneWay};
@@ -35,6 +35,18 @@ pub struct MeanCycle<T> {
 }
 
 impl<S: Scalar> MeanCycle<S> {
+    /// The means over steady cycles, with the level of the relay and the delay of the loop.
+    pub fn of(features: &Features<S>, relay_level: S, delay_s: S) -> Self {
+        Self {
+            relay_level,
+            switch_level: features.switch_level.mean,
+            amplitude: features.amplitude.mean,
+            time_positive_s: features.time_positive_s.mean,
+            time_negative_s: features.time_negative_s.mean,
+            delay_s,
+        }
+    }
+
     /// The cycle with equal times under both commands, as without a disturbance; the bias is not used.
     pub fn symmetric(oscillation: &Oscillation<S>) -> Self {
         let half_period = oscillation.period_s / S::two();
@@ -76,7 +88,7 @@ impl<S: Scalar> MeanCycle<S> {
     /// [`IdentifyError::OutOfDomain`] where a feature is not a number of the right kind, [`IdentifyError::NoOrbit`] where no
     /// orbit has this ratio of switching level to amplitude, [`IdentifyError::Unresolved`] where rounding hides the drag.
     pub fn linear_drag(&self) -> Result<DragAxis<S>, IdentifyError> {
-        self.invert(|shape, shares| Some(Shape::linear(shape, shares)))
+        self.invert(|shape, shares| Some(OrbitShape::linear(shape, shares)))
     }
 
     /// The axis with quadratic drag that has this limit cycle: alpha, beta_2, disturbance, and the delay given. As
@@ -96,7 +108,7 @@ impl<S: Scalar> MeanCycle<S> {
     /// # Ok::<(), selfosc::identify::IdentifyError>(())
     /// ```
     pub fn quadratic_drag(&self) -> Result<DragAxis<S>, IdentifyError> {
-        self.invert(|shape, [positive, negative]| Shape::quadratic(shape, positive - negative))
+        self.invert(|shape, [positive, negative]| OrbitShape::quadratic(shape, positive - negative))
     }
 
     /// Period T in seconds.
@@ -104,7 +116,7 @@ impl<S: Scalar> MeanCycle<S> {
         self.time_positive_s + self.time_negative_s
     }
 
-    fn invert(&self, shape_of: impl Fn(S, [S; 2]) -> Option<Shape<S>>) -> Result<DragAxis<S>, IdentifyError> {
+    fn invert(&self, shape_of: impl Fn(S, [S; 2]) -> Option<OrbitShape<S>>) -> Result<DragAxis<S>, IdentifyError> {
         let target = self.checked_ratio()?;
         let shares = [self.time_positive_s / self.period_s(), self.time_negative_s / self.period_s()];
         let delay_share = self.delay_s / self.period_s();
@@ -151,7 +163,7 @@ impl<S: Scalar> MeanCycle<S> {
 
 /// An orbit of one drag law in its natural units: command of level one; time and length such that the coefficient of drag
 /// is one too. The first of two is the half cycle with the positive command.
-struct Shape<S> {
+struct OrbitShape<S> {
     /// Coefficients of drag, one and zero or zero and one.
     linear: S,
     quadratic: S,
@@ -167,7 +179,7 @@ struct Shape<S> {
     span: S,
 }
 
-impl<S: Scalar> Shape<S> {
+impl<S: Scalar> OrbitShape<S> {
     /// Linear drag, from `z = beta T/(4 alpha)` and the shares of the period.
     ///
     /// The command's two halves are known, so the motion is a linear response: with `A`, `B` half of each time, over one half

@@ -3,11 +3,11 @@
 //! It takes the oscillation for a sinusoid. The error that this makes depends on the plant and is not in the result; the
 //! exact orbits give it.
 
-use super::IdentifyError;
-use super::error::READ_AGAIN;
+use super::answer::{IdentifyError, READ_AGAIN};
 use crate::describing::{ClosedForm, DescribingFunction};
+use crate::features::Features;
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
-use crate::numeric::{Limit, Real, domain};
+use crate::numeric::{Limit, Real, Scalar, domain};
 
 /// What the method reads off a record: means over its cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +41,34 @@ pub struct Parameters<T> {
     pub disturbance: T,
 }
 
+impl<S: Scalar> Oscillation<S> {
+    /// The means over steady cycles (steps 1 to 3 of the paper's procedure), with the level of the relay and the delay of the
+    /// loop, which a record alone does not show. Condition 40 (step 4) is checked when parameters are asked for (step 5).
+    ///
+    /// ```
+    /// use selfosc::experiment::SimulatedExperiment;
+    /// use selfosc::features::RecordFeatures;
+    /// use selfosc::identify::iso::Oscillation;
+    /// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
+    /// let axis = DragAxis::quadratic(1.0, 0.5)?;
+    /// let record = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 100.0)?.run(60.0)?;
+    /// let found = RecordFeatures::of(&record)?;
+    /// let parameters = Oscillation::of(&found.features, found.relay.level, 0.0).identify()?;
+    /// assert!((parameters.alpha - 1.0).abs() < 0.05);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    pub fn of(features: &Features<S>, relay_level: S, delay_s: S) -> Self {
+        Self {
+            relay_level,
+            switch_level: features.switch_level.mean,
+            amplitude: features.amplitude.mean,
+            bias: features.bias.mean,
+            period_s: features.period_s.mean,
+            delay_s,
+        }
+    }
+}
+
 impl<T: Real> Oscillation<T> {
     /// Angular frequency `w = 2 pi / T` in rad/s.
     pub fn omega_rad_s(&self) -> T {
@@ -57,7 +85,10 @@ impl<T: Real> Oscillation<T> {
         domain::non_negative("delay", self.delay_s, "s")?;
         let relay = RelayHysteresis::new(self.relay_level, self.switch_level, T::zero())?;
         let sweep = Sinusoid::new(self.bias, self.amplitude)?;
-        Ok(relay.describing_function(&sweep)?.delayed(self.omega_rad_s() * self.delay_s))
+        let df = relay.describing_function(&sweep)?.delayed(self.omega_rad_s() * self.delay_s);
+        let sound = |part| domain::representable("describing function with the delay", part, "");
+        [df.f0, df.p, df.q].into_iter().try_for_each(|part| sound(part).map(drop))?;
+        Ok(df)
     }
 
     /// Parameters under each drag law (Table 3 with eq. 34): step 5 of the paper's procedure, after condition 40.

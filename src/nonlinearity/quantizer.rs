@@ -38,11 +38,12 @@ impl<T: Real> PiecewiseLinear for Quantizer<T> {
     }
 
     fn periodic(&self, sweep: &Sinusoid<T>) -> Result<(), NonlinearityError> {
-        let (amplitude, bias) = (sweep.amplitude().bounds().1, sweep.bias().bounds().1);
-        let treads = (amplitude + bias.abs()) / self.step.bounds().0;
+        // In the same arithmetic as the loop over them, which is to end.
+        let treads = ((sweep.amplitude() + sweep.bias().abs()) / self.step).bounds().1;
         if treads <= TREADS {
             return Ok(());
         }
+        let (amplitude, bias) = (sweep.amplitude().bounds().1, sweep.bias().bounds().1);
         Err(NonlinearityError::Treads { amplitude, bias, treads, limit: TREADS })
     }
 }

@@ -160,6 +160,10 @@ pub(crate) fn non_negative<T: Real>(quantity: &'static str, value: T, unit: &'st
     require(quantity, value, unit, Limit::NonNegative, "check its sign and where it comes from")
 }
 
+/// What to do where a result cannot be represented.
+pub(crate) const UNITS: &str =
+    "the result leaves the range of the arithmetic: choose units in which the numbers are nearer to one";
+
 /// A result, where it can be represented: no infinity, and no number that is none. Of an interval one bound may be infinite.
 pub(crate) fn representable<T: Real>(quantity: &'static str, value: T, unit: &'static str) -> Result<T, OutOfDomain> {
     let (lower, upper) = value.bounds();
@@ -167,8 +171,7 @@ pub(crate) fn representable<T: Real>(quantity: &'static str, value: T, unit: &'s
     if number {
         return Ok(value);
     }
-    let remedy = "the result leaves the range of the arithmetic: choose units in which the numbers are nearer to one";
-    Err(OutOfDomain { quantity, value: lower, unit, limit: Limit::Finite, remedy })
+    Err(OutOfDomain { quantity, value: lower, unit, limit: Limit::Finite, remedy: UNITS })
 }
 
 /// Nothing, where both ends of the range are above zero and in order.

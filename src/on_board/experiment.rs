@@ -8,7 +8,8 @@ use crate::numeric::{OutOfDomain, Scalar};
 /// A relay experiment that runs sample by sample.
 ///
 /// Less than 1 KiB in f64, without allocation. Each call takes a bounded time: a fixed number of operations, some two hundred
-/// more where a cycle ends. In f32 let the clock start near zero.
+/// more where a cycle ends. Count time from the start of the experiment: a clock that is too far on for the arithmetic to tell an
+/// eighth of the interval, as in f32 at 100 Hz after four hours, is a fault with the first sample.
 ///
 /// ```
 /// use selfosc::on_board::{Experiment, Phase, Protocol};

@@ -9,8 +9,8 @@ pub enum Fault {
     NotFinite {
         /// Reading, time, or the integral of the readings.
         quantity: &'static str,
-        /// The value.
-        value: f64,
+        /// The value, which is one in f32 as well.
+        value: f32,
     },
     /// A time that is not after the one before.
     #[error("time {time_s} s after {previous_s} s; samples must be in order and each given once")]
@@ -19,6 +19,16 @@ pub enum Fault {
         time_s: f64,
         /// Time of the one before.
         previous_s: f64,
+    },
+    /// A clock too far on for the arithmetic, as the time since power-up in f32 is after hours.
+    #[error(
+        "at {time_s} s no {interval_s} s can be told; give the time in s since the start of the experiment, or use f64"
+    )]
+    CoarseTime {
+        /// Time at which the experiment would be over.
+        time_s: f64,
+        /// Time between samples as planned.
+        interval_s: f64,
     },
     /// No sample for too long.
     #[error("{gap_s} s without a sample, limit {limit_s} s; speed up the loop or plan a longer interval")]
@@ -65,13 +75,13 @@ pub enum Fault {
         /// The limit.
         limit: f64,
     },
-    /// The reading flickers, but goes nowhere.
+    /// The reading flickers, but goes nowhere: for four times the longest half-period before the last, or the patience.
     #[error(
         "the reading stays within {range} for {unchanged_s} s under a relay that drives; check the sensor, the \
          thrusters and the trim"
     )]
     NoMotion {
-        /// Range of the coordinate.
+        /// How far it may be from where it was: half a half-width, or more for a coarse sensor.
         range: f64,
         /// For how long.
         unchanged_s: f64,
@@ -137,6 +147,7 @@ impl Fault {
         match self {
             Self::NotFinite { .. } => "not-finite",
             Self::TimeOrder { .. } => "time-order",
+            Self::CoarseTime { .. } => "coarse-time",
             Self::Gap { .. } => "gap",
             Self::Jump { .. } => "jump",
             Self::Range { .. } => "range",

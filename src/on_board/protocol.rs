@@ -66,7 +66,7 @@ pub struct Protocol<T> {
     /// A reading unchanged for longer is a fault, in s. A sound sensor shows one value while the vehicle turns round within one
     /// step of it, or runs up from rest: allow for that, and stay below `patience_s`.
     pub unchanged_s: T,
-    /// An attempt fails where the relay has not switched for longer, in s.
+    /// An attempt fails where the relay has not switched for longer, in s, or for four times the longest half-period seen.
     pub patience_s: T,
     /// The experiment is broken off after this time, in s.
     pub duration_s: T,

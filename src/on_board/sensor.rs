@@ -19,6 +19,11 @@ impl<T: Scalar> Sensor<T> {
     pub(super) fn first(protocol: &Protocol<T>, reading: T, time_s: T) -> Result<Self, Fault> {
         finite("reading", reading)?;
         finite("time in s", time_s)?;
+        // Two stamps are off by half the spacing of numbers each: the interval between them is to be good to an eighth, to the end.
+        let last_s = time_s.abs() + protocol.duration_s;
+        if !(last_s + protocol.interval_s / T::from_f64(16.0) > last_s) {
+            return Err(coarse_time(last_s, protocol.interval_s));
+        }
         heading(protocol, reading)?;
         let position = match protocol.coordinate {
             Coordinate::Position => reading,
@@ -122,7 +127,11 @@ fn finite<T: Scalar>(quantity: &'static str, value: T) -> Result<(), Fault> {
 // Faults are made aside: they come once, and the way of a sound sample stays short.
 #[cold]
 fn not_finite<T: Scalar>(quantity: &'static str, value: T) -> Fault {
-    Fault::NotFinite { quantity, value: value.value() }
+    Fault::NotFinite { quantity, value: value.value() as f32 }
+}
+#[cold]
+fn coarse_time<T: Scalar>(time_s: T, interval_s: T) -> Fault {
+    Fault::CoarseTime { time_s: time_s.value(), interval_s: interval_s.value() }
 }
 #[cold]
 fn gap<T: Scalar>(gap_s: T, limit_s: T) -> Fault {

@@ -3,8 +3,8 @@
 use super::sensor::Sensor;
 use super::{Fault, Protocol};
 use crate::experiment::RelayState;
-use crate::numeric::OutOfDomain;
-use crate::numeric::Scalar;
+use crate::features::LOST;
+use crate::numeric::{OutOfDomain, Scalar};
 
 /// Where an experiment stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,9 +61,12 @@ enum Failure {
 /// Switchings wanted too early before an attempt is given up for noise. A fast start may want one.
 const MOST_EARLY: u8 = 4;
 
+/// Switchings until a half-period of either sign has ended before the last one.
+const SEEN: u8 = 4;
+
 /// All that decides on what a supervisor does next, its protocol being given; exact in its numbers.
 #[cfg(feature = "std")]
-pub(crate) type Key = (&'static str, [u64; 7], Option<[u64; 4]>, [u8; 5]);
+pub(crate) type Key = (&'static str, [u64; 3], [u64; 7], [u64; 4], [u8; 5]);
 
 /// The experiment but for its cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,15 +74,21 @@ pub(crate) struct Supervisor<T> {
     protocol: Protocol<T>,
     phase: Phase,
     relay: RelayState<T>,
-    /// `None` before the first sample.
-    sensor: Option<Sensor<T>>,
+    /// Of use once there was a sample.
+    sensor: Sensor<T>,
+    begun: bool,
     started_s: T,
     /// Last switching, or beginning of the attempt.
     switched_s: T,
-    /// Whether the relay has ever switched.
-    switched: bool,
-    /// Least and largest position since `switched_s`.
-    extent: (T, T),
+    /// Switchings so far, four for more.
+    switchings: u8,
+    /// Farthest position on the way of the first command, while that lasts.
+    farthest: T,
+    /// Position of the last motion or switching, and time of the last motion: away from there by the way of `moves`.
+    anchor: T,
+    moved_s: T,
+    /// Half-periods: the longest but for the last, and the last; zero before there is one.
+    half_periods_s: (T, T),
     attempt: u8,
     cycles: u8,
     /// Switchings of the attempt after which noise wanted the next one too early, and whether it did after the last.
@@ -90,16 +99,20 @@ pub(crate) struct Supervisor<T> {
 impl<T: Scalar> Supervisor<T> {
     pub(crate) fn new(protocol: Protocol<T>) -> Result<Self, OutOfDomain> {
         let protocol = protocol.checked()?;
-        let relay = protocol.relay(protocol.relay_level, protocol.half_width)?;
+        let (relay, zero) = (protocol.relay(protocol.relay_level, protocol.half_width)?, T::zero());
         Ok(Self {
             protocol,
             phase: Phase::Running,
             relay: RelayState::new(relay, false),
-            sensor: None,
-            started_s: T::zero(),
-            switched_s: T::zero(),
-            switched: false,
-            extent: (T::zero(), T::zero()),
+            sensor: Sensor { time_s: zero, reading: zero, position: zero, changed_s: zero },
+            begun: false,
+            started_s: zero,
+            switched_s: zero,
+            switchings: 0,
+            farthest: zero,
+            anchor: zero,
+            moved_s: zero,
+            half_periods_s: (zero, zero),
             attempt: 1,
             cycles: 0,
             early: 0,
@@ -119,8 +132,8 @@ impl<T: Scalar> Supervisor<T> {
 
     /// The command at a time without a sample.
     pub(crate) fn tick(&mut self, time_s: T) -> Step<T> {
-        if let (Phase::Running, Some(sensor)) = (self.phase, &self.sensor)
-            && let Err(fault) = sensor.age_s(&self.protocol, time_s).and_then(|_| self.in_time(time_s))
+        if (self.phase, self.begun) == (Phase::Running, true)
+            && let Err(fault) = self.sensor.age_s(&self.protocol, time_s).and_then(|_| self.in_time(time_s))
         {
             self.phase = Phase::Failed(fault);
         }
@@ -137,7 +150,7 @@ impl<T: Scalar> Supervisor<T> {
     /// The command that holds now.
     pub(crate) fn command(&self) -> T {
         let protocol = &self.protocol;
-        let driving = self.phase == Phase::Running && self.sensor.is_some();
+        let driving = self.phase == Phase::Running && self.begun;
         let command = if driving { self.relay.output() } else { protocol.neutral_command };
         // The levels lie within the limits up to rounding.
         command.max(protocol.lowest_command).min(protocol.highest_command)
@@ -160,42 +173,35 @@ impl<T: Scalar> Supervisor<T> {
     }
     /// The coordinate that the relay sees, once there was a sample.
     pub(crate) fn position(&self) -> Option<T> {
-        self.sensor.map(|sensor| sensor.position())
+        self.begun.then_some(self.sensor.position())
     }
 
     /// Last switching, or beginning of the attempt, once there was a switching.
     #[cfg(feature = "std")]
     pub(crate) fn switched_s(&self) -> Option<T> {
-        self.switched.then_some(self.switched_s)
+        (self.switchings > 0).then_some(self.switched_s)
     }
-    /// Least and largest position under the first command, while that lasts.
+    /// Farthest position on the way of the first command, while that lasts.
     #[cfg(feature = "std")]
-    pub(crate) fn extent(&self) -> Option<(T, T)> {
-        (!self.switched && self.sensor.is_some()).then_some(self.extent)
+    pub(crate) fn farthest(&self) -> Option<T> {
+        (self.switchings == 0 && self.begun).then_some(self.farthest)
     }
 
     /// The state, for a table of visited ones. Of a fault its name: the numbers in it decide nothing.
     #[cfg(feature = "std")]
     pub(crate) fn key(&self) -> Key {
-        let Self { protocol: _, phase, relay, sensor, started_s, switched_s, switched, extent, .. } = self;
+        let Self { phase, relay, started_s, switched_s, farthest, anchor, moved_s, half_periods_s, .. } = self;
         let phase = match phase {
             Phase::Running => "running",
             Phase::Done => "done",
             Phase::Aborted => "aborted",
             Phase::Failed(fault) => fault.code(),
         };
-        let numbers = [
-            relay.output(),
-            relay.characteristic().level(),
-            relay.characteristic().half_width(),
-            *started_s,
-            *switched_s,
-            extent.0,
-            extent.1,
-        ];
-        let numbers = numbers.map(|value| value.value().to_bits());
-        let counts = [self.attempt, self.cycles, self.early, u8::from(self.hasty), u8::from(*switched)];
-        (phase, numbers, sensor.map(|sensor| sensor.key()), counts)
+        let (bits, (longest_s, last_s)) = (|value: T| value.value().to_bits(), *half_periods_s);
+        let relay = [relay.output(), self.relay_level(), self.half_width()].map(bits);
+        let numbers = [*started_s, *switched_s, *farthest, *anchor, *moved_s, longest_s, last_s].map(bits);
+        let flags = u8::from(self.begun) + 2 * u8::from(self.hasty);
+        (phase, relay, numbers, self.sensor.key(), [self.attempt, self.cycles, self.early, self.switchings, flags])
     }
 
     fn in_time(&self, time_s: T) -> Result<(), Fault> {
@@ -207,24 +213,50 @@ impl<T: Scalar> Supervisor<T> {
     }
 
     /// Whether the vehicle is where it may be.
-    fn in_place(&self, position: T) -> Result<(), Fault> {
+    fn in_place(&mut self, position: T) -> Result<(), Fault> {
         let protocol = &self.protocol;
         let distance = (position - protocol.reference).abs();
         if !(distance <= protocol.largest_excursion) {
             return Err(excursion(distance, protocol.largest_excursion));
         }
-        if self.switched {
+        if self.switchings > 0 {
             return Ok(());
         }
         let high = self.relay.output() > protocol.neutral_command;
-        let moved = if high { self.extent.1 - position } else { position - self.extent.0 };
+        let moved = if high { self.farthest - position } else { position - self.farthest };
+        self.farthest = if moved < T::zero() { position } else { self.farthest };
         let limit = protocol.wrong_way + protocol.resolution;
         if moved <= limit { Ok(()) } else { Err(wrong_way(moved, limit)) }
     }
 
+    /// For how long the relay may not switch and the coordinate not move. A sensor that freezes may end one half-period: the last does
+    /// not count yet. One of either sign has to count, since a disturbance makes them differ.
+    fn patience_s(&self) -> T {
+        let patience_s = self.protocol.patience_s;
+        if self.switchings < SEEN { patience_s } else { patience_s.min(T::from_f64(LOST) * self.half_periods_s.0) }
+    }
+
+    /// Whether this sample shows motion; a fault where none has for too long.
+    fn moves(&mut self, position: T, time_s: T) -> Result<bool, Fault> {
+        let gone = (position - self.anchor).abs();
+        // Sooner decided, for most samples: neither far nor late. The longest half-period is no longer than the patience.
+        if T::two() * gone < self.half_width() && time_s - self.moved_s <= self.half_periods_s.0 {
+            return Ok(false);
+        }
+        // A step of the sensor is no motion. Between two switchings the coordinate goes two half-widths, hence one from any anchor.
+        let (step, half_width) = (T::from_f64(1.5) * self.protocol.resolution, self.half_width());
+        let way = step.max(half_width / T::two()).min(half_width);
+        let moves = gone >= way;
+        if moves {
+            (self.anchor, self.moved_s) = (position, time_s);
+        } else if time_s - self.moved_s > self.patience_s() {
+            return Err(no_motion(way, time_s - self.moved_s));
+        }
+        Ok(moves)
+    }
+
     /// The relay's command at a position; held where the last switching is too near.
     fn switch(&mut self, position: T, time_s: T) -> T {
-        self.extent = (self.extent.0.min(position), self.extent.1.max(position));
         let (before, input) = (self.relay.output(), self.protocol.reference - position);
         if !self.relay.changes(input) {
             return before;
@@ -233,13 +265,18 @@ impl<T: Scalar> Supervisor<T> {
         if relay.step(input) == before {
             return before;
         }
-        if self.switched && time_s - self.switched_s < self.protocol.dwell_s {
+        let half_period_s = time_s - self.switched_s;
+        if self.switchings > 0 && half_period_s < self.protocol.dwell_s {
             self.early = self.early.saturating_add(u8::from(!self.hasty));
             self.hasty = true;
             return before;
         }
-        (self.relay, self.switched, self.hasty) = (relay, true, false);
-        (self.switched_s, self.extent) = (time_s, (position, position));
+        if self.switchings > 0 {
+            let longest_s = self.half_periods_s.0.max(self.half_periods_s.1);
+            self.half_periods_s = (longest_s.min(self.protocol.patience_s), half_period_s);
+        }
+        (self.relay, self.switchings, self.hasty) = (relay, (self.switchings + 1).min(SEEN), false);
+        (self.switched_s, self.anchor) = (time_s, position);
         relay.output()
     }
 
@@ -249,19 +286,18 @@ impl<T: Scalar> Supervisor<T> {
         let sensor = Sensor::first(&self.protocol, reading, time_s)?;
         let position = sensor.position();
         (self.started_s, self.switched_s) = (time_s, time_s);
-        self.extent = (position, position);
+        (self.farthest, self.anchor, self.moved_s) = (position, position, time_s);
         self.relay = RelayState::new(*self.relay.characteristic(), position <= self.protocol.reference);
-        self.sensor = Some(sensor);
+        (self.sensor, self.begun) = (sensor, true);
         Ok(position)
     }
 
     fn run(&mut self, reading: T, time_s: T, observer: &mut impl Observer<T>) -> Result<(), Fault> {
-        let position = match &mut self.sensor {
-            Some(sensor) => sensor.step(&self.protocol, reading, time_s)?,
-            None => self.begin(reading, time_s)?,
-        };
+        let position =
+            if self.begun { self.sensor.step(&self.protocol, reading, time_s)? } else { self.begin(reading, time_s)? };
         self.in_place(position)?;
         self.in_time(time_s)?;
+        let moves = self.moves(position, time_s)?;
         let command = self.switch(position, time_s);
         match observer.sample(&self.protocol, time_s, position, command) {
             _ if self.early >= MOST_EARLY => self.retry(Failure::Noise, time_s, observer),
@@ -277,7 +313,7 @@ impl<T: Scalar> Supervisor<T> {
                 }
                 self.retry(Failure::NotConverged, time_s, observer)
             }
-            Observation::Between if time_s - self.switched_s > self.protocol.patience_s => {
+            Observation::Between if moves && time_s - self.switched_s > self.patience_s() => {
                 self.retry(Failure::NoSwitching, time_s, observer)
             }
             Observation::Between => Ok(()),
@@ -287,17 +323,11 @@ impl<T: Scalar> Supervisor<T> {
     /// The next attempt with other relay parameters, at the output that the relay has; a fault where there is none left.
     ///
     /// A relay that does not switch, or hardly overcomes the disturbance, gets a higher level; at the limit, a narrower
-    /// hysteresis makes the oscillation larger against it. Cycles that differ get a wider one, and so does noise: against noise,
-    /// or a reading that goes nowhere, no level is raised.
+    /// hysteresis makes the oscillation larger against it. Cycles that differ get a wider one, and so does noise: against noise
+    /// no level is raised, and for want of a switching only at a sample that shows motion since the last.
     #[cold]
     fn retry(&mut self, failure: Failure, time_s: T, observer: &mut impl Observer<T>) -> Result<(), Fault> {
-        let range = self.extent.1 - self.extent.0;
-        let still = (T::from_f64(1.5) * self.protocol.resolution).max(self.half_width() / T::two());
         let failure = match failure {
-            Failure::NoSwitching if range <= still => {
-                let unchanged_s = (time_s - self.switched_s).value();
-                return Err(Fault::NoMotion { range: range.value(), unchanged_s });
-            }
             Failure::NoSwitching | Failure::Condition40 if self.early > 0 => Failure::Noise,
             other => other,
         };
@@ -326,9 +356,10 @@ impl<T: Scalar> Supervisor<T> {
         let relay = self.protocol.relay(level, width).map_err(|_| Fault::NotConverged { half_width: width.value() })?;
         self.relay = RelayState::new(relay, high);
         (self.switched_s, self.cycles, self.early, self.hasty) = (time_s, 0, 0, false);
-        if let Some(position) = self.position() {
-            self.extent = (position, position);
-        }
+        self.farthest = self.sensor.position();
+        // Half-periods grow by no more than the half-width does.
+        let (wider, (longest_s, last_s)) = ((width / half_width).max(T::one()), self.half_periods_s);
+        self.half_periods_s = ((wider * longest_s).min(self.protocol.patience_s), wider * last_s);
         self.attempt += 1;
         observer.begin(&self.protocol);
         Ok(())
@@ -342,6 +373,10 @@ fn excursion<T: Scalar>(distance: T, limit: T) -> Fault {
 #[cold]
 fn wrong_way<T: Scalar>(moved: T, limit: T) -> Fault {
     Fault::WrongWay { moved: moved.value(), limit: limit.value() }
+}
+#[cold]
+fn no_motion<T: Scalar>(range: T, unchanged_s: T) -> Fault {
+    Fault::NoMotion { range: range.value(), unchanged_s: unchanged_s.value() }
 }
 #[cold]
 fn overtime<T: Scalar>(duration_s: T) -> Fault {

@@ -125,7 +125,11 @@ pub fn limit_cycle<S: Scalar>(axis: &DragAxis<S>, relay: &RelayHysteresis<S>) ->
         stop_time_s: swing.overshoot.stop_time_s,
         gain: swing.gain,
     };
-    Ok(LimitCycle::between(relay.half_width(), &end(&upward, times[0]), &end(&downward, times[1])))
+    let cycle = LimitCycle::between(relay.half_width(), &end(&upward, times[0]), &end(&downward, times[1]));
+    let positive = [cycle.amplitude, cycle.time_positive_s, cycle.time_negative_s, cycle.period_s];
+    let others = [cycle.bias, cycle.upper_switch.velocity, cycle.lower_switch.velocity, cycle.multiplier];
+    let sound = positive.iter().all(|v| *v > S::zero()) && positive.iter().chain(&others).all(|v| v.is_finite());
+    if sound { Ok(cycle) } else { Err(OrbitError::Unresolved { multiplier: cycle.multiplier.value() }) }
 }
 
 /// The return map of the speed at which x rises past the relay's half-width, one period on.

@@ -203,7 +203,7 @@ fn figure15(table: &PrintedTable) -> Result<(Vec<Recomputation>, Vec<Recomputati
     let total = pairs.len() as f64;
     let (mut bars, mut words) = (vec![("pairs".to_owned(), total, Interval::point(total))], Vec::new());
     for criterion in &CRITERIA {
-        let counts = pairs.counts(criterion, crate::identify::select::pairwise::relative_spread_percent);
+        let counts = pairs.counts(criterion, crate::identify::fit::select::pairwise::relative_spread_percent);
         let (certain, possible) = ranges.count_ranges(criterion);
         let bar = |of: fn(&Counts) -> u32| {
             let range = Interval::from(f64::from(of(&certain))).hull(Interval::from(f64::from(of(&possible))));

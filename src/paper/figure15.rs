@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::PaperError;
 use super::table4::Yaw;
-use crate::identify::select::pairwise::{Decision, decide, relative_spread_percent};
+use crate::identify::fit::select::pairwise::{Decision, decide, relative_spread_percent};
 use crate::numeric::{Interval, Real};
 
 /// A criterion: the margin lambda of eq. 42.

@@ -4,8 +4,9 @@ use serde::Serialize;
 
 use super::PaperError;
 use super::table4::{DELAY_S, PrintedTable, oscillation, values};
-use crate::identify::DragLaw;
-use crate::identify::joint::{Delay, Estimate, FeatureRow, Parameter, fit_rows};
+use crate::identify::answer::AxisParameter;
+use crate::identify::fit::joint::{FeatureRow, fit_rows};
+use crate::identify::{Delay, DragLaw, Estimate};
 
 /// 95 % interval (Student's t).
 type Range = Option<[f64; 2]>;
@@ -59,10 +60,10 @@ fn fitted(rows: &[FeatureRow], law: DragLaw, delay: Delay) -> Result<JointRow, P
         (value * unit, spread.map(|spread| [spread.low * unit, spread.high * unit]))
     };
     // The level is in 1e-2 N m: see Table 4's units.
-    let (alpha, alpha_interval) = scaled(Parameter::Alpha, 100.0);
-    let (beta, beta_interval) = scaled(Parameter::LinearDrag, 100.0);
-    let (beta_quadratic, beta_quadratic_interval) = scaled(Parameter::QuadraticDrag, 1000.0);
-    let (delay_s, delay_interval_s) = scaled(Parameter::DelayS, 1.0);
+    let (alpha, alpha_interval) = scaled(AxisParameter::Alpha, 100.0);
+    let (beta, beta_interval) = scaled(AxisParameter::LinearDrag, 100.0);
+    let (beta_quadratic, beta_quadratic_interval) = scaled(AxisParameter::QuadraticDrag, 1000.0);
+    let (delay_s, delay_interval_s) = scaled(AxisParameter::DelayS, 1.0);
     Ok(JointRow {
         drag: law.name(),
         delay_estimated: delay == Delay::Estimated,

@@ -33,7 +33,7 @@ impl<T: Scalar> Allocation<T, 1, 1> {
     }
 }
 
-impl<T: Scalar> Allocation<T, 2, 2> {
+impl<T: Real> Allocation<T, 2, 2> {
     /// Two parallel thrusters at distances `+-arm_m` from the vehicle's axis (eq. 35): `X = tau_1 + tau_2`,
     /// `N = arm (tau_1 - tau_2)`.
     ///
@@ -47,7 +47,7 @@ impl<T: Scalar> Allocation<T, 2, 2> {
     }
 }
 
-impl<T: Scalar, const AXES: usize, const THRUSTERS: usize> Allocation<T, AXES, THRUSTERS> {
+impl<T: Real, const AXES: usize, const THRUSTERS: usize> Allocation<T, AXES, THRUSTERS> {
     /// The matrix, a row for each axis.
     pub fn matrix(&self) -> &[[T; THRUSTERS]; AXES] {
         &self.matrix

@@ -24,7 +24,7 @@ pub struct BilinearThruster<T> {
 }
 
 /// Eq. 1, for thrust and torque alike.
-fn bilinear<T: Real>([by_rate, by_speed]: [T; 2], rate: T, ambient_speed: T) -> T {
+pub(crate) fn bilinear<T: Real>([by_rate, by_speed]: [T; 2], rate: T, ambient_speed: T) -> T {
     by_rate * rate.abs() * rate - by_speed * rate.abs() * ambient_speed
 }
 

@@ -112,7 +112,7 @@ impl<T: Scalar, const AXES: usize, const THRUSTERS: usize> Compensation<T, AXES,
     /// compensated for.
     ///
     /// # Errors
-    /// Those of [`Self::commands`].
+    /// Those of [`Self::commands`]; [`VehicleError::OutOfDomain`] where a sum of forces overflows.
     pub fn identity_error(
         &self,
         forces: &[T; AXES],
@@ -120,7 +120,9 @@ impl<T: Scalar, const AXES: usize, const THRUSTERS: usize> Compensation<T, AXES,
     ) -> Result<[T; AXES], VehicleError> {
         let delivered = self.delivered(&self.commands(forces)?, actual);
         let bias = self.bias_forces();
-        Ok(core::array::from_fn(|i| delivered[i] - bias[i] - forces[i]))
+        let error = core::array::from_fn(|i| delivered[i] - bias[i] - forces[i]);
+        error.iter().try_for_each(|e| domain::representable("error of the compensation", *e, "N, N m").map(drop))?;
+        Ok(error)
     }
 
     fn each_thruster(

@@ -46,6 +46,8 @@ mod trial;
 
 pub use allocation::Allocation;
 pub use bilinear_thruster::BilinearThruster;
+#[cfg(feature = "std")]
+pub(crate) use bilinear_thruster::bilinear;
 pub use compensation::Compensation;
 #[cfg(feature = "std")]
 pub use dynamics::{Vehicle, VehicleParameters};

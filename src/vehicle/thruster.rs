@@ -30,10 +30,12 @@ impl<T: Scalar> ThrustSide<T> {
         domain::require("largest command", limit, "command units", Limit::Above(dead_zone.value()), remedy)?;
         let side = Self { quadratic, linear, dead_zone, limit };
         domain::finite("thrust at the largest command", side.curve(limit), "N")?;
+        // No less than the square of any slope, each part of it as well: what inverts the curve stays finite.
+        domain::finite("squared slope at the largest command", side.squared_slope(side.curve(limit)), "")?;
         // The slope is linear in the command, so its ends decide.
         let (first, last) = (side.slope(dead_zone), side.slope(limit));
-        let starts_forward = quadratic * dead_zone + linear >= T::zero();
-        if !(starts_forward && first >= T::zero() && last >= T::zero() && first + last > T::zero()) {
+        let forward = quadratic * dead_zone + linear >= T::zero() && side.curve(dead_zone) <= side.curve(limit);
+        if !(forward && first >= T::zero() && last >= T::zero() && first + last > T::zero()) {
             return Err(VehicleError::NotMonotone {
                 dead_zone: dead_zone.value(),
                 limit: limit.value(),
@@ -78,14 +80,18 @@ impl<T: Scalar> ThrustSide<T> {
         T::two() * self.quadratic * command + self.linear
     }
 
+    /// Square of the slope where the curve reaches a thrust.
+    fn squared_slope(&self, thrust: T) -> T {
+        self.linear.square() + T::two() * self.quadratic * (T::two() * thrust)
+    }
+
     fn thrust(&self, magnitude: T) -> T {
         if magnitude < self.dead_zone { T::zero() } else { self.curve(magnitude.min(self.limit)) }
     }
 
     /// The command for a thrust between the smallest and the largest.
     fn command(&self, thrust: T) -> T {
-        let four = T::from_f64(4.0);
-        let root = (self.linear.square() + four * self.quadratic * thrust).max(T::zero()).sqrt();
+        let root = self.squared_slope(thrust).max(T::zero()).sqrt();
         // The form without cancellation for the sign of the linear coefficient.
         let command = if self.linear < T::zero() {
             (root - self.linear) / (T::two() * self.quadratic)

@@ -119,6 +119,59 @@ fn files_list_the_parts_of_the_domain_and_the_steps_by_hand() {
     }
 }
 
+/// Steps that speak of the program, which no proof about real numbers replaces.
+const ABOUT_THE_PROGRAM: [&str; 5] = [
+    "the cases of sign that are proved are all that the code accepts, and limits of them",
+    "the command turns at the samples that the decisions name and at no others",
+    "three outcomes, each with its comparisons, are all there are",
+    "a vehicle is refused unless its inertia is positive definite and its linear drag takes no less than nothing",
+    "solving by Cholesky's factors inverts the inertia",
+];
+
+#[test]
+fn kernel_checked_claims_and_theories_name_each_other() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("spec/formal");
+    let mut marked = BTreeSet::new();
+    for claim in CLAIMS {
+        let Some(checked) = claim.kernel_checked() else {
+            assert_eq!(items(claim, "Checked by a kernel"), [""; 0], "{}", claim.id);
+            continue;
+        };
+        let item = format!("`{}`, `{}`: {}", checked.file, checked.theorem, checked.covers);
+        assert_eq!(items(claim, "Checked by a kernel"), [item], "{}", claim.id);
+        let theory = std::fs::read_to_string(folder.join(checked.file)).unwrap();
+        assert!(theory.contains(&format!("\nTheorem {} ", checked.theorem)), "{}: {}", claim.id, checked.file);
+        assert!(theory.contains(&format!("Print Assumptions {}.", checked.theorem)), "{}", checked.file);
+        if checked.covers == "whole" {
+            assert!(claim.by_hand.iter().all(|step| ABOUT_THE_PROGRAM.contains(step)), "{}", claim.id);
+        }
+        marked.insert(checked.file.to_owned());
+    }
+    let theories: BTreeSet<String> = std::fs::read_dir(&folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name.starts_with("Claim_") && name.ends_with(".v"))
+        .collect();
+    assert_eq!(marked, theories);
+    for table in ["claims.tsv", "claims_b.tsv"] {
+        let rows = std::fs::read_to_string(folder.join(table)).unwrap();
+        for row in rows.lines().filter(|row| !row.starts_with('#')) {
+            let id = row.split('\t').next().unwrap();
+            assert!(Claim::find(id).is_some_and(|claim| claim.kernel_checked().is_some()), "{table}: {id}");
+        }
+    }
+}
+
+#[test]
+fn the_formulas_of_the_theories_are_the_programs() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("spec/formal/Formulas.v");
+    let kept = std::fs::read_to_string(file).unwrap();
+    assert!(
+        kept == selfosc::claims::formulas(),
+        "run `selfosc verify --formulas spec/formal`, then spec/formal/check.sh"
+    );
+}
+
 /// Parts with one side `x` between two ends.
 fn boxes(ends: &[[f64; 2]]) -> ClaimDomain {
     let part = |[from, to]: &[f64; 2]| ClaimPart {

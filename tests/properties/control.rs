@@ -4,6 +4,7 @@ mod controller;
 mod design;
 mod margins;
 mod oracle;
+mod robust;
 mod ultimate;
 mod vehicle;
 mod worst_case;

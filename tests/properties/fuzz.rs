@@ -12,8 +12,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use selfosc::experiment::Columns;
 use selfosc::features::RecordFeatures;
-use selfosc::identify::joint::Delay;
-use selfosc::identify::{DragLaw, Identification, Method, Session, Settings};
+use selfosc::identify::{Delay, DragLaw, Identification, Method, Session, Settings};
 use selfosc::report::identification;
 
 const CORPUS: [&[u8]; 6] = [

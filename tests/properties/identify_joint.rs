@@ -4,9 +4,10 @@ use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64;
+use selfosc::identify::answer::AxisParameter;
+use selfosc::identify::fit::joint::{FeatureRow, fit_rows};
 use selfosc::identify::iso::Oscillation;
-use selfosc::identify::joint::{Delay, FeatureRow, Parameter, fit_rows};
-use selfosc::identify::{DragLaw, IdentifyError};
+use selfosc::identify::{Delay, DragLaw, IdentifyError};
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::orbit::limit_cycle;
 use selfosc::plant::DragAxis;
@@ -14,8 +15,8 @@ use selfosc::plant::DragAxis;
 use crate::tolerance;
 
 const LAWS: [DragLaw; 3] = [DragLaw::Linear, DragLaw::Quadratic, DragLaw::Mixed];
-const PARAMETERS: [Parameter; 4] =
-    [Parameter::Alpha, Parameter::LinearDrag, Parameter::QuadraticDrag, Parameter::DelayS];
+const PARAMETERS: [AxisParameter; 4] =
+    [AxisParameter::Alpha, AxisParameter::LinearDrag, AxisParameter::QuadraticDrag, AxisParameter::DelayS];
 
 /// What is measured in one experiment.
 #[derive(Clone, Copy, Debug)]
@@ -82,7 +83,7 @@ fn table_4_jointly() {
             let joint = fit_rows(&rows, law, delay).unwrap();
             assert_eq!(format!("{:.1}", 100.0 * joint.residual_rms()), rms, "{law:?} {delay:?}");
             if let Some(expected) = delay_s {
-                assert_eq!(format!("{:.2}", joint.estimate(Parameter::DelayS).value), expected, "{law:?}");
+                assert_eq!(format!("{:.2}", joint.estimate(AxisParameter::DelayS).value), expected, "{law:?}");
             }
         }
     }
@@ -205,18 +206,19 @@ fn drag_stays_zero_or_more() {
         let rows = noisy(&axis, &mut random);
         let fit = |law| fit_rows(&rows, law, Delay::KnownS(0.2)).unwrap();
         let (mixed, quadratic) = (fit(DragLaw::Mixed), fit(DragLaw::Quadratic));
-        let linear_drag = mixed.estimate(Parameter::LinearDrag);
+        let linear_drag = mixed.estimate(AxisParameter::LinearDrag);
         if linear_drag.value == 0.0 {
             on_bound += 1;
             assert!(
-                linear_drag.spread.is_none() && mixed.correlation(Parameter::Alpha, Parameter::LinearDrag).is_none()
+                linear_drag.spread.is_none()
+                    && mixed.correlation(AxisParameter::Alpha, AxisParameter::LinearDrag).is_none()
             );
             let ratio = mixed.axis().quadratic_drag() / quadratic.axis().quadratic_drag();
             assert!((ratio - 1.0).abs() < tolerance::JOINT, "{ratio}");
         } else {
             assert!(linear_drag.value > 0.0);
             let squares =
-                |joint: &selfosc::identify::joint::Joint| joint.residuals().iter().map(|r| r * r).sum::<f64>();
+                |joint: &selfosc::identify::fit::joint::Joint| joint.residuals().iter().map(|r| r * r).sum::<f64>();
             assert!(squares(&mixed) <= squares(&quadratic));
         }
     }
@@ -228,10 +230,10 @@ fn drag_stays_zero_or_more() {
 fn delay_and_inertia_are_confounded_and_said_to_be() {
     let rows = rows(&table_4());
     let joint = fit_rows(&rows, DragLaw::Quadratic, Delay::Estimated).unwrap();
-    let correlation = joint.correlation(Parameter::Alpha, Parameter::DelayS).unwrap();
+    let correlation = joint.correlation(AxisParameter::Alpha, AxisParameter::DelayS).unwrap();
     assert!((-1.0..-0.8).contains(&correlation), "{correlation}");
-    assert_eq!(joint.correlation(Parameter::Alpha, Parameter::Alpha), Some(1.0));
-    assert_eq!(joint.correlation(Parameter::Alpha, Parameter::LinearDrag), None);
+    assert_eq!(joint.correlation(AxisParameter::Alpha, AxisParameter::Alpha), Some(1.0));
+    assert_eq!(joint.correlation(AxisParameter::Alpha, AxisParameter::LinearDrag), None);
 }
 
 #[test]

@@ -5,9 +5,9 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 use selfosc::experiment::Record;
-use selfosc::identify::DragLaw;
+use selfosc::identify::answer::AxisParameter;
 use selfosc::identify::fit::{Between, Fit, RecordFit};
-use selfosc::identify::joint::{Delay, Parameter};
+use selfosc::identify::{Delay, DragLaw};
 use selfosc::plant::{DragAxis, State};
 
 use crate::tolerance;
@@ -104,8 +104,8 @@ impl Moved {
     /// Errors of the parameters that the law has: relative, and in standard deviations.
     fn errors(&self, fit: &RecordFit) -> Vec<(f64, f64)> {
         let truth = [self.axis.alpha(), self.axis.linear_drag(), self.axis.quadratic_drag()];
-        let parameters = [Parameter::Alpha, Parameter::LinearDrag, Parameter::QuadraticDrag];
-        let of = |(parameter, truth): (Parameter, f64)| {
+        let parameters = [AxisParameter::Alpha, AxisParameter::LinearDrag, AxisParameter::QuadraticDrag];
+        let of = |(parameter, truth): (AxisParameter, f64)| {
             let estimate = fit.estimate(parameter);
             let miss = estimate.value - truth;
             (miss / truth, estimate.spread.map_or(0.0, |spread| miss / spread.std))

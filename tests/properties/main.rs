@@ -4,7 +4,9 @@
 #![allow(clippy::type_complexity, reason = "oracles are boxed closures")]
 
 mod architecture;
+mod autotune;
 mod balance;
+mod boundary;
 mod cases;
 mod catalogue;
 mod certificate;
@@ -47,6 +49,7 @@ mod sampling;
 mod serialised;
 mod session;
 mod special;
+mod stamps_off;
 mod sweeps;
 mod tolerance;
 mod trust;

@@ -186,6 +186,9 @@ fn every_fault_has_a_name() {
     };
     expect("condition-40", run(Protocol { largest_rate: 1e3, ..protocol() }, calm(), outliers));
     expect("overtime", run(Protocol { duration_s: 21.0, patience_s: 20.5, cycles: 9, ..protocol() }, calm(), plain));
+    let mut late = Experiment::new(protocol()).unwrap();
+    assert!(matches!(late.step(0.0, 1e15).phase, Phase::Failed(fault) if fault.code() == "coarse-time"));
+    found.insert("coarse-time".to_owned());
     for (code, time_s) in [("not-finite", f64::NAN), ("time-order", 0.1), ("time-order", -1.0), ("gap", 9.0)] {
         let mut experiment = Experiment::new(protocol()).unwrap();
         for sample in 0..2 {
@@ -198,6 +201,7 @@ fn every_fault_has_a_name() {
     let all = [
         "not-finite",
         "time-order",
+        "coarse-time",
         "gap",
         "jump",
         "range",
@@ -316,6 +320,73 @@ fn no_sequence_of_samples_leaves_the_limits() {
     let protocol = Protocol { neutral_command: 0.5, cycles: 2, most_cycles: 2, ..protocol() };
     let ends = go(&Experiment::new(protocol).unwrap(), &protocol, 0.0, 6);
     assert!(ends > 10_000, "{ends}");
+}
+
+/// How a heading experiment of 0.02 N m ended whose compass of one degree froze, toggling by that degree: code of the fault, time from
+/// then on in s, largest command, the way of the vehicle from its reference in degrees. The vehicle is of this test, by Euler's rule.
+fn toggling<T: Scalar>(freezes_s: f64) -> (&'static str, f64, f64, f64) {
+    let number = T::from_f64;
+    let plain = Protocol::heading_degrees(number(0.02), number(15.0), number(0.05));
+    let protocol = Protocol { resolution: T::one(), largest_rate: number(90.0), ..plain };
+    let mut experiment = Experiment::new(protocol).unwrap();
+    let (mut heading, mut rate_rad_s, mut held) = (0.0_f64, 0.0_f64, None);
+    let (mut largest, mut farthest) = (0.0_f64, 0.0_f64);
+    for sample in 0..6000 {
+        let time_s = 0.05 * f64::from(sample);
+        let read = (heading + 0.5).floor();
+        let held = if time_s < freezes_s { None } else { Some(*held.get_or_insert(read)) };
+        let reading = held.map_or(read, |at| at + f64::from(sample % 2)) % 360.0;
+        let step = experiment.step(number(reading), number(time_s));
+        if let Phase::Failed(fault) = step.phase {
+            return (fault.code(), time_s - freezes_s, largest, farthest);
+        }
+        let command = step.command.value();
+        largest = largest.max(command.abs());
+        for _ in 0..50 {
+            rate_rad_s += 0.001 * (command - 0.017 * rate_rad_s * rate_rad_s.abs()) / 0.04;
+            heading += 0.001 * rate_rad_s.to_degrees();
+        }
+        farthest = farthest.max(heading.abs());
+    }
+    panic!("no end");
+}
+
+/// A heading that froze raised the level and turned the vehicle by 2570 degrees.
+#[test]
+fn a_toggling_compass_raises_no_level() {
+    let bound = |patience_s: f64| 90.0 + 90.0 * (2.0 * patience_s + 3.0 * 0.05);
+    for tenths in 40..300_u32 {
+        let freezes_s = 0.1 * f64::from(tenths);
+        for (code, after_s, largest, farthest) in [toggling::<f64>(freezes_s), toggling::<f32>(freezes_s)] {
+            assert!(code == "no-motion" && largest <= 0.020_001, "{freezes_s}: {code}, {largest}");
+            // Half-periods are of 3.7 s; three have passed after 13 s.
+            let patience_s = if freezes_s < 13.0 { 20.0 } else { 4.0 * 3.9 };
+            assert!(
+                after_s <= 2.0 * patience_s + 0.2 && farthest <= bound(patience_s),
+                "{freezes_s}: {after_s} s, {farthest}"
+            );
+        }
+    }
+    // Before, 2568 and 2572 degrees.
+    assert!(toggling::<f64>(8.0).3 < 1150.0 && toggling::<f32>(8.0).3 < 1150.0);
+    assert!(toggling::<f64>(20.0).3 < 850.0 && toggling::<f32>(20.0).3 < 850.0);
+}
+
+/// A clock since power-up, three days on: in f32 its numbers are 1/32 s apart.
+#[test]
+fn a_clock_too_far_on_is_refused_with_the_remedy() {
+    let first = |time_s: f32| {
+        let protocol = Protocol::new(Coordinate::Position, 1f32, 0.5, 20.0, 0.01);
+        Experiment::new(protocol).unwrap().step(0.0, time_s).phase
+    };
+    let Phase::Failed(fault) = first(72.0 * 3600.0) else { panic!("not refused") };
+    assert_eq!(fault.code(), "coarse-time");
+    assert!(fault.to_string().contains("since the start of the experiment"), "{fault}");
+    // Numbers from 2^13 s on are 1/1024 s apart, from 2^14 s on 1/512 s: an eighth of the interval lies between. 300 s are to come.
+    assert_eq!(first(16_384.0 - 301.0), Phase::Running);
+    assert!(matches!(first(16_384.0 - 299.0), Phase::Failed(Fault::CoarseTime { .. })));
+    let wide = Protocol::new(Coordinate::Position, 1.0, 0.5, 20.0, 0.01);
+    assert_eq!(Experiment::new(wide).unwrap().step(0.0, 72.0 * 3600.0).phase, Phase::Running);
 }
 
 proptest! {

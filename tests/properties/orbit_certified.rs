@@ -44,7 +44,7 @@ fn certificates_that_say_something_else_are_refused() {
         change(&mut changed);
         changed.check().unwrap_err().code()
     };
-    assert_eq!(refused(|c| c.by_hand.clear()), "other-statement");
+    assert_eq!(refused(|c| c.by_hand.push("as is well known".to_owned())), "other-statement");
     assert_eq!(refused(|c| c.claim = "orbit-linear-disturbed".to_owned()), "other-statement");
     assert_eq!(refused(|c| c.claim = "lemma-1".to_owned()), "malformed-proof");
     assert_eq!(refused(|c| c.inequalities[0].expression = Some("mu".to_owned())), "other-statement");

@@ -1,8 +1,8 @@
 //! What recomputing the paper shows, each with a false variant that does not show it.
 
 use proptest::prelude::*;
+use selfosc::identify::fit::select::pairwise::relative_spread_percent;
 use selfosc::identify::iso::{Oscillation, amplitude_sensitivity};
-use selfosc::identify::select::pairwise::relative_spread_percent;
 use selfosc::numeric::{Expression, Interval, Real};
 use selfosc::paper::audit::{Group, audit};
 use selfosc::paper::consistency::{Consistency, Verdict, consistency};

@@ -3,11 +3,13 @@
 use selfosc::control::{Gains, Structure, Tuning};
 use selfosc::experiment::{Columns, Log, Record, Sensor, SimulatedExperiment};
 use selfosc::features::{Features, RecordFeatures};
+use selfosc::identify::answer::AxisParameter;
+use selfosc::identify::document::RefusalDocument;
 use selfosc::identify::fit::RecordFit;
-use selfosc::identify::joint::{Delay, FeatureRow, Joint, Parameter, fit_rows};
-use selfosc::identify::select::likelihood::Choice;
+use selfosc::identify::fit::joint::{FeatureRow, Joint, fit_rows};
+use selfosc::identify::fit::select::likelihood::Choice;
 use selfosc::identify::{
-    Caution, Conclusion, DragLaw, DragVerdict, Identification, Method, Model, Reason, Refusal, Refused, Reported,
+    Caution, Conclusion, Delay, DragLaw, DragVerdict, Identification, Method, Model, Reason, Refusal, Reported,
     Session, Settings, SettingsError, Stage, Term, Trust, Warning, exact, iso,
 };
 use selfosc::nonlinearity::RelayHysteresis;
@@ -150,7 +152,7 @@ fn a_joint_estimate_comes_back() {
 #[test]
 fn infinite_ratios_come_back() {
     for ratio in [f64::INFINITY, f64::NEG_INFINITY, 2.5] {
-        comes_back::<Warning>(&Warning::MethodsDisagree { parameter: Parameter::LinearDrag, ratio });
+        comes_back::<Warning>(&Warning::MethodsDisagree { parameter: AxisParameter::LinearDrag, ratio });
     }
     let text = serde_json::to_string(&Warning::IllConditioned { ratio: f64::NAN }).unwrap();
     let Warning::IllConditioned { ratio } = serde_json::from_str(&text).unwrap() else { panic!("{text}") };
@@ -189,7 +191,7 @@ fn settings_that_no_method_meets_are_refused() {
     for level in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let refusal = refused(Settings { relay_level: Some(level), ..Settings::default() });
         assert!(refusal.is_usage() && refusal.code() == "out-of-domain", "{refusal}");
-        comes_back::<Refused>(&Refused::from(&refusal));
+        comes_back::<RefusalDocument>(&RefusalDocument::from(&refusal));
     }
     assert!(Session::default().identify().is_err());
     assert!(Session::default().log("absent.csv").unwrap_err().is_usage());

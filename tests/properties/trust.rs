@@ -1,11 +1,13 @@
 //! The reported answer: right where it says so, on records of a simulator that shares no code with it.
 
 use selfosc::experiment::{Record, Sensor, SimulatedExperiment};
+use selfosc::identify::answer::AxisParameter;
 use selfosc::identify::design::{DesignError, Situation};
 use selfosc::identify::fit::Fit;
-use selfosc::identify::joint::{Delay, Estimate, Parameter};
-use selfosc::identify::prediction_error::Estimator;
-use selfosc::identify::{DragLaw, DragVerdict, LawEvidence, Method, Reason, Reported, Session, Settings, Term, Trust};
+use selfosc::identify::fit::prediction_error::Estimator;
+use selfosc::identify::{
+    Delay, DragLaw, DragVerdict, Estimate, LawEvidence, Method, Reason, Reported, Session, Settings, Term, Trust,
+};
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::plant::DragAxis;
 use selfosc_simulator::answer::Answer;
@@ -276,7 +278,7 @@ fn a_proposed_experiment_keeps_its_promise() {
     assert!(proposals.windows(2).all(|pair| pair[0].first.std.alpha <= pair[1].first.std.alpha));
     let found: Vec<f64> = (0..16)
         .map(|seed| record(axis(), best.relay_level, best.half_width, 100 + seed))
-        .map(|record| Fit::new(DragLaw::Mixed, delay).records(&[&record]).unwrap().estimate(Parameter::Alpha).value)
+        .map(|record| Fit::new(DragLaw::Mixed, delay).records(&[&record]).unwrap().estimate(AxisParameter::Alpha).value)
         .collect();
     let mean = found.iter().sum::<f64>() / 16.0;
     let std = (found.iter().map(|alpha| (alpha - mean).powi(2)).sum::<f64>() / 15.0).sqrt();

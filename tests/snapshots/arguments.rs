@@ -3,11 +3,13 @@
 
 use std::ffi::OsString;
 use std::panic::catch_unwind;
+use std::process::{Command, Stdio};
 
-use selfosc::command::answer;
+use assert_cmd::cargo::CommandCargoExt;
+use selfosc::command::{Answer, answer};
 
 /// A call of each subcommand that works, and does little.
-const CALLS: [&str; 14] = [
+const CALLS: [&str; 18] = [
     "predict --alpha 1 --beta 1 --beta-quadratic 0 --delta 0 --delay 0 --relay 1 --half-width 0.2",
     "predict --num 1 --den 1,1 --delay 0 --relay 1,-1 --half-width 0.2 --reference 0 --periods 0.1,10",
     "simulate --alpha 1 --beta 1 --beta-quadratic 0 --delta 0 --delay 0 --relay 1 --half-width 0.2 --cycles 3 --rate 10 --quantum 0 --noise 0 --seed 0",
@@ -18,21 +20,40 @@ const CALLS: [&str; 14] = [
     "balance --num 8 --den 1,2,2,1 --delay 0 --nonlinearity saturation --set breakpoint=1 --bias 0 --svg FOLDER/nyquist.svg",
     "tune --alpha 1 --beta 0.5 --beta-quadratic 0 --bandwidth 0.5 --structure pd --delay 0.1 --step 1 --limit 9 --top-speed 1 --alpha-interval 0.9,1.1 --beta-interval 0.4,0.6 --beta-quadratic-interval 0,0.1 --delay-interval 0,0.2",
     "tune --model FOLDER/model.json --bandwidth 0.5",
+    "tune --alpha 1 --beta 0.5 --delay 0.1 --delta 0.1 --ms 1.5 --format ardusub --full-command 1",
+    "tune --alpha 1 --beta 0.5 --delay 0.1 --phase-margin 45",
     "design --alpha 1 --beta 1 --beta-quadratic 0 --delta 0 --delay 0.1 --level 1 --time 60 --rate 10 --quantum 0.01 --noise 0 --largest-amplitude 9 --proposals 1",
     "identify FOLDER/log.csv --method iso --time time_s --output output --input input --relay 1 --half-width 0.2 --delay 0 --drag linear --time-unit s --neutral 0 --from 0 --to 90 --part 1 --validate FOLDER/log.csv --report FOLDER/report.html",
     "identify FOLDER/log.csv --method bounded --delay 0 --drag linear --error 0.01 --quantum 0.01 --jitter 0 --outliers 0 --budget 1",
+    "autotune FOLDER/log.csv --time time_s --output output --input input --ms 1.6 --pi --derivative-filter 10 --interval 0.05 --from 0 --to 15 --form ideal",
+    "run --coordinate position --relay 1 --half-width 0.2 --interval 0.1 --excursion 1 --reference 0 --neutral 0 --lowest -2 --highest 2 --wrong-way 0.4 --dwell 0.4 --resolution 0 --largest-rate 1 --unchanged 5 --patience 20 --duration 300 --cycles 3 --spread 0.1 --most-cycles 12 --attempts 3 --factor 1.5 --timeout 1 --log FOLDER/run.csv --json FOLDER/run.json",
     "verify --claim lemma-1 --cases 1 --seed 1 --certificates FOLDER/proofs",
 ];
 /// Other options, each with the test that holds it.
-const ELSEWHERE: [&str; 7] = [
+const ELSEWHERE: [&str; 9] = [
     "color",       // an enumeration of the parser's
     "only",        // the same
     "out",         // files.rs
+    "formulas",    // claims.rs
     "check",       // files.rs
     "certificate", // files.rs
+    "log",         // forgeries.rs
     "claim",       // bad_inputs.txt
     "set",         // bad_inputs.txt
 ];
+
+/// The answer of the command; of one that reads lines, as a process whose standard input is empty.
+fn ask(arguments: Vec<OsString>) -> Result<Answer, String> {
+    if arguments[0] != "run" {
+        return answer(arguments).map_err(|failure| failure.text);
+    }
+    let process = Command::cargo_bin("selfosc").unwrap().args(arguments).stdin(Stdio::null()).output().unwrap();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    match process.status.code() {
+        Some(1) => Ok(Answer { text: text(&process.stdout), no: false }),
+        _ => Err(text(&process.stderr)),
+    }
+}
 
 /// Nothing that an option takes for a number, a name or a path.
 fn bad_values() -> Vec<String> {
@@ -130,7 +151,7 @@ fn every_refused_value_is_named_with_its_limit_its_remedy_and_its_flag() {
     let mut seen = std::collections::BTreeMap::new();
     for call in CALLS {
         let call: Vec<String> = call.split(' ').map(|word| word.replace("FOLDER", place)).collect();
-        let plain = answer(&call);
+        let plain = ask(call.iter().map(OsString::from).collect());
         assert!(plain.is_ok(), "{call:?}: {plain:?}");
         let all = options(&call[0]);
         for option in &all {
@@ -147,10 +168,10 @@ fn every_refused_value_is_named_with_its_limit_its_remedy_and_its_flag() {
                 let path = call[at + 1].starts_with(place) && !value.is_empty();
                 let value = if path { format!("{place}/bad/{value}") } else { value };
                 arguments.splice(at..at + 2, [OsString::from(format!("{flag}={value}"))]);
-                let said = match catch_unwind(|| answer(arguments)) {
+                let said = match catch_unwind(|| ask(arguments)) {
                     Ok(Ok(answer)) if !answer.no || answer.text.starts_with("no oscillation") => continue,
                     Ok(Ok(answer)) => answer.text,
-                    Ok(Err(failure)) => failure.text,
+                    Ok(Err(text)) => text,
                     Err(_) => "PANIC".to_owned(),
                 };
                 refused += 1;

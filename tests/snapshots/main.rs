@@ -6,10 +6,12 @@ mod catalogue;
 mod clinic;
 mod command;
 mod files;
+mod forgeries;
 mod identify;
 mod paper;
 mod readme;
 mod refusals;
+mod run;
 
 /// Compares with `golden/<name>.snap`.
 macro_rules! golden {

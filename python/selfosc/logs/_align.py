@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import _arguments
+from .._names import near
 from ..errors import UnreadableLog, UsageError
 
 if TYPE_CHECKING:
@@ -63,6 +65,7 @@ class Channel:
         return replace(self, values=0.5 * math.pi - self.values, frame=frame)
 
 
+@_arguments.named
 def align(
     output: Channel,
     command: Channel,
@@ -98,6 +101,7 @@ def align(
     """
     import pandas as pd
 
+    neutral, scale = _arguments.number(neutral, "neutral"), _arguments.number(scale, "scale")
     for channel in (output, command):
         if len(channel.time_s) == 0:
             raise UnreadableLog(f"{channel.name} has no sample; name a channel that was logged", "no-channel")
@@ -152,26 +156,49 @@ def angles(quaternion: tuple[Any, Any, Any, Any], name: str) -> NDArray[np.float
 
 def split(name: str) -> tuple[str, str]:
     """Topic and field of a channel."""
-    topic, dot, field = name.partition(".")
+    topic, dot, field = name.partition(".") if isinstance(name, str) else ("", "", "")
     if not (topic and dot and field):
-        raise UsageError(f"{name!r} is no channel; write it as topic.field")
+        raise UsageError(f"{_arguments.shown(name)} is no channel; write it as topic.field")
     return topic, field
+
+
+def instance(topic: str) -> tuple[str, int | None]:
+    """A topic without its instance, and the instance: ``topic[1]``."""
+    base, bracket, number = topic.partition("[")
+    if not bracket:
+        return topic, None
+    digits = number.removesuffix("]")
+    if not (base and number.endswith("]") and digits.isascii() and digits.isdecimal() and len(digits) < 10):
+        raise UsageError(f"{_arguments.shown(topic)} is no topic; write an instance as topic[1]")
+    return base, int(digits)
+
+
+def numbers(values: Any, name: str) -> NDArray[np.float64]:
+    """What was logged, as floats."""
+    try:
+        return _arguments.floats(values)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise UnreadableLog(f"{name} holds no numbers ({_arguments.cut(error)}); name a channel that does", "no-channel") from error
 
 
 def unknown(kind: str, name: str, known: list[str]) -> UnreadableLog:
     """The refusal of a topic or field that is not there."""
     shown = ", ".join(known[:40]) + (", ..." if len(known) > 40 else "")
-    return UnreadableLog(f"no {kind} {name}; there are: {shown or 'none'}", "no-channel")
+    nearest = near(name, known)
+    meant = f"did you mean {nearest}? " if nearest else ""
+    return UnreadableLog(f"no {kind} {name}; {meant}there are: {shown or 'none'}", "no-channel")
 
 
 def damaged(path: Any, kind: str, reason: object) -> UnreadableLog:
     """The refusal of a file that is not what its name says, or not all of it."""
-    return UnreadableLog(f"{path} is damaged or no {kind}: {reason}; copy it from the vehicle again", "damaged")
+    text = f"{path} is damaged or no {kind}: {reason}; copy it from the vehicle again"
+    return UnreadableLog(_arguments.in_text(text), "damaged")
 
 
 def missing(path: Any, error: OSError) -> UnreadableLog:
     """The refusal of a path."""
-    return UnreadableLog(f"cannot read {path}: {error.strerror or error}; give the path of a log that you may read", "unreadable")
+    text = f"cannot read {path}: {error.strerror or error}; give the path of a log that you may read"
+    return UnreadableLog(_arguments.in_text(text), "unreadable")
 
 
 def required(module: Callable[[], Any], extra: str) -> Any:
@@ -209,7 +236,10 @@ def _of_messages(time_s: NDArray[np.float64], messages: list[Any], name: str, pa
 
     found = [value(message) for message in messages]
     if angle:
-        w, x, y, z = ([getattr(q, part) for q in found] for part in "wxyz")
+        try:
+            w, x, y, z = ([getattr(q, part) for q in found] for part in "wxyz")
+        except AttributeError as error:
+            raise unknown("field", f"{angle} of {name}, which is no quaternion", []) from error
         values = angles((w, x, y, z), angle)
         return Channel(name, time_s, values, "rad", "ENU")
-    return Channel(name, time_s, np.asarray(found, dtype=float))
+    return Channel(name, time_s, numbers(found, name))

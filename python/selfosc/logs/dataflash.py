@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._align import Channel, align, damaged, missing, required, split, unknown
+from .. import _arguments
+from ._align import Channel, align, damaged, instance, missing, numbers, required, split, unknown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -20,7 +21,8 @@ _TAIL = 528
 _DEGREES = {("ATT", "Roll"), ("ATT", "Pitch"), ("ATT", "Yaw"), ("ATT", "DesRoll"), ("ATT", "DesPitch"), ("ATT", "DesYaw")}
 
 
-def read_dataflash(path: str | os.PathLike[str], output: str, command: str, **how: Any) -> pd.DataFrame:
+@_arguments.named
+def read_dataflash(path: str | bytes | os.PathLike[str], output: str, command: str, **how: Any) -> pd.DataFrame:
     """Two channels of an ArduPilot log on one clock.
 
     Parameters
@@ -45,6 +47,8 @@ def read_dataflash(path: str | os.PathLike[str], output: str, command: str, **ho
         cut off at the end is left out.
     """
     reader = required(lambda: __import__("pymavlink.DFReader", fromlist=["DFReader"]), "dataflash")
+    path = _arguments.path(path)
+    _arguments.check(align, how)
     try:
         with open(path, "rb") as file:
             head = file.read(2)
@@ -53,7 +57,7 @@ def read_dataflash(path: str | os.PathLike[str], output: str, command: str, **ho
     if head != b"\xa3\x95":
         raise damaged(path, "dataflash log", "it does not begin with a message")
     try:
-        log = reader.DFReader_binary(os.fspath(path), zero_time_base=True)
+        log = reader.DFReader_binary(path, zero_time_base=True)
     except Exception as error:  # pymavlink raises what its parsing comes to
         raise damaged(path, "dataflash log", error) from error
     try:
@@ -78,20 +82,23 @@ def _refuse_gaps(path: Any, log: Any) -> None:
 
 def _channel(log: Any, name: str) -> Channel:
     topic, field = split(name)
-    base, _, instance = topic.partition("[")
+    base, number = instance(topic)
     kind = log.name_to_id.get(base)
     if kind is None:
         raise unknown("message", base, sorted(log.name_to_id))
     form = log.formats[kind]
     if field not in form.columns or "TimeUS" not in form.columns:
         raise unknown("field", f"{field} with a time", [one for one in form.columns if one != "TimeUS"])
+    by = form.instance_field or "I"
+    if number is not None and by not in form.columns:
+        raise unknown("instance", topic, [base])
     log.rewind()
     stamps, values = [], []
     while (message := log.recv_match(type=base)) is not None:
-        if instance and int(getattr(message, form.instance_field or "I")) != int(instance[:-1]):
+        if number is not None and int(getattr(message, by)) != number:
             continue
         stamps.append(message.TimeUS * 1e-6)
         values.append(getattr(message, field))
     unit = form.get_unit(field) or ("deg" if (base, field) in _DEGREES else "")
     frame = "NED" if (base, field) in _DEGREES else ""
-    return Channel(name, np.asarray(stamps, dtype=float), np.asarray(values, dtype=float), unit, frame)
+    return Channel(name, np.asarray(stamps, dtype=float), numbers(values, name), unit, frame)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
-from ..errors import SelfoscError, UsageError
+from .. import _arguments
+from ..errors import SelfoscError
 from ._align import align, damaged, missing, of_topics, required, split, unknown
 
 if TYPE_CHECKING:
@@ -13,8 +14,11 @@ if TYPE_CHECKING:
 
 __all__ = ["read_mcap"]
 
+Stamp = Literal["header", "log"]
 
-def read_mcap(path: str | os.PathLike[str], output: str, command: str, *, stamp: str = "header", **how: Any) -> pd.DataFrame:
+
+@_arguments.named
+def read_mcap(path: str | bytes | os.PathLike[str], output: str, command: str, *, stamp: Stamp = "header", **how: Any) -> pd.DataFrame:
     """Two channels of an MCAP file on one clock.
 
     Parameters
@@ -41,8 +45,9 @@ def read_mcap(path: str | os.PathLike[str], output: str, command: str, *, stamp:
     """
     reading = required(lambda: __import__("mcap.reader", fromlist=["reader"]), "mcap")
     decoding = required(lambda: __import__("mcap_ros2.decoder", fromlist=["decoder"]), "mcap")
-    if stamp not in ("header", "log"):
-        raise UsageError(f'stamp is {stamp!r}: must be "header" or "log"')
+    _arguments.choice(stamp, "stamp", Stamp)
+    path = _arguments.path(path)
+    _arguments.check(align, how)
     names = (output, command)
     topics = {split(name)[0] for name in names}
     stamps: dict[str, list[int]] = {topic: [] for topic in topics}

@@ -6,9 +6,10 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import SelfoscError, UsageError
+from .. import _arguments
+from ..errors import SelfoscError
 from ._align import align, damaged, missing, of_topics, required, split, unknown
-from .mcap import stamp_ns
+from .mcap import Stamp, stamp_ns
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -16,7 +17,10 @@ if TYPE_CHECKING:
 __all__ = ["read_rosbag"]
 
 
-def read_rosbag(path: str | os.PathLike[str], output: str, command: str, *, stamp: str = "header", **how: Any) -> pd.DataFrame:
+@_arguments.named
+def read_rosbag(
+    path: str | bytes | os.PathLike[str], output: str, command: str, *, stamp: Stamp = "header", **how: Any
+) -> pd.DataFrame:
     """Two channels of a bag on one clock.
 
     Parameters
@@ -38,8 +42,9 @@ def read_rosbag(path: str | os.PathLike[str], output: str, command: str, *, stam
     """
     reading = required(lambda: __import__("rosbags.highlevel", fromlist=["highlevel"]), "rosbag")
     types = required(lambda: __import__("rosbags.typesys", fromlist=["typesys"]), "rosbag")
-    if stamp not in ("header", "log"):
-        raise UsageError(f'stamp is {stamp!r}: must be "header" or "log"')
+    _arguments.choice(stamp, "stamp", Stamp)
+    path = _arguments.path(path)
+    _arguments.check(align, how)
     names = (output, command)
     topics = {split(name)[0] for name in names}
     stamps: dict[str, list[int]] = {topic: [] for topic in topics}

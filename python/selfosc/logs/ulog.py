@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._align import Channel, align, angles, damaged, missing, required, split, unknown
+from .. import _arguments
+from ._align import Channel, align, angles, damaged, instance, missing, numbers, required, split, unknown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -20,7 +21,8 @@ _HEADER, _TYPES = 16, frozenset(b"BFIMPQARDLCSO")
 _SHORT = 528
 
 
-def read_ulog(path: str | os.PathLike[str], output: str, command: str, **how: Any) -> pd.DataFrame:
+@_arguments.named
+def read_ulog(path: str | bytes | os.PathLike[str], output: str, command: str, **how: Any) -> pd.DataFrame:
     """Two channels of a PX4 log on one clock.
 
     Parameters
@@ -45,8 +47,10 @@ def read_ulog(path: str | os.PathLike[str], output: str, command: str, **how: An
         there. What power cut off at the end is left out. ULog has no checksums: a number changed in place goes unseen.
     """
     core = required(lambda: __import__("pyulog.core", fromlist=["core"]), "ulog")
+    path = _arguments.path(path)
+    _arguments.check(align, how)
     try:
-        log = core.ULog(os.fspath(path))
+        log = core.ULog(path)
     except OSError as error:
         raise missing(path, error) from error
     except Exception as error:  # pyulog raises what its parsing comes to
@@ -78,15 +82,14 @@ def _refuse_gaps(path: Any) -> None:
 
 def _channel(log: Any, name: str) -> Channel:
     topic, field = split(name)
-    base, _, instance = topic.partition("[")
-    number = int(instance[:-1]) if instance else 0
-    found = next((one for one in log.data_list if (one.name, one.multi_id) == (base, number)), None)
+    base, number = instance(topic)
+    found = next((one for one in log.data_list if (one.name, one.multi_id) == (base, number or 0)), None)
     if found is None:
         raise unknown("topic", topic, sorted({one.name for one in log.data_list}))
     time_s = found.data["timestamp"].astype(float) * 1e-6
     if field in found.data:
         heading = field in ("heading", "yaw")
-        return Channel(name, time_s, found.data[field].astype(float), "rad" if heading else "", "NED")
+        return Channel(name, time_s, numbers(found.data[field], name), "rad" if heading else "", "NED")
     if field in ("roll", "pitch", "yaw") and "q[0]" in found.data:
         quaternion = tuple(found.data[f"q[{part}]"] for part in range(4))
         return Channel(name, time_s, np.asarray(angles(quaternion, field)), "rad", "NED")

@@ -29,9 +29,7 @@ claim! {
     "the gains of a design give the closed loop the double pole and the slow pole that the bandwidth asks for"
     {
         domain: &[POLE_PLACEMENT_WHOLE],
-        by_hand: &[
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
+        by_hand: &["the cases of sign that are proved are all that the code accepts, and limits of them"],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| poles(budget, 0.0, Tuning::double_pole_rad_s)),
         // The bandwidth taken for the pole.

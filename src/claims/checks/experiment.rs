@@ -95,10 +95,6 @@ claim! {
     "In heave weight less buoyancy acts as the disturbance: with linear drag the switching times give tau_ZE + W - B"
     {
         domain: &[HEAVE_WHOLE],
-        by_hand: &[
-            "the steps of uncoupled-axis",
-            "over one period inertia and linear drag have mean zero, so that command and disturbance have",
-        ],
         proof: Some(prove_heave),
         printed: AsPrinted::Holds(|budget| heave(budget, 1.0, &Heave::ASSUMED)),
         corrected: None,

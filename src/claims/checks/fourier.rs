@@ -29,9 +29,6 @@ claim! {
     FOURIER_COEFFICIENTS = "fourier-coefficients" "7-11" Definition
     "The mean and first harmonic of eq. 10 leave the least mean square of the output" {
         domain: &[FOURIER_COEFFICIENTS_WHOLE],
-        by_hand: &[
-            "one, sine and cosine are orthogonal over a turn with mean squares 1, 1/2, 1/2",
-        ],
         printed: AsPrinted::Holds(|budget| least_square(budget, 1.0)),
         corrected: None,
         // Halved coefficients, as from 1/(2 pi) in place of 1/pi.
@@ -83,11 +80,6 @@ claim! {
     DESCRIBING_FUNCTION = "describing-function" "12-15" Definition
     "P and Q are the first-harmonic coefficients over the amplitude, F_0 the mean: closed form and integral agree" {
         domain: &[BREAKPOINT, DECOMPOSITION, SCALING, BEYOND],
-        by_hand: &[
-            "integrals of the output are linear in it, and scale and turn as the closed forms are shown to",
-            "a polyline of more than four points, a sweep over more treads of a quantizer: a kernel more for each",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
         printed: AsPrinted::Holds(|budget| closed_is_integral(budget, 1.0)),
         corrected: None,
         falsified: |budget| closed_is_integral(budget, 1.000_01),
@@ -127,10 +119,6 @@ claim! {
                 const { &[ClaimVariable::number("bias/amplitude", f64::NEG_INFINITY, f64::INFINITY)] },
             ),
         ],
-        by_hand: &[
-            "every amplitude by homogeneity",
-            "the mean over twelve angles is the mean over the circle for degrees below twelve",
-        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| polynomial_is_integral(budget, 1.0)),
         falsified: |budget| polynomial_is_integral(budget, 1.000_01),
@@ -166,10 +154,6 @@ claim! {
     ODD_HARMONICS = "odd-harmonics" "Theorem 1" Theorem
     "An odd characteristic without memory under an unbiased sinusoid gives odd harmonics only" {
         domain: &[ODD_HARMONICS_WHOLE],
-        by_hand: &[
-            "a coefficient is the sum over half a turn of what an angle and the one half a turn on contribute",
-            "the orders zero and one are what half a turn makes of 1, cosine and sine; the step from two orders to the next proves all others",
-        ],
         printed: AsPrinted::Holds(|budget| even_vanish(budget, odd_nondecreasing, unbiased)),
         corrected: None,
         falsified: |budget| even_vanish(budget, not_odd, unbiased),
@@ -191,10 +175,6 @@ claim! {
     ODD_HARMONICS_HYSTERETIC = "odd-harmonics-hysteretic" "Theorem 1, with memory" Theorem
     "Theorem 1 holds with memory when each branch is the other turned about the origin" {
         domain: &[ODD_HARMONICS_HYSTERETIC_WHOLE],
-        by_hand: &[
-            "a coefficient is the sum over half a turn of what an angle and the one half a turn on contribute",
-            "the orders zero and one are what half a turn makes of 1, cosine and sine; the step from two orders to the next proves all others",
-        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| even_vanish(budget, odd_hysteretic, unbiased)),
         falsified: |budget| even_vanish(budget, not_odd, unbiased),
@@ -230,7 +210,6 @@ claim! {
     SINE_ABS_SINE = "sine-abs-sine" "before 29" Identity
     "The first harmonic of sin abs(sin) is 8/(3 pi) sin; the next is the third, -8/(15 pi)" {
         domain: &[EVERY_AMPLITUDE],
-        by_hand: &["every amplitude by homogeneity of degree two"],
         printed: AsPrinted::Holds(|budget| sine_abs_sine(budget, 8.0 / (3.0 * PI))),
         corrected: None,
         falsified: |budget| sine_abs_sine(budget, 0.85),

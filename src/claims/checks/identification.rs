@@ -14,8 +14,8 @@ use super::{
     AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Evidence, Verdict, claim, sample, tolerance,
 };
 use crate::describing::{DescribingFunction, by_quadrature};
+use crate::identify::fit::select::pairwise::{Decision, decide, relative_spread_percent};
 use crate::identify::iso::{Oscillation, parameters};
-use crate::identify::select::pairwise::{Decision, decide, relative_spread_percent};
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
 
 /// Features of an oscillation that meets condition 40, with room to differentiate.
@@ -41,10 +41,6 @@ claim! {
                 "every C, X, w > 0 with x_a + abs(x_0) <= X",
                 const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
             ),
-        ],
-        by_hand: &[
-            "level, amplitude and frequency are set to one by homogeneity",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
         ],
         printed: AsPrinted::Holds(|budget| table_3(budget, 1.5)),
         corrected: None,
@@ -94,7 +90,6 @@ claim! {
             ),
             ClaimPart::whole("delays-add", "two delays in turn are their sum"),
         ],
-        by_hand: &["every P and Q by linearity", "phases beyond one turn repeat"],
         printed: AsPrinted::Holds(|budget| rotation(budget, -1.0)),
         corrected: None,
         falsified: |budget| rotation(budget, 1.0),
@@ -137,9 +132,6 @@ claim! {
                 const { &[ClaimVariable::number("v_2/v_1", 0.0, f64::INFINITY)] },
             ),
         ],
-        by_hand: &[
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
         printed: AsPrinted::Holds(|budget| spread(budget, 1.0)),
         corrected: None,
         // Over n in place of n - 1.
@@ -166,9 +158,7 @@ claim! {
     DRAG_DECISION = "drag-decision" "42" Definition
     "The drag law is the one whose coefficient spreads less, by more than the margin" {
         domain: &[DRAG_DECISION_WHOLE],
-        by_hand: &[
-            "three outcomes, each with its comparisons, are all there are",
-        ],
+        by_hand: &["three outcomes, each with its comparisons, are all there are"],
         printed: AsPrinted::Holds(|budget| decision(budget, decide)),
         corrected: None,
         // The paper's two names of the laws exchanged.

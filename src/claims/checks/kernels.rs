@@ -51,11 +51,6 @@ claim! {
     KERNEL_STEP = "kernel-step" "10" Identity
     "Mean, sine and cosine component of a step are acos(u)/(2 pi), sqrt(1 - u^2)/pi and (1 - u)/pi on a branch" {
         domain: &[BREAKPOINT],
-        by_hand: &[
-            "height and amplitude are set to one by linearity and homogeneity",
-            "the sides and branches follow from one by reflection",
-            "the derivative of each integral by the angle of the breakpoint is the weighted kernel at the moving end and the integral of its change (Leibniz)",
-        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| closed_is_integral(budget, STEP, 1.0)),
         falsified: |budget| closed_is_integral(budget, STEP, 1.000_01),
@@ -69,11 +64,6 @@ claim! {
     KERNEL_RAMP = "kernel-ramp" "10" Identity
     "Mean, sine and cosine component of a ramp are the closed forms in u for every breakpoint" {
         domain: &[BREAKPOINT],
-        by_hand: &[
-            "height and amplitude are set to one by linearity and homogeneity",
-            "the sides and branches follow from one by reflection",
-            "the derivative of each integral by the angle of the breakpoint is the weighted kernel at the moving end and the integral of its change (Leibniz)",
-        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| closed_is_integral(budget, RAMP, 1.0)),
         falsified: |budget| closed_is_integral(budget, RAMP, 1.000_01),
@@ -87,11 +77,6 @@ claim! {
     KERNEL_SIGN = "kernel-sign" "10" Identity
     "Mean, sine and cosine component of a sign are -asin(u)/pi, 2 sqrt(1 - u^2)/pi and -2 u/pi on a branch" {
         domain: &[BREAKPOINT],
-        by_hand: &[
-            "height and amplitude are set to one by linearity and homogeneity",
-            "the sides and branches follow from one by reflection",
-            "the derivative of each integral by the angle of the breakpoint is the weighted kernel at the moving end and the integral of its change (Leibniz)",
-        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| closed_is_integral(budget, SIGN, 1.0)),
         falsified: |budget| closed_is_integral(budget, SIGN, 1.000_01),
@@ -111,13 +96,6 @@ claim! {
                 "the sum over both ends as the code rearranges it, wherever they are",
                 const { &[ClaimVariable::number("u_lower", f64::NEG_INFINITY, f64::INFINITY), ClaimVariable::number("u_upper", f64::NEG_INFINITY, f64::INFINITY)] },
             ),
-        ],
-        by_hand: &[
-            "height and amplitude are set to one by linearity and homogeneity",
-            "the sides and branches follow from one by reflection",
-            "the derivative of each integral by the angle of the breakpoint is the weighted kernel at the moving end and the integral of its change (Leibniz)",
-            "an angle below a quarter turn is the inverse tangent of its tangent",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
         ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| closed_is_integral(budget, BAND, 1.0)),

@@ -12,8 +12,11 @@ const POSITION: ClaimPart =
 const HEADING: ClaimPart =
     ClaimPart::whole("headings", "the machine on the lattice of headings 0 to 300 degrees in steps of 60");
 const SPEED: ClaimPart = ClaimPart::whole("speeds", "the machine on the lattice of speeds -1, 0, 1");
-/// The lattices of [`Lattice::all`]: readings and times off them are not spoken of.
+const COARSE: ClaimPart =
+    ClaimPart::whole("coarse", "the machine on the lattice of positions -2, 1 and 2 with a resolution of 1, for 10 s");
+/// The first lattices of [`Lattice::all`], and all of them: readings and times off them are not spoken of.
 pub(super) const LATTICES: &[ClaimPart] = &[POSITION, HEADING, SPEED];
+pub(super) const WITH_COARSE: &[ClaimPart] = &[POSITION, HEADING, SPEED, COARSE];
 
 /// A finite world: an experiment, and the samples that may come.
 pub(super) struct Lattice {
@@ -53,12 +56,16 @@ impl Lattice {
         Self { part, protocol, readings }
     }
 
-    /// One for each kind of coordinate. All numbers are whole or halves: sums are exact.
-    pub(super) fn all() -> [Self; 3] {
+    /// One for each kind of coordinate, and one that sees half-periods. All numbers are whole or halves: sums are exact.
+    pub(super) fn all() -> [Self; 4] {
+        let Self { part, protocol, readings } = Self::of(COARSE, Coordinate::Position, 2.0, &[-2.0, 1.0, 2.0]);
+        let protocol = Protocol { dwell_s: 1.0, patience_s: 5.0, duration_s: 10.0, attempts: 2, ..protocol };
+        let protocol = Protocol { resolution: 1.0, largest_rate: 3.0, ..protocol };
         [
             Self::of(POSITION, Coordinate::Position, 1.0, &[-2.0, -1.0, 0.0, 1.0, 2.0]),
             Self::of(HEADING, Coordinate::HeadingDegrees, 60.0, &[0.0, 60.0, 120.0, 180.0, 240.0, 300.0]),
             Self::of(SPEED, Coordinate::Speed, 1.0, &[-1.0, 0.0, 1.0]),
+            Self { part, protocol, readings },
         ]
     }
 }
@@ -94,6 +101,34 @@ pub(super) enum Defect {
     Forgives,
     /// Goes on wherever the coordinate is.
     Boundless,
+    /// Raises the level where the relay has not switched for its patience, whatever the readings.
+    Restless,
+}
+
+/// The motion as whoever stands beside sees it, while the machine runs.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Motion {
+    /// Position from which there is a way to go, and when that was gone last.
+    anchor: f64,
+    moved_s: f64,
+    switched_s: Option<f64>,
+    /// How many half-periods have ended; the longest but for the last, and the last.
+    ended: u8,
+    longest_s: f64,
+    last_s: f64,
+}
+
+impl Motion {
+    /// Half a half-width, or more than a step of the sensor: whether a position is so far away.
+    pub(super) fn gone(&self, protocol: &Protocol<f64>, half_width: f64, position: f64) -> bool {
+        (position - self.anchor).abs() >= half_width.min(1.5 * protocol.resolution.max(half_width / 3.0))
+    }
+
+    /// Whether there has been none at a time for longer than the machine may wait.
+    pub(super) fn still(&self, protocol: &Protocol<f64>, time_s: f64) -> bool {
+        let patience_s = if self.ended < 3 { f64::INFINITY } else { 4.0 * self.longest_s };
+        time_s - self.moved_s > protocol.patience_s.min(patience_s)
+    }
 }
 
 /// The machine under its clock.
@@ -107,6 +142,7 @@ pub(super) struct Machine {
     pub(super) time_s: f64,
     /// Last reading and since when it has been the same, once there was one.
     pub(super) seen: Option<(f64, f64)>,
+    pub(super) motion: Motion,
 }
 
 /// An observer that says what it is told to.
@@ -126,7 +162,8 @@ impl Machine {
             _ => lattice.protocol,
         };
         let supervisor = Supervisor::new(protocol).ok()?;
-        Some(Self { supervisor, defect, command: supervisor.command(), time_s: 0.0, seen: None })
+        let (command, motion) = (supervisor.command(), Motion::default());
+        Some(Self { supervisor, defect, command, time_s: 0.0, seen: None, motion })
     }
 
     pub(super) fn phase(&self) -> Phase {
@@ -141,8 +178,12 @@ impl Machine {
     pub(super) fn switched_s(&self) -> Option<f64> {
         self.supervisor.switched_s()
     }
-    pub(super) fn extent(&self) -> Option<(f64, f64)> {
-        self.supervisor.extent()
+    pub(super) fn farthest(&self) -> Option<f64> {
+        self.supervisor.farthest()
+    }
+    fn key(&self) -> (Key, [u64; 4]) {
+        let Motion { anchor, moved_s, longest_s, last_s, .. } = self.motion;
+        (self.supervisor.key(), [anchor, moved_s, longest_s, last_s].map(f64::to_bits))
     }
     pub(super) fn running(&self) -> bool {
         self.phase() == Phase::Running
@@ -162,6 +203,7 @@ impl Machine {
             Event::Sample { reading, interval_s, observation } => {
                 // A first sample has none before it.
                 self.time_s = if self.seen.is_some() { self.time_s + interval_s } else { 0.0 };
+                let before = self.supervisor;
                 let _ = self.supervisor.step(reading, self.time_s, &mut Says(observation));
                 let over = matches!(self.phase(), Phase::Failed(fault) if fault.code() == "overtime");
                 let forgiven = self.defect == Defect::Forgives && matches!(self.phase(), Phase::Failed(_));
@@ -172,11 +214,32 @@ impl Machine {
                     let _ = self.supervisor.step(reading, self.time_s, &mut Says(observation));
                 }
                 let since = self.seen.filter(|(before, _)| *before == reading).map_or(self.time_s, |(_, since)| since);
+                self.follow(&before);
                 self.seen = Some((reading, since));
             }
         }
         self.command = self.answer();
         self
+    }
+
+    /// Follows the motion over a step.
+    fn follow(&mut self, before: &Supervisor<f64>) {
+        let Some(position) = self.position().filter(|_| self.running()) else { return };
+        let (protocol, time_s, motion) = (self.supervisor.protocol(), self.time_s, &mut self.motion);
+        let high = |supervisor: &Supervisor<f64>| supervisor.command() > protocol.neutral_command;
+        if self.seen.is_none() || motion.gone(protocol, before.half_width(), position) {
+            (motion.anchor, motion.moved_s) = (position, time_s);
+        }
+        if self.seen.is_some() && high(before) != high(&self.supervisor) {
+            if let Some(since_s) = motion.switched_s {
+                (motion.longest_s, motion.last_s) = (motion.longest_s.max(motion.last_s), time_s - since_s);
+                motion.ended = (motion.ended + 1).min(3);
+            }
+            (motion.switched_s, motion.anchor) = (Some(time_s), position);
+        }
+        // A wider relay is waited for in proportion.
+        let wider = (self.supervisor.half_width() / before.half_width()).max(1.0);
+        (motion.longest_s, motion.last_s) = (wider * motion.longest_s, wider * motion.last_s);
     }
 
     /// What the machine commands now, spoilt by its defect.
@@ -187,6 +250,9 @@ impl Machine {
         let with = |level: f64, positive: bool| protocol.neutral_command + if positive { level } else { -level };
         match self.defect {
             Defect::NoHysteresis => with(self.supervisor.relay_level(), position < 0.0),
+            Defect::Restless if self.time_s > self.motion.switched_s.unwrap_or(f64::MAX) + protocol.patience_s => {
+                with(2.0 * self.supervisor.relay_level(), command > protocol.neutral_command)
+            }
             Defect::Unclamped => with(raised, command > protocol.neutral_command),
             _ => command,
         }
@@ -199,10 +265,11 @@ pub(super) type Property = fn(&Lattice, &Machine, &[(Event, Machine)]) -> Result
 /// States beyond this are not waited for.
 const MOST_STATES: usize = 3_000_000;
 
-/// Every reachable state of every lattice, breadth first, so that a witness is as short as can be.
-pub(super) fn explore(defect: Defect, property: Property) -> Verdict {
+/// Every reachable state of the lattices that the parts name, breadth first, so that a witness is as short as can be.
+pub(super) fn explore(parts: &[ClaimPart], defect: Defect, property: Property) -> Verdict {
     Lattice::all()
         .iter()
+        .take(parts.len())
         .map(|lattice| explore_one(lattice, defect, property))
         .reduce(|a, b| a.and(|| b))
         .unwrap_or(Verdict::Undecided { spent: "no lattice".to_owned() })
@@ -214,7 +281,7 @@ fn explore_one(lattice: &Lattice, defect: Defect, property: Property) -> Verdict
     };
     // State, the one before, and the event between.
     let mut states: Vec<(Machine, usize, Event)> = vec![(start, 0, Event::Abort)];
-    let mut visited: HashSet<Key> = HashSet::from([start.supervisor.key()]);
+    let mut visited = HashSet::from([start.key()]);
     let mut waiting = VecDeque::from([0]);
     let mut successors = Vec::new();
     while let Some(index) = waiting.pop_front() {
@@ -232,7 +299,7 @@ fn explore_one(lattice: &Lattice, defect: Defect, property: Property) -> Verdict
             return Verdict::Refuted(witness(&path));
         }
         for &(event, next) in &successors {
-            if visited.insert(next.supervisor.key()) {
+            if visited.insert(next.key()) {
                 waiting.push_back(states.len());
                 states.push((next, index, event));
             }

@@ -16,6 +16,8 @@ mod single;
 mod step;
 mod vehicle_proofs;
 
+pub(super) use single::Single;
+
 pub(super) mod bounded;
 pub(super) mod control;
 pub(super) mod experiment;
@@ -30,6 +32,7 @@ pub(super) mod power_law;
 pub(super) mod quantisation;
 pub(super) mod relay;
 pub(super) mod relay_state;
+pub(super) mod sentences;
 pub(super) mod smooth;
 pub(super) mod symmetry;
 pub(super) mod theorems;

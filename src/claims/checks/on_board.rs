@@ -1,21 +1,29 @@
 //! The state machine of the experiment on board, every state of it over a lattice of readings and times.
 
-use super::machine::{Defect, Event, INTERVALS_S, LATTICES, Lattice, Machine, SOUND, explore};
+use super::machine::{Defect, Event, INTERVALS_S, LATTICES, Lattice, Machine, SOUND, WITH_COARSE, explore};
 use super::{AsPrinted, claim};
-use crate::on_board::{Coordinate, Phase, Protocol};
+use crate::on_board::{Coordinate, Observation, Phase, Protocol};
 
-claim! {
-    ON_BOARD_ENDS = "on-board-ends" "of this project" Theorem
-    "Whatever the samples, the experiment ends within its time, and until then one more sample may complete it"
-    {
-        domain: LATTICES,
-        printed: AsPrinted::Absent,
-        corrected: Some(|_| explore(Defect::None, ends)),
-        // Its time over, it begins anew.
-        falsified: |_| explore(Defect::Restarts, ends),
-        hypotheses: &[],
-        depends: &[],
-    }
+/// A property of every state of the machine, and a defect that takes it away.
+macro_rules! explored {
+    ($constant:ident = $id:literal $statement:literal $property:ident over $parts:ident, depends on $depends:expr,
+     but not $defect:ident) => {
+        claim! {
+            $constant = $id "of this project" Theorem $statement {
+                domain: $parts,
+                printed: AsPrinted::Absent,
+                corrected: Some(|_| explore($parts, Defect::None, $property)),
+                falsified: |_| explore($parts, Defect::$defect, $property),
+                depends: $depends,
+            }
+        }
+    };
+}
+
+explored! {
+    ON_BOARD_ENDS = "on-board-ends"
+    "Whatever the samples, the experiment ends within its time, and until that or its patience is over one more sample may complete it"
+    ends over LATTICES, depends on &[], but not Restarts
 }
 
 fn ends(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
@@ -31,23 +39,16 @@ fn ends(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -
             return Err(Some(index));
         }
     }
-    let time_left = machine.time_s + INTERVALS_S[0] < duration_s;
+    let next_s = machine.time_s + INTERVALS_S[0];
+    let time_left = next_s < duration_s && !machine.motion.still(&lattice.protocol, next_s);
     let may_succeed = successors.iter().any(|(_, after)| after.phase() == Phase::Done);
     if machine.running() && time_left && !may_succeed { Err(None) } else { Ok(()) }
 }
 
-claim! {
-    ON_BOARD_SWITCHES = "on-board-switches" "of this project" Theorem
+explored! {
+    ON_BOARD_SWITCHES = "on-board-switches"
     "Two switchings are the least dwell apart and both half-widths, crossed at no more than the largest rate: no chattering"
-    {
-        domain: LATTICES,
-        printed: AsPrinted::Absent,
-        corrected: Some(|_| explore(Defect::None, switches)),
-        // A relay without hysteresis.
-        falsified: |_| explore(Defect::NoHysteresis, switches),
-        hypotheses: &[],
-        depends: &[],
-    }
+    switches over LATTICES, depends on &[], but not NoHysteresis
 }
 
 fn switches(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
@@ -73,18 +74,10 @@ fn switches(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)
     Ok(())
 }
 
-claim! {
-    ON_BOARD_ABORT = "on-board-abort" "of this project" Theorem
+explored! {
+    ON_BOARD_ABORT = "on-board-abort"
     "From every state an abort gives the neutral command at once, and nothing but a restart changes that"
-    {
-        domain: LATTICES,
-        printed: AsPrinted::Absent,
-        corrected: Some(|_| explore(Defect::None, abort)),
-        // Obeyed in the first attempt only.
-        falsified: |_| explore(Defect::IgnoresAbort, abort),
-        hypotheses: &[],
-        depends: &[],
-    }
+    abort over LATTICES, depends on &[], but not IgnoresAbort
 }
 
 fn abort(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
@@ -96,18 +89,10 @@ fn abort(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) 
     wrong.map_or(Ok(()), |index| Err(Some(index)))
 }
 
-claim! {
-    ON_BOARD_LIMITS = "on-board-limits" "of this project" Theorem
+explored! {
+    ON_BOARD_LIMITS = "on-board-limits"
     "The command is within its limits in every state, after every change of the relay too, and neutral unless running"
-    {
-        domain: LATTICES,
-        printed: AsPrinted::Absent,
-        corrected: Some(|_| explore(Defect::None, limits)),
-        // The level raised without regard to the limits.
-        falsified: |_| explore(Defect::Unclamped, limits),
-        hypotheses: &[],
-        depends: &[],
-    }
+    limits over LATTICES, depends on &[], but not Unclamped
 }
 
 fn limits(lattice: &Lattice, machine: &Machine, _: &[(Event, Machine)]) -> Result<(), Option<usize>> {
@@ -117,18 +102,10 @@ fn limits(lattice: &Lattice, machine: &Machine, _: &[(Event, Machine)]) -> Resul
     if within && neutral { Ok(()) } else { Err(None) }
 }
 
-claim! {
-    ON_BOARD_FAULTS = "on-board-faults" "of this project" Theorem
+explored! {
+    ON_BOARD_FAULTS = "on-board-faults"
     "A sample that a sound sensor and clock cannot have given is a fault by its name, a sound one is none, and faults stay"
-    {
-        domain: LATTICES,
-        printed: AsPrinted::Absent,
-        corrected: Some(|_| explore(Defect::None, faults)),
-        // Goes on with the next sample after a fault.
-        falsified: |_| explore(Defect::Forgives, faults),
-        hypotheses: &[],
-        depends: &["on-board-limits"],
-    }
+    faults over LATTICES, depends on &["on-board-limits"], but not Forgives
 }
 
 /// Faults of sensor and clock, rather than of the experiment.
@@ -183,9 +160,9 @@ fn expected(lattice: &Lattice, machine: &Machine, reading: f64, interval_s: f64)
         Coordinate::Speed => (reading - before, position + interval_s * (reading + before) / 2.0),
         _ => (reading - before, reading),
     };
-    let back = match machine.extent() {
-        Some((_, highest)) if machine.command > protocol.neutral_command => highest - next,
-        Some((lowest, _)) => next - lowest,
+    let back = match machine.farthest() {
+        Some(highest) if machine.command > protocol.neutral_command => highest - next,
+        Some(lowest) => next - lowest,
         None => 0.0,
     };
     if change.abs() > protocol.largest_rate * interval_s {
@@ -212,18 +189,32 @@ fn expected_of_time(machine: &Machine, age_s: f64) -> Option<&'static str> {
     }
 }
 
-claim! {
-    ON_BOARD_EXCURSION = "on-board-excursion" "of this project" Theorem
+explored! {
+    ON_BOARD_STILL = "on-board-still"
+    "Readings that go nowhere for the patience end the experiment, and no level is raised upon them for want of a switching"
+    still over WITH_COARSE, depends on &["on-board-excursion"], but not Restless
+}
+
+fn still(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
+    let protocol = &lattice.protocol;
+    let Some(_) = machine.seen.filter(|_| machine.running()) else { return Ok(()) };
+    let level = |machine: &Machine| (machine.command - protocol.neutral_command).abs();
+    let wrong = successors.iter().position(|(event, after)| {
+        let (Event::Sample { observation, .. }, Some(position)) = (event, after.position()) else { return false };
+        let gone = machine.motion.gone(protocol, machine.half_width(), position);
+        let late = !gone && machine.motion.still(protocol, after.time_s);
+        let named = matches!(after.phase(), Phase::Failed(fault) if fault.code() == "no-motion");
+        // A cycle whose end this is may be one of too small an amplitude.
+        let raised = after.running() && level(after) > level(machine);
+        named && !late || after.running() && late || raised && !gone && *observation != Observation::Condition40
+    });
+    wrong.map_or(Ok(()), |index| Err(Some(index)))
+}
+
+explored! {
+    ON_BOARD_EXCURSION = "on-board-excursion"
     "Whatever plant and sensor say, the relay drives no further than the largest excursion and one gap at the largest rate"
-    {
-        domain: LATTICES,
-        printed: AsPrinted::Absent,
-        corrected: Some(|_| explore(Defect::None, excursion)),
-        // Goes on wherever the coordinate is.
-        falsified: |_| explore(Defect::Boundless, excursion),
-        hypotheses: &[],
-        depends: &["on-board-faults", "on-board-limits"],
-    }
+    excursion over LATTICES, depends on &["on-board-faults", "on-board-limits"], but not Boundless
 }
 
 /// Every sequence of readings comes, and so do those of a plant of the wrong sign, a stuck or a late one, and a sensor that

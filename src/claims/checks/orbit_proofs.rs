@@ -139,7 +139,6 @@ claim! {
     NO_EARLY_SWITCHING = "orbit-no-early-switching" "of this project" Theorem
     "Between two switchings the velocity changes sign once, beyond the relay's level: the command switches when the formulas say" {
         domain: &[EVERY_MIX],
-        by_hand: &["speeds stay below the terminal one", "a force that keeps its sign lets the velocity vanish once"],
         printed: AsPrinted::Absent,
         corrected: Some(|_| proved(&theorem::NO_EARLY_SWITCHING, const { &[EVERY_MIX] }).and(|| at_the_level(EVERY_MIX))),
         theorem: Some((&theorem::NO_EARLY_SWITCHING, &FALSE_BRAKING)),
@@ -153,7 +152,6 @@ claim! {
     MULTIPLIER = "orbit-multiplier" "of this project" Theorem
     "Without delay 1 - m > 0.48 (d_1 + d_2): the multiplier m by the drag forces d_1, d_2 at the switchings over C" {
         domain: &[EXCESS, RATE],
-        by_hand: &["the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles"],
         printed: AsPrinted::Absent,
         corrected: Some(|_| proved(&theorem::MULTIPLIER, const { &[EXCESS, RATE] })),
         theorem: Some((&theorem::MULTIPLIER, &FALSE_DENOMINATOR)),
@@ -167,12 +165,6 @@ claim! {
     QUADRATIC_DISTURBED = "orbit-quadratic-disturbed" "of this project" Theorem
     "Quadratic drag with a disturbance: one limit cycle, reached from every start" {
         domain: &[EVERY_AXIS],
-        by_hand: &[
-            "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
-            "the return map is concave and its slope goes to zero as the way grows",
-            "existence: the return map takes an interval into itself",
-            "every start reaches the map's domain",
-        ],
         printed: AsPrinted::Absent,
         corrected: Some(|_| proved(&theorem::QUADRATIC_DISTURBED, const { &[EVERY_AXIS] }).and(|| at_the_level(EVERY_AXIS))),
         theorem: Some((&theorem::QUADRATIC_DISTURBED, &FALSE_DRAG)),
@@ -186,12 +178,6 @@ claim! {
     LINEAR_DISTURBED = "orbit-linear-disturbed" "of this project" Theorem
     "Linear drag with a disturbance: one limit cycle, reached from every start" {
         domain: &[EVERY_AXIS],
-        by_hand: &[
-            "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
-            "the return map is concave and its slope goes to zero as the way grows",
-            "existence: the return map takes an interval into itself",
-            "every start reaches the map's domain",
-        ],
         printed: AsPrinted::Absent,
         corrected: Some(|_| proved(&theorem::LINEAR_DISTURBED, const { &[EVERY_AXIS] }).and(|| at_the_level(EVERY_AXIS))),
         theorem: Some((&theorem::LINEAR_DISTURBED, &FALSE_DRAG)),
@@ -205,10 +191,6 @@ claim! {
     AMPLITUDE_MONOTONE_QUADRATIC = "orbit-amplitude-monotone-quadratic" "of this project" Theorem
     "Quadratic drag: (X_m - x_a)/x_a falls as g grows, so that the amplitude identifies g" {
         domain: &[EVERY_G],
-        by_hand: &[
-            "the sign of the derivative is that of the inequality enclosed",
-            "g is replaced by a coordinate in (0, 1)",
-        ],
         printed: AsPrinted::Absent,
         corrected: Some(|_| proved(&theorem::QUADRATIC_OVERSHOOT, const { &[EVERY_G] })),
         theorem: Some((&theorem::QUADRATIC_OVERSHOOT, &FALSE_OVERSHOOT_QUADRATIC)),
@@ -222,10 +204,6 @@ claim! {
     AMPLITUDE_MONOTONE_LINEAR = "orbit-amplitude-monotone-linear" "of this project" Theorem
     "Linear drag: (X_m - x_a)/x_a falls as g grows, so that the amplitude identifies g" {
         domain: &[EVERY_G],
-        by_hand: &[
-            "the sign of the derivative is that of the inequality enclosed",
-            "g is replaced by a coordinate in (0, 1)",
-        ],
         printed: AsPrinted::Absent,
         corrected: Some(|_| proved(&theorem::LINEAR_OVERSHOOT, const { &[EVERY_G] })),
         theorem: Some((&theorem::LINEAR_OVERSHOOT, &FALSE_OVERSHOOT_LINEAR)),
@@ -279,10 +257,6 @@ const $false: Inequality = within!("false-bound": $law $part on 0.0 to $ten is 0
                 corrected: Some(|_| proved(&$theorem, const { &[UP_TO_TEN] })),
                 theorem: Some((&$theorem, &$false)),
                 domain: &[UP_TO_TEN],
-                by_hand: &[
-                    "the numbers in the statement are those of the ranges enclosed",
-                    "g grows with the coordinate that unrolls the orbit",
-                ],
                 falsified: |_| single(&$false),
                 hypotheses: &[],
                 depends: &[$orbit, "method-bias", $monotone],

@@ -67,11 +67,6 @@ claim! {
     ORBIT_QUADRATIC = "orbit-quadratic" "of this project" Theorem
     "Quadratic drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start" {
         domain: &[EVERY_AXIS],
-        by_hand: &[
-            "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
-            "existence: the return map takes an interval into itself",
-            "every start reaches the map's domain",
-        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| {
             closed_form_orbit(budget, |l| {
@@ -102,11 +97,6 @@ claim! {
     ORBIT_LINEAR = "orbit-linear" "of this project" Theorem
     "Linear drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start" {
         domain: &[EVERY_AXIS],
-        by_hand: &[
-            "the map from the statement to the inequalities: formula of the return slope, by energy along the half cycles",
-            "existence: the return map takes an interval into itself",
-            "every start reaches the map's domain",
-        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| closed_form_orbit(budget, |l| linear_orbit(l, 4.0), &LINEAR)
             .and(|| attracts(budget, &LINEAR))
@@ -214,10 +204,6 @@ claim! {
     DELTA_FROM_TIMES = "delta-from-times" "32, delta = F_0" Theorem
     "delta = -C (t_plus - t_minus)/T is exact for any waveform and delay when drag is linear" {
         domain: &[DELTA_FROM_TIMES_WHOLE],
-        by_hand: &[
-            "over one period inertia and linear drag have mean zero, so that command and disturbance have",
-            "the times are those at either command, however late it acts",
-        ],
         printed: AsPrinted::Refuted(|budget| delta(budget, true, true, 1.0)),
         corrected: Some(|budget| delta(budget, true, false, 1.0)),
         // T_H taken for the time at command +C.
@@ -237,11 +223,7 @@ claim! {
     METHOD_BIAS = "method-bias" "of this project" Theorem
     "On symmetric orbits without delay the relative error of the method depends on one number g, whatever the parameters" {
         domain: &[METHOD_BIAS_WHOLE],
-        by_hand: &[
-            "the orbits are those of the closed forms, whose numbers beside inertia, drag and level are functions of g alone",
-            "every positive number is the square of one",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
+        by_hand: &["the cases of sign that are proved are all that the code accepts, and limits of them"],
         proof: Some(prove_method_bias),
         printed: AsPrinted::Absent,
         corrected: Some(|budget| depends_on_g_alone(budget, &LINEAR, &LINEAR, 0.0)

@@ -47,10 +47,6 @@ claim! {
     QUANTISATION_ALPHA = "quantisation-alpha" "37" Identity
     "dalpha/alpha = [(2 - r^2)/(r^2 - 1)] dX/X with r = X_m/x_a" {
         domain: &[RATIO],
-        by_hand: &[
-            "level, half-width and frequency are set to one by homogeneity",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
         printed: AsPrinted::Holds(|budget| sensitivity(budget, 0, false, false, 1.0)),
         corrected: None,
         falsified: |budget| sensitivity(budget, 0, false, false, 1.001),
@@ -67,11 +63,6 @@ claim! {
     QUANTISATION_BETA = "quantisation-beta" "38" Identity
     "dbeta/beta = -2 dX/X" {
         domain: &[RATIO],
-        by_hand: &[
-            "level, half-width and frequency are set to one by homogeneity",
-            "every bias: beta does not depend on it",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
         printed: AsPrinted::Holds(|budget| sensitivity(budget, 1, true, false, 1.0)),
         corrected: None,
         falsified: |budget| sensitivity(budget, 1, true, false, 1.001),
@@ -85,11 +76,6 @@ claim! {
     QUANTISATION_BETA_XX = "quantisation-beta-xx" "39" Identity
     "dbeta_xx/beta_xx = -3 dX/X" {
         domain: &[RATIO],
-        by_hand: &[
-            "level, half-width and frequency are set to one by homogeneity",
-            "every bias: beta_xx does not depend on it",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
         printed: AsPrinted::Holds(|budget| sensitivity(budget, 2, true, false, 1.0)),
         corrected: None,
         falsified: |budget| sensitivity(budget, 2, true, false, 1.001),
@@ -114,11 +100,6 @@ claim! {
                 "the slope is negative above",
                 const { &[ClaimVariable::number("X/x_a", core::f64::consts::SQRT_2, f64::INFINITY)] },
             ),
-        ],
-        by_hand: &[
-            "level, half-width and frequency are set to one by homogeneity",
-            "alpha, a root of what is positive, is positive, so the slope has the sign of 2 - r^2",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
         ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| {

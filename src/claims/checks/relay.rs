@@ -65,12 +65,6 @@ claim! {
     RELAY_Q = "relay-q" "30" Identity
     "Q of a relay with hysteresis is -4 C x_a/(pi X^2), whatever the bias and the offset" {
         domain: TERM_BY_TERM,
-        by_hand: &[
-            "height and amplitude are set to one by linearity and homogeneity",
-            "the sides and branches follow from one by reflection",
-            "the derivative of each integral by the angle of the breakpoint is the weighted kernel at the moving end and the integral of its change (Leibniz)",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
         printed: AsPrinted::Holds(|budget| {
             formula(budget, |df| df.q, |s| -4.0 * s.level * s.half_width / (PI * s.amplitude * s.amplitude), true)
         }),
@@ -98,12 +92,6 @@ claim! {
     RELAY_P = "relay-p" "31" Identity
     "P of a relay with hysteresis is (2C/(pi X)) [sqrt(1 - ((x_a - x_0)/X)^2) + sqrt(1 - ((x_a + x_0)/X)^2)]" {
         domain: TERM_BY_TERM,
-        by_hand: &[
-            "height and amplitude are set to one by linearity and homogeneity",
-            "the sides and branches follow from one by reflection",
-            "the derivative of each integral by the angle of the breakpoint is the weighted kernel at the moving end and the integral of its change (Leibniz)",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
         printed: AsPrinted::Holds(|budget| formula(budget, |df| df.p, |s| in_phase(s, s.bias), true)),
         corrected: None,
         falsified: |budget| formula(budget, |df| df.p, |s| in_phase(s, 0.0), true),
@@ -122,13 +110,6 @@ claim! {
     RELAY_F0 = "relay-f0" "32" Identity
     "The mean output is C (t_high - t_low)/T = (C/pi) [asin((x_a + e_0)/X) - asin((x_a - e_0)/X)], plus the offset" {
         domain: TERM_BY_TERM,
-        by_hand: &[
-            "height and amplitude are set to one by linearity and homogeneity",
-            "the sides and branches follow from one by reflection",
-            "the derivative of each integral by the angle of the breakpoint is the weighted kernel at the moving end and the integral of its change (Leibniz)",
-            "asin(u) = pi/2 - 2 asin(sqrt((1 - u)/2))",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
         printed: AsPrinted::Holds(|budget| mean_output(budget, 1.0)),
         corrected: None,
         // The times exchanged: the sign error that reading T_H as the time at command +C makes.
@@ -169,11 +150,6 @@ claim! {
             ),
             ClaimPart::whole("nothing-else", "every relay and amplitude that switches it has its point in the quadrant"),
         ],
-        by_hand: &[
-            "every magnitude by choice of the level",
-            "every angle of the quadrant is pi less twice the inverse tangent of a number from 0 to 1, whose sine and cosine are rational in it",
-            "the components are a root, which is not negative, and minus a half-width, each times a positive factor",
-        ],
         printed: AsPrinted::Holds(|budget| covers(budget, 0.5 * PI, PI)),
         corrected: None,
         falsified: |budget| covers(budget, 0.5 * PI, 1.25 * PI),
@@ -210,10 +186,6 @@ claim! {
     SWITCHING_CONDITION = "switching-condition" "40" Identity
     "Eq. 31 has a value, and the relay oscillates, exactly when (x_a + abs(x_0))/X <= 1" {
         domain: &[SWITCHING_CONDITION_WHOLE],
-        by_hand: &[
-            "a root has a value where its radicand is zero or more",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
         printed: AsPrinted::Holds(|budget| condition(budget, 1.0)),
         corrected: None,
         falsified: |budget| condition(budget, 1.1),

@@ -15,11 +15,7 @@ claim! {
     NOISE = "relay-noise" "section 4.1, in words" Statement
     "While the input moves one way, noise smaller than the half-width switches the relay at most once" {
         domain: &[NOISE_WHOLE],
-        by_hand: &[
-            "the command turns at the samples that the decisions name and at no others",
-            "numbers of which none is negative and one is positive do not add up to zero",
-            "downwards by the symmetry of the relay",
-        ],
+        by_hand: &["the command turns at the samples that the decisions name and at no others"],
         proof: Some(prove_noise),
         printed: AsPrinted::Refuted(|budget| switches_once(budget, 0.0, 10.0)),
         corrected: Some(|budget| switches_once(budget, 0.0, 1.0)),
@@ -56,10 +52,7 @@ claim! {
     SAMPLED_LEVEL = "sampled-level" "section 4.3" Statement
     "A sampled relay switches at x_a or beyond, at most one sample's motion beyond" {
         domain: &[SAMPLED_LEVEL_WHOLE],
-        by_hand: &[
-            "the command turns at the samples that the decisions name and at no others",
-            "downwards by the symmetry of the relay",
-        ],
+        by_hand: &["the command turns at the samples that the decisions name and at no others"],
         proof: Some(prove_sampled_level),
         printed: AsPrinted::Holds(|budget| overshoot(budget, 0.0)),
         corrected: None,

@@ -4,7 +4,7 @@ use crate::nonlinearity::{Branch, Branches, Kernel, PiecewiseLinear, Side, Sinus
 use crate::numeric::Real;
 
 /// One kernel, by itself a characteristic; only its values are written here.
-pub(super) struct Single<T>(pub(super) Kernel<T>);
+pub(in crate::claims) struct Single<T>(pub(in crate::claims) Kernel<T>);
 
 impl<T: Real> PiecewiseLinear for Single<T> {
     type Number = T;

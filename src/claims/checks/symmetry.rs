@@ -16,13 +16,6 @@ claim! {
     LEMMA_1 = "lemma-1" "Lemma 1" Lemma
     "Odd, nondecreasing and not zero inside the sweep: the mean output has the sign of the bias, and vanishes with it" {
         domain: &[LEMMA_1_WHOLE],
-        by_hand: &[
-            "with branches that are each other's half-turn image F_0 is half the mean of F_up(B + X s) - F_up(-B + X s), s the unit sinusoid",
-            "a nondecreasing function is a constant and a mixture of steps, and the mean is linear",
-            "of a breakpoint only its distance from the bias over the amplitude matters",
-            "a mean that falls with the breakpoint on the sweep, and rests beyond, is the larger of two the lower the breakpoint",
-            "the derivative of the integral by the angle of the breakpoint is the weighted value of the step at the moving end (Leibniz)",
-        ],
         printed: AsPrinted::Refuted(|budget| vanishes_only_unbiased(budget, |x| x * x * x - 2.0 * x)),
         corrected: Some(mean_has_sign_of_bias),
         falsified: |budget| vanishes_only_unbiased(budget, |x| (3.0 * x).sin()),
@@ -107,14 +100,6 @@ claim! {
     LEMMA_2 = "lemma-2" "Lemma 2" Lemma
     "With an even part of one sign the mean output cannot vanish without bias; nondecreasing, only with one of the other sign" {
         domain: &[LEMMA_2_WHOLE],
-        by_hand: &[
-            "without bias F_0 is the mean of E(X s), s the unit sinusoid",
-            "a function of one sign is a mixture of bands, and the mean of a band is that of a step at its lower end less that of one at its upper end",
-            "a nondecreasing function is a constant and a mixture of steps, and the mean is linear",
-            "of a breakpoint only its distance from the bias over the amplitude matters",
-            "a mean that falls with the breakpoint on the sweep, and rests beyond, is the larger of two the lower the breakpoint",
-            "the derivative of the integral by the angle of the breakpoint is the weighted value of the step at the moving end (Leibniz)",
-        ],
         printed: AsPrinted::Refuted(|budget| unbiased_mean_is_not_zero(budget, |x, even| x + even * (x * x - 0.5))),
         corrected: Some(|budget| even_part_decides(budget, |x, even| x * x * x + x + even * (1.0 + (-x * x).exp()))),
         falsified: |budget| even_part_decides(budget, |x, even| x + even * (x * x - 0.5)),

@@ -103,12 +103,6 @@ claim! {
     THEOREM_2 = "theorem-2" "Theorem 2" Theorem
     "Odd, nondecreasing and not zero inside the sweep: symmetric about any constant reference if the process integrates, and about none but zero if not" {
         domain: &[THEOREM_2_FIRST_HARMONIC, THEOREM_2_RELAY_ORBITS],
-        by_hand: &[
-            "the steps of lemma 1",
-            "an integrator passes periodic motion only where the mean of its input is zero",
-            "a process without integrator answers a mean of zero with a mean of zero",
-            "a linear process answers a command of mirrored half waves with mirrored half waves, about a constant that is zero without integrator",
-        ],
         printed: AsPrinted::Refuted(odd_and_astatic_without_bias),
         corrected: Some(|budget| {
             symmetric(budget, &Loop { integrating: true, offset: false, referred: true })
@@ -155,11 +149,6 @@ claim! {
     THEOREM_3 = "theorem-3" "Theorem 3" Theorem
     "Integrating process: an even part of one sign makes the self-oscillations asymmetric; an odd nondecreasing characteristic keeps them symmetric" {
         domain: &[THEOREM_3_FIRST_HARMONIC, THEOREM_3_RELAY_ORBITS],
-        by_hand: &[
-            "the steps of lemmas 1 and 2",
-            "an integrator passes periodic motion only where the mean of its input is zero",
-            "a linear process answers a command of mirrored half waves with mirrored half waves, about a constant that is zero without integrator",
-        ],
         printed: AsPrinted::Refuted(not_odd_and_astatic_with_bias),
         corrected: Some(|budget| {
             asymmetric(budget, &Loop { integrating: true, offset: true, referred: true })

@@ -14,10 +14,7 @@ claim! {
     "Thrust T_nn abs(n) n - T_nu abs(n) u_a and torque alike; each thrust has one rate that turns its way and does not brake"
     {
         domain: &[THRUSTER_BILINEAR_WHOLE],
-        by_hand: &[
-            "every thrust within reach is that of some rate that does not brake, by continuity",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
+        by_hand: &["the cases of sign that are proved are all that the code accepts, and limits of them"],
         printed: AsPrinted::Holds(|budget| bilinear(budget, 1.0, 1.0)),
         corrected: None,
         // Still water: the rate found without the ambient speed.
@@ -108,10 +105,7 @@ claim! {
     "Thrust a abs(n) n + b n is odd and has one command, sgn(T) sqrt(abs(T)/a) where b = 0"
     {
         domain: &[THRUSTER_AFFINE_WHOLE],
-        by_hand: &[
-            "every thrust within reach is that of some command, by continuity",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
+        by_hand: &["the cases of sign that are proved are all that the code accepts, and limits of them"],
         printed: AsPrinted::Holds(|budget| affine(budget, Commands::Turning, inverse)
             .and(|| simplest(budget))),
         corrected: None,
@@ -175,10 +169,7 @@ claim! {
     "Coefficients of their own for n > 0 and n <= 0; the sign of the thrust picks the side of the inverse"
     {
         domain: &[THRUSTER_ASYMMETRIC_WHOLE],
-        by_hand: &[
-            "every thrust within reach is that of some command, by continuity",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
+        by_hand: &["the cases of sign that are proved are all that the code accepts, and limits of them"],
         printed: AsPrinted::Holds(|budget| asymmetric(budget, false)),
         corrected: None,
         // The forward coefficients astern too.
@@ -251,10 +242,7 @@ claim! {
     "Inverse allocation, offset and inverse maps before the thrusters leave the force asked for, plus a constant"
     {
         domain: &[COMPENSATION_WHOLE],
-        by_hand: &[
-            "every force within reach is that of some pair of commands",
-            "the cases of sign that are proved are all that the code accepts, and limits of them",
-        ],
+        by_hand: &["the cases of sign that are proved are all that the code accepts, and limits of them"],
         printed: AsPrinted::Holds(|budget| compensation(budget, &Chain::INTACT)),
         corrected: None,
         // The constant left out of account.

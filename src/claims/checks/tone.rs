@@ -12,10 +12,6 @@ use crate::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
 
 const TONE: ClaimPart = ClaimPart::whole("every-tone", "every alpha, beta_1, beta_2, X, w > 0");
 
-/// The step of each proof here that scales the tone to one.
-const SCALING: &str =
-    "the left side is linear in the three parameters and homogeneous in X and w, so that one tone stands for all";
-
 /// An axis on one tone: parameters, amplitude, angular frequency.
 struct Tone {
     alpha: f64,
@@ -60,7 +56,6 @@ claim! {
     FIRST_HARMONIC = "first-harmonic-equations" "21-25" Identity
     "On one tone the drag axis has f_R = -alpha w^2 and f_I = beta_1 w + (8/(3 pi)) beta_2 X w^2" {
         domain: &[TONE],
-        by_hand: &[SCALING],
         printed: AsPrinted::Holds(|budget| left_side(budget, 8.0 / (3.0 * PI))),
         corrected: None,
         falsified: |budget| left_side(budget, 0.85),
@@ -89,7 +84,6 @@ claim! {
     LINEAR_DRAG = "linear-drag" "26-27" Theorem
     "On one tone with linear drag, alpha = P/w^2 and beta = -Q/w give the parameters back" {
         domain: &[TONE],
-        by_hand: &[SCALING],
         printed: AsPrinted::Holds(|budget| gives_back(budget, |tone| tone.quadratic = 0.0, |p| p.beta, |t| t.linear)),
         corrected: None,
         falsified: |budget| gives_back(budget, |_| {}, |p| p.beta, |t| t.linear),
@@ -103,7 +97,6 @@ claim! {
     QUADRATIC_DRAG = "quadratic-drag" "28-29" Theorem
     "On one tone with quadratic drag, alpha = P/w^2 and beta_xx = -(3 pi/8) Q/(X w^2) give the parameters back" {
         domain: &[TONE],
-        by_hand: &[SCALING],
         printed: AsPrinted::Holds(|budget| gives_back(budget, |tone| tone.linear = 0.0, |p| p.beta_quadratic, |t| t.quadratic)),
         corrected: None,
         falsified: |budget| gives_back(budget, |_| {}, |p| p.beta_quadratic, |t| t.quadratic),

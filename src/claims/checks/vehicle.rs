@@ -119,12 +119,7 @@ claim! {
     "M is symmetric positive definite, C(nu) does no work, D(nu) takes energy, and eq. 5 balances"
     {
         domain: &[SIX_AXES_WHOLE],
-        by_hand: &[
-            "inertia, C(nu) and D(nu) are linear in each parameter and in the velocities or their magnitudes",
-            "a matrix that is its transpose's negative does no work",
-            "a vehicle is refused unless its inertia is positive definite and its linear drag takes no less than nothing",
-            "solving by Cholesky's factors inverts the inertia",
-        ],
+        by_hand: &["a vehicle is refused unless its inertia is positive definite and its linear drag takes no less than nothing", "solving by Cholesky's factors inverts the inertia"],
         printed: AsPrinted::Holds(|budget| structure(budget, |_| {}, |coriolis| coriolis)),
         corrected: None,
         // One block of C with the wrong sign.
@@ -185,11 +180,6 @@ claim! {
     "Of a symmetric, level vehicle whose other axes are at rest, an axis accelerates by eq. 5 as by eq. 6"
     {
         domain: &[UNCOUPLED_AXIS_WHOLE],
-        by_hand: &[
-            "inertia, C(nu) and D(nu) are linear in each parameter and in the velocities or their magnitudes",
-            "an axis that no other one is coupled to accelerates by its force over its inertia",
-            "a turn about the vertical leaves the vertical where it is",
-        ],
         printed: AsPrinted::Holds(|budget| reduction(budget, &Assumed::ALL)),
         corrected: None,
         // Inertia without the water's.

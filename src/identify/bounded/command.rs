@@ -17,17 +17,21 @@ impl Command {
         Self { levels, spans }
     }
 
-    /// The command of a record: switching with the sample that has the new value, or `anywhere` since the one before.
-    pub(super) fn of(record: &Record, anywhere: bool) -> Self {
+    /// The command of a record: switching with the sample that has the new value, or `anywhere` since the one before. The stamp of
+    /// either is off by at most `jitter_s`, so that a switching is within `[first - jitter, last + jitter]`.
+    pub(super) fn of(record: &Record, anywhere: bool, jitter_s: f64) -> Self {
         let (time, input) = (record.time_s(), record.input());
         let (mut levels, mut spans) = (vec![input[0]], Vec::new());
         for after in 1..record.samples() {
             if input[after] != input[after - 1] {
                 levels.push(input[after]);
-                spans.push((if anywhere { time[after - 1] } else { time[after] }, time[after]));
+                let first = if anywhere { time[after - 1] } else { time[after] };
+                let span = Interval::point(first).hull(Interval::point(time[after]));
+                let span = if jitter_s > 0.0 { span + Interval::symmetric(jitter_s) } else { span };
+                spans.push((span.lower(), span.upper()));
             }
         }
-        Self { levels, spans }
+        Self::new(levels, spans)
     }
 
     /// First and last instant of each switching.
@@ -38,6 +42,11 @@ impl Command {
     /// Number of switchings.
     pub(super) fn edges(&self) -> usize {
         self.spans.len()
+    }
+
+    /// Unknown instants: all switchings, or none.
+    pub(super) fn instants(&self) -> usize {
+        if self.spans.iter().all(|(first, last)| first == last) { 0 } else { self.edges() }
     }
 
     pub(super) fn span(&self, edge: usize) -> Interval {

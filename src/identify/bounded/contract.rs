@@ -11,7 +11,7 @@ use super::mix::{By, Mix};
 use super::problem::{Layout, Readings};
 use super::step::{Fields, Pair};
 use super::trajectory::{Drive, Node, Unknowns, follow};
-use crate::numeric::{Interval, Real};
+use crate::numeric::Interval;
 
 /// Share of a reading's error that a step's remainder may be.
 const REMAINDER: f64 = 1e-6;
@@ -79,23 +79,25 @@ pub(super) struct Model<'a> {
 
 impl Model<'_> {
     /// How far the output of a motion at these samples may be from one of its readings, by its number in the motion: as far as the
-    /// vehicle goes while the stamp is off. Beyond the motion's ends that is by the fastest that is looked for.
+    /// vehicle goes while the stamp is off by the jitter J, `J min(V, |v| + A J)` with V and A the largest speed and acceleration near
+    /// the stamp. Beyond the motion's ends it goes as fast as is looked for.
     pub(super) fn allowed(&self, record: usize, motion: &[Node], samples: &[usize], offset: usize) -> Interval {
         let Readings { time_s, error, jitter_s, .. } = &self.records[record];
-        let error = Interval::point(*error);
+        let (error, jitter) = (Interval::point(*error), Interval::point(*jitter_s));
         if *jitter_s <= 0.0 {
             return error;
         }
         let stamp = |offset: usize| time_s[samples[offset]];
-        let [from, to] = [-*jitter_s, *jitter_s].map(|stray| Interval::point(stamp(offset)) + Interval::point(stray));
+        let [from, to] = [-jitter, jitter].map(|stray| Interval::point(stamp(offset)) + stray);
         let (from, to, last) = (from.lower(), to.upper(), samples.len() - 1);
-        let speed = if from < stamp(0) || to > stamp(last) {
-            self.fastest
-        } else {
-            let near = (1..=last).filter(|next| stamp(*next) > from && stamp(next - 1) < to);
-            near.map(|next| motion[next].speed).fold(0.0, f64::max)
-        };
-        error + Interval::point(*jitter_s) * Interval::point(speed)
+        if from < stamp(0) || to > stamp(last) {
+            return error + jitter * Interval::point(self.fastest);
+        }
+        let near = (1..=last).filter(|next| stamp(*next) > from && stamp(next - 1) < to);
+        let [speed, rate] =
+            near.fold([0.0f64; 2], |most, next| core::array::from_fn(|k| most[k].max(motion[next].fastest[k])));
+        let here = Interval::point(motion[offset].over[1].magnitude()) + Interval::point(rate) * jitter;
+        error + jitter * Interval::point(here.upper().min(speed))
     }
 
     pub(super) fn delay_s(&self, at: &[Interval]) -> Interval {
@@ -124,40 +126,67 @@ impl Model<'_> {
         let (by, places) = self.layout.columns(span.from);
         let deviations: Vec<Interval> =
             places.iter().map(|place| at[*place] - Interval::point(centre[*place])).collect();
-        self.follow(span, at, centre, Unknowns { mixes: &singly(&by), deviations: &deviations, bending: false })
+        let unknowns = Unknowns { mixes: &singly(&by), deviations: &deviations, bending: false };
+        self.follow(span, at, centre, unknowns, &self.times(span))
     }
 
     /// The outputs of one point over a span of windows.
     pub(super) fn outputs(&self, span: Span, centre: &[f64]) -> Option<Vec<Interval>> {
+        Some(self.point(span, centre, &self.times(span))?.iter().map(|node| node.at[0]).collect())
+    }
+
+    fn point(&self, span: Span, centre: &[f64], times: &[(f64, bool)]) -> Option<Vec<Node>> {
         let at: Vec<Interval> = centre.iter().map(|value| Interval::point(*value)).collect();
-        Some(self.follow(span, &at, centre, Unknowns::NONE)?.iter().map(|node| node.at[0]).collect())
+        self.follow(span, &at, centre, Unknowns::NONE, times)
     }
 
     /// Upper bound of the largest misfit of one point over a span of windows, in largest errors. `None` where its motion cannot
-    /// be enclosed.
+    /// be enclosed. A reading y was taken within the jitter J of its stamp t, and the output is continuous: it is within E of y at an
+    /// instant between two of [t - J, t + J] where it is not above y + E, and not below y - E.
     pub(super) fn misfit(&self, span: Span, centre: &[f64]) -> Option<f64> {
-        let stretch = self.layout.windows()[span.from];
-        let readings = &self.records[stretch.record];
-        let error = Interval::point(readings.error);
-        // A stamp's error is granted to no witness.
-        let misfits = self.outputs(span, centre)?.into_iter().zip(self.samples(span));
-        Some(misfits.fold(0.0, |largest, (output, sample)| {
-            let misfit = (output - Interval::point(readings.value[sample])).abs() / error;
+        let Readings { time_s, value, error, jitter_s, .. } = &self.records[self.layout.windows()[span.from].record];
+        let (samples, mut times) = (self.samples(span), self.times(span));
+        let near = |stamp: f64| {
+            let [from, to] = [-*jitter_s, *jitter_s].map(|stray| Interval::point(stamp) + Interval::point(stray));
+            [from.upper(), to.lower()]
+        };
+        if *jitter_s > 0.0 {
+            let (begin, end) = (times.first()?.0, times.last()?.0);
+            let ends = samples.iter().flat_map(|sample| near(time_s[*sample])).filter(|end| *end > begin);
+            times.extend(ends.filter(|time| *time < end).map(|time| (time, true)).collect::<Vec<_>>());
+            times.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        let motion = self.point(span, centre, &times)?;
+        let heard: Vec<f64> = times.iter().filter(|(_, heard)| *heard).map(|(time, _)| *time).collect();
+        Some(samples.iter().fold(0.0, |largest, sample| {
+            let [from, to] = near(time_s[*sample]);
+            let within = heard.partition_point(|time| *time < from)..heard.partition_point(|time| *time <= to);
+            let off = motion[within].iter().map(|node| node.at[0] - Interval::point(value[*sample]));
+            let ends = off.fold((f64::INFINITY, f64::NEG_INFINITY), |(above, below), off| {
+                (above.min(off.upper()), below.max(off.lower()))
+            });
+            let misfit = Interval::point(ends.0.max(-ends.1)) / Interval::point(*error);
             largest.max(misfit.upper())
         }))
     }
 
+    /// Instants of the samples of a span, and whether they are heard.
+    pub(super) fn times(&self, span: Span) -> Vec<(f64, bool)> {
+        let time_s = &self.records[self.layout.windows()[span.from].record].time_s;
+        self.all_samples(span).map(|(sample, heard)| (time_s[sample], heard)).collect()
+    }
+
+    /// The motion at those of these `times`, from the span's first sample on, that are heard.
     pub(super) fn follow(
         &self,
         span: Span,
         at: &[Interval],
         centre: &[f64],
         unknowns: Unknowns<'_>,
+        times: &[(f64, bool)],
     ) -> Option<Vec<Node>> {
         let stretch = self.layout.windows()[span.from];
         let readings = &self.records[stretch.record];
-        let times: Vec<(f64, bool)> =
-            self.all_samples(span).map(|(sample, heard)| (readings.time_s[sample], heard)).collect();
         let point: Vec<Interval> = centre.iter().map(|value| Interval::point(*value)).collect();
         let fields = Fields {
             over: self.layout.field(stretch.record, at, self.middle_speed),
@@ -180,7 +209,7 @@ impl Model<'_> {
             effort: &self.effort,
         };
         let start = Pair { over: self.layout.state_of(span.from, at), at: self.layout.state_of(span.from, &point) };
-        follow(&drive, start, &times, unknowns)
+        follow(&drive, start, times, unknowns)
     }
 
     /// Deviations from a point of a box.

@@ -6,9 +6,8 @@ use super::search::Search;
 use super::settings::{BoundedModel, DelayBound};
 use super::witness::Tried;
 use crate::experiment::Record;
-use crate::identify::Estimate;
-use crate::identify::joint::Delay;
-use crate::identify::prediction_error::{Candidate, Clock, Estimator, Parameter, Term};
+use crate::identify::fit::prediction_error::{Candidate, Clock, Estimator, Parameter};
+use crate::identify::{Delay, Estimate, Term};
 use crate::numeric::Interval;
 
 /// Room about the estimate, in shares of the command.

@@ -110,6 +110,6 @@ pub fn enclose_with_certificate(
     let explored = explore(&setup, settings, estimates, |search, found| {
         witness = found.map(|tried| Witness::of(search, &tried.at));
     })?;
-    let certificate = Certificate::prove(&setup, settings, &explored, witness);
+    let certificate = Certificate::prove(records, &setup, settings, &explored, witness);
     Ok((explored.bounds, certificate?))
 }

@@ -33,7 +33,7 @@ impl Search<'_> {
         let at: Vec<Interval> = point.iter().map(|value| Interval::point(*value)).collect();
         let whole = self.model.whole().into_iter();
         let motions: Option<Vec<Vec<Node>>> =
-            whole.map(|span| self.model.follow(span, &at, point, Unknowns::NONE)).collect();
+            whole.map(|span| self.model.follow(span, &at, point, Unknowns::NONE, &self.model.times(span))).collect();
         let motions = motions?;
         let first = left_by(setup, settings, point, &motions)?;
         let edges = setup.records.iter().map(|readings| readings.command.edges()).min()?;

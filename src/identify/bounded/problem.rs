@@ -40,15 +40,15 @@ impl Readings {
         if onset > 0 { before.saturating_sub(1) } else { 0 }
     }
 
+    /// The stamp from which on every command that acts is in the log: `t - delay >= t_0 + jitter`, as the first row may be so late.
+    pub(super) fn acted_s(&self, delay_s: Interval) -> f64 {
+        (Interval::point(self.time_s[0]) + delay_s + Interval::point(self.jitter_s)).upper()
+    }
+
     /// Mean time between two switchings.
     pub(super) fn swing_s(&self) -> f64 {
         (self.time_s[self.time_s.len() - 1] - self.time_s[0]) / (self.command.edges() + 1) as f64
     }
-}
-
-/// The shortest mean time between switchings of any record.
-pub(super) fn swing_s(records: &[Readings]) -> f64 {
-    records.iter().map(Readings::swing_s).fold(f64::INFINITY, f64::min)
 }
 
 /// A stretch of one record: samples from `first` to `last`, the state unknown at the first. The next stretch of the record
@@ -74,11 +74,6 @@ pub(super) struct Layout {
 impl Layout {
     pub(super) fn new(terms: Vec<Term>, delay: bool, instants: Vec<usize>, windows: Vec<Window>) -> Self {
         Self { terms, delay, instants, windows }
-    }
-
-    /// The same with the delay an unknown, or not.
-    pub(super) fn with_delay(self, delay: bool) -> Self {
-        Self { delay, ..self }
     }
 
     /// The same with other windows.

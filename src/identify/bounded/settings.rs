@@ -36,6 +36,7 @@ pub enum SwitchedWhen {
 /// assert!(!settings.cubic);
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct BoundedModel {
     /// The drag law.
     pub law: DragLaw,
@@ -68,6 +69,14 @@ pub struct BoundedModel {
 }
 
 impl BoundedModel {
+    /// Usual [`reach`](Self::reach): inertia over four decades.
+    const REACH: f64 = 100.0;
+
+    /// Whether nothing narrower or wider than usual is searched.
+    pub(super) fn usual_reach(&self) -> bool {
+        self.reach.total_cmp(&Self::REACH).is_eq()
+    }
+
     /// A drag law and what is known of the delay; a perfect sensor but for its step, which is found in the record; the command
     /// switched at samples; inertia over four decades.
     #[must_use]
@@ -84,7 +93,7 @@ impl BoundedModel {
             error: 0.0,
             jitter_s: 0.0,
             outliers: 0,
-            reach: 100.0,
+            reach: Self::REACH,
             budget: 3000,
         }
     }

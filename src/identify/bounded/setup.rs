@@ -141,6 +141,11 @@ impl BoundedModel {
         Ok(())
     }
 
+    /// Step of a record's sensor, zero for none.
+    pub(super) fn step(&self, record: &Record) -> f64 {
+        self.quantum.or_else(|| record.quantum()).unwrap_or(0.0)
+    }
+
     pub(super) fn terms(&self) -> Vec<Term> {
         let mut terms = vec![Term::Gain];
         for (term, used) in [
@@ -170,13 +175,13 @@ impl Readings {
         }
         let mut readings = Vec::new();
         for record in records {
-            let quantum = settings.quantum.or_else(|| record.quantum()).unwrap_or(0.0);
+            let quantum = settings.step(record);
             let error = 0.5 * quantum * (1.0 + READING) + settings.error;
             if error <= 0.0 {
                 let remedy = "the record shows no step of its sensor: give its step, or its largest error";
                 return Err(refuse("largest error of a reading", error, "output", Limit::Positive, remedy));
             }
-            let command = Command::of(record, settings.switching == SwitchedWhen::Anywhere);
+            let command = Command::of(record, settings.switching == SwitchedWhen::Anywhere, settings.jitter_s);
             if command.largest() <= 0.0 {
                 return Err(refuse(
                     "largest command",
@@ -189,6 +194,12 @@ impl Readings {
             if command.edges() == 0 {
                 let remedy = "give a record in which the command changes";
                 return Err(refuse("switchings of the command", 0.0, "", Limit::AtLeast(1.0), remedy));
+            }
+            if command.spans().windows(2).any(|pair| pair[0].1 > pair[1].0) {
+                let limit = Limit::Words("at most half the shortest time between two changes of the command");
+                let remedy =
+                    "give the largest error that a stamp may have, or a log of a command that changes less often";
+                return Err(refuse("largest error of a stamp", settings.jitter_s, "s", limit, remedy));
             }
             readings.push(Self {
                 time_s: record.time_s().to_vec(),
@@ -287,8 +298,8 @@ impl Setup {
         let mut instants = Vec::new();
         for (record, readings) in readings.iter().enumerate() {
             let samples = readings.time_s.len();
-            let begin = Interval::point(readings.time_s[0]) + delay;
-            let first = readings.time_s.partition_point(|time| *time < begin.upper()).max(onset[record]);
+            let acted_s = readings.acted_s(delay);
+            let first = readings.time_s.partition_point(|time| *time < acted_s).max(onset[record]);
             if samples < first + 3 * cutting.fewest {
                 let remedy = "give a longer record, or bound the delay";
                 return Err(refuse(
@@ -305,7 +316,7 @@ impl Setup {
             let count = (count as usize).min(most).max(1);
             let nodes: Vec<usize> = (0..=count).map(|index| first + (samples - 1 - first) * index / count).collect();
             windows.extend(nodes.windows(2).map(|pair| Window { record, first: pair[0], last: pair[1] }));
-            instants.push(if settings.switching == SwitchedWhen::Anywhere { readings.command.edges() } else { 0 });
+            instants.push(readings.command.instants());
         }
         let delayed = !delay.is_point();
         Ok(Layout::new(settings.terms(), delayed, instants, windows))
@@ -328,9 +339,8 @@ impl Setup {
         let mut setup = self.clone();
         for (readings, onset) in self.records.iter().zip(&mut setup.onset) {
             let (first, last) = *readings.command.spans().get(edge)?;
-            let acted = (Interval::point(readings.time_s[0]) + delay_s).upper();
             *onset = readings.time_s.partition_point(|time| *time < last.max(first));
-            if first < acted || *onset >= readings.time_s.len() {
+            if first < readings.acted_s(delay_s) || *onset >= readings.time_s.len() {
                 return None;
             }
         }
@@ -362,7 +372,7 @@ impl Setup {
         for (readings, onset) in setup.records.iter_mut().zip(&setup.onset) {
             let skipped = readings.skipped(*onset);
             // Unknown instants are parameters of their own, and all of them would have to be known after.
-            if settings.switching == SwitchedWhen::Anywhere || readings.command.edges() < skipped + 2 * swings {
+            if readings.command.instants() > 0 || readings.command.edges() < skipped + 2 * swings {
                 return None;
             }
             let (end, _) = readings.command.spans()[skipped + swings];

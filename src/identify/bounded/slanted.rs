@@ -20,7 +20,7 @@ pub(super) const STALE: f64 = 0.25;
 impl Model<'_> {
     /// The motion over a whole record, and how it differs from that of the frame's centre by each coordinate.
     pub(super) fn slanted(&self, span: Span, at: &[Interval], frame: &Frame, mixes: &[Mix]) -> Option<Vec<Node>> {
-        self.follow(span, at, &frame.centre, Unknowns { mixes, deviations: &frame.z, bending: true })
+        self.follow(span, at, &frame.centre, Unknowns { mixes, deviations: &frame.z, bending: true }, &self.times(span))
     }
 }
 

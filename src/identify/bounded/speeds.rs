@@ -171,12 +171,12 @@ impl Model<'_> {
         if readings.jitter_s > 0.0 { lasted + Interval::symmetric(2.0 * readings.jitter_s) } else { lasted }
     }
 
-    /// The first sample from which on every command that acts is in the log. What acted before may have been anything.
+    /// The first sample from which on every command that acts is in the log, whenever the reading was taken that has this stamp. What
+    /// acted before may have been anything.
     fn known(&self, record: usize, at: &[Interval]) -> usize {
-        let time_s = &self.records[record].time_s;
-        let begin = Interval::point(time_s[0]) + self.delay_s(at);
-        let begin = plus(begin.upper(), self.records[record].jitter_s);
-        time_s.partition_point(|time| *time < begin.upper())
+        let readings = &self.records[record];
+        let begin = plus(readings.acted_s(self.delay_s(at)), readings.jitter_s);
+        readings.time_s.partition_point(|time| *time < begin.upper())
     }
 
     /// For every interval between samples, over a box in which no speed exceeds `fastest`; of no meaning before the first that is known.

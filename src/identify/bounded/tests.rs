@@ -434,7 +434,8 @@ fn a_reading_may_be_from_beyond_what_is_followed_of_the_motion_and_from_beyond_t
             let setup = Setup::new(&[&record], &model).expect("a setup");
             let search = Search::new(&setup);
             let layout = &setup.layout;
-            let mut truth = vec![1.0, 0.5, 0.0];
+            // With the instant at which the command was switched.
+            let mut truth = vec![1.0, 0.5, 0.0, stamp(15)];
             for window in layout.windows() {
                 truth.extend(braked(stamp(window.first), stamp(15)));
             }

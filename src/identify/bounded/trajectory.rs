@@ -56,8 +56,8 @@ pub(super) struct Node {
     /// Of the position: how its slopes bend by each bundle of pairs, and what is left of the third order; with the slopes over the box none.
     pub(super) bends: Vec<Balls>,
     pub(super) rest: Interval,
-    /// Largest speed since the sample before.
-    pub(super) speed: f64,
+    /// Largest speed, and acceleration, since the sample before.
+    pub(super) fastest: [f64; 2],
 }
 
 /// What moves: the equation, and its commands.
@@ -104,7 +104,8 @@ struct Way<'a> {
     rest: Triple,
     /// Switchings that may have happened, each with what a unit of impulse then may have become since.
     open: Vec<Open>,
-    speed: f64,
+    /// Largest speed, and acceleration, since the last sample.
+    fastest: [f64; 2],
     nodes: Vec<Node>,
 }
 
@@ -253,7 +254,7 @@ impl Way<'_> {
         }
         let bends = bends.iter().map(|bend| bend[POSITION]).collect();
         self.drive.effort.node(self.pairs.is_some());
-        self.nodes.push(Node { over, at, slopes, bends, rest: rest[POSITION], speed: self.speed });
+        self.nodes.push(Node { over, at, slopes, bends, rest: rest[POSITION], fastest: self.fastest });
         Some(())
     }
 
@@ -324,7 +325,9 @@ impl Way<'_> {
             } else {
                 self.drive.effort.step(self.bends.len(), uncertain || self.drive.fields.closed());
             }
-            self.speed = self.speed.max(step.within[VELOCITY].magnitude());
+            let rate = self.drive.fields.over.rate_of(VELOCITY, &step.within, u);
+            let own = [step.within[VELOCITY], rate].map(|range| range.magnitude());
+            self.fastest = core::array::from_fn(|k| self.fastest[k].max(own[k]));
             let last = part == left;
             let reached =
                 ahead.iter().take_while(|(sample, _)| last || (*sample - gone).upper() <= part.upper()).count();
@@ -339,7 +342,7 @@ impl Way<'_> {
                 self.note(arrival.over, at, &columns, &bends, &rest)?;
             }
             if !arrivals.is_empty() {
-                self.speed = step.within[VELOCITY].magnitude();
+                self.fastest = own;
             }
             ahead = beyond;
             self.columns = self.carried(&arrival);
@@ -405,7 +408,7 @@ pub(super) fn follow(
         bends,
         rest,
         open: Vec::new(),
-        speed: 0.0,
+        fastest: [0.0; 2],
         nodes: Vec::new(),
     };
     let (begin, end) = (times.first()?.0, times.last()?.0);
@@ -429,7 +432,7 @@ pub(super) fn follow(
         let impulse = fresh.map(|value| value.hull(Interval::ZERO));
         way.open.push(Open { edge, impulse, whole: false, damping: None });
     }
-    way.speed = way.state.over[VELOCITY].magnitude();
+    way.fastest[0] = way.state.over[VELOCITY].magnitude();
     let first = way.columns.clone();
     let bends = way.bends.clone();
     way.note(start.over, start.at, &first, &bends, &rest)?;

@@ -186,11 +186,21 @@ impl Search<'_> {
             let readings = &self.setup.records[stretch.record];
             let error = Interval::point(readings.error);
             for (node, reading) in motion.iter().zip(&readings.value[stretch.first..]) {
-                let misfit = (node.at[0] - Interval::point(*reading)).abs() / error;
-                largest = largest.max(misfit.upper());
+                if readings.jitter_s <= 0.0 {
+                    let misfit = (node.at[0] - Interval::point(*reading)).abs() / error;
+                    largest = largest.max(misfit.upper());
+                }
                 widest = widest.max(node.at[0].width() / readings.error);
             }
+            let rows = linear.origins.len();
             self.model.linearise(span, &motion, false, &mut linear);
+            if readings.jitter_s > 0.0 {
+                largest = largest.max(self.model.misfit(span, centre)?);
+                // That grants nothing to what is beyond the motion's ends, for which the rows grant the fastest speed.
+                let stray = readings.jitter_s * self.model.fastest;
+                let last = linear.rows.limits.len() - 1;
+                [rows, rows + 1, last - 1, last].into_iter().for_each(|row| linear.rows.limits[row] -= stray);
+            }
         }
         self.model.bound(&mut linear);
         Some((linear, largest, widest))

@@ -1,15 +1,16 @@
-//! An expression in plain text and in LaTeX: one traversal, two notations.
+//! An expression in plain text, in LaTeX and in Coq: one traversal, three notations.
 
 use core::fmt;
 
 use super::algebra::common;
 use super::{Expression, Function, Node, PI, Product};
 
-/// What differs between the two.
+/// What differs between the three.
 #[derive(Clone, Copy, PartialEq)]
 enum Notation {
     Text,
     Latex,
+    Coq,
 }
 
 impl fmt::Display for Expression {
@@ -25,8 +26,21 @@ impl Expression {
         self.print(Notation::Latex)
     }
 
+    /// The formula as a term of Coq over its real numbers, constants exact; functions as Coq's library and Coquelicot name them.
+    #[must_use]
+    pub fn coq(self) -> String {
+        self.print(Notation::Coq)
+    }
+
+    /// The same as an argument of a function.
+    #[must_use]
+    pub fn coq_argument(self) -> String {
+        coq_bracketed(&self.coq())
+    }
+
     fn print(self, notation: Notation) -> String {
         match self.0 {
+            Node::Symbol { text: PI, .. } if notation == Notation::Coq => "PI".to_owned(),
             Node::Symbol { text, latex, .. } => notation.pick(text, latex).to_owned(),
             Node::Product(product) => notation.product(product),
             Node::Sum(terms) => notation.sum(terms),
@@ -40,7 +54,7 @@ impl Expression {
 
 impl Notation {
     fn pick(self, text: &'static str, latex: &'static str) -> &'static str {
-        if self == Self::Text { text } else { latex }
+        if self == Self::Latex { latex } else { text }
     }
 
     fn brackets(self, inner: &str) -> String {
@@ -67,7 +81,10 @@ impl Notation {
     }
 
     fn product(self, product: &Product) -> String {
-        let (over, under) = fraction(product.coefficient.abs());
+        let (over, under) = match (fraction(product.coefficient.abs()), self) {
+            ((over, under), Self::Coq) => whole(over, under),
+            (as_it_is, _) => as_it_is,
+        };
         let sign = if product.coefficient < 0.0 { "-" } else { "" };
         // The circle constant, symbols by name, sums, functions: as formulas are written.
         let mut factors = product.factors.clone();
@@ -91,13 +108,15 @@ impl Notation {
             }
         };
         let (numerator, denominator) = (side(over, 1), side(under, -1));
-        let above = if numerator.is_empty() { "1".to_owned() } else { numerator.join(" ") };
+        let times = if self == Self::Coq { " * " } else { " " };
+        let above = if numerator.is_empty() { "1".to_owned() } else { numerator.join(times) };
         if denominator.is_empty() {
             return format!("{sign}{above}");
         }
-        let below = denominator.join(" ");
+        let below = denominator.join(times);
         match self {
             Self::Latex => format!(r"{sign}\frac{{{above}}}{{{below}}}"),
+            Self::Coq => format!("{sign}{above} / {}", coq_bracketed(&below)),
             Self::Text if denominator.len() > 1 => format!("{sign}{above}/({below})"),
             Self::Text => format!("{sign}{above}/{below}"),
         }
@@ -111,6 +130,7 @@ impl Notation {
 
     fn call(self, function: Function, arguments: &[String]) -> String {
         match (self, function, arguments) {
+            (Self::Coq, ..) => format!("({})", coq_call(function, arguments)),
             (_, Function::select, [x, below, above]) => {
                 let (when, otherwise) = (self.pick(" if ", r"\text{ if } "), self.pick(" else ", r"\text{ else } "));
                 self.brackets(&format!("{above}{when}{x} > 0{otherwise}{below}"))
@@ -126,6 +146,47 @@ impl Notation {
             }
             (Self::Text, ..) => format!("{}({})", function.name(), arguments.join(", ")),
         }
+    }
+}
+
+/// A function's value in Coq, without brackets around it.
+fn coq_call(function: Function, arguments: &[String]) -> String {
+    let name = match (function, arguments) {
+        (Function::select, [x, below, above]) => {
+            return format!("if Rlt_dec 0 {} then {above} else {below}", coq_bracketed(x));
+        }
+        (Function::exp_m1, [x]) => return format!("exp {} - 1", coq_bracketed(x)),
+        (Function::ln_1p, [x]) => return format!("ln (1 + {})", coq_bracketed(x)),
+        (Function::atanh, [x]) => return format!("ln ((1 + {x}) / (1 - {x})) / 2", x = coq_bracketed(x)),
+        (Function::floor, [x]) => return format!("IZR (Int_part {})", coq_bracketed(x)),
+        (Function::abs, _) => "Rabs",
+        (Function::min, _) => "Rmin",
+        (Function::max, _) => "Rmax",
+        (Function::pow, _) => "Rpower",
+        _ => function.name(),
+    };
+    arguments.iter().fold(name.to_owned(), |call, argument| format!("{call} {}", coq_bracketed(argument)))
+}
+
+/// A term of Coq as an argument: a name, a number or what is bracketed already as it is.
+fn coq_bracketed(term: &str) -> String {
+    let mut depth = 0;
+    let mut outside = term.char_indices().filter(|&(place, letter)| {
+        depth += i32::from(letter == '(') - i32::from(letter == ')');
+        depth == 0 && place + 1 < term.len()
+    });
+    let is_name = term.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
+    if is_name || outside.next().is_none() { term.to_owned() } else { format!("({term})") }
+}
+
+/// The same fraction of whole numbers, where the numerator is a decimal.
+fn whole(over: String, under: String) -> (String, String) {
+    match over.split_once('.') {
+        Some((before, after)) => {
+            let digits = format!("{before}{after}");
+            (digits.trim_start_matches('0').to_owned(), format!("1{}", "0".repeat(after.len())))
+        }
+        None => (over, under),
     }
 }
 

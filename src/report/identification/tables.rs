@@ -1,9 +1,10 @@
 //! What was found, as tables and sentences.
 
 use crate::features::CycleStatistics;
-use crate::identify::joint::Estimate;
-use crate::identify::prediction_error::Prediction;
-use crate::identify::{Caution, DragLaw, DragVerdict, Identification, Reason, Reported, Source, Trust, Units};
+use crate::identify::document::UnitNames;
+use crate::identify::{
+    Caution, DragLaw, DragVerdict, Estimate, Identification, Prediction, Reason, Reported, Source, Trust,
+};
 use crate::report::{Cell, Table};
 
 /// Digits that a measured number is shown with, after the first.
@@ -182,7 +183,7 @@ fn parameter_table(found: &Identification, reported: &Reported) -> Table {
     let terms = if terms.is_empty() { String::new() } else { format!(", with {}", terms.join(", ")) };
     let title = format!("Reported: {} drag{terms}", reported.drag.name());
     let columns = ["parameter", "value", "std", "95 % from", "to", "unit"];
-    let units = Units::of(found.sources().iter().any(|source| source.log.degrees));
+    let units = UnitNames::of(found.sources().iter().any(|source| source.log.degrees));
     let (one, second) = (String::new(), "s".to_owned());
     let [alpha, beta, quadratic, cubic, stiffness] =
         [&units.alpha, &units.beta, &units.beta_quadratic, &units.beta_cubic, &units.stiffness]
@@ -204,7 +205,7 @@ fn parameter_table(found: &Identification, reported: &Reported) -> Table {
         ("filter of the sensor", reported.filter_s, &second),
     ];
     let shared = named.into_iter().filter_map(|(name, estimate, unit)| Some((name.to_owned(), estimate?, unit)));
-    let deltas = found.sources().iter().zip(&reported.deltas).map(|(source, delta)| match found.sources().len() {
+    let deltas = found.sources().iter().zip(&*reported.deltas).map(|(source, delta)| match found.sources().len() {
         1 => ("disturbance delta".to_owned(), *delta, &force),
         _ => (format!("disturbance delta in {}", source.name), *delta, &force),
     });

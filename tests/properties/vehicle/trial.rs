@@ -3,9 +3,9 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 use selfosc::experiment::Sensor;
-use selfosc::identify::DragLaw;
+use selfosc::identify::answer::AxisParameter;
 use selfosc::identify::fit::{Between, Fit, RecordFit};
-use selfosc::identify::joint::{Delay, Parameter};
+use selfosc::identify::{Delay, DragLaw};
 use selfosc::on_board::{Coordinate, Phase, Protocol};
 use selfosc::plant::DragAxis;
 use selfosc::vehicle::{
@@ -95,11 +95,11 @@ impl Setup {
 }
 
 /// The three parameters with their truth.
-fn parameters(truth: &AxisParameters) -> [(Parameter, f64); 3] {
+fn parameters(truth: &AxisParameters) -> [(AxisParameter, f64); 3] {
     [
-        (Parameter::Alpha, truth.alpha),
-        (Parameter::LinearDrag, truth.linear_drag),
-        (Parameter::QuadraticDrag, truth.quadratic_drag),
+        (AxisParameter::Alpha, truth.alpha),
+        (AxisParameter::LinearDrag, truth.linear_drag),
+        (AxisParameter::QuadraticDrag, truth.quadratic_drag),
     ]
 }
 
@@ -191,7 +191,7 @@ fn neglected_terms_explain_the_difference() {
     let [yaw, ..] = setups();
     let runs = yaw.levels.map(|level| yaw.run(&vehicle, level, 0.08));
     let truth = vehicle.axis(Axis::Yaw, &Vector6::zeros());
-    let found = yaw.fit(&runs).estimate(Parameter::Alpha);
+    let found = yaw.fit(&runs).estimate(AxisParameter::Alpha);
     // Water moved sideways: the identified inertia is below that of the uncoupled axis by more than its own error.
     assert!(found.spread.unwrap().high < truth.alpha);
     let absorbed = runs.each_ref().map(|run| run.absorbed(&vehicle, Axis::Yaw).unwrap().alpha);

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 
 use selfosc::experiment::Record;
-use selfosc::identify::joint::{Delay, Estimate};
-use selfosc::identify::prediction_error::{self, Estimator, Reason, Reported};
+use selfosc::identify::fit::prediction_error::Estimator;
+use selfosc::identify::{self, Delay, Estimate, Reason, Reported};
 use selfosc_simulator::answer::{Answer, Trust};
 use selfosc_simulator::kinds::Case;
 
@@ -33,9 +33,9 @@ fn answer(reported: &Reported, case: &Case) -> Answer {
     let whole = |estimate: Estimate| Some(interval(estimate));
     Answer {
         trust: match reported.trust {
-            prediction_error::Trust::Good => Trust::Good,
-            prediction_error::Trust::Widened => Trust::Widened,
-            prediction_error::Trust::Doubtful => Trust::Doubtful,
+            identify::Trust::Good => Trust::Good,
+            identify::Trust::Widened => Trust::Widened,
+            identify::Trust::Doubtful => Trust::Doubtful,
         },
         reasons: reported.reasons.iter().map(|reason: &Reason| Cow::Borrowed(reason.code())).collect(),
         alpha: reported.alpha.spread.and(whole(reported.alpha)),

@@ -1,7 +1,7 @@
 //! What every binding needs: a log made a record, an estimate made an interval.
 
 use selfosc::experiment::Record;
-use selfosc::identify::joint::Estimate;
+use selfosc::identify::Estimate;
 use selfosc_simulator::answer::Interval;
 
 /// The record as a user reads it: wrapped headings made continuous.

@@ -1,28 +1,76 @@
 //! The check: what a certificate says of its records, stage by stage. No search, no linear programme.
 
-use super::super::command::Command;
 use super::super::contract::Model;
 use super::super::effort::Effort;
-use super::super::field::Term;
-use super::super::problem::{Layout, Readings, Window, swing_s};
+use super::super::problem::{Layout, Window};
+use super::super::setup::Setup;
 use super::walk::{Walk, Work};
-use super::{Certificate, FORMAT, Stage, Witness, roughly};
+use super::{Certificate, Stage, Witness, roughly};
+use crate::experiment::Record;
 use crate::numeric::Interval;
 
 /// Why a certificate is not accepted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unproved {
-    /// It is no certificate, or one of another format.
-    #[error("not a certificate of guaranteed bounds: {text}")]
+    /// It is no certificate.
+    #[error(
+        "not a certificate of guaranteed bounds: {text}; write one with `selfosc identify LOG --method bounded --certificate FILE`"
+    )]
+    Foreign {
+        /// What is wrong.
+        text: String,
+    },
+    /// One of another program.
+    #[error("format {found}, where this program reads format {expected}; write it anew with `identify --certificate`")]
+    Format {
+        /// Its own.
+        found: u32,
+        /// This program's.
+        expected: u32,
+    },
+    /// Its parts do not make up a problem and a proof.
+    #[error("{text}")]
     Malformed {
         /// What is wrong.
         text: String,
     },
-    /// A stage begins elsewhere than the one before ended, or has another delay.
-    #[error("stage {stage} does not begin where the one before it ended, or has another delay")]
-    Stage {
-        /// Its number.
-        stage: usize,
+    /// A range is not the one that the records and the model lead to.
+    #[error("the {what} is not the one that the file's records and its model lead to")]
+    Ranges {
+        /// Of what.
+        what: &'static str,
+    },
+    /// Other logs.
+    #[error("{found} logs, where the file has {expected}; give the logs in the order in which they were identified")]
+    Logs {
+        /// Logs given.
+        found: usize,
+        /// Records in the file.
+        expected: usize,
+    },
+    /// A row is not the log's.
+    #[error("row {row} of log {log}: the {what} is {found} in the log and {expected} in the file")]
+    Row {
+        /// Number of the log, from one.
+        log: usize,
+        /// Number of the row among those used, from one.
+        row: usize,
+        /// Stamp, reading or command.
+        what: &'static str,
+        /// In the log, or that it has no such row.
+        found: String,
+        /// In the file.
+        expected: String,
+    },
+    /// The witness leaves out readings.
+    #[error("the witness begins at row {first} of record {record}, and has to meet every reading from row {most} on")]
+    Late {
+        /// Number of the record, from one.
+        record: usize,
+        /// Its first row, from one.
+        first: usize,
+        /// The last with which it may begin.
+        most: usize,
     },
     /// What a step says does not follow.
     #[error("step {step} of stage {stage}: {what}")]
@@ -70,8 +118,12 @@ impl Unproved {
     /// Short name for scripts.
     pub fn code(&self) -> &'static str {
         match self {
+            Self::Foreign { .. } => "foreign",
+            Self::Format { .. } => "format",
             Self::Malformed { .. } => "malformed",
-            Self::Stage { .. } => "stage",
+            Self::Ranges { .. } => "ranges",
+            Self::Logs { .. } | Self::Row { .. } => "log",
+            Self::Late { .. } => "late",
             Self::Step { .. } => "step",
             Self::Incomplete { .. } => "incomplete",
             Self::Witness { .. } => "witness",
@@ -87,6 +139,8 @@ impl Unproved {
 pub struct Shown {
     /// In words.
     pub statement: String,
+    /// What it depends on, in words.
+    pub ranges: Vec<String>,
     /// Where parameters were searched: the terms and the delay.
     pub searched: Vec<(&'static str, [f64; 2])>,
     /// What is left of them; nothing where refuted.
@@ -119,182 +173,129 @@ impl Certificate {
     /// # Errors
     /// The first [`Unproved`].
     pub fn check(&self) -> Result<Shown, Unproved> {
-        if self.format != FORMAT {
-            return Err(malformed("another format"));
-        }
-        let readings = self.readings()?;
-        let mut work = Work::default();
-        for (index, stage) in self.stages.iter().enumerate() {
-            let before = index.checked_sub(1).map(|before| &self.stages[before]);
-            if before.is_some_and(|before| before.left.as_ref() != Some(&stage.from) || before.delay_s != stage.delay_s)
-            {
-                return Err(Unproved::Stage { stage: index });
-            }
-            Walk::of(self, &readings, stage, index)?.go(&mut work)?;
-        }
-        let (Some(first), Some(last)) = (self.stages.first(), self.stages.last()) else {
-            return Err(malformed("no stage"));
-        };
-        if let Some(witness) = &self.witness {
-            self.check_witness(&readings, witness)?;
-        }
-        let expected = self.words();
+        let (records, setup) = self.problem()?;
+        let expected = self.words(&records.iter().collect::<Vec<_>>());
         if expected != self.statement {
             return Err(Unproved::Statement { expected });
         }
-        let readings = readings.iter().map(|readings| readings.value.len()).sum();
+        let walks =
+            (0..self.stages.len()).map(|index| Walk::of(&setup, self.begin(index)?, &self.stages[index], index));
+        let walks = walks.collect::<Result<Vec<_>, Unproved>>()?;
+        let last = self.stages.last().ok_or_else(|| malformed("no stage"))?;
+        if let Some(witness) = &self.witness {
+            self.check_witness(&setup, witness)?;
+        }
+        let mut work = Work::default();
+        walks.iter().try_for_each(|walk| walk.go(&mut work))?;
         Ok(Shown {
             statement: expected,
-            searched: self.named(first, &first.from),
-            left: last.left.as_ref().map_or_else(Vec::new, |left| self.named(last, left)),
-            fastest: self.fastest,
+            ranges: self.ranges(&setup),
+            searched: self.named(&setup, &self.searched.from),
+            left: last.left.as_ref().map_or_else(Vec::new, |left| self.named(&setup, left)),
+            fastest: self.searched.fastest,
             excluded: work.excluded,
             enclosures: work.enclosures,
-            readings,
+            readings: records.iter().map(Record::samples).sum(),
         })
     }
 
+    /// Where a stage begins.
+    fn begin(&self, index: usize) -> Result<&[[f64; 2]], Unproved> {
+        let Some(before) = index.checked_sub(1) else { return Ok(&self.searched.from) };
+        let left = self.stages[before].left.as_deref();
+        left.ok_or_else(|| malformed(&format!("stage {index} begins where nothing is left")))
+    }
+
     /// The same of one stage by itself.
-    pub(super) fn accepts(&self, stage: &Stage) -> Result<(), Unproved> {
-        let readings = self.readings()?;
-        Walk::of(self, &readings, stage, self.stages.len())?.go(&mut Work::default())
+    pub(super) fn accepts(&self, wide: &Setup, stage: &Stage) -> Result<(), Unproved> {
+        let from = match self.stages.last() {
+            Some(before) => before.left.as_deref().ok_or_else(|| malformed("a stage too many"))?,
+            None => &self.searched.from,
+        };
+        Walk::of(wide, from, stage, self.stages.len())?.go(&mut Work::default())
     }
 
-    /// Ranges of a stage's terms and of its delay, by name.
-    fn named(&self, stage: &Stage, ranges: &[[f64; 2]]) -> Vec<(&'static str, [f64; 2])> {
-        let names = self.terms.iter().map(|term| term.name()).chain(["delay_s"]);
-        let known = stage.delay_s.map(|delay_s| [delay_s; 2]);
-        names
-            .zip(ranges.iter().take(self.terms.len()).copied().chain(known.or(ranges.get(self.terms.len()).copied())))
-            .collect()
+    /// Ranges of terms, of the delay and of each record's disturbance, by name.
+    fn named(&self, setup: &Setup, ranges: &[[f64; 2]]) -> Vec<(&'static str, [f64; 2])> {
+        let terms = &self.searched.terms;
+        let delay =
+            if setup.layout.delay().is_some() { ranges[terms.len()] } else { [setup.known_delay_s.midpoint(); 2] };
+        let of_terms = terms.iter().map(|term| term.name()).zip(ranges.iter().copied());
+        let disturbances = (0..self.records.len()).map(|record| ranges[setup.layout.disturbance(record)]);
+        of_terms.chain([("delay_s", delay)]).chain(disturbances.map(|range| ("delta/alpha", range))).collect()
     }
 
-    /// What steps of this shape show.
-    pub(super) fn words(&self) -> String {
-        let left = self.stages.last().and_then(|stage| stage.left.as_ref());
-        match (left, &self.witness) {
-            (None, _) => "refuted: no parameter in the search box meets every reading",
-            (Some(_), None) => "every parameter in the search box that meets every reading lies within the bounds",
-            (Some(_), Some(_)) => {
-                "consistent: every parameter in the search box that meets every reading lies within the bounds, and the witness \
-                 meets every reading from its own first on"
+    fn check_witness(&self, setup: &Setup, witness: &Witness) -> Result<(), Unproved> {
+        let own = setup.layout.delay().map(|place| witness.values.get(place).copied().unwrap_or(f64::NAN));
+        let delay_s = own.map_or(setup.known_delay_s, Interval::point);
+        // As if it were all that is left, with one window for each record.
+        let records = setup.records.iter().zip(&witness.first).enumerate();
+        let windows = records.map(|(record, (own, first))| [record, *first, own.time_s.len() - 1]).collect();
+        let stage = Stage { windows, left: None, steps: Vec::new() };
+        let layout = stage.layout(setup, delay_s).ok_or_else(|| malformed("the witness"))?;
+        for (record, first) in witness.first.iter().enumerate() {
+            let most = setup.layout.windows().iter().find(|window| window.record == record).map_or(0, |own| own.first);
+            if *first > most {
+                return Err(Unproved::Late { record: record + 1, first: first + 1, most: most + 1 });
             }
         }
-        .to_owned()
-    }
-
-    fn readings(&self) -> Result<Vec<Readings>, Unproved> {
-        let ordered = self.terms.windows(2).all(|pair| pair[0] < pair[1]);
-        let finite = [self.middle_speed, self.least_linear, self.fastest].iter().all(|value| value.is_finite());
-        if self.terms.first() != Some(&Term::Gain)
-            || !ordered
-            || self.terms.contains(&Term::Disturbance)
-            || self.records.is_empty()
-            || !finite
-            // Its share of the quadratic drag is in the linear one's coefficient.
-            || self.middle_speed != 0.0 && ![Term::Linear, Term::Quadratic].iter().all(|term| self.terms.contains(term))
-        {
-            return Err(malformed("the equation or its records"));
+        let model = Model { per_s: Some(1.0 / setup.swing_s), known_delay_s: delay_s, ..model(setup, &layout) };
+        let at = &witness.values;
+        let inside = at.iter().zip(&setup.search).take(layout.parameters()).all(|(value, side)| side.contains(*value));
+        if at.len() != layout.start(setup.records.len(), 0) || !inside || !at.iter().all(|value| value.is_finite()) {
+            return Err(malformed("the witness is not in the search box"));
         }
-        let each = self.records.iter().map(|sensed| {
-            let increasing = |times: &[f64]| times.windows(2).all(|pair| pair[0] < pair[1]);
-            let all = sensed
-                .time_s
-                .iter()
-                .chain(&sensed.reading)
-                .chain(&sensed.levels)
-                .chain(sensed.switched_s.iter().flatten());
-            let sound = sensed.time_s.len() == sensed.reading.len()
-                && increasing(&sensed.time_s)
-                && all.copied().all(f64::is_finite)
-                && (sensed.error > 0.0
-                    && sensed.error.is_finite()
-                    && sensed.jitter_s >= 0.0
-                    && sensed.jitter_s.is_finite())
-                && sensed.levels.len() == sensed.switched_s.len() + 1
-                && sensed.switched_s.iter().all(|[first, last]| first <= last)
-                && sensed.switched_s.windows(2).all(|pair| pair[0][1] <= pair[1][0]);
-            sound.then(|| Readings {
-                time_s: sensed.time_s.clone(),
-                value: sensed.reading.clone(),
-                error: sensed.error,
-                jitter_s: sensed.jitter_s,
-                command: Command::new(sensed.levels.clone(), sensed.switched_s.iter().map(|[a, b]| (*a, *b)).collect()),
-            })
-        });
-        each.collect::<Option<_>>().ok_or_else(|| malformed("a record"))
+        // What the search box says beside its sides, to within a rounding of the terms.
+        let mut beside = model.about(&[], at.clone());
+        model.bound(&mut beside);
+        let rounding = |slopes: &[(usize, Interval)]| {
+            slopes.iter().map(|(place, slope)| (*slope * Interval::point(at[*place])).magnitude()).sum::<f64>()
+        };
+        let rows = beside.rows.slopes.iter().zip(&beside.rows.limits);
+        if rows.into_iter().any(|(slopes, limit)| *limit < -1e-12 * rounding(slopes)) {
+            return Err(malformed("the witness is not in the search box"));
+        }
+        let misfits = model.whole().into_iter().map(|span| model.misfit(span, at).unwrap_or(f64::INFINITY));
+        let misfit = misfits.fold(0.0, f64::max);
+        if misfit <= 1.0 { Ok(()) } else { Err(Unproved::Witness { misfit }) }
     }
+}
 
-    pub(super) fn layout(&self, readings: &[Readings], stage: &Stage) -> Option<Layout> {
+impl Stage {
+    /// Each record's windows follow one another, the first from where every command that acts is in the log; `None` where they do not.
+    pub(super) fn layout(&self, setup: &Setup, delay_s: Interval) -> Option<Layout> {
         let windows: Vec<Window> =
-            stage.windows.iter().map(|&[record, first, last]| Window { record, first, last }).collect();
-        // Each record's follow one another, the first from where every command that acts is in the log.
-        let delayed = stage.delay_s.is_none();
-        let longest = if delayed { stage.from.get(self.terms.len())?[1] } else { stage.delay_s? };
+            self.windows.iter().map(|&[record, first, last]| Window { record, first, last }).collect();
         let mut before: Option<Window> = None;
         for window in &windows {
-            let own = readings.get(window.record)?;
+            let own = setup.records.get(window.record)?;
             let follows = match before {
                 Some(before) if before.record == window.record => before.last == window.first,
                 Some(before) => window.record == before.record + 1,
                 None => window.record == 0,
             };
-            let start = *own.time_s.get(window.first)?;
-            let acts = (Interval::point(own.time_s[0]) + Interval::point(longest)).upper() <= start;
+            let acts = own.acted_s(delay_s) <= *own.time_s.get(window.first)?;
             if !(follows && acts && window.first < window.last && window.last < own.time_s.len()) {
                 return None;
             }
             before = Some(*window);
         }
-        if before?.record + 1 != readings.len() {
-            return None;
-        }
-        let known =
-            |readings: &Readings| (0..readings.command.edges()).all(|edge| readings.command.span(edge).is_point());
-        let instants = readings.iter().map(|own| if known(own) { 0 } else { own.command.edges() }).collect();
-        Some(Layout::new(self.terms.clone(), delayed, instants, windows))
+        (before?.record + 1 == setup.records.len()).then(|| setup.layout.clone().with_windows(windows))
     }
+}
 
-    pub(super) fn model<'a>(&self, readings: &'a [Readings], layout: &'a Layout, stage: &Stage) -> Model<'a> {
-        Model {
-            records: readings,
-            layout,
-            middle_speed: self.middle_speed,
-            known_delay_s: Interval::point(stage.delay_s.unwrap_or(0.0)),
-            least_linear: self.least_linear,
-            fastest: self.fastest,
-            per_s: roughly(swing_s(readings)),
-            effort: Effort::default(),
-            reach: usize::MAX,
-            heard: None,
-        }
-    }
-
-    fn check_witness(&self, readings: &[Readings], witness: &Witness) -> Result<(), Unproved> {
-        let first = self.stages.first().ok_or_else(|| malformed("no stage"))?;
-        let delayed = first.delay_s.is_none();
-        let delay_s = if delayed { witness.values.get(self.terms.len()).copied() } else { first.delay_s };
-        // As if it were all that is left, with one window for each record.
-        let windows = readings.iter().zip(&witness.first).enumerate();
-        let stage = Stage {
-            delay_s,
-            windows: windows.map(|(record, (own, first))| [record, *first, own.time_s.len() - 1]).collect(),
-            from: Vec::new(),
-            left: None,
-            steps: Vec::new(),
-        };
-        let layout = self.layout(readings, &stage).ok_or_else(|| malformed("the witness"))?;
-        let layout = layout.with_delay(delayed);
-        let model = Model { per_s: Some(1.0 / swing_s(readings)), ..self.model(readings, &layout, &stage) };
-        let at = &witness.values;
-        let inside = sides(&first.from).is_some_and(|from| {
-            from.len() == layout.parameters() && from.iter().zip(at).all(|(side, value)| side.contains(*value))
-        });
-        if at.len() != layout.start(readings.len(), 0) || !inside || !at.iter().all(|value| value.is_finite()) {
-            return Err(malformed("the witness"));
-        }
-        let misfits = model.whole().into_iter().map(|span| model.misfit(span, at).unwrap_or(f64::INFINITY));
-        let misfit = misfits.fold(0.0, f64::max);
-        if misfit <= 1.0 { Ok(()) } else { Err(Unproved::Witness { misfit }) }
+/// The problem over a stage's windows.
+pub(super) fn model<'a>(setup: &'a Setup, layout: &'a Layout) -> Model<'a> {
+    Model {
+        records: &setup.records,
+        layout,
+        middle_speed: setup.middle_speed,
+        known_delay_s: setup.known_delay_s,
+        least_linear: setup.least_linear,
+        fastest: setup.fastest,
+        per_s: roughly(setup.swing_s),
+        effort: Effort::default(),
+        reach: usize::MAX,
+        heard: None,
     }
 }

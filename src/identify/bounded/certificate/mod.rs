@@ -10,6 +10,7 @@ mod prove;
 mod prover;
 mod seek;
 mod slant;
+mod statement;
 #[cfg(test)]
 mod tests;
 mod walk;
@@ -22,6 +23,7 @@ use super::field::Term;
 use super::search::Search;
 use super::settings::BoundedModel;
 use super::setup::{PROVED, Setup};
+use crate::experiment::{Columns, Record};
 use crate::identify::IdentifyError;
 use crate::numeric::Interval;
 
@@ -29,7 +31,7 @@ pub use check::{Shown, Unproved};
 use prove::Goal;
 
 /// Changes with the meaning of a field.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 /// What hats and chained windows cost against a motion to the second order over as much of a record.
 const BY_HATS: f64 = 0.15;
 const BY_CHAIN: f64 = 0.45;
@@ -49,22 +51,46 @@ pub struct Certificate {
     pub(super) format: u32,
     /// Of the crate that wrote it.
     pub(super) version: String,
-    /// In words.
+    /// In words, by the others.
     pub(super) statement: String,
-    /// Of the equation, in the order in which they stand in a box.
-    pub(super) terms: Vec<Term>,
-    /// The linear term's coefficient is that of the drag plus twice this times the quadratic one's, in output units per s.
-    pub(super) middle_speed: f64,
-    /// No linear drag below this, over alpha, is looked for, in 1/s.
-    pub(super) least_linear: f64,
-    /// No speed above this is looked for.
-    pub(super) fastest: f64,
-    /// Readings with their errors.
-    pub(super) records: Vec<Sensed>,
+    /// The equation, and what is granted to a reading and a stamp.
+    pub(super) model: BoundedModel,
+    /// How the readings were taken from the logs; null where they are from none.
+    pub(super) read_as: Option<ReadAs>,
+    /// The rows of the logs.
+    pub(super) records: Vec<Rows>,
+    /// What these and the model come to.
+    pub(super) searched: Searched,
     /// One after the other; each begins where the one before ended.
     pub(super) stages: Vec<Stage>,
     /// One parameter.
     pub(super) witness: Option<Witness>,
+}
+
+/// How a log's columns become readings and commands.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReadAs {
+    /// Columns and their units.
+    pub columns: Columns,
+    /// The level to which the command is scaled, if it is.
+    pub relay_level: Option<f64>,
+}
+
+/// Where parameters are looked for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Searched {
+    /// Of the equation, in the order in which they stand in a box.
+    pub(super) terms: Vec<Term>,
+    /// The linear term's coefficient is that of the drag plus twice this times the quadratic one's, in output units per s.
+    pub(super) middle_speed: f64,
+    /// No linear drag below this, over alpha, in 1/s.
+    pub(super) least_linear: f64,
+    /// No speed above this.
+    pub(super) fastest: f64,
+    /// Terms, the delay where it is unknown, then each record's disturbance and instants.
+    pub(super) from: Vec<[f64; 2]>,
 }
 
 /// A parameter that meets every reading from some sample on.
@@ -77,32 +103,23 @@ pub(super) struct Witness {
     pub(super) values: Vec<f64>,
 }
 
-/// A record as a set of constraints.
+/// The rows of a log: stamps, readings, and the command that each row has.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Sensed {
+pub(super) struct Rows {
     pub(super) time_s: Vec<f64>,
     pub(super) reading: Vec<f64>,
-    /// The largest of a reading, in its units.
-    pub(super) error: f64,
-    /// The largest error of a stamp.
-    pub(super) jitter_s: f64,
-    /// Commands, the first before any switching.
-    pub(super) levels: Vec<f64>,
-    /// First and last instant of each switching.
-    pub(super) switched_s: Vec<[f64; 2]>,
+    pub(super) command: Vec<f64>,
+    /// Step of the sensor: the model's, else the one that the readings show; zero for none.
+    pub(super) quantum: f64,
 }
 
-/// A box and what is left of it.
+/// What is left of the box at hand: of the first stage that is searched, of any other what the one before left.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Stage {
-    /// The delay where it is no unknown; null where it is.
-    pub(super) delay_s: Option<f64>,
     /// Record, first and last sample of each window.
     pub(super) windows: Vec<[usize; 3]>,
-    /// Where it begins: terms, delay, then each record's disturbance and instants.
-    pub(super) from: Vec<[f64; 2]>,
     /// What is left; null for nothing.
     pub(super) left: Option<Vec<[f64; 2]>>,
     pub(super) steps: Vec<Step>,
@@ -200,12 +217,13 @@ impl Certificate {
     /// # Errors
     /// [`Unproved::NotFound`] where a stage takes too many steps, however much room there is around what is left.
     pub(super) fn prove(
+        records: &[&Record],
         wide: &Setup,
         settings: &BoundedModel,
         explored: &Explored,
         witness: Option<Witness>,
     ) -> Result<Result<Self, Unproved>, IdentifyError> {
-        let (mut certificate, passes) = (Self::of(wide, witness), explored.bounds.passes);
+        let (mut certificate, passes) = (Self::of(records, wide, settings, witness), explored.bounds.passes);
         let Explored { hulls, left, .. } = explored;
         // What all readings leave is more than nothing, or those from there on leave nothing.
         let later = explored.later.as_ref().filter(|_| left.is_some() || hulls.len() == 1);
@@ -219,7 +237,7 @@ impl Certificate {
                 Some(hull) => Goal::Within(hull),
                 None => Goal::Nothing,
             };
-            match certificate.stage(setup, setup.ended(settings, PROVED).as_ref(), &goal, passes) {
+            match certificate.stage(wide, setup, setup.ended(settings, PROVED).as_ref(), &goal, passes) {
                 Ok(stage) => certificate.stages.push(stage),
                 Err(error) => return Ok(Err(error)),
             }
@@ -227,41 +245,70 @@ impl Certificate {
                 break;
             }
         }
-        certificate.statement = certificate.words();
+        certificate.statement = certificate.words(records);
         Ok(Ok(certificate))
     }
 
     /// One without stages.
-    fn of(wide: &Setup, witness: Option<Witness>) -> Self {
-        let sensed = wide.records.iter().map(|readings| Sensed {
-            time_s: readings.time_s.clone(),
-            reading: readings.value.clone(),
-            error: readings.error,
-            jitter_s: readings.jitter_s,
-            levels: readings.command.levels().to_vec(),
-            switched_s: readings.command.spans().iter().map(|(first, last)| [*first, *last]).collect(),
+    fn of(records: &[&Record], wide: &Setup, settings: &BoundedModel, witness: Option<Witness>) -> Self {
+        let rows = records.iter().map(|record| Rows {
+            time_s: record.time_s().to_vec(),
+            reading: record.output().to_vec(),
+            command: record.input().to_vec(),
+            quantum: settings.step(record),
         });
         Self {
             format: FORMAT,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             statement: String::new(),
-            terms: wide.layout.terms().to_vec(),
-            middle_speed: wide.middle_speed,
-            least_linear: wide.least_linear,
-            fastest: wide.fastest,
-            records: sensed.collect(),
+            model: settings.clone(),
+            read_as: None,
+            records: rows.collect(),
+            searched: Searched::of(wide),
             stages: Vec::new(),
             witness,
         }
     }
 
+    /// The same of logs that were read so.
+    pub(crate) fn read_as(self, read_as: ReadAs) -> Self {
+        Self { read_as: Some(read_as), ..self }
+    }
+
     /// From the text of a file.
     ///
     /// # Errors
-    /// [`Unproved::Malformed`].
+    /// [`Unproved::Format`] for another program's, [`Unproved::Foreign`] for what is no certificate.
     pub fn read(text: &str) -> Result<Self, Unproved> {
-        serde_json::from_str(text).map_err(|error| Unproved::Malformed { text: error.to_string() })
+        /// What every format has.
+        #[derive(Deserialize)]
+        struct Head {
+            format: u32,
+        }
+        match serde_json::from_str(text) {
+            Ok(Head { format }) if format != FORMAT => Err(Unproved::Format { found: format, expected: FORMAT }),
+            // Its fields are told apart only where it is JSON.
+            Err(error) if !error.is_data() => Err(Unproved::Foreign { text: error.to_string() }),
+            _ => serde_json::from_str(text).map_err(|error| Unproved::Foreign { text: error.to_string() }),
+        }
     }
+}
+
+impl Searched {
+    fn of(setup: &Setup) -> Self {
+        Self {
+            terms: setup.layout.terms().to_vec(),
+            middle_speed: setup.middle_speed,
+            least_linear: setup.least_linear,
+            fastest: setup.fastest,
+            from: ends(&setup.search[..setup.layout.parameters()]),
+        }
+    }
+}
+
+/// Ranges as a file has them.
+fn ends(at: &[Interval]) -> Vec<[f64; 2]> {
+    at.iter().map(|side| [side.lower(), side.upper()]).collect()
 }
 
 impl Witness {

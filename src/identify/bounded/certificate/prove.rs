@@ -24,12 +24,13 @@ pub(super) enum Goal<'a> {
 }
 
 impl Certificate {
-    /// The steps from the box of `setup` to the goal, which took a search so many `passes`; this certificate accepts them.
+    /// The steps from the box of `setup`, a part of the `wide` one, to the goal, which took a search so many `passes`; this certificate accepts them.
     ///
     /// # Errors
     /// [`Unproved::NotFound`] where they are too many.
     pub(super) fn stage(
         &self,
+        wide: &Setup,
         setup: &Setup,
         beginnings: Option<&Setup>,
         goal: &Goal<'_>,
@@ -54,7 +55,7 @@ impl Certificate {
         let mut last = Err(Unproved::NotFound { steps: 0 });
         for room in rooms {
             let found = Prover::of(&opened, &early, &reaches, goal, *room, enough).stage();
-            let found = found.and_then(|(stage, spent)| self.accepts(&stage).map(|()| (stage, spent)));
+            let found = found.and_then(|(stage, spent)| self.accepts(wide, &stage).map(|()| (stage, spent)));
             match found {
                 Ok((stage, spent)) if last.is_err() => {
                     enough = (CHEAP * passes as f64).max(FEW).max(DEARER * spent);

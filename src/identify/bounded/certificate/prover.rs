@@ -8,7 +8,7 @@ use super::super::setup::Setup;
 use super::super::slanted::Slanted;
 use super::prove::Goal;
 use super::seek::{Caution, Found, Seek};
-use super::{By, Cut, Stage, Step, Unproved, roughly, shorten};
+use super::{By, Cut, Stage, Step, Unproved, ends, roughly, shorten};
 use crate::numeric::{Interval, Real};
 
 #[cfg(test)]
@@ -71,10 +71,6 @@ pub(super) struct Prover<'a> {
     most: f64,
 }
 
-fn ends(at: &[Interval]) -> Vec<[f64; 2]> {
-    at.iter().map(|side| [side.lower(), side.upper()]).collect()
-}
-
 fn middles(at: &[Interval]) -> Vec<f64> {
     at.iter().map(|side| side.midpoint()).collect()
 }
@@ -114,9 +110,7 @@ impl<'a> Prover<'a> {
         let (layout, parameters) = (&setup.layout, setup.layout.parameters());
         let left = if self.narrow { around(kept).map(|hull| hull[..parameters].to_vec()) } else { self.left };
         let stage = Stage {
-            delay_s: layout.delay().is_none().then(|| setup.known_delay_s.midpoint()),
             windows: layout.windows().iter().map(|window| [window.record, window.first, window.last]).collect(),
-            from: ends(&setup.search[..parameters]),
             left: left.as_deref().map(ends),
             steps: self.steps,
         };

@@ -38,6 +38,7 @@ fn what_is_written_is_accepted_and_read_back() {
         let shown = read.check().expect("accepted");
         assert!(shown.enclosures > 0 && shown.readings == 300);
         assert_eq!(shown.left.is_empty(), read.stages[0].left.is_none());
+        assert!(read.agrees(&[record(300)]).is_ok() && read.agrees(&[record(299)]).is_err());
     }
 }
 
@@ -103,6 +104,7 @@ fn boxes_left_out_or_made_smaller_are_refused() {
         assert_eq!(refused(&longer), "incomplete");
         let mut without = certificate.clone();
         without.stages.clear();
+        without.statement = REFUTED.statement.clone();
         assert_eq!(refused(&without), "malformed");
     }
     let mut narrower = CONSISTENT.clone();
@@ -111,19 +113,27 @@ fn boxes_left_out_or_made_smaller_are_refused() {
     assert_eq!(refused(&narrower), "step");
     let mut refuted = CONSISTENT.clone();
     refuted.stages[0].left = None;
+    refuted.statement = REFUTED.statement.clone();
     assert_eq!(refused(&refuted), "step");
 }
 
-/// Of two delays that each leave something else, a proof for one says nothing about the other.
+/// A stage begins with what the one before left, and with no more than was searched.
 #[test]
-fn a_stage_with_another_delay_is_refused() {
-    let mut mixed = REFUTED.clone();
-    let first = &REFUTED.stages[0];
-    let whole = Stage { left: Some(first.from.clone()), steps: vec![Step::Keep], ..first.clone() };
-    mixed.stages.insert(0, whole.clone());
-    assert!(mixed.check().is_ok());
-    mixed.stages[0] = Stage { delay_s: Some(0.1), ..whole };
-    assert_eq!(refused(&mixed), "stage");
+fn a_stage_that_begins_elsewhere_is_refused() {
+    let whole = |left: Vec<[f64; 2]>| {
+        let mut mixed = REFUTED.clone();
+        let first = Stage { left: Some(left), steps: vec![Step::Keep], ..REFUTED.stages[0].clone() };
+        mixed.stages.insert(0, first);
+        mixed
+    };
+    let from = &REFUTED.searched.from;
+    assert!(whole(from.clone()).check().is_ok());
+    let mut wider = from.clone();
+    wider[0][1] *= 2.0;
+    assert_eq!(refused(&whole(wider)), "malformed");
+    let mut nothing = whole(from.clone());
+    nothing.stages[0].left = None;
+    assert_eq!(refused(&nothing), "malformed");
 }
 
 #[test]
@@ -144,7 +154,7 @@ fn a_witness_that_misses_a_reading_and_words_that_say_more_are_refused() {
     let mut boast = CONSISTENT.clone();
     boast.statement = REFUTED.statement.clone();
     assert_eq!(refused(&boast), "statement");
-    assert!(matches!(Certificate::read("{}"), Err(Unproved::Malformed { .. })));
+    assert!(matches!(Certificate::read("{}"), Err(Unproved::Foreign { .. })));
 }
 
 /// Steps that turn the box, by their numbers.

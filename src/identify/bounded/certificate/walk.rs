@@ -4,15 +4,18 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::super::contract::{Hat, Linear, Model, Origin};
-use super::super::field::Term;
 use super::super::frame::{Affine, Frame};
 use super::super::lp::Multipliers;
 use super::super::problem::{Layout, Readings};
 use super::super::rows::Starts;
+use super::super::setup::Setup;
 use super::super::surface::Surface;
-use super::check::{malformed, sides, within};
-use super::{Axes, By, Certificate, Combination, Cut, Stage, Step, Unproved, shorten};
+use super::check::{malformed, model, sides, within};
+use super::{Axes, By, Combination, Cut, Stage, Step, Unproved, shorten};
 use crate::numeric::Interval;
+
+/// Numbers that boxes at hand may hold together, so that no file takes more memory than this, however it divides.
+const MOST_HELD: usize = 1 << 20;
 
 /// What was done.
 #[derive(Default)]
@@ -25,8 +28,7 @@ pub(super) struct Work {
 pub(super) struct Walk<'a> {
     stage: &'a Stage,
     index: usize,
-    certificate: &'a Certificate,
-    readings: &'a [Readings],
+    setup: &'a Setup,
     layout: Layout,
     left: Option<Vec<Interval>>,
     from: Vec<Interval>,
@@ -41,6 +43,13 @@ struct Here {
     frame: Option<Frame>,
     /// The readings to the second order over a box that holds this one, in the same frame.
     surface: Option<Rc<Surface>>,
+}
+
+impl Here {
+    /// Numbers that it holds, but for what it shares with others.
+    fn held(&self) -> usize {
+        2 * self.at.len() + self.frame.as_ref().map_or(0, |frame| frame.places.len() * (frame.places.len() + 3))
+    }
 }
 
 /// The inequalities over a box.
@@ -111,28 +120,17 @@ impl Enclosed {
 }
 
 impl<'a> Walk<'a> {
-    pub(super) fn of(
-        certificate: &'a Certificate,
-        readings: &'a [Readings],
-        stage: &'a Stage,
-        index: usize,
-    ) -> Result<Self, Unproved> {
-        let layout = certificate.layout(readings, stage).ok_or_else(|| malformed("a window"))?;
-        let from = sides(&stage.from).filter(|from| from.len() == layout.parameters() && from[0].lower() > 0.0);
-        let mut from = from.ok_or_else(|| malformed("a range"))?;
-        let positive = |term| layout.place_of(term).is_none_or(|place| from[place].lower() >= 0.0);
-        if ![Term::Quadratic, Term::Cubic, Term::Stiffness, Term::LagRate].into_iter().all(positive) {
-            return Err(malformed("a range"));
-        }
-        // Without a quadratic one the box itself says what the least linear drag is.
-        let linear = layout.place_of(Term::Linear).filter(|_| layout.place_of(Term::Quadratic).is_none());
-        if linear.is_some_and(|place| from[place].lower() < certificate.least_linear) {
-            return Err(malformed("a range"));
-        }
-        from.extend(layout.states(readings, certificate.fastest));
+    /// From a box of parameters.
+    pub(super) fn of(setup: &'a Setup, from: &[[f64; 2]], stage: &'a Stage, index: usize) -> Result<Self, Unproved> {
+        let malformed = |what: &str| malformed(&format!("{what} of stage {index}"));
+        let from = sides(from).filter(|from| from.len() == setup.layout.parameters() && within(from, &setup.search));
+        let mut from = from.ok_or_else(|| malformed("the box"))?;
+        let delay_s = setup.layout.delay().map_or(setup.known_delay_s, |place| from[place]);
+        let layout = stage.layout(setup, delay_s).ok_or_else(|| malformed("a window"))?;
+        from.extend(layout.states(&setup.records, setup.fastest));
         let left = stage.left.as_ref().map(|left| sides(left).filter(|left| left.len() == layout.parameters()));
         let left = left.map(|left| left.ok_or_else(|| malformed("what is left"))).transpose()?;
-        let mut walk = Self { stage, index, certificate, readings, layout, left, from, heard: None };
+        let mut walk = Self { stage, index, setup, layout, left, from, heard: None };
         walk.heard = walk.named(stage.steps.iter().flat_map(|step| match step {
             Step::Contract { by: By::Slanted(_) | By::Same, cuts } | Step::Turn { cuts, .. } => {
                 cuts.iter().map(|cut| cut.rows.as_slice()).collect()
@@ -145,10 +143,10 @@ impl<'a> Walk<'a> {
 
     /// The readings that combinations name, by record. Where stamps are unsure all are heard: the speed since the one before matters.
     fn named<'r>(&self, combinations: impl IntoIterator<Item = &'r [(Origin, f64)]>) -> Option<Vec<BTreeSet<usize>>> {
-        if self.readings.iter().any(|readings| readings.jitter_s > 0.0) {
+        if self.setup.records.iter().any(|readings| readings.jitter_s > 0.0) {
             return None;
         }
-        let mut named = vec![BTreeSet::new(); self.readings.len()];
+        let mut named = vec![BTreeSet::new(); self.setup.records.len()];
         for (origin, _) in combinations.into_iter().flatten() {
             if let Origin::Reading { window, sample, .. } = origin {
                 let record = self.layout.windows().get(*window).map(|window| window.record);
@@ -162,10 +160,17 @@ impl<'a> Walk<'a> {
 
     pub(super) fn go(&self, work: &mut Work) -> Result<(), Unproved> {
         let mut open = vec![Here { at: self.from.clone(), frame: None, surface: None }];
+        let mut held = open[0].held();
         for (step, what) in self.stage.steps.iter().enumerate() {
             let here = open.pop().ok_or(Unproved::Incomplete { stage: self.index })?;
-            let parts = self.step(here, what, work);
-            open.extend(parts.map_err(|what| Unproved::Step { stage: self.index, step, what })?);
+            held -= here.held();
+            let refused = |what| Unproved::Step { stage: self.index, step, what };
+            let parts = self.step(here, what, work).map_err(refused)?;
+            held += parts.iter().map(Here::held).sum::<usize>();
+            if held > MOST_HELD {
+                return Err(refused("too many boxes are left to deal with"));
+            }
+            open.extend(parts);
         }
         if open.is_empty() { Ok(()) } else { Err(Unproved::Incomplete { stage: self.index }) }
     }
@@ -289,7 +294,7 @@ impl<'a> Walk<'a> {
         combinations: impl IntoIterator<Item = &'r [(Origin, f64)]>,
         work: &mut Work,
     ) -> Result<Option<Enclosed>, &'static str> {
-        let mut model = self.certificate.model(self.readings, &self.layout, self.stage);
+        let mut model = model(self.setup, &self.layout);
         let none = "there is no enclosure";
         let mut own = here.at.clone();
         let linear = match by {
@@ -351,15 +356,15 @@ impl<'a> Walk<'a> {
             let own = self.layout.windows().iter().filter(|window| window.record == record);
             own.take(reach).last().map_or(0, |window| window.last)
         };
-        self.readings.iter().enumerate().map(|(record, readings)| readings.until(last(record) + 1)).collect()
+        self.setup.records.iter().enumerate().map(|(record, readings)| readings.until(last(record) + 1)).collect()
     }
 
     /// Those in the combinations, by record; `None` where one is none.
     fn hats<'r>(&self, combinations: impl IntoIterator<Item = &'r [(Origin, f64)]>) -> Option<Vec<Vec<Hat>>> {
-        let mut hats: Vec<Vec<Hat>> = vec![Vec::new(); self.readings.len()];
+        let mut hats: Vec<Vec<Hat>> = vec![Vec::new(); self.setup.records.len()];
         for (origin, _) in combinations.into_iter().flatten() {
             if let Origin::Hat { record, samples, .. } = origin {
-                let samples_of = self.readings.get(*record)?.time_s.len();
+                let samples_of = self.setup.records.get(*record)?.time_s.len();
                 let [l, m, r] = *samples;
                 if !(l < m && m < r && r < samples_of) {
                     return None;

@@ -85,7 +85,7 @@ fn hats_bends_and_linear_programmes_take_their_part() {
             places.iter().map(|place| at[*place] - Interval::point(truth[*place])).collect();
         let before = effort.us();
         let unknowns = Unknowns { mixes: &mixes, deviations: &deviations, bending };
-        search.model.follow(whole, &at, &truth, unknowns).expect("an enclosure");
+        search.model.follow(whole, &at, &truth, unknowns, &search.model.times(whole)).expect("an enclosure");
         effort.us() - before
     };
     let [straight, bent] = [false, true].map(taken);

@@ -139,14 +139,17 @@ fn a_witness_meets_the_readings_before_the_onset_where_the_budget_is_spent_after
 fn a_proof_begins_where_the_search_did_unless_what_follows_does_not_suffice() {
     let motion = DELAYED.motion(SAMPLES);
     let settings = DELAYED.model(false, QUANTUM);
-    let setup = Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &settings).expect("a problem");
+    let record = Vehicle::record(&motion, QUANTUM);
+    let records = [&record];
+    let setup = Setup::new(&records, &settings).expect("a problem");
     let estimates = Box::new(estimates(0.001));
     let begun = begin(&setup, &settings, &estimates, 1);
     assert!(matches!(begun.setup, Cow::Owned(_)));
     let explored = go_further(&setup, begun, &settings, &estimates, |_, _| ()).expect("bounds");
     let onset = explored.later.as_ref().expect("another onset").onset[0];
     let firsts = |explored: &Explored| {
-        let certificate = Certificate::prove(&setup, &settings, explored, None).expect("setups").expect("a proof");
+        let certificate =
+            Certificate::prove(&records, &setup, &settings, explored, None).expect("setups").expect("a proof");
         certificate.check().expect("accepted");
         certificate.stages.iter().map(|stage| stage.windows[0][1]).collect::<Vec<usize>>()
     };
@@ -166,7 +169,8 @@ fn what_only_readings_before_the_onset_contradict_is_shown_from_the_beginning() 
     for sample in &mut motion[40..80] {
         sample.0[0] += 0.7 * QUANTUM;
     }
-    let setup = Setup::new(&[&Vehicle::record(&motion, QUANTUM)], &settings).expect("a problem");
+    let record = Vehicle::record(&motion, QUANTUM);
+    let setup = Setup::new(&[&record], &settings).expect("a problem");
     let later = setup.after(&settings, 5).expect("there are readings after it");
     let beginnings = later.beginnings(&settings, SEARCHED).expect("long enough");
     let division = Search::new(&beginnings).search(beginnings.search.clone(), 20_000);
@@ -175,7 +179,8 @@ fn what_only_readings_before_the_onset_contradict_is_shown_from_the_beginning() 
     let explored = go_further(&setup, begun, &settings, &Box::new(estimates(0.001)), |_, _| ()).expect("bounds");
     assert_eq!(explored.bounds.verdict, Consistency::Refuted);
     assert!(explored.left.is_none() && explored.hulls.len() == 2);
-    let certificate = Certificate::prove(&setup, &settings, &explored, None).expect("setups").expect("a proof");
+    let certificate =
+        Certificate::prove(&[&record], &setup, &settings, &explored, None).expect("setups").expect("a proof");
     certificate.check().expect("accepted");
     assert!(certificate.stages.last().is_some_and(|stage| stage.left.is_none()));
 }

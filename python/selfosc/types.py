@@ -1,0 +1,583 @@
+"""The documents that results hold, field by field, for type checkers.
+
+At run time each is a plain dictionary. Numbers are in SI units, angles in radians; ``None`` stands for what is missing. ``command`` and
+``output`` are the units of the log's columns.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias, TypedDict
+
+#: Least and largest value.
+Range: TypeAlias = list[float]
+Drag: TypeAlias = Literal["linear", "quadratic", "mixed"]
+Trust: TypeAlias = Literal["good", "widened", "doubtful"]
+Consistency: TypeAlias = Literal["consistent", "refuted", "undecided"]
+#: Settings of a characteristic: numbers, or the points of a graph.
+Parameters: TypeAlias = dict[str, float | list[Range]]
+
+
+class Estimate(TypedDict):
+    """A value with its 95 % interval; ``None`` where the method knows no error."""
+
+    value: float
+    std: float | None
+    low: float | None
+    high: float | None
+
+
+class Interval(TypedDict):
+    """A value that always has its 95 % interval."""
+
+    value: float
+    std: float
+    low: float
+    high: float
+
+
+class Note(TypedDict):
+    """A reason or warning: a short name for programs, and what to do."""
+
+    code: str
+    text: str
+
+
+class RefusedMethod(TypedDict):
+    """A method that gave nothing, and why."""
+
+    method: str
+    code: str
+    text: str
+
+
+class Reported(TypedDict):
+    """The one answer to use."""
+
+    drag: Drag
+    terms: list[str]
+    alpha: Interval
+    """Inertia with added mass, command s^2/output."""
+    beta: Interval | None
+    """Linear drag, command s/output."""
+    beta_quadratic: Interval | None
+    """Quadratic drag, command s^2/output^2."""
+    beta_cubic: Interval | None
+    skew: Interval | None
+    coulomb: Interval | None
+    memory: Interval | None
+    memory_s: Interval | None
+    stiffness: Interval | None
+    lag_s: Interval | None
+    ramp_s: Interval | None
+    filter_s: Interval | None
+    delta: Interval | None
+    """Constant force, command; of the only record."""
+    deltas: list[Interval]
+    delay_s: Estimate
+    """Delay, s; without interval where it was given."""
+    trust: Trust
+    reasons: list[Note]
+
+
+class MethodEstimate(TypedDict):
+    """What one method found under one drag law."""
+
+    method: Literal["iso", "exact", "fit"]
+    drag: Drag
+    record: int | None
+    terms: list[str]
+    alpha: Estimate
+    beta: Estimate | None
+    beta_quadratic: Estimate | None
+    delta: Estimate | None
+    deltas: list[Estimate]
+    delay_s: Estimate
+    fit_percent: float | None
+    residual_rms: float | None
+    log_likelihood: float | None
+
+
+class FeatureValues(TypedDict):
+    """One number for each feature of a cycle: output units and s."""
+
+    amplitude: float
+    bias: float
+    period_s: float
+    switch_level: float
+    time_positive_s: float
+    time_negative_s: float
+
+
+class Features(FeatureValues):
+    """Means over the steady cycles, the relay's level, and standard deviations over cycles."""
+
+    relay: float
+    std: FeatureValues
+
+
+class AllRecords(TypedDict):
+    """All records together."""
+
+    samples: int
+    duration_s: float
+    cycles_used: int | None
+
+
+class Predicted(TypedDict):
+    """How well a model predicts a record."""
+
+    fit_percent: float
+    rms: float
+    disturbance: float
+
+
+class RecordSummary(AllRecords):
+    """One record."""
+
+    file: str
+    skipped_rows: int
+    features: Features | None
+    predicted: Predicted | None
+
+
+class Validated(TypedDict):
+    """A record that took no part in the estimate."""
+
+    file: str
+    prediction: Predicted | None
+
+
+class LogLikelihood(TypedDict):
+    """Log-likelihood of each law less that of the likeliest."""
+
+    linear: float | None
+    quadratic: float | None
+    mixed: float | None
+    records: int
+
+
+class DragChoice(TypedDict):
+    """The drag law, and what speaks for it."""
+
+    drag: Literal["linear", "quadratic", "mixed", "not-distinguishable"] | None
+    confidence: float | None
+    log_likelihood: LogLikelihood
+
+
+class Contradicting(TypedDict):
+    """A reading that contradicts others."""
+
+    record: int
+    sample: int
+    model_above: bool
+    share: float
+
+
+class Outlier(TypedDict):
+    """A reading that is in error by any amount."""
+
+    record: int
+    sample: int
+
+
+class GuaranteedBounds(TypedDict):
+    """What the method ``bounded`` found: ranges that hold under what is assumed."""
+
+    verdict: Consistency
+    drag: Drag
+    search_box: dict[str, Range]
+    alpha: Range | None
+    beta: Range | None
+    beta_quadratic: Range | None
+    delta: Range | None
+    deltas: list[Range]
+    beta_cubic: Range | None
+    stiffness: Range | None
+    lag_s: Range | None
+    delay_s: Range | None
+    witness: dict[str, float] | None
+    error: float
+    error_factor: list[float | None]
+    contradicting: list[Contradicting]
+    outliers_allowed: int
+    outliers: list[Outlier]
+
+
+class Units(TypedDict):
+    """Units of the numbers."""
+
+    output: str
+    alpha: str
+    beta: str
+    beta_quadratic: str
+    beta_cubic: str
+    stiffness: str
+    delta: str
+
+
+#: A quantity's name, and for one that each record has its own of, also the record's number: ``{"delta": 0}``.
+Quantity: TypeAlias = str | dict[str, int]
+
+
+class QuantityRange(TypedDict):
+    """A range of a named quantity."""
+
+    quantity: Quantity
+    low: float
+    high: float
+
+
+class Point(TypedDict):
+    """A parameter of the model, quantity by quantity, and the largest share of the error granted that it needs."""
+
+    values: list[list[Quantity | float]]
+    misfit: float
+
+
+class FirstHarmonic(TypedDict):
+    """A cycle by harmonic balance: output units and s."""
+
+    amplitude: float
+    bias: float
+    period_s: float
+
+
+class Cycle(TypedDict):
+    """An exact limit cycle: output units and s."""
+
+    amplitude: float
+    bias: float
+    maximum: float
+    minimum: float
+    period_s: float
+    time_positive_s: float
+    time_negative_s: float
+    switch_level: float
+    multiplier: float
+
+
+class CycleEnclosure(TypedDict):
+    """Ranges that contain the exact cycle's numbers."""
+
+    amplitude: Range
+    bias: Range
+    maximum: Range
+    minimum: Range
+    period_s: Range
+    time_positive_s: Range
+    time_negative_s: Range
+    switch_level: Range
+    multiplier: Range
+
+
+class CycleProof(TypedDict):
+    """What is proved of a cycle."""
+
+    unique: bool
+    attracting: bool
+    starts: str
+    enclosure: CycleEnclosure
+
+
+class Intersection(TypedDict):
+    """An oscillation that harmonic balance predicts; ``stable`` is Loeb's verdict."""
+
+    amplitude: float
+    omega_rad_s: float
+    stable: bool | None
+
+
+class OrbitProof(TypedDict):
+    """What is proved of a relay loop's orbit."""
+
+    half_period_s: Range
+    switching_rate: Range
+    attracting: bool
+    contracts_after: int | None
+    cells: int
+
+
+class Orbit(TypedDict):
+    """A symmetric limit cycle of a relay loop."""
+
+    period_s: float
+    amplitude: float
+    maximum: float
+    minimum: float
+    stable: bool
+    certificate: OrbitProof | None
+    certificate_refused: Note | None
+
+
+class DescribingFunctionEnclosure(TypedDict):
+    """Ranges that contain the exact values."""
+
+    f0: Range
+    p: Range
+    q: Range
+
+
+class AmplitudeOfGain(TypedDict):
+    """An amplitude that has the gain, input units, and the describing function there."""
+
+    amplitude: float
+    f0: float
+    p: float
+    q: float
+
+
+class FittedCharacteristic(TypedDict):
+    """A characteristic fitted to gains; the residual is in their units."""
+
+    nonlinearity: str
+    params: Parameters
+    residual: float
+
+
+class Parameter(TypedDict):
+    """A parameter of a characteristic."""
+
+    name: str
+    meaning: str
+    domain: str
+    default: float | None
+
+
+class Gains(TypedDict):
+    """A controller: gains in command units per output unit, their derivative and integral, and a filter, s."""
+
+    structure: Literal["pd", "pid", "ipd"]
+    proportional: float
+    integral: float
+    derivative: float
+    filter_s: float
+
+
+class WorstMargin(TypedDict):
+    """Margins of a loop; ``None`` where no factor makes it unstable."""
+
+    gain: float | None
+    gain_reduction: float | None
+    phase_rad: float
+    delay_s: float
+
+
+class Margins(WorstMargin):
+    """Margins of the nominal loop."""
+
+    crossover_rad_s: float
+
+
+class StepResponse(TypedDict):
+    """The answer to a step of the reference: output units and s."""
+
+    size: float
+    rise_s: float | None
+    overshoot_percent: float
+    settling_s: float | None
+    final_error: float
+    top_speed: float
+
+
+class Verified(TypedDict):
+    """What was found of the loop without the design's equations."""
+
+    poles: list[Range]
+    bandwidth_rad_s: float | None
+    step: StepResponse
+
+
+class WorstCase(TypedDict):
+    """Margins over every axis in the intervals: a bound from below, and the least that was met."""
+
+    top_speed: float
+    at_least: WorstMargin
+    met: WorstMargin
+    boxes: int | None
+    proved: bool
+
+
+class SensitivityRange(TypedDict):
+    """Largest sensitivity: the worst met, and a bound proved for every process of the intervals."""
+
+    met: float
+    proved_upper: float | None
+
+
+class UnderForce(TypedDict):
+    """The step under the constant force, and the command that takes that force up."""
+
+    delta: float
+    feed_forward: float
+    step: StepResponse
+
+
+class Deviations(TypedDict):
+    """Expected standard deviations; ``"inf"`` where a record tells nothing."""
+
+    alpha: float | str
+    beta: float | str
+    beta_quadratic: float | str
+    delay_s: float | str
+
+
+class RelayRun(TypedDict):
+    """One relay experiment and what it would tell."""
+
+    relay_level: float
+    half_width: float
+    amplitude: float
+    period_s: float
+    locks: bool
+    std: Deviations
+
+
+class SecondRun(TypedDict):
+    """A second level, which tells the drag laws apart."""
+
+    run: RelayRun
+    together: Deviations
+    linear_needed: float
+    quadratic_needed: float
+
+
+class Proposal(TypedDict):
+    """One experiment, and a second beside it."""
+
+    first: RelayRun
+    second: SecondRun | None
+
+
+class ClaimPart(TypedDict):
+    """A part of a claim's domain."""
+
+    part: str
+    text: str
+
+
+# `from` is a word of Python.
+ClaimVariable = TypedDict("ClaimVariable", {"name": str, "unit": str, "from": "float | str | None", "to": "float | str | None"})
+
+
+class EstablishedPart(TypedDict):
+    """A part of a domain on which a claim is established."""
+
+    name: str
+    text: str
+    variables: list[ClaimVariable]
+
+
+class Claim(TypedDict):
+    """What was found of a claim."""
+
+    id: str
+    equation: str
+    kind: str
+    statement: str
+    as_printed: str
+    as_corrected: str
+    evidence: str
+    cases: int | None
+    boxes: int | None
+    residual_bound: float | None
+    margin: float | None
+    by_hand: list[str] | None
+    kernel_checked: str | None
+    not_proved: str | None
+    domain: list[ClaimPart]
+    established: list[EstablishedPart]
+    witness: dict[str, float] | None
+    as_stated: bool
+
+
+class ClaimSummary(TypedDict):
+    """How many claims have which verdict."""
+
+    claims: int
+    proved: int
+    proved_in_part: int
+    exhausted: int
+    sampled: int
+    kernel_checked: int
+    undecided: int
+    refuted: int
+    refuted_as_printed: int
+    not_as_stated: int
+
+
+class Yaw(TypedDict):
+    """Inertia, linear and quadratic drag of the paper's yaw axis."""
+
+    alpha: float
+    beta_r: float
+    beta_rr: float
+
+
+class Table4Row(Yaw):
+    """One experiment of the paper."""
+
+    experiment: int
+    alpha_raised: float
+    printed: Yaw
+
+
+class Table4(TypedDict):
+    """The paper's table 4, recomputed."""
+
+    rows: list[Table4Row]
+    mean: Yaw
+    std_percent: Yaw
+    recomputed_mean: Yaw
+    recomputed_std_percent: Yaw
+    level_offset: float
+    level_offset_residual_percent: float
+
+
+class Counts(TypedDict):
+    """Choices of a drag law by one criterion of the paper's figure 15."""
+
+    criterion: int
+    correct: int
+    wrong: int
+    undecided: int
+
+
+class JointRow(TypedDict):
+    """All experiments of the paper fitted together under one law."""
+
+    drag: str
+    delay_estimated: bool
+    alpha: float
+    beta: float | None
+    beta_quadratic: float | None
+    delay_s: float
+    residual_rms: float
+    alpha_interval: Range | None
+    beta_interval: Range | None
+    beta_quadratic_interval: Range | None
+    delay_interval_s: Range | None
+
+
+class AuditItem(TypedDict):
+    """A printed number beside what it should be."""
+
+    group: str
+    item: str
+    printed: float
+    recomputed: float
+    range: Range
+    agrees: bool
+    note: str
+
+
+class PaperConsistency(TypedDict):
+    """Whether the printed numbers can be of one vehicle."""
+
+    question: str
+    allowed: str
+    verdict: str
+    searched: list[Range]
+    delay_s: Range | None
+    level_offset: Range | None
+    growth: list[float | None] | None
+    contradicting: list[int]

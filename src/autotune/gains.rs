@@ -1,0 +1,253 @@
+//! Gains for every process that a record leaves: the smallest integral of the absolute error after a step of the load, under a limit
+//! of the sensitivity that is proved for all of them.
+
+use super::{ProcessModel, ProcessRecord, Ranged};
+use crate::control::{Gains, LinearProcess, ProcessIntervals, RobustCriterion, Structure};
+use crate::numeric::Interval;
+
+/// Which actions the controller has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Actions {
+    /// Proportional and integral.
+    Pi,
+    /// With derivative.
+    Pid,
+    /// With derivative where that takes a tenth off the integral of the absolute error.
+    #[default]
+    Best,
+}
+
+/// What gains are for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GainsWanted {
+    /// Largest sensitivity of any process.
+    pub sensitivity: f64,
+    /// Actions of the controller.
+    pub actions: Actions,
+    /// Derivative time over the time constant of its filter.
+    pub derivative_filter: f64,
+}
+
+impl Default for GainsWanted {
+    fn default() -> Self {
+        Self { sensitivity: 1.4, actions: Actions::Best, derivative_filter: 10.0 }
+    }
+}
+
+/// Gains with what is proved of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProvedGains {
+    /// For an output that rises with the command; of a reverse process all change their sign.
+    pub gains: Gains<f64>,
+    /// No process of the record's set has a larger sensitivity.
+    pub sensitivity: f64,
+}
+
+/// Standard deviations that the set of processes reaches: 95 % for five coefficients at once (Bonferroni).
+const REACH: f64 = 2.58;
+/// A derivative has to take off so much of the integral of the absolute error.
+const WORTH: f64 = 0.9;
+/// Steps back from the largest gain until the limit is proved, each so much.
+const STEPS_BACK: u32 = 15;
+const BACK: f64 = 0.97;
+/// Times of integral and derivative that are tried first, over the ultimate period.
+const INTEGRAL: [f64; 10] = [0.15, 0.22, 0.33, 0.5, 0.7, 1.0, 1.5, 2.2, 3.5, 6.0];
+const DERIVATIVE: [f64; 5] = [0.05, 0.08, 0.12, 0.17, 0.25];
+
+impl Ranged {
+    /// The interval that takes part in the set, cut where no process is.
+    fn interval(&self, least: f64) -> Option<Interval> {
+        let (low, high) = (self.value - REACH * self.std, self.value + REACH * self.std);
+        Interval::new(low.max(least).min(self.value), high.max(self.value))
+    }
+}
+
+impl ProcessModel {
+    /// The process in numbers, for a gain above zero.
+    #[must_use]
+    pub fn process(&self) -> LinearProcess<f64> {
+        let [alpha, drag, stiffness, zero_s, delay_s] = self.coefficients.map(|part| part.value);
+        let none = 0.0;
+        LinearProcess {
+            alpha,
+            drag,
+            stiffness,
+            memory: none,
+            memory_s: none,
+            lag_s: none,
+            filter_s: none,
+            zero_s,
+            delay_s,
+        }
+    }
+
+    /// Every process of this structure within the record's errors; a controller that holds its command for `interval_s` adds half of
+    /// that to the delay.
+    #[must_use]
+    pub fn processes(&self, interval_s: f64) -> Option<ProcessIntervals> {
+        let [alpha, drag, stiffness, zero_s, delay_s] = self.coefficients;
+        let none = Interval::ZERO;
+        let process = LinearProcess {
+            alpha: alpha.interval(0.0)?,
+            drag: drag.interval(f64::NEG_INFINITY)?,
+            stiffness: stiffness.interval(f64::NEG_INFINITY)?,
+            memory: none,
+            memory_s: none,
+            lag_s: none,
+            filter_s: none,
+            zero_s: zero_s.interval(f64::NEG_INFINITY)?,
+            delay_s: delay_s.interval(0.0)? + Interval::point(0.5 * interval_s),
+        };
+        ProcessIntervals::new(process).ok().filter(|_| process.drag.is_positive())
+    }
+}
+
+/// Ultimate gain and frequency, rad/s: where the phase passes -pi; `None` where it does not.
+#[must_use]
+pub fn ultimate(process: &LinearProcess<f64>) -> Option<[f64; 2]> {
+    let LinearProcess { alpha, drag, stiffness, zero_s, delay_s, .. } = *process;
+    let lag = |omega: f64| {
+        (drag * omega).atan2(stiffness - alpha * omega * omega) + omega * delay_s
+            - (zero_s * omega).atan()
+            - core::f64::consts::PI
+    };
+    let (mut low, mut high) = (0.0, 1.0 / (delay_s + (alpha / drag).abs()).max(f64::MIN_POSITIVE));
+    for _ in 0..60 {
+        if lag(high) > 0.0 {
+            break;
+        }
+        (low, high) = (high, 2.0 * high);
+    }
+    if !(lag(high) > 0.0) {
+        return None;
+    }
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if lag(middle) > 0.0 { high = middle } else { low = middle }
+    }
+    let omega = 0.5 * (low + high);
+    let body = (stiffness - alpha * omega * omega).hypot(drag * omega);
+    Some([body / (zero_s * omega).hypot(1.0), omega])
+}
+
+/// Gains in the ideal form: gain, integral time, derivative time.
+fn ideal([gain, integral_s, derivative_s]: [f64; 3], filter: f64) -> Option<Gains<f64>> {
+    Gains::new(Structure::Pid, gain, gain / integral_s, gain * derivative_s, derivative_s / filter).ok()
+}
+
+/// The integral of the absolute error after a unit step of the load, times the ultimate gain: semi-implicit Euler steps.
+fn absolute_error(process: &LinearProcess<f64>, gains: &Gains<f64>, period_s: f64) -> f64 {
+    const STEPS: usize = 4000;
+    let step_s = period_s / 200.0;
+    let late = (process.delay_s / step_s).round().min(1e5) as usize;
+    let mut under_way = vec![0.0; late + 1];
+    let (mut x, mut v, mut filtered, mut integral, mut sum) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0, 0.0);
+    for k in 0..STEPS {
+        let y = x + process.zero_s * v;
+        let rate = if gains.filter_s() > 0.0 { (y - filtered) / gains.filter_s().max(step_s) } else { 0.0 };
+        filtered += step_s * rate;
+        integral -= step_s * y;
+        let command = -gains.proportional() * y + gains.integral() * integral - gains.derivative() * rate;
+        let place = k % (late + 1);
+        under_way[place] = command;
+        let acts = 1.0 + under_way[(k + 1) % (late + 1)];
+        if process.alpha > 0.0 {
+            v += step_s * (acts - process.drag * v - process.stiffness * x) / process.alpha.max(step_s * process.drag);
+        } else {
+            v = (acts - process.stiffness * x) / process.drag;
+        }
+        x += step_s * v;
+        sum += step_s * y.abs();
+        if !sum.is_finite() {
+            return f64::INFINITY;
+        }
+    }
+    sum
+}
+
+/// The largest gain at these times with which every process of the sets meets the limit, up to rounding.
+fn largest_gain(sets: &[ProcessIntervals], ku: f64, times: [f64; 2], wanted: &GainsWanted) -> Option<f64> {
+    let meets = |gain: f64| {
+        ideal([gain, times[0], times[1]], wanted.derivative_filter).is_some_and(|gains| {
+            sets.iter().all(|set| set.meets(&gains, RobustCriterion::Sensitivity(wanted.sensitivity)))
+        })
+    };
+    let grid = |k: u32| ku * 0.8_f64.powi(k as i32);
+    let first = (1..24).find(|k| meets(grid(*k)))?;
+    let (mut low, mut high) = (grid(first), grid(first - 1));
+    for _ in 0..6 {
+        let middle = 0.5 * (low + high);
+        if meets(middle) { low = middle } else { high = middle }
+    }
+    Some(low)
+}
+
+/// The best gains with or without derivative, and their integral of the absolute error.
+fn best(
+    nominal: &LinearProcess<f64>,
+    sets: &[ProcessIntervals],
+    derivative: bool,
+    wanted: &GainsWanted,
+) -> Option<([f64; 3], f64)> {
+    let [ku, omega] = ultimate(nominal)?;
+    let period_s = core::f64::consts::TAU / omega;
+    let point = ProcessIntervals::new(LinearProcess::from_parts(nominal.parts().map(Interval::point))).ok()?;
+    let judged = |sets: &[ProcessIntervals], times: [f64; 2]| {
+        let gain = largest_gain(sets, ku, times, wanted)?;
+        let gains = ideal([gain, times[0], times[1]], wanted.derivative_filter)?;
+        let error = absolute_error(nominal, &gains, period_s);
+        error.is_finite().then_some(([gain, times[0], times[1]], error))
+    };
+    let lesser = |a: &([f64; 3], f64), b: &([f64; 3], f64)| a.1.total_cmp(&b.1);
+    let derivatives: &[f64] = if derivative { &DERIVATIVE } else { &[0.0] };
+    let grid = INTEGRAL.iter().flat_map(|i| derivatives.iter().map(move |d| [i * period_s, d * period_s]));
+    let one = [point];
+    let coarse = grid.filter_map(|times| judged(&one, times)).min_by(lesser)?;
+    // From there a pattern search over the times, every process counting.
+    let mut found = judged(sets, [coarse.0[1], coarse.0[2]]);
+    let mut factor = 1.35_f64;
+    while factor > 1.05 {
+        let times = found.map_or([coarse.0[1], coarse.0[2]], |(gains, _)| [gains[1], gains[2]]);
+        let mut around = vec![[times[0] * factor, times[1]], [times[0] / factor, times[1]]];
+        if derivative {
+            around.extend([[times[0], times[1] * factor], [times[0], times[1] / factor]]);
+        }
+        let better = around.into_iter().filter_map(|times| judged(sets, times)).min_by(lesser);
+        match better {
+            Some(better) if found.is_none_or(|found| better.1 < found.1) => found = Some(better),
+            _ => factor = factor.sqrt(),
+        }
+    }
+    found
+}
+
+impl ProcessRecord {
+    /// The sets of processes that the record leaves, structure by structure; `None` where one reaches beyond all processes.
+    #[must_use]
+    pub fn sets(&self, interval_s: f64) -> Option<Vec<ProcessIntervals>> {
+        self.models.iter().map(|model| model.processes(interval_s)).collect()
+    }
+
+    /// The gains; `None` where no controller is proved for every process: the set is too wide.
+    #[must_use]
+    pub fn gains(&self, interval_s: f64, wanted: &GainsWanted) -> Option<ProvedGains> {
+        let sets = self.sets(interval_s)?;
+        let nominal = self.models.first()?.processes(interval_s)?.process().middle();
+        let choice = |derivative| best(&nominal, &sets, derivative, wanted);
+        let chosen = match wanted.actions {
+            Actions::Pi => choice(false)?,
+            Actions::Pid => choice(true)?,
+            Actions::Best => match (choice(false), choice(true)) {
+                (Some(pi), Some(pid)) if pid.1 < WORTH * pi.1 => pid,
+                (pi, pid) => pi.or(pid)?,
+            },
+        };
+        let ([gain, integral_s, derivative_s], _) = chosen;
+        (0..STEPS_BACK).find_map(|back| {
+            let less = gain * BACK.powi(back as i32);
+            let gains = ideal([less, integral_s, derivative_s], wanted.derivative_filter)?;
+            let proved = sets.iter().all(|set| set.all_have(&gains, RobustCriterion::Sensitivity(wanted.sensitivity)));
+            proved.then_some(ProvedGains { gains, sensitivity: wanted.sensitivity })
+        })
+    }
+}

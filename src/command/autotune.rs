@@ -1,0 +1,224 @@
+//! `selfosc autotune`: from a relay's or thermostat's record to gains with a proved limit of the sensitivity.
+
+mod form;
+mod print;
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::{Value, json};
+
+use super::number::{finite, number, positive};
+use super::{CommandError, Outcome, files, refused, write_json};
+use crate::autotune::{Actions, GainsWanted, ProcessRecord, ProvedGains, Ruled, rules, ultimate};
+use crate::error::Error;
+use crate::experiment::{Columns, Log};
+use crate::files::Files;
+use crate::numeric::Interval;
+use form::Form;
+
+/// PI or PID gains for a heater, a tank, an axis: from one record of its relay, thermostat or on-off control.
+///
+/// The record needs two periods. Structures with dead time are fitted to every sample; the gains hold a limit of the sensitivity
+/// for every process that the record leaves, proved in interval arithmetic, and are the fastest against a load that do. Beside them
+/// stand rules of thumb, each with the sensitivity that it would have on this process: 1.4 is well damped, above 2 it rings.
+/// Exit status 1 where the record gives no gains, with the reason.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  selfosc autotune heater.csv
+  selfosc autotune heater.csv --pi --form klipper
+  selfosc autotune log.csv --output pv --input valve --ms 1.6 --json")]
+pub(super) struct Arguments {
+    /// Delimiter-separated text with a header; - is standard input
+    #[arg(value_name = "LOG")]
+    log: PathBuf,
+    /// Column of times in s
+    #[arg(long, value_name = "COL")]
+    time: Option<String>,
+    /// Column of the measured value [default: temperature, temp, pv, or as for identify]
+    #[arg(long, value_name = "COL")]
+    output: Option<String>,
+    /// Column of the command [default: duty, power, heater, or as for identify]
+    #[arg(long, value_name = "COL")]
+    input: Option<String>,
+    /// Largest sensitivity 1/|1 + L| of any process that the record leaves
+    #[arg(long, value_name = "M", default_value_t = 1.4, value_parser = sensitivity, allow_negative_numbers = true)]
+    ms: f64,
+    /// Proportional and integral only
+    #[arg(long, conflicts_with = "pid")]
+    pi: bool,
+    /// With derivative, whether it pays or not
+    #[arg(long)]
+    pid: bool,
+    /// Derivative time over the time constant of its filter
+    #[arg(long, value_name = "N", default_value_t = 10.0, value_parser = positive, allow_negative_numbers = true)]
+    derivative_filter: f64,
+    /// Time between two commands of the controller, s [default: the record's]
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
+    interval: Option<f64>,
+    /// In which form the gains are printed
+    #[arg(long, value_enum, value_name = "FORM", default_value_t = Form::Parallel)]
+    form: Form,
+    /// Uses samples from this time on, in s on the log's clock
+    #[arg(long, value_name = "T", value_parser = finite, allow_negative_numbers = true)]
+    from: Option<f64>,
+    /// Uses samples up to this time, in s on the log's clock
+    #[arg(long, value_name = "T", value_parser = finite, allow_negative_numbers = true)]
+    to: Option<f64>,
+    /// Leaves out rows without three numbers, at most a fifth of all
+    #[arg(long)]
+    skip_bad_rows: bool,
+    /// Prints one JSON document
+    #[arg(long)]
+    json: bool,
+}
+
+fn sensitivity(text: &str) -> Result<f64, String> {
+    let within = |value: &f64| (1.1..=3.0).contains(value);
+    number(text).ok().filter(within).ok_or_else(|| "must be from 1.1 to 3; 1.4 is well damped".to_owned())
+}
+
+/// A gain or a dead time known worse than this, as a share of itself, makes the answer less than good.
+const WIDE: f64 = 0.25;
+/// Correlation of neighbouring residuals from which on the load is said to wander.
+const WANDERS: f64 = 0.8;
+
+/// Everything that is said of a record.
+struct Autotuned {
+    log: Log,
+    found: ProcessRecord,
+    proved: Option<ProvedGains>,
+    rules: Vec<Ruled>,
+    ultimate: Option<[Interval; 2]>,
+    interval_s: f64,
+    limit: f64,
+}
+
+/// A reason for less than full trust: code and text.
+type CodedReason = (&'static str, String);
+
+impl Autotuned {
+    /// A quantity of every structure: its range over all, and the likeliest's value.
+    fn ranged(&self, of: impl Fn(&crate::autotune::ProcessModel) -> Option<crate::autotune::Ranged>) -> Value {
+        let Some(best) = self.found.models.first().and_then(&of) else { return Value::Null };
+        let all: Vec<_> = self.found.models.iter().filter_map(&of).collect();
+        let low = all.iter().map(|one| one.low).fold(best.low, f64::min);
+        let high = all.iter().map(|one| one.high).fold(best.high, f64::max);
+        json!({ "value": best.value, "std": best.std, "low": low, "high": high })
+    }
+
+    fn reasons(&self) -> Vec<CodedReason> {
+        let mut reasons = Vec::new();
+        if self.proved.is_none() {
+            reasons.push((
+                "too-wide",
+                format!(
+                    "the record leaves processes for which no gains keep a sensitivity of {}; record another period, or allow more (--ms)",
+                    self.limit
+                ),
+            ));
+        }
+        let best = &self.found.models[0];
+        for (index, name) in [(0, "gain"), (1, "dead time")] {
+            let part = best.parameters[index];
+            if part.std * 1.96 > WIDE * part.value.abs() && part.std * 1.96 > 0.5 * self.interval_s {
+                reasons.push((
+                    "wide",
+                    format!(
+                        "the {name} is known to {:.0} % only; record another period",
+                        196.0 * part.std / part.value.abs()
+                    ),
+                ));
+            }
+        }
+        if self.found.correlation > WANDERS {
+            reasons.push((
+                "wandering-load",
+                "what is left of the readings changes slowly, as under a load that wanders; intervals allow for it"
+                    .to_owned(),
+            ));
+        }
+        reasons
+    }
+
+    fn trust(&self) -> &'static str {
+        let reasons = self.reasons();
+        if reasons.iter().any(|(code, _)| *code == "too-wide") {
+            "doubtful"
+        } else if reasons.is_empty() {
+            "good"
+        } else {
+            "widened"
+        }
+    }
+
+    /// The sign of all gains.
+    fn sign(&self) -> f64 {
+        if self.found.reverse { -1.0 } else { 1.0 }
+    }
+}
+
+pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
+    let mut known = Files::default();
+    let input = files::input(&mut known, &arguments.log, Columns::LONGEST)?;
+    let columns = Columns {
+        time: arguments.time.clone(),
+        output: arguments.output.clone(),
+        input: arguments.input.clone(),
+        from_s: arguments.from,
+        to_s: arguments.to,
+        skip_bad_rows: arguments.skip_bad_rows,
+        process: true,
+        // The level of no command is part of the load.
+        neutral: Some(0.0),
+        ..Columns::default()
+    };
+    let log = match columns.read(input.bytes()) {
+        Ok(log) => log,
+        Err(error) => {
+            let refusal = crate::identify::Refusal::Record { name: input.name().to_owned(), source: error };
+            if refusal.is_usage() {
+                return Err(refusal.into());
+            }
+            return refused(&refusal.into(), arguments.json, output);
+        }
+    };
+    let found = match ProcessRecord::of(&log.record) {
+        Ok(found) => found,
+        Err(error) => return refused(&Error::from(error), arguments.json, output),
+    };
+    let interval_s = arguments.interval.unwrap_or_else(|| log.record.interval_s());
+    let actions = match (arguments.pi, arguments.pid) {
+        (true, _) => Actions::Pi,
+        (_, true) => Actions::Pid,
+        _ => Actions::Best,
+    };
+    let wanted = GainsWanted { sensitivity: arguments.ms, actions, derivative_filter: arguments.derivative_filter };
+    let nominal = found.models[0].process();
+    let tuned = Autotuned {
+        proved: found.gains(interval_s, &wanted),
+        rules: rules(&nominal),
+        ultimate: ultimate_range(&found),
+        log,
+        found,
+        interval_s,
+        limit: arguments.ms,
+    };
+    let outcome = if tuned.proved.is_some() { Outcome::Done } else { Outcome::No };
+    if arguments.json {
+        write_json(output, &tuned.json(input.name()))?;
+    } else {
+        tuned.print(arguments.form, output)?;
+    }
+    Ok(outcome)
+}
+
+/// Ultimate gain and frequency over the corners of every structure's set.
+fn ultimate_range(found: &ProcessRecord) -> Option<[Interval; 2]> {
+    let best = ultimate(&found.models.first()?.process())?;
+    let corners = found.sets(0.0)?.into_iter().flat_map(|set| set.corners());
+    let all = corners.filter_map(|corner| ultimate(&corner));
+    Some(all.fold(best.map(Interval::point), |range, one| [0, 1].map(|k| range[k].hull(Interval::point(one[k])))))
+}

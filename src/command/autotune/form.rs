@@ -1,0 +1,85 @@
+//! Gains in the forms that people type in.
+
+use clap::ValueEnum;
+
+use crate::control::Gains;
+use crate::numeric::significant;
+
+/// A form of the gains.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Form {
+    /// u = Kp e + Ki int e + Kd de/dt
+    Parallel,
+    /// u = K (e + int e/Ti + Td de/dt), the ISA form
+    Ideal,
+    /// u = K (1 + 1/(Ti s)) (1 + Td s) e
+    Series,
+    /// Klipper's printer.cfg, power from 0 to 1
+    Klipper,
+    /// Marlin's M301, power from 0 to 255
+    Marlin,
+    /// RepRapFirmware's M307, power from 0 to 1
+    Reprap,
+    /// ESPHome's climate pid, power from 0 to 1
+    Esphome,
+}
+
+impl Form {
+    /// The lines to type. `range` is the command's largest less its least value in the record, `interval_s` the controller's.
+    pub(super) fn lines(
+        self,
+        gains: &Gains<f64>,
+        sign: f64,
+        range: f64,
+        interval_s: f64,
+    ) -> Result<String, &'static str> {
+        let [p, i, d] = [gains.proportional(), gains.integral(), gains.derivative()].map(|gain| sign * gain);
+        let number = |value: f64| significant(value, 5);
+        // Firmware counts the command as a share of full power, or in 255ths.
+        let of_full = |full: f64| [p, i, d].map(|gain| gain * full / range);
+        Ok(match self {
+            Self::Parallel => format!(
+                "Kp {}\nKi {} / s\nKd {} s\nfilter of the derivative {} s",
+                number(p),
+                number(i),
+                number(d),
+                number(gains.filter_s())
+            ),
+            Self::Ideal => format!("K  {}\nTi {} s\nTd {} s", number(p), number(p / i), number(d / p)),
+            Self::Series => {
+                // K' = K (1 + r)/2, Ti' = Ti (1 + r)/2, Td' = 2 Td/(1 + r) with r = sqrt(1 - 4 Td/Ti).
+                let (integral_s, derivative_s) = (p / i, d / p);
+                let root = 1.0 - 4.0 * derivative_s / integral_s;
+                if root < 0.0 {
+                    return Err("no series controller has these gains; choose --form ideal, or --pi");
+                }
+                let half = 0.5 * (1.0 + root.sqrt());
+                format!(
+                    "K  {}\nTi {} s\nTd {} s",
+                    number(p * half),
+                    number(integral_s * half),
+                    number(derivative_s / half)
+                )
+            }
+            Self::Klipper => {
+                let [p, i, d] = of_full(255.0);
+                format!("control: pid\npid_Kp: {p:.3}\npid_Ki: {i:.4}\npid_Kd: {d:.3}")
+            }
+            Self::Marlin => {
+                let [p, i, d] = of_full(255.0);
+                format!("M301 P{p:.3} I{i:.4} D{d:.3}")
+            }
+            Self::Reprap => {
+                let [p, i, d] = of_full(255.0);
+                format!("M301 H1 P{p:.3} I{i:.4} D{d:.3}")
+            }
+            Self::Esphome => {
+                let [p, i, d] = of_full(1.0);
+                let samples = (gains.filter_s() / interval_s).ceil().max(1.0);
+                format!(
+                    "control_parameters:\n  kp: {p:.5}\n  ki: {i:.6}\n  kd: {d:.4}\n  derivative_averaging_samples: {samples:.0}"
+                )
+            }
+        })
+    }
+}

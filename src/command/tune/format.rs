@@ -1,0 +1,85 @@
+//! Gains in the form in which they are typed in.
+
+use clap::ValueEnum;
+
+use super::design::Tuned;
+use crate::command::CommandError;
+use crate::control::{Gains, Structure};
+
+/// A form of the gains.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum GainFormat {
+    /// For a person
+    Text,
+    /// One JSON document
+    Json,
+    /// Parameters of ArduSub's yaw loops
+    Ardusub,
+    /// Parameters of PX4's controller of underwater vehicles, yaw
+    Px4,
+    /// The C call that makes the same controller
+    C,
+}
+
+impl GainFormat {
+    pub(super) fn text(self, tuned: &Tuned, full_command: f64) -> Result<String, CommandError> {
+        let gains = tuned.tuning.gains();
+        match self {
+            Self::Ardusub => ardusub(gains, full_command),
+            Self::Px4 => px4(gains, full_command),
+            _ => Ok(c(gains)),
+        }
+    }
+}
+
+fn no_form(reason: &str) -> CommandError {
+    CommandError::Usage { reason: format!("--format: {reason}") }
+}
+
+/// `command = R (A error - rate) + I int(A error - rate)`: the cascade of ArduPilot's attitude and rate loops. Equal to
+/// `K_p error + K_i int error - K_d rate` with `R = K_d`, `A R + I = K_p`, `A I = K_i`.
+fn ardusub(gains: &Gains<f64>, full_command: f64) -> Result<String, CommandError> {
+    if gains.structure() == Structure::Ipd {
+        return Err(no_form("ArduSub's loops act on the error; choose --structure pd or pid"));
+    }
+    let [proportional, integral, derivative] =
+        [gains.proportional(), gains.integral(), gains.derivative()].map(|gain| gain / full_command);
+    let root = proportional.powi(2) - 4.0 * derivative * integral;
+    if !(derivative > 0.0 && root >= 0.0) {
+        let reason = "no cascade has these gains; choose --structure pd, or a bandwidth further above that of the drag";
+        return Err(no_form(reason));
+    }
+    let angle = (proportional + root.sqrt()) / (2.0 * derivative);
+    let rate_integral = integral / angle;
+    Ok(format!(
+        "# command from -1 to 1, angles in rad; set the rate loop's own filter apart\n\
+         ATC_ANG_YAW_P {angle:.4}\nATC_RAT_YAW_P {derivative:.6}\nATC_RAT_YAW_I {rate_integral:.6}\nATC_RAT_YAW_D 0\n"
+    ))
+}
+
+/// `torque = P error - D rate`, of PX4's module `uuv_att_control`.
+fn px4(gains: &Gains<f64>, full_command: f64) -> Result<String, CommandError> {
+    if gains.structure() != Structure::Pd {
+        return Err(no_form("PX4's controller of underwater vehicles has no integral; choose --structure pd"));
+    }
+    let (proportional, derivative) = (gains.proportional() / full_command, gains.derivative() / full_command);
+    Ok(format!("# command from -1 to 1, angles in rad\nUUV_YAW_P {proportional:.6}\nUUV_YAW_D {derivative:.6}\n"))
+}
+
+fn c(gains: &Gains<f64>) -> String {
+    let structure = match gains.structure() {
+        Structure::Pd => "SELFOSC_STRUCTURE_PD",
+        Structure::Pid => "SELFOSC_STRUCTURE_PID",
+        Structure::Ipd => "SELFOSC_STRUCTURE_IPD",
+    };
+    format!(
+        "SelfoscController_f64 controller;\n\
+         SelfoscGains_f64 gains = {{\n    .structure = {structure},\n    .proportional = {:e},\n    .integral = {:e},\n    \
+         .derivative = {:e},\n    .filter_s = {:e},\n}};\n\
+         selfosc_controller_begin_f64(&controller, &gains);\n",
+        gains.proportional(),
+        gains.integral(),
+        gains.derivative(),
+        gains.filter_s(),
+    )
+}

@@ -1,0 +1,224 @@
+//! An axis with every term that an identification may report.
+
+use super::{ControlError, LinearProcess};
+use crate::numeric::{Interval, Real};
+use crate::plant::DragAxis;
+
+/// `alpha x'' + (1 + skew sgn x')(beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + memory s + stiffness x = a + delta`,
+/// `memory_s s' = x' - s`, `lag_s a' = u(t - delay_s) - a`, and a reading `filter_s y' = x - y`.
+///
+/// `T` is a number, an interval, or whatever else is known of each. Zero stands for a term that is not there.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AxisModel<T> {
+    /// Inertia with added mass, F s^2/x.
+    pub alpha: T,
+    /// Linear drag, F s/x.
+    pub beta: T,
+    /// Quadratic drag, F s^2/x^2.
+    pub beta_quadratic: T,
+    /// Cubic drag, F s^3/x^3.
+    pub beta_cubic: T,
+    /// Share by which drag is larger to the positive side.
+    pub skew: T,
+    /// Coulomb friction, F.
+    pub coulomb: T,
+    /// Restoring force, F/x.
+    pub stiffness: T,
+    /// Drag that follows the speed late, F s/x.
+    pub memory: T,
+    /// Time constant with which it follows, s.
+    pub memory_s: T,
+    /// Lag of the actuator, s.
+    pub lag_s: T,
+    /// Time that an actuator of limited rate takes over the command's range, s.
+    pub ramp_s: T,
+    /// Filter of the sensor, s.
+    pub filter_s: T,
+    /// Constant force, F.
+    pub delta: T,
+    /// Delay of the loop, s.
+    pub delay_s: T,
+}
+
+/// Names of the fields, as in the document of `identify --json`.
+pub const NAMES: [&str; 14] = [
+    "alpha",
+    "beta",
+    "beta_quadratic",
+    "beta_cubic",
+    "skew",
+    "coulomb",
+    "stiffness",
+    "memory",
+    "memory_s",
+    "lag_s",
+    "ramp_s",
+    "filter_s",
+    "delta",
+    "delay_s",
+];
+
+impl<T> AxisModel<T> {
+    /// From parts in the order of [`NAMES`].
+    pub fn from_parts(parts: [T; NAMES.len()]) -> Self {
+        let [
+            alpha,
+            beta,
+            beta_quadratic,
+            beta_cubic,
+            skew,
+            coulomb,
+            stiffness,
+            memory,
+            memory_s,
+            lag_s,
+            ramp_s,
+            filter_s,
+            delta,
+            delay_s,
+        ] = parts;
+        Self {
+            alpha,
+            beta,
+            beta_quadratic,
+            beta_cubic,
+            skew,
+            coulomb,
+            stiffness,
+            memory,
+            memory_s,
+            lag_s,
+            ramp_s,
+            filter_s,
+            delta,
+            delay_s,
+        }
+    }
+
+    /// The parts in the order of [`NAMES`].
+    pub fn parts(self) -> [T; NAMES.len()] {
+        let Self {
+            alpha,
+            beta,
+            beta_quadratic,
+            beta_cubic,
+            skew,
+            coulomb,
+            stiffness,
+            memory,
+            memory_s,
+            lag_s,
+            ramp_s,
+            filter_s,
+            delta,
+            delay_s,
+        } = self;
+        [
+            alpha,
+            beta,
+            beta_quadratic,
+            beta_cubic,
+            skew,
+            coulomb,
+            stiffness,
+            memory,
+            memory_s,
+            lag_s,
+            ramp_s,
+            filter_s,
+            delta,
+            delay_s,
+        ]
+    }
+
+    /// Something made of each part.
+    pub fn map<U>(self, of: impl FnMut(T) -> U) -> AxisModel<U> {
+        AxisModel::from_parts(self.parts().map(of))
+    }
+}
+
+impl AxisModel<f64> {
+    /// Whether it is a drag axis with delay and constant force, and nothing else.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        let Self { beta_cubic, skew, coulomb, stiffness, memory, lag_s, ramp_s, filter_s, .. } = *self;
+        [beta_cubic, skew, coulomb, stiffness, memory, lag_s, ramp_s, filter_s].iter().all(|part| *part == 0.0)
+            && self.beta >= 0.0
+    }
+
+    /// The axis that gains are placed for: drag that drives counts as none, and every lag as delay (a ramp as half of itself, the
+    /// delay of the middle of its step).
+    ///
+    /// # Errors
+    /// [`ControlError::Plant`] unless the inertia is above zero.
+    pub fn design_axis(&self) -> Result<DragAxis<f64>, ControlError> {
+        let late_s = self.delay_s + self.lag_s + self.filter_s + 0.5 * self.ramp_s;
+        let axis = DragAxis::mixed(self.alpha, self.beta.max(0.0), self.beta_quadratic.max(0.0))?;
+        Ok(axis.with_disturbance(self.delta)?.with_delay_s(late_s)?)
+    }
+
+    /// Drag at a speed, memory aside. Coulomb friction is smoothed over a thousandth of `fast`.
+    fn drag(&self, speed: f64, fast: f64) -> f64 {
+        let side = 1.0 + self.skew * speed.signum();
+        let viscous = side * (self.beta + self.beta_quadratic * speed.abs() + self.beta_cubic * speed * speed) * speed;
+        viscous + self.coulomb * (speed / (1e-3 * fast)).tanh()
+    }
+
+    /// Rates of position, speed, late speed, force and reading under a command.
+    fn rates(&self, [position, speed, late, force, reading]: ModelState, command: f64, fast: f64) -> ModelState {
+        let follows = |time_s: f64, target: f64, now: f64| if time_s > 0.0 { (target - now) / time_s } else { 0.0 };
+        let force = if self.lag_s > 0.0 { force } else { command };
+        let total = force + self.delta - self.drag(speed, fast) - self.memory * late - self.stiffness * position;
+        [
+            speed,
+            total / self.alpha,
+            follows(self.memory_s, speed, late),
+            follows(self.lag_s, command, force),
+            follows(self.filter_s, position, reading),
+        ]
+    }
+
+    /// The state some time later under a constant command: one step of the classic Runge-Kutta method.
+    pub(super) fn advance(&self, state: ModelState, command: f64, time_s: f64, fast: f64) -> ModelState {
+        let along = |rates: &ModelState, share: f64| core::array::from_fn(|i| state[i] + share * time_s * rates[i]);
+        let first = self.rates(state, command, fast);
+        let second = self.rates(along(&first, 0.5), command, fast);
+        let third = self.rates(along(&second, 0.5), command, fast);
+        let fourth = self.rates(along(&third, 1.0), command, fast);
+        core::array::from_fn(|i| state[i] + time_s / 6.0 * (first[i] + 2.0 * second[i] + 2.0 * third[i] + fourth[i]))
+    }
+
+    /// What the sensor says.
+    pub(super) fn reading(&self, state: &ModelState) -> f64 {
+        if self.filter_s > 0.0 { state[4] } else { state[0] }
+    }
+}
+
+/// Position, speed, late speed, force, reading.
+pub(super) type ModelState = [f64; 5];
+
+impl AxisModel<Interval> {
+    /// Every linear process that slow signals see at speeds up to `top_speed` either way: drag by its slope
+    /// `(1 + skew sgn v)(beta + 2 beta_quadratic |v| + 3 beta_cubic v^2)`, a limited rate as a delay of up to half the ramp. Coulomb
+    /// friction has no slope but at rest, where it holds the axis.
+    #[must_use]
+    pub fn processes(&self, top_speed: f64) -> LinearProcess<Interval> {
+        let number = Interval::from_f64;
+        let speeds = Interval::new(0.0, top_speed).unwrap_or(Interval::ENTIRE);
+        let slopes =
+            self.beta + number(2.0) * self.beta_quadratic * speeds + number(3.0) * self.beta_cubic * speeds.square();
+        let sides = (Interval::ONE - self.skew).hull(Interval::ONE + self.skew);
+        let half = Interval::new(0.0, 0.5).unwrap_or(Interval::ENTIRE);
+        LinearProcess {
+            alpha: self.alpha,
+            drag: slopes * sides,
+            stiffness: self.stiffness,
+            memory: self.memory,
+            memory_s: self.memory_s,
+            lag_s: self.lag_s,
+            filter_s: self.filter_s,
+            zero_s: Interval::ZERO,
+            delay_s: self.delay_s + half * self.ramp_s,
+        }
+    }
+}

@@ -1,0 +1,482 @@
+//! Margins and sensitivity over a box of processes, proved by exclusion of zero: a criterion holds for every process of the box
+//! where a polynomial in `cos`, `sin` of the delay's phase and the frequency is positive on a box of both.
+//!
+//! With `L = N exp(-j phi)/D`: `|1 + L| >= 1/M` means `|D + N exp(-j phi)|^2 - |D|^2/M^2 >= 0`. Margins follow with a factor,
+//! an angle or a delay as one more variable and `1/M = 0` (zero exclusion principle: Ackermann, *Robust Control*, 2002, ch. 4).
+
+use super::process::{DEGREE, Fraction, LinearProcess, PARAMETERS, constants};
+use super::{ControlError, Gains};
+use crate::numeric::{Gradient, Interval, Real, domain};
+
+/// What every process of a box is to have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RobustCriterion {
+    /// `|1/(1 + L)|` is below this at every frequency.
+    Sensitivity(f64),
+    /// Stable with every gain from its own to this factor of it.
+    Gain(f64),
+    /// Stable with every gain from its own to this part of it.
+    GainReduction(f64),
+    /// Stable with up to so much more lag, or lead, of phase, rad.
+    PhaseRad(f64),
+    /// Stable with up to so much more delay, s.
+    DelayS(f64),
+}
+
+impl RobustCriterion {
+    /// The variable that the criterion adds, and `1/M^2`.
+    fn variable(self) -> (Interval, f64) {
+        let between = |a: f64, b: f64| Interval::new(a, b).unwrap_or(Interval::ENTIRE);
+        match self {
+            Self::Sensitivity(most) => (Interval::ONE, 1.0 / (most * most)),
+            Self::Gain(factor) => (between(1.0, factor.max(1.0)), 0.0),
+            Self::GainReduction(factor) => (between((1.0 / factor).min(1.0), 1.0), 0.0),
+            Self::PhaseRad(angle) => (between(-angle.abs(), angle.abs()), 0.0),
+            Self::DelayS(time_s) => (between(0.0, time_s.max(0.0)), 0.0),
+        }
+    }
+
+    /// `|D + N exp(-j phi)|^2 - |D|^2/M^2`.
+    fn excess<T: Real>(self, process: &LinearProcess<T>, gains: &Gains<f64>, omega: T, extra: T) -> T {
+        let loop_ = process.open_loop(constants(gains));
+        self.excess_of(&loop_, process.delay_s, omega, extra)
+    }
+
+    fn excess_of<T: Real>(self, open_loop: &Fraction<T>, delay_s: T, omega: T, extra: T) -> T {
+        let share = T::from_f64(self.variable().1);
+        let angle = match self {
+            Self::PhaseRad(_) => omega * delay_s + extra,
+            Self::DelayS(_) => omega * (delay_s + extra),
+            _ => omega * delay_s,
+        };
+        let [[re, im], [below_re, below_im]] = open_loop.parts(omega, angle);
+        let factor = match self {
+            Self::Gain(_) | Self::GainReduction(_) => extra,
+            _ => T::one(),
+        };
+        let sum = (below_re + factor * re).square() + (below_im + factor * im).square();
+        match self {
+            Self::Sensitivity(_) => sum - share * (below_re.square() + below_im.square()),
+            _ => sum,
+        }
+    }
+}
+
+/// Parameters, frequency, and the criterion's own variable.
+const VARIABLES: usize = PARAMETERS + 2;
+const OMEGA: usize = PARAMETERS;
+const EXTRA: usize = PARAMETERS + 1;
+/// Boxes that one proof may take: some two seconds.
+const BOXES: usize = 100_000;
+/// Octaves below and above 1 rad/s in which the end of the frequencies is looked for.
+const OCTAVES: i32 = 100;
+/// Sides smaller than this, relative to the whole, are not halved any more.
+const SMALLEST: f64 = 1e-12;
+
+/// Processes whose parameters lie in intervals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProcessIntervals {
+    process: LinearProcess<Interval>,
+}
+
+/// What is known of a criterion over a box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
+pub struct CriterionRange {
+    /// Every process of the box is at least as good: proved. `None` where nothing was proved.
+    pub proved: Option<f64>,
+    /// Some process of the box is no better.
+    pub met: f64,
+}
+
+impl ProcessIntervals {
+    /// A gain without a limit is one within this factor.
+    pub const NO_LIMIT: f64 = 1e3;
+
+    /// Intervals of a process.
+    ///
+    /// # Errors
+    /// [`ControlError::OutOfDomain`] unless all are bounded, inertia, times and delay are zero or more, and inertia, drag or stiffness
+    /// is above zero throughout.
+    pub fn new(process: LinearProcess<Interval>) -> Result<Self, ControlError> {
+        let names = [
+            "inertia",
+            "drag",
+            "stiffness",
+            "late drag",
+            "time of late drag",
+            "lag",
+            "filter of the sensor",
+            "zero",
+            "delay",
+        ];
+        for (index, (name, part)) in names.into_iter().zip(process.parts()).enumerate() {
+            domain::finite(name, part.lower(), "")?;
+            domain::finite(name, part.upper(), "")?;
+            if index == 0 || (4..=6).contains(&index) || index == 8 {
+                domain::non_negative(name, part.lower(), "")?;
+            }
+        }
+        let leading = process.alpha.lower().max(process.drag.lower()).max(process.stiffness.lower());
+        domain::positive("inertia, drag or stiffness", leading, "")?;
+        Ok(Self { process })
+    }
+
+    /// The intervals.
+    #[must_use]
+    pub fn process(&self) -> &LinearProcess<Interval> {
+        &self.process
+    }
+
+    /// Whether the criterion is proved for every process, and that each is stable under the gains. `false` says nothing.
+    ///
+    /// ```
+    /// use selfosc::control::{RobustCriterion, Gains, LinearProcess, ProcessIntervals, Structure};
+    /// use selfosc::numeric::Interval;
+    /// let between = |low, high| Interval::new(low, high).ok_or("reversed");
+    /// let none = Interval::ZERO;
+    /// let process = LinearProcess {
+    ///     alpha: between(0.9, 1.1)?, drag: between(0.2, 0.4)?, delay_s: between(0.15, 0.25)?, lag_s: between(0.05, 0.1)?,
+    ///     stiffness: none, memory: none, memory_s: none, filter_s: none, zero_s: none,
+    /// };
+    /// let gains = Gains::new(Structure::Pd, 0.5, 0.0, 0.9, 0.1)?;
+    /// let processes = ProcessIntervals::new(process)?;
+    /// assert!(processes.all_have(&gains, RobustCriterion::Sensitivity(2.5)));
+    /// assert!(!processes.all_have(&gains, RobustCriterion::Sensitivity(1.05)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn all_have(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> bool {
+        self.all_stable(gains) && self.excluded(gains, criterion)
+    }
+
+    /// Whether every process is proved to be stable under the gains: one without delay is by Routh's table, and no pole passes the
+    /// imaginary axis on the way from it to any other.
+    #[must_use]
+    pub fn all_stable(&self, gains: &Gains<f64>) -> bool {
+        let Some(sooner) = Interval::new(0.0, self.process.delay_s.upper()) else { return false };
+        let all = Self { process: LinearProcess { delay_s: sooner, ..self.process } };
+        let one = LinearProcess { delay_s: Interval::ZERO, ..all.process };
+        let one = LinearProcess::from_parts(one.parts().map(|part| Interval::point(part.midpoint())));
+        is_hurwitz(&one.open_loop(constants(gains))) && all.excluded(gains, RobustCriterion::Gain(1.0))
+    }
+
+    /// Whether the criterion's excess is above zero at every frequency, for every process.
+    fn excluded(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> bool {
+        let extra = criterion.variable().0;
+        let Some(highest) = self.highest_frequency(gains, criterion) else { return false };
+        let Some(omega) = Interval::new(0.0, highest) else { return false };
+        let mut domain = [Interval::ZERO; VARIABLES];
+        domain[..PARAMETERS].copy_from_slice(&self.process.parts());
+        (domain[OMEGA], domain[EXTRA]) = (omega, extra);
+        let (mut open, mut boxes) = (vec![domain], 0);
+        while let Some(at) = open.pop() {
+            boxes += 1;
+            let Some((face, side)) = undecided(criterion, gains, at) else { continue };
+            let large_enough = face[side].width() > SMALLEST * domain[side].width();
+            if boxes >= BOXES || !large_enough {
+                return false;
+            }
+            let (lower, upper) = halves(face[side], side == OMEGA);
+            for half in [upper, lower] {
+                let mut part = face;
+                part[side] = half;
+                open.push(part);
+            }
+        }
+        true
+    }
+
+    /// A frequency above which `|L|` is too small for the criterion to fail: with `u = 1/omega` all powers are polynomials of u.
+    fn highest_frequency(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> Option<f64> {
+        let Fraction { numerator, denominator } = self.process.open_loop(constants::<Interval>(gains));
+        let degree = |polynomial: &[Interval; DEGREE + 1]| polynomial.iter().rposition(|c| *c != Interval::ZERO);
+        let (m, n) = (degree(&numerator)?, degree(&denominator)?);
+        let largest = match criterion {
+            RobustCriterion::Gain(factor) => factor.max(1.0),
+            _ => 1.0,
+        };
+        let most = match criterion {
+            RobustCriterion::Sensitivity(most) => 1.0 - 1.0 / most,
+            _ => 1.0,
+        };
+        (-OCTAVES..OCTAVES).map(|k| 2f64.powi(k)).find(|omega| {
+            let Some(u) = Interval::new(0.0, 1.0 / omega) else { return false };
+            // |N| <= sum |n_k| omega^k, |D| >= |d_n| omega^n - the rest.
+            let reversed = |polynomial: &[Interval], last: usize| {
+                (0..=last).fold(Interval::ZERO, |sum, k| {
+                    sum + Interval::point(polynomial[k].magnitude()) * power(u, last - k)
+                })
+            };
+            let above = reversed(&numerator, m);
+            let leading = denominator[n];
+            let least = leading.lower().max(-leading.upper());
+            let rest = (0..n)
+                .fold(Interval::ZERO, |sum, k| sum + Interval::point(denominator[k].magnitude()) * power(u, n - k));
+            let below = Interval::point(least) - rest;
+            let shift = power(u, n.saturating_sub(m));
+            n >= m
+                && below.is_positive()
+                && (Interval::point(largest) * above * shift).upper() < (Interval::point(most) * below).lower()
+        })
+    }
+
+    /// What the criterion's number is over the box: the worst that was met at corners and on the way down from them, and the best
+    /// number near it that is proved. `of` makes the criterion from its number.
+    ///
+    /// # Errors
+    /// [`ControlError::NotStabilised`] with a process of the box whose stability under the gains is not proved.
+    pub fn enclose(&self, gains: &Gains<f64>, of: fn(f64) -> RobustCriterion) -> Result<CriterionRange, ControlError> {
+        let met = self.worst_met(gains, of)?;
+        let limited = met.is_finite();
+        let proved = GIVEN_UP.iter().find_map(|share| {
+            let number = match of(1.0) {
+                RobustCriterion::Sensitivity(_) => met * (1.0 + share),
+                RobustCriterion::Gain(_) | RobustCriterion::GainReduction(_) if !limited => Self::NO_LIMIT,
+                RobustCriterion::Gain(_) | RobustCriterion::GainReduction(_) => 1.0 + (met - 1.0) * (1.0 - share),
+                _ => met * (1.0 - share),
+            };
+            self.all_have(gains, of(number)).then_some(number)
+        });
+        Ok(CriterionRange { proved, met })
+    }
+}
+
+impl ProcessIntervals {
+    /// The corners of the box.
+    #[must_use]
+    pub fn corners(&self) -> Vec<LinearProcess<f64>> {
+        self.points().split_off(1)
+    }
+
+    /// Points of the box: its middle, and its corners.
+    fn points(&self) -> Vec<LinearProcess<f64>> {
+        let parts = self.process.parts();
+        let wide: Vec<usize> = (0..PARAMETERS).filter(|k| !parts[*k].is_point()).collect();
+        let corner = |bits: usize| {
+            let mut corner = parts.map(Interval::midpoint);
+            for (place, &k) in wide.iter().enumerate() {
+                corner[k] = if bits >> place & 1 == 0 { parts[k].lower() } else { parts[k].upper() };
+            }
+            LinearProcess::from_parts(corner)
+        };
+        core::iter::once(self.process.middle()).chain((0..1 << wide.len()).map(corner)).collect()
+    }
+
+    /// Whether the middle and the corners of the box meet the criterion, up to rounding: no proof.
+    #[must_use]
+    pub fn meets(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> bool {
+        let high = self.highest_frequency(gains, RobustCriterion::Gain(1.0)).unwrap_or(f64::INFINITY);
+        let wanted = match criterion {
+            RobustCriterion::Sensitivity(number)
+            | RobustCriterion::Gain(number)
+            | RobustCriterion::GainReduction(number)
+            | RobustCriterion::PhaseRad(number)
+            | RobustCriterion::DelayS(number) => number,
+        };
+        self.points().iter().all(|process| {
+            let found = Figures::of(process, gains, high, FEW).number(criterion);
+            if matches!(criterion, RobustCriterion::Sensitivity(_)) { found <= wanted } else { found >= wanted }
+        })
+    }
+
+    /// The worst number of the criterion at the points of the box.
+    fn worst_met(&self, gains: &Gains<f64>, of: fn(f64) -> RobustCriterion) -> Result<f64, ControlError> {
+        let mut worst: Option<f64> = None;
+        let high = self.highest_frequency(gains, RobustCriterion::Gain(1.0)).unwrap_or(f64::INFINITY);
+        for process in self.points() {
+            let number = Figures::of(&process, gains, high, AN_OCTAVE).number(of(1.0));
+            worst = Some(match (worst, of(1.0)) {
+                (None, _) => number,
+                (Some(worst), RobustCriterion::Sensitivity(_)) => worst.max(number),
+                (Some(worst), _) => worst.min(number),
+            });
+        }
+        if !self.all_stable(gains) {
+            let unstable = self.points().into_iter().find(|process| {
+                let point = Self { process: LinearProcess::from_parts(process.parts().map(Interval::point)) };
+                !point.all_stable(gains)
+            });
+            if let Some(LinearProcess { alpha, drag, delay_s, .. }) = unstable {
+                return Err(ControlError::NotStabilised { alpha, drag, delay_s });
+            }
+        }
+        Ok(worst.unwrap_or(f64::NAN))
+    }
+}
+
+/// Margins and peak of the sensitivity of one loop, by floating point on a grid of frequencies.
+#[derive(Clone, Copy, Debug)]
+struct Figures {
+    sensitivity: f64,
+    gain: f64,
+    gain_reduction: f64,
+    phase_rad: f64,
+    delay_s: f64,
+}
+
+/// Frequencies an octave, to judge by and to choose by; octaves below and above the highest frequency at which the gain may be one.
+const AN_OCTAVE: i32 = 40;
+const FEW: i32 = 12;
+const BELOW: i32 = 16;
+const ABOVE: i32 = 6;
+
+impl Figures {
+    fn of(process: &LinearProcess<f64>, gains: &Gains<f64>, high: f64, an_octave: i32) -> Self {
+        let open_loop = process.open_loop(constants(gains));
+        // L at a frequency: magnitude, and angle above -pi up to turns.
+        let response = |omega: f64| {
+            let [[re, im], [below_re, below_im]] = open_loop.parts(omega, omega * process.delay_s);
+            let size = below_re.hypot(below_im).powi(2);
+            [(re * below_re + im * below_im) / size, (im * below_re - re * below_im) / size]
+        };
+        let (mut found, mut before) = (
+            Self {
+                sensitivity: 1.0,
+                gain: f64::INFINITY,
+                gain_reduction: f64::INFINITY,
+                phase_rad: f64::INFINITY,
+                delay_s: f64::INFINITY,
+            },
+            None::<(f64, [f64; 2])>,
+        );
+        for k in 0..=an_octave * (BELOW + ABOVE) {
+            let omega = high * 2f64.powf(f64::from(k) / f64::from(an_octave) - f64::from(BELOW));
+            let here = response(omega);
+            let peak = |omega: f64| {
+                let [re, im] = response(omega);
+                (1.0 + re).hypot(im).recip()
+            };
+            found.sensitivity = found.sensitivity.max(peak(omega));
+            if let Some((last, [last_re, last_im])) = before {
+                let [re, im] = here;
+                if last_im * im <= 0.0 && re < 0.0 && last_re < 0.0 {
+                    let at = bisect(|omega| response(omega)[1], last, omega);
+                    let size = response(at)[0].abs();
+                    if size < 1.0 {
+                        found.gain = found.gain.min(1.0 / size);
+                    } else {
+                        found.gain_reduction = found.gain_reduction.min(size);
+                    }
+                }
+                let excess = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
+                if excess([last_re, last_im]) * excess(here) <= 0.0 {
+                    let at = bisect(|omega| excess(response(omega)), last, omega);
+                    let [re, im] = response(at);
+                    // Angle above critical, from 0 to a turn.
+                    let above = (-im).atan2(-re).rem_euclid(core::f64::consts::TAU);
+                    found.phase_rad = found.phase_rad.min(above.min(core::f64::consts::TAU - above));
+                    found.delay_s = found.delay_s.min(above / at);
+                }
+            }
+            before = Some((omega, here));
+        }
+        found
+    }
+
+    fn number(&self, criterion: RobustCriterion) -> f64 {
+        match criterion {
+            RobustCriterion::Sensitivity(_) => self.sensitivity,
+            RobustCriterion::Gain(_) => self.gain,
+            RobustCriterion::GainReduction(_) => self.gain_reduction,
+            RobustCriterion::PhaseRad(_) => self.phase_rad,
+            RobustCriterion::DelayS(_) => self.delay_s,
+        }
+    }
+}
+
+/// A sign change between two frequencies, to rounding.
+fn bisect(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let rising = f(high) > f(low);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if (f(middle) > 0.0) == rising { high = middle } else { low = middle }
+    }
+    0.5 * (low + high)
+}
+
+/// What is given up of the worst that was met, so that a proof is found: the least first.
+const GIVEN_UP: [f64; 4] = [0.003, 0.02, 0.1, 0.3];
+
+fn power(base: Interval, exponent: usize) -> Interval {
+    (0..exponent).fold(Interval::ONE, |product, _| product * base)
+}
+
+/// Halves in the middle; of a wide range of frequencies in its geometric middle.
+fn halves(whole: Interval, of_frequency: bool) -> (Interval, Interval) {
+    let (low, high) = (whole.lower(), whole.upper());
+    let middle = match (of_frequency, low > 0.0) {
+        (true, true) if high > 2.0 * low => (low * high).sqrt(),
+        (true, false) => high / 4.0,
+        _ => return whole.bisect(),
+    };
+    match (Interval::new(low, middle), Interval::new(middle, high)) {
+        (Some(lower), Some(upper)) => (lower, upper),
+        _ => whole.bisect(),
+    }
+}
+
+/// `None` where the excess is positive on the box; else a face of the box on which it is least, and the side of that face along
+/// which it changes most.
+fn undecided(
+    criterion: RobustCriterion,
+    gains: &Gains<f64>,
+    mut at: [Interval; VARIABLES],
+) -> Option<([Interval; VARIABLES], usize)> {
+    let value = |at: &[Interval; VARIABLES]| {
+        let process = LinearProcess::from_parts(core::array::from_fn(|k| at[k]));
+        criterion.excess(&process, gains, at[OMEGA], at[EXTRA])
+    };
+    loop {
+        if value(&at).is_positive() {
+            return None;
+        }
+        let variables = Gradient::variables(at);
+        let process = LinearProcess::from_parts(core::array::from_fn(|k| variables[k]));
+        let slopes = criterion.excess(&process, gains, variables[OMEGA], variables[EXTRA]).slopes();
+        // A function that rises along a side is least at its lower end.
+        let mut fell = false;
+        for (side, slope) in at.iter_mut().zip(slopes) {
+            let end = if slope.lower() >= 0.0 {
+                side.lower()
+            } else if slope.upper() <= 0.0 {
+                side.upper()
+            } else {
+                continue;
+            };
+            fell |= !side.is_point();
+            *side = Interval::point(end);
+        }
+        if fell {
+            continue;
+        }
+        // Mean value form: F(x) >= F(m) - sum |F'_i| r_i.
+        let middle = at.map(|side| Interval::point(side.midpoint()));
+        let form = (0..VARIABLES)
+            .filter(|k| !at[*k].is_point())
+            .fold(value(&middle), |sum, k| sum + slopes[k] * (at[k] - middle[k]));
+        if form.is_positive() {
+            return None;
+        }
+        let size = |k: &usize| if at[*k].is_point() { -1.0 } else { slopes[*k].magnitude() * at[*k].width() };
+        return (0..VARIABLES).max_by(|a, b| size(a).total_cmp(&size(b))).map(|side| (at, side));
+    }
+}
+
+/// Whether all roots of numerator plus denominator decay: the first column of Routh's table is positive, in intervals.
+fn is_hurwitz(open_loop: &Fraction<Interval>) -> bool {
+    let sum: Vec<Interval> = open_loop.numerator.iter().zip(open_loop.denominator).map(|(n, d)| *n + d).collect();
+    let Some(degree) = sum.iter().rposition(|c| *c != Interval::ZERO) else { return false };
+    let entry = |index: usize| degree.checked_sub(index).map_or(Interval::ZERO, |power| sum[power]);
+    let row = |first: usize| (0..=degree / 2).map(|k| entry(first + 2 * k)).collect::<Vec<_>>();
+    let (mut upper, mut lower) = (row(0), row(1));
+    let sign = if upper[0].is_negative() { -Interval::ONE } else { Interval::ONE };
+    (0..degree).all(|_| {
+        let decays = (sign * upper[0]).is_positive() && (sign * lower[0]).is_positive();
+        let ratio = upper[0] / lower[0];
+        let entry = |row: &[Interval], k: usize| row.get(k).copied().unwrap_or(Interval::ZERO);
+        let next = (1..=upper.len()).map(|k| entry(&upper, k) - ratio * entry(&lower, k)).collect();
+        upper = core::mem::replace(&mut lower, next);
+        decays
+    })
+}

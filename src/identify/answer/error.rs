@@ -1,0 +1,138 @@
+//! Why there is no model.
+
+use crate::describing::DescribingError;
+use crate::nonlinearity::NonlinearityError;
+use crate::numeric::OutOfDomain;
+use crate::numeric::domain::Plain;
+use crate::orbit::OrbitError;
+use crate::plant::PlantError;
+
+/// Why an oscillation gives no model.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum IdentifyError {
+    /// A feature or setting outside its domain.
+    #[error(transparent)]
+    OutOfDomain(#[from] OutOfDomain),
+    /// No orbit of a drag axis has these features.
+    #[error(
+        "switching level over amplitude is {ratio}, but orbits with these times and this delay have it below {limit} \
+         (1 - delay (1/t_plus + 1/t_minus)), and above 0 without a delay; read the level where the command was given, and \
+         check the delay"
+    )]
+    NoOrbit {
+        /// Switching level over amplitude.
+        ratio: f64,
+        /// What it stays below, however strong the drag.
+        limit: f64,
+    },
+    /// The features are those of an orbit whose drag is lost in rounding.
+    #[error(
+        "switching level over amplitude is {ratio}, too near its limits to tell the drag; repeat \
+         the experiment with another half-width"
+    )]
+    Unresolved {
+        /// Switching level over amplitude.
+        ratio: f64,
+    },
+    /// Fewer numbers measured than parameters asked for.
+    #[error(
+        "{equations} residuals for {parameters} parameters, which leaves nothing to judge the fit by; give more \
+         experiments or fix the delay"
+    )]
+    TooFewEquations {
+        /// Residuals there are.
+        equations: usize,
+        /// Parameters to estimate.
+        parameters: usize,
+    },
+    /// The experiments do not tell the parameters apart.
+    #[error(
+        "some combination of the parameters changes the residuals only {ratio} times as much as another does; give \
+         experiments that differ more in relay level or half-width, or fix the delay"
+    )]
+    Confounded {
+        /// Smallest over largest singular value of the scaled Jacobian.
+        ratio: f64,
+    },
+    /// The search for the best parameters did not end.
+    #[error(
+        "the parameters still move after {steps} steps, at a residual rms of {rms}; start nearer or leave out \
+         experiments that do not belong to this vehicle"
+    )]
+    NotSettled {
+        /// Steps made.
+        steps: usize,
+        /// Residual rms reached.
+        rms: f64,
+    },
+    /// The output answers the command's opposite.
+    #[error("the output moves against the command: say that it is logged with the opposite sign (--invert)")]
+    CommandSign,
+    /// The first harmonic belongs to no vehicle.
+    #[error(
+        "{parameter} = {} by the first harmonic with a delay of {} s in a period of {} s, but it must be \
+         above 0; check the delay (--delay), and the sign of the command (--invert)",
+        Plain(*.value), Plain(*.delay_s), Plain(*.period_s)
+    )]
+    Unphysical {
+        /// The parameter.
+        parameter: &'static str,
+        /// Its value, in units of the experiment.
+        value: f64,
+        /// Delay given, in s.
+        delay_s: f64,
+        /// Period, in s.
+        period_s: f64,
+    },
+    /// No limit cycle at the parameters tried.
+    #[error(transparent)]
+    Orbit(#[from] OrbitError),
+    /// The parameters tried are not those of a plant.
+    #[error(transparent)]
+    Plant(#[from] PlantError),
+    /// Condition 40 is not met, or the relay or the input is not one.
+    #[error(transparent)]
+    Describing(#[from] DescribingError),
+}
+
+impl IdentifyError {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::OutOfDomain(_) => "feature",
+            Self::NoOrbit { .. } => "no-orbit",
+            Self::Unresolved { .. } => "unresolved",
+            Self::TooFewEquations { .. } => "too-few-equations",
+            Self::Confounded { .. } => "confounded",
+            Self::NotSettled { .. } => "not-settled",
+            Self::CommandSign => "command-sign",
+            Self::Unphysical { .. } => "unphysical",
+            Self::Orbit(_) => "orbit",
+            Self::Plant(_) => "plant",
+            Self::Describing(_) => "condition-40",
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        match self {
+            Self::OutOfDomain(fault) => Some(fault),
+            Self::Orbit(error) => error.out_of_domain(),
+            Self::Plant(error) => error.out_of_domain(),
+            Self::Describing(error) => error.out_of_domain(),
+            _ => None,
+        }
+    }
+}
+
+impl From<NonlinearityError> for IdentifyError {
+    fn from(error: NonlinearityError) -> Self {
+        Self::Describing(error.into())
+    }
+}
+
+/// What to do about a feature that is none.
+pub(crate) const READ_AGAIN: &str = "read it off the record again";

@@ -1,0 +1,153 @@
+//! A value with its error.
+
+use super::distribution::NORMAL_95;
+
+/// A value with what is known of its error.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(into = "EstimateFields", try_from = "EstimateFields")]
+pub struct Estimate {
+    /// The value, in the units of the experiments.
+    pub value: f64,
+    /// Its error; `None` for a value that was given, or that ended on its bound zero.
+    pub spread: Option<ConfidenceInterval>,
+}
+
+/// An estimate as it is written: `{"value", "std", "low", "high"}`, the last three null together.
+#[derive(serde::Serialize, serde::Deserialize)]
+struct EstimateFields {
+    value: f64,
+    std: Option<f64>,
+    low: Option<f64>,
+    high: Option<f64>,
+}
+
+impl From<Estimate> for EstimateFields {
+    fn from(Estimate { value, spread }: Estimate) -> Self {
+        let field = |of: fn(ConfidenceInterval) -> f64| spread.map(of);
+        Self { value, std: field(|s| s.std), low: field(|s| s.low), high: field(|s| s.high) }
+    }
+}
+
+impl TryFrom<EstimateFields> for Estimate {
+    type Error = &'static str;
+
+    fn try_from(EstimateFields { value, std, low, high }: EstimateFields) -> Result<Self, Self::Error> {
+        match (std, low, high) {
+            (Some(std), Some(low), Some(high)) => {
+                Ok(Self { value, spread: Some(ConfidenceInterval { std, low, high }) })
+            }
+            (None, None, None) => Ok(Self { value, spread: None }),
+            _ => Err("std, low and high of an estimate must be numbers or null together"),
+        }
+    }
+}
+
+/// Error of an estimate.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct ConfidenceInterval {
+    /// Standard deviation.
+    pub std: f64,
+    /// Lower end of the 95 % interval (Student's t), not below zero.
+    pub low: f64,
+    /// Upper end of the 95 % interval.
+    pub high: f64,
+}
+
+/// The constant force during each record. In JSON the only record's stands beside the list as `delta`, null for several.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(into = "DisturbanceFields", from = "DisturbanceFields")]
+pub struct Disturbances(Vec<Estimate>);
+
+#[derive(serde::Serialize, serde::Deserialize)]
+struct DisturbanceFields {
+    #[serde(skip_deserializing)]
+    delta: Option<Estimate>,
+    deltas: Vec<Estimate>,
+}
+
+impl Disturbances {
+    /// That of the only record.
+    #[must_use]
+    pub fn single(&self) -> Option<Estimate> {
+        if let [only] = self.0[..] { Some(only) } else { None }
+    }
+}
+
+impl From<Disturbances> for DisturbanceFields {
+    fn from(all: Disturbances) -> Self {
+        Self { delta: all.single(), deltas: all.0 }
+    }
+}
+
+impl From<DisturbanceFields> for Disturbances {
+    fn from(fields: DisturbanceFields) -> Self {
+        Self(fields.deltas)
+    }
+}
+
+impl FromIterator<Estimate> for Disturbances {
+    fn from_iter<I: IntoIterator<Item = Estimate>>(estimates: I) -> Self {
+        Self(estimates.into_iter().collect())
+    }
+}
+
+impl core::ops::Deref for Disturbances {
+    type Target = [Estimate];
+
+    fn deref(&self) -> &[Estimate] {
+        &self.0
+    }
+}
+
+impl core::ops::DerefMut for Disturbances {
+    fn deref_mut(&mut self) -> &mut [Estimate] {
+        &mut self.0
+    }
+}
+
+impl ConfidenceInterval {
+    /// The 95 % interval of a normal error about a value.
+    pub(crate) fn normal(value: f64, std: f64) -> Self {
+        Self { std, low: value - NORMAL_95 * std, high: value + NORMAL_95 * std }
+    }
+
+    /// Half its width in normal standard deviations: right where it is no normal one, too.
+    pub(crate) fn deviation(self) -> f64 {
+        0.5 * (self.high - self.low) / NORMAL_95
+    }
+}
+
+impl Estimate {
+    /// With a relative error that all records share.
+    pub(crate) fn with_error(mut self, relative: f64) -> Self {
+        if let Some(spread) = &mut self.spread {
+            let more = self.value.abs() * relative;
+            let wider = NORMAL_95 * (spread.deviation().hypot(more) - spread.deviation());
+            let std = spread.std.hypot(more);
+            *spread = ConfidenceInterval { std, low: spread.low - wider, high: spread.high + wider };
+        }
+        self
+    }
+
+    /// With an interval that holds those of the others, too.
+    pub(crate) fn holding(mut self, others: &[Self]) -> Self {
+        if let Some(spread) = &mut self.spread {
+            for other in others.iter().filter_map(|other| other.spread) {
+                (spread.low, spread.high) = (spread.low.min(other.low), spread.high.max(other.high));
+            }
+            spread.std = spread.std.max(spread.deviation());
+        }
+        self
+    }
+
+    /// In another unit.
+    pub(crate) fn in_units(mut self, factor: f64) -> Self {
+        self.value *= factor;
+        if let Some(spread) = &mut self.spread {
+            for number in [&mut spread.std, &mut spread.low, &mut spread.high] {
+                *number *= factor;
+            }
+        }
+        self
+    }
+}

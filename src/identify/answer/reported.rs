@@ -1,0 +1,80 @@
+//! The one answer to use.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Disturbances, DragLaw, Estimate, LawEvidence, Reason, Term, Trust};
+
+/// The one answer to use. All models that the records do not refute are averaged: a parameter of one that they do is absent.
+///
+/// In the document a drag that the law excludes is null, and a reason is its code and text: there `Drag` is `Option<Estimate>`, and
+/// `Why` is [`Caution`](crate::identify::Caution).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reported<Drag = Estimate, Why = Reason> {
+    /// Drag terms that count; mixed where the record does not tell the laws apart.
+    pub drag: DragLaw,
+    /// How much likelier each law makes the records; left to the choice of the law in the document.
+    #[serde(default, skip_serializing_if = "LawEvidence::is_empty")]
+    pub laws: LawEvidence,
+    /// Terms of the likeliest model.
+    pub terms: Vec<Term>,
+    /// Inertia.
+    pub alpha: Estimate,
+    /// Linear drag, of either sign; without error where no model that counts has it.
+    pub beta: Drag,
+    /// Quadratic drag.
+    pub beta_quadratic: Drag,
+    /// Cubic drag, where the likeliest model has it.
+    pub beta_cubic: Option<Estimate>,
+    /// Part by which drag is larger to the positive side than the mean of both, where the likeliest model has it.
+    pub skew: Option<Estimate>,
+    /// Coulomb friction, where the likeliest model has it.
+    pub coulomb: Option<Estimate>,
+    /// Factor of the drag that follows the speed late, where the likeliest model has it.
+    pub memory: Option<Estimate>,
+    /// Time constant in s with which it follows, where the likeliest model has it.
+    pub memory_s: Option<Estimate>,
+    /// Restoring force per output, where the likeliest model has it.
+    pub stiffness: Option<Estimate>,
+    /// Time constant of the actuator in s, where the likeliest model has it.
+    pub lag_s: Option<Estimate>,
+    /// Time of the actuator over the command's range in s, where the likeliest model limits its rate.
+    pub ramp_s: Option<Estimate>,
+    /// Time constant of the sensor's filter in s, where the likeliest model has it.
+    pub filter_s: Option<Estimate>,
+    /// Constant force during each record: in units of the record's own command where two levels leave the law of thrust open.
+    #[serde(flatten)]
+    pub deltas: Disturbances,
+    /// Delay in s.
+    pub delay_s: Estimate,
+    /// Whether to use it.
+    pub trust: Trust,
+    /// Why not simply good, the weightiest first.
+    pub reasons: Vec<Why>,
+}
+
+impl Reported {
+    /// Delay with the mean time by which lag and limited rate make the actuator late, and a filter the sensor, in s.
+    #[must_use]
+    pub fn mean_delay_s(&self) -> f64 {
+        let late = |time_s: Option<Estimate>| time_s.map_or(0.0, |estimate| estimate.value);
+        self.delay_s.value + late(self.lag_s) + late(self.filter_s) + 0.5 * late(self.ramp_s)
+    }
+
+    /// The same in other units of force.
+    pub(crate) fn in_units(self, factor: f64) -> Self {
+        self.forces(|estimate| estimate.in_units(factor))
+    }
+
+    /// With a relative error of the unit of force.
+    pub(crate) fn with_error(self, relative: f64) -> Self {
+        self.forces(|estimate| estimate.with_error(relative))
+    }
+
+    fn forces(mut self, change: impl Fn(Estimate) -> Estimate) -> Self {
+        let always = [&mut self.alpha, &mut self.beta, &mut self.beta_quadratic];
+        let others = [&mut self.beta_cubic, &mut self.coulomb, &mut self.memory, &mut self.stiffness];
+        let all = always.into_iter().chain(others.into_iter().flatten()).chain(self.deltas.iter_mut());
+        all.for_each(|estimate| *estimate = change(*estimate));
+        self
+    }
+}

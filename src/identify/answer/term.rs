@@ -1,0 +1,97 @@
+//! Terms that a model may have beside inertia, linear and quadratic drag and white noise.
+
+use serde::{Deserialize, Serialize};
+
+/// What a model may have in addition, each tried where it makes the record likelier.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Term {
+    /// First-order lag of the actuator.
+    Lag,
+    /// Limited rate of the actuator.
+    RateLimit,
+    /// Restoring force.
+    Stiffness,
+    /// Drag proportional to the cube of the speed.
+    CubicDrag,
+    /// Drag larger to one side than to the other.
+    SkewDrag,
+    /// Coulomb friction.
+    Coulomb,
+    /// Drag that follows the speed late, as of water set in motion before.
+    FluidMemory,
+    /// First-order filter of the sensor.
+    SensorFilter,
+    /// A delay other than the one given.
+    Delay,
+    /// A force that walks at random.
+    ProcessForce,
+    /// That force forgets (Ornstein-Uhlenbeck).
+    ProcessForceMemory,
+    /// An error of the reading that is alike from sample to sample.
+    ColouredNoise,
+    /// Time stamps that err at random.
+    StampJitter,
+    /// Instants of switching that err at random.
+    SwitchJitter,
+}
+
+impl Term {
+    pub(crate) const ALL: [Self; 14] = [
+        Self::Lag,
+        Self::RateLimit,
+        Self::Stiffness,
+        Self::CubicDrag,
+        Self::SkewDrag,
+        Self::Coulomb,
+        Self::FluidMemory,
+        Self::SensorFilter,
+        Self::Delay,
+        Self::ProcessForce,
+        Self::ProcessForceMemory,
+        Self::ColouredNoise,
+        Self::StampJitter,
+        Self::SwitchJitter,
+    ];
+
+    /// Name on the command line and in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lag => "lag",
+            Self::RateLimit => "rate-limit",
+            Self::Stiffness => "stiffness",
+            Self::CubicDrag => "cubic-drag",
+            Self::SkewDrag => "one-sided-drag",
+            Self::Coulomb => "coulomb-friction",
+            Self::FluidMemory => "fluid-memory",
+            Self::SensorFilter => "sensor-filter",
+            Self::Delay => "delay",
+            Self::ProcessForce => "process-force",
+            Self::ProcessForceMemory => "process-force-memory",
+            Self::ColouredNoise => "coloured-noise",
+            Self::StampJitter => "stamp-jitter",
+            Self::SwitchJitter => "switch-jitter",
+        }
+    }
+
+    /// What a record with the term shows, as the beginning of a sentence.
+    pub(super) fn finding(self) -> &'static str {
+        match self {
+            Self::Lag => "the actuator follows the command with a lag",
+            Self::RateLimit => "the actuator follows the command at a limited rate",
+            Self::Stiffness => "a restoring force acts",
+            Self::CubicDrag => "drag grows with the cube of the speed",
+            Self::SkewDrag => "drag is larger to one side than to the other",
+            Self::Coulomb => "friction acts that does not grow with the speed",
+            Self::FluidMemory => "a part of the drag follows the speed late",
+            Self::SensorFilter => "the sensor follows the motion with a lag",
+            Self::Delay => "the delay is another than the one given",
+            Self::ProcessForce => "a force acts that changes with time",
+            Self::ProcessForceMemory => "that force returns to its mean",
+            Self::ColouredNoise => "errors of the readings are alike from sample to sample",
+            Self::StampJitter => "the time stamps err at random",
+            Self::SwitchJitter => "the command acts at instants that err at random",
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! What a user should know before trusting a result.
+
+use core::fmt;
+
+use super::AxisParameter;
+use crate::features::RecordFeatures;
+
+/// Something that would mislead. Ratios are plain numbers; one to an estimate of zero is infinite, and written as text in JSON.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(tag = "code", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Warning {
+    /// The command goes from level to level at a limited rate, and the orders behind it were derived.
+    OrdersDerived {
+        /// Time that it takes, in s.
+        ramp_s: f64,
+    },
+    /// The oscillation barely passes the switching level: inertia follows from a small difference.
+    IllConditioned {
+        /// Switching level with magnitude of the bias, over amplitude.
+        #[serde(with = "super::any_float")]
+        ratio: f64,
+    },
+    /// The paper's method and the answer disagree by more than their errors.
+    MethodsDisagree {
+        /// The parameter.
+        parameter: AxisParameter,
+        /// Value by the paper's method over the reported one.
+        #[serde(with = "super::any_float")]
+        ratio: f64,
+    },
+}
+
+/// Switching level over amplitude from which inertia is ill-conditioned.
+const NEAR_AMPLITUDE: f64 = 0.9;
+impl Warning {
+    /// Short name for scripts.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::OrdersDerived { .. } => "orders-derived",
+            Self::IllConditioned { .. } => "ill-conditioned",
+            Self::MethodsDisagree { .. } => "methods-disagree",
+        }
+    }
+
+    /// Warnings that features give.
+    #[must_use]
+    pub fn of_features(RecordFeatures { features, ramp_s, .. }: &RecordFeatures) -> Vec<Self> {
+        let ratio = (features.switch_level.mean + features.bias.mean.abs()) / features.amplitude.mean;
+        let derived = (*ramp_s > 0.0).then_some(Self::OrdersDerived { ramp_s: *ramp_s });
+        derived.into_iter().chain((ratio > NEAR_AMPLITUDE).then_some(Self::IllConditioned { ratio })).collect()
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::OrdersDerived { ramp_s } => write!(
+                f,
+                "the command takes {ramp_s:.2} s from level to level: orders are taken to be given where it begins to move, and \
+                 the methods for mean cycles take it for a relay that is late by half of that"
+            ),
+            Self::IllConditioned { ratio } => write!(
+                f,
+                "switching level with bias is {ratio:.2} of the amplitude (above {NEAR_AMPLITUDE}): inertia follows from a \
+                 small difference; `selfosc design` computes which relay determines it better"
+            ),
+            Self::MethodsDisagree { parameter, ratio } => write!(
+                f,
+                "the paper's method gives {ratio:.2} times the {} reported: it takes the oscillation for a sinusoid, and knows no \
+                 other term than drag and constant force",
+                parameter.name()
+            ),
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! Every model tried, and the answer to one record.
+
+use super::model::Parameter;
+use crate::identify::answer::{Reported, Term};
+use crate::identify::signal::Clock;
+
+/// A model that was tried.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    /// Its terms beside drag.
+    pub terms: Vec<Term>,
+    /// Its clock.
+    pub clock: Clock,
+    /// Its structural parameters.
+    pub values: [f64; Parameter::COUNT],
+}
+
+/// Everything the estimator found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordAnswer {
+    /// The one answer to use.
+    pub reported: Reported,
+    /// All models tried, the likeliest for its number of parameters first.
+    pub candidates: Vec<Candidate>,
+    /// Level of the command: half its range.
+    pub command_level: f64,
+}

@@ -1,0 +1,249 @@
+//! Prediction-error estimation: a Kalman filter predicts each reading from those before it, and the estimates are the
+//! parameters, of the motion and of what disturbs it together, that make its innovations likeliest.
+//!
+//! The vehicle is
+//! `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + memory s + k x = a(t - T_d) + delta + w(t)`,
+//! `tau a' = u - a`, `memory_s s' = x' - s`, `y = x + e`, a continuous-discrete stochastic state-space model (Jazwinski 1970;
+//! Kristensen, Madsen and Jorgensen 2004; Ljung 1999, chapter 7). Inertia, drag, disturbance and white noise are always there. Terms are a lag, a limited rate, a restoring force, cubic
+//! and one-sided drag, Coulomb friction, fluid memory, a filter of the sensor and a delay other than the one given; a process force,
+//! coloured noise and jitter. Each is tried, and joins where the record is enough likelier for it. All models tried are averaged, so
+//! that an interval allows for the choice among them.
+//! Where readings are rounded, their errors belong together as far as the motion says, and the interval follows.
+//!
+//! What it does not guarantee: a term near its threshold of detection may be left out, and a structure that no term has may
+//! pass for one of them. The scale of the thrust cannot be seen in records of one level: all parameters are in its units.
+
+mod actuator;
+mod average;
+mod candidate;
+mod confounded_lags;
+mod filter;
+pub(crate) mod information;
+mod instants;
+mod model;
+mod motion;
+mod observations;
+mod pooling;
+mod prediction;
+mod residuals;
+mod rounding;
+mod scoring;
+mod several;
+mod structure_search;
+mod term;
+#[cfg(test)]
+mod tests;
+mod thrust;
+
+pub use candidate::{Candidate, RecordAnswer};
+pub use model::Parameter;
+pub use prediction::Prediction;
+pub use several::Several;
+
+use rayon::prelude::*;
+
+use super::start;
+use crate::experiment::Record;
+use crate::identify::answer::distribution::{NORMAL_95, student_quantile_95_expanded};
+use crate::identify::answer::{Delay, DragLaw, Estimate, IdentifyError, LawEvidence, Reason, Reported, Term, Trust};
+pub use crate::identify::signal::{Clock, SwitchingInstant};
+use crate::numeric::{Limit, domain};
+use average::{Average, CHOSEN};
+use observations::Observations;
+use scoring::Fitted;
+use structure_search::{KnownBefore, SearchOutcome, StructureSearch};
+
+/// What to estimate, and what is known.
+///
+/// ```
+/// use selfosc::experiment::{Sensor, SimulatedExperiment};
+/// use selfosc::identify::Delay;
+/// use selfosc::identify::{Trust, fit::prediction_error::Estimator};
+/// use selfosc::{nonlinearity::RelayHysteresis, plant::DragAxis};
+/// let axis = DragAxis::quadratic(1.0, 0.5)?.with_delay_s(0.1)?;
+/// let sensor = Sensor { quantum: 0.02, ..Sensor::default() };
+/// let record = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0)?, 10.0)?.held().with_sensor(sensor)?.run(60.0)?;
+/// let reported = Estimator::new(Delay::KnownS(0.1)).record(&record)?.reported;
+/// assert_ne!(reported.trust, Trust::Doubtful);
+/// let spread = reported.alpha.spread.expect("an estimate with its error");
+/// assert!(spread.low < 1.0 && 1.0 < spread.high);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimator {
+    delay: Delay,
+    law: Option<DragLaw>,
+}
+
+/// Weight of a drag law's models below which the other laws are settled.
+const DISTINGUISHABLE: f64 = 0.05;
+
+impl Estimator {
+    /// The drag law is found; the delay is estimated, or given and checked.
+    #[must_use]
+    pub fn new(delay: Delay) -> Self {
+        Self { delay, law: None }
+    }
+
+    /// The drag law is known.
+    #[must_use]
+    pub fn with_law(self, law: DragLaw) -> Self {
+        Self { law: Some(law), ..self }
+    }
+
+    /// The answer to one record.
+    ///
+    /// # Errors
+    /// [`IdentifyError::OutOfDomain`] for an output or a command that never changes, [`IdentifyError::CommandSign`] for an output that
+    /// answers the command's opposite, [`IdentifyError::NotSettled`] where no model follows the record.
+    pub fn record(&self, record: &Record) -> Result<RecordAnswer, IdentifyError> {
+        for (feature, values) in [("range of the output", record.output()), ("range of the command", record.input())] {
+            if values.iter().all(|value| *value == values[0]) {
+                let remedy = "choose a column that changes";
+                domain::require(feature, 0.0, "units of the column", Limit::Positive, remedy)?;
+            }
+        }
+        let delay_s = match self.delay {
+            Delay::KnownS(delay_s) => Some(delay_s),
+            Delay::Estimated => None,
+        };
+        if start::answers_against(&Observations::new(record, Clock::Stamps, SwitchingInstant::AtSamples), delay_s) {
+            return Err(IdentifyError::CommandSign);
+        }
+        let known = KnownBefore { delay_s, law: self.law };
+        let (search, found) = StructureSearch::new(record, known)
+            .run()
+            .ok_or(IdentifyError::NotSettled { steps: 0, rms: deviation(record.output()) })?;
+        Ok(conclude(&search, &found, known))
+    }
+}
+
+impl Estimator {
+    /// The answer to several records of one vehicle: each on its own, then together, with a test whether they agree.
+    ///
+    /// # Errors
+    /// As [`record`](Self::record), of the first record that has no answer; [`IdentifyError::TooFewEquations`] without records.
+    pub fn records(&self, records: &[&Record]) -> Result<Several, IdentifyError> {
+        if records.is_empty() {
+            return Err(IdentifyError::TooFewEquations { equations: 0, parameters: Parameter::COUNT });
+        }
+        let answers: Result<Vec<RecordAnswer>, IdentifyError> =
+            records.par_iter().map(|record| self.record(record)).collect();
+        answers.map(|answers| Several::of(answers).predicted(records))
+    }
+}
+
+fn terms_of(fitted: &Fitted, known: KnownBefore) -> Vec<Term> {
+    let has = |term: &Term| term.is_in(&fitted.model) && (*term != Term::Delay || known.delay_s.is_some());
+    Term::ALL.into_iter().filter(has).collect()
+}
+
+/// The answer from all models tried.
+fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBefore) -> RecordAnswer {
+    let best = &found.tried[found.best];
+    let observations = search.observations(&best.model);
+    let average = Average::new(
+        found,
+        |fitted| search.observations(&fitted.model),
+        |fitted| 0.5 * search.value(fitted) - average::log_odds_against(&fitted.model, known.delay_s),
+    );
+    let terms = terms_of(best, known);
+    let mut reasons: Vec<Reason> = Vec::new();
+    for term in &terms {
+        reasons.push(match (term, known.delay_s) {
+            (Term::Delay, Some(given_s)) => {
+                Reason::DelayContradicted { given_s, found_s: best.model.value(Parameter::DelayS) }
+            }
+            _ => Reason::Term(*term),
+        });
+    }
+    let count = observations.count();
+    let spare = (count - best.model.freedom() as f64).max(1.0);
+    let mut factor = (count / spare).sqrt() * student_quantile_95_expanded(spare) / NORMAL_95;
+    if !terms.is_empty() {
+        factor *= CHOSEN;
+    }
+    if observations.outliers > 0 {
+        reasons.push(Reason::Outliers { count: observations.outliers });
+    }
+    let (probability, apart) = residuals::halves(best, observations);
+    if probability < residuals::DISAGREE {
+        reasons.push(Reason::HalvesDisagree { probability });
+    }
+    let exact = |parameter: Parameter| Estimate { value: best.model.value(parameter), spread: None };
+    let estimate = |parameter: Parameter| average.estimate(parameter, factor).unwrap_or_else(|| exact(parameter));
+    let present = |parameter: Parameter| best.model.is_free(parameter).then(|| estimate(parameter));
+    let mut alpha = estimate(Parameter::Alpha);
+    if let Some(spread) = &mut alpha.spread
+        && probability < residuals::DISAGREE
+    {
+        (spread.low, spread.high) = (spread.low - apart, spread.high + apart);
+        spread.std = spread.std.hypot(apart);
+    }
+    reasons.extend(Reason::too_wide(alpha));
+    if !best.settled {
+        reasons.push(Reason::NotSettled);
+    }
+    reasons.sort_by_key(|reason| core::cmp::Reverse(reason.trust()));
+    let trust = reasons.iter().map(|reason| reason.trust()).max().unwrap_or(Trust::Good);
+    let share = |parameter: Parameter| average.share(|model| model.is_free(parameter));
+    let drag = match (share(Parameter::LinearDrag), share(Parameter::QuadraticDrag)) {
+        (_, quadratic) if quadratic < DISTINGUISHABLE => DragLaw::Linear,
+        (linear, _) if linear < DISTINGUISHABLE => DragLaw::Quadratic,
+        _ => DragLaw::Mixed,
+    };
+    let not_negative = |mut estimate: Estimate| {
+        if let Some(spread) = &mut estimate.spread {
+            (spread.low, spread.high) = (spread.low.max(0.0), spread.high.max(0.0));
+        }
+        estimate
+    };
+    let reported = Reported {
+        drag,
+        laws: laws_of(found, best),
+        terms,
+        alpha,
+        beta: estimate(Parameter::LinearDrag),
+        beta_quadratic: estimate(Parameter::QuadraticDrag),
+        beta_cubic: present(Parameter::CubicDrag),
+        skew: present(Parameter::Skew),
+        coulomb: present(Parameter::Coulomb).map(not_negative),
+        stiffness: present(Parameter::Stiffness),
+        memory: present(Parameter::Memory),
+        memory_s: present(Parameter::MemoryS).map(not_negative),
+        lag_s: present(Parameter::LagS).map(not_negative),
+        ramp_s: present(Parameter::RampS).map(not_negative),
+        filter_s: present(Parameter::FilterS).map(not_negative),
+        deltas: [estimate(Parameter::Disturbance)].into_iter().collect(),
+        delay_s: not_negative(estimate(Parameter::DelayS)),
+        trust,
+        reasons,
+    };
+    let mut tried: Vec<&Fitted> = found.tried.iter().collect();
+    let value = |fitted: &Fitted| 2.0 * fitted.log_likelihood - observations.price(fitted.model.freedom());
+    tried.sort_by(|a, b| value(b).total_cmp(&value(a)));
+    let candidate = |fitted: &Fitted| Candidate {
+        terms: terms_of(fitted, known),
+        clock: fitted.model.clock,
+        values: fitted.model.values,
+    };
+    let candidates = tried.into_iter().map(candidate).collect();
+    RecordAnswer { reported, candidates, command_level: 0.5 * observations.range }
+}
+
+/// The drag laws beside each other, with the terms of the best model.
+fn laws_of(found: &SearchOutcome, best: &Fitted) -> LawEvidence {
+    LawEvidence::from_log_likelihoods(DragLaw::ALL.map(|law| {
+        let model = best.model.with_drag(law, 1.0);
+        let alike = found.tried.iter().filter(|fitted| fitted.model.is_alike(&model));
+        alike.map(|fitted| fitted.log_likelihood).reduce(f64::max)
+    }))
+}
+
+/// Root mean square about the mean: what is left where no model follows.
+#[allow(clippy::cast_precision_loss, reason = "a count of samples")]
+fn deviation(values: &[f64]) -> f64 {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt()
+}

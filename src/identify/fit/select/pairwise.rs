@@ -1,0 +1,51 @@
+//! The paper's rule for two experiments (eqs. 41-42): the right drag law is the one whose coefficient does not change.
+
+use crate::numeric::Real;
+
+/// Relative spread of two values in percent (eq. 41): their sample standard deviation over their mean.
+///
+/// The factor `sqrt(2)` belongs to it: with it the paper's Fig. 15 comes out.
+///
+/// ```
+/// use selfosc::identify::fit::select::pairwise::relative_spread_percent;
+/// assert!((relative_spread_percent(1.0, 3.0) - 100.0 / 2f64.sqrt()).abs() < 1e-12);
+/// ```
+pub fn relative_spread_percent<T: Real>(first: T, second: T) -> T {
+    T::two().sqrt() * ((first - second) / (first + second)).abs() * T::from_f64(100.0)
+}
+
+/// What a pair of experiments says of the drag law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+pub enum Decision {
+    /// Force proportional to speed.
+    Linear,
+    /// Force proportional to speed squared.
+    Quadratic,
+    /// The spreads differ by no more than the margin.
+    Undecided,
+}
+
+/// Eq. 42: quadratic where the linear coefficient spreads more than the quadratic one by more than `margin_percent`,
+/// linear where it is the other way about. All in percent. Says nothing of how sure the decision is.
+///
+/// ```
+/// use selfosc::identify::fit::select::pairwise::{Decision, decide};
+/// assert_eq!(decide(20.0, 5.0, 10.0), Decision::Quadratic);
+/// assert_eq!(decide(20.0, 15.0, 10.0), Decision::Undecided);
+/// ```
+#[must_use]
+pub fn decide<T: Real + PartialOrd>(
+    spread_linear_percent: T,
+    spread_quadratic_percent: T,
+    margin_percent: T,
+) -> Decision {
+    let difference = spread_linear_percent - spread_quadratic_percent;
+    if difference > margin_percent {
+        Decision::Quadratic
+    } else if difference < -margin_percent {
+        Decision::Linear
+    } else {
+        Decision::Undecided
+    }
+}

@@ -1,0 +1,75 @@
+//! Why there is no conclusion.
+
+use super::settings::SettingsError;
+use crate::experiment::ExperimentError;
+use crate::features::FeatureError;
+use crate::files::FileError;
+use crate::identify::answer::IdentifyError;
+use crate::numeric::OutOfDomain;
+
+/// Why there is no model. [`code`](Self::code) is the name that scripts see.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// The settings contradict each other.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The log holds no record.
+    #[error("{name}: {source}")]
+    Record {
+        /// The record.
+        name: String,
+        /// What is wrong.
+        source: ExperimentError,
+    },
+    /// The record shows no steady self-oscillation.
+    #[error("{name}: {source}")]
+    Features {
+        /// The record.
+        name: String,
+        /// What is wrong.
+        source: FeatureError,
+    },
+    /// No method gives a model.
+    #[error("no model from these records: {0}")]
+    Model(#[from] IdentifyError),
+}
+
+impl Refusal {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Settings(error) => error.code(),
+            Self::File(error) => error.code(),
+            Self::Record { source, .. } => source.code(),
+            Self::Features { source, .. } => source.code(),
+            Self::Model(error) => error.code(),
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        match self {
+            Self::Settings(error) => error.out_of_domain(),
+            Self::Record { source, .. } => source.out_of_domain(),
+            Self::Model(error) => error.out_of_domain(),
+            Self::File(_) | Self::Features { .. } => None,
+        }
+    }
+
+    /// Whether the question was wrong rather than the answer no: settings that contradict each other, or a source that could
+    /// not be read to its end.
+    #[must_use]
+    pub fn is_usage(&self) -> bool {
+        match self {
+            Self::Settings(_) | Self::File(_) => true,
+            Self::Record { source, .. } => source.is_unreadable(),
+            Self::Features { .. } | Self::Model(_) => false,
+        }
+    }
+}

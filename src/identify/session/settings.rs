@@ -1,0 +1,160 @@
+//! Settings of an identification: methods, drag law, delay, and the assumptions of the bounds.
+
+use core::num::NonZeroUsize;
+
+use serde::{Deserialize, Serialize};
+
+use crate::identify::answer::{Delay, DragLaw};
+use crate::numeric::domain::require;
+use crate::numeric::{Limit, OutOfDomain};
+
+/// Ways from records to parameters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "command", derive(clap::ValueEnum))]
+pub enum Method {
+    /// The paper's: the first harmonic of the mean cycle.
+    Iso,
+    /// The exact limit cycle with the mean cycle's features.
+    Exact,
+    /// Likelihood of every sample: the answer to use, with its terms, and each drag law alone.
+    Fit,
+    /// Guaranteed bounds: every reading a constraint, and no distribution of errors assumed. It takes seconds, and only who asks for
+    /// it by name gets it.
+    Bounded,
+    /// All of the former but the guaranteed bounds.
+    #[default]
+    All,
+}
+
+impl Method {
+    /// Name on the command line and in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Iso => "iso",
+            Self::Exact => "exact",
+            Self::Fit => "fit",
+            Self::Bounded => "bounded",
+            Self::All => "all",
+        }
+    }
+
+    /// Whether `one` is asked for.
+    #[must_use]
+    pub fn includes(self, one: Self) -> bool {
+        self == one || self == Self::All && one != Self::Bounded
+    }
+}
+
+/// Methods, drag law, delay, and the assumptions of the guaranteed bounds. The default is that of the command: every method, every drag law, the delay
+/// estimated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Settings {
+    /// Methods to use.
+    pub method: Method,
+    /// The drag law, if it is known; else every law that a method has.
+    pub drag: Option<DragLaw>,
+    /// Delay of the whole loop. One that is given is checked: the answer says where a record contradicts it.
+    pub delay: Delay,
+    /// Relay level in the units wanted, above 0, if the log has the command in others.
+    pub relay_level: Option<f64>,
+    /// Level at which the command switched, in output units, above 0, if it is not to be read off the record.
+    pub half_width: Option<f64>,
+    /// For the guaranteed bounds: largest error of a reading beside half a step of the sensor, in output units, 0 or more.
+    pub error: f64,
+    /// For the guaranteed bounds: step of the sensor in output units, above 0, if it is not to be read off the record.
+    pub quantum: Option<f64>,
+    /// For the guaranteed bounds: largest error of a stamp, in s, 0 or more.
+    pub jitter_s: f64,
+    /// For the guaranteed bounds: readings, of all records together, that may be in error by any amount.
+    pub outliers: usize,
+    /// For the guaranteed bounds: work that may be spent, in passes over the records, if not as much as
+    /// [`BoundedModel::new`](crate::identify::bounded::BoundedModel::new) has. The fewer, the wider the bounds may be; they hold.
+    pub budget: Option<NonZeroUsize>,
+    /// For the guaranteed bounds: whether the model has a restoring force proportional to the coordinate.
+    pub stiffness: bool,
+    /// For the guaranteed bounds: whether the force follows the command with a first-order lag.
+    pub lag: bool,
+    /// For the guaranteed bounds: whether the drag has a part proportional to the cube of speed.
+    pub cubic: bool,
+    /// For the guaranteed bounds: whether the part of the drag proportional to speed may drive.
+    pub either_sign: bool,
+    /// For the guaranteed bounds: whether a proof is wanted that is checked without a search.
+    pub certificate: bool,
+}
+
+/// Settings that contradict each other or are no numbers of the right kind.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SettingsError {
+    /// Mixed drag without the fit.
+    #[error("only the fit knows mixed drag; use it (--method fit), or another drag law (--drag)")]
+    MixedNeedsFit,
+    /// A term or a certificate that only the guaranteed bounds have.
+    #[error(
+        "--stiffness, --lag, --cubic, --either-sign, --jitter, --outliers, --budget and --certificate are of the guaranteed \
+         bounds; use these (--method bounded)"
+    )]
+    NeedsBounded,
+    /// A level outside its domain.
+    #[error(transparent)]
+    OutOfDomain(#[from] OutOfDomain),
+}
+
+impl SettingsError {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::MixedNeedsFit => "mixed-needs-fit",
+            Self::NeedsBounded => "needs-bounded",
+            Self::OutOfDomain(_) => "out-of-domain",
+        }
+    }
+
+    /// The number outside its domain, if that is the reason.
+    #[must_use]
+    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
+        match self {
+            Self::OutOfDomain(fault) => Some(fault),
+            Self::MixedNeedsFit | Self::NeedsBounded => None,
+        }
+    }
+}
+
+impl Settings {
+    /// Whether a method asked for can do what is asked, and each number is in its domain.
+    ///
+    /// # Errors
+    /// [`SettingsError`] with the remedy.
+    pub fn check(&self) -> Result<(), SettingsError> {
+        if !self.method.includes(Method::Fit) && self.method != Method::Bounded && self.drag == Some(DragLaw::Mixed) {
+            return Err(SettingsError::MixedNeedsFit);
+        }
+        let doubted = self.jitter_s > 0.0 || self.outliers > 0;
+        let terms = [self.stiffness, self.lag, self.cubic, self.either_sign];
+        let of_bounded = doubted || terms.contains(&true) || self.budget.is_some() || self.certificate;
+        if self.method != Method::Bounded && of_bounded {
+            return Err(SettingsError::NeedsBounded);
+        }
+        let levels = [
+            ("relay level", self.relay_level, "command units"),
+            ("half-width", self.half_width, "output units"),
+            ("step of the sensor", self.quantum, "output units"),
+        ];
+        for (quantity, level, unit) in levels {
+            let remedy = "leave it out to have it read off the record";
+            level.map_or(Ok(()), |level| require(quantity, level, unit, Limit::Positive, remedy).map(|_| ()))?;
+        }
+        let remedy = "give the largest error from the sensor's data sheet, 0 for rounding alone";
+        require("largest error of a reading", self.error, "output units", Limit::NonNegative, remedy)?;
+        let remedy = "give the largest error of a stamp, 0 for a clock that is right";
+        require("largest error of a stamp", self.jitter_s, "s", Limit::NonNegative, remedy)?;
+        if let Delay::KnownS(delay_s) = self.delay {
+            require("delay", delay_s, "s", Limit::NonNegative, "leave it out to have it estimated")?;
+        }
+        Ok(())
+    }
+}

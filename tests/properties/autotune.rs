@@ -1,0 +1,165 @@
+//! Processes from records of a thermostat, by a simulator of its own: small steps, a ring of delayed commands, rounding and noise.
+
+use nalgebra::Complex;
+use rand::{RngExt, SeedableRng};
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64Mcg;
+use selfosc::autotune::{Actions, Family, GainsWanted, ProcessError, ProcessRecord, rules, ultimate};
+use selfosc::control::Gains;
+use selfosc::experiment::Record;
+
+/// `gain exp(-dead s)/(prod (lag s + 1))`, or an integrator with these lags.
+#[derive(Clone, Debug)]
+struct Truth {
+    gain: f64,
+    dead_s: f64,
+    lags_s: Vec<f64>,
+    integrates: bool,
+}
+
+impl Truth {
+    fn response(&self, omega: f64) -> Complex<f64> {
+        let s = Complex::new(0.0, omega);
+        let lags: Complex<f64> = self.lags_s.iter().map(|lag| s * *lag + 1.0).product();
+        let integral = if self.integrates { s } else { Complex::new(1.0, 0.0) };
+        (-s * self.dead_s).exp() * self.gain / (lags * integral)
+    }
+
+    /// A record under a relay from 0 to 1 about the set point, three and a half periods, 80 samples each or so.
+    fn record(&self, quantum: f64, noise: f64, seed: u64) -> Record {
+        let mut random = Pcg64Mcg::seed_from_u64(seed);
+        let scale_s = self.dead_s + self.lags_s.iter().fold(0.0_f64, |most, lag| most.max(*lag));
+        let interval_s = (self.dead_s + 0.1 * scale_s) / 12.0;
+        let step_s = interval_s / 40.0;
+        let late = (self.dead_s / step_s).round() as usize;
+        let mut ring = vec![0.0; late + 1];
+        let middle = if self.integrates { 0.0 } else { 0.4 * self.gain };
+        let half = 0.02 * self.gain.abs() * if self.integrates { interval_s * 12.0 } else { 1.0 };
+        let mut lagged = vec![if self.integrates { 0.4 } else { middle / self.gain }; self.lags_s.len()];
+        let (mut integral, mut command, mut changes) = (0.0, 1.0_f64, 0);
+        let (mut time, mut output, mut input) = (vec![], vec![], vec![]);
+        for step in 0.. {
+            let through = lagged.last().copied().unwrap_or_else(|| ring[step % (late + 1)]);
+            let value = if self.integrates { integral } else { self.gain * through };
+            if step % 40 == 0 {
+                let sampled: f64 = StandardNormal.sample(&mut random);
+                let reading = value + noise * sampled;
+                let reading = if quantum > 0.0 { (reading / quantum).round() * quantum } else { reading };
+                let before = command;
+                if reading > middle + half {
+                    command = 0.0;
+                } else if reading < middle - half {
+                    command = 1.0;
+                }
+                changes += usize::from(command != before);
+                time.push(step as f64 * step_s);
+                output.push(reading);
+                input.push(command);
+                if changes > 8 || time.len() > 3000 {
+                    return Record::new(time, output, input).unwrap();
+                }
+            }
+            ring[step % (late + 1)] = command;
+            let mut drive = ring[(step + 1) % (late + 1)];
+            for (state, lag) in lagged.iter_mut().zip(&self.lags_s) {
+                // Exact over a step of constant drive; a chain of lags to first order.
+                *state = drive + (*state - drive) * (-step_s / lag).exp();
+                drive = *state;
+            }
+            if self.integrates {
+                integral += step_s * self.gain * (drive - 0.4);
+            }
+        }
+        unreachable!()
+    }
+
+    fn sensitivity(&self, gains: &Gains<f64>) -> f64 {
+        let scale = 1.0 / (self.dead_s + self.lags_s.iter().sum::<f64>());
+        let peak = |k: i32| {
+            let omega = 1e-3 * scale * 1.005_f64.powi(k);
+            let s = Complex::new(0.0, omega);
+            let derivative = s * gains.derivative() / (s * gains.filter_s() + 1.0);
+            let controller = gains.integral() / s + gains.proportional() + derivative;
+            1.0 / (controller * self.response(omega) + 1.0).norm()
+        };
+        (0..3000).map(peak).fold(0.0, f64::max)
+    }
+}
+
+fn drawn(seed: u64) -> (Truth, Family) {
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let mut between = |low: f64, high: f64| low + (high - low) * random.random::<f64>();
+    let (gain, dead_s, lag) = (between(0.5, 5.0), between(0.5, 4.0), between(3.0, 30.0));
+    let second = lag * between(0.15, 0.5);
+    let (lags_s, integrates, family) = match seed % 4 {
+        0 => (vec![lag], false, Family::FirstOrder),
+        1 => (vec![lag, second], false, Family::SecondOrder),
+        2 => (vec![], true, Family::Integrator),
+        _ => (vec![second], true, Family::IntegratorLag),
+    };
+    (Truth { gain, dead_s, lags_s, integrates }, family)
+}
+
+/// Gains hold their limit on the process that made the record, and the set holds its ultimate point.
+#[test]
+fn gains_hold_on_the_process_behind_the_record() {
+    let mut missed = 0;
+    for seed in 0..24 {
+        let (truth, family) = drawn(seed);
+        let swing = 0.05 * truth.gain;
+        let record = truth.record(0.02 * swing, 0.02 * swing, seed);
+        let found = ProcessRecord::of(&record).unwrap();
+        let wanted =
+            GainsWanted { actions: if seed % 8 < 4 { Actions::Pi } else { Actions::Best }, ..GainsWanted::default() };
+        let Some(proved) = found.gains(record.interval_s(), &wanted) else { panic!("{seed}: {truth:?} {found:?}") };
+        let peak = truth.sensitivity(&proved.gains);
+        assert!(peak < 1.45, "{seed}: {peak} {truth:?} {found:?}");
+        let dead = found.models.iter().map(|model| model.parameters[1]);
+        let inside =
+            dead.clone().any(|one| (one.value - truth.dead_s).abs() <= 3.0 * one.std + 0.1 * record.interval_s());
+        missed += usize::from(!inside);
+        assert!(found.models.iter().any(|model| model.family == family) || seed % 4 == 1, "{seed}: {found:?}");
+    }
+    assert!(missed <= 2, "{missed} of 24 dead times missed");
+}
+
+/// An output that falls with the command is the same process with its sign turned.
+#[test]
+fn a_reverse_process_is_the_same() {
+    let (truth, _) = drawn(4);
+    let record = truth.record(0.0, 1e-3 * truth.gain, 4);
+    let falling: Vec<f64> = record.output().iter().map(|value| -value).collect();
+    let reversed = Record::new(record.time_s().to_vec(), falling, record.input().to_vec()).unwrap();
+    let (a, b) = (ProcessRecord::of(&record).unwrap(), ProcessRecord::of(&reversed).unwrap());
+    assert!(!a.reverse && b.reverse);
+    let gains = |found: &ProcessRecord| found.gains(0.1, &GainsWanted::default()).unwrap().gains;
+    assert!((gains(&a).proportional() / gains(&b).proportional() - 1.0).abs() < 1e-6);
+}
+
+/// The ultimate point of a first-order process with dead time solves its equation.
+#[test]
+fn the_ultimate_point_is_critical() {
+    let (truth, _) = drawn(8);
+    let record = truth.record(0.0, 1e-4 * truth.gain, 8);
+    let model = &ProcessRecord::of(&record).unwrap().models[0];
+    let [gain, omega] = ultimate(&model.process()).unwrap();
+    let (k, dead, lag) = (model.parameters[0].value, model.parameters[1].value, model.parameters[2].value);
+    assert!((omega * dead + (omega * lag).atan() - core::f64::consts::PI).abs() < 1e-9);
+    assert!((gain - (omega * lag).hypot(1.0) / k).abs() < 1e-9 * gain);
+    assert!(rules(&model.process()).iter().any(|rule| rule.sensitivity.is_some_and(|peak| peak > 2.0)));
+}
+
+/// Records that tell no process are refused by name.
+#[test]
+fn records_that_tell_nothing() {
+    let time: Vec<f64> = (0..200).map(f64::from).collect();
+    let square: Vec<f64> = time.iter().map(|t| f64::from(u8::from(t % 20.0 < 10.0))).collect();
+    let step: Vec<f64> = time.iter().map(|t| f64::from(u8::from(*t > 50.0))).collect();
+    let noise: Vec<f64> = (0..200_u32).map(|k| f64::from(k.wrapping_mul(2_654_435_761) >> 16) / 65_536.0).collect();
+    let of = |output: &[f64], input: &[f64]| {
+        ProcessRecord::of(&Record::new(time[..output.len()].to_vec(), output.to_vec(), input.to_vec()).unwrap())
+    };
+    assert!(matches!(of(&noise, &square), Err(ProcessError::NoAnswer { .. })), "{:?}", of(&noise, &square));
+    assert!(matches!(of(&noise, &step), Err(ProcessError::FewChanges { changes: 1 })));
+    assert!(matches!(of(&noise[..20], &square[..20]), Err(ProcessError::FewSamples { samples: 20 })));
+}

@@ -1,0 +1,122 @@
+//! Criteria over a box of processes: no process inside is worse than what is proved, by complex arithmetic of its own.
+
+use nalgebra::Complex;
+use proptest::prelude::*;
+use selfosc::control::{Gains, LinearProcess, ProcessIntervals, RobustCriterion, Structure};
+use selfosc::numeric::Interval;
+
+use crate::sampling::recorded;
+
+/// Loop gain at a frequency, factor by factor.
+fn loop_gain(p: &LinearProcess<f64>, gains: &Gains<f64>, omega: f64) -> Complex<f64> {
+    let (s, one) = (Complex::new(0.0, omega), Complex::new(1.0, 0.0));
+    let lag = |time: f64| one / (s * time + 1.0);
+    let force = s * s * p.alpha + s * p.drag + p.stiffness + s * p.memory * lag(p.memory_s);
+    let controller = gains.integral() / s + gains.proportional() + s * gains.derivative() * lag(gains.filter_s());
+    controller * lag(p.lag_s) * lag(p.filter_s) * (s * p.zero_s + 1.0) * (-s * p.delay_s).exp() / force
+}
+
+/// The largest sensitivity on a grid of frequencies.
+fn sensitivity(p: &LinearProcess<f64>, gains: &Gains<f64>) -> f64 {
+    let grid = (0..3000).map(|k| 1e-4 * 1.006_f64.powi(k));
+    grid.map(|omega| 1.0 / (loop_gain(p, gains, omega) + 1.0).norm()).fold(0.0, f64::max)
+}
+
+fn between(low: f64, high: f64) -> Interval {
+    Interval::new(low, high).unwrap()
+}
+
+/// A box about these parameters, of which each may be off by a share.
+fn around(parts: [f64; 9], share: f64) -> LinearProcess<Interval> {
+    let [alpha, drag, stiffness, memory, memory_s, lag_s, filter_s, zero_s, delay_s] =
+        parts.map(|part| between(part * (1.0 - share), part * (1.0 + share)));
+    LinearProcess { alpha, drag, stiffness, memory, memory_s, lag_s, filter_s, zero_s, delay_s }
+}
+
+fn inside(process: &LinearProcess<Interval>, at: &[f64]) -> LinearProcess<f64> {
+    let place = |side: Interval, at: f64| side.lower() + at * side.width();
+    LinearProcess {
+        alpha: place(process.alpha, at[0]),
+        drag: place(process.drag, at[1]),
+        stiffness: place(process.stiffness, at[2]),
+        memory: place(process.memory, at[3]),
+        memory_s: place(process.memory_s, at[4]),
+        lag_s: place(process.lag_s, at[5]),
+        filter_s: place(process.filter_s, at[6]),
+        zero_s: place(process.zero_s, at[7]),
+        delay_s: place(process.delay_s, at[8]),
+    }
+}
+
+fn gains(integral: f64) -> Gains<f64> {
+    let structure = if integral > 0.0 { Structure::Pid } else { Structure::Pd };
+    Gains::new(structure, 0.5, integral, 0.9, 0.1).unwrap()
+}
+
+proptest! {
+    #![proptest_config(recorded(16))]
+
+    #[test]
+    fn no_process_inside_is_more_sensitive_than_is_proved(
+        drag in 0.0..0.6_f64, stiffness in 0.0..0.2_f64, lag in 0.0..0.2_f64, delay in 0.0..0.3_f64, integral in prop::option::of(0.01..0.05_f64),
+        share in 0.0..0.08_f64,
+        samples in prop::collection::vec(prop::collection::vec(0.0..=1.0_f64, 9), 40),
+    ) {
+        let process = around([1.1, drag, stiffness, 0.0, 0.0, lag, 0.05, 0.0, delay], share);
+        let gains = gains(integral.unwrap_or(0.0));
+        let Ok(found) = ProcessIntervals::new(process).unwrap().enclose(&gains, RobustCriterion::Sensitivity) else { return Ok(()) };
+        let Some(proved) = found.proved else { return Ok(()) };
+        prop_assert!(found.met <= proved && proved <= 1.31 * found.met);
+        for at in samples {
+            let peak = sensitivity(&inside(&process, &at), &gains);
+            prop_assert!(peak <= proved * (1.0 + 1e-9), "{peak} above {found:?}");
+        }
+    }
+}
+
+/// The proof has teeth: a limit below what some process has is never proved, nor is one over a box that reaches beyond stability.
+#[test]
+fn what_is_false_is_not_proved() {
+    let narrow = around([1.1, 0.3, 0.05, 0.1, 0.5, 0.1, 0.05, 0.0, 0.2], 0.03);
+    let (processes, gains) = (ProcessIntervals::new(narrow).unwrap(), gains(0.0));
+    let met = processes.enclose(&gains, RobustCriterion::Sensitivity).unwrap().met;
+    assert!(processes.all_have(&gains, RobustCriterion::Sensitivity(1.05 * met)));
+    assert!(!processes.all_have(&gains, RobustCriterion::Sensitivity(0.99 * met)));
+    let late = LinearProcess { delay_s: between(0.1, 3.0), ..narrow };
+    let wide = ProcessIntervals::new(late).unwrap();
+    assert!(!wide.all_stable(&gains) && !wide.all_have(&gains, RobustCriterion::Sensitivity(1e6)));
+    assert!(wide.enclose(&gains, RobustCriterion::PhaseRad).is_err());
+}
+
+/// A first-order process with dead time under a proportional controller: margins in closed form.
+#[test]
+fn margins_of_a_known_loop() {
+    let none = Interval::ZERO;
+    let process = LinearProcess {
+        alpha: none,
+        drag: Interval::ONE,
+        stiffness: none,
+        memory: none,
+        memory_s: none,
+        lag_s: none,
+        filter_s: none,
+        zero_s: none,
+        delay_s: Interval::point(0.5),
+    };
+    // L = exp(-s/2)/s: phase margin pi/2 - 1/2 at 1 rad/s, gain margin pi.
+    let gains = Gains::new(Structure::Pd, 1.0, 0.0, 0.0, 0.0).unwrap();
+    let processes = ProcessIntervals::new(process).unwrap();
+    let (half_pi, pi) = (core::f64::consts::FRAC_PI_2, core::f64::consts::PI);
+    for (of, exact) in [
+        (RobustCriterion::Gain as fn(f64) -> RobustCriterion, pi),
+        (RobustCriterion::PhaseRad, half_pi - 0.5),
+        (RobustCriterion::DelayS, half_pi - 0.5),
+    ] {
+        let found = processes.enclose(&gains, of).unwrap();
+        let Some(proved) = found.proved else { panic!("{found:?}") };
+        assert!(
+            (found.met - exact).abs() < 1e-9 * exact && proved <= exact && proved > 0.98 * exact,
+            "{found:?} {exact}"
+        );
+    }
+}
