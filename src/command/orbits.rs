@@ -74,11 +74,6 @@ pub(super) fn run(given: Loop<'_>, as_json: bool, output: &mut impl Write) -> Re
     Ok(if listing.orbits.is_empty() { Outcome::No } else { Outcome::Done })
 }
 
-/// An end of a range, open where it is missing.
-fn end(value: Option<f64>, open: &str) -> String {
-    value.map_or_else(|| open.to_owned(), |value| significant(value, 6))
-}
-
 fn table(listing: &OrbitListing, output: &mut impl Write) -> Result<(), CommandError> {
     if listing.orbits.is_empty() {
         writeln!(output, "no oscillation with one switching each way in a period")?;
@@ -108,11 +103,20 @@ fn table(listing: &OrbitListing, output: &mut impl Write) -> Result<(), CommandE
             listing.orbits.iter().map(|one| one.period_s.width() / one.period_s.midpoint()).fold(0.0, f64::max);
         writeln!(output, "\neach proved to exist, its period within {} of itself", significant(widest, 2))?;
     }
+    let periods = |range: &[Option<f64>; 2]| match range {
+        [None, None] => "all periods".to_owned(),
+        [Some(lower), None] => format!("periods above {} s", significant(*lower, 6)),
+        [lower, Some(upper)] => {
+            let lower = lower.map_or_else(|| "0".to_owned(), |lower| significant(lower, 6));
+            format!("periods from {lower} to {} s", significant(*upper, 6))
+        }
+    };
+    writeln!(output, "searched: {}, one switching each way in a period", periods(&listing.range_s))?;
     if listing.is_complete() {
-        writeln!(output, "no others with one switching each way, in all the periods asked for")?;
+        writeln!(output, "no other orbit there")?;
     }
     for range in &listing.not_covered {
-        writeln!(output, "not covered: periods from {} to {} s", end(range[0], "0"), end(range[1], "infinity"))?;
+        writeln!(output, "not decided: {}", periods(range))?;
     }
     Ok(())
 }

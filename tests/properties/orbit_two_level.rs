@@ -37,9 +37,13 @@ fn the_slowest_of_infinitely_many_attracts() {
     assert!(holds(slowest.amplitude(), 1.0 - 1.0 / E, 1.0) && slowest.bias().contains_zero());
     assert_eq!(slowest.attracting, Some(true));
     assert!(found.orbits.len() >= 5 && found.orbits[1..].iter().all(|one| one.attracting == Some(false)));
-    // What is not covered begins at zero and ends below every orbit listed but perhaps the fastest.
-    assert!(!found.is_complete() && found.not_covered[0][0] == Some(0.0));
-    assert!(found.not_covered.iter().all(|range| range[1].unwrap() < found.orbits[3].period_s.lower()));
+    // The range searched ends above the faster ones, and below every orbit listed but perhaps the fastest.
+    assert!(found.is_complete() && found.range_s[1].is_none());
+    assert!(found.range_s[0].unwrap() < found.orbits[3].period_s.lower());
+    // Asked for, the periods below are not covered.
+    let relay = TwoLevelRelay::new(1.0, -1.0, 0.0).unwrap();
+    let asked = orbits(&plant(&[1.0], &[1.0, 1.0], 1.0), &relay, Some(0.0..=10.0)).unwrap();
+    assert!(asked.range_s == [Some(0.0), Some(10.0)] && asked.not_covered == [[Some(0.0), found.range_s[0]]], "{asked:?}");
 }
 
 /// `1/(s - 1)` oscillates under the ideal relay for delays below ln 2 only; nothing is listed that does not exist.

@@ -71,14 +71,14 @@ impl TwoLevelRelay {
 pub struct OrbitListing {
     /// The orbits, longest period first.
     pub orbits: Vec<ListedOrbit>,
-    /// Range of periods asked for, s; a missing end is open.
+    /// Range of periods searched, s; a missing end is open. It is the range asked for; without one it begins where the search ended.
     pub range_s: [Option<f64>; 2],
-    /// Sub-ranges of periods in which there may be others, s; a missing end is open.
+    /// Sub-ranges of that range in which there may be other orbits, s; a missing end is open.
     pub not_covered: Vec<[Option<f64>; 2]>,
 }
 
 impl OrbitListing {
-    /// Whether every orbit in the range is listed.
+    /// Whether every orbit in `range_s` is listed.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.not_covered.is_empty()
@@ -122,8 +122,9 @@ impl ListedOrbit {
 /// All orbits of `plant` under `relay` with one switching each way in a period, from the slowest down; within a range of periods in
 /// s, or all.
 ///
-/// Where the relay has no hysteresis, or one so narrow that very many orbits share the dead time, the search ends after the
-/// five slowest and names the periods below as not covered. An orbit with several switchings each way is none of these.
+/// A dead time and a relay without hysteresis have infinitely many orbits, and a narrow hysteresis has very many: the search ends after
+/// the five slowest. Then `range_s` of a search for all begins at the fifth; of a range asked for, the rest is not covered. An orbit
+/// with several switchings each way is none of these.
 ///
 /// ```
 /// use selfosc::orbit::{TwoLevelRelay, orbits};
@@ -134,7 +135,7 @@ impl ListedOrbit {
 /// assert!(slowest.period_s.contains(2.0 * (2.0 * 1f64.exp() - 1.0).ln()) && slowest.period_s.width() < 1e-13);
 /// assert_eq!(slowest.attracting, Some(true));
 /// assert!(found.orbits[1..].iter().all(|faster| faster.attracting == Some(false)));
-/// assert!(!found.is_complete());
+/// assert!(found.is_complete() && found.range_s[0] > Some(0.2));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -185,6 +186,14 @@ pub fn orbits(
         }
     });
     open.extend(found.not_covered);
+    if let Some(from) = found.searched_from {
+        if period_s.is_some() {
+            open.extend(Interval::new(range.shortest, from));
+        } else {
+            listing.range_s[0] = Some(from);
+            open.retain(|periods| periods.upper() >= from);
+        }
+    }
     listing.orbits.sort_by(|a, b| b.period_s.midpoint().total_cmp(&a.period_s.midpoint()));
     listing.not_covered = merged(open);
     Ok(listing)

@@ -8,8 +8,6 @@ use crate::proof::branch_and_bound::{Visit, subdivide};
 
 /// Cells of an arc on which an earlier switching is ruled out.
 const CELLS: usize = 3000;
-/// Width of an extreme over the output's range at which its search ends.
-const SHARP: f64 = 1e-13;
 
 /// Whether a solution of the switching conditions is an orbit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -201,38 +199,44 @@ impl<'a> Path<'a> {
     /// Bounds of the least and the largest output.
     pub(super) fn extremes(&self) -> Option<[Interval; 2]> {
         let arcs = self.arcs()?;
-        let largest = |sign: Interval| {
-            let mut open: Vec<(Interval, bool, Interval)> = Vec::new();
-            let cell = |arc: &Arc| Interval::new(arc.from.lower(), arc.to.upper());
-            let value = |cell: Interval, input_high: bool| sign * self.over(cell, input_high).0;
-            for arc in &arcs {
-                let cell = cell(arc)?;
-                open.push((cell, arc.input_high, value(cell, arc.input_high)));
-            }
-            let mut reached = f64::NEG_INFINITY;
-            let mut scale = 0.0_f64;
-            for _ in 0..60 {
-                for (cell, input_high, _) in &open {
-                    let at = value(Interval::point(cell.midpoint()), *input_high);
-                    reached = reached.max(at.lower());
-                    scale = scale.max(at.magnitude());
+        Some([-self.largest(&arcs, -Interval::ONE)?, self.largest(&arcs, Interval::ONE)?])
+    }
+
+    /// Bounds of the largest output times `sign`: where the slope keeps its sign it is at an end of the cell; other cells are
+    /// halved until the value at a point is no narrower than that over the cell.
+    fn largest(&self, arcs: &[Arc], sign: Interval) -> Option<Interval> {
+        let (mut reached, mut top) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+        for arc in arcs {
+            let over = |cell: Interval| {
+                let (value, slope) = self.over(cell, arc.input_high);
+                (sign * value, sign * slope)
+            };
+            let mut open = vec![Interval::new(arc.from.lower(), arc.to.upper())?];
+            while let Some(cell) = open.pop() {
+                let (value, slope) = over(cell);
+                if value.upper() <= reached {
+                    continue;
                 }
-                open.retain(|(_, _, over)| over.upper() >= reached);
-                let top = open.iter().map(|(_, _, over)| over.upper()).fold(reached, f64::max);
-                if top - reached <= SHARP * scale || open.len() > CELLS {
-                    break;
+                // An end of the arc is known to its enclosure only.
+                let end = if slope.is_positive() {
+                    Some(if cell.upper() == arc.to.upper() { arc.to } else { Interval::point(cell.upper()) })
+                } else if slope.is_negative() {
+                    Some(if cell.lower() == arc.from.lower() { arc.from } else { Interval::point(cell.lower()) })
+                } else {
+                    None
+                };
+                let at = over(end.unwrap_or(Interval::point(cell.midpoint()))).0;
+                reached = reached.max(at.lower());
+                if end.is_some() {
+                    top = top.max(at.upper());
+                } else if value.width() <= 2.0 * at.width() {
+                    top = top.max(value.upper());
+                } else if value.upper() > reached {
+                    let (first, second) = cell.bisect();
+                    open.extend([first, second]);
                 }
-                open = open
-                    .iter()
-                    .flat_map(|&(cell, input_high, _)| {
-                        let (first, second) = cell.bisect();
-                        [first, second].map(|half| (half, input_high, value(half, input_high)))
-                    })
-                    .collect();
             }
-            let top = open.iter().map(|(_, _, over)| over.upper()).fold(reached, f64::max);
-            Interval::new(reached, top)
-        };
-        Some([-largest(-Interval::ONE)?, largest(Interval::ONE)?])
+        }
+        Interval::new(reached, top.max(reached))
     }
 }

@@ -28,8 +28,10 @@ pub(super) type HalfPeriods = [Interval; 2];
 pub(super) struct Found {
     /// Enclosures of solutions, each of one.
     pub(super) solutions: Vec<HalfPeriods>,
-    /// Periods outside these hold no other solution.
+    /// Periods from `searched_from` up outside these hold no other solution.
     pub(super) not_covered: Vec<Interval>,
+    /// The period, s, at which the search ended before the shortest of its range; `None` where it did not.
+    pub(super) searched_from: Option<f64>,
 }
 
 /// A part of the search.
@@ -140,7 +142,7 @@ impl Conditions {
         while let Some(Part { at, longest }) = open.pop() {
             boxes += 1;
             if boxes > BOXES || orbits >= ORBITS {
-                found.not_covered.extend(Interval::new(range.shortest, longest.min(range.longest)));
+                found.searched_from = Some(longest.min(range.longest));
                 break;
             }
             let bounded = at.iter().all(|side| side.is_bounded());
