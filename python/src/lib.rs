@@ -5,7 +5,6 @@ mod bounds;
 mod describing;
 mod failure;
 mod identification;
-mod relay_loop;
 mod work;
 
 use std::ffi::OsString;
@@ -31,8 +30,6 @@ mod _core {
     use super::describing::{Characteristic, by_quadrature};
     #[pymodule_export]
     use super::identification::{Identification, choose_columns, identify};
-    #[pymodule_export]
-    use super::relay_loop::certify;
     #[pymodule_export]
     use super::run;
 

@@ -47,7 +47,7 @@ cycle = selfosc.predict(alpha=1.0, beta=1.0, relay=1.0, half_width=0.2)
 assert_type(cycle.exact["period_s"], float)
 cycle.certificate["unique"]  # wrong
 for orbit in selfosc.certify(([1], [1, 1, 0]), selfosc.nonlinearity("relay")):
-    assert_type(orbit["stable"], bool)
+    assert_type(orbit["attracting"], bool | None)
 selfosc.fleet.SCHEMA
 selfosc.logs.read_ulog("log.ulg", "a.b", "c.d")
 selfosc.export.state_space(found)

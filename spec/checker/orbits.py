@@ -384,11 +384,15 @@ def check(certificate):
     return len(orbits)
 
 
+def check_file(path):
+    return checked(check, path)
+
+
 def main(paths):
     accepted = True
     for path in paths:
         try:
-            print(f"{path}  accepted  {checked(check, path)} orbits\n  {STATEMENT}")
+            print(f"{path}  accepted  {check_file(path)} orbits\n  {STATEMENT}")
         except Refused as reason:
             accepted = False
             print(f"{path}  refused   {reason}")

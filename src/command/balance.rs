@@ -145,8 +145,7 @@ fn exact(
         ("relay-hysteresis", &[level, half_width, offset]) => (level, half_width, offset),
         _ => return Ok(beside),
     };
-    let switches = half_width > 0.0 || plant.delay_s() > 0.0;
-    if !switches || arguments.bias != 0.0 || found.is_empty() {
+    if arguments.bias != 0.0 || found.is_empty() {
         return Ok(beside);
     }
     let relay = TwoLevelRelay::new(offset + level, offset - level, half_width)?;

@@ -9,6 +9,7 @@ use crate::claims::{CLAIMS, Certificate, Claim};
 use crate::experiment::Record;
 use crate::identify::bounded::certificate as bounded;
 use crate::identify::{Session, Settings};
+use crate::orbit::{OrbitCertificate, OrbitRefusal};
 use crate::proof::inequality::Refusal;
 
 fn theorems() -> impl Iterator<Item = &'static Claim> {
@@ -41,13 +42,18 @@ fn records(proof: &bounded::Certificate, logs: &[PathBuf]) -> Result<Vec<Record>
     Ok(logs.iter().try_fold(session, Session::log)?.records()?)
 }
 
-/// A file of guaranteed bounds: accepted, with everything that it depends on and what is left in the coordinates of the search, or why
-/// not.
-fn check_bounds(path: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<Outcome, CommandError> {
+/// A file of one proof. Guaranteed bounds are accepted with everything that they depend on and what is left in the coordinates of the
+/// search.
+fn check_file(path: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<Outcome, CommandError> {
     /// Of a theorem's proof, whatever else is wrong with it.
     #[derive(serde::Deserialize)]
     struct Named {
         claim: String,
+    }
+    /// Of a proof of another kind.
+    #[derive(serde::Deserialize)]
+    struct Kind {
+        certificate: String,
     }
     let text = files::read(path)?;
     let none = |reason| Err(CommandError::NoCertificate { path: path.to_owned(), reason });
@@ -58,6 +64,21 @@ fn check_bounds(path: &Path, logs: &[PathBuf], output: &mut impl Write) -> Resul
         return match text.parse() {
             Err(Refusal::Malformed { text }) => none(text),
             proof => Ok(if shows(proof, claim.id, 0, output)? { Outcome::Done } else { Outcome::No }),
+        };
+    }
+    if matches!(serde_json::from_str(&text), Ok(Kind { certificate }) if certificate == OrbitCertificate::KIND) {
+        let proof = text.parse::<OrbitCertificate>();
+        return match proof.and_then(|proof| Ok((proof.check()?, proof))) {
+            Ok((orbits, proof)) => {
+                writeln!(output, "accepted  {}", proof.statement())?;
+                writeln!(output, "          {orbits} orbits")?;
+                Ok(Outcome::Done)
+            }
+            Err(error @ (OrbitRefusal::Malformed { .. } | OrbitRefusal::Foreign { .. })) => none(error.to_string()),
+            Err(refusal) => {
+                writeln!(output, "refused   {}: {refusal}", refusal.code())?;
+                Ok(Outcome::No)
+            }
         };
     }
     let checked = match bounded::Certificate::read(&text) {
@@ -100,7 +121,7 @@ fn check_bounds(path: &Path, logs: &[PathBuf], output: &mut impl Write) -> Resul
 /// A line for each theorem, accepted or why not; or what a file of guaranteed bounds shows of these logs.
 pub(super) fn check(folder: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<Outcome, CommandError> {
     if folder.is_file() {
-        return check_bounds(folder, logs, output);
+        return check_file(folder, logs, output);
     }
     let width = theorems().map(|claim| claim.id.len()).max().unwrap_or(0);
     let mut outcome = Outcome::Done;

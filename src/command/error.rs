@@ -24,7 +24,7 @@ pub(super) enum CommandError {
     #[error("{reason}")]
     Usage { reason: String },
     /// A file that is no proof.
-    #[error("{} is no certificate: {reason}; write one with `selfosc identify --certificate` or `selfosc verify --certificates`", path.display())]
+    #[error("{} is no certificate: {reason}; write one with `--certificate` of `selfosc identify` or `selfosc predict`, or `selfosc verify --certificates`", path.display())]
     NoCertificate { path: PathBuf, reason: String },
     /// A proof that was not found.
     #[error("no certificate: {reason}")]

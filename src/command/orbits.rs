@@ -2,13 +2,15 @@
 
 use core::ops::RangeInclusive;
 use std::io::Write;
+use std::path::Path;
 
 use nalgebra::Complex;
 use serde_json::{Value, json};
 
-use super::{CommandError, Outcome, write_json};
+use super::error::Given;
+use super::{CommandError, Outcome, files, write_json};
 use crate::numeric::{Interval, significant};
-use crate::orbit::{ListedOrbit, OrbitListing, TwoLevelRelay};
+use crate::orbit::{ListedOrbit, OrbitCertificate, OrbitListing, TwoLevelRelay};
 use crate::plant::TransferFunction;
 
 /// The loop as given.
@@ -21,6 +23,8 @@ pub(super) struct Loop<'a> {
     pub(super) half_width: f64,
     pub(super) reference: f64,
     pub(super) periods: Option<RangeInclusive<f64>>,
+    /// Where the proof goes.
+    pub(super) certificate: Option<&'a Path>,
 }
 
 fn bounds(interval: Interval) -> [f64; 2] {
@@ -60,6 +64,10 @@ pub(super) fn run(given: Loop<'_>, as_json: bool, output: &mut impl Write) -> Re
     let relay = TwoLevelRelay::new(given.high, given.low, given.half_width)?;
     let relay = relay.with_reference(given.reference)?;
     let listing = crate::orbit::orbits(&plant, &relay, given.periods)?;
+    if let Some(path) = given.certificate {
+        let proof = OrbitCertificate::new(&plant, &relay, &listing);
+        files::write(path, &proof.to_string()).given("--certificate")?;
+    }
     if as_json {
         let document = json!({
             "orbits": listing.orbits.iter().map(orbit).collect::<Vec<_>>(),

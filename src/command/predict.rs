@@ -1,6 +1,7 @@
 //! `selfosc predict`: the self-oscillation of a drag axis, or all orbits of a linear plant.
 
 use std::io::Write;
+use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
@@ -19,7 +20,7 @@ use crate::orbit::{Certificate, LimitCycle, Starts, certify, limit_cycle};
 /// Drag axis: alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay) + delta, from the closed-form motion between switchings, with
 /// harmonic balance (first harmonic only, the paper's approximation) beside it and a certificate in interval arithmetic.
 /// Linear plant (--num, --den): every orbit with one switching each way in a period, proved, from the slowest down, with what its
-/// multipliers show of stability; periods that were not covered are named.
+/// multipliers show of stability, and the range of periods in which there is no other.
 /// Output is whatever unit half-width has (rad, m), command whatever relay has (N m, N).
 /// Exit status 1 where there is no such oscillation, with the reason.
 #[derive(Debug, Args)]
@@ -64,6 +65,9 @@ pub(super) struct Arguments {
     /// Looks only at periods from SHORTEST to LONGEST, in s (linear plants)
     #[arg(long, value_parser = number, value_name = "SHORTEST,LONGEST", value_delimiter = ',', conflicts_with = "alpha")]
     periods: Vec<f64>,
+    /// Writes the proof of the orbits to this file, which `selfosc verify --check FILE` checks without a search (linear plants)
+    #[arg(long, value_name = "FILE", conflicts_with = "alpha")]
+    certificate: Option<PathBuf>,
     /// Prints one JSON document
     #[arg(long)]
     json: bool,
@@ -111,6 +115,7 @@ impl Arguments {
             half_width,
             reference,
             periods,
+            certificate: self.certificate.as_deref(),
         })
     }
 }

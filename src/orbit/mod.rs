@@ -32,7 +32,7 @@ pub use relay_linear::{RelayLoop, RelayOrbit};
 #[cfg(feature = "std")]
 pub use tsypkin::tsypkin_locus;
 #[cfg(feature = "std")]
-pub use two_level::{ListedOrbit, OrbitListing, TwoLevelRelay, orbits};
+pub use two_level::{ListedOrbit, OrbitCertificate, OrbitClaim, OrbitListing, OrbitRefusal, TwoLevelRelay, orbits};
 
 internal! {
     #[cfg(feature = "std")]

@@ -8,6 +8,7 @@
 
 mod algebra;
 mod attraction;
+mod certificate;
 mod kernel;
 mod modes;
 mod path;
@@ -22,6 +23,7 @@ use super::OrbitError;
 use crate::numeric::{Interval, domain};
 use crate::plant::TransferFunction;
 use attraction::Attraction;
+pub use certificate::{OrbitCertificate, OrbitClaim, OrbitRefusal};
 use modes::Mode;
 use path::{Genuine, Path};
 use search::Range;
@@ -141,41 +143,21 @@ impl ListedOrbit {
 ///
 /// # Errors
 /// [`OrbitError::Plant`] for a plant that is not strictly proper; [`OrbitError::CrowdedPoles`];
-/// [`OrbitError::NoHysteresis`] with neither hysteresis nor dead time; [`OrbitError::OutOfDomain`] for a range.
+/// [`OrbitError::NoHysteresis`] with neither hysteresis nor dead time and a relative degree below three; [`OrbitError::OutOfDomain`] for a range.
 pub fn orbits(
     plant: &TransferFunction,
     relay: &TwoLevelRelay,
     period_s: Option<RangeInclusive<f64>>,
 ) -> Result<OrbitListing, OrbitError> {
-    let TwoLevelRelay { high, low, half_width, reference } = *relay;
-    if half_width == 0.0 && plant.delay_s() == 0.0 {
-        return Err(OrbitError::NoHysteresis);
-    }
     if let Some(range) = &period_s {
         domain::ascending(["shortest period", "longest period"], range, "s")?;
     }
-    let modes = modes::modes(plant)?;
     let range_s = period_s.as_ref().map_or([None; 2], |range| [Some(*range.start()), Some(*range.end())]);
     let mut listing = OrbitListing { orbits: Vec::new(), range_s, not_covered: Vec::new() };
-    let [high, low, half_width, reference, delay] =
-        [high, low, half_width, reference, plant.delay_s()].map(Interval::point);
-    let share = if plant.is_integrating() {
-        if !(low.is_negative() && high.is_positive()) {
-            // The input's mean cannot vanish, so that the output drifts.
-            return Ok(listing);
-        }
-        Some(-low / (high - low))
-    } else {
-        None
-    };
-    // The output's constant is free where a pole at zero leaves it free.
-    let middle = if share.is_some() { Interval::ZERO } else { reference };
-    let conditions =
-        Conditions { modes, delay, high, low, upper: middle + half_width, lower: middle - half_width, share };
-    let range = conditions.range(period_s.as_ref());
-    let shift = if conditions.share.is_some() { reference } else { Interval::ZERO };
+    let Some(problem) = Problem::new(plant, relay)? else { return Ok(listing) };
+    let range = problem.conditions.range(period_s.as_ref());
     let mut open: Vec<Interval> = Vec::new();
-    let found = conditions.solutions(&range, |at| match conditions.orbit(at, shift) {
+    let found = problem.conditions.solutions(&range, |at| match problem.orbit(at) {
         Ok(orbit) => {
             listing.orbits.extend(orbit.clone());
             orbit.is_some()
@@ -202,17 +184,46 @@ pub fn orbits(
 /// A solution that may be an orbit and may not.
 struct Undecided;
 
-impl Conditions {
+/// A loop in intervals.
+struct Problem {
+    conditions: Conditions,
+    /// By how much the output is above that of the conditions.
+    shift: Interval,
+}
+
+impl Problem {
+    /// `None` where the output drifts, because the mean of an integrator's input cannot vanish.
+    fn new(plant: &TransferFunction, relay: &TwoLevelRelay) -> Result<Option<Self>, OrbitError> {
+        let TwoLevelRelay { high, low, half_width, reference } = *relay;
+        // With a relative degree of one or two the ideal relay slides, or switches ever faster.
+        let relative_degree = plant.denominator().len().saturating_sub(plant.numerator().len());
+        if half_width == 0.0 && plant.delay_s() == 0.0 && relative_degree < 3 {
+            return Err(OrbitError::NoHysteresis);
+        }
+        let modes = modes::modes(plant)?;
+        let [high, low, half_width, reference, delay] =
+            [high, low, half_width, reference, plant.delay_s()].map(Interval::point);
+        let integrates = plant.is_integrating();
+        if integrates && !(low.is_negative() && high.is_positive()) {
+            return Ok(None);
+        }
+        let share = integrates.then(|| -low / (high - low));
+        // A pole at zero leaves the output's constant free.
+        let (middle, shift) = if integrates { (Interval::ZERO, reference) } else { (reference, Interval::ZERO) };
+        let (upper, lower) = (middle + half_width, middle - half_width);
+        Ok(Some(Self { conditions: Conditions { modes, delay, high, low, upper, lower, share }, shift }))
+    }
+
     /// The orbit of a solution of the switching conditions, if it is one.
-    fn orbit(&self, at: &search::HalfPeriods, shift: Interval) -> Result<Option<ListedOrbit>, Undecided> {
-        let path = Path::new(self, at).ok_or(Undecided)?;
+    fn orbit(&self, at: &search::HalfPeriods) -> Result<Option<ListedOrbit>, Undecided> {
+        let path = Path::new(&self.conditions, at).ok_or(Undecided)?;
         match path.genuine() {
             Genuine::Yes => {}
             Genuine::No => return Ok(None),
             Genuine::Open => return Err(Undecided),
         }
-        let [minimum, maximum] = path.extremes().ok_or(Undecided)?.map(|extreme| extreme + shift);
-        let Attraction { multipliers, attracting } = self.attraction(&path);
+        let [minimum, maximum] = path.extremes().ok_or(Undecided)?.map(|extreme| extreme + self.shift);
+        let Attraction { multipliers, attracting } = self.conditions.attraction(&path);
         let [time_high_s, time_low_s] = *at;
         Ok(Some(ListedOrbit {
             period_s: time_high_s + time_low_s,
@@ -224,7 +235,9 @@ impl Conditions {
             attracting,
         }))
     }
+}
 
+impl Conditions {
     /// The range of periods searched: from where a period is too short for the output to pass both levels.
     fn range(&self, period_s: Option<&RangeInclusive<f64>>) -> Range {
         // How long a group takes to decay, or one that does not to turn a hundred times.

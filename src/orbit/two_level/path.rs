@@ -8,6 +8,8 @@ use crate::proof::branch_and_bound::{Visit, subdivide};
 
 /// Cells of an arc on which an earlier switching is ruled out.
 const CELLS: usize = 3000;
+/// Share of the width of a value at a point that its cell may add: the middle of an extreme's bounds is off by half of it.
+const CELL_SHARE: f64 = 1e-6;
 
 /// Whether a solution of the switching conditions is an orbit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -203,7 +205,7 @@ impl<'a> Path<'a> {
     }
 
     /// Bounds of the largest output times `sign`: where the slope keeps its sign it is at an end of the cell; other cells are
-    /// halved until the value at a point is no narrower than that over the cell.
+    /// halved until the value at a point is nearly as wide as that over the cell.
     fn largest(&self, arcs: &[Arc], sign: Interval) -> Option<Interval> {
         let (mut reached, mut top) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
         for arc in arcs {
@@ -229,7 +231,7 @@ impl<'a> Path<'a> {
                 reached = reached.max(at.lower());
                 if end.is_some() {
                     top = top.max(at.upper());
-                } else if value.width() <= 2.0 * at.width() {
+                } else if value.width() <= (1.0 + CELL_SHARE) * at.width() + 8.0 * f64::EPSILON * at.magnitude() {
                     top = top.max(value.upper());
                 } else if value.upper() > reached {
                     let (first, second) = cell.bisect();

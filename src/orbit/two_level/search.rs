@@ -120,6 +120,14 @@ impl Conditions {
         }
     }
 
+    /// The one solution in a box of half-periods, enclosed.
+    pub(super) fn solution_in(&self, at: &HalfPeriods) -> Option<HalfPeriods> {
+        match self.share {
+            Some(share) => only(&Shared(self, share), [at[0] + at[1]]),
+            None => only(&Free(self), *at),
+        }
+    }
+
     pub(super) fn times(&self, at: &HalfPeriods) -> Times<2> {
         Times::free(at.map(Gradient::constant))
     }
@@ -194,6 +202,14 @@ impl Conditions {
         }
         found
     }
+}
+
+/// The one solution that Krawczyk's operator shows in a box.
+fn only<const N: usize>(equations: &impl Equations<N>, at: [Interval; N]) -> Option<HalfPeriods> {
+    let miss = |unknowns: [Gradient<N>; N]| equations.miss(unknowns);
+    let Roots::Unique { enclosure, .. } = krawczyk(miss, at, 30) else { return None };
+    let times = equations.times(narrowed(miss, enclosure).map(Gradient::constant));
+    Some([times.high.value(), times.low.value()])
 }
 
 /// What Newton steps show of a box. Where a step has shrunk it, a solution may be on the border of what is left: then of a larger box,
