@@ -3,7 +3,7 @@
     [4 C/(pi X_m)] that the describing function gives is [8/pi^2 = 0.81] of its ultimate gain [pi/(2 k L)]. *)
 From Coq Require Import Reals Lra Lia Psatz ZArith.
 From Coquelicot Require Import Coquelicot.
-From Selfosc Require Import Common Switching.
+From Selfosc Require Import Common Switching Joints.
 Open Scope R_scope.
 
 (** The loop: [y' = k u(t - L)] wherever the command stays, y without jumps; the relay, without hysteresis, says C below zero and
@@ -90,7 +90,112 @@ Proof.
 Qed.
 End Loop.
 
+(** * The triangle is such a motion *)
+
+Section Triangle.
+Variables k L C : R.
+Hypotheses (Hk : 0 < k) (HL : 0 < L) (HC : 0 < C).
+
+Definition within (t : R) : R := t - IZR (Int_part (t / (4 * L))) * (4 * L).
+Definition triangle (t : R) : R := let s := within t in k * C * (if Rle_dec s L then s else if Rle_dec s (3 * L) then 2 * L - s else s - 4 * L).
+Definition command (t : R) : R := if Rlt_dec (triangle t) 0 then C else - C.
+
+Lemma within_is n t : IZR n * (4 * L) <= t < (IZR n + 1) * (4 * L) -> within t = t - IZR n * (4 * L).
+Proof.
+  intros Ht. unfold within. assert (E : t = t / (4 * L) * (4 * L)) by (field; lra). destruct (base_Int_part (t / (4 * L))) as [I1 I2].
+  assert (L1 : IZR n <= t / (4 * L)) by (apply (Rmult_le_reg_r (4 * L)); lra).
+  assert (L2 : t / (4 * L) < IZR n + 1) by (apply (Rmult_lt_reg_r (4 * L)); lra).
+  assert (Int_part (t / (4 * L)) < n + 1)%Z by (apply lt_IZR; rewrite plus_IZR; lra).
+  assert (n < Int_part (t / (4 * L)) + 1)%Z by (apply lt_IZR; rewrite plus_IZR; lra).
+  replace (Int_part (t / (4 * L))) with n by lia. reflexivity.
+Qed.
+
+Lemma rising n t : IZR n * (4 * L) - L <= t <= IZR n * (4 * L) + L -> triangle t = k * C * (t - IZR n * (4 * L)).
+Proof.
+  intros Ht. unfold triangle. destruct (Rlt_le_dec t (IZR n * (4 * L))) as [Q|Q].
+  - rewrite (within_is (n - 1) t) by (rewrite minus_IZR; lra). rewrite minus_IZR. f_equal.
+    destruct (Rle_dec _ L); [lra|]. destruct (Rle_dec _ (3 * L)); lra.
+  - rewrite (within_is n t) by lra. f_equal. destruct (Rle_dec _ L); lra.
+Qed.
+
+Lemma falling n t : IZR n * (4 * L) + L <= t <= IZR n * (4 * L) + 3 * L -> triangle t = k * C * (IZR n * (4 * L) + 2 * L - t).
+Proof. intros Ht. unfold triangle. rewrite (within_is n t) by lra. f_equal. destruct (Rle_dec _ L); [lra|]. destruct (Rle_dec _ (3 * L)); lra. Qed.
+
+Lemma everywhere t : exists n, IZR n * (4 * L) - L < t < IZR n * (4 * L) + L \/ t = IZR n * (4 * L) + L \/
+  IZR n * (4 * L) + L < t < IZR n * (4 * L) + 3 * L \/ t = IZR n * (4 * L) - L.
+Proof.
+  destruct (base_Int_part ((t + L) / (4 * L))) as [I1 I2]. exists (Int_part ((t + L) / (4 * L))). set (n := Int_part ((t + L) / (4 * L))) in *.
+  assert (E : t + L = (t + L) / (4 * L) * (4 * L)) by (field; lra).
+  assert (A : IZR n * (4 * L) <= t + L) by (rewrite E; apply Rmult_le_compat_r; lra).
+  assert (B : t + L < (IZR n + 1) * (4 * L)) by (rewrite E at 1; apply Rmult_lt_compat_r; lra).
+  destruct A as [A|A]; [|right; right; right; lra].
+  destruct (Rtotal_order t (IZR n * (4 * L) + L)) as [Q|[Q|Q]]; [left; lra|right; left; exact Q|right; right; left; lra].
+Qed.
+
+Lemma K_positive : 0 < k * C.
+Proof. apply Rmult_lt_0_compat; assumption. Qed.
+
+(** A dead time after the corner the command is the one of the other side. *)
+Lemma command_late n t : (IZR n * (4 * L) - L < t < IZR n * (4 * L) + L -> command (t - L) = C) /\
+  (IZR n * (4 * L) + L <= t <= IZR n * (4 * L) + 3 * L -> command (t - L) = - C).
+Proof.
+  pose proof K_positive as K. unfold command. split; intros Ht.
+  - assert (N : triangle (t - L) < 0).
+    { destruct (Rle_lt_dec (IZR n * (4 * L) - L) (t - L)) as [Q|Q].
+      - rewrite (rising n) by lra. nra.
+      - rewrite (falling (n - 1)) by (rewrite minus_IZR; lra). rewrite minus_IZR. nra. }
+    destruct (Rlt_dec _ _); [reflexivity|contradiction].
+  - assert (N : 0 <= triangle (t - L)).
+    { destruct (Rle_lt_dec (t - L) (IZR n * (4 * L) + L)) as [Q|Q].
+      - rewrite (rising n) by lra. apply Rmult_le_pos; lra.
+      - rewrite (falling n) by lra. apply Rmult_le_pos; lra. }
+    destruct (Rlt_dec _ _); [lra|reflexivity].
+Qed.
+
+Lemma up_slope n t : is_derive (fun t => k * C * (t - IZR n * (4 * L))) t (k * C).
+Proof. auto_derive; [trivial|ring]. Qed.
+Lemma down_slope n t : is_derive (fun t => k * C * (IZR n * (4 * L) + 2 * L - t)) t (k * - C).
+Proof. auto_derive; [trivial|ring]. Qed.
+
+Theorem triangle_is_motion : loop k L C triangle command.
+Proof.
+  pose proof K_positive as K. split.
+  - intros t. destruct (everywhere t) as [n [Ht|[Ht|[Ht|Ht]]]].
+    + apply (glue_continuous triangle (fun t => k * C * (t - IZR n * (4 * L))) (fun t => k * C * (t - IZR n * (4 * L))) t
+        (Rmin (t - (IZR n * (4 * L) - L)) (IZR n * (4 * L) + L - t))); try apply (continuous_of_derive _ _ _ (up_slope n t)); [apply Rmin_pos; lra|..];
+        intros s Hs; pose proof (Rmin_l (t - (IZR n * (4 * L) - L)) (IZR n * (4 * L) + L - t)); pose proof (Rmin_r (t - (IZR n * (4 * L) - L)) (IZR n * (4 * L) + L - t)); apply rising; lra.
+    + apply (glue_continuous triangle (fun t => k * C * (t - IZR n * (4 * L))) (fun t => k * C * (IZR n * (4 * L) + 2 * L - t)) t L HL);
+        [intros s Hs; apply rising; lra|intros s Hs; apply falling; lra|apply (continuous_of_derive _ _ _ (up_slope n t))|apply (continuous_of_derive _ _ _ (down_slope n t))].
+    + apply (glue_continuous triangle (fun t => k * C * (IZR n * (4 * L) + 2 * L - t)) (fun t => k * C * (IZR n * (4 * L) + 2 * L - t)) t
+        (Rmin (t - (IZR n * (4 * L) + L)) (IZR n * (4 * L) + 3 * L - t))); try apply (continuous_of_derive _ _ _ (down_slope n t)); [apply Rmin_pos; lra|..];
+        intros s Hs; pose proof (Rmin_l (t - (IZR n * (4 * L) + L)) (IZR n * (4 * L) + 3 * L - t)); pose proof (Rmin_r (t - (IZR n * (4 * L) + L)) (IZR n * (4 * L) + 3 * L - t)); apply falling; lra.
+    + apply (glue_continuous triangle (fun t => k * C * (IZR (n - 1) * (4 * L) + 2 * L - t)) (fun t => k * C * (t - IZR n * (4 * L))) t L HL);
+        [intros s Hs; apply falling; rewrite minus_IZR; lra|intros s Hs; apply rising; lra|apply (continuous_of_derive _ _ _ (down_slope (n - 1) t))|apply (continuous_of_derive _ _ _ (up_slope n t))].
+  - intros t [e E]. pose proof (cond_pos e) as Pe. assert (P : 0 < Rmin e L) by (apply Rmin_pos; assumption). pose proof (Rmin_l e L). pose proof (Rmin_r e L).
+    destruct (everywhere t) as [n [Ht|[Ht|[Ht|Ht]]]].
+    + rewrite (proj1 (command_late n t) Ht). apply (local_derive triangle (fun t => k * C * (t - IZR n * (4 * L))) t (Rmin (t - (IZR n * (4 * L) - L)) (IZR n * (4 * L) + L - t)));
+        [apply Rmin_pos; lra| |apply up_slope].
+      intros s Hs. pose proof (Rmin_l (t - (IZR n * (4 * L) - L)) (IZR n * (4 * L) + L - t)). pose proof (Rmin_r (t - (IZR n * (4 * L) - L)) (IZR n * (4 * L) + L - t)). apply rising. lra.
+    + exfalso. assert (B : ball t e (t - Rmin e L / 2)) by (change (Rabs (t - Rmin e L / 2 - t) < e); rewrite Rabs_left; lra). specialize (E _ B). cbv beta in E.
+      rewrite (proj1 (command_late n _)), (proj2 (command_late n t)) in E by lra. lra.
+    + rewrite (proj2 (command_late n t)) by lra. apply (local_derive triangle (fun t => k * C * (IZR n * (4 * L) + 2 * L - t)) t (Rmin (t - (IZR n * (4 * L) + L)) (IZR n * (4 * L) + 3 * L - t)));
+        [apply Rmin_pos; lra| |apply down_slope].
+      intros s Hs. pose proof (Rmin_l (t - (IZR n * (4 * L) + L)) (IZR n * (4 * L) + 3 * L - t)). pose proof (Rmin_r (t - (IZR n * (4 * L) + L)) (IZR n * (4 * L) + 3 * L - t)). apply falling. lra.
+    + exfalso. assert (B : ball t e (t + Rmin e L / 2)) by (change (Rabs (t + Rmin e L / 2 - t) < e); rewrite Rabs_pos_eq; lra). specialize (E _ B). cbv beta in E.
+      rewrite (proj1 (command_late n _)), (proj2 (command_late (n - 1) t)) in E by (rewrite ?minus_IZR; lra). lra.
+  - intros t H. unfold command. destruct (Rlt_dec (triangle t) 0); [reflexivity|contradiction].
+  - intros t H. unfold command. destruct (Rlt_dec (triangle t) 0); [lra|reflexivity].
+Qed.
+
+Lemma triangle_before : triangle 0 = 0 /\ forall t, - L < t < 0 -> triangle t < 0.
+Proof.
+  pose proof K_positive as K. split; [rewrite (rising 0); lra|]. intros t Ht. rewrite (rising 0) by lra. nra.
+Qed.
+End Triangle.
+
 Theorem statement : forall k L C : R, 0 < k -> 0 < L -> 0 < C ->
+  (* there is a motion that comes up to zero after a dead time below it *)
+  (exists y u, loop k L C y u /\ y 0 = 0 /\ forall t, 0 - L < t < 0 -> y t < 0) /\
   (* any motion that comes up to zero after a dead time below it is from then on a triangle: amplitude k C L, period 4 L *)
   (forall y u b, loop k L C y u -> y b = 0 -> (forall t, b - L < t < b -> y t < 0) ->
     (forall n s, 0 <= s <= 2 * L -> y (b + INR n * (2 * L) + s) = (-1) ^ n * tent k L C s) /\
@@ -101,7 +206,9 @@ Theorem statement : forall k L C : R, 0 < k -> 0 < L -> 0 < C ->
   (* the describing function gives 8/pi^2 of it *)
   gain_of_describing_function C (X_m k L C) = 8 / PI ^ 2 * ultimate_gain k L.
 Proof.
-  intros k L C Hk HL HC. pose proof PI_RGT_0 as HPI. split; [|split].
+  intros k L C Hk HL HC. pose proof PI_RGT_0 as HPI. split; [|split; [|split]].
+  - exists (triangle k L C), (command k L C). split; [apply triangle_is_motion; assumption|].
+    destruct (triangle_before k L C Hk HL HC) as [T0 T1]. split; [exact T0|]. intros t Ht. apply T1. lra.
   - intros y u b M Yb Before. pose proof (fun n => tents k L C Hk HL HC n y u b M Yb Before) as T. split; [exact T|]. split.
     + intros t Ht.
       (* the number of the half *)

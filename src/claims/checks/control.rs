@@ -118,10 +118,6 @@ claim! {
     "for an integrator with dead time the relay oscillates with the ultimate period, and its describing function gives 8/pi^2 of the ultimate gain"
     {
         domain: &[RELAY_ULTIMATE_WHOLE],
-        by_hand: &[
-            "the oscillation is a triangle: it goes on at the speed gain times level for one dead time beyond zero, so that the period is four of them",
-            "the phase of the process is -pi where frequency times dead time is pi/2",
-        ],
         printed: AsPrinted::Absent,
         corrected: Some(|budget| relay_ultimate(budget, 8.0 / core::f64::consts::PI.powi(2), 0.0, 0.0)),
         // The describing function taken for exact.
