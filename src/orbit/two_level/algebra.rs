@@ -57,7 +57,7 @@ impl Algebra {
         let (middle, mut modulus) = (shift.midpoint().abs(), ZERO);
         let square = if degree == 2 { -ascending[0] } else { Interval::ZERO };
         let turning = degree == 2 && square.is_negative() && (-square).sqrt().lower() > 0.01 * middle;
-        // Slightly above the frequency, so that rounding leaves the norm of nu^2 below one.
+        // Above the frequency by more than rounding: the norm of nu^2 stays below one.
         let scale = match (turning, degree) {
             (true, _) => (-square).sqrt().upper() * (1.0 + 1e-12),
             (false, 1) => 1.0,

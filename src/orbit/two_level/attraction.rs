@@ -157,8 +157,8 @@ impl Conditions {
     }
 }
 
-/// Whether a power of the map shrinks every vector in the norm of the largest component, or has a trace larger than its size, so that
-/// an eigenvalue of it is above one.
+/// A power of the map shrinks every vector in the norm of the largest component: true. Its trace exceeds its size, hence an eigenvalue
+/// exceeds one in magnitude: false.
 fn shrinks(map: &Matrix) -> Option<bool> {
     // The same map in the basis of computed Schur vectors, in which its powers stay narrow.
     let vectors =

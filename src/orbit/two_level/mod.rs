@@ -1,10 +1,10 @@
 //! All orbits of a linear plant with dead time under a two-level relay, with proof.
 //!
 //! One switching each way in a period. Between switchings the output is known in closed form, so an orbit is a solution of two
-//! equations in its two half-periods. They are solved in interval arithmetic over all periods of a range: what is not
-//! listed does not exist, except in the sub-ranges named. Three things are shown of each orbit: it exists and is alone in its enclosure
-//! (Krawczyk's operator), the relay does not switch earlier on it, and deviations die out or grow (powers of the
-//! return map, every command under way included).
+//! equations in its two half-periods. They are solved in interval arithmetic over all periods of a range: an orbit that is not
+//! listed does not exist, except in the sub-ranges named. Krawczyk's operator shows that an orbit exists and is alone in its enclosure.
+//! The output, enclosed over the period, shows that the relay switches nowhere else. Powers of the return map, with every command under
+//! way, show that deviations die out or grow.
 
 mod algebra;
 mod attraction;

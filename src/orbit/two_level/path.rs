@@ -28,7 +28,7 @@ pub(super) struct Path<'a> {
     pub(super) times: Times<2>,
     pub(super) on: Place,
     pub(super) off: Place,
-    /// What a pole at zero leaves free of the output, less what it is without.
+    /// The output's constant where a pole at zero leaves it free; zero otherwise.
     constant: Interval,
 }
 
