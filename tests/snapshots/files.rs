@@ -96,6 +96,7 @@ const CALLS: [&str; 17] = [
     "simulate --alpha 1 --beta 1 --relay 1 --half-width 0.2",
     "design --alpha 1 --beta 1 --level 1 --time 30",
     "identify a.csv --method iso --delay 0 --report OUT",
+    "identify a.csv --method iso --delay 0 --samples OUT",
     "identify a.csv --method bounded --drag linear --delay 0 --budget 100 --certificate OUT",
     "tune --model model.json --bandwidth 0.5",
     "completions bash",
