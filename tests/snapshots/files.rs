@@ -82,7 +82,7 @@ fn holds(folder: &Path) -> Vec<(String, Vec<u8>, u64)> {
 }
 
 /// A call of each subcommand that does little, those that write files with `OUT` in place of the file.
-const CALLS: [&str; 17] = [
+const CALLS: [&str; 18] = [
     "reproduce --only table3",
     "reproduce --only table3 --out OUT",
     "verify --claim lemma-1 --cases 1",
