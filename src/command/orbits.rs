@@ -27,6 +27,9 @@ pub(super) struct Loop<'a> {
     pub(super) certificate: Option<&'a Path>,
 }
 
+/// Ranges that are not decided, as many as the text shows.
+const SHOWN: usize = 5;
+
 fn bounds(interval: Interval) -> [f64; 2] {
     [interval.lower(), interval.upper()]
 }
@@ -90,8 +93,12 @@ fn table(listing: &OrbitListing, output: &mut impl Write) -> Result<(), CommandE
         writeln!(output, "{}  attracting", head.map(|name| format!("{name:>12}")).join("  "))?;
     }
     for one in &listing.orbits {
-        let largest =
-            one.multipliers.first().map_or_else(|| "not known".to_owned(), |value| significant(value.norm(), 6));
+        let largest = match (one.multipliers.first(), one.attracting) {
+            (Some(value), _) => significant(value.norm(), 6),
+            // All are zero.
+            (None, Some(_)) => "0".to_owned(),
+            (None, None) => "not known".to_owned(),
+        };
         let middles = [one.period_s, one.time_high_s, one.time_low_s, one.amplitude(), one.bias()];
         let bias_is_none = one.bias().contains_zero();
         let cell = |(at, value): (usize, &Interval)| {
@@ -123,8 +130,11 @@ fn table(listing: &OrbitListing, output: &mut impl Write) -> Result<(), CommandE
     if listing.is_complete() {
         writeln!(output, "no other orbit there")?;
     }
-    for range in &listing.not_covered {
+    for range in listing.not_covered.iter().take(SHOWN) {
         writeln!(output, "not decided: {}", periods(range))?;
+    }
+    if let Some(more @ 1..) = listing.not_covered.len().checked_sub(SHOWN) {
+        writeln!(output, "not decided: {more} ranges more; --json has all")?;
     }
     Ok(())
 }
