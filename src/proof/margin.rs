@@ -72,6 +72,13 @@ pub enum Margin {
     },
     /// An enclosure in intervals that no one formula gives.
     Enclosed(fn(&Cell) -> Interval),
+    /// An enclosure in intervals of a formula that is 0/0 at an end of its range, where its limit is enclosed.
+    Curve {
+        /// The enclosure.
+        over: fn(&Cell) -> Interval,
+        /// The formula beside that end, to print.
+        expression: fn([Expression; VARIABLES]) -> Option<Expression>,
+    },
 }
 
 /// A [`Margin`] without its formula.
@@ -92,7 +99,7 @@ pub enum Form {
         /// Where it is divided out.
         near: f64,
     },
-    /// [`Margin::Enclosed`].
+    /// [`Margin::Enclosed`] or [`Margin::Curve`].
     Enclosed,
 }
 
@@ -105,7 +112,7 @@ impl Margin {
             Self::Slope { of, by } => slope(of, by, at),
             Self::OverPower { of, order, near } if at[0].upper() <= near => over_power(of, order, at),
             Self::OverPower { of, .. } => (of.interval)(*at),
-            Self::Enclosed(enclosure) => enclosure(at),
+            Self::Enclosed(enclosure) | Self::Curve { over: enclosure, .. } => enclosure(at),
         }
     }
 
@@ -116,16 +123,25 @@ impl Margin {
             Self::Value(_) => Form::Value,
             Self::Slope { by, .. } => Form::Slope { by },
             Self::OverPower { order, near, .. } => Form::OverPower { order, near },
-            Self::Enclosed(_) => Form::Enclosed,
+            Self::Enclosed(_) | Self::Curve { .. } => Form::Enclosed,
         }
     }
 
-    /// The formula, if there is one.
+    /// The formula in every arithmetic, if there is one.
     #[must_use]
     pub fn formula(&self) -> Option<Formula> {
         match *self {
             Self::Value(of) | Self::Slope { of, .. } | Self::OverPower { of, .. } => Some(of),
-            Self::Enclosed(_) => None,
+            Self::Enclosed(_) | Self::Curve { .. } => None,
+        }
+    }
+
+    /// The formula of these quantities, to print, if there is one.
+    #[must_use]
+    pub fn expression(&self, at: [Expression; VARIABLES]) -> Option<Expression> {
+        match *self {
+            Self::Curve { expression, .. } => expression(at),
+            _ => self.formula().map(|formula| (formula.expression)(at)),
         }
     }
 }
