@@ -1,15 +1,15 @@
-//! What the README shows is what happens: its commands run as typed, and its picture and printed answer are the program's.
+//! What the README and the guide show is what happens: their commands run as typed, and picture and printed answer are the program's.
 
 use std::path::Path;
 use std::process::Command;
 
-const README: &str = include_str!("../../README.md");
+const PAGES: &str = concat!(include_str!("../../README.md"), include_str!("../../spec/guide.md"));
 
 /// Lines of the blocks in a language.
 fn blocks(language: &str) -> impl Iterator<Item = &'static str> {
     let fence = format!("```{language}\n");
-    let starts: Vec<usize> = README.match_indices(&fence).map(|(at, _)| at + fence.len()).collect();
-    starts.into_iter().map(|start| README[start..].split("```").next().unwrap_or_default())
+    let starts: Vec<usize> = PAGES.match_indices(&fence).map(|(at, _)| at + fence.len()).collect();
+    starts.into_iter().map(|start| PAGES[start..].split("```").next().unwrap_or_default())
 }
 
 /// A shell in an empty folder that has the fixtures, with the command on its path.
@@ -23,7 +23,8 @@ fn folder_with_fixtures() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let pool = folder.path().join("fixtures/pool");
     std::fs::create_dir_all(&pool).unwrap();
-    // The other logs that it speaks of stand for records of one vehicle.
+    std::fs::copy("fixtures/heater.csv", folder.path().join("fixtures/heater.csv")).unwrap();
+    // The other logs that they speak of stand for records of one vehicle.
     for place in [
         pool.join("heading.csv"),
         folder.path().join("first.csv"),
