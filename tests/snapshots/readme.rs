@@ -62,7 +62,7 @@ fn commands_run_as_typed() {
 /// Experiment, model and gains by one pipe of less than ten lines; the vehicle at the other end is the one that is simulated.
 #[test]
 fn the_pipe_gives_gains() {
-    let pipe = README.split("```").find(|block| block.contains("mkfifo")).unwrap();
+    let pipe = PAGES.split("```").find(|block| block.contains("mkfifo")).unwrap();
     let (_, pipe) = pipe.split_once('\n').unwrap();
     assert!(pipe.lines().filter(|line| !line.trim().is_empty()).count() < 10, "{pipe}");
     let folder = folder_with_fixtures();
