@@ -115,6 +115,37 @@ class Features(FeatureValues):
     std: FeatureValues
 
 
+class CycleStatistics(TypedDict):
+    """Mean over cycles, and the standard deviation of one cycle's value."""
+
+    mean: float
+    std: float
+
+
+class SteadyCycles(TypedDict):
+    """The steady cycles of an experiment on board: units of the reading and s."""
+
+    cycles: int
+    start_up_cycles: int
+    amplitude: CycleStatistics
+    bias: CycleStatistics
+    reference: CycleStatistics
+    period_s: CycleStatistics
+    switch_level: CycleStatistics
+    time_positive_s: CycleStatistics
+    time_negative_s: CycleStatistics
+
+
+class ExactAxis(TypedDict):
+    """An axis whose exact limit cycle has the features of an experiment, in the units of reading and command."""
+
+    drag: Literal["linear", "quadratic"]
+    alpha: float
+    beta: float
+    beta_quadratic: float
+    delta: float
+
+
 class AllRecords(TypedDict):
     """All records together."""
 

@@ -5,6 +5,7 @@ mod bounds;
 mod describing;
 mod failure;
 mod identification;
+mod on_board;
 mod work;
 
 use std::ffi::OsString;
@@ -30,6 +31,8 @@ mod _core {
     use super::describing::{Characteristic, by_quadrature};
     #[pymodule_export]
     use super::identification::{Identification, choose_columns, identify};
+    #[pymodule_export]
+    use super::on_board::{Controller, Experiment, axis_of_outcome};
     #[pymodule_export]
     use super::run;
 

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Read};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use crate::files::on_signal;
 
@@ -49,12 +49,7 @@ impl Lines {
 
     /// Waits until `due`.
     pub(super) fn before(&self, due: Instant) -> Event {
-        self.within(due.saturating_duration_since(Instant::now()))
-    }
-
-    /// Waits for so long.
-    pub(super) fn within(&self, wait: Duration) -> Event {
-        self.events.recv_timeout(wait).unwrap_or_else(|error| match error {
+        self.events.recv_timeout(due.saturating_duration_since(Instant::now())).unwrap_or_else(|error| match error {
             RecvTimeoutError::Timeout => Event::TimeOut,
             RecvTimeoutError::Disconnected => Event::End,
         })

@@ -158,6 +158,18 @@ pub struct Failure {
     pub out_of_domain: Option<OutOfDomain>,
 }
 
+impl Failure {
+    fn usage(error: &clap::Error) -> Self {
+        Self { code: "usage", text: error.to_string(), out_of_domain: None }
+    }
+}
+
+impl From<CommandError> for Failure {
+    fn from(error: CommandError) -> Self {
+        Self { code: error.code(), text: error.to_string(), out_of_domain: error.out_of_domain().copied() }
+    }
+}
+
 /// The answer to arguments as a shell would pass them, without the command's own name.
 ///
 /// # Errors
@@ -170,15 +182,34 @@ pub struct Failure {
 /// ```
 pub fn answer<T: Into<OsString>>(arguments: impl IntoIterator<Item = T>) -> Result<Answer, Failure> {
     let arguments = std::iter::once("selfosc".into()).chain(arguments.into_iter().map(Into::into));
-    let usage = |error: clap::Error| Failure { code: "usage", text: error.to_string(), out_of_domain: None };
-    let command = parsed(arguments.collect()).map_err(usage)?;
+    let command = parsed(arguments.collect()).map_err(|error| Failure::usage(&error))?;
     let mut output = Vec::new();
-    let outcome = command.action.run(&mut output).map_err(|error| Failure {
-        code: error.code(),
-        text: error.to_string(),
-        out_of_domain: error.out_of_domain().copied(),
-    })?;
+    let outcome = command.action.run(&mut output)?;
     Ok(Answer { text: String::from_utf8_lossy(&output).into_owned(), no: outcome == Outcome::No })
+}
+
+/// The experiment that `selfosc run` makes of its arguments.
+///
+/// # Errors
+/// As those of [`answer`].
+///
+/// ```
+/// let protocol = ["--coordinate=heading-rad", "--relay=0.02", "--half-width=0.2", "--interval=0.1"];
+/// let mut experiment = selfosc::command::experiment(protocol).unwrap();
+/// assert_eq!(experiment.step(0.0, 0.0).command, 0.02);
+/// ```
+pub fn experiment<T: Into<OsString>>(
+    arguments: impl IntoIterator<Item = T>,
+) -> Result<crate::on_board::Experiment<f64>, Failure> {
+    let arguments = ["selfosc".into(), "run".into()].into_iter().chain(arguments.into_iter().map(Into::into));
+    let command = parsed(arguments.collect()).map_err(|error| Failure::usage(&error))?;
+    match command.action {
+        Action::Run(arguments) => arguments.experiment().map_err(Failure::from),
+        _ => {
+            let text = "must be flags of `selfosc run`; give no other subcommand".to_owned();
+            Err(Failure { code: "usage", text, out_of_domain: None })
+        }
+    }
 }
 
 /// The command that these arguments ask for.

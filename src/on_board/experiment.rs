@@ -101,6 +101,11 @@ impl<T: Scalar> Experiment<T> {
         self.supervisor.position()
     }
 
+    /// What it was made of.
+    pub fn protocol(&self) -> &Protocol<T> {
+        self.supervisor.protocol()
+    }
+
     /// Attempt under way, or the last one: 1, 2, ...
     pub fn attempt(&self) -> u8 {
         self.supervisor.attempt()

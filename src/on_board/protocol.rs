@@ -16,6 +16,18 @@ pub enum Coordinate {
     Speed,
 }
 
+impl Coordinate {
+    /// Name of its column in a log, by which the unit is known.
+    #[must_use]
+    pub fn column(self) -> &'static str {
+        match self {
+            Self::HeadingDegrees => "heading_deg",
+            Self::HeadingRad => "output",
+            Self::Position | Self::Speed => "position",
+        }
+    }
+}
+
 /// One experiment: its relay, its limits, and when it counts as done. All fields are read once, by
 /// [`Experiment::new`](super::Experiment::new), which checks them.
 ///
@@ -126,6 +138,23 @@ impl<T: Scalar> Protocol<T> {
         }
     }
 
+    /// The same with the usual room: a quarter turn of a heading, else five half-widths.
+    ///
+    /// ```
+    /// use selfosc::on_board::{Coordinate, Protocol};
+    /// let depth = Protocol::usual(Coordinate::Position, 8.0, 0.2, 0.1);
+    /// assert_eq!((depth.largest_excursion, depth.largest_rate), (1.0, 1.0));
+    /// ```
+    #[must_use]
+    pub fn usual(coordinate: Coordinate, relay_level: T, half_width: T, interval_s: T) -> Self {
+        let excursion = match coordinate {
+            Coordinate::HeadingRad => T::pi() / T::two(),
+            Coordinate::HeadingDegrees => T::from_f64(90.0),
+            Coordinate::Position | Coordinate::Speed => T::from_f64(5.0) * half_width,
+        };
+        Self::new(coordinate, relay_level, half_width, excursion, interval_s)
+    }
+
     /// The same for a heading in radians, of a quarter turn either way and no more than a quarter turn per second.
     ///
     /// ```
@@ -138,13 +167,13 @@ impl<T: Scalar> Protocol<T> {
     /// ```
     #[must_use]
     pub fn heading_rad(relay_level: T, half_width: T, interval_s: T) -> Self {
-        Self::new(Coordinate::HeadingRad, relay_level, half_width, T::pi() / T::two(), interval_s)
+        Self::usual(Coordinate::HeadingRad, relay_level, half_width, interval_s)
     }
 
     /// The same for a heading in degrees.
     #[must_use]
     pub fn heading_degrees(relay_level: T, half_width: T, interval_s: T) -> Self {
-        Self::new(Coordinate::HeadingDegrees, relay_level, half_width, T::from_f64(90.0), interval_s)
+        Self::usual(Coordinate::HeadingDegrees, relay_level, half_width, interval_s)
     }
 
     /// The largest relay level within the limits.

@@ -19,6 +19,18 @@ pub enum Phase {
     Failed(Fault),
 }
 
+/// One word: `running`, `done`, `aborted`, or `failed:` with the fault's code.
+impl core::fmt::Display for Phase {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Running => f.write_str("running"),
+            Self::Done => f.write_str("done"),
+            Self::Aborted => f.write_str("aborted"),
+            Self::Failed(fault) => write!(f, "failed:{}", fault.code()),
+        }
+    }
+}
+
 /// The answer to a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step<T> {
