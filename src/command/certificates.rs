@@ -4,7 +4,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::error::Given;
-use super::{CommandError, Outcome, files};
+use super::{CommandError, Outcome, existence, files};
+use crate::balance::ProvedOscillation;
 use crate::claims::{CLAIMS, Certificate, Claim};
 use crate::experiment::Record;
 use crate::identify::bounded::certificate as bounded;
@@ -58,6 +59,9 @@ fn check_file(path: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<
     let text = files::read(path)?;
     let none = |reason| Err(CommandError::NoCertificate { path: path.to_owned(), reason });
     if let Ok(Named { claim }) = serde_json::from_str(&text) {
+        if claim == ProvedOscillation::CLAIM {
+            return existence::check(path, &text, output);
+        }
         let Some(claim) = theorems().find(|own| own.id == claim) else {
             return none(format!("there is no theorem `{claim}`"));
         };

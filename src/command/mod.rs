@@ -11,6 +11,7 @@ mod certificates;
 mod design;
 mod df;
 mod error;
+mod existence;
 mod files;
 mod gain;
 mod identify;

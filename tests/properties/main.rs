@@ -20,6 +20,7 @@ mod difference;
 mod engine;
 mod errors;
 mod examples;
+mod existence;
 mod extremes;
 mod features;
 mod fourier_oracle;

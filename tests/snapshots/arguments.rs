@@ -17,7 +17,7 @@ const CALLS: [&str; 18] = [
     "df relay-dead-zone --set dead_zone=0.5 --gain 1 --bias 0",
     "df --fit FOLDER/gains.csv --bias 0",
     "df --list --page FOLDER/page.html",
-    "balance --num 8 --den 1,2,2,1 --delay 0 --nonlinearity saturation --set breakpoint=1 --bias 0 --svg FOLDER/nyquist.svg",
+    "balance --num 8 --den 1,2,2,1 --delay 0 --nonlinearity saturation --set breakpoint=1 --bias 0 --svg FOLDER/nyquist.svg --certificates FOLDER/proofs",
     "tune --alpha 1 --beta 0.5 --beta-quadratic 0 --bandwidth 0.5 --structure pd --delay 0.1 --step 1 --limit 9 --top-speed 1 --alpha-interval 0.9,1.1 --beta-interval 0.4,0.6 --beta-quadratic-interval 0,0.1 --delay-interval 0,0.2",
     "tune --model FOLDER/model.json --bandwidth 0.5",
     "tune --alpha 1 --beta 0.5 --delay 0.1 --delta 0.1 --ms 1.5 --format ardusub --full-command 1",
