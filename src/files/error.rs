@@ -9,7 +9,7 @@ pub enum FileError {
     Unreadable {
         /// The file.
         name: String,
-        /// What the system says.
+        /// Message of the operating system.
         reason: String,
     },
     /// It has more bytes than are read.
@@ -33,7 +33,7 @@ pub enum FileError {
     Unwritable {
         /// The file or folder.
         name: String,
-        /// What the system says.
+        /// Message of the operating system.
         reason: String,
     },
 }

@@ -29,7 +29,7 @@ impl Output {
 }
 
 impl Output {
-    /// Opens the file to be written piece by piece: what has been written is there, whatever ends this process.
+    /// Opens the file to be written piece by piece: written bytes stay on disk, however this process ends.
     ///
     /// # Errors
     /// [`FileError::Unwritable`].
@@ -122,8 +122,8 @@ pub(crate) fn on_signal(act: impl FnOnce() + Send + 'static) {
     *INSTEAD.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(act));
 }
 
-/// From now on SIGINT, SIGTERM and SIGHUP remove what is unfinished before they end this process. One that is ignored, as
-/// under `nohup`, stays so.
+/// From now on SIGINT, SIGTERM and SIGHUP remove unfinished files before they end this process. An ignored signal, as
+/// under `nohup`, stays ignored.
 #[cfg(unix)]
 pub(crate) fn remove_on_signal() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -148,7 +148,7 @@ pub(crate) fn remove_on_signal() {
 #[cfg(not(unix))]
 pub(crate) fn remove_on_signal() {}
 
-/// A bit for each signal that the parent has this process ignore, where the system says so.
+/// A bit for each signal that this process inherited as ignored; zero where the system does not report them.
 #[cfg(unix)]
 fn ignored_signals() -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();

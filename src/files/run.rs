@@ -1,4 +1,4 @@
-//! The files of one run, which must not destroy each other.
+//! The files of one run, none of which may overwrite another.
 
 use std::fs;
 use std::io::ErrorKind;

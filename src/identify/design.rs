@@ -19,7 +19,7 @@ use crate::numeric::{Limit, OutOfDomain};
 use crate::orbit::limit_cycle;
 use crate::plant::DragAxis;
 
-/// What is known and what is possible.
+/// Known parameters and admissible experiments.
 ///
 /// ```
 /// use selfosc::experiment::Sensor;
@@ -85,7 +85,7 @@ pub struct Run {
     pub std: Deviations,
 }
 
-/// One record, and a second one at another level.
+/// A record, and a second record at another level.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Proposal {
     /// The record.
@@ -233,7 +233,7 @@ impl Situation {
         let known = self.delay != Delay::Estimated;
         let mut information = *information;
         if known {
-            // A delay that is known says nothing of the others.
+            // A known delay carries no information on the other parameters.
             information.fill_row(3, 0.0);
             information.fill_column(3, 0.0);
             information[(3, 3)] = 1.0;

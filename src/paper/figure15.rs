@@ -99,7 +99,7 @@ impl Pairs<f64> {
 }
 
 impl Pairs<Interval> {
-    /// The bars of one criterion when parameters are known to intervals: the pairs that certainly count and those that may.
+    /// The bars of one criterion when parameters are intervals: the pairs that certainly count and those that may.
     #[must_use]
     pub fn count_ranges(&self, criterion: &Criterion) -> (Counts, Counts) {
         let none = Counts { criterion: criterion.number, correct: 0, wrong: 0, undecided: 0 };

@@ -41,7 +41,7 @@ impl Printed {
         self.decimals
     }
 
-    /// The same digits with the point so many places further left.
+    /// The same digits with the decimal point moved left.
     #[must_use]
     pub fn shifted(self, places: u32) -> Self {
         Self { decimals: self.decimals + places, ..self }
@@ -53,7 +53,7 @@ impl Printed {
         self.within(decimals, 1.0)
     }
 
-    /// The numbers within so many half units of the last of so many decimals, at least those printed.
+    /// The interval of a printed number: `half_units` half units of its last decimal either way, with at least the printed decimals.
     #[allow(clippy::cast_precision_loss, reason = "15 digits fit a double")]
     pub(super) fn within(self, decimals: u32, half_units: f64) -> Interval {
         let half_unit = Interval::point(0.5) / Interval::point(Self::unit(decimals.max(self.decimals)));

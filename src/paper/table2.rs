@@ -34,7 +34,7 @@ pub struct Terms<T> {
     pub delta: T,
 }
 
-/// Table 2 for one axis at `speed`, in whatever arithmetic.
+/// Table 2 for one axis at `speed`, in any arithmetic.
 pub fn uncoupled<T: Real>(axis: Axis, coefficients: &Coefficients<T>, speed: T) -> Terms<T> {
     let c = coefficients;
     Terms {

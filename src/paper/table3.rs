@@ -13,7 +13,7 @@ pub struct Table3<T> {
     pub disturbance_from_times: T,
 }
 
-/// Table 3 of an oscillation with so much time per period at command `+C` and `-C`.
+/// Table 3 of an oscillation with given times per period at command `+C` and `-C`.
 ///
 /// # Errors
 /// As [`Oscillation::identify`].

@@ -167,7 +167,7 @@ pub struct Table4 {
     pub recomputed_std_percent: Yaw<f64>,
     /// The constant, in 1e-2 N m, that added to the relay level makes the recomputed inertia fit the printed one best.
     pub level_offset: f64,
-    /// Root mean square of what the fit leaves, relative to the printed inertia, in percent (n - 1).
+    /// Root mean square of the fit's residuals, relative to the printed inertia, in percent (n - 1).
     pub level_offset_residual_percent: f64,
 }
 

@@ -5,7 +5,7 @@ use core::array;
 use super::Gradient;
 use crate::numeric::Interval;
 
-/// What is known of the roots in a box.
+/// Verdict on the roots in a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Roots<T> {
     /// The box has exactly one root, and `enclosure` contains it.

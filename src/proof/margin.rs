@@ -48,7 +48,7 @@ macro_rules! formula {
 }
 pub use formula;
 
-/// What an inequality says is positive, and how it is enclosed.
+/// The quantity that an inequality claims positive, and the form of its enclosure.
 #[derive(Clone, Copy, Debug)]
 pub enum Margin {
     /// The formula's value.
@@ -141,7 +141,7 @@ fn slope(of: Formula, by: usize, at: &Cell) -> Interval {
     direct.intersection(centred).unwrap_or(direct)
 }
 
-/// By Taylor's theorem at zero, the last coefficient between zero and the points of `at`; it says nothing unless the lower ones
+/// By Taylor's theorem at zero, the last coefficient between zero and the points of `at`; no bound unless the lower coefficients
 /// are zero.
 fn over_power(of: Formula, order: usize, at: &Cell) -> Interval {
     let mut at_zero = *at;

@@ -120,12 +120,12 @@ fn widest<const M: usize>(open: &[Cell<M>]) -> Option<usize> {
 
 /// Share of the wanted width that no cell is divided for.
 const NEGLIGIBLE: f64 = 1.0 / 1024.0;
-/// A cell whose remainder is this much wider than wanted has a singularity within or beside it.
+/// A cell whose remainder is this much wider than wanted has a singularity within or next to it.
 const SINGULAR: f64 = 1e30;
 /// Halvings towards a singularity, before the jets are asked again.
 const GRADES: usize = 3;
 
-/// What the jet over a cell says.
+/// Verdict of the jet over a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Smoothness {
     /// The integrals are by the jets.

@@ -40,7 +40,7 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
 }
 
-/// One pair of axes with what is drawn on them.
+/// A pair of axes and its curves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
     x_label: String,
@@ -71,7 +71,7 @@ impl Panel {
         Self { y_limits: Some((from, to)), ..self }
     }
 
-    /// The panel with a unit as long on one axis as on the other.
+    /// The panel with equal scales on both axes.
     #[must_use]
     pub fn equal_axes(self) -> Self {
         Self { equal_axes: true, ..self }
@@ -141,7 +141,7 @@ impl Panel {
     }
 }
 
-/// Panels below each other under one title.
+/// Panels stacked under a title.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Name of its file.
@@ -163,7 +163,7 @@ const BELOW: u32 = 52;
 const BESIDE: u32 = 72;
 /// Room for names in place of numbers.
 const BESIDE_NAMES: u32 = 170;
-/// What is left for the axes.
+/// Size of the plot area.
 const PLOT: (u32, u32) = (SIZE.0 - 2 * MARGIN - BESIDE, SIZE.1 - 2 * MARGIN - BELOW);
 /// Height of a legend's entry with its share of the border, in pixels.
 const LEGEND_ENTRY: f64 = 30.0;

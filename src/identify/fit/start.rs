@@ -20,7 +20,7 @@ pub(crate) struct ModulatedStart {
 
 /// Longest delay tried, in half-periods.
 const LONGEST_DELAY: f64 = 0.6;
-/// Delays tried, in half-periods: inertia and delay turn the phase alike, so that one equation's misfit does not choose between them.
+/// Delays tried, in half-periods: inertia and delay turn the phase alike, so a single equation's misfit does not determine both.
 const DELAYS: [&[f64]; 4] = [&[0.0, 0.03, 0.06], &[0.1, 0.14, 0.18], &[0.23, 0.28, 0.33], &[0.4, 0.5, LONGEST_DELAY]];
 
 /// The best start of each range of delays, or that of the known delay.
@@ -64,7 +64,7 @@ pub(crate) fn at_every_delay(signal: &Signal) -> Vec<ModulatedStart> {
 const ROUGH_DELAY: f64 = 0.05;
 /// Distance of successive weights, in half-periods.
 const STRIDE: f64 = 0.3;
-/// The speed under a weight is a difference quotient over twice this part of the half-period: one over so many.
+/// The speed under a weight is a difference quotient over twice the half-period divided by this.
 const SPEED_SPANS: f64 = 8.0;
 /// How many times as well the command's opposite has to fit.
 const CONTRARY: f64 = 3.0;

@@ -19,7 +19,7 @@ use crate::identify::fit::shooting::RecordFit;
 pub struct Caution {
     /// Short name for scripts.
     pub code: Cow<'static, str>,
-    /// What it means and what to do.
+    /// Meaning and remedy.
     pub text: String,
 }
 

@@ -29,7 +29,7 @@ pub(super) struct Findings<'a> {
     failure: Refusal,
 }
 
-/// A model by one method under one law, or the refusal.
+/// The model of a method under a law, or the refusal.
 type Attempt = (Method, DragLaw, Result<Model, IdentifyError>);
 
 impl<'a> Findings<'a> {

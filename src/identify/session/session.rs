@@ -154,7 +154,7 @@ impl Session {
         self.identify_with(|_| {})
     }
 
-    /// As [`identify`](Self::identify); `progress` hears what comes next.
+    /// As [`identify`](Self::identify); `progress` is called before each stage.
     ///
     /// # Errors
     /// As [`identify`](Self::identify).

@@ -12,7 +12,7 @@ pub enum Stage {
     Bounds,
     /// The drag laws are fitted.
     Fit,
-    /// Terms of the motion and of what disturbs it are tried, beside the fits.
+    /// Terms of the motion and of its disturbances are tried, in parallel with the fits.
     Terms,
 }
 

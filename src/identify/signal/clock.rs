@@ -31,7 +31,7 @@ pub(crate) fn grid(record: &Record) -> Option<Vec<f64>> {
         let step = nt / nn;
         (mean_t - step * mean_n, step)
     };
-    // The grid's phase follows the stamps slowly, so that one late stamp does not count as two steps.
+    // The grid's phase follows the stamps slowly, so that a single late stamp does not count as two steps.
     let (mut phase, mut number) = (time[0], 0.0);
     let mut numbers = vec![0.0];
     for t in &time[1..] {

@@ -15,7 +15,7 @@ pub(crate) fn weights_of_repeats(output: &[f64], input: &[f64], step: f64) -> Ve
     bounds.extend((1..input.len()).filter(|k| input[*k] != input[*k - 1]));
     bounds.push(input.len());
     let (low, high) = ends(input);
-    // In steps, so that the mirror image of a rounded reading is one too.
+    // In steps, so that the mirror image of a rounded reading is rounded too.
     let half = |pair: &[usize]| {
         let sign = if input[pair[0]] < f64::midpoint(low, high) { -1.0 } else { 1.0 };
         let steps = |value: &f64| sign * ((value - output[0]) / step).round();
@@ -38,7 +38,7 @@ pub(crate) fn weights_of_repeats(output: &[f64], input: &[f64], step: f64) -> Ve
 
 /// How the roundings of two half cycles correlate, given their readings in steps from the switching on.
 ///
-/// Where the motions differ by whole steps and the part d of one, the part d of the readings differs by one step more, and the
+/// Where the motions differ by n + d steps, a share d of the readings differs by n + 1 steps, and the
 /// roundings correlate by `1 - 6 d + 6 d^2` (Bennett 1948).
 fn likeness(half: &[f64], other: &[f64]) -> f64 {
     let apart = || half.iter().zip(other).map(|(a, b)| a - b);

@@ -8,7 +8,7 @@ use super::numbers::{extent, least_squares};
 use crate::experiment::Record;
 use crate::plant::State;
 
-/// The highest speed is a difference quotient over this part of the half-period: one over so many.
+/// The highest speed is a difference quotient over the half-period divided by this.
 const SPEED_SPANS: f64 = 6.0;
 
 /// A record as a signal, under one reading of its clock and its switchings.

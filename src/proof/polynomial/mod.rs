@@ -58,7 +58,7 @@ pub fn prove_identity<const N: usize, const M: usize>(
     Ok(found)
 }
 
-/// What code decides at a point, and what comes out.
+/// The result of code at a point, with the comparisons it made.
 pub fn decided<R, const N: usize>(point: [f64; N], code: impl FnOnce([Rational; N]) -> R) -> (R, Vec<Decision>) {
     recorded(point, code)
 }
@@ -132,7 +132,7 @@ mod tests {
         assert!(!holds([1.0], |[a]| Some([number(f64::NAN) * a * number(0.0)])));
         assert!(!holds([0.0], |[a]| Some([a / (a - a) - a / (a - a)])));
         assert!(!holds([1.0], |[_]| None::<[Rational; 1]>));
-        // So does what a root's square leaves: below the range each by itself.
+        // So does the remainder of a root's square: below the range each by itself.
         let beyond = |[a]: [Rational; 1]| {
             let large = number(f64::from(1 << 30));
             let root = (large * large * a + number(1.0)).sqrt();

@@ -99,7 +99,7 @@ fn calls() -> usize {
     CALLS.with_borrow(Vec::len)
 }
 
-/// The name of the one function of which more is known.
+/// The function with an algebraic identity: `sqrt(x)^2 = x`.
 const SQRT: &str = "sqrt";
 
 /// Fractions of a power of two up to this are numbers; other constants are indeterminates.
@@ -376,7 +376,7 @@ impl Scalar for Rational {
     fn epsilon() -> Self {
         Self::from_f64(f64::EPSILON)
     }
-    /// What is known at a point by value and slope is no formula.
+    /// A value and a slope at a point are no formula.
     fn lift(self, _: f64, _: f64) -> Self {
         <Self as Component>::UNKNOWN
     }

@@ -13,7 +13,7 @@ pub(super) enum Symbol {
     /// A constant of the code that is no short fraction, by its bits: 0.1, say. An identity that holds for any number holds
     /// for this one.
     Constant(u64),
-    /// What a function gives that is no rational one.
+    /// Value of a function that is not rational.
     Call(usize),
 }
 
@@ -60,7 +60,7 @@ impl Ord for Monomial {
                     Ordering::Equal => {}
                     decided => return decided,
                 },
-                // The other one lacks the symbol that comes first.
+                // The second monomial lacks the leading symbol.
                 decided => return decided.reverse(),
             }
         }
@@ -128,7 +128,7 @@ impl Polynomial {
         let first = leading.root()?;
         let mut root = Self([(first.clone(), whole)].into());
         let mut rest = self.plus(-1, &root.times(&root)?)?;
-        // Each term of the root takes the leading term of what is left away.
+        // Each term of the root removes the leading term of the remainder.
         for _ in 0..self.0.len() {
             let Some((monomial, &coefficient)) = rest.0.last_key_value() else { break };
             let twice = whole.checked_mul(2)?;

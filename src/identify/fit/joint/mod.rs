@@ -1,4 +1,4 @@
-//! One axis from the features of several experiments of one vehicle: common inertia, drag and delay.
+//! An axis from the features of several experiments with the same vehicle: common inertia, drag and delay.
 //!
 //! Nonlinear least squares over the logarithms of period and amplitude against the exact limit cycle (Levenberg-Marquardt).
 
@@ -196,7 +196,7 @@ impl Joint {
         &self.minimum.residuals
     }
 
-    /// Root of the sum of squares of the residuals over the degrees of freedom: what is left for one measured number, the
+    /// Root of the sum of squares of the residuals over the degrees of freedom: the residual of a single measured number, the
     /// parameters having taken up their share.
     #[must_use]
     pub fn residual_rms(&self) -> f64 {

@@ -29,7 +29,7 @@ struct ForceSegment {
 /// Where the integration has to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum IntegrationStop {
-    /// The force enters its next segment and jumps by so much.
+    /// The force enters its next segment with this jump.
     Segment { jump: f64 },
     /// The force bends here; only the step's length matters.
     Refine,

@@ -1,7 +1,7 @@
 //! When the command changed within a gap of the log: at one of the instants of the samples that are missing, and the readings after the
 //! gap tell which.
 //!
-//! A switching that is off by one sample leaves the vehicle off by many times the error of a reading. A variance about the mean
+//! A switching misplaced by a sample displaces the motion by many times the error of a reading. A variance about the mean
 //! instant says less: readings within the gap's span of instants come before that mean as often as after it.
 
 use super::filter::{self, Evaluation};
@@ -10,9 +10,9 @@ use super::observations::Observations;
 
 /// Share of the likelihood from which on an instant counts as known.
 const CERTAIN: f64 = 0.999;
-/// Every so-many-th switching is tried at once: those between are left open, so that the filter finds back to the readings.
+/// Every second switching is tried at once: the switchings between stay uncertain, so that the filter converges back to the readings.
 const APART: usize = 2;
-/// Part of the time between instants by which one that is known less well may move without being another.
+/// Part of the time between candidate instants by which a less certain instant may move and still count as the same.
 const SAME: f64 = 0.1;
 
 /// The record with its switchings in gaps where the model makes it likeliest, as far as the readings tell; `None` where no switching is

@@ -107,7 +107,7 @@ impl NoiseParameter {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct VehicleModel {
     pub(super) values: [f64; Parameter::COUNT],
-    /// Estimated; the others are known, or zero because the model has no such term.
+    /// Whether each is estimated; the rest are given, or zero because the model lacks the term.
     pub(super) free: [bool; Parameter::COUNT],
     /// Logarithms; minus infinity for what the model has not.
     pub(super) noise: [f64; NoiseParameter::COUNT],

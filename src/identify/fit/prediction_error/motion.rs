@@ -1,4 +1,4 @@
-//! One step of the motion, with its transition matrix and the weights of what drives it.
+//! One step of the motion, with its transition matrix and the weights of its inputs.
 
 /// Coefficients of the axis's equation.
 #[derive(Clone, Copy, Debug)]

@@ -57,7 +57,7 @@ impl Observations {
 
     /// Puts a switching at the mean of its instants.
     fn place(&mut self, kick: usize, at_s: f64, variance_s2: f64) {
-        // The first piece begins with the record, each other one with a switching.
+        // The first piece begins with the record, each later piece with a switching.
         self.signal.pieces[kick + 1].begin_s = at_s;
         let kick = &mut self.signal.kicks[kick];
         (kick.at_s, kick.variance_s2) = (at_s, variance_s2);

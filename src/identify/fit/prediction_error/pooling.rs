@@ -79,7 +79,7 @@ mod tests {
             approx::assert_relative_eq!(found, expected, max_relative = 1e-14);
         }
         approx::assert_relative_eq!(apart.unwrap_or_default(), 2f64.sqrt(), max_relative = 1e-14);
-        // The one per cent point of chi-square with one degree of freedom is 6.635.
+        // The 1 % point of chi-square with 1 degree of freedom is 6.635.
         let gap = |square: f64| pooled(&[estimate(0.0, 1.0), estimate((2.0 * square).sqrt(), 1.0)]).1.is_some();
         assert!(gap(6.64) && !gap(6.63));
     }

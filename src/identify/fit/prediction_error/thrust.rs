@@ -1,6 +1,6 @@
 //! What records of different levels say about the thrust.
 //!
-//! One record gives every parameter in units of its own command, so that thrust which is not proportional to the command
+//! A record gives every parameter in units of its own command, so thrust that is not proportional to the command
 //! multiplies all of them alike. At level C, thrust beyond a dead zone d is C - d and thrust with exponent p is C^p: either
 //! makes a line of the records, `C / alpha` over C and `ln(C / alpha)` over `ln C`, which two levels draw and three can bend.
 
@@ -55,7 +55,7 @@ pub(super) struct Drawn {
     alpha: f64,
     /// Its standard deviation over its value.
     pub(super) relative: f64,
-    /// Probability that records of it scatter more about it; one where nothing is left to scatter.
+    /// Probability, under the law, of more scatter; 1 without degrees of freedom.
     pub(super) probability: f64,
 }
 

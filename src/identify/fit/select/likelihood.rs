@@ -8,8 +8,8 @@ use crate::identify::fit::shooting::{Fit, RecordFit};
 
 /// Odds against each other law from which a law counts as recognised: 95 %.
 pub(crate) const DECIDED: f64 = 19.0;
-/// Odds of a simple law against the mixed one from which the simple one counts: the mixed law explains whatever the simple one
-/// does, so that no record speaks against it by more than the charge for its parameter.
+/// Odds against the mixed law from which a simple law is chosen: the mixed law contains the simple
+/// laws, so no record refutes it by more than the charge for its parameter.
 pub(crate) const DECIDED_AGAINST_MIXED: f64 = 4.0;
 
 /// The laws fitted, and which of them the records speak for.
@@ -38,7 +38,7 @@ impl TryFrom<UncheckedChoice> for Choice {
     }
 }
 
-/// Each of `laws` fitted to all records at once, in their order; the simple ones in parallel, then the mixed one, which contains
+/// Each of `laws` fitted to all records at once, in their order; simple laws in parallel, then the mixed law, which contains
 /// them, from where they ended.
 ///
 /// Each result is that of [`Fit::records`].

@@ -26,7 +26,7 @@ pub(super) struct Link {
     pub(super) defect: [f64; 2],
 }
 
-/// What the whole record says about the common unknowns, and how its own follow from them.
+/// Normal equations of a record for the common unknowns, and the map from them to its own unknowns.
 #[derive(Clone, Debug)]
 pub(super) struct CondensedChain {
     /// For each shooting interval the row that gives its instant.
@@ -98,7 +98,7 @@ impl CondensedChain {
         self.instants.iter().map(|row| row[(0, 0)].abs().ln())
     }
 
-    /// The record's own unknowns (position, velocity, disturbance), given the common ones, for one right-hand side.
+    /// The record's own unknowns (position, velocity, disturbance), given the common unknowns, for a right-hand side.
     pub(super) fn own(&self, shared: &[f64; SHARED], side: usize) -> Result<[f64; OWN], IdentifyError> {
         let mut own = [0.0; OWN];
         for row in (0..OWN).rev() {

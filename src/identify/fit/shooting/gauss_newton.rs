@@ -113,7 +113,7 @@ impl<'a> ShotTrajectory<'a> {
         let mut edges = edges(record, between);
         let (time, half_period_s, range) = (record.time_s(), signal.half_period_s, signal.span);
         let last = time[time.len() - 1];
-        // What acted before the log began is not known: the model starts when all of its commands are.
+        // Commands before the log are unknown: the model starts once every delayed command lies in the log.
         let begin = (time[0] + delay_s).min(time[time.len() / 2]);
         let mut nodes = vec![begin];
         let acting = |edge: &Edge| edge.time_s + delay_s;

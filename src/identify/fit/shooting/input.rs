@@ -20,7 +20,7 @@ pub enum Between {
 /// A change of the command.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Edge {
-    /// When, on the log's clock; the middle of what is possible where it is not known.
+    /// When, on the log's clock; the middle of its interval where it is uncertain.
     pub(super) time_s: f64,
     /// Command afterwards.
     pub(super) input: f64,

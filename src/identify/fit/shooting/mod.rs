@@ -51,14 +51,14 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// A drag law, and what is known of the delay.
+    /// A drag law, and the delay, given or to be estimated.
     #[must_use]
     pub fn new(law: DragLaw, delay: Delay) -> Self {
         Self { law, delay, between: None, quantum: None }
     }
 
-    /// What the command does between samples. Else a switched command is taken to change at samples or anywhere between them,
-    /// any other to be held or to pass evenly or with bends from sample to sample, whichever is likeliest.
+    /// The command's course between samples. By default a switched command is taken to change at samples or anywhere between them,
+    /// a continuous command to be held, linear or curved from sample to sample, whichever is likeliest.
     #[must_use]
     pub fn with_between(self, between: Between) -> Self {
         Self { between: Some(between), ..self }
@@ -83,7 +83,7 @@ impl Fit {
     }
 
     /// As [`records`](Self::records), where fits to the same records are there already: under another law, or with another
-    /// delay. The search starts from them too, and the likeliest end is taken, so that a law is never found less likely than one
+    /// delay. The search starts from them too, and the likeliest end is taken, so that a law is never less likely than a law
     /// that it contains.
     ///
     /// # Errors

@@ -138,7 +138,7 @@ impl GaussNewton<'_> {
     }
 }
 
-/// With so much more variance, and not below `least`.
+/// Adds `variance`; the interval's lower end is at least `least`.
 fn wider(estimate: Estimate, variance: f64, least: f64) -> Estimate {
     let wider = |before: ConfidenceInterval| {
         let after = ConfidenceInterval::normal(estimate.value, (before.std * before.std + variance).sqrt());
@@ -159,7 +159,7 @@ fn mean_square(values: &[f64], about: f64) -> f64 {
 
 impl RecordFit {
     /// The same model, its errors with what is unknown of the input between samples: `other` is the fit under the other of two
-    /// treatments of the input between which there is a continuum. One between them is as likely as the parabola through both likelihoods says, and the
+    /// treatments of the input between which there is a continuum. The likelihood of an intermediate treatment is the parabola through both likelihoods, and the
     /// estimate moves along with it.
     pub(super) fn widened(mut self, other: &Self) -> Self {
         let lost = (self.evidence - other.evidence).max(0.5);

@@ -1,4 +1,4 @@
-//! How the states, and what is known of them, go over a step.
+//! Propagation of the state estimate and its covariance over a step.
 
 use crate::identify::fit::prediction_error::motion::MotionStep;
 
@@ -103,8 +103,8 @@ impl Transition {
     }
 }
 
-/// A first-order low pass over a step in which its input is the parabola through its beginning, middle and end: what is left
-/// of its output, the weights of the three, and the derivatives of all with respect to its time.
+/// A first-order low pass over a step in which its input is the parabola through its beginning, middle and end: the decay
+/// of its output, the three weights, and the derivatives of all with respect to the time constant.
 #[derive(Clone, Copy)]
 pub(super) struct LowPass {
     pub(super) kept: f64,
@@ -148,8 +148,8 @@ fn dot(weights: &[f64; 3], values: &[f64; 3]) -> f64 {
     weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
 }
 
-/// The late speed at the beginning, in the middle and at the end of a step over which the velocity is a line, and what is left
-/// there of the first.
+/// The late speed at the beginning, in the middle and at the end of a step over which the velocity is a line, and the weight
+/// of its initial value at each.
 #[derive(Clone, Copy)]
 pub(super) struct LateSpeed {
     pub(super) values: [f64; 3],
