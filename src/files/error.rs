@@ -1,4 +1,4 @@
-//! What is wrong with a file.
+//! Errors of files.
 
 /// Why a file cannot be read or written. Names are cut to a readable length.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -28,7 +28,7 @@ pub enum FileError {
         /// The other.
         other: String,
     },
-    /// It cannot be written; what was there before is still there.
+    /// It cannot be written; its former content is unchanged.
     #[error("cannot write {name}: {reason}; choose a place that you may write to")]
     Unwritable {
         /// The file or folder.

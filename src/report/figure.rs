@@ -32,7 +32,7 @@ pub enum Mark {
 /// Points that belong together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// Name in the legend; empty to leave it out, and then drawn in the colour of the series before.
+    /// Name in the legend; empty for none, and then drawn in the colour of the series before.
     pub label: String,
     /// How it is drawn.
     pub mark: Mark,
@@ -83,14 +83,14 @@ impl Panel {
         Self { rows: names.into_iter().collect(), ..self }
     }
 
-    /// The panel with one more series.
+    /// The panel with a further series.
     #[must_use]
     pub fn with(mut self, label: &str, mark: Mark, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         self.series.push(Series { label: label.to_owned(), mark, points: points.into_iter().collect() });
         self
     }
 
-    /// The range of one coordinate over all series, with a margin.
+    /// The range of a coordinate over all series, with a margin.
     fn range(&self, of: fn(&(f64, f64)) -> f64) -> (f64, f64) {
         let values = self.series.iter().flat_map(|series| series.points.iter().map(of));
         let (from, to) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(from, to), v| (from.min(v), to.max(v)));

@@ -35,12 +35,12 @@ pub struct Model {
     pub fit_percent: Option<f64>,
     /// Root mean square of the residuals, in output units.
     pub residual_rms: Option<f64>,
-    /// Log-likelihood of all samples; comparable between models of one method only.
+    /// Log-likelihood of all samples; comparable only between models of the same method.
     pub log_likelihood: Option<f64>,
 }
 
 impl Model {
-    /// The constant force, where the model is from one record.
+    /// The constant force, where the model is from a single record.
     #[must_use]
     pub fn delta(&self) -> Option<Estimate> {
         self.deltas.single()

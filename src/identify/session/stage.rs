@@ -1,8 +1,8 @@
-//! What an identification is at, for who waits.
+//! Stages of an identification, for progress reports.
 
 use core::fmt;
 
-/// What an identification is at.
+/// The current stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Stage {

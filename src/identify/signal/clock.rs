@@ -17,7 +17,7 @@ const PHASE_SHARE: f64 = 0.1;
 const ON_GRID: f64 = 1e-3;
 const OFF_GRID: f64 = 0.28;
 
-/// Times of a regular grid through the stamps; `None` where they are on one already, or on none.
+/// Times of a regular grid through the stamps; `None` if they are regular already, or fit no grid.
 pub(crate) fn grid(record: &Record) -> Option<Vec<f64>> {
     let (time, interval) = (record.time_s(), record.interval_s());
     let fit = |numbers: &[f64]| {

@@ -1,4 +1,4 @@
-//! Roundings that repeat: where the cycle locks to the sampling, wholly or nearly, many half cycles are one experiment made several
+//! Roundings that repeat: where the cycle locks to the sampling, wholly or nearly, many half cycles are a single experiment made several
 //! times, and their readings count once.
 
 use super::numbers::ends;
@@ -8,8 +8,8 @@ const MOST_COMPARED: usize = 64;
 /// The part of a step from which on roundings no longer correlate.
 const STILL_ALIKE: f64 = 0.211;
 
-/// Half cycles of rounded readings that repeat, by whole steps apart or by their mirror image too, are one experiment made
-/// several times: each reading counts one over the number of its likes.
+/// Half cycles of rounded readings that repeat, by whole steps apart or by their mirror image too, are a single experiment made
+/// several times: each reading weighs 1/n, with n the number of its repetitions.
 pub(crate) fn weights_of_repeats(output: &[f64], input: &[f64], step: f64) -> Vec<f64> {
     let mut bounds = vec![0];
     bounds.extend((1..input.len()).filter(|k| input[*k] != input[*k - 1]));
@@ -49,7 +49,7 @@ fn likeness(half: &[f64], other: &[f64]) -> f64 {
     if d < STILL_ALIKE { 1.0 - 6.0 * d * (1.0 - d) } else { 0.0 }
 }
 
-/// At most so many of the numbers below a count, spread evenly and in step with no period (Weyl 1916).
+/// At most `most` of the numbers below `count`, spread evenly and in step with no period (Weyl 1916).
 fn spread_over(count: usize, most: usize) -> impl Iterator<Item = usize> {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let all = count <= most;

@@ -15,7 +15,7 @@ pub(super) struct Force {
     pub(super) by_ramp: f64,
 }
 
-/// The force from one instant on. `input` and `input_by_ramp` are what the lag is fed with.
+/// The force from an instant on. `input` and `input_by_ramp` are the lag's input.
 #[derive(Clone, Copy, Debug)]
 struct ForceSegment {
     begin_s: f64,
@@ -37,7 +37,7 @@ pub(super) enum IntegrationStop {
     Kick { jump: f64, variance_s2: f64 },
 }
 
-/// The force under one set of parameters.
+/// The force for given parameters.
 #[derive(Clone, Debug)]
 pub(super) struct Actuator {
     lag_s: f64,

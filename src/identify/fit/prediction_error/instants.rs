@@ -66,7 +66,7 @@ fn shares(open: &Observations, group: &[usize], model: &VehicleModel) -> Option<
     Some(values.into_iter().map(share).collect())
 }
 
-/// Whether any switching is at another instant, or known otherwise.
+/// Whether the instant of a switching differs, or its variance.
 pub(super) fn differ(a: &Observations, b: &Observations) -> bool {
     a.kicks.iter().zip(&b.kicks).any(|(a, b)| {
         let apart = (a.at_s - b.at_s).abs().max((a.variance_s2.sqrt() - b.variance_s2.sqrt()).abs());
@@ -130,7 +130,7 @@ mod tests {
             let moved = before.kicks.iter().filter(|kick| kick.choices > 1).count();
             assert!(moved >= 8 && differ(&before, &after), "{moved} in gaps");
             for ((found, at), piece) in after.kicks.iter().zip(&whole.kicks).zip(&after.pieces[1..]) {
-                // Between samples the interval after the true one is as likely as the one that ends with it.
+                // Between samples the interval after the true instant is as likely as the interval before it.
                 let off = if switching == SwitchingInstant::Between && found.choices > 1 { 0.11 } else { 1e-9 };
                 assert!((found.at_s - at.at_s).abs() < off, "{switching:?}: {found:?} for {at:?}");
                 assert!(found.variance_s2 <= at.variance_s2 + 0.003, "{switching:?}: {found:?} for {at:?}");

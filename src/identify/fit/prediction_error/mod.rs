@@ -1,5 +1,5 @@
 //! Prediction-error estimation: a Kalman filter predicts each reading from those before it, and the estimates are the
-//! parameters, of the motion and of what disturbs it together, that make its innovations likeliest.
+//! parameters of motion and disturbances that maximise the likelihood of its innovations.
 //!
 //! The vehicle is
 //! `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + memory s + k x = a(t - T_d) + delta + w(t)`,
@@ -75,7 +75,7 @@ pub struct Estimator {
     law: Option<DragLaw>,
 }
 
-/// Weight of a drag law's models below which the other laws are settled.
+/// Weight of a drag law's models below which the remaining laws are excluded.
 const DISTINGUISHABLE: f64 = 0.05;
 
 impl Estimator {
@@ -85,13 +85,13 @@ impl Estimator {
         Self { delay, law: None }
     }
 
-    /// The drag law is known.
+    /// The drag law is given.
     #[must_use]
     pub fn with_law(self, law: DragLaw) -> Self {
         Self { law: Some(law), ..self }
     }
 
-    /// The answer to one record.
+    /// The answer to a single record.
     ///
     /// # Errors
     /// [`IdentifyError::OutOfDomain`] for an output or a command that never changes, [`IdentifyError::CommandSign`] for an output that
@@ -119,7 +119,7 @@ impl Estimator {
 }
 
 impl Estimator {
-    /// The answer to several records of one vehicle: each on its own, then together, with a test whether they agree.
+    /// The answer to several records of the same vehicle: each on its own, then together, with a test whether they agree.
     ///
     /// # Errors
     /// As [`record`](Self::record), of the first record that has no answer; [`IdentifyError::TooFewEquations`] without records.

@@ -1,4 +1,4 @@
-//! One number from the estimates of several records.
+//! A pooled estimate from several records.
 
 use crate::identify::answer::distribution::chi_square_tail;
 use crate::identify::answer::{ConfidenceInterval, Estimate};
@@ -15,14 +15,14 @@ pub(super) fn mean(numbers: &Measured) -> (f64, f64) {
     (numbers.iter().map(|(value, std)| value * std.powi(-2)).sum::<f64>() / weight, weight.sqrt().recip())
 }
 
-/// Probability that numbers scatter more if they are one; one for a single number.
+/// Probability of more scatter if the numbers are equal; 1 for a single number.
 pub(super) fn probability_of_one(numbers: &Measured) -> f64 {
     let (mean, _) = mean(numbers);
     let scatter: f64 = numbers.iter().map(|(value, std)| ((value - mean) / std).powi(2)).sum();
     if numbers.len() > 1 { chi_square_tail(scatter, numbers.len() - 1) } else { 1.0 }
 }
 
-/// Values with their standard deviations; `None` where one has none.
+/// Values with their standard deviations; `None` unless all have one.
 pub(super) fn known(estimates: &[Estimate]) -> Option<Measured> {
     let one = |estimate: &Estimate| {
         let std = estimate.spread.map(ConfidenceInterval::deviation).filter(|std| *std > 0.0);

@@ -1,4 +1,4 @@
-//! The paper's rule for two experiments (eqs. 41-42): the right drag law is the one whose coefficient does not change.
+//! The paper's rule for two experiments (eqs. 41-42): the right drag law has the same coefficient in both.
 
 use crate::numeric::Real;
 

@@ -52,7 +52,7 @@ impl Covariance {
 /// One error: of the common unknowns, and of each record's disturbance.
 type Errors = Vec<([f64; SHARED], Vec<f64>)>;
 
-/// Errors whose squares add up to the inverse of the information: one for each independent direction.
+/// Errors whose squares add up to the inverse of the information: an error vector for each independent direction.
 fn unit(
     search: &GaussNewton<'_>,
     linearised: &[LinearisedTrajectory],

@@ -15,20 +15,20 @@ pub(super) const LATE: usize = 5;
 #[derive(Clone, Copy)]
 pub(super) struct Transition {
     pub(super) motion: [[f64; 2]; 2],
-    /// What a unit of process force makes of position and velocity.
+    /// Weights of the process force in position and velocity.
     pub(super) by_force: [f64; 2],
     pub(super) force: f64,
     pub(super) colour: f64,
-    /// What position, velocity, process force and the filtered position itself make of the filtered position.
+    /// Weights of position, velocity, process force and filtered position in the filtered position.
     pub(super) filtered: [f64; 4],
-    /// What the late speed makes of position and velocity.
+    /// Weights of the late speed in position and velocity.
     pub(super) by_late: [f64; 2],
-    /// What the late speed itself, and velocity at the beginning and at the end, make of it.
+    /// Weights of the late speed, and of the velocity at beginning and end, in the late speed.
     pub(super) late: [f64; 3],
 }
 
 impl Transition {
-    /// Of position and velocity alone: nothing is left of the rest.
+    /// Of position and velocity alone: further states become zero.
     pub(super) fn new(step: &MotionStep, alpha: f64) -> Self {
         let gained = |axis: usize| step.begin_weight[axis] + step.middle_weight[axis];
         Self {
