@@ -22,7 +22,7 @@ const UNSEEN: f64 = 0.05;
 pub(crate) type Information = SMatrix<f64, 4, 4>;
 
 /// The information of a record that the axis made, read with an error of this variance, and the part of its readings that count
-/// where cycles repeat reading for reading. `None` where the motion diverges, or the record has no cycle.
+/// where cycles repeat reading for reading. `None` where the motion diverges, or the information on the record's own parameters is singular.
 pub(crate) fn of_record(record: &Record, axis: &DragAxis<f64>, variance: f64) -> Option<(Information, f64)> {
     let mut observations = Observations::new(record, Clock::Stamps, SwitchingInstant::AtSamples);
     observations.skip(axis.delay_s() + UNSEEN * observations.half_period_s);
