@@ -25,6 +25,7 @@
 //! | `std` | records and logs, fits, certificates, claims, the paper |
 //! | `report` | figures and pages |
 //! | `command` (default) | the command `selfosc` |
+//! | `theory` (default) | its subcommands `reproduce` and `verify` |
 //! | `internals` | what the tests of this package reach into: no promise, nothing documented |
 #![cfg_attr(not(feature = "std"), no_std)]
 // What only tests reach is public with the feature `internals` and is checked there.

@@ -15,7 +15,7 @@ use super::{CommandError, Outcome, files, refused, write_json};
 use crate::experiment::{Columns, TimeUnit};
 use crate::files::{FileError, Files, Input};
 use crate::identify::document::RefusalDocument;
-use crate::identify::{Delay, DragLaw, Identification, Method, Refusal, Session, Settings};
+use crate::identify::{Delay, DragLaw, Identification, Method, Refusal, Session, Settings, Stage};
 use crate::report::identification as page;
 
 /// A vehicle's inertia, drag, disturbance and delay from logs of relay experiments, with 95 % intervals.
@@ -131,6 +131,12 @@ pub(super) struct Arguments {
     /// Writes one HTML file with figures, which needs no network
     #[arg(long, value_name = "OUT.html")]
     report: Option<PathBuf>,
+    /// Writes the samples with the reported model's outputs and its residuals as CSV, angles in rad
+    #[arg(long, value_name = "OUT.csv")]
+    samples: Option<PathBuf>,
+    /// Says each stage in a line on standard error
+    #[arg(long)]
+    progress: bool,
     /// Prints one JSON document
     #[arg(long)]
     json: bool,
@@ -177,6 +183,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     let report = arguments.report.as_ref().map(|path| known.output(path)).transpose().given("--report")?;
     let certificate =
         arguments.certificate.as_ref().map(|path| known.output(path)).transpose().given("--certificate")?;
+    let samples = arguments.samples.as_ref().map(|path| known.output(path)).transpose().given("--samples")?;
     let found = match arguments.identify(&logs, &validation) {
         Ok(found) => found,
         Err(refusal) => return arguments.refuse(refusal, output),
@@ -184,6 +191,9 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     if let Some(report) = report {
         let document = page::document(&found).from_where(files::provenance(&known));
         report.write(document.html()?.as_bytes()).given("--report")?;
+    }
+    if let Some(samples) = samples {
+        samples.write(page::samples(&found).as_bytes()).given("--samples")?;
     }
     let proof = found.bounded().and_then(|bounded| bounded.certificate());
     let written = match (certificate, proof) {
@@ -216,14 +226,19 @@ impl Arguments {
         let settings = self.settings();
         settings.check()?;
         // Drawn on standard error, and only where that is a terminal.
-        let progress = ProgressBar::new_spinner();
-        progress.enable_steady_tick(Duration::from_millis(100));
+        let progress = if self.progress { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
+        if !progress.is_hidden() {
+            // By a thread, which a browser has not.
+            progress.enable_steady_tick(Duration::from_millis(100));
+        }
+        let say =
+            |stage: Stage| if self.progress { eprintln!("{stage}") } else { progress.set_message(stage.to_string()) };
         let session = Session::new(settings).with_columns(self.columns());
         let session = logs.iter().try_fold(session, |session, log| session.reader(log.name(), log.bytes()));
         let session = session.and_then(|session| {
             validation.iter().try_fold(session, |session, log| session.validation_reader(log.name(), log.bytes()))
         });
-        let found = session.and_then(|session| session.identify_with(|stage| progress.set_message(stage.to_string())));
+        let found = session.and_then(|session| session.identify_with(say));
         progress.finish_and_clear();
         found
     }

@@ -6,6 +6,7 @@
 mod autotune;
 mod axis;
 mod balance;
+#[cfg(feature = "theory")]
 mod certificates;
 mod design;
 mod df;
@@ -18,12 +19,14 @@ mod lines;
 mod manual;
 mod number;
 mod predict;
+#[cfg(feature = "theory")]
 mod reproduce;
 mod run;
 mod simulate;
 mod suggestion;
 mod terminal;
 mod tune;
+#[cfg(feature = "theory")]
 mod verify;
 
 use std::ffi::{OsStr, OsString};
@@ -57,7 +60,9 @@ struct Command {
 
 #[derive(Debug, Subcommand)]
 enum Action {
+    #[cfg(feature = "theory")]
     Reproduce(reproduce::Arguments),
+    #[cfg(feature = "theory")]
     Verify(verify::Arguments),
     Df(df::Arguments),
     Balance(balance::Arguments),
@@ -75,7 +80,9 @@ enum Action {
 impl Action {
     fn run(&self, output: &mut impl Write) -> Result<Outcome, CommandError> {
         match self {
+            #[cfg(feature = "theory")]
             Self::Reproduce(arguments) => reproduce::run(arguments, output),
+            #[cfg(feature = "theory")]
             Self::Verify(arguments) => verify::run(arguments, output),
             Self::Df(arguments) => df::run(arguments, output),
             Self::Balance(arguments) => balance::run(arguments, output),

@@ -33,7 +33,7 @@ pub use {
         ConfidenceInterval, Delay, Disturbances, DragVerdict, Estimate, LawEvidence, Reason, Reported, Term, Trust,
         Warning,
     },
-    fit::prediction_error::Prediction,
+    fit::prediction_error::{PredictedMotion, Prediction},
     session::{
         Caution, Conclusion, Guaranteed, Identification, Method, Model, Refusal, Session, Settings, SettingsError,
         Source, Stage, Validation, document,

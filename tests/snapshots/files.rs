@@ -82,7 +82,7 @@ fn holds(folder: &Path) -> Vec<(String, Vec<u8>, u64)> {
 }
 
 /// A call of each subcommand that does little, those that write files with `OUT` in place of the file.
-const CALLS: [&str; 16] = [
+const CALLS: [&str; 17] = [
     "reproduce --only table3",
     "reproduce --only table3 --out OUT",
     "verify --claim lemma-1 --cases 1",
@@ -95,6 +95,7 @@ const CALLS: [&str; 16] = [
     "simulate --alpha 1 --beta 1 --relay 1 --half-width 0.2",
     "design --alpha 1 --beta 1 --level 1 --time 30",
     "identify a.csv --method iso --delay 0 --report OUT",
+    "identify a.csv --method iso --delay 0 --samples OUT",
     "identify a.csv --method bounded --drag linear --delay 0 --budget 100 --certificate OUT",
     "tune --model model.json --bandwidth 0.5",
     "completions bash",

@@ -2,9 +2,11 @@
 
 mod bounds;
 mod figures;
+mod samples;
 mod tables;
 
 pub(crate) use bounds::{bounds_tables, bounds_verdict};
+pub(crate) use samples::samples;
 pub(crate) use tables::{feature_table, model_tables, reasons, summary, verdict};
 
 use super::{Document, Section};

@@ -37,7 +37,7 @@ mod thrust;
 
 pub use candidate::{Candidate, RecordAnswer};
 pub use model::Parameter;
-pub use prediction::Prediction;
+pub use prediction::{PredictedMotion, Prediction};
 pub use several::Several;
 
 use rayon::prelude::*;

@@ -27,20 +27,37 @@ pub struct Prediction {
     pub disturbance: f64,
 }
 
+/// A record's outputs as an answer predicts them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PredictedMotion {
+    /// How well it does.
+    pub prediction: Prediction,
+    /// The first sample predicted.
+    pub first_sample: usize,
+    /// The outputs from there on, in output units; a reading that counts as an outlier stands for itself.
+    pub output: Vec<f64>,
+}
+
 impl Reported {
     /// Predicts a record, with the thrust of its command's level if the fitted records determined the thrust law; `None` where
     /// the motion diverges, or the command never leaves the dead zone.
     #[must_use]
     pub fn predict(&self, record: &Record) -> Option<Prediction> {
+        Some(self.predicted_motion(record)?.prediction)
+    }
+
+    /// As [`predict`](Self::predict), with the outputs.
+    #[must_use]
+    pub fn predicted_motion(&self, record: &Record) -> Option<PredictedMotion> {
         let (low, high) =
             record.input().iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), u| (u.min(low), u.max(high)));
         let vehicle = self.at_level(0.5 * (high - low))?;
         let ways = [SwitchingInstant::AtSamples, SwitchingInstant::Between];
         let ends = ways.into_iter().filter_map(|switching| vehicle.predicted(record, switching));
-        ends.min_by(|a, b| a.rms.total_cmp(&b.rms))
+        ends.min_by(|a, b| a.prediction.rms.total_cmp(&b.prediction.rms))
     }
 
-    fn predicted(&self, record: &Record, switching: SwitchingInstant) -> Option<Prediction> {
+    fn predicted(&self, record: &Record, switching: SwitchingInstant) -> Option<PredictedMotion> {
         let mut observations = Observations::new(record, Clock::Stamps, switching);
         observations.skip(self.mean_delay_s() + UNSEEN * observations.half_period_s);
         let State { position, velocity } = observations.start_state();
@@ -75,10 +92,12 @@ impl Reported {
         let variation = seen.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
         // Outliers have no weight and no error.
         let square = pass.innovations.iter().map(|innovation| innovation.error * innovation.error).sum::<f64>();
-        Some(Prediction {
+        let prediction = Prediction {
             fit_percent: 100.0 * (1.0 - (square / variation.max(f64::MIN_POSITIVE)).sqrt()),
             rms: (square / count).sqrt(),
             disturbance: model.value(Parameter::Disturbance),
-        })
+        };
+        let output = seen.iter().zip(&pass.innovations).map(|(reading, innovation)| reading - innovation.error);
+        Some(PredictedMotion { prediction, first_sample: observations.first, output: output.collect() })
     }
 }

@@ -1,0 +1,103 @@
+/** Curves over time that are zoomed by dragging and reset by a double click; all of a record share their cursor. */
+import uPlot from "uplot";
+import { h } from "./element";
+import type { Samples } from "./protocol";
+
+export interface Curve {
+  label: string;
+  values: ArrayLike<number>;
+  /** A colour of the style sheet: `--readings`, `--model`, `--command`. */
+  colour: string;
+  points?: boolean;
+  /** Held until the next sample. */
+  held?: boolean;
+}
+
+/** Does one thing at a time, so that the page answers in between. */
+let queue: Promise<unknown> = Promise.resolve();
+const later = (act: () => void) => (queue = queue.then(() => new Promise((done) => setTimeout(() => done(act())))));
+
+/** More readings than these are drawn as a line: points would hide each other. */
+const MOST_POINTS = 3000;
+
+const style = (name: string) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+export function plot(title: string, time: ArrayLike<number>, curves: Curve[], x: string, y: string, band?: [number, number], key = "record"): HTMLElement {
+  const holder = h("figure", { class: "plot", role: "img", "aria-label": `${title}: ${y} over ${x}, ${curves.map((curve) => curve.label).join(", ")}` });
+  const draw = () => {
+    const axis = (label: string, size: number): uPlot.Axis => ({
+      label,
+      size,
+      space: size > 50 ? 28 : 50,
+      stroke: style("--text"),
+      font: "12px system-ui, sans-serif",
+      labelFont: "12px system-ui, sans-serif",
+      grid: { stroke: style("--grid"), width: 1 },
+      ticks: { stroke: style("--grid"), width: 1 },
+    });
+    const series = curves.map(({ label, colour, points, held, values }): uPlot.Series => {
+      const dots = points && values.length <= MOST_POINTS;
+      return {
+        label,
+        stroke: style(colour),
+        width: dots ? 0 : 1.5,
+        paths: dots ? () => null : held ? uPlot.paths.stepped!({ align: 1 }) : undefined,
+        points: dots ? { show: true, size: 4, fill: style(colour), stroke: style(colour) } : { show: false },
+        value: (_, value) => (value === null || !Number.isFinite(value) ? "\u2013" : value.toPrecision(5)),
+      };
+    });
+    const options: uPlot.Options = {
+      title,
+      width: Math.max(holder.clientWidth, 280),
+      height: curves.some((curve) => curve.held) ? 150 : 260,
+      series: [{ label: x, value: (_, value) => (value === null ? "\u2013" : value.toPrecision(6)) }, ...series],
+      axes: [axis(x, 44), axis(y, 56)],
+      scales: { x: { time: false } },
+      cursor: { sync: { key } },
+      bands: band ? [{ series: band, fill: style("--band") }] : undefined,
+    };
+    holder.replaceChildren();
+    return new uPlot(options, [time, ...curves.map((curve) => curve.values)] as unknown as uPlot.AlignedData, holder);
+  };
+  let drawn: uPlot | null = null;
+  let asked = false;
+  const fit = new ResizeObserver(() => {
+    if (!drawn && !asked) {
+      asked = true;
+      later(() => (drawn = draw()));
+    } else if (drawn && Math.abs(drawn.width - holder.clientWidth) > 2) drawn.setSize({ width: Math.max(holder.clientWidth, 280), height: drawn.height });
+  });
+  fit.observe(holder);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+    drawn?.destroy();
+    drawn = draw();
+  });
+  return holder;
+}
+
+const DEGREES = 180 / Math.PI;
+
+/** Record with model and band, residuals, command, of each record. `angle`: the output is in radians and shown in degrees. */
+export function records(all: Samples[], names: string[], angle: boolean): HTMLElement[] {
+  const scale = angle ? DEGREES : 1;
+  const unit = angle ? " (deg)" : "";
+  return all.flatMap(({ time_s: time, output, input, model, residual }, index) => {
+    const in_degrees = (column: Float64Array, offset = 0) => column.map((value) => scale * (value + offset));
+    const known = residual.filter((value) => !Number.isNaN(value));
+    const rms = Math.sqrt(known.reduce((sum, value) => sum + value * value, 0) / Math.max(known.length, 1));
+    const shown: Curve[] = [{ label: "readings", values: in_degrees(output), colour: "--readings", points: true }];
+    const modelled = known.length > 0;
+    if (modelled) {
+      shown.push({ label: "model", values: in_degrees(model), colour: "--model" });
+      shown.push({ label: "+2 rms", values: in_degrees(model, 2 * rms), colour: "--edge" });
+      shown.push({ label: "\u22122 rms", values: in_degrees(model, -2 * rms), colour: "--edge" });
+    }
+    const key = `record ${index}`;
+    const title = names.length > 1 ? (names[index] ?? "") : "Record and model";
+    return [
+      plot(title, time, shown, "time (s)", `output${unit}`, modelled ? [3, 4] : undefined, key),
+      ...(modelled ? [plot("Residuals: readings less model", time, [{ label: "residual", values: in_degrees(residual), colour: "--readings", points: true }], "time (s)", `residual${unit}`, undefined, key)] : []),
+      plot("Command", time, [{ label: "command", values: input, colour: "--command", held: true }], "time (s)", "command", undefined, key),
+    ];
+  });
+}

@@ -1,0 +1,65 @@
+/** Counts of what a person waits for, and accessibility. Times are printed and judged by eye: a busy machine is no fault of the page. */
+import assert from "node:assert/strict";
+import { readFileSync, statSync } from "node:fs";
+import { createRequire } from "node:module";
+import { after, before, test } from "node:test";
+import { give, job, type Served, serve } from "./server";
+
+let served: Served;
+before(async () => {
+  served = await serve();
+});
+after(() => served.close());
+
+const good = readFileSync(new URL("../../fixtures/pool/heading.csv", import.meta.url));
+
+test("the module packed is below 1.2 MB", () => {
+  assert.ok(statSync(new URL("../dist/selfosc.wasm.br", import.meta.url)).size < 1_200_000);
+});
+
+test("paint and first model", async (t) => {
+  const { page } = await served.open();
+  const paint = await page.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime);
+  await give(page, [{ name: "heading.csv", buffer: good }]);
+  await give(page, [{ name: "heading.csv", buffer: good }]);
+  t.diagnostic(`first paint ${paint?.toFixed(0)} ms; 496 samples: ${await page.textContent("#status")}`);
+});
+
+test("the page answers while the module works", async (t) => {
+  const { page } = await served.open();
+  const [header, ...lines] = good.toString().trimEnd().split("\n");
+  // The record over and over: what the page does with many samples.
+  const length = 49.6;
+  const many = Array.from({ length: 120 }, (_, turn) => lines.map((line) => line.replace(/^[^,]*/, (time) => (Number(time) + turn * length).toFixed(3)))).flat();
+  await page.evaluate(() => {
+    const longest = ((globalThis as unknown as { longest: number }).longest = 0);
+    let last = performance.now() + longest;
+    const beat = () => {
+      const now = performance.now();
+      const state = globalThis as unknown as { longest: number };
+      state.longest = Math.max(state.longest, now - last - 4);
+      last = now;
+      setTimeout(beat, 0);
+    };
+    beat();
+  });
+  await give(page, [{ name: "long.csv", buffer: Buffer.from([header, ...many].join("\n")) }], 300_000);
+  const longest = await page.evaluate(() => (globalThis as unknown as { longest: number }).longest);
+  t.diagnostic(`${many.length} samples: ${await page.textContent("#status")}; longest pause of the page ${longest.toFixed(0)} ms`);
+});
+
+test("axe finds nothing serious", async () => {
+  const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+  for (const colorScheme of ["light", "dark"] as const) {
+    const { page } = await served.open({ colorScheme });
+    await give(page, [{ name: "heading.csv", buffer: good }]);
+    for (const name of ["identify", "autotune", "predict", "design"]) {
+      if (name !== "identify") await job(page, name);
+      // Through the debugger: the page's own policy lets no script in.
+      const found = await page.evaluate(`${axe}; axe.run()`);
+      const { violations } = found as { violations: { impact: string; id: string; nodes: { html: string }[] }[] };
+      const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
+      assert.deepEqual(serious.map(({ id, nodes }) => [name, colorScheme, id, nodes[0]?.html]), []);
+    }
+  }
+});
