@@ -1,13 +1,13 @@
-//! Table 4's rows as constraints on what all of them share: the loop's delay, an error of the relay level, and one vehicle.
+//! Table 4's rows as constraints on their common unknowns: the loop's delay, an error of the relay level, and the vehicle.
 //!
-//! Every printed number is known to half a unit of its column's last decimal. Asked is for which delay and which offset of the
+//! Every printed number has an uncertainty of half a unit of its column's last decimal. Question: for which delay and which offset of the
 //! relay level the paper's formulas (Table 3 with eq. 34) can be true of all rows at once. Boxes of these unknowns are halved;
 //! a box on which the rows' enclosures do not intersect has no solution for any numbers within the printed decimals.
 //! The remaining boxes enclose all solutions. If none remains, the searched box is proved to have none; nothing is claimed outside it.
 //! A remaining box need not hold a solution.
 //!
 //! Two simplifications make boxes harder to exclude, never easier: a reading may take another value in each quantity that is
-//! computed of it, and beside its own row's unknowns nothing ties it. The formulas are those of first harmonics: that no vehicle
+//! computed of it, and only its own row's unknowns constrain it. The formulas are those of first harmonics: that no vehicle
 //! fits them does not show that none has these limit cycles.
 
 use rayon::prelude::*;
@@ -35,7 +35,7 @@ const GROWTH: [f64; 2] = [256.0, 1.15];
 /// Speed in deg/s of which [`Quantity::Drag`] is the drag, over the speed.
 const SHARE_AT_DEG_S: f64 = 50.0;
 
-/// What is computed of a row.
+/// Quantity computed from a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Quantity {
     Alpha,
@@ -68,7 +68,7 @@ impl Quantity {
         !matches!(self, Self::LinearDragOverAlpha | Self::DragOverAlpha)
     }
 
-    /// What the table prints for it; a vehicle's are not in the table.
+    /// Its printed interval; a vehicle's parameters are not in the table.
     fn printed(self, row: &Yaw<Interval>) -> Interval {
         match self {
             Self::Alpha => row.alpha,
@@ -99,7 +99,7 @@ impl Quantity {
     }
 }
 
-/// What all rows must have in common.
+/// The unknowns common to all rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Common {
     /// A factor of the relay level in this range: printed over computed, of every quantity.
@@ -178,7 +178,7 @@ impl Case {
         })
     }
 
-    /// The smallest box about all that is left, `None` where that is nothing; and whether the search came to its end.
+    /// The hull of the remaining boxes, `None` if none remain; and whether the search was completed.
     fn left(&self, rows: &[Row]) -> (Option<Shared>, bool) {
         let (whole, mut hull) = (self.whole(), None);
         let found = subdivide(whole, BUDGETS[0], |at| {
@@ -196,7 +196,7 @@ impl Case {
         (hull, found.unsettled.is_none())
     }
 
-    /// Whether no box is left; `false` where enclosures meet at a point, `None` where the budget was spent.
+    /// Whether no box remains; `false` where enclosures meet at a point, `None` where the budget was spent.
     fn refuted(&self, rows: &[Row], budget: usize) -> Option<bool> {
         let mut met = false;
         let found = subdivide(self.whole(), budget, |at| {
@@ -288,10 +288,10 @@ pub enum Verdict {
     NotRefuted,
 }
 
-/// The answer to one question.
+/// The answer to a question.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Consistency {
-    /// What the rows are to agree in.
+    /// The quantities in which the rows must agree.
     pub question: &'static str,
     /// The error of the relay level that was allowed.
     pub allowed: &'static str,

@@ -17,7 +17,7 @@ pub struct Printed {
 }
 
 impl Printed {
-    /// Reads digits with at most one point and a sign, no more than 15 digits in all; `None` for anything else.
+    /// Reads digits with at most a point and a sign, no more than 15 digits in all; else `None`.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
@@ -47,7 +47,7 @@ impl Printed {
         Self { decimals: self.decimals + places, ..self }
     }
 
-    /// The numbers that round to it at so many decimals, at least those printed: half a unit either way.
+    /// The numbers that round to it at `decimals` decimals, at least the printed ones: half a unit either way.
     #[must_use]
     pub fn interval(self, decimals: u32) -> Interval {
         self.within(decimals, 1.0)

@@ -28,7 +28,7 @@ pub struct Inequality {
 /// and check are the same evaluation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Proof {
-    /// What was proved, by [`Inequality::id`].
+    /// The proved inequality, by [`Inequality::id`].
     pub inequality: String,
     /// Where.
     pub domain: Cell,
@@ -45,7 +45,7 @@ pub enum Refusal {
     /// A file that is not of the format.
     #[error("not a certificate: {text}")]
     Malformed {
-        /// What is amiss, and where.
+        /// The fault, and its place.
         text: String,
     },
     /// A certificate of a different statement.
@@ -66,7 +66,7 @@ pub enum Refusal {
         /// What should be.
         expected: &'static str,
     },
-    /// No proof of what should be proved.
+    /// The proof of an inequality is missing.
     #[error("there is no proof of `{inequality}`")]
     Missing {
         /// What should be.
@@ -94,7 +94,7 @@ pub enum Refusal {
         /// The bound claimed.
         bound: f64,
     },
-    /// The boxes are not what cuts divide the domain into, or not in that order.
+    /// The boxes are no division of the domain by cuts, or not in that order.
     #[error("the boxes, in the order given, do not make up the domain")]
     NotCovered,
 }

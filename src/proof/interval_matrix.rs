@@ -1,4 +1,4 @@
-//! Matrices of intervals: products by nalgebra, and here what needs a proof of its own.
+//! Matrices of intervals: products by nalgebra, and here the operations with a proof of their own.
 
 use nalgebra::DMatrix;
 use num_traits::{One, Zero};

@@ -8,7 +8,7 @@ use crate::numeric::{Expression, Interval, Jet};
 /// Unknowns of an inequality, used or not.
 pub const VARIABLES: usize = 3;
 
-/// A box: one interval for each unknown.
+/// A box: an interval for each unknown.
 pub type Cell = [Interval; VARIABLES];
 
 /// Taylor coefficients up to the third.
@@ -17,7 +17,7 @@ pub type Series = Jet<4>;
 /// Partial derivatives with their own partial derivatives.
 pub type Curvature = crate::numeric::Gradient<Gradient<VARIABLES>, VARIABLES>;
 
-/// One formula, as each arithmetic evaluates it; by [`formula!`](crate::proof::formula) from one generic function.
+/// A formula, as each arithmetic evaluates it; by [`formula!`](crate::proof::formula) from a single generic function.
 #[derive(Clone, Copy, Debug)]
 pub struct Formula {
     /// Over a box.
@@ -26,7 +26,7 @@ pub struct Formula {
     pub gradient: fn([Gradient<VARIABLES>; VARIABLES]) -> Gradient<VARIABLES>,
     /// With its second derivatives.
     pub curvature: fn([Curvature; VARIABLES]) -> Curvature,
-    /// In powers of one variable.
+    /// In powers of a single variable.
     pub series: fn([Series; VARIABLES]) -> Series,
     /// The formula itself, to print.
     pub expression: fn([Expression; VARIABLES]) -> Expression,
@@ -53,7 +53,7 @@ pub use formula;
 pub enum Margin {
     /// The formula's value.
     Value(Formula),
-    /// Its derivative by one variable: the formula grows with it.
+    /// Its derivative by a variable: the formula grows with it.
     Slope {
         /// What grows.
         of: Formula,
@@ -70,7 +70,7 @@ pub enum Margin {
         /// Where the power is divided out.
         near: f64,
     },
-    /// An enclosure in intervals that no one formula gives.
+    /// An enclosure in intervals that no single formula gives.
     Enclosed(fn(&Cell) -> Interval),
 }
 
@@ -109,7 +109,7 @@ impl Margin {
         }
     }
 
-    /// How the formula makes the margin, as a certificate says it.
+    /// How the formula makes the margin, in a certificate's words.
     #[must_use]
     pub fn form(&self) -> Form {
         match *self {

@@ -2,7 +2,7 @@
 
 use crate::numeric::special::Special;
 
-/// `M` functions of `N` variables, of which a proof says that they vanish.
+/// `M` functions of `N` variables, which a proof shows to vanish.
 ///
 /// A closure has one arithmetic; a statement has all of them: the formula proved on jets, evaluated on
 /// intervals and printed in a file is the same.
@@ -11,7 +11,7 @@ pub trait Statement<const N: usize, const M: usize> {
     fn at<T: Special>(&self, variables: [T; N]) -> [T; M];
 }
 
-/// A change of what a formula gives: a test hands the engine a false statement by it, and the engine must not prove that.
+/// A change of a formula's value: a test hands the engine a false statement by it, and the engine must not prove that.
 pub trait Change {
     /// Value of the changed formula at `variables`; `values` are the true formula's.
     fn apply<T: Special, const N: usize, const M: usize>(&self, variables: [T; N], values: [T; M]) -> [T; M];

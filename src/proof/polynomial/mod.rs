@@ -1,8 +1,8 @@
-//! Identities of rational functions, proved exactly: the code is evaluated over formulas, and what must vanish is the zero
+//! Identities of rational functions, proved exactly: the code is evaluated over formulas, and the difference of both sides is the zero
 //! polynomial.
 //!
 //! No enclosure, no tolerance, no degree to be guessed. Where the code decides (`abs`, `max`, a comparison), it is evaluated
-//! once for each case, at a point that lies in it; what holds there holds wherever the decisions are the same.
+//! once for each case, at a point that lies in it; the identity proved there holds wherever the decisions are the same.
 
 mod rational;
 mod ring;
@@ -15,7 +15,7 @@ pub use rational::{Decision, Rational};
 /// An identity that holds, and the cases that it was proved in.
 #[derive(Clone, Debug)]
 pub struct Cases {
-    /// The decisions of each case; none where the code does not decide. Two points of one case count once.
+    /// The decisions of each case; none without decisions. Two points of the same case count once.
     pub decisions: Vec<Vec<Decision>>,
 }
 
