@@ -21,7 +21,7 @@ fn file(folder: &Path, claim: &Claim) -> PathBuf {
     folder.join(format!("{}.json", claim.id))
 }
 
-/// One file `ID.json` for each theorem; the answer is no where one is not proved.
+/// A file `ID.json` for each theorem; the answer is no if a theorem is not proved.
 pub(super) fn write(folder: &Path) -> Result<Outcome, CommandError> {
     crate::files::folder(folder).given("--certificates")?;
     let mut outcome = Outcome::Done;
@@ -35,7 +35,7 @@ pub(super) fn write(folder: &Path) -> Result<Outcome, CommandError> {
     Ok(outcome)
 }
 
-/// The records of logs, read as the proof says.
+/// The records of logs, read with the proof's settings.
 fn records(proof: &bounded::Certificate, logs: &[PathBuf]) -> Result<Vec<Record>, CommandError> {
     let read_as = proof.reading().cloned();
     let settings = Settings { relay_level: read_as.as_ref().and_then(|own| own.relay_level), ..Settings::default() };
@@ -46,7 +46,7 @@ fn records(proof: &bounded::Certificate, logs: &[PathBuf]) -> Result<Vec<Record>
 /// A file of one proof. Guaranteed bounds are accepted with everything that they depend on and what is left in the coordinates of the
 /// search.
 fn check_file(path: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<Outcome, CommandError> {
-    /// Of a theorem's proof, whatever else is wrong with it.
+    /// The claim of a theorem's proof, read even if the rest is faulty.
     #[derive(serde::Deserialize)]
     struct Named {
         claim: String,
@@ -122,7 +122,7 @@ fn check_file(path: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<
     }
 }
 
-/// A line for each theorem, accepted or why not; or what a file of guaranteed bounds shows of these logs.
+/// A line for each theorem, accepted or why not; or the result of a file of guaranteed bounds on these logs.
 pub(super) fn check(folder: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<Outcome, CommandError> {
     if folder.is_file() {
         return check_file(folder, logs, output);

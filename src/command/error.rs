@@ -1,4 +1,4 @@
-//! What ends a subcommand early.
+//! Errors that end a subcommand.
 
 use std::path::PathBuf;
 
@@ -14,10 +14,10 @@ pub(super) enum CommandError {
     /// Standard output cannot be written.
     #[error("cannot write the answer: {0}; free the output or redirect it elsewhere")]
     Output(#[from] std::io::Error),
-    /// What the library refuses.
+    /// A refusal of the library.
     #[error("{}", in_context(.0))]
     Library(Error),
-    /// The same of a number that one flag gave.
+    /// A refusal of a number given by a flag.
     #[error("{flag}: {}", words(.error))]
     Given { flag: &'static str, error: Error },
     /// Arguments that contradict each other.
@@ -64,7 +64,7 @@ impl<E: Into<Error>> From<E> for CommandError {
     }
 }
 
-/// A result of one flag's value: an error names the flag.
+/// A result of a flag's value: an error names the flag.
 pub(super) trait Given<T> {
     fn given(self, flag: &'static str) -> Result<T, CommandError>;
 }
@@ -112,7 +112,7 @@ fn flag(quantity: &str) -> Option<&'static str> {
     })
 }
 
-/// The flags that change what an error without a number of its own speaks of.
+/// The flags that change the quantity of an error without a number.
 fn flags(error: &Error) -> Option<&'static str> {
     Some(match (error, error.code()) {
         (Error::Orbit(_), "no-drag") => "--beta, --beta-quadratic",
@@ -129,7 +129,7 @@ fn flags(error: &Error) -> Option<&'static str> {
     })
 }
 
-/// The error in the words of a subcommand: a number by its flag, a name with the one that was probably meant.
+/// The error in the words of a subcommand: a number by its flag, a name with the nearest known name.
 pub(super) fn in_context(error: &Error) -> String {
     match error.out_of_domain().and_then(|fault| flag(fault.quantity)) {
         Some(flag) => format!("{flag}: {error}"),

@@ -20,7 +20,7 @@ pub(super) struct Known {
 }
 
 impl Known {
-    /// Its interval, or the value as one.
+    /// Its interval, or the value as a point interval.
     pub(super) fn range(&self) -> Interval {
         self.interval.unwrap_or(Interval::point(self.value))
     }
@@ -30,7 +30,7 @@ impl Known {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Model {
     pub(super) axis: AxisModel<Known>,
-    /// Whether a record told it.
+    /// Whether it is identified from a record.
     pub(super) identified: bool,
     /// Whether the log was in degrees; the model is in radians all the same.
     pub(super) degrees: bool,

@@ -1,4 +1,4 @@
-//! Lines of standard input as they come, beside signals and time.
+//! Lines of standard input as they come, with signals and time.
 
 use std::io::{BufRead, Read};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use crate::files::on_signal;
 
-/// Bytes of a line that are read; a longer one is cut there, and the rest is the next line.
+/// Bytes of a line that are read; a longer line is cut there, and the rest is the next line.
 const LONGEST: u64 = 4096;
 /// Lines that wait: whoever writes faster than they are answered waits, too.
 const WAITING: usize = 64;

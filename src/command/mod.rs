@@ -101,7 +101,7 @@ impl Action {
     }
 }
 
-/// What a subcommand found, when nothing went wrong.
+/// The outcome of a subcommand without error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
     /// Done.
@@ -110,7 +110,7 @@ enum Outcome {
     No,
 }
 
-/// Reads the process's arguments, acts, and says how it went.
+/// Reads the process's arguments, acts, and returns the exit status.
 ///
 /// Does not return for `--help`, `--version` and unusable arguments: they end the process with status 0 or 2.
 #[must_use]
@@ -139,7 +139,7 @@ pub fn run() -> ExitCode {
     }
 }
 
-/// What a subcommand prints, for a program that calls it without a process.
+/// The output of a subcommand, for a program that calls it without a process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Answer {
     /// Standard output.
@@ -153,7 +153,7 @@ pub struct Answer {
 pub struct Failure {
     /// Short name for scripts: the library's, or `usage`, `model`, `proof` or `files`.
     pub code: &'static str,
-    /// What standard error shows.
+    /// Text of standard error.
     pub text: String,
     /// The number outside its domain, if that is the reason.
     pub out_of_domain: Option<OutOfDomain>,
@@ -238,7 +238,7 @@ fn parsed(arguments: Vec<OsString>) -> Result<Command, clap::Error> {
     })
 }
 
-/// What `--color` asks for: help and errors of the parser are shown before the arguments are known.
+/// The choice of `--color`: help and errors of the parser are shown before the arguments are parsed.
 fn wanted_color(given: &[OsString]) -> ColorChoice {
     let value =
         given.iter().enumerate().find_map(|(at, argument)| match argument.to_str()?.strip_prefix("--color")? {
@@ -258,7 +258,7 @@ fn refused(error: &Error, json: bool, output: &mut impl Write) -> Result<Outcome
     Ok(Outcome::No)
 }
 
-/// Writes one JSON document and a line end.
+/// Writes a JSON document and a line end.
 fn write_json(output: &mut impl Write, value: &impl serde::Serialize) -> Result<(), CommandError> {
     let text = serde_json::to_string_pretty(value).map_err(io::Error::from)?;
     writeln!(output, "{}", terminal::escaped_json(&text))?;

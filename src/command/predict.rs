@@ -184,7 +184,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     Ok(Outcome::Done)
 }
 
-/// The cycle, with what the first harmonic alone makes of it beside it.
+/// The cycle, compared with the first harmonic's approximation.
 fn table(
     exact: &LimitCycle<f64>,
     balance: Option<&AxisOscillation>,
@@ -212,7 +212,7 @@ fn table(
     Ok(())
 }
 
-/// What the certificate says, in words.
+/// The certificate in words.
 fn proved(proof: &Certificate, output: &mut impl Write) -> Result<(), CommandError> {
     let cycle = &proof.enclosure;
     writeln!(output, "\nproved in interval arithmetic, for exactly these parameters:")?;

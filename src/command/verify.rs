@@ -89,7 +89,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     Ok(if expected { written.unwrap_or(Outcome::Done) } else { Outcome::No })
 }
 
-/// Checks one claim after the other; for people, each one's lines as it ends.
+/// Checks the claims in turn; for people, prints a claim's lines when it ends.
 fn check(
     chosen: &[&'static Claim],
     budget: Budget,
@@ -155,7 +155,7 @@ fn evidence(claim: &Claim, finding: &Finding) -> String {
     said.join(", ")
 }
 
-/// What was found of one claim.
+/// The finding on a claim.
 fn lines(claim: &Claim, finding: &Finding, width: usize, output: &mut impl Write) -> Result<(), CommandError> {
     let short = |word: Word| if word == Word::NotApplicable { "-" } else { word.as_str() };
     let (printed, corrected) = (short(finding.as_printed()), short(finding.as_corrected()));

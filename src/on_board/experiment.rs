@@ -48,7 +48,7 @@ impl<T: Scalar> Experiment<T> {
 
     /// Takes a reading and its time in s; the command to give now.
     ///
-    /// Any values at all may come: what a sound sensor and clock cannot have said is a fault, upon which, as after the end and
+    /// Any values are accepted: a value that no sound sensor or clock gives is a fault. Then, as after the end and
     /// after an abort, the command is neutral until [`restart`](Self::restart).
     pub fn step(&mut self, reading: T, time_s: T) -> Step<T> {
         let relay_level = self.supervisor.relay_level();

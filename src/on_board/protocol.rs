@@ -71,11 +71,11 @@ pub struct Protocol<T> {
     /// Time between samples as planned, in s. A gap of more than [`LONGEST_GAP`](Self::LONGEST_GAP) of them is a fault.
     pub interval_s: T,
     /// Step of the sensor, or a few standard deviations of its noise, in units of the reading; zero for none. A reading may
-    /// jump by this much besides the motion, and peaks that differ by no more are alike.
+    /// jump by this in addition to the motion, and peaks that differ by no more are equal.
     pub resolution: T,
     /// Largest rate of change of the reading that the vehicle is capable of, per s.
     pub largest_rate: T,
-    /// A reading unchanged for longer is a fault, in s. A sound sensor shows one value while the vehicle turns round within one
+    /// A reading unchanged for longer is a fault, in s. A sound sensor shows a constant value while the vehicle turns round within a
     /// step of it, or runs up from rest: allow for that, and stay below `patience_s`.
     pub unchanged_s: T,
     /// An attempt fails where the relay has not switched for longer, in s, or for four times the longest half-period seen.
@@ -85,11 +85,11 @@ pub struct Protocol<T> {
     /// Cycles in a row that have to be alike.
     pub cycles: u8,
     /// How alike: the range of either peak over these cycles against the amplitude, and of either time against half the period.
-    /// The sensor's resolution and one sampling interval are allowed besides.
+    /// The sensor's resolution and a sampling interval are allowed in addition.
     pub spread: T,
     /// An attempt fails where so many cycles have passed without that.
     pub most_cycles: u8,
-    /// Attempts in all, each with other relay parameters than the one before.
+    /// Attempts in all, each with new relay parameters.
     pub attempts: u8,
     /// Factor between the relay parameters of two attempts.
     pub factor: T,
@@ -102,7 +102,7 @@ impl<T: Scalar> Protocol<T> {
     pub const MOST_TURNS: f64 = 100.0;
 
     /// An experiment about zero with these relay parameters and readings every `interval_s`, that may go `largest_excursion`
-    /// either way, and what can be said without knowing the vehicle: limits of twice the relay level, no faster than the largest
+    /// either way, and limits that hold without a model of the vehicle: commands up to twice the relay level, no faster than the largest
     /// excursion in a second, two half-widths the wrong way, four intervals between switchings, three cycles alike to 10 % out of
     /// at most 12, three attempts, each half as strong again. Set `largest_rate` and `resolution` if they are known, and the
     /// times for slow vehicles: 5 s for one value of the reading, 20 s for one of the command, 5 minutes in all.

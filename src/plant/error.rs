@@ -25,7 +25,7 @@ pub enum PlantError {
         /// The value given.
         value: f64,
     },
-    /// A polynomial whose first coefficient is zero: its degree is not what its length says.
+    /// A polynomial whose first coefficient is zero: its degree is less than its length implies.
     #[error("the {polynomial} must begin with a coefficient other than 0; leave out the zeros before it")]
     LeadingZero {
         /// Numerator or denominator.

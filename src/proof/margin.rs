@@ -8,7 +8,7 @@ use crate::numeric::{Expression, Interval, Jet};
 /// Unknowns of an inequality, used or not.
 pub const VARIABLES: usize = 3;
 
-/// A box: one interval for each unknown.
+/// A box: an interval for each unknown.
 pub type Cell = [Interval; VARIABLES];
 
 /// Taylor coefficients up to the third.
@@ -17,7 +17,7 @@ pub type Series = Jet<4>;
 /// Partial derivatives with their own partial derivatives.
 pub type Curvature = crate::numeric::Gradient<Gradient<VARIABLES>, VARIABLES>;
 
-/// One formula, as each arithmetic evaluates it; by [`formula!`](crate::proof::formula) from one generic function.
+/// A formula, as each arithmetic evaluates it; by [`formula!`](crate::proof::formula) from a single generic function.
 #[derive(Clone, Copy, Debug)]
 pub struct Formula {
     /// Over a box.
@@ -26,7 +26,7 @@ pub struct Formula {
     pub gradient: fn([Gradient<VARIABLES>; VARIABLES]) -> Gradient<VARIABLES>,
     /// With its second derivatives.
     pub curvature: fn([Curvature; VARIABLES]) -> Curvature,
-    /// In powers of one variable.
+    /// In powers of a single variable.
     pub series: fn([Series; VARIABLES]) -> Series,
     /// The formula itself, to print.
     pub expression: fn([Expression; VARIABLES]) -> Expression,
@@ -48,12 +48,12 @@ macro_rules! formula {
 }
 pub use formula;
 
-/// What an inequality says is positive, and how it is enclosed.
+/// The quantity that an inequality claims positive, and the form of its enclosure.
 #[derive(Clone, Copy, Debug)]
 pub enum Margin {
     /// The formula's value.
     Value(Formula),
-    /// Its derivative by one variable: the formula grows with it.
+    /// Its derivative by a variable: the formula grows with it.
     Slope {
         /// What grows.
         of: Formula,
@@ -70,7 +70,7 @@ pub enum Margin {
         /// Where the power is divided out.
         near: f64,
     },
-    /// An enclosure in intervals that no one formula gives.
+    /// An enclosure in intervals that no single formula gives.
     Enclosed(fn(&Cell) -> Interval),
     /// An enclosure in intervals of a formula that is 0/0 at an end of its range, where its limit is enclosed.
     Curve {
@@ -116,7 +116,7 @@ impl Margin {
         }
     }
 
-    /// How the formula makes the margin, as a certificate says it.
+    /// How the formula makes the margin, in a certificate's words.
     #[must_use]
     pub fn form(&self) -> Form {
         match *self {
@@ -157,7 +157,7 @@ fn slope(of: Formula, by: usize, at: &Cell) -> Interval {
     direct.intersection(centred).unwrap_or(direct)
 }
 
-/// By Taylor's theorem at zero, the last coefficient between zero and the points of `at`; it says nothing unless the lower ones
+/// By Taylor's theorem at zero, the last coefficient between zero and the points of `at`; no bound unless the lower coefficients
 /// are zero.
 fn over_power(of: Formula, order: usize, at: &Cell) -> Interval {
     let mut at_zero = *at;
