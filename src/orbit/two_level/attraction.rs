@@ -18,7 +18,7 @@ const UNDER_WAY: usize = 60;
 /// Multipliers below this are rounding of zero.
 const NONE: f64 = 1e-9;
 
-type Matrix = DMatrix<Interval>;
+type IntervalMatrix = DMatrix<Interval>;
 
 /// What deviations do.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +35,7 @@ enum Event {
     Input { jump: Interval },
 }
 
-fn flow(modes: &[Mode], time: Interval) -> Matrix {
+fn flow(modes: &[Mode], time: Interval) -> IntervalMatrix {
     let order = modes.iter().map(|mode| mode.algebra.degree).sum();
     let mut matrix = DMatrix::zeros(order, order);
     let mut place = 0;
@@ -68,7 +68,7 @@ fn whole(time: Interval, period: Interval) -> Option<f64> {
 impl Conditions {
     /// The return map from one passage of the lower level to the next: the deviation of the plant's state and of the
     /// instants of the commands under way. `None` where events cannot be put in order, or too many commands are under way.
-    fn return_map(&self, path: &Path<'_>) -> Option<Matrix> {
+    fn return_map(&self, path: &Path<'_>) -> Option<IntervalMatrix> {
         let (high, period) = (path.times.high.value(), path.times.period.value());
         let [falling, rising] = path.slopes();
         if !falling.is_negative() || !rising.is_positive() {
@@ -103,7 +103,7 @@ impl Conditions {
         let mut input = DVector::from_element(order, Interval::ZERO);
         firsts.for_each(|place| input[place] = Interval::ONE);
 
-        let identity = Matrix::identity(size, size);
+        let identity = IntervalMatrix::identity(size, size);
         let mut state = identity.rows(0, order).into_owned();
         let mut queue: VecDeque<RowDVector<Interval>> =
             (order..size).map(|row| identity.row(row).into_owned()).collect();
@@ -123,7 +123,7 @@ impl Conditions {
             }
         }
         state = flow(&self.modes, period - now) * state;
-        let mut map = Matrix::zeros(size, size);
+        let mut map = IntervalMatrix::zeros(size, size);
         map.rows_mut(0, order).copy_from(&state);
         for (row, late) in queue.iter().take(under_way).enumerate() {
             map.row_mut(order + row).copy_from(late);
@@ -159,7 +159,7 @@ impl Conditions {
 
 /// A power of the map shrinks every vector in the norm of the largest component: true. Its trace exceeds its size, hence an eigenvalue
 /// exceeds one in magnitude: false.
-fn shrinks(map: &Matrix) -> Option<bool> {
+fn shrinks(map: &IntervalMatrix) -> Option<bool> {
     // The same map in the basis of computed Schur vectors, in which its powers stay narrow.
     let vectors =
         Schur::try_new(map.map(Interval::midpoint), f64::EPSILON, 100 * map.nrows()).map(|schur| schur.unpack().0);
@@ -187,7 +187,7 @@ mod tests {
 
     #[test]
     fn a_map_shrinks_grows_or_is_open() {
-        let of = |entries: [f64; 4]| Matrix::from_row_slice(2, 2, &entries.map(Interval::point));
+        let of = |entries: [f64; 4]| IntervalMatrix::from_row_slice(2, 2, &entries.map(Interval::point));
         assert_eq!(shrinks(&of([0.9, 5.0, 0.0, 0.9])), Some(true));
         assert_eq!(shrinks(&of([0.8, 0.8, -0.8, 0.8])), Some(false));
         assert_eq!(shrinks(&of([1.0, 0.0, 0.0, 0.5])), None);

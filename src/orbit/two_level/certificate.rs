@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{OrbitListing, Problem, TwoLevelRelay};
+use super::{OrbitListing, SwitchedLoop, TwoLevelRelay};
 use crate::numeric::Interval;
 use crate::orbit::OrbitError;
 use crate::plant::TransferFunction;
@@ -179,7 +179,7 @@ impl OrbitCertificate {
         let plant =
             TransferFunction::new(num, den).and_then(|plant| plant.with_delay(*delay_s)).map_err(OrbitError::from)?;
         let relay = TwoLevelRelay::new(*high, *low, *half_width)?.with_reference(*reference)?;
-        let problem = Problem::new(&plant, &relay)?;
+        let problem = SwitchedLoop::new(&plant, &relay)?;
         for (bounds, number) in self.orbits.iter().zip(1..) {
             let existence = Some(OrbitClaim::Existence);
             let not_shown = problem.as_ref().map_or(existence, |problem| problem.first_not_shown(bounds));
@@ -205,7 +205,7 @@ impl core::str::FromStr for OrbitCertificate {
     }
 }
 
-impl Problem {
+impl SwitchedLoop {
     fn first_not_shown(&self, bounds: &OrbitBounds) -> Option<OrbitClaim> {
         let box_s = [bounds.time_high_s, bounds.time_low_s];
         let positive = box_s.iter().all(|side| side.is_positive() && side.is_bounded());

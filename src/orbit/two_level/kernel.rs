@@ -227,7 +227,7 @@ fn bernoulli(share: Interval, degree: usize) -> [Interval; TERMS + 1] {
     if degree == 0 {
         return polynomials;
     }
-    let Table { middles, over_factorials, bounds } = &*TABLE;
+    let TermTable { middles, over_factorials, bounds } = &*TABLE;
     let from_middle = share - Interval::point(0.5);
     let mut powers = [Interval::ONE; TERMS + 1];
     for at in 1..=degree {
@@ -246,7 +246,7 @@ fn bernoulli(share: Interval, degree: usize) -> [Interval; TERMS + 1] {
 }
 
 /// What the Bernoulli polynomials are made of.
-struct Table {
+struct TermTable {
     /// `B_2k(1/2)/(2k)!`.
     middles: [Interval; TERMS / 2 + 1],
     over_factorials: [Interval; TERMS + 1],
@@ -254,7 +254,7 @@ struct Table {
     bounds: [Interval; TERMS + 1],
 }
 
-static TABLE: LazyLock<Table> = LazyLock::new(|| {
+static TABLE: LazyLock<TermTable> = LazyLock::new(|| {
     // Exact up to 22!, which has 51 significant bits once its factors of two are taken out.
     let factorial = |of: usize| (2..=of).fold(1.0, |product, factor| product * factor as f64);
     let over_factorials = core::array::from_fn(|of| Interval::ONE / Interval::point(factorial(of)));
@@ -264,7 +264,7 @@ static TABLE: LazyLock<Table> = LazyLock::new(|| {
         factor * Interval::point(numerator) / Interval::point(denominator) / Interval::point(factorial(2 * k))
     });
     let bounds = core::array::from_fn(|j| Interval::symmetric((0..j).fold(4.0, |bound, _| bound / TAU)));
-    Table { middles, over_factorials, bounds }
+    TermTable { middles, over_factorials, bounds }
 });
 
 /// The poles at zero over a long period: the output's rise from the lower to the upper change, per unit of the step, as a polynomial

@@ -26,7 +26,7 @@ use attraction::Attraction;
 pub use certificate::{OrbitCertificate, OrbitClaim, OrbitRefusal};
 use modes::Mode;
 use path::{Genuine, Path};
-use search::Range;
+use search::PeriodRange;
 use switching::Conditions;
 
 /// A relay with two levels: `low` from when the output rises past `reference + half_width`, `high` from when it falls past
@@ -154,7 +154,7 @@ pub fn orbits(
     }
     let range_s = period_s.as_ref().map_or([None; 2], |range| [Some(*range.start()), Some(*range.end())]);
     let mut listing = OrbitListing { orbits: Vec::new(), range_s, not_covered: Vec::new() };
-    let Some(problem) = Problem::new(plant, relay)? else { return Ok(listing) };
+    let Some(problem) = SwitchedLoop::new(plant, relay)? else { return Ok(listing) };
     let range = problem.conditions.range(period_s.as_ref());
     let mut open: Vec<Interval> = Vec::new();
     let found = problem.conditions.solutions(&range, |at| match problem.orbit(at) {
@@ -185,13 +185,13 @@ pub fn orbits(
 struct Undecided;
 
 /// A loop in intervals.
-struct Problem {
+struct SwitchedLoop {
     conditions: Conditions,
     /// By how much the output is above that of the conditions.
     shift: Interval,
 }
 
-impl Problem {
+impl SwitchedLoop {
     /// `None` where the output drifts, because the mean of an integrator's input cannot vanish.
     fn new(plant: &TransferFunction, relay: &TwoLevelRelay) -> Result<Option<Self>, OrbitError> {
         let TwoLevelRelay { high, low, half_width, reference } = *relay;
@@ -239,7 +239,7 @@ impl Problem {
 
 impl Conditions {
     /// The range of periods searched: from where a period is too short for the output to pass both levels.
-    fn range(&self, period_s: Option<&RangeInclusive<f64>>) -> Range {
+    fn range(&self, period_s: Option<&RangeInclusive<f64>>) -> PeriodRange {
         // How long a group takes to decay, or one that does not to turn a hundred times.
         let time = |mode: &Mode| 1.0 / mode.algebra.shift.magnitude().max(0.01 * mode.algebra.size());
         let times = self.modes.iter().filter(|mode| mode.inverse.is_some()).map(time);
@@ -247,7 +247,7 @@ impl Conditions {
         // Double integrators without delay have no time but that of their hysteresis.
         let unit = if slowest > 0.0 { slowest } else { 1.0 };
         let shortest = self.shortest_period(unit);
-        Range {
+        PeriodRange {
             shortest: period_s.map_or(0.0, |range| *range.start()).max(shortest),
             longest: period_s.map_or(f64::INFINITY, |range| *range.end()),
             unit,

@@ -34,7 +34,7 @@ pub(super) struct Path<'a> {
 
 /// A stretch of the period, in times since the input's rise, on which input and command are constant.
 #[derive(Clone, Copy, Debug)]
-struct Arc {
+struct OutputArc {
     from: Interval,
     to: Interval,
     input_high: bool,
@@ -119,7 +119,7 @@ impl<'a> Path<'a> {
         })
     }
 
-    fn arcs(&self) -> Option<Vec<Arc>> {
+    fn arcs(&self) -> Option<Vec<OutputArc>> {
         let period = self.periodic.period();
         let high = self.times.high.value();
         let [on, off] = [self.on, self.off].map(|place| self.conditions.time(&self.times, &place));
@@ -137,7 +137,7 @@ impl<'a> Path<'a> {
             let [(from, begins), (to, ends)] = [pair[0], pair[1]];
             let middle = 0.5 * (from.midpoint() + to.midpoint());
             let (since_on, length) = ((middle - on.midpoint()).rem_euclid(period.midpoint()), high.midpoint());
-            Arc { from, to, input_high: middle < high.midpoint(), command_high: since_on < length, begins, ends }
+            OutputArc { from, to, input_high: middle < high.midpoint(), command_high: since_on < length, begins, ends }
         };
         Some(borders.windows(2).map(arc).collect())
     }
@@ -161,7 +161,7 @@ impl<'a> Path<'a> {
     }
 
     /// Whether the output stays on the side of the level that the command looks at.
-    fn keeps(&self, arc: &Arc) -> Genuine {
+    fn keeps(&self, arc: &OutputArc) -> Genuine {
         let Conditions { upper, lower, .. } = *self.conditions;
         // The distance from the level, positive before it is passed, and its slope.
         let left = |cell: Interval| {
@@ -206,7 +206,7 @@ impl<'a> Path<'a> {
 
     /// Bounds of the largest output times `sign`: where the slope keeps its sign it is at an end of the cell; other cells are
     /// halved until the value at a point is nearly as wide as that over the cell.
-    fn largest(&self, arcs: &[Arc], sign: Interval) -> Option<Interval> {
+    fn largest(&self, arcs: &[OutputArc], sign: Interval) -> Option<Interval> {
         let (mut reached, mut top) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
         for arc in arcs {
             let over = |cell: Interval| {

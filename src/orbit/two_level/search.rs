@@ -60,13 +60,13 @@ impl<const N: usize> Ord for Part<N> {
 
 /// What of a box's periods is asked for, and the time by which unbounded boxes are cut.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Range {
+pub(super) struct PeriodRange {
     pub(super) shortest: f64,
     pub(super) longest: f64,
     pub(super) unit: f64,
 }
 
-impl Range {
+impl PeriodRange {
     /// A half-period as a share of infinity: linear up to the loop's own time, then slower.
     fn share(&self, time: f64) -> f64 {
         if time.is_finite() { time / (time + self.unit) } else { 1.0 }
@@ -84,15 +84,15 @@ impl Range {
 }
 
 /// The equations of a search over `N` unknowns.
-trait Equations<const N: usize> {
+trait BoxEquations<const N: usize> {
     fn miss(&self, unknowns: [Gradient<N>; N]) -> [Gradient<N>; N];
     fn times(&self, unknowns: [Gradient<N>; N]) -> Times<N>;
 }
 
 struct Free<'a>(&'a Conditions);
-struct Shared<'a>(&'a Conditions, Interval);
+struct SharedConditions<'a>(&'a Conditions, Interval);
 
-impl Equations<2> for Free<'_> {
+impl BoxEquations<2> for Free<'_> {
     fn miss(&self, unknowns: [Gradient<2>; 2]) -> [Gradient<2>; 2] {
         self.0.misses(unknowns)
     }
@@ -101,7 +101,7 @@ impl Equations<2> for Free<'_> {
     }
 }
 
-impl Equations<1> for Shared<'_> {
+impl BoxEquations<1> for SharedConditions<'_> {
     fn miss(&self, [period]: [Gradient<1>; 1]) -> [Gradient<1>; 1] {
         [self.0.rise_miss(period, self.1)]
     }
@@ -112,10 +112,10 @@ impl Equations<1> for Shared<'_> {
 
 impl Conditions {
     /// All solutions in a range of periods, until enough of them are orbits.
-    pub(super) fn solutions(&self, range: &Range, is_orbit: impl FnMut(&HalfPeriods) -> bool) -> Found {
+    pub(super) fn solutions(&self, range: &PeriodRange, is_orbit: impl FnMut(&HalfPeriods) -> bool) -> Found {
         let from = |lower: f64| Interval::new(lower, f64::INFINITY).unwrap_or(Interval::ENTIRE);
         match self.share {
-            Some(share) => self.search(&Shared(self, share), [from(range.shortest)], range, is_orbit),
+            Some(share) => self.search(&SharedConditions(self, share), [from(range.shortest)], range, is_orbit),
             None => self.search(&Free(self), [from(0.0); 2], range, is_orbit),
         }
     }
@@ -123,7 +123,7 @@ impl Conditions {
     /// The one solution in a box of half-periods, enclosed.
     pub(super) fn solution_in(&self, at: &HalfPeriods) -> Option<HalfPeriods> {
         match self.share {
-            Some(share) => only(&Shared(self, share), [at[0] + at[1]]),
+            Some(share) => only(&SharedConditions(self, share), [at[0] + at[1]]),
             None => only(&Free(self), *at),
         }
     }
@@ -134,9 +134,9 @@ impl Conditions {
 
     fn search<const N: usize>(
         &self,
-        equations: &impl Equations<N>,
+        equations: &impl BoxEquations<N>,
         domain: [Interval; N],
-        range: &Range,
+        range: &PeriodRange,
         mut is_orbit: impl FnMut(&HalfPeriods) -> bool,
     ) -> Found {
         let times = |at: [Interval; N]| equations.times(at.map(Gradient::constant));
@@ -205,7 +205,7 @@ impl Conditions {
 }
 
 /// The one solution that Krawczyk's operator shows in a box.
-fn only<const N: usize>(equations: &impl Equations<N>, at: [Interval; N]) -> Option<HalfPeriods> {
+fn only<const N: usize>(equations: &impl BoxEquations<N>, at: [Interval; N]) -> Option<HalfPeriods> {
     let miss = |unknowns: [Gradient<N>; N]| equations.miss(unknowns);
     let Roots::Unique { enclosure, .. } = krawczyk(miss, at, 30) else { return None };
     let times = equations.times(narrowed(miss, enclosure).map(Gradient::constant));
