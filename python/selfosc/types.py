@@ -115,6 +115,37 @@ class Features(FeatureValues):
     std: FeatureValues
 
 
+class CycleStatistics(TypedDict):
+    """Mean over cycles, and the standard deviation of one cycle's value."""
+
+    mean: float
+    std: float
+
+
+class SteadyCycles(TypedDict):
+    """The steady cycles of an experiment on board: units of the reading and s."""
+
+    cycles: int
+    start_up_cycles: int
+    amplitude: CycleStatistics
+    bias: CycleStatistics
+    reference: CycleStatistics
+    period_s: CycleStatistics
+    switch_level: CycleStatistics
+    time_positive_s: CycleStatistics
+    time_negative_s: CycleStatistics
+
+
+class ExactAxis(TypedDict):
+    """An axis whose exact limit cycle has the features of an experiment, in the units of reading and command."""
+
+    drag: Literal["linear", "quadratic"]
+    alpha: float
+    beta: float
+    beta_quadratic: float
+    delta: float
+
+
 class AllRecords(TypedDict):
     """All records together."""
 
@@ -279,34 +310,41 @@ class CycleProof(TypedDict):
     enclosure: CycleEnclosure
 
 
+class OrbitEnclosure(TypedDict):
+    """Ranges that contain the exact orbit's numbers."""
+
+    period_s: Range
+    time_high_s: Range
+    time_low_s: Range
+    amplitude: Range
+    bias: Range
+
+
+class Orbit(TypedDict):
+    """An orbit of a relay loop with one switching each way in a period; a complex multiplier is its real and imaginary part."""
+
+    period_s: float
+    time_high_s: float
+    time_low_s: float
+    amplitude: float
+    bias: float
+    maximum: float
+    minimum: float
+    multipliers: list[float | Range]
+    attracting: bool | None
+    shown: str
+    enclosure: OrbitEnclosure
+
+
 class Intersection(TypedDict):
-    """An oscillation that harmonic balance predicts; ``stable`` is Loeb's verdict."""
+    """An oscillation that harmonic balance predicts; ``stable`` by the multipliers of the exact orbit, or by Loeb's criterion."""
 
     amplitude: float
     omega_rad_s: float
     stable: bool | None
-
-
-class OrbitProof(TypedDict):
-    """What is proved of a relay loop's orbit."""
-
-    half_period_s: Range
-    switching_rate: Range
-    attracting: bool
-    contracts_after: int | None
-    cells: int
-
-
-class Orbit(TypedDict):
-    """A symmetric limit cycle of a relay loop."""
-
-    period_s: float
-    amplitude: float
-    maximum: float
-    minimum: float
-    stable: bool
-    certificate: OrbitProof | None
-    certificate_refused: Note | None
+    stability_by: str
+    unstable_roots: int | None
+    exact: Orbit | None
 
 
 class DescribingFunctionEnclosure(TypedDict):

@@ -80,12 +80,12 @@ fn sensitivity(text: &str) -> Result<f64, String> {
     number(text).ok().filter(within).ok_or_else(|| "must be from 1.1 to 3; 1.4 is well damped".to_owned())
 }
 
-/// A gain or a dead time known worse than this, as a share of itself, makes the answer less than good.
+/// Relative half-width of a gain or a dead time above which the answer is less than good.
 const WIDE: f64 = 0.25;
-/// Correlation of neighbouring residuals from which on the load is said to wander.
+/// Correlation of neighbouring residuals from which on the load counts as drifting.
 const WANDERS: f64 = 0.8;
 
-/// Everything that is said of a record.
+/// The whole answer to a record.
 struct Autotuned {
     log: Log,
     found: ProcessRecord,

@@ -1,4 +1,4 @@
-//! What one pair of imaginary poles of a characteristic adds to its describing function, and what the poles on a line do.
+//! Contribution of a pair of imaginary poles to a describing function, and that of all poles on a line.
 
 use core::ops::{Add, Mul};
 
@@ -76,7 +76,7 @@ impl<T: Real> Scaled<T> {
 
 impl<T: Real> Pole<T> {
     /// `abs(S)^2` is `abs(c - i upper) abs(c - i lower)`, and the real part of `S^2` is `c^2 - upper lower`. The larger part of S
-    /// comes from their sum or difference, the smaller one from `Im S^2 = -2 c beta`, so that nothing cancels. Either way the parts are the same, because
+    /// comes from their sum or difference, the smaller part from `Im S^2 = -2 c beta`, so that nothing cancels. Either way the parts are the same, because
     /// `(c^2 + upper^2)(c^2 + lower^2) = (c^2 - upper lower)^2 + c^2 (upper + lower)^2`.
     pub(super) fn new(c: T, scaled: &Scaled<T>) -> Self {
         let c_square = c.square();

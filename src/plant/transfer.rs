@@ -103,7 +103,7 @@ impl TransferFunction {
     /// This plant followed by another: polynomials multiplied, delays added.
     ///
     /// # Errors
-    /// [`PlantError::CommonFactor`] where one has a pole at s = 0 and the other a zero there.
+    /// [`PlantError::CommonFactor`] if a pole at s = 0 cancels a zero in the product.
     pub fn series(&self, other: &Self) -> Result<Self, PlantError> {
         let numerator = product(&self.numerator, &other.numerator);
         let denominator = product(&self.denominator, &other.denominator);

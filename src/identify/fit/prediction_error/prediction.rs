@@ -10,7 +10,7 @@ use crate::identify::answer::{Estimate, Reported};
 use crate::identify::signal::{Clock, SwitchingInstant};
 use crate::plant::State;
 
-/// Readings left out at the beginning beyond the delay, in half-periods.
+/// Readings omitted at the beginning beyond the delay, in half-periods.
 const UNSEEN: f64 = 0.05;
 /// White variance that the search for the disturbance starts with, in squares of the output's range.
 const FIRST_VARIANCE: f64 = 1e-2;
@@ -39,8 +39,8 @@ pub struct PredictedMotion {
 }
 
 impl Reported {
-    /// Predicts a record, with the thrust of its command's level where the records answered from told its law; `None` where
-    /// the motion leaves all bounds, or the command never leaves the dead zone.
+    /// Predicts a record, with the thrust of its command's level if the fitted records determined the thrust law; `None` where
+    /// the motion diverges, or the command never leaves the dead zone.
     #[must_use]
     pub fn predict(&self, record: &Record) -> Option<Prediction> {
         Some(self.predicted_motion(record)?.prediction)
