@@ -14,9 +14,10 @@ __all__ = ["Balance", "Certificate", "Prediction", "balance", "certify", "predic
 
 
 class Balance(Result):
-    """The intersections of a Nyquist curve with ``-1/N``."""
+    """The intersections of a Nyquist curve with ``-1/N``, and all oscillations that are proved to exist."""
 
     intersections: list[types.Intersection]
+    proved: list[types.ProvedOscillation] | None
 
     def _rows(self) -> list[dict[str, Any]]:
         return self.to_dict()["intersections"]
@@ -45,8 +46,8 @@ class Certificate(Result):
 
     orbits: list[types.Orbit]
     complete: bool
-    range_s: tuple[float | None, float | None]
-    not_covered: list[tuple[float | None, float | None]]
+    range_s: types.OpenRange
+    not_covered: list[types.OpenRange]
 
     def _rows(self) -> list[dict[str, Any]]:
         return self.to_dict()["orbits"]
@@ -80,7 +81,7 @@ def balance(plant: Any, characteristic: str | Nonlinearity, *, delay: float = 0.
     -------
     Balance
         ``intersections``, each with ``amplitude`` (input units), ``omega_rad_s`` and ``stable`` (Loeb's verdict: true, false
-        or ``None``). None is an answer too.
+        or ``None``), and ``existence``, a proved box or the reason for none; ``proved``, every box. None is an answer too.
 
     Raises
     ------

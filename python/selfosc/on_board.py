@@ -227,7 +227,7 @@ class ControlStep(NamedTuple):
     command: float
     #: Whether a limit holds the command back.
     limited: bool
-    #: What is no number, so that the command is held: ``reference``, ``measurement``, ``interval``; or ``overflow``.
+    #: The input that is no number and holds the command: ``reference``, ``measurement``, ``interval``; or ``overflow``.
     fault: str | None
 
 

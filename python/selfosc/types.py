@@ -10,6 +10,8 @@ from typing import Literal, TypeAlias, TypedDict
 
 #: Least and largest value.
 Range: TypeAlias = list[float]
+#: Two ends, either of which may be open.
+OpenRange: TypeAlias = list[float | None]
 Drag: TypeAlias = Literal["linear", "quadratic", "mixed"]
 Trust: TypeAlias = Literal["good", "widened", "doubtful"]
 Consistency: TypeAlias = Literal["consistent", "refuted", "undecided"]
@@ -336,8 +338,29 @@ class Orbit(TypedDict):
     enclosure: OrbitEnclosure
 
 
+class ProvedOscillation(TypedDict):
+    """A box that is proved to hold an oscillation: amplitude of the first harmonic, frequency, and the mean square left for all others."""
+
+    shown: bool
+    amplitude: Range
+    omega_rad_s: Range
+    highest_harmonic: int
+    remainder: float
+
+
+class UnprovedOscillation(TypedDict):
+    """Why no box is proved near an intersection."""
+
+    shown: bool
+    reason: str
+    detail: str
+
+
 class Intersection(TypedDict):
-    """An oscillation that harmonic balance predicts; ``stable`` by the multipliers of the exact orbit, or by Loeb's criterion."""
+    """An oscillation that harmonic balance predicts; ``stable`` by the multipliers of the exact orbit, or by Loeb's criterion.
+
+    ``existence`` is ``None`` where the characteristic has no bounded slope or is not odd.
+    """
 
     amplitude: float
     omega_rad_s: float
@@ -345,6 +368,7 @@ class Intersection(TypedDict):
     stability_by: str
     unstable_roots: int | None
     exact: Orbit | None
+    existence: ProvedOscillation | UnprovedOscillation | None
 
 
 class DescribingFunctionEnclosure(TypedDict):

@@ -50,8 +50,8 @@ pub struct Intersection {
     pub bias: f64,
     /// Frequency, rad/s.
     pub omega_rad_s: f64,
-    /// Whether the oscillation returns after a disturbance of its amplitude (Loeb's criterion) and the loop with the gain N has no
-    /// further roots in the right half plane, which would grow beside it. `None` where the criterion is degenerate: the curves
+    /// Whether the oscillation returns after a disturbance of its amplitude (Loeb's criterion), and the loop with the gain N has no
+    /// further roots in the right half plane: their motions would grow. `None` where the criterion is degenerate: the curves
     /// touch, or the balance does not fix the bias. A statement of the approximation, not of the loop.
     pub stable: Option<bool>,
     /// Roots of `1 + N G` in the right half plane beside the pair on the axis: the generalised Nyquist count, dead time included. `None`

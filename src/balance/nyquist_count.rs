@@ -2,7 +2,7 @@
 
 use nalgebra::Complex;
 
-use crate::plant::TransferFunction;
+use crate::plant::{TransferFunction, horner};
 
 /// Largest change of the argument over a step, rad, and steps into which one is halved at most.
 const TURN: f64 = 0.4;
@@ -22,19 +22,17 @@ pub(super) fn roots_beyond(plant: &TransferFunction, gain: f64, beyond: f64) -> 
     if plant.numerator().len() > order {
         return None;
     }
-    let at = |coefficients: &[f64], s: Complex<f64>| {
-        coefficients.iter().fold(Complex::new(0.0, 0.0), |sum, &coefficient| sum * s + coefficient)
-    };
     let poles = plant.poles().ok()?;
     let size = poles.iter().map(|pole| pole.norm()).fold(beyond, f64::max);
     let value = |omega: f64| {
         let s = Complex::new(beyond, omega);
-        let late = at(plant.numerator(), s) * (-s * plant.delay_s()).exp() * gain;
-        (at(plant.denominator(), s) + late) / (s + size).powu(order as u32)
+        let late = horner(plant.numerator(), s) * (-s * plant.delay_s()).exp() * gain;
+        (horner(plant.denominator(), s) + late) / (s + size).powu(order as u32)
     };
     let far = |omega: f64| {
         let s = Complex::new(beyond, omega);
-        omega > 1e3 * size && (at(plant.numerator(), s) * gain).norm() < SMALL * at(plant.denominator(), s).norm()
+        omega > 1e3 * size
+            && (horner(plant.numerator(), s) * gain).norm() < SMALL * horner(plant.denominator(), s).norm()
     };
     let highest = (0..200).map(|doublings| size * 2.0_f64.powi(doublings)).find(|&omega| far(omega))?;
     // Geometric nodes; where the argument turns fast they are halved.
@@ -49,16 +47,15 @@ pub(super) fn roots_beyond(plant: &TransferFunction, gain: f64, beyond: f64) -> 
     let (mut turned, mut steps) = (0.0, 0);
     while let Some((from, to, depth)) = open.pop() {
         steps += 1;
-        let (start, end) = (value(from), value(to));
-        let middle = value(0.5 * (from + to));
-        let (first, second) = ((middle / start).arg(), (end / middle).arg());
+        let middle = 0.5 * (from + to);
+        let [start, halfway, end] = [from, middle, to].map(value);
+        let (first, second) = ((halfway / start).arg(), (end / halfway).arg());
         if !(first.is_finite() && second.is_finite()) || depth > HALVINGS || steps > STEPS {
             return None;
         }
         if first.abs() + second.abs() <= TURN {
             turned += first + second;
         } else {
-            let middle = 0.5 * (from + to);
             open.extend([(from, middle, depth + 1), (middle, to, depth + 1)]);
         }
     }

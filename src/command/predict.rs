@@ -19,8 +19,8 @@ use crate::orbit::{Certificate, LimitCycle, Starts, certify, limit_cycle};
 ///
 /// Drag axis: alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay) + delta, from the closed-form motion between switchings, with
 /// harmonic balance (first harmonic only, the paper's approximation) beside it and a certificate in interval arithmetic.
-/// Linear plant (--num, --den): every orbit with one switching each way in a period, proved, from the slowest down, with what its
-/// multipliers show of stability, and the range of periods in which there is no other.
+/// Linear plant (--num, --den): every orbit with one switching each way in a period, from the slowest down. Each is proved to exist;
+/// its multipliers decide its stability. No other orbit has a period in the range printed.
 /// Output is whatever unit half-width has (rad, m), command whatever relay has (N m, N).
 /// Exit status 1 where there is no such oscillation, with the reason.
 #[derive(Debug, Args)]

@@ -1,36 +1,7 @@
 //! Contribution of a pair of imaginary poles to a describing function, and that of all poles on a line.
 
-use core::ops::{Add, Mul};
-
 use crate::nonlinearity::Sinusoid;
-use crate::numeric::Real;
-
-/// `re + i im`; just what the formulas here need.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Complex<T> {
-    pub(super) re: T,
-    pub(super) im: T,
-}
-
-impl<T: Real> Add for Complex<T> {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self { re: self.re + other.re, im: self.im + other.im }
-    }
-}
-
-impl<T: Real> Mul for Complex<T> {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
-    }
-}
-
-impl<T: Real> Complex<T> {
-    pub(super) fn conjugate(self) -> Self {
-        Self { im: -self.im, ..self }
-    }
-}
+use crate::numeric::{Complex, Real};
 
 /// The pole pair `x = +-i c/k` of a characteristic with argument `kx`, under a sweep with `beta = kB`, `kappa = kX`.
 ///

@@ -102,9 +102,13 @@ impl<T: Scalar> Protocol<T> {
     pub const MOST_TURNS: f64 = 100.0;
 
     /// An experiment about zero with these relay parameters and readings every `interval_s`, that may go `largest_excursion`
-    /// either way, and limits that hold without a model of the vehicle: commands up to twice the relay level, no faster than the largest
-    /// excursion in a second, two half-widths the wrong way, four intervals between switchings, three cycles alike to 10 % out of
-    /// at most 12, three attempts, each half as strong again. Set `largest_rate` and `resolution` if they are known, and the
+    /// either way. The limits need no model of the vehicle:
+    ///
+    /// - commands up to twice the relay level, a rate of at most the largest excursion in a second, two half-widths the wrong way;
+    /// - at least four intervals between switchings;
+    /// - three cycles alike to 10 % out of at most 12, three attempts, each 1.5 times as strong as the one before.
+    ///
+    /// Set `largest_rate` and `resolution` if they are known, and the
     /// times for slow vehicles: 5 s for one value of the reading, 20 s for one of the command, 5 minutes in all.
     ///
     /// The excursion is that of the reading. A vehicle whose sensor is true to `resolution`, and which goes no faster than

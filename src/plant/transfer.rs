@@ -166,7 +166,8 @@ impl TransferFunction {
     }
 }
 
-fn horner(descending: &[f64], s: Complex<f64>) -> Complex<f64> {
+/// A polynomial in descending powers at `s`.
+pub(crate) fn horner(descending: &[f64], s: Complex<f64>) -> Complex<f64> {
     descending.iter().fold(Complex::new(0.0, 0.0), |sum, &coefficient| sum * s + coefficient)
 }
 

@@ -5,10 +5,9 @@ use nalgebra::{DMatrix, DVector};
 use super::characteristic::OddCharacteristic;
 use super::error::ExistenceError;
 use super::inverse_response::InverseResponse;
-use super::phasor::Phasor;
 use super::spectrum::Spectrum;
 use super::wave::Wave;
-use crate::numeric::Real;
+use crate::numeric::{Complex, Real};
 use crate::plant::TransferFunction;
 
 /// Highest harmonic of a wave at most: the equations of all of them are solved together.
@@ -37,8 +36,8 @@ impl Centre {
     }
 
     pub(super) fn from_unknowns(unknowns: &DVector<f64>) -> Self {
-        let first = Phasor::new(unknowns[1], 0.0);
-        let higher = unknowns.as_slice()[2..].chunks_exact(2).map(|pair| Phasor::new(pair[0], pair[1]));
+        let first = Complex::new(unknowns[1], 0.0);
+        let higher = unknowns.as_slice()[2..].chunks_exact(2).map(|pair| Complex::new(pair[0], pair[1]));
         Self { omega_rad_s: unknowns[0], wave: Wave(core::iter::once(first).chain(higher).collect()) }
     }
 
@@ -70,7 +69,7 @@ pub(super) fn residual<T: Real + nalgebra::Scalar>(
     spectrum: &Spectrum<T>,
 ) -> DVector<T> {
     let rows = wave.orders().zip(&spectrum.output).flat_map(|((k, harmonic), &output)| {
-        let input = Phasor::new(T::from_f64(harmonic.re), T::from_f64(harmonic.im));
+        let input = Complex::new(T::from_f64(harmonic.re), T::from_f64(harmonic.im));
         let error = input * inverse.at(omega, k).0 + output;
         [error.re, error.im]
     });
@@ -88,8 +87,8 @@ pub(super) fn jacobian<T: Real + nalgebra::Scalar>(
     let mut matrix = DMatrix::from_element(size, size, T::zero());
     for (row, (k, harmonic)) in wave.orders().enumerate() {
         let (response, response_slope) = inverse.at(omega, k);
-        let input = Phasor::new(T::from_f64(harmonic.re), T::from_f64(harmonic.im));
-        let mut set = |column: usize, entry: Phasor<T>| {
+        let input = Complex::new(T::from_f64(harmonic.re), T::from_f64(harmonic.im));
+        let mut set = |column: usize, entry: Complex<T>| {
             matrix[(2 * row, column)] = entry.re;
             matrix[(2 * row + 1, column)] = entry.im;
         };

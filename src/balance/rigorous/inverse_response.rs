@@ -1,7 +1,6 @@
 //! The inverse frequency response `g_k(w) = 1/G(jkw)` of a strictly proper plant with dead time.
 
-use super::phasor::Phasor;
-use crate::numeric::{Interval, Real};
+use crate::numeric::{Complex, Interval, Real};
 use crate::plant::TransferFunction;
 
 /// `1/G(s) = D(s)/N(s) exp(s delay)` on the imaginary axis.
@@ -21,13 +20,13 @@ impl<'a> InverseResponse<'a> {
     }
 
     /// `g_k` and its derivative by `w`: with `s = jkw`, `dg_k/dw = jk exp(s L) ((D' N - D N')/N^2 + L D/N)`.
-    pub(super) fn at<T: Real>(&self, omega: T, k: usize) -> (Phasor<T>, Phasor<T>) {
+    pub(super) fn at<T: Real>(&self, omega: T, k: usize) -> (Complex<T>, Complex<T>) {
         let order = T::from_f64(k as f64);
         let y = order * omega;
         let (denominator, denominator_slope) = polynomial(self.plant.denominator(), y);
         let (numerator, numerator_slope) = polynomial(self.plant.numerator(), y);
         let delay = T::from_f64(self.plant.delay_s());
-        let turn = if delay.vanishes() { Phasor::new(T::one(), T::zero()) } else { Phasor::turn(y * delay) };
+        let turn = if delay.vanishes() { Complex::new(T::one(), T::zero()) } else { Complex::turn(y * delay) };
         let plain = denominator.over(numerator);
         let slope = (denominator_slope - plain * numerator_slope).over(numerator);
         (plain * turn, ((slope + plain.scaled(delay)) * turn).times_j().scaled(order))
@@ -50,9 +49,9 @@ impl<'a> InverseResponse<'a> {
 }
 
 /// Value and derivative by `s` of a polynomial in descending powers at `s = jy`.
-fn polynomial<T: Real>(descending: &[f64], y: T) -> (Phasor<T>, Phasor<T>) {
-    descending.iter().fold((Phasor::zero(), Phasor::zero()), |(value, slope), &coefficient| {
-        let value_next = value.times_j().scaled(y) + Phasor::new(T::from_f64(coefficient), T::zero());
+fn polynomial<T: Real>(descending: &[f64], y: T) -> (Complex<T>, Complex<T>) {
+    descending.iter().fold((Complex::zero(), Complex::zero()), |(value, slope), &coefficient| {
+        let value_next = value.times_j().scaled(y) + Complex::new(T::from_f64(coefficient), T::zero());
         (value_next, slope.times_j().scaled(y) + value)
     })
 }

@@ -9,7 +9,6 @@ mod closed_loop;
 mod error;
 mod inverse_response;
 mod oscillation;
-mod phasor;
 mod refine;
 mod spectrum;
 mod starts;

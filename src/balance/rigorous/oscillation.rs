@@ -10,10 +10,9 @@ use serde::{Deserialize, Serialize};
 use super::characteristic::OddCharacteristic;
 use super::closed_loop::{Centre, HIGHEST, LipschitzLoop};
 use super::error::{CannotTell, ExistenceError};
-use super::phasor::Phasor;
 use super::wave::Wave;
 use crate::balance::Intersection;
-use crate::numeric::Interval;
+use crate::numeric::{Complex, Interval};
 use crate::plant::TransferFunction;
 
 /// Changes with the meaning of a field.
@@ -186,7 +185,7 @@ impl LipschitzLoop<'_> {
 }
 
 fn first_harmonic(amplitude: f64, omega_rad_s: f64) -> Centre {
-    Centre { omega_rad_s, wave: Wave(vec![Phasor::new(amplitude, 0.0)]) }
+    Centre { omega_rad_s, wave: Wave(vec![Complex::new(amplitude, 0.0)]) }
 }
 
 fn same(a: &Centre, b: &Centre) -> bool {
@@ -276,7 +275,7 @@ impl ProvedOscillation {
             return Err(malformed("amplitude or frequency may be 0"));
         }
         let control_loop = LipschitzLoop::new(&self.plant, self.characteristic.clone())?;
-        let wave = Wave(self.harmonics.iter().map(|&[re, im]| Phasor::new(re, im)).collect());
+        let wave = Wave(self.harmonics.iter().map(|&[re, im]| Complex::new(re, im)).collect());
         let shown = control_loop.holds(&Centre { omega_rad_s: self.omega_rad_s, wave }, &radii)?;
         if shown.remainder <= self.remainder {
             Ok(())

@@ -5,9 +5,8 @@ use nalgebra::DVector;
 use super::brouwer::{LinearisedBalance, ShownBox};
 use super::closed_loop::{Centre, LipschitzLoop, jacobian, residual};
 use super::error::CannotTell;
-use super::phasor::Phasor;
 use super::spectrum::{EnclosedSpectrum, enclose};
-use crate::numeric::Interval;
+use crate::numeric::{Complex, Interval};
 
 /// Newton steps at most, and the step, relative to the amplitude, at which rounding takes over.
 const STEPS: usize = 20;
@@ -27,7 +26,7 @@ impl LipschitzLoop<'_> {
         let output = self.spectrum(&centre)?.harmonics.output;
         for k in (centre.wave.highest() + 2..=highest).step_by(2) {
             let response = self.inverse.at(centre.omega_rad_s, k).0;
-            let output = output.get(k / 2).map_or(Phasor::zero(), |output| output.midpoint());
+            let output = output.get(k / 2).map_or(Complex::zero(), |output| output.midpoint());
             centre.wave.0.push(-output.over(response));
         }
         let (omega, amplitude) = (centre.omega_rad_s, centre.amplitude());

@@ -4,17 +4,16 @@
 
 use super::characteristic::OddCharacteristic;
 use super::error::CannotTell;
-use super::phasor::Phasor;
 use super::wave::{KinkPassages, Wave};
-use crate::numeric::{Interval, Real};
+use crate::numeric::{Complex, Interval, Real};
 
 /// Harmonics of output and slope.
 #[derive(Clone, Debug)]
 pub(super) struct Spectrum<T> {
     /// N_1, N_3, N_5, ...
-    pub(super) output: Vec<Phasor<T>>,
+    pub(super) output: Vec<Complex<T>>,
     /// D_0, D_2, D_4, ...
-    pub(super) slope: Vec<Phasor<T>>,
+    pub(super) slope: Vec<Complex<T>>,
 }
 
 /// A spectrum enclosed, with the bounds that the proof needs beside it.
@@ -42,9 +41,9 @@ impl EnclosedSpectrum {
 
 impl<T: Real> Spectrum<T> {
     /// D_m for even m of either sign.
-    pub(super) fn slope_at(&self, m: isize) -> Phasor<T> {
-        let found = self.slope.get(m.unsigned_abs() / 2).copied().unwrap_or_else(Phasor::zero);
-        if m < 0 { found.conj() } else { found }
+    pub(super) fn slope_at(&self, m: isize) -> Complex<T> {
+        let found = self.slope.get(m.unsigned_abs() / 2).copied().unwrap_or_else(Complex::zero);
+        if m < 0 { found.conjugate() } else { found }
     }
 
     /// By the trapezoid rule: from `samples` phases of a turn, a multiple of four, of which half suffice. What it leaves out are the
@@ -57,7 +56,7 @@ impl<T: Real> Spectrum<T> {
         slope_last: usize,
     ) -> Self {
         let step = T::two() * T::pi() / T::from_f64(samples as f64);
-        let turns: Vec<Phasor<T>> = (0..samples).map(|j| Phasor::turn(step * T::from_f64(j as f64))).collect();
+        let turns: Vec<Complex<T>> = (0..samples).map(|j| Complex::turn(step * T::from_f64(j as f64))).collect();
         let harmonics: Vec<(usize, T, T)> =
             wave.orders().map(|(k, harmonic)| (k, T::from_f64(harmonic.re), T::from_f64(harmonic.im))).collect();
         let values: Vec<(T, T)> = (0..samples / 2)
@@ -70,10 +69,9 @@ impl<T: Real> Spectrum<T> {
             })
             .collect();
         let sum = |order: usize, of: fn(&(T, T)) -> T, factor: f64| {
-            let sum = values
-                .iter()
-                .enumerate()
-                .fold(Phasor::zero(), |sum, (j, value)| sum + turns[order * j % samples].conj().scaled(of(value)));
+            let sum = values.iter().enumerate().fold(Complex::zero(), |sum, (j, value)| {
+                sum + turns[order * j % samples].conjugate().scaled(of(value))
+            });
             sum.scaled(T::from_f64(factor / samples as f64))
         };
         Self {
@@ -123,18 +121,18 @@ fn between_kinks(slopes: &[f64], wave: &Wave, passages: &KinkPassages) -> Enclos
     let mean = Interval::point(slopes[passages.piece]) - weighted * Interval::INVERSE_PI;
     let slope_harmonic = |m: usize| {
         if m == 0 {
-            return Phasor::new(mean, Interval::ZERO);
+            return Complex::new(mean, Interval::ZERO);
         }
         let order = Interval::point(m as f64);
         let sum = jumps
             .iter()
-            .fold(Phasor::zero(), |sum, &(jump, theta)| sum + Phasor::turn(theta * order).conj().scaled(jump));
+            .fold(Complex::zero(), |sum, &(jump, theta)| sum + Complex::turn(theta * order).conjugate().scaled(jump));
         // Over j m pi.
         -sum.times_j().scaled(Interval::INVERSE_PI / order)
     };
     let mut harmonics =
         Spectrum { output: Vec::new(), slope: (0..=last + highest).step_by(2).map(slope_harmonic).collect() };
-    let rates: Vec<(isize, Phasor<Interval>)> = wave
+    let rates: Vec<(isize, Complex<Interval>)> = wave
         .orders()
         .map(|(l, harmonic)| (l as isize, harmonic.enclosed().scaled(Interval::point(l as f64))))
         .collect();
@@ -142,8 +140,8 @@ fn between_kinks(slopes: &[f64], wave: &Wave, passages: &KinkPassages) -> Enclos
     harmonics.output = (1..=last)
         .step_by(2)
         .map(|k| {
-            let sum = rates.iter().fold(Phasor::zero(), |sum, &(l, rate)| {
-                sum + harmonics.slope_at(k as isize - l) * rate - harmonics.slope_at(k as isize + l) * rate.conj()
+            let sum = rates.iter().fold(Complex::zero(), |sum, &(l, rate)| {
+                sum + harmonics.slope_at(k as isize - l) * rate - harmonics.slope_at(k as isize + l) * rate.conjugate()
             });
             sum.scaled(Interval::ONE / Interval::point(k as f64))
         })
@@ -192,11 +190,11 @@ fn smooth(characteristic: &OddCharacteristic, wave: &Wave, reach: f64) -> Option
     };
     for (index, harmonic) in harmonics.output.iter_mut().enumerate() {
         let missed = missed(strip.output * Interval::point(2.0), 2 * index + 1);
-        *harmonic = *harmonic + Phasor::new(missed, missed);
+        *harmonic = *harmonic + Complex::new(missed, missed);
     }
     for (index, harmonic) in harmonics.slope.iter_mut().enumerate() {
         let missed = missed(strip.slope, 2 * index);
-        *harmonic = *harmonic + Phasor::new(missed, missed);
+        *harmonic = *harmonic + Complex::new(missed, missed);
     }
     Some(EnclosedSpectrum {
         harmonics,

@@ -1,8 +1,7 @@
 //! A half-wave symmetric trigonometric polynomial `u(theta) = Re sum over odd k of X_k exp(jk theta)`, and where it passes kinks.
 
 use super::error::CannotTell;
-use super::phasor::Phasor;
-use crate::numeric::{Interval, Real};
+use crate::numeric::{Complex, Interval, Real};
 
 /// Cells into which half a turn is divided at first, and bisections of a cell at most.
 const CELLS: usize = 64;
@@ -12,7 +11,7 @@ const STEPS: usize = 60;
 
 /// Its harmonics X_1, X_3, X_5, ...
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Wave(pub(super) Vec<Phasor<f64>>);
+pub(super) struct Wave(pub(super) Vec<Complex<f64>>);
 
 /// A passage of the wave through a level, within half a turn.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +40,7 @@ impl Wave {
         2 * self.0.len() - 1
     }
 
-    pub(super) fn orders(&self) -> impl Iterator<Item = (usize, Phasor<f64>)> + '_ {
+    pub(super) fn orders(&self) -> impl Iterator<Item = (usize, Complex<f64>)> + '_ {
         self.0.iter().enumerate().map(|(index, &harmonic)| (2 * index + 1, harmonic))
     }
 

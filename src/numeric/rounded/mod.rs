@@ -32,9 +32,9 @@ use super::{Interval, Real};
 
 /// A number of a formula: where its exact value lies, where its float lies, and how far apart they can be.
 ///
-/// **Guarantee.** For all floats within the intervals given to [`Rounded::input`], the result's `exact` contains the formula's value in real
-/// numbers, `float` the formula's value in the format, and `error` is at least the distance of the two, provided that
-/// the format's functions are as exact as [`Format`] says. An infinite `error` is no bound: a domain may have been left.
+/// **Guarantee.** It holds for all floats within the intervals given to [`Rounded::input`]. `exact` contains the formula's value in real
+/// numbers, `float` the formula's value in the format, and `error` is at least their distance. The format's functions are assumed as exact
+/// as [`Format`] says. An infinite `error` is no bound: a domain may have been left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounded<F> {
     exact: Interval,

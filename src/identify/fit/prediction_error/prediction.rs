@@ -34,8 +34,8 @@ pub struct PredictedMotion {
     pub prediction: Prediction,
     /// The first sample predicted.
     pub first_sample: usize,
-    /// The outputs from there on, in output units; a reading that counts as an outlier stands for itself.
-    pub output: Vec<f64>,
+    /// The outputs from there on, in output units; `None` where the reading counts as an outlier.
+    pub output: Vec<Option<f64>>,
 }
 
 impl Reported {
@@ -97,7 +97,10 @@ impl Reported {
             rms: (square / count).sqrt(),
             disturbance: model.value(Parameter::Disturbance),
         };
-        let output = seen.iter().zip(&pass.innovations).map(|(reading, innovation)| reading - innovation.error);
+        // An outlier has no weight, and its innovation no meaning.
+        let counted = observations.weight[observations.first..].iter().map(|weight| *weight > 0.0);
+        let predicted = seen.iter().zip(&pass.innovations).map(|(reading, innovation)| reading - innovation.error);
+        let output = counted.zip(predicted).map(|(counted, predicted)| counted.then_some(predicted));
         Some(PredictedMotion { prediction, first_sample: observations.first, output: output.collect() })
     }
 }
