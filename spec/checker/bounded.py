@@ -130,6 +130,8 @@ class Stage:
                     if not low <= high:
                         return None
                     ranges[place] = span(low, high)
+                    if not low <= centre[place] <= high:
+                        centre[place] = arb(ranges[place].mid())
                     own = [(p, s[k]) for p, s in zip(places, slopes)] + [(place, arb(-1))]
                     pair(rows, ("link", first, k), own, point[k] - centre[place], arb(0))
         self.bound(rows, centre)

@@ -50,6 +50,24 @@ fn least_excess(relaxation: &mut Relaxation, excess: usize) -> Option<(Vec<usize
     })
 }
 
+/// Confines the deviations to a box, and to the trust region: a share of the widths of the box from which the steps began.
+fn confine(relaxation: &mut Relaxation, within: &[Interval], from: &[Interval], trust: f64) {
+    for (place, (side, from)) in within.iter().zip(from).enumerate() {
+        let middle = Interval::point(relaxation.centre[place]);
+        let room = middle + Interval::symmetric(trust * from.width());
+        relaxation.deviations[place] = room.intersection(*side).unwrap_or(middle) - middle;
+    }
+}
+
+/// A point after a step; the excess, which is no unknown of the point, is left out.
+fn moved(point: &[f64], places: &[usize], step: &[f64]) -> Vec<f64> {
+    let mut next = point.to_vec();
+    for (place, step) in places.iter().zip(step).filter(|(place, _)| **place < point.len()) {
+        next[*place] += step;
+    }
+    next
+}
+
 impl Contractor {
     /// The largest misfit of a parameter over whole records. `None` where its motion cannot be enclosed.
     pub(super) fn misfit(&self, at: &[f64]) -> Option<f64> {
@@ -107,16 +125,9 @@ impl Contractor {
         for _ in 0..MOST_STEPS {
             let Some(mut relaxation) = self.about(&centre, spans) else { break };
             let excess = self.add_excess(&mut relaxation);
-            for (place, (side, from)) in within.iter().zip(from).enumerate() {
-                let middle = Interval::point(centre[place]);
-                let room = middle + Interval::symmetric(trust * from.width());
-                relaxation.deviations[place] = room.intersection(*side).unwrap_or(middle) - middle;
-            }
+            confine(&mut relaxation, within, from, trust);
             let Some((places, step)) = least_excess(&mut relaxation, excess) else { break };
-            let mut next = centre.clone();
-            for (place, step) in places.into_iter().zip(step).filter(|(place, _)| *place < excess) {
-                next[place] += step;
-            }
+            let next = moved(&centre, &places, &step);
             let before = best.as_ref().map_or(f64::INFINITY, |best| best.misfit);
             match self.misfit(&next) {
                 Some(misfit) if misfit < before => {
@@ -149,41 +160,38 @@ impl Contractor {
     }
 
     /// The feasible point with an unknown furthest up (or, `sign` negative, down) that linear programmes from a feasible point find in a
-    /// box.
+    /// box, each about the furthest feasible point so far.
     pub(super) fn furthest(
         &self,
         from: &ParameterPoint,
         within: &[Interval],
         unknown: usize,
         sign: f64,
-    ) -> Option<ParameterPoint> {
+    ) -> ParameterPoint {
         let spans = self.problem.single_shooting();
         let inside = INSIDE * (1.0 - from.misfit);
-        let (mut centre, mut best) = (from.at.clone(), None::<ParameterPoint>);
+        let (mut best, mut trust) = (from.clone(), 1.0);
         for _ in 0..MOST_STEPS {
-            let (Some(mut relaxation), Some(misfit)) = (self.about(&centre, &spans), self.misfit(&centre)) else {
-                break;
-            };
-            if misfit <= 1.0 {
-                let gain = best.as_ref().map_or(f64::INFINITY, |best| sign * (centre[unknown] - best.at[unknown]));
-                if gain > 0.0 {
-                    best = Some(ParameterPoint { at: centre.clone(), misfit });
-                }
-                if gain < LEAST_GAIN * within[unknown].width() {
-                    break;
-                }
-            }
+            let Some(mut relaxation) = self.about(&best.at, &spans) else { break };
             let excess = self.add_excess(&mut relaxation);
-            for (place, side) in within.iter().enumerate() {
-                relaxation.deviations[place] = *side - Interval::point(centre[place]);
-            }
+            confine(&mut relaxation, within, within, trust);
             relaxation.deviations[excess] = Interval::point(-inside);
             let places = relaxation.places();
             let Outcome::Bounded { at: step, .. } = relaxation.programme(&places).maximise(&[(unknown, sign)]) else {
                 break;
             };
-            for (place, step) in places.into_iter().zip(step).filter(|(place, _)| *place < excess) {
-                centre[place] += step;
+            let at = moved(&best.at, &places, &step);
+            match self.misfit(&at) {
+                Some(misfit) if misfit <= 1.0 => {
+                    let gain = sign * (at[unknown] - best.at[unknown]);
+                    if gain > 0.0 {
+                        best = ParameterPoint { at, misfit };
+                    }
+                    if gain < LEAST_GAIN * within[unknown].width() {
+                        break;
+                    }
+                }
+                _ => trust *= SHRINK,
             }
         }
         best

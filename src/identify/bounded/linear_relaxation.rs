@@ -259,21 +259,25 @@ impl Problem {
     }
 
     /// The inequalities of all shooting intervals that are followed, about `centre`. The state at the end of one is intersected with the
-    /// box at the beginning of the next. `None` where there is no enclosure.
+    /// box at the beginning of the next; a centre that is left outside moves to the middle of the intersection: the mean value form is wide
+    /// about a far centre. `None` where there is no enclosure.
     pub(super) fn shoot(&self, at: &mut [Interval], centre: Vec<f64>) -> Result<Option<Relaxation>, Disjoint> {
         let mut relaxation = self.about(at, centre);
         for span in self.multiple_shooting() {
             let Some(motion) = self.motion(span, at, &relaxation.centre) else { return Ok(None) };
             let record = |interval: usize| self.unknowns.shooting.get(interval).map(|own| own.record);
             let linked = record(span.to) == record(span.from) && self.followed().any(|(own, _)| own == span.to);
-            self.add_motion(span, &motion, linked, &mut relaxation);
             if let (true, Some(end)) = (linked, motion.last()) {
                 for component in 0..self.unknowns.state_size() {
                     let place = self.unknowns.start(span.to, component);
                     at[place] = at[place].intersection(end.over[component]).ok_or(Disjoint)?;
+                    if !at[place].contains(relaxation.centre[place]) {
+                        relaxation.centre[place] = at[place].midpoint();
+                    }
                     relaxation.deviations[place] = at[place] - Interval::point(relaxation.centre[place]);
                 }
             }
+            self.add_motion(span, &motion, linked, &mut relaxation);
         }
         self.add_prior(&mut relaxation);
         Ok(Some(relaxation))

@@ -79,7 +79,7 @@ impl Points {
             .collect();
         for end in &ends {
             let from = self.feasible().cloned();
-            let far = from.and_then(|from| contractor.furthest(&from, &hull, end.unknown, end.sign()));
+            let far = from.map(|from| contractor.furthest(&from, &hull, end.unknown, end.sign()));
             far.into_iter().for_each(|point| self.note(point));
         }
         for round in 1..=ROUNDS {
@@ -119,7 +119,7 @@ impl Points {
             let before = self.inner.as_ref().map(|inner| end.of(inner));
             if let Some(point) = contractor.nearest(&stays, &stays) {
                 let hull = division.hull().filter(|_| point.is_feasible());
-                let far = hull.and_then(|hull| contractor.furthest(&point, &hull, end.unknown, end.sign()));
+                let far = hull.map(|hull| contractor.furthest(&point, &hull, end.unknown, end.sign()));
                 far.into_iter().chain([point]).for_each(|point| self.note(point));
             }
             if self.inner.as_ref().map(|inner| end.of(inner)) == before {
