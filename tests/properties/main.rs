@@ -41,6 +41,7 @@ mod orbit_drag_axis;
 mod orbit_linear;
 mod paper;
 mod power_law;
+mod practical;
 mod record;
 mod relay_certificate;
 mod rounding;

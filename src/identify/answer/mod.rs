@@ -3,6 +3,8 @@
 #[cfg(feature = "std")]
 pub(crate) mod any_float;
 #[cfg(feature = "std")]
+mod budget;
+#[cfg(feature = "std")]
 pub(crate) mod distribution;
 mod drag_law;
 mod error;
@@ -23,9 +25,12 @@ mod warning;
 
 pub use drag_law::DragLaw;
 pub use error::IdentifyError;
+#[cfg(feature = "std")]
+pub(crate) use budget::MotionScale;
 pub(crate) use error::READ_AGAIN;
 #[cfg(feature = "std")]
 pub use {
+    budget::{Assumptions, BudgetEntry, ErrorSource},
     estimate::{ConfidenceInterval, Disturbances, Estimate},
     laws::{DragVerdict, LawEvidence},
     parameter::{AxisParameter, Delay},
