@@ -1,6 +1,6 @@
-"""Twenty structures that neither the model family nor the simulator's catalogue has: how often practical intervals hold the inertia.
+"""Twenty structures outside the plain model, by a simulator of its own: how often practical intervals hold the inertia.
 
-    python3 tests/trust/unseen.py target/release/selfosc [records] [first seed] [threads' share: kinds from] [to]
+    python3 tests/trust/unseen.py target/release/selfosc [records] [first seed] [first kind] [end]
 
 Vehicles are those of `budget.py` with one structure more each; the alpha that counts is in units of the nominal thrust.
 Defaults: 15 records of each kind, seeds from 5560000 on, all kinds.
