@@ -6,9 +6,8 @@ score() { cargo run --release -p selfosc-trust -- --threads 2 "$@"; }
 # Kinds, one a line, from standard input.
 of_kinds() { local kinds=(); while read -r kind; do kinds+=(--kind "$kind"); done; score "${kinds[@]}" "$@"; }
 
-# all kinds, the run before
-of_kinds --records 100 --seed 6000000 --list <<KINDS
-linear, noise
+# Kinds inside the plain model that every run has.
+inside='linear, noise
 linear, 1 degree
 quadratic, 1 degree
 quadratic, noise, delay unknown
@@ -27,7 +26,11 @@ irregular samples
 20 s
 2 degrees
 strong constant force
-zig-zag, rudder logged
+zig-zag, rudder logged'
+
+# all kinds, the run before
+of_kinds --records 100 --seed 6000000 --list <<KINDS
+$inside
 lag 0.1 s
 lag 0.2 s
 lag 0.3 s, delay unknown
@@ -106,26 +109,7 @@ KINDS
 
 # inside the plain model and its family
 of_kinds --records 100 --seed 8100000 <<KINDS
-linear, noise
-linear, 1 degree
-quadratic, 1 degree
-quadratic, noise, delay unknown
-mixed, noise
-mixed, 1 degree
-mixed, noise, delay unknown
-mixed, linear part 1 to 8 %
-mixed, quadratic part 1 to 8 %
-negative linear and quadratic
-rounding alone
-rounding alone, delay unknown
-locked cycles
-locked cycles, delay unknown
-irregular samples
-5 Hz
-20 s
-2 degrees
-strong constant force
-zig-zag, rudder logged
+$inside
 rounding alone, 280 s
 200 s
 partly locked cycles

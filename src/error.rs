@@ -64,6 +64,7 @@ umbrella! {
     "A name or setting that the catalogue does not take." Catalogue(crate::describing::CatalogueError) numbers;
     "A plant that is none." Plant(crate::plant::PlantError) numbers;
     "No harmonic balance." Balance(crate::balance::BalanceError) numbers;
+    "No proof of an oscillation." Existence(crate::balance::ExistenceError);
     "No limit cycle." Orbit(crate::orbit::OrbitError) numbers;
     "No record." Experiment(crate::experiment::ExperimentError) numbers;
     "No steady self-oscillation in a record." Features(crate::features::FeatureError);

@@ -4,13 +4,13 @@
 //! | job | start with |
 //! |---|---|
 //! | describe a characteristic | [`nonlinearity`], [`describing::ClosedForm`] |
-//! | predict an oscillation | [`orbit::limit_cycle`], [`orbit::RelayLoop`], [`balance::HarmonicBalance`] |
+//! | predict an oscillation | [`orbit::limit_cycle`], [`orbit::orbits`], [`balance::HarmonicBalance`] |
 //! | identify a vehicle from logs | `identify::Session` (with the feature `std`) |
 //! | tune a controller for it | [`control::Tuning`] |
 //! | tune any process from a relay record | `autotune::Autotune` (with the feature `std`) |
 //! | verify the theory | `claims::verify` (with the feature `std`) |
 //!
-//! The page `guide` works through a log, an orbit and a claim, says what units there are, and where other tools are better.
+//! The page `guide` works through a log, an orbit and a claim, lists units, and compares other tools.
 //!
 //! [`prelude`] has the names that these jobs need. Without the feature `std` the library neither allocates nor panics on
 //! input; [`on_board`] runs the whole experiment there. What can refuse gives finite numbers in the domain that its page states,

@@ -18,6 +18,7 @@ from .errors import NoLimitCycle, OutOfDomain, RecordRefused, SelfoscError, Unre
 from .identification import Bounds, Identification, bounded, identify
 from .inverse import Amplitudes, FittedCharacteristics, amplitudes, fit_characteristic
 from .loops import Balance, Certificate, Prediction, balance, certify, predict, simulate
+from .on_board import Controller, ControlStep, Experiment, Outcome, Protocol, Step
 from .theory import Reproduction, Verification, reproduce, verify
 
 if TYPE_CHECKING:
@@ -28,19 +29,25 @@ __all__ = [
     "Balance",
     "Bounds",
     "Certificate",
+    "ControlStep",
+    "Controller",
     "Described",
     "DescribingFunction",
     "Design",
+    "Experiment",
     "FittedCharacteristics",
     "Identification",
     "NoLimitCycle",
     "Nonlinearity",
     "OutOfDomain",
+    "Outcome",
     "Prediction",
+    "Protocol",
     "RecordRefused",
     "Reproduction",
     "Result",
     "SelfoscError",
+    "Step",
     "Tuned",
     "UnreadableLog",
     "UsageError",

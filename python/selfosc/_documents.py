@@ -10,7 +10,7 @@ from . import _arguments, _core
 from .errors import UsageError, of
 
 #: Options of which a sequence is one value, joined by commas; others are repeated.
-_JOINED = {"num", "den", "alpha_interval", "beta_interval", "beta_quadratic_interval", "delay_interval"}
+_JOINED = {"num", "den", "relay", "periods", "alpha_interval", "beta_interval", "beta_quadratic_interval", "delay_interval"}
 
 
 def number(value: Any, name: str) -> str:

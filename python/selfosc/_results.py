@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -59,20 +60,55 @@ class Result:
 
         return pd.DataFrame(self._rows())
 
+    def _title(self) -> str:
+        """What stands above the table."""
+        return type(self).__name__
+
+    def _table(self) -> list[list[str]]:
+        """A table for a person, names first: of one row its fields, of several their first columns."""
+        rows = self._rows()
+        if len(rows) == 1:
+            return [["field", "value"], *([name, shown] for name, value in rows[0].items() if (shown := _short(value)))]
+        names = [name for name in dict.fromkeys(name for row in rows for name in row) if any(_short(row.get(name)) for row in rows)]
+        names = names[:_COLUMNS]
+        return [names, *([_short(row.get(name)) for name in names] for row in rows)]
+
     def __repr__(self) -> str:
-        lines = [f"{type(self).__name__}("]
-        for row in self._rows()[:12]:
-            shown = ", ".join(f"{name}={_short(value)}" for name, value in row.items() if value is not None)
-            lines.append(f"  {shown}")
-        return "\n".join([*lines, ")"])
+        head, *rows = self._table()
+        shown = [[_cut(cell) for cell in row] for row in (head, *rows[:_ROWS])]
+        widths = [max(len(row[column]) for row in shown) for column in range(len(head))]
+        lines = ["  ".join(f"{cell:{width}}" for cell, width in zip(row, widths, strict=True)).rstrip() for row in shown]
+        more = [f"and {len(rows) - _ROWS} more: to_frame() has all"] if len(rows) > _ROWS else []
+        return "\n".join([self._title(), *lines, *more])
 
     def _repr_html_(self) -> str:
-        rows = self._rows()
-        names = list(dict.fromkeys(name for row in rows for name in row))
-        cell = lambda tag, value: f"<{tag}>{html.escape(str(value))}</{tag}>"  # noqa: E731
-        head = "".join(cell("th", name) for name in names)
-        body = "".join("<tr>" + "".join(cell("td", _short(row.get(name))) for name in names) + "</tr>" for row in rows)
-        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+        names, *rows = self._table()
+        line = lambda tag, cells: "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in cells) + "</tr>"  # noqa: E731
+        body = "".join(line("td", row) for row in rows)
+        caption = f"<caption>{html.escape(self._title())}</caption>"
+        return f"<table>{caption}<thead>{line('th', names)}</thead><tbody>{body}</tbody></table>"
+
+
+#: Columns of a table for a person, and rows where it is text.
+_COLUMNS = 8
+_ROWS = 16
+
+
+def _cut(cell: str) -> str:
+    """A cell that a line of a terminal holds."""
+    return cell if len(cell) <= 60 else f"{cell[:57]}..."
+
+
+def measured(value: float, half_width: float | None) -> str:
+    """A number to the second digit of half its interval's width, with that: ``0.03301 ± 0.00009``."""
+    if not half_width or not math.isfinite(half_width):
+        return _short(value)
+    exponent = math.floor(math.log10(max(abs(value), half_width)))
+    # Numbers far from one have their power of ten outside.
+    power = exponent if not -4 < exponent < 6 else 0
+    digits = max(0, 1 - math.floor(math.log10(half_width)) + power)
+    text = f"{value / 10.0**power:.{digits}f} ± {half_width / 10.0**power:.{digits}f}"
+    return f"({text})e{power}" if power else text
 
 
 def _flat(document: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
@@ -88,4 +124,6 @@ def _flat(document: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
 def _short(value: Any) -> str:
     if value is None:
         return ""
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    if isinstance(value, (list, dict)):
+        return f"{len(value)} of them" if value else ""
+    return f"{value:.4g}" if isinstance(value, float) else str(value)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import tempfile
 from pathlib import Path
 from typing import Any, Literal
@@ -30,15 +31,43 @@ class Tuned(Result):
     offset: float
     with_force: types.UnderForce | None
 
+    def _title(self) -> str:
+        peak = self.sensitivity["proved_upper"]
+        limit = "not proved" if peak is None else f"at most {peak:.4g}"
+        return f"{self.gains['structure']} controller; largest sensitivity {limit}"
+
+    def _table(self) -> list[list[str]]:
+        """Gains, margins and the step; F is the command's unit, x the output's, an angle in rad."""
+        gains, step, worst = self.gains, self.verified["step"], self.worst_case
+        margins = self.margins if worst is None else worst["at_least"]
+        over = "" if worst is None else ", all axes"
+        rows: list[tuple[str, float | None, str]] = [
+            ("proportional", gains["proportional"], "F/x"),
+            ("integral", gains["integral"] or None, "F/(x s)"),
+            ("derivative", gains["derivative"], "F s/x"),
+            ("filter", gains["filter_s"], "s"),
+            ("bandwidth", self.verified["bandwidth_rad_s"], "rad/s"),
+            (f"gain margin{over}", margins["gain"], ""),
+            (f"phase margin{over}", math.degrees(margins["phase_rad"]), "deg"),
+            (f"delay margin{over}", margins["delay_s"], "s"),
+            ("overshoot", step["overshoot_percent"], "%"),
+            ("settling", step["settling_s"], "s"),
+            ("offset by the force", self.offset or None, "x"),
+        ]
+        return [["", "value", "unit"], *([name, f"{value:.4g}", unit] for name, value, unit in rows if value is not None)]
+
 
 @_arguments.named
 def tune(
     model: Identification | None = None,
     *,
-    bandwidth: float,
+    bandwidth: float | None = None,
+    ms: float | None = None,
+    phase_margin: float | None = None,
     alpha: float | None = None,
     beta: float | None = None,
     beta_quadratic: float | None = None,
+    delta: float | None = None,
     delay: float | None = None,
     structure: Structure = "pd",
     step: float = 1.0,
@@ -49,16 +78,24 @@ def tune(
     beta_quadratic_interval: tuple[float, float] | None = None,
     delay_interval: tuple[float, float] | None = None,
 ) -> Tuned:
-    """Gains for ``alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay)`` by pole placement, and their margins.
+    """Gains for ``alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay) + delta`` by pole placement, and their margins.
+
+    What the gains are for is one of ``bandwidth``, ``ms`` and ``phase_margin``.
 
     Parameters
     ----------
     model : Identification, optional
-        Instead of ``alpha``, drag and ``delay``: the values of ``reported``, with its intervals where no others are given.
-    bandwidth : float
+        Instead of ``alpha``, drag, ``delta`` and ``delay``: ``reported`` with all its terms, and its intervals where no others are
+        given.
+    bandwidth : float, optional
         Of the answer to the reference, -3 dB, rad/s.
-    alpha, beta, beta_quadratic, delay : float
-        Inertia, drag and delay, as for :func:`selfosc.predict`.
+    ms : float, optional
+        Largest sensitivity of any axis in the intervals: the largest bandwidth is taken at which it is proved. 1.2 is cautious,
+        1.4 usual, 2 lively.
+    phase_margin : float, optional
+        Least phase margin of any axis in the intervals, degrees; taken likewise.
+    alpha, beta, beta_quadratic, delta, delay : float
+        Inertia, drag, constant force and delay, as for :func:`selfosc.predict`.
     structure : {"pd", "pid", "ipd"}
     step, limit : float
         Step of the reference to simulate, output units, and the largest command in it, command units.
@@ -70,14 +107,14 @@ def tune(
     Returns
     -------
     Tuned
-        ``gains``, ``margins`` and what was verified.
+        ``gains``, ``margins`` and what was verified; ``offset`` is where a PD leaves the axis under the constant force.
 
     Raises
     ------
     SelfoscError
-        Where some axis in the intervals is not stabilised (code ``unstable``), for a model that is not to be trusted or has terms
-        that no design knows of, for a bandwidth that the delay forbids, with the largest that it allows, and for numbers outside
-        their domain.
+        Where some axis in the intervals is not stabilised (code ``unstable``), for a model that is not to be trusted or has no
+        inertia, for a bandwidth that the delay forbids, with the largest that it allows, for a limit that no bandwidth keeps
+        (``out-of-reach``), and for numbers outside their domain.
 
     Examples
     --------
@@ -85,9 +122,13 @@ def tune(
     >>> found = tune(alpha=0.033, beta=0.01, beta_quadratic=0.06, delay=0.2, bandwidth=0.8)
     >>> found.gains["structure"], round(found.gains["proportional"], 5)
     ('pd', 0.04203)
+    >>> cautious = tune(alpha=0.033, beta=0.01, delta=0.004, delay=0.2, alpha_interval=(0.032, 0.034), ms=1.4)
+    >>> cautious.sensitivity["proved_upper"] <= 1.4, cautious.offset > 0
+    (True, True)
     """
     options = {
-        "alpha": alpha, "beta": beta, "beta_quadratic": beta_quadratic, "delay": delay, "bandwidth": bandwidth,
+        "alpha": alpha, "beta": beta, "beta_quadratic": beta_quadratic, "delta": delta, "delay": delay,
+        "bandwidth": bandwidth, "ms": ms, "phase_margin": phase_margin,
         "structure": _arguments.choice(structure, "structure", Structure),
         "step": step, "limit": limit, "top_speed": top_speed, "alpha_interval": alpha_interval,
         "beta_interval": beta_interval, "beta_quadratic_interval": beta_quadratic_interval, "delay_interval": delay_interval,

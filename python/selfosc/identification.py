@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 
 from . import _arguments, _core, _documents, _tables, types
-from ._results import Result, _flat
+from ._results import Result, _flat, measured
 from .errors import OutOfDomain, UsageError
 
 if TYPE_CHECKING:
@@ -66,6 +66,27 @@ class Identification(Result):
         answer = self.to_dict().get("reported")
         rows = [{"method": "reported", **_flat(answer)}] if answer else []
         return rows + [_flat(estimate) for estimate in self.to_dict()["estimates"]]
+
+    def _title(self) -> str:
+        first, *_ = self.records
+        record = f"{first['file']}: " if len(self.records) == 1 else f"{len(self.records)} records: "
+        if self.reported is None:
+            return f"{record}no model reported"
+        reasons = "".join(f", {note['code']}" for note in self.reported["reasons"])
+        return f"{record}trust {self.reported['trust']}{reasons}; {self.reported['drag']} drag"
+
+    def _table(self) -> list[list[str]]:
+        """The reported parameters with half their 95 % intervals' widths."""
+        if self.reported is None:
+            return super()._table()
+        units = _units(self.units)
+        table = [["parameter", "95 % interval", "unit"]]
+        for name, part in self.reported.items():
+            if isinstance(part, dict) and part.get("value") is not None:
+                spread = part.get("combined") or part
+                half = None if spread["low"] is None else 0.5 * (spread["high"] - spread["low"])
+                table.append([name, measured(part["value"], half), units.get(name, "")])
+        return table
 
     def report(self, path: str | os.PathLike[str]) -> Path:
         """Writes one HTML file with tables and figures, which needs no network.
@@ -135,6 +156,13 @@ class Identification(Result):
         # A constant force near zero is uncertain by many times its value, an inertia by a hundredth.
         axes.set_xscale("symlog", linthresh=1.0)
         axes.set_xlabel("95 % interval, percent of the value (of one where that is zero)")
+
+
+def _units(units: types.Units) -> dict[str, str]:
+    """The unit of each reported parameter, in the output's own."""
+    known = {name: str(unit).replace("output", units["output"]) for name, unit in units.items()}
+    times = dict.fromkeys(("delay_s", "lag_s", "ramp_s", "filter_s", "memory_s"), "s")
+    return known | times | {"coulomb": known["delta"], "memory": known["beta"]}
 
 
 def _arrived(text: str) -> Identification:

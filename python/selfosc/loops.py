@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from typing import Any
 
-from . import _arguments, _core, _documents, types
+from . import _arguments, _documents, types
 from ._results import Result
 from .describing import Nonlinearity
 from .errors import NoLimitCycle, UsageError
@@ -15,9 +14,10 @@ __all__ = ["Balance", "Certificate", "Prediction", "balance", "certify", "predic
 
 
 class Balance(Result):
-    """The intersections of a Nyquist curve with ``-1/N``."""
+    """The intersections of a Nyquist curve with ``-1/N``, and all oscillations that are proved to exist."""
 
     intersections: list[types.Intersection]
+    proved: list[types.ProvedOscillation] | None
 
     def _rows(self) -> list[dict[str, Any]]:
         return self.to_dict()["intersections"]
@@ -42,9 +42,12 @@ class Prediction(Result):
 
 
 class Certificate(Result):
-    """Limit cycles of a relay loop, each with its proof or why there is none."""
+    """Orbits of a relay loop, each proved, and the periods searched."""
 
     orbits: list[types.Orbit]
+    complete: bool
+    range_s: types.OpenRange
+    not_covered: list[types.OpenRange]
 
     def _rows(self) -> list[dict[str, Any]]:
         return self.to_dict()["orbits"]
@@ -78,7 +81,7 @@ def balance(plant: Any, characteristic: str | Nonlinearity, *, delay: float = 0.
     -------
     Balance
         ``intersections``, each with ``amplitude`` (input units), ``omega_rad_s`` and ``stable`` (Loeb's verdict: true, false
-        or ``None``). None is an answer too.
+        or ``None``), and ``existence``, a proved box or the reason for none; ``proved``, every box. None is an answer too.
 
     Raises
     ------
@@ -162,53 +165,66 @@ def predict(
 
 
 @_arguments.named
-def certify(plant: Any, relay: Nonlinearity, *, delay: float = 0.0, period_s: tuple[float, float] = (1e-2, 1e3)) -> Certificate:
-    """The symmetric limit cycles of a linear plant under a relay with hysteresis, each with its proof.
+def certify(
+    plant: Any, relay: Nonlinearity, *, delay: float = 0.0, reference: float = 0.0, period_s: tuple[float, float] | None = None
+) -> Certificate:
+    """All orbits of a linear plant with dead time under a relay, one switching each way in a period, each proved.
 
     Parameters
     ----------
     plant : control.TransferFunction, control.StateSpace, scipy.signal.lti or (num, den)
-        Strictly proper; the relay's input is minus its output.
+        Strictly proper; the relay's input is the reference minus its output.
     relay : Nonlinearity
-        A ``relay`` or a ``relay-hysteresis`` without offset.
+        A ``relay`` or a ``relay-hysteresis``; its ``offset`` makes levels unequal: a heater has ``level=0.5, offset=0.5``.
     delay : float, default 0
         Of the plant, s.
-    period_s : (float, float)
-        The periods to look at, s.
+    reference : float, default 0
+        About which the relay switches, output units.
+    period_s : (float, float), optional
+        The periods to look at, s; all from the slowest down where left out.
 
     Returns
     -------
     Certificate
-        ``orbits``, each with ``period_s``, ``amplitude``, ``stable`` and ``certificate``: intervals for the half-period and the
-        switching rate, and whether the orbit is shown to attract; or ``certificate_refused``.
+        ``orbits``, the slowest first, each with ``period_s``, ``amplitude``, ``bias``, ``multipliers``, ``attracting`` and
+        ``enclosure``; ``range_s``, the periods searched, of which ``not_covered`` may hold other orbits; ``complete``.
 
     Raises
     ------
     SelfoscError
-        For a plant or relay that has no such cycle.
+        For a plant or relay that is refused.
 
     Notes
     -----
-    Proved is each orbit and that the relay does not switch earlier on it, for exactly the coefficients given. That no orbit is
-    missed is as sure as the scan over periods is fine; orbits with more than two switchings a period are not looked for.
+    Proved is each orbit, that the relay switches nowhere else on it, and that ``range_s`` outside ``not_covered`` holds no other, for
+    exactly the coefficients given. Orbits with more than two switchings a period are not looked for. ``attracting`` is ``None``
+    where it is not decided.
 
     Examples
     --------
     >>> from selfosc import certify, nonlinearity
     >>> orbit = certify(([1], [1, 1, 0]), nonlinearity("relay-hysteresis", half_width=0.2))[0]
-    >>> low, high = orbit["certificate"]["half_period_s"]
-    >>> low < 1.862223721734969 < high and high - low < 1e-12
-    True
+    >>> low, high = orbit["enclosure"]["time_high_s"]
+    >>> low < 1.862223721734969 < high and high - low < 1e-12, orbit["attracting"]
+    (True, True)
     """
     if not isinstance(relay, Nonlinearity):
         raise UsageError(f"relay is {_arguments.shown(relay)}: must be an object of selfosc.nonlinearity(); make one")
     parameters = relay.parameters
-    if relay.name not in ("relay", "relay-hysteresis") or parameters.get("offset"):
-        raise NoLimitCycle(f"{relay!r} is no symmetric relay; give a relay or a relay-hysteresis without offset", "not-a-relay")
+    if relay.name not in ("relay", "relay-hysteresis"):
+        raise NoLimitCycle(f"{relay!r} is no relay; give a relay or a relay-hysteresis", "not-a-relay")
     num, den, delay = _documents.coefficients(plant, delay)
-    half_width = parameters.get("half_width", 0.0)
-    text = _core.certify(num, den, delay, parameters["level"], half_width, _ends(period_s))
-    return Certificate(json.loads(text))
+    level, offset = parameters["level"], parameters.get("offset", 0.0)
+    arguments = _documents.flags(
+        num=num,
+        den=den,
+        delay=delay,
+        relay=[offset + level, offset - level],
+        half_width=parameters.get("half_width", 0.0),
+        reference=reference,
+        periods=None if period_s is None else _ends(period_s),
+    )
+    return Certificate(_documents.answer("predict", *arguments)[1])
 
 
 def _ends(given: Any) -> tuple[float, float]:

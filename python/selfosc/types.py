@@ -10,6 +10,8 @@ from typing import Literal, TypeAlias, TypedDict
 
 #: Least and largest value.
 Range: TypeAlias = list[float]
+#: Two ends, either of which may be open.
+OpenRange: TypeAlias = list[float | None]
 Drag: TypeAlias = Literal["linear", "quadratic", "mixed"]
 Trust: TypeAlias = Literal["good", "widened", "doubtful"]
 ErrorSource: TypeAlias = Literal["sensor-gain", "clock", "heading-error", "thrust-dynamics"]
@@ -137,6 +139,37 @@ class Features(FeatureValues):
 
     relay: float
     std: FeatureValues
+
+
+class CycleStatistics(TypedDict):
+    """Mean over cycles, and the standard deviation of one cycle's value."""
+
+    mean: float
+    std: float
+
+
+class SteadyCycles(TypedDict):
+    """The steady cycles of an experiment on board: units of the reading and s."""
+
+    cycles: int
+    start_up_cycles: int
+    amplitude: CycleStatistics
+    bias: CycleStatistics
+    reference: CycleStatistics
+    period_s: CycleStatistics
+    switch_level: CycleStatistics
+    time_positive_s: CycleStatistics
+    time_negative_s: CycleStatistics
+
+
+class ExactAxis(TypedDict):
+    """An axis whose exact limit cycle has the features of an experiment, in the units of reading and command."""
+
+    drag: Literal["linear", "quadratic"]
+    alpha: float
+    beta: float
+    beta_quadratic: float
+    delta: float
 
 
 class AllRecords(TypedDict):
@@ -303,34 +336,63 @@ class CycleProof(TypedDict):
     enclosure: CycleEnclosure
 
 
+class OrbitEnclosure(TypedDict):
+    """Ranges that contain the exact orbit's numbers."""
+
+    period_s: Range
+    time_high_s: Range
+    time_low_s: Range
+    amplitude: Range
+    bias: Range
+
+
+class Orbit(TypedDict):
+    """An orbit of a relay loop with one switching each way in a period; a complex multiplier is its real and imaginary part."""
+
+    period_s: float
+    time_high_s: float
+    time_low_s: float
+    amplitude: float
+    bias: float
+    maximum: float
+    minimum: float
+    multipliers: list[float | Range]
+    attracting: bool | None
+    shown: str
+    enclosure: OrbitEnclosure
+
+
+class ProvedOscillation(TypedDict):
+    """A box that is proved to hold an oscillation: amplitude of the first harmonic, frequency, and the mean square left for all others."""
+
+    shown: bool
+    amplitude: Range
+    omega_rad_s: Range
+    highest_harmonic: int
+    remainder: float
+
+
+class UnprovedOscillation(TypedDict):
+    """Why no box is proved near an intersection."""
+
+    shown: bool
+    reason: str
+    detail: str
+
+
 class Intersection(TypedDict):
-    """An oscillation that harmonic balance predicts; ``stable`` is Loeb's verdict."""
+    """An oscillation that harmonic balance predicts; ``stable`` by the multipliers of the exact orbit, or by Loeb's criterion.
+
+    ``existence`` is ``None`` where the characteristic has no bounded slope or is not odd.
+    """
 
     amplitude: float
     omega_rad_s: float
     stable: bool | None
-
-
-class OrbitProof(TypedDict):
-    """What is proved of a relay loop's orbit."""
-
-    half_period_s: Range
-    switching_rate: Range
-    attracting: bool
-    contracts_after: int | None
-    cells: int
-
-
-class Orbit(TypedDict):
-    """A symmetric limit cycle of a relay loop."""
-
-    period_s: float
-    amplitude: float
-    maximum: float
-    minimum: float
-    stable: bool
-    certificate: OrbitProof | None
-    certificate_refused: Note | None
+    stability_by: str
+    unstable_roots: int | None
+    exact: Orbit | None
+    existence: ProvedOscillation | UnprovedOscillation | None
 
 
 class DescribingFunctionEnclosure(TypedDict):

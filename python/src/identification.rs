@@ -83,7 +83,7 @@ impl Identification {
     }
 }
 
-fn written(document: &impl serde::Serialize) -> PyResult<String> {
+pub(crate) fn written(document: &impl serde::Serialize) -> PyResult<String> {
     serde_json::to_string(document).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 

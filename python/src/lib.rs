@@ -5,7 +5,7 @@ mod bounds;
 mod describing;
 mod failure;
 mod identification;
-mod relay_loop;
+mod on_board;
 mod work;
 
 use std::ffi::OsString;
@@ -32,7 +32,7 @@ mod _core {
     #[pymodule_export]
     use super::identification::{Identification, choose_columns, identify};
     #[pymodule_export]
-    use super::relay_loop::certify;
+    use super::on_board::{Controller, Experiment, axis_of_outcome};
     #[pymodule_export]
     use super::run;
 

@@ -10,9 +10,10 @@ import time
 
 import numpy as np
 import pytest
-from conftest import CORPUS
+from conftest import CORPUS, YAW
 
 import selfosc
+from selfosc._results import measured
 
 
 @pytest.fixture(scope="module")
@@ -34,8 +35,36 @@ def test_a_frame_of_estimates(found):
 
 
 def test_shown_in_a_notebook(found):
-    assert "<table>" in found._repr_html_()
-    assert "alpha" in repr(found)
+    for shown in (found, selfosc.tune(found, bandwidth=0.5), selfosc.verify("lemma-1"), selfosc.predict(**YAW)):
+        page, text = shown._repr_html_(), repr(shown)
+        assert page.startswith("<table><caption>")
+        assert page.count("<th>") <= 8
+        assert max(map(len, text.splitlines())) <= 100
+        assert len(text.splitlines()) <= 19
+
+
+def test_trust_and_units_come_first(found):
+    title, names, alpha, *_ = repr(found).splitlines()
+    assert f"trust {found.trust}" in title
+    assert names.split() == ["parameter", "95", "%", "interval", "unit"]
+    half = 0.5 * (found.reported["alpha"]["high"] - found.reported["alpha"]["low"])
+    name, value, sign, error, *unit = alpha.split()
+    assert (name, sign, unit) == ("alpha", "±", ["command", f"s^2/{found.units['output']}"])
+    # The digits of the value are those of its error.
+    assert len(value.split(".")[1]) == len(error.split(".")[1])
+    assert abs(float(error) / half - 1) < 0.06
+
+
+@pytest.mark.parametrize(
+    ("value", "half", "text"),
+    [
+        (0.033008, 0.0000897, "0.033008 ± 0.000090"), (-12345.0, 12.0, "-12345 ± 12"), (4.0e-9, 3.1e-11, "(4.000 ± 0.031)e-9"),
+        (0.0, 0.5, "0.00 ± 0.50"), (1.5e12, 2.0e10, "(1.500 ± 0.020)e12"), (0.1, None, "0.1"), (2.0, 0.0, "2"),
+        (0.001, 3.0, "0.0 ± 3.0"),
+    ],
+)  # fmt: skip
+def test_digits_follow_the_uncertainty(value, half, text):
+    assert measured(value, half) == text
 
 
 def test_plot_and_report(found, tmp_path):
@@ -179,7 +208,8 @@ def test_a_reading_in_error_is_found():
     assert selfosc.bounded(record, delay=0.0).verdict == "refuted"
     found = selfosc.bounded(record, delay=0.0, outliers=1)
     low, high = found.of("alpha")
-    assert found.verdict == "consistent" and low <= 1.0 <= high
+    assert found.verdict == "consistent"
+    assert low <= 1.0 <= high
     assert [(one["record"], one["sample"]) for one in found.outliers] == [(0, 60)]
 
 

@@ -62,7 +62,12 @@ class BadLink(threading.Thread):
             time.sleep(0.001)
 
 
-def experiment(folder, *, lost=0.0, late_s=0.0, cut_after_s=None):
+def lines(path):
+    """Lines that are written so far."""
+    return len(path.read_text().splitlines()) if path.exists() else 0
+
+
+def experiment(folder, *, lost=0.0, late_s=0.0, cut_after=None):
     ground, vehicle = free_port(), free_port()
     link = BadLink(vehicle, ground, lost, late_s, seed=4)
     link.start()
@@ -77,10 +82,13 @@ def experiment(folder, *, lost=0.0, late_s=0.0, cut_after_s=None):
              "--largest-rate", "3", "--spread", "0.2", "--log", folder / "log.csv", "--json", folder / "model.json"]
         )  # fmt: skip
         cut_at = None
-        if cut_after_s is not None:
-            time.sleep(cut_after_s)
+        if cut_after is not None:
+            # Counted in samples of the experiment: a busy machine starts its processes late.
+            give_up = time.monotonic() + 60
+            while lines(folder / "log.csv") < cut_after and time.monotonic() < give_up:
+                time.sleep(0.02)
             link.cut.set()
-            cut_at = len(trace.read_text().splitlines())
+            cut_at = lines(trace)
         status = bridge.wait(timeout=60)
         time.sleep(1.5)
     finally:
@@ -93,14 +101,17 @@ def experiment(folder, *, lost=0.0, late_s=0.0, cut_after_s=None):
 @pytest.mark.parametrize(("lost", "late_s"), [(0.0, 0.0), (0.05, 0.2)])
 def test_a_vehicle_is_identified_over_mavlink(tmp_path, lost, late_s):
     status, document, commands, _ = experiment(tmp_path, lost=lost, late_s=late_s)
-    assert status == 0 and document["experiment"]["phase"] == "done"
+    assert status == 0
+    assert document["experiment"]["phase"] == "done"
     assert abs(document["reported"]["alpha"]["value"] / ALPHA - 1) < (0.03 if lost == 0 else 0.1)
-    assert max(map(abs, commands)) <= 0.1 and commands[-1] == 0.0
+    assert max(map(abs, commands)) <= 0.1
+    assert commands[-1] == 0.0
 
 
 def test_a_link_that_is_cut_ends_neutral_with_the_log(tmp_path):
-    status, document, commands, cut_at = experiment(tmp_path, cut_after_s=8.0)
-    assert status == 1 and document["experiment"]["phase"] in ("failed:gap", "aborted")
+    status, document, commands, cut_at = experiment(tmp_path, cut_after=100)
+    assert status == 1
+    assert document["experiment"]["phase"] in ("failed:gap", "aborted")
     # Neutral within the vehicle's own failsafe, half a second, and one message more.
     assert set(commands[cut_at + 12 :]) == {0.0}
     assert len((tmp_path / "log.csv").read_text().splitlines()) > 60

@@ -118,17 +118,24 @@ def test_plants_of_every_make():
         signal.TransferFunction(*coefficients),
         signal.lti(*coefficients),
     ]
-    expected = balance(coefficients, "saturation", breakpoint=1)[0]
+    numbers = lambda found: {name: found[0][name] for name in ("amplitude", "omega_rad_s")}
+    expected = numbers(balance(coefficients, "saturation", breakpoint=1))
     for plant in plants:
-        assert balance(plant, "saturation", breakpoint=1)[0] == pytest.approx(expected, rel=1e-9)
+        assert numbers(balance(plant, "saturation", breakpoint=1)) == pytest.approx(expected, rel=1e-9)
     with pytest.raises(ValueError, match="continuous"):
         balance(ct.tf([1], [1, 0.5], 0.1), "relay")
 
 
 def test_a_certificate_holds_the_exact_orbit():
     found = certify(ct.tf([1], [1, 1, 0]), nonlinearity("relay-hysteresis", half_width=0.2))
-    low, high = found[0]["certificate"]["half_period_s"]
+    low, high = found[0]["enclosure"]["time_high_s"]
     assert low < 1.862223721734969 < high
-    assert found[0]["certificate"]["attracting"]
-    with pytest.raises(ValueError, match="symmetric relay"):
+    assert found[0]["attracting"] and found.complete
+    # A heater between 0 and 1 about 1.2: rise and fall are exponentials.
+    heater = certify(ct.tf([2], [30, 1]), nonlinearity("relay-hysteresis", level=0.5, offset=0.5, half_width=0.1), delay=4, reference=1.2)
+    late = np.exp(-4 / 30)
+    peak, trough = 2 - 0.7 * late, 1.1 * late
+    assert heater[0]["time_high_s"] == pytest.approx(4 + 30 * np.log((2 - trough) / 0.7), rel=1e-12)
+    assert heater[0]["time_low_s"] == pytest.approx(4 + 30 * np.log(peak / 1.1), rel=1e-12)
+    with pytest.raises(ValueError, match="is no relay"):
         certify(ct.tf([1], [1, 1, 0]), nonlinearity("saturation", breakpoint=1))

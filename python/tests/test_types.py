@@ -43,11 +43,22 @@ found.estimates[0]["alpha"]["low"] + 1.0  # wrong
 tuned = selfosc.tune(found, bandwidth=0.5)
 assert_type(tuned.gains["proportional"], float)
 tuned.gain  # wrong
+selfosc.tune(found, ms=1.4, phase_margin="45")  # wrong
+protocol = selfosc.Protocol(relay=0.1, half_width=0.2, interval=0.1, coordinate="depth")  # wrong
+experiment = selfosc.Experiment(selfosc.Protocol(relay=0.1, half_width=0.2, interval=0.1))
+assert_type(experiment.step(0.0, 0.0).command, float)
+experiment.stop()  # wrong
+outcome = experiment.outcome()
+outcome.features  # wrong
+assert outcome is not None
+assert_type(outcome.features["period_s"]["mean"], float)
+assert_type(outcome.axis("quadratic")["alpha"], float)
+selfosc.Controller(tuned, turn="360")  # wrong
 cycle = selfosc.predict(alpha=1.0, beta=1.0, relay=1.0, half_width=0.2)
 assert_type(cycle.exact["period_s"], float)
 cycle.certificate["unique"]  # wrong
 for orbit in selfosc.certify(([1], [1, 1, 0]), selfosc.nonlinearity("relay")):
-    assert_type(orbit["stable"], bool)
+    assert_type(orbit["attracting"], bool | None)
 selfosc.fleet.SCHEMA
 selfosc.logs.read_ulog("log.ulg", "a.b", "c.d")
 selfosc.export.state_space(found)

@@ -112,13 +112,14 @@ def covered(whole, boxes):
 
 
 def agree(form, formula, other, domain):
-    """Whether two formulas are the same at points of the domain, by their values."""
+    """Whether two formulas are the same at points of the domain, by their values; the other may be an enclosure with a width."""
     draw = random.Random(1)
     for _ in range(POINTS):
         ends = [(lower, min(upper, lower + 30.0)) for lower, upper in domain]
         point = [Range(arb(draw.uniform(*side))) for side in ends]
-        difference, size = formula(*point) - other(*point), formula(*point).size().upper + 1
-        if not difference.size().upper <= AGREEMENT * size:
+        enclosed = other(*point)
+        difference, size = formula(*point) - enclosed, formula(*point).size().upper + 1
+        if not difference.size().upper <= AGREEMENT * size + (enclosed.upper - enclosed.lower):
             return False
     return True
 
@@ -142,12 +143,13 @@ def check_inequality(item, form, variables, own):
     bound = arb(item["bound"])
     # Constants of an expression are rounded to doubles, those of the table are not.
     formulas = [(own, bound - AGREEMENT)]
+    require(item["expression"] is not None, f"{name}: no expression")
+    tree = parse(item["expression"])
+    require(names(tree) <= set(used) | {"pi"}, f"{name}: the expression has other variables")
+    printed = lambda *at: evaluate(tree, dict(zip(used, at)) | {"pi": statements.PI})
+    require(agree(form, printed, own, domain), f"{name}: the expression is not the formula")
+    # A curve's expression is 0/0 at zero: its values there are the table's.
     if form["kind"] != "enclosed":
-        require(item["expression"] is not None, f"{name}: no expression")
-        tree = parse(item["expression"])
-        require(names(tree) <= set(used) | {"pi"}, f"{name}: the expression has other variables")
-        printed = lambda *at: evaluate(tree, dict(zip(used, at)))
-        require(agree(form, printed, own, domain), f"{name}: the expression is not the formula")
         formulas.append((printed, bound))
     require(bound > AGREEMENT, f"{name}: the bound is not above zero")
     require(len(item["boxes"]) <= MOST_BOXES, f"{name}: more than {MOST_BOXES} boxes")

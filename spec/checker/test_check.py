@@ -82,6 +82,14 @@ def test_a_curve_with_too_narrow_a_bound_is_refused():
         check.check(certificate, "method-bias-alpha-linear")
 
 
+def test_a_curve_with_another_expression_is_refused():
+    certificate = json.loads((FOLDER / "method-bias-alpha-linear.json").read_text())
+    curve = item(certificate, "at-one")
+    curve["expression"] = curve["expression"].replace("16 ", "15 ")
+    with pytest.raises(check.Refused):
+        check.check(certificate, "method-bias-alpha-linear")
+
+
 def test_a_missing_file_and_an_unknown_one_are_refused(tmp_path, capsys):
     (tmp_path / "another.json").write_text("{}")
     assert check.main(tmp_path) == 1

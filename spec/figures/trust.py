@@ -8,7 +8,7 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 GROUPS = ["Inside the plain model", "Terms of the model family", "Structures that are not in the family"]
-ROW, LEFT, WIDTH, RIGHT, TOP, MOST = 14, 330, 420, 20, 40, 40.0
+ROW, LEFT, WIDTH, RIGHT, TOP, MOST = 14, 330, 450, 20, 40, 45.0
 
 
 def rows(page, group):

@@ -244,4 +244,25 @@ Proof.
   assert (0 < x_a / (k * C)) by (apply Rdiv_lt_0_compat; assumption). lra.
 Qed.
 
+(** The loop has faster motions too: the triangle of a fifth of the dead time, whose command is the same a period of it earlier. It comes up
+    to zero after a fifth of a dead time below it. *)
+Theorem needs_below_for_a_dead_time : forall k L C, 0 < k -> 0 < L -> 0 < C ->
+  let y := triangle k (L / 5) C in
+  loop k L C y (command k (L / 5) C) /\ y 0 = 0 /\ (forall t, - (L / 5) < t < 0 -> y t < 0) /\ forall t, y (t + period L / 5) = y t.
+Proof.
+  intros k L C Hk HL HC y. assert (HL5 : 0 < L / 5) by lra. destruct (triangle_before k (L / 5) C Hk HL5 HC) as [Z B].
+  assert (R : forall t, triangle k (L / 5) C (t + period L / 5) = triangle k (L / 5) C t).
+  { intros t. unfold triangle. replace (within (L / 5) (t + period L / 5)) with (within (L / 5) t); [reflexivity|].
+    destruct (base_Int_part (t / (4 * (L / 5)))) as [I1 I2]. set (n := Int_part (t / (4 * (L / 5)))) in *.
+    assert (E : t = t / (4 * (L / 5)) * (4 * (L / 5))) by (field; lra).
+    assert (A1 : IZR n * (4 * (L / 5)) <= t) by (rewrite E; apply Rmult_le_compat_r; lra).
+    assert (A2 : t < (IZR n + 1) * (4 * (L / 5))) by (rewrite E at 1; apply Rmult_lt_compat_r; lra).
+    unfold period. rewrite (within_is (L / 5) HL5 n t), (within_is (L / 5) HL5 (n + 1)) by (rewrite ?plus_IZR; lra). rewrite plus_IZR. field. }
+  assert (U : forall t, command k (L / 5) C (t - L) = command k (L / 5) C (t - L / 5)).
+  { intros t. unfold command. replace (t - L / 5) with (t - L + period L / 5) by (unfold period; field). now rewrite R. }
+  destruct (triangle_is_motion k (L / 5) C Hk HL5 HC) as [M1 M2 M3 M4]. split; [|split; [exact Z|split; [exact B|exact R]]].
+  split; [exact M1| |exact M3|exact M4]. intros t N. rewrite U. apply M2. apply (filter_imp (fun s => command k (L / 5) C (s - L) = command k (L / 5) C (t - L))); [|exact N].
+  intros s E. rewrite <- !U. exact E.
+Qed.
+
 Print Assumptions statement.

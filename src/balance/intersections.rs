@@ -1,4 +1,4 @@
-//! All oscillations that the first harmonic predicts, and Loeb's verdict on each.
+//! All oscillations that the first harmonic predicts, and the generalised Nyquist criterion's verdict on each.
 
 use core::cell::Cell;
 use core::ops::RangeInclusive;
@@ -8,6 +8,7 @@ use nalgebra::{Complex, Matrix2, Matrix3, Vector2, Vector3};
 use super::BalanceError;
 use super::grid::Axis;
 use super::nyquist::near;
+use super::nyquist_count::roots_beyond;
 use crate::describing::{DescribingError, DescribingFunction};
 use crate::nonlinearity::Sinusoid;
 use crate::numeric::{domain, scan};
@@ -19,6 +20,8 @@ const QUIET: f64 = 0.3;
 const SAME: f64 = 1e-6;
 /// Sine of the angle between the derivatives of the balance at which Loeb's criterion says nothing.
 const PARALLEL: f64 = 1e-6;
+/// Distance from the axis, over the frequency, beyond which a root counts as one beside the pair on it.
+const ASIDE: f64 = 1e-4;
 /// Step of the difference quotients, relative.
 const STEP: f64 = 1e-5;
 
@@ -47,9 +50,13 @@ pub struct Intersection {
     pub bias: f64,
     /// Frequency, rad/s.
     pub omega_rad_s: f64,
-    /// Loeb's criterion: whether a larger amplitude decays. `None` where it is degenerate: the curves touch, or the
-    /// balance does not fix the bias. A statement of the approximation, not of the loop.
+    /// Whether the oscillation returns after a disturbance of its amplitude (Loeb's criterion), and the loop with the gain N has no
+    /// further roots in the right half plane: their motions would grow. `None` where the criterion is degenerate: the curves
+    /// touch, or the balance does not fix the bias. A statement of the approximation, not of the loop.
     pub stable: Option<bool>,
+    /// Roots of `1 + N G` in the right half plane beside the pair on the axis: the generalised Nyquist count, dead time included. `None`
+    /// where N is complex or the count fails; then `stable` is Loeb's criterion alone.
+    pub unstable_roots: Option<usize>,
 }
 
 /// A plant in a loop with a characteristic, given by its describing function.
@@ -200,11 +207,14 @@ where
                     let Some((root, slopes)) = self.newton(guess) else { continue };
                     let inside = self.amplitude.contains(&root[0]) && self.omega_rad_s.contains(&root[2]);
                     if inside && !found.iter().any(|known| same(known, &root)) {
+                        let unstable_roots = self.unstable_roots(&root);
+                        let grows_beside = unstable_roots.is_some_and(|count| count > 0);
                         found.push(Intersection {
                             amplitude: root[0],
                             bias: root[1],
                             omega_rad_s: root[2],
-                            stable: loeb(&slopes),
+                            stable: if grows_beside { Some(false) } else { loeb(&slopes) },
+                            unstable_roots,
                         });
                     }
                 }
@@ -213,6 +223,12 @@ where
         let place = |at: &Intersection| (at.omega_rad_s, at.amplitude);
         found.sort_by(|a, b| place(a).partial_cmp(&place(b)).unwrap_or(core::cmp::Ordering::Equal));
         Ok(found)
+    }
+
+    /// Roots of the loop with the gain at an intersection, clearly to the right of the pair on the axis.
+    fn unstable_roots(&self, at: &Vector3<f64>) -> Option<usize> {
+        let df = self.describe(at[0], at[1]).ok()?;
+        (df.q == 0.0).then(|| roots_beyond(self.plant, df.p, ASIDE * at[2]))?
     }
 
     fn describe(&self, amplitude: f64, bias: f64) -> Result<DescribingFunction<f64>, DescribingError> {

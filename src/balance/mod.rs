@@ -8,9 +8,14 @@ mod grid;
 mod harmonics;
 mod intersections;
 mod nyquist;
+mod nyquist_count;
+mod rigorous;
 
 pub use drag_axis::AxisOscillation;
 pub use error::BalanceError;
 pub use harmonics::MultiHarmonic;
 pub use intersections::{Bias, HarmonicBalance, Intersection};
 pub use nyquist::{negative_inverse_locus, nyquist_locus};
+pub use rigorous::{
+    CannotTell, ExistenceError, LipschitzLoop, OddCharacteristic, Oscillations, ProvedOscillation, UnprovedOscillation,
+};

@@ -59,12 +59,12 @@ pub struct Shown {
 
 impl Shown {
     fn of(inequality: &Inequality, proof: Proof) -> Self {
-        let expression = inequality.margin.formula().zip(inequality.domain()).map(|(formula, domain)| {
+        let expression = inequality.domain().and_then(|domain| {
             let symbol = |place: usize| {
                 let name = inequality.variables[place].name;
                 Expression::symbol(name, name, domain[place])
             };
-            (formula.expression)(core::array::from_fn(symbol)).to_string()
+            Some(inequality.margin.expression(core::array::from_fn(symbol))?.to_string())
         });
         Self {
             statement: inequality.statement.to_owned(),

@@ -94,6 +94,7 @@ pub const CLAIMS: &[Claim] = &[
     checks::experiment::SURGE,
     checks::experiment::PROCEDURE,
     checks::experiment::HARMONIC_BALANCE,
+    checks::existence::RIGOROUS_DESCRIBING_FUNCTION,
     checks::orbit_proofs::NO_EARLY_SWITCHING,
     checks::orbit_proofs::MULTIPLIER,
     checks::orbit_proofs::QUADRATIC_DISTURBED,

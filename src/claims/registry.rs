@@ -51,6 +51,8 @@ pub enum AsPrinted {
     Holds(Checker),
     /// It does not: the checker finds a witness.
     Refuted(Checker),
+    /// It is an approximation, under a hypothesis that the paper states: the checker finds a case in which the equation is off.
+    Approximate(Checker),
     /// The paper does not say it.
     Absent,
 }
@@ -201,15 +203,19 @@ impl Claim {
             Some(proof) => sampled.backed_by(|| proof(Distortion::None)),
             None => sampled,
         };
-        let (printed, as_printed) = match self.printed {
-            AsPrinted::Holds(checker) if self.corrected.is_none() => (Some(proved(checker(budget))), true),
-            AsPrinted::Holds(checker) => (Some(checker(budget)), true),
-            AsPrinted::Refuted(checker) => (Some(checker(budget)), false),
-            AsPrinted::Absent => (None, true),
+        let printed = match self.printed {
+            AsPrinted::Holds(checker) if self.corrected.is_none() => Some(proved(checker(budget))),
+            AsPrinted::Holds(checker) | AsPrinted::Refuted(checker) => Some(checker(budget)),
+            AsPrinted::Approximate(checker) => Some(checker(budget).approximated()),
+            AsPrinted::Absent => None,
         };
         let corrected = self.corrected.map(|checker| proved(checker(budget)));
-        let expected = printed.as_ref().is_none_or(|v| if as_printed { v.holds() } else { v.is_refuted() })
-            && corrected.as_ref().is_none_or(Verdict::holds);
+        let as_printed = |verdict: &Verdict| match self.printed {
+            AsPrinted::Refuted(_) => verdict.is_refuted(),
+            AsPrinted::Approximate(_) => matches!(verdict, Verdict::Approximate(_)),
+            AsPrinted::Holds(_) | AsPrinted::Absent => verdict.holds(),
+        };
+        let expected = printed.as_ref().is_none_or(as_printed) && corrected.as_ref().is_none_or(Verdict::holds);
         Finding {
             id: Cow::Borrowed(self.id),
             domain: ClaimDomain::new(self.domain),

@@ -21,7 +21,7 @@ use form::Form;
 /// PI or PID gains for a heater, a tank, an axis: from one record of its relay, thermostat or on-off control.
 ///
 /// The record needs two periods. Structures with dead time are fitted to every sample; the gains hold a limit of the sensitivity
-/// for every process that the record leaves, proved in interval arithmetic, and are the fastest against a load that do. Beside them
+/// for every process in the intervals, proved in interval arithmetic, and are the fastest against a load that do. Beside them
 /// stand rules of thumb, each with the sensitivity that it would have on this process: 1.4 is well damped, above 2 it rings.
 /// Exit status 1 where the record gives no gains, with the reason.
 #[derive(Debug, Args)]
@@ -43,7 +43,7 @@ pub(super) struct Arguments {
     /// Column of the command [default: duty, power, heater, or as for identify]
     #[arg(long, value_name = "COL")]
     input: Option<String>,
-    /// Largest sensitivity 1/|1 + L| of any process that the record leaves
+    /// Largest sensitivity 1/|1 + L| of any process in the intervals
     #[arg(long, value_name = "M", default_value_t = 1.4, value_parser = sensitivity, allow_negative_numbers = true)]
     ms: f64,
     /// Proportional and integral only
@@ -80,12 +80,12 @@ fn sensitivity(text: &str) -> Result<f64, String> {
     number(text).ok().filter(within).ok_or_else(|| "must be from 1.1 to 3; 1.4 is well damped".to_owned())
 }
 
-/// A gain or a dead time known worse than this, as a share of itself, makes the answer less than good.
+/// Relative half-width of a gain or a dead time above which the answer is less than good.
 const WIDE: f64 = 0.25;
-/// Correlation of neighbouring residuals from which on the load is said to wander.
+/// Correlation of neighbouring residuals from which on the load counts as drifting.
 const WANDERS: f64 = 0.8;
 
-/// Everything that is said of a record.
+/// The whole answer to a record.
 struct Autotuned {
     log: Log,
     found: ProcessRecord,
@@ -208,7 +208,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     };
     let outcome = if tuned.proved.is_some() { Outcome::Done } else { Outcome::No };
     if arguments.json {
-        write_json(output, &tuned.json(input.name()))?;
+        write_json(output, &tuned.json(input.name(), arguments.form))?;
     } else {
         tuned.print(arguments.form, output)?;
     }

@@ -12,13 +12,13 @@ use crate::plant::{DragAxis, PlantError};
 pub(super) struct MotionArguments {
     /// Inertia with added mass, command units per output unit per s^2
     #[arg(long, value_parser = number, value_name = "A", allow_negative_numbers = true)]
-    alpha: f64,
+    pub(super) alpha: f64,
     /// Linear drag, command units per output unit per s
     #[arg(long, value_parser = number, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
-    beta: f64,
+    pub(super) beta: f64,
     /// Quadratic drag, command units per (output unit per s)^2
     #[arg(long, value_parser = number, value_name = "Q", default_value_t = 0.0, allow_negative_numbers = true)]
-    beta_quadratic: f64,
+    pub(super) beta_quadratic: f64,
 }
 
 impl MotionArguments {
@@ -30,13 +30,13 @@ impl MotionArguments {
 #[derive(Debug, Args)]
 pub(super) struct AxisArguments {
     #[command(flatten)]
-    motion: MotionArguments,
+    pub(super) motion: MotionArguments,
     /// Constant disturbance, command units
     #[arg(long, value_parser = number, value_name = "D", default_value_t = 0.0, allow_negative_numbers = true)]
-    delta: f64,
+    pub(super) delta: f64,
     /// Delay of the whole loop in s
     #[arg(long, value_parser = number, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
-    delay: f64,
+    pub(super) delay: f64,
 }
 
 impl AxisArguments {
@@ -50,10 +50,10 @@ impl AxisArguments {
 pub(super) struct RelayArguments {
     /// Relay level C, command units
     #[arg(long, value_parser = number, value_name = "C", allow_negative_numbers = true)]
-    relay: f64,
+    pub(super) relay: f64,
     /// Half-width x_a of the relay's hysteresis, output units
     #[arg(long, value_parser = number, value_name = "XA", allow_negative_numbers = true)]
-    half_width: f64,
+    pub(super) half_width: f64,
 }
 
 impl RelayArguments {

@@ -4,11 +4,13 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::error::Given;
-use super::{CommandError, Outcome, files};
+use super::{CommandError, Outcome, existence, files};
+use crate::balance::ProvedOscillation;
 use crate::claims::{CLAIMS, Certificate, Claim};
 use crate::experiment::Record;
 use crate::identify::bounded::certificate as bounded;
 use crate::identify::{Session, Settings};
+use crate::orbit::{OrbitCertificate, OrbitRefusal};
 use crate::proof::inequality::Refusal;
 
 fn theorems() -> impl Iterator<Item = &'static Claim> {
@@ -19,7 +21,7 @@ fn file(folder: &Path, claim: &Claim) -> PathBuf {
     folder.join(format!("{}.json", claim.id))
 }
 
-/// One file `ID.json` for each theorem; the answer is no where one is not proved.
+/// A file `ID.json` for each theorem; the answer is no if a theorem is not proved.
 pub(super) fn write(folder: &Path) -> Result<Outcome, CommandError> {
     crate::files::folder(folder).given("--certificates")?;
     let mut outcome = Outcome::Done;
@@ -33,7 +35,7 @@ pub(super) fn write(folder: &Path) -> Result<Outcome, CommandError> {
     Ok(outcome)
 }
 
-/// The records of logs, read as the proof says.
+/// The records of logs, read with the proof's settings.
 fn records(proof: &bounded::Certificate, logs: &[PathBuf]) -> Result<Vec<Record>, CommandError> {
     let read_as = proof.reading().cloned();
     let settings = Settings { relay_level: read_as.as_ref().and_then(|own| own.relay_level), ..Settings::default() };
@@ -41,23 +43,46 @@ fn records(proof: &bounded::Certificate, logs: &[PathBuf]) -> Result<Vec<Record>
     Ok(logs.iter().try_fold(session, Session::log)?.records()?)
 }
 
-/// A file of guaranteed bounds: accepted, with everything that it depends on and what is left in the coordinates of the search, or why
-/// not.
-fn check_bounds(path: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<Outcome, CommandError> {
-    /// Of a theorem's proof, whatever else is wrong with it.
+/// A file of one proof. Guaranteed bounds are accepted with everything that they depend on and what is left in the coordinates of the
+/// search.
+fn check_file(path: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<Outcome, CommandError> {
+    /// The claim of a theorem's proof, read even if the rest is faulty.
     #[derive(serde::Deserialize)]
     struct Named {
         claim: String,
     }
+    /// Of a proof of another kind.
+    #[derive(serde::Deserialize)]
+    struct Kind {
+        certificate: String,
+    }
     let text = files::read(path)?;
     let none = |reason| Err(CommandError::NoCertificate { path: path.to_owned(), reason });
     if let Ok(Named { claim }) = serde_json::from_str(&text) {
+        if claim == ProvedOscillation::CLAIM {
+            return existence::check(path, &text, output);
+        }
         let Some(claim) = theorems().find(|own| own.id == claim) else {
             return none(format!("there is no theorem `{claim}`"));
         };
         return match text.parse() {
             Err(Refusal::Malformed { text }) => none(text),
             proof => Ok(if shows(proof, claim.id, 0, output)? { Outcome::Done } else { Outcome::No }),
+        };
+    }
+    if matches!(serde_json::from_str(&text), Ok(Kind { certificate }) if certificate == OrbitCertificate::KIND) {
+        let proof = text.parse::<OrbitCertificate>();
+        return match proof.and_then(|proof| Ok((proof.check()?, proof))) {
+            Ok((orbits, proof)) => {
+                writeln!(output, "accepted  {}", proof.statement())?;
+                writeln!(output, "          {orbits} orbits")?;
+                Ok(Outcome::Done)
+            }
+            Err(error @ (OrbitRefusal::Malformed { .. } | OrbitRefusal::Foreign { .. })) => none(error.to_string()),
+            Err(refusal) => {
+                writeln!(output, "refused   {}: {refusal}", refusal.code())?;
+                Ok(Outcome::No)
+            }
         };
     }
     let checked = match bounded::Certificate::read(&text) {
@@ -97,10 +122,10 @@ fn check_bounds(path: &Path, logs: &[PathBuf], output: &mut impl Write) -> Resul
     }
 }
 
-/// A line for each theorem, accepted or why not; or what a file of guaranteed bounds shows of these logs.
+/// A line for each theorem, accepted or why not; or the result of a file of guaranteed bounds on these logs.
 pub(super) fn check(folder: &Path, logs: &[PathBuf], output: &mut impl Write) -> Result<Outcome, CommandError> {
     if folder.is_file() {
-        return check_bounds(folder, logs, output);
+        return check_file(folder, logs, output);
     }
     let width = theorems().map(|claim| claim.id.len()).max().unwrap_or(0);
     let mut outcome = Outcome::Done;

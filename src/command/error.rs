@@ -1,4 +1,4 @@
-//! What ends a subcommand early.
+//! Errors that end a subcommand.
 
 use std::path::PathBuf;
 
@@ -6,6 +6,7 @@ use super::suggestion;
 use crate::describing::{CATALOGUE, CatalogueError};
 use crate::error::Error;
 use crate::numeric::OutOfDomain;
+use crate::orbit::OrbitError;
 
 /// Why a subcommand could not answer.
 #[derive(Debug, thiserror::Error)]
@@ -13,17 +14,17 @@ pub(super) enum CommandError {
     /// Standard output cannot be written.
     #[error("cannot write the answer: {0}; free the output or redirect it elsewhere")]
     Output(#[from] std::io::Error),
-    /// What the library refuses.
+    /// A refusal of the library.
     #[error("{}", in_context(.0))]
     Library(Error),
-    /// The same of a number that one flag gave.
+    /// A refusal of a number given by a flag.
     #[error("{flag}: {}", words(.error))]
     Given { flag: &'static str, error: Error },
     /// Arguments that contradict each other.
     #[error("{reason}")]
     Usage { reason: String },
     /// A file that is no proof.
-    #[error("{} is no certificate: {reason}; write one with `selfosc identify --certificate` or `selfosc verify --certificates`", path.display())]
+    #[error("{} is no certificate: {reason}; write one with `--certificate` of `selfosc identify` or `selfosc predict`, or `selfosc verify --certificates`", path.display())]
     NoCertificate { path: PathBuf, reason: String },
     /// A proof that was not found.
     #[error("no certificate: {reason}")]
@@ -63,7 +64,7 @@ impl<E: Into<Error>> From<E> for CommandError {
     }
 }
 
-/// A result of one flag's value: an error names the flag.
+/// A result of a flag's value: an error names the flag.
 pub(super) trait Given<T> {
     fn given(self, flag: &'static str) -> Result<T, CommandError>;
 }
@@ -87,6 +88,9 @@ fn flag(quantity: &str) -> Option<&'static str> {
         "quadratic_drag" => "--beta-quadratic",
         "disturbance" => "--delta",
         "delay_s" | "delay" | "longest delay" => "--delay",
+        "upper level" | "lower level" => "--relay",
+        "reference" => "--reference",
+        "shortest period" | "longest period" => "--periods",
         "relay level" => "--relay",
         "half-width" => "--half-width",
         "quantum" | "step of the sensor" => "--quantum",
@@ -109,12 +113,13 @@ fn flag(quantity: &str) -> Option<&'static str> {
     })
 }
 
-/// The flags that change what an error without a number of its own speaks of.
+/// The flags that change the quantity of an error without a number.
 fn flags(error: &Error) -> Option<&'static str> {
     Some(match (error, error.code()) {
         (Error::Orbit(_), "no-drag") => "--beta, --beta-quadratic",
         (Error::Orbit(_), "no-hysteresis") => "--half-width, --delay",
         (Error::Orbit(_), "drifts-away") => "--relay, --delta",
+        (Error::Orbit(OrbitError::Plant(_)), _) | (Error::Orbit(_), "crowded-poles") => "--num, --den",
         (Error::Orbit(_), _) => "--alpha, --beta, --half-width",
         (Error::Plant(_), _) => "--num, --den",
         (Error::Balance(_), _) => "--num, --den, --delay",
@@ -125,7 +130,7 @@ fn flags(error: &Error) -> Option<&'static str> {
     })
 }
 
-/// The error in the words of a subcommand: a number by its flag, a name with the one that was probably meant.
+/// The error in the words of a subcommand: a number by its flag, a name with the nearest known name.
 pub(super) fn in_context(error: &Error) -> String {
     match error.out_of_domain().and_then(|fault| flag(fault.quantity)) {
         Some(flag) => format!("{flag}: {error}"),

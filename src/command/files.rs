@@ -1,4 +1,4 @@
-//! What subcommands read and write where nothing else is read: proofs, tables, figures, pages.
+//! Files of subcommands without a log: proofs, tables, figures, pages.
 
 use std::path::Path;
 

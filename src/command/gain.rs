@@ -1,4 +1,4 @@
-//! `selfosc df` the other way round: amplitudes that have a gain, and characteristics that have measured gains.
+//! The inverse of `selfosc df`: amplitudes that have a gain, and characteristics that have measured gains.
 
 use std::io::Write;
 use std::path::Path;

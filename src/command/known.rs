@@ -20,7 +20,7 @@ pub(super) struct Known {
 }
 
 impl Known {
-    /// Its interval, or the value as one.
+    /// Its interval, or the value as a point interval.
     pub(super) fn range(&self) -> Interval {
         self.interval.unwrap_or(Interval::point(self.value))
     }
@@ -30,7 +30,7 @@ impl Known {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Model {
     pub(super) axis: AxisModel<Known>,
-    /// Whether a record told it.
+    /// Whether it is identified from a record.
     pub(super) identified: bool,
     /// Whether the log was in degrees; the model is in radians all the same.
     pub(super) degrees: bool,
@@ -38,6 +38,9 @@ pub(super) struct Model {
 
 /// Where a model comes from.
 const WRITTEN: &str = "write the file by `selfosc identify LOG --json > RESULT.json`";
+/// The remedy for an axis without inertia.
+pub(super) const FIRST_ORDER: &str = "must be above 0; an axis without inertia is of first order, as a speed, a rate or a \
+                                      heater is: identify and tune it by `selfosc autotune LOG`";
 /// Times, which are not negative.
 const TIMES: [&str; 5] = ["memory_s", "lag_s", "ramp_s", "filter_s", "delay_s"];
 
@@ -142,6 +145,10 @@ impl Model {
         let mut parts = [Known::default(); NAMES.len()];
         for (place, name) in parts.iter_mut().zip(NAMES) {
             *place = part(name)?;
+        }
+        let inertia = parts[0].range();
+        if !inertia.is_positive() {
+            return Err(unusable(format!("its inertia is not told from zero ({inertia}): {FIRST_ORDER}")));
         }
         let degrees = found["units"]["output"] == "rad";
         Ok(Self { axis: AxisModel::from_parts(parts), identified: true, degrees })

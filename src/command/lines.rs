@@ -1,12 +1,12 @@
-//! Lines of standard input as they come, beside signals and time.
+//! Lines of standard input as they come, with signals and time.
 
 use std::io::{BufRead, Read};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use crate::files::on_signal;
 
-/// Bytes of a line that are read; a longer one is cut there, and the rest is the next line.
+/// Bytes of a line that are read; a longer line is cut there, and the rest is the next line.
 const LONGEST: u64 = 4096;
 /// Lines that wait: whoever writes faster than they are answered waits, too.
 const WAITING: usize = 64;
@@ -49,12 +49,7 @@ impl Lines {
 
     /// Waits until `due`.
     pub(super) fn before(&self, due: Instant) -> Event {
-        self.within(due.saturating_duration_since(Instant::now()))
-    }
-
-    /// Waits for so long.
-    pub(super) fn within(&self, wait: Duration) -> Event {
-        self.events.recv_timeout(wait).unwrap_or_else(|error| match error {
+        self.events.recv_timeout(due.saturating_duration_since(Instant::now())).unwrap_or_else(|error| match error {
             RecvTimeoutError::Timeout => Event::TimeOut,
             RecvTimeoutError::Disconnected => Event::End,
         })

@@ -1,4 +1,4 @@
-//! `selfosc completions` and `selfosc man`: what a shell and `man` want to know of the command.
+//! `selfosc completions` and `selfosc man`: the command's interface for shells and `man`.
 
 use std::io::Write;
 use std::path::PathBuf;

@@ -11,6 +11,7 @@ mod certificates;
 mod design;
 mod df;
 mod error;
+mod existence;
 mod files;
 mod gain;
 mod identify;
@@ -18,6 +19,7 @@ mod known;
 mod lines;
 mod manual;
 mod number;
+mod orbits;
 mod predict;
 #[cfg(feature = "theory")]
 mod reproduce;
@@ -99,7 +101,7 @@ impl Action {
     }
 }
 
-/// What a subcommand found, when nothing went wrong.
+/// The outcome of a subcommand without error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
     /// Done.
@@ -108,7 +110,7 @@ enum Outcome {
     No,
 }
 
-/// Reads the process's arguments, acts, and says how it went.
+/// Reads the process's arguments, acts, and returns the exit status.
 ///
 /// Does not return for `--help`, `--version` and unusable arguments: they end the process with status 0 or 2.
 #[must_use]
@@ -137,7 +139,7 @@ pub fn run() -> ExitCode {
     }
 }
 
-/// What a subcommand prints, for a program that calls it without a process.
+/// The output of a subcommand, for a program that calls it without a process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Answer {
     /// Standard output.
@@ -151,10 +153,22 @@ pub struct Answer {
 pub struct Failure {
     /// Short name for scripts: the library's, or `usage`, `model`, `proof` or `files`.
     pub code: &'static str,
-    /// What standard error shows.
+    /// Text of standard error.
     pub text: String,
     /// The number outside its domain, if that is the reason.
     pub out_of_domain: Option<OutOfDomain>,
+}
+
+impl Failure {
+    fn usage(error: &clap::Error) -> Self {
+        Self { code: "usage", text: error.to_string(), out_of_domain: None }
+    }
+}
+
+impl From<CommandError> for Failure {
+    fn from(error: CommandError) -> Self {
+        Self { code: error.code(), text: error.to_string(), out_of_domain: error.out_of_domain().copied() }
+    }
 }
 
 /// The answer to arguments as a shell would pass them, without the command's own name.
@@ -169,15 +183,34 @@ pub struct Failure {
 /// ```
 pub fn answer<T: Into<OsString>>(arguments: impl IntoIterator<Item = T>) -> Result<Answer, Failure> {
     let arguments = std::iter::once("selfosc".into()).chain(arguments.into_iter().map(Into::into));
-    let usage = |error: clap::Error| Failure { code: "usage", text: error.to_string(), out_of_domain: None };
-    let command = parsed(arguments.collect()).map_err(usage)?;
+    let command = parsed(arguments.collect()).map_err(|error| Failure::usage(&error))?;
     let mut output = Vec::new();
-    let outcome = command.action.run(&mut output).map_err(|error| Failure {
-        code: error.code(),
-        text: error.to_string(),
-        out_of_domain: error.out_of_domain().copied(),
-    })?;
+    let outcome = command.action.run(&mut output)?;
     Ok(Answer { text: String::from_utf8_lossy(&output).into_owned(), no: outcome == Outcome::No })
+}
+
+/// The experiment that `selfosc run` makes of its arguments.
+///
+/// # Errors
+/// As those of [`answer`].
+///
+/// ```
+/// let protocol = ["--coordinate=heading-rad", "--relay=0.02", "--half-width=0.2", "--interval=0.1"];
+/// let mut experiment = selfosc::command::experiment(protocol).unwrap();
+/// assert_eq!(experiment.step(0.0, 0.0).command, 0.02);
+/// ```
+pub fn experiment<T: Into<OsString>>(
+    arguments: impl IntoIterator<Item = T>,
+) -> Result<crate::on_board::Experiment<f64>, Failure> {
+    let arguments = ["selfosc".into(), "run".into()].into_iter().chain(arguments.into_iter().map(Into::into));
+    let command = parsed(arguments.collect()).map_err(|error| Failure::usage(&error))?;
+    match command.action {
+        Action::Run(arguments) => arguments.experiment().map_err(Failure::from),
+        _ => {
+            let text = "must be flags of `selfosc run`; give no other subcommand".to_owned();
+            Err(Failure { code: "usage", text, out_of_domain: None })
+        }
+    }
 }
 
 /// The command that these arguments ask for.
@@ -205,7 +238,7 @@ fn parsed(arguments: Vec<OsString>) -> Result<Command, clap::Error> {
     })
 }
 
-/// What `--color` asks for: help and errors of the parser are shown before the arguments are known.
+/// The choice of `--color`: help and errors of the parser are shown before the arguments are parsed.
 fn wanted_color(given: &[OsString]) -> ColorChoice {
     let value =
         given.iter().enumerate().find_map(|(at, argument)| match argument.to_str()?.strip_prefix("--color")? {
@@ -225,7 +258,7 @@ fn refused(error: &Error, json: bool, output: &mut impl Write) -> Result<Outcome
     Ok(Outcome::No)
 }
 
-/// Writes one JSON document and a line end.
+/// Writes a JSON document and a line end.
 fn write_json(output: &mut impl Write, value: &impl serde::Serialize) -> Result<(), CommandError> {
     let text = serde_json::to_string_pretty(value).map_err(io::Error::from)?;
     writeln!(output, "{}", terminal::escaped_json(&text))?;

@@ -1,11 +1,11 @@
-//! Numbers as a person types them: an error says what they have to be and how to write them.
+//! Numbers as a person types them: an error names the domain and the notation.
 
 use std::num::NonZeroUsize;
 use std::str::FromStr;
 
 use crate::numeric::Limit;
 
-/// A number as typed, whatever it is: the library says what it has to be.
+/// Any number as typed: the library checks the domain.
 pub(super) fn number(text: &str) -> Result<f64, String> {
     let value: f64 = text.trim().parse().map_err(|_| written(Limit::Finite))?;
     if value.is_finite() && value != 0.0 && !(SMALLEST..=LARGEST).contains(&value.abs()) {
@@ -15,7 +15,7 @@ pub(super) fn number(text: &str) -> Result<f64, String> {
     Ok(value)
 }
 
-/// Magnitudes of numbers: with others beyond these, squares and products leave the arithmetic.
+/// Magnitudes of numbers: beyond, squares and products overflow or underflow.
 const SMALLEST: f64 = 1e-50;
 const LARGEST: f64 = 1e50;
 
@@ -47,12 +47,12 @@ pub(super) fn whole<T: FromStr>(text: &str) -> Result<T, String> {
     text.parse().map_err(|_| format!("must be a whole number from 0 to {}; write it in digits", u64::MAX))
 }
 
-/// How many, one or more.
+/// A count, at least 1.
 pub(super) fn count(text: &str) -> Result<NonZeroUsize, String> {
     text.parse().map_err(|_| format!("must be a whole number from 1 to {}; write it in digits", usize::MAX))
 }
 
-/// How many of what is counted in one byte, one or more.
+/// A count of a single byte, at least 1.
 pub(super) fn small_count(text: &str) -> Result<u8, String> {
     let counted = text.parse().ok().filter(|count| *count > 0);
     counted.ok_or_else(|| format!("must be a whole number from 1 to {}; write it in digits", u8::MAX))

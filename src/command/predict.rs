@@ -1,37 +1,123 @@
-//! `selfosc predict`: the self-oscillation of a drag axis.
+//! `selfosc predict`: the self-oscillation of a drag axis, or all orbits of a linear plant.
 
 use std::io::Write;
+use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
 use serde_json::json;
 
-use super::axis::{AxisArguments, RelayArguments};
+use super::axis::{AxisArguments, MotionArguments, RelayArguments};
 use super::error::in_context;
-use super::{CommandError, Outcome, write_json};
+use super::number::number;
+use super::{CommandError, Outcome, orbits, write_json};
 use crate::balance::AxisOscillation;
 use crate::numeric::significant;
 use crate::orbit::{Certificate, LimitCycle, Starts, certify, limit_cycle};
 
-/// The self-oscillation of alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay) + delta under a relay with hysteresis.
+/// The exact self-oscillations under a relay: of a drag axis, or of any linear plant with dead time.
 ///
-/// The exact limit cycle comes from the closed-form motion between switchings; harmonic balance, which keeps the first harmonic
-/// only, is the paper's approximation. A certificate in interval arithmetic follows. Output is whatever unit half-width has
-/// (rad, m), command whatever relay has (N m, N).
-/// Exit status 1 where there is no limit cycle, with the reason.
+/// Drag axis: alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay) + delta, from the closed-form motion between switchings, with
+/// harmonic balance (first harmonic only, the paper's approximation) beside it and a certificate in interval arithmetic.
+/// Linear plant (--num, --den): every orbit with one switching each way in a period, from the slowest down. Each is proved to exist;
+/// its multipliers decide its stability. No other orbit has a period in the range printed.
+/// Output is whatever unit half-width has (rad, m), command whatever relay has (N m, N).
+/// Exit status 1 where there is no such oscillation, with the reason.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   selfosc predict --alpha 0.033 --beta-quadratic 0.007 --relay 0.08 --half-width 0.21 --delay 0.2
-  selfosc predict --alpha 1 --beta 1 --relay 1 --half-width 0.2 --delta 0.3 --json")]
+  selfosc predict --alpha 1 --beta 1 --relay 1 --half-width 0.2 --delta 0.3 --json
+  selfosc predict --num 1 --den 1,1 --delay 1 --relay 1 --half-width 0
+  selfosc predict --num 2 --den 30,1 --delay 4 --relay 1,0 --half-width 0.1 --reference 1.2")]
+#[command(group(clap::ArgGroup::new("plant").required(true).args(["alpha", "num"])))]
 pub(super) struct Arguments {
-    #[command(flatten)]
-    axis: AxisArguments,
-    #[command(flatten)]
-    relay: RelayArguments,
+    /// Inertia with added mass of a drag axis, command units per output unit per s^2
+    #[arg(long, value_parser = number, value_name = "A", allow_negative_numbers = true)]
+    alpha: Option<f64>,
+    /// Linear drag, command units per output unit per s
+    #[arg(long, value_parser = number, value_name = "B", allow_negative_numbers = true, conflicts_with = "num")]
+    beta: Option<f64>,
+    /// Quadratic drag, command units per (output unit per s)^2
+    #[arg(long, value_parser = number, value_name = "Q", allow_negative_numbers = true, conflicts_with = "num")]
+    beta_quadratic: Option<f64>,
+    /// Constant disturbance of a drag axis, command units
+    #[arg(long, value_parser = number, value_name = "D", allow_negative_numbers = true, conflicts_with = "num")]
+    delta: Option<f64>,
+    /// Numerator of a linear plant, descending powers of s
+    #[arg(long, value_parser = number, value_name = "A,B,...", value_delimiter = ',', requires = "den", allow_hyphen_values = true)]
+    num: Vec<f64>,
+    /// Denominator of a linear plant, descending powers of s
+    #[arg(long, value_parser = number, value_name = "A,B,...", value_delimiter = ',', requires = "num", allow_hyphen_values = true)]
+    den: Vec<f64>,
+    /// Relay levels HIGH and LOW, command units; LOW is -HIGH if left out, as it is for a drag axis
+    #[arg(long, value_parser = number, value_name = "HIGH[,LOW]", value_delimiter = ',', required = true, allow_hyphen_values = true)]
+    relay: Vec<f64>,
+    /// Half-width x_a of the relay's hysteresis, output units
+    #[arg(long, value_parser = number, value_name = "XA", allow_negative_numbers = true)]
+    half_width: f64,
+    /// Reference about which the relay switches, output units (linear plants)
+    #[arg(long, value_parser = number, value_name = "R", allow_negative_numbers = true, conflicts_with = "alpha")]
+    reference: Option<f64>,
+    /// Delay of the whole loop in s
+    #[arg(long, value_parser = number, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
+    delay: f64,
+    /// Looks only at periods from SHORTEST to LONGEST, in s (linear plants)
+    #[arg(long, value_parser = number, value_name = "SHORTEST,LONGEST", value_delimiter = ',', conflicts_with = "alpha")]
+    periods: Vec<f64>,
+    /// Writes the proof of the orbits to this file, which `selfosc verify --check FILE` checks without a search (linear plants)
+    #[arg(long, value_name = "FILE", conflicts_with = "alpha")]
+    certificate: Option<PathBuf>,
     /// Prints one JSON document
     #[arg(long)]
     json: bool,
+}
+
+impl Arguments {
+    fn axis(&self, alpha: f64) -> Result<(AxisArguments, RelayArguments), CommandError> {
+        let &[relay] = self.relay.as_slice() else {
+            return Err(CommandError::Usage {
+                reason: format!(
+                    "--relay with {} levels: must be one for a drag axis; shift it by --delta",
+                    self.relay.len()
+                ),
+            });
+        };
+        let (beta, beta_quadratic) = (self.beta.unwrap_or(0.0), self.beta_quadratic.unwrap_or(0.0));
+        let motion = MotionArguments { alpha, beta, beta_quadratic };
+        let delta = self.delta.unwrap_or(0.0);
+        let relay = RelayArguments { relay, half_width: self.half_width };
+        Ok((AxisArguments { motion, delta, delay: self.delay }, relay))
+    }
+
+    fn linear(&self) -> Result<orbits::Loop<'_>, CommandError> {
+        let given = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+        let usage = |flag: &str, values: &[f64], remedy: &str| CommandError::Usage {
+            reason: format!("{flag} {}: must be {remedy}; give that many numbers", given(values)),
+        };
+        let (high, low) = match *self.relay.as_slice() {
+            [high] => (high, -high),
+            [high, low] => (high, low),
+            _ => return Err(usage("--relay", &self.relay, "HIGH or HIGH,LOW")),
+        };
+        let periods = match *self.periods.as_slice() {
+            [] => None,
+            [shortest, longest] => Some(shortest..=longest),
+            _ => return Err(usage("--periods", &self.periods, "SHORTEST,LONGEST")),
+        };
+        let (half_width, reference) = (self.half_width, self.reference.unwrap_or(0.0));
+        Ok(orbits::Loop {
+            num: &self.num,
+            den: &self.den,
+            delay_s: self.delay,
+            high,
+            low,
+            half_width,
+            reference,
+            periods,
+            certificate: self.certificate.as_deref(),
+        })
+    }
 }
 
 /// A cycle in numbers, or in their bounds.
@@ -50,7 +136,9 @@ fn cycle<T: Serialize>(cycle: &LimitCycle<T>) -> serde_json::Value {
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
-    let (axis, relay) = (arguments.axis.axis()?, arguments.relay.relay()?);
+    let Some(alpha) = arguments.alpha else { return orbits::run(arguments.linear()?, arguments.json, output) };
+    let (axis, relay) = arguments.axis(alpha)?;
+    let (axis, relay) = (axis.axis()?, relay.relay()?);
     let exact = match limit_cycle(&axis, &relay) {
         Ok(cycle) => cycle,
         Err(reason) if arguments.json => {
@@ -96,7 +184,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     Ok(Outcome::Done)
 }
 
-/// The cycle, with what the first harmonic alone makes of it beside it.
+/// The cycle, compared with the first harmonic's approximation.
 fn table(
     exact: &LimitCycle<f64>,
     balance: Option<&AxisOscillation>,
@@ -124,7 +212,7 @@ fn table(
     Ok(())
 }
 
-/// What the certificate says, in words.
+/// The certificate in words.
 fn proved(proof: &Certificate, output: &mut impl Write) -> Result<(), CommandError> {
     let cycle = &proof.enclosure;
     writeln!(output, "\nproved in interval arithmetic, for exactly these parameters:")?;

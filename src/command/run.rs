@@ -6,7 +6,7 @@ mod flags;
 use std::fs::File;
 use std::io::{IsTerminal, Write, stderr};
 use std::path::PathBuf;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use serde_json::{Value, json};
@@ -19,6 +19,7 @@ use crate::experiment::Columns;
 use crate::files::Files;
 use crate::identify::document::RefusalDocument;
 use crate::identify::{DragLaw, Session, Settings};
+use crate::numeric::significant;
 use crate::on_board::{Coordinate, Experiment, Phase, Protocol, Step};
 use display::Display;
 use flags::ProtocolArguments;
@@ -62,13 +63,8 @@ struct LiveLog {
 
 impl LiveLog {
     fn new(coordinate: Coordinate, file: Option<File>) -> Self {
-        let column = match coordinate {
-            Coordinate::HeadingDegrees => "heading_deg",
-            Coordinate::HeadingRad => "output",
-            Coordinate::Position | Coordinate::Speed => "position",
-        };
         let mut samples = Self { text: String::new(), file };
-        samples.line(&format!("time_s,{column},input\n"));
+        samples.line(&format!("time_s,{},input\n", coordinate.column()));
         samples
     }
 
@@ -85,16 +81,6 @@ impl LiveLog {
     }
 }
 
-/// One word for where an experiment stands.
-fn word(phase: Phase) -> String {
-    match phase {
-        Phase::Running => "running".to_owned(),
-        Phase::Done => "done".to_owned(),
-        Phase::Aborted => "aborted".to_owned(),
-        Phase::Failed(fault) => format!("failed:{}", fault.code()),
-    }
-}
-
 /// Time and reading of a line. What is missing or no number is NaN, which the experiment calls a fault.
 fn sample(line: &str) -> [f64; 2] {
     let mut words = line.split_whitespace().map(|word| word.parse().unwrap_or(f64::NAN));
@@ -102,9 +88,16 @@ fn sample(line: &str) -> [f64; 2] {
     if words.next().is_some() { [f64::NAN; 2] } else { sample }
 }
 
+impl Arguments {
+    /// The experiment, which starts with its first sample.
+    pub(super) fn experiment(&self) -> Result<Experiment<f64>, CommandError> {
+        self.protocol.experiment()
+    }
+}
+
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let protocol = arguments.protocol.protocol();
-    let mut experiment = arguments.protocol.experiment()?;
+    let mut experiment = arguments.experiment()?;
     let mut files = Files::default();
     let log = arguments.log.as_ref().map(|path| files.output(path)?.stream()).transpose().given("--log")?;
     let json = arguments.json.as_ref().and_then(Option::as_ref);
@@ -115,15 +108,16 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     let mut display = arguments.watch.then(|| Display::new(&protocol, stderr().is_terminal()));
 
     let lines = Lines::of_standard_input();
-    let mut last_s = None;
+    // The last reading's time, and when the next has to be there: comments and empty lines are none.
+    let (mut last_s, mut due) = (None, None);
     while experiment.phase() == Phase::Running {
-        let event = if last_s.is_some() { lines.within(wait) } else { lines.next() };
+        let event = due.map_or_else(|| lines.next(), |due| lines.before(due));
         let step = match event {
             Event::Line(line) if line.is_empty() || line.starts_with('#') => continue,
             Event::Line(line) => {
                 let [time_s, reading] = sample(&line);
                 let step = experiment.step(reading, time_s);
-                last_s = Some(time_s);
+                (last_s, due) = (Some(time_s), Instant::now().checked_add(wait));
                 if let Some(position) = experiment.position().filter(|_| step.phase == Phase::Running) {
                     samples.line(&format!("{time_s},{position},{}\n", step.command));
                     if let Some(display) = &mut display {
@@ -142,7 +136,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
                 Step { command: experiment.command(), phase: experiment.phase() }
             }
         };
-        let told = writeln!(output, "{} {}", step.command, word(step.phase)).and_then(|()| output.flush());
+        let told = writeln!(output, "{} {}", step.command, step.phase).and_then(|()| output.flush());
         if told.is_err() {
             // Nobody drives the actuator any more; the record stays.
             experiment.abort();
@@ -187,7 +181,7 @@ fn conclusion(experiment: &Experiment<f64>, protocol: &Protocol<f64>, log: &str)
         })
     });
     content["experiment"] = json!({
-        "phase": word(experiment.phase()),
+        "phase": experiment.phase().to_string(),
         "fault": fault,
         "attempts": experiment.attempt(),
         "outcome": outcome,
@@ -204,9 +198,12 @@ fn report(experiment: &Experiment<f64>, content: &Value) {
     };
     let model = match content["reported"].as_object() {
         Some(model) => {
-            format!("inertia {}, trust: {}", model["alpha"]["value"], model["trust"].as_str().unwrap_or("-"))
+            let part = |name: &str| model["alpha"][name].as_f64().map_or_else(|| "-".to_owned(), |x| significant(x, 4));
+            let [value, low, high] = ["value", "low", "high"].map(part);
+            let trust = model["trust"].as_str().unwrap_or("-");
+            format!("inertia {value}, 95 % from {low} to {high}; trust: {trust}")
         }
         None => format!("no model: {}", content["refused"]["text"].as_str().unwrap_or("no method answers")),
     };
-    let _ = writeln!(stderr(), "{}{why}\n{model}", word(experiment.phase()));
+    let _ = writeln!(stderr(), "{}{why}\n{model}", experiment.phase());
 }

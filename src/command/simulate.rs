@@ -94,7 +94,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     Ok(Outcome::Done)
 }
 
-/// Readings out and commands in, one for one; in real time the command that is there counts.
+/// Readings out and commands in, in turn; in real time the latest command counts.
 fn obey(
     mut vehicle: LiveVehicle,
     unit: f64,

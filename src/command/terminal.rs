@@ -1,4 +1,4 @@
-//! What may reach a terminal.
+//! Text that may reach a terminal.
 
 use std::io::{self, Write};
 

@@ -7,7 +7,7 @@ mod print;
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::known::Model;
+use super::known::{FIRST_ORDER, Model};
 use super::number::{non_negative, number, positive};
 use super::{CommandError, Outcome, refused, write_json};
 use crate::control::Structure;
@@ -121,6 +121,9 @@ fn interval(text: &str) -> Result<Interval, String> {
 impl Arguments {
     /// The axis as given or as identified, each parameter with its interval where one is known.
     fn known(&self) -> Result<Model, CommandError> {
+        if self.alpha == Some(0.0) {
+            return Err(CommandError::Usage { reason: format!("--alpha is 0: {FIRST_ORDER}") });
+        }
         let model = match (&self.model, self.alpha) {
             (Some(path), _) => Model::read(path)?,
             (None, alpha) => {

@@ -89,7 +89,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     Ok(if expected { written.unwrap_or(Outcome::Done) } else { Outcome::No })
 }
 
-/// Checks one claim after the other; for people, each one's lines as it ends.
+/// Checks the claims in turn; for people, prints a claim's lines when it ends.
 fn check(
     chosen: &[&'static Claim],
     budget: Budget,
@@ -135,7 +135,7 @@ fn chosen(ids: &[String]) -> Result<Vec<&'static Claim>, CommandError> {
 fn evidence(claim: &Claim, finding: &Finding) -> String {
     let evidence = match finding.carrying() {
         Some(Verdict::Holds(evidence)) => evidence,
-        Some(Verdict::Refuted(witness)) => return format!("refuted by {witness}"),
+        Some(Verdict::Refuted(witness) | Verdict::Approximate(witness)) => return format!("refuted by {witness}"),
         Some(Verdict::Undecided { spent }) => return spent.clone(),
         None => return String::new(),
     };
@@ -155,7 +155,7 @@ fn evidence(claim: &Claim, finding: &Finding) -> String {
     said.join(", ")
 }
 
-/// What was found of one claim.
+/// The finding on a claim.
 fn lines(claim: &Claim, finding: &Finding, width: usize, output: &mut impl Write) -> Result<(), CommandError> {
     let short = |word: Word| if word == Word::NotApplicable { "-" } else { word.as_str() };
     let (printed, corrected) = (short(finding.as_printed()), short(finding.as_corrected()));
@@ -163,8 +163,12 @@ fn lines(claim: &Claim, finding: &Finding, width: usize, output: &mut impl Write
     if let Some(why) = claim.not_proved {
         writeln!(output, "{:width$}  not proved as a whole: {why}", "")?;
     }
-    if let Some(Verdict::Refuted(witness)) = &finding.printed {
-        writeln!(output, "{:width$}  as printed, refuted by {witness}", "")?;
+    match &finding.printed {
+        Some(Verdict::Refuted(witness)) => writeln!(output, "{:width$}  as printed, refuted by {witness}", "")?,
+        Some(Verdict::Approximate(witness)) => {
+            writeln!(output, "{:width$}  as printed, approximate: off at {witness}", "")?
+        }
+        _ => {}
     }
     if !finding.expected {
         writeln!(output, "{:width$}  NOT AS STATED in spec/claims/{}.md", "", claim.id)?;
@@ -208,7 +212,7 @@ fn document(findings: &[(&Claim, Finding)]) -> Value {
             _ => Evidence::default(),
         };
         let witness = [&finding.printed, &finding.corrected].into_iter().flatten().find_map(|verdict| match verdict {
-            Verdict::Refuted(witness) => Some(witness),
+            Verdict::Refuted(witness) | Verdict::Approximate(witness) => Some(witness),
             _ => None,
         });
         let witness = witness.map(|witness| {

@@ -73,8 +73,8 @@ pub enum ControlError {
     /// A process of a box that is not proved to be stable under the gains.
     #[error(
         "the closed loop is not proved to be stable for every process of the intervals (not at inertia {}, drag {}, delay {} s); \
-         lower the gains or narrow the intervals",
-        Plain(*.alpha), Plain(*.drag), Plain(*.delay_s)
+         {}",
+        Plain(*.alpha), Plain(*.drag), Plain(*.delay_s), Remedy(*.stabilised_rad_s)
     )]
     NotStabilised {
         /// Inertia of the process.
@@ -83,6 +83,8 @@ pub enum ControlError {
         drag: f64,
         /// Delay of the loop, s.
         delay_s: f64,
+        /// A bandwidth whose gains are proved to stabilise all, rad/s, where one was found.
+        stabilised_rad_s: Option<f64>,
     },
     /// A loop that is not stable has no margins.
     #[error(
@@ -133,6 +135,18 @@ pub enum ControlError {
         /// Where it ended, rad/s.
         to_rad_s: f64,
     },
+}
+
+/// What helps where gains do not stabilise every process.
+struct Remedy(Option<f64>);
+
+impl core::fmt::Display for Remedy {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self.0 {
+            Some(bandwidth) => write!(f, "ask for a bandwidth of {} rad/s, at which it is", Plain(bandwidth)),
+            None => f.write_str("narrow the intervals: identify from a longer record"),
+        }
+    }
 }
 
 impl ControlError {

@@ -4,9 +4,12 @@
 //! With `L = N exp(-j phi)/D`: `|1 + L| >= 1/M` means `|D + N exp(-j phi)|^2 - |D|^2/M^2 >= 0`. Margins follow with a factor,
 //! an angle or a delay as one more variable and `1/M = 0` (zero exclusion principle: Ackermann, *Robust Control*, 2002, ch. 4).
 
-use super::process::{DEGREE, Fraction, LinearProcess, PARAMETERS, constants};
+mod figures;
+
+use super::process::{Fraction, LinearProcess, PARAMETERS, constants};
 use super::{ControlError, Gains};
 use crate::numeric::{Gradient, Interval, Real, domain};
+use figures::{AN_OCTAVE, FEW, Figures};
 
 /// What every process of a box is to have.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -136,7 +139,7 @@ impl ProcessIntervals {
     /// let between = |low, high| Interval::new(low, high).ok_or("reversed");
     /// let none = Interval::ZERO;
     /// let process = LinearProcess {
-    ///     alpha: between(0.9, 1.1)?, drag: between(0.2, 0.4)?, delay_s: between(0.15, 0.25)?, lag_s: between(0.05, 0.1)?,
+    ///     alpha: between(0.9, 1.1)?, drag: between(0.2, 0.4)?, delay_s: between(0.15, 0.25)?, lag_s: between(0.0, 0.1)?,
     ///     stiffness: none, memory: none, memory_s: none, filter_s: none, zero_s: none,
     /// };
     /// let gains = Gains::new(Structure::Pd, 0.5, 0.0, 0.9, 0.1)?;
@@ -187,12 +190,9 @@ impl ProcessIntervals {
         true
     }
 
-    /// A frequency above which `|L|` is too small for the criterion to fail: with `u = 1/omega` all powers are polynomials of u.
+    /// A frequency above which `|L|` is too small for the criterion to fail, for every process.
     fn highest_frequency(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> Option<f64> {
-        let Fraction { numerator, denominator } = self.process.open_loop(constants::<Interval>(gains));
-        let degree = |polynomial: &[Interval; DEGREE + 1]| polynomial.iter().rposition(|c| *c != Interval::ZERO);
-        let (m, n) = (degree(&numerator)?, degree(&denominator)?);
-        let largest = match criterion {
+        let factor = match criterion {
             RobustCriterion::Gain(factor) => factor.max(1.0),
             _ => 1.0,
         };
@@ -201,24 +201,52 @@ impl ProcessIntervals {
             _ => 1.0,
         };
         (-OCTAVES..OCTAVES).map(|k| 2f64.powi(k)).find(|omega| {
-            let Some(u) = Interval::new(0.0, 1.0 / omega) else { return false };
-            // |N| <= sum |n_k| omega^k, |D| >= |d_n| omega^n - the rest.
-            let reversed = |polynomial: &[Interval], last: usize| {
-                (0..=last).fold(Interval::ZERO, |sum, k| {
-                    sum + Interval::point(polynomial[k].magnitude()) * power(u, last - k)
-                })
-            };
-            let above = reversed(&numerator, m);
-            let leading = denominator[n];
-            let least = leading.lower().max(-leading.upper());
-            let rest = (0..n)
-                .fold(Interval::ZERO, |sum, k| sum + Interval::point(denominator[k].magnitude()) * power(u, n - k));
-            let below = Interval::point(least) - rest;
-            let shift = power(u, n.saturating_sub(m));
-            n >= m
-                && below.is_positive()
-                && (Interval::point(largest) * above * shift).upper() < (Interval::point(most) * below).lower()
+            let bound = self.loop_gain_beyond(gains, *omega);
+            bound.is_some_and(|bound| (Interval::point(factor) * bound).upper() < most)
         })
+    }
+
+    /// A bound of `|L(s)|` for every `s` with `|s| >= omega` and `Re s >= 0`, where no pole of the closed loop comes from infinity
+    /// either, whatever degree is lost where a time constant reaches zero. With `u = 1/|s|`:
+    ///
+    /// - `|1 + T s|^2 = 1 + 2 T Re s + T^2 |s|^2 >= (u^2 + T^2)/u^2`, hence at least 1 for a `T` that may be zero;
+    /// - `Re (alpha s + drag + memory/(memory_s s + 1)) >= drag + min(0, memory)`, hence
+    ///   `|body| >= (drag + min(0, memory) - |stiffness| u)/u`; without inertia and of positive real parts, `|body| >= stiffness`;
+    /// - `|body| >= (alpha - (|drag| + |memory|) u - |stiffness| u^2)/u^2`.
+    fn loop_gain_beyond(&self, gains: &Gains<f64>, omega: f64) -> Option<Interval> {
+        let LinearProcess { alpha, drag, stiffness, memory, lag_s, filter_s, zero_s, .. } = self.process;
+        let u = Interval::new(0.0, 1.0 / omega)?;
+        let size = |part: Interval| Interval::point(part.magnitude());
+        let least = |part: Interval| Interval::point(part.lower());
+        let negative = Interval::point(memory.lower().min(0.0));
+        let passive = alpha == Interval::ZERO && drag.lower() >= 0.0 && memory.lower() >= 0.0;
+        let bodies = [
+            (2, least(alpha) - (size(drag) + size(memory)) * u - size(stiffness) * u.square()),
+            (1, least(drag) + negative - size(stiffness) * u),
+            (0, if passive { least(stiffness) } else { Interval::ZERO }),
+        ];
+        let [proportional, integral, derivative, gain_filter_s] = constants::<Interval>(gains);
+        let controller = proportional + integral * u;
+        // The derivative without a filter, and a zero, grow with 1/u.
+        let unfiltered = derivative.is_positive() && !gain_filter_s.is_positive();
+        let controller = if unfiltered {
+            controller * u + derivative
+        } else if derivative.is_positive() {
+            controller + derivative / (u.square() + gain_filter_s.square()).sqrt()
+        } else {
+            controller
+        };
+        let zero = if zero_s == Interval::ZERO { Interval::ONE } else { u + size(zero_s) };
+        let lags = [lag_s, filter_s].map(least);
+        let slow = lags.into_iter().filter(|time| time.is_positive());
+        let numerator = slow.clone().fold(controller * zero, |sum, time| sum / (u.square() + time.square()).sqrt());
+        let falls = slow.count();
+        let rises = usize::from(unfiltered) + usize::from(zero_s != Interval::ZERO);
+        let bounds = bodies.into_iter().filter_map(|(degree, body)| {
+            let power = (degree + falls).checked_sub(rises)?;
+            body.is_positive().then(|| Interval::point((numerator * self::power(u, power) / body).upper()))
+        });
+        bounds.min_by(|a, b| a.upper().total_cmp(&b.upper()))
     }
 
     /// What the criterion's number is over the box: the worst that was met at corners and on the way down from them, and the best
@@ -292,107 +320,27 @@ impl ProcessIntervals {
                 (Some(worst), _) => worst.min(number),
             });
         }
-        if !self.all_stable(gains) {
-            let unstable = self.points().into_iter().find(|process| {
-                let point = Self { process: LinearProcess::from_parts(process.parts().map(Interval::point)) };
-                !point.all_stable(gains)
-            });
-            if let Some(LinearProcess { alpha, drag, delay_s, .. }) = unstable {
-                return Err(ControlError::NotStabilised { alpha, drag, delay_s });
-            }
+        if !self.all_stable(gains)
+            && let Some(LinearProcess { alpha, drag, delay_s, .. }) = self.unstable_point(gains)
+        {
+            return Err(ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s: None });
         }
         Ok(worst.unwrap_or(f64::NAN))
     }
-}
 
-/// Margins and peak of the sensitivity of one loop, by floating point on a grid of frequencies.
-#[derive(Clone, Copy, Debug)]
-struct Figures {
-    sensitivity: f64,
-    gain: f64,
-    gain_reduction: f64,
-    phase_rad: f64,
-    delay_s: f64,
-}
-
-/// Frequencies an octave, to judge by and to choose by; octaves below and above the highest frequency at which the gain may be one.
-const AN_OCTAVE: i32 = 40;
-const FEW: i32 = 12;
-const BELOW: i32 = 16;
-const ABOVE: i32 = 6;
-
-impl Figures {
-    fn of(process: &LinearProcess<f64>, gains: &Gains<f64>, high: f64, an_octave: i32) -> Self {
-        let open_loop = process.open_loop(constants(gains));
-        // L at a frequency: magnitude, and angle above -pi up to turns.
-        let response = |omega: f64| {
-            let [[re, im], [below_re, below_im]] = open_loop.parts(omega, omega * process.delay_s);
-            let size = below_re.hypot(below_im).powi(2);
-            [(re * below_re + im * below_im) / size, (im * below_re - re * below_im) / size]
-        };
-        let (mut found, mut before) = (
-            Self {
-                sensitivity: 1.0,
-                gain: f64::INFINITY,
-                gain_reduction: f64::INFINITY,
-                phase_rad: f64::INFINITY,
-                delay_s: f64::INFINITY,
-            },
-            None::<(f64, [f64; 2])>,
-        );
-        for k in 0..=an_octave * (BELOW + ABOVE) {
-            let omega = high * 2f64.powf(f64::from(k) / f64::from(an_octave) - f64::from(BELOW));
-            let here = response(omega);
-            let peak = |omega: f64| {
-                let [re, im] = response(omega);
-                (1.0 + re).hypot(im).recip()
-            };
-            found.sensitivity = found.sensitivity.max(peak(omega));
-            if let Some((last, [last_re, last_im])) = before {
-                let [re, im] = here;
-                if last_im * im <= 0.0 && re < 0.0 && last_re < 0.0 {
-                    let at = bisect(|omega| response(omega)[1], last, omega);
-                    let size = response(at)[0].abs();
-                    if size < 1.0 {
-                        found.gain = found.gain.min(1.0 / size);
-                    } else {
-                        found.gain_reduction = found.gain_reduction.min(size);
-                    }
-                }
-                let excess = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
-                if excess([last_re, last_im]) * excess(here) <= 0.0 {
-                    let at = bisect(|omega| excess(response(omega)), last, omega);
-                    let [re, im] = response(at);
-                    // Angle above critical, from 0 to a turn.
-                    let above = (-im).atan2(-re).rem_euclid(core::f64::consts::TAU);
-                    found.phase_rad = found.phase_rad.min(above.min(core::f64::consts::TAU - above));
-                    found.delay_s = found.delay_s.min(above / at);
-                }
-            }
-            before = Some((omega, here));
-        }
-        found
+    /// Whether the middle and the corners of the box are each proved to be stable; nothing is said of the processes between.
+    #[must_use]
+    pub fn points_stable(&self, gains: &Gains<f64>) -> bool {
+        self.unstable_point(gains).is_none()
     }
 
-    fn number(&self, criterion: RobustCriterion) -> f64 {
-        match criterion {
-            RobustCriterion::Sensitivity(_) => self.sensitivity,
-            RobustCriterion::Gain(_) => self.gain,
-            RobustCriterion::GainReduction(_) => self.gain_reduction,
-            RobustCriterion::PhaseRad(_) => self.phase_rad,
-            RobustCriterion::DelayS(_) => self.delay_s,
-        }
+    /// A point of the box that is not proved to be stable.
+    fn unstable_point(&self, gains: &Gains<f64>) -> Option<LinearProcess<f64>> {
+        self.points().into_iter().find(|process| {
+            let point = Self { process: LinearProcess::from_parts(process.parts().map(Interval::point)) };
+            !point.all_stable(gains)
+        })
     }
-}
-
-/// A sign change between two frequencies, to rounding.
-fn bisect(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    let rising = f(high) > f(low);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if (f(middle) > 0.0) == rising { high = middle } else { low = middle }
-    }
-    0.5 * (low + high)
 }
 
 /// What is given up of the worst that was met, so that a proof is found: the least first.

@@ -69,7 +69,7 @@ impl<T: Real, C: ClosedForm<Number = T>> ClosedForm for Affine<T, C> {
     }
 }
 
-/// The describing functions at one bias and many amplitudes, one after the other; nothing is allocated.
+/// The describing functions at a bias and several amplitudes, in turn; nothing is allocated.
 ///
 /// ```
 /// use selfosc::describing::over_amplitudes;

@@ -18,7 +18,7 @@ struct Page {
     settings: &'static [(&'static str, &'static [f64])],
 }
 
-/// What each page says in its line `Sketch: `; a test compares the two.
+/// The line `Sketch: ` of each page; a test compares the two.
 const PAGES: &[Page] = &[
     Page { name: "absolute", amplitude: 1.0, settings: &[("gain", &[1.0])] },
     Page { name: "arctan", amplitude: 5.0, settings: &[("gain", &[1.0]), ("scale", &[1.0])] },

@@ -92,7 +92,7 @@ impl<T: Real> Arc<T> {
         Self::new(sweep.bias() - at, at - sweep.minimum(), sweep.maximum() - at, sweep.amplitude())
     }
 
-    /// From the breakpoint's distances: from the bias, to the turning point on the kernel's side, to the one on the other.
+    /// From the breakpoint's distances: from the bias, to the turning point on the kernel's side, to the opposite turning point.
     #[inline(always)]
     pub(super) fn new(middle: T, near: T, far: T, amplitude: T) -> Self {
         let hold = |distance: T| (distance / amplitude).max(T::zero()).min(T::two());
@@ -183,8 +183,8 @@ pub(crate) fn ramp_by_angle<T: Real>(at: T, phi: T, sweep: &Sinusoid<T>) -> Desc
 
 /// The input held between two breakpoints, less `origin`.
 ///
-/// Four forms of one value, each accurate where the others cancel: a difference of ramps, for a band near either turning
-/// point; between them, for a band wider than the amplitude, the whole input less what lies outside; and from the middle.
+/// Four forms of the same value, each accurate where the rest cancel: a difference of ramps, for a band near either turning
+/// point; between them, for a band wider than the amplitude, the whole input less its part outside the band; and from the middle.
 #[inline(always)]
 fn band<T: Real>(origin: T, lower: T, upper: T, sweep: &Sinusoid<T>) -> DescribingFunction<T> {
     let (bias, amplitude) = (sweep.bias(), sweep.amplitude());

@@ -16,7 +16,7 @@ use crate::proof::branch_and_bound::{Subdivision, Visit, subdivide};
 use crate::proof::identity::{Series, magnitude, prove_zero_of_two};
 use crate::proof::{Bound, Change, NotProved, Proved, Statement, Unchanged};
 
-/// Length of either end on which values are compared, in radians: beyond, `cos(phi)` can be told from one.
+/// Length of either end on which values are compared, in radians: beyond, `cos(phi)` and 1 are distinguishable.
 const END: f64 = 3e-8;
 /// Error allowed on a cell of an end.
 const AT_END: f64 = 8e-12;
@@ -36,16 +36,16 @@ pub enum KernelForm {
     Step,
     /// The distance beyond the breakpoint, else zero.
     Ramp,
-    /// One beyond the breakpoint, else minus one.
+    /// `+1` beyond the breakpoint, else `-1`.
     Sign,
-    /// What each end of a band adds, with the code's own inverse sine: the sum over both ends is what the code rearranges so
+    /// The contribution of each end of a band, with the code's own inverse sine: the code rearranges the sum over both ends so
     /// that nothing cancels.
     Band,
 }
 
 /// Proves that the formula for a band from the middle is the difference of two ramps: for every pair of breakpoints within
-/// 0.95 of the bias, in units of the amplitude, but those from 0.5 to 0.5 + 1e-9 away from it. One proof for each of the nine
-/// rectangles on which the code takes one and the same formula.
+/// 0.95 of the bias, in units of the amplitude, but those from 0.5 to 0.5 + 1e-9 away from it. A proof for each of the nine
+/// rectangles on which the code uses a single formula.
 ///
 /// ```
 /// use selfosc::describing::prove_band_from_the_middle;

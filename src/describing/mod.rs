@@ -74,7 +74,7 @@ use crate::numeric::Real;
 /// `f0 + amplitude (p sin(theta) + q cos(theta)) +` higher harmonics (eqs. 11-15), where the input is
 /// `bias + amplitude sin(theta)`.
 ///
-/// It says nothing of the higher harmonics that it leaves out.
+/// Higher harmonics are neglected, without a bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct DescribingFunction<T> {

@@ -1,36 +1,7 @@
-//! What one pair of imaginary poles of a characteristic adds to its describing function, and what the poles on a line do.
-
-use core::ops::{Add, Mul};
+//! Contribution of a pair of imaginary poles to a describing function, and that of all poles on a line.
 
 use crate::nonlinearity::Sinusoid;
-use crate::numeric::Real;
-
-/// `re + i im`; just what the formulas here need.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Complex<T> {
-    pub(super) re: T,
-    pub(super) im: T,
-}
-
-impl<T: Real> Add for Complex<T> {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self { re: self.re + other.re, im: self.im + other.im }
-    }
-}
-
-impl<T: Real> Mul for Complex<T> {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
-    }
-}
-
-impl<T: Real> Complex<T> {
-    pub(super) fn conjugate(self) -> Self {
-        Self { im: -self.im, ..self }
-    }
-}
+use crate::numeric::{Complex, Real};
 
 /// The pole pair `x = +-i c/k` of a characteristic with argument `kx`, under a sweep with `beta = kB`, `kappa = kX`.
 ///
@@ -76,7 +47,7 @@ impl<T: Real> Scaled<T> {
 
 impl<T: Real> Pole<T> {
     /// `abs(S)^2` is `abs(c - i upper) abs(c - i lower)`, and the real part of `S^2` is `c^2 - upper lower`. The larger part of S
-    /// comes from their sum or difference, the smaller one from `Im S^2 = -2 c beta`, so that nothing cancels. Either way the parts are the same, because
+    /// comes from their sum or difference, the smaller part from `Im S^2 = -2 c beta`, so that nothing cancels. Either way the parts are the same, because
     /// `(c^2 + upper^2)(c^2 + lower^2) = (c^2 - upper lower)^2 + c^2 (upper + lower)^2`.
     pub(super) fn new(c: T, scaled: &Scaled<T>) -> Self {
         let c_square = c.square();

@@ -11,9 +11,9 @@ use crate::numeric::{Lanes, Real};
 impl Entry {
     /// Fills the columns with `F_0`, `P` and `Q`, bit for bit those of [`ClosedForm`](super::ClosedForm), of the characteristic
     /// with these parameter values. `sweep` gives bias and amplitude for each place; where there is no describing function,
-    /// `undefined` says what to write, or stops. As many places as the shortest column has.
+    /// `undefined` gives the entry to write, or stops. As many places as the shortest column has.
     ///
-    /// A piecewise-linear characteristic is evaluated for several sweeps at a time; the other ones gain nothing.
+    /// A piecewise-linear characteristic is evaluated for several sweeps at a time; the rest gain nothing.
     ///
     /// # Errors
     /// That of [`Entry::build`], of the first sweep outside its domain, or what `undefined` gives. Columns are then filled in
@@ -54,7 +54,7 @@ impl Entry {
                 let columns = [&mut f0[rest.clone()], &mut p[rest.clone()], &mut q[rest]];
                 let filled = |group: &dyn Group| group.fill(&biases[done..size], &amplitudes[done..size], columns);
                 done += together.as_deref().map_or(0, filled);
-                // What is refused for one of several sweeps is looked at one by one, and so are the last.
+                // A group with a refused sweep is evaluated sweep by sweep, and so is the remainder.
                 let alone = done..size.min(done + Lanes::COUNT);
                 for place in alone {
                     let df = one(biases[place], amplitudes[place])?;

@@ -6,7 +6,7 @@ use super::{DescribingError, DescribingFunction};
 use crate::nonlinearity::{Sinusoid, Tanh};
 use crate::numeric::special::Special;
 
-/// Poles summed one by one; the rest is left to the formula of Abel and Plana.
+/// Poles summed individually; the remainder follows from the Abel-Plana formula.
 const POLES: u32 = 10;
 /// Nodes and weights of Gauss's rule for `integral f(pi y)/(exp(2 pi y) + 1) dy` over positive y, f odd: exact to degree 11.
 const RULE: [(f64, f64); 3] = [
@@ -14,7 +14,7 @@ const RULE: [(f64, f64); 3] = [
     (2.880_869_064_618_294, 0.002_390_432_201_893_670_5),
     (5.948_616_840_527_803, 8.574_751_818_290_404e-6),
 ];
-/// Bound of what the rule leaves out, for every sweep. By Cauchy's estimate, with `abs(1/S) <= 1/Re(c)`, the first odd
+/// Bound of the rule's truncation error, for every sweep. By Cauchy's estimate, with `abs(1/S) <= 1/Re(c)`, the first odd
 /// Taylor coefficient that it does not integrate exactly is below `37/(pi n^14)` for the mean and `362/(pi^2 n^15)` for the
 /// component at `c = n pi`, and the 13th moment is 1/24; twice for the integral and its rule, twice for two poles.
 const REST: f64 = 2.5e-14;
@@ -68,7 +68,7 @@ fn by_exponentials<T: Special>(scale: T, distance: T, sweep: &Sinusoid<T>) -> T 
         let term = (-(twice * distance)).exp() * bessel;
         sum = sum + sign * term;
         let (size, largest) = (term.bounds().1, sum.bounds().1);
-        // Each term is less than a twentieth of the one before, with the other sign.
+        // Terms alternate in sign, each less than 1/20 of its predecessor.
         if !(size > 0.5 * f64::EPSILON * largest) {
             return T::from_f64(4.0) * sum.inflate(size) / sweep.amplitude();
         }

@@ -1,6 +1,6 @@
 //! The log clinic: what logs of real vehicles suffer from, each named with the setting that mends it, before anything is fitted.
 //!
-//! Nothing is repaired in silence: a log that reads like one in another unit is refused until a setting says which it is.
+//! Nothing is repaired in silence: a log whose values suggest another unit is refused until a setting names its unit.
 
 use core::f64::consts::{PI, TAU};
 
@@ -58,7 +58,7 @@ impl TimeUnit {
 
 /// The longest middle interval of a record in which a relay's cycles could be seen, in s.
 const SLOWEST_S: f64 = 10.0;
-/// Headings in radians count from -pi to pi or from 0 to 2 pi; so much beyond is rounding.
+/// Headings in radians count from -pi to pi or from 0 to 2 pi; this excess is attributed to rounding.
 const HEADING_MARGIN_RAD: f64 = 0.01;
 /// Middle of a command that never changes sign, in halves of its range, from which on its neutral is not zero.
 const FAR_FROM_ZERO: f64 = 4.0;
@@ -115,7 +115,7 @@ pub(super) fn turns(
 
 /// What a turn is in the unit of a column.
 pub(super) fn turn(degrees: bool) -> [f64; 2] {
-    // The column is in radians by now; one of degrees that nobody said so jumps by 360.
+    // The column is in radians by now; an undeclared column of degrees jumps by 360.
     if degrees { [TAU, TAU] } else { [TAU, 360.0] }
 }
 

@@ -185,7 +185,7 @@ pub enum ExperimentError {
         /// How often it is there.
         count: usize,
     },
-    /// One column for two things.
+    /// A column is named for two quantities.
     #[error("column {name} is read as {} and as {}; name another for one of them (--{} COL)", roles[0], roles[1], roles[1])]
     SameColumn {
         /// Its name.
@@ -275,7 +275,7 @@ pub enum ExperimentError {
     Unreadable {
         /// Line of the file; zero before the first.
         line: u64,
-        /// What the reader says.
+        /// Message of the reader.
         reason: String,
     },
     /// A setting of a simulated experiment outside its domain.

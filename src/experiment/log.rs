@@ -82,7 +82,7 @@ pub struct Columns {
     pub part: Option<NonZeroUsize>,
     /// The samples were taken at even intervals: the stamps are those of arrival, and the line of least squares through them is used.
     pub even_stamps: bool,
-    /// Rows without three numbers, or with a time that does not come after the one before, are left out, up to
+    /// Rows without three numbers, or with a time not after its predecessor, are omitted, up to
     /// [`MOST_SKIPPED`](Self::MOST_SKIPPED) of all.
     pub skip_bad_rows: bool,
     /// The output is in radians, whatever it looks like.

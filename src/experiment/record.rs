@@ -1,4 +1,4 @@
-//! What an experiment leaves behind.
+//! The record of an experiment.
 
 use super::{ExperimentError, Place};
 
@@ -154,7 +154,7 @@ impl Record {
         let mut sorted = self.output.clone();
         sorted.sort_unstable_by(f64::total_cmp);
         let range = sorted[sorted.len() - 1] - sorted[0];
-        // Rounding leaves equal readings apart by this much.
+        // Equal readings differ by at most this through rounding.
         let same = 1e-9 * range.max(sorted[0].abs()).max(sorted[sorted.len() - 1].abs());
         sorted.dedup_by(|next, kept| *next - *kept <= same);
         let steps: Vec<f64> = sorted.windows(2).map(|pair| pair[1] - pair[0]).collect();

@@ -25,7 +25,7 @@ pub struct Sensor {
 /// An experiment to simulate: an axis under a relay about the reference zero, observed at a fixed rate.
 ///
 /// The motion is in closed form between switchings; no integrator adds an error. The relay either watches its input all the
-/// time, or, [held](Self::held), looks at each reading and holds its command until the next. A relay that watches all the
+/// time, or, [held](Self::held), compares each reading and holds its command until the next. A relay that watches all the
 /// time sees the coordinate itself, delayed but without noise and rounding.
 ///
 /// ```

@@ -13,7 +13,7 @@ pub struct RelayLevels {
     pub offset: f64,
 }
 
-/// Features of a record, with what only the whole record tells.
+/// Features of a whole record: its cycles, the steady part and the levels of the command.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct RecordFeatures {
@@ -30,7 +30,7 @@ pub struct RecordFeatures {
 }
 
 impl RelayLevels {
-    /// The levels of a two-valued input, or of one that goes straight from value to value at one rate.
+    /// The levels of a two-valued input, or of an input that passes between two values at a constant rate.
     ///
     /// # Errors
     /// [`FeatureError::ConstantInput`], [`FeatureError::NotARelay`].

@@ -106,13 +106,13 @@ impl<S: Scalar> Cycles<S> {
 
     /// Takes the next sample; the cycle that it completes, if it does.
     ///
-    /// Times are taken where the command is first seen changed; a change between samples is late by up to one interval, by
-    /// about as much each time, so that durations are right on average.
+    /// Times are taken where the command is first seen changed; a change between samples is late by up to an interval,
+    /// nearly the same each time: durations are right on average.
     ///
-    /// Rounding: durations and levels are one operation on what was given, right to half a unit in the last place. An extreme between
+    /// Rounding: durations and levels are a single operation on the arguments, right to half a unit in the last place. An extreme between
     /// samples answers to its neighbours' noise, and more or less to rounding: for nine samples within 1/256 of `1 - s^2/2`, `s` from
     /// -1 to 1, at times within 1/4096 s of equal distances from 4 to 5 s, it is within 1.8e-14 of the parabola's in f64 and within 9.5e-6 in f32.
-    /// `spec/rounding.md` says what that rests on.
+    /// Assumptions: `spec/rounding.md`.
     pub fn step(&mut self, time_s: S, output: S, input: S) -> Option<Cycle<S>> {
         let positive = input > self.threshold;
         let changed = self.positive.is_some_and(|before| before != positive);

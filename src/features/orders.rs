@@ -1,4 +1,4 @@
-//! The orders behind a command that takes time from one level to the other, as a rudder does.
+//! The orders behind a command of limited rate, such as a rudder angle.
 
 use super::{FeatureError, RelayLevels};
 use crate::experiment::Record;
@@ -23,7 +23,7 @@ pub(super) struct Orders {
     pub(super) ramp_s: f64,
 }
 
-/// One way of the command from a level to the other.
+/// A passage of the command between its two levels.
 struct Passage<'a> {
     /// Samples between the levels.
     time_s: &'a [f64],
@@ -53,7 +53,7 @@ impl Passage<'_> {
 }
 
 impl Orders {
-    /// The orders of a two-valued command, or of one that goes straight from value to value at one rate.
+    /// The orders of a two-valued command, or of a command that passes between two values at a constant rate.
     ///
     /// # Errors
     /// [`FeatureError::ConstantInput`], [`FeatureError::NotARelay`].

@@ -1,4 +1,4 @@
-//! What is wrong with a file.
+//! Errors of files.
 
 /// Why a file cannot be read or written. Names are cut to a readable length.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -9,7 +9,7 @@ pub enum FileError {
     Unreadable {
         /// The file.
         name: String,
-        /// What the system says.
+        /// Message of the operating system.
         reason: String,
     },
     /// It has more bytes than are read.
@@ -28,12 +28,12 @@ pub enum FileError {
         /// The other.
         other: String,
     },
-    /// It cannot be written; what was there before is still there.
+    /// It cannot be written; its former content is unchanged.
     #[error("cannot write {name}: {reason}; choose a place that you may write to")]
     Unwritable {
         /// The file or folder.
         name: String,
-        /// What the system says.
+        /// Message of the operating system.
         reason: String,
     },
 }

@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 pub(crate) const LONGEST_WORD: usize = 40;
 const LONGEST_NAME: usize = 120;
 
-/// A text of at most about so many characters, cut in its middle.
+/// A text of about `most` characters or fewer, cut in its middle.
 pub(crate) fn cut(text: &str, most: usize) -> String {
     let whole: Vec<char> = text.chars().collect();
     let part = |chars: &[char]| chars.iter().collect::<String>();

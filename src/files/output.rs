@@ -9,7 +9,7 @@ use tempfile::{Builder, NamedTempFile};
 
 use super::{FileError, name, parent};
 
-/// A place to write to, which [`Files`](super::Files) has found to be no input and no other output.
+/// A place to write to, which [`Files`](super::Files) has found to be neither an input nor a second output.
 #[derive(Debug)]
 pub struct Output {
     pub(super) name: String,
@@ -29,7 +29,7 @@ impl Output {
 }
 
 impl Output {
-    /// Opens the file to be written piece by piece: what has been written is there, whatever ends this process.
+    /// Opens the file to be written piece by piece: written bytes stay on disk, however this process ends.
     ///
     /// # Errors
     /// [`FileError::Unwritable`].
@@ -52,7 +52,7 @@ fn replace(place: &Path, content: &[u8]) -> io::Result<()> {
     let permissions = match fs::metadata(place) {
         Ok(before) if !before.is_file() => return fs::write(place, content),
         Ok(before) => {
-            // What is closed to writing is not replaced either.
+            // A read-only file is not replaced.
             File::options().write(true).open(place)?;
             Some(before.permissions())
         }
@@ -62,7 +62,7 @@ fn replace(place: &Path, content: &[u8]) -> io::Result<()> {
     renamed(&folder, permissions.clone().or_else(usual), place, |beside| {
         beside.write_all(content)?;
         if let Some(permissions) = permissions {
-            // Those of a new file are masked, those of a replaced one stay.
+            // Permissions of a new file are masked; a replaced file keeps its own.
             beside.as_file().set_permissions(permissions)?;
         }
         beside.as_file().sync_all()
@@ -90,7 +90,7 @@ fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Writes a file under a name that no other has, and renames it to `place`.
+/// Writes a file under a unique name, and renames it to `place`.
 fn renamed(
     folder: &Path,
     permissions: Option<Permissions>,
@@ -114,7 +114,7 @@ fn renamed(
     done
 }
 
-/// What the first signal calls instead of ending this process.
+/// Called by the first signal instead of ending this process.
 static INSTEAD: Mutex<Option<Box<dyn FnOnce() + Send>>> = Mutex::new(None);
 
 /// The first SIGINT, SIGTERM or SIGHUP from now on calls `act` and lets this process end by itself; the second ends it.
@@ -122,8 +122,8 @@ pub(crate) fn on_signal(act: impl FnOnce() + Send + 'static) {
     *INSTEAD.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(act));
 }
 
-/// From now on SIGINT, SIGTERM and SIGHUP remove what is unfinished before they end this process. One that is ignored, as
-/// under `nohup`, stays so.
+/// From now on SIGINT, SIGTERM and SIGHUP remove unfinished files before they end this process. An ignored signal, as
+/// under `nohup`, stays ignored.
 #[cfg(unix)]
 pub(crate) fn remove_on_signal() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -148,7 +148,7 @@ pub(crate) fn remove_on_signal() {
 #[cfg(not(unix))]
 pub(crate) fn remove_on_signal() {}
 
-/// A bit for each signal that the parent has this process ignore, where the system says so.
+/// A bit for each signal that this process inherited as ignored; zero where the system does not report them.
 #[cfg(unix)]
 fn ignored_signals() -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The files of one run, which must not destroy each other.
+//! The files of one run, none of which may overwrite another.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -24,7 +24,7 @@ use super::{FileError, Input, LONGEST_NAME, Output, Place, cut, identity, name, 
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Files {
-    /// What each is in messages.
+    /// Name of each in messages.
     known: Vec<(String, Option<Place>)>,
     digests: Vec<String>,
 }
@@ -95,7 +95,7 @@ impl Files {
         }
     }
 
-    /// A line for each input read: its name and the SHA-256 of what was read, as `sha256sum` has it.
+    /// A line for each input read: its name and the SHA-256 of its bytes, in the format of `sha256sum`.
     #[must_use]
     pub fn digests(&self) -> &[String] {
         &self.digests

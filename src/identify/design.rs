@@ -1,11 +1,11 @@
 //! Which experiment to make: from a rough model, a sensor and a time limit the relay level and half-width that determine the
-//! inertia best, and the second level that tells the drag laws apart.
+//! inertia best, and the second level that best discriminates the drag laws.
 //!
 //! Every experiment of a grid is simulated with the rough model, and the standard deviations are those of the Cramer-Rao bound
 //! for an estimator that knows neither drag law nor constant force nor, unless it is given, delay (Ljung 1999, section 13.3; Goodwin
 //! and Payne 1977). Where cycles would lock to the sampling, so that one cycle's readings return time and again, they count once.
 //!
-//! What it does not know: lags, forces and noise that the rough model and the sensor have not.
+//! Not considered: lags, forces and noise that the rough model and the sensor lack.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -19,7 +19,7 @@ use crate::numeric::{Limit, OutOfDomain};
 use crate::orbit::limit_cycle;
 use crate::plant::DragAxis;
 
-/// What is known and what is possible.
+/// Known parameters and admissible experiments.
 ///
 /// ```
 /// use selfosc::experiment::Sensor;
@@ -41,7 +41,7 @@ pub struct Situation {
     pub sensor: Sensor,
     /// Samples per second, of sensor and relay.
     pub rate_hz: f64,
-    /// Length of one record, in s.
+    /// Length of a record, in s.
     pub time_limit_s: f64,
     /// The largest relay level, in command units.
     pub largest_level: f64,
@@ -57,10 +57,10 @@ pub struct Deviations {
     /// Of the inertia.
     #[serde(with = "super::answer::any_float")]
     pub alpha: f64,
-    /// Of linear drag beside quadratic drag.
+    /// Of linear drag in presence of quadratic drag.
     #[serde(with = "super::answer::any_float")]
     pub beta: f64,
-    /// Of quadratic drag beside linear drag.
+    /// Of quadratic drag in presence of linear drag.
     #[serde(with = "super::answer::any_float")]
     pub beta_quadratic: f64,
     /// Of the delay, in s; zero where it is given.
@@ -85,12 +85,12 @@ pub struct Run {
     pub std: Deviations,
 }
 
-/// One record, and a second one at another level.
+/// A record, and a second record at another level.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Proposal {
     /// The record.
     pub first: Run,
-    /// The second record that tells the drag laws apart best; `None` where no other level oscillates.
+    /// The second record that best discriminates the drag laws; `None` if no second level oscillates.
     pub second: Option<Second>,
 }
 
@@ -166,14 +166,14 @@ const FEWEST_CYCLES: f64 = 5.0;
 const FEWEST_SAMPLES: f64 = 8.0;
 /// Cycles of which fewer readings than this part count repeat themselves.
 const LOCKED: f64 = 0.6;
-/// Without any error of a reading it counts as known to this part of the amplitude.
+/// Without any error of a reading it counts as exact to this part of the amplitude.
 const FINEST: f64 = 1e-4;
 
 /// A run with its information.
 type Informed = (Run, Information);
 
 impl Situation {
-    /// Proposals, that of the least variance of the inertia first, each with the second level that tells the laws apart best.
+    /// Proposals, that of the least variance of the inertia first, each with the second level that best discriminates the laws.
     ///
     /// # Errors
     /// [`DesignError`] for numbers outside their domain, and where nothing oscillates within the limits.
@@ -233,7 +233,7 @@ impl Situation {
         let known = self.delay != Delay::Estimated;
         let mut information = *information;
         if known {
-            // A delay that is known says nothing of the others.
+            // A known delay carries no information on the other parameters.
             information.fill_row(3, 0.0);
             information.fill_column(3, 0.0);
             information[(3, 3)] = 1.0;
@@ -247,7 +247,7 @@ impl Situation {
         Deviations { alpha: std(0), beta: std(1), beta_quadratic: std(2), delay_s: if known { 0.0 } else { std(3) } }
     }
 
-    /// The second record at another level that tells the drag laws apart best.
+    /// The second record, at another level, that best discriminates the drag laws.
     fn second(&self, first: &Informed, runs: &[Informed]) -> Option<Second> {
         let others = runs.iter().filter(|(run, _)| run.relay_level != first.0.relay_level);
         let seconds = others.map(|(run, information)| {

@@ -1,8 +1,8 @@
 //! Orbit inversion: the drag axis whose exact limit cycle has the features read off a record.
 //!
-//! For one drag law, everything dimensionless about an orbit depends on one number, the shape, once the shares of the
-//! period under either command are known; span, speeds at switching and times are closed forms of it. The ratio of
-//! switching level to amplitude increases with the shape, so one equation in one unknown decides.
+//! For one drag law, everything dimensionless about an orbit depends on a single number, the shape, once the shares of the
+//! period under either command are given; span, speeds at switching and times are closed forms of it. The ratio of
+//! switching level to amplitude increases with the shape, so a single equation in a single unknown remains.
 
 use super::answer::{IdentifyError, READ_AGAIN};
 use super::iso::Oscillation;
@@ -13,7 +13,7 @@ use crate::plant::{DragAxis, OneWay};
 
 /// What orbit inversion reads off a record: means over its cycles.
 ///
-/// The position counts by differences only, so a reference other than zero or an offset of the sensor has no effect; the
+/// The position counts by differences only, so a nonzero reference or an offset of the sensor has no effect; the
 /// disturbance comes from the times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
@@ -164,7 +164,7 @@ impl<S: Scalar> MeanCycle<S> {
 /// An orbit of one drag law in its natural units: command of level one; time and length such that the coefficient of drag
 /// is one too. The first of two is the half cycle with the positive command.
 struct OrbitShape<S> {
-    /// Coefficients of drag, one and zero or zero and one.
+    /// Coefficients of drag: (1, 0) or (0, 1).
     linear: S,
     quadratic: S,
     /// Force while the command acts, disturbance included: `1 + mu`, `1 - mu`.
@@ -182,7 +182,7 @@ struct OrbitShape<S> {
 impl<S: Scalar> OrbitShape<S> {
     /// Linear drag, from `z = beta T/(4 alpha)` and the shares of the period.
     ///
-    /// The command's two halves are known, so the motion is a linear response: with `A`, `B` half of each time, over one half
+    /// The command's two halves are given, so the motion is a linear response: with `A`, `B` half of each time, over a half
     /// cycle the speed changes by `4/(coth A + coth B)` and the position by `4 A B/(A + B)` less that.
     fn linear(z: S, shares: [S; 2]) -> Self {
         let two = S::two();

@@ -26,7 +26,7 @@ impl<T: Real> PiecewiseLinear for Backlash<T> {
             }
     }
 
-    /// The straight line, less the half-gap one way and more the other, corrected where the gap is being crossed.
+    /// The straight line, minus the half-gap on one branch and plus the half-gap on the other, corrected where the gap is being crossed.
     fn kernels(&self, sweep: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         let (gap, lag) = (T::two() * self.half_gap, self.slope * self.half_gap);
         report(Kernel::Line { slope: self.slope });

@@ -21,7 +21,7 @@ impl<T: Real> PiecewiseLinear for GainChanging<T> {
         let inner = x.max(-self.breakpoint).min(self.breakpoint);
         self.inner_slope * inner + self.outer_slope * (x - inner)
     }
-    /// A line and what departs from it: with slopes of one sign, the line of the smaller one leaves nothing to cancel.
+    /// A line and the departure from it: with slopes of equal sign, the line of the smaller slope avoids cancellation.
     fn kernels(&self, _: &Sinusoid<T>, mut report: impl FnMut(Kernel<T>)) {
         let (inner, outer, at) = (self.inner_slope, self.outer_slope, self.breakpoint);
         let band = |slope| Kernel::Band { origin: T::zero(), lower: -at, upper: at, slope };

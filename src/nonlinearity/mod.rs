@@ -1,11 +1,11 @@
-//! Nonlinear characteristics: what comes out for what goes in.
+//! Nonlinear characteristics: static maps, with or without memory.
 //!
-//! A characteristic is a small struct with named, checked parameters. It says two things that are independent of each
-//! other, so that one can be checked against the other: its [output](Characteristic::output) on a sinusoidal sweep, and,
+//! A characteristic is a small struct with named, checked parameters. It gives two independent descriptions, each
+//! a check of the other: its [output](Characteristic::output) on a sinusoidal sweep, and,
 //! if it is [`PiecewiseLinear`], the [kernels](Kernel) it is a sum of. Inputs and outputs carry whatever units the loop
 //! has; a slope has output units per input unit.
 //!
-//! One file holds one characteristic (a relay, a dead zone, ...). To add one, write its file and its line in
+//! Each file holds a characteristic (a relay, a dead zone, ...). To add one, write its file and its line in
 //! `every_characteristic` below, and its page `spec/characteristics/<name>.md`: without the page it does not
 //! compile, without an independent definition in `tests/properties/catalogue.rs` the tests fail.
 

@@ -80,7 +80,7 @@ pub trait Catalogued<T>: Sized {
     fn from_values(values: &[T]) -> Result<Self, NonlinearityError>;
 }
 
-/// `lesser < greater`, or the error that says so.
+/// `lesser < greater`, else the error.
 pub(super) fn ordered<T: Real>(
     characteristic: &'static str,
     (lesser, low): (&'static str, T),

@@ -30,7 +30,7 @@ impl<T: Real> Sinusoid<T> {
         Ok(Self { bias, amplitude })
     }
 
-    /// As [`new`](Self::new), without a word where there is none: a caller with many of them asks again one by one.
+    /// As [`new`](Self::new), `None` without the reason: a caller with several sweeps asks [`new`](Self::new) for it.
     #[inline(always)]
     pub(crate) fn if_defined(bias: T, amplitude: T) -> Option<Self> {
         (AMPLITUDE.holds(amplitude) && BIAS.holds(bias)).then_some(Self { bias, amplitude })

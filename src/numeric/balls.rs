@@ -56,7 +56,7 @@ impl Balls {
         f64x4::new(self.radius)
     }
 
-    /// One after the other.
+    /// Lanes in sequence.
     #[inline]
     pub(crate) fn new(values: [Interval; Self::COUNT]) -> Self {
         Self { middle: values.map(Interval::midpoint), radius: values.map(Interval::radius) }
@@ -91,7 +91,7 @@ impl Balls {
 
     #[inline]
     fn interval(middle: f64, radius: f64) -> Interval {
-        // What is not finite says nothing.
+        // A ball that is not finite encloses nothing useful: the entire line.
         if !(middle.is_finite() && radius.is_finite()) {
             return Interval::ENTIRE;
         }
@@ -240,7 +240,7 @@ impl Sizes {
     /// The larger of two in every place.
     #[inline]
     pub(crate) fn max(self, other: Self) -> Self {
-        // One that is undefined stays so.
+        // An undefined lane stays undefined.
         Self(core::array::from_fn(|place| {
             let (a, b) = (self.0[place], other.0[place]);
             if a >= b || a.is_nan() { a } else { b }

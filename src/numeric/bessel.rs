@@ -19,8 +19,8 @@ const CUT: f64 = 1.4e-17;
 /// Terms of Hankel's expansions that are summed; the next two bound the rest.
 const TERMS: usize = 26;
 
-/// `sum_k z^k/(k! (n + k)!)` for `n = 0` and `n = 1`, z finite: `[J_0(x), J_1(x) 2/x]` for `z = -x^2/4`, I for `x^2/4`. Every
-/// ratio of terms is below one half when the sums end, so the rest is below the last term.
+/// `sum_k z^k/(k! (n + k)!)` for n in {0, 1}, z finite: `[J_0(x), J_1(x) 2/x]` for `z = -x^2/4`, I for `x^2/4`. Every
+/// ratio of terms is below 1/2 when the sums end, so the remainder is below the last term.
 fn power_series<T: Real>(z: T) -> [T; 2] {
     let size = magnitude(z);
     let (mut zeroth, mut first, mut term, mut k) = (T::one(), T::one(), T::one(), 0.0);
@@ -102,7 +102,7 @@ pub(super) fn enclosed_j(x: Interval) -> [Interval; 2] {
 }
 
 /// For `10 <= x <= 14`: Taylor's series about [`MIDDLE`], by the recurrence that Bessel's equation gives its coefficients; no derivative of J_0 or
-/// J_1 is above one, so the rest is below `2^25/25!`, and J_1 is the derivative of -J_0.
+/// J_1 exceeds 1, so the remainder is below `2^25/25!`, and J_1 is the derivative of -J_0.
 fn middle_j(x: Interval) -> [Interval; 2] {
     let at = Interval::point(MIDDLE);
     let h = x - at;

@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::Real;
 
-/// A number outside its domain: what it is, what it has to be, and what to do.
+/// A number outside its domain: quantity, value, domain, remedy.
 ///
 /// ```
 /// use selfosc::nonlinearity::Sinusoid;

@@ -9,7 +9,7 @@ use super::{Interval, Real};
 
 /// A formula over named quantities, each of which is known to lie in an interval.
 ///
-/// It is an arithmetic like any other, so a formula printed from it is the formula the program evaluates: `2 x / (x x)`
+/// It implements the arithmetic trait, so a formula printed from it is the formula the program evaluates: `2 x / (x x)`
 /// comes out as `2/x`. It collects powers and equal terms, multiplies a single term into a sum, and writes
 /// `(a + b)(a - b)` as a difference of squares; it cancels `x/x` without asking whether `x` is zero. `min`, `max` and
 /// `select` that the intervals decide are gone from the result, which therefore holds **for quantities in those

@@ -175,8 +175,8 @@ impl<T: Component, const N: usize> Gradient<T, N> {
         self.slopes
     }
 
-    /// The chain rule: a function of this one, given that function's `value` and derivative `slope` at (or over)
-    /// [`value`](Self::value), for functions that are known by an integral.
+    /// The chain rule: `f` of this gradient, given f's `value` and derivative `slope` at (or over)
+    /// [`value`](Self::value), for functions given by an integral.
     #[must_use]
     #[inline]
     pub fn chain(mut self, value: T, slope: T) -> Self {
@@ -187,7 +187,7 @@ impl<T: Component, const N: usize> Gradient<T, N> {
         self
     }
 
-    /// The value of a function that may be discontinuous there, so that no derivative says anything.
+    /// The value of a function that may be discontinuous there, so that no derivative exists.
     const fn jump(value: T) -> Self {
         Self { value, slopes: [T::UNKNOWN; N] }
     }

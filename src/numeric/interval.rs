@@ -19,8 +19,8 @@ use rounding::{product, quotient, sum};
 /// contains the exact value of `f`. It rests on IEEE 754 double arithmetic in round-to-nearest mode, and on nothing else:
 /// the values of `libm` serve as guesses that are checked.
 ///
-/// **Outside a domain** (division by an interval that contains zero, the square root of one that reaches below zero, the
-/// inverse sine beyond one, the tangent across a pole) the result is [`Interval::ENTIRE`], which says nothing. It is sticky: every
+/// **Outside a domain** (division by an interval that contains zero, the square root of an interval that reaches below zero, the
+/// inverse sine beyond 1, the tangent across a pole) the result is [`Interval::ENTIRE`], the whole real line. It is sticky: every
 /// operation on it except [`intersection`](Self::intersection) gives it again, even `abs`, `tanh` or `0 *`, so a
 /// violated domain cannot be laundered into a proof. No operation gives NaN.
 ///
@@ -50,7 +50,7 @@ impl Interval {
     pub const ZERO: Self = Self { lo: 0.0, hi: 0.0 };
     /// One.
     pub const ONE: Self = Self { lo: 1.0, hi: 1.0 };
-    /// From minus one to one.
+    /// `[-1, 1]`.
     pub const UNIT: Self = Self { lo: -1.0, hi: 1.0 };
     /// The circle constant; its double lies below it.
     pub const PI: Self = Self { lo: core::f64::consts::PI, hi: core::f64::consts::PI.next_up() };
@@ -246,7 +246,7 @@ impl Interval {
         Self { lo: at_lower.lo, hi: at_point(self.hi).hi }
     }
 
-    /// [`increasing`](Self::increasing) by one enclosure over an interval so narrow that it comes out no wider than by its ends.
+    /// [`increasing`](Self::increasing) by a single enclosure, for an interval so narrow that evaluating both ends would not be tighter.
     #[inline]
     fn increasing_over(self, over: impl Fn(Self) -> Self) -> Self {
         const NARROW: f64 = 4096.0 * f64::EPSILON;

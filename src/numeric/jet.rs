@@ -205,7 +205,7 @@ impl<const N: usize> Moving<N> {
     }
 }
 
-/// The sum of products, the first with the last, the second with the last but one, and so on.
+/// Convolution term: `sum_k forward[k] backward[n - 1 - k]`.
 fn dot(forward: &[Interval], backward: &[Interval]) -> Interval {
     Interval::dot(forward.iter().copied().zip(backward.iter().rev().copied()))
 }

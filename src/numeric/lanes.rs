@@ -43,7 +43,7 @@ impl Lanes {
         (self.0 * 0.0).simd_eq(f64x4::splat(0.0)).all()
     }
 
-    /// One after the other.
+    /// Lanes in sequence.
     #[inline(always)]
     fn each(self, f: impl Fn(f64) -> f64) -> Self {
         Self::new(self.values().map(f))
@@ -56,7 +56,7 @@ impl Lanes {
         below: impl FnOnce() -> [Self; N],
         above: impl FnOnce() -> [Self; N],
     ) -> [Self; N] {
-        // Each side in one place, so that it is worth inlining.
+        // Each side is called at a single place, so that it is inlined.
         let mut chosen = [Self(answers); N];
         if !answers.all() {
             chosen = below();

@@ -3,6 +3,7 @@
 #[cfg(feature = "std")]
 mod balls;
 mod bessel;
+mod complex;
 pub(crate) mod domain;
 #[cfg(feature = "std")]
 mod expression;
@@ -35,6 +36,7 @@ pub(crate) use lanes::Lanes;
 #[cfg(feature = "std")]
 pub(crate) use significant::significant;
 
+pub(crate) use complex::Complex;
 pub use domain::{Limit, OutOfDomain};
 pub use interval::Interval;
 pub use real::{Real, Scalar};

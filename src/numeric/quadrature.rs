@@ -17,7 +17,7 @@ pub(crate) const RULE: [(f64, f64, f64); 8] = [
 /// zero at an end leaves `2^(-p-1)`.
 const CARRIED: f64 = 1.0 / 16.0;
 
-/// An integral with what is known of its error.
+/// An integral with an estimate of its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quadrature {
     /// The integral.
@@ -54,7 +54,7 @@ pub fn integrate(mut f: impl FnMut(f64) -> f64, from: f64, to: f64, tolerance: f
             break;
         }
         let halves = [Cell::new(&mut f, worst.from, middle), Cell::new(&mut f, middle, worst.to)];
-        // The two rules can agree by chance. What the division changed tells independently; the halves have far less of it.
+        // The two rules can agree by chance: `|I_left + I_right - I|` is an independent estimate, far above the halves' own error.
         let change = (halves[0].value + halves[1].value - worst.value).abs();
         heap.extend(halves.map(|half| Cell { estimate: half.estimate.max(CARRIED * change), ..half }));
     }

@@ -122,7 +122,7 @@ pub trait Real:
     fn inverse_pi() -> Self {
         Self::one() / Self::pi()
     }
-    /// A power of two that brings a positive number near one, where there is one: multiplying by it rounds nothing. A constant,
+    /// A power of two that scales a positive number to about 1, if any: multiplying by it is exact. A constant,
     /// for what does not hang on it.
     #[must_use]
     #[inline]

@@ -8,7 +8,7 @@ const MAX_STEPS: usize = 200;
 /// The root of an increasing function between `lower`, where it is not positive, and `upper`, where it is not negative.
 ///
 /// `function` gives value and slope. Newton's method, with bisection wherever a step leaves the bracket or shrinks too
-/// little. The last step is always one of Newton's, so that a dual number carries the derivative of the root by the
+/// little. The last step is always Newton's, so that a dual number carries the derivative of the root by the
 /// implicit function theorem. `None` after 200 steps, which a NaN among the values causes.
 ///
 /// ```

@@ -79,7 +79,7 @@ fn in_run(f: Partial, samples: &[(f64, f64)], found: &mut Vec<f64>) {
         } else if (a.1 < 0.0) != (b.1 < 0.0) && b.1 != 0.0 {
             found.extend(bracket(f, a, b));
         }
-        // Three samples on one side of zero whose middle one is nearest: a pair of roots may hide there.
+        // Three samples of equal sign whose middle is nearest to zero: a pair of roots may hide there.
         if let Some(&c) = samples.get(index + 2)
             && a.1 * b.1 > 0.0
             && b.1 * c.1 > 0.0

@@ -1,6 +1,6 @@
 //! Numbers as a person reads them.
 
-/// A number with so many significant digits: small gains keep theirs, and what lies far from one is written with a power of ten.
+/// A number with `digits` significant digits; very large and very small numbers in scientific notation.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();

@@ -48,7 +48,7 @@ impl<T: Scalar> Experiment<T> {
 
     /// Takes a reading and its time in s; the command to give now.
     ///
-    /// Any values at all may come: what a sound sensor and clock cannot have said is a fault, upon which, as after the end and
+    /// Any values are accepted: a value that no sound sensor or clock gives is a fault. Then, as after the end and
     /// after an abort, the command is neutral until [`restart`](Self::restart).
     pub fn step(&mut self, reading: T, time_s: T) -> Step<T> {
         let relay_level = self.supervisor.relay_level();
@@ -99,6 +99,11 @@ impl<T: Scalar> Experiment<T> {
     /// sample.
     pub fn position(&self) -> Option<T> {
         self.supervisor.position()
+    }
+
+    /// What it was made of.
+    pub fn protocol(&self) -> &Protocol<T> {
+        self.supervisor.protocol()
     }
 
     /// Attempt under way, or the last one: 1, 2, ...

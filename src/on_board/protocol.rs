@@ -16,6 +16,18 @@ pub enum Coordinate {
     Speed,
 }
 
+impl Coordinate {
+    /// Name of its column in a log, by which the unit is known.
+    #[must_use]
+    pub fn column(self) -> &'static str {
+        match self {
+            Self::HeadingDegrees => "heading_deg",
+            Self::HeadingRad => "output",
+            Self::Position | Self::Speed => "position",
+        }
+    }
+}
+
 /// One experiment: its relay, its limits, and when it counts as done. All fields are read once, by
 /// [`Experiment::new`](super::Experiment::new), which checks them.
 ///
@@ -59,11 +71,11 @@ pub struct Protocol<T> {
     /// Time between samples as planned, in s. A gap of more than [`LONGEST_GAP`](Self::LONGEST_GAP) of them is a fault.
     pub interval_s: T,
     /// Step of the sensor, or a few standard deviations of its noise, in units of the reading; zero for none. A reading may
-    /// jump by this much besides the motion, and peaks that differ by no more are alike.
+    /// jump by this in addition to the motion, and peaks that differ by no more are equal.
     pub resolution: T,
     /// Largest rate of change of the reading that the vehicle is capable of, per s.
     pub largest_rate: T,
-    /// A reading unchanged for longer is a fault, in s. A sound sensor shows one value while the vehicle turns round within one
+    /// A reading unchanged for longer is a fault, in s. A sound sensor shows a constant value while the vehicle turns round within a
     /// step of it, or runs up from rest: allow for that, and stay below `patience_s`.
     pub unchanged_s: T,
     /// An attempt fails where the relay has not switched for longer, in s, or for four times the longest half-period seen.
@@ -73,11 +85,11 @@ pub struct Protocol<T> {
     /// Cycles in a row that have to be alike.
     pub cycles: u8,
     /// How alike: the range of either peak over these cycles against the amplitude, and of either time against half the period.
-    /// The sensor's resolution and one sampling interval are allowed besides.
+    /// The sensor's resolution and a sampling interval are allowed in addition.
     pub spread: T,
     /// An attempt fails where so many cycles have passed without that.
     pub most_cycles: u8,
-    /// Attempts in all, each with other relay parameters than the one before.
+    /// Attempts in all, each with new relay parameters.
     pub attempts: u8,
     /// Factor between the relay parameters of two attempts.
     pub factor: T,
@@ -90,9 +102,13 @@ impl<T: Scalar> Protocol<T> {
     pub const MOST_TURNS: f64 = 100.0;
 
     /// An experiment about zero with these relay parameters and readings every `interval_s`, that may go `largest_excursion`
-    /// either way, and what can be said without knowing the vehicle: limits of twice the relay level, no faster than the largest
-    /// excursion in a second, two half-widths the wrong way, four intervals between switchings, three cycles alike to 10 % out of
-    /// at most 12, three attempts, each half as strong again. Set `largest_rate` and `resolution` if they are known, and the
+    /// either way. The limits need no model of the vehicle:
+    ///
+    /// - commands up to twice the relay level, a rate of at most the largest excursion in a second, two half-widths the wrong way;
+    /// - at least four intervals between switchings;
+    /// - three cycles alike to 10 % out of at most 12, three attempts, each 1.5 times as strong as the one before.
+    ///
+    /// Set `largest_rate` and `resolution` if they are known, and the
     /// times for slow vehicles: 5 s for one value of the reading, 20 s for one of the command, 5 minutes in all.
     ///
     /// The excursion is that of the reading. A vehicle whose sensor is true to `resolution`, and which goes no faster than
@@ -126,6 +142,23 @@ impl<T: Scalar> Protocol<T> {
         }
     }
 
+    /// The same with the usual room: a quarter turn of a heading, else five half-widths.
+    ///
+    /// ```
+    /// use selfosc::on_board::{Coordinate, Protocol};
+    /// let depth = Protocol::usual(Coordinate::Position, 8.0, 0.2, 0.1);
+    /// assert_eq!((depth.largest_excursion, depth.largest_rate), (1.0, 1.0));
+    /// ```
+    #[must_use]
+    pub fn usual(coordinate: Coordinate, relay_level: T, half_width: T, interval_s: T) -> Self {
+        let excursion = match coordinate {
+            Coordinate::HeadingRad => T::pi() / T::two(),
+            Coordinate::HeadingDegrees => T::from_f64(90.0),
+            Coordinate::Position | Coordinate::Speed => T::from_f64(5.0) * half_width,
+        };
+        Self::new(coordinate, relay_level, half_width, excursion, interval_s)
+    }
+
     /// The same for a heading in radians, of a quarter turn either way and no more than a quarter turn per second.
     ///
     /// ```
@@ -138,13 +171,13 @@ impl<T: Scalar> Protocol<T> {
     /// ```
     #[must_use]
     pub fn heading_rad(relay_level: T, half_width: T, interval_s: T) -> Self {
-        Self::new(Coordinate::HeadingRad, relay_level, half_width, T::pi() / T::two(), interval_s)
+        Self::usual(Coordinate::HeadingRad, relay_level, half_width, interval_s)
     }
 
     /// The same for a heading in degrees.
     #[must_use]
     pub fn heading_degrees(relay_level: T, half_width: T, interval_s: T) -> Self {
-        Self::new(Coordinate::HeadingDegrees, relay_level, half_width, T::from_f64(90.0), interval_s)
+        Self::usual(Coordinate::HeadingDegrees, relay_level, half_width, interval_s)
     }
 
     /// The largest relay level within the limits.

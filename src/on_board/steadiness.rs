@@ -67,7 +67,7 @@ impl<T: Scalar> Observer<T> for Judge<'_, T> {
 }
 
 impl<T: Scalar> Judge<'_, T> {
-    /// What a cycle says that has ended.
+    /// Verdict of a completed cycle.
     #[cold]
     fn judge(&mut self, protocol: &Protocol<T>, cycle: Cycle<T>) -> Observation {
         self.steadiness.summary.push(cycle);

@@ -1,4 +1,4 @@
-//! The state machine: relay, time-outs, attempts, faults. What the cycles say, it is told.
+//! The state machine: relay, time-outs, attempts, faults. It receives the verdicts on cycles.
 
 use super::sensor::Sensor;
 use super::{Fault, Protocol};
@@ -17,6 +17,18 @@ pub enum Phase {
     Aborted,
     /// Something went wrong; the command is neutral until a restart.
     Failed(Fault),
+}
+
+/// One word: `running`, `done`, `aborted`, or `failed:` with the fault's code.
+impl core::fmt::Display for Phase {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Running => f.write_str("running"),
+            Self::Done => f.write_str("done"),
+            Self::Aborted => f.write_str("aborted"),
+            Self::Failed(fault) => write!(f, "failed:{}", fault.code()),
+        }
+    }
 }
 
 /// The answer to a sample.
@@ -323,7 +335,7 @@ impl<T: Scalar> Supervisor<T> {
     /// The next attempt with other relay parameters, at the output that the relay has; a fault where there is none left.
     ///
     /// A relay that does not switch, or hardly overcomes the disturbance, gets a higher level; at the limit, a narrower
-    /// hysteresis makes the oscillation larger against it. Cycles that differ get a wider one, and so does noise: against noise
+    /// hysteresis makes the oscillation larger against it. Cycles that differ call for a wider hysteresis, and so does noise: against noise
     /// no level is raised, and for want of a switching only at a sample that shows motion since the last.
     #[cold]
     fn retry(&mut self, failure: Failure, time_s: T, observer: &mut impl Observer<T>) -> Result<(), Fault> {

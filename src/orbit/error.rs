@@ -98,6 +98,15 @@ pub enum OrbitError {
         /// Half the cycle's period, s.
         half_period_s: f64,
     },
+    /// Poles that cannot be told apart, nor taken as one group.
+    #[error(
+        "the {order} poles of the plant cannot be enclosed: more than four of them, or two complex pairs, are within a \
+         few per cent of each other; move them apart or leave some out"
+    )]
+    CrowdedPoles {
+        /// Order of the plant.
+        order: usize,
+    },
     /// Extrema too close to each other to be told apart.
     #[error(
         "the output between two switchings needs more than {limit} pieces to isolate its extrema; give units \
@@ -146,6 +155,7 @@ impl OrbitError {
             Self::LongDelay { .. } => "long-delay",
             Self::NotProved { .. } => "not-proved",
             Self::TooManyPieces { .. } => "too-many-pieces",
+            Self::CrowdedPoles { .. } => "crowded-poles",
             Self::StepTooSmall { .. } => "step-too-small",
             Self::TooManySteps { .. } => "too-many-steps",
         }

@@ -18,6 +18,8 @@ mod relay_linear;
 mod relay_multiplier;
 #[cfg(feature = "std")]
 mod tsypkin;
+#[cfg(feature = "std")]
+mod two_level;
 
 #[cfg(feature = "std")]
 pub use certificate::{Certificate, Starts, certify};
@@ -29,6 +31,8 @@ pub use relay_certificate::RelayCertificate;
 pub use relay_linear::{RelayLoop, RelayOrbit};
 #[cfg(feature = "std")]
 pub use tsypkin::tsypkin_locus;
+#[cfg(feature = "std")]
+pub use two_level::{ListedOrbit, OrbitCertificate, OrbitClaim, OrbitListing, OrbitRefusal, TwoLevelRelay, orbits};
 
 internal! {
     #[cfg(feature = "std")]

@@ -1,8 +1,8 @@
 //! Every printed number against its recomputation, as intervals.
 //!
-//! A number read off the paper is known to half a unit of its column's last decimal. The recomputation takes such intervals
-//! through the formulas and gives the range of everything that the printed inputs allow; the printed number agrees where what it
-//! stands for meets that range. Disagreement is a proof that the printed inputs and the formula do not give the printed
+//! A printed number has an uncertainty of half a unit of its column's last decimal. The recomputation takes such intervals
+//! through the formulas and gives the range that the printed inputs allow; the printed number agrees if its own rounding
+//! interval intersects that range. Disagreement is a proof that the printed inputs and the formula do not give the printed
 //! number; agreement is none that the formula was used.
 
 use serde::Serialize;
@@ -17,17 +17,17 @@ use crate::numeric::{Interval, Real};
 /// One printed number.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Item {
-    /// What it is a number of.
+    /// Quantity and place of the number.
     pub item: String,
     /// As printed.
     pub printed: f64,
     /// As recomputed from the printed inputs.
     pub recomputed: f64,
-    /// Lower and upper end of what the inputs' last decimals allow.
+    /// Lower and upper end of the range that the inputs' last decimals allow.
     pub range: (f64, f64),
-    /// Whether the printed number, known to its last decimal, meets that range.
+    /// Whether the rounding interval of the printed number intersects that range.
     pub agrees: bool,
-    /// What was assumed, or where it is printed.
+    /// The assumption, or where it is printed.
     pub note: String,
 }
 
@@ -44,12 +44,12 @@ impl Item {
     }
 }
 
-/// Printed numbers that one formula gives, under one assumption.
+/// Printed numbers of a single formula under a single assumption.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Group {
     /// What they are.
     pub name: String,
-    /// What the outcome says.
+    /// The outcome in words.
     pub note: String,
     /// Each of them.
     pub items: Vec<Item>,
@@ -138,7 +138,7 @@ impl Rows<'_> {
     }
 }
 
-/// The parameters of each experiment with its bias left out.
+/// The parameters of each experiment without its bias.
 fn unbiased(table: &PrintedTable) -> Result<Vec<(u32, Yaw<f64>)>, PaperError> {
     let row = |row: &Experiment| {
         let oscillation = Oscillation { bias: 0.0, ..oscillation(&values(row)) };
@@ -147,7 +147,7 @@ fn unbiased(table: &PrintedTable) -> Result<Vec<(u32, Yaw<f64>)>, PaperError> {
     table.experiments().iter().map(row).collect()
 }
 
-/// The amplitude that the printed drag parameters imply: `beta_r/beta_rr` is proportional to it, whatever relay, bias and delay.
+/// The amplitude that the printed drag parameters imply: `beta_r/beta_rr` is proportional to it, for any relay, bias and delay.
 fn amplitudes(table: &PrintedTable) -> Result<Group, PaperError> {
     let note = "implied by beta_r/beta_rr: row 9 is 36.57, not 3657";
     let rows = table.experiments().iter().zip(table.printed_intervals()).zip(table.printed());
@@ -195,7 +195,7 @@ fn stated(table: &PrintedTable) -> Result<[Group; 4], PaperError> {
     ])
 }
 
-/// The bars of Fig. 15, and what the text says of them.
+/// The bars of Fig. 15, and the text's figures of them.
 fn figure15(table: &PrintedTable) -> Result<(Vec<Recomputation>, Vec<Recomputation>), PaperError> {
     let levels: Vec<f64> = table.experiments().iter().map(|row| row.relay_level.value()).collect();
     let (pairs, ranges) = (Pairs::new(&levels, &table.printed())?, Pairs::new(&levels, &table.printed_intervals())?);

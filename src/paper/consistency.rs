@@ -1,13 +1,13 @@
-//! Table 4's rows as constraints on what all of them share: the loop's delay, an error of the relay level, and one vehicle.
+//! Table 4's rows as constraints on their common unknowns: the loop's delay, an error of the relay level, and the vehicle.
 //!
-//! Every printed number is known to half a unit of its column's last decimal. Asked is for which delay and which offset of the
+//! Every printed number has an uncertainty of half a unit of its column's last decimal. Question: for which delay and which offset of the
 //! relay level the paper's formulas (Table 3 with eq. 34) can be true of all rows at once. Boxes of these unknowns are halved;
-//! one on which the enclosures of the rows do not meet has no answer, whatever the numbers are within their decimals.
-//! What is left encloses all answers. Where nothing is left, that is a proof for the box searched, and says nothing beyond it;
-//! where something is left, nothing proves that an answer is in it.
+//! a box on which the rows' enclosures do not intersect has no solution for any numbers within the printed decimals.
+//! The remaining boxes enclose all solutions. If none remains, the searched box is proved to have none; nothing is claimed outside it.
+//! A remaining box need not hold a solution.
 //!
 //! Two simplifications make boxes harder to exclude, never easier: a reading may take another value in each quantity that is
-//! computed of it, and beside its own row's unknowns nothing ties it. The formulas are those of first harmonics: that no vehicle
+//! computed of it, and only its own row's unknowns constrain it. The formulas are those of first harmonics: that no vehicle
 //! fits them does not show that none has these limit cycles.
 
 use rayon::prelude::*;
@@ -24,18 +24,18 @@ use crate::proof::branch_and_bound::{Visit, subdivide};
 const DELAY_S: [f64; 2] = [0.0, 0.6];
 /// Offsets searched, 1e-2 N m: the relay level is a factor times `C + offset`.
 const LEVEL_OFFSET: [f64; 2] = [-1.0, 2.0];
-/// Factors searched. They cannot be told from the vehicle's own scale, so that a vehicle is asked for without.
+/// Factors searched. They are confounded with the vehicle's scale, so a vehicle is searched without them.
 const LEVEL_FACTOR: [f64; 2] = [0.5, 2.0];
 /// A side is not halved further at this part of the domain's.
 const RESOLUTION: f64 = 1.0 / 512.0;
-/// Boxes looked at in one search for what is left, in one that asks whether anything is, and in one that spares a row.
+/// Most boxes of a search: for the remaining set; for its emptiness; with a row omitted.
 const BUDGETS: [usize; 3] = [20_000, 400, 200];
 /// Largest growth of the half-units looked at, and the ratio of a bracket that is narrow enough.
 const GROWTH: [f64; 2] = [256.0, 1.15];
 /// Speed in deg/s of which [`Quantity::Drag`] is the drag, over the speed.
 const SHARE_AT_DEG_S: f64 = 50.0;
 
-/// What is computed of a row.
+/// Quantity computed from a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Quantity {
     Alpha,
@@ -68,7 +68,7 @@ impl Quantity {
         !matches!(self, Self::LinearDragOverAlpha | Self::DragOverAlpha)
     }
 
-    /// What the table prints for it; a vehicle's are not in the table.
+    /// Its printed interval; a vehicle's parameters are not in the table.
     fn printed(self, row: &Yaw<Interval>) -> Interval {
         match self {
             Self::Alpha => row.alpha,
@@ -99,7 +99,7 @@ impl Quantity {
     }
 }
 
-/// What all rows must have in common.
+/// The unknowns common to all rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Common {
     /// A factor of the relay level in this range: printed over computed, of every quantity.
@@ -155,7 +155,7 @@ impl Case {
         rows.iter().all(|row| self.narrow(row, at, &mut common))
     }
 
-    /// Leaves of the common values what a row can have; `false` where that is nothing.
+    /// Intersects the common values with those that a row admits; `false` if the intersection is empty.
     fn narrow(&self, row: &Row, &[delay_s, offset, share]: &Shared, common: &mut [Interval; 3]) -> bool {
         let [switch_level, amplitude, bias, period_s] = row.readings;
         let at = [switch_level, amplitude, bias, period_s, delay_s, share];
@@ -178,7 +178,7 @@ impl Case {
         })
     }
 
-    /// The smallest box about all that is left, `None` where that is nothing; and whether the search came to its end.
+    /// The hull of the remaining boxes, `None` if none remain; and whether the search was completed.
     fn left(&self, rows: &[Row]) -> (Option<Shared>, bool) {
         let (whole, mut hull) = (self.whole(), None);
         let found = subdivide(whole, BUDGETS[0], |at| {
@@ -196,7 +196,7 @@ impl Case {
         (hull, found.unsettled.is_none())
     }
 
-    /// Whether no box is left; `false` where enclosures meet at a point, `None` where the budget was spent.
+    /// Whether no box remains; `false` where enclosures meet at a point, `None` where the budget was spent.
     fn refuted(&self, rows: &[Row], budget: usize) -> Option<bool> {
         let mut met = false;
         let found = subdivide(self.whole(), budget, |at| {
@@ -278,7 +278,7 @@ fn between([lower, upper]: [f64; 2]) -> Interval {
     Interval::new(lower, upper).unwrap_or(Interval::ENTIRE)
 }
 
-/// What is known of a question.
+/// Verdict of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
@@ -288,10 +288,10 @@ pub enum Verdict {
     NotRefuted,
 }
 
-/// The answer to one question.
+/// The answer to a question.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Consistency {
-    /// What the rows are to agree in.
+    /// The quantities in which the rows must agree.
     pub question: &'static str,
     /// The error of the relay level that was allowed.
     pub allowed: &'static str,
@@ -303,8 +303,8 @@ pub struct Consistency {
     pub delay_s: Option<(f64, f64)>,
     /// Bounds of the offsets left, 1e-2 N m: likewise.
     pub level_offset: Option<(f64, f64)>,
-    /// Where refuted: half-units so many times as large are refuted too; and so many times, the enclosures of all rows meet at a
-    /// point, so that this search cannot refute them. Between the two nothing is known.
+    /// Where refuted: a factor on the half-units that is refuted too, and a factor at which all rows' enclosures meet at a
+    /// point, so that this search cannot refute them. Between the factors the question is open.
     pub growth: Option<(f64, Option<f64>)>,
     /// Experiments that contradict each other, even with a quarter of the first growth (and never below one); none where that was not found in a short search.
     pub contradicting: Vec<u32>,

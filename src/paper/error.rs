@@ -11,7 +11,7 @@ use crate::vehicle::VehicleError;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PaperError {
-    /// A cell that is not what its column holds.
+    /// A cell outside its column's domain.
     #[error(
         "{fixture}, line {line}, column {column}: `{cell}` is not {required}; restore the file as it was published"
     )]
@@ -24,7 +24,7 @@ pub enum PaperError {
         column: String,
         /// What stands there.
         cell: String,
-        /// What has to stand there.
+        /// The required content.
         required: &'static str,
     },
     /// A row that cannot be taken apart.
@@ -34,17 +34,17 @@ pub enum PaperError {
         fixture: &'static str,
         /// Line in the file, from 1.
         line: u64,
-        /// The last column present, or the first one missing.
+        /// The last column present, or the first missing.
         column: String,
         /// What is wrong.
         reason: String,
     },
-    /// A row that the other files or the formulas rely on is not there.
+    /// A row that the other files or the formulas rely on is missing.
     #[error("{fixture} has no {missing}; restore the file as it was published")]
     Missing {
         /// File name.
         fixture: &'static str,
-        /// What is not there.
+        /// The missing item.
         missing: String,
     },
     /// A row of Table 4 that the method does not take.

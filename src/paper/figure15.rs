@@ -14,9 +14,9 @@ pub struct Criterion {
     pub number: u32,
     /// The margin by its formula.
     pub margin: &'static str,
-    /// How much of the spread of alpha it takes.
+    /// Weight of the spread of alpha.
     spread_share: f64,
-    /// What it adds, in percent.
+    /// Additive constant, in percent.
     constant_percent: f64,
 }
 
@@ -28,7 +28,7 @@ pub const CRITERIA: [Criterion; 4] = [
     Criterion { number: 4, margin: "sigma_alpha + 10 %", spread_share: 1.0, constant_percent: 10.0 },
 ];
 
-/// One group of bars of Fig. 15. Quadratic drag counts as correct: all 19 experiments together say so.
+/// A group of bars of Fig. 15. Quadratic drag counts as correct: the joint fit of all 19 experiments selects it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Counts {
     /// Number of the criterion.
@@ -86,7 +86,7 @@ impl<T: Copy> Pairs<T> {
 }
 
 impl Pairs<f64> {
-    /// The bars of one criterion.
+    /// The bars of a criterion.
     #[must_use]
     pub fn counts(&self, criterion: &Criterion, spread: SpreadMeasure<f64>) -> Counts {
         let mut counts = Counts { criterion: criterion.number, correct: 0, wrong: 0, undecided: 0 };
@@ -99,7 +99,7 @@ impl Pairs<f64> {
 }
 
 impl Pairs<Interval> {
-    /// The bars of one criterion when parameters are known to intervals: the pairs that certainly count and those that may.
+    /// The bars of a criterion when parameters are intervals: the pairs that certainly count and those that may.
     #[must_use]
     pub fn count_ranges(&self, criterion: &Criterion) -> (Counts, Counts) {
         let none = Counts { criterion: criterion.number, correct: 0, wrong: 0, undecided: 0 };

@@ -1,4 +1,4 @@
-//! What the paper prints, read from `fixtures/`: the files are compiled in.
+//! The paper's printed numbers, from `fixtures/`: the files are compiled in.
 
 use std::str::FromStr;
 
@@ -36,7 +36,7 @@ pub struct Experiment {
 /// A number or a phrase printed elsewhere: every value in `lowest..=highest` agrees with it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statement {
-    /// What it is a number of.
+    /// Quantity and place of the number.
     pub item: String,
     /// Smallest value that agrees.
     pub lowest: f64,
@@ -82,7 +82,7 @@ pub fn read_table4(text: &str) -> Result<Vec<Experiment>, PaperError> {
 
 const ABOVE_ZERO: &str = "a decimal number above 0";
 
-/// The other printed numbers.
+/// The printed numbers outside the tables.
 ///
 /// # Errors
 /// As [`read_statements`].
@@ -90,7 +90,7 @@ pub fn statements() -> Result<Vec<Statement>, PaperError> {
     read_statements(include_str!("../../fixtures/printed.csv"))
 }
 
-/// The other printed numbers from the text of their file.
+/// The printed numbers outside the tables, from the text of their file.
 ///
 /// # Errors
 /// [`PaperError`] with line and column of the first cell, row or column that is not as it should be.

@@ -11,7 +11,7 @@ use crate::identify::{Delay, DragLaw, Estimate};
 /// 95 % interval (Student's t).
 type Range = Option<[f64; 2]>;
 
-/// One drag law fitted to all experiments at once, in the units of Table 4.
+/// A drag law fitted to all experiments at once, in the units of Table 4.
 ///
 /// The intervals take the residuals for independent and the drag law for true; a law that is not shows as a larger
 /// residual.

@@ -1,8 +1,8 @@
 //! The paper regenerated from its printed data, and audited against it.
 //!
 //! N. Mišković, Z. Vukić, M. Barišić, *Identification of Unmanned Underwater Vehicles by Self-Oscillation Method*,
-//! AUTOMATIKA 50 (2009) 3-4, 167-183. Where the paper says "constant" and "linear" drag it names the drag coefficient; this
-//! project names the force, and says linear and quadratic.
+//! AUTOMATIKA 50 (2009) 3-4, 167-183. The paper's "constant" and "linear" drag name the drag coefficient; this
+//! project names the force: linear and quadratic.
 //!
 //! | file | content |
 //! |---|---|

@@ -17,7 +17,7 @@ pub struct Printed {
 }
 
 impl Printed {
-    /// Reads digits with at most one point and a sign, no more than 15 digits in all; `None` for anything else.
+    /// Reads digits with at most a point and a sign, no more than 15 digits in all; else `None`.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
@@ -41,19 +41,19 @@ impl Printed {
         self.decimals
     }
 
-    /// The same digits with the point so many places further left.
+    /// The same digits with the decimal point moved left.
     #[must_use]
     pub fn shifted(self, places: u32) -> Self {
         Self { decimals: self.decimals + places, ..self }
     }
 
-    /// The numbers that round to it at so many decimals, at least those printed: half a unit either way.
+    /// The numbers that round to it at `decimals` decimals, at least the printed ones: half a unit either way.
     #[must_use]
     pub fn interval(self, decimals: u32) -> Interval {
         self.within(decimals, 1.0)
     }
 
-    /// The numbers within so many half units of the last of so many decimals, at least those printed.
+    /// The interval of a printed number: `half_units` half units of its last decimal either way, with at least the printed decimals.
     #[allow(clippy::cast_precision_loss, reason = "15 digits fit a double")]
     pub(super) fn within(self, decimals: u32, half_units: f64) -> Interval {
         let half_unit = Interval::point(0.5) / Interval::point(Self::unit(decimals.max(self.decimals)));

@@ -1,4 +1,4 @@
-//! What the sensor's step does to the parameters: eqs. 37-39 as curves, and Fig. 14.
+//! Effect of the sensor's step on the parameters: eqs. 37-39 as curves, and Fig. 14.
 
 use super::table4::{PrintedTable, Yaw, means};
 use crate::identify::iso::{AmplitudeSensitivity, amplitude_sensitivity};
@@ -6,7 +6,7 @@ use crate::identify::iso::{AmplitudeSensitivity, amplitude_sensitivity};
 /// The compass's step in degrees (section 5.1): the error of the amplitude that Fig. 14 assumes.
 pub const COMPASS_STEP_DEG: f64 = 1.0;
 
-/// Eqs. 37-39 at one ratio of amplitude to switching level.
+/// Eqs. 37-39 at a given ratio of amplitude to switching level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvePoint {
     /// `X_m/x_a`.
@@ -26,14 +26,14 @@ pub fn curves() -> Vec<CurvePoint> {
         .collect()
 }
 
-/// One experiment in Fig. 14.
+/// An experiment in Fig. 14.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Error {
     /// Number of the experiment.
     pub experiment: u32,
     /// Relative difference of the printed parameter from the mean of all, in percent.
     pub percent: Yaw<f64>,
-    /// Half-width of the bounds by quantisation, in percent: eqs. 37-39 with one step of the compass.
+    /// Half-width of the bounds by quantisation, in percent: eqs. 37-39 with a compass step.
     pub bound_percent: Yaw<f64>,
 }
 

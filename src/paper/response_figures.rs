@@ -1,4 +1,4 @@
-//! Figs. 12-13: the responses in an experiment, with a relay that has hysteresis and one that has none.
+//! Figs. 12-13: the responses in an experiment, with a relay with and without hysteresis.
 
 use super::PaperError;
 use super::joint::JointRow;
@@ -11,7 +11,7 @@ use crate::plant::DragAxis;
 const LEVEL: f64 = 8.23;
 /// Half-width of Fig. 12, degrees.
 const HALF_WIDTH_DEG: f64 = 10.0;
-/// What a tether might pull with, 1e-2 N m.
+/// Force of a tether, assumed, 1e-2 N m.
 const DISTURBANCE: f64 = 0.5;
 /// The command's way to the thrusters, and the reading's back (eq. 36), s.
 const ONE_WAY_S: f64 = 0.1;
@@ -72,7 +72,7 @@ fn marked(record: &Record, half_width_deg: f64) -> Response {
     let held = commands.windows(2).flat_map(|pair| [pair[0], (pair[1].0, pair[0].1)]);
     let switched: Vec<usize> = (1..commands.len()).filter(|&i| commands[i].1 != commands[i - 1].1).collect();
     let heading: Curve = samples().collect();
-    // Between two switchings lies one extremum: the command at the first of them turns the motion.
+    // Between two switchings lies a single extremum: the command at the first of them turns the motion.
     let extrema = |sign: f64| -> Curve {
         let between = switched.windows(2).filter(|pair| commands[pair[0]].1 * sign < 0.0);
         between

@@ -3,7 +3,7 @@
 use crate::numeric::{Expression, Interval, Real};
 use crate::vehicle::Axis;
 
-/// The terms of the six-axis model that act on one axis. Derivatives are those of the hydrodynamic force, so that drag and
+/// The terms of the six-axis model that act on a single axis. Derivatives are those of the hydrodynamic force, so that drag and
 /// added mass make them negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coefficients<T> {
@@ -23,18 +23,18 @@ pub struct Coefficients<T> {
     pub buoyancy: T,
 }
 
-/// One column of Table 2: the axis `alpha nu' + beta(nu) nu = delta + tau` at speed `nu`.
+/// A column of Table 2: the axis `alpha nu' + beta(nu) nu = delta + tau` at speed `nu`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Terms<T> {
     /// Inertia with added mass.
     pub alpha: T,
-    /// `-beta(nu)`: what Table 2 lists as drag.
+    /// `-beta(nu)`: the column of drag in Table 2.
     pub minus_beta: T,
     /// Constant force.
     pub delta: T,
 }
 
-/// Table 2 for one axis at `speed`, in whatever arithmetic.
+/// Table 2 for an axis at `speed`, in any arithmetic.
 pub fn uncoupled<T: Real>(axis: Axis, coefficients: &Coefficients<T>, speed: T) -> Terms<T> {
     let c = coefficients;
     Terms {

@@ -4,7 +4,7 @@ use super::PaperError;
 use crate::identify::iso::{Oscillation, Parameters, disturbance_from_times};
 use crate::numeric::{Expression, Interval, Real};
 
-/// Table 3 in whatever arithmetic.
+/// Table 3 in any arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Table3<T> {
     /// Inertia, either drag law and the disturbance by the one-tone input.
@@ -13,7 +13,7 @@ pub struct Table3<T> {
     pub disturbance_from_times: T,
 }
 
-/// Table 3 of an oscillation with so much time per period at command `+C` and `-C`.
+/// Table 3 of an oscillation with given times per period at command `+C` and `-C`.
 ///
 /// # Errors
 /// As [`Oscillation::identify`].
@@ -28,7 +28,7 @@ pub fn evaluate<T: Real>(
     })
 }
 
-/// Table 3 as formulas, with the delay corrected (eq. 34) or, as the paper's table has them, without one.
+/// Table 3 as formulas, with the delay corrected (eq. 34) or, as in the paper's table, without delay.
 ///
 /// They hold where condition 40 does: the symbols lie in intervals (1 to 2 for x_a, -1 to 1 for x_0, 9 to 10 for X_m) in which the
 /// sweep passes both switching levels, so that the limits the program puts on breakpoints do not act.

@@ -7,7 +7,7 @@ use super::{PaperError, Printed};
 use crate::identify::iso::Oscillation;
 use crate::numeric::{Interval, Real};
 
-/// Delay of the whole loop: one step of 0.1 s each way (eq. 36).
+/// Delay of the whole loop: a step of 0.1 s each way (eq. 36).
 pub const DELAY_S: f64 = 0.2;
 
 /// Parameters of the yaw axis: 1e-4 N m/(deg/s^2), 1e-4 N m/(deg/s), 1e-5 N m/(deg/s)^2; or a spread of each in percent.
@@ -76,7 +76,7 @@ impl PrintedTable {
         &self.experiments
     }
 
-    /// Decimals of a column: the most that any row has, as the table leaves trailing zeros out.
+    /// Decimals of a column: the most of any row, as the table omits trailing zeros.
     pub(super) fn decimals(&self, column: Column) -> u32 {
         self.experiments.iter().map(|row| column(row).decimals()).max().unwrap_or(0)
     }
@@ -86,7 +86,7 @@ impl PrintedTable {
         self.within(row, 1.0)
     }
 
-    /// Reads a row's cells as the intervals of so many half units of the last decimal either way.
+    /// Reads a row's cells as intervals: `half_units` half units of the last decimal either way.
     pub(super) fn within(&self, row: &Experiment, half_units: f64) -> impl Fn(Column) -> Interval {
         move |column| column(row).within(self.decimals(column), half_units)
     }
@@ -155,7 +155,7 @@ pub struct Row {
 /// Table 4 regenerated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Table4 {
-    /// One row for each experiment.
+    /// A row for each experiment.
     pub rows: Vec<Row>,
     /// Means of the printed rows.
     pub mean: Yaw<f64>,
@@ -165,9 +165,9 @@ pub struct Table4 {
     pub recomputed_mean: Yaw<f64>,
     /// Sample standard deviations (n - 1) of the recomputed rows over their means, in percent.
     pub recomputed_std_percent: Yaw<f64>,
-    /// The constant, in 1e-2 N m, that added to the relay level makes the recomputed inertia fit the printed one best.
+    /// The constant, in 1e-2 N m, that added to the relay level makes the recomputed inertia fit the printed inertia best.
     pub level_offset: f64,
-    /// Root mean square of what the fit leaves, relative to the printed inertia, in percent (n - 1).
+    /// Root mean square of the fit's residuals, relative to the printed inertia, in percent (n - 1).
     pub level_offset_residual_percent: f64,
 }
 

@@ -25,7 +25,7 @@ pub enum PlantError {
         /// The value given.
         value: f64,
     },
-    /// A polynomial whose first coefficient is zero: its degree is not what its length says.
+    /// A polynomial whose first coefficient is zero: its degree is less than its length implies.
     #[error("the {polynomial} must begin with a coefficient other than 0; leave out the zeros before it")]
     LeadingZero {
         /// Numerator or denominator.
@@ -46,7 +46,9 @@ pub enum PlantError {
         denominator: usize,
     },
     /// A plant that passes its input straight through, where a state space without feedthrough is asked for.
-    #[error("numerator and denominator both have degree {degree}; a state space needs a strictly proper plant")]
+    #[error(
+        "numerator and denominator both have degree {degree}: the numerator's must be lower; add the lag that the plant has"
+    )]
     NotStrictlyProper {
         /// The common degree.
         degree: usize,

@@ -22,7 +22,7 @@ internal! {
 #[cfg(feature = "std")]
 pub use transfer::TransferFunction;
 #[cfg(feature = "std")]
-pub(crate) use transfer::product;
+pub(crate) use transfer::{horner, product};
 
 #[cfg(feature = "std")]
 pub(crate) fn checked_delay(delay_s: f64) -> Result<f64, PlantError> {

@@ -10,7 +10,7 @@ use crate::numeric::{
 /// `p' = drive - linear p - quadratic p^2` for the speed `p >= 0`, a Riccati equation with constant coefficients.
 ///
 /// Its solutions are hyperbolic, trigonometric or rational by the sign of `linear^2/4 + drive quadratic`. The forms here
-/// pass from one to the other, and to vanishing drag of either kind, without cancellation.
+/// pass continuously between the three, and to vanishing drag of either kind, without cancellation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OneWay<T> {
     /// Force along the motion over alpha, in x/s^2; negative where it brakes.

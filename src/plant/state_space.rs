@@ -148,7 +148,7 @@ impl StateSpace {
     pub fn rate(&self, state: &DVector<f64>, u: f64) -> DVector<f64> {
         &self.a * state + &self.b * u
     }
-    /// The map over `time_s` under a constant input, from one exponential of the matrix augmented by the input, so that a
+    /// The map over `time_s` under a constant input, from a single exponential of the matrix augmented by the input, so that a
     /// singular system matrix needs no special case. Entries overflow to infinity where the plant is unstable enough.
     #[must_use]
     pub fn flow(&self, time_s: f64) -> Flow {
@@ -211,7 +211,7 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, PlantErro
         let schur = Schur::try_new(matrix, f64::EPSILON, SWEEPS_PER_ORDER * order)?;
         Some(schur.complex_eigenvalues().iter().map(|value| value - shift).collect())
     };
-    // The iteration measures what is left below the diagonal by the diagonal, which a chain of integrators does not have: a
+    // The iteration compares the entries below the diagonal with the diagonal, which a chain of integrators does not have: a
     // shift by the matrix' size gives it one.
     let size = balanced.norm();
     let shifted = || spectrum(&balanced + DMatrix::identity(order, order) * size, size);

@@ -103,7 +103,7 @@ impl TransferFunction {
     /// This plant followed by another: polynomials multiplied, delays added.
     ///
     /// # Errors
-    /// [`PlantError::CommonFactor`] where one has a pole at s = 0 and the other a zero there.
+    /// [`PlantError::CommonFactor`] if a pole at s = 0 cancels a zero in the product.
     pub fn series(&self, other: &Self) -> Result<Self, PlantError> {
         let numerator = product(&self.numerator, &other.numerator);
         let denominator = product(&self.denominator, &other.denominator);
@@ -166,7 +166,8 @@ impl TransferFunction {
     }
 }
 
-fn horner(descending: &[f64], s: Complex<f64>) -> Complex<f64> {
+/// A polynomial in descending powers at `s`.
+pub(crate) fn horner(descending: &[f64], s: Complex<f64>) -> Complex<f64> {
     descending.iter().fold(Complex::new(0.0, 0.0), |sum, &coefficient| sum * s + coefficient)
 }
 

@@ -6,14 +6,14 @@ use std::collections::BinaryHeap;
 use super::outcome::{Bound, NotProved, Proved};
 use crate::numeric::Interval;
 
-/// What becomes of a box that was looked at.
+/// Verdict on a visited box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Visit {
-    /// Nothing is left to do on it.
+    /// The box is finished.
     Settled,
     /// It is halved, boxes of the least rank first; along that side, or the longest compared with the domain's.
     Divide {
-        /// Of equal ranks, the box made last comes first, and a lower half before the upper one.
+        /// Of equal ranks, the box made last comes first, and a lower half before the upper half.
         rank: f64,
         /// Side to be halved.
         along: Option<usize>,
@@ -33,12 +33,12 @@ impl Visit {
 /// How a subdivision ended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Subdivision<const N: usize> {
-    /// A box that is not settled, because a visit stopped there, the budget was spent or nothing was left to halve; `None`
+    /// An unsettled box: a visit stopped there, the budget was spent, or the box cannot be halved; `None`
     /// where all are settled.
     pub unsettled: Option<[Interval; N]>,
     /// Boxes visited.
     pub boxes: usize,
-    /// The boxes that make up the domain: a lower half, and all that became of it, before the upper one.
+    /// The boxes that make up the domain: a lower half, with its parts, before the upper half.
     pub parts: Vec<[Interval; N]>,
 }
 
@@ -163,7 +163,7 @@ struct Open {
 }
 
 impl Open {
-    /// Place among boxes of one rank. Lower halves have odd indices, their upper ones the next.
+    /// Place among boxes of equal rank. Lower halves have odd indices, their upper ones the next.
     const fn turn(&self) -> usize {
         if self.index % 2 == 1 { self.index + 1 } else { self.index.saturating_sub(1) }
     }

@@ -1,11 +1,11 @@
-//! Existence and uniqueness of roots by enclosure: interval Newton for one unknown, Krawczyk for a few.
+//! Existence and uniqueness of roots by enclosure: interval Newton in one dimension, Krawczyk in several.
 
 use core::array;
 
 use super::Gradient;
 use crate::numeric::Interval;
 
-/// What is known of the roots in a box.
+/// Verdict on the roots in a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Roots<T> {
     /// The box has exactly one root, and `enclosure` contains it.
@@ -29,10 +29,10 @@ pub enum Roots<T> {
     },
 }
 
-/// A step that leaves more than this share of the width gained nothing.
+/// A step that keeps more than this share of the width makes no progress.
 const GAIN: f64 = 0.9;
 
-/// Interval Newton for one equation: `f` gives value and derivative over an interval, and is asked at most `2 budget` times.
+/// Interval Newton in one dimension: `f` gives value and derivative over an interval, and is asked at most `2 budget` times.
 ///
 /// It neither bisects nor searches: on a wide interval whose derivative straddles zero it is undecided.
 ///
@@ -111,7 +111,7 @@ pub fn around<const N: usize>(point: [f64; N], radius: f64) -> [Interval; N] {
     point.map(|coordinate| Interval::point(coordinate) + Interval::symmetric(radius))
 }
 
-/// What an operator that moves no root makes of a box.
+/// The image of a box under an operator that keeps every root.
 enum Image<const N: usize> {
     /// No root.
     Empty,

@@ -10,7 +10,7 @@ use super::branch_and_bound::{Visit, subdivide};
 use super::outcome::{Bound, NotProved, Proved};
 use crate::numeric::{Interval, Jet};
 
-/// Coefficients of the jets; the last is not used, so that a [derivative](Jet::derivative) will do.
+/// Coefficients of the jets; the last is unused, so that a [derivative](Jet::derivative) will do.
 const ORDER: usize = 16;
 
 /// The jet a function is asked for.
@@ -108,7 +108,7 @@ pub fn prove_zero_of_two<const M: usize>(
             bound = bound.max(sum);
             return Visit::Settled;
         }
-        // A remainder that is too large on a line already calls for shorter lines; one that is not, for fewer of them.
+        // A remainder too large on a line calls for shorter lines; else for fewer lines.
         let along_a = rest_a(Interval::point(b.midpoint())) > 0.25 * tolerance;
         let along_b = rest_b(Interval::point(a.midpoint())) > 0.25 * tolerance;
         let halve_a = if along_a == along_b { across_a >= across_b } else { along_a };
@@ -126,7 +126,7 @@ fn largest<const M: usize>(values: [Interval; M]) -> f64 {
     values.iter().map(|value| value.magnitude()).fold(0.0, f64::max)
 }
 
-/// The Chebyshev nodes of an interval; `None` where it is so short that rounding displaces them noticeably.
+/// The Chebyshev nodes of an interval; `None` if rounding displaces them noticeably.
 fn chebyshev(interval: Interval) -> Option<[Interval; NODES]> {
     let (middle, half) = (interval.midpoint(), 0.5 * interval.width());
     let node = |k: usize| {

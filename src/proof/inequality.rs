@@ -22,13 +22,13 @@ pub struct Inequality {
 
 /// A proof: boxes that cuts divide the domain into, on each of which interval arithmetic alone shows the inequality.
 ///
-/// They come in the order of the cuts, what lies below a cut before what lies above it, so that one pass sees that they
-/// cover the domain. To check a proof takes one evaluation for each box; the search took one more for each box that it
-/// divided, and one for that box's midpoint: about three times as long. Where the domain need not be divided, search
-/// and check are the same one evaluation.
+/// Boxes come in the order of the cuts, below before above, so that a single pass checks that they
+/// cover the domain. A check takes one evaluation for each box; the search took another for each box that it
+/// divided, and another for that box's midpoint: about three times as long. Where the domain need not be divided, search
+/// and check are the same evaluation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Proof {
-    /// What was proved, by [`Inequality::id`].
+    /// The proved inequality, by [`Inequality::id`].
     pub inequality: String,
     /// Where.
     pub domain: Cell,
@@ -45,10 +45,10 @@ pub enum Refusal {
     /// A file that is not of the format.
     #[error("not a certificate: {text}")]
     Malformed {
-        /// What is amiss, and where.
+        /// The fault, and its place.
         text: String,
     },
-    /// A certificate that says something else than what it should prove.
+    /// A certificate of a different statement.
     #[error("`{field}` is not that of `{claim}`: {found}")]
     Statement {
         /// The claim in question.
@@ -66,7 +66,7 @@ pub enum Refusal {
         /// What should be.
         expected: &'static str,
     },
-    /// No proof of what should be proved.
+    /// The proof of an inequality is missing.
     #[error("there is no proof of `{inequality}`")]
     Missing {
         /// What should be.
@@ -94,7 +94,7 @@ pub enum Refusal {
         /// The bound claimed.
         bound: f64,
     },
-    /// The boxes are not what cuts divide the domain into, or not in that order.
+    /// The boxes are no division of the domain by cuts, or not in that order.
     #[error("the boxes, in the order given, do not make up the domain")]
     NotCovered,
 }
@@ -163,8 +163,8 @@ impl Inequality {
     }
 }
 
-/// Whether the boxes are what dividing `domain` by cuts leaves, in the order of the cuts: joined with their neighbours, one
-/// after the other, they give it back.
+/// Whether the boxes partition `domain` by cuts, in the order of the cuts: joined with their neighbours in
+/// turn, they give it back.
 fn tile(domain: &Cell, boxes: &[Cell]) -> bool {
     let mut joined: Vec<Cell> = Vec::new();
     for &at in boxes {

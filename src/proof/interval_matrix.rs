@@ -1,4 +1,4 @@
-//! Matrices of intervals: products by nalgebra, and here what needs a proof of its own.
+//! Matrices of intervals: products by nalgebra, and here the operations with a proof of their own.
 
 use nalgebra::DMatrix;
 use num_traits::{One, Zero};
@@ -20,7 +20,7 @@ impl One for Interval {
     }
 }
 
-/// Terms of the exponential series; with a norm of at most one half what follows is below `0.5^19/19! = 2e-23`.
+/// Terms of the exponential series; with a norm of at most 1/2 the remainder is below `0.5^19/19! = 2e-23`.
 const TERMS: u32 = 18;
 
 /// The largest row sum of magnitudes, rounded up: a norm under which a product is at most the product of the norms.

@@ -8,7 +8,7 @@ use crate::numeric::{Expression, Interval, Jet};
 /// Unknowns of an inequality, used or not.
 pub const VARIABLES: usize = 3;
 
-/// A box: one interval for each unknown.
+/// A box: an interval for each unknown.
 pub type Cell = [Interval; VARIABLES];
 
 /// Taylor coefficients up to the third.
@@ -17,7 +17,7 @@ pub type Series = Jet<4>;
 /// Partial derivatives with their own partial derivatives.
 pub type Curvature = crate::numeric::Gradient<Gradient<VARIABLES>, VARIABLES>;
 
-/// One formula, as each arithmetic evaluates it; by [`formula!`](crate::proof::formula) from one generic function.
+/// A formula, as each arithmetic evaluates it; by [`formula!`](crate::proof::formula) from a single generic function.
 #[derive(Clone, Copy, Debug)]
 pub struct Formula {
     /// Over a box.
@@ -26,7 +26,7 @@ pub struct Formula {
     pub gradient: fn([Gradient<VARIABLES>; VARIABLES]) -> Gradient<VARIABLES>,
     /// With its second derivatives.
     pub curvature: fn([Curvature; VARIABLES]) -> Curvature,
-    /// In powers of one variable.
+    /// In powers of a single variable.
     pub series: fn([Series; VARIABLES]) -> Series,
     /// The formula itself, to print.
     pub expression: fn([Expression; VARIABLES]) -> Expression,
@@ -48,12 +48,12 @@ macro_rules! formula {
 }
 pub use formula;
 
-/// What an inequality says is positive, and how it is enclosed.
+/// The quantity that an inequality claims positive, and the form of its enclosure.
 #[derive(Clone, Copy, Debug)]
 pub enum Margin {
     /// The formula's value.
     Value(Formula),
-    /// Its derivative by one variable: the formula grows with it.
+    /// Its derivative by a variable: the formula grows with it.
     Slope {
         /// What grows.
         of: Formula,
@@ -70,8 +70,15 @@ pub enum Margin {
         /// Where the power is divided out.
         near: f64,
     },
-    /// An enclosure in intervals that no one formula gives.
+    /// An enclosure in intervals that no single formula gives.
     Enclosed(fn(&Cell) -> Interval),
+    /// An enclosure in intervals of a formula that is 0/0 at an end of its range, where its limit is enclosed.
+    Curve {
+        /// The enclosure.
+        over: fn(&Cell) -> Interval,
+        /// The formula beside that end, to print.
+        expression: fn([Expression; VARIABLES]) -> Option<Expression>,
+    },
 }
 
 /// A [`Margin`] without its formula.
@@ -92,7 +99,7 @@ pub enum Form {
         /// Where it is divided out.
         near: f64,
     },
-    /// [`Margin::Enclosed`].
+    /// [`Margin::Enclosed`] or [`Margin::Curve`].
     Enclosed,
 }
 
@@ -105,27 +112,36 @@ impl Margin {
             Self::Slope { of, by } => slope(of, by, at),
             Self::OverPower { of, order, near } if at[0].upper() <= near => over_power(of, order, at),
             Self::OverPower { of, .. } => (of.interval)(*at),
-            Self::Enclosed(enclosure) => enclosure(at),
+            Self::Enclosed(enclosure) | Self::Curve { over: enclosure, .. } => enclosure(at),
         }
     }
 
-    /// How the formula makes the margin, as a certificate says it.
+    /// How the formula makes the margin, in a certificate's words.
     #[must_use]
     pub fn form(&self) -> Form {
         match *self {
             Self::Value(_) => Form::Value,
             Self::Slope { by, .. } => Form::Slope { by },
             Self::OverPower { order, near, .. } => Form::OverPower { order, near },
-            Self::Enclosed(_) => Form::Enclosed,
+            Self::Enclosed(_) | Self::Curve { .. } => Form::Enclosed,
         }
     }
 
-    /// The formula, if there is one.
+    /// The formula in every arithmetic, if there is one.
     #[must_use]
     pub fn formula(&self) -> Option<Formula> {
         match *self {
             Self::Value(of) | Self::Slope { of, .. } | Self::OverPower { of, .. } => Some(of),
-            Self::Enclosed(_) => None,
+            Self::Enclosed(_) | Self::Curve { .. } => None,
+        }
+    }
+
+    /// The formula of these quantities, to print, if there is one.
+    #[must_use]
+    pub fn expression(&self, at: [Expression; VARIABLES]) -> Option<Expression> {
+        match *self {
+            Self::Curve { expression, .. } => expression(at),
+            _ => self.formula().map(|formula| (formula.expression)(at)),
         }
     }
 }
@@ -141,7 +157,7 @@ fn slope(of: Formula, by: usize, at: &Cell) -> Interval {
     direct.intersection(centred).unwrap_or(direct)
 }
 
-/// By Taylor's theorem at zero, the last coefficient between zero and the points of `at`; it says nothing unless the lower ones
+/// By Taylor's theorem at zero, the last coefficient between zero and the points of `at`; no bound unless the lower coefficients
 /// are zero.
 fn over_power(of: Formula, order: usize, at: &Cell) -> Interval {
     let mut at_zero = *at;

@@ -1,4 +1,4 @@
-//! What a proof over a box hands back, whatever it is about: one type for identities, inequalities and kernels.
+//! The result of a proof over a box: one type for identities, inequalities and kernels.
 
 use core::fmt;
 
@@ -26,7 +26,7 @@ impl Extent {
     }
 }
 
-/// What is known of a quantity on the whole domain.
+/// Verdict on a quantity over the whole domain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
     /// Of an identity: both sides differ by no more than this.
@@ -52,7 +52,7 @@ pub struct Proved<const N: usize> {
     pub bound: Bound,
     /// Where.
     pub domain: [Interval; N],
-    /// The boxes that make it up, in the order of the cuts: what lies below a cut before what lies above it.
+    /// The boxes that make it up, in the order of the cuts, below before above.
     pub parts: Vec<[Interval; N]>,
     /// Boxes evaluated on the way, those that were divided further included.
     pub boxes: usize,

@@ -1,8 +1,8 @@
-//! Rigorous quadrature by Taylor models: integrals of piecewise smooth functions, without antiderivatives and without known
+//! Rigorous quadrature by Taylor models: integrals of piecewise smooth functions, without antiderivatives and without given
 //! breakpoints.
 //!
 //! It subdivides on its own, not by branch and bound: the widest contribution goes first, since a sum of widths decides and
-//! not one cell; and cells shrink geometrically towards an end at which derivatives grow without bound.
+//! not a single cell; and cells shrink geometrically towards an end at which derivatives grow without bound.
 
 use core::array;
 
@@ -15,7 +15,7 @@ const DEGREE: usize = 14;
 /// The jet an integrand is asked for.
 pub type CellJet = Jet<{ DEGREE + 1 }>;
 
-/// `M` functions of one variable, smooth but for finitely many points, that share their breakpoints.
+/// `M` functions of a single variable, smooth but for finitely many points, that share their breakpoints.
 pub trait Integrand<const M: usize> {
     /// Enclosures of all values on `t`.
     fn range(&self, t: Interval) -> [Interval; M];
@@ -70,7 +70,7 @@ pub fn integrate<const M: usize>(
 ) -> Quadrature<M> {
     let (start, end) = (Interval::point(from.midpoint()), Interval::point(to.midpoint()));
     let sign = if end.precedes(start) { -Interval::ONE } else { Interval::ONE };
-    // What the endpoints' own widths contribute.
+    // Contribution of the endpoints' own widths.
     let (at_start, at_end) = (integrand.range(from), integrand.range(to));
     let mut settled = array::from_fn(|i| sign * (at_start[i] * (start - from) + at_end[i] * (to - end)));
 
@@ -90,7 +90,7 @@ pub fn integrate<const M: usize>(
         let parent = open.swap_remove(widest);
         let rough = parent.smoothness != Smoothness::Decided;
         let parts: Vec<_> = parts.into_iter().map(|part| Cell::new(integrand, part, width, rough)).collect();
-        // Where a smooth cell's halves are no better, rounding is all that is left.
+        // Where a smooth cell's halves are no better, only rounding remains.
         let exhausted = !rough && parts.iter().map(|part| part.width).sum::<f64>() > 0.9 * parent.width;
         for part in parts {
             if exhausted || part.width <= width * NEGLIGIBLE || !part.divisible() {
@@ -108,7 +108,7 @@ fn add<const M: usize>(a: [Interval; M], b: [Interval; M]) -> [Interval; M] {
     array::from_fn(|i| a[i] + b[i])
 }
 
-/// What is settled and all open cells together.
+/// The sum over settled and open cells.
 fn total<const M: usize>(settled: [Interval; M], open: &[Cell<M>]) -> [Interval; M] {
     open.iter().fold(settled, |sum, cell| add(sum, cell.integrals))
 }
@@ -120,23 +120,23 @@ fn widest<const M: usize>(open: &[Cell<M>]) -> Option<usize> {
 
 /// Share of the wanted width that no cell is divided for.
 const NEGLIGIBLE: f64 = 1.0 / 1024.0;
-/// A cell whose remainder is this much wider than wanted has a singularity within or beside it.
+/// A cell whose remainder is this much wider than wanted has a singularity within or next to it.
 const SINGULAR: f64 = 1e30;
 /// Halvings towards a singularity, before the jets are asked again.
 const GRADES: usize = 3;
 
-/// What the jet over a cell says.
+/// Verdict of the jet over a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Smoothness {
     /// The integrals are by the jets.
     Decided,
     /// The cell is too long.
     TooLong,
-    /// No division away from one point will do.
+    /// Divisions away from a single point do not suffice.
     Singular,
 }
 
-/// Part of the domain, with what it contributes.
+/// Part of the domain, with its contribution.
 struct Cell<const M: usize> {
     domain: Interval,
     integrals: [Interval; M],

@@ -2,18 +2,18 @@
 
 use crate::numeric::special::Special;
 
-/// `M` functions of `N` variables, of which a proof says that they vanish.
+/// `M` functions of `N` variables, which a proof shows to vanish.
 ///
-/// A closure has one arithmetic; a statement has all of them, so that what is proved on jets is what was evaluated on
-/// intervals and what a file prints.
+/// A closure has one arithmetic; a statement has all of them: the formula proved on jets, evaluated on
+/// intervals and printed in a file is the same.
 pub trait Statement<const N: usize, const M: usize> {
     /// The functions, in any arithmetic.
     fn at<T: Special>(&self, variables: [T; N]) -> [T; M];
 }
 
-/// A change of what a formula gives: a test hands the engine a false statement by it, and the engine must not prove that.
+/// A change of a formula's value: a test hands the engine a false statement by it, and the engine must not prove that.
 pub trait Change {
-    /// What the changed formula gives at `variables`, where the true one gives `values`.
+    /// Value of the changed formula at `variables`; `values` are the true formula's.
     fn apply<T: Special, const N: usize, const M: usize>(&self, variables: [T; N], values: [T; M]) -> [T; M];
 }
 

@@ -18,7 +18,7 @@ pub enum ReportError {
     Figure {
         /// Its name.
         figure: &'static str,
-        /// What the drawing library says.
+        /// Message of the drawing library.
         reason: String,
     },
     /// A table cannot be written as text.

@@ -32,7 +32,7 @@ pub enum Mark {
 /// Points that belong together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// Name in the legend; empty to leave it out, and then drawn in the colour of the series before.
+    /// Name in the legend; empty for none, and then drawn in the colour of the series before.
     pub label: String,
     /// How it is drawn.
     pub mark: Mark,
@@ -40,7 +40,7 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
 }
 
-/// One pair of axes with what is drawn on them.
+/// A pair of axes and its curves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
     x_label: String,
@@ -71,7 +71,7 @@ impl Panel {
         Self { y_limits: Some((from, to)), ..self }
     }
 
-    /// The panel with a unit as long on one axis as on the other.
+    /// The panel with equal scales on both axes.
     #[must_use]
     pub fn equal_axes(self) -> Self {
         Self { equal_axes: true, ..self }
@@ -83,14 +83,14 @@ impl Panel {
         Self { rows: names.into_iter().collect(), ..self }
     }
 
-    /// The panel with one more series.
+    /// The panel with a further series.
     #[must_use]
     pub fn with(mut self, label: &str, mark: Mark, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         self.series.push(Series { label: label.to_owned(), mark, points: points.into_iter().collect() });
         self
     }
 
-    /// The range of one coordinate over all series, with a margin.
+    /// The range of a coordinate over all series, with a margin.
     fn range(&self, of: fn(&(f64, f64)) -> f64) -> (f64, f64) {
         let values = self.series.iter().flat_map(|series| series.points.iter().map(of));
         let (from, to) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(from, to), v| (from.min(v), to.max(v)));
@@ -141,7 +141,7 @@ impl Panel {
     }
 }
 
-/// Panels below each other under one title.
+/// Panels stacked under a title.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Name of its file.
@@ -163,7 +163,7 @@ const BELOW: u32 = 52;
 const BESIDE: u32 = 72;
 /// Room for names in place of numbers.
 const BESIDE_NAMES: u32 = 170;
-/// What is left for the axes.
+/// Size of the plot area.
 const PLOT: (u32, u32) = (SIZE.0 - 2 * MARGIN - BESIDE, SIZE.1 - 2 * MARGIN - BELOW);
 /// Height of a legend's entry with its share of the border, in pixels.
 const LEGEND_ENTRY: f64 = 30.0;

@@ -1,9 +1,9 @@
-//! One HTML file with everything in it.
+//! A self-contained HTML file.
 
 use super::table::{escaped_html, prose_html};
 use super::{Figure, ReportError, Table};
 
-/// Text, tables and figures under one heading.
+/// Text, tables and figures under a heading.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
     /// Heading.
@@ -23,7 +23,7 @@ pub struct Document {
     pub title: String,
     /// Its parts.
     pub sections: Vec<Section>,
-    /// Where it comes from: version, command, inputs, date. One line each, at the end.
+    /// Where it comes from: version, command, inputs, date. A line each, at the end.
     pub provenance: Vec<String>,
 }
 

@@ -1,6 +1,6 @@
 //! Tables, figures and one-file reports.
 //!
-//! A [`Table`] is one thing with several faces: Markdown, CSV, LaTeX, JSON, HTML and text for a terminal. A [`Figure`] is
+//! A [`Table`] has several formats: Markdown, CSV, LaTeX, JSON, HTML and text for a terminal. A [`Figure`] is
 //! data with labelled axes, drawn as SVG; the same data give the same bytes. A [`Document`] puts both into one HTML file that
 //! needs no network.
 

@@ -6,13 +6,16 @@ use super::{Figure, Mark, Panel};
 use crate::balance::{BalanceError, Intersection, negative_inverse_locus, nyquist_locus};
 use crate::describing::{DescribingError, DescribingFunction};
 use crate::nonlinearity::Sinusoid;
+use crate::numeric::significant;
 use crate::plant::TransferFunction;
 
 /// How far beyond the intersections (or beyond -1 without any) the plot reaches.
 const REACH: f64 = 2.5;
+/// Intersections that the legend has room for.
+const LABELLED: usize = 4;
 
 /// `G(jw)` over `omega_rad_s`, `-1/N` over amplitudes from 1e-3 to 1e3 at one bias, and the `found` intersections, as far from
-/// the origin as two and a half times the farthest of them.
+/// the origin as two and a half times the farthest of them. The four slowest are labelled with period, amplitude and verdict.
 ///
 /// # Errors
 /// [`BalanceError`] where a curve cannot be followed.
@@ -23,7 +26,7 @@ pub fn nyquist(
     bias: f64,
     found: &[Intersection],
 ) -> Result<Figure, BalanceError> {
-    let marks: Vec<(&Intersection, Complex<f64>)> =
+    let mut marks: Vec<(&Intersection, Complex<f64>)> =
         found.iter().filter_map(|one| Some((one, plant.response(one.omega_rad_s).ok()?))).collect();
     let reach = REACH * marks.iter().map(|(_, point)| point.norm()).fold(0.0, f64::max);
     let reach = if reach > 0.0 { reach } else { REACH };
@@ -42,11 +45,18 @@ pub fn nyquist(
     } else {
         axes.with("-1/N(X), arrow towards larger X", Mark::Dashed, inverse).with("", Mark::Arrow, growing)
     };
-    let panel = marks.into_iter().fold(axes, |panel, (one, point)| {
+    marks.sort_by(|(a, _), (b, _)| a.omega_rad_s.total_cmp(&b.omega_rad_s));
+    let (slow, fast) = marks.split_at(marks.len().min(LABELLED));
+    let panel = slow.iter().fold(axes, |panel, (one, point)| {
         let stable = one.stable.map_or("not decided", |stable| if stable { "stable" } else { "unstable" });
-        let label = format!("X = {:.4}, w = {:.4} rad/s, {stable}", one.amplitude, one.omega_rad_s);
+        let period_s = core::f64::consts::TAU / one.omega_rad_s;
+        let label = format!("T = {} s, X = {}, {stable}", significant(period_s, 4), significant(one.amplitude, 4));
         panel.with(&label, Mark::Dots, [(point.re, point.im)])
     });
+    let panel = match fast.len() {
+        0 => panel,
+        more => panel.with(&format!("{more} faster"), Mark::Points, fast.iter().map(|(_, point)| (point.re, point.im))),
+    };
     Ok(Figure { name: "nyquist", title: "Harmonic balance: G(jw) = -1/N(X)".to_owned(), panels: vec![panel] })
 }
 

@@ -14,7 +14,7 @@ const SAMPLES: u32 = 80;
 
 /// The output over the input for the example on its page, up and down again: SVG on one line.
 ///
-/// The file beside the page holds what this draws; a test compares the two.
+/// The SVG file next to the page is this function's output; a test compares them.
 ///
 /// # Errors
 /// As [`Entry::build`].

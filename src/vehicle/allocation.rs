@@ -89,7 +89,7 @@ impl<const AXES: usize, const THRUSTERS: usize> Allocation<f64, AXES, THRUSTERS>
         if AXES == 0 || THRUSTERS == 0 {
             return Err(VehicleError::Count { what: "axes or thrusters", count: 0, needed: 1 });
         }
-        // Of size one, so that no square overflows.
+        // Scaled to 1, so that no square overflows.
         let largest = matrix.iter().flatten().fold(0.0, |largest: f64, entry| largest.max(entry.abs()));
         let size = if largest > 0.0 { largest } else { 1.0 };
         // The tall one of the matrix and its transpose, by QR with column pivoting: `A P = Q R`.

@@ -46,7 +46,7 @@ impl<T: Scalar> BilinearThruster<T> {
     /// Thrust in N.
     ///
     /// Rounding: for all floats with `T_nn` 2^-7 to 2^-6, `T_nu` 2^-6 to 2^-4, rates to 32 and speeds to 1 either way, the thrust is
-    /// within 6.1e-15 of the exact one in f64 and within 3.3e-6 in f32. `spec/rounding.md` says what that rests on.
+    /// within 6.1e-15 of the exact one in f64 and within 3.3e-6 in f32. Assumptions: `spec/rounding.md`.
     pub fn thrust(&self, rate: T, ambient_speed_m_s: T) -> T {
         bilinear(self.thrust, rate, ambient_speed_m_s)
     }

@@ -5,8 +5,8 @@ use crate::numeric::{Limit, Scalar, domain};
 
 /// Inverse allocation, a constant thrust offset, inverse thruster maps, in this order.
 ///
-/// Through the same thrusters and allocation, what arrives is what was asked for plus [`Self::bias_forces`], exactly up to
-/// rounding, as long as no thruster saturates or enters its dead zone; [`Self::commands`] says so when one does. Nothing is
+/// Through the same thrusters and allocation, the produced forces are the requested forces plus [`Self::bias_forces`], exactly up to
+/// rounding, as long as no thruster saturates or enters its dead zone; [`Self::commands`] reports either. Nothing is
 /// promised when there are fewer thrusters than axes, or when the real thrusters differ from the ones given here: [`Self::identity_error`] tells by how much.
 ///
 /// ```
@@ -32,7 +32,7 @@ impl<T: Scalar, const AXES: usize, const THRUSTERS: usize> Compensation<T, AXES,
         Self { allocation, thrusters, offset_n: [T::zero(); THRUSTERS] }
     }
 
-    /// A chain with the smallest offset along `direction` (one number per thruster) for which no thruster leaves its side
+    /// A chain with the smallest offset along `direction` (a number per thruster) for which no thruster leaves its side
     /// of the dead zone while the forces stay within `+-largest_forces`.
     ///
     /// A direction that the allocation maps to zero, two thrusters that push against each other, costs nothing but power;

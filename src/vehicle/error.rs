@@ -63,7 +63,7 @@ pub enum VehicleError {
         /// The rank it must have.
         needed: usize,
     },
-    /// A number of items other than the one that fits.
+    /// A wrong number of items.
     #[error("{count} {what} given: {needed} needed")]
     Count {
         /// The items.

@@ -55,7 +55,7 @@ impl<const AXES: usize, const THRUSTERS: usize> LimitedAllocation<AXES, THRUSTER
 
     /// An allocation with a weight for each axis, limits `(lower, upper)` in N for each thruster and an effort weight.
     ///
-    /// Weights balance the units: one N m on a short arm deserves more than one N. An effort weight of 1e-9 of the squared
+    /// Weights balance the units: 1 N m on a short arm deserves more than 1 N. An effort weight of 1e-9 of the squared
     /// weighted matrix entries is a good start.
     ///
     /// # Errors
@@ -86,8 +86,8 @@ impl<const AXES: usize, const THRUSTERS: usize> LimitedAllocation<AXES, THRUSTER
 
     /// The best thrusts within the limits.
     ///
-    /// An active-set search: solve for the free thrusters, stop at the first limit met, and release a held thruster whose
-    /// limit no longer pays, until none is left.
+    /// An active-set search: solve for the free thrusters, stop at the first limit reached, and release a thruster at its limit whose
+    /// multiplier is negative, until none remains.
     ///
     /// # Errors
     /// Forces that are not finite or whose weighted square is not; [`VehicleError::NoConvergence`] when rounding makes the
@@ -115,7 +115,7 @@ impl<const AXES: usize, const THRUSTERS: usize> LimitedAllocation<AXES, THRUSTER
             }
             thrusts += step;
             let gradient = self.stacked.tr_mul(&(&self.stacked * &thrusts - &target));
-            // How much a held thruster would gain by leaving its limit.
+            // Minus the Lagrange multiplier of a thruster's limit: above zero if releasing it lowers the cost.
             let gain = |j: usize| match places[j] {
                 Place::Free => 0.0,
                 Place::Lower => -gradient[j],
@@ -133,7 +133,7 @@ impl<const AXES: usize, const THRUSTERS: usize> LimitedAllocation<AXES, THRUSTER
         self.limits_n.iter().fold(0.0, |largest, &(lower, upper)| lower.abs().max(upper.abs()).max(largest))
     }
 
-    /// The step to the least-squares optimum of the free thrusters, the others held.
+    /// The step to the least-squares optimum of the free thrusters, with the rest at their limits.
     fn free_step(
         &self,
         places: &[Place; THRUSTERS],

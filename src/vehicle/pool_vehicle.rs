@@ -36,7 +36,7 @@ pub fn pool_vehicle() -> Result<Vehicle, VehicleError> {
     })
 }
 
-/// Its thrusters: port and starboard at the arm of eq. 35, weaker astern than ahead, and a vertical one that pushes down;
+/// Its thrusters: port and starboard at the arm of eq. 35, weaker astern than ahead, and a vertical thruster with thrust downwards;
 /// commands from -200 to 200 with a dead zone of 15, delayed by 0.1 s. The numbers are this project's own.
 ///
 /// # Errors

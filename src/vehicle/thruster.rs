@@ -145,7 +145,7 @@ impl<T: Scalar> Thruster<T> {
         Ok(Self { forward: side, backward: side })
     }
 
-    /// One map for positive and one for negative commands (eq. 3), the latter given by magnitudes.
+    /// A map for positive and a map for negative commands (eq. 3), the latter given by magnitudes.
     pub fn asymmetric(forward: ThrustSide<T>, backward: ThrustSide<T>) -> Self {
         Self { forward, backward }
     }
@@ -163,7 +163,7 @@ impl<T: Scalar> Thruster<T> {
     ///
     /// Rounding: for all floats with quadratic coefficients 2^-13 to 2^-12, linear ones 2^-7 to 2^-6, dead zones 8 to 16, limits 192
     /// to 256 and commands to 256 either way, the thrust is within 6.3e-15 of the exact one in f64 and within 3.4e-6 in f32: at the
-    /// ends of the dead zone and at the limit too, for these decide without rounding. `spec/rounding.md` says what that rests on.
+    /// ends of the dead zone and at the limit too, for these decide without rounding. Assumptions: `spec/rounding.md`.
     pub fn thrust(&self, command: T) -> T {
         if command < T::zero() { -self.backward.thrust(-command) } else { self.forward.thrust(command) }
     }

@@ -72,7 +72,7 @@ impl ThrusterMap {
     /// The same coefficients for both directions (eq. 2).
     ///
     /// Points with less thrust than `standing_n` count as a standing propeller: they mark the dead zone (its end is taken at
-    /// the last of them; the true one may reach up to one step of the commands further) and are left out of the fit.
+    /// the last of them; the true dead zone may end up to a step of the commands further) and are excluded from the fit.
     ///
     /// # Errors
     /// [`VehicleError::Count`] with fewer than three points of a turning propeller, or none on one side;

@@ -47,7 +47,7 @@ pub struct Trial {
     seed: u64,
 }
 
-/// What a trial left behind.
+/// Result of a trial.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct TrialRun {
@@ -75,7 +75,7 @@ impl TrialRun {
     /// What the terms that the uncoupled axis neglects add to its parameters, in least squares along this motion: an
     /// identification that sees this axis alone finds [`Vehicle::axis`] plus this. Disturbances are not in it.
     ///
-    /// Accelerations are central differences of the samples. What the four parameters cannot absorb is left out.
+    /// Accelerations are central differences of the samples. Effects outside the four parameters are excluded.
     ///
     /// # Errors
     /// [`VehicleError::RankDeficient`] for a motion too short or too simple to tell the four apart.

@@ -65,6 +65,20 @@ fn published_backlash() {
     assert!(!agrees(0.5 * (1.0 + 1e-6)));
 }
 
+/// Of the relay's infinitely many intersections with a dead time one is stable, or none: where the loop with the gain N has further roots
+/// in the right half plane the slope of -1/N alone says nothing.
+#[test]
+fn further_roots_make_an_intersection_unstable() {
+    let relay = Relay::new(1.0).unwrap();
+    let found = intersections(&transfer(&[1.0], &[1.0, 1.0]).with_delay(1.0).unwrap(), &relay);
+    let expected = |place: usize| (Some(place == 0), Some(2 * place));
+    assert!(found.len() > 10);
+    assert!(found.iter().enumerate().all(|(place, at)| (at.stable, at.unstable_roots) == expected(place)), "{found:?}");
+    // No gain stabilises exp(-1.2 s)/(s - 1).
+    let found = intersections(&transfer(&[1.0], &[1.0, -1.0]).with_delay(1.2).unwrap(), &relay);
+    assert!(!found.is_empty() && found.iter().all(|at| at.stable == Some(false)), "{found:?}");
+}
+
 /// A relay with dead zone has two amplitudes for each gain below its largest: `P = 4 C/(pi X) sqrt(1 - (d/X)^2)`.
 #[test]
 fn both_amplitudes_of_a_gain_that_rises_and_falls() {

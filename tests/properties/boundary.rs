@@ -128,6 +128,7 @@ impl Probe {
 const EXEMPT: &[(&str, &str, &str)] = &[
     ("numeric", "", "the arithmetic itself: `interval`, `special` and `libm_single` compare it with others"),
     ("", "::code", "a word"),
+    ("", "::column", "a word"),
     ("", "::name", "a word"),
     ("", "::words", "a word"),
     ("", "::out_of_domain", "what an error holds"),

@@ -56,6 +56,7 @@ fn headers_say_what_the_registry_says() {
         let printed = match claim.printed {
             AsPrinted::Holds(_) => "holds",
             AsPrinted::Refuted(_) => "refuted",
+            AsPrinted::Approximate(_) => "approximate",
             AsPrinted::Absent => "not-applicable",
         };
         let corrected = if claim.corrected.is_some() { "holds" } else { "not-applicable" };
@@ -170,6 +171,30 @@ fn the_formulas_of_the_theories_are_the_programs() {
         kept == selfosc::claims::formulas(),
         "run `selfosc verify --formulas spec/formal`, then spec/formal/check.sh"
     );
+}
+
+#[test]
+fn the_page_of_verification_names_its_checkers_and_counts() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = std::fs::read_to_string(root.join("spec/verification.md")).unwrap();
+    let whole = |claim: &&Claim| claim.kernel_checked().is_some_and(|checked| checked.covers == "whole");
+    let (checked, by_hand) =
+        (CLAIMS.iter().filter(whole).count(), CLAIMS.iter().map(|claim| claim.by_hand.len()).sum::<usize>());
+    let counts = format!(
+        "Of {} claims Coq's kernel accepts {checked} as a whole; {by_hand} steps by hand are left in all.",
+        CLAIMS.len()
+    );
+    assert!(page.contains(&counts), "{counts}");
+    let rows: Vec<_> = page.lines().filter(|line| line.starts_with("| ")).skip(1).collect();
+    assert!(rows.len() > 15);
+    for row in rows {
+        let checkers = row.trim_end_matches(" |").rsplit(" | ").next().unwrap();
+        let paths: Vec<_> = checkers.split('`').skip(1).step_by(2).collect();
+        assert!(!paths.is_empty(), "{row}");
+        for path in paths {
+            assert!(root.join(path).exists(), "spec/verification.md: {path}");
+        }
+    }
 }
 
 /// Parts with one side `x` between two ends.

@@ -10,12 +10,12 @@ const TABLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/spec/conformance.md");
 
 /// Why an operation's results are not all the tightest.
 const REASONS: [(&str, &str); 22] = [
-    ("abs", "nothing is known of the entire line, which is sticky"),
+    ("abs", "the entire line is sticky"),
     ("acos", "correction of a guess: a few roundings"),
     ("asin", "correction of a guess: a few roundings"),
     ("atan", "correction of a guess: a few roundings"),
     ("atanh", "logarithm of a quotient"),
-    ("cos", "reduction and series; of a long interval beyond 2^20 only the range is known"),
+    ("cos", "reduction and series; a long interval beyond 2^20 gives [-1, 1]"),
     ("cosh", "exponential and its reciprocal"),
     ("div", "a divisor with zero leaves the domain"),
     ("exp", "reduction and series"),
@@ -30,9 +30,9 @@ const REASONS: [(&str, &str); 22] = [
         "exponential of a product with a logarithm, whose rounding grows with the exponent; a base below zero leaves the domain",
     ),
     ("recip", "a divisor with zero leaves the domain"),
-    ("sin", "reduction and series; of a long interval beyond 2^20 only the range is known"),
+    ("sin", "reduction and series; a long interval beyond 2^20 gives [-1, 1]"),
     ("sinh", "exponential and its reciprocal"),
-    ("sqrt", "a root of what reaches below zero leaves the domain"),
+    ("sqrt", "an argument that reaches below zero leaves the domain"),
     ("tan", "quotient of sine and cosine; a pole within leaves the domain"),
     ("tanh", "quotient of exponentials"),
 ];
@@ -140,12 +140,13 @@ fn table(counts: &BTreeMap<&str, Count>) -> String {
     let (vectors, tightest, entire) = (sum(|c| c.vectors), sum(|c| c.tightest), sum(|c| c.entire));
     let mut text = format!(
         "# Conformance of the interval arithmetic\n\n\
-         Of {vectors} vectors of ITF1788 (`fixtures/itf1788`) for the operations that exist here every result contains the tightest one. \
-         {tightest} are the tightest ({:.1} %), {entire} are the entire line where a domain is left or was left, and the others are \
-         wider by the number of doubles below, at the end where more. `cargo test --test properties conformance` checks this page.\n\n\
-         There are no decorations: a violated domain gives the entire line, which every further operation keeps, so that it needs no \
-         flag beside it; and an operation that is defined on a part of its argument alone says nothing, where the standard has the image of that part. \
-         There is no empty interval: what has no value is `None`.\n\n\
+         Inclusion: for each of the {vectors} vectors of ITF1788 (`fixtures/itf1788`) of the implemented operations, the result contains the \
+         tightest interval. {tightest} results are the tightest ({:.1} %); {entire} are the entire line, after a violated domain. The table \
+         gives the excess width of the rest in doubles, at the worse end. `cargo test --test properties conformance` checks this page.\n\n\
+         Differences from IEEE 1788:\n\n\
+         - No decorations. A violated domain gives the entire line, which is sticky: every further operation keeps it. A partly defined \
+         operation gives the entire line, where the standard gives the image of the defined part.\n\
+         - No empty interval. An empty result is `None`.\n\n\
          | operation | vectors | tightest | entire line | 0^0 = 1 | wider | by at most | median | why |\n|---|---|---|---|---|---|---|---|---|\n",
         100.0 * tightest as f64 / vectors as f64
     );

@@ -14,8 +14,17 @@ use selfosc::plant::DragAxis;
 use selfosc::vehicle::Thruster;
 
 /// Codes that several enums give, each for one and the same reason.
-const SHARED: [&str; 7] =
-    ["below-switching", "condition-40", "gap", "not-finite", "out-of-domain", "time-order", "unreadable"];
+const SHARED: [&str; 9] = [
+    "below-switching",
+    "condition-40",
+    "foreign",
+    "gap",
+    "malformed",
+    "not-finite",
+    "out-of-domain",
+    "time-order",
+    "unreadable",
+];
 
 fn sources(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());

@@ -225,3 +225,15 @@ pub(crate) const SINGLE_UNDERFLOW: f64 = f32::MIN_POSITIVE as f64;
 
 /// Describing functions in 32 digits against quadrature in 42: the trapezoidal rule with 144 points leaves 1e-22 of a steep tanh.
 pub(crate) const TWO_ORACLES: f64 = 1e-21;
+
+/// Width of an enclosed orbit's figures over its size: some hundreds of roundings through the partial fractions, and as many again.
+pub(crate) const ENCLOSED_ORBIT: f64 = 1e-11;
+
+/// Relative half-width of a proved oscillation's amplitude, smooth characteristic: rounding times the condition of the balance.
+pub(crate) const EXISTENCE_SMOOTH: f64 = 1e-10;
+
+/// The same with kinks and relative degree 3 or more: harmonics above the 97th, about `97^-4.5` of the first.
+pub(crate) const EXISTENCE_KINKED: f64 = 1e-7;
+
+/// The same with kinks and relative degree 1 or 2: about `97^-2.5` times the half-range of the slopes and the condition.
+pub(crate) const EXISTENCE_KINKED_LOW_DEGREE: f64 = 1e-4;

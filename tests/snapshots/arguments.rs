@@ -9,14 +9,15 @@ use assert_cmd::cargo::CommandCargoExt;
 use selfosc::command::{Answer, answer};
 
 /// A call of each subcommand that works, and does little.
-const CALLS: [&str; 17] = [
+const CALLS: [&str; 18] = [
     "predict --alpha 1 --beta 1 --beta-quadratic 0 --delta 0 --delay 0 --relay 1 --half-width 0.2",
+    "predict --num 1 --den 1,1 --delay 0 --relay 1,-1 --half-width 0.2 --reference 0 --periods 0.1,10",
     "simulate --alpha 1 --beta 1 --beta-quadratic 0 --delta 0 --delay 0 --relay 1 --half-width 0.2 --cycles 3 --rate 10 --quantum 0 --noise 0 --seed 0",
     "df relay-hysteresis --set half_width=0.2 --amplitude 1 --bias 0 --method closed-form",
     "df relay-dead-zone --set dead_zone=0.5 --gain 1 --bias 0",
     "df --fit FOLDER/gains.csv --bias 0",
     "df --list --page FOLDER/page.html",
-    "balance --num 8 --den 1,2,2,1 --delay 0 --nonlinearity saturation --set breakpoint=1 --bias 0 --svg FOLDER/nyquist.svg",
+    "balance --num 8 --den 1,2,2,1 --delay 0 --nonlinearity saturation --set breakpoint=1 --bias 0 --svg FOLDER/nyquist.svg --certificates FOLDER/proofs",
     "tune --alpha 1 --beta 0.5 --beta-quadratic 0 --bandwidth 0.5 --structure pd --delay 0.1 --step 1 --limit 9 --top-speed 1 --alpha-interval 0.9,1.1 --beta-interval 0.4,0.6 --beta-quadratic-interval 0,0.1 --delay-interval 0,0.2",
     "tune --model FOLDER/model.json --bandwidth 0.5",
     "tune --alpha 1 --beta 0.5 --delay 0.1 --delta 0.1 --ms 1.5 --format ardusub --full-command 1",

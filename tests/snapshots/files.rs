@@ -82,7 +82,7 @@ fn holds(folder: &Path) -> Vec<(String, Vec<u8>, u64)> {
 }
 
 /// A call of each subcommand that does little, those that write files with `OUT` in place of the file.
-const CALLS: [&str; 17] = [
+const CALLS: [&str; 18] = [
     "reproduce --only table3",
     "reproduce --only table3 --out OUT",
     "verify --claim lemma-1 --cases 1",
@@ -92,6 +92,7 @@ const CALLS: [&str; 17] = [
     "df --list --page OUT",
     "balance --num 8 --den 1,2,2,1 --nonlinearity saturation --set breakpoint=1 --svg OUT",
     "predict --alpha 1 --beta 1 --relay 1 --half-width 0.2",
+    "predict --num 1 --den 1,1 --relay 1 --half-width 0.2 --certificate OUT",
     "simulate --alpha 1 --beta 1 --relay 1 --half-width 0.2",
     "design --alpha 1 --beta 1 --level 1 --time 30",
     "identify a.csv --method iso --delay 0 --report OUT",

@@ -36,6 +36,8 @@ fn write_proofs(folder: &Path) {
     done(folder, &format!("identify log.csv {identify} consistent.json --delay 0"));
     done(folder, &format!("identify log.csv {identify} refuted.json --delay 0.02"));
     done(folder, &format!("identify late.csv {identify} late.json"));
+    let heater = "predict --num 2 --den 30,1 --delay 4 --relay 1,0 --half-width 0.1 --reference 1.2";
+    done(folder, &format!("{heater} --certificate heater.json"));
     done(folder, "verify --claim lemma-1 --cases 1 --certificates .");
 }
 
@@ -108,6 +110,7 @@ fn every_forgery_is_refused_by_name() {
             assert!(said.contains(range), "{proof}: no `{range}` in {said}");
         }
     }
+    assert!(done(folder, "verify --check heater.json").starts_with("accepted"));
     let forgeries: Vec<Value> =
         serde_json::from_str(include_str!("../../fixtures/forgeries.json")).expect("a list of forgeries");
     let mut wrong = Vec::new();

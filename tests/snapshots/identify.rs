@@ -254,3 +254,38 @@ fn files_are_safe() {
     assert_eq!(fs::read_to_string(&log).unwrap(), "time_s,output,command\n0,0,1\n");
     fs::remove_dir_all(&folder).unwrap();
 }
+
+/// The samples hold the log, and residuals that are output less model, as small as the prediction of the same log says; an outlier has none.
+#[test]
+fn samples_hold_the_log_the_model_and_its_residuals() {
+    let folder = simulated(AXIS, &["--cycles", "12", "--noise", "0.01"]);
+    let clean = std::fs::read_to_string(folder.path().join("log.csv")).unwrap();
+    let arguments = ["--validate", "log.csv", "--samples", "samples.csv", "--progress"];
+    let (status, answer, stages) = selfosc(&folder, &[&["identify", "log.csv", "--json"], &arguments[..]].concat());
+    assert_eq!(status, 0, "{stages}");
+    assert_eq!(stages.lines().next(), Some("looking for cycles"));
+    let answer: Value = serde_json::from_str(&answer).unwrap();
+    let rms = answer["validation"][0]["prediction"]["rms"].as_f64().unwrap();
+    let rows = |folder: &TempDir| -> Vec<Vec<Option<f64>>> {
+        let text = std::fs::read_to_string(folder.path().join("samples.csv")).unwrap();
+        assert_eq!(text.lines().next(), Some("record,time_s,output,input,model,residual"));
+        text.lines().skip(1).map(|line| line.split(',').map(|cell| cell.parse().ok()).collect()).collect()
+    };
+    let found = rows(&folder);
+    let logged =
+        clean.lines().skip(1).map(|line| line.split(',').map(|cell| cell.parse().ok()).collect::<Vec<Option<f64>>>());
+    assert!(logged.eq(found.iter().map(|row| row[1..4].to_vec())));
+    let residuals: Vec<f64> = found.iter().filter_map(|row| row[5]).collect();
+    assert!(found.iter().all(|row| row[4].is_none() || row[2].unwrap() - row[4].unwrap() == row[5].unwrap()));
+    let own = (residuals.iter().map(|residual| residual * residual).sum::<f64>() / residuals.len() as f64).sqrt();
+    approx::assert_relative_eq!(own, rms, max_relative = 1e-9);
+    assert!(rms < 0.012 && residuals.len() + 10 > found.len());
+    // One reading off by far.
+    let mut lines: Vec<String> = clean.lines().map(str::to_owned).collect();
+    let off = lines.len() / 2;
+    let cells: Vec<&str> = lines[off].split(',').collect();
+    lines[off] = format!("{},{},{}", cells[0], cells[1].parse::<f64>().unwrap() + 5.0, cells[2]);
+    std::fs::write(folder.path().join("log.csv"), lines.join("\n")).unwrap();
+    selfosc(&folder, &["identify", "log.csv", "--samples", "samples.csv"]);
+    assert_eq!(rows(&folder)[off - 1][4..], [None, None]);
+}

@@ -59,6 +59,24 @@ fn commands_run_as_typed() {
     }
 }
 
+/// Experiment, model and gains by one pipe of less than ten lines; the vehicle at the other end is the one that is simulated.
+#[test]
+fn the_pipe_gives_gains() {
+    let pipe = PAGES.split("```").find(|block| block.contains("mkfifo")).unwrap();
+    let (_, pipe) = pipe.split_once('\n').unwrap();
+    assert!(pipe.lines().filter(|line| !line.trim().is_empty()).count() < 10, "{pipe}");
+    let folder = folder_with_fixtures();
+    let output = shell(&format!("set -e\n{pipe}"), folder.path());
+    let answer = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success(), "{answer}\n{}", String::from_utf8_lossy(&output.stderr));
+    for row in ["proportional gain", "margins", "largest sensitivity", "step: settling"] {
+        assert!(answer.contains(row), "{row} in\n{answer}");
+    }
+    let model = std::fs::read(folder.path().join("model.json")).unwrap();
+    let model: serde_json::Value = serde_json::from_slice(&model).unwrap();
+    assert!((model["reported"]["alpha"]["value"].as_f64().unwrap() / 0.033 - 1.0).abs() < 0.02);
+}
+
 #[test]
 fn the_first_answer_is_the_one_shown() {
     let folder = folder_with_fixtures();

@@ -20,7 +20,7 @@ fn selfosc(folder: &TempDir) -> Command {
 }
 
 /// Status, standard output and standard error upon these lines.
-fn answers(arguments: &[&str], lines: &str) -> (Option<i32>, String, String) {
+fn answers(arguments: &[&str], lines: &[u8]) -> (Option<i32>, String, String) {
     let folder = tempfile::tempdir().unwrap();
     let streams = [Stdio::piped(), Stdio::piped(), Stdio::piped()];
     let [input, output, error] = streams;
@@ -28,7 +28,7 @@ fn answers(arguments: &[&str], lines: &str) -> (Option<i32>, String, String) {
         selfosc(&folder).args(RUN).args(arguments).stdin(input).stdout(output).stderr(error).spawn().unwrap();
     let mut stdin = child.stdin.take().unwrap();
     let lines = lines.to_owned();
-    let writer = std::thread::spawn(move || stdin.write_all(lines.as_bytes()));
+    let writer = std::thread::spawn(move || stdin.write_all(&lines));
     let output = child.wait_with_output().unwrap();
     let _ = writer.join().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
@@ -119,12 +119,67 @@ fn lines_that_are_none() {
     for _ in 0..40 {
         let lines: String =
             (0..200).map(|k| format!("{} {}\n", if k % 3 == 0 { pick() } else { "0.1" }, pick())).collect();
-        let (status, output, complaint) = answers(&[], &lines);
+        let (status, output, complaint) = answers(&[], lines.as_bytes());
         assert!(status == Some(1) && !complaint.contains("panicked"), "{status:?} {complaint}");
         let commands: Vec<f64> = output.lines().map(|line| line.split_once(' ').unwrap().0.parse().unwrap()).collect();
         assert!(commands.iter().all(|command| (-0.04..=0.04).contains(command)));
         assert_eq!(commands.last(), Some(&0.0), "{output}");
     }
+}
+
+/// Bits of Splitmix64 (Steele, Lea and Flood, 2014).
+fn bits(state: &mut u64) -> u64 {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let z = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+/// Lines of a sensor that swings, among them some of a broken one, of any bytes, or of any floats.
+fn fuzzed(state: &mut u64) -> Vec<u8> {
+    let mut below = |count: u64| bits(state) % count;
+    let (swing, pace) = (below(40) as f64 / 60.0, 0.05 + below(30) as f64 / 100.0);
+    let mut lines = Vec::new();
+    for k in 0..below(600) {
+        let time_s = k as f64 * 0.1;
+        let line = match below(240) {
+            0 => format!("{} {}", f64::from_bits(below(u64::MAX)), f64::from_bits(below(u64::MAX))).into_bytes(),
+            1 => (0..below(9000)).map(|_| below(256) as u8).collect(),
+            2 => format!("{time_s} {}", below(7) as f64).into_bytes(),
+            3 => format!("{} 0.1", time_s - 1.0).into_bytes(),
+            4 => vec![b' '; below(5000) as usize],
+            5 => format!("# {time_s}").into_bytes(),
+            6 => format!("\u{feff}{time_s},0.1").into_bytes(),
+            _ => format!("{time_s} {}", swing * (pace * k as f64).sin()).into_bytes(),
+        };
+        lines.extend(line);
+        lines.push(b'\n');
+    }
+    lines
+}
+
+/// No line ends it by a panic, drives it beyond its limits, or leaves the last command standing. `SELFOSC_FUZZ_LINES` says how many
+/// lines are to be answered; `fixtures/fuzz_run.txt` has the longest run.
+#[test]
+fn fuzzed_lines_end_neutral() {
+    let wanted = std::env::var("SELFOSC_FUZZ_LINES").map_or(4000, |count| count.parse().unwrap());
+    let (mut state, mut answered, mut runs) = (20_261_127, 0, 0);
+    let mut ends = std::collections::BTreeMap::new();
+    while answered < wanted {
+        let (status, output, complaint) = answers(&[], &fuzzed(&mut state));
+        assert!(matches!(status, Some(0 | 1)) && !complaint.contains("panicked"), "{status:?} {complaint}");
+        let lines: Vec<(f64, &str)> = output
+            .lines()
+            .map(|line| line.split_once(' ').unwrap())
+            .map(|(command, phase)| (command.parse().unwrap(), phase))
+            .collect();
+        assert!(lines.iter().all(|(command, _)| (-0.04..=0.04).contains(command)), "{output}");
+        let (command, phase) = lines[lines.len() - 1];
+        assert!(command == 0.0 && phase != "running", "{output}");
+        *ends.entry(phase.to_owned()).or_insert(0) += 1;
+        (answered, runs) = (answered + lines.len(), runs + 1);
+    }
+    let _ = writeln!(std::io::stderr(), "{answered} lines in {runs} runs: {ends:#?}");
 }
 
 /// Named ends: of the input, of the time, of a reading, of the wrong way; each with neutral last.
@@ -140,11 +195,38 @@ fn every_end_is_named() {
         ("0 0\n0.1 one\n", "failed:not-finite"),
         (still.as_str(), "failed:stuck"),
     ] {
-        let (status, output, _) = answers(&[], lines);
+        let (status, output, _) = answers(&[], lines.as_bytes());
         let last = output.lines().last().unwrap();
         let ends = if phase == "running" { "0 aborted".to_owned() } else { format!("0 {phase}") };
         assert!(status == Some(1) && last == ends, "{lines:?}: {output}");
     }
+}
+
+/// Comments are no readings: a bridge that only says that it lives is silent.
+#[test]
+fn comments_do_not_put_silence_off() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut child = selfosc(&folder)
+        .args(RUN)
+        .args(["--timeout", "0.3"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let (mut input, mut output) = (child.stdin.take().unwrap(), BufReader::new(child.stdout.take().unwrap()).lines());
+    writeln!(input, "0 0").unwrap();
+    assert_eq!(output.next().unwrap().unwrap(), "0.02 running");
+    let writer = std::thread::spawn(move || {
+        // Until nobody reads any more, or for a minute.
+        (0..1200).find(|_| {
+            std::thread::sleep(std::time::Duration::from_millis(50));
+            writeln!(input, "# still here").is_err()
+        })
+    });
+    assert_eq!(output.next().unwrap().unwrap(), "0 failed:gap");
+    assert_eq!(child.wait().unwrap().code(), Some(1));
+    assert!(writer.join().unwrap().is_some());
 }
 
 /// A signal ends at the neutral command with the log on disk; so does silence.

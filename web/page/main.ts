@@ -78,8 +78,8 @@ async function ask(args: string[], files: Log[] = logs): Promise<Answer | null> 
 }
 
 const paths = () => logs.map(([name]) => `/${name}`);
-const json = (bytes: unknown) => JSON.stringify(bytes, null, 2);
-const text = (file: Uint8Array<ArrayBuffer> | undefined) => file ?? new Uint8Array();
+const json = (document: unknown) => JSON.stringify(document, null, 2);
+const content = (answer: Answer, name: string) => answer.files.get(name) ?? new Uint8Array();
 
 async function start(): Promise<void> {
   if (job.logs && logs.length === 0) {
@@ -99,7 +99,7 @@ async function identify(): Promise<void> {
   const more = h("section", { "aria-live": "polite" });
   const report = async () => {
     const written = await ask(["identify", ...paths(), "--report", "/report.html", ...form.args]);
-    if (written) download("", "report.html", "text/html", text(written.files.get("report.html"))).click();
+    if (written) download("", "report.html", "text/html", content(written, "report.html")).click();
   };
   const enclose = async () => {
     const enclosed = await ask(["identify", ...paths(), "--method", "bounded", "--json", "--progress", ...form.args]);
@@ -116,7 +116,7 @@ async function identify(): Promise<void> {
       h("button", { type: "button", click: () => void enclose() }, "Guaranteed bounds"),
       h("button", { type: "button", click: () => void report() }, "Report (HTML)"),
       download("Numbers (JSON)", "model.json", "application/json", json(found)),
-      download("Samples (CSV)", "samples.csv", "text/csv", text(answer.files.get("samples.csv"))),
+      download("Samples (CSV)", "samples.csv", "text/csv", content(answer, "samples.csv")),
     ),
     more,
     ...records(answer.samples, found.records.map((record) => record.file.replace(/^\//, "")), angle),
@@ -136,13 +136,11 @@ function controller(model: Uint8Array): HTMLElement {
 }
 
 async function autotune(): Promise<void> {
-  const answer = await ask(["autotune", ...paths(), "--json", ...form.args.filter((flag) => !flag.startsWith("--form"))]);
+  const answer = await ask(["autotune", ...paths(), "--json", ...form.args]);
   if (!answer) return;
   const found = answer.document as (Autotuned & { refused?: Coded }) | null;
   if (!found || found.refused || answer.code === 2) return refuse(answer, found?.refused);
-  const said = await ask(["autotune", ...paths(), ...form.args]);
-  const paste = said && said.code === 0 ? (said.out.split("\n\n")[0] ?? "") : said ? plain(said) : "";
-  results.replaceChildren(...shown(autotuned(found, paste)), h("p", { class: "buttons" }, download("Numbers (JSON)", "gains.json", "application/json", json(found))));
+  results.replaceChildren(...shown(autotuned(found)), h("p", { class: "buttons" }, download("Numbers (JSON)", "gains.json", "application/json", json(found))));
 }
 
 /** An answer that the command prints well itself. */

@@ -5,7 +5,7 @@ import type { Samples } from "./protocol";
 
 export interface Curve {
   label: string;
-  values: ArrayLike<number>;
+  values: ArrayLike<number | null>;
   /** A colour of the style sheet: `--readings`, `--model`, `--command`. */
   colour: string;
   points?: boolean;
@@ -82,7 +82,8 @@ export function records(all: Samples[], names: string[], angle: boolean): HTMLEl
   const scale = angle ? DEGREES : 1;
   const unit = angle ? " (deg)" : "";
   return all.flatMap(({ time_s: time, output, input, model, residual }, index) => {
-    const in_degrees = (column: Float64Array, offset = 0) => column.map((value) => scale * (value + offset));
+    // A scale is found from numbers; where nothing is predicted stands a gap.
+    const in_degrees = (column: Float64Array, offset = 0) => Array.from(column, (value) => (Number.isNaN(value) ? null : scale * (value + offset)));
     const known = residual.filter((value) => !Number.isNaN(value));
     const rms = Math.sqrt(known.reduce((sum, value) => sum + value * value, 0) / Math.max(known.length, 1));
     const shown: Curve[] = [{ label: "readings", values: in_degrees(output), colour: "--readings", points: true }];

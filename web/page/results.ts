@@ -30,6 +30,8 @@ export interface Autotuned {
   reasons: Coded[];
   models: { family: string; weight: number; parameters: Record<string, Estimate> }[];
   gains: { proportional: number; integral: number; derivative: number; filter_s: number } | null;
+  /** The gains in the form asked for, to type. */
+  lines: string | null;
   sensitivity: { limit: number; proved_upper: number | null };
   rules: { name: string; proportional: number; integral: number; derivative: number; sensitivity: number | null }[];
 }
@@ -99,15 +101,15 @@ export function bounded(bounds: NonNullable<Identified["bounded"]>): HTMLElement
 }
 
 /** Gains to type, how sure they are, and the rules of thumb beside them. */
-export function autotuned(found: Autotuned, paste: string): (HTMLElement | null)[] {
+export function autotuned(found: Autotuned): (HTMLElement | null)[] {
   const { sensitivity, models } = found;
   const best = models[0];
   return [
     verdict(found.trust),
-    copyable("Type into your controller:", paste),
+    found.lines === null ? h("p", {}, "No gains in this form: choose another.") : copyable("Type into your controller:", found.lines),
     sensitivity.proved_upper === null
       ? null
-      : h("p", {}, `Proved: the sensitivity of every process that the record leaves is at most ${significant(sensitivity.proved_upper, 4)}. 1.4 is well damped; above 2 it rings.`),
+      : h("p", {}, `Proved: the sensitivity of every process in the intervals is at most ${significant(sensitivity.proved_upper, 4)}. 1.4 is well damped; above 2 it rings.`),
     reasons("Why the answer is not simply good", found.reasons),
     best ? table(`Process: ${best.family}, ${significant(100 * best.weight, 3)} % of the evidence`, ["parameter", "value, 95 %"], Object.entries(best.parameters).map(([name, estimate]) => [name.replaceAll("_", " "), statistical(estimate)])) : null,
     table(

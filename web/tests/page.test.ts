@@ -41,6 +41,19 @@ function same(page: unknown, command: unknown, at = "", of = 0): void {
   } else assert.equal(page, command, at);
 }
 
+/** Pixels of a plot that have a colour of its curves. */
+const drawn = (page: import("playwright-core").Page, plot: number, colour: readonly [number, number, number]): Promise<number> =>
+  page.evaluate(
+    ([plot, colour]) => {
+      const canvas = document.querySelectorAll<HTMLCanvasElement>(".plot canvas")[plot]!;
+      const { data } = canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height);
+      let count = 0;
+      for (let at = 0; at < data.length; at += 4) if (data[at + 3] === 255 && colour.every((value, part) => Math.abs(data[at + part]! - value) < 12)) count++;
+      return count;
+    },
+    [plot, colour] as const,
+  );
+
 /** What a button saves. */
 async function saved(page: import("playwright-core").Page, label: string): Promise<string> {
   const [download] = await Promise.all([page.waitForEvent("download"), page.click(`text=${label}`)]);
@@ -53,6 +66,9 @@ test("the pool log gives the command's model, its report and a controller", asyn
   assert.match(await page.textContent("#results .verdict") ?? "", /Good/);
   same(JSON.parse(await saved(page, "Numbers (JSON)")), await said(["identify", "fixtures/pool/heading.csv", "--json"]));
   assert.equal(await page.locator(".plot canvas").count(), 3);
+  for (const [plot, colour] of [[0, [194, 65, 12]], [1, [91, 104, 117]], [2, [11, 92, 173]]] as const) {
+    assert.ok((await drawn(page, plot, colour)) > 100, `plot ${plot} is empty`);
+  }
   const samples = await saved(page, "Samples (CSV)");
   assert.equal(samples.trimEnd().split("\n").length, 497);
   const report = await saved(page, "Report (HTML)");

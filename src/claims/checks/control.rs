@@ -119,26 +119,35 @@ claim! {
     {
         domain: &[RELAY_ULTIMATE_WHOLE],
         printed: AsPrinted::Absent,
-        corrected: Some(|budget| relay_ultimate(budget, 8.0 / core::f64::consts::PI.powi(2), 0.0, 0.0)),
+        corrected: Some(|budget| relay_ultimate(budget, SHARE, 0.0, 0.0, SLOWEST)),
         // The describing function taken for exact.
-        falsified: |budget| relay_ultimate(budget, 1.0, 0.0, 0.0),
+        falsified: |budget| relay_ultimate(budget, 1.0, 0.0, 0.0, SLOWEST),
         proof: Some(prove_relay_ultimate),
         hypotheses: &[
             Hypothesis {
                 id: "no-hysteresis",
-                counterexample: Some(|budget| relay_ultimate(budget, 8.0 / core::f64::consts::PI.powi(2), 0.1, 0.0)),
+                counterexample: Some(|budget| relay_ultimate(budget, SHARE, 0.1, 0.0, SLOWEST)),
             },
             Hypothesis {
                 id: "no-lag",
-                counterexample: Some(|budget| relay_ultimate(budget, 8.0 / core::f64::consts::PI.powi(2), 0.0, 0.1)),
+                counterexample: Some(|budget| relay_ultimate(budget, SHARE, 0.0, 0.1, SLOWEST)),
+            },
+            Hypothesis {
+                id: "below-for-a-dead-time",
+                counterexample: Some(|budget| relay_ultimate(budget, SHARE, 0.0, 0.0, [0.7, 0.9])),
             },
         ],
         depends: &[],
     }
 }
 
-/// The exact oscillation of `gain exp(-s delay)/(s (lag s + 1))` against its critical point.
-fn relay_ultimate(budget: Budget, share: f64, hysteresis: f64, lag: f64) -> Verdict {
+/// The gain that the describing function gives, over the ultimate gain.
+const SHARE: f64 = 8.0 / (core::f64::consts::PI * core::f64::consts::PI);
+/// Periods in dead times among which that of the slowest oscillation is.
+const SLOWEST: [f64; 2] = [2.0, 10.0];
+
+/// The exact oscillation of `gain exp(-s delay)/(s (lag s + 1))`, the slowest of these periods, against its critical point.
+fn relay_ultimate(budget: Budget, share: f64, hysteresis: f64, lag: f64, [least, most]: [f64; 2]) -> Verdict {
     sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
         let (gain, delay_s) = (draw.log_uniform("gain", 1e-2, 1e2), draw.log_uniform("delay_s", 1e-1, 1e1));
         let (level, lag_s) = (draw.log_uniform("level", 1e-2, 1e2), draw.note("lag_s", lag * delay_s));
@@ -149,7 +158,7 @@ fn relay_ultimate(budget: Budget, share: f64, hysteresis: f64, lag: f64) -> Verd
             let truth = critical_point(&process, 0.1 / delay_s..=10.0 / delay_s).ok()?;
             let relay = RelayHysteresis::new(level, half_width, 0.0).ok()?;
             let relay_loop = RelayLoop::new(StateSpace::realise(&process).ok()?, relay);
-            let orbits = relay_loop.symmetric_orbits(2.0 * delay_s..=10.0 * delay_s).ok()?;
+            let orbits = relay_loop.symmetric_orbits(least * delay_s..=most * delay_s).ok()?;
             let orbit = orbits.last()?;
             let (amplitude, period_s) = (orbit.amplitude(), orbit.period_s());
             let test = RelayTest { level, half_width, amplitude, bias: 0.0, period_s };

@@ -1,8 +1,7 @@
 //! What the first-harmonic method makes of the exact symmetric orbits, enclosed over ranges of the one number `g`.
 
 use crate::identify::iso::{Oscillation, Parameters};
-use crate::numeric::{Interval, Real};
-use crate::orbit::quadratic_period;
+use crate::numeric::{Expression, Interval, Real};
 
 /// A drag law, with the coordinate that unrolls its orbits: `z` of `g = z - tanh z` for linear drag, `t` of
 /// `g = ln(cosh t)/2` for quadratic drag (`tanh t = y*`).
@@ -16,11 +15,11 @@ pub enum SymmetricOrbit {
 
 /// Relative errors of the method.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MethodError {
+pub struct MethodError<T = Interval> {
     /// Of the inertia alpha.
-    pub alpha: Interval,
+    pub alpha: T,
     /// Of the drag coefficient, linear or quadratic as the law is.
-    pub drag: Interval,
+    pub drag: T,
 }
 
 /// Below this coordinate the orbit is bracketed by its first terms.
@@ -32,14 +31,14 @@ const HALVINGS: u32 = 24;
 
 /// An orbit in units that keep it of order one as `g` goes to zero: lengths in `X_m`, times in the coordinate (linear drag)
 /// or its square root (quadratic drag).
-struct Shape {
+struct Shape<T> {
     /// `X_m` over the square of the unit of time: the true alpha in these units.
-    alpha: Interval,
-    period: Interval,
+    alpha: T,
+    period: T,
     /// `x_a/X_m`.
-    share: Interval,
+    share: T,
     /// The same over the coordinate.
-    share_rate: Interval,
+    share_rate: T,
 }
 
 impl SymmetricOrbit {
@@ -48,7 +47,7 @@ impl SymmetricOrbit {
     pub fn group(self, coordinate: Interval) -> Interval {
         match self {
             Self::Linear => increasing(coordinate, |z| z - z.tanh()),
-            Self::Quadratic => increasing(coordinate, |t| t.cosh().ln() / Interval::two()),
+            Self::Quadratic => increasing(coordinate, |t| log_cosh(t) / Interval::two()),
         }
     }
 
@@ -59,14 +58,28 @@ impl SymmetricOrbit {
             Self::Linear => linear_shape(coordinate),
             Self::Quadratic => quadratic_shape(coordinate),
         };
-        let alpha = shape.identify(shape.share)?.alpha / shape.alpha;
-        // The drag found is proportional to the half-width, and the true one to the coordinate.
-        let found = shape.identify(shape.share_rate)?;
-        let drag = match self {
-            Self::Linear => found.beta / shape.alpha,
-            Self::Quadratic => found.beta_quadratic / shape.alpha.square(),
+        shape.error(self, read)
+    }
+
+    /// The errors as formulas of the coordinate, to print. At zero they are 0/0; [`error`](Self::error) takes the limit there.
+    pub(crate) fn formula(self, coordinate: Expression) -> Option<MethodError<Expression>> {
+        let shape = match self {
+            Self::Linear => linear_orbit(coordinate),
+            Self::Quadratic => quadratic_orbit(coordinate),
         };
-        Some(MethodError { alpha: alpha - Interval::ONE, drag: drag - Interval::ONE })
+        // The method asks whether the half-width is below the amplitude: of symbols that lie so, then of what stands for them.
+        let symbol = |name, upper| Some(Expression::symbol(name, name, Interval::new(f64::MIN_POSITIVE, upper)?));
+        let found = read(symbol("half_width", 0.5)?, symbol("period", 10.0)?)?;
+        shape.error(self, |half_width, period| {
+            let stands = |name: &str| match name {
+                "half_width" => Some(half_width),
+                "period" => Some(period),
+                _ => None,
+            };
+            let [alpha, beta, beta_quadratic, disturbance] =
+                [found.alpha, found.beta, found.beta_quadratic, found.disturbance].map(|part| part.value(&stands));
+            Some(Parameters { alpha: alpha?, beta: beta?, beta_quadratic: beta_quadratic?, disturbance: disturbance? })
+        })
     }
 
     /// The errors over a range of `g`, at most 700: all that occur, and at most 0.5 % more; `None` where it is empty, negative
@@ -113,18 +126,25 @@ impl SymmetricOrbit {
     }
 }
 
-impl Shape {
-    fn identify(&self, half_width: Interval) -> Option<Parameters<Interval>> {
-        let read = Oscillation {
-            relay_level: Interval::ONE,
-            switch_level: half_width,
-            amplitude: Interval::ONE,
-            bias: Interval::ZERO,
-            period_s: self.period,
-            delay_s: Interval::ZERO,
+impl<T: Real> Shape<T> {
+    /// The errors of what the method reads off the half-width and the period.
+    fn error(&self, law: SymmetricOrbit, read: impl Fn(T, T) -> Option<Parameters<T>>) -> Option<MethodError<T>> {
+        let alpha = read(self.share, self.period)?.alpha / self.alpha;
+        // The drag found is proportional to the half-width, and the true one to the coordinate.
+        let found = read(self.share_rate, self.period)?;
+        let drag = match law {
+            SymmetricOrbit::Linear => found.beta / self.alpha,
+            SymmetricOrbit::Quadratic => found.beta_quadratic / self.alpha.square(),
         };
-        read.identify().ok()
+        Some(MethodError { alpha: alpha - T::one(), drag: drag - T::one() })
     }
+}
+
+/// The method on an unbiased oscillation without delay, by half-width and period; the amplitude and the level are one.
+fn read<T: Real>(half_width: T, period_s: T) -> Option<Parameters<T>> {
+    let (one, zero) = (T::one(), T::zero());
+    let (relay_level, switch_level) = (one, half_width);
+    Oscillation { relay_level, switch_level, amplitude: one, bias: zero, period_s, delay_s: zero }.identify().ok()
 }
 
 /// Values of an increasing function, from its endpoints.
@@ -138,23 +158,43 @@ fn tanh_ratio(at: Interval) -> Interval {
     (Interval::ONE - tangent.square()).hull(Interval::ONE)
 }
 
-/// `X_m = z - ln(1 + tanh z)`, the integral of tanh, `T = 4 z`, `x_a = z - tanh z`, the integral of its square. Their ratio
-/// grows with z (`orbit-amplitude-monotone-linear`).
-fn linear_shape(z: Interval) -> Shape {
+/// `ln(cosh t)`, the integral of tanh.
+fn log_cosh<T: Real>(t: T) -> T {
+    t - t.tanh().ln_1p()
+}
+
+/// `X_m = ln(cosh z)`, `T = 4 z`, `x_a = z - tanh z`, the integral of tanh squared.
+fn linear_orbit<T: Real>(z: T) -> Shape<T> {
+    let share = (z - z.tanh()) / log_cosh(z);
+    Shape { alpha: log_cosh(z) / z.square(), period: T::from_f64(4.0), share, share_rate: share / z }
+}
+
+/// `X_m = t/2`, `x_a = ln(cosh t)/2`, `T = 2 (atan s + atanh s)` with `s^2 = tanh t`.
+fn quadratic_orbit<T: Real>(t: T) -> Shape<T> {
+    let share = log_cosh(t) / t;
+    Shape { alpha: T::from_f64(0.5), period: T::two() * turn(t) / t.sqrt(), share, share_rate: share / t }
+}
+
+/// `atan s + atanh s`; `atanh s = ln(1 + s) + (t + ln(cosh t))/2`, since `1 - tanh t = exp(-t)/cosh t`.
+fn turn<T: Real>(t: T) -> T {
+    let s = t.tanh().sqrt();
+    s.atan() + s.ln_1p() + (t + log_cosh(t)) / T::two()
+}
+
+/// [`linear_orbit`] over a range; `x_a/X_m` grows with z (`orbit-amplitude-monotone-linear`).
+fn linear_shape(z: Interval) -> Shape<Interval> {
     let period = Interval::point(4.0);
     if z.upper() <= SMALL {
         let alpha = tanh_ratio(z) / Interval::two();
         let share_rate = tanh_ratio(z).square() / (Interval::point(3.0) * alpha);
         return Shape { alpha, period, share: z * share_rate, share_rate };
     }
-    let amplitude = |z: Interval| z - z.tanh().ln_1p();
-    let share = increasing(z, |z| SymmetricOrbit::Linear.group(z) / amplitude(z));
-    Shape { alpha: increasing(z, amplitude) / z.square(), period, share, share_rate: share / z }
+    let share = increasing(z, |z| linear_orbit(z).share);
+    Shape { alpha: increasing(z, log_cosh) / z.square(), period, share, share_rate: share / z }
 }
 
-/// `X_m = t/2`, `x_a = ln(cosh t)/2`, the period by its formula. The ratio of the first two grows with t
-/// (`orbit-amplitude-monotone-quadratic`).
-fn quadratic_shape(t: Interval) -> Shape {
+/// [`quadratic_orbit`] over a range; `x_a/X_m` grows with t (`orbit-amplitude-monotone-quadratic`).
+fn quadratic_shape(t: Interval) -> Shape<Interval> {
     let (two, alpha) = (Interval::two(), Interval::point(0.5));
     if t.upper() <= SMALL {
         // atan s + atanh s = 2 s (1 + s^4/5 + s^8/9 + ...) with s^2 = tanh t.
@@ -164,7 +204,6 @@ fn quadratic_shape(t: Interval) -> Shape {
         let share_rate = ratio / two;
         return Shape { alpha, period, share: t * share_rate, share_rate };
     }
-    let share = increasing(t, |t| two * SymmetricOrbit::Quadratic.group(t) / t);
-    let period = two * increasing(t, |t| quadratic_period(SymmetricOrbit::Quadratic.group(t))) / t.sqrt();
-    Shape { alpha, period, share, share_rate: share / t }
+    let share = increasing(t, |t| quadratic_orbit(t).share);
+    Shape { alpha, period: two * increasing(t, turn) / t.sqrt(), share, share_rate: share / t }
 }

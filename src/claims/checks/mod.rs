@@ -20,6 +20,7 @@ pub(super) use single::Single;
 
 pub(super) mod bounded;
 pub(super) mod control;
+pub(super) mod existence;
 pub(super) mod experiment;
 pub(super) mod fourier;
 pub(super) mod identification;

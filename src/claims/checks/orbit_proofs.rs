@@ -7,7 +7,7 @@ use super::{
     claim, sample,
 };
 use crate::nonlinearity::RelayHysteresis;
-use crate::numeric::{Interval, Real};
+use crate::numeric::{Expression, Interval, Real};
 use crate::orbit::theorem::{self, BUDGET, Theorem};
 use crate::orbit::{limit_cycle, return_slope};
 use crate::plant::DragAxis;
@@ -220,10 +220,16 @@ macro_rules! within {
             id: $id,
             statement: concat!("the relative error is within ", stringify!($radius), " of ", stringify!($centre)),
             variables: [Extent::new("coordinate", $from, $to), Extent::NONE, Extent::NONE],
-            margin: Margin::Enclosed(|at: &Cell| match SymmetricOrbit::$law.error(at[0]) {
-                Some(error) => Interval::point($radius) - (error.$part - Interval::point($centre)).abs(),
-                None => Interval::ENTIRE,
-            }),
+            margin: Margin::Curve {
+                over: |at: &Cell| match SymmetricOrbit::$law.error(at[0]) {
+                    Some(error) => Interval::point($radius) - (error.$part - Interval::point($centre)).abs(),
+                    None => Interval::ENTIRE,
+                },
+                expression: |[coordinate, ..]| {
+                    let off = SymmetricOrbit::$law.formula(coordinate)?.$part - Expression::from_f64($centre);
+                    Some(Expression::from_f64($radius) - off.abs())
+                },
+            },
         }
     };
 }

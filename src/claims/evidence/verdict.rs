@@ -14,6 +14,8 @@ pub enum Verdict {
     Holds(Evidence),
     /// It does not, and here is the case.
     Refuted(Witness),
+    /// It is said to hold approximately; as an equation it does not, and here is a case.
+    Approximate(Witness),
     /// The budget ran out first, or a proof did not succeed.
     Undecided {
         /// What was tried.
@@ -89,6 +91,8 @@ pub enum Word {
     Sampled,
     /// False, with a witness.
     Refuted,
+    /// An approximation under a hypothesis that the source states; as an equation it is false, with a witness.
+    Approximate,
     /// Neither.
     Undecided,
     /// There is no such statement.
@@ -97,12 +101,13 @@ pub enum Word {
 
 impl Word {
     /// Every word.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Proved,
         Self::ProvedInPart,
         Self::Exhausted,
         Self::Sampled,
         Self::Refuted,
+        Self::Approximate,
         Self::Undecided,
         Self::NotApplicable,
     ];
@@ -116,6 +121,7 @@ impl Word {
             Self::Exhausted => "exhausted",
             Self::Sampled => "sampled",
             Self::Refuted => "refuted",
+            Self::Approximate => "approximate",
             Self::Undecided => "undecided",
             Self::NotApplicable => "not-applicable",
         }
@@ -139,6 +145,7 @@ impl Verdict {
         let evidence = match self {
             Self::Holds(evidence) => evidence,
             Self::Refuted(_) => return Word::Refuted,
+            Self::Approximate(_) => return Word::Approximate,
             Self::Undecided { .. } => return Word::Undecided,
         };
         let all = claimed.parts.len();
@@ -164,6 +171,14 @@ impl Verdict {
     #[must_use]
     pub fn is_refuted(&self) -> bool {
         matches!(self, Self::Refuted(_))
+    }
+
+    /// Of an approximation: the case that refutes the equation shows by how much it is off.
+    pub(crate) fn approximated(self) -> Self {
+        match self {
+            Self::Refuted(witness) => Self::Approximate(witness),
+            other => other,
+        }
     }
 
     /// Sampled and proved: refuted by either, undecided unless both hold. The margin is then that of the proof where it has one.

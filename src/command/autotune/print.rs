@@ -9,7 +9,15 @@ use super::{Autotuned, CommandError};
 use crate::numeric::significant;
 
 impl Autotuned {
-    pub(super) fn json(&self, name: &str) -> Value {
+    /// The gains to type in a form; `None` without gains.
+    fn lines(&self, form: Form) -> Option<Result<String, &'static str>> {
+        let input = self.log.record.input();
+        let largest = input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let least = input.iter().copied().fold(f64::INFINITY, f64::min);
+        self.proved.map(|proved| form.lines(&proved.gains, self.sign(), largest - least, self.interval_s))
+    }
+
+    pub(super) fn json(&self, name: &str, form: Form) -> Value {
         let sign = self.sign();
         let estimate = |one: &crate::autotune::Ranged| json!(one);
         let models: Vec<Value> = self
@@ -65,6 +73,8 @@ impl Autotuned {
             "dead_time_s": self.ranged(|model| model.parameters.get(1).copied()),
             "ultimate": ultimate,
             "gains": gains,
+            // In the form asked for, which may have no such gains.
+            "lines": self.lines(form).and_then(Result::ok),
             "sensitivity": { "limit": self.limit, "proved_upper": self.proved.map(|proved| proved.sensitivity) },
             "rules": rules,
             "record": {
@@ -80,22 +90,17 @@ impl Autotuned {
     }
 
     pub(super) fn print(&self, form: Form, output: &mut impl Write) -> Result<(), CommandError> {
-        let input = self.log.record.input();
-        let range =
-            input.iter().fold(f64::NEG_INFINITY, |a, b| a.max(*b)) - input.iter().fold(f64::INFINITY, |a, b| a.min(*b));
-        match &self.proved {
-            Some(proved) => {
-                match form.lines(&proved.gains, self.sign(), range, self.interval_s) {
-                    Ok(lines) => writeln!(output, "{lines}")?,
-                    Err(reason) => return Err(CommandError::Usage { reason: format!("--form: {reason}") }),
-                }
-                writeln!(
-                    output,
-                    "\nproved: the sensitivity of every process that the record leaves is at most {}",
-                    significant(proved.sensitivity, 4)
-                )?;
-            }
+        match self.lines(form) {
+            Some(Ok(lines)) => writeln!(output, "{lines}")?,
+            Some(Err(reason)) => return Err(CommandError::Usage { reason: format!("--form: {reason}") }),
             None => writeln!(output, "no gains")?,
+        }
+        if let Some(proved) = &self.proved {
+            writeln!(
+                output,
+                "\nproved: the sensitivity of every process in the intervals is at most {}",
+                significant(proved.sensitivity, 4)
+            )?;
         }
         writeln!(output, "trust: {}", self.trust())?;
         for (code, text) in self.reasons() {

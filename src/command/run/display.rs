@@ -3,7 +3,7 @@
 use std::io::{Write, stderr};
 use std::time::{Duration, Instant};
 
-use crate::features::{Cycle, Cycles, Summary};
+use crate::features::{Cycle, Cycles, Features, Summary};
 use crate::identify::exact::MeanCycle;
 use crate::numeric::significant;
 use crate::on_board::{Coordinate, Experiment, Phase, Protocol};
@@ -18,10 +18,13 @@ pub(super) struct Display {
     terminal: bool,
     drawn: Option<Instant>,
     started_s: Option<f64>,
+    elapsed_s: f64,
     attempt: u8,
     finder: Cycles<f64>,
     summary: Summary<f64>,
     last: Option<Cycle<f64>>,
+    /// Of the steady cycles, once the experiment is done.
+    found: Option<Features<f64>>,
 }
 
 impl Display {
@@ -31,10 +34,12 @@ impl Display {
             terminal,
             drawn: None,
             started_s: None,
+            elapsed_s: 0.0,
             attempt: 1,
             finder: Cycles::new(protocol.neutral_command),
             summary: Summary::new(),
             last: None,
+            found: None,
         }
     }
 
@@ -44,7 +49,7 @@ impl Display {
             *self = Self { started_s: self.started_s, drawn: self.drawn, ..Self::new(&self.protocol, self.terminal) };
             self.attempt = experiment.attempt();
         }
-        let elapsed_s = time_s - *self.started_s.get_or_insert(time_s);
+        self.elapsed_s = time_s - *self.started_s.get_or_insert(time_s);
         let ended = self.finder.step(time_s, position, command);
         if let Some(cycle) = ended {
             self.summary.push(cycle);
@@ -52,22 +57,26 @@ impl Display {
         }
         if self.terminal {
             if self.drawn.is_none_or(|drawn| drawn.elapsed() >= PAUSE) {
-                self.draw(experiment.phase(), [elapsed_s, position, command]);
+                self.draw(experiment.phase(), [position, command]);
             }
         } else if let Some(cycle) = ended {
             let about = cycle_text(&cycle);
-            let _ = writeln!(stderr(), "{} s  cycle ended: {about}; {}", significant(elapsed_s, 4), self.estimate());
+            let _ =
+                writeln!(stderr(), "{} s  cycle ended: {about}; {}", significant(self.elapsed_s, 4), self.estimate());
         }
     }
 
-    /// The last picture, and how it ended.
+    /// The last picture, with the steady cycles' estimate.
     pub(super) fn end(&mut self, experiment: &Experiment<f64>) {
+        self.found = experiment.outcome().map(|outcome| outcome.features);
         if let (true, Some(position)) = (self.terminal, experiment.position()) {
-            self.draw(experiment.phase(), [f64::NAN, position, experiment.command()]);
+            self.draw(experiment.phase(), [position, experiment.command()]);
+        } else if self.found.is_some() {
+            let _ = writeln!(stderr(), "{} s  done: {}", significant(self.elapsed_s, 4), self.estimate());
         }
     }
 
-    fn draw(&mut self, phase: Phase, [elapsed_s, position, command]: [f64; 3]) {
+    fn draw(&mut self, phase: Phase, [position, command]: [f64; 2]) {
         let protocol = &self.protocol;
         let unit = match protocol.coordinate {
             Coordinate::HeadingRad => "rad",
@@ -77,10 +86,9 @@ impl Display {
         let span = |middle: f64, half: f64, value: f64| bar((value - middle) / half);
         let room = (protocol.highest_command - protocol.neutral_command)
             .max(protocol.neutral_command - protocol.lowest_command);
-        let time = if elapsed_s.is_nan() { String::new() } else { format!("{} s of ", significant(elapsed_s, 4)) };
         let rows = [
-            format!("selfosc run: {}, attempt {} of {}", super::word(phase), self.attempt, protocol.attempts),
-            format!("time        {time}{} s", significant(protocol.duration_s, 4)),
+            format!("selfosc run: {}, attempt {} of {}", phase, self.attempt, protocol.attempts),
+            format!("time        {} s of {} s", significant(self.elapsed_s, 4), significant(protocol.duration_s, 4)),
             format!(
                 "coordinate  {:>10} {unit:3} {}",
                 significant(position, 4),
@@ -108,7 +116,9 @@ impl Display {
 
     /// The axis whose exact limit cycle has the means so far, without delay: a first impression, no result.
     fn estimate(&self) -> String {
-        let Ok(features) = self.summary.features() else { return "after two cycles that agree".to_owned() };
+        let Some(features) = self.found.or_else(|| self.summary.features().ok()) else {
+            return "after two cycles that agree".to_owned();
+        };
         let level = self.protocol.relay_level;
         match MeanCycle::of(&features, level, self.protocol.interval_s / 2.0).linear_drag() {
             Ok(axis) => {

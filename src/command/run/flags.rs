@@ -75,9 +75,6 @@ pub(super) struct ProtocolArguments {
     factor: Option<f64>,
 }
 
-/// Half-widths that a coordinate which is no heading may leave the reference by.
-const EXCURSION: f64 = 5.0;
-
 fn coordinate(text: &str) -> Result<Coordinate, String> {
     match text {
         "position" => Ok(Coordinate::Position),
@@ -122,12 +119,11 @@ impl ProtocolArguments {
     }
 
     pub(super) fn protocol(&self) -> Protocol<f64> {
-        let excursion = self.excursion.unwrap_or(match self.coordinate {
-            Coordinate::HeadingRad => core::f64::consts::FRAC_PI_2,
-            Coordinate::HeadingDegrees => 90.0,
-            Coordinate::Position | Coordinate::Speed => EXCURSION * self.half_width,
-        });
-        let usual = Protocol::new(self.coordinate, self.relay, self.half_width, excursion, self.interval);
+        let (coordinate, relay, half_width, interval_s) = (self.coordinate, self.relay, self.half_width, self.interval);
+        let usual = match self.excursion {
+            Some(excursion) => Protocol::new(coordinate, relay, half_width, excursion, interval_s),
+            None => Protocol::usual(coordinate, relay, half_width, interval_s),
+        };
         Protocol {
             reference: self.reference,
             neutral_command: self.neutral,

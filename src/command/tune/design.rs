@@ -66,13 +66,25 @@ pub(super) struct Tuned {
 }
 
 impl Tuned {
+    /// # Errors
+    /// Where some axis of the intervals is not stabilised, with the nearest bandwidth at which all are.
     pub(super) fn new(model: &Model, wanted: &DesignWanted) -> Result<Self, ControlError> {
+        let Target::BandwidthRadS(asked_rad_s) = wanted.target else {
+            return Self::at(model, wanted, largest_bandwidth(model, wanted)?);
+        };
+        Self::at(model, wanted, asked_rad_s).map_err(|error| match error {
+            ControlError::NotStabilised { alpha, drag, delay_s, .. }
+            | ControlError::Unstable { alpha, drag, delay_s, .. } => {
+                let stabilised_rad_s = stabilised(model, wanted, asked_rad_s);
+                ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s }
+            }
+            other => other,
+        })
+    }
+
+    fn at(model: &Model, wanted: &DesignWanted, bandwidth_rad_s: f64) -> Result<Self, ControlError> {
         let values = model.values();
         let axis = values.design_axis()?;
-        let bandwidth_rad_s = match wanted.target {
-            Target::BandwidthRadS(bandwidth) => bandwidth,
-            limit => largest_bandwidth(model, wanted, limit)?,
-        };
         let tuning = Tuning::new(&axis, wanted.structure, bandwidth_rad_s)?;
         let calm = AxisModel { delta: 0.0, ..values };
         let response = response(&calm, &tuning, wanted)?;
@@ -163,32 +175,56 @@ fn worst(
     Ok(Worst { at_least, met, boxes: None, proved })
 }
 
+/// Every process that the step of these gains shows.
+fn processes(model: &Model, wanted: &DesignWanted, tuning: &Tuning<f64>) -> Result<ProcessIntervals, ControlError> {
+    let top_speed = match wanted.top_speed {
+        Some(top_speed) => top_speed,
+        None => response(&AxisModel { delta: 0.0, ..model.values() }, tuning, wanted)?.top_speed(),
+    };
+    ProcessIntervals::new(model.ranges().processes(top_speed))
+}
+
+/// Bandwidths from the largest to the least for which there are gains, evenly on a logarithmic scale.
+fn grid((least, most): (f64, f64)) -> impl Fn(u32) -> f64 {
+    move |k| most * (least / most).powf(f64::from(k) / f64::from(GRID))
+}
+
+/// The bandwidth nearest to the one asked for whose gains are proved to stabilise every axis of the intervals, to two digits.
+fn stabilised(model: &Model, wanted: &DesignWanted, asked_rad_s: f64) -> Option<f64> {
+    let axis = model.values().design_axis().ok()?;
+    let at = grid(bandwidths(&axis, wanted.structure).ok()?);
+    let mut candidates: Vec<f64> = (0..=GRID).filter_map(|k| format!("{:.1e}", at(k)).parse().ok()).collect();
+    let far = |bandwidth: &f64| (bandwidth / asked_rad_s).ln().abs();
+    candidates.sort_by(|a, b| far(a).total_cmp(&far(b)));
+    candidates.into_iter().find(|bandwidth| {
+        let Ok(tuning) = Tuning::new(&axis, wanted.structure, *bandwidth) else { return false };
+        let Ok(processes) = processes(model, wanted, &tuning) else { return false };
+        processes.points_stable(tuning.gains())
+            && processes.all_stable(tuning.gains())
+            && Tuned::at(model, wanted, *bandwidth).is_ok()
+    })
+}
+
 /// The largest bandwidth at which the limit is proved for every axis of the intervals.
-fn largest_bandwidth(model: &Model, wanted: &DesignWanted, limit: Target) -> Result<f64, ControlError> {
+fn largest_bandwidth(model: &Model, wanted: &DesignWanted) -> Result<f64, ControlError> {
     let axis = model.values().design_axis()?;
     let (least, most) = bandwidths(&axis, wanted.structure)?;
-    let criterion = match limit {
+    let criterion = match wanted.target {
         Target::Sensitivity(most) => RobustCriterion::Sensitivity(most),
         Target::PhaseRad(least) => RobustCriterion::PhaseRad(least),
         Target::BandwidthRadS(bandwidth) => return Ok(bandwidth),
     };
-    let calm = AxisModel { delta: 0.0, ..model.values() };
-    let processes = |tuning: &Tuning<f64>| {
-        let top_speed = match wanted.top_speed {
-            Some(top_speed) => top_speed,
-            None => response(&calm, tuning, wanted)?.top_speed(),
-        };
-        ProcessIntervals::new(model.ranges().processes(top_speed))
-    };
     let keeps = |bandwidth: f64| {
         let Ok(tuning) = Tuning::new(&axis, wanted.structure, bandwidth) else { return false };
-        processes(&tuning).is_ok_and(|processes| processes.meets(tuning.gains(), criterion))
+        processes(model, wanted, &tuning).is_ok_and(|processes| {
+            processes.meets(tuning.gains(), criterion) && processes.points_stable(tuning.gains())
+        })
     };
     // Slow gains can be worse than fast ones, where drag is uncertain: no bisection from the ends.
-    let grid = |k: u32| most * (least / most).powf(f64::from(k) / f64::from(GRID));
+    let at = grid((least, most));
     let out_of_reach = ControlError::OutOfReach { least_rad_s: least, most_rad_s: most };
-    let Some(first) = (0..=GRID).find(|k| keeps(grid(*k))) else { return Err(out_of_reach) };
-    let (mut low, mut high) = (grid(first), grid(first.saturating_sub(1)));
+    let Some(first) = (0..=GRID).find(|k| keeps(at(*k))) else { return Err(out_of_reach) };
+    let (mut low, mut high) = (at(first), at(first.saturating_sub(1)));
     for _ in 0..HALVINGS {
         let middle = (low * high).sqrt();
         if keeps(middle) { low = middle } else { high = middle }
@@ -197,7 +233,7 @@ fn largest_bandwidth(model: &Model, wanted: &DesignWanted, limit: Target) -> Res
         .map(|back| low * 0.98_f64.powi(back))
         .find(|bandwidth| {
             let Ok(tuning) = Tuning::new(&axis, wanted.structure, *bandwidth) else { return false };
-            processes(&tuning).is_ok_and(|processes| processes.all_have(tuning.gains(), criterion))
+            processes(model, wanted, &tuning).is_ok_and(|processes| processes.all_have(tuning.gains(), criterion))
         })
         .ok_or(out_of_reach)
 }

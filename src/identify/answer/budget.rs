@@ -122,7 +122,12 @@ pub struct Assumptions {
 /// The sources of the sizes are in spec/conventions.md.
 impl Default for Assumptions {
     fn default() -> Self {
-        Self { sensor_gain_percent: 0.5, clock_percent: 0.25, heading_error_deg: 1.0 / 3.0, thrust_dynamics_percent: 1.0 }
+        Self {
+            sensor_gain_percent: 0.5,
+            clock_percent: 0.25,
+            heading_error_deg: 1.0 / 3.0,
+            thrust_dynamics_percent: 1.0,
+        }
     }
 }
 
@@ -163,7 +168,8 @@ impl Assumptions {
     pub(crate) fn check(&self) -> Result<(), OutOfDomain> {
         ErrorSource::ALL.into_iter().try_for_each(|source| {
             let remedy = "give 0 for a source that does not act";
-            require("size of a source of error", self.size(source), source.unit(), Limit::NonNegative, remedy).map(|_| ())
+            require("size of a source of error", self.size(source), source.unit(), Limit::NonNegative, remedy)
+                .map(|_| ())
         })
     }
 }
@@ -248,14 +254,20 @@ impl Reported {
             whole: if speed > 0.0 { force / speed.powi(power) } else { 0.0 },
             ..exact(f64::from(power), f64::from(power))
         };
-        let practical = |estimate: Estimate, moved: Moved| estimate.with_declared(moved.declared(estimate.value, assumed));
+        let practical =
+            |estimate: Estimate, moved: Moved| estimate.with_declared(moved.declared(estimate.value, assumed));
         let optional = |estimate: Option<Estimate>, output: f64, time: f64| {
             estimate.map(|estimate| practical(estimate, exact(output, time)))
         };
         let time = |estimate: Option<Estimate>| optional(estimate, 0.0, 1.0).map(Estimate::not_below_zero);
-        let deltas: Disturbances = self.deltas.iter().zip(scales).map(|(delta, scale)| {
-            practical(*delta, Moved { trial: |shares| shares.delta, whole: scale.level, ..exact(0.0, 0.0) })
-        }).collect();
+        let deltas: Disturbances = self
+            .deltas
+            .iter()
+            .zip(scales)
+            .map(|(delta, scale)| {
+                practical(*delta, Moved { trial: |shares| shares.delta, whole: scale.level, ..exact(0.0, 0.0) })
+            })
+            .collect();
         let delay = Moved { trial: |shares| shares.delay, whole: half_period_s, ..exact(0.0, 1.0) };
         Self {
             alpha: practical(self.alpha, alpha),

@@ -91,7 +91,7 @@ pub enum IdentifyError {
     /// The parameters tried are not those of a plant.
     #[error(transparent)]
     Plant(#[from] PlantError),
-    /// Condition 40 is not met, or the relay or the input is not one.
+    /// Condition 40 fails, or the relay or the input is outside its domain.
     #[error(transparent)]
     Describing(#[from] DescribingError),
 }

@@ -2,7 +2,7 @@
 
 use super::distribution::NORMAL_95;
 
-/// A value with what is known of its error.
+/// A value with its standard deviation and interval, if any.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(into = "EstimateFields", try_from = "EstimateFields")]
 pub struct Estimate {

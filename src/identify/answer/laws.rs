@@ -1,7 +1,7 @@
 //! What records say of the drag law: linear and quadratic drag alone against their sum, by the likelihood ratio.
 //!
-//! The sum contains either law, so that no record speaks against it, and a small difference is no evidence for the simpler one:
-//! only a law that is refuted is out.
+//! Mixed drag contains both simple laws, so no record refutes it in their favour, and a small difference is no evidence for a simple law:
+//! only a refuted law is excluded.
 
 use serde::{Deserialize, Serialize};
 
@@ -34,7 +34,7 @@ pub enum DragVerdict {
     Law(DragLaw),
 }
 
-/// A law that a vehicle with it would be refuted by chance in one of so many records is refuted.
+/// Significance level: a law is refuted at a probability below this.
 const REFUTED: f64 = 0.01;
 
 impl LawEvidence {
@@ -53,7 +53,7 @@ impl LawEvidence {
         }
     }
 
-    /// Probability that a vehicle with a simple law would give records that are so much likelier under mixed drag (Wilks 1938);
+    /// Probability, under a simple law, of a likelihood ratio at least as large in favour of mixed drag (Wilks 1938);
     /// `None` for a law without a fit.
     #[must_use]
     pub fn by_chance(&self, law: DragLaw) -> Option<f64> {

@@ -23,10 +23,10 @@ mod trust;
 #[cfg(feature = "std")]
 mod warning;
 
-pub use drag_law::DragLaw;
-pub use error::IdentifyError;
 #[cfg(feature = "std")]
 pub(crate) use budget::MotionScale;
+pub use drag_law::DragLaw;
+pub use error::IdentifyError;
 pub(crate) use error::READ_AGAIN;
 #[cfg(feature = "std")]
 pub use {

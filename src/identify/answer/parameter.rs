@@ -1,4 +1,4 @@
-//! The parameters of a drag axis, and what is known of its delay.
+//! The parameters of a drag axis, and its delay, given or to be estimated.
 
 /// A parameter that all experiments share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]

@@ -14,7 +14,7 @@ pub enum Term {
     Stiffness,
     /// Drag proportional to the cube of the speed.
     CubicDrag,
-    /// Drag larger to one side than to the other.
+    /// Drag that differs by the sign of the velocity.
     SkewDrag,
     /// Coulomb friction.
     Coulomb,
@@ -22,7 +22,7 @@ pub enum Term {
     FluidMemory,
     /// First-order filter of the sensor.
     SensorFilter,
-    /// A delay other than the one given.
+    /// A delay that differs from the given delay.
     Delay,
     /// A force that walks at random.
     ProcessForce,

@@ -45,7 +45,7 @@ pub enum Reason {
     },
     /// The two halves of the record want parameters that differ by more than chance allows; the interval of the inertia holds both.
     HalvesDisagree {
-        /// Probability of so much by chance.
+        /// Probability of a statistic at least as large by chance.
         probability: f64,
     },
     /// Readings far from all others were left out.

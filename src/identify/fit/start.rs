@@ -14,16 +14,16 @@ pub(crate) struct ModulatedStart {
     pub(crate) quadratic: f64,
     pub(crate) disturbance: f64,
     pub(crate) delay_s: f64,
-    /// Root mean square of what the equations leave, in units of the command.
+    /// Root mean square of the equations' residuals, in units of the command.
     pub(crate) misfit: f64,
 }
 
 /// Longest delay tried, in half-periods.
 const LONGEST_DELAY: f64 = 0.6;
-/// Delays tried, in half-periods: inertia and delay turn the phase alike, so that one equation's misfit does not choose between them.
+/// Delays tried, in half-periods: inertia and delay turn the phase alike, so a single equation's misfit does not determine both.
 const DELAYS: [&[f64]; 4] = [&[0.0, 0.03, 0.06], &[0.1, 0.14, 0.18], &[0.23, 0.28, 0.33], &[0.4, 0.5, LONGEST_DELAY]];
 
-/// The best start of each range of delays, or that of the known delay.
+/// The best start of each range of delays, or the start at the given delay.
 pub(crate) fn starts(signal: &Signal, delay_s: Option<f64>) -> Vec<ModulatedStart> {
     let rows = ModulatedEquations::new(signal, LONGEST_DELAY * signal.half_period_s);
     let best = |delays: &mut dyn Iterator<Item = f64>| {
@@ -60,11 +60,11 @@ pub(crate) fn at_every_delay(signal: &Signal) -> Vec<ModulatedStart> {
     delays.filter_map(|delay_s| rows.solve(signal, delay_s)).collect()
 }
 
-/// A delay where none is known, in half-periods.
+/// Default delay, in half-periods.
 const ROUGH_DELAY: f64 = 0.05;
 /// Distance of successive weights, in half-periods.
 const STRIDE: f64 = 0.3;
-/// The speed under a weight is a difference quotient over twice this part of the half-period: one over so many.
+/// The speed under a weight is a difference quotient over twice the half-period divided by this.
 const SPEED_SPANS: f64 = 8.0;
 /// How many times as well the command's opposite has to fit.
 const CONTRARY: f64 = 3.0;
@@ -140,7 +140,7 @@ impl ModulatedEquations {
 
     fn solve(&self, signal: &Signal, delay_s: f64) -> Option<ModulatedStart> {
         let right = self.command(signal, delay_s);
-        // Laws with one kind of drag stand in where both together come out without sense.
+        // Laws with a single kind of drag replace the mixed law where its solution is outside the domain.
         let laws: [&[usize]; 3] = [&[0, 1, 2, 3], LINEAR, QUADRATIC];
         let solved = laws.iter().filter_map(|columns| {
             let rows = self.begins.len();
@@ -164,7 +164,7 @@ impl ModulatedEquations {
     }
 }
 
-/// Columns of the equations of an axis with one kind of drag.
+/// Columns of the equations of an axis with a single kind of drag.
 const LINEAR: &[usize] = &[0, 1, 3];
 const QUADRATIC: &[usize] = &[0, 2, 3];
 /// Solutions within this factor of their orders of magnitude count, on either side.
@@ -172,7 +172,7 @@ const SENSIBLE_FACTOR: f64 = 50.0;
 /// The part of an order of magnitude that stands in for a solution.
 const STAND_IN: f64 = 0.3;
 
-/// Inertia, the coefficient of one kind of drag, and disturbance at a delay; their orders of magnitude where noise makes equations
+/// Inertia, the coefficient of a single kind of drag, and disturbance at a delay; their orders of magnitude where noise makes equations
 /// without sense. `None` for a record that is too short.
 pub(crate) fn with_one_drag(signal: &Signal, law: DragLaw, delay_s: f64) -> Option<[f64; 3]> {
     let equations = ModulatedEquations::new(signal, delay_s);

@@ -1,4 +1,4 @@
-//! What an identification comes to, as the JSON document of `selfosc identify --json`.
+//! The result of an identification: the JSON document of `selfosc identify --json`.
 
 use std::borrow::Cow;
 
@@ -13,16 +13,16 @@ use crate::features::{CycleStatistics, RecordFeatures};
 use crate::identify::answer::{DragVerdict, Estimate, LawEvidence, Reported};
 use crate::identify::fit::prediction_error::Prediction;
 
-/// The document: everything found but the samples. SI units, angles in radians, full precision; what is missing is null.
+/// The document: all results except the samples. SI units, angles in radians, full precision; null if missing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Conclusion {
     /// All records together.
     pub record: Total,
     /// Features of the only record; null for several.
     pub features: Option<FeatureMeans>,
-    /// The one answer to use; null where the fit was not asked for or refused.
+    /// The answer to use; null where the fit was not asked for or refused.
     pub reported: Option<ReportedModel>,
-    /// What every method found under every law.
+    /// Models of every method under every law.
     pub estimates: Vec<Model>,
     /// The guaranteed bounds; null where they were not asked for.
     pub bounded: Option<BoundedConclusion>,
@@ -30,7 +30,7 @@ pub struct Conclusion {
     pub refused_methods: Vec<MethodRefusal>,
     /// The drag law.
     pub choice: DragChoice,
-    /// What to beware of.
+    /// Cautions.
     pub warnings: Vec<Caution>,
     /// Every record, in the order given.
     pub records: Vec<RecordConclusion>,
@@ -125,7 +125,7 @@ pub struct RecordConclusion {
     pub file: String,
     /// Samples.
     pub samples: usize,
-    /// Rows left out because they could not be used.
+    /// Rows omitted as unusable.
     #[serde(default)]
     pub skipped_rows: usize,
     /// Time from the first to the last, in s.
@@ -134,7 +134,7 @@ pub struct RecordConclusion {
     pub cycles_used: Option<u32>,
     /// Its features; null likewise.
     pub features: Option<FeatureMeans>,
-    /// How well all other records predict it; null for the only one.
+    /// Its prediction from the remaining records; null for a single record.
     pub predicted: Option<Prediction>,
 }
 
@@ -146,11 +146,11 @@ pub struct FeatureMeans {
     pub mean: FeatureValues,
     /// Relay level C, in command units.
     pub relay: f64,
-    /// Standard deviations of one cycle's value.
+    /// Standard deviations of a single cycle's value.
     pub std: FeatureValues,
 }
 
-/// One number for each feature.
+/// A number for each feature.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FeatureValues {
     /// Amplitude X_m, in output units.
@@ -167,10 +167,10 @@ pub struct FeatureValues {
     pub time_negative_s: f64,
 }
 
-/// The drag law and what speaks for it.
+/// The drag law and its evidence.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DragChoice {
-    /// The law given, or what the records say; null where no law was given, or not all were fitted.
+    /// The law given, or the records' verdict; null where no law was given, or not all were fitted.
     pub drag: Option<DragVerdict>,
     /// How surely the laws not chosen are refuted; null where none is, or the law was given.
     pub confidence: Option<f64>,

@@ -19,7 +19,7 @@ use crate::identify::bounded::{
 pub struct Guaranteed {
     /// What was assumed.
     pub model: BoundedModel,
-    /// What the records leave of it.
+    /// Its bounds from the records.
     pub bounds: Bounds,
     /// The proof, or why there is none; `None` where it was not asked for.
     #[serde(skip)]
@@ -35,7 +35,7 @@ impl Guaranteed {
         Some(found.map(|proof| proof as _).map_err(|unproved| unproved as _))
     }
 
-    /// With a proof that says how its logs were read.
+    /// Adds to the proof how its logs were read.
     pub(super) fn read_as(self, read_as: &ReadAs) -> Self {
         let proof = self.certificate.map(|proof| proof.map(|proof| proof.read_as(read_as.clone())));
         Self { certificate: proof, ..self }
@@ -78,9 +78,9 @@ pub struct BoundedConclusion {
     pub verdict: Consistency,
     /// The drag law assumed.
     pub drag: DragLaw,
-    /// Where parameters were looked for: nothing is said about others.
+    /// The search box: no claim is made outside it.
     pub search_box: BTreeMap<String, [f64; 2]>,
-    /// Inertia; this and what follows is null where the model has it not, and where it is refuted.
+    /// Inertia; this and the following fields are null where the model lacks them or is refuted.
     pub alpha: Option<[f64; 2]>,
     /// Linear drag.
     pub beta: Option<[f64; 2]>,
@@ -98,7 +98,7 @@ pub struct BoundedConclusion {
     pub lag_s: Option<[f64; 2]>,
     /// Delay, in s.
     pub delay_s: Option<[f64; 2]>,
-    /// A parameter that meets every reading; null where none is known.
+    /// A parameter vector that satisfies every reading; null if none was found.
     pub witness: Option<BTreeMap<String, f64>>,
     /// Largest error of a reading that was granted, of all records.
     pub error: f64,
@@ -107,9 +107,9 @@ pub struct BoundedConclusion {
     pub error_factor: (f64, Option<f64>),
     /// Readings that contradict each other; empty unless refuted.
     pub contradicting: Vec<Contradicting>,
-    /// Readings that may be in error by any amount: so many were allowed.
+    /// Readings that may be in error by any amount: number allowed.
     pub outliers_allowed: usize,
-    /// Those of them that no parameter sought meets.
+    /// Of these, the readings that no parameter sought satisfies.
     pub outliers: Vec<Outlier>,
 }
 

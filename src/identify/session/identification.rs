@@ -1,4 +1,4 @@
-//! One vehicle identified from its records.
+//! A vehicle identified from its records.
 
 use std::borrow::Cow;
 
@@ -19,7 +19,7 @@ use crate::identify::fit::shooting::RecordFit;
 pub struct Caution {
     /// Short name for scripts.
     pub code: Cow<'static, str>,
-    /// What it means and what to do.
+    /// Meaning and remedy.
     pub text: String,
 }
 
@@ -35,7 +35,7 @@ impl From<Reason> for Caution {
     }
 }
 
-/// A method that gives no model of these records, under one law or at all.
+/// A method that gives no model of these records, under a given law or under any law.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MethodRefusal {
     /// The method: a name of [`Method`](super::Method), or `prediction-error` for the answer to use.
@@ -46,7 +46,7 @@ pub struct MethodRefusal {
     pub text: String,
 }
 
-/// A record with what it shows.
+/// A record with its features.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Source {
     /// Where it comes from.
@@ -70,11 +70,11 @@ impl Source {
 pub struct Validation {
     /// Where it comes from.
     pub file: String,
-    /// The prediction; null where nothing is reported, or the motion left all bounds.
+    /// The prediction; null where nothing is reported, or the motion diverged.
     pub prediction: Option<Prediction>,
 }
 
-/// One vehicle identified from its records: everything that the methods found, with the records themselves.
+/// A vehicle identified from its records: the results of all methods, and the records.
 ///
 /// As JSON it comes back equal, records and residuals included; [`conclusion`](Self::conclusion) is the short document.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -92,7 +92,7 @@ pub struct Identification {
     pub(super) law_given: Option<DragLaw>,
 }
 
-/// The same, not known to belong together.
+/// The same fields, not yet checked for consistency.
 #[derive(Deserialize)]
 struct UncheckedIdentification {
     sources: Vec<Source>,
@@ -146,14 +146,14 @@ impl TryFrom<UncheckedIdentification> for Identification {
 }
 
 impl Identification {
-    /// The one answer to use, with its trust and the reasons. `None` where the fit was not asked for or refused: the methods for
+    /// The answer to use, with its trust and the reasons. `None` where the fit was not asked for or refused: the methods for
     /// mean cycles neither tell drag laws apart nor know their errors.
     #[must_use]
     pub fn reported(&self) -> Option<&Reported> {
         self.reported.as_ref()
     }
 
-    /// Each record predicted from all others, in the order given: `None` where it is the only one, or nothing is reported.
+    /// Each record predicted from the rest, in the order given: `None` for a single record, or without a reported model.
     #[must_use]
     pub fn left_out(&self) -> &[Option<Prediction>] {
         &self.left_out
@@ -165,7 +165,7 @@ impl Identification {
         &self.validation
     }
 
-    /// With a proof that says how its logs were read.
+    /// Adds to the proof how its logs were read.
     pub(super) fn read_as(self, read_as: &ReadAs) -> Self {
         Self { bounded: self.bounded.map(|bounded| bounded.read_as(read_as)), ..self }
     }
@@ -182,7 +182,7 @@ impl Identification {
         &self.sources
     }
 
-    /// What every method found under every law, the fits last.
+    /// Models of every method under every law, the fits last.
     #[must_use]
     pub fn models(&self) -> &[Model] {
         &self.models
@@ -202,7 +202,7 @@ impl Identification {
         self.fits.as_ref().map(Choice::likeliest)
     }
 
-    /// What to beware of.
+    /// Cautions.
     #[must_use]
     pub fn cautions(&self) -> &[Caution] {
         &self.cautions

@@ -1,4 +1,4 @@
-//! Every method asked for, on the same records. A method that refuses leaves its reason.
+//! Every method asked for, on the same records. A method that refuses gives its reason.
 
 use super::guaranteed::Guaranteed;
 use super::identification::{Caution, Identification, MethodRefusal, Source, Validation};
@@ -30,7 +30,7 @@ pub(super) struct Findings<'a> {
     failure: Refusal,
 }
 
-/// A model by one method under one law, or the refusal.
+/// The model of a method under a law, or the refusal.
 type Attempt = (Method, DragLaw, Result<Model, IdentifyError>);
 
 impl<'a> Findings<'a> {
@@ -52,7 +52,7 @@ impl<'a> Findings<'a> {
         }
     }
 
-    /// Records whose features `failures` says are missing, with the reason.
+    /// Records without features, with the reason from `failures`.
     pub(super) fn by_all_methods(
         mut self,
         failures: &[(usize, FeatureError)],
@@ -106,7 +106,7 @@ impl<'a> Findings<'a> {
         stages.into_iter().flatten().for_each(progress);
         let laws = self.settings.drag.map_or(DragLaw::ALL.to_vec(), |law| vec![law]);
         let records = self.records();
-        // Side by side: each leaves cores idle towards its end.
+        // In parallel: either alone has idle cores towards its end.
         let (fits, answer) = rayon::join(
             || by_samples.then(|| fit_each(&laws, &records, self.settings.delay)),
             || reporting.then(|| self.estimator().records(&records)),
@@ -166,7 +166,7 @@ impl<'a> Findings<'a> {
         }
     }
 
-    /// The loop's delay for methods that know of no lag: given, or found with what else is late.
+    /// The loop's delay for methods without a lag: the given delay, or the estimated delay plus all lags.
     fn delay_s(&self) -> Option<f64> {
         match (self.settings.delay, &self.reported, &self.fits) {
             (Delay::KnownS(delay_s), ..) => Some(delay_s),
@@ -210,7 +210,7 @@ impl<'a> Findings<'a> {
         }
     }
 
-    /// The methods that work on the features of one record, put before the fits.
+    /// The methods that work on the features of a record, put before the fits.
     fn identify_cycles(&mut self, delay_s: f64) {
         let several = self.sources.len() > 1;
         let mut models = Vec::new();
@@ -232,7 +232,7 @@ impl<'a> Findings<'a> {
         self.models = models;
     }
 
-    /// The methods for mean cycles on one record, and where they disagree with the answer.
+    /// The methods for mean cycles on a record, and where they disagree with the answer.
     fn attempts(&self, found: &RecordFeatures, delay_s: f64, record: Option<usize>) -> (Vec<Attempt>, Vec<Warning>) {
         let (features, relay) = (&found.features, &found.relay);
         let delay_s = delay_s + 0.5 * found.ramp_s;

@@ -1,4 +1,4 @@
-//! The whole way from logs to a conclusion: reading, features, every method asked for, the drag law chosen, what to beware of.
+//! From logs to a conclusion: reading, features, every requested method, choice of the drag law, cautions.
 //!
 //! [`Session`] takes logs or samples and gives an [`Identification`]; [`Conclusion`] is its JSON document.
 

@@ -1,4 +1,4 @@
-//! What one method found, in the same terms for all methods.
+//! The result of a method, in a form common to all methods.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +9,7 @@ use crate::identify::fit::shooting::RecordFit;
 use crate::identify::iso;
 use crate::plant::DragAxis;
 
-/// A model by one method under one drag law.
+/// The model of a method under a drag law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Model {
     /// The method.
@@ -18,7 +18,7 @@ pub struct Model {
     pub drag: DragLaw,
     /// Number of the record it is from; `None` for all at once.
     pub record: Option<usize>,
-    /// What it has beside inertia, drag, constant force and delay.
+    /// Terms of the model in addition to inertia, drag, constant force and delay.
     pub terms: Vec<Term>,
     /// Inertia with added mass.
     pub alpha: Estimate,
@@ -35,12 +35,12 @@ pub struct Model {
     pub fit_percent: Option<f64>,
     /// Root mean square of the residuals, in output units.
     pub residual_rms: Option<f64>,
-    /// Log-likelihood of all samples; comparable between models of one method only.
+    /// Log-likelihood of all samples; comparable only between models of the same method.
     pub log_likelihood: Option<f64>,
 }
 
 impl Model {
-    /// The constant force, where the model is from one record.
+    /// The constant force, where the model is from a single record.
     #[must_use]
     pub fn delta(&self) -> Option<Estimate> {
         self.deltas.single()

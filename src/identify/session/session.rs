@@ -14,7 +14,7 @@ use crate::files::Input;
 use crate::identify::answer::Warning;
 use crate::identify::bounded::certificate::ReadAs;
 
-/// One vehicle to be identified: settings, and its records, which are fitted jointly.
+/// A vehicle to be identified: settings, and its records, which are fitted jointly.
 ///
 /// ```
 /// # let folder = std::env::temp_dir().join(format!("selfosc-session-{}", std::process::id()));
@@ -154,7 +154,7 @@ impl Session {
         self.identify_with(|_| {})
     }
 
-    /// As [`identify`](Self::identify); `progress` hears what comes next.
+    /// As [`identify`](Self::identify); `progress` is called before each stage.
     ///
     /// # Errors
     /// As [`identify`](Self::identify).

@@ -54,9 +54,9 @@ impl Method {
 pub struct Settings {
     /// Methods to use.
     pub method: Method,
-    /// The drag law, if it is known; else every law that a method has.
+    /// The drag law, if given; else every law that a method has.
     pub drag: Option<DragLaw>,
-    /// Delay of the whole loop. One that is given is checked: the answer says where a record contradicts it.
+    /// Delay of the whole loop. A given delay is tested: the answer reports a record that contradicts it.
     pub delay: Delay,
     /// Relay level in the units wanted, above 0, if the log has the command in others.
     pub relay_level: Option<f64>,
@@ -64,7 +64,7 @@ pub struct Settings {
     pub half_width: Option<f64>,
     /// Sizes of the sources of error that no residual shows, for the practical intervals.
     pub assume: Assumptions,
-    /// For the guaranteed bounds: largest error of a reading beside half a step of the sensor, in output units, 0 or more.
+    /// For the guaranteed bounds: largest error of a reading in addition to half a step of the sensor, in output units, 0 or more.
     pub error: f64,
     /// For the guaranteed bounds: step of the sensor in output units, above 0, if it is not to be read off the record.
     pub quantum: Option<f64>,
@@ -87,7 +87,7 @@ pub struct Settings {
     pub certificate: bool,
 }
 
-/// Settings that contradict each other or are no numbers of the right kind.
+/// Settings that contradict each other or lie outside their domains.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SettingsError {

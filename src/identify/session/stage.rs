@@ -1,8 +1,8 @@
-//! What an identification is at, for who waits.
+//! Stages of an identification, for progress reports.
 
 use core::fmt;
 
-/// What an identification is at.
+/// The current stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Stage {
@@ -12,7 +12,7 @@ pub enum Stage {
     Bounds,
     /// The drag laws are fitted.
     Fit,
-    /// Terms of the motion and of what disturbs it are tried, beside the fits.
+    /// Terms of the motion and of its disturbances are tried, in parallel with the fits.
     Terms,
 }
 

@@ -17,7 +17,7 @@ const PHASE_SHARE: f64 = 0.1;
 const ON_GRID: f64 = 1e-3;
 const OFF_GRID: f64 = 0.28;
 
-/// Times of a regular grid through the stamps; `None` where they are on one already, or on none.
+/// Times of a regular grid through the stamps; `None` if they are regular already, or fit no grid.
 pub(crate) fn grid(record: &Record) -> Option<Vec<f64>> {
     let (time, interval) = (record.time_s(), record.interval_s());
     let fit = |numbers: &[f64]| {
@@ -31,7 +31,7 @@ pub(crate) fn grid(record: &Record) -> Option<Vec<f64>> {
         let step = nt / nn;
         (mean_t - step * mean_n, step)
     };
-    // The grid's phase follows the stamps slowly, so that one late stamp does not count as two steps.
+    // The grid's phase follows the stamps slowly, so that a single late stamp does not count as two steps.
     let (mut phase, mut number) = (time[0], 0.0);
     let mut numbers = vec![0.0];
     for t in &time[1..] {

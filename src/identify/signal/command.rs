@@ -1,6 +1,6 @@
 //! The command between the samples of a log: in pieces that are linear in time, and its changes.
 
-/// The command from one instant on, on the log's clock.
+/// The command from an instant on, on the log's clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CommandPiece {
     pub(crate) begin_s: f64,
@@ -28,7 +28,7 @@ impl SwitchingInstant {
 
 /// A corner within this part of an interval from a sample is at the sample.
 const CORNER_INSIDE: f64 = 1e-3;
-/// Sampling intervals between two samples from which on one is missing.
+/// Distance of two samples, in sampling intervals, beyond which a sample is missing.
 const MISSING: f64 = 1.75;
 /// The most instants that a switching in a gap is looked for at.
 const MOST_CHOICES: usize = 24;
@@ -38,14 +38,14 @@ const MOST_LEVELS: usize = 4;
 /// A change of the command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Kick {
-    /// Mean of the instants that the log leaves possible.
+    /// Mean of the instants compatible with the log.
     pub(crate) at_s: f64,
     pub(crate) jump: f64,
     /// Their variance.
     pub(crate) variance_s2: f64,
     /// The last sample before the gap that the command changed in, or the sample before.
     pub(crate) begin_s: f64,
-    /// Number of instants of a gap's missing samples at which it may have changed; one where none is missing.
+    /// Number of instants of a gap's missing samples at which it may have changed; 1 if none is missing.
     pub(crate) choices: usize,
     /// Time between them.
     pub(crate) step_s: f64,
@@ -70,7 +70,7 @@ impl Kick {
         Self { at_s, jump, variance_s2, begin_s, choices, step_s: step, switching }
     }
 
-    /// Mean and variance of one of the instants.
+    /// Mean and variance of an instant.
     pub(crate) fn choice(&self, choice: usize) -> (f64, f64) {
         let end = self.begin_s + (choice + 1) as f64 * self.step_s;
         match self.switching {

@@ -4,16 +4,16 @@ use crate::experiment::Record;
 
 /// Standard deviation of a normal distribution over the median of its magnitude.
 const NORMAL_OVER_MEDIAN: f64 = 1.483;
-/// And no nearer than so many steps of the sensor.
+/// And at least this number of sensor steps.
 const FAR_STEPS: f64 = 3.0;
-/// Neighbours further apart than so many intervals say nothing.
+/// Neighbours further apart than this number of intervals are not used.
 const NEIGHBOURHOOD: f64 = 4.5;
-/// Readings further from the line through their neighbours than this many robust standard deviations are left out.
+/// Readings further from the line through their neighbours than this many robust standard deviations are outliers.
 const FAR: f64 = 6.0;
 /// A record with a larger share of them has no outliers but another noise.
 const MOST_OUTLIERS: f64 = 0.1;
 
-/// Readings far from the line through their neighbours, the farthest first, each with those before it left out.
+/// Readings far from the line through their neighbours, the farthest first, each judged after removal of its predecessors.
 pub(crate) fn outliers(record: &Record) -> Vec<usize> {
     let (time, output) = (record.time_s(), record.output());
     let off = |a: usize, b: usize, c: usize| {

@@ -1,4 +1,4 @@
-//! Roundings that repeat: where the cycle locks to the sampling, wholly or nearly, many half cycles are one experiment made several
+//! Roundings that repeat: where the cycle locks to the sampling, wholly or nearly, many half cycles are a single experiment made several
 //! times, and their readings count once.
 
 use super::numbers::ends;
@@ -8,14 +8,14 @@ const MOST_COMPARED: usize = 64;
 /// The part of a step from which on roundings no longer correlate.
 const STILL_ALIKE: f64 = 0.211;
 
-/// Half cycles of rounded readings that repeat, by whole steps apart or by their mirror image too, are one experiment made
-/// several times: each reading counts one over the number of its likes.
+/// Half cycles of rounded readings that repeat, by whole steps apart or by their mirror image too, are a single experiment made
+/// several times: each reading weighs 1/n, with n the number of its repetitions.
 pub(crate) fn weights_of_repeats(output: &[f64], input: &[f64], step: f64) -> Vec<f64> {
     let mut bounds = vec![0];
     bounds.extend((1..input.len()).filter(|k| input[*k] != input[*k - 1]));
     bounds.push(input.len());
     let (low, high) = ends(input);
-    // In steps, so that the mirror image of a rounded reading is one too.
+    // In steps, so that the mirror image of a rounded reading is rounded too.
     let half = |pair: &[usize]| {
         let sign = if input[pair[0]] < f64::midpoint(low, high) { -1.0 } else { 1.0 };
         let steps = |value: &f64| sign * ((value - output[0]) / step).round();
@@ -38,7 +38,7 @@ pub(crate) fn weights_of_repeats(output: &[f64], input: &[f64], step: f64) -> Ve
 
 /// How the roundings of two half cycles correlate, given their readings in steps from the switching on.
 ///
-/// Where the motions differ by whole steps and the part d of one, the part d of the readings differs by one step more, and the
+/// Where the motions differ by n + d steps, a share d of the readings differs by n + 1 steps, and the
 /// roundings correlate by `1 - 6 d + 6 d^2` (Bennett 1948).
 fn likeness(half: &[f64], other: &[f64]) -> f64 {
     let apart = || half.iter().zip(other).map(|(a, b)| a - b);
@@ -49,7 +49,7 @@ fn likeness(half: &[f64], other: &[f64]) -> f64 {
     if d < STILL_ALIKE { 1.0 - 6.0 * d * (1.0 - d) } else { 0.0 }
 }
 
-/// At most so many of the numbers below a count, spread evenly and in step with no period (Weyl 1916).
+/// At most `most` of the numbers below `count`, spread evenly and in step with no period (Weyl 1916).
 fn spread_over(count: usize, most: usize) -> impl Iterator<Item = usize> {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let all = count <= most;

@@ -8,10 +8,10 @@ use super::numbers::{extent, least_squares};
 use crate::experiment::Record;
 use crate::plant::State;
 
-/// The highest speed is a difference quotient over this part of the half-period: one over so many.
+/// The highest speed is a difference quotient over the half-period divided by this.
 const SPEED_SPANS: f64 = 6.0;
 
-/// A record as a signal, under one reading of its clock and its switchings.
+/// A record as a signal, under an assumption on its clock and its switchings.
 #[derive(Clone, Debug)]
 pub(crate) struct Signal {
     pub(crate) time_s: Vec<f64>,

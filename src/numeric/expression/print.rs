@@ -61,7 +61,7 @@ impl Notation {
         format!("{}{inner}{}", self.pick("(", r"\left("), self.pick(")", r"\right)"))
     }
 
-    /// Terms in the order they came but a positive one first, what they share before a bracket.
+    /// Terms in their order, except that a positive term leads; common factors stand before a bracket.
     fn sum(self, terms: &[Product]) -> String {
         let (mut shared, rest) = common(terms);
         if shared != Product::number(1.0) {

@@ -27,7 +27,7 @@ fn reduce(x: f64) -> Option<(i32, Interval)> {
     }
     let k = libm::rint(x * FRAC_2_PI);
     let [first, second, third] = HALF_PI_PARTS.map(|part| Interval::point(k * part));
-    // The smallest first, but for the second: near a multiple of pi/2 it cancels what the first leaves.
+    // The smallest first, but for the second: near a multiple of pi/2 it cancels the difference `x - first`.
     let r = Interval::point(x) - first - second - (third + Interval::point(k) * HALF_PI_REST);
     Some((k as i32, r))
 }
@@ -57,7 +57,7 @@ const TWO_OVER_PI: [u64; 19] = [
 
 /// [`reduce`] with the count modulo four, for `|x| >= 1` and however large: as many bits of `2/pi` as decide.
 fn reduce_large(x: f64) -> (i32, Interval) {
-    /// From here on rounding to a double covers what the product leaves out.
+    /// From here on rounding to a double covers the truncation of the product.
     const LONG: u128 = 1 << 60;
     let bits = x.abs().to_bits();
     let (significand, exponent) = (bits & ((1 << 52) - 1) | 1 << 52, (bits >> 52) as usize);
@@ -69,7 +69,7 @@ fn reduce_large(x: f64) -> (i32, Interval) {
         product[place] = sum as u64;
         product[place + 1] = (sum >> 64) as u64;
     }
-    // Place of the ones: what is left out is below 2^-128.
+    // Place of the units digit: the truncated part is below 2^-128.
     let ones = 256 + 1075 + 64 * skipped - exponent;
     let from = |place: usize| {
         let word = |index: usize| u128::from(product.get(index).copied().unwrap_or(0));

@@ -69,7 +69,7 @@ fn exp_m1_at(x: f64) -> Interval {
 /// `ln(1 + t)` for `t` within `[-0.3, 0.42]` by correcting any guess `y`: with `d = exp(-y) (t - (exp(y) - 1))`,
 /// `ln(1 + t) = y + ln(1 + d)` and `d/(1 + d) <= ln(1 + d) <= d`.
 pub(super) fn ln_1p_reduced(t: Interval, guess: f64) -> Interval {
-    /// `-0.4 < ln 0.7`, `ln 1.42 < 0.4`: what is known when the guess is of no use.
+    /// `-0.4 < ln 0.7`, `ln 1.42 < 0.4`: the bounds used when the guess fails.
     const RANGE: Interval = Interval { lo: -0.4, hi: 0.4 };
     if guess.is_nan() || guess.abs() > REDUCED_LIMIT {
         return RANGE;

@@ -35,7 +35,7 @@ const ARC_TANGENT: [f64; 11] = [
     0.016_285_820_115_365_782,
 ];
 
-/// From where on the angle of a slope is that of a smaller one and of a rotation, this one in two parts.
+/// Least slope s for the identity `atan(s) = rotation + atan(smaller slope)`; the rotation is a sum of two doubles.
 type Rotation = (f64, [f64; 2]);
 const BY_HALF: Rotation = (0.4375, [0.463_647_609_000_806_1, 2.269_877_745_296_168_7e-17]);
 const BY_ONE: Rotation = (0.6875, [FRAC_PI_4, 3.061_616_997_868_383e-17]);
@@ -52,7 +52,7 @@ fn polynomial<const N: usize>(x: f64x4, factors: [f64; N]) -> f64x4 {
     sum
 }
 
-/// The inverse sine of what is nearer to zero than one half.
+/// The inverse sine for `|x| < 1/2`.
 #[inline(always)]
 pub(super) fn asin_below_half(x: f64x4) -> f64x4 {
     let square = x * x;
@@ -114,7 +114,7 @@ fn by(rotations: usize, slope: f64x4) -> (f64x4, f64x4) {
     }
 }
 
-/// The angle of a rotation, in two parts, and of what is left of the slope.
+/// `high + low + atan(over / under)`: the rotation is a sum of two doubles.
 #[inline(always)]
 fn less_bend(over: f64x4, under: f64x4, high: f64x4, low: f64x4) -> f64x4 {
     let rest = over / under;

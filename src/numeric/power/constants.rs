@@ -106,7 +106,7 @@ fn gamma_ratio(x: Interval, far: f64) -> Interval {
 /// `16^delta Gamma(1+delta)^3/(Gamma(1-delta) Gamma(1+2 delta)^2) prod (1 + delta/k)`, k up to the order, by the series of
 /// `ln Gamma(1 + x)` (DLMF 5.7.3), of which Euler's constant cancels.
 fn log_ratio(delta: Interval, order: f64) -> Interval {
-    // Term k is below `7 (2 delta)^(k-1)/k`, so the terms left out add up to less than the ninth power after the last.
+    // Term k is below `7 (2 delta)^(k-1)/k`, so the truncated terms sum to less than the ninth power after the last.
     let twice = 2.0 * delta.magnitude();
     let rest = ZETA.iter().fold(1.1 * twice, |power, _| power * twice);
     let mut sum = Interval::two().ln() * number(4.0) + Interval::symmetric(rest);
@@ -130,7 +130,7 @@ fn log_ratio(delta: Interval, order: f64) -> Interval {
 mod tests {
     use super::*;
 
-    /// What a series cut too early leaves out lies within the bound of its rest.
+    /// The truncation error of a series cut too early lies within its remainder bound.
     #[test]
     fn rests_of_the_series_are_enclosed() {
         for x in [0.0, 0.25, 0.5, 1.7, 2.0, 7.3] {

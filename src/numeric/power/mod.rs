@@ -2,7 +2,7 @@
 //!
 //! With `f(x) = sgn(x) abs(x)^p`: the mean `m(u) = <f(u + sin)>` and the sine component `h(u) = <sin f(u + sin)>`. m obeys
 //! `(1 - u^2) m'' + (2p - 1) u m' - p^2 m = 0`, a hypergeometric equation, and `(1 + p) h = (1 - u^2) m' + p u m`. Three
-//! series cover all u: about 0, about 1 and about infinity (DLMF 15.2, 15.8, 15.10). Their terms have one sign, or nearly so.
+//! series cover all u: about 0, about 1 and about infinity (DLMF 15.2, 15.8, 15.10). Nearly all of their terms have the same sign.
 
 mod constants;
 mod series;
@@ -41,7 +41,7 @@ struct Pairs {
 const ENCLOSED: f64 = 1e-14;
 
 impl PowerMoments {
-    /// Of the exponent between these bounds, `>= 0`. Only an exponent that is one number has moments that are known.
+    /// Of the exponent between these bounds, `>= 0`. Only an exponent that is a single number has moments.
     ///
     /// ```
     /// use selfosc::numeric::{Interval, power::PowerMoments, special::Special};
@@ -56,7 +56,7 @@ impl PowerMoments {
         constants::of(exponent)
     }
 
-    /// `p + 1/2 = order + delta`, delta at most a half: the exponent of what is not analytic about one.
+    /// `p + 1/2 = order + delta`, delta at most a half: the exponent of the part that is not analytic at u = 1.
     fn order_and_delta<T: Real>(exponent: f64) -> (f64, T) {
         let whole = libm::floor(exponent);
         (whole + 1.0, T::from_f64(exponent - whole) - T::from_f64(0.5))

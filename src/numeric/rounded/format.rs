@@ -1,4 +1,4 @@
-//! The formats, and what is known of their functions.
+//! The formats, and error bounds of their elementary functions.
 
 use core::fmt::Debug;
 

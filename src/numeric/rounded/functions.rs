@@ -5,7 +5,7 @@ use crate::numeric::power::PowerMoments;
 use crate::numeric::real::own_sine_series;
 use crate::numeric::{Interval, Real, Special};
 
-/// Of the series of `x - sin(x)` below one, relative: what it leaves out, and its constants, which are rounded to double precision.
+/// Relative error of the series of `x - sin(x)` for x < 1: truncation, and rounding of its constants to double precision.
 const SERIES: f64 = 3e-16;
 /// What `bessel_j`, of size one at most, and the moments of a power are assumed to keep in double precision, in half epsilons: of
 /// one, and of the larger moment. What is computed in it and rounded to single precision has this error too.
@@ -47,7 +47,7 @@ impl<F: Format> Real for Rounded<F> {
         let float = Interval::point(F::nearest(core::f64::consts::FRAC_1_PI));
         Self { error: farthest(Interval::INVERSE_PI, float), float, ..Self::input(Interval::INVERSE_PI) }
     }
-    /// Of both values: what decides for a float does so, and what is true of the exact value too.
+    /// Bounds that hold for the float and for the exact value.
     fn bounds(self) -> (f64, f64) {
         self.hull().bounds()
     }
@@ -208,7 +208,7 @@ impl<F: Format> Rounded<F> {
         }
     }
 
-    /// What double precision gives with an error of so many half epsilons of one, rounded to the format.
+    /// A double-precision result with an error of `units` half epsilons of `size`, rounded to the format.
     fn special(self, exact: Interval, unrounded: Interval, slope: f64, size: f64, units: f64) -> Self {
         let own = up(units * DOUBLE_UNIT * size);
         let rounded = Self::of(exact, unrounded, up(slope * self.error), F::UNIT);

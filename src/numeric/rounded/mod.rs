@@ -1,4 +1,4 @@
-//! What a formula gives in floating point, against what it is: intervals of both, and a bound of their distance.
+//! Rounding error of a formula: intervals of the exact and of the floating-point value, and a bound of their distance.
 //!
 //! A formula written over [`Real`](super::Real) runs in [`Rounded`] as it does in a float, and every operation adds what rounding can do to
 //! it: half a unit in the last place, or a function's own error, on top of the errors that came in times the slope of the
@@ -32,9 +32,9 @@ use super::{Interval, Real};
 
 /// A number of a formula: where its exact value lies, where its float lies, and how far apart they can be.
 ///
-/// **Guarantee.** For all floats within the intervals given to [`Rounded::input`], the result's `exact` contains the formula's value in real
-/// numbers, `float` what the same formula gives in the format, and `error` is at least the distance of the two, provided that
-/// the format's functions are as exact as [`Format`] says. An `error` that is infinite says nothing: a domain may have been left.
+/// **Guarantee.** It holds for all floats within the intervals given to [`Rounded::input`]. `exact` contains the formula's value in real
+/// numbers, `float` the formula's value in the format, and `error` is at least their distance. The format's functions are assumed as exact
+/// as [`Format`] says. An infinite `error` is no bound: a domain may have been left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounded<F> {
     exact: Interval,
@@ -91,8 +91,8 @@ impl<F: Format> Rounded<F> {
         self.exact.hull(self.float)
     }
 
-    /// Of two expressions of which rounding, or the numbers, decide: what either gives, `apart` if one may be the exact value and the other
-    /// the float.
+    /// The union of two branches chosen by rounding or by the numbers; adds `apart` where the exact value may be from one branch and
+    /// the float from the second.
     fn either(self, other: Self, apart: f64) -> Self {
         Self {
             exact: self.exact.hull(other.exact),

@@ -1,8 +1,8 @@
-//! Identities of rational functions, proved exactly: the code is evaluated over formulas, and what must vanish is the zero
+//! Identities of rational functions, proved exactly: the code is evaluated over formulas, and the difference of both sides is the zero
 //! polynomial.
 //!
 //! No enclosure, no tolerance, no degree to be guessed. Where the code decides (`abs`, `max`, a comparison), it is evaluated
-//! once for each case, at a point that lies in it; what holds there holds wherever the decisions are the same.
+//! once for each case, at a point that lies in it; the identity proved there holds wherever the decisions are the same.
 
 mod rational;
 mod ring;
@@ -15,7 +15,7 @@ pub use rational::{Decision, Rational};
 /// An identity that holds, and the cases that it was proved in.
 #[derive(Clone, Debug)]
 pub struct Cases {
-    /// The decisions of each case; none where the code does not decide. Two points of one case count once.
+    /// The decisions of each case; none without decisions. Two points of the same case count once.
     pub decisions: Vec<Vec<Decision>>,
 }
 
@@ -58,7 +58,7 @@ pub fn prove_identity<const N: usize, const M: usize>(
     Ok(found)
 }
 
-/// What code decides at a point, and what comes out.
+/// The result of code at a point, with the comparisons it made.
 pub fn decided<R, const N: usize>(point: [f64; N], code: impl FnOnce([Rational; N]) -> R) -> (R, Vec<Decision>) {
     recorded(point, code)
 }
@@ -132,7 +132,7 @@ mod tests {
         assert!(!holds([1.0], |[a]| Some([number(f64::NAN) * a * number(0.0)])));
         assert!(!holds([0.0], |[a]| Some([a / (a - a) - a / (a - a)])));
         assert!(!holds([1.0], |[_]| None::<[Rational; 1]>));
-        // So does what a root's square leaves: below the range each by itself.
+        // So does the remainder of a root's square: below the range each by itself.
         let beyond = |[a]: [Rational; 1]| {
             let large = number(f64::from(1 << 30));
             let root = (large * large * a + number(1.0)).sqrt();

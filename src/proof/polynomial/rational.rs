@@ -9,8 +9,8 @@ use crate::numeric::{Component, Real, Scalar};
 
 /// A rational function of the statement's variables, with its value at a point of their range.
 ///
-/// The code's decisions (`abs`, `max`, comparisons) are made at that point and written down: what is proved holds wherever
-/// they come out the same. A function that is not rational is an indeterminate of its own, the same for equal arguments; but
+/// The code's decisions (`abs`, `max`, comparisons) are made at that point and recorded: the proof holds wherever
+/// they are the same. A function that is not rational is an indeterminate of its own, the same for equal arguments; but
 /// the root of a square is found.
 ///
 /// Its nodes are never freed (an arithmetic is `Copy`): meant for formulas of a page.
@@ -24,7 +24,7 @@ pub struct Rational {
 /// A decision of the code: a rational function, and whether it was positive.
 pub type Decision = (Rational, bool);
 
-/// What a function gives at arguments.
+/// A function's value at its arguments.
 struct Call {
     name: &'static str,
     arguments: Vec<Rational>,
@@ -37,7 +37,7 @@ thread_local! {
     static POINT: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
 }
 
-/// What `code` gives for variables at a point, and the decisions that it made on the way, each once.
+/// The result of `code` for variables at a point, and its decisions, each once.
 pub(super) fn recorded<R, const N: usize>(
     point: [f64; N],
     code: impl FnOnce([Rational; N]) -> R,
@@ -99,14 +99,14 @@ fn calls() -> usize {
     CALLS.with_borrow(Vec::len)
 }
 
-/// The name of the one function of which more is known.
+/// The function with an algebraic identity: `sqrt(x)^2 = x`.
 const SQRT: &str = "sqrt";
 
 /// Fractions of a power of two up to this are numbers; other constants are indeterminates.
 const SHORT: f64 = 1024.0;
 
 impl Rational {
-    /// Whether this is zero whatever the variables are; `false` where that is not known.
+    /// Whether this is zero for all variables; `false` if undecided.
     #[must_use]
     pub fn is_zero(self) -> bool {
         self.fraction.is_some_and(|(numerator, _)| vanishes(numerator, calls()).unwrap_or(false))
@@ -171,7 +171,7 @@ impl Rational {
         CALLS.with_borrow(|calls| calls.iter().position(same))
     }
 
-    /// An indeterminate that stands for what a function gives.
+    /// An indeterminate for a function's value.
     fn call(name: &'static str, arguments: &[Self], value: f64) -> Self {
         let place = Self::known(name, arguments).unwrap_or_else(|| {
             CALLS.with_borrow_mut(|calls| {
@@ -197,7 +197,7 @@ impl Rational {
     }
 }
 
-/// What becomes of a function's value when the sign of its argument is turned.
+/// Effect on a function's value of a change of its argument's sign.
 enum Parity {
     Odd,
     Even,
@@ -295,7 +295,7 @@ impl Real for Rational {
     fn pi() -> Self {
         Self::of(Polynomial::symbol(Symbol::Pi), Polynomial::number(1), core::f64::consts::PI)
     }
-    /// The value at the point: what code decides by it is not written down.
+    /// The value at the point: decisions by it are not recorded.
     fn bounds(self) -> (f64, f64) {
         (self.value, self.value)
     }
@@ -376,7 +376,7 @@ impl Scalar for Rational {
     fn epsilon() -> Self {
         Self::from_f64(f64::EPSILON)
     }
-    /// What is known at a point by value and slope is no formula.
+    /// A value and a slope at a point are no formula.
     fn lift(self, _: f64, _: f64) -> Self {
         <Self as Component>::UNKNOWN
     }

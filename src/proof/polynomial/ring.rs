@@ -10,10 +10,10 @@ pub(super) enum Symbol {
     Variable(usize),
     /// The circle constant, of which nothing is used but that it is a number.
     Pi,
-    /// A constant of the code that is no short fraction, by its bits: 0.1, say. An identity that holds for any number holds
+    /// A constant of the code that is no short fraction, by its bits: 0.1, say. An identity that holds for every number holds
     /// for this one.
     Constant(u64),
-    /// What a function gives that is no rational one.
+    /// Value of a function that is not rational.
     Call(usize),
 }
 
@@ -60,7 +60,7 @@ impl Ord for Monomial {
                     Ordering::Equal => {}
                     decided => return decided,
                 },
-                // The other one lacks the symbol that comes first.
+                // The second monomial lacks the leading symbol.
                 decided => return decided.reverse(),
             }
         }
@@ -78,7 +78,7 @@ impl PartialOrd for Monomial {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Polynomial(BTreeMap<Monomial, i128>);
 
-/// More terms than any identity here has: beyond, nothing is said.
+/// More terms than any identity here has: beyond, no verdict.
 const MOST_TERMS: usize = 20_000;
 
 impl Polynomial {
@@ -120,7 +120,7 @@ impl Polynomial {
         Some(Self(product))
     }
 
-    /// The polynomial whose square this is, its leading coefficient positive; `None` where there is none. What is found is
+    /// The polynomial whose square this is, its leading coefficient positive; `None` where there is none. The root is
     /// squared again before it is believed.
     pub(super) fn root(&self) -> Option<Self> {
         let Some((leading, &coefficient)) = self.0.last_key_value() else { return Some(self.clone()) };
@@ -128,7 +128,7 @@ impl Polynomial {
         let first = leading.root()?;
         let mut root = Self([(first.clone(), whole)].into());
         let mut rest = self.plus(-1, &root.times(&root)?)?;
-        // Each term of the root takes the leading term of what is left away.
+        // Each term of the root removes the leading term of the remainder.
         for _ in 0..self.0.len() {
             let Some((monomial, &coefficient)) = rest.0.last_key_value() else { break };
             let twice = whole.checked_mul(2)?;
@@ -153,7 +153,7 @@ impl Polynomial {
         powers
     }
 
-    /// What all terms of both have in common, as a number and powers, divided out of both.
+    /// Both divided by the common factor of all terms, a number and powers.
     pub(super) fn reduced(self, other: Self) -> (Self, Self) {
         let terms = || self.0.iter().chain(&other.0);
         let number = terms().fold(0, |common, (_, &coefficient)| gcd(common, coefficient.unsigned_abs()));

@@ -5,7 +5,7 @@ use crate::identify::bounded::{Bounds, Consistency, DelayBound, Outlier, Quantit
 use crate::identify::{Guaranteed, Identification};
 use crate::report::{Cell, Table};
 
-/// What is left of every parameter with the witness; or the readings that contradict each other.
+/// The bounds of every parameter with the witness, or the contradicting readings.
 pub(crate) fn bounds_tables(found: &Identification, guaranteed: &Guaranteed) -> Vec<Table> {
     let bounds = &guaranteed.bounds;
     let tables = [
@@ -79,7 +79,7 @@ fn readings(number: usize) -> String {
     if number == 1 { "one reading".to_owned() } else { format!("{number} readings") }
 }
 
-/// What is said of readings that may be in error by any amount.
+/// The sentence on outliers.
 fn doubted(allowed: usize, found: usize, met: bool) -> String {
     let rest = allowed - found.min(allowed);
     let up_to = format!(" Up to {} may be in error by any amount", readings(allowed));

@@ -2,10 +2,10 @@
 
 use core::fmt::Write;
 
-use crate::identify::{Identification, Reported};
+use crate::identify::{Identification, PredictedMotion, Reported};
 
-/// A line a sample: the record counted from 1, time in s, output and command as the methods see them, the reported model's output and the
-/// reading less that; the last two are empty where nothing is predicted.
+/// A line a sample: number of the record from 1, time in s, output and command as the methods see them, the reported model's output, and the
+/// residual, output less model. The last two are empty where nothing is predicted and at outliers.
 pub(crate) fn samples(found: &Identification) -> String {
     let mut text = String::from("record,time_s,output,input,model,residual\n");
     for (index, source) in found.sources().iter().enumerate() {
@@ -14,9 +14,9 @@ pub(crate) fn samples(found: &Identification) -> String {
         for (sample, ((time_s, output), input)) in
             record.time_s().iter().zip(record.output()).zip(record.input()).enumerate()
         {
-            let of = motion.as_ref().and_then(|motion| motion.output.get(sample.checked_sub(motion.first_sample)?));
-            let model = of.map_or_else(String::new, |model| format!("{model},{}", output - model));
-            let model = if model.is_empty() { "," } else { &model };
+            let of = |motion: &PredictedMotion| *motion.output.get(sample.checked_sub(motion.first_sample)?)?;
+            let model = motion.as_ref().and_then(of);
+            let model = model.map_or_else(|| ",".to_owned(), |model| format!("{model},{}", output - model));
             // Writing to a text does not fail.
             let _ = writeln!(text, "{},{time_s},{output},{input},{model}", index + 1);
         }

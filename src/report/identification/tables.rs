@@ -156,7 +156,7 @@ fn budget_table(reported: &Reported) -> Option<Table> {
     (!reported.budget.is_empty()).then(|| rows.fold(table, row))
 }
 
-/// What no record can show is said once.
+/// Stated once: the scale that no record shows.
 const SCALE: &str = "All parameters are in units of the logged command: its scale in newtons, and at one level its dead zone and \
                      asymmetry, no record shows.";
 
@@ -252,7 +252,7 @@ fn parameter_table(found: &Identification, reported: &Reported) -> Table {
     })
 }
 
-/// Every method beside the others.
+/// Comparison of the methods.
 fn comparison(found: &Identification) -> Table {
     let several = found.sources().len() > 1;
     let mut columns = vec!["method", "drag"];

@@ -35,7 +35,7 @@ pub(super) fn quantisation() -> Table {
 }
 
 impl Reproduction {
-    /// Formulas without and with delay, and what they give for one experiment of Table 4 in SI units per degree.
+    /// Formulas without and with delay, and their values for an experiment of Table 4 in SI units per degree.
     pub(super) fn table3(&self) -> Result<Vec<Table>, ReportError> {
         let quantities =
             ["alpha", "beta (linear drag)", "beta_xx (quadratic drag)", "delta (bias of the input)", "delta (times)"];

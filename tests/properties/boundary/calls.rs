@@ -384,6 +384,7 @@ fn on_board<T: Scalar>(probe: &mut Probe) {
     let headings = [
         ("Protocol::heading_rad", Protocol::heading_rad(level, half_width, interval_s)),
         ("Protocol::heading_degrees", Protocol::heading_degrees(level, half_width, interval_s)),
+        ("Protocol::usual", Protocol::usual(coordinate, level, half_width, interval_s)),
     ];
     for (name, protocol) in headings {
         probe.formula(name, &[protocol.highest_command, protocol.wrong_way, protocol.dwell_s], &protocol);
@@ -415,6 +416,12 @@ fn on_board<T: Scalar>(probe: &mut Probe) {
         }
     }
     let Some(mut experiment) = probe.result("Experiment::new", Experiment::new(protocol)) else { return };
+    probe.note(
+        "Experiment::protocol",
+        &[experiment.protocol().relay_level],
+        *experiment.protocol() == protocol,
+        &protocol,
+    );
     let (mut position, mut velocity, mut command) = (0.0, 0.0, T::zero());
     for sample in 0..400 {
         let mut time_s = interval_s * T::from_f64(f64::from(sample));

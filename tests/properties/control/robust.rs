@@ -120,3 +120,41 @@ fn margins_of_a_known_loop() {
         );
     }
 }
+
+/// Time constants, and the inertia of a slow process, may reach zero: the proof loses no degree. A limit below that of some
+/// process is never proved, nor the stability of a set in which drag drives.
+#[test]
+fn parts_may_reach_zero() {
+    let none = Interval::ZERO;
+    let (lag_s, filter_s, memory_s) = (between(0.0, 0.1), between(0.0, 0.05), between(0.0, 0.3));
+    let vehicle = LinearProcess {
+        alpha: between(1.0, 1.1),
+        drag: between(0.2, 0.3),
+        stiffness: none,
+        memory: none,
+        memory_s: none,
+        lag_s,
+        filter_s,
+        zero_s: none,
+        delay_s: between(0.15, 0.2),
+    };
+    let watery = LinearProcess { memory: between(0.0, 0.05), memory_s, filter_s: none, ..vehicle };
+    let heater = LinearProcess { alpha: between(0.0, 0.1), stiffness: between(0.1, 0.12), filter_s: none, ..vehicle };
+    let damped = Gains::new(Structure::Pd, 0.5, 0.0, 0.9, 0.1).unwrap();
+    let slow = Gains::new(Structure::Pid, 0.3, 0.05, 0.0, 0.0).unwrap();
+    for (process, gains) in [(vehicle, damped), (watery, damped), (heater, slow)] {
+        let processes = ProcessIntervals::new(process).unwrap();
+        let found = processes.enclose(&gains, RobustCriterion::Sensitivity).unwrap();
+        let Some(proved) = found.proved else { panic!("{found:?} of {process:?}") };
+        let worst = processes.corners().iter().map(|corner| sensitivity(corner, &gains)).fold(0.0, f64::max);
+        // What is given up for a proof is at most three tenths.
+        assert!(worst <= proved && proved < 1.31 * worst, "{worst} {found:?}");
+        assert!(!processes.all_have(&gains, RobustCriterion::Sensitivity(0.99 * worst)));
+        for state in 1..200_u32 {
+            let at: Vec<f64> = (1..10).map(|k| f64::from(state * 2 * k + k).sqrt().fract()).collect();
+            assert!(sensitivity(&inside(&process, &at), &gains) <= proved);
+        }
+        let driven = LinearProcess { drag: between(-2.0, 0.3), ..process };
+        assert!(ProcessIntervals::new(driven).is_ok_and(|processes| !processes.all_stable(&gains)));
+    }
+}

@@ -8,7 +8,7 @@ use crate::identify::answer::{AxisParameter, IdentifyError};
 /// Number of common parameters.
 const COUNT: usize = AxisParameter::COUNT;
 
-/// Residuals with their derivatives, one row of the Jacobian for each.
+/// Residuals with their derivatives, a row of the Jacobian each.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Linearised {
     pub(super) residuals: Vec<f64>,
@@ -22,7 +22,7 @@ pub(super) struct Minimum {
     /// Estimated, and not on the bound zero.
     pub(super) free: [bool; COUNT],
     pub(super) residuals: Vec<f64>,
-    /// Zero in the rows and columns of what is not free.
+    /// Zero in the rows and columns of fixed parameters.
     pub(super) covariance: [[f64; COUNT]; COUNT],
 }
 
@@ -47,7 +47,7 @@ const ANGLE: f64 = 1e-8;
 /// Damping of the first step, in parts of the largest eigenvalue, and its factor after every step (Marquardt 1963).
 const FIRST_DAMPING: f64 = 1e-3;
 const DAMPING_FACTOR: f64 = 10.0;
-/// Ratio of singular values below which two combinations of parameters are not told apart.
+/// Ratio of singular values below which two combinations of parameters are indistinguishable.
 const RANK: f64 = 1e-9;
 
 /// The minimum reached from `start`, all of whose `estimated` parameters are above zero: they are searched in units of it.

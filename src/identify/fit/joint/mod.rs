@@ -1,4 +1,4 @@
-//! One axis from the features of several experiments of one vehicle: common inertia, drag and delay.
+//! An axis from the features of several experiments with the same vehicle: common inertia, drag and delay.
 //!
 //! Nonlinear least squares over the logarithms of period and amplitude against the exact limit cycle (Levenberg-Marquardt).
 
@@ -17,7 +17,7 @@ use least_squares::{Linearised, Minimum, minimise};
 /// A number with its derivatives with respect to the common parameters, in the order of [`AxisParameter`].
 type AxisSensitivity = Gradient<f64, { AxisParameter::COUNT }>;
 
-/// The features of one experiment, for a joint estimate: a row of Table 4, for one.
+/// The features of an experiment, for a joint estimate: for example a row of Table 4.
 ///
 /// Its residuals are `ln(X_m/predicted)` and `ln(T/predicted)`, the prediction being the exact limit cycle without a
 /// disturbance under the relay that switches at the measured level x_a*: the level at which the command was *given*,
@@ -34,7 +34,7 @@ impl FeatureRow {
     /// Relay level C, switching level x_a*, amplitude X_m and period T of `oscillation`; its bias and delay are not used.
     ///
     /// # Errors
-    /// [`IdentifyError::OutOfDomain`] or [`IdentifyError::Describing`] where one of them is not a number of the right kind.
+    /// [`IdentifyError::OutOfDomain`] or [`IdentifyError::Describing`] where a feature is outside its domain.
     pub fn new(oscillation: &Oscillation<f64>) -> Result<Self, IdentifyError> {
         let Oscillation { relay_level, switch_level, amplitude, period_s, .. } = *oscillation;
         for (feature, value, unit) in [("amplitude", amplitude, "output units"), ("period", period_s, "s")] {
@@ -127,7 +127,7 @@ fn linearise(rows: &[FeatureRow], values: &[f64; AxisParameter::COUNT]) -> Resul
 /// Part of the shortest period at which the search for the delay starts.
 const DELAY_SHARE: f64 = 0.05;
 
-/// Geometric means of what the rows that have an answer give by themselves.
+/// Geometric means of the single-row answers, over the rows that have an answer.
 fn start(rows: &[FeatureRow], law: DragLaw, delay: Delay) -> Result<DragAxis<f64>, IdentifyError> {
     let delay_s = match delay {
         Delay::KnownS(delay_s) => delay_s,
@@ -196,7 +196,7 @@ impl Joint {
         &self.minimum.residuals
     }
 
-    /// Root of the sum of squares of the residuals over the degrees of freedom: what is left for one measured number, the
+    /// Root of the sum of squares of the residuals over the degrees of freedom: the residual of a single measured number, the
     /// parameters having taken up their share.
     #[must_use]
     pub fn residual_rms(&self) -> f64 {

@@ -15,7 +15,7 @@ pub(super) struct Force {
     pub(super) by_ramp: f64,
 }
 
-/// The force from one instant on. `input` and `input_by_ramp` are what the lag is fed with.
+/// The force from an instant on. `input` and `input_by_ramp` are the lag's input.
 #[derive(Clone, Copy, Debug)]
 struct ForceSegment {
     begin_s: f64,
@@ -29,7 +29,7 @@ struct ForceSegment {
 /// Where the integration has to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum IntegrationStop {
-    /// The force enters its next segment and jumps by so much.
+    /// The force enters its next segment with this jump.
     Segment { jump: f64 },
     /// The force bends here; only the step's length matters.
     Refine,
@@ -37,7 +37,7 @@ pub(super) enum IntegrationStop {
     Kick { jump: f64, variance_s2: f64 },
 }
 
-/// The force under one set of parameters.
+/// The force for given parameters.
 #[derive(Clone, Debug)]
 pub(super) struct Actuator {
     lag_s: f64,

@@ -1,4 +1,4 @@
-//! One estimate from all models tried, weighted by how likely they make the record for their number of parameters.
+//! Model average: all models tried, weighted by their likelihood and number of parameters.
 
 use rayon::prelude::*;
 
@@ -10,7 +10,7 @@ use super::scoring::{self, Fitted};
 use super::structure_search::SearchOutcome;
 use crate::identify::answer::{ConfidenceInterval, Estimate};
 
-/// A model's word on one parameter: normal, or a point where it has no such parameter.
+/// A model's distribution of a parameter: normal, or a point where the model lacks the parameter.
 #[derive(Clone, Copy, Debug)]
 struct MixtureComponent {
     weight: f64,
@@ -25,10 +25,10 @@ const TEMPER: f64 = 0.5;
 
 /// Prior odds against each lag beyond the delay: hardly any record rules a small one out, and without them it would widen every interval.
 const LATE_ODDS: f64 = 6.0;
-/// Logarithm of the odds against each parameter that is none of the [`SUBTLE`] ones: these move the inertia, the others hardly.
+/// Logarithm of the odds against each parameter outside [`SUBTLE`]: subtle parameters move the inertia, the rest hardly.
 const PLAIN_LOG_ODDS: f64 = 0.25;
 
-/// Twice the log-likelihood that each parameter more has to gain for a model to count. A structure that the record hardly
+/// Twice the log-likelihood that each further parameter must gain for a model to count. A structure that the record hardly
 /// shows moves the inertia, so that it counts sooner.
 const IDLE: f64 = 1.0;
 const IDLE_STRUCTURE: f64 = 0.25;
@@ -45,8 +45,8 @@ const SUBTLE: [Parameter; 9] = [
     Parameter::FilterS,
 ];
 
-/// Standard deviations of the structural parameters of a model under white errors, zero for those not estimated; `None` where the
-/// record leaves some of them open.
+/// Standard deviations of the structural parameters of a model under white errors, zero where not estimated; `None` where the
+/// record does not determine a parameter.
 fn deviations(fitted: &Fitted, observations: &Observations) -> Option<[f64; Parameter::COUNT]> {
     let free = scoring::movable(&fitted.model, &fitted.score, observations);
     let mut deviations = [0.0; Parameter::COUNT];
@@ -59,7 +59,7 @@ fn deviations(fitted: &Fitted, observations: &Observations) -> Option<[f64; Para
     Some(deviations)
 }
 
-/// The same under the errors that rounding makes, from those under white ones.
+/// The deviations under rounding errors, from the deviations under white errors.
 fn under_rounding(fitted: &Fitted, observations: &Observations, deviations: &mut [f64; Parameter::COUNT]) {
     let free = scoring::movable(&fitted.model, &fitted.score, observations);
     if let Some(factors) = rounding::factors(fitted, observations, &free) {
@@ -67,7 +67,7 @@ fn under_rounding(fitted: &Fitted, observations: &Observations, deviations: &mut
     }
 }
 
-/// Logarithm of the odds against what a model has, before the record is looked at.
+/// Logarithm of the prior odds against a model's terms.
 pub(super) fn log_odds_against(model: &VehicleModel, known_delay_s: Option<f64>) -> f64 {
     let (had, ways) = confounded_lags::ways(model, known_delay_s);
     let subtle = SUBTLE.iter().filter(|parameter| model.is_free(**parameter)).count();
@@ -146,13 +146,13 @@ impl<'a> Average<'a> {
         if !mean.is_finite() || !std.is_finite() {
             return None;
         }
-        // All models have one value where it was given, and rounding of the weights is no spread.
+        // All models share the value where it was given, and rounding of the weights is no spread.
         let given = components.iter().all(|c| c.std == 0.0 && c.mean == components[0].mean);
         if given {
             return Some(Estimate::new(components[0].mean, None));
         }
         let (low, high) = (quantile(&components, 0.025), quantile(&components, 0.975));
-        // One that stands far away with less weight than a tail moves the mean, but no end of the interval.
+        // A component far away with less weight than a tail moves the mean, but no end of the interval.
         Some(Estimate::new(mean.max(low).min(high), Some(ConfidenceInterval { std, low, high })))
     }
 
@@ -171,7 +171,7 @@ fn contains(a: &VehicleModel, b: &VehicleModel) -> bool {
         && covers(&a.noise_free, &b.noise_free)
 }
 
-/// What the first model has to gain over the second, which it contains.
+/// Least gain in log-likelihood of the first model over the second, which it contains.
 fn least_gain(more: &VehicleModel, less: &VehicleModel) -> f64 {
     let added = more.freedom() - less.freedom();
     let subtle = SUBTLE.iter().filter(|parameter| more.is_free(**parameter) && !less.is_free(**parameter)).count();

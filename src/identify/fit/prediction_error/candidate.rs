@@ -1,4 +1,4 @@
-//! Every model tried, and the answer to one record.
+//! Every model tried, and the answer to a single record.
 
 use super::model::Parameter;
 use crate::identify::answer::{Reported, Term};
@@ -7,7 +7,7 @@ use crate::identify::signal::Clock;
 /// A model that was tried.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
-    /// Its terms beside drag.
+    /// Its terms in addition to drag.
     pub terms: Vec<Term>,
     /// Its clock.
     pub clock: Clock,
@@ -18,7 +18,7 @@ pub struct Candidate {
 /// Everything the estimator found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordAnswer {
-    /// The one answer to use.
+    /// The answer to use.
     pub reported: Reported,
     /// All models tried, the likeliest for its number of parameters first.
     pub candidates: Vec<Candidate>,

@@ -1,17 +1,17 @@
 //! Confounded lags: a delay, a lag, a limited rate and a filter of the sensor shift the phase alike, and the first of them that joins
-//! need not be the one at work. Hence models with each one and each two of them share the total lag found.
+//! need not be the one at work. Hence models with each single lag and each pair share the total lag found.
 
 use super::model::{Parameter, VehicleModel};
 use crate::identify::answer::Term;
 
-/// The parameters beside the delay, with the mean lag per unit of each.
+/// The lag parameters apart from the delay, with the mean lag per unit of each.
 const LATE: [(Term, Parameter, f64); 3] = [
     (Term::Lag, Parameter::LagS, 1.0),
     (Term::RateLimit, Parameter::RampS, 0.5),
     (Term::SensorFilter, Parameter::FilterS, 1.0),
 ];
 
-/// Total lag beside the delay, in s.
+/// Total lag in addition to the delay, in s.
 fn total_lag_s(model: &VehicleModel) -> f64 {
     LATE.iter().map(|(_, parameter, mean)| mean * model.value(*parameter)).sum()
 }
@@ -23,7 +23,7 @@ pub(super) fn terms(switched: bool) -> Vec<Term> {
     terms
 }
 
-/// Whether the model has one of them.
+/// Whether the model has a confounded lag.
 pub(super) fn is_in(model: &VehicleModel) -> bool {
     LATE.iter().any(|(term, ..)| term.is_in(model))
 }
@@ -35,7 +35,7 @@ pub(super) fn ways(model: &VehicleModel, known_delay_s: Option<f64>) -> (usize, 
     (had + usize::from(given && Term::Delay.is_in(model)), LATE.len() + usize::from(given))
 }
 
-/// The models that share the total lag among each one and each two of the confounded lags; none for a model without a lag, or with
+/// The models that share the total lag among each single lag and each pair of confounded lags; none for a model without a lag, or with
 /// the delay given.
 pub(super) fn chains(model: &VehicleModel, known_delay_s: Option<f64>, switched: bool) -> Vec<VehicleModel> {
     let delay_s = model.value(Parameter::DelayS);

@@ -1,5 +1,5 @@
 //! Extended Kalman filter in continuous and discrete time (Jazwinski 1970, chapter 8): predicts each reading from those
-//! before it. The innovations' likelihood is what is maximised; its derivatives are carried along.
+//! before it. The estimate maximises the innovations' likelihood; its derivatives are carried along.
 //!
 //! States are position, velocity, process force and coloured error of the reading, the filtered position where the sensor
 //! filters, and the late speed where drag follows it. The derivatives with respect to
@@ -71,7 +71,7 @@ impl NoiseSizes {
     }
 }
 
-/// Sensitivities of the states to what is estimated.
+/// Sensitivities of the states to the estimated parameters.
 struct Sensitivities<const N: usize> {
     structure: Vec<(Parameter, Vector<N>)>,
     noise: Vec<(NoiseParameter, Vector<N>, Square<N>)>,
@@ -89,7 +89,7 @@ struct Filter<'a, const N: usize> {
     sensitivities: Sensitivities<N>,
 }
 
-/// What a run is for.
+/// Purpose of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Evaluation {
     /// The likelihood alone.
@@ -100,7 +100,7 @@ pub(super) enum Evaluation {
     Slopes,
 }
 
-/// Runs through the record; `None` where the motion leaves all bounds.
+/// Runs through the record; `None` where the motion diverges.
 pub(super) fn run(observations: &Observations, model: &VehicleModel, wanted: Evaluation) -> Option<FilterPass> {
     if model.value(Parameter::MemoryS) > 0.0 {
         run_with::<6>(observations, model, wanted)
@@ -231,11 +231,11 @@ impl<'a, const N: usize> Filter<'a, N> {
         covariance[3][3] = 0.5 * sizes.colour / forgotten;
         let read = if N > FILTERED && model.value(Parameter::FilterS) > 0.0 { FILTERED } else { 0 };
         if read == FILTERED {
-            // How it moved before the record is not known: as evenly as to a tenth of what it covers.
+            // The filtered position before the record is unknown: deviation [`UNKNOWN_PATH`] times the span.
             covariance[FILTERED][FILTERED] = (UNKNOWN_PATH * observations.span).powi(2);
         }
         if N > LATE {
-            // How the vehicle moved before the record is not known.
+            // The velocity before the record is unknown.
             covariance[LATE][LATE] = (UNKNOWN_SPEED * observations.fastest).powi(2);
         }
         let mut sensitivities = Sensitivities { structure: Vec::new(), noise: Vec::new() };
@@ -294,7 +294,7 @@ impl<'a, const N: usize> Filter<'a, N> {
         (turn > TURN_INSIDE * h_s && turn < (1.0 - TURN_INSIDE) * h_s).then_some(turn)
     }
 
-    /// Force beside that of the actuator, at the beginning of a step.
+    /// Force in addition to the actuator's, at the beginning of a step.
     fn offset(&self) -> f64 {
         let late = if N > LATE { self.model.value(Parameter::Memory) * self.state[LATE] } else { 0.0 };
         self.model.value(Parameter::Disturbance) + self.state[2] - late
@@ -365,7 +365,7 @@ impl<'a, const N: usize> Filter<'a, N> {
     fn spread(&mut self, transition: &Transition, before: &Vector<N>, h_s: f64) {
         let alpha = self.dynamics.alpha;
         let NoiseSizes { force, force_rate, colour, colour_rate, tracking, .. } = self.sizes;
-        // A force that walks at random, integrated twice; drag within a step is left out.
+        // A force that walks at random, integrated twice; drag within a step is neglected.
         let walk = |intensity: f64| {
             let (h2, h3) = (h_s * h_s, h_s * h_s * h_s);
             let mut q = [[0.0; N]; N];
@@ -430,7 +430,7 @@ impl<'a, const N: usize> Filter<'a, N> {
         self.covariance[3][3] += gained;
     }
 
-    /// The force jumps: a later jump leaves the velocity behind.
+    /// The force jumps: the velocity lags behind a later jump.
     fn jump(&mut self, jump: f64) {
         for (parameter, column) in &mut self.sensitivities.structure {
             if *parameter == Parameter::DelayS {
@@ -439,8 +439,8 @@ impl<'a, const N: usize> Filter<'a, N> {
         }
     }
 
-    /// The force jumps at an instant that is off by a random d of known variance: velocity is off by `-jump d / alpha`, and
-    /// position by `jump d^2 / (2 alpha)`, whose mean is known and whose variance is that of evenly spread d.
+    /// The force jumps at an instant that is off by a random d of given variance: velocity is off by `-jump d / alpha`, and
+    /// position by `jump d^2 / (2 alpha)`, of given mean and of the variance of uniform d.
     fn kick(&mut self, jump: f64, variance_s2: f64) {
         let per_second = jump / self.dynamics.alpha;
         let variance = variance_s2 + self.sizes.switch;

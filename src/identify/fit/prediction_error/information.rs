@@ -1,4 +1,4 @@
-//! What a record can say of the parameters: Fisher's information about those that records share, the record's own projected out.
+//! Fisher's information of a record on the parameters that records share, with the record's own parameters projected out.
 
 use nalgebra::{DMatrix, SMatrix};
 
@@ -15,14 +15,14 @@ pub(crate) const SHARED: [Parameter; 4] =
 /// Every record's own.
 const OWN: [Parameter; 3] = [Parameter::Disturbance, Parameter::Position, Parameter::Velocity];
 
-/// Readings left out at the beginning beyond the delay, in half-periods.
+/// Readings omitted at the beginning beyond the delay, in half-periods.
 const UNSEEN: f64 = 0.05;
 
 /// Information about [`SHARED`], in their order.
 pub(crate) type Information = SMatrix<f64, 4, 4>;
 
 /// The information of a record that the axis made, read with an error of this variance, and the part of its readings that count
-/// where cycles repeat reading for reading. `None` where the motion leaves all bounds, or the record shows none.
+/// where cycles repeat reading for reading. `None` where the motion diverges, or the information on the record's own parameters is singular.
 pub(crate) fn of_record(record: &Record, axis: &DragAxis<f64>, variance: f64) -> Option<(Information, f64)> {
     let mut observations = Observations::new(record, Clock::Stamps, SwitchingInstant::AtSamples);
     observations.skip(axis.delay_s() + UNSEEN * observations.half_period_s);

@@ -1,7 +1,7 @@
 //! When the command changed within a gap of the log: at one of the instants of the samples that are missing, and the readings after the
 //! gap tell which.
 //!
-//! A switching that is off by one sample leaves the vehicle off by many times the error of a reading. A variance about the mean
+//! A switching misplaced by a sample displaces the motion by many times the error of a reading. A variance about the mean
 //! instant says less: readings within the gap's span of instants come before that mean as often as after it.
 
 use super::filter::{self, Evaluation};
@@ -10,9 +10,9 @@ use super::observations::Observations;
 
 /// Share of the likelihood from which on an instant counts as known.
 const CERTAIN: f64 = 0.999;
-/// Every so-many-th switching is tried at once: those between are left open, so that the filter finds back to the readings.
+/// Every second switching is tried at once: the switchings between stay uncertain, so that the filter converges back to the readings.
 const APART: usize = 2;
-/// Part of the time between instants by which one that is known less well may move without being another.
+/// Part of the time between candidate instants by which a less certain instant may move and still count as the same.
 const SAME: f64 = 0.1;
 
 /// The record with its switchings in gaps where the model makes it likeliest, as far as the readings tell; `None` where no switching is
@@ -66,7 +66,7 @@ fn shares(open: &Observations, group: &[usize], model: &VehicleModel) -> Option<
     Some(values.into_iter().map(share).collect())
 }
 
-/// Whether any switching is at another instant, or known otherwise.
+/// Whether the instant of a switching differs, or its variance.
 pub(super) fn differ(a: &Observations, b: &Observations) -> bool {
     a.kicks.iter().zip(&b.kicks).any(|(a, b)| {
         let apart = (a.at_s - b.at_s).abs().max((a.variance_s2.sqrt() - b.variance_s2.sqrt()).abs());
@@ -130,7 +130,7 @@ mod tests {
             let moved = before.kicks.iter().filter(|kick| kick.choices > 1).count();
             assert!(moved >= 8 && differ(&before, &after), "{moved} in gaps");
             for ((found, at), piece) in after.kicks.iter().zip(&whole.kicks).zip(&after.pieces[1..]) {
-                // Between samples the interval after the true one is as likely as the one that ends with it.
+                // Between samples the interval after the true instant is as likely as the interval before it.
                 let off = if switching == SwitchingInstant::Between && found.choices > 1 { 0.11 } else { 1e-9 };
                 assert!((found.at_s - at.at_s).abs() < off, "{switching:?}: {found:?} for {at:?}");
                 assert!(found.variance_s2 <= at.variance_s2 + 0.003, "{switching:?}: {found:?} for {at:?}");

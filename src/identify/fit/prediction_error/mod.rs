@@ -1,17 +1,17 @@
 //! Prediction-error estimation: a Kalman filter predicts each reading from those before it, and the estimates are the
-//! parameters, of the motion and of what disturbs it together, that make its innovations likeliest.
+//! parameters of motion and disturbances that maximise the likelihood of its innovations.
 //!
 //! The vehicle is
 //! `alpha x'' + (1 + skew sgn x') (beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + memory s + k x = a(t - T_d) + delta + w(t)`,
 //! `tau a' = u - a`, `memory_s s' = x' - s`, `y = x + e`, a continuous-discrete stochastic state-space model (Jazwinski 1970;
 //! Kristensen, Madsen and Jorgensen 2004; Ljung 1999, chapter 7). Inertia, drag, disturbance and white noise are always there. Terms are a lag, a limited rate, a restoring force, cubic
-//! and one-sided drag, Coulomb friction, fluid memory, a filter of the sensor and a delay other than the one given; a process force,
+//! and one-sided drag, Coulomb friction, fluid memory, a filter of the sensor and a delay that differs from the given delay; a process force,
 //! coloured noise and jitter. Each is tried, and joins where the record is enough likelier for it. All models tried are averaged, so
 //! that an interval allows for the choice among them.
 //! Where readings are rounded, their errors belong together as far as the motion says, and the interval follows.
 //!
-//! What it does not guarantee: a term near its threshold of detection may be left out, and a structure that no term has may
-//! pass for one of them. The scale of the thrust cannot be seen in records of one level: all parameters are in its units.
+//! Not guaranteed: a term near its threshold of detection may be omitted, and a structure outside the family may
+//! pass for one of its terms. The scale of the thrust cannot be seen in records of one level: all parameters are in its units.
 
 mod actuator;
 mod average;
@@ -53,7 +53,7 @@ use observations::Observations;
 use scoring::Fitted;
 use structure_search::{KnownBefore, SearchOutcome, StructureSearch};
 
-/// What to estimate, and what is known.
+/// Parameters to estimate, and given values.
 ///
 /// ```
 /// use selfosc::experiment::{Sensor, SimulatedExperiment};
@@ -75,7 +75,7 @@ pub struct Estimator {
     law: Option<DragLaw>,
 }
 
-/// Weight of a drag law's models below which the other laws are settled.
+/// Weight of a drag law's models below which the remaining laws are excluded.
 const DISTINGUISHABLE: f64 = 0.05;
 
 impl Estimator {
@@ -85,13 +85,13 @@ impl Estimator {
         Self { delay, law: None }
     }
 
-    /// The drag law is known.
+    /// The drag law is given.
     #[must_use]
     pub fn with_law(self, law: DragLaw) -> Self {
         Self { law: Some(law), ..self }
     }
 
-    /// The answer to one record.
+    /// The answer to a single record.
     ///
     /// # Errors
     /// [`IdentifyError::OutOfDomain`] for an output or a command that never changes, [`IdentifyError::CommandSign`] for an output that
@@ -119,7 +119,7 @@ impl Estimator {
 }
 
 impl Estimator {
-    /// The answer to several records of one vehicle: each on its own, then together, with a test whether they agree.
+    /// The answer to several records of the same vehicle: each on its own, then together, with a test whether they agree.
     ///
     /// # Errors
     /// As [`record`](Self::record), of the first record that has no answer; [`IdentifyError::TooFewEquations`] without records.
@@ -232,7 +232,7 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
     RecordAnswer { reported, candidates, command_level: 0.5 * observations.range }
 }
 
-/// The drag laws beside each other, with the terms of the best model.
+/// Comparison of the drag laws, with the terms of the best model.
 fn laws_of(found: &SearchOutcome, best: &Fitted) -> LawEvidence {
     LawEvidence::from_log_likelihoods(DragLaw::ALL.map(|law| {
         let model = best.model.with_drag(law, 1.0);
@@ -241,7 +241,7 @@ fn laws_of(found: &SearchOutcome, best: &Fitted) -> LawEvidence {
     }))
 }
 
-/// Root mean square about the mean: what is left where no model follows.
+/// Root mean square about the mean: the residual of no model at all.
 #[allow(clippy::cast_precision_loss, reason = "a count of samples")]
 fn deviation(values: &[f64]) -> f64 {
     let count = values.len() as f64;

@@ -19,7 +19,7 @@ pub enum Parameter {
     CubicDrag,
     /// Part by which drag is larger to the positive side than the mean of both sides, and smaller to the negative one.
     Skew,
-    /// Coulomb friction: a force against the motion, whatever its speed.
+    /// Coulomb friction: a force of constant size against the motion.
     Coulomb,
     /// Restoring force per unit of output, k.
     Stiffness,
@@ -67,7 +67,7 @@ impl Parameter {
     ];
 }
 
-/// Parameters of what is random, each a logarithm.
+/// Parameters of the random inputs, each a logarithm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(usize)]
 pub(super) enum NoiseParameter {
@@ -107,9 +107,9 @@ impl NoiseParameter {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct VehicleModel {
     pub(super) values: [f64; Parameter::COUNT],
-    /// Estimated; the others are known, or zero because the model has no such term.
+    /// Whether each is estimated; the rest are given, or zero because the model lacks the term.
     pub(super) free: [bool; Parameter::COUNT],
-    /// Logarithms; minus infinity for what the model has not.
+    /// Logarithms; minus infinity for absent terms.
     pub(super) noise: [f64; NoiseParameter::COUNT],
     pub(super) noise_free: [bool; NoiseParameter::COUNT],
     pub(super) switching: SwitchingInstant,
@@ -141,7 +141,7 @@ impl VehicleModel {
         self.noise[noise as usize] > f64::NEG_INFINITY
     }
 
-    /// The size itself, zero for what the model has not.
+    /// The size itself, zero for an absent term.
     pub(super) fn size(&self, noise: NoiseParameter) -> f64 {
         self.noise[noise as usize].exp()
     }
@@ -156,7 +156,7 @@ impl VehicleModel {
         self.noise_free[noise as usize] = free;
     }
 
-    /// The model with another drag law: as much drag at a speed, above zero, by the terms that it has.
+    /// The model with another drag law: equal drag at `speed` > 0.
     pub(super) fn with_drag(&self, law: DragLaw, speed: f64) -> Self {
         let (linear, quadratic) = (self.value(Parameter::LinearDrag), self.value(Parameter::QuadraticDrag));
         let (linear, quadratic) = match law {

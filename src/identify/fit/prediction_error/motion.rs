@@ -1,4 +1,4 @@
-//! One step of the motion, with its transition matrix and the weights of what drives it.
+//! One step of the motion, with its transition matrix and the weights of its inputs.
 
 /// Coefficients of the axis's equation.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +32,7 @@ pub(super) struct MotionStep {
     pub(super) transition: [[f64; 2]; 2],
     /// The first row of the transition matrix half-way.
     pub(super) half: [f64; 2],
-    /// What a unit of force per inertia at the beginning and half-way makes of position and velocity at the end, times
+    /// Weights of the force per inertia at the beginning and half-way in position and velocity at the end, times
     /// Simpson's weights; at the end it makes `end_weight` of velocity.
     pub(super) begin_weight: [f64; 2],
     pub(super) middle_weight: [f64; 2],

@@ -7,17 +7,17 @@ use crate::plant::State;
 /// Readings within this part of the half-period tell the state where the filter begins.
 const START_REACH: f64 = 0.08;
 
-/// A record under one reading of its clock and its switchings.
+/// A record under an assumption on its clock and its switchings.
 #[derive(Clone, Debug)]
 pub(super) struct Observations {
     pub(super) signal: Signal,
     /// Step to which readings are rounded.
     pub(super) step: Option<f64>,
-    /// What each reading counts.
+    /// Weight of each reading.
     pub(super) weight: Vec<f64>,
     /// First sample that the filter sees: before it acts a command that is not in the record.
     pub(super) first: usize,
-    /// Readings left out, of weight zero.
+    /// Number of outliers, of weight zero.
     pub(super) outliers: usize,
 }
 
@@ -44,7 +44,7 @@ impl Observations {
         Self { signal, step, weight, first: 0, outliers: outliers.len() }
     }
 
-    /// Leaves out the readings of the first `unseen_s`.
+    /// Omits the readings of the first `unseen_s`.
     pub(super) fn skip(&mut self, unseen_s: f64) {
         let from = self.time_s[0] + unseen_s;
         self.first = self.time_s.partition_point(|time_s| *time_s < from).min(self.time_s.len() / 2);
@@ -57,13 +57,13 @@ impl Observations {
 
     /// Puts a switching at the mean of its instants.
     fn place(&mut self, kick: usize, at_s: f64, variance_s2: f64) {
-        // The first piece begins with the record, each other one with a switching.
+        // The first piece begins with the record, each later piece with a switching.
         self.signal.pieces[kick + 1].begin_s = at_s;
         let kick = &mut self.signal.kicks[kick];
         (kick.at_s, kick.variance_s2) = (at_s, variance_s2);
     }
 
-    /// Places a switching of a gap at one of its instants.
+    /// Places a switching of a gap at a given instant.
     pub(super) fn choose(&mut self, kick: usize, choice: usize) {
         let (at_s, variance_s2) = self.kicks[kick].choice(choice);
         self.place(kick, at_s, variance_s2);
@@ -77,18 +77,18 @@ impl Observations {
         self.place(kick, mean, variance.sum());
     }
 
-    /// Leaves its instant open.
+    /// Places it at the mean of equally likely instants.
     pub(super) fn open(&mut self, kick: usize) {
         let choices = self.kicks[kick].choices;
         self.weigh(kick, &vec![1.0 / choices as f64; choices]);
     }
 
-    /// What all readings that the filter sees count together.
+    /// Total weight of the readings that the filter uses.
     pub(super) fn count(&self) -> f64 {
         self.weight[self.first..].iter().sum()
     }
 
-    /// Twice the log-likelihood that so many parameters have to be worth: few readings count more against them (Hurvich and Tsai,
+    /// Twice the log-likelihood that `parameters` must gain: more if readings are few (Hurvich and Tsai,
     /// *Biometrika* 76, 1989).
     pub(super) fn price(&self, parameters: usize) -> f64 {
         let (count, parameters) = (self.count(), parameters as f64);

@@ -1,4 +1,4 @@
-//! One number from the estimates of several records.
+//! A pooled estimate from several records.
 
 use crate::identify::answer::distribution::chi_square_tail;
 use crate::identify::answer::{ConfidenceInterval, Estimate};
@@ -15,14 +15,14 @@ pub(super) fn mean(numbers: &Measured) -> (f64, f64) {
     (numbers.iter().map(|(value, std)| value * std.powi(-2)).sum::<f64>() / weight, weight.sqrt().recip())
 }
 
-/// Probability that numbers scatter more if they are one; one for a single number.
+/// Probability of more scatter if the numbers are equal; 1 for a single number.
 pub(super) fn probability_of_one(numbers: &Measured) -> f64 {
     let (mean, _) = mean(numbers);
     let scatter: f64 = numbers.iter().map(|(value, std)| ((value - mean) / std).powi(2)).sum();
     if numbers.len() > 1 { chi_square_tail(scatter, numbers.len() - 1) } else { 1.0 }
 }
 
-/// Values with their standard deviations; `None` where one has none.
+/// Values with their standard deviations; `None` unless all have one.
 pub(super) fn known(estimates: &[Estimate]) -> Option<Measured> {
     let one = |estimate: &Estimate| {
         let std = estimate.spread.map(ConfidenceInterval::deviation).filter(|std| *std > 0.0);
@@ -79,7 +79,7 @@ mod tests {
             approx::assert_relative_eq!(found, expected, max_relative = 1e-14);
         }
         approx::assert_relative_eq!(apart.unwrap_or_default(), 2f64.sqrt(), max_relative = 1e-14);
-        // The one per cent point of chi-square with one degree of freedom is 6.635.
+        // The 1 % point of chi-square with 1 degree of freedom is 6.635.
         let gap = |square: f64| pooled(&[estimate(0.0, 1.0), estimate((2.0 * square).sqrt(), 1.0)]).1.is_some();
         assert!(gap(6.64) && !gap(6.63));
     }

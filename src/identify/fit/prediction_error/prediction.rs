@@ -10,7 +10,7 @@ use crate::identify::answer::{Estimate, Reported};
 use crate::identify::signal::{Clock, SwitchingInstant};
 use crate::plant::State;
 
-/// Readings left out at the beginning beyond the delay, in half-periods.
+/// Readings omitted at the beginning beyond the delay, in half-periods.
 const UNSEEN: f64 = 0.05;
 /// White variance that the search for the disturbance starts with, in squares of the output's range.
 const FIRST_VARIANCE: f64 = 1e-2;
@@ -34,13 +34,13 @@ pub struct PredictedMotion {
     pub prediction: Prediction,
     /// The first sample predicted.
     pub first_sample: usize,
-    /// The outputs from there on, in output units; a reading that counts as an outlier stands for itself.
-    pub output: Vec<f64>,
+    /// The outputs from there on, in output units; `None` where the reading counts as an outlier.
+    pub output: Vec<Option<f64>>,
 }
 
 impl Reported {
-    /// Predicts a record, with the thrust of its command's level where the records answered from told its law; `None` where
-    /// the motion leaves all bounds, or the command never leaves the dead zone.
+    /// Predicts a record, with the thrust of its command's level if the fitted records determined the thrust law; `None` where
+    /// the motion diverges, or the command never leaves the dead zone.
     #[must_use]
     pub fn predict(&self, record: &Record) -> Option<Prediction> {
         Some(self.predicted_motion(record)?.prediction)
@@ -97,7 +97,10 @@ impl Reported {
             rms: (square / count).sqrt(),
             disturbance: model.value(Parameter::Disturbance),
         };
-        let output = seen.iter().zip(&pass.innovations).map(|(reading, innovation)| reading - innovation.error);
+        // An outlier has no weight, and its innovation no meaning.
+        let counted = observations.weight[observations.first..].iter().map(|weight| *weight > 0.0);
+        let predicted = seen.iter().zip(&pass.innovations).map(|(reading, innovation)| reading - innovation.error);
+        let output = counted.zip(predicted).map(|(counted, predicted)| counted.then_some(predicted));
         Some(PredictedMotion { prediction, first_sample: observations.first, output: output.collect() })
     }
 }

@@ -1,4 +1,4 @@
-//! Tests of what a model leaves: do the halves of the record agree.
+//! Tests of a model's residuals: do the halves of the record agree.
 
 use super::model::Parameter;
 use super::observations::Observations;
@@ -8,8 +8,8 @@ use crate::identify::answer::distribution::chi_square_tail;
 /// Below this probability the halves disagree.
 pub(super) const DISAGREE: f64 = 1e-4;
 
-/// Probability that the scores of the two halves differ so much by chance, and half the difference of the inertias that they want: a
-/// score test of constant parameters (Nyblom 1989 with one known instant). Certainty where a half leaves parameters open.
+/// Probability, by chance, of a difference of the two halves' scores at least as large, and half the difference of the inertias that they want: a
+/// score test of constant parameters (Nyblom 1989 with a given instant). One if a half does not determine the parameters.
 pub(super) fn halves(fitted: &Fitted, observations: &Observations) -> (f64, f64) {
     compared(fitted, observations).unwrap_or((1.0, 0.0))
 }

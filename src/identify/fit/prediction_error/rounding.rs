@@ -1,4 +1,4 @@
-//! What rounding does to the estimates: the errors of one motion's readings belong together, as the motion says.
+//! Effect of rounding on the estimates: the rounding errors of a motion's readings are correlated, as the motion determines.
 //!
 //! Where two points of the motion differ by the part d of a step, their roundings correlate by `1 - 6 d + 6 d^2` over all places
 //! of the grid, of which `cos(2 pi h d)` is the part `6 / (pi h)^2` (Bennett 1948; Sripad and Snyder 1977). Roundings of a cycle
@@ -15,7 +15,7 @@ use super::scoring::Fitted;
 
 /// Part of the variance below which roundings that belong together do not count.
 const NEGLIGIBLE: f64 = 0.1;
-/// Harmonics that are summed; the others count as white.
+/// Harmonics that are summed; the rest count as white.
 const HARMONICS: usize = 16;
 
 /// By how much the deviation of each estimate differs from that of the weighted likelihood, whose errors are white. `None` where

@@ -21,7 +21,7 @@ pub struct Several {
     pub reported: Reported,
     /// Each record's own.
     pub answers: Vec<RecordAnswer>,
-    /// Each record predicted from all others; `None` where there are no others, or the prediction leaves all bounds.
+    /// Each record predicted from the rest; `None` if the record is alone, or the prediction diverges.
     pub left_out: Vec<Option<Prediction>>,
 }
 
@@ -40,7 +40,7 @@ fn vehicles_differ(all: &[Reported]) -> bool {
     })
 }
 
-/// The records in one unit of force, and how they become one answer.
+/// The records in a common unit of force, and their pooled answer.
 struct Together {
     parts: Vec<Reported>,
     /// What the intervals hold beside what they would.

@@ -317,7 +317,7 @@ impl<'a> StructureSearch<'a> {
         confounded_lags::terms(observations.switched).par_iter().filter_map(from).collect()
     }
 
-    /// A model with the other drag laws, as far as they have not been tried, so that the laws can be compared.
+    /// A model with each untried drag law, so that the laws can be compared.
     fn other_laws(&self, tried: &[Fitted], model: &VehicleModel) -> Vec<VehicleModel> {
         if self.known.law.is_some() {
             return Vec::new();

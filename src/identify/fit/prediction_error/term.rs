@@ -47,7 +47,7 @@ impl Term {
             && self.noises().iter().all(|noise| model.has_noise(*noise))
     }
 
-    /// Whether the model can have the term besides what it has.
+    /// Whether the model admits the term.
     pub(super) fn applies(self, model: &VehicleModel, observations: &Observations) -> bool {
         !self.is_in(model)
             && match self {

@@ -1,8 +1,8 @@
-//! What records of different levels say about the thrust.
+//! The law of thrust from records of different levels.
 //!
-//! One record gives every parameter in units of its own command, so that thrust which is not proportional to the command
+//! A record gives every parameter in units of its own command, so thrust that is not proportional to the command
 //! multiplies all of them alike. At level C, thrust beyond a dead zone d is C - d and thrust with exponent p is C^p: either
-//! makes a line of the records, `C / alpha` over C and `ln(C / alpha)` over `ln C`, which two levels draw and three can bend.
+//! makes a line of the records, `C / alpha` over C and `ln(C / alpha)` over `ln C`. Two levels fix a line; three test it.
 
 use super::candidate::RecordAnswer;
 use super::pooling::{known, probability_of_one};
@@ -30,7 +30,7 @@ pub(super) enum ThrustLaw {
 }
 
 impl ThrustLaw {
-    /// What a record of this level multiplies the parameters by; `None` within the dead zone.
+    /// Factor on the parameters of a record of this level; `None` within the dead zone.
     pub(super) fn factor(self, at: f64) -> Option<f64> {
         match self {
             Self::DeadZone { width } => (at > width).then(|| at / (at - width)),
@@ -55,7 +55,7 @@ pub(super) struct Drawn {
     alpha: f64,
     /// Its standard deviation over its value.
     pub(super) relative: f64,
-    /// Probability that records of it scatter more about it; one where nothing is left to scatter.
+    /// Probability, under the law, of more scatter; 1 without degrees of freedom.
     pub(super) probability: f64,
 }
 
@@ -67,12 +67,12 @@ impl Drawn {
     }
 }
 
-/// What the records say of the law of thrust.
+/// Verdict of the records on the law of thrust.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ThrustVerdict {
-    /// It is this one.
+    /// The records determine this law.
     One(Drawn),
-    /// It is not told: a power would do, and a dead zone where there is one.
+    /// Undetermined: a power fits, and so does the dead zone, if any.
     Open {
         dead_zone: Option<Drawn>,
         exponent: f64,
@@ -115,7 +115,7 @@ impl RegressionLine {
 pub(super) struct CommandLevels(Vec<(f64, f64, f64)>);
 
 impl CommandLevels {
-    /// `None` where the levels are one, or an inertia has no error to judge by.
+    /// `None` where all levels are equal, or an inertia has no error to judge by.
     pub(super) fn of(answers: &[RecordAnswer]) -> Option<Self> {
         let alphas = known(&answers.iter().map(|answer| answer.reported.alpha).collect::<Vec<_>>())?;
         let levels =
@@ -138,8 +138,8 @@ impl CommandLevels {
         1 + levels.windows(2).filter(|pair| pair[1] > OTHER_LEVEL * pair[0]).count()
     }
 
-    /// What may lie behind inertias that differ, of which one number is to be told; `None` where no law of thrust makes
-    /// them one.
+    /// The law of thrust that explains differing inertias by a common inertia; `None` where no law of thrust makes
+    /// them equal.
     pub(super) fn verdict(&self, alpha: f64, unlikely: f64) -> Option<ThrustVerdict> {
         let likely = |drawn: &Drawn| drawn.probability >= unlikely;
         let line = self.logarithms();
@@ -185,7 +185,7 @@ impl CommandLevels {
         (exponent > 0.0).then_some(Drawn { law, alpha, relative, probability })
     }
 
-    /// By what part of the level the constant force grows with it; `None` where the records do not say so.
+    /// Slope of the constant force over the level; `None` where the records show none.
     pub(super) fn asymmetry(&self, deltas: &[Estimate], unlikely: f64) -> Option<f64> {
         let deltas = known(deltas).filter(|deltas| deltas.len() == self.0.len())?;
         let points: Vec<_> =
@@ -196,7 +196,7 @@ impl CommandLevels {
 }
 
 impl Reported {
-    /// The same in units of a record's command of this level, as the law of thrust that the records told has it; `None` where
+    /// The same in units of a record's command of this level, by the law of thrust that the records determined; `None` where
     /// the command never leaves the dead zone.
     pub(crate) fn at_level(&self, level: f64) -> Option<Self> {
         let factor = self.thrust().map_or(Some(1.0), |law| law.factor(level))?;

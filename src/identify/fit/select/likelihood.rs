@@ -6,10 +6,10 @@ use crate::experiment::Record;
 use crate::identify::answer::{Delay, DragLaw, IdentifyError};
 use crate::identify::fit::shooting::{Fit, RecordFit};
 
-/// Odds against each other law from which a law counts as recognised: 95 %.
+/// Odds against every rival law from which a law counts as recognised: 95 %.
 pub(crate) const DECIDED: f64 = 19.0;
-/// Odds of a simple law against the mixed one from which the simple one counts: the mixed law explains whatever the simple one
-/// does, so that no record speaks against it by more than the charge for its parameter.
+/// Odds against the mixed law from which a simple law is chosen: the mixed law contains the simple
+/// laws, so no record refutes it by more than the charge for its parameter.
 pub(crate) const DECIDED_AGAINST_MIXED: f64 = 4.0;
 
 /// The laws fitted, and which of them the records speak for.
@@ -38,7 +38,7 @@ impl TryFrom<UncheckedChoice> for Choice {
     }
 }
 
-/// Each of `laws` fitted to all records at once, in their order; the simple ones in parallel, then the mixed one, which contains
+/// Each of `laws` fitted to all records at once, in their order; simple laws in parallel, then the mixed law, which contains
 /// them, from where they ended.
 ///
 /// Each result is that of [`Fit::records`].
@@ -56,7 +56,7 @@ impl Choice {
     /// Fits linear, quadratic and mixed drag to all records at once, in parallel.
     ///
     /// A law's probability is its share of the sum of likelihoods, each charged `sqrt(n)` for every parameter (Schwarz's
-    /// criterion; n samples). It compares these laws with each other: that none of them is right shows in the residuals.
+    /// criterion; n samples). It compares these laws with each other: a fault common to all laws shows in the residuals.
     ///
     /// # Errors
     /// The first error where no law could be fitted.
@@ -100,13 +100,13 @@ impl Choice {
         Ok(Self { probabilities: weights.into_iter().map(|weight| weight / sum).collect(), fits })
     }
 
-    /// The fits, in the order linear, quadratic, mixed; one that failed is missing.
+    /// The fits, in the order linear, quadratic, mixed; failed fits are missing.
     #[must_use]
     pub fn fits(&self) -> &[RecordFit] {
         &self.fits
     }
 
-    /// Probability of a law; zero for one that could not be fitted.
+    /// Probability of a law; zero if it could not be fitted.
     #[must_use]
     pub fn probability(&self, law: DragLaw) -> f64 {
         self.fits.iter().zip(&self.probabilities).find(|(fit, _)| fit.law() == law).map_or(0.0, |(_, p)| *p)
@@ -120,7 +120,7 @@ impl Choice {
         &self.fits[best]
     }
 
-    /// The law recognised: the likeliest, where its odds against each other law that could be fitted are [`DECIDED`], or
+    /// The law recognised: the likeliest, where its odds against every rival law that could be fitted are [`DECIDED`], or
     /// [`DECIDED_AGAINST_MIXED`]; else `None`.
     #[must_use]
     pub fn decision(&self) -> Option<DragLaw> {

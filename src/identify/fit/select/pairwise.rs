@@ -1,4 +1,4 @@
-//! The paper's rule for two experiments (eqs. 41-42): the right drag law is the one whose coefficient does not change.
+//! The paper's rule for two experiments (eqs. 41-42): the right drag law has the same coefficient in both.
 
 use crate::numeric::Real;
 
@@ -14,7 +14,7 @@ pub fn relative_spread_percent<T: Real>(first: T, second: T) -> T {
     T::two().sqrt() * ((first - second) / (first + second)).abs() * T::from_f64(100.0)
 }
 
-/// What a pair of experiments says of the drag law.
+/// Decision of a pair of experiments on the drag law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Decision {
@@ -26,8 +26,8 @@ pub enum Decision {
     Undecided,
 }
 
-/// Eq. 42: quadratic where the linear coefficient spreads more than the quadratic one by more than `margin_percent`,
-/// linear where it is the other way about. All in percent. Says nothing of how sure the decision is.
+/// Eq. 42: quadratic where the spread of the linear coefficient exceeds the quadratic coefficient's by more than `margin_percent`,
+/// linear in the converse case. All in percent. Gives no confidence in the decision.
 ///
 /// ```
 /// use selfosc::identify::fit::select::pairwise::{Decision, decide};

@@ -10,23 +10,23 @@ use nalgebra::{DMatrix, DMatrixView};
 use super::sensitivity::{COMMON, OutputSensitivity, SHARED, UNKNOWNS, UnknownsGradient};
 use crate::identify::answer::IdentifyError;
 
-/// Unknowns left when the instant is eliminated.
+/// Unknowns after the instant is eliminated.
 const CARRIED: usize = UNKNOWNS - 1;
-/// Unknowns of one record alone: initial state and disturbance.
+/// Unknowns of a record alone: initial state and disturbance.
 pub(super) const OWN: usize = CARRIED - SHARED;
 
-/// Rows of one shooting interval, each divided by its standard deviation: unknowns, then right-hand sides.
+/// Rows of a shooting interval, each divided by its standard deviation: unknowns, then right-hand sides.
 #[derive(Clone, Debug)]
 pub(super) struct Link {
     /// Data and prior of the instant.
     pub(super) rows: DMatrix<f64>,
     /// Position and velocity at the end.
     pub(super) end: [UnknownsGradient; 2],
-    /// What the shooting interval's end lacks to the next one's beginning: end less beginning.
+    /// Matching defect: the end of the shooting interval less the beginning of the next interval.
     pub(super) defect: [f64; 2],
 }
 
-/// What the whole record says about the common unknowns, and how its own follow from them.
+/// Normal equations of a record for the common unknowns, and the map from them to its own unknowns.
 #[derive(Clone, Debug)]
 pub(super) struct CondensedChain {
     /// For each shooting interval the row that gives its instant.
@@ -49,7 +49,7 @@ fn triangle(rows: &DMatrix<f64>, columns: usize) -> DMatrix<f64> {
     if sides == 1 {
         qr.q_tr_mul(&mut right);
     } else {
-        // One product for many sides takes a quarter of the reflections' time.
+        // A single product for all right-hand sides takes a quarter of the reflections' time.
         right = qr.q().transpose() * right;
     }
     let mut upper = qr.unpack_r().resize_horizontally(columns + sides, 0.0);
@@ -98,7 +98,7 @@ impl CondensedChain {
         self.instants.iter().map(|row| row[(0, 0)].abs().ln())
     }
 
-    /// The record's own unknowns (position, velocity, disturbance), given the common ones, for one right-hand side.
+    /// The record's own unknowns (position, velocity, disturbance), given the common unknowns, for a right-hand side.
     pub(super) fn own(&self, shared: &[f64; SHARED], side: usize) -> Result<[f64; OWN], IdentifyError> {
         let mut own = [0.0; OWN];
         for row in (0..OWN).rev() {
@@ -118,7 +118,7 @@ impl CondensedChain {
         self.triangle.view((0, 0), (OWN, CARRIED))
     }
 
-    /// All unknowns of every shooting interval, from those of the record and the common ones.
+    /// All unknowns of every shooting interval, from the record's own and the common unknowns.
     pub(super) fn unfold(&self, own: [f64; OWN], shared: &[f64; SHARED]) -> Vec<UnknownsGradient> {
         let mut unknowns: UnknownsGradient = [0.0; UNKNOWNS];
         unknowns[1..COMMON].copy_from_slice(&own);
@@ -137,7 +137,7 @@ impl CondensedChain {
     }
 }
 
-/// Solution for the common unknowns of all records' rows; `fixed` ones keep the value given. One column per right-hand side.
+/// Solution for the common unknowns of all records' rows; `fixed` unknowns keep the given value. A column per right-hand side.
 pub(super) fn solve_shared(
     rows: &DMatrix<f64>,
     fixed: &[Option<f64>; SHARED],

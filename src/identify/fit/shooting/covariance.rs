@@ -2,7 +2,7 @@
 //!
 //! With Gaussian noise it is the inverse of the information. A rounding sensor is another matter: on a steady cycle its
 //! errors repeat from cycle to cycle, and do not average out. There the errors are drawn: the model's own readings on
-//! motions within about a step of the one fitted, pushed through the same linear equations.
+//! motions within about a step of the fitted motion, mapped by the same linear equations.
 
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
@@ -52,7 +52,7 @@ impl Covariance {
 /// One error: of the common unknowns, and of each record's disturbance.
 type Errors = Vec<([f64; SHARED], Vec<f64>)>;
 
-/// Errors whose squares add up to the inverse of the information: one for each independent direction.
+/// Errors whose squares add up to the inverse of the information: an error vector for each independent direction.
 fn unit(
     search: &GaussNewton<'_>,
     linearised: &[LinearisedTrajectory],
@@ -92,7 +92,7 @@ fn unit(
     Ok(errors)
 }
 
-/// Errors drawn from readings of motions near the one fitted.
+/// Errors sampled from readings of motions near the fitted motion.
 fn drawn(
     search: &GaussNewton<'_>,
     linearised: &[LinearisedTrajectory],

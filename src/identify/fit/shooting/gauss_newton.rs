@@ -34,9 +34,9 @@ const LEAST_DRAG: f64 = 1e-3;
 const DELAY_SHARE: f64 = 1e-2;
 /// Samples per half-period while the search is far from its end.
 const COARSE: f64 = 24.0;
-/// Readings within this part of the half-period tell the state at a node.
+/// Readings within this part of the half-period determine the state at a node,
 const NODE_REACH: f64 = 0.125;
-/// And within so many intervals between samples at least.
+/// and at least within this number of sampling intervals.
 const LEAST_REACH: f64 = 1.6;
 /// Noise that the search starts with, in ranges of the output.
 const FIRST_NOISE: f64 = 0.02;
@@ -44,7 +44,7 @@ const FIRST_NOISE: f64 = 0.02;
 const MOST_RESIDUALS: usize = 4000;
 /// How far an instant may move, in standard deviations: a uniform one is within 1.7, and an edge on a sample is estimated on either side of it.
 const FARTHEST_INSTANT: f64 = 2.5;
-/// Largest step of inertia and of a drag, relative: the linearisation holds only so far.
+/// Largest step of inertia and of a drag, relative: the linearisation fails beyond.
 const LARGEST_INERTIA_STEP: f64 = 0.5;
 const LARGEST_DRAG_STEP: f64 = 2.0;
 /// The first steps, and the share of them that is made.
@@ -59,7 +59,7 @@ const LEAST_REAL_NOISE_STEPS: f64 = 0.01;
 /// Least noise for any sensor, against the output's range: below it there is only rounding of the arithmetic.
 const LEAST_NOISE: f64 = 1e-10;
 
-/// One record and the model's motion along it.
+/// A record and the model's motion along it.
 #[derive(Clone, Debug)]
 pub(super) struct ShotTrajectory<'a> {
     pub(super) record: &'a Record,
@@ -72,7 +72,7 @@ pub(super) struct ShotTrajectory<'a> {
     half_period_s: f64,
 }
 
-/// The model along one record, linearised.
+/// The model along a record, linearised.
 pub(super) struct LinearisedTrajectory {
     /// For each shooting interval: sample, model output with derivatives.
     pub(super) rows: Vec<Vec<(usize, OutputSensitivity)>>,
@@ -113,7 +113,7 @@ impl<'a> ShotTrajectory<'a> {
         let mut edges = edges(record, between);
         let (time, half_period_s, range) = (record.time_s(), signal.half_period_s, signal.span);
         let last = time[time.len() - 1];
-        // What acted before the log began is not known: the model starts when all of its commands are.
+        // Commands before the log are unknown: the model starts once every delayed command lies in the log.
         let begin = (time[0] + delay_s).min(time[time.len() / 2]);
         let mut nodes = vec![begin];
         let acting = |edge: &Edge| edge.time_s + delay_s;
@@ -124,7 +124,7 @@ impl<'a> ShotTrajectory<'a> {
                 next += half_period_s;
             }
         } else {
-            // One uncertain edge to a shooting interval, as far from its ends as can be.
+            // A single uncertain edge per shooting interval, as far from its ends as possible.
             nodes.extend(edges.windows(2).map(|pair| f64::midpoint(acting(&pair[0]), acting(&pair[1]))));
             nodes.retain(|node| *node >= begin && *node < last);
         }
@@ -269,7 +269,7 @@ impl<'a> ShotTrajectory<'a> {
         }
     }
 
-    /// The noise before rounding, however small: not the one that the search works with.
+    /// The noise before rounding, without the search's lower limit.
     pub(super) fn real_noise(&self, linearised: &LinearisedTrajectory) -> f64 {
         let residuals = self.residuals(linearised);
         let thinned: Vec<f64> = residuals.iter().step_by(residuals.len() / MOST_RESIDUALS + 1).copied().collect();
@@ -344,7 +344,7 @@ impl<'a> GaussNewton<'a> {
         self.evidence
     }
 
-    /// Common unknowns that the drag law or a known delay fixes.
+    /// Common unknowns that the drag law or a given delay fixes.
     pub(super) fn fixed(&self) -> [Option<f64>; SHARED] {
         let fix = |fixed: bool| fixed.then_some(0.0);
         [None, fix(!self.law.has_linear()), fix(!self.law.has_quadratic()), fix(!self.estimate_delay)]
@@ -454,7 +454,7 @@ impl<'a> GaussNewton<'a> {
         Ok(if share < 1.0 { moved.max(1.0) } else { moved })
     }
 
-    /// Whether there are numbers to go on with: none are left where a step went beyond them all.
+    /// Fails unless inertia is above zero and all unknowns are finite.
     fn check(&self) -> Result<(), IdentifyError> {
         let [alpha, ..] = self.shared;
         let sound =
@@ -462,8 +462,8 @@ impl<'a> GaussNewton<'a> {
         if sound { Ok(()) } else { Err(IdentifyError::Confounded { ratio: 0.0 }) }
     }
 
-    /// What the common unknowns are measured by: inertia by itself, either drag by both at the record's typical speed, the
-    /// delay by itself or a part of the half-period, so that none stands still for being near zero.
+    /// Scales of the common unknowns: inertia by itself, either drag by both at the record's typical speed, the
+    /// delay by itself or a part of the half-period, so that an unknown near zero still moves.
     fn scales(&self) -> CommonParameters {
         let [alpha, linear, quadratic, delay_s] = self.shared;
         let typical =

@@ -2,7 +2,7 @@
 
 use crate::experiment::Record;
 
-/// What the command does between two samples of the log.
+/// Course of the command between two samples of the log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Between {
@@ -10,7 +10,7 @@ pub enum Between {
     AtSamples,
     /// It changes at an unknown instant since the sample before; every such instant is estimated.
     Anywhere,
-    /// It passes evenly from one sample's value to the next's.
+    /// Linear from each sample to the next.
     Evenly,
     /// It moves steadily, but its corners lie between samples, as a rudder's at a limited rate do: it bends where the straight
     /// lines from either side meet, or follows the curve through its neighbours. Where it jumps, the instant is estimated.
@@ -20,13 +20,13 @@ pub enum Between {
 /// A change of the command.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Edge {
-    /// When, on the log's clock; the middle of what is possible where it is not known.
+    /// When, on the log's clock; the middle of its interval where it is uncertain.
     pub(super) time_s: f64,
     /// Command afterwards.
     pub(super) input: f64,
     /// Standard deviation of the time; zero where it is known.
     pub(super) std_s: f64,
-    /// Of the impulse that the command may have had besides, in command units times s, squared.
+    /// Variance of a further impulse of the command, in command units times s, squared.
     variance: f64,
 }
 

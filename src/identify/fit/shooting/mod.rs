@@ -26,7 +26,7 @@ use crate::identify::answer::{Delay, DragLaw, IdentifyError};
 use crate::identify::signal::is_switched;
 use gauss_newton::{GaussNewton, StartingPoint};
 
-/// The fit of one drag law.
+/// The fit of a drag law.
 ///
 /// ```
 /// use selfosc::experiment::{SimulatedExperiment, Sensor};
@@ -51,14 +51,14 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// A drag law, and what is known of the delay.
+    /// A drag law, and the delay, given or to be estimated.
     #[must_use]
     pub fn new(law: DragLaw, delay: Delay) -> Self {
         Self { law, delay, between: None, quantum: None }
     }
 
-    /// What the command does between samples. Else a switched command is taken to change at samples or anywhere between them,
-    /// any other to be held or to pass evenly or with bends from sample to sample, whichever is likeliest.
+    /// The command's course between samples. By default a switched command is taken to change at samples or anywhere between them,
+    /// a continuous command to be held, linear or curved from sample to sample, whichever is likeliest.
     #[must_use]
     pub fn with_between(self, between: Between) -> Self {
         Self { between: Some(between), ..self }
@@ -83,7 +83,7 @@ impl Fit {
     }
 
     /// As [`records`](Self::records), where fits to the same records are there already: under another law, or with another
-    /// delay. The search starts from them too, and the likeliest end is taken, so that a law is never found less likely than one
+    /// delay. The search starts from them too, and the likeliest end is taken, so that a law is never less likely than a law
     /// that it contains.
     ///
     /// # Errors
@@ -101,7 +101,7 @@ impl Fit {
         let given = fits.iter().map(|fit| fit.place()).filter(|start| ways.contains(&start.between));
         let ends = self.ends(records, ways, given.collect());
         let best = likeliest(ends, GaussNewton::evidence).and_then(|best| best.settle()?.finish());
-        // With every sample, another start may yet have been the better one.
+        // With every sample, another start may prove better.
         let reached = best.as_ref().map_or(f64::INFINITY, RecordFit::log_likelihood);
         let missed = fits.iter().filter(|fit| fit.log_likelihood() > reached);
         let again = missed.map(|fit| search(self.law, fit.between())?.starting_at(&fit.place()).refine()?.finish());
@@ -118,7 +118,7 @@ impl Fit {
         Ok(if other.log_likelihood() > best.log_likelihood() { other.widened(&best) } else { best.widened(&other) })
     }
 
-    /// Where searches end that begin anew with each way to take the input, and from what is given.
+    /// Ends of the searches from new starts with each treatment of the input, and from the given starts.
     fn ends<'a>(&self, records: &[&'a Record], ways: &[Between], given: Vec<StartingPoint>) -> Vec<Ended<'a>> {
         let short = beginning::of(records);
         let Some(short) = short.as_ref().map(|short| short.iter().collect::<Vec<_>>()) else {
@@ -140,7 +140,7 @@ impl Fit {
         ends.flatten().map(|search| search.place()).collect()
     }
 
-    /// A search for each way, and one from each start, in parallel.
+    /// A search for each treatment and from each start, in parallel.
     fn approach<'a>(&self, records: &[&'a Record], ways: &[Between], starts: &[StartingPoint]) -> Vec<Ended<'a>> {
         let search = |between| GaussNewton::new(records, self.law, self.delay, between, self.quantum);
         let own = ways.par_iter().map(|way| search(*way)?.approach());

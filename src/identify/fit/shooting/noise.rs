@@ -6,7 +6,7 @@ use crate::numeric::golden_section;
 
 /// How a reading differs from the output: Gaussian noise, then perhaps rounding to whole steps.
 ///
-/// A rounded reading says that the noisy output lay within half a step of it; that is all it says.
+/// Interval censoring: a rounded reading means that the noisy output lay within half a step of it, and nothing more.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ReadingNoise {
     pub(super) std: f64,
@@ -19,7 +19,7 @@ const FAR_OUT: f64 = 5.0;
 /// The likeliest noise is found to this power of two.
 const NOISE_TOLERANCE: f64 = 0.01;
 
-/// Likelihood of one reading, about the model's output.
+/// Likelihood of a reading, about the model's output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Likelihood {
     /// Logarithm: of a density without rounding, of a probability with it.
@@ -39,7 +39,7 @@ impl ReadingNoise {
             let log = -0.5 * scaled * scaled - self.std.ln() - 0.5 * (2.0 * PI).ln();
             return Likelihood { log, score: scaled * precision, information: precision * precision };
         }
-        // The noise lies between these two, in standard deviations; by symmetry nearer to the lower one.
+        // The noise lies between these two, in standard deviations; by symmetry nearer to the lower end.
         let (distance, half) = (residual.abs() * precision, 0.5 * self.quantum * precision);
         let (low, high) = (distance - half, distance + half);
         let (log, lower, upper) = if low > FAR_OUT {

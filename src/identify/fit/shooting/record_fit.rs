@@ -21,7 +21,7 @@ pub struct RecordFit {
     parameters: usize,
 }
 
-/// The model along one record.
+/// The model along a record.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct FittedRecord {
@@ -31,7 +31,7 @@ pub struct FittedRecord {
     pub begin_s: f64,
     /// State then.
     pub start: State<f64>,
-    /// Index of the first sample that the model covers; there is one output for each from here on.
+    /// Index of the first sample that the model covers; outputs begin there.
     pub first_sample: usize,
     /// Outputs of the model.
     pub output: Vec<f64>,
@@ -45,7 +45,7 @@ pub struct FittedRecord {
     pub residual_rms: f64,
     /// Share of the output's variation about its mean that the model explains: `100 (1 - rms/std)`.
     pub fit_percent: f64,
-    /// Correlation of successive residuals: near zero for white ones. Rounding alone makes it positive on slow motions.
+    /// Correlation of successive residuals: near zero if white. Rounding alone makes it positive on slow motions.
     pub autocorrelation: f64,
     /// The strongest correlation of residuals up to [`LAGS`](Self::LAGS) samples apart, with its sign.
     pub strongest_correlation: f64,
@@ -138,7 +138,7 @@ impl GaussNewton<'_> {
     }
 }
 
-/// With so much more variance, and not below `least`.
+/// Adds `variance`; the interval's lower end is at least `least`.
 fn wider(estimate: Estimate, variance: f64, least: f64) -> Estimate {
     let wider = |before: ConfidenceInterval| {
         let after = ConfidenceInterval::normal(estimate.value, (before.std * before.std + variance).sqrt());
@@ -158,8 +158,8 @@ fn mean_square(values: &[f64], about: f64) -> f64 {
 }
 
 impl RecordFit {
-    /// The same model, its errors with what is unknown of the input between samples: `other` is the fit under the other of two
-    /// treatments of the input between which there is a continuum. One between them is as likely as the parabola through both likelihoods says, and the
+    /// The same model with the input's uncertainty between samples added to its errors: `other` is the fit under the second of two
+    /// treatments of the input between which there is a continuum. The likelihood of an intermediate treatment is the parabola through both likelihoods, and the
     /// estimate moves along with it.
     pub(super) fn widened(mut self, other: &Self) -> Self {
         let lost = (self.evidence - other.evidence).max(0.5);
@@ -188,7 +188,7 @@ impl RecordFit {
     pub fn law(&self) -> DragLaw {
         self.law
     }
-    /// What the command was taken to do between samples.
+    /// Treatment of the command between samples.
     #[must_use]
     pub fn between(&self) -> Between {
         self.between
@@ -198,7 +198,7 @@ impl RecordFit {
     pub fn axis(&self) -> &DragAxis<f64> {
         &self.axis
     }
-    /// A parameter with its error; without one where the law has no such drag, where it was given, or where it ended on zero.
+    /// A parameter with its error; without an error where the law lacks this drag, where it was given, or where it ended on zero.
     #[must_use]
     pub fn estimate(&self, parameter: AxisParameter) -> Estimate {
         self.estimates[parameter as usize]

@@ -7,7 +7,7 @@ use crate::numeric::{self, Real, Scalar};
 type Partials = numeric::Gradient<f64, 4>;
 use crate::plant::{DragAxis, State};
 
-/// Unknowns of a shooting interval: instant of its uncertain edge, state at its beginning, disturbance, then what is common to all.
+/// Unknowns of a shooting interval: instant of its uncertain edge, state at its beginning, disturbance, then the common unknowns.
 pub(super) const UNKNOWNS: usize = 8;
 pub(super) const INSTANT: usize = 0;
 pub(super) const POSITION: usize = 1;
@@ -29,7 +29,7 @@ pub(super) struct OutputSensitivity {
     pub(super) gradient: UnknownsGradient,
 }
 
-/// A shooting interval of the record: from one node to the next.
+/// A shooting interval of the record: between successive nodes.
 #[derive(Clone, Debug)]
 pub(super) struct ShootingInterval {
     pub(super) begin_s: f64,
@@ -51,7 +51,7 @@ pub(super) struct ActingEdges<'a> {
 /// Common unknowns: alpha, linear drag, quadratic drag, delay in s.
 pub(super) type CommonParameters = [f64; SHARED];
 
-/// The motion under one constant force after another, with its derivatives.
+/// The motion under a piecewise constant force, with its derivatives.
 struct ConstantForceFlow {
     shared: CommonParameters,
     disturbance: f64,
@@ -102,7 +102,7 @@ impl ConstantForceFlow {
     }
 }
 
-/// Index, among the edges of a shooting interval, of the one whose instant is estimated.
+/// Index, among the edges of a shooting interval, of the edge whose instant is estimated.
 pub(super) fn uncertain(edges: &[Edge]) -> Option<usize> {
     edges.iter().position(|edge| edge.std_s > 0.0)
 }

@@ -1,11 +1,11 @@
-//! What a parameter itself does to the motion within a step.
+//! Direct effect of a parameter on the motion within a step.
 
 use super::transition::LateSpeed;
 use crate::identify::fit::prediction_error::actuator::Force;
 use crate::identify::fit::prediction_error::model::Parameter;
 use crate::identify::fit::prediction_error::motion::{Dynamics, MotionStep, Point};
 
-/// A step, and what drove it.
+/// A step, and its inputs.
 pub(super) struct Drives<'a> {
     pub(super) dynamics: &'a Dynamics,
     pub(super) step: &'a MotionStep,
@@ -18,7 +18,7 @@ pub(super) struct Drives<'a> {
 }
 
 impl Drives<'_> {
-    /// What a unit of the parameter makes of position and velocity at the end of the step, and of the position half-way.
+    /// Derivatives, by the parameter, of position and velocity at the end of the step, and of the position half-way.
     pub(super) fn by(&self, parameter: Parameter) -> [f64; 3] {
         if matches!(parameter, Parameter::FilterS | Parameter::Position | Parameter::Velocity) {
             return [0.0; 3];

@@ -1,11 +1,11 @@
-//! What a run through the record gives.
+//! Result of a run through the record.
 
 use crate::identify::fit::prediction_error::model::{NoiseParameter, Parameter};
 
 pub(super) const STRUCTURE: usize = Parameter::COUNT;
 pub(super) const NOISES: usize = NoiseParameter::COUNT;
 
-/// Error of a prediction of one step, and its variance.
+/// Error of a one-step prediction, and its variance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Innovation {
     pub(crate) error: f64,
@@ -43,7 +43,7 @@ impl Score {
         }
     }
 
-    /// What has been summed, and begins anew. Only the half below the diagonal of the structure's information is summed.
+    /// The sums so far; resets them to zero. Only the half below the diagonal of the structure's information is summed.
     pub(super) fn take(&mut self) -> Self {
         let mut sum = core::mem::replace(self, Self::zero());
         for i in 0..STRUCTURE {
@@ -70,7 +70,7 @@ impl Score {
     }
 }
 
-/// One run through the record.
+/// A run through the record.
 #[derive(Clone, Debug)]
 pub(crate) struct FilterPass {
     pub(crate) log_likelihood: f64,

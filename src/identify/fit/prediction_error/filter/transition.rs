@@ -1,4 +1,4 @@
-//! How the states, and what is known of them, go over a step.
+//! Propagation of the state estimate and its covariance over a step.
 
 use crate::identify::fit::prediction_error::motion::MotionStep;
 
@@ -15,20 +15,20 @@ pub(super) const LATE: usize = 5;
 #[derive(Clone, Copy)]
 pub(super) struct Transition {
     pub(super) motion: [[f64; 2]; 2],
-    /// What a unit of process force makes of position and velocity.
+    /// Weights of the process force in position and velocity.
     pub(super) by_force: [f64; 2],
     pub(super) force: f64,
     pub(super) colour: f64,
-    /// What position, velocity, process force and the filtered position itself make of the filtered position.
+    /// Weights of position, velocity, process force and filtered position in the filtered position.
     pub(super) filtered: [f64; 4],
-    /// What the late speed makes of position and velocity.
+    /// Weights of the late speed in position and velocity.
     pub(super) by_late: [f64; 2],
-    /// What the late speed itself, and velocity at the beginning and at the end, make of it.
+    /// Weights of the late speed, and of the velocity at beginning and end, in the late speed.
     pub(super) late: [f64; 3],
 }
 
 impl Transition {
-    /// Of position and velocity alone: nothing is left of the rest.
+    /// Of position and velocity alone: further states become zero.
     pub(super) fn new(step: &MotionStep, alpha: f64) -> Self {
         let gained = |axis: usize| step.begin_weight[axis] + step.middle_weight[axis];
         Self {
@@ -103,8 +103,8 @@ impl Transition {
     }
 }
 
-/// A first-order low pass over a step in which its input is the parabola through its beginning, middle and end: what is left
-/// of its output, the weights of the three, and the derivatives of all with respect to its time.
+/// A first-order low pass over a step in which its input is the parabola through its beginning, middle and end: the decay
+/// of its output, the three weights, and the derivatives of all with respect to the time constant.
 #[derive(Clone, Copy)]
 pub(super) struct LowPass {
     pub(super) kept: f64,
@@ -148,8 +148,8 @@ fn dot(weights: &[f64; 3], values: &[f64; 3]) -> f64 {
     weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
 }
 
-/// The late speed at the beginning, in the middle and at the end of a step over which the velocity is a line, and what is left
-/// there of the first.
+/// The late speed at the beginning, in the middle and at the end of a step over which the velocity is a line, and the weight
+/// of its initial value at each.
 #[derive(Clone, Copy)]
 pub(super) struct LateSpeed {
     pub(super) values: [f64; 3],

@@ -1,0 +1,206 @@
+//! The proof: a box of frequency and harmonics that is mapped into itself, so that it holds an oscillation (Brouwer).
+//!
+//! Let `x = u + v`, u the odd harmonics up to K, v the others, and `c`, `r` the middle and half the range of the slopes. Where
+//! `rho = inf over odd k > K of abs(g_k + c)` exceeds `r`, the equations above K are a contraction of ratio `r/rho` in v, so v
+//! is unique, continuous in frequency and u, and `norm(v) <= eta = (T_0 + (r/rho) norm(h))/(1 - r/rho)` for `u = u_0 + h` (Mees
+//! and Bergen 1975). The equations up to K are `E(u) + [N(u + v) - N(u)]`. A preconditioner B and the mean value form in frequency
+//! map the box of radii R into itself if in every row
+//! `abs(B E) + abs(1 - B J) R + norm2(B_i) sqrt 2 (r eta + e) <= R`.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::closed_loop::{Centre, LipschitzLoop, jacobian, residual};
+use super::error::CannotTell;
+use super::spectrum::{EnclosedSpectrum, enclose};
+use crate::numeric::{Interval, Real};
+
+/// Share by which the range of the slopes reaches beyond the centre's own, where they are bounded on the range alone.
+const BEYOND: f64 = 1.01;
+
+/// What was shown of a box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ShownBox {
+    /// Upper bound of the root mean square of the harmonics above K.
+    pub(super) remainder: f64,
+    /// Lower bound of `rho`.
+    pub(super) rho: f64,
+    /// Upper bound of the slopes' half-range.
+    pub(super) slope_radius: f64,
+}
+
+/// Everything about a centre that does not depend on how the radii are compared.
+pub(super) struct LinearisedBalance {
+    spectrum: EnclosedSpectrum,
+    /// `abs(B E)` and `norm2(B_i) sqrt 2`, row by row, at most.
+    error: Vec<Interval>,
+    gain: Vec<Interval>,
+    /// `abs(1 - B J)` at most, J over all frequencies of the box.
+    excess: DMatrix<f64>,
+    high: High,
+}
+
+/// The harmonics above K.
+struct High {
+    /// Half the range of the slopes, and `inf abs(g_k + c)`.
+    slope_radius: Interval,
+    rho: Interval,
+    /// `sqrt(1/2 sum abs(N_k)^2/abs(g_k + c)^2)`, and without the divisor.
+    first: Interval,
+    output: Interval,
+    /// `sqrt(sum 1/abs(g_k + c)^2)`.
+    gain: Interval,
+    /// Where the slopes are bounded on a range alone: the range and the largest `abs(u_0)`.
+    range: Option<(f64, Interval)>,
+}
+
+fn point(value: f64) -> Interval {
+    Interval::point(value)
+}
+
+/// `sqrt(sum of squares)`.
+fn length(parts: impl Iterator<Item = Interval>) -> Interval {
+    parts.fold(Interval::ZERO, |sum, part| sum + part.square()).sqrt()
+}
+
+/// Upper bounds of `sup abs(h)` and `norm(h)` over a box: radii of frequency, a, then real and imaginary parts.
+fn sizes(radii: &DVector<f64>) -> (Interval, Interval) {
+    let each: Vec<Interval> = core::iter::once(point(radii[1]))
+        .chain(radii.as_slice()[2..].chunks_exact(2).map(|pair| length(pair.iter().map(|&one| point(one)))))
+        .collect();
+    let sum = each.iter().fold(Interval::ZERO, |sum, &one| sum + one);
+    (sum, length(each.into_iter()) * point(0.5).sqrt())
+}
+
+impl LipschitzLoop<'_> {
+    /// Upper bound of the wave's magnitude: at a maximum the derivative vanishes, so a sample within `d` of it is below by at most
+    /// `bend d^2/2`.
+    fn peak(&self, centre: &Centre) -> Interval {
+        const SAMPLES: u32 = 1024;
+        let step = Interval::PI / point(f64::from(SAMPLES));
+        let values = (0..SAMPLES).map(|i| centre.wave.at(step * point(f64::from(i))).0.abs());
+        let most = values.reduce(Real::max).unwrap_or(Interval::ZERO);
+        most + centre.wave.sum_of_magnitudes(2) * step.square() * point(0.125)
+    }
+
+    /// The equations at a centre, linearised over the box's frequencies; kinks are passed with the box's margin.
+    pub(super) fn linearise(&self, centre: &Centre, radii: &DVector<f64>) -> Result<LinearisedBalance, CannotTell> {
+        let omega = point(centre.omega_rad_s) + Interval::symmetric(radii[0]);
+        let range = self.characteristic.is_bounded_on_the_sweep_alone().then(|| {
+            let peak = self.peak(centre);
+            (BEYOND * peak.upper(), peak)
+        });
+        let reach = range.map_or(f64::INFINITY, |(limit, _)| limit);
+        let (margin, _) = sizes(radii);
+        let spectrum = enclose(&self.characteristic, &centre.wave, reach, margin.upper())?;
+        let harmonics = &spectrum.harmonics;
+        let error = residual(&self.inverse, point(centre.omega_rad_s), &centre.wave, harmonics);
+        let slopes = jacobian(&self.inverse, omega, &centre.wave, harmonics);
+        let no_inverse = CannotTell::NoContraction { ratio: f64::INFINITY };
+        let preconditioner = slopes.map(Interval::midpoint).try_inverse().ok_or(no_inverse)?;
+        let high = self.high(centre, omega, &spectrum, range)?;
+
+        let size = preconditioner.nrows();
+        let row = |i: usize| preconditioner.row(i).iter().map(|&entry| point(entry)).collect::<Vec<_>>();
+        let rows: Vec<Vec<Interval>> = (0..size).map(row).collect();
+        let dot =
+            |row: &[Interval], column: &[Interval]| Interval::dot(row.iter().copied().zip(column.iter().copied()));
+        let excess = DMatrix::from_fn(size, size, |i, j| {
+            let one = if i == j { Interval::ONE } else { Interval::ZERO };
+            (one - dot(&rows[i], slopes.column(j).as_slice())).magnitude()
+        });
+        let errors = rows.iter().map(|row| dot(row, error.as_slice()).abs()).collect();
+        let gain = rows.iter().map(|row| length(row.iter().copied()) * point(2.0).sqrt()).collect();
+        Ok(LinearisedBalance { spectrum, error: errors, gain, excess, high })
+    }
+
+    /// Bounds of the harmonics above the wave's, over all frequencies of the box.
+    fn high(
+        &self,
+        centre: &Centre,
+        omega: Interval,
+        spectrum: &EnclosedSpectrum,
+        range: Option<(f64, Interval)>,
+    ) -> Result<High, CannotTell> {
+        let slopes = self.characteristic.slopes(range.map_or(f64::INFINITY, |(limit, _)| limit));
+        let middle = (point(slopes.lower()) + point(slopes.upper())) * point(0.5);
+        let slope_radius = (point(slopes.upper()) - point(slopes.lower())) * point(0.5);
+        let highest = centre.wave.highest();
+        let outputs = &spectrum.harmonics.output;
+        let last = 2 * outputs.len() - 1;
+        // Listed harmonics one by one.
+        let mut rho = f64::INFINITY;
+        let (mut first, mut output, mut gain) = (Interval::ZERO, Interval::ZERO, Interval::ZERO);
+        for k in (highest + 2..=last).step_by(2) {
+            let mut distance = self.inverse.at(omega, k).0;
+            distance.re += middle;
+            let square = distance.square_norm();
+            let size = outputs[k / 2].square_norm() * point(0.5);
+            rho = rho.min(square.sqrt().lower());
+            first += size / square;
+            output += size;
+            gain += Interval::ONE / square;
+        }
+        // From the next on, abs(g_k + c) >= growth (k w)^q - abs(c) >= tail (k w)^q.
+        let degree = self.inverse.relative_degree();
+        let power = |y: Interval| (0..degree).fold(Interval::ONE, |product, _| product * y);
+        let from = omega * point((last + 2) as f64);
+        let nearest = point(from.lower());
+        let tail = self.inverse.growth(nearest) - middle.abs() / power(nearest);
+        let far = tail * power(nearest);
+        rho = rho.min(far.lower());
+        // Only if it is positive the bounds below mean anything.
+        if !(rho > slope_radius.upper() && tail.is_positive() && omega.is_positive()) {
+            return Err(CannotTell::Rho { rho, slope_radius: slope_radius.upper() });
+        }
+        first += (spectrum.rest / far).square();
+        output += spectrum.rest.square();
+        // sum over odd k > M of k^(-2 q) <= M^(1 - 2 q)/(2 (2 q - 1)).
+        let listed = point(last as f64);
+        let sum = listed / (power(listed).square() * point((2 * (2 * degree - 1)) as f64));
+        gain += sum / (tail * power(point(omega.lower()))).square();
+        Ok(High { slope_radius, rho: point(rho), first: first.sqrt(), output: output.sqrt(), gain: gain.sqrt(), range })
+    }
+
+    /// Whether every frequency and wave of the box is mapped into the box.
+    pub(super) fn holds(&self, centre: &Centre, radii: &DVector<f64>) -> Result<ShownBox, CannotTell> {
+        let linearised = self.linearise(centre, radii)?;
+        let (images, eta) = linearised.images(radii);
+        let ratio = images
+            .iter()
+            .zip(radii.iter())
+            .map(|(image, radius)| image / radius)
+            .fold(0.0, |a: f64, b| if b.is_nan() { f64::INFINITY } else { a.max(b) });
+        // Strictly, so that B J, hence B, is invertible and a fixed point solves the equations.
+        if !(ratio < 1.0) {
+            return Err(CannotTell::NoContraction { ratio });
+        }
+        let high = &linearised.high;
+        if let Some((limit, peak)) = high.range {
+            // sup abs(v) <= sum abs(v_k) <= gain sqrt(sum abs(M_k)^2), M the output less c x.
+            let (delta, norm) = sizes(radii);
+            let outputs = high.output + high.slope_radius * (norm + eta);
+            let reach = (peak + delta + high.gain * outputs * point(2.0).sqrt()).upper();
+            if !(reach <= limit) {
+                return Err(CannotTell::Range { reach, limit });
+            }
+        }
+        Ok(ShownBox { remainder: eta.upper(), rho: high.rho.lower(), slope_radius: high.slope_radius.upper() })
+    }
+}
+
+impl LinearisedBalance {
+    /// Radii of the image of a box, at most, and the bound `eta` of the harmonics above.
+    pub(super) fn images(&self, radii: &DVector<f64>) -> (Vec<f64>, Interval) {
+        let (delta, norm) = sizes(radii);
+        let ratio = self.high.slope_radius / self.high.rho;
+        let eta = (self.high.first + ratio * norm) / (Interval::ONE - ratio);
+        let rest = self.high.slope_radius * eta + self.spectrum.remainder(delta);
+        let radii: Vec<Interval> = radii.iter().map(|&radius| point(radius)).collect();
+        let image = |i: usize| {
+            let excess = self.excess.row(i);
+            let linear = Interval::dot(excess.iter().map(|&entry| point(entry)).zip(radii.iter().copied()));
+            (self.error[i] + linear + self.gain[i] * rest).upper()
+        };
+        ((0..radii.len()).map(image).collect(), eta)
+    }
+}

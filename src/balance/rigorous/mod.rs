@@ -1,0 +1,20 @@
+//! A rigorous describing function: oscillations of a plant with an odd characteristic of bounded slope, proved to exist in a box.
+//!
+//! Bergen and Franks (1971), Mees and Bergen (1975): the first harmonic's error is bounded by the plant's damping of the others.
+//! Here the first K odd harmonics are unknowns, which makes the bound small, and the box is one of frequency and harmonics.
+
+mod brouwer;
+mod characteristic;
+mod closed_loop;
+mod error;
+mod inverse_response;
+mod oscillation;
+mod refine;
+mod spectrum;
+mod starts;
+mod wave;
+
+pub use characteristic::OddCharacteristic;
+pub use closed_loop::LipschitzLoop;
+pub use error::{CannotTell, ExistenceError};
+pub use oscillation::{Oscillations, ProvedOscillation, UnprovedOscillation};

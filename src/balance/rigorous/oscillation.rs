@@ -1,0 +1,300 @@
+//! Oscillations proved to exist, and the document that shows one.
+
+use core::fmt;
+use core::ops::RangeInclusive;
+use core::str::FromStr;
+
+use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
+
+use super::characteristic::OddCharacteristic;
+use super::closed_loop::{Centre, HIGHEST, LipschitzLoop};
+use super::error::{CannotTell, ExistenceError};
+use super::wave::Wave;
+use crate::balance::Intersection;
+use crate::numeric::{Complex, Interval};
+use crate::plant::TransferFunction;
+
+/// Changes with the meaning of a field.
+const FORMAT: u32 = 1;
+/// Highest harmonics that are tried in turn, and the first with which any proof ends the search.
+const ORDERS: [usize; 3] = [49, 97, 197];
+const ENOUGH: usize = 97;
+/// Half-width of the amplitude over the amplitude that ends the search earlier.
+const NARROW: f64 = 1e-10;
+/// Share of the remainder shown that is stated: another checker bounds the same series in another way.
+const STATED: f64 = 1.01;
+/// Highest harmonic of the centres that are compared, and the relative distance below which two are one.
+const COMPARED: usize = 9;
+const SAME: f64 = 1e-6;
+
+/// A box of frequency and harmonics in which a half-wave symmetric oscillation of a loop exists.
+///
+/// The oscillation is `x(t) = Re sum over odd k of X_k exp(jkwt)` at the characteristic's input, `X_1` real and positive: frequency and
+/// harmonics up to the highest listed lie within the radii, all others together have at most the remainder as root mean square. It
+/// is not shown to be the only one in the box, nor to attract or repel.
+///
+/// Written as JSON it is a certificate: [`check`](Self::check) proves it again without a search.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ProvedOscillation {
+    format: u32,
+    version: String,
+    claim: String,
+    plant: TransferFunction,
+    characteristic: OddCharacteristic,
+    omega_rad_s: f64,
+    omega_radius_rad_s: f64,
+    /// Real and imaginary parts of X_1, X_3, X_5, ...
+    harmonics: Vec<[f64; 2]>,
+    /// Radii of the same; zero for the imaginary part of X_1.
+    radii: Vec<[f64; 2]>,
+    remainder: f64,
+}
+
+/// A place where an oscillation may be, and why none is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnprovedOscillation {
+    /// Amplitude of the first harmonic, in input units.
+    pub amplitude: f64,
+    /// Frequency, rad/s.
+    pub omega_rad_s: f64,
+    /// Why.
+    pub reason: CannotTell,
+}
+
+/// What is shown of a loop.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Oscillations {
+    /// Each once, by growing amplitude. There may be others.
+    pub proved: Vec<ProvedOscillation>,
+    /// For each intersection given, its place in `proved`, or why none is shown.
+    pub at: Vec<Result<usize, CannotTell>>,
+    /// Further places where harmonic balance finds an oscillation and none is shown.
+    pub unproved: Vec<UnprovedOscillation>,
+}
+
+impl LipschitzLoop<'_> {
+    /// Proves an oscillation near a first harmonic, such as an intersection of harmonic balance.
+    ///
+    /// # Errors
+    /// [`CannotTell`], which does not say that there is none.
+    ///
+    /// ```
+    /// use selfosc::balance::{LipschitzLoop, OddCharacteristic};
+    /// use selfosc::plant::TransferFunction;
+    /// // 3/(s (s + 1)^2) with a saturation at 1: the first harmonic says 1.807 at 1 rad/s.
+    /// let plant = TransferFunction::new(&[3.0], &[1.0, 2.0, 1.0, 0.0])?;
+    /// let saturation = OddCharacteristic::from_catalogue("saturation", &[1.0, 1.0])?;
+    /// let proved = LipschitzLoop::new(&plant, saturation)?.prove_near(1.807, 1.0)?;
+    /// assert!(proved.amplitude().contains(1.842_240_774_7) && proved.amplitude().width() < 1e-7);
+    /// assert!(proved.omega_rad_s().contains(0.992_660_749_6));
+    /// proved.check()?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn prove_near(&self, amplitude: f64, omega_rad_s: f64) -> Result<ProvedOscillation, CannotTell> {
+        self.prove(self.compared(first_harmonic(amplitude, omega_rad_s))?)
+    }
+
+    /// Oscillations of the loop that a scan of harmonic balances finds over a range of frequencies, and those near
+    /// [intersections](super::super::HarmonicBalance::intersections), each proved or with the reason why not.
+    ///
+    /// The scan follows curves on which the loop gain varies, so that it passes folds, where the first harmonic has no balance.
+    #[must_use]
+    pub fn oscillations(&self, omega_rad_s: &RangeInclusive<f64>, intersections: &[Intersection]) -> Oscillations {
+        let mut tried: Vec<(Centre, Result<ProvedOscillation, CannotTell>)> = Vec::new();
+        let mut attempt = |centre: Centre| {
+            let known = tried.iter().position(|(other, _)| same(other, &centre));
+            known.unwrap_or_else(|| {
+                let proof = self.prove(centre.clone());
+                tried.push((centre, proof));
+                tried.len() - 1
+            })
+        };
+        let near: Vec<Result<usize, CannotTell>> = intersections
+            .iter()
+            .map(|one| self.compared(first_harmonic(one.amplitude, one.omega_rad_s)).map(&mut attempt))
+            .collect();
+        let mut unproved = Vec::new();
+        for start in self.starts(omega_rad_s) {
+            let (amplitude, omega_rad_s) = (start.amplitude(), start.omega_rad_s);
+            match self.compared(start) {
+                Ok(centre) => _ = attempt(centre),
+                Err(reason) => unproved.push(UnprovedOscillation { amplitude, omega_rad_s, reason }),
+            }
+        }
+        let mut order: Vec<usize> = (0..tried.len()).filter(|&place| tried[place].1.is_ok()).collect();
+        order.sort_by(|&a, &b| tried[a].0.amplitude().total_cmp(&tried[b].0.amplitude()));
+        let reached = |place: usize| near.iter().any(|one| one.as_ref().is_ok_and(|&at| at == place));
+        unproved.extend(tried.iter().enumerate().filter_map(|(place, (centre, proof))| {
+            let (amplitude, omega_rad_s) = (centre.amplitude(), centre.omega_rad_s);
+            let reason = *proof.as_ref().err()?;
+            (!reached(place)).then_some(UnprovedOscillation { amplitude, omega_rad_s, reason })
+        }));
+        let at = near
+            .into_iter()
+            .map(|one| {
+                let place = one?;
+                tried[place].1.as_ref().map_err(|&reason| reason)?;
+                Ok(order.iter().position(|&other| other == place).unwrap_or(place))
+            })
+            .collect();
+        let proved = order.iter().filter_map(|&place| tried[place].1.clone().ok()).collect();
+        Oscillations { proved, at, unproved }
+    }
+
+    /// The balance of a few harmonics, by which oscillations are told apart.
+    fn compared(&self, start: Centre) -> Result<Centre, CannotTell> {
+        self.refine(start, COMPARED)
+    }
+
+    fn prove(&self, mut centre: Centre) -> Result<ProvedOscillation, CannotTell> {
+        let mut best = Err(CannotTell::NoBalance);
+        for highest in ORDERS {
+            centre = self.refine(centre, highest)?;
+            match self.enclose_near(&centre) {
+                Ok((radii, shown)) => {
+                    let narrow = radii[1] <= NARROW * centre.amplitude();
+                    best = Ok(self.document(&centre, &radii, shown.remainder));
+                    if narrow || highest >= ENOUGH {
+                        return best;
+                    }
+                }
+                Err(why) => best = best.or(Err(why)),
+            }
+        }
+        best
+    }
+
+    fn document(&self, centre: &Centre, radii: &DVector<f64>, remainder: f64) -> ProvedOscillation {
+        let first = [radii[1], 0.0];
+        let higher = radii.as_slice()[2..].chunks_exact(2).map(|pair| [pair[0], pair[1]]);
+        ProvedOscillation {
+            format: FORMAT,
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            claim: ProvedOscillation::CLAIM.to_owned(),
+            plant: self.plant.clone(),
+            characteristic: self.characteristic.clone(),
+            omega_rad_s: centre.omega_rad_s,
+            omega_radius_rad_s: radii[0],
+            harmonics: centre.wave.0.iter().map(|harmonic| [harmonic.re, harmonic.im]).collect(),
+            radii: core::iter::once(first).chain(higher).collect(),
+            remainder: STATED * remainder,
+        }
+    }
+}
+
+fn first_harmonic(amplitude: f64, omega_rad_s: f64) -> Centre {
+    Centre { omega_rad_s, wave: Wave(vec![Complex::new(amplitude, 0.0)]) }
+}
+
+fn same(a: &Centre, b: &Centre) -> bool {
+    let near = |a: f64, b: f64| (a - b).abs() <= SAME * b.abs();
+    near(a.amplitude(), b.amplitude()) && near(a.omega_rad_s, b.omega_rad_s)
+}
+
+fn around(middle: f64, radius: f64) -> Interval {
+    Interval::point(middle) + Interval::symmetric(radius)
+}
+
+impl ProvedOscillation {
+    /// What every document of this kind has in its field `claim`.
+    pub const CLAIM: &'static str = "oscillation";
+
+    /// Bounds of the first harmonic's amplitude, in input units.
+    #[must_use]
+    pub fn amplitude(&self) -> Interval {
+        self.harmonic(1).map_or(Interval::ENTIRE, |[re, _]| re)
+    }
+
+    /// Bounds of the frequency, rad/s.
+    #[must_use]
+    pub fn omega_rad_s(&self) -> Interval {
+        around(self.omega_rad_s, self.omega_radius_rad_s)
+    }
+
+    /// Bounds of the real and imaginary part of `X_k`; `None` for an even k and beyond the highest harmonic listed.
+    #[must_use]
+    pub fn harmonic(&self, k: usize) -> Option<[Interval; 2]> {
+        let place = (k % 2 == 1).then_some(k / 2)?;
+        let ([re, im], [re_radius, im_radius]) = (self.harmonics.get(place)?, self.radii.get(place)?);
+        Some([around(*re, *re_radius), around(*im, *im_radius)])
+    }
+
+    /// The highest harmonic listed.
+    #[must_use]
+    pub fn highest_harmonic(&self) -> usize {
+        (2 * self.harmonics.len()).saturating_sub(1)
+    }
+
+    /// Upper bound of the root mean square of all harmonics above the highest one listed, in input units.
+    #[must_use]
+    pub fn remainder(&self) -> f64 {
+        self.remainder
+    }
+
+    /// The plant.
+    #[must_use]
+    pub fn plant(&self) -> &TransferFunction {
+        &self.plant
+    }
+
+    /// The characteristic.
+    #[must_use]
+    pub fn characteristic(&self) -> &OddCharacteristic {
+        &self.characteristic
+    }
+
+    /// Proves the existence again from the numbers of the document, without a search.
+    ///
+    /// # Errors
+    /// [`ExistenceError`]: the document is none, its loop is none of those, or its box is not shown to hold an oscillation.
+    pub fn check(&self) -> Result<(), ExistenceError> {
+        let malformed = |text: &str| ExistenceError::Malformed { text: text.to_owned() };
+        if self.format != FORMAT || self.claim != Self::CLAIM {
+            return Err(malformed("another format or claim"));
+        }
+        let count = self.harmonics.len();
+        if count < 2 || 2 * count > HIGHEST + 1 || self.radii.len() != count {
+            return Err(malformed("as many radii as harmonics are wanted, two to 150"));
+        }
+        let numbers = self.harmonics.iter().chain(&self.radii).flatten().chain([&self.omega_rad_s, &self.remainder]);
+        if !numbers.copied().all(f64::is_finite) {
+            return Err(malformed("a number is not finite"));
+        }
+        if self.harmonics[0][1] != 0.0 || self.radii[0][1] != 0.0 {
+            return Err(malformed("the first harmonic has an imaginary part"));
+        }
+        let real_first = [self.omega_radius_rad_s, self.radii[0][0]];
+        let radii =
+            DVector::from_vec(real_first.into_iter().chain(self.radii[1..].iter().flatten().copied()).collect());
+        if !radii.iter().all(|&radius| radius > 0.0 && radius.is_finite()) {
+            return Err(malformed("a radius is not above 0"));
+        }
+        if !(self.amplitude().is_positive() && self.omega_rad_s().is_positive()) {
+            return Err(malformed("amplitude or frequency may be 0"));
+        }
+        let control_loop = LipschitzLoop::new(&self.plant, self.characteristic.clone())?;
+        let wave = Wave(self.harmonics.iter().map(|&[re, im]| Complex::new(re, im)).collect());
+        let shown = control_loop.holds(&Centre { omega_rad_s: self.omega_rad_s, wave }, &radii)?;
+        if shown.remainder <= self.remainder {
+            Ok(())
+        } else {
+            Err(ExistenceError::Remainder { shown: shown.remainder, claimed: self.remainder })
+        }
+    }
+}
+
+impl fmt::Display for ProvedOscillation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&serde_json::to_string(self).map_err(|_| fmt::Error)?)
+    }
+}
+
+impl FromStr for ProvedOscillation {
+    type Err = ExistenceError;
+
+    fn from_str(text: &str) -> Result<Self, ExistenceError> {
+        serde_json::from_str(text).map_err(|error| ExistenceError::Malformed { text: error.to_string() })
+    }
+}

@@ -1,0 +1,90 @@
+//! The untrusted half: a centre by Newton's method with more and more harmonics, and radii for it. The proof judges both.
+
+use nalgebra::DVector;
+
+use super::brouwer::{LinearisedBalance, ShownBox};
+use super::closed_loop::{Centre, LipschitzLoop, jacobian, residual};
+use super::error::CannotTell;
+use super::spectrum::{EnclosedSpectrum, enclose};
+use crate::numeric::{Complex, Interval};
+
+/// Newton steps at most, and the step, relative to the amplitude, at which rounding takes over.
+const STEPS: usize = 20;
+const ARRIVED: f64 = 1e-13;
+/// Rounds in which the radii are enlarged until their image is inside, and proofs tried with them.
+const ROUNDS: usize = 40;
+const PROOFS: usize = 3;
+
+impl LipschitzLoop<'_> {
+    fn spectrum(&self, centre: &Centre) -> Result<EnclosedSpectrum, CannotTell> {
+        let reach = centre.wave.sum_of_magnitudes(0).upper();
+        enclose(&self.characteristic, &centre.wave, reach, 0.0)
+    }
+
+    /// The balance of the odd harmonics up to `highest` near a centre with fewer.
+    pub(super) fn refine(&self, mut centre: Centre, highest: usize) -> Result<Centre, CannotTell> {
+        let output = self.spectrum(&centre)?.harmonics.output;
+        for k in (centre.wave.highest() + 2..=highest).step_by(2) {
+            let response = self.inverse.at(centre.omega_rad_s, k).0;
+            let output = output.get(k / 2).map_or(Complex::zero(), |output| output.midpoint());
+            centre.wave.0.push(-output.over(response));
+        }
+        let (omega, amplitude) = (centre.omega_rad_s, centre.amplitude());
+        let mut last = f64::INFINITY;
+        for _ in 0..STEPS {
+            let spectrum = self.spectrum(&centre)?.harmonics;
+            let at = Interval::point(centre.omega_rad_s);
+            let error = residual(&self.inverse, at, &centre.wave, &spectrum).map(Interval::midpoint);
+            let slopes = jacobian(&self.inverse, at, &centre.wave, &spectrum).map(Interval::midpoint);
+            let step = slopes.lu().solve(&error).ok_or(CannotTell::NoBalance)?;
+            let size = step.amax() / amplitude;
+            // A long step is shortened, as the kinks move under it.
+            let share = (0.2 / size).min(1.0);
+            centre = Centre::from_unknowns(&(centre.unknowns() - share * step));
+            let near = |value: f64, start: f64| value > 0.5 * start && value < 2.0 * start;
+            if !(near(centre.amplitude(), amplitude) && near(centre.omega_rad_s, omega)) {
+                return Err(CannotTell::NoBalance);
+            }
+            if size <= ARRIVED || (size < 1e-9 && size >= 0.5 * last) {
+                return Ok(centre);
+            }
+            last = size;
+        }
+        Err(CannotTell::NoBalance)
+    }
+
+    /// Radii for which the proof holds, with what it shows.
+    pub(super) fn enclose_near(&self, centre: &Centre) -> Result<(DVector<f64>, ShownBox), CannotTell> {
+        let mut radii = DVector::zeros(centre.wave.highest() + 1);
+        let mut why = CannotTell::NoContraction { ratio: f64::INFINITY };
+        for _ in 0..PROOFS {
+            let linearised = self.linearise(centre, &radii)?;
+            radii = linearised.radii(radii.len()).ok_or(why)?;
+            match self.holds(centre, &radii) {
+                Ok(shown) => return Ok((radii, shown)),
+                Err(no_contraction @ CannotTell::NoContraction { .. }) => why = no_contraction,
+                Err(other) => return Err(other),
+            }
+        }
+        Err(why)
+    }
+}
+
+impl LinearisedBalance {
+    /// Radii whose image is well inside, frequencies and kinks as they were.
+    fn radii(&self, count: usize) -> Option<DVector<f64>> {
+        let from = |images: Vec<f64>| DVector::from_vec(images.into_iter().map(|one| 1.25 * one + 1e-300).collect());
+        let mut radii = from(self.images(&DVector::zeros(count)).0);
+        for _ in 0..ROUNDS {
+            let images = self.images(&radii).0;
+            if images.iter().zip(radii.iter()).all(|(image, radius)| *image <= 0.9 * radius) {
+                return Some(radii);
+            }
+            if images.iter().any(|one| !one.is_finite()) {
+                return None;
+            }
+            radii = from(images);
+        }
+        None
+    }
+}

@@ -1,0 +1,96 @@
+//! Oscillations proved by a rigorous describing function, against a step-by-step integration.
+
+use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Verdict, claim, sample, tolerance};
+use crate::balance::{HarmonicBalance, LipschitzLoop, OddCharacteristic, ProvedOscillation};
+use crate::describing::ClosedForm;
+use crate::nonlinearity::Tanh;
+use crate::plant::TransferFunction;
+
+/// Steps of a period by the classical Runge-Kutta method, of fourth order: `(2 pi/4000)^4 = 6e-12`.
+const STEPS: u32 = 4000;
+
+claim! {
+    RIGOROUS_DESCRIBING_FUNCTION = "rigorous-describing-function" "of this project, after Mees and Bergen 1975" Theorem
+    "A box of frequency and harmonics that the loop's balance maps into itself, the harmonics above being a contraction, holds an oscillation" {
+        not_proved: Some("the theorem is proved by hand, each box by two programs"),
+        domain: &[ClaimPart::whole(
+            "whole",
+            "every strictly proper plant with dead time, every odd characteristic of bounded slope, every box that the inequality admits",
+        )],
+        by_hand: &[
+            "the harmonics above the highest are the unique fixed point of a contraction, continuous in frequency and the others",
+            "what they and the curvature of the characteristic add to the balance is bounded in the mean square",
+            "Brouwer: a continuous map of a box into itself has a fixed point, and an invertible preconditioner makes it a balance",
+        ],
+        printed: AsPrinted::Absent,
+        corrected: Some(|budget| returns(budget, 1.0)),
+        // The oscillation of another loop, whose gain is 0.1 % larger.
+        falsified: |budget| returns(budget, 1.001),
+        hypotheses: &[],
+        depends: &["harmonic-balance"],
+    }
+}
+
+/// The lags, the gain and the characteristic `tanh(scale x)` of `gain/(s (s + a)(s + b))`.
+struct Loop {
+    poles: [f64; 2],
+    gain: f64,
+    scale: f64,
+}
+
+impl Loop {
+    /// Above the critical gain `a b (a + b)/scale`, at which the loop begins to oscillate.
+    fn draw(draw: &mut Draw) -> Self {
+        let poles = [draw.log_uniform("first_pole", 0.3, 3.0), draw.log_uniform("second_pole", 0.3, 3.0)];
+        let scale = draw.log_uniform("scale", 0.3, 3.0);
+        let critical = poles[0] * poles[1] * (poles[0] + poles[1]) / scale;
+        Self { poles, gain: critical * draw.log_uniform("gain_over_critical", 1.2, 5.0), scale }
+    }
+
+    fn proved(&self) -> Option<ProvedOscillation> {
+        let [a, b] = self.poles;
+        let plant = TransferFunction::new(&[self.gain], &[1.0, a + b, a * b, 0.0]).ok()?;
+        let characteristic = Tanh::new(1.0, self.scale).ok()?;
+        let balance = HarmonicBalance::new(&plant, |sweep| characteristic.describing_function(sweep)).ok()?;
+        let first = *balance.intersections().ok()?.first()?;
+        let odd = OddCharacteristic::from_catalogue("tanh", &[1.0, self.scale]).ok()?;
+        LipschitzLoop::new(&plant, odd).ok()?.prove_near(first.amplitude, first.omega_rad_s).ok()
+    }
+
+    /// Output, its first and its second derivative after a period, by `y''' = -(a + b) y'' - a b y' - gain tanh(scale y)`.
+    fn after(&self, start: [f64; 3], period_s: f64) -> [f64; 3] {
+        let [a, b] = self.poles;
+        let slope = |[y, v, w]: [f64; 3]| [v, w, -(a + b) * w - a * b * v - self.gain * libm::tanh(self.scale * y)];
+        let moved =
+            |[y, v, w]: [f64; 3], [dy, dv, dw]: [f64; 3], step: f64| [y + step * dy, v + step * dv, w + step * dw];
+        let step = period_s / f64::from(STEPS);
+        (0..STEPS).fold(start, |state, _| {
+            let first = slope(state);
+            let second = slope(moved(state, first, 0.5 * step));
+            let third = slope(moved(state, second, 0.5 * step));
+            let fourth = slope(moved(state, third, step));
+            core::array::from_fn(|i| state[i] + step / 6.0 * (first[i] + 2.0 * second[i] + 2.0 * third[i] + fourth[i]))
+        })
+    }
+}
+
+/// From the state that a proved box has at phase zero, the loop with its gain times `factor` returns to it after a period.
+fn returns(budget: Budget, factor: f64) -> Verdict {
+    sample(Budget { cases: budget.cases.div_ceil(100), ..budget }, |draw| {
+        let control_loop = Loop::draw(draw);
+        let Some(proved) = control_loop.proved() else { return Case::Skipped };
+        let omega = draw.note("omega_rad_s", proved.omega_rad_s().midpoint());
+        let amplitude = draw.note("amplitude", proved.amplitude().midpoint());
+        // Re sum X_k, Re sum jkw X_k, Re sum (jkw)^2 X_k.
+        let start = (1..=proved.highest_harmonic()).step_by(2).fold([0.0; 3], |[y, v, w], k| {
+            let [re, im] = proved.harmonic(k).map_or([0.0; 2], |parts| parts.map(crate::numeric::Interval::midpoint));
+            let rate = k as f64 * omega;
+            [y + re, v - rate * im, w - rate * rate * re]
+        });
+        let changed = Loop { gain: factor * control_loop.gain, ..control_loop };
+        let end = changed.after(start, core::f64::consts::TAU / omega);
+        let scales = [amplitude, amplitude * omega, amplitude * omega * omega];
+        let off = (0..3).map(|i| (end[i] - start[i]).abs() / scales[i]).fold(0.0, f64::max);
+        Case::margin(1.0 - draw.note("off", off) / tolerance::INTEGRATED)
+    })
+}

@@ -1,0 +1,223 @@
+//! Orbits as a file: the loop, the enclosures and what is said of each, checked without a search.
+
+use serde::{Deserialize, Serialize};
+
+use super::{OrbitListing, SwitchedLoop, TwoLevelRelay};
+use crate::numeric::Interval;
+use crate::orbit::OrbitError;
+use crate::plant::TransferFunction;
+
+const FORMAT: u32 = 1;
+/// What a certificate says.
+const STATEMENT: &str = "Each box of half-periods holds those of an orbit with one switching each way; its extremes are within their bounds; small \
+     deviations from it die out (true), grow (false) or are not decided (null)";
+
+/// Orbits of a loop with what proves them: a reader needs their enclosures only, and no search. The plant's coefficients, dead time and
+/// levels count as exactly the numbers given. It says nothing of orbits that are not listed.
+///
+/// ```
+/// use selfosc::orbit::{OrbitCertificate, TwoLevelRelay, orbits};
+/// use selfosc::plant::TransferFunction;
+/// let plant = TransferFunction::new(&[2.0], &[30.0, 1.0])?.with_delay(4.0)?;
+/// let relay = TwoLevelRelay::new(1.0, 0.0, 0.1)?.with_reference(1.2)?;
+/// let listing = orbits(&plant, &relay, None)?;
+/// let text = OrbitCertificate::new(&plant, &relay, &listing).to_string();
+/// assert_eq!(text.parse::<OrbitCertificate>()?.check()?, listing.orbits.len());
+/// let forged = text.replacen("30.0", "30.03", 1).parse::<OrbitCertificate>()?;
+/// assert!(forged.check().is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OrbitCertificate {
+    certificate: String,
+    format: u32,
+    statement: String,
+    #[serde(rename = "loop")]
+    numbers: LoopNumbers,
+    orbits: Vec<OrbitBounds>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LoopNumbers {
+    num: Vec<f64>,
+    den: Vec<f64>,
+    delay_s: f64,
+    high: f64,
+    low: f64,
+    half_width: f64,
+    reference: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OrbitBounds {
+    time_high_s: Interval,
+    time_low_s: Interval,
+    minimum: Interval,
+    maximum: Interval,
+    attracting: Option<bool>,
+}
+
+/// Why a certificate of orbits is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OrbitRefusal {
+    /// The text is no certificate of orbits.
+    #[error("{text}")]
+    Malformed {
+        /// Where and why reading failed.
+        text: String,
+    },
+    /// The kind, the format or the statement is another.
+    #[error("another {field} than of this version")]
+    Foreign {
+        /// Which of them.
+        field: &'static str,
+    },
+    /// No loop has these numbers.
+    #[error("the loop: {0}")]
+    Loop(#[from] OrbitError),
+    /// Something said of an orbit is not shown.
+    #[error("orbit {number}: not shown that {}", claim.words())]
+    NotShown {
+        /// Place in the file, from one.
+        number: usize,
+        /// What is not shown.
+        claim: OrbitClaim,
+    },
+}
+
+/// What a certificate says of an orbit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OrbitClaim {
+    /// The box of half-periods holds those of an orbit.
+    Existence,
+    /// The relay switches at the ends of the half-periods and nowhere else.
+    Switchings,
+    /// The least and the largest output are within their bounds.
+    Extremes,
+    /// Small deviations die out, or grow.
+    Attraction,
+}
+
+impl OrbitClaim {
+    fn words(self) -> &'static str {
+        match self {
+            Self::Existence => "its box holds half-periods at whose ends the output passes the levels",
+            Self::Switchings => "the relay switches nowhere else",
+            Self::Extremes => "its extremes are within their bounds",
+            Self::Attraction => "small deviations do what is said",
+        }
+    }
+}
+
+impl OrbitRefusal {
+    /// Short name for scripts; it does not change with the wording of the message.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Malformed { .. } => "malformed",
+            Self::Foreign { .. } => "foreign",
+            Self::Loop(error) => error.code(),
+            Self::NotShown { claim: OrbitClaim::Existence, .. } => "existence",
+            Self::NotShown { claim: OrbitClaim::Switchings, .. } => "switchings",
+            Self::NotShown { claim: OrbitClaim::Extremes, .. } => "extremes",
+            Self::NotShown { claim: OrbitClaim::Attraction, .. } => "attraction",
+        }
+    }
+}
+
+impl OrbitCertificate {
+    /// Name of this kind of certificate, in its field `certificate`.
+    pub const KIND: &str = "two-level-orbits";
+
+    /// Of orbits that [`orbits`](super::orbits) lists. Enclosures are three times as wide as listed: rounding of another arithmetic
+    /// fits.
+    #[must_use]
+    pub fn new(plant: &TransferFunction, relay: &TwoLevelRelay, listing: &OrbitListing) -> Self {
+        let wider = |enclosure: Interval| enclosure + Interval::symmetric(enclosure.width());
+        let TwoLevelRelay { high, low, half_width, reference } = *relay;
+        let (num, den) = (plant.numerator().to_vec(), plant.denominator().to_vec());
+        let bounds = listing.orbits.iter().map(|orbit| OrbitBounds {
+            time_high_s: wider(orbit.time_high_s),
+            time_low_s: wider(orbit.time_low_s),
+            minimum: wider(orbit.minimum),
+            maximum: wider(orbit.maximum),
+            attracting: orbit.attracting,
+        });
+        Self {
+            certificate: Self::KIND.to_owned(),
+            format: FORMAT,
+            statement: STATEMENT.to_owned(),
+            numbers: LoopNumbers { num, den, delay_s: plant.delay_s(), high, low, half_width, reference },
+            orbits: bounds.collect(),
+        }
+    }
+
+    /// What the certificate says of each orbit.
+    #[must_use]
+    pub fn statement(&self) -> &str {
+        &self.statement
+    }
+
+    /// The number of orbits, all shown anew: existence by Krawczyk's operator on the box, extremes and return map by enclosure.
+    ///
+    /// # Errors
+    /// [`OrbitRefusal`] with the first thing that is not shown.
+    pub fn check(&self) -> Result<usize, OrbitRefusal> {
+        let own = [
+            ("kind of certificate", self.certificate == Self::KIND),
+            ("format", self.format == FORMAT),
+            ("statement", self.statement == STATEMENT),
+        ];
+        if let Some((field, _)) = own.into_iter().find(|(_, same)| !same) {
+            return Err(OrbitRefusal::Foreign { field });
+        }
+        let LoopNumbers { num, den, delay_s, high, low, half_width, reference } = &self.numbers;
+        let plant =
+            TransferFunction::new(num, den).and_then(|plant| plant.with_delay(*delay_s)).map_err(OrbitError::from)?;
+        let relay = TwoLevelRelay::new(*high, *low, *half_width)?.with_reference(*reference)?;
+        let problem = SwitchedLoop::new(&plant, &relay)?;
+        for (bounds, number) in self.orbits.iter().zip(1..) {
+            let existence = Some(OrbitClaim::Existence);
+            let not_shown = problem.as_ref().map_or(existence, |problem| problem.first_not_shown(bounds));
+            if let Some(claim) = not_shown {
+                return Err(OrbitRefusal::NotShown { number, claim });
+            }
+        }
+        Ok(self.orbits.len())
+    }
+}
+
+impl core::fmt::Display for OrbitCertificate {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(&serde_json::to_string_pretty(self).map_err(|_| core::fmt::Error)?)
+    }
+}
+
+impl core::str::FromStr for OrbitCertificate {
+    type Err = OrbitRefusal;
+
+    fn from_str(text: &str) -> Result<Self, OrbitRefusal> {
+        serde_json::from_str(text).map_err(|error| OrbitRefusal::Malformed { text: error.to_string() })
+    }
+}
+
+impl SwitchedLoop {
+    fn first_not_shown(&self, bounds: &OrbitBounds) -> Option<OrbitClaim> {
+        let box_s = [bounds.time_high_s, bounds.time_low_s];
+        let positive = box_s.iter().all(|side| side.is_positive() && side.is_bounded());
+        let Some(at) = positive.then(|| self.conditions.solution_in(&box_s)).flatten() else {
+            return Some(OrbitClaim::Existence);
+        };
+        let Ok(Some(orbit)) = self.orbit(&at) else { return Some(OrbitClaim::Switchings) };
+        let within = at.iter().zip(&box_s).all(|(side, bound)| side.is_subset_of(*bound));
+        let extremes = orbit.minimum.is_subset_of(bounds.minimum) && orbit.maximum.is_subset_of(bounds.maximum);
+        let attracting = bounds.attracting.is_none() || bounds.attracting == orbit.attracting;
+        let claims =
+            [(within, OrbitClaim::Existence), (extremes, OrbitClaim::Extremes), (attracting, OrbitClaim::Attraction)];
+        claims.into_iter().find(|(shown, _)| !shown).map(|(_, claim)| claim)
+    }
+}
