@@ -188,7 +188,9 @@ fn assumption(text: &str) -> Result<Assumption, String> {
     let (name, size) =
         text.split_once('=').ok_or_else(|| format!("must be NAME=SIZE or `none`; NAME is one of {names}"))?;
     let source = ErrorSource::ALL.into_iter().find(|source| source.name() == name);
-    let source = source.ok_or_else(|| format!("`{name}` is no source of error; NAME is one of {names}"))?;
+    let source = source.ok_or_else(|| {
+        format!("`{name}` is no source of error: NAME must be one of {names}; `none` is for no source")
+    })?;
     non_negative(size).map(|size| Some((source, size)))
 }
 

@@ -15,6 +15,8 @@ mod laws;
 #[cfg(feature = "std")]
 mod parameter;
 #[cfg(feature = "std")]
+mod practical;
+#[cfg(feature = "std")]
 mod reported;
 #[cfg(feature = "std")]
 mod term;
@@ -23,11 +25,11 @@ mod trust;
 #[cfg(feature = "std")]
 mod warning;
 
-#[cfg(feature = "std")]
-pub(crate) use budget::MotionScale;
 pub use drag_law::DragLaw;
 pub use error::IdentifyError;
 pub(crate) use error::READ_AGAIN;
+#[cfg(feature = "std")]
+pub(crate) use practical::MotionScale;
 #[cfg(feature = "std")]
 pub use {
     budget::{Assumptions, BudgetEntry, ErrorSource},
