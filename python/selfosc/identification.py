@@ -5,16 +5,16 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
 from . import _arguments, _core, _documents, _tables, types
 from ._results import Result, _flat, measured
-from .errors import OutOfDomain
+from .errors import OutOfDomain, UsageError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -26,7 +26,7 @@ class Identification(Result):
     """One vehicle identified.
 
     ``reported`` is the one answer to use: ``reported["alpha"]`` is a dictionary with ``value``, ``std``, ``low`` and ``high``
-    (95 %), and ``reported["trust"]`` says whether to use it. Numbers are in SI units, angles in radians.
+    (95 %, right if the model is exact) and ``combined``, the practical interval, and ``reported["trust"]`` says whether to use it. Numbers are in SI units, angles in radians.
 
     An identification pickles whole: what comes back is equal, and plots and reports as before. Its logs are then known by
     their names, so that no report replaces the file that has the name of one.
@@ -198,6 +198,7 @@ def identify(
     delay: float | Literal["estimate"] | None = None,
     drag: Literal["auto"] | types.Drag = "auto",
     method: Method = "all",
+    assume: Mapping[str, float] | Literal["none"] | None = None,
     error: float = 0.0,
     quantum: float | None = None,
     jitter_s: float = 0.0,
@@ -241,6 +242,9 @@ def identify(
     drag : {"auto", "linear", "quadratic", "mixed"}
     method : {"all", "fit", "exact", "iso", "bounded"}
         ``bounded`` takes every reading for a constraint; its answer is in ``bounded``. ``all`` leaves it out.
+    assume : mapping, or "none"
+        Sizes of sources of error that no residual shows, for the practical intervals: ``sensor-gain`` and ``clock`` in percent,
+        ``heading-error`` in degrees, ``thrust-dynamics`` in percent. A source left out has its usual size; ``"none"`` is no source.
     error, quantum : float, optional
         For the bounds: largest error of a reading beside half a step, and step of the sensor, output units.
     jitter_s : float
@@ -313,6 +317,8 @@ def identify(
         "outliers": _arguments.whole(outliers, "outliers"), "budget": _arguments.optional(_arguments.whole, budget, "budget"),
         "stiffness": bool(stiffness), "lag": bool(lag), "cubic": bool(cubic), "either_sign": bool(either_sign),
     }  # fmt: skip
+    if assume is not None:
+        wanted["assume"] = _assumptions(assume)
     if not (isinstance(drag, str) and drag == "auto"):
         wanted["drag"] = _arguments.choice(drag, "drag", types.Drag)
     if delay is not None:
@@ -441,6 +447,16 @@ def _delay(value: Any) -> float:
         return delay
     limit, remedy = "a finite number, 0 or more", 'give the loop\'s delay, or "estimate"'
     raise OutOfDomain(f"delay is {delay} (s): must be {limit}; {remedy}", "out-of-domain", "delay", delay, "s", limit, remedy)
+
+
+def _assumptions(value: Mapping[str, float] | Literal["none"]) -> dict[str, float]:
+    """Sizes of the sources of error; a source left out has its usual size."""
+    sources = get_args(types.ErrorSource)
+    if isinstance(value, str) and value == "none":
+        return dict.fromkeys(sources, 0.0)
+    if not isinstance(value, Mapping):
+        raise UsageError(f'assume is {_arguments.shown(value)}: must be a mapping or "none"; give sizes of {", ".join(sources)}')
+    return {_arguments.choice(name, "assume", types.ErrorSource): _arguments.number(size, f"assume[{name}]") for name, size in value.items()}
 
 
 def _number(value: Any, name: str) -> float | None:

@@ -14,9 +14,18 @@ Range: TypeAlias = list[float]
 OpenRange: TypeAlias = list[float | None]
 Drag: TypeAlias = Literal["linear", "quadratic", "mixed"]
 Trust: TypeAlias = Literal["good", "widened", "doubtful"]
+ErrorSource: TypeAlias = Literal["sensor-gain", "clock", "heading-error", "thrust-dynamics"]
 Consistency: TypeAlias = Literal["consistent", "refuted", "undecided"]
 #: Settings of a characteristic: numbers, or the points of a graph.
 Parameters: TypeAlias = dict[str, float | list[Range]]
+
+
+class Combined(TypedDict):
+    """The practical interval: the record's scatter, twice, and the declared sources; ``std`` is a quarter of its width."""
+
+    std: float
+    low: float
+    high: float
 
 
 class Estimate(TypedDict):
@@ -26,15 +35,29 @@ class Estimate(TypedDict):
     std: float | None
     low: float | None
     high: float | None
+    combined: Combined | None
+    """The practical interval; of ``reported`` alone."""
 
 
 class Interval(TypedDict):
-    """A value that always has its 95 % interval."""
+    """A value that always has its 95 % interval: ``low`` and ``high`` are the statistical one, right if the model is exact."""
 
     value: float
     std: float
     low: float
     high: float
+    combined: Combined
+    """The practical interval, the one to use."""
+
+
+class BudgetEntry(TypedDict):
+    """A source of error that no residual shows, and its share of the inertia."""
+
+    source: ErrorSource
+    size: float
+    unit: str
+    share_percent: float
+    remedy: str
 
 
 class Note(TypedDict):
@@ -77,6 +100,7 @@ class Reported(TypedDict):
     deltas: list[Interval]
     delay_s: Estimate
     """Delay, s; without interval where it was given."""
+    budget: list[BudgetEntry]
     trust: Trust
     reasons: list[Note]
 

@@ -96,6 +96,7 @@ fn flag(quantity: &str) -> Option<&'static str> {
         "quantum" | "step of the sensor" => "--quantum",
         "largest error of a reading" => "--error",
         "largest error of a stamp" => "--jitter",
+        "size of a source of error" => "--assume",
         "noise" => "--noise",
         "rate" | "sampling rate" | "number of samples" => "--rate",
         "cycles" => "--cycles",

@@ -15,7 +15,9 @@ use super::{CommandError, Outcome, files, refused, write_json};
 use crate::experiment::{Columns, TimeUnit};
 use crate::files::{FileError, Files, Input};
 use crate::identify::document::RefusalDocument;
-use crate::identify::{Delay, DragLaw, Identification, Method, Refusal, Session, Settings, Stage};
+use crate::identify::{
+    Assumptions, Delay, DragLaw, ErrorSource, Identification, Method, Refusal, Session, Settings, Stage,
+};
 use crate::report::identification as page;
 
 /// A vehicle's inertia, drag, disturbance and delay from logs of relay experiments, with 95 % intervals.
@@ -30,6 +32,7 @@ Examples:
   selfosc identify log.csv
   selfosc identify log.csv --delay 0.2 --report report.html
   selfosc identify weak.csv strong.csv --json
+  selfosc identify log.csv --assume heading-error=1
   selfosc identify log.csv --method bounded --delay 0.2
   selfosc identify zigzag.csv --method fit --output yaw_deg --input rudder")]
 pub(super) struct Arguments {
@@ -60,6 +63,10 @@ pub(super) struct Arguments {
     /// How parameters are found
     #[arg(long, default_value = "all")]
     method: Method,
+    /// Size of a source of error that no residual shows, of the practical intervals, or `none` for no source: sensor-gain (%)
+    /// [default: 0.5], clock (%) [0.25], heading-error (degrees, of headings) [0.333], thrust-dynamics (%) [1]
+    #[arg(long, value_name = "NAME=SIZE|none", value_parser = assumption, allow_negative_numbers = true)]
+    assume: Vec<Assumption>,
     /// Bounded: largest error of a reading beside its rounding, output units (with --degrees still radians)
     #[arg(long, value_name = "E", default_value_t = 0.0, value_parser = non_negative, allow_negative_numbers = true)]
     error: f64,
@@ -170,6 +177,23 @@ fn delay(text: &str) -> Result<Delay, String> {
     non_negative(text).map(Delay::KnownS).map_err(|why| format!("{why}, or `estimate`"))
 }
 
+/// A source of error and its size; without one, no source at all.
+type Assumption = Option<(ErrorSource, f64)>;
+
+fn assumption(text: &str) -> Result<Assumption, String> {
+    if text == "none" {
+        return Ok(None);
+    }
+    let names = ErrorSource::ALL.map(ErrorSource::name).join(", ");
+    let (name, size) =
+        text.split_once('=').ok_or_else(|| format!("must be NAME=SIZE or `none`; NAME is one of {names}"))?;
+    let source = ErrorSource::ALL.into_iter().find(|source| source.name() == name);
+    let source = source.ok_or_else(|| {
+        format!("`{name}` is no source of error: NAME must be one of {names}; `none` is for no source")
+    })?;
+    non_negative(size).map(|size| Some((source, size)))
+}
+
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let mut known = Files::default();
     let read = |known: &mut Files, paths: &[PathBuf]| -> Result<Vec<Input>, FileError> {
@@ -260,6 +284,10 @@ impl Arguments {
             cubic: self.cubic,
             either_sign: self.either_sign,
             certificate: self.certificate.is_some(),
+            assume: self.assume.iter().fold(Assumptions::default(), |sizes, given| match given {
+                Some((source, size)) => sizes.with(*source, *size),
+                None => Assumptions::NONE,
+            }),
         }
     }
 

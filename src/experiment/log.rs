@@ -112,6 +112,19 @@ pub struct Log {
     pub columns: [String; 3],
 }
 
+impl Log {
+    /// Whether the output is a heading: in degrees, of a column of heading or yaw, or with jumps by a turn.
+    #[must_use]
+    pub fn is_heading(&self) -> bool {
+        self.degrees || self.unwrapped > 0 || is_named_heading(&self.columns[1].to_lowercase())
+    }
+}
+
+/// Whether a column's name in small letters is that of a heading.
+fn is_named_heading(column: &str) -> bool {
+    column.contains("heading") || column.contains("yaw")
+}
+
 /// Samples that were never in a file: the output as it is, columns by their first names.
 impl From<Record> for Log {
     fn from(record: Record) -> Self {
@@ -241,7 +254,7 @@ impl Columns {
         let name = &columns[1];
         let lower = name.to_lowercase();
         let degrees = !self.radians && !self.process && (self.degrees || lower.ends_with("_deg"));
-        let wrap = !self.process && (self.wrap || lower.contains("heading") || lower.contains("yaw"));
+        let wrap = !self.process && (self.wrap || is_named_heading(&lower));
         if wrap && !degrees && !self.radians {
             clinic::radians(name, &output)?;
         }

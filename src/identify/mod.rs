@@ -30,8 +30,8 @@ pub use answer::{DragLaw, IdentifyError};
 #[cfg(feature = "std")]
 pub use {
     answer::{
-        ConfidenceInterval, Delay, Disturbances, DragVerdict, Estimate, LawEvidence, Reason, Reported, Term, Trust,
-        Warning,
+        Assumptions, BudgetEntry, ConfidenceInterval, Delay, Disturbances, DragVerdict, ErrorSource, Estimate,
+        LawEvidence, Reason, Reported, Term, Trust, Warning,
     },
     fit::prediction_error::{PredictedMotion, Prediction},
     session::{

@@ -56,7 +56,7 @@ pub fn joint(table: &PrintedTable) -> Result<Vec<JointRow>, PaperError> {
 fn fitted(rows: &[FeatureRow], law: DragLaw, delay: Delay) -> Result<JointRow, PaperError> {
     let found = fit_rows(rows, law, delay)?;
     let scaled = |parameter, unit: f64| {
-        let Estimate { value, spread } = found.estimate(parameter);
+        let Estimate { value, spread, .. } = found.estimate(parameter);
         (value * unit, spread.map(|spread| [spread.low * unit, spread.high * unit]))
     };
     // The level is in 1e-2 N m: see Table 4's units.

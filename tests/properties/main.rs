@@ -44,6 +44,7 @@ mod orbit_linear;
 mod orbit_two_level;
 mod paper;
 mod power_law;
+mod practical;
 mod record;
 mod relay_certificate;
 mod rounding;

@@ -34,7 +34,8 @@ fn of_seeds(kind: &str, seeds: impl IntoIterator<Item = u64>) -> (u64, u64, Vec<
         let estimator = Estimator::new(case.known.delay_s.map_or(Delay::Estimated, Delay::KnownS));
         let reported = estimator.records(&records.iter().collect::<Vec<_>>()).unwrap().reported;
         let spread = reported.alpha.spread.unwrap();
-        for Estimate { value, spread } in [reported.alpha, reported.beta, reported.beta_quadratic, reported.delay_s] {
+        for Estimate { value, spread, .. } in [reported.alpha, reported.beta, reported.beta_quadratic, reported.delay_s]
+        {
             assert!(spread.is_none_or(|spread| spread.low <= value && value <= spread.high), "{reported:?}");
         }
         let holds = case.truths.iter().all(|truth| spread.low <= truth.alpha && truth.alpha <= spread.high);

@@ -3,6 +3,8 @@
 #[cfg(feature = "std")]
 pub(crate) mod any_float;
 #[cfg(feature = "std")]
+mod budget;
+#[cfg(feature = "std")]
 pub(crate) mod distribution;
 mod drag_law;
 mod error;
@@ -12,6 +14,8 @@ mod estimate;
 mod laws;
 #[cfg(feature = "std")]
 mod parameter;
+#[cfg(feature = "std")]
+mod practical;
 #[cfg(feature = "std")]
 mod reported;
 #[cfg(feature = "std")]
@@ -25,7 +29,10 @@ pub use drag_law::DragLaw;
 pub use error::IdentifyError;
 pub(crate) use error::READ_AGAIN;
 #[cfg(feature = "std")]
+pub(crate) use practical::MotionScale;
+#[cfg(feature = "std")]
 pub use {
+    budget::{Assumptions, BudgetEntry, ErrorSource},
     estimate::{ConfidenceInterval, Disturbances, Estimate},
     laws::{DragVerdict, LawEvidence},
     parameter::{AxisParameter, Delay},

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Disturbances, DragLaw, Estimate, LawEvidence, Reason, Term, Trust};
+use super::{BudgetEntry, Disturbances, DragLaw, Estimate, LawEvidence, Reason, Term, Trust};
 
 /// The one answer to use. All models that the records do not refute are averaged: a parameter of one that they do is absent.
 ///
@@ -46,6 +46,9 @@ pub struct Reported<Drag = Estimate, Why = Reason> {
     pub deltas: Disturbances,
     /// Delay in s.
     pub delay_s: Estimate,
+    /// Sources of error that no residual shows, the largest first: what the practical intervals hold beside the record's scatter.
+    #[serde(default)]
+    pub budget: Vec<BudgetEntry>,
     /// Whether to use it.
     pub trust: Trust,
     /// Why not simply good, the weightiest first.

@@ -66,6 +66,7 @@ impl From<&Reported> for ReportedModel {
             ramp_s,
             filter_s,
             deltas: reported.deltas.clone(),
+            budget: reported.budget.clone(),
             delay_s,
             trust,
             reasons: reported.reasons.iter().copied().map(Caution::from).collect(),

@@ -8,10 +8,11 @@ use super::settings::{Method, Settings};
 use super::stage::Stage;
 use crate::experiment::{Log, Record};
 use crate::features::{FeatureError, RecordFeatures};
-use crate::identify::answer::{AxisParameter, Delay, DragLaw, IdentifyError, Reported, Warning};
+use crate::identify::answer::{AxisParameter, Delay, DragLaw, IdentifyError, MotionScale, Reported, Warning};
 use crate::identify::fit::prediction_error::{Estimator, Prediction, Several};
 use crate::identify::fit::select::likelihood::{Choice, fit_each};
 use crate::identify::fit::shooting::RecordFit;
+use crate::identify::signal::{Clock, Signal, SwitchingInstant};
 use crate::identify::{exact, iso};
 
 /// The results so far.
@@ -138,7 +139,13 @@ impl<'a> Findings<'a> {
     /// The answer to use: terms found, models averaged. No method makes sense of a command of the opposite sign.
     fn report(&mut self, answer: Result<Several, IdentifyError>) -> Result<(), Refusal> {
         match answer {
-            Ok(several) => (self.reported, self.left_out) = (Some(several.reported), several.left_out),
+            Ok(several) => {
+                let headings = self.sources.iter().any(|source| source.log.is_heading());
+                let assumed = if headings { self.settings.assume } else { self.settings.assume.without_heading() };
+                let scales: Vec<MotionScale> = self.records().into_iter().map(motion_scale).collect();
+                self.reported = Some(several.reported.with_budget(&assumed, &scales));
+                self.left_out = several.left_out;
+            }
             Err(error @ IdentifyError::CommandSign) => return Err(error.into()),
             Err(error) => self.refuse("prediction-error", None, error),
         }
@@ -257,6 +264,12 @@ impl<'a> Findings<'a> {
     fn records(&self) -> Vec<&Record> {
         self.sources.iter().map(|source| &source.log.record).collect()
     }
+}
+
+/// The record's own units of force, speed and time.
+fn motion_scale(record: &Record) -> MotionScale {
+    let Signal { range, fastest, half_period_s, .. } = Signal::new(record, Clock::Stamps, SwitchingInstant::AtSamples);
+    MotionScale { level: 0.5 * range, speed: fastest, half_period_s }
 }
 
 /// Difference between the methods that is the sinusoid's own error.

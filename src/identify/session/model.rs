@@ -86,7 +86,7 @@ impl Model {
 
     /// Numbers from mean cycles come without errors.
     fn of_cycles(method: Method, record: Option<usize>, drag: DragLaw, values: [f64; 5]) -> Self {
-        let [alpha, beta, beta_quadratic, delta, delay_s] = values.map(|value| Estimate { value, spread: None });
+        let [alpha, beta, beta_quadratic, delta, delay_s] = values.map(|value| Estimate::new(value, None));
         Self {
             method,
             record,

@@ -4,7 +4,7 @@ use core::num::NonZeroUsize;
 
 use serde::{Deserialize, Serialize};
 
-use crate::identify::answer::{Delay, DragLaw};
+use crate::identify::answer::{Assumptions, Delay, DragLaw};
 use crate::numeric::domain::require;
 use crate::numeric::{Limit, OutOfDomain};
 
@@ -62,6 +62,8 @@ pub struct Settings {
     pub relay_level: Option<f64>,
     /// Level at which the command switched, in output units, above 0, if it is not to be read off the record.
     pub half_width: Option<f64>,
+    /// Sizes of the sources of error that no residual shows, for the practical intervals.
+    pub assume: Assumptions,
     /// For the guaranteed bounds: largest error of a reading in addition to half a step of the sensor, in output units, 0 or more.
     pub error: f64,
     /// For the guaranteed bounds: step of the sensor in output units, above 0, if it is not to be read off the record.
@@ -152,6 +154,7 @@ impl Settings {
         require("largest error of a reading", self.error, "output units", Limit::NonNegative, remedy)?;
         let remedy = "give the largest error of a stamp, 0 for a clock that is right";
         require("largest error of a stamp", self.jitter_s, "s", Limit::NonNegative, remedy)?;
+        self.assume.check()?;
         if let Delay::KnownS(delay_s) = self.delay {
             require("delay", delay_s, "s", Limit::NonNegative, "leave it out to have it estimated")?;
         }

@@ -3,8 +3,9 @@
 use crate::features::CycleStatistics;
 use crate::identify::document::UnitNames;
 use crate::identify::{
-    Caution, DragLaw, DragVerdict, Estimate, Identification, Prediction, Reason, Reported, Source, Trust,
+    BudgetEntry, Caution, DragLaw, DragVerdict, Estimate, Identification, Prediction, Reason, Reported, Source, Trust,
 };
+use crate::numeric::significant;
 use crate::report::{Cell, Table};
 
 /// Digits that a measured number is shown with, after the first.
@@ -120,7 +121,39 @@ pub(crate) fn verdict(found: &Identification) -> String {
         Trust::Widened => "Trust: widened. The intervals allow for what is named below.",
         Trust::Doubtful => "Trust: doubtful. Do not use the numbers, for the reasons named below.",
     };
-    format!("{trust}\n{}\n{SCALE}", drag_sentence(found, reported))
+    format!("{}{trust}\n{}\n{SCALE}", inertia_sentence(reported.alpha), drag_sentence(found, reported))
+}
+
+/// Digits of a half-width, and so of the value before it.
+const HALF_WIDTH_DIGITS: usize = 2;
+
+/// The inertia with both intervals, the practical one first.
+fn inertia_sentence(alpha: Estimate) -> String {
+    let Some((statistical, practical)) = alpha.spread.zip(alpha.combined) else { return String::new() };
+    let [practical, statistical] = [practical, statistical].map(|interval| 0.5 * (interval.high - interval.low));
+    let shown = significant(practical, HALF_WIDTH_DIGITS);
+    let decimals = shown.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    format!(
+        "alpha = {:.decimals$} \u{b1} {shown} (practical, 95 %; \u{b1} {} if the model is exact).\n",
+        alpha.value,
+        significant(statistical, HALF_WIDTH_DIGITS)
+    )
+}
+
+/// Sources shown to a person; the document has all.
+const SHOWN_SOURCES: usize = 3;
+
+/// What the practical intervals hold beside the record's scatter.
+fn budget_table(reported: &Reported) -> Option<Table> {
+    let columns = ["source", "size", "unit", "of alpha (%)", "what lowers it"];
+    let table = Table::new("budget", "Errors that no residual shows, the largest first", &columns);
+    let rows = reported.budget.iter().take(SHOWN_SOURCES);
+    let row = |table: Table, entry: &BudgetEntry| {
+        let texts = [&entry.source, &entry.unit, &entry.remedy].map(|text| Cell::from(text.as_ref()));
+        let [source, unit, remedy] = texts;
+        table.row([source, cell(entry.size), unit, Cell::number(entry.share_percent, 2), remedy])
+    };
+    (!reported.budget.is_empty()).then(|| rows.fold(table, row))
 }
 
 /// Stated once: the scale that no record shows.
@@ -174,15 +207,16 @@ pub(crate) fn reasons(found: &Identification) -> Vec<Caution> {
 /// The answer with its intervals, then every method.
 pub(crate) fn model_tables(found: &Identification) -> impl Iterator<Item = Table> + use<> {
     let reported = found.reported().map(|reported| parameter_table(found, reported));
+    let budget = found.reported().and_then(budget_table);
     let compared = (!found.models().is_empty()).then(|| comparison(found));
-    reported.into_iter().chain(compared).chain(prediction_table(found))
+    reported.into_iter().chain(budget).chain(compared).chain(prediction_table(found))
 }
 
 fn parameter_table(found: &Identification, reported: &Reported) -> Table {
     let terms: Vec<&str> = reported.terms.iter().map(|term| term.name()).collect();
     let terms = if terms.is_empty() { String::new() } else { format!(", with {}", terms.join(", ")) };
     let title = format!("Reported: {} drag{terms}", reported.drag.name());
-    let columns = ["parameter", "value", "std", "95 % from", "to", "unit"];
+    let columns = ["parameter", "value", "95 % from", "to", "if exact, from", "to", "unit"];
     let units = UnitNames::of(found.sources().iter().any(|source| source.log.degrees));
     let (one, second) = (String::new(), "s".to_owned());
     let [alpha, beta, quadratic, cubic, stiffness] =
@@ -210,10 +244,11 @@ fn parameter_table(found: &Identification, reported: &Reported) -> Table {
         _ => (format!("disturbance delta in {}", source.name), *delta, &force),
     });
     shared.chain(deltas).fold(Table::new("parameters", &title, &columns), |table, (name, estimate, unit)| {
-        let error = estimate.spread.map(|spread| [spread.std, spread.low, spread.high]);
-        let error = error.map_or([const { Cell::Missing }; 3], |error| error.map(cell));
+        let ends = [estimate.combined, estimate.spread].into_iter().flat_map(|interval| {
+            interval.map_or([const { Cell::Missing }; 2], |interval| [interval.low, interval.high].map(cell))
+        });
         let unit = Cell::from(unit.as_str());
-        table.row([Cell::Text(name), cell(estimate.value)].into_iter().chain(error).chain([unit]))
+        table.row([Cell::Text(name), cell(estimate.value)].into_iter().chain(ends).chain([unit]))
     })
 }
 

@@ -18,6 +18,6 @@ pub(crate) fn record(log: &selfosc_simulator::experiment::Record, turn: Option<f
 
 /// An estimate that ended on its bound has no interval: it is taken at its word.
 pub(crate) fn interval(estimate: Estimate) -> Interval {
-    let Estimate { value, spread } = estimate;
+    let Estimate { value, spread, .. } = estimate;
     spread.map_or(Interval::exact(value), |spread| Interval { value, low: spread.low, high: spread.high })
 }

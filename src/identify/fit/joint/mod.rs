@@ -178,7 +178,7 @@ impl Joint {
             let reach = std * student_quantile_95(self.degrees_of_freedom());
             ConfidenceInterval { std, low: (value - reach).max(0.0), high: value + reach }
         });
-        Estimate { value, spread }
+        Estimate::new(value, spread)
     }
 
     /// Correlation of the errors of two parameters; `None` unless both were estimated.

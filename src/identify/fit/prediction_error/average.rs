@@ -149,11 +149,11 @@ impl<'a> Average<'a> {
         // All models share the value where it was given, and rounding of the weights is no spread.
         let given = components.iter().all(|c| c.std == 0.0 && c.mean == components[0].mean);
         if given {
-            return Some(Estimate { value: components[0].mean, spread: None });
+            return Some(Estimate::new(components[0].mean, None));
         }
         let (low, high) = (quantile(&components, 0.025), quantile(&components, 0.975));
         // A component far away with less weight than a tail moves the mean, but no end of the interval.
-        Some(Estimate { value: mean.max(low).min(high), spread: Some(ConfidenceInterval { std, low, high }) })
+        Some(Estimate::new(mean.max(low).min(high), Some(ConfidenceInterval { std, low, high })))
     }
 
     /// Weight of the models for which something holds.

@@ -170,7 +170,7 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
     if probability < residuals::DISAGREE {
         reasons.push(Reason::HalvesDisagree { probability });
     }
-    let exact = |parameter: Parameter| Estimate { value: best.model.value(parameter), spread: None };
+    let exact = |parameter: Parameter| Estimate::new(best.model.value(parameter), None);
     let estimate = |parameter: Parameter| average.estimate(parameter, factor).unwrap_or_else(|| exact(parameter));
     let present = |parameter: Parameter| best.model.is_free(parameter).then(|| estimate(parameter));
     let mut alpha = estimate(Parameter::Alpha);
@@ -216,6 +216,7 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
         filter_s: present(Parameter::FilterS).map(not_negative),
         deltas: [estimate(Parameter::Disturbance)].into_iter().collect(),
         delay_s: not_negative(estimate(Parameter::DelayS)),
+        budget: Vec::new(),
         trust,
         reasons,
     };

@@ -41,15 +41,15 @@ pub(super) fn pooled(estimates: &[Estimate]) -> (Estimate, Option<f64>) {
     };
     let (value, std) = mean(&numbers);
     if probability_of_one(&numbers) >= DISAGREE {
-        return (Estimate { value, spread: Some(ConfidenceInterval::normal(value, std)) }, None);
+        return (Estimate::new(value, Some(ConfidenceInterval::normal(value, std))), None);
     }
     let count = numbers.len() as f64;
     let value = numbers.iter().map(|(value, _)| value).sum::<f64>() / count;
     let between = (numbers.iter().map(|(v, _)| (v - value).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
     let spread = ConfidenceInterval { std: between.hypot(std), low: value, high: value };
-    let held = Estimate { value, spread: Some(spread) }.holding(estimates);
+    let held = Estimate::new(value, Some(spread)).holding(estimates);
     let spread = held.spread.map(|held| ConfidenceInterval { std: spread.std, ..held });
-    (Estimate { value, spread }, Some(between))
+    (Estimate::new(value, spread), Some(between))
 }
 
 #[cfg(test)]
@@ -58,7 +58,7 @@ mod tests {
     use crate::identify::answer::distribution::NORMAL_95 as NORMAL;
 
     fn estimate(value: f64, std: f64) -> Estimate {
-        Estimate { value, spread: Some(ConfidenceInterval::normal(value, std)) }
+        Estimate::new(value, Some(ConfidenceInterval::normal(value, std)))
     }
 
     fn ends(estimate: Estimate) -> [f64; 3] {
@@ -95,7 +95,7 @@ mod tests {
         assert_eq!(ends(held), [1.0 - 0.1 * NORMAL, 2.0, 2.0 + 0.3 * NORMAL]);
         assert_eq!(ends(estimate(2.0, 0.3).in_units(2.0)), ends(estimate(4.0, 0.6)));
         // An estimate without an error is the others'.
-        let exact = Estimate { value: 0.0, spread: None };
+        let exact = Estimate::new(0.0, None);
         assert_eq!(pooled(&[exact, estimate(2.0, 0.3)]), (estimate(2.0, 0.3), None));
     }
 }

@@ -145,6 +145,7 @@ impl Several {
                 .flat_map(|part| part.clone().with_error(together.shared).deltas.to_vec())
                 .collect(),
             delay_s: own(&|r| Some(r.delay_s)).unwrap_or(first.delay_s),
+            budget: Vec::new(),
             trust: reasons.iter().map(|reason| reason.trust()).max().unwrap_or(Trust::Good),
             reasons,
         };

@@ -92,7 +92,7 @@ impl GaussNewton<'_> {
             let spread = (fixed[k].is_none() && self.shared[k] > 0.0)
                 .then(|| ConfidenceInterval::normal(self.shared[k], covariance.shared[k][k].sqrt()))
                 .map(|spread| ConfidenceInterval { low: spread.low.max(0.0), ..spread });
-            Estimate { value: self.shared[k], spread }
+            Estimate::new(self.shared[k], spread)
         };
         let estimates = [estimate(0), estimate(1), estimate(2), estimate(3)];
         let records =
@@ -107,10 +107,10 @@ impl GaussNewton<'_> {
                 let correlations = correlations(&residuals);
                 let strongest = correlations.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()));
                 FittedRecord {
-                    disturbance: Estimate {
-                        value: motion.disturbance,
-                        spread: Some(ConfidenceInterval::normal(motion.disturbance, variance.sqrt())),
-                    },
+                    disturbance: Estimate::new(
+                        motion.disturbance,
+                        Some(ConfidenceInterval::normal(motion.disturbance, variance.sqrt())),
+                    ),
                     begin_s: motion.intervals.first().map_or(0.0, |first| first.begin_s),
                     start,
                     first_sample,

@@ -1,0 +1,139 @@
+//! The practical interval: `H^2 = (2 h)^2 + sum_i (share_i size_i)^2`, h the statistical half-width, the sum over the sources of the
+//! [budget](super::budget).
+//!
+//! What a practical interval does not hold: the scale of the thrust, and a source that is not in the table.
+
+use super::budget::{Assumptions, BudgetEntry, ErrorSource, Shares};
+use super::{Disturbances, Estimate, Reported};
+
+/// A record's own units of force, speed and time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct MotionScale {
+    /// Half the command's range.
+    pub(crate) level: f64,
+    /// Top speed.
+    pub(crate) speed: f64,
+    pub(crate) half_period_s: f64,
+}
+
+/// Powers of output and time in a parameter's unit, and the part of the answer's trial that it takes.
+#[derive(Clone, Copy)]
+struct Moved {
+    output: f64,
+    time: f64,
+    trial: fn(&Shares) -> f64,
+    /// What the trial's share is a share of.
+    whole: f64,
+}
+
+impl Moved {
+    /// Half the width of the declared sources' interval of a value, from shares that are independent of each other.
+    fn declared(&self, value: f64, assumed: &Assumptions) -> f64 {
+        let part = |source: ErrorSource| {
+            let shares = source.shares();
+            let exact = (shares.output * self.output + shares.time * self.time).abs() * value.abs();
+            let tried = (self.trial)(&shares) * self.whole.abs();
+            0.01 * assumed.size(source) * (exact + tried)
+        };
+        ErrorSource::ALL.into_iter().map(|source| part(source).powi(2)).sum::<f64>().sqrt()
+    }
+}
+
+impl Reported {
+    /// With its budget and the practical interval of every estimate; `scales` are those of the records, in their order.
+    pub(crate) fn with_budget(mut self, assumed: &Assumptions, scales: &[MotionScale]) -> Self {
+        let count = scales.len().max(1) as f64;
+        let mean = |of: fn(&MotionScale) -> f64| scales.iter().map(of).sum::<f64>() / count;
+        let (speed, half_period_s) = (mean(|scale| scale.speed), mean(|scale| scale.half_period_s));
+        let none = |_: &Shares| 0.0;
+        // Units are powers of output, time and the command: alpha has command s^2/output.
+        let exact = |output: f64, time: f64| Moved { output, time, trial: none, whole: 0.0 };
+        let alpha = Moved { trial: |shares| shares.alpha, whole: self.alpha.value, ..exact(1.0, 2.0) };
+        self.budget = ErrorSource::ALL
+            .into_iter()
+            .filter(|source| assumed.size(*source) > 0.0)
+            .map(|source| {
+                let alone = Assumptions::NONE.with(source, assumed.size(source));
+                BudgetEntry {
+                    source: source.name().into(),
+                    size: assumed.size(source),
+                    unit: source.unit().into(),
+                    share_percent: 100.0 * alpha.declared(self.alpha.value, &alone) / self.alpha.value.abs(),
+                    remedy: source.remedy().into(),
+                }
+            })
+            .collect();
+        self.budget.sort_by(|a, b| b.share_percent.total_cmp(&a.share_percent));
+        // A source takes its share of the drag force for whichever law is there.
+        let force = self.beta.value.abs() * speed + self.beta_quadratic.value.abs() * speed * speed;
+        let drag = |power: i32| Moved {
+            trial: |shares| shares.drag,
+            whole: if speed > 0.0 { force / speed.powi(power) } else { 0.0 },
+            ..exact(f64::from(power), f64::from(power))
+        };
+        let practical =
+            |estimate: Estimate, moved: Moved| estimate.with_declared(moved.declared(estimate.value, assumed));
+        let optional = |estimate: Option<Estimate>, output: f64, time: f64| {
+            estimate.map(|estimate| practical(estimate, exact(output, time)))
+        };
+        let time = |estimate: Option<Estimate>| optional(estimate, 0.0, 1.0).map(Estimate::not_below_zero);
+        let deltas: Disturbances = self
+            .deltas
+            .iter()
+            .zip(scales)
+            .map(|(delta, scale)| {
+                practical(*delta, Moved { trial: |shares| shares.delta, whole: scale.level, ..exact(0.0, 0.0) })
+            })
+            .collect();
+        let delay = Moved { trial: |shares| shares.delay, whole: half_period_s, ..exact(0.0, 1.0) };
+        Self {
+            alpha: practical(self.alpha, alpha),
+            beta: practical(self.beta, drag(1)),
+            beta_quadratic: practical(self.beta_quadratic, drag(2)),
+            beta_cubic: self.beta_cubic.map(|cubic| practical(cubic, drag(3))),
+            skew: optional(self.skew, 0.0, 0.0),
+            coulomb: optional(self.coulomb, 0.0, 0.0).map(Estimate::not_below_zero),
+            memory: optional(self.memory, 1.0, 1.0),
+            memory_s: time(self.memory_s),
+            stiffness: optional(self.stiffness, 1.0, 0.0),
+            lag_s: time(self.lag_s),
+            ramp_s: time(self.ramp_s),
+            filter_s: time(self.filter_s),
+            delay_s: practical(self.delay_s, delay).not_below_zero(),
+            deltas,
+            ..self
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Moved;
+    use crate::identify::answer::budget::{Assumptions, ErrorSource};
+    use crate::identify::answer::{ConfidenceInterval, Estimate};
+
+    /// 3-4-5: twice a half-width of 2 beside declared sources of 3.
+    #[test]
+    fn practical_half_widths_add_in_squares() {
+        let spread = ConfidenceInterval { std: 1.0, low: 8.0, high: 12.0 };
+        let found = Estimate::new(10.0, Some(spread)).with_declared(3.0).combined;
+        assert_eq!(found, Some(ConfidenceInterval { std: 2.5, low: 5.0, high: 15.0 }));
+        assert_eq!(Estimate::new(10.0, None).with_declared(3.0).combined, None);
+        let near = Estimate::new(0.1, Some(spread)).with_declared(3.0).not_below_zero().combined;
+        assert!(near.is_some_and(|interval| interval.low == 0.0));
+    }
+
+    /// Of an inertia of 2, 1 % of time is 2 % and 1.5 % of output 1.5 %; trials take their share of the whole.
+    #[test]
+    fn shares_are_powers_of_the_unit_or_those_of_the_trial() {
+        let moved = Moved { output: 1.0, time: 2.0, trial: |shares| shares.alpha, whole: 2.0 };
+        let sizes = Assumptions::NONE.with(ErrorSource::Clock, 1.0);
+        approx::assert_relative_eq!(moved.declared(2.0, &sizes), 0.04, max_relative = 1e-12);
+        let both = sizes.with(ErrorSource::SensorGain, 1.5);
+        approx::assert_relative_eq!(moved.declared(2.0, &both), 0.05, max_relative = 1e-12);
+        let heading = Assumptions::NONE.with(ErrorSource::HeadingError, 1.0);
+        let share = ErrorSource::HeadingError.shares().alpha;
+        approx::assert_relative_eq!(moved.declared(2.0, &heading), 0.02 * share, max_relative = 1e-12);
+        assert_eq!(moved.declared(2.0, &heading.without_heading()), 0.0);
+    }
+}
