@@ -87,7 +87,7 @@ pub(super) fn seek(
         for ((end, multipliers), upper) in ends.iter().zip([true, false]) {
             let sign = if upper { 1.0 } else { -1.0 };
             let of = |side: Interval| if upper { side.upper() } else { side.lower() };
-            let (now, other) = (of(side), of(-side) * -1.0);
+            let (now, other) = (of(side), -of(-side));
             let (end, least) = (end + sign * room, ROOM * side.width());
             let gained = sign * (now - end);
             let reaches =
