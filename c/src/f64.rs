@@ -32,7 +32,7 @@ pub unsafe extern "C" fn selfosc_describe_f64(
         let parameters = unsafe { core::slice::from_raw_parts(parameters, count) };
         routines::describe(characteristic, parameters, bias, amplitude)
     };
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     unsafe { answer(result, refusal, call) }
 }
 
@@ -45,7 +45,7 @@ pub unsafe extern "C" fn selfosc_limit_cycle_f64(
     result: *mut LimitCycle<f64>,
     refusal: *mut Refusal,
 ) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     unsafe { answer(result, refusal, || routines::limit_cycle(given(axis)?, relay_level, half_width)) }
 }
 
@@ -56,7 +56,7 @@ pub unsafe extern "C" fn selfosc_identify_f64(
     result: *mut Parameters<f64>,
     refusal: *mut Refusal,
 ) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     unsafe { answer(result, refusal, || routines::identify(given(oscillation)?)) }
 }
 
@@ -68,7 +68,7 @@ pub unsafe extern "C" fn selfosc_identify_exact_f64(
     result: *mut Axis<f64>,
     refusal: *mut Refusal,
 ) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     unsafe { answer(result, refusal, || routines::identify_exact(given(cycle)?, drag_law)) }
 }
 
@@ -85,7 +85,7 @@ pub unsafe extern "C" fn selfosc_protocol_f64(
     refusal: *mut Refusal,
 ) -> Status {
     let call = || routines::protocol(coordinate, relay_level, half_width, largest_excursion, interval_s);
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     unsafe { answer(result, refusal, call) }
 }
 
@@ -96,7 +96,7 @@ pub unsafe extern "C" fn selfosc_experiment_begin_f64(
     protocol: *const Protocol<f64>,
     refusal: *mut Refusal,
 ) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     let call = || unsafe { placed::begin(experiment, routines::experiment(given(protocol)?)?) };
     // SAFETY: as above.
     unsafe { answer(&mut (), refusal, call) }
@@ -110,7 +110,7 @@ pub unsafe extern "C" fn selfosc_experiment_step_f64(
     time_s: f64,
     result: *mut ExperimentStep<f64>,
 ) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     let call = || Ok(routines::experiment_step(unsafe { placed::held(experiment) }?.step(reading, time_s)));
     // SAFETY: as above.
     unsafe { answer(result, core::ptr::null_mut(), call) }
@@ -123,7 +123,7 @@ pub unsafe extern "C" fn selfosc_experiment_tick_f64(
     time_s: f64,
     result: *mut ExperimentStep<f64>,
 ) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     let call = || Ok(routines::experiment_step(unsafe { placed::held(experiment) }?.tick(time_s)));
     // SAFETY: as above.
     unsafe { answer(result, core::ptr::null_mut(), call) }
@@ -132,7 +132,7 @@ pub unsafe extern "C" fn selfosc_experiment_tick_f64(
 /// Stops an experiment: the command is neutral from now on.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selfosc_experiment_abort_f64(experiment: *mut ExperimentF64) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     let call = || unsafe { placed::held(experiment) }.map(|experiment| experiment.abort());
     // SAFETY: as above.
     unsafe { answer(&mut (), core::ptr::null_mut(), call) }
@@ -144,7 +144,7 @@ pub unsafe extern "C" fn selfosc_experiment_outcome_f64(
     experiment: *mut ExperimentF64,
     result: *mut Outcome<f64>,
 ) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     let call = || routines::outcome(unsafe { placed::held(experiment) }?);
     // SAFETY: as above.
     unsafe { answer(result, core::ptr::null_mut(), call) }
@@ -159,7 +159,7 @@ pub unsafe extern "C" fn selfosc_tune_f64(
     settings: *mut ControllerSettings<f64>,
     refusal: *mut Refusal,
 ) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     let call = || unsafe { routines::tune(given(axis)?, structure, bandwidth_rad_s, given(settings)?) };
     // SAFETY: as above.
     unsafe { answer(settings, refusal, call) }
@@ -174,7 +174,7 @@ pub unsafe extern "C" fn selfosc_margins_f64(
     result: *mut Margins<f64>,
     refusal: *mut Refusal,
 ) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     unsafe { answer(result, refusal, || routines::tuned_margins(given(axis)?, structure, bandwidth_rad_s)) }
 }
 
@@ -185,7 +185,7 @@ pub unsafe extern "C" fn selfosc_controller_begin_f64(
     settings: *const ControllerSettings<f64>,
     refusal: *mut Refusal,
 ) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     let call = || unsafe { placed::begin(controller, routines::controller(given(settings)?)?) };
     // SAFETY: as above.
     unsafe { answer(&mut (), refusal, call) }
@@ -202,7 +202,7 @@ pub unsafe extern "C" fn selfosc_controller_feed_forward_f64(
     refusal: *mut Refusal,
 ) -> Status {
     let call = || {
-        // SAFETY: pointers are null or good for what they point at.
+        // SAFETY: pointers are null or valid for their targets.
         let (controller, axis) = unsafe { (placed::held(controller)?, given(axis)?) };
         *controller = routines::feed_forward(controller, axis, pace_rad_s, top_speed)?;
         Ok(())
@@ -220,7 +220,7 @@ pub unsafe extern "C" fn selfosc_controller_step_f64(
     dt_s: f64,
     result: *mut ControlStep<f64>,
 ) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     let held = || unsafe { placed::held(controller) };
     let call = || Ok(routines::controller_step(held()?.step(reference, measurement, dt_s)));
     // SAFETY: as above.
@@ -230,7 +230,7 @@ pub unsafe extern "C" fn selfosc_controller_step_f64(
 /// Lets a controller forget everything but its settings.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selfosc_controller_reset_f64(controller: *mut ControllerF64) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     let call = || unsafe { placed::held(controller) }.map(|controller| controller.reset());
     // SAFETY: as above.
     unsafe { answer(&mut (), core::ptr::null_mut(), call) }
@@ -244,7 +244,7 @@ pub unsafe extern "C" fn selfosc_thruster_thrust_f64(
     result: *mut f64,
     refusal: *mut Refusal,
 ) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     unsafe { answer(result, refusal, || routines::thrust(given(thruster)?, command)) }
 }
 
@@ -256,7 +256,7 @@ pub unsafe extern "C" fn selfosc_thruster_command_f64(
     result: *mut f64,
     refusal: *mut Refusal,
 ) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     unsafe { answer(result, refusal, || routines::thruster_command(given(thruster)?, thrust_n)) }
 }
 
@@ -268,6 +268,6 @@ pub unsafe extern "C" fn selfosc_thruster_command_clamped_f64(
     result: *mut Delivered<f64>,
     refusal: *mut Refusal,
 ) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     unsafe { answer(result, refusal, || routines::thruster_command_clamped(given(thruster)?, thrust_n)) }
 }

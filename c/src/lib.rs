@@ -38,7 +38,7 @@ use values::Parameter;
 /// The parameter with this index, from 0, of one of `SelfoscCharacteristic`; `SELFOSC_STATUS_WRONG_COUNT` after the last one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selfosc_parameter(characteristic: u32, index: usize, result: *mut Parameter) -> Status {
-    // SAFETY: pointers are null or good for what they point at.
+    // SAFETY: pointers are null or valid for their targets.
     unsafe {
         status::answer::<Parameter>(result, core::ptr::null_mut::<Refusal>(), || {
             routines::parameter(characteristic, index)

@@ -48,7 +48,7 @@ pub enum Characteristic {
     Backlash = 19,
 }
 
-/// One parameter of a characteristic.
+/// A parameter of a characteristic.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter {
@@ -102,11 +102,11 @@ pub struct LimitCycle<T> {
     pub time_positive_s: T,
     /// Time with the negative command, s.
     pub time_negative_s: T,
-    /// What is left of a deviation after one period, as a factor.
+    /// The factor of a deviation over a period.
     pub multiplier: T,
 }
 
-/// What the paper's identification starts from.
+/// The quantities from which the paper's identification starts.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Oscillation<T> {
@@ -138,7 +138,7 @@ pub struct Parameters<T> {
     pub disturbance: T,
 }
 
-/// What the identification by exact limit cycles starts from.
+/// The quantities from which the identification by exact limit cycles starts.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MeanCycle<T> {
@@ -166,7 +166,7 @@ pub enum DragLaw {
     Quadratic = 1,
 }
 
-/// What the sensor measures.
+/// The measured quantity.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coordinate {
@@ -200,7 +200,7 @@ pub struct Protocol<T> {
     pub half_width: T,
     /// The coordinate may be this far from the reference; a reading further off is a fault.
     pub largest_excursion: T,
-    /// Before the first switching the coordinate may fall back by this much.
+    /// Before the first switching the coordinate may fall back by this distance.
     pub wrong_way: T,
     /// The relay keeps an output for at least this long, s.
     pub dwell_s: T,
@@ -264,7 +264,7 @@ pub struct CycleStatistics<T> {
     pub std: T,
 }
 
-/// What a finished experiment found.
+/// The result of a finished experiment.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Outcome<T> {
@@ -360,7 +360,7 @@ pub enum ControlFault {
     Overflow = 4,
 }
 
-/// What a step of a controller gives.
+/// The result of a step of a controller.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct ControlStep<T> {

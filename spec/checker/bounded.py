@@ -1,6 +1,7 @@
 """Verifies the proofs that `selfosc identify LOG --method bounded --certificate FILE` writes. See README.md."""
 
 import sys
+from contextlib import contextmanager
 from fractions import Fraction
 
 from flint import arb
@@ -15,7 +16,7 @@ from problem import assumed, posed, statement
 MOST_HELD = 1 << 20
 # Boxes whose inertia is known worse than this are followed with exact products.
 WIDE = 2e-3
-# A walk that is refused is made anew with steps shorter by these.
+# A refused walk, or a witness that misses a reading, is followed anew with steps shorter by these factors.
 SHORTER = (1, 2, 4)
 # Rounding of the terms of a witness, against their sizes.
 ROUNDING = 1e-9
@@ -366,29 +367,42 @@ def met(searched, records, first, witness):
     sized = lambda slopes: sum(abs(s * centre[p]) for p, s in slopes)
     require(all(limit.upper() >= -ROUNDING * sized(slopes) for slopes, limit in rows.values()), "the witness is not in the search box")
     near = [span(v - NEAR * abs(v), v + NEAR * abs(v)) for v in values]
+
+    def satisfied(shorter):
+        with steps_of_motion(shorter):
+            try:
+                motions = [stage.motion(n, n + 1, near, centre)[0] for n in range(len(records))]
+            except Unfollowed as fault:
+                raise Refused(f"the witness: {fault}") from fault
+        strays = ((abs(point[0] - own.reading[n]), own.error) for own, nodes in zip(records, motions) for n, (_, point, _) in nodes)
+        return all(stray.upper() <= error for stray, error in strays)
+
+    return any(satisfied(shorter) for shorter in SHORTER)
+
+
+@contextmanager
+def steps_of_motion(shorter):
+    """Steps of motions that are shorter by a factor."""
+    Steps.shorter = shorter
     try:
-        motions = [stage.motion(n, n + 1, near, centre)[0] for n in range(len(records))]
-    except Unfollowed as fault:
-        raise Refused(f"the witness: {fault}") from fault
-    strays = ((abs(point[0] - own.reading[n]), own.error) for own, nodes in zip(records, motions) for n, (_, point, _) in nodes)
-    return all(stray.upper() <= error for stray, error in strays)
+        yield
+    finally:
+        Steps.shorter = 1
 
 
 def walked(stage, name):
     """The steps of a stage, in steps of a motion as long as will do."""
     for shorter in SHORTER:
-        Steps.shorter = shorter
         walk = Walk(stage, name)
         try:
-            walk.go()
+            with steps_of_motion(shorter):
+                walk.go()
         except Refused:
             # Shorter steps of a motion are of use where there is one.
             if shorter == SHORTER[-1] or not walk.verified:
                 raise
         else:
             return walk
-        finally:
-            Steps.shorter = 1
 
 
 def check(certificate):

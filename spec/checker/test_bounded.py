@@ -168,6 +168,23 @@ def test_a_walk_that_is_refused_is_made_anew_with_shorter_steps(monkeypatch, eno
     assert motion.Steps.shorter == 1
 
 
+@pytest.mark.parametrize("enough", [4, 8])
+def test_a_witness_is_followed_anew_with_shorter_steps(monkeypatch, enough):
+    followed = bounded.Stage.motion
+
+    def doubtful(stage, *args):
+        nodes, places = followed(stage, *args)
+        room = arb(0, 0 if motion.Steps.shorter >= enough else 2 * stage.records[0].error)
+        return [(n, (over, [point[0] + room, *point[1:]], slopes)) for n, (over, point, slopes) in nodes], places
+
+    monkeypatch.setattr(bounded.Stage, "motion", doubtful)
+    if enough <= max(bounded.SHORTER):
+        assert bounded.check(FILES["consistent"])
+    else:
+        with pytest.raises(Refused, match="the witness misses a reading"):
+            bounded.check(FILES["consistent"])
+
+
 def test_shorter_steps_leave_less_in_doubt_and_hold_what_a_motion_does(monkeypatch):
     def slope(shorter):
         monkeypatch.setattr(motion.Steps, "shorter", shorter)

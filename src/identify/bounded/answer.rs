@@ -1,4 +1,4 @@
-//! What was found.
+//! The answer: bounds, verdict, outliers.
 
 use serde::{Deserialize, Serialize};
 
@@ -69,7 +69,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// The record whose own it is; `None` for what is common to all.
+    /// The record whose own it is; `None` for a quantity common to all.
     #[must_use]
     pub fn record(self) -> Option<usize> {
         match self {
@@ -107,7 +107,7 @@ impl core::fmt::Display for Quantity {
     }
 }
 
-/// A quantity with an enclosure of what it can be, in the units of the records.
+/// A quantity with the enclosure of its values, in the units of the records.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct QuantityRange {
     /// Which.
@@ -124,7 +124,7 @@ impl QuantityRange {
     }
 }
 
-/// One parameter of the model.
+/// A parameter of the model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ParameterValues {
     /// Its quantities; each record's state is at the first sample that the model covers.
@@ -142,7 +142,7 @@ pub struct Contradicting {
     pub sample: usize,
     /// Whether the model stays above what the reading allows, rather than below.
     pub model_above: bool,
-    /// Its share of the contradiction; they add up to one.
+    /// Its share of the contradiction; their sum is 1.
     pub share: f64,
 }
 
@@ -187,7 +187,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The enclosure of one quantity.
+    /// The enclosure of a quantity.
     #[must_use]
     pub fn of(&self, quantity: Quantity) -> Option<[f64; 2]> {
         self.bounds.iter().find(|range| range.quantity == quantity).map(|range| [range.low, range.high])

@@ -22,13 +22,13 @@ use crate::numeric::{Interval, Limit, OutOfDomain, Real};
 
 /// Passes for the proof that a reading contradicts the set of a pair.
 const PROOF: usize = 100;
-/// Readings of one record that a pair of groups needs.
+/// Readings of a record that a pair of groups needs.
 const FEWEST: usize = 40;
 
 /// The numbers of two groups.
 type Groups = [usize; 2];
 
-/// The pairs of so many groups.
+/// The pairs of this number of groups.
 fn pairs(groups: usize) -> impl Iterator<Item = Groups> {
     (0..groups).flat_map(move |second| (0..second).map(move |first| [first, second]))
 }
@@ -41,7 +41,7 @@ struct Relaxed<'a> {
     offsets: Vec<usize>,
     scales: Vec<Scales>,
     found: Vec<Outlier>,
-    /// Of the empty answers the one that took most passes.
+    /// The empty answer with most passes.
     hardest: Option<Bounds>,
     passes: usize,
 }
@@ -49,7 +49,7 @@ struct Relaxed<'a> {
 /// The set of some of the readings.
 struct Left {
     bounds: Bounds,
-    /// The parameters; `None` where nothing is left.
+    /// The parameters; `None` for an empty set.
     at: Option<Vec<Interval>>,
     /// Readings of all that the feasible point misses, the furthest off first.
     missed: Vec<Outlier>,
@@ -130,14 +130,14 @@ impl Relaxed<'_> {
         self.conclude(&whole, &at, pieces, groups - 2)
     }
 
-    /// What every pair of groups leaves of a box, but those that leave nothing.
+    /// The nonempty sets of the pairs of groups within a box.
     fn pieces(&mut self, groups: usize, at: &[Interval]) -> Result<Vec<(Groups, Left)>, IdentifyError> {
         let mut pieces: Vec<(Groups, Left)> = Vec::new();
-        // Most pairs are soon known, and the others get what is left of the budget.
+        // Most pairs end soon, and the rest of the budget goes to those that do not.
         let mut open: Vec<(Groups, Option<usize>)> = pairs(groups).map(|pair| (pair, None)).collect();
         while let Some((pair, least)) = open.pop() {
             let budget = self.settings.budget.saturating_sub(self.passes) / (open.len() + 1);
-            // No pair goes without a first run, whatever is left.
+            // Every pair has a first run, even beyond the budget.
             if least.is_some_and(|least| budget < least) {
                 continue;
             }
@@ -223,7 +223,7 @@ impl Relaxed<'_> {
         missed.into_iter().map(|(_, place)| place).collect()
     }
 
-    /// Readings that contradict what every pair leaves, as many as may be outliers at most.
+    /// Readings that contradict the set of every pair, at most as many as may be outliers.
     fn contradicted(&self, pieces: &[(Groups, Left)], groups: usize) -> Result<Vec<Outlier>, IdentifyError> {
         let allowed = groups - 2;
         let mut suspects: Vec<Outlier> =
@@ -245,7 +245,7 @@ impl Relaxed<'_> {
         Ok(sure)
     }
 
-    /// Whether nothing is left of what a pair leaves once one more reading has to be met.
+    /// Whether the set of a pair is empty once a further reading is a constraint.
     fn contradicts(&self, suspect: Outlier, pair: Groups, groups: usize, piece: &Left) -> Result<bool, IdentifyError> {
         let Some(at) = &piece.at else { return Ok(true) };
         let problem = self.problem(|place| place == suspect || self.within(pair, groups, place))?.within(at);
@@ -279,7 +279,7 @@ impl Relaxed<'_> {
     }
 
     fn answer(self, bounds: Bounds, whole: &Problem) -> Bounds {
-        // A model that is refuted says nothing of readings.
+        // A refuted model shows no outliers.
         let outliers = if bounds.verdict == Consistency::Refuted { Vec::new() } else { self.found };
         Bounds { search_box: whole.ranges(&whole.search), outliers, passes: self.passes, ..bounds }
     }

@@ -29,11 +29,11 @@ pub struct Certificate {
     pub(super) read_as: Option<ReadAs>,
     /// The rows of the logs.
     pub(super) records: Vec<Log>,
-    /// What these and the model come to.
+    /// The ranges that follow from these and the model.
     pub(super) searched: Searched,
     /// One after the other; each begins where the one before ended.
     pub(super) stages: Vec<ProofStage>,
-    /// One parameter.
+    /// A parameter.
     pub(super) witness: Option<Witness>,
 }
 
@@ -129,7 +129,7 @@ pub(super) enum Step {
     Exclude { by: By, rows: Combination },
     /// In two at a value of an unknown; the lower part is next, then the upper part.
     Divide { unknown: usize, at: f64 },
-    /// It is within what is left.
+    /// It is within the rest.
     Keep,
 }
 

@@ -25,7 +25,7 @@ pub enum Unproved {
         /// What is wrong.
         text: String,
     },
-    /// A range is not the one that the records and the model lead to.
+    /// A range does not follow from the records and the model.
     #[error("the {what} is not the one that the file's records and its model lead to")]
     Ranges {
         /// Of what.
@@ -53,7 +53,7 @@ pub enum Unproved {
         /// In the file.
         expected: String,
     },
-    /// The witness leaves out readings.
+    /// The witness omits readings.
     #[error("the witness begins at row {first} of record {record}, and has to meet every reading from row {most} on")]
     Late {
         /// Number of the record, from one.
