@@ -26,7 +26,7 @@ pub use crate::identify::{Identification, Session, Settings};
 pub use crate::nonlinearity::*;
 pub use crate::orbit::{LimitCycle, limit_cycle};
 #[cfg(feature = "std")]
-pub use crate::orbit::{RelayLoop, certify};
+pub use crate::orbit::{TwoLevelRelay, certify, orbits};
 pub use crate::plant::DragAxis;
 #[cfg(feature = "std")]
 pub use crate::plant::{StateSpace, TransferFunction};

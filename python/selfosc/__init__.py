@@ -17,7 +17,7 @@ from .describing import Described, DescribingFunction, Nonlinearity, catalogue, 
 from .errors import NoLimitCycle, OutOfDomain, RecordRefused, SelfoscError, UnreadableLog, UsageError
 from .identification import Bounds, Identification, bounded, identify
 from .inverse import Amplitudes, FittedCharacteristics, amplitudes, fit_characteristic
-from .loops import Balance, Certificate, Prediction, balance, certify, predict, simulate
+from .loops import Balance, Certificate, Drawing, Prediction, balance, certify, predict, simulate
 from .on_board import Controller, ControlStep, Experiment, Outcome, Protocol, Step
 from .theory import Reproduction, Verification, reproduce, verify
 
@@ -34,6 +34,7 @@ __all__ = [
     "Described",
     "DescribingFunction",
     "Design",
+    "Drawing",
     "Experiment",
     "FittedCharacteristics",
     "Identification",

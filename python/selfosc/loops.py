@@ -2,15 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
-from . import _arguments, _documents, types
+from . import _arguments, _core, _documents, types
 from ._results import Result
 from .describing import Nonlinearity
 from .errors import NoLimitCycle, UsageError
 
-__all__ = ["Balance", "Certificate", "Prediction", "balance", "certify", "predict", "simulate"]
+__all__ = ["Balance", "Certificate", "Drawing", "Prediction", "balance", "certify", "predict", "simulate"]
+
+
+class Drawing:
+    """A figure as SVG, which a notebook shows."""
+
+    def __init__(self, svg: str) -> None:
+        self.svg = svg
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+    def save(self, path: str | Path) -> None:
+        """Writes the SVG file."""
+        Path(path).write_text(self.svg, encoding="utf-8")
 
 
 class Balance(Result):
@@ -18,6 +34,17 @@ class Balance(Result):
 
     intersections: list[types.Intersection]
     proved: list[types.ProvedOscillation] | None
+
+    def __init__(self, document: Mapping[str, Any], arguments: Sequence[str]) -> None:
+        super().__init__(document)
+        self._arguments = list(arguments)
+
+    def plot(self) -> Drawing:
+        """The Nyquist curve with ``-1/N``, each intersection with its period and verdict: the command's own figure."""
+        with tempfile.TemporaryDirectory() as folder:
+            place = Path(folder) / "nyquist.svg"
+            _core.run(["balance", *self._arguments, f"--svg={place}"])
+            return Drawing(place.read_text(encoding="utf-8"))
 
     def _rows(self) -> list[dict[str, Any]]:
         return self.to_dict()["intersections"]
@@ -82,6 +109,7 @@ def balance(plant: Any, characteristic: str | Nonlinearity, *, delay: float = 0.
     Balance
         ``intersections``, each with ``amplitude`` (input units), ``omega_rad_s`` and ``stable`` (Loeb's verdict: true, false
         or ``None``), and ``existence``, a proved box or the reason for none; ``proved``, every box. None is an answer too.
+        ``plot()`` draws the curves.
 
     Raises
     ------
@@ -104,8 +132,8 @@ def balance(plant: Any, characteristic: str | Nonlinearity, *, delay: float = 0.
     else:
         name = characteristic
     num, den, delay = _documents.coefficients(plant, delay)
-    arguments = _documents.flags(num=num, den=den, delay=delay, nonlinearity=name, bias=bias)
-    return Balance(_documents.answer("balance", *arguments, *_documents.settings(parameters))[1])
+    arguments = _documents.flags(num=num, den=den, delay=delay, nonlinearity=name, bias=bias) + _documents.settings(parameters)
+    return Balance(_documents.answer("balance", *arguments)[1], arguments)
 
 
 @_arguments.named

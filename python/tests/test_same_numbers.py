@@ -1,6 +1,7 @@
 """The package and the command give the same document, bit for bit: JSON has every digit, so text is compared through floats."""
 
 import json
+import pickle
 import struct
 
 import pytest
@@ -83,10 +84,15 @@ def test_a_characteristic_that_has_the_gains(command, tmp_path):
     assert result[0]["residual"] == min(one["residual"] for one in result)
 
 
-def test_balance(command):
+def test_balance(command, tmp_path):
     result = selfosc.balance(([8], [1, 2, 2, 1]), "saturation", breakpoint=1, delay=0.1)
     options = ["--num=8", "--den=1,2,2,1", "--delay=0.1", "--nonlinearity=saturation", "--set=breakpoint=1", "--json"]
     assert_same(result, command("balance", *options))
+    figure = tmp_path / "nyquist.svg"
+    command("balance", *options, f"--svg={figure}")
+    assert result.plot().svg == figure.read_text()
+    result.plot().save(tmp_path / "saved.svg")
+    assert (tmp_path / "saved.svg").read_text() == pickle.loads(pickle.dumps(result)).plot()._repr_svg_() == figure.read_text()
 
 
 @pytest.mark.parametrize("delta", [0.0, 0.011])

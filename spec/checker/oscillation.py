@@ -1,6 +1,6 @@
 """Verifies proofs that an oscillation exists, as `selfosc balance --certificates DIR` writes them. See README.md.
 
-The loop is x = -G n(x), n odd with slopes in an interval, x of odd harmonics. In balls: the equations up to the highest harmonic, linearised
+The loop is x = -G n(x), n odd with slopes in an interval, x of odd harmonics or of all. In balls: the equations up to the highest harmonic, linearised
 about the centre, map the box of the radii into itself (Brouwer), and those above are a contraction.
 """
 
@@ -11,8 +11,10 @@ from flint import acb, acb_poly, arb, arb_mat, ctx
 from check import Refused, checked, require
 
 ctx.prec = 106
-FORMAT = 1
-MOST_HARMONICS = 150
+FORMAT = 2
+HIGHEST_HARMONIC = 299
+# First order and step of the harmonics.
+ORDERS = {"odd": (1, 2), "all": (0, 1)}
 MOST_KINKS = 64
 CELLS = 64
 HALVINGS = 30
@@ -79,17 +81,24 @@ class Plant:
 
 
 class Wave:
-    """u(theta) = Re sum X_k exp(jk theta)."""
+    """u(theta) = Re sum X_k exp(jk theta), of odd orders or of all."""
 
-    def __init__(self, harmonics):
-        self.terms = [(2 * i + 1, acb(*x)) for i, x in enumerate(harmonics)]
+    def __init__(self, orders, harmonics):
+        self.first, self.step = ORDERS[orders]
+        self.terms = [(self.first + self.step * i, acb(*x)) for i, x in enumerate(harmonics)]
         self.highest = self.terms[-1][0]
+        # After which the wave repeats itself, with the opposite sign if odd.
+        self.span = 2 * PI / self.step
+        self.reals = sum(1 for k, _ in self.terms if k < 2)
+
+    def orders(self, last):
+        return range(self.first, last + 1, self.step)
 
     def magnitudes(self, power):
         return sum((k**power * abs(x) for k, x in self.terms), arb(0))
 
     def mean_square(self, power):
-        return sum((k ** (2 * power) * abs(x) ** 2 / 2 for k, x in self.terms), arb(0))
+        return sum((k ** (2 * power) * abs(x) ** 2 / 2 for k, x in self.terms if k), arb(0))
 
     def at(self, theta):
         """Value and derivative."""
@@ -97,7 +106,7 @@ class Wave:
         return sum((z.real for _, z in turns), arb(0)), sum((-k * z.imag for k, z in turns), arb(0))
 
     def peak(self, samples=1024):
-        step = PI / samples
+        step = self.span / samples
         most = arb(0)
         for i in range(samples):
             most = most.max(abs(self.at(step * i)[0]))
@@ -136,12 +145,13 @@ class PiecewiseLinear:
         return hull(self.slopes)
 
     def passages(self, wave, margin):
-        """Phase, slope jump and least speed of every passage of a kink in half a turn, and the slope at its beginning."""
+        """Phase, slope jump and least speed of every passage of a kink in a span, with slope and offset at its beginning."""
         levels = [(i, sign * kink) for i, kink in enumerate(self.kinks) for sign in (1, -1)]
         bend = wave.magnitudes(2)
         distance = lambda theta: min(float(abs(wave.at(arb(theta))[0] - level)) for _, level in levels)
-        start = arb(max((3.14159 * i / CELLS for i in range(CELLS)), key=distance))
-        stack = [(start + PI * i / CELLS, start + PI * (i + 1) / CELLS, HALVINGS) for i in reversed(range(CELLS))]
+        start = arb(max((float(wave.span) * i / CELLS for i in range(CELLS)), key=distance))
+        part = wave.span / CELLS
+        stack = [(start + part * i, start + part * (i + 1), HALVINGS) for i in reversed(range(CELLS))]
         cells = []
         while stack:
             low, high, left = stack.pop()
@@ -156,7 +166,7 @@ class PiecewiseLinear:
             else:
                 require(left > 0, "grazing: a kink is touched, or passed too slowly")
                 stack += [(middle, high, left - 1), (low, middle, left - 1)]
-        require(cells[0][2] is None and cells[-1][2] is None, "grazing: the half turn begins at a kink")
+        require(cells[0][2] is None and cells[-1][2] is None, "grazing: the span begins at a kink")
         runs, before = [], None
         for low, high, slope in cells:
             if slope is not None and before is not None:
@@ -174,10 +184,11 @@ class PiecewiseLinear:
                     continue
                 outwards = (level > 0) == (slope > 0)
                 jump = self.slopes[i + 1] - self.slopes[i]
-                found.append((self.passage(wave, low, high, level, slope > 0), jump if outwards else -jump, bottom(abs(slope))))
-        size = abs(wave.at(start)[0])
-        inside = sum(1 for kink in self.kinks if size > kink)
-        return sorted(found, key=lambda one: float(one[0])), self.slopes[inside]
+                found.append((self.passage(wave, low, high, level, slope > 0), jump if outwards else -jump, bottom(abs(slope)), level))
+        value = wave.at(start)[0]
+        inside = sum(1 for kink in self.kinks if abs(value) > kink)
+        offset = sum(((self.slopes[i] - self.slopes[i + 1]) * self.kinks[i] for i in range(inside)), arb(0))
+        return sorted(found, key=lambda one: float(one[0])), self.slopes[inside], offset if value > 0 else -offset
 
     @staticmethod
     def passage(wave, low, high, level, rising):
@@ -203,22 +214,28 @@ class PiecewiseLinear:
     def along(self, wave, margin, _):
         gaps = [2 * self.kinks[0], *(b - a for a, b in zip(self.kinks, self.kinks[1:]))]
         require(all(gap > 2 * margin for gap in gaps), "grazing: the box is wider than the kinks' distance")
-        passages, at_start = self.passages(wave, margin)
+        passages, at_start, offset = self.passages(wave, margin)
         last = 4 * wave.highest + 101
-        slope = {0: acb(at_start - sum((jump * theta for theta, jump, _ in passages), arb(0)) / PI)}
-        for m in range(2, last + wave.highest + 1, 2):
-            slope[m] = sum((jump * turn(-m * theta) for theta, jump, _ in passages), acb(0)) / (J * m * PI)
+        slope = {0: acb(at_start - sum((jump * theta for theta, jump, *_ in passages), arb(0)) / wave.span)}
+        for m in range(wave.step, last + wave.highest + 1, wave.step):
+            slope[m] = sum((jump * turn(-m * theta) for theta, jump, *_ in passages), acb(0)) / (J * m * wave.span)
         found = Output({}, slope, None, None)
         # The derivative of n(u) is n'(u) u'.
-        for k in range(1, last + 1, 2):
+        for k in wave.orders(last):
+            if k == 0:
+                # Of the lines between the kinks: at a passage the offset jumps by -jump level.
+                swing = lambda theta: sum(((x * turn(l * theta)).imag / l for l, x in wave.terms[1:]), arb(0))
+                lines = sum((jump * (level * theta - swing(theta)) for theta, jump, _, level in passages), arb(0))
+                found.output[0] = acb(slope[0].real * wave.terms[0][1].real + offset + lines / wave.span)
+                continue
             parts = (l * (found.d(k - l) * x - found.d(k + l) * x.conjugate()) for l, x in wave.terms)
             found.output[k] = sum(parts, acb(0)) / k
         steepest = max((abs(s) for s in self.slopes), key=float)
         variation = 2 * PI * steepest * wave.mean_square(2).sqrt()
-        variation += sum((2 * abs(jump * wave.at(theta)[1]) for theta, jump, _ in passages), arb(0))
-        # abs(N_k) <= V/(pi k^2), and the sum of k^-4 over odd k beyond K is below 1/(6 K^3).
-        found.rest = variation / PI / (12 * arb(last) ** 3).sqrt()
-        kinked = sum((2 * jump**2 / (3 * PI * speed) for _, jump, speed in passages), arb(0))
+        variation += sum((wave.step * abs(jump * wave.at(theta)[1]) for theta, jump, *_ in passages), arb(0))
+        # abs(N_k) <= V/(pi k^2), and the sum of k^-4 over k beyond K in steps of s is below 1/(3 s K^3).
+        found.rest = variation / PI / (6 * wave.step * arb(last) ** 3).sqrt()
+        kinked = sum((wave.step * jump**2 / (3 * PI * speed) for _, jump, speed, _ in passages), arb(0))
         found.remainder = lambda delta: (kinked * delta**3).sqrt()
         return found
 
@@ -241,19 +258,20 @@ class Polynomial:
         shift = wave.highest
         coefficients = [acb(0)] * (2 * shift + 1)
         for k, x in wave.terms:
-            coefficients[shift + k], coefficients[shift - k] = x / 2, x.conjugate() / 2
+            coefficients[shift + k] += x / 2
+            coefficients[shift - k] += x.conjugate() / 2
         u, power = acb_poly(coefficients), acb_poly([acb(1)])
         output, slope = {}, {}
         for n in range(1, 2 * len(self.odd)):
             if n % 2 == 1:
                 c = self.odd[n // 2]
-                for m in range(0, (n - 1) * shift + 1, 2):
+                for m in range(0, (n - 1) * shift + 1, wave.step):
                     slope[m] = slope.get(m, acb(0)) + n * c * power[(n - 1) * shift + m]
             power = power * u
             if n % 2 == 1:
-                for k in range(1, n * shift + 1, 2):
-                    output[k] = output.get(k, acb(0)) + 2 * self.odd[n // 2] * power[n * shift + k]
-        for k in range(1, wave.highest + 2 * shift + 4, 2):
+                for k in wave.orders(n * shift):
+                    output[k] = output.get(k, acb(0)) + (2 if k else 1) * self.odd[n // 2] * power[n * shift + k]
+        for k in wave.orders(wave.highest + 2 * shift + 3):
             output.setdefault(k, acb(0))
         bend = sum(((2 * j + 1) * 2 * j * abs(c) * limit ** (2 * j - 1) for j, c in enumerate(self.odd) if j), arb(0))
         return Output(output, slope, arb(0), lambda delta: bend / 2 * delta**2)
@@ -278,7 +296,7 @@ class Tanh:
         last = samples // 4 - 1
         turns = [turn(2 * PI * i / samples) for i in range(samples)]
         values = []
-        for i in range(samples // 2):
+        for i in range(samples // wave.step):
             u = sum(((x * turns[k * i % samples]).real for k, x in wave.terms), arb(0))
             t = (self.scale * u).tanh()
             values.append((self.gain * t, self.gain * self.scale * (1 - t**2)))
@@ -286,9 +304,11 @@ class Tanh:
             2 * abs(bound) * (-width * (samples - order)).exp() / (1 - (-width * samples).exp())
         )
         total = lambda place, order: sum((v[place] * turns[-order * i % samples] for i, v in enumerate(values)), acb(0))
-        output = {k: 4 * total(0, k) / samples + missed(2 * self.gain, k) for k in range(1, last + 1, 2)}
-        slope = {m: 2 * total(1, m) / samples + missed(2 * self.gain * self.scale, m) for m in range(0, 2 * wave.highest + 1, 2)}
-        rest = abs(self.gain) * (-width * (last + 2)).exp() * (2 / (1 - (-4 * width).exp())).sqrt()
+        share = arb(1) / len(values)
+        output = {k: (2 if k else 1) * share * total(0, k) + missed(2 * self.gain, k) for k in wave.orders(last)}
+        orders = range(0, 2 * wave.highest + 1, wave.step)
+        slope = {m: share * total(1, m) + missed(2 * self.gain * self.scale, m) for m in orders}
+        rest = abs(self.gain) * (-width * (last + wave.step)).exp() * (2 / (1 - (-2 * wave.step * width).exp())).sqrt()
         bend = abs(self.gain) * self.scale**2 * arb("0.7699")
         return Output(output, slope, rest, lambda delta: bend / 2 * delta**2)
 
@@ -303,37 +323,45 @@ def check(document):
     require(kind in KINDS, "another kind of characteristic")
     characteristic = KINDS[kind](document["characteristic"])
     harmonics, sides = document["harmonics"], document["radii"]
-    require(2 <= len(harmonics) <= MOST_HARMONICS and len(sides) == len(harmonics), "not as many radii as harmonics")
-    require(harmonics[0][1] == 0.0 and sides[0][1] == 0.0, "the first harmonic has an imaginary part")
-    radii = [document["omega_radius_rad_s"], sides[0][0], *(r for pair in sides[1:] for r in pair)]
+    require(document["orders"] in ORDERS, "other orders than odd or all")
+    wave = Wave(document["orders"], harmonics)
+    require(2 <= len(harmonics) == len(sides) and 1 < wave.highest <= HIGHEST_HARMONIC, "not as many radii as harmonics")
+    require(
+        all(pair[1] == 0.0 for pair in harmonics[: wave.reals] + sides[: wave.reals]),
+        "the mean or the first harmonic has an imaginary part",
+    )
+    radii = [document["omega_radius_rad_s"]]
+    radii += [r for i, pair in enumerate(sides) for r in (pair if i >= wave.reals else pair[:1])]
     require(all(r > 0.0 for r in radii), "a radius is not above zero")
     omega = ball(document["omega_rad_s"], radii[0])
-    amplitude = ball(harmonics[0][0], radii[1])
+    amplitude = ball(harmonics[wave.reals - 1][0], radii[wave.reals])
     require(omega > 0 and amplitude > 0, "amplitude or frequency may be zero")
-    wave, size = Wave(harmonics), len(radii)
-    require(size == wave.highest + 1, "the radii are not those of the harmonics")
+    size = len(radii)
 
     # What the box leaves open: sup abs(h) and norm(h).
-    parts = [arb(radii[1]), *(length([arb(r) for r in pair]) for pair in sides[1:])]
-    delta, norm = sum(parts, arb(0)), length(parts) / arb(2).sqrt()
+    parts = [length([arb(r) for r in pair]) for pair in sides]
+    # Half the square of an amplitude counts, but all of a mean's.
+    means = parts[:1] if wave.first == 0 else []
+    delta, norm = sum(parts, arb(0)), length(parts + means) / arb(2).sqrt()
     peak = wave.peak() if characteristic.ranged else None
     limit = top(BEYOND * peak) if characteristic.ranged else None
     along = characteristic.along(wave, top(delta), limit)
 
-    # Equations and their derivatives: rows in pairs of real and imaginary part, columns w, a, X_3, ...
-    error, jacobian = arb_mat(size, 1), arb_mat(size, size)
-    for row, (k, x) in enumerate(wave.terms):
-        for part, value in enumerate((lambda z: (z.real, z.imag))(x * plant.inverse(k, arb(document["omega_rad_s"]))[0] + along.output[k])):
-            error[2 * row + part, 0] = value
+    # Equations and their derivatives: real and imaginary parts of each order, by the frequency and those of the harmonics. The mean's
+    # balance is real, as the mean and X_1.
+    errors, rows = [], []
+    for k, x in wave.terms:
         response, rate = plant.inverse(k, omega)
-        columns = {0: x * rate}
-        for place, (l, _) in enumerate(wave.terms):
-            below = along.d(k - l) + (response if k == l else 0)
-            columns[1 if place == 0 else 2 * place] = below + along.d(k + l)
-            if place:
-                columns[2 * place + 1] = J * (below - along.d(k + l))
-        for column, value in columns.items():
-            jacobian[2 * row, column], jacobian[2 * row + 1, column] = value.real, value.imag
+        columns = [x * rate]
+        share = arb(1) / (1 if k else 2)
+        for l, _ in wave.terms:
+            below, above = share * along.d(k - l) + (response if k == l else 0), share * along.d(k + l)
+            columns += [below + above] if l < 2 else [below + above, J * (below - above)]
+        balance = x * plant.inverse(k, arb(document["omega_rad_s"]))[0] + along.output[k]
+        for part in ("real", "imag")[: 2 if k else 1]:
+            errors.append([getattr(balance, part)])
+            rows.append([getattr(column, part) for column in columns])
+    error, jacobian = arb_mat(errors), arb_mat(rows)
     middle = lambda matrix: arb_mat([[entry.mid() for entry in row] for row in matrix.tolist()])
     preconditioner = middle(middle(jacobian).inv())
     excess = preconditioner * jacobian
@@ -345,21 +373,21 @@ def check(document):
     centre, half = (low + high) / 2, (high - low) / 2
     last = max(along.output)
     first, outputs, gain, rho = arb(0), arb(0), arb(0), None
-    for k in range(wave.highest + 2, last + 1, 2):
+    for k in range(wave.highest + wave.step, last + 1, wave.step):
         distance = abs(plant.inverse(k, omega)[0] + centre)
         require(distance > half, "rho: a high harmonic is not damped")
         rho = bottom(distance) if rho is None or bottom(distance) < rho else rho
         first += (abs(along.output[k]) / distance) ** 2 / 2
         outputs += abs(along.output[k]) ** 2 / 2
         gain += 1 / distance**2
-    start = bottom(omega) * (last + 2)
+    start = bottom(omega) * (last + wave.step)
     tail = plant.growth(start) - abs(centre) / start**plant.degree
     far = tail * start**plant.degree
     require(tail > 0 and far > half, "rho: the highest harmonics are not damped")
     rho = bottom(far) if rho is None or bottom(far) < rho else rho
     first, outputs = (first + (along.rest / far) ** 2).sqrt(), (outputs + along.rest**2).sqrt()
     q = plant.degree
-    gain = (gain + arb(last) ** (1 - 2 * q) / (2 * (2 * q - 1)) / (tail * bottom(omega) ** q) ** 2).sqrt()
+    gain = (gain + arb(last) ** (1 - 2 * q) / (wave.step * (2 * q - 1)) / (tail * bottom(omega) ** q) ** 2).sqrt()
     eta = (first + half / rho * norm) / (1 - half / rho)
     require(eta <= document["remainder"], "the remainder is larger than stated")
 

@@ -1,5 +1,5 @@
 """The checker refuses proofs of oscillations that are wrong. They come from the folder named by SELFOSC_OSCILLATIONS: of a loop with kinks,
-with a hyperbolic tangent and with a polynomial, one folder each."""
+with a hyperbolic tangent, with a polynomial, and with a bias, one folder each."""
 
 import copy
 import json
@@ -49,7 +49,8 @@ CHANGES = {
     "a harmonic too few": lambda d: d["harmonics"].pop(),
     "a plant that is not strictly proper": lambda d: d["plant"].update(numerator=d["plant"]["denominator"]),
     "another claim": lambda d: d.update(claim="none"),
-    "another format": lambda d: d.update(format=2),
+    "another format": lambda d: d.update(format=1),
+    "other orders": lambda d: d.update(orders="all" if d["orders"] == "odd" else "odd"),
 }
 
 
@@ -63,7 +64,7 @@ def test_what_the_command_writes_is_accepted(name):
     assert amplitude > 0 and omega > 0
 
 
-@pytest.mark.parametrize("name", [name for name in FILES if name.startswith("kinked")])
+@pytest.mark.parametrize("name", [name for name in FILES if name.startswith(("kinked", "biased"))])
 def test_a_tenth_of_a_box_is_refused(name):
     """With kinks a box is as wide as the harmonics above; a smooth one is as wide as the roundings of doubles, which balls do not have."""
     false_one = copy.deepcopy(FILES[name])

@@ -17,5 +17,6 @@ pub use harmonics::MultiHarmonic;
 pub use intersections::{Bias, HarmonicBalance, Intersection};
 pub use nyquist::{negative_inverse_locus, nyquist_locus};
 pub use rigorous::{
-    CannotTell, ExistenceError, LipschitzLoop, OddCharacteristic, Oscillations, ProvedOscillation, UnprovedOscillation,
+    CannotTell, ExistenceError, HarmonicOrders, LipschitzLoop, OddCharacteristic, Oscillations, ProvedOscillation,
+    UnprovedOscillation,
 };

@@ -10,6 +10,8 @@ pub const ROUNDING: f64 = 1e-13;
 pub const CANCELLING: f64 = 1e-10;
 /// Closed form against step-by-step integration with 1e-11 a step, over at most a few hundred steps and two events.
 pub const INTEGRATED: f64 = 1e-8;
+/// The same where the motion passes kinks, each of which costs a square of the step, `2 pi/4000` of the period.
+pub const INTEGRATED_ACROSS_KINKS: f64 = 1e-5;
 /// Parameters from a record with 1000 samples in a period, times `X_m/x_a`: the two switching levels are read up to one
 /// sample's motion late, each at most `2 pi/1000` of the amplitude, and drag follows from their mean's first power.
 pub const SAMPLED: f64 = 4.0 * core::f64::consts::PI / 1000.0;

@@ -10,7 +10,9 @@ use serde_json::{Value, json};
 use super::Outcome;
 use super::error::Given;
 use super::{CommandError, files};
-use crate::balance::{CannotTell, Intersection, LipschitzLoop, OddCharacteristic, Oscillations, ProvedOscillation};
+use crate::balance::{
+    CannotTell, HarmonicOrders, Intersection, LipschitzLoop, OddCharacteristic, Oscillations, ProvedOscillation,
+};
 use crate::numeric::Interval;
 use crate::plant::TransferFunction;
 
@@ -102,7 +104,13 @@ pub(super) fn check(path: &Path, text: &str, output: &mut impl Write) -> Result<
     match document.check() {
         Ok(()) => {
             let plant = document.plant();
-            writeln!(output, "accepted  an oscillation of x = -G n(x), half-wave symmetric")?;
+            let symmetry = match document.orders() {
+                HarmonicOrders::Odd => "half-wave symmetric".to_owned(),
+                HarmonicOrders::All => {
+                    format!("with a mean from {:?} to {:?}", document.mean().lower(), document.mean().upper())
+                }
+            };
+            writeln!(output, "accepted  an oscillation of x = -G n(x), {symmetry}")?;
             writeln!(
                 output,
                 "          G = {:?}/{:?} exp(-{} s), descending powers of s",

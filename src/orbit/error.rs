@@ -48,48 +48,6 @@ pub enum OrbitError {
     /// A speed, reference, disturbance, tolerance or range of periods outside its domain.
     #[error(transparent)]
     OutOfDomain(#[from] OutOfDomain),
-    /// A range of periods that takes too many samples.
-    #[error(
-        "the range of periods from {from_s} s to {to_s} s needs more than {limit} samples; give a range that begins later or ends earlier"
-    )]
-    TooManySamples {
-        /// Lower end, s.
-        from_s: f64,
-        /// Upper end, s.
-        to_s: f64,
-        /// The most there may be.
-        limit: usize,
-    },
-    /// More cycles than are followed, as with a delay of very many periods.
-    #[error("{cycles} cycles in the range of periods, at most {limit} are followed; give a range that begins later")]
-    TooManyCycles {
-        /// Cycles that close, genuine or not.
-        cycles: usize,
-        /// The most there may be.
-        limit: usize,
-    },
-    /// A constant input or, for a plant without integrator, a reference that rules symmetric orbits out (Theorem 2).
-    #[error(
-        "no symmetric limit cycle with a constant input of {constant_input} and a reference of {reference}; \
-         ask for all limit cycles instead"
-    )]
-    NotSymmetric {
-        /// Relay offset plus disturbance, in input units.
-        constant_input: f64,
-        /// Reference, in output units.
-        reference: f64,
-    },
-    /// A delay for which no certificate is built.
-    #[error(
-        "delay_s = {delay_s} must be below the half-period of {half_period_s} s for a certificate: with more than one \
-         switching on its way there is none yet"
-    )]
-    LongDelay {
-        /// The plant's delay, s.
-        delay_s: f64,
-        /// Half the cycle's period, s.
-        half_period_s: f64,
-    },
     /// An enclosure that stayed too wide, or a cycle that is none.
     #[error("not proved of the cycle with half-period {half_period_s} s: {what}; scale time and state to order one")]
     NotProved {
@@ -106,15 +64,6 @@ pub enum OrbitError {
     CrowdedPoles {
         /// Order of the plant.
         order: usize,
-    },
-    /// Extrema too close to each other to be told apart.
-    #[error(
-        "the output between two switchings needs more than {limit} pieces to isolate its extrema; give units \
-         of time and output in which the numbers are near 1, or a plant without nearly equal modes"
-    )]
-    TooManyPieces {
-        /// The most there may be.
-        limit: usize,
     },
     /// A step size that shrank to nothing.
     #[error(
@@ -149,12 +98,7 @@ impl OrbitError {
             Self::NoDrag => "no-drag",
             Self::NoHysteresis => "no-hysteresis",
             Self::Unresolved { .. } => "orbit-unresolved",
-            Self::TooManySamples { .. } => "too-many-samples",
-            Self::TooManyCycles { .. } => "too-many-cycles",
-            Self::NotSymmetric { .. } => "not-symmetric",
-            Self::LongDelay { .. } => "long-delay",
             Self::NotProved { .. } => "not-proved",
-            Self::TooManyPieces { .. } => "too-many-pieces",
             Self::CrowdedPoles { .. } => "crowded-poles",
             Self::StepTooSmall { .. } => "step-too-small",
             Self::TooManySteps { .. } => "too-many-steps",

@@ -5,17 +5,7 @@ mod certificate;
 mod closed_form;
 mod drag_axis;
 mod error;
-#[cfg(feature = "std")]
-mod extrema;
 mod half_cycle;
-#[cfg(feature = "std")]
-mod relay_certificate;
-#[cfg(feature = "std")]
-mod relay_cycle;
-#[cfg(feature = "std")]
-mod relay_linear;
-#[cfg(feature = "std")]
-mod relay_multiplier;
 #[cfg(feature = "std")]
 mod tsypkin;
 #[cfg(feature = "std")]
@@ -25,10 +15,6 @@ mod two_level;
 pub use certificate::{Certificate, Starts, certify};
 pub use drag_axis::{LimitCycle, Switching, limit_cycle};
 pub use error::OrbitError;
-#[cfg(feature = "std")]
-pub use relay_certificate::RelayCertificate;
-#[cfg(feature = "std")]
-pub use relay_linear::{RelayLoop, RelayOrbit};
 #[cfg(feature = "std")]
 pub use tsypkin::tsypkin_locus;
 #[cfg(feature = "std")]

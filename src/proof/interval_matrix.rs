@@ -20,65 +20,11 @@ impl One for Interval {
     }
 }
 
-/// Terms of the exponential series; with a norm of at most 1/2 the remainder is below `0.5^19/19! = 2e-23`.
-const TERMS: u32 = 18;
-
 /// The largest row sum of magnitudes, rounded up: a norm under which a product is at most the product of the norms.
 #[must_use]
 pub fn norm(matrix: &DMatrix<Interval>) -> f64 {
     let sum = |row: usize| matrix.row(row).iter().fold(Interval::ZERO, |sum, entry| sum + entry.abs());
     (0..matrix.nrows()).map(|row| sum(row).upper()).fold(0.0, f64::max)
-}
-
-/// Encloses the exponential of every matrix in `matrix`, which is square: the series of a part, with its remainder, squared
-/// until it is the whole. `None` where the norm is not finite or exceeds `2^40`.
-///
-/// ```
-/// use nalgebra::dmatrix;
-/// use selfosc::{numeric::Interval, proof::interval_matrix::exponential};
-/// let turn = dmatrix![0.0, -1.0; 1.0, 0.0].map(Interval::point);
-/// let Some(rotation) = exponential(&turn) else { panic!("not enclosed") };
-/// assert!(rotation[(1, 0)].contains(1f64.sin()) && rotation[(1, 0)].width() < 1e-14);
-/// ```
-#[must_use]
-pub fn exponential(matrix: &DMatrix<Interval>) -> Option<DMatrix<Interval>> {
-    let whole = norm(matrix);
-    let squarings = (0..=40).find(|&k| whole <= 0.5 * 2f64.powi(k))?;
-    let part = matrix * Interval::point(0.5f64.powi(squarings));
-    let size = matrix.nrows();
-    let (mut term, mut sum) = (DMatrix::identity(size, size), DMatrix::identity(size, size));
-    for k in 1..=TERMS {
-        term = &term * &part * (Interval::ONE / Interval::point(f64::from(k)));
-        sum += &term;
-    }
-    // At most the next term times a geometric series of ratio 1/40; twice it, and TERMS for TERMS + 1, leave room for rounding.
-    let rest = 2.0 * norm(&(&term * &part)) / f64::from(TERMS);
-    sum += DMatrix::from_element(size, size, Interval::symmetric(rest));
-    for _ in 0..squarings {
-        sum = &sum * &sum;
-    }
-    Some(sum)
-}
-
-/// The lowest power of two, at most `2^squarings`, to which every matrix in `matrix` shrinks every vector in the norm of the largest
-/// component; `None` where none is shown to.
-///
-/// ```
-/// use nalgebra::dmatrix;
-/// use selfosc::{numeric::Interval, proof::interval_matrix::contraction};
-/// assert_eq!(contraction(&dmatrix![0.9, 1.0; 0.0, 0.9].map(Interval::point), 12), Some(64));
-/// assert_eq!(contraction(&dmatrix![1.0, 0.0; 0.0, 0.9].map(Interval::point), 12), None);
-/// ```
-#[must_use]
-pub fn contraction(matrix: &DMatrix<Interval>, squarings: u32) -> Option<u32> {
-    let mut power = matrix.clone();
-    for squaring in 0..=squarings {
-        if norm(&power) < 1.0 {
-            return Some(1 << squaring);
-        }
-        power = &power * &power;
-    }
-    None
 }
 
 /// Encloses every solution of `matrix x = right`: elimination, the largest pivot first. `None` where a pivot may be zero, as

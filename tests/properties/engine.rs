@@ -10,7 +10,6 @@ use selfosc::proof::branch_and_bound::prove_positive;
 use selfosc::proof::enclosure::{Roots, newton};
 use selfosc::proof::identity::{Series, prove_zero, prove_zero_of_two};
 use selfosc::proof::inequality::Inequality;
-use selfosc::proof::interval_matrix::{contraction, exponential};
 use selfosc::proof::margin::Cell;
 use selfosc::proof::margin::Margin;
 use selfosc::proof::{Change, Gradient, NotProved, formula};
@@ -205,27 +204,6 @@ fn every_part_of_a_kernel_counts() {
     let counted_twice = Added(0.7 * spare, 2.0);
     assert!(KernelForm::Step.prove_changed(&counted_twice).is_err());
     assert!(KernelForm::Ramp.prove_changed(&counted_twice).is_ok());
-}
-
-/// A norm above one shrinks nothing, however little above.
-#[test]
-fn a_matrix_near_norm_one_is_no_contraction() {
-    let diagonal = |entry: f64| nalgebra::DMatrix::from_diagonal_element(2, 2, Interval::point(entry));
-    for entry in [1.0, 1.0 + 1e-12, 1.001, 1.1, 1.25, -1.1] {
-        assert_eq!(contraction(&diagonal(entry), 12), None, "{entry}");
-    }
-    assert_eq!(contraction(&diagonal(0.999), 12), Some(1));
-    let sheared = nalgebra::dmatrix![0.9, 1.0; 0.0, 0.9].map(Interval::point);
-    assert!(contraction(&sheared, 12).is_some_and(|count| count > 1));
-}
-
-/// Nothing but the remainder reaches this far entry.
-#[test]
-fn the_exponential_has_its_remainder() {
-    let shift =
-        nalgebra::DMatrix::from_fn(20, 20, |i, j| if j == i + 1 { Interval::point(0.5) } else { Interval::ZERO });
-    let factorial: f64 = (1..=19).map(f64::from).product();
-    assert!(exponential(&shift).unwrap()[(0, 19)].contains(0.5f64.powi(19) / factorial));
 }
 
 /// Values by Arb at 120 bits.

@@ -23,6 +23,8 @@ mod nyquist_balance;
 mod pool_log;
 #[path = "../../examples/pool_session.rs"]
 mod pool_session;
+#[path = "../../examples/proved_bias.rs"]
+mod proved_bias;
 #[path = "../../examples/true_in_the_paper.rs"]
 mod true_in_the_paper;
 
@@ -69,7 +71,7 @@ macro_rules! run {
         }
     };
 }
-run!(describing_function, fleet, limit_cycle, nyquist_balance, true_in_the_paper);
+run!(describing_function, fleet, limit_cycle, nyquist_balance, proved_bias, true_in_the_paper);
 
 #[test]
 fn none_is_left_out() {

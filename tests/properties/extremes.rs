@@ -5,8 +5,8 @@ use selfosc::describing::{by_quadrature, harmonic, nearest_amplitude};
 use selfosc::identify::iso::Oscillation;
 use selfosc::nonlinearity::{Power, RelayHysteresis, Sinusoid};
 use selfosc::numeric::Interval;
-use selfosc::orbit::{OrbitError, RelayLoop};
-use selfosc::plant::{DragAxis, StateSpace, TransferFunction};
+use selfosc::orbit::{TwoLevelRelay, orbits};
+use selfosc::plant::{DragAxis, TransferFunction};
 use selfosc::vehicle::Allocation;
 
 /// Sizes from the least to the largest that a float has.
@@ -92,7 +92,7 @@ fn harmonics_are_finite_or_refused() {
 }
 
 #[test]
-fn work_without_end_is_refused() {
+fn work_without_end_is_refused_or_cut_short() {
     let steep = TransferFunction::new(&[1.0], &[1.0, 1e155]).unwrap();
     assert!(steep.poles().is_err());
     let gains = Gains::new(Structure::Pd, 1.0, 0.0, 1.0, 1e-281).unwrap();
@@ -102,8 +102,8 @@ fn work_without_end_is_refused() {
     assert!(refusal.contains("exponent") && refusal.contains("10000"), "{refusal}");
     // Some 260 periods of the shortest in the delay.
     let plant = TransferFunction::new(&[1.0], &[1.0, 1.0, 0.0]).unwrap().with_delay(1.0).unwrap();
-    let closed = RelayLoop::new(StateSpace::realise(&plant).unwrap(), RelayHysteresis::new(1.0, 0.0, 0.0).unwrap());
-    assert!(matches!(closed.symmetric_orbits(0.0038..=0.34), Err(OrbitError::TooManyCycles { .. })));
+    let found = orbits(&plant, &TwoLevelRelay::new(1.0, -1.0, 0.0).unwrap(), Some(0.0038..=0.34)).unwrap();
+    assert!(!found.is_complete() && found.orbits.len() < 10, "{found:?}");
 }
 
 #[test]

@@ -46,7 +46,6 @@ mod paper;
 mod power_law;
 mod practical;
 mod record;
-mod relay_certificate;
 mod rounding;
 mod sampling;
 mod serialised;

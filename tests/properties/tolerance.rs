@@ -158,12 +158,6 @@ pub(crate) const CERTIFIED_WIDTH: f64 = 1e-11;
 /// closed-form motion, of a multiplier itself the difference of large terms where drag is weak.
 pub(crate) const ORBIT_ENCLOSURE: f64 = 2e-12;
 
-/// A half-period from the matrix exponential in floating point: a few roundings times the condition of Astroem's equation.
-pub(crate) const HALF_PERIOD_ROUNDING: f64 = 1e-11;
-
-/// A matrix exponential by diagonalisation in floating point, relative to entries of order one: the basis has entries
-/// up to two, and `exp(3)` is 20.
-pub(crate) const MATRIX_EXPONENTIAL: f64 = 1e-13;
 /// Controllers: a dozen rounded operations, relative to the largest number that takes part.
 pub(crate) const ROUNDING_MARGIN: f64 = 1e-12;
 
@@ -228,6 +222,9 @@ pub(crate) const TWO_ORACLES: f64 = 1e-21;
 
 /// Width of an enclosed orbit's figures over its size: some hundreds of roundings through the partial fractions, and as many again.
 pub(crate) const ENCLOSED_ORBIT: f64 = 1e-11;
+
+/// Figures of an oscillation simulated with 71 digits, relative to its amplitude: its harmonics are sums of doubles.
+pub(crate) const SIMULATED_71_DIGITS: f64 = 1e-13;
 
 /// Relative half-width of a proved oscillation's amplitude, smooth characteristic: rounding times the condition of the balance.
 pub(crate) const EXISTENCE_SMOOTH: f64 = 1e-10;

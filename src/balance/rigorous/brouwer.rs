@@ -1,7 +1,7 @@
 //! The proof: a box of frequency and harmonics that is mapped into itself, so that it holds an oscillation (Brouwer).
 //!
-//! Let `x = u + v`, u the odd harmonics up to K, v the others, and `c`, `r` the middle and half the range of the slopes. Where
-//! `rho = inf over odd k > K of abs(g_k + c)` exceeds `r`, the equations above K are a contraction of ratio `r/rho` in v, so v
+//! Let `x = u + v`, u the harmonics up to K, odd ones or all, v the others, and `c`, `r` the middle and half the range of the slopes.
+//! Where `rho = inf over k > K of abs(g_k + c)` exceeds `r`, the equations above K are a contraction of ratio `r/rho` in v, so v
 //! is unique, continuous in frequency and u, and `norm(v) <= eta = (T_0 + (r/rho) norm(h))/(1 - r/rho)` for `u = u_0 + h` (Mees
 //! and Bergen 1975). The equations up to K are `E(u) + [N(u + v) - N(u)]`. A preconditioner B and the mean value form in frequency
 //! map the box of radii R into itself if in every row
@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, DVector};
 use super::closed_loop::{Centre, LipschitzLoop, jacobian, residual};
 use super::error::CannotTell;
 use super::spectrum::{EnclosedSpectrum, enclose};
+use super::wave::HarmonicOrders;
 use crate::numeric::{Interval, Real};
 
 /// Share by which the range of the slopes reaches beyond the centre's own, where they are bounded on the range alone.
@@ -62,13 +63,14 @@ fn length(parts: impl Iterator<Item = Interval>) -> Interval {
     parts.fold(Interval::ZERO, |sum, part| sum + part.square()).sqrt()
 }
 
-/// Upper bounds of `sup abs(h)` and `norm(h)` over a box: radii of frequency, a, then real and imaginary parts.
-fn sizes(radii: &DVector<f64>) -> (Interval, Interval) {
-    let each: Vec<Interval> = core::iter::once(point(radii[1]))
-        .chain(radii.as_slice()[2..].chunks_exact(2).map(|pair| length(pair.iter().map(|&one| point(one)))))
-        .collect();
+/// Upper bounds of `sup abs(h)` and `norm(h)` over a box of radii of frequency and harmonics.
+fn sizes(orders: HarmonicOrders, radii: &DVector<f64>) -> (Interval, Interval) {
+    let pairs = orders.pairs(&radii.as_slice()[1..]);
+    let each: Vec<Interval> = pairs.into_iter().map(|pair| length(pair.into_iter().map(point))).collect();
     let sum = each.iter().fold(Interval::ZERO, |sum, &one| sum + one);
-    (sum, length(each.into_iter()) * point(0.5).sqrt())
+    // Half the square of an amplitude, but all of a mean's.
+    let mean = orders.place(0).map(|place| each[place]);
+    (sum, length(each.into_iter().chain(mean)) * point(0.5).sqrt())
 }
 
 impl LipschitzLoop<'_> {
@@ -76,7 +78,7 @@ impl LipschitzLoop<'_> {
     /// `bend d^2/2`.
     fn peak(&self, centre: &Centre) -> Interval {
         const SAMPLES: u32 = 1024;
-        let step = Interval::PI / point(f64::from(SAMPLES));
+        let step = centre.wave.orders.span() / point(f64::from(SAMPLES));
         let values = (0..SAMPLES).map(|i| centre.wave.at(step * point(f64::from(i))).0.abs());
         let most = values.reduce(Real::max).unwrap_or(Interval::ZERO);
         most + centre.wave.sum_of_magnitudes(2) * step.square() * point(0.125)
@@ -90,7 +92,7 @@ impl LipschitzLoop<'_> {
             (BEYOND * peak.upper(), peak)
         });
         let reach = range.map_or(f64::INFINITY, |(limit, _)| limit);
-        let (margin, _) = sizes(radii);
+        let (margin, _) = sizes(centre.wave.orders, radii);
         let spectrum = enclose(&self.characteristic, &centre.wave, reach, margin.upper())?;
         let harmonics = &spectrum.harmonics;
         let error = residual(&self.inverse, point(centre.omega_rad_s), &centre.wave, harmonics);
@@ -124,17 +126,18 @@ impl LipschitzLoop<'_> {
         let slopes = self.characteristic.slopes(range.map_or(f64::INFINITY, |(limit, _)| limit));
         let middle = (point(slopes.lower()) + point(slopes.upper())) * point(0.5);
         let slope_radius = (point(slopes.upper()) - point(slopes.lower())) * point(0.5);
-        let highest = centre.wave.highest();
+        let orders = centre.wave.orders;
         let outputs = &spectrum.harmonics.output;
-        let last = 2 * outputs.len() - 1;
+        let last = orders.at(outputs.len() - 1);
         // Listed harmonics one by one.
         let mut rho = f64::INFINITY;
         let (mut first, mut output, mut gain) = (Interval::ZERO, Interval::ZERO, Interval::ZERO);
-        for k in (highest + 2..=last).step_by(2) {
+        let (listed, output_above) = (centre.wave.harmonics.len(), orders.between(centre.wave.highest(), last));
+        for (k, harmonic) in output_above.zip(&outputs[listed..]) {
             let mut distance = self.inverse.at(omega, k).0;
             distance.re += middle;
             let square = distance.square_norm();
-            let size = outputs[k / 2].square_norm() * point(0.5);
+            let size = harmonic.square_norm() * point(0.5);
             rho = rho.min(square.sqrt().lower());
             first += size / square;
             output += size;
@@ -143,7 +146,7 @@ impl LipschitzLoop<'_> {
         // From the next on, abs(g_k + c) >= growth (k w)^q - abs(c) >= tail (k w)^q.
         let degree = self.inverse.relative_degree();
         let power = |y: Interval| (0..degree).fold(Interval::ONE, |product, _| product * y);
-        let from = omega * point((last + 2) as f64);
+        let from = omega * point((last + orders.step()) as f64);
         let nearest = point(from.lower());
         let tail = self.inverse.growth(nearest) - middle.abs() / power(nearest);
         let far = tail * power(nearest);
@@ -154,11 +157,18 @@ impl LipschitzLoop<'_> {
         }
         first += (spectrum.rest / far).square();
         output += spectrum.rest.square();
-        // sum over odd k > M of k^(-2 q) <= M^(1 - 2 q)/(2 (2 q - 1)).
+        // sum over k > M in steps of s of k^(-2 q) <= M^(1 - 2 q)/(s (2 q - 1)).
         let listed = point(last as f64);
-        let sum = listed / (power(listed).square() * point((2 * (2 * degree - 1)) as f64));
+        let sum = listed / (power(listed).square() * point((2 * degree - 1) as f64) * orders.step_enclosed());
         gain += sum / (tail * power(point(omega.lower()))).square();
         Ok(High { slope_radius, rho: point(rho), first: first.sqrt(), output: output.sqrt(), gain: gain.sqrt(), range })
+    }
+
+    /// Upper bound of the input's magnitude on every oscillation that a box was shown to hold.
+    pub(super) fn largest_input(&self, centre: &Centre, radii: &DVector<f64>) -> Result<f64, CannotTell> {
+        let linearised = self.linearise(centre, radii)?;
+        let (_, eta) = linearised.images(radii);
+        Ok(linearised.reach(self.peak(centre), radii, eta))
     }
 
     /// Whether every frequency and wave of the box is mapped into the box.
@@ -176,10 +186,7 @@ impl LipschitzLoop<'_> {
         }
         let high = &linearised.high;
         if let Some((limit, peak)) = high.range {
-            // sup abs(v) <= sum abs(v_k) <= gain sqrt(sum abs(M_k)^2), M the output less c x.
-            let (delta, norm) = sizes(radii);
-            let outputs = high.output + high.slope_radius * (norm + eta);
-            let reach = (peak + delta + high.gain * outputs * point(2.0).sqrt()).upper();
+            let reach = linearised.reach(peak, radii, eta);
             if !(reach <= limit) {
                 return Err(CannotTell::Range { reach, limit });
             }
@@ -189,9 +196,16 @@ impl LipschitzLoop<'_> {
 }
 
 impl LinearisedBalance {
+    /// Upper bound of the input's magnitude: `sup abs(v) <= sum abs(v_k) <= gain sqrt(sum abs(M_k)^2)`, M the output less c x.
+    fn reach(&self, peak: Interval, radii: &DVector<f64>, eta: Interval) -> f64 {
+        let (delta, norm) = sizes(self.spectrum.harmonics.orders, radii);
+        let outputs = self.high.output + self.high.slope_radius * (norm + eta);
+        (peak + delta + self.high.gain * outputs * point(2.0).sqrt()).upper()
+    }
+
     /// Radii of the image of a box, at most, and the bound `eta` of the harmonics above.
     pub(super) fn images(&self, radii: &DVector<f64>) -> (Vec<f64>, Interval) {
-        let (delta, norm) = sizes(radii);
+        let (delta, norm) = sizes(self.spectrum.harmonics.orders, radii);
         let ratio = self.high.slope_radius / self.high.rho;
         let eta = (self.high.first + ratio * norm) / (Interval::ONE - ratio);
         let rest = self.high.slope_radius * eta + self.spectrum.remainder(delta);

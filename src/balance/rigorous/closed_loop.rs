@@ -1,12 +1,12 @@
-//! The loop `x = -G n(x)` in harmonics, `E_k = X_k g_k + N_k = 0` for odd k, and its derivatives.
+//! The loop `x = -G n(x)` in harmonics, `E_k = X_k g_k + N_k = 0`, and its derivatives.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, RowDVector};
 
 use super::characteristic::OddCharacteristic;
 use super::error::ExistenceError;
 use super::inverse_response::InverseResponse;
 use super::spectrum::Spectrum;
-use super::wave::Wave;
+use super::wave::{HarmonicOrders, Wave};
 use crate::numeric::{Complex, Real};
 use crate::plant::TransferFunction;
 
@@ -29,20 +29,31 @@ pub(super) struct Centre {
 }
 
 impl Centre {
-    /// Real unknowns in order: frequency, a, then real and imaginary parts of X_3, X_5, ...
-    pub(super) fn unknowns(&self) -> DVector<f64> {
-        let higher = self.wave.0.iter().skip(1).flat_map(|harmonic| [harmonic.re, harmonic.im]);
-        DVector::from_vec([self.omega_rad_s, self.amplitude()].into_iter().chain(higher).collect())
+    pub(super) fn new(omega_rad_s: f64, orders: HarmonicOrders, pairs: &[[f64; 2]]) -> Self {
+        let harmonics = pairs.iter().map(|&[re, im]| Complex::new(re, im)).collect();
+        Self { omega_rad_s, wave: Wave { orders, harmonics } }
     }
 
-    pub(super) fn from_unknowns(unknowns: &DVector<f64>) -> Self {
-        let first = Complex::new(unknowns[1], 0.0);
-        let higher = unknowns.as_slice()[2..].chunks_exact(2).map(|pair| Complex::new(pair[0], pair[1]));
-        Self { omega_rad_s: unknowns[0], wave: Wave(core::iter::once(first).chain(higher).collect()) }
+    /// Real and imaginary parts of the harmonics.
+    pub(super) fn pairs(&self) -> Vec<[f64; 2]> {
+        self.wave.harmonics.iter().map(|harmonic| [harmonic.re, harmonic.im]).collect()
+    }
+
+    /// Real unknowns: frequency, then the harmonics' parts that are not zero by definition.
+    pub(super) fn unknowns(&self) -> DVector<f64> {
+        let harmonics = self.pairs();
+        DVector::from_vec(core::iter::once(self.omega_rad_s).chain(self.wave.orders.unknowns(&harmonics)).collect())
+    }
+
+    /// The centre of other unknowns of the same orders.
+    pub(super) fn moved(&self, unknowns: &DVector<f64>) -> Self {
+        let orders = self.wave.orders;
+        Self::new(unknowns[0], orders, &orders.pairs(&unknowns.as_slice()[1..]))
     }
 
     pub(super) fn amplitude(&self) -> f64 {
-        self.wave.0.first().map_or(0.0, |first| first.re)
+        let first = self.wave.orders.place(1);
+        first.and_then(|place| self.wave.harmonics.get(place)).map_or(0.0, |first| first.re)
     }
 }
 
@@ -61,49 +72,49 @@ impl<'a> LipschitzLoop<'a> {
     }
 }
 
-/// `E_k` of every harmonic of the wave, real and imaginary parts in turn.
+/// Real and imaginary part of a balance; that of the means is real.
+fn parts<T>(k: usize, balance: Complex<T>) -> impl Iterator<Item = T> {
+    [balance.re, balance.im].into_iter().take(if k == 0 { 1 } else { 2 })
+}
+
+/// `E_k` of every harmonic of the wave.
 pub(super) fn residual<T: Real + nalgebra::Scalar>(
     inverse: &InverseResponse<'_>,
     omega: T,
     wave: &Wave,
     spectrum: &Spectrum<T>,
 ) -> DVector<T> {
-    let rows = wave.orders().zip(&spectrum.output).flat_map(|((k, harmonic), &output)| {
+    let rows = wave.terms().zip(&spectrum.output).flat_map(|((k, harmonic), &output)| {
         let input = Complex::new(T::from_f64(harmonic.re), T::from_f64(harmonic.im));
-        let error = input * inverse.at(omega, k).0 + output;
-        [error.re, error.im]
+        parts(k, input * inverse.at(omega, k).0 + output)
     });
     DVector::from_vec(rows.collect())
 }
 
-/// Derivatives of the residual by the unknowns: `dN_k = D_(k-l) dX_l + D_(k+l) conj dX_l`, and `X_k dg_k/dw` in the first column.
+/// Derivatives of the residual by the unknowns: `dN_k = sum over l of D_(k-l) dX_l + D_(k+l) conj dX_l`, half of it for `k = 0`, and
+/// `X_k dg_k/dw` in the first column.
 pub(super) fn jacobian<T: Real + nalgebra::Scalar>(
     inverse: &InverseResponse<'_>,
     omega: T,
     wave: &Wave,
     spectrum: &Spectrum<T>,
 ) -> DMatrix<T> {
-    let size = wave.highest() + 1;
-    let mut matrix = DMatrix::from_element(size, size, T::zero());
-    for (row, (k, harmonic)) in wave.orders().enumerate() {
+    let rows = wave.terms().flat_map(|(k, harmonic)| {
         let (response, response_slope) = inverse.at(omega, k);
         let input = Complex::new(T::from_f64(harmonic.re), T::from_f64(harmonic.im));
-        let mut set = |column: usize, entry: Complex<T>| {
-            matrix[(2 * row, column)] = entry.re;
-            matrix[(2 * row + 1, column)] = entry.im;
-        };
-        set(0, input * response_slope);
-        for (place, (l, _)) in wave.orders().enumerate() {
-            let (below, above) =
-                (spectrum.slope_at(k as isize - l as isize), spectrum.slope_at(k as isize + l as isize));
+        let share = T::from_f64(if k == 0 { 0.5 } else { 1.0 });
+        let mut columns = vec![input * response_slope];
+        for (l, _) in wave.terms() {
+            let slope = |m: isize| spectrum.slope_at(m).scaled(share);
+            let (below, above) = (slope(k as isize - l as isize), slope((k + l) as isize));
             let below = if k == l { below + response } else { below };
-            // The first harmonic has no imaginary part: column 1 is a, columns 2 and 3 are X_3.
-            let real_column = if place == 0 { 1 } else { 2 * place };
-            set(real_column, below + above);
-            if place > 0 {
-                set(2 * place + 1, (below - above).times_j());
+            columns.push(below + above);
+            if l > 1 {
+                columns.push((below - above).times_j());
             }
         }
-    }
-    matrix
+        let row = |part: fn(&Complex<T>) -> T| RowDVector::from_iterator(columns.len(), columns.iter().map(part));
+        parts(k, Complex { re: row(|entry| entry.re), im: row(|entry| entry.im) }).collect::<Vec<_>>()
+    });
+    DMatrix::from_rows(&rows.collect::<Vec<_>>())
 }

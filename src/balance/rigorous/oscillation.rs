@@ -10,13 +10,13 @@ use serde::{Deserialize, Serialize};
 use super::characteristic::OddCharacteristic;
 use super::closed_loop::{Centre, HIGHEST, LipschitzLoop};
 use super::error::{CannotTell, ExistenceError};
-use super::wave::Wave;
+use super::wave::HarmonicOrders;
 use crate::balance::Intersection;
-use crate::numeric::{Complex, Interval};
+use crate::numeric::Interval;
 use crate::plant::TransferFunction;
 
 /// Changes with the meaning of a field.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 /// Highest harmonics that are tried in turn, and the first with which any proof ends the search.
 const ORDERS: [usize; 3] = [49, 97, 197];
 const ENOUGH: usize = 97;
@@ -28,10 +28,10 @@ const STATED: f64 = 1.01;
 const COMPARED: usize = 9;
 const SAME: f64 = 1e-6;
 
-/// A box of frequency and harmonics in which a half-wave symmetric oscillation of a loop exists.
+/// A box of frequency and harmonics in which an oscillation of a loop exists.
 ///
-/// The oscillation is `x(t) = Re sum over odd k of X_k exp(jkwt)` at the characteristic's input, `X_1` real and positive: frequency and
-/// harmonics up to the highest listed lie within the radii, all others together have at most the remainder as root mean square. It
+/// The oscillation is `x(t) = Re sum of X_k exp(jkwt)` over odd k or all at the characteristic's input, `X_1` real and positive: frequency
+/// and harmonics up to the highest listed lie within the radii, all others together have at most the remainder as root mean square. It
 /// is not shown to be the only one in the box, nor to attract or repel.
 ///
 /// Written as JSON it is a certificate: [`check`](Self::check) proves it again without a search.
@@ -45,9 +45,10 @@ pub struct ProvedOscillation {
     characteristic: OddCharacteristic,
     omega_rad_s: f64,
     omega_radius_rad_s: f64,
-    /// Real and imaginary parts of X_1, X_3, X_5, ...
+    orders: HarmonicOrders,
+    /// Real and imaginary parts of the harmonics, by growing order.
     harmonics: Vec<[f64; 2]>,
-    /// Radii of the same; zero for the imaginary part of X_1.
+    /// Radii of the same; zero for the imaginary parts of the mean and of X_1.
     radii: Vec<[f64; 2]>,
     remainder: f64,
 }
@@ -94,6 +95,31 @@ impl LipschitzLoop<'_> {
     /// ```
     pub fn prove_near(&self, amplitude: f64, omega_rad_s: f64) -> Result<ProvedOscillation, CannotTell> {
         self.prove(self.compared(first_harmonic(amplitude, omega_rad_s))?)
+    }
+
+    /// Proves an oscillation without the half-wave symmetry near a first harmonic with a bias.
+    ///
+    /// # Errors
+    /// [`CannotTell`], which does not say that there is none.
+    ///
+    /// ```
+    /// use selfosc::balance::{LipschitzLoop, OddCharacteristic};
+    /// use selfosc::plant::TransferFunction;
+    /// // An odd characteristic and an integrator: 0.6/(s (s + 1)^2) with x^3 - 2 x oscillates with a bias.
+    /// let plant = TransferFunction::new(&[0.6], &[1.0, 2.0, 1.0, 0.0])?;
+    /// let cubic = OddCharacteristic::from_catalogue("polynomial", &[0.0, -2.0, 0.0, 1.0])?;
+    /// let proved = LipschitzLoop::new(&plant, cubic)?.prove_biased_near(1.3, 0.5, 1.0)?;
+    /// assert!(proved.mean().precedes(proved.mean() + proved.mean()) && proved.largest_input()? < 1.81);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn prove_biased_near(
+        &self,
+        bias: f64,
+        amplitude: f64,
+        omega_rad_s: f64,
+    ) -> Result<ProvedOscillation, CannotTell> {
+        let start = Centre::new(omega_rad_s, HarmonicOrders::All, &[[bias, 0.0], [amplitude, 0.0]]);
+        self.prove(self.compared(start)?)
     }
 
     /// Oscillations of the loop that a scan of harmonic balances finds over a range of frequencies, and those near
@@ -154,7 +180,7 @@ impl LipschitzLoop<'_> {
             centre = self.refine(centre, highest)?;
             match self.enclose_near(&centre) {
                 Ok((radii, shown)) => {
-                    let narrow = radii[1] <= NARROW * centre.amplitude();
+                    let narrow = radii[centre.wave.orders.reals()] <= NARROW * centre.amplitude();
                     best = Ok(self.document(&centre, &radii, shown.remainder));
                     if narrow || highest >= ENOUGH {
                         return best;
@@ -167,8 +193,7 @@ impl LipschitzLoop<'_> {
     }
 
     fn document(&self, centre: &Centre, radii: &DVector<f64>, remainder: f64) -> ProvedOscillation {
-        let first = [radii[1], 0.0];
-        let higher = radii.as_slice()[2..].chunks_exact(2).map(|pair| [pair[0], pair[1]]);
+        let orders = centre.wave.orders;
         ProvedOscillation {
             format: FORMAT,
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -177,15 +202,16 @@ impl LipschitzLoop<'_> {
             characteristic: self.characteristic.clone(),
             omega_rad_s: centre.omega_rad_s,
             omega_radius_rad_s: radii[0],
-            harmonics: centre.wave.0.iter().map(|harmonic| [harmonic.re, harmonic.im]).collect(),
-            radii: core::iter::once(first).chain(higher).collect(),
+            orders,
+            harmonics: centre.pairs(),
+            radii: orders.pairs(&radii.as_slice()[1..]),
             remainder: STATED * remainder,
         }
     }
 }
 
 fn first_harmonic(amplitude: f64, omega_rad_s: f64) -> Centre {
-    Centre { omega_rad_s, wave: Wave(vec![Complex::new(amplitude, 0.0)]) }
+    Centre::new(omega_rad_s, HarmonicOrders::Odd, &[[amplitude, 0.0]])
 }
 
 fn same(a: &Centre, b: &Centre) -> bool {
@@ -213,10 +239,23 @@ impl ProvedOscillation {
         around(self.omega_rad_s, self.omega_radius_rad_s)
     }
 
-    /// Bounds of the real and imaginary part of `X_k`; `None` for an even k and beyond the highest harmonic listed.
+    /// The orders of its harmonics: odd ones alone, or the mean and all.
+    #[must_use]
+    pub fn orders(&self) -> HarmonicOrders {
+        self.orders
+    }
+
+    /// Bounds of the mean, in input units.
+    #[must_use]
+    pub fn mean(&self) -> Interval {
+        self.harmonic(0).map_or(Interval::ZERO, |[re, _]| re)
+    }
+
+    /// Bounds of the real and imaginary part of `X_k`, the mean `X_0`; `None` for an even k of odd orders and beyond the highest harmonic
+    /// listed.
     #[must_use]
     pub fn harmonic(&self, k: usize) -> Option<[Interval; 2]> {
-        let place = (k % 2 == 1).then_some(k / 2)?;
+        let place = self.orders.place(k)?;
         let ([re, im], [re_radius, im_radius]) = (self.harmonics.get(place)?, self.radii.get(place)?);
         Some([around(*re, *re_radius), around(*im, *im_radius)])
     }
@@ -224,7 +263,7 @@ impl ProvedOscillation {
     /// The highest harmonic listed.
     #[must_use]
     pub fn highest_harmonic(&self) -> usize {
-        (2 * self.harmonics.len()).saturating_sub(1)
+        self.harmonics.len().checked_sub(1).map_or(0, |last| self.orders.at(last))
     }
 
     /// Upper bound of the root mean square of all harmonics above the highest one listed, in input units.
@@ -250,38 +289,54 @@ impl ProvedOscillation {
     /// # Errors
     /// [`ExistenceError`]: the document is none, its loop is none of those, or its box is not shown to hold an oscillation.
     pub fn check(&self) -> Result<(), ExistenceError> {
+        let (centre, radii) = self.numbers()?;
+        let shown = LipschitzLoop::new(&self.plant, self.characteristic.clone())?.holds(&centre, &radii)?;
+        if shown.remainder <= self.remainder {
+            Ok(())
+        } else {
+            Err(ExistenceError::Remainder { shown: shown.remainder, claimed: self.remainder })
+        }
+    }
+
+    /// Upper bound of the input's magnitude, in input units. Another characteristic that is the same up to there has the same
+    /// oscillation, odd or not.
+    ///
+    /// # Errors
+    /// As [`check`](Self::check).
+    pub fn largest_input(&self) -> Result<f64, ExistenceError> {
+        self.check()?;
+        let (centre, radii) = self.numbers()?;
+        Ok(LipschitzLoop::new(&self.plant, self.characteristic.clone())?.largest_input(&centre, &radii)?)
+    }
+
+    /// Centre and radii, if they can be those of an oscillation.
+    fn numbers(&self) -> Result<(Centre, DVector<f64>), ExistenceError> {
         let malformed = |text: &str| ExistenceError::Malformed { text: text.to_owned() };
         if self.format != FORMAT || self.claim != Self::CLAIM {
             return Err(malformed("another format or claim"));
         }
         let count = self.harmonics.len();
-        if count < 2 || 2 * count > HIGHEST + 1 || self.radii.len() != count {
-            return Err(malformed("as many radii as harmonics are wanted, two to 150"));
+        if count <= self.orders.reals() || self.highest_harmonic() > HIGHEST || self.radii.len() != count {
+            return Err(malformed("as many radii as harmonics are wanted, up to at most the 299th"));
         }
         let numbers = self.harmonics.iter().chain(&self.radii).flatten().chain([&self.omega_rad_s, &self.remainder]);
         if !numbers.copied().all(f64::is_finite) {
             return Err(malformed("a number is not finite"));
         }
-        if self.harmonics[0][1] != 0.0 || self.radii[0][1] != 0.0 {
-            return Err(malformed("the first harmonic has an imaginary part"));
+        let reals = self.harmonics.iter().zip(&self.radii).take(self.orders.reals());
+        if reals.flat_map(|(harmonic, radius)| [harmonic[1], radius[1]]).any(|imaginary| imaginary != 0.0) {
+            return Err(malformed("the mean or the first harmonic has an imaginary part"));
         }
-        let real_first = [self.omega_radius_rad_s, self.radii[0][0]];
-        let radii =
-            DVector::from_vec(real_first.into_iter().chain(self.radii[1..].iter().flatten().copied()).collect());
+        let radii: Vec<f64> =
+            core::iter::once(self.omega_radius_rad_s).chain(self.orders.unknowns(&self.radii)).collect();
         if !radii.iter().all(|&radius| radius > 0.0 && radius.is_finite()) {
             return Err(malformed("a radius is not above 0"));
         }
         if !(self.amplitude().is_positive() && self.omega_rad_s().is_positive()) {
             return Err(malformed("amplitude or frequency may be 0"));
         }
-        let control_loop = LipschitzLoop::new(&self.plant, self.characteristic.clone())?;
-        let wave = Wave(self.harmonics.iter().map(|&[re, im]| Complex::new(re, im)).collect());
-        let shown = control_loop.holds(&Centre { omega_rad_s: self.omega_rad_s, wave }, &radii)?;
-        if shown.remainder <= self.remainder {
-            Ok(())
-        } else {
-            Err(ExistenceError::Remainder { shown: shown.remainder, claimed: self.remainder })
-        }
+        let centre = Centre::new(self.omega_rad_s, self.orders, &self.harmonics);
+        Ok((centre, DVector::from_vec(radii)))
     }
 }
 

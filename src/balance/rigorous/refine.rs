@@ -21,13 +21,14 @@ impl LipschitzLoop<'_> {
         enclose(&self.characteristic, &centre.wave, reach, 0.0)
     }
 
-    /// The balance of the odd harmonics up to `highest` near a centre with fewer.
+    /// The balance of the harmonics up to `highest` near a centre with fewer.
     pub(super) fn refine(&self, mut centre: Centre, highest: usize) -> Result<Centre, CannotTell> {
         let output = self.spectrum(&centre)?.harmonics.output;
-        for k in (centre.wave.highest() + 2..=highest).step_by(2) {
+        let orders = centre.wave.orders;
+        for k in orders.between(centre.wave.highest(), highest) {
             let response = self.inverse.at(centre.omega_rad_s, k).0;
-            let output = output.get(k / 2).map_or(Complex::zero(), |output| output.midpoint());
-            centre.wave.0.push(-output.over(response));
+            let output = orders.place(k).and_then(|place| output.get(place));
+            centre.wave.harmonics.push(-output.map_or(Complex::zero(), |output| output.midpoint()).over(response));
         }
         let (omega, amplitude) = (centre.omega_rad_s, centre.amplitude());
         let mut last = f64::INFINITY;
@@ -40,7 +41,7 @@ impl LipschitzLoop<'_> {
             let size = step.amax() / amplitude;
             // A long step is shortened, as the kinks move under it.
             let share = (0.2 / size).min(1.0);
-            centre = Centre::from_unknowns(&(centre.unknowns() - share * step));
+            centre = centre.moved(&(centre.unknowns() - share * step));
             let near = |value: f64, start: f64| value > 0.5 * start && value < 2.0 * start;
             if !(near(centre.amplitude(), amplitude) && near(centre.omega_rad_s, omega)) {
                 return Err(CannotTell::NoBalance);
@@ -55,7 +56,7 @@ impl LipschitzLoop<'_> {
 
     /// Radii for which the proof holds, with what it shows.
     pub(super) fn enclose_near(&self, centre: &Centre) -> Result<(DVector<f64>, ShownBox), CannotTell> {
-        let mut radii = DVector::zeros(centre.wave.highest() + 1);
+        let mut radii = DVector::zeros(centre.unknowns().len());
         let mut why = CannotTell::NoContraction { ratio: f64::INFINITY };
         for _ in 0..PROOFS {
             let linearised = self.linearise(centre, &radii)?;

@@ -1,18 +1,21 @@
 //! Harmonics of the characteristic's output `n(u)` and slope `n'(u)` along a wave.
 //!
-//! `n(u) = Re sum over odd k of N_k exp(jk theta)`, `n'(u) = sum over even m of D_m exp(jm theta)`, `D_(-m)` conjugate to `D_m`.
+//! `n(u) = Re sum of N_k exp(jk theta)`, `n'(u) = sum of D_m exp(jm theta)`, `D_(-m)` conjugate to `D_m`; of a wave of odd orders k is
+//! odd and m even.
 
 use super::characteristic::OddCharacteristic;
 use super::error::CannotTell;
-use super::wave::{KinkPassages, Wave};
+use super::wave::{HarmonicOrders, KinkPassage, KinkPassages, Wave};
 use crate::numeric::{Complex, Interval, Real};
 
 /// Harmonics of output and slope.
 #[derive(Clone, Debug)]
 pub(super) struct Spectrum<T> {
-    /// N_1, N_3, N_5, ...
+    /// Those of the wave, and of the output.
+    pub(super) orders: HarmonicOrders,
+    /// N_k by growing order.
     pub(super) output: Vec<Complex<T>>,
-    /// D_0, D_2, D_4, ...
+    /// D_m from the mean on, by the same steps of the order.
     pub(super) slope: Vec<Complex<T>>,
 }
 
@@ -22,7 +25,7 @@ pub(super) struct EnclosedSpectrum {
     pub(super) harmonics: Spectrum<Interval>,
     /// Upper bound of `sqrt(1/2 sum abs(N_k)^2)` over the harmonics that are not listed.
     pub(super) rest: Interval,
-    /// Upper bound of `sum 2 J^2/(3 pi m)` over the kinks passed in half a turn, slope jump J at speed m: `e = sqrt(that delta^3)`.
+    /// Upper bound of `sum J^2/(3 pi m)` over the kinks passed in a turn, slope jump J at speed m: `e = sqrt(that delta^3)`.
     kinks: Interval,
     /// Upper bound of `abs(n'')/2` on the range: `e = that delta^2`.
     curvature: Interval,
@@ -40,14 +43,14 @@ impl EnclosedSpectrum {
 }
 
 impl<T: Real> Spectrum<T> {
-    /// D_m for even m of either sign.
+    /// D_m for m of either sign.
     pub(super) fn slope_at(&self, m: isize) -> Complex<T> {
-        let found = self.slope.get(m.unsigned_abs() / 2).copied().unwrap_or_else(Complex::zero);
+        let found = self.slope.get(m.unsigned_abs() / self.orders.step()).copied().unwrap_or_else(Complex::zero);
         if m < 0 { found.conjugate() } else { found }
     }
 
-    /// By the trapezoid rule: from `samples` phases of a turn, a multiple of four, of which half suffice. What it leaves out are the
-    /// harmonics of the orders `k + j samples`.
+    /// By the trapezoid rule: from `samples` phases of a turn, a multiple of four, of which the span's suffice. What it leaves out are
+    /// the harmonics of the orders `k + j samples`.
     pub(super) fn sampled(
         wave: &Wave,
         output_and_slope: impl Fn(T) -> (T, T),
@@ -58,8 +61,9 @@ impl<T: Real> Spectrum<T> {
         let step = T::two() * T::pi() / T::from_f64(samples as f64);
         let turns: Vec<Complex<T>> = (0..samples).map(|j| Complex::turn(step * T::from_f64(j as f64))).collect();
         let harmonics: Vec<(usize, T, T)> =
-            wave.orders().map(|(k, harmonic)| (k, T::from_f64(harmonic.re), T::from_f64(harmonic.im))).collect();
-        let values: Vec<(T, T)> = (0..samples / 2)
+            wave.terms().map(|(k, harmonic)| (k, T::from_f64(harmonic.re), T::from_f64(harmonic.im))).collect();
+        let orders = wave.orders;
+        let values: Vec<(T, T)> = (0..samples / orders.step())
             .map(|j| {
                 let input = harmonics.iter().fold(T::zero(), |sum, &(k, re, im)| {
                     let turn = turns[k * j % samples];
@@ -72,11 +76,13 @@ impl<T: Real> Spectrum<T> {
             let sum = values.iter().enumerate().fold(Complex::zero(), |sum, (j, value)| {
                 sum + turns[order * j % samples].conjugate().scaled(of(value))
             });
-            sum.scaled(T::from_f64(factor / samples as f64))
+            sum.scaled(T::from_f64(factor / values.len() as f64))
         };
+        let output = |k| sum(k, |value| value.0, if k == 0 { 1.0 } else { 2.0 });
         Self {
-            output: (1..=output_last).step_by(2).map(|k| sum(k, |value| value.0, 4.0)).collect(),
-            slope: (0..=slope_last).step_by(2).map(|m| sum(m, |value| value.1, 2.0)).collect(),
+            orders,
+            output: (orders.first()..=output_last).step_by(orders.step()).map(output).collect(),
+            slope: (0..=slope_last).step_by(orders.step()).map(|m| sum(m, |value| value.1, 1.0)).collect(),
         }
     }
 }
@@ -95,7 +101,7 @@ pub(super) fn enclose(
             if gap.fold(f64::INFINITY, f64::min) <= 2.0 * margin {
                 return Err(CannotTell::Grazing { theta_rad: 0.0 });
             }
-            Ok(between_kinks(slopes, wave, &wave.passages(kinks, margin)?))
+            Ok(between_kinks(kinks, slopes, wave, &wave.passages(kinks, margin)?))
         }
         None => smooth(characteristic, wave, reach).ok_or(CannotTell::Range { reach, limit: 0.0 }),
     }
@@ -105,20 +111,17 @@ pub(super) fn enclose(
 const LISTED: usize = 4;
 
 /// Exact but for the phases of the passages: `n'(u)` is constant between them, and `n(u)' = n'(u) u'`.
-fn between_kinks(slopes: &[f64], wave: &Wave, passages: &KinkPassages) -> EnclosedSpectrum {
-    let highest = wave.highest();
+fn between_kinks(kinks: &[f64], slopes: &[f64], wave: &Wave, passages: &KinkPassages) -> EnclosedSpectrum {
+    let (highest, orders) = (wave.highest(), wave.orders);
     let last = LISTED * highest + 101;
-    let jumps: Vec<(Interval, Interval)> = passages
-        .all
-        .iter()
-        .map(|one| {
-            let jump = Interval::point(slopes[one.kink + 1]) - Interval::point(slopes[one.kink]);
-            (if one.outwards { jump } else { -jump }, one.theta)
-        })
-        .collect();
-    // Over half a turn from s to s + pi: integral of n' = pi n'(s) - sum of jump theta, as n' is the same at both ends.
-    let weighted = jumps.iter().fold(Interval::ZERO, |sum, &(jump, theta)| sum + jump * theta);
-    let mean = Interval::point(slopes[passages.piece]) - weighted * Interval::INVERSE_PI;
+    let per_span = Interval::ONE / orders.span();
+    let jump_at = |kink: usize| Interval::point(slopes[kink + 1]) - Interval::point(slopes[kink]);
+    let signed = |outwards: bool, jump: Interval| if outwards { jump } else { -jump };
+    let jumps: Vec<(Interval, &KinkPassage)> =
+        passages.all.iter().map(|one| (signed(one.outwards, jump_at(one.kink)), one)).collect();
+    // Over a span P from s on: integral of n' = P n'(s) - sum of jump theta, as n' is the same at both ends.
+    let weighted = jumps.iter().fold(Interval::ZERO, |sum, &(jump, at)| sum + jump * at.theta);
+    let mean = Interval::point(slopes[passages.piece]) - weighted * per_span;
     let slope_harmonic = |m: usize| {
         if m == 0 {
             return Complex::new(mean, Interval::ZERO);
@@ -126,20 +129,24 @@ fn between_kinks(slopes: &[f64], wave: &Wave, passages: &KinkPassages) -> Enclos
         let order = Interval::point(m as f64);
         let sum = jumps
             .iter()
-            .fold(Complex::zero(), |sum, &(jump, theta)| sum + Complex::turn(theta * order).conjugate().scaled(jump));
-        // Over j m pi.
-        -sum.times_j().scaled(Interval::INVERSE_PI / order)
+            .fold(Complex::zero(), |sum, &(jump, at)| sum + Complex::turn(at.theta * order).conjugate().scaled(jump));
+        // Over j m P.
+        -sum.times_j().scaled(per_span / order)
     };
-    let mut harmonics =
-        Spectrum { output: Vec::new(), slope: (0..=last + highest).step_by(2).map(slope_harmonic).collect() };
-    let rates: Vec<(isize, Complex<Interval>)> = wave
-        .orders()
-        .map(|(l, harmonic)| (l as isize, harmonic.enclosed().scaled(Interval::point(l as f64))))
-        .collect();
-    // k N_k = sum over l of l (D_(k-l) X_l - D_(k+l) conj X_l).
-    harmonics.output = (1..=last)
-        .step_by(2)
+    let slope = (0..=last + highest).step_by(orders.step()).map(slope_harmonic).collect();
+    let mut harmonics = Spectrum { orders, output: Vec::new(), slope };
+    let rates: Vec<(isize, Complex<Interval>)> =
+        wave.terms().map(|(l, harmonic)| (l as isize, harmonic.enclosed().scaled(Interval::point(l as f64)))).collect();
+    let inside = kinks.iter().enumerate().take(passages.piece);
+    let offset = inside.fold(Interval::ZERO, |sum, (kink, &level)| sum - jump_at(kink) * Interval::point(level));
+    let offset = signed(!passages.below_zero, offset);
+    // k N_k = sum over l of l (D_(k-l) X_l - D_(k+l) conj X_l), but for the mean.
+    harmonics.output = (orders.first()..=last)
+        .step_by(orders.step())
         .map(|k| {
+            if k == 0 {
+                return Complex::new(mean_output(offset, mean, wave, &jumps), Interval::ZERO);
+            }
             let sum = rates.iter().fold(Complex::zero(), |sum, &(l, rate)| {
                 sum + harmonics.slope_at(k as isize - l) * rate - harmonics.slope_at(k as isize + l) * rate.conjugate()
             });
@@ -147,14 +154,14 @@ fn between_kinks(slopes: &[f64], wave: &Wave, passages: &KinkPassages) -> Enclos
         })
         .collect();
 
-    // abs(N_k) <= V/(pi k^2) with V the variation of n(u)'; sum over odd k > K of k^-4 <= 1/(6 K^3).
+    // abs(N_k) <= V/(pi k^2) with V the variation of n(u)' over a turn; sum over k > K in steps of s of k^-4 <= 1/(3 s K^3).
+    let step = orders.step_enclosed();
     let steepest = slopes.iter().map(|slope| slope.abs()).fold(0.0, f64::max);
     let between = Interval::point(steepest) * wave.root_mean_square(2) * Interval::PI * Interval::point(2.0);
-    let variation =
-        jumps.iter().fold(between, |sum, &(jump, theta)| sum + (jump * wave.at(theta).1).abs() * Interval::point(2.0));
-    let cubes = Interval::point(12.0) * Interval::point(last as f64) * Interval::point(last as f64).square();
-    let kink_sum = passages.all.iter().zip(&jumps).fold(Interval::ZERO, |sum, (one, &(jump, _))| {
-        sum + jump.square() / (Interval::point(1.5) * Interval::PI * one.speed)
+    let variation = jumps.iter().fold(between, |sum, &(jump, at)| sum + (jump * wave.at(at.theta).1).abs() * step);
+    let cubes = Interval::point(6.0) * step * Interval::point(last as f64) * Interval::point(last as f64).square();
+    let kink_sum = jumps.iter().fold(Interval::ZERO, |sum, &(jump, at)| {
+        sum + step * jump.square() / (Interval::point(3.0) * Interval::PI * at.speed)
     });
     EnclosedSpectrum {
         harmonics,
@@ -164,18 +171,35 @@ fn between_kinks(slopes: &[f64], wave: &Wave, passages: &KinkPassages) -> Enclos
     }
 }
 
+/// Mean of `n(u)` over a turn. Between kinks `n(u) = slope u + offset`; where a level is passed the slope jumps, and the offset by
+/// `-jump level`. With U the antiderivative of `u` less its mean, and the offset where the turn begins,
+/// `mean n = mean n' mean u + offset + sum of jump (level theta - U(theta))/(2 pi)`.
+fn mean_output(offset: Interval, mean_slope: Interval, wave: &Wave, jumps: &[(Interval, &KinkPassage)]) -> Interval {
+    let antiderivative = |theta: Interval| {
+        wave.terms().skip(1).fold(Interval::ZERO, |sum, (k, harmonic)| {
+            let order = Interval::point(k as f64);
+            sum + (harmonic.enclosed() * Complex::turn(theta * order)).im / order
+        })
+    };
+    let sum = jumps.iter().fold(Interval::ZERO, |sum, &(jump, at)| {
+        sum + jump * (Interval::point(at.level) * at.theta - antiderivative(at.theta))
+    });
+    mean_slope * Interval::point(wave.harmonics[0].re) + offset + sum * Interval::INVERSE_PI * Interval::point(0.5)
+}
+
 /// Samples of a turn, fewest and most.
 const SAMPLES: core::ops::RangeInclusive<usize> = 256..=16_384;
 
 /// The trapezoid rule; a strip around the real phases on which output and slope are bounded bounds what it leaves out.
 fn smooth(characteristic: &OddCharacteristic, wave: &Wave, reach: f64) -> Option<EnclosedSpectrum> {
-    let highest = wave.highest();
+    let (highest, step) = (wave.highest(), wave.orders.step());
     let mut samples = *SAMPLES.start();
     let (strip, last) = loop {
+        // Odd.
         let last = samples / 4 - 1;
         let widths = (0..60).map(|i| 4.0 * 0.85f64.powi(i));
         let strips = widths.filter_map(|width| Strip::new(characteristic, wave, width));
-        let strip = strips.min_by(|a, b| a.rest(last).upper().total_cmp(&b.rest(last).upper()));
+        let strip = strips.min_by(|a, b| a.rest(last, step).upper().total_cmp(&b.rest(last, step).upper()));
         let enough = strip.as_ref().is_some_and(|strip| strip.decay(last) < 1e-17);
         if last > 2 * highest && (enough || 2 * samples > *SAMPLES.end()) {
             break (strip?, last);
@@ -189,16 +213,16 @@ fn smooth(characteristic: &OddCharacteristic, wave: &Wave, reach: f64) -> Option
         Interval::symmetric((bound * far).upper())
     };
     for (index, harmonic) in harmonics.output.iter_mut().enumerate() {
-        let missed = missed(strip.output * Interval::point(2.0), 2 * index + 1);
+        let missed = missed(strip.output * Interval::point(2.0), wave.orders.at(index));
         *harmonic = *harmonic + Complex::new(missed, missed);
     }
     for (index, harmonic) in harmonics.slope.iter_mut().enumerate() {
-        let missed = missed(strip.slope, 2 * index);
+        let missed = missed(strip.slope, wave.orders.step() * index);
         *harmonic = *harmonic + Complex::new(missed, missed);
     }
     Some(EnclosedSpectrum {
         harmonics,
-        rest: strip.rest(last),
+        rest: strip.rest(last, step),
         kinks: Interval::ZERO,
         curvature: characteristic.curvature(reach) * Interval::point(0.5),
     })
@@ -230,9 +254,9 @@ impl Strip {
         (self.power(order) * self.output).upper()
     }
 
-    /// `1/2 sum over odd k > last of (2 output exp(-k width))^2`, its root.
-    fn rest(&self, last: usize) -> Interval {
-        let geometric = Interval::ONE - self.power(4);
-        self.output * self.power(last + 2) * (Interval::point(2.0) / geometric).sqrt()
+    /// `1/2 sum over k > last of (2 output exp(-k width))^2` in steps of k, its root.
+    fn rest(&self, last: usize, step: usize) -> Interval {
+        let geometric = Interval::ONE - self.power(2 * step);
+        self.output * self.power(last + step) * (Interval::point(2.0) / geometric).sqrt()
     }
 }

@@ -6,8 +6,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::closed_loop::{Centre, LipschitzLoop, jacobian, residual};
 use super::spectrum::Spectrum;
-use super::wave::Wave;
-use crate::numeric::{Complex, scan};
+use super::wave::HarmonicOrders;
+use crate::numeric::scan;
 
 /// Highest harmonic, and samples of a turn.
 const HIGHEST: usize = 9;
@@ -187,7 +187,7 @@ fn is_on(point: &Coordinates, curve: &[Coordinates]) -> bool {
 
 fn centre(point: &Coordinates) -> Centre {
     let amplitude = point[2].exp();
-    let higher = point.as_slice()[3..].chunks_exact(2).map(|pair| Complex::new(pair[0], pair[1]).scaled(amplitude));
-    let wave = Wave(core::iter::once(Complex::new(amplitude, 0.0)).chain(higher).collect());
-    Centre { omega_rad_s: point[0].exp(), wave }
+    let higher = point.as_slice()[3..].chunks_exact(2).map(|pair| [amplitude * pair[0], amplitude * pair[1]]);
+    let harmonics: Vec<[f64; 2]> = core::iter::once([amplitude, 0.0]).chain(higher).collect();
+    Centre::new(point[0].exp(), HarmonicOrders::Odd, &harmonics)
 }

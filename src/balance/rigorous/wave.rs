@@ -1,61 +1,142 @@
-//! A half-wave symmetric trigonometric polynomial `u(theta) = Re sum over odd k of X_k exp(jk theta)`, and where it passes kinks.
+//! A trigonometric polynomial `u(theta) = Re sum of X_k exp(jk theta)` of odd orders, or of all, and where it passes kinks.
+
+use serde::{Deserialize, Serialize};
 
 use super::error::CannotTell;
 use crate::numeric::{Complex, Interval, Real};
 
-/// Cells into which half a turn is divided at first, and bisections of a cell at most.
+/// Cells into which the wave's span is divided at first, and bisections of a cell at most.
 const CELLS: usize = 64;
 const BISECTIONS: u32 = 30;
 /// Steps that narrow a passage at most: halvings first, then Newton's, which square the width.
 const STEPS: usize = 60;
 
-/// Its harmonics X_1, X_3, X_5, ...
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Wave(pub(super) Vec<Complex<f64>>);
+/// Orders of the harmonics that an oscillation may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HarmonicOrders {
+    /// 1, 3, 5, ...: half-wave symmetric, `x(t + T/2) = -x(t)`.
+    Odd,
+    /// 0, 1, 2, ...: the mean is order 0.
+    All,
+}
 
-/// A passage of the wave through a level, within half a turn.
+impl HarmonicOrders {
+    /// The least order.
+    pub(super) fn first(self) -> usize {
+        match self {
+            Self::Odd => 1,
+            Self::All => 0,
+        }
+    }
+
+    /// From one order to the next.
+    pub(super) fn step(self) -> usize {
+        match self {
+            Self::Odd => 2,
+            Self::All => 1,
+        }
+    }
+
+    /// Harmonics without imaginary part: X_1, which sets the phase, and the mean.
+    pub(super) fn reals(self) -> usize {
+        match self {
+            Self::Odd => 1,
+            Self::All => 2,
+        }
+    }
+
+    pub(super) fn step_enclosed(self) -> Interval {
+        Interval::point(self.step() as f64)
+    }
+
+    /// The order at a place.
+    pub(super) fn at(self, place: usize) -> usize {
+        self.first() + self.step() * place
+    }
+
+    /// The place of an order.
+    pub(super) fn place(self, order: usize) -> Option<usize> {
+        let beyond = order.checked_sub(self.first())?;
+        beyond.is_multiple_of(self.step()).then_some(beyond / self.step())
+    }
+
+    /// All after an order up to the last.
+    pub(super) fn between(self, after: usize, last: usize) -> impl Iterator<Item = usize> {
+        (after + self.step()..=last).step_by(self.step())
+    }
+
+    /// Phases after which the wave repeats itself, with the opposite sign if odd.
+    pub(super) fn span(self) -> Interval {
+        Interval::PI * Interval::point(2.0) / self.step_enclosed()
+    }
+
+    /// The real unknowns among pairs of real and imaginary parts.
+    pub(super) fn unknowns(self, pairs: &[[f64; 2]]) -> impl Iterator<Item = f64> + '_ {
+        let parts = move |(place, pair): (usize, &[f64; 2])| pair[..if place < self.reals() { 1 } else { 2 }].to_vec();
+        pairs.iter().enumerate().flat_map(parts)
+    }
+
+    /// The pairs of those unknowns.
+    pub(super) fn pairs(self, unknowns: &[f64]) -> Vec<[f64; 2]> {
+        let (reals, rest) = unknowns.split_at(self.reals());
+        reals.iter().map(|&real| [real, 0.0]).chain(rest.chunks_exact(2).map(|pair| [pair[0], pair[1]])).collect()
+    }
+}
+
+/// Its harmonics, by growing order.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Wave {
+    pub(super) orders: HarmonicOrders,
+    pub(super) harmonics: Vec<Complex<f64>>,
+}
+
+/// A passage of the wave through a level, within its span.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct KinkPassage {
     /// Phase, rad.
     pub(super) theta: Interval,
-    /// Index of the kink and whether it is the one below zero.
+    /// Index of the kink, and the input there: that kink or its opposite.
     pub(super) kink: usize,
+    pub(super) level: f64,
     /// Whether the magnitude of the wave grows there.
     pub(super) outwards: bool,
     /// Lower bound of the speed, per rad, wherever the wave is within the margin of the level.
     pub(super) speed: Interval,
 }
 
-/// The passages of half a turn in order, which begins and ends away from every kink.
+/// The passages of a span in order, which begins and ends away from every kink.
 #[derive(Clone, Debug)]
 pub(super) struct KinkPassages {
     pub(super) all: Vec<KinkPassage>,
-    /// Kinks inside the wave's magnitude at the start.
+    /// Kinks inside the wave's magnitude at the start, and whether the wave is below zero there.
     pub(super) piece: usize,
+    pub(super) below_zero: bool,
 }
 
 impl Wave {
     /// Highest harmonic.
     pub(super) fn highest(&self) -> usize {
-        2 * self.0.len() - 1
+        self.orders.at(self.harmonics.len() - 1)
     }
 
-    pub(super) fn orders(&self) -> impl Iterator<Item = (usize, Complex<f64>)> + '_ {
-        self.0.iter().enumerate().map(|(index, &harmonic)| (2 * index + 1, harmonic))
+    /// Orders and harmonics.
+    pub(super) fn terms(&self) -> impl Iterator<Item = (usize, Complex<f64>)> + '_ {
+        self.harmonics.iter().enumerate().map(|(place, &harmonic)| (self.orders.at(place), harmonic))
     }
 
     /// Upper bound of `sum k^power abs(X_k)`: of the power's derivative, at every phase.
     pub(super) fn sum_of_magnitudes(&self, power: usize) -> Interval {
-        self.orders().fold(Interval::ZERO, |sum, (k, harmonic)| {
+        self.terms().fold(Interval::ZERO, |sum, (k, harmonic)| {
             let weight = Interval::point((k as f64).powi(power as i32));
             sum + harmonic.enclosed().norm() * weight
         })
     }
 
-    /// Root mean square of the derivative of that order.
+    /// Root mean square of the derivative of that order, above zero.
     pub(super) fn root_mean_square(&self, power: usize) -> Interval {
         let half = Interval::point(0.5);
-        let square = self.orders().fold(Interval::ZERO, |sum, (k, harmonic)| {
+        let square = self.terms().fold(Interval::ZERO, |sum, (k, harmonic)| {
             sum + harmonic.enclosed().square_norm() * Interval::point((k as f64).powi(2 * power as i32)) * half
         });
         square.sqrt()
@@ -64,7 +145,7 @@ impl Wave {
     /// `sum abs(X_k) sinh(k sigma)` and the same with the hyperbolic cosine: bounds of the imaginary and the real part at phases
     /// whose imaginary part is at most `sigma`.
     pub(super) fn strip(&self, sigma: Interval) -> (Interval, Interval) {
-        self.orders().fold((Interval::ZERO, Interval::ZERO), |(sinh, cosh), (k, harmonic)| {
+        self.terms().fold((Interval::ZERO, Interval::ZERO), |(sinh, cosh), (k, harmonic)| {
             let (size, at) = (harmonic.enclosed().norm(), sigma * Interval::point(k as f64));
             (sinh + size * at.sinh(), cosh + size * at.cosh())
         })
@@ -72,7 +153,7 @@ impl Wave {
 
     /// Value and derivative at a phase.
     pub(super) fn at<T: Real>(&self, theta: T) -> (T, T) {
-        self.orders().fold((T::zero(), T::zero()), |(value, slope), (k, harmonic)| {
+        self.terms().fold((T::zero(), T::zero()), |(value, slope), (k, harmonic)| {
             let order = T::from_f64(k as f64);
             let angle = theta * order;
             let (sin, cos, re, im) = (angle.sin(), angle.cos(), T::from_f64(harmonic.re), T::from_f64(harmonic.im));
@@ -80,7 +161,7 @@ impl Wave {
         })
     }
 
-    /// Every passage of half a turn through `kinks` and their opposites.
+    /// Every passage of a span through `kinks` and their opposites.
     ///
     /// A cell is settled where the wave keeps more than `margin` from every level, or where its derivative has one sign. A run of
     /// cells of the second kind lies between two of the first, so it passes each level between its ends once.
@@ -92,10 +173,11 @@ impl Wave {
             let (value, _) = self.at(theta);
             levels.iter().map(|(_, level)| (value - level).abs()).fold(f64::INFINITY, f64::min)
         };
-        let phases = (0..CELLS).map(|i| core::f64::consts::PI * i as f64 / CELLS as f64);
+        let span = self.orders.span();
+        let phases = (0..CELLS).map(|i| span.midpoint() * i as f64 / CELLS as f64);
         let start_rad = phases.max_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap_or(0.0);
         let grazing = |theta_rad: f64| CannotTell::Grazing { theta_rad };
-        let end = (Interval::point(start_rad) + Interval::PI).upper();
+        let end = (Interval::point(start_rad) + span).upper();
 
         let mut runs: Vec<MonotoneRun> = Vec::new();
         let mut clear_to = f64::NEG_INFINITY;
@@ -148,13 +230,13 @@ impl Wave {
                 }
                 let theta = self.narrowed(run.cell, level_at, bend).ok_or(grazing(run.cell.lower()))?;
                 let outwards = (level > 0.0) == run.slope.is_positive();
-                all.push(KinkPassage { theta, kink, outwards, speed: run.slope.abs() });
+                all.push(KinkPassage { theta, kink, level, outwards, speed: run.slope.abs() });
             }
             all[before..].sort_by(|a, b| a.theta.lower().total_cmp(&b.theta.lower()));
         }
         let (value, _) = self.at(Interval::point(start_rad));
         let piece = kinks.iter().filter(|&&kink| value.abs().lower() > kink).count();
-        Ok(KinkPassages { all, piece })
+        Ok(KinkPassages { all, piece, below_zero: value.is_negative() })
     }
 
     /// The passage through a level in a cell over which the derivative has one sign, by interval Newton.

@@ -7,8 +7,8 @@ use crate::control::{
 };
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::Real;
-use crate::orbit::RelayLoop;
-use crate::plant::{DragAxis, StateSpace, TransferFunction};
+use crate::orbit::orbits;
+use crate::plant::{DragAxis, TransferFunction};
 use crate::proof::polynomial::Rational;
 
 /// A design for any axis whose drag it can bear.
@@ -124,10 +124,9 @@ fn relay_ultimate(budget: Budget, share: f64, hysteresis: f64, lag: f64, [least,
             let process = TransferFunction::new(&[gain], &denominator).ok()?.with_delay(delay_s).ok()?;
             let truth = critical_point(&process, 0.1 / delay_s..=10.0 / delay_s).ok()?;
             let relay = RelayHysteresis::new(level, half_width, 0.0).ok()?;
-            let relay_loop = RelayLoop::new(StateSpace::realise(&process).ok()?, relay);
-            let orbits = relay_loop.symmetric_orbits(least * delay_s..=most * delay_s).ok()?;
-            let orbit = orbits.last()?;
-            let (amplitude, period_s) = (orbit.amplitude(), orbit.period_s());
+            let found = orbits(&process, &relay.into(), Some(least * delay_s..=most * delay_s)).ok()?;
+            let slowest = found.orbits.first()?;
+            let (amplitude, period_s) = (slowest.amplitude().midpoint(), slowest.period_s.midpoint());
             let test = RelayTest { level, half_width, amplitude, bias: 0.0, period_s };
             Some((test.ultimate().ok()?, truth))
         };

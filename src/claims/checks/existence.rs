@@ -44,22 +44,30 @@ impl Loop {
         let odd = OddCharacteristic::from_catalogue("tanh", &[1.0, self.scale]).ok()?;
         LipschitzLoop::new(&plant, odd).ok()?.prove_near(first.amplitude, first.omega_rad_s).ok()
     }
+}
 
-    /// Output, its first and its second derivative after a period, by `y''' = -(a + b) y'' - a b y' - gain tanh(scale y)`.
-    fn after(&self, start: [f64; 3], period_s: f64) -> [f64; 3] {
-        let [a, b] = self.poles;
-        let slope = |[y, v, w]: [f64; 3]| [v, w, -(a + b) * w - a * b * v - self.gain * libm::tanh(self.scale * y)];
-        let moved =
-            |[y, v, w]: [f64; 3], [dy, dv, dw]: [f64; 3], step: f64| [y + step * dy, v + step * dv, w + step * dw];
-        let step = period_s / f64::from(STEPS);
-        (0..STEPS).fold(start, |state, _| {
-            let first = slope(state);
-            let second = slope(moved(state, first, 0.5 * step));
-            let third = slope(moved(state, second, 0.5 * step));
-            let fourth = slope(moved(state, third, step));
-            core::array::from_fn(|i| state[i] + step / 6.0 * (first[i] + 2.0 * second[i] + 2.0 * third[i] + fourth[i]))
-        })
-    }
+/// How far from its state at phase zero a loop `x = -gain/(s (s + a)(s + b)) n(x)` is a period later, in shares of the amplitudes of
+/// the state's components. The start and the period are a proved oscillation's.
+pub(super) fn return_error(proved: &ProvedOscillation, [a, b]: [f64; 2], gain: f64, n: impl Fn(f64) -> f64) -> f64 {
+    let (omega, amplitude) = (proved.omega_rad_s().midpoint(), proved.amplitude().midpoint());
+    // Re sum X_k, Re sum jkw X_k, Re sum (jkw)^2 X_k.
+    let start = (0..=proved.highest_harmonic()).fold([0.0; 3], |[y, v, w], k| {
+        let [re, im] = proved.harmonic(k).map_or([0.0; 2], |parts| parts.map(crate::numeric::Interval::midpoint));
+        let rate = k as f64 * omega;
+        [y + re, v - rate * im, w - rate * rate * re]
+    });
+    let slope = |[y, v, w]: [f64; 3]| [v, w, -(a + b) * w - a * b * v - gain * n(y)];
+    let moved = |[y, v, w]: [f64; 3], [dy, dv, dw]: [f64; 3], step: f64| [y + step * dy, v + step * dv, w + step * dw];
+    let step = core::f64::consts::TAU / omega / f64::from(STEPS);
+    let end = (0..STEPS).fold(start, |state, _| {
+        let first = slope(state);
+        let second = slope(moved(state, first, 0.5 * step));
+        let third = slope(moved(state, second, 0.5 * step));
+        let fourth = slope(moved(state, third, step));
+        core::array::from_fn(|i| state[i] + step / 6.0 * (first[i] + 2.0 * second[i] + 2.0 * third[i] + fourth[i]))
+    });
+    let scales = [amplitude, amplitude * omega, amplitude * omega * omega];
+    (0..3).map(|i| (end[i] - start[i]).abs() / scales[i]).fold(0.0, f64::max)
 }
 
 /// From the state that a proved box has at phase zero, the loop with its gain times `factor` returns to it after a period.
@@ -67,18 +75,10 @@ fn returns(budget: Budget, factor: f64) -> Verdict {
     sample(Budget { cases: budget.cases.div_ceil(100), ..budget }, |draw| {
         let control_loop = Loop::draw(draw);
         let proved = control_loop.proved()?;
-        let omega = draw.note("omega_rad_s", proved.omega_rad_s().midpoint());
-        let amplitude = draw.note("amplitude", proved.amplitude().midpoint());
-        // Re sum X_k, Re sum jkw X_k, Re sum (jkw)^2 X_k.
-        let start = (1..=proved.highest_harmonic()).step_by(2).fold([0.0; 3], |[y, v, w], k| {
-            let [re, im] = proved.harmonic(k).map_or([0.0; 2], |parts| parts.map(crate::numeric::Interval::midpoint));
-            let rate = k as f64 * omega;
-            [y + re, v - rate * im, w - rate * rate * re]
-        });
-        let changed = Loop { gain: factor * control_loop.gain, ..control_loop };
-        let end = changed.after(start, core::f64::consts::TAU / omega);
-        let scales = [amplitude, amplitude * omega, amplitude * omega * omega];
-        let off = (0..3).map(|i| (end[i] - start[i]).abs() / scales[i]).fold(0.0, f64::max);
+        draw.note("omega_rad_s", proved.omega_rad_s().midpoint());
+        draw.note("amplitude", proved.amplitude().midpoint());
+        let Loop { poles, gain, scale } = control_loop;
+        let off = return_error(&proved, poles, factor * gain, |x| libm::tanh(scale * x));
         Some(Case::margin(1.0 - draw.note("off", off) / tolerance::INTEGRATED))
     })
 }

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use nalgebra::Complex;
+use nalgebra::{Complex, DMatrix};
 
 use super::algebra::exactly;
 use super::vehicle_proofs::uncoupled_axis;
@@ -14,7 +14,7 @@ use crate::identify::iso::{Oscillation, disturbance_from_times};
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
 use crate::numeric::quadrature::integrate;
 use crate::orbit::integrate::{Integrator, RelayFeedback};
-use crate::orbit::{LimitCycle, RelayLoop, RelayOrbit, limit_cycle};
+use crate::orbit::{LimitCycle, ListedOrbit, limit_cycle, orbits};
 use crate::plant::{DragAxis, State, StateSpace, TransferFunction};
 use crate::proof::polynomial::Rational;
 
@@ -274,7 +274,7 @@ fn square_wave(level: f64, omega: f64, on_s: f64) -> Complex<f64> {
 }
 
 /// A plant with or without integrator, three poles and a delay, in a symmetric oscillation.
-fn oscillating(draw: &mut Draw) -> Option<(TransferFunction, RelayHysteresis<f64>, RelayOrbit)> {
+fn oscillating(draw: &mut Draw) -> Option<(TransferFunction, RelayHysteresis<f64>, ListedOrbit)> {
     let (a, b) = (draw.log_uniform("first_pole_rad_s", 0.3, 3.0), draw.log_uniform("second_pole_rad_s", 0.3, 3.0));
     let c = if draw.index("integrating", 2) == 1 { 0.0 } else { draw.log_uniform("third_pole_rad_s", 0.1, 1.0) };
     let denominator = [1.0, a + b + c, a * b + b * c + c * a, a * b * c];
@@ -283,24 +283,37 @@ fn oscillating(draw: &mut Draw) -> Option<(TransferFunction, RelayHysteresis<f64
     let plant = plant.with_delay(delay_s).ok()?;
     let relay =
         RelayHysteresis::new(draw.uniform("level", 0.5, 2.0), draw.uniform("half_width", 0.0, 0.1), 0.0).ok()?;
-    let orbits = RelayLoop::new(StateSpace::realise(&plant).ok()?, relay).symmetric_orbits(1.5..=40.0).ok()?;
-    Some((plant, relay, orbits.into_iter().next()?))
+    let found = orbits(&plant, &relay.into(), Some(1.5..=40.0)).ok()?.orbits;
+    let symmetric = |orbit: &ListedOrbit| orbit.time_high_s.intersection(orbit.time_low_s).is_some();
+    Some((plant, relay, found.into_iter().find(symmetric)?))
+}
+
+/// First harmonic of the output under a square wave `+-level` that steps up at time zero: the half-period from the state that it
+/// turns into its opposite (Åström), and the other half alike.
+fn forced_output(plant: &TransferFunction, level: f64, period_s: f64) -> Option<Complex<f64>> {
+    let plant = StateSpace::realise(plant).ok()?;
+    let half = plant.flow(0.5 * period_s);
+    let matrix = DMatrix::identity(plant.order(), plant.order()) + half.state;
+    let start = matrix.lu().solve(&(half.input * -level))?;
+    let output = |time: f64| plant.output(&plant.flow(time).apply(&start, level));
+    Some(2.0 * first_harmonic(output, &[0.0, 0.5 * period_s], period_s))
 }
 
 fn balance(budget: Budget, gain: Gain, delay: f64) -> Verdict {
     sample(Budget { cases: budget.cases.min(100), ..budget }, |draw| {
         let (plant, relay, orbit) = oscillating(draw)?;
-        let period_s = draw.note("period_s", orbit.period_s());
+        let period_s = draw.note("period_s", orbit.period_s.midpoint());
         let (omega, delay_s) = (2.0 * PI / period_s, plant.delay_s());
         let sine = match gain {
             Gain::OfOrbit => {
-                let ends = [0.0, orbit.time_positive_s(), period_s];
-                let output = first_harmonic(|t| orbit.output(t), &ends, period_s);
                 // The plant's input steps up at time zero, the command a delay before; the relay sees minus the output.
-                Some(square_wave(relay.level(), omega, -delay_s) / -output)
+                let output = forced_output(&plant, relay.level(), period_s);
+                output.map(|output| square_wave(relay.level(), omega, -delay_s) / -output)
             }
             Gain::OfSinusoid => {
-                let df = Sinusoid::new(0.0, orbit.amplitude()).ok().and_then(|s| relay.describing_function(&s).ok());
+                let df = Sinusoid::new(0.0, orbit.amplitude().midpoint())
+                    .ok()
+                    .and_then(|s| relay.describing_function(&s).ok());
                 df.map(|df| Complex::new(df.p, df.q))
             }
         };

@@ -8,8 +8,8 @@ use crate::describing::ClosedForm;
 use crate::identify::iso::{Oscillation, Parameters, disturbance_from_times};
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::Real;
-use crate::orbit::{self, LimitCycle, RelayLoop, limit_cycle, return_map, theorem};
-use crate::plant::{DragAxis, PlantError, StateSpace, TransferFunction};
+use crate::orbit::{self, LimitCycle, limit_cycle, return_map, theorem};
+use crate::plant::{DragAxis, PlantError, TransferFunction};
 use crate::proof::polynomial::Rational;
 
 /// A drag law of one coefficient.
@@ -264,8 +264,7 @@ fn balance_error(budget: Budget, orders: [usize; 3], factor: f64) -> Verdict {
 fn balance_errors(lag_s: f64, half_width: f64, orders: [usize; 3]) -> Option<[f64; 3]> {
     let plant = TransferFunction::new(&[1.0], &[lag_s, 1.0, 0.0]).ok()?;
     let relay = RelayHysteresis::new(1.0, half_width, 0.0).ok()?;
-    let orbits = RelayLoop::new(StateSpace::realise(&plant).ok()?, relay).symmetric_orbits(0.01..=1000.0).ok()?;
-    let exact = orbits.first()?.period_s();
+    let exact = orbit::orbits(&plant, &relay.into(), Some(0.01..=1000.0)).ok()?.orbits.first()?.period_s.midpoint();
     let balance = HarmonicBalance::new(&plant, |sweep| relay.describing_function(sweep)).ok()?;
     let first = *balance.intersections().ok()?.first()?;
     let error = |order| {

@@ -20,6 +20,7 @@ use core::ops::RangeInclusive;
 use nalgebra::Complex;
 
 use super::OrbitError;
+use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::{Interval, domain};
 use crate::plant::TransferFunction;
 use attraction::Attraction;
@@ -64,6 +65,14 @@ impl TwoLevelRelay {
     /// [`OrbitError::OutOfDomain`] unless it is finite.
     pub fn with_reference(self, reference: f64) -> Result<Self, OrbitError> {
         Ok(Self { reference: domain::finite("reference", reference, "output units")?, ..self })
+    }
+}
+
+/// The levels are the offset plus and minus the level; the relay's input is the reference, here zero, less the output.
+impl From<RelayHysteresis<f64>> for TwoLevelRelay {
+    fn from(relay: RelayHysteresis<f64>) -> Self {
+        let (offset, level) = (relay.offset(), relay.level());
+        Self { high: offset + level, low: offset - level, half_width: relay.half_width(), reference: 0.0 }
     }
 }
 

@@ -3,9 +3,9 @@
 use std::f64::consts::{PI, TAU};
 
 use selfosc::control::{ControlError, RelayTest, Rule, UltimatePoint, critical_point};
-use selfosc::nonlinearity::RelayHysteresis;
-use selfosc::orbit::RelayLoop;
-use selfosc::plant::{StateSpace, TransferFunction};
+use selfosc::numeric::Interval;
+use selfosc::orbit::{TwoLevelRelay, orbits};
+use selfosc::plant::TransferFunction;
 
 use crate::tolerance::PRINTED_TENTH;
 
@@ -15,11 +15,15 @@ fn process(num: &[f64], den: &[f64], delay_s: f64) -> TransferFunction {
 
 /// The exact oscillation of a process under a relay, as an experiment reads it.
 fn experiment(process: &TransferFunction, half_width: f64) -> RelayTest<f64> {
-    let plant = StateSpace::realise(process).unwrap();
-    let relay = RelayLoop::new(plant, RelayHysteresis::new(1.0, half_width, 0.0).unwrap());
-    let orbits = relay.symmetric_orbits(0.2..=60.0).unwrap();
-    let orbit = orbits.iter().find(|orbit| orbit.is_stable() == Some(true)).unwrap();
-    RelayTest { level: 1.0, half_width, amplitude: orbit.amplitude(), bias: orbit.bias(), period_s: orbit.period_s() }
+    under_relay(process, &TwoLevelRelay::new(1.0, -1.0, half_width).unwrap())
+}
+
+/// The attracting oscillation under a relay whose levels differ by 2.
+fn under_relay(process: &TransferFunction, relay: &TwoLevelRelay) -> RelayTest<f64> {
+    let found = orbits(process, relay, Some(0.2..=60.0)).unwrap().orbits;
+    let orbit = found.iter().find(|orbit| orbit.attracting == Some(true)).unwrap();
+    let [amplitude, bias, period_s] = [orbit.amplitude(), orbit.bias(), orbit.period_s].map(Interval::midpoint);
+    RelayTest { level: 1.0, half_width: relay.half_width, amplitude, bias, period_s }
 }
 
 #[test]
@@ -95,17 +99,7 @@ fn hysteresis_is_accounted_for() {
 #[test]
 fn bias_is_accounted_for() {
     let process = process(&[1.0], &[1.0, 3.0, 3.0, 1.0], 0.0);
-    let plant = StateSpace::realise(&process).unwrap();
-    let relay = RelayLoop::new(plant, RelayHysteresis::new(1.0, 0.02, 0.0).unwrap()).with_disturbance(0.4).unwrap();
-    let orbits = relay.orbits(1.0..=20.0).unwrap();
-    let orbit = orbits.iter().find(|orbit| orbit.is_stable() == Some(true)).unwrap();
-    let biased = RelayTest {
-        level: 1.0,
-        half_width: 0.02,
-        amplitude: orbit.amplitude(),
-        bias: orbit.bias(),
-        period_s: orbit.period_s(),
-    };
+    let biased = under_relay(&process, &TwoLevelRelay::new(1.4, -0.6, 0.02).unwrap());
     let truth = process.response(TAU / biased.period_s).unwrap().norm();
     let error = |test: RelayTest<f64>| test.point().unwrap().magnitude / truth - 1.0;
     let (with, without) = (error(biased), error(RelayTest { bias: 0.0, ..biased }));
