@@ -38,7 +38,7 @@ cargo build --quiet --release --features panics --target-dir "$target/panics"
 
 strict=(-Wall -Wextra -pedantic -Werror -Iinclude)
 checked=(-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all)
-for source in examples/experiment.c examples/task.c tests/contract.c; do
+for source in examples/experiment.c examples/task.c examples/heater.c tests/contract.c; do
     say "== $source"
     gcc -std=c99 "${strict[@]}" "${checked[@]}" "$source" "$archive" -lm -o "$made/program"
     "$made/program"

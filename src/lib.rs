@@ -7,7 +7,7 @@
 //! | predict an oscillation | [`orbit::limit_cycle`], [`orbit::orbits`], [`balance::HarmonicBalance`] |
 //! | identify a vehicle from logs | `identify::Session` (with the feature `std`) |
 //! | tune a controller for it | [`control::Tuning`] |
-//! | tune any process from a relay record | `autotune::Autotune` (with the feature `std`) |
+//! | tune any process from a relay record | [`autotune::ProcessReadings`], `autotune::ProcessRecord` (with the feature `std`) |
 //! | verify the theory | `claims::verify` (with the feature `std`) |
 //!
 //! The page `guide` works through a log, an orbit and a claim, lists units, and compares other tools.
@@ -84,7 +84,6 @@ pub mod vehicle;
 
 pub mod control;
 
-#[cfg(feature = "std")]
 pub mod autotune;
 
 #[cfg(feature = "std")]

@@ -365,6 +365,20 @@ typedef struct {
   float neutral_command;
 } SelfoscControllerSettings_f32;
 
+// `drag y' + stiffness y = u(t - dead_time_s) + load`: a first-order process of gain `1/stiffness` and time constant `drag/stiffness`;
+// an integrator of gain `1/drag` where `stiffness` is 0.
+typedef struct {
+  // Command s per output, above 0.
+  float drag;
+  // Command per output, 0 or more.
+  float stiffness;
+  // Dead time, s, 0 or more.
+  float dead_time_s;
+  // Whether the output falls with the command: 1 or 0. The numbers are then those of the command with its sign turned, which is also
+  // the command to give.
+  uint32_t reverse;
+} SelfoscProcess_f32;
+
 // What a stable loop stands before it is critical.
 typedef struct {
   // The gain may grow by less than this factor; 0 where any growth is borne.
@@ -626,6 +640,20 @@ typedef struct {
   double neutral_command;
 } SelfoscControllerSettings_f64;
 
+// `drag y' + stiffness y = u(t - dead_time_s) + load`: a first-order process of gain `1/stiffness` and time constant `drag/stiffness`;
+// an integrator of gain `1/drag` where `stiffness` is 0.
+typedef struct {
+  // Command s per output, above 0.
+  double drag;
+  // Command per output, 0 or more.
+  double stiffness;
+  // Dead time, s, 0 or more.
+  double dead_time_s;
+  // Whether the output falls with the command: 1 or 0. The numbers are then those of the command with its sign turned, which is also
+  // the command to give.
+  uint32_t reverse;
+} SelfoscProcess_f64;
+
 // What a stable loop stands before it is critical.
 typedef struct {
   // The gain may grow by less than this factor; 0 where any growth is borne.
@@ -756,6 +784,22 @@ SelfoscStatus selfosc_tune_f32(const SelfoscAxis_f32 *axis,
                                SelfoscControllerSettings_f32 *settings,
                                SelfoscRefusal *refusal);
 
+// A first-order process with dead time, or an integrator, from a record of a relay's or thermostat's oscillation: `count` readings, 24 to
+// 256, at times that rise, each command from its reading's time on. Two periods tell it well; at least three changes of the command.
+SelfoscStatus selfosc_process_f32(const float *time_s,
+                                  const float *output,
+                                  const float *command,
+                                  size_t count,
+                                  SelfoscProcess_f32 *result,
+                                  SelfoscRefusal *refusal);
+
+// PID gains for a process, by a rule whose largest sensitivity is at most 1.5 for every process of this structure, under a controller that
+// holds its command for `interval_s`; the other settings stay as they are.
+SelfoscStatus selfosc_process_gains_f32(const SelfoscProcess_f32 *process,
+                                        float interval_s,
+                                        SelfoscControllerSettings_f32 *settings,
+                                        SelfoscRefusal *refusal);
+
 // Margins of the loop that `selfosc_tune_f32` makes.
 SelfoscStatus selfosc_margins_f32(const SelfoscAxis_f32 *axis,
                                   uint32_t structure,
@@ -868,6 +912,22 @@ SelfoscStatus selfosc_tune_f64(const SelfoscAxis_f64 *axis,
                                double bandwidth_rad_s,
                                SelfoscControllerSettings_f64 *settings,
                                SelfoscRefusal *refusal);
+
+// A first-order process with dead time, or an integrator, from a record of a relay's or thermostat's oscillation: `count` readings, 24 to
+// 256, at times that rise, each command from its reading's time on. Two periods tell it well; at least three changes of the command.
+SelfoscStatus selfosc_process_f64(const double *time_s,
+                                  const double *output,
+                                  const double *command,
+                                  size_t count,
+                                  SelfoscProcess_f64 *result,
+                                  SelfoscRefusal *refusal);
+
+// PID gains for a process, by a rule whose largest sensitivity is at most 1.5 for every process of this structure, under a controller that
+// holds its command for `interval_s`; the other settings stay as they are.
+SelfoscStatus selfosc_process_gains_f64(const SelfoscProcess_f64 *process,
+                                        double interval_s,
+                                        SelfoscControllerSettings_f64 *settings,
+                                        SelfoscRefusal *refusal);
 
 // Margins of the loop that `selfosc_tune_f64` makes.
 SelfoscStatus selfosc_margins_f64(const SelfoscAxis_f64 *axis,

@@ -5,7 +5,7 @@ use super::routines;
 use super::status::{Refusal, Refused, Status, answer, given, usable};
 use super::values::{
     Axis, ControlStep, ControllerSettings, Delivered, DescribingFunction, ExperimentStep, LimitCycle, Margins,
-    MeanCycle, Oscillation, Outcome, Parameters, Protocol, Thruster,
+    MeanCycle, Oscillation, Outcome, Parameters, Process, Protocol, Thruster,
 };
 
 /// Describing function of one of `SelfoscCharacteristic` under the input `bias + amplitude sin`, amplitude above 0. `count`
@@ -161,6 +161,48 @@ pub unsafe extern "C" fn selfosc_tune_f64(
 ) -> Status {
     // SAFETY: pointers are null or valid for their targets.
     let call = || unsafe { routines::tune(given(axis)?, structure, bandwidth_rad_s, given(settings)?) };
+    // SAFETY: as above.
+    unsafe { answer(settings, refusal, call) }
+}
+
+/// A first-order process with dead time, or an integrator, from a record of a relay's or thermostat's oscillation: `count` readings, 24 to
+/// 256, at times that rise, each command from its reading's time on. Two periods tell it well; at least three changes of the command.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selfosc_process_f64(
+    time_s: *const f64,
+    output: *const f64,
+    command: *const f64,
+    count: usize,
+    result: *mut Process<f64>,
+    refusal: *mut Refusal,
+) -> Status {
+    let call = || {
+        if ![time_s, output, command].into_iter().all(usable) {
+            return Err(Refused::from(Status::BadPointer));
+        }
+        if count > routines::MOST_READINGS {
+            return Err(Status::WrongCount.into());
+        }
+        // SAFETY: good for as many numbers, as the caller says.
+        let [time_s, output, command] =
+            [time_s, output, command].map(|column| unsafe { core::slice::from_raw_parts(column, count) });
+        routines::process(time_s, output, command)
+    };
+    // SAFETY: pointers are null or good for what they point at.
+    unsafe { answer(result, refusal, call) }
+}
+
+/// PID gains for a process, by a rule whose largest sensitivity is at most 1.5 for every process of this structure, under a controller that
+/// holds its command for `interval_s`; the other settings stay as they are.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selfosc_process_gains_f64(
+    process: *const Process<f64>,
+    interval_s: f64,
+    settings: *mut ControllerSettings<f64>,
+    refusal: *mut Refusal,
+) -> Status {
+    // SAFETY: pointers are null or good for what they point at.
+    let call = || unsafe { routines::process_gains(given(process)?, interval_s, given(settings)?) };
     // SAFETY: as above.
     unsafe { answer(settings, refusal, call) }
 }

@@ -1,5 +1,6 @@
 //! What C calls, over either precision.
 
+use selfosc::autotune::{FirstOrderProcess, ProcessReadings};
 use selfosc::control::{ControlFault as Fault, Controller, FeedForward, Gains, Tuning};
 use selfosc::describing::ClosedForm;
 use selfosc::identify::{exact, iso};
@@ -14,10 +15,12 @@ use selfosc::vehicle;
 use super::status::{Refused, Status, Text};
 use super::values::{
     Axis, ControlFault, ControlStep, ControllerSettings, Coordinate, CycleStatistics, Delivered, DescribingFunction,
-    DragLaw, ExperimentStep, LimitCycle, Margins, MeanCycle, Oscillation, Outcome, Parameter, Parameters, Phase,
+    DragLaw, ExperimentStep, LimitCycle, Margins, MeanCycle, Oscillation, Outcome, Parameter, Parameters, Phase, Process,
     Protocol, Structure, ThrustSide, Thruster,
 };
 
+/// ProcessReadings of a process on board.
+pub(crate) const MOST_READINGS: usize = ProcessReadings::<f64>::MOST;
 /// Points of a piecewise linear characteristic.
 const MOST_POINTS: usize = 32;
 
@@ -268,6 +271,30 @@ pub(crate) fn tune<T: Scalar>(
     let gains = *tuned(axis, chosen, bandwidth_rad_s)?.gains();
     Ok(ControllerSettings {
         structure: chosen,
+        proportional: gains.proportional(),
+        integral: gains.integral(),
+        derivative: gains.derivative(),
+        filter_s: gains.filter_s(),
+        ..*settings
+    })
+}
+
+pub(crate) fn process<T: Scalar>(time_s: &[T], output: &[T], command: &[T]) -> Result<Process<T>, Refused> {
+    let FirstOrderProcess { drag, stiffness, dead_time_s, reverse } =
+        ProcessReadings::new(time_s, output, command)?.first_order()?;
+    Ok(Process { drag, stiffness, dead_time_s, reverse: reverse.into() })
+}
+
+pub(crate) fn process_gains<T: Scalar>(
+    process: &Process<T>,
+    interval_s: T,
+    settings: &ControllerSettings<T>,
+) -> Result<ControllerSettings<T>, Refused> {
+    let Process { drag, stiffness, dead_time_s, reverse } = *process;
+    let process = FirstOrderProcess { drag, stiffness, dead_time_s, reverse: reverse != 0 };
+    let gains = process.gains(interval_s)?;
+    Ok(ControllerSettings {
+        structure: Structure::Pid as u32,
         proportional: gains.proportional(),
         integral: gains.integral(),
         derivative: gains.derivative(),

@@ -3,6 +3,7 @@
 use core::ffi::c_char;
 use core::ptr::null;
 
+use selfosc::autotune::ProcessError;
 use selfosc::control::ControlError;
 use selfosc::describing::DescribingError;
 use selfosc::identify::IdentifyError;
@@ -118,6 +119,12 @@ macro_rules! refusals {
 }
 refusals!(ControlError, DescribingError, IdentifyError, NonlinearityError, OrbitError, PlantError, VehicleError);
 
+impl From<ProcessError> for Refused {
+    fn from(error: ProcessError) -> Self {
+        Self { status: Status::Refused, why: Refusal::without_number(error.code()) }
+    }
+}
+
 /// What a call may give. Nothing else leaves by `answer`, so that no number that is none reaches C.
 pub(crate) trait Answer {
     /// The first number in it that is none, by its name.
@@ -172,6 +179,7 @@ answers! {
         proportional, integral, derivative, filter_s
         ; structure; lowest_command; highest_command; turn; longest_hold_s; neutral_command
     },
+    Process<T> { drag, stiffness, dead_time_s; reverse },
     Margins<T> { gain, gain_reduction, phase_rad, delay_s, crossover_rad_s },
     ControlStep<T> { command; limited; fault },
     Delivered<T> { command, thrust_n },

@@ -328,6 +328,22 @@ pub struct ControllerSettings<T> {
     pub neutral_command: T,
 }
 
+/// `drag y' + stiffness y = u(t - dead_time_s) + load`: a first-order process of gain `1/stiffness` and time constant `drag/stiffness`;
+/// an integrator of gain `1/drag` where `stiffness` is 0.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct Process<T> {
+    /// Command s per output, above 0.
+    pub drag: T,
+    /// Command per output, 0 or more.
+    pub stiffness: T,
+    /// Dead time, s, 0 or more.
+    pub dead_time_s: T,
+    /// Whether the output falls with the command: 1 or 0. The numbers are then those of the command with its sign turned, which is also
+    /// the command to give.
+    pub reverse: u32,
+}
+
 /// What a stable loop stands before it is critical.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]

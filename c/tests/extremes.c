@@ -19,7 +19,7 @@
 /* Numbers of a structure that has no others. */
 #define FINITE(structure) finite((const double *)(const void *)&(structure), sizeof(structure) / sizeof(double))
 
-enum { DESCRIBE, LIMIT_CYCLE, IDENTIFY, EXACT, PROTOCOL, BEGIN, OUTCOME, TUNE, MARGINS, AHEAD, THRUST, COMMAND, CLAMPED, KINDS };
+enum { DESCRIBE, LIMIT_CYCLE, IDENTIFY, EXACT, PROTOCOL, BEGIN, OUTCOME, TUNE, PROCESS, GAINS, MARGINS, AHEAD, THRUST, COMMAND, CLAMPED, KINDS };
 
 static long rounds, answered[KINDS];
 static uint64_t state = 20261127;
@@ -252,6 +252,38 @@ static SelfoscThrustSide_f64 any_side(void)
     return side;
 }
 
+/* Readings of a relay's oscillation at any scale, some of them no numbers at all. */
+static int processes(void)
+{
+    double time_s[64], output[64], command[64], now = 0;
+    const double pace = given(), swing = given(), level = given(), interval_s = perhaps();
+    const size_t count = bits() % 8 ? 64 : (size_t)(bits() % 70);
+    const int broken = bits() % 4 == 0;
+    SelfoscProcess_f64 process;
+    SelfoscControllerSettings_f64 settings = {0};
+    size_t k;
+    for (k = 0; k < 64; ++k) {
+        now += pace * between(0.9, 1.1);
+        time_s[k] = broken && bits() % 32 == 0 ? any() : now;
+        command[k] = (k / 8) % 2 ? 0 : level;
+        output[k] = broken && bits() % 32 == 0 ? any() : swing * ((k + 4) / 8 % 2 ? -1 : 1) * ((double)((k + 4) % 8) - 3.5 + between(0, 0.1));
+    }
+    if (answers(PROCESS, selfosc_process_f64(time_s, output, command, count > 64 ? 64 : count, &process, NULL))) {
+        CHECK(isfinite(process.drag) && process.drag > 0 && isfinite(process.stiffness) && process.stiffness >= 0);
+        CHECK(isfinite(process.dead_time_s) && process.dead_time_s >= 0 && process.reverse <= 1);
+    } else {
+        process.drag = any();
+        process.stiffness = any();
+        process.dead_time_s = any();
+        process.reverse = 0;
+    }
+    if (answers(GAINS, selfosc_process_gains_f64(&process, interval_s, &settings, NULL))) {
+        CHECK(isfinite(settings.proportional) && isfinite(settings.integral) && isfinite(settings.derivative));
+        CHECK(settings.proportional > 0 && settings.integral >= 0 && settings.derivative >= 0 && settings.filter_s >= 0);
+    }
+    return 0;
+}
+
 static int thrusters(void)
 {
     SelfoscThruster_f64 thruster;
@@ -278,7 +310,8 @@ int main(void)
 {
     int kind;
     for (rounds = 0; rounds < 40000; ++rounds)
-        if (describing() || orbits() || controllers() || thrusters() || (rounds % 40 == 0 && experiments()))
+        if (describing() || orbits() || controllers() || thrusters()
+            || (rounds % 40 == 0 && (experiments() || processes())))
             return 1;
     /* What never answers is not tested. */
     for (kind = 0; kind < KINDS; ++kind)

@@ -12,6 +12,7 @@ from . import errors, export, logs, types
 from ._core import VERSION as __version__
 from ._names import nearest
 from ._results import Result
+from .autotuning import Autotuned, autotune
 from .control import Design, Tuned, design, tune
 from .describing import Described, DescribingFunction, Nonlinearity, catalogue, describing_function, df, nonlinearity
 from .errors import NoLimitCycle, OutOfDomain, RecordRefused, SelfoscError, UnreadableLog, UsageError
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Amplitudes",
+    "Autotuned",
     "Balance",
     "Bounds",
     "Certificate",
@@ -55,6 +57,7 @@ __all__ = [
     "Verification",
     "__version__",
     "amplitudes",
+    "autotune",
     "balance",
     "bounded",
     "catalogue",

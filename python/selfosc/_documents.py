@@ -85,7 +85,7 @@ def answer(subcommand: str, *arguments: str) -> tuple[bool, dict[str, Any]]:
     no, text = _core.run([subcommand, *arguments, "--json"])
     document = json.loads(text)
     if no and "refused" in document:
-        raise of(document["refused"]["code"], document["refused"]["text"], record=subcommand == "identify")
+        raise of(document["refused"]["code"], document["refused"]["text"], record=subcommand in ("identify", "autotune"))
     return no, document
 
 

@@ -490,6 +490,73 @@ class SensitivityRange(TypedDict):
     proved_upper: float | None
 
 
+class SensitivityLimit(TypedDict):
+    """Largest sensitivity asked for, and the bound that is proved for every process of the intervals."""
+
+    limit: float
+    proved_upper: float | None
+
+
+class ProcessStructure(TypedDict):
+    """A structure of a process, its share of the evidence, and its parameters: gain, dead time, time constants, s."""
+
+    family: Literal["first-order", "second-order", "equal-lags", "second-order-zero", "integrator", "integrator-lag"]
+    weight: float
+    parameters: dict[str, Interval]
+
+
+class Ultimate(TypedDict):
+    """Ultimate gain and frequency, over every process of the intervals."""
+
+    gain: Estimate
+    omega_rad_s: Estimate
+
+
+class ProcessGains(TypedDict):
+    """Gains in parallel form: command units per output unit, per s and times s, and the derivative's filter, s."""
+
+    form: Literal["parallel"]
+    proportional: float
+    integral: float
+    derivative: float
+    filter_s: float
+
+
+class RuleOfThumb(TypedDict):
+    """Gains of a classic rule, with the largest sensitivity of the likeliest process; ``None`` where the loop is not stable."""
+
+    name: str
+    proportional: float
+    integral: float
+    derivative: float
+    sensitivity: float | None
+
+
+class LoopCurves(TypedDict):
+    """Curves of the loop with proved gains: open loop ``[real, imaginary]`` and answer to a load of one command unit.
+
+    ``open_loop`` and ``load_step`` are those of the likeliest process; ``open_loops`` and ``load_step_range`` of the corners of all intervals.
+    """
+
+    omega_rad_s: list[float]
+    open_loop: list[Range]
+    open_loops: list[list[Range]]
+    time_s: list[float]
+    load_step: list[float]
+    load_step_range: list[Range]
+
+
+class ProcessRecord(TypedDict):
+    """The record behind gains: samples used, changes of the command, standard deviation of the residuals, output units."""
+
+    name: str
+    columns: list[str]
+    samples: int
+    changes: int
+    residual: float
+    interval_s: float
+
+
 class UnderForce(TypedDict):
     """The step under the constant force, and the command that takes that force up."""
 

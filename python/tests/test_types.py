@@ -8,7 +8,7 @@ import sys
 import typing
 
 import pytest
-from conftest import CORPUS, YAW
+from conftest import CORPUS, ROOT, YAW
 from typeguard import CollectionCheckStrategy, ForwardRefPolicy, TypeCheckError, check_type
 
 import selfosc
@@ -39,6 +39,11 @@ found.reported["alpa"]  # wrong
 found.reported["alpha"]["median"]  # wrong
 found.reportd  # wrong
 found.estimates[0]["alpha"]["low"] + 1.0  # wrong
+
+gains = selfosc.autotune("heater.csv", ms=1.6).gains
+assert gains is not None
+assert_type(gains["proportional"], float)
+selfosc.autotune("heater.csv", form="arduino")  # wrong
 
 tuned = selfosc.tune(found, bandwidth=0.5)
 assert_type(tuned.gains["proportional"], float)
@@ -121,7 +126,9 @@ def checked(result):
 
 
 RECORD = {"alpha": 1.0, "beta": 0.5, "relay": 1.0, "half_width": 0.3, "cycles": 4, "hold": True, "quantum": 0.02}
+HEATER = ROOT / "fixtures" / "heater.csv"
 RESULTS = {
+    "autotune": lambda record: selfosc.autotune(HEATER),
     "identify": lambda record: selfosc.identify(record),
     "with a delay": lambda record: selfosc.identify(record, delay=0.2, method="fit", drag="quadratic"),
     "several": lambda record: selfosc.identify([record, record], method="fit"),

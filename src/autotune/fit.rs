@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::response::Command;
-use super::{Family, ProcessError, ProcessModel, ProcessRecord, Ranged};
+use super::{Contradiction, Family, LEAST_EXPLAINED, ProcessError, ProcessModel, ProcessRecord, Ranged};
 use crate::experiment::Record;
 
 /// Starts: so many time constants, and so many dead times, on grids.
@@ -13,12 +13,17 @@ const DEAD_TIMES: u32 = 12;
 const FOLLOWED: usize = 3;
 /// Rounds of the search from one start.
 const ROUNDS: u32 = 120;
-/// A step of the search this small, relative to the time scale, ends it.
+/// The search ends where a step changes twice the log likelihood by less: a thirtieth of a standard deviation.
+const SETTLED: f64 = 1e-3;
+/// A record without errors has no such end: then a step this small, relative to the time scale, ends the search.
 const FINEST: f64 = 1e-6;
 /// Order of the autoregression of what is left: a load that wanders passes the process's lag and is smooth.
 const ORDER: usize = 2;
-/// Share of the output's variance that a structure must explain.
-const LEAST_EXPLAINED: f64 = 0.5;
+/// Least eigenvalue of an information matrix of unit columns: below it stands rounding, and the readings tell nothing there.
+const UNTOLD: f64 = 1e-12;
+/// Readings of a run at an extreme, and the correlation of neighbouring residuals, from which on a sensor is at the end of its range.
+const LEAST_RUN: usize = 3;
+const HANGS_TOGETHER: f64 = 0.5;
 /// Two-sided 95 % point of the normal distribution.
 const NORMAL_95: f64 = 1.96;
 
@@ -139,75 +144,139 @@ impl Problem {
     }
 }
 
-/// The best point of a structure: a grid, then a pattern search from its best places, which steps over the kinks where a delayed
-/// switching meets a reading.
-fn search(problem: &Problem, family: Family, scale_s: f64, longest_s: f64) -> Option<SearchPoint> {
-    let interval_s = scale_s / 400.0;
+/// Times within which a structure is searched.
+#[derive(Clone, Copy)]
+struct SearchScales {
+    /// Time scale of the record: twice the mean time between changes.
+    scale_s: f64,
+    /// Longest dead time.
+    longest_s: f64,
+    /// The readings' rounding, output units.
+    quantum: f64,
+}
+
+/// The best of these points.
+fn few(problem: &Problem, family: Family, points: impl IntoIterator<Item = SearchPoint>) -> Vec<SearchPoint> {
+    let mut few: Vec<(f64, SearchPoint)> =
+        points.into_iter().map(|point| (problem.square(family, &point), point)).collect();
+    few.sort_by(|a, b| a.0.total_cmp(&b.0));
+    few.truncate(FOLLOWED);
+    few.into_iter().map(|(_, point)| point).collect()
+}
+
+/// Points on a grid of dead times and, where the structure has one time constant, of that.
+fn grid(family: Family, scales: SearchScales) -> Vec<SearchPoint> {
     let lags: Vec<f64> = (0..TIME_CONSTANTS)
-        .map(|k| 0.02 * scale_s * (500.0_f64).powf(f64::from(k) / f64::from(TIME_CONSTANTS - 1)))
+        .map(|k| 0.02 * scales.scale_s * (500.0_f64).powf(f64::from(k) / f64::from(TIME_CONSTANTS - 1)))
         .collect();
-    let delays = (0..DEAD_TIMES).map(|k| longest_s * (f64::from(k) / f64::from(DEAD_TIMES - 1)).powi(2));
-    let mut starts: Vec<(f64, SearchPoint)> = Vec::new();
-    for delay in delays {
-        for lag in &lags {
-            let points: Vec<SearchPoint> = match family {
-                Family::Integrator if *lag == lags[0] => vec![vec![delay]],
-                Family::Integrator => vec![],
-                Family::SecondOrder | Family::SecondOrderZero => {
-                    [0.05, 0.2, 0.6].iter().map(|share| vec![delay, *lag, share * lag]).collect()
+    let delays = (0..DEAD_TIMES).map(|k| scales.longest_s * (f64::from(k) / f64::from(DEAD_TIMES - 1)).powi(2));
+    delays
+        .flat_map(|delay| match family {
+            Family::Integrator => vec![vec![delay]],
+            _ => lags.iter().map(|lag| vec![delay, *lag]).collect(),
+        })
+        .collect()
+}
+
+/// Points with a second time constant about a point without it; the second lag stands for part of the dead time, or not.
+fn with_second(point: &[f64]) -> impl Iterator<Item = SearchPoint> {
+    let (delay, lag) = (point[0], point[1]);
+    [0.05, 0.2, 0.6].into_iter().flat_map(move |share| {
+        let less = (delay - share * lag).max(0.0);
+        [vec![delay, lag, share * lag], vec![less, lag, share * lag], vec![delay, lag / share, lag]]
+    })
+}
+
+/// A pattern search from one start, which steps over the kinks where a delayed switching meets a reading.
+fn descent(problem: &Problem, family: Family, start: SearchPoint, scales: SearchScales) -> (f64, SearchPoint) {
+    let interval_s = scales.scale_s / 400.0;
+    let count = (problem.output.len() - problem.first) as f64;
+    let (mut square, mut point) = (problem.square(family, &start), start);
+    // Steps of the dead time in s, of the time constants relative.
+    let mut step: Vec<f64> = (0..point.len()).map(|k| if k == 0 { scales.longest_s / 10.0 } else { 0.5 }).collect();
+    let finest = |k: usize| FINEST * if k == 0 { interval_s } else { 1.0 };
+    for _ in 0..ROUNDS {
+        let mut settled = true;
+        for k in 0..point.len() {
+            let moved = |sign: f64| {
+                let mut other = point.clone();
+                if k == 0 {
+                    other[0] = (other[0] + sign * step[0]).max(0.0)
+                } else {
+                    other[k] *= (sign * step[k]).exp()
                 }
-                _ => vec![vec![delay, *lag]],
-            };
-            starts.extend(points.into_iter().map(|point| (problem.square(family, &point), point)));
-        }
-    }
-    starts.sort_by(|a, b| a.0.total_cmp(&b.0));
-    starts.truncate(FOLLOWED);
-    let mut best: Option<(f64, SearchPoint)> = None;
-    for (mut square, mut point) in starts {
-        // Steps of the dead time in s, of the time constants relative.
-        let mut step: Vec<f64> = (0..point.len()).map(|k| if k == 0 { longest_s / 10.0 } else { 0.5 }).collect();
-        let mut rounds = 0;
-        while rounds < ROUNDS
-            && step.iter().enumerate().any(|(k, step)| *step > FINEST * if k == 0 { interval_s } else { 1.0 })
-        {
-            rounds += 1;
-            for k in 0..point.len() {
-                let moved = |sign: f64| {
-                    let mut other = point.clone();
-                    if k == 0 {
-                        other[0] = (other[0] + sign * step[0]).max(0.0)
-                    } else {
-                        other[k] *= (sign * step[k]).exp()
-                    }
-                    // Dead time and time constants stand for each other: what one gains the other loses.
+                // Dead time and time constants stand for each other: what one gains the other loses.
+                let turned = (k > 0).then(|| {
                     let mut turned = other.clone();
-                    if k > 0 {
-                        turned[0] = (turned[0] - (other[k] - point[k])).max(0.0);
-                    }
-                    [other, turned]
-                };
-                let better = [1.0, -1.0]
-                    .into_iter()
-                    .flat_map(moved)
-                    .map(|other| (problem.square(family, &other), other))
-                    .filter(|(other, _)| *other < square)
-                    .min_by(|a, b| a.0.total_cmp(&b.0));
-                match better {
-                    Some(found) => {
-                        (square, point) = found;
-                        step[k] *= 1.5;
-                    }
-                    None => step[k] *= 0.4,
+                    turned[0] = (turned[0] - (other[k] - point[k])).max(0.0);
+                    turned
+                });
+                core::iter::once(other).chain(turned)
+            };
+            let around: Vec<(f64, SearchPoint)> =
+                [1.0, -1.0].into_iter().flat_map(moved).map(|other| (problem.square(family, &other), other)).collect();
+            let worst = around.iter().map(|(other, _)| *other).fold(square, f64::max);
+            let better = around.into_iter().filter(|(other, _)| *other < square).min_by(|a, b| a.0.total_cmp(&b.0));
+            // Twice the log likelihood falls by (square - least)/variance; rounding bounds the variance from below.
+            let variance = (square / count).max(scales.quantum * scales.quantum / 12.0);
+            match better {
+                Some(found) => {
+                    // A narrow valley is followed in many small gains.
+                    settled = false;
+                    (square, point) = found;
+                    step[k] *= 1.5;
+                }
+                None => {
+                    settled &= worst - square < SETTLED * variance || step[k] <= finest(k);
+                    step[k] *= 0.4;
                 }
             }
         }
-        if best.as_ref().is_none_or(|(least, _)| square < *least) {
-            best = Some((square, point));
+        if settled {
+            break;
         }
     }
-    best.map(|(_, point)| point)
+    (square, point)
 }
+
+/// Ends of the searches, structure by structure, the best first.
+#[derive(Default)]
+struct Searches(Vec<(Family, Vec<SearchPoint>)>);
+
+impl Searches {
+    fn ends(&self, family: Family) -> impl Iterator<Item = &SearchPoint> {
+        self.0.iter().filter(move |found| found.0 == family).flat_map(|found| &found.1)
+    }
+
+    /// The searches of these structures on this problem, from a grid and from the ends of the pass before.
+    fn pass(&self, problem: &Problem, families: &[Family], scales: SearchScales) -> Self {
+        let mut found = Self::default();
+        for &family in families {
+            let before = self.ends(family).cloned();
+            // Structures nest: those with two different time constants begin about the ends of those with one.
+            let starts = if matches!(family, Family::SecondOrder | Family::SecondOrderZero) {
+                let one = [Family::FirstOrder, Family::EqualLags].into_iter().flat_map(|one| found.ends(one));
+                few(problem, family, one.flat_map(|end| with_second(end)).chain(before))
+            } else {
+                few(problem, family, grid(family, scales).into_iter().chain(before))
+            };
+            let mut ends: Vec<(f64, SearchPoint)> =
+                starts.into_iter().map(|start| descent(problem, family, start, scales)).collect();
+            ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+            found.0.push((family, ends.into_iter().map(|(_, point)| point).collect()));
+        }
+        found
+    }
+
+    /// Each structure with its best point.
+    fn best(&self) -> impl Iterator<Item = (Family, &SearchPoint)> {
+        self.0.iter().filter_map(|(family, ends)| Some((*family, ends.first()?)))
+    }
+}
+
+/// Structures with one time constant at most, and then those that begin at their ends.
+const ONE: [Family; 4] = [Family::FirstOrder, Family::EqualLags, Family::Integrator, Family::IntegratorLag];
+const TWO: [Family; 2] = [Family::SecondOrder, Family::SecondOrderZero];
 
 /// Gain, dead time and time constants of a structure, and the coefficients of its equation of motion.
 fn meaning(family: Family, point: &[f64], linear: &[f64]) -> (Vec<f64>, [f64; 5]) {
@@ -236,10 +305,12 @@ fn meaning(family: Family, point: &[f64], linear: &[f64]) -> (Vec<f64>, [f64; 5]
     }
 }
 
-/// What a record says of one structure: square, model without weight, and what is left.
+/// What a record says of one structure: model without weight, and what is left.
 struct StructureFit {
     family: Family,
     criterion: f64,
+    /// Minus twice the largest log likelihood, up to a constant of the record.
+    misfit: f64,
     model: ProcessModel,
     plain: DVector<f64>,
 }
@@ -249,7 +320,9 @@ fn fitted(problem: &Problem, family: Family, point: &[f64], interval_s: f64, qua
     let (count, searched) = (found.residual.len() as f64, point.len());
     let free = searched + found.linear.len();
     // Rounding leaves an error even where the residual shows none.
-    let variance = (found.square / (count - free as f64).max(1.0)).max(quantum * quantum / 12.0);
+    let least = quantum * quantum / 12.0;
+    let variance = (found.square / (count - free as f64).max(1.0)).max(least);
+    let misfit = count * (found.square / count).max(least).max(f64::MIN_POSITIVE).ln();
     let criterion = count * (variance).ln() + free as f64 * count.ln();
     // Sensitivities of the readings to all parameters: differences over half an interval bridge the kinks.
     let columns = problem.columns(family, point);
@@ -280,7 +353,10 @@ fn fitted(problem: &Problem, family: Family, point: &[f64], interval_s: f64, qua
     let sizes: Vec<f64> = design.column_iter().map(|column| column.norm().max(f64::MIN_POSITIVE)).collect();
     let scaled = DMatrix::from_fn(design.nrows(), design.ncols(), |i, j| design[(i, j)] / sizes[j]);
     let information = scaled.transpose() * &scaled;
-    let inverse = information.pseudo_inverse(1e-12).ok()?;
+    // A direction that the readings do not tell has a wide error, as no pseudo-inverse gives it.
+    let eigen = information.symmetric_eigen();
+    let inverse = DMatrix::from_diagonal(&eigen.eigenvalues.map(|value| value.max(UNTOLD).recip()));
+    let inverse = &eigen.eigenvectors * inverse * eigen.eigenvectors.transpose();
     let covariance = DMatrix::from_fn(free, free, |i, j| variance * inverse[(i, j)] / (sizes[i] * sizes[j]));
     // Both meanings are functions of all parameters: errors by their derivatives.
     let all: Vec<f64> = point.iter().chain(&linear).copied().collect();
@@ -310,8 +386,18 @@ fn fitted(problem: &Problem, family: Family, point: &[f64], interval_s: f64, qua
         parameters: (0..named).map(ranged).collect(),
         coefficients: core::array::from_fn(|k| ranged(named + k)),
     };
-    let finite = values.iter().all(|value| value.is_finite());
-    finite.then_some(StructureFit { family, criterion, model, plain: found.plain })
+    let finite = values.iter().chain(spread.iter()).all(|value| value.is_finite());
+    finite.then_some(StructureFit { family, criterion, misfit, model, plain: found.plain })
+}
+
+/// Without structures that fit no better than a limit of theirs: their lag is at its bound, and they are that limit.
+fn distinct(mut fits: Vec<StructureFit>) -> Vec<StructureFit> {
+    let misfits: Vec<(Family, f64)> = fits.iter().map(|fit| (fit.family, fit.misfit)).collect();
+    fits.retain(|fit| {
+        let limits = misfits.iter().filter(|(family, _)| fit.family.limits().contains(family));
+        limits.fold(f64::INFINITY, |least, limit| least.min(limit.1)) - fit.misfit > SETTLED
+    });
+    fits
 }
 
 /// Coefficients of an autoregression by least squares (the covariance method); none where the errors are as good as white.
@@ -332,6 +418,36 @@ fn autoregression(errors: &DVector<f64>) -> Vec<f64> {
     }
 }
 
+/// Whether the output moves before the changes of the command as it does for a process of the other sign. Under a relay the command rises
+/// while the output of a process of positive gain falls; a dead time that is longer by half a period looks like the other sign.
+fn against_relay(record: &Record, reverse: bool, residual: f64, half_s: f64) -> bool {
+    // Over an eighth of the time between changes.
+    let before = ((half_s / 8.0 / record.interval_s()).round() as usize).max(1);
+    let (output, input) = (record.output(), record.input());
+    let moves = (before..output.len())
+        .filter(|&k| input[k] != input[k - 1])
+        .map(|k| (input[k] - input[k - 1]).signum() * (output[k] - output[k - before]));
+    let (sum, count) = moves.fold((0.0, 0.0), |(sum, count), moved| (sum + moved, count + 1.0_f64));
+    let falling = if reverse { -sum } else { sum };
+    // Two errors in each difference.
+    falling > NORMAL_95 * residual * (2.0 * count).sqrt()
+}
+
+/// Whether the output stands at an extreme, in two runs of readings or more, for longer than twice the time that a sinusoid read in steps of
+/// `quantum` does, while residuals hang together. A sinusoid of swing `A` is within a step `q` of its end for `acos(1 - 2 q/A)/pi` of
+/// the time; an output that settles there has a model, and residuals that do not hang together.
+fn saturated(output: &[f64], quantum: f64, correlation: f64) -> bool {
+    let ends = output.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(*y), high.max(*y)]);
+    let expected = (1.0 - 2.0 * quantum / (ends[1] - ends[0])).clamp(-1.0, 1.0).acos() / core::f64::consts::PI;
+    let stands = |end: f64| {
+        let runs = output.chunk_by(|a, b| (*a == end) == (*b == end));
+        let runs = runs.filter(|run| run[0] == end && run.len() >= LEAST_RUN).map(<[f64]>::len);
+        let (count, length) = runs.fold((0, 0), |(count, length), run| (count + 1, length + run));
+        count >= 2 && length as f64 > 2.0 * expected * output.len() as f64
+    };
+    correlation > HANGS_TOGETHER && ends.into_iter().any(stands)
+}
+
 pub(super) fn fit(record: &Record) -> Result<ProcessRecord, ProcessError> {
     let command = Command::of(record);
     let samples = record.samples();
@@ -349,34 +465,40 @@ pub(super) fn fit(record: &Record) -> Result<ProcessRecord, ProcessError> {
     let scale_s = 2.0 * half_s;
     let mut problem = Problem { command, output: record.output().to_vec(), first: ORDER, autoregression: vec![] };
     let longest_s = half_s.min(duration_s / 3.0);
-    // What the command was before the record acts up to the dead time: those readings do not count.
-    let rough = Family::ALL.iter().filter_map(|family| {
-        let point = search(&problem, *family, scale_s, longest_s)?;
-        Some((problem.square(*family, &point), point[0]))
-    });
-    let dead_s = rough.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, dead_s)| dead_s);
-    let skip_s = (1.2 * dead_s + interval_s).min(duration_s / 3.0);
-    problem.first = problem.command.time_s().iter().position(|time| *time > skip_s).unwrap_or(0).max(ORDER);
-    let fits = |problem: &Problem| {
-        let mut fits: Vec<StructureFit> = Family::ALL
-            .iter()
-            .filter_map(|family| {
-                let point = search(problem, *family, scale_s, longest_s)?;
-                fitted(problem, *family, &point, interval_s, quantum)
-            })
-            .collect();
+    // The command before the record acts up to the dead time, of whichever structure: readings so early do not count. Those that
+    // do count may show a longer dead time.
+    let scales = SearchScales { scale_s, longest_s, quantum };
+    let mut searches = Searches::default();
+    loop {
+        searches = searches.pass(&problem, &ONE, scales);
+        let dead_s = searches.best().map(|(_, point)| point[0]).fold(0.0, f64::max);
+        let skip_s = (1.2 * dead_s + interval_s).min(duration_s / 3.0);
+        let first = problem.command.time_s().iter().position(|time| *time > skip_s).unwrap_or(0);
+        if first <= problem.first {
+            break;
+        }
+        problem.first = first;
+    }
+    let mut fits = |problem: &Problem| {
+        searches = searches.pass(problem, &[ONE.as_slice(), &TWO].concat(), scales);
+        let mut fits: Vec<StructureFit> =
+            searches.best().filter_map(|(family, point)| fitted(problem, family, point, interval_s, quantum)).collect();
         fits.sort_by(|a, b| a.criterion.total_cmp(&b.criterion));
-        fits
+        distinct(fits)
     };
     let mut found = fits(&problem);
     let mean = problem.output[problem.first..].iter().sum::<f64>() / (samples - problem.first) as f64;
     let variation: f64 = problem.output[problem.first..].iter().map(|y| (y - mean).powi(2)).sum();
     let no_answer = |left: f64| ProcessError::NoAnswer { left: left.min(1.0) };
+    // Errors that are correlated leave slow parts free: also then the output itself is explained.
+    let explaining = |mut found: Vec<StructureFit>| {
+        let left = |fit: &StructureFit| fit.plain.norm_squared() / variation.max(f64::MIN_POSITIVE);
+        let least = found.iter().map(left).fold(f64::INFINITY, f64::min);
+        found.retain(|fit| left(fit) < 1.0 - LEAST_EXPLAINED);
+        if found.is_empty() { Err(no_answer(least)) } else { Ok(found) }
+    };
+    found = explaining(found)?;
     let best = found.first().ok_or(no_answer(1.0))?;
-    let left = best.plain.norm_squared() / variation.max(f64::MIN_POSITIVE);
-    if !(left < 1.0 - LEAST_EXPLAINED) {
-        return Err(no_answer(left));
-    }
     let neighbours = |errors: &DVector<f64>| {
         let products: f64 = (1..errors.len()).map(|k| errors[k] * errors[k - 1]).sum();
         products / errors.norm_squared().max(f64::MIN_POSITIVE)
@@ -384,9 +506,10 @@ pub(super) fn fit(record: &Record) -> Result<ProcessRecord, ProcessError> {
     let correlation = neighbours(&best.plain);
     problem.autoregression = autoregression(&best.plain);
     if !problem.autoregression.is_empty() {
-        found = fits(&problem);
+        found = explaining(fits(&problem))?;
     }
-    let residual = found.first().map_or(0.0, |best| (best.plain.norm_squared() / best.plain.len() as f64).sqrt());
+    let residuals: Vec<f64> = found.first().map_or_else(Vec::new, |best| best.plain.iter().copied().collect());
+    let residual = (residuals.iter().map(|part| part * part).sum::<f64>() / residuals.len().max(1) as f64).sqrt();
     let least = found.first().map_or(0.0, |best| best.criterion);
     let total: f64 = found.iter().map(|fit| (-0.5 * (fit.criterion - least)).exp()).sum();
     let reverse = found.first().is_some_and(|best| best.model.parameters[0].value < 0.0);
@@ -400,5 +523,19 @@ pub(super) fn fit(record: &Record) -> Result<ProcessRecord, ProcessError> {
         .filter(|model| model.weight >= ProcessRecord::LEAST_WEIGHT && (model.parameters[0].value < 0.0) == reverse)
         .collect();
     let changes = changes.len();
-    Ok(ProcessRecord { models, reverse, residual, correlation, samples: samples - problem.first, changes })
+    let contradiction = if against_relay(record, reverse, residual, half_s) {
+        Some(Contradiction::AgainstRelay)
+    } else {
+        saturated(record.output(), quantum, correlation).then_some(Contradiction::Saturated)
+    };
+    Ok(ProcessRecord {
+        models,
+        reverse,
+        contradiction,
+        residual,
+        residuals,
+        correlation,
+        samples: samples - problem.first,
+        changes,
+    })
 }

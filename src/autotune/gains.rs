@@ -47,6 +47,8 @@ pub struct ProvedGains {
 const REACH: f64 = 2.58;
 /// A derivative has to take off so much of the integral of the absolute error.
 const WORTH: f64 = 0.9;
+/// The search aims so far below the limit: a proof at the limit itself has no room, and splits boxes without end.
+const ROOM: f64 = 0.01;
 /// Steps back from the largest gain until the limit is proved, each so much.
 const STEPS_BACK: u32 = 15;
 const BACK: f64 = 0.97;
@@ -135,13 +137,21 @@ fn ideal([gain, integral_s, derivative_s]: [f64; 3], filter: f64) -> Option<Gain
     Gains::new(Structure::Pid, gain, gain / integral_s, gain * derivative_s, derivative_s / filter).ok()
 }
 
-/// The integral of the absolute error after a unit step of the load, times the ultimate gain: semi-implicit Euler steps.
-fn absolute_error(process: &LinearProcess<f64>, gains: &Gains<f64>, period_s: f64) -> f64 {
-    const STEPS: usize = 4000;
-    let step_s = period_s / 200.0;
+/// Steps of an answer to a load, and how many an ultimate period has.
+pub(super) const STEPS: usize = 4000;
+pub(super) const STEPS_PER_PERIOD: f64 = 200.0;
+
+/// The output after a unit step of the load, in semi-implicit Euler steps; `each` takes the time and the output until it returns false.
+pub(super) fn load_step(
+    process: &LinearProcess<f64>,
+    gains: &Gains<f64>,
+    period_s: f64,
+    mut each: impl FnMut(f64, f64) -> bool,
+) {
+    let step_s = period_s / STEPS_PER_PERIOD;
     let late = (process.delay_s / step_s).round().min(1e5) as usize;
     let mut under_way = vec![0.0; late + 1];
-    let (mut x, mut v, mut filtered, mut integral, mut sum) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0, 0.0);
+    let (mut x, mut v, mut filtered, mut integral) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0);
     for k in 0..STEPS {
         let y = x + process.zero_s * v;
         let rate = if gains.filter_s() > 0.0 { (y - filtered) / gains.filter_s().max(step_s) } else { 0.0 };
@@ -157,68 +167,121 @@ fn absolute_error(process: &LinearProcess<f64>, gains: &Gains<f64>, period_s: f6
             v = (acts - process.stiffness * x) / process.drag;
         }
         x += step_s * v;
-        sum += step_s * y.abs();
-        if !sum.is_finite() {
-            return f64::INFINITY;
+        if !each(k as f64 * step_s, y) {
+            return;
         }
     }
-    sum
 }
 
-/// The largest gain at these times with which every process of the sets meets the limit, up to rounding.
-fn largest_gain(sets: &[ProcessIntervals], ku: f64, times: [f64; 2], wanted: &GainsWanted) -> Option<f64> {
-    let meets = |gain: f64| {
-        ideal([gain, times[0], times[1]], wanted.derivative_filter).is_some_and(|gains| {
-            sets.iter().all(|set| set.meets(&gains, RobustCriterion::Sensitivity(wanted.sensitivity)))
+/// The integral of the absolute error after a unit step of the load.
+fn absolute_error(process: &LinearProcess<f64>, gains: &Gains<f64>, period_s: f64) -> f64 {
+    let mut sum = 0.0_f64;
+    load_step(process, gains, period_s, |_, y| {
+        sum += period_s / STEPS_PER_PERIOD * y.abs();
+        sum.is_finite()
+    });
+    if !sum.is_finite() {
+        return f64::INFINITY;
+    }
+    // A slow tail goes on beyond the steps: the integral of the error itself is 1/Ki, since integral action ends at the load.
+    sum.max(gains.integral().recip())
+}
+
+/// Gain, integral time, derivative time, with the integral of the absolute error that they leave on the likeliest process.
+type Judged = ([f64; 3], f64);
+
+/// A search of gains for all processes at once, by exchange (Hettich and Kortanek, SIAM Review 35, 1993): the largest gain is found
+/// for few processes; where another process exceeds the limit, that process joins them.
+struct GainExchange<'a> {
+    nominal: LinearProcess<f64>,
+    /// Ultimate gain and period of the likeliest process.
+    ultimate: f64,
+    period_s: f64,
+    /// Middle and corners of every set.
+    all: Vec<ProcessIntervals>,
+    /// Those that have bound a gain, the latest first.
+    active: Vec<ProcessIntervals>,
+    wanted: &'a GainsWanted,
+}
+
+impl<'a> GainExchange<'a> {
+    fn new(nominal: LinearProcess<f64>, sets: &[ProcessIntervals], wanted: &'a GainsWanted) -> Option<Self> {
+        let [ultimate, omega] = ultimate(&nominal)?;
+        let point = |process: &LinearProcess<f64>| {
+            ProcessIntervals::new(LinearProcess::from_parts(process.parts().map(Interval::point))).ok()
+        };
+        let points = sets.iter().flat_map(|set| core::iter::once(set.process().middle()).chain(set.corners()));
+        let all = points.map(|process| point(&process)).collect::<Option<Vec<_>>>()?;
+        let active = vec![point(&nominal)?];
+        Some(Self { nominal, ultimate, period_s: core::f64::consts::TAU / omega, all, active, wanted })
+    }
+
+    fn meets(&self, process: &ProcessIntervals, [gain, integral_s, derivative_s]: [f64; 3]) -> bool {
+        ideal([gain, integral_s, derivative_s], self.wanted.derivative_filter).is_some_and(|gains| {
+            process.meets(&gains, RobustCriterion::Sensitivity((1.0 - ROOM) * self.wanted.sensitivity))
         })
-    };
-    let grid = |k: u32| ku * 0.8_f64.powi(k as i32);
-    let first = (1..24).find(|k| meets(grid(*k)))?;
-    let (mut low, mut high) = (grid(first), grid(first - 1));
-    for _ in 0..6 {
-        let middle = 0.5 * (low + high);
-        if meets(middle) { low = middle } else { high = middle }
     }
-    Some(low)
-}
 
-/// The best gains with or without derivative, and their integral of the absolute error.
-fn best(
-    nominal: &LinearProcess<f64>,
-    sets: &[ProcessIntervals],
-    derivative: bool,
-    wanted: &GainsWanted,
-) -> Option<([f64; 3], f64)> {
-    let [ku, omega] = ultimate(nominal)?;
-    let period_s = core::f64::consts::TAU / omega;
-    let point = ProcessIntervals::new(LinearProcess::from_parts(nominal.parts().map(Interval::point))).ok()?;
-    let judged = |sets: &[ProcessIntervals], times: [f64; 2]| {
-        let gain = largest_gain(sets, ku, times, wanted)?;
-        let gains = ideal([gain, times[0], times[1]], wanted.derivative_filter)?;
-        let error = absolute_error(nominal, &gains, period_s);
-        error.is_finite().then_some(([gain, times[0], times[1]], error))
-    };
-    let lesser = |a: &([f64; 3], f64), b: &([f64; 3], f64)| a.1.total_cmp(&b.1);
-    let derivatives: &[f64] = if derivative { &DERIVATIVE } else { &[0.0] };
-    let grid = INTEGRAL.iter().flat_map(|i| derivatives.iter().map(move |d| [i * period_s, d * period_s]));
-    let one = [point];
-    let coarse = grid.filter_map(|times| judged(&one, times)).min_by(lesser)?;
-    // From there a pattern search over the times, every process counting.
-    let mut found = judged(sets, [coarse.0[1], coarse.0[2]]);
-    let mut factor = 1.35_f64;
-    while factor > 1.05 {
-        let times = found.map_or([coarse.0[1], coarse.0[2]], |(gains, _)| [gains[1], gains[2]]);
-        let mut around = vec![[times[0] * factor, times[1]], [times[0] / factor, times[1]]];
-        if derivative {
-            around.extend([[times[0], times[1] * factor], [times[0], times[1] / factor]]);
+    /// The largest gain above `least` at these times with which the active processes meet the limit, up to rounding.
+    fn largest_gain(&self, times: [f64; 2], least: f64) -> Option<f64> {
+        let meets = |gain: f64| self.active.iter().all(|process| self.meets(process, [gain, times[0], times[1]]));
+        let grid = |k: u32| self.ultimate * 0.8_f64.powi(k as i32);
+        let first = (1..24).take_while(|k| grid(*k - 1) > least).find(|k| meets(grid(*k)))?;
+        let (mut low, mut high) = (grid(first), grid(first - 1));
+        for _ in 0..6 {
+            let middle = 0.5 * (low + high);
+            if meets(middle) { low = middle } else { high = middle }
         }
-        let better = around.into_iter().filter_map(|times| judged(sets, times)).min_by(lesser);
-        match better {
-            Some(better) if found.is_none_or(|found| better.1 < found.1) => found = Some(better),
-            _ => factor = factor.sqrt(),
+        Some(low)
+    }
+
+    /// The gains at these times, where they leave less than `best`. The integral of the absolute error is at least
+    /// `|int e dt| = Ti/K`: a gain below `Ti/best` cannot.
+    fn better(&mut self, times: [f64; 2], best: f64) -> Option<Judged> {
+        loop {
+            let gain = self.largest_gain(times, times[0] / best)?;
+            let found = [gain, times[0], times[1]];
+            let gains = ideal(found, self.wanted.derivative_filter)?;
+            let error = absolute_error(&self.nominal, &gains, self.period_s);
+            if !(error < best) {
+                return None;
+            }
+            match self.all.iter().find(|process| !self.meets(process, found)) {
+                Some(process) => self.active.insert(0, *process),
+                None => return Some((found, error)),
+            }
         }
     }
-    found
+
+    /// The best gains that leave less than `best`, with or without derivative: a grid of times, then a pattern search.
+    fn best(&mut self, derivative: bool, best: f64) -> Option<Judged> {
+        let derivatives: &[f64] = if derivative { &DERIVATIVE } else { &[0.0] };
+        let mut found: Option<Judged> = None;
+        let period_s = self.period_s;
+        let mut try_all = |found: &mut Option<Judged>, around: &[[f64; 2]]| {
+            let before = *found;
+            for times in around {
+                *found = self.better(*times, found.map_or(best, |found| found.1)).or(*found);
+            }
+            *found != before
+        };
+        for integral in INTEGRAL {
+            let times = derivatives.iter().map(|derivative| [integral, *derivative].map(|time| time * period_s));
+            try_all(&mut found, &times.collect::<Vec<_>>());
+        }
+        let mut factor = 1.35_f64;
+        while factor > 1.05 {
+            let [_, integral_s, derivative_s] = found?.0;
+            let mut around = vec![[integral_s * factor, derivative_s], [integral_s / factor, derivative_s]];
+            if derivative {
+                around.extend([[integral_s, derivative_s * factor], [integral_s, derivative_s / factor]]);
+            }
+            if !try_all(&mut found, &around) {
+                factor = factor.sqrt();
+            }
+        }
+        found
+    }
 }
 
 impl ProcessRecord {
@@ -233,14 +296,15 @@ impl ProcessRecord {
     pub fn gains(&self, interval_s: f64, wanted: &GainsWanted) -> Option<ProvedGains> {
         let sets = self.sets(interval_s)?;
         let nominal = self.models.first()?.processes(interval_s)?.process().middle();
-        let choice = |derivative| best(&nominal, &sets, derivative, wanted);
+        let mut search = GainExchange::new(nominal, &sets, wanted)?;
+        let any = f64::INFINITY;
         let chosen = match wanted.actions {
-            Actions::Pi => choice(false)?,
-            Actions::Pid => choice(true)?,
-            Actions::Best => match (choice(false), choice(true)) {
-                (Some(pi), Some(pid)) if pid.1 < WORTH * pi.1 => pid,
-                (pi, pid) => pi.or(pid)?,
-            },
+            Actions::Pi => search.best(false, any)?,
+            Actions::Pid => search.best(true, any)?,
+            Actions::Best => {
+                let pi = search.best(false, any);
+                search.best(true, pi.map_or(any, |pi| WORTH * pi.1)).or(pi)?
+            }
         };
         let ([gain, integral_s, derivative_s], _) = chosen;
         (0..STEPS_BACK).find_map(|back| {

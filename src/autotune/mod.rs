@@ -1,210 +1,44 @@
 //! Processes with dead time from a record: heaters, tanks, axes. Time constants and dead time are searched; gain, load and initial
 //! state are linear and projected out (variable projection: Golub and Pereyra, SIAM J. Numer. Anal. 10, 1973). Gains follow for all
 //! that the record leaves, with a limit of the sensitivity that is proved.
+//!
+//! | file | content |
+//! |---|---|
+//! | `process` | structures, parameters with intervals |
+//! | `response`, `fit` | answers to a logged command, and least squares over them |
+//! | `gains` | the fastest gains whose sensitivity is proved for every process of the intervals |
+//! | `curves` | open loop and answer to a load, over the set of processes |
+//! | `rules` | rules of thumb beside them |
+//! | `first_order`, `on_board` | on a controller: gains of bounded sensitivity, a first-order process from readings, without allocation |
+//! | `error` | why a record identifies no process |
 
+#[cfg(feature = "std")]
+mod curves;
+mod error;
+mod first_order;
+#[cfg(feature = "std")]
 mod fit;
+#[cfg(feature = "std")]
 mod gains;
+mod on_board;
+#[cfg(feature = "std")]
+mod process;
+#[cfg(feature = "std")]
 mod response;
+#[cfg(feature = "std")]
 mod rules;
 
+#[cfg(feature = "std")]
+pub use curves::LoopCurves;
+pub use error::ProcessError;
+pub use first_order::FirstOrderProcess;
+#[cfg(feature = "std")]
 pub use gains::{Actions, GainsWanted, ProvedGains, ultimate};
+pub use on_board::ProcessReadings;
+#[cfg(feature = "std")]
+pub use process::{Contradiction, Family, ProcessModel, ProcessRecord, Ranged};
+#[cfg(feature = "std")]
 pub use rules::{Ruled, rules};
 
-use crate::experiment::Record;
-use crate::numeric::domain::Plain;
-
-/// Structure of a process.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Family {
-    /// `K exp(-L s)/(T s + 1)`.
-    FirstOrder,
-    /// `K exp(-L s)/((T s + 1)(T_2 s + 1))`.
-    SecondOrder,
-    /// `K exp(-L s)/(T s + 1)^2`.
-    EqualLags,
-    /// `K (T_z s + 1) exp(-L s)/((T s + 1)(T_2 s + 1))`.
-    SecondOrderZero,
-    /// `K exp(-L s)/s`.
-    Integrator,
-    /// `K exp(-L s)/(s (T s + 1))`.
-    IntegratorLag,
-}
-
-impl Family {
-    /// Every structure.
-    pub const ALL: [Self; 6] = [
-        Self::FirstOrder,
-        Self::SecondOrder,
-        Self::EqualLags,
-        Self::SecondOrderZero,
-        Self::Integrator,
-        Self::IntegratorLag,
-    ];
-
-    /// Name in JSON and in text.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::FirstOrder => "first-order",
-            Self::SecondOrder => "second-order",
-            Self::EqualLags => "equal-lags",
-            Self::SecondOrderZero => "second-order-zero",
-            Self::Integrator => "integrator",
-            Self::IntegratorLag => "integrator-lag",
-        }
-    }
-
-    /// Whether a constant command moves the output for ever.
-    #[must_use]
-    pub fn integrates(self) -> bool {
-        matches!(self, Self::Integrator | Self::IntegratorLag)
-    }
-
-    /// Names of the parameters, in the order of [`ProcessModel::parameters`].
-    #[must_use]
-    pub fn parameters(self) -> &'static [&'static str] {
-        match self {
-            Self::FirstOrder | Self::EqualLags | Self::IntegratorLag => &["gain", "dead_time_s", "time_constant_s"],
-            Self::SecondOrder => &["gain", "dead_time_s", "time_constant_s", "second_time_constant_s"],
-            Self::SecondOrderZero => {
-                &["gain", "dead_time_s", "time_constant_s", "second_time_constant_s", "zero_time_constant_s"]
-            }
-            Self::Integrator => &["gain", "dead_time_s"],
-        }
-    }
-}
-
-/// A number with its standard deviation and its 95 % interval.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Ranged {
-    /// Best estimate.
-    pub value: f64,
-    /// Standard deviation.
-    pub std: f64,
-    /// Lower end.
-    pub low: f64,
-    /// Upper end.
-    pub high: f64,
-}
-
-/// What a record says of one structure.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ProcessModel {
-    /// The structure.
-    pub family: Family,
-    /// Its share of the evidence among all structures, by the Bayesian information criterion.
-    pub weight: f64,
-    /// Gain, dead time, time constants, as [`Family::parameters`] names them.
-    pub parameters: Vec<Ranged>,
-    /// `alpha, drag, stiffness, zero_s, delay_s` of `(zero_s s + 1) exp(-delay_s s)/(alpha s^2 + drag s + stiffness)` for a gain above
-    /// zero: these depend on each other far less than gain and time constants do.
-    pub coefficients: [Ranged; 5],
-}
-
-/// The structures that a record leaves, the likeliest first.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ProcessRecord {
-    /// With weights above [`LEAST_WEIGHT`](Self::LEAST_WEIGHT).
-    pub models: Vec<ProcessModel>,
-    /// Whether the output falls with the command.
-    pub reverse: bool,
-    /// Standard deviation of what is left of the readings, output units.
-    pub residual: f64,
-    /// Correlation of neighbouring residuals before it was taken into account.
-    pub correlation: f64,
-    /// Samples used.
-    pub samples: usize,
-    /// Changes of the command.
-    pub changes: usize,
-}
-
-impl ProcessRecord {
-    /// A structure with less weight is left out.
-    pub const LEAST_WEIGHT: f64 = 0.02;
-
-    /// Identifies a process from a record with at least [`ProcessError::LEAST_CHANGES`] changes of the command.
-    ///
-    /// ```
-    /// use selfosc::experiment::Record;
-    /// use selfosc::autotune::{Family, ProcessRecord};
-    /// // 2/(5 s + 1) after 1 s under a square wave of period 8 s, read at 10 Hz.
-    /// let (mut time, mut output, mut input, mut y) = (vec![], vec![], vec![], 0.0_f64);
-    /// let command = |t: f64| f64::from(u8::from(t.rem_euclid(8.0) < 4.0));
-    /// for k in 0..600 {
-    ///     let t = f64::from(k) * 0.1;
-    ///     time.push(t);
-    ///     output.push((y * 200.0).round() / 200.0);
-    ///     input.push(command(t));
-    ///     let u = 2.0 * command(t - 1.0 + 1e-9);
-    ///     y = u + (y - u) * (-0.1_f64 / 5.0).exp();
-    /// }
-    /// let found = ProcessRecord::of(&Record::new(time, output, input)?)?;
-    /// let best = &found.models[0];
-    /// assert_eq!(best.family, Family::FirstOrder);
-    /// assert!((best.parameters[0].value - 2.0).abs() < 0.05 && (best.parameters[1].value - 1.0).abs() < 0.05);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`ProcessError`].
-    pub fn of(record: &Record) -> Result<Self, ProcessError> {
-        fit::fit(record)
-    }
-}
-
-/// Why a record identifies no process.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ProcessError {
-    /// The command changes too seldom.
-    #[error(
-        "the command changes {changes} times, at least {} needed; record two periods of a relay or of a thermostat",
-        Self::LEAST_CHANGES
-    )]
-    FewChanges {
-        /// Changes found.
-        changes: usize,
-    },
-    /// Too few samples.
-    #[error("{samples} samples, at least {} needed; log faster or longer", Self::LEAST_SAMPLES)]
-    FewSamples {
-        /// Samples found.
-        samples: usize,
-    },
-    /// The output does not answer the command.
-    #[error(
-        "no structure explains the output by the command: {} of its variation is left; check the columns (--output, --input) \
-         and record a relay's oscillation", Percent(*.left)
-    )]
-    NoAnswer {
-        /// Share of the output's variance that no structure explains.
-        left: f64,
-    },
-}
-
-/// A share, printed in percent.
-struct Percent(f64);
-
-impl core::fmt::Display for Percent {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "{} %", Plain((100.0 * self.0).round()))
-    }
-}
-
-impl ProcessError {
-    /// Fewest changes of the command: less than that is a step, which tells gain from time constant only if it settles.
-    pub const LEAST_CHANGES: usize = 3;
-    /// Fewest samples.
-    pub const LEAST_SAMPLES: usize = 24;
-
-    /// Short name for scripts.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::FewChanges { .. } => "few-changes",
-            Self::FewSamples { .. } => "few-samples",
-            Self::NoAnswer { .. } => "no-answer",
-        }
-    }
-}
+/// Share of the output's variance that a structure must explain: below, a fifth is noise, or the record is not what its columns say.
+const LEAST_EXPLAINED: f64 = 0.8;

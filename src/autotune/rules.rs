@@ -1,5 +1,6 @@
 //! Rules of thumb on the same process, and the sensitivity that each would have.
 
+use super::FirstOrderProcess;
 use super::gains::ultimate;
 use crate::control::{Gains, LinearProcess, ProcessIntervals, RobustCriterion, Rule, Structure, UltimatePoint};
 use crate::numeric::Interval;
@@ -54,16 +55,8 @@ pub fn rules(process: &LinearProcess<f64>) -> Vec<Ruled> {
         // SIMC with the closed loop's time constant equal to the dead time; T/K is `drag` whether or not T is finite.
         let time_s = if stiffness > 0.0 { drag / stiffness } else { f64::INFINITY };
         add("SIMC PI", ideal(drag / (2.0 * late_s), time_s.min(8.0 * late_s), 0.0));
-        let amigo = if stiffness > 0.0 {
-            let gain = 1.0 / stiffness;
-            let k = (0.2 + 0.45 * time_s / late_s) / gain;
-            let ti = (0.4 * late_s + 0.8 * time_s) / (late_s + 0.1 * time_s) * late_s;
-            let td = 0.5 * late_s * time_s / (0.3 * late_s + time_s);
-            ideal(k, ti, td)
-        } else {
-            ideal(0.45 * drag / late_s, 8.0 * late_s, 0.5 * late_s)
-        };
-        add("AMIGO PID", amigo);
+        let first_order = FirstOrderProcess { drag, stiffness, dead_time_s: late_s, reverse: false };
+        add("AMIGO PID", first_order.gains(0.0).ok());
     }
     found
 }

@@ -9,11 +9,14 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 
-use super::number::{finite, number, positive};
+use super::error::Given;
+use super::number::{finite, number, positive, time_unit};
 use super::{CommandError, Outcome, files, refused, write_json};
-use crate::autotune::{Actions, GainsWanted, ProcessRecord, ProvedGains, Ruled, rules, ultimate};
+use crate::autotune::{
+    Actions, Contradiction, GainsWanted, LoopCurves, ProcessRecord, ProvedGains, Ruled, rules, ultimate,
+};
 use crate::error::Error;
-use crate::experiment::{Columns, Log};
+use crate::experiment::{Columns, Log, TimeUnit};
 use crate::files::Files;
 use crate::numeric::Interval;
 use form::Form;
@@ -29,6 +32,7 @@ use form::Form;
 Examples:
   selfosc autotune heater.csv
   selfosc autotune heater.csv --pi --form klipper
+  selfosc autotune heater.csv --report report.html
   selfosc autotune log.csv --output pv --input valve --ms 1.6 --json")]
 pub(super) struct Arguments {
     /// Delimiter-separated text with a header; - is standard input
@@ -43,6 +47,9 @@ pub(super) struct Arguments {
     /// Column of the command [default: duty, power, heater, or as for identify]
     #[arg(long, value_name = "COL")]
     input: Option<String>,
+    /// Unit of the times [default: that which the column's name ends in, as _ms does, else s]
+    #[arg(long, value_name = "UNIT", value_parser = time_unit)]
+    time_unit: Option<TimeUnit>,
     /// Largest sensitivity 1/|1 + L| of any process in the intervals
     #[arg(long, value_name = "M", default_value_t = 1.4, value_parser = sensitivity, allow_negative_numbers = true)]
     ms: f64,
@@ -70,6 +77,9 @@ pub(super) struct Arguments {
     /// Leaves out rows without three numbers, at most a fifth of all
     #[arg(long)]
     skip_bad_rows: bool,
+    /// Writes one HTML file with figures, which needs no network
+    #[arg(long, value_name = "OUT.html")]
+    report: Option<PathBuf>,
     /// Prints one JSON document
     #[arg(long)]
     json: bool,
@@ -92,6 +102,7 @@ struct Autotuned {
     proved: Option<ProvedGains>,
     rules: Vec<Ruled>,
     ultimate: Option<[Interval; 2]>,
+    curves: Option<LoopCurves>,
     interval_s: f64,
     limit: f64,
 }
@@ -111,7 +122,7 @@ impl Autotuned {
 
     fn reasons(&self) -> Vec<CodedReason> {
         let mut reasons = Vec::new();
-        if self.proved.is_none() {
+        if self.proved.is_none() && self.found.contradiction.is_none() {
             reasons.push((
                 "too-wide",
                 format!(
@@ -120,6 +131,20 @@ impl Autotuned {
                 ),
             ));
         }
+        reasons.extend(self.found.contradiction.map(|contradiction| {
+            let (code, text) = match contradiction {
+                Contradiction::AgainstRelay => (
+                    "against-relay",
+                    "the command rises while the output moves as if it fell; log the command that acts (a lockout or a switch may hold \
+                     it back), and check the columns",
+                ),
+                Contradiction::Saturated => (
+                    "saturated",
+                    "the output stands at its extreme, as of a sensor at the end of its range; keep the oscillation inside the range",
+                ),
+            };
+            (code, text.to_owned())
+        }));
         let best = &self.found.models[0];
         for (index, name) in [(0, "gain"), (1, "dead time")] {
             let part = best.parameters[index];
@@ -145,7 +170,7 @@ impl Autotuned {
 
     fn trust(&self) -> &'static str {
         let reasons = self.reasons();
-        if reasons.iter().any(|(code, _)| *code == "too-wide") {
+        if reasons.iter().any(|(code, _)| ["too-wide", "against-relay", "saturated"].contains(code)) {
             "doubtful"
         } else if reasons.is_empty() {
             "good"
@@ -167,6 +192,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         time: arguments.time.clone(),
         output: arguments.output.clone(),
         input: arguments.input.clone(),
+        time_unit: arguments.time_unit,
         from_s: arguments.from,
         to_s: arguments.to,
         skip_bad_rows: arguments.skip_bad_rows,
@@ -175,6 +201,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         neutral: Some(0.0),
         ..Columns::default()
     };
+    let report = arguments.report.as_ref().map(|path| known.output(path)).transpose().given("--report")?;
     let log = match columns.read(input.bytes()) {
         Ok(log) => log,
         Err(error) => {
@@ -197,8 +224,11 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     };
     let wanted = GainsWanted { sensitivity: arguments.ms, actions, derivative_filter: arguments.derivative_filter };
     let nominal = found.models[0].process();
+    // Gains of the wrong sign drive the output away.
+    let proved = if found.contradiction.is_some() { None } else { found.gains(interval_s, &wanted) };
     let tuned = Autotuned {
-        proved: found.gains(interval_s, &wanted),
+        curves: proved.and_then(|proved| found.curves(interval_s, &proved)),
+        proved,
         rules: rules(&nominal),
         ultimate: ultimate_range(&found),
         log,
@@ -206,11 +236,18 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         interval_s,
         limit: arguments.ms,
     };
+    if let Some(report) = report {
+        let document = tuned.page(input.name(), arguments.form).from_where(files::provenance(&known));
+        report.write(document.html()?.as_bytes()).given("--report")?;
+    }
     let outcome = if tuned.proved.is_some() { Outcome::Done } else { Outcome::No };
     if arguments.json {
         write_json(output, &tuned.json(input.name(), arguments.form))?;
     } else {
         tuned.print(arguments.form, output)?;
+        if let Some(path) = &arguments.report {
+            writeln!(output, "\nreport in {}", path.display())?;
+        }
     }
     Ok(outcome)
 }

@@ -10,7 +10,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use indicatif::ProgressBar;
 
 use super::error::Given;
-use super::number::{count, finite, non_negative, positive, whole};
+use super::number::{count, finite, non_negative, positive, time_unit, whole};
 use super::{CommandError, Outcome, files, refused, write_json};
 use crate::experiment::{Columns, TimeUnit};
 use crate::files::{FileError, Files, Input};
@@ -161,13 +161,6 @@ fn law() -> impl TypedValueParser<Value = Law> {
     ];
     PossibleValuesParser::new(named.map(|(name, help)| PossibleValue::new(name).help(help)))
         .map(|given| DragLaw::ALL.into_iter().find(|law| law.name() == given))
-}
-
-fn time_unit(text: &str) -> Result<TimeUnit, String> {
-    TimeUnit::ALL
-        .into_iter()
-        .find(|unit| unit.name() == text)
-        .ok_or_else(|| "must be s, ms, us or ns; name the unit of the log's times".to_owned())
 }
 
 fn delay(text: &str) -> Result<Delay, String> {

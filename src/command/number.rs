@@ -3,6 +3,7 @@
 use std::num::NonZeroUsize;
 use std::str::FromStr;
 
+use crate::experiment::TimeUnit;
 use crate::numeric::Limit;
 
 /// Any number as typed: the library checks the domain.
@@ -32,6 +33,14 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
 /// A number, zero or more.
 pub(super) fn non_negative(text: &str) -> Result<f64, String> {
     within(text, Limit::NonNegative)
+}
+
+/// The unit of a log's times.
+pub(super) fn time_unit(text: &str) -> Result<TimeUnit, String> {
+    TimeUnit::ALL
+        .into_iter()
+        .find(|unit| unit.name() == text)
+        .ok_or_else(|| "must be s, ms, us or ns; name the unit of the log's times".to_owned())
 }
 
 fn within(text: &str, limit: Limit) -> Result<f64, String> {

@@ -49,10 +49,10 @@ impl TimeUnit {
         }
     }
 
-    /// The unit that a column's name ends in, seconds else.
-    pub(super) fn of_column(name: &str) -> Self {
+    /// The unit that a column's name ends in.
+    pub(super) fn of_column(name: &str) -> Option<Self> {
         let ends = |unit: &Self| name.to_lowercase().ends_with(&format!("_{}", unit.name()));
-        Self::ALL.into_iter().find(ends).unwrap_or(Self::Seconds)
+        Self::ALL.into_iter().find(ends)
     }
 }
 

@@ -244,9 +244,11 @@ impl Columns {
         if (output, input) != (time, time) {
             return Err(ExperimentError::Lengths { time, output, input });
         }
-        let unit = self.time_unit.unwrap_or_else(|| TimeUnit::of_column(&columns[0]));
+        let named = TimeUnit::of_column(&columns[0]);
+        let unit = self.time_unit.or(named).unwrap_or(TimeUnit::Seconds);
         rows.values[0].iter_mut().for_each(|time| *time /= unit.per_second());
-        if self.time_unit.is_none() {
+        // Tanks and ovens are read by the minute: there a column's name suffices.
+        if self.time_unit.is_none() && !(self.process && named.is_some()) {
             clinic::seconds(&rows.values[0])?;
         }
         let Chosen { values: [time_s, mut output, mut input], rows: kept, skipped } = rows.chosen(self)?;

@@ -11,6 +11,7 @@ mod html;
 pub mod identification;
 mod nyquist;
 pub mod paper;
+mod process;
 mod sketch;
 mod table;
 
@@ -19,5 +20,6 @@ pub use error::ReportError;
 pub use figure::{Figure, Mark, Panel, Series};
 pub use html::{Document, Section};
 pub use nyquist::nyquist;
+pub use process::ProcessPage;
 pub use sketch::sketch;
 pub use table::{Cell, Table};

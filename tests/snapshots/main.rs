@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
 mod arguments;
+mod bad_processes;
 mod catalogue;
 mod clinic;
 mod command;

@@ -3,7 +3,7 @@ import { Command, NoAnswer } from "./command";
 import { copyable, download, h } from "./element";
 import { Form } from "./form";
 import { type Field, type Job, jobs, tune } from "./jobs";
-import { records } from "./plots";
+import { loadStep, records } from "./plots";
 import type { Answer } from "./protocol";
 import { type Autotuned, autotuned, bounded, type Coded, type Identified, identified } from "./results";
 
@@ -140,7 +140,20 @@ async function autotune(): Promise<void> {
   if (!answer) return;
   const found = answer.document as (Autotuned & { refused?: Coded }) | null;
   if (!found || found.refused || answer.code === 2) return refuse(answer, found?.refused);
-  results.replaceChildren(...shown(autotuned(found)), h("p", { class: "buttons" }, download("Numbers (JSON)", "gains.json", "application/json", json(found))));
+  const report = async () => {
+    const written = await ask(["autotune", ...paths(), "--report", "/report.html", ...form.args]);
+    if (written) download("", "report.html", "text/html", content(written, "report.html")).click();
+  };
+  results.replaceChildren(
+    ...shown(autotuned(found)),
+    h(
+      "p",
+      { class: "buttons" },
+      h("button", { type: "button", click: () => void report() }, "Report (HTML)"),
+      download("Numbers (JSON)", "gains.json", "application/json", json(found)),
+    ),
+    ...(found.curves ? [loadStep(found.curves)] : []),
+  );
 }
 
 /** An answer that the command prints well itself. */

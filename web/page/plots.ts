@@ -2,6 +2,7 @@
 import uPlot from "uplot";
 import { h } from "./element";
 import type { Samples } from "./protocol";
+import type { Autotuned } from "./results";
 
 export interface Curve {
   label: string;
@@ -73,6 +74,17 @@ export function plot(title: string, time: ArrayLike<number>, curves: Curve[], x:
     drawn = draw();
   });
   return holder;
+}
+
+/** The answer to a load of the likeliest process, in the band of all processes of the intervals. */
+export function loadStep({ time_s, load_step, load_step_range }: NonNullable<Autotuned["curves"]>): HTMLElement {
+  const ends = [0, 1].map((end) => load_step_range.map((range) => range[end as 0 | 1]));
+  const curves: Curve[] = [
+    { label: "likeliest process", values: load_step, colour: "--model" },
+    { label: "largest", values: ends[1]!, colour: "--edge" },
+    { label: "least", values: ends[0]!, colour: "--edge" },
+  ];
+  return plot("Answer to a load of one command unit", time_s, curves, "time (s)", "deviation", [2, 3], "load");
 }
 
 const DEGREES = 180 / Math.PI;

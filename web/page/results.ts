@@ -34,6 +34,7 @@ export interface Autotuned {
   lines: string | null;
   sensitivity: { limit: number; proved_upper: number | null };
   rules: { name: string; proportional: number; integral: number; derivative: number; sensitivity: number | null }[];
+  curves: { time_s: number[]; load_step: number[]; load_step_range: [number, number][] } | null;
 }
 
 const PARAMETERS: [key: string, label: string, unit: string | null][] = [

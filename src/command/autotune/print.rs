@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::form::Form;
 use super::{Autotuned, CommandError};
 use crate::numeric::significant;
+use crate::report::{Document, ProcessPage};
 
 impl Autotuned {
     /// The gains to type in a form; `None` without gains.
@@ -15,6 +16,23 @@ impl Autotuned {
         let largest = input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let least = input.iter().copied().fold(f64::INFINITY, f64::min);
         self.proved.map(|proved| form.lines(&proved.gains, self.sign(), largest - least, self.interval_s))
+    }
+
+    /// The page of `--report`.
+    pub(super) fn page(&self, name: &str, form: Form) -> Document {
+        let reasons: Vec<String> = self.reasons().into_iter().map(|(_, text)| text).collect();
+        let lines = self.lines(form).and_then(Result::ok);
+        let page = ProcessPage {
+            name,
+            log: &self.log,
+            found: &self.found,
+            proved: self.proved.as_ref(),
+            curves: self.curves.as_ref(),
+            lines: lines.as_deref(),
+            trust: (self.trust(), reasons.as_slice()),
+            rules: &self.rules,
+        };
+        page.document()
     }
 
     pub(super) fn json(&self, name: &str, form: Form) -> Value {
@@ -77,6 +95,7 @@ impl Autotuned {
             "lines": self.lines(form).and_then(Result::ok),
             "sensitivity": { "limit": self.limit, "proved_upper": self.proved.map(|proved| proved.sensitivity) },
             "rules": rules,
+            "curves": self.curves,
             "record": {
                 "name": name,
                 "columns": self.log.columns,

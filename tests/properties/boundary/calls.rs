@@ -1,5 +1,6 @@
 //! One call of each function with numbers that the probe draws, and what its page says of the answer.
 
+use selfosc::autotune::{FirstOrderProcess, ProcessReadings};
 use selfosc::control::{
     Controller, FeedForward, FrequencyPoint, Gains, OpenLoop, RelayTest, Rule, Structure, Tuning, UltimatePoint,
 };
@@ -38,6 +39,7 @@ pub(super) fn every<T: Scalar + Special>(probe: &mut Probe) {
     tuning::<T>(probe);
     controller::<T>(probe);
     ultimate::<T>(probe);
+    process::<T>(probe);
 }
 
 fn sweep<T: Scalar>(probe: &mut Probe) -> Option<Sinusoid<T>> {
@@ -776,5 +778,38 @@ fn ultimate<T: Scalar>(probe: &mut Probe) {
     if let Some(between) = probe.result("UltimatePoint::between", UltimatePoint::between(&first, &second)) {
         let sound = between.gain() > T::zero() && between.period_s() > T::zero();
         probe.note("UltimatePoint::between", &[between.gain(), between.period_s()], sound, &(first, second));
+    }
+}
+
+/// Readings of a relay's oscillation at any scale, and any numbers as a process.
+fn process<T: Scalar>(probe: &mut Probe) {
+    let (pace, swing, level, held_s) = (probe.size::<T>(), probe.size::<T>(), probe.given::<T>(), probe.perhaps::<T>());
+    let number = |value: usize| T::from_f64(value as f64);
+    let time: [T; 48] = core::array::from_fn(|k| pace * number(k));
+    let command: [T; 48] = core::array::from_fn(|k| if k / 8 % 2 == 0 { level } else { T::zero() });
+    let shape: [T; 8] = core::array::from_fn(|_| T::from_f64(probe.random.between(-0.1, 0.1)));
+    let output: [T; 48] = core::array::from_fn(|k| {
+        let side = if (k + 6) / 8 % 2 == 0 { T::one() } else { -T::one() };
+        swing * (side * (number((k + 6) % 8) - T::from_f64(3.5)) + shape[k % 8])
+    });
+    let said = (pace, swing, level, held_s);
+    let readings = probe.result("ProcessReadings::new", ProcessReadings::new(&time, &output, &command));
+    let found = readings.and_then(|readings| {
+        probe.note::<T>("ProcessReadings::new", &[], true, &said);
+        probe.result("ProcessReadings::first_order", readings.first_order())
+    });
+    let process = found.unwrap_or_else(|| {
+        let [drag, stiffness, dead_time_s] = [probe.given(), probe.perhaps(), probe.given()];
+        FirstOrderProcess { drag, stiffness, dead_time_s, reverse: false }
+    });
+    let FirstOrderProcess { drag, stiffness, dead_time_s, .. } = process;
+    if found.is_some() {
+        let sound = drag > T::zero() && stiffness >= T::zero() && dead_time_s >= T::zero();
+        probe.note("ProcessReadings::first_order", &[drag, stiffness, dead_time_s], sound, &said);
+    }
+    probe.formula::<T>("FirstOrderProcess::amigo", &[], &process);
+    if let Some(gains) = probe.result("FirstOrderProcess::gains", process.gains(held_s)) {
+        let all = [gains.proportional(), gains.integral(), gains.derivative(), gains.filter_s()];
+        probe.note("FirstOrderProcess::gains", &all, all[0] > T::zero(), &(process, held_s));
     }
 }

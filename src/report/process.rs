@@ -1,0 +1,154 @@
+//! Gains from a relay record, as a page: what to type first, then the record, the loop and its answer to a load.
+
+use super::{Cell, Document, Figure, Mark, Panel, Section, Table};
+use crate::autotune::{LoopCurves, ProcessRecord, ProvedGains, Ruled};
+use crate::experiment::Log;
+use crate::numeric::significant;
+
+/// Readings that a figure shows, the last of them.
+const SHOWN: usize = 1500;
+/// Part of the plane that the open loop's figure shows, about -1.
+const PLANE: f64 = 2.5;
+
+/// What a page is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct ProcessPage<'a> {
+    /// Name of the record.
+    pub name: &'a str,
+    /// The record.
+    pub log: &'a Log,
+    /// The processes that it leaves.
+    pub found: &'a ProcessRecord,
+    /// The gains, where there are some.
+    pub proved: Option<&'a ProvedGains>,
+    /// Their curves.
+    pub curves: Option<&'a LoopCurves>,
+    /// Lines to type, in the form asked for.
+    pub lines: Option<&'a str>,
+    /// Trust, and the reasons for less than full trust.
+    pub trust: (&'a str, &'a [String]),
+    /// Rules of thumb.
+    pub rules: &'a [Ruled],
+}
+
+impl ProcessPage<'_> {
+    /// The page, with the lines to type at its top.
+    #[must_use]
+    pub fn document(&self) -> Document {
+        let sections = [self.answer(), self.record(), self.control_loop(), self.process()];
+        Document {
+            title: format!("Gains from {}", self.name),
+            sections: sections.into_iter().flatten().collect(),
+            provenance: vec![format!("selfosc {} autotune", env!("CARGO_PKG_VERSION"))],
+        }
+    }
+
+    fn answer(&self) -> Option<Section> {
+        let (trust, reasons) = self.trust;
+        let lines = self.lines.unwrap_or("no gains").lines();
+        let table = Table::new("lines", "Type into the controller", &["line"]);
+        let table = lines.fold(table, |table, line| table.row([Cell::Text(line.to_owned())]));
+        let sure = self.proved.map(|proved| {
+            format!(
+                "Proved: whichever process of the intervals is yours, the largest sensitivity is at most {}. At 1.4 a disturbance settles \
+                 without ringing; above 2 it rings.",
+                significant(proved.sensitivity, 4)
+            )
+        });
+        let words = match trust {
+            "good" => "How sure: the record and the model agree.",
+            "widened" => "How sure: usable, with wider intervals for these reasons.",
+            _ => "How sure: do not use these numbers, for these reasons.",
+        };
+        let paragraphs = sure.into_iter().chain([words.to_owned()]).chain(reasons.iter().cloned()).collect();
+        Some(Section { title: "Gains".to_owned(), paragraphs, tables: vec![table], figures: vec![] })
+    }
+
+    fn record(&self) -> Option<Section> {
+        let record = &self.log.record;
+        let (time, output, input) = (record.time_s(), record.output(), record.input());
+        let from = time.len().saturating_sub(SHOWN);
+        let first = time.len().checked_sub(self.found.residuals.len())?;
+        let pairs = |values: &[f64]| -> Vec<(f64, f64)> {
+            time.iter().copied().zip(values.iter().copied()).skip(from).collect()
+        };
+        let model: Vec<(f64, f64)> = (first..time.len())
+            .filter(|k| *k >= from)
+            .map(|k| (time[k], output[k] - self.found.residuals[k - first]))
+            .collect();
+        let spread = 1.96 * self.found.residual;
+        let band = |sign: f64| model.iter().map(|(t, y)| (*t, y + sign * spread)).collect::<Vec<_>>();
+        let [_, output_name, input_name] = &self.log.columns;
+        let readings = Panel::new("time (s)", output_name)
+            .with("readings", Mark::Points, pairs(output))
+            .with("model", Mark::Line, model.clone())
+            .with("95 % of the readings", Mark::Dashed, band(1.0))
+            .with("", Mark::Dashed, band(-1.0));
+        let command: Vec<(f64, f64)> =
+            pairs(input).windows(2).flat_map(|pair| [pair[0], (pair[1].0, pair[0].1)]).collect();
+        let command = Panel::new("time (s)", input_name).with("command", Mark::Line, command);
+        let figure = Figure { name: "record", title: "Record and model".to_owned(), panels: vec![readings, command] };
+        Some(Section { title: "Record".to_owned(), figures: vec![figure], ..Section::default() })
+    }
+
+    fn control_loop(&self) -> Option<Section> {
+        let (curves, proved) = (self.curves?, self.proved?);
+        let near = |points: &[[f64; 2]]| -> Vec<(f64, f64)> {
+            points.iter().map(|[re, im]| (*re, *im)).filter(|(re, im)| (re + 1.0).hypot(*im) <= PLANE).collect()
+        };
+        let circle = (0..=180).map(|k| {
+            let angle = f64::from(k) * core::f64::consts::TAU / 180.0;
+            (-1.0 + angle.cos() / proved.sensitivity, angle.sin() / proved.sensitivity)
+        });
+        let all: Vec<(f64, f64)> = curves.open_loops.iter().flat_map(|one| near(one)).collect();
+        let plane = Panel::new("real part", "imaginary part")
+            .equal_axes()
+            .with("corners of the intervals", Mark::Points, all)
+            .with("likeliest process", Mark::Line, near(&curves.open_loop))
+            .with("no process enters: the sensitivity's limit", Mark::Dashed, circle)
+            .with("critical point", Mark::Dots, [(-1.0, 0.0)]);
+        let pairs =
+            |values: &mut dyn Iterator<Item = f64>| curves.time_s.iter().copied().zip(values).collect::<Vec<_>>();
+        let answer = Panel::new("time (s)", "deviation of the output")
+            .with("likeliest process", Mark::Line, pairs(&mut curves.load_step.iter().copied()))
+            .with(
+                "least and largest over the intervals",
+                Mark::Dashed,
+                pairs(&mut curves.load_step_range.iter().map(|r| r[0])),
+            )
+            .with("", Mark::Dashed, pairs(&mut curves.load_step_range.iter().map(|r| r[1])));
+        let figures = vec![
+            Figure { name: "nyquist", title: "Open loop".to_owned(), panels: vec![plane] },
+            Figure { name: "load", title: "Answer to a load of one command unit".to_owned(), panels: vec![answer] },
+        ];
+        Some(Section { title: "Loop".to_owned(), figures, ..Section::default() })
+    }
+
+    fn process(&self) -> Option<Section> {
+        let columns = ["structure", "evidence %", "parameter", "value", "low", "high"];
+        let mut parameters = Table::new("process", "Processes that the record leaves, with 95 % intervals", &columns);
+        for model in &self.found.models {
+            for (name, part) in model.family.parameters().iter().zip(&model.parameters) {
+                let number = |value: f64| Cell::Text(significant(value, 5));
+                parameters = parameters.row([
+                    Cell::Text(model.family.name().to_owned()),
+                    Cell::number(100.0 * model.weight, 1),
+                    Cell::Text((*name).to_owned()),
+                    number(part.value),
+                    number(part.low),
+                    number(part.high),
+                ]);
+            }
+        }
+        let columns = ["rule", "Kp", "Ki", "Kd", "sensitivity"];
+        let mut rules = Table::new("rules", "Rules of thumb on the likeliest process", &columns);
+        let sign = if self.found.reverse { -1.0 } else { 1.0 };
+        for rule in self.rules {
+            let [p, i, d] = [rule.gains.proportional(), rule.gains.integral(), rule.gains.derivative()]
+                .map(|gain| Cell::Text(significant(sign * gain, 4)));
+            let peak = rule.sensitivity.map_or_else(|| "not stable".to_owned(), |peak| significant(peak, 3));
+            rules = rules.row([Cell::Text(rule.name.to_owned()), p, i, d, Cell::Text(peak)]);
+        }
+        Some(Section { title: "Process".to_owned(), tables: vec![parameters, rules], ..Section::default() })
+    }
+}
