@@ -5,13 +5,11 @@ from fractions import Fraction
 
 from flint import arb
 
-from boxes import Box, Frame, down, number, reached, up
+from boxes import Box, down, number, reached, up
 from check import Refused, checked, require
-from hats import Hats, Unsupported
-from motion import Equation, Motion, Products, Steps, Unfollowed, span, times
-from polynomials import ball, exact
+from modulating import Modulating, Unsupported
+from motion import Equation, Motion, Products, Steps, Unfollowed, ball, exact, span, times
 from problem import assumed, posed, statement
-from second_order import Enclosure
 
 # Sides that boxes at hand may have together, so that no file takes more memory, however it divides.
 MOST_HELD = 1 << 20
@@ -19,9 +17,11 @@ MOST_HELD = 1 << 20
 WIDE = 2e-3
 # A walk that is refused is made anew with steps shorter by these.
 SHORTER = (1, 2, 4)
+# Rounding of the terms of a witness, against their sizes.
+ROUNDING = 1e-9
 # Seconds by which a sum of a stamp and a delay may be rounded up.
 ROUNDED = Fraction(1, 10**9)
-# Around a witness, over itself.
+# Around a witness, over itself: a motion that crosses zero within a small range is passed at once.
 NEAR = 1e-8
 
 def interval(ends):
@@ -58,7 +58,7 @@ class Stage:
         self.common = len(self.terms) + (self.delay is None)
         self.parameters = self.common + len(records)
         self.size = 3 if "lag_rate" in self.terms else 2
-        self.windows = [tuple(int(n) for n in window) for window in item["windows"]]
+        self.shooting = [tuple(int(n) for n in own) for own in item["shooting"]]
         self.middle, self.least, self.fastest = (float(certificate[k]) for k in ("middle_speed", "least_linear", "fastest"))
         own = [interval(ends) for ends in item["from"]]
         require(len(own) == self.parameters and own[0][0] > 0, "the search box is malformed")
@@ -68,14 +68,14 @@ class Stage:
         require(not alone or own[self.terms.index("linear")][0] >= self.least, "drag below the least")
         self.longest = Fraction(own[len(self.terms)][1] if self.delay is None else self.delay)
         before = None
-        for window in self.windows:
-            record, first, last = window
-            require(0 <= record < len(records) and 0 <= first < last < len(records[record].time), "a window is malformed")
+        for own_interval in self.shooting:
+            record, first, last = own_interval
+            require(0 <= record < len(records) and 0 <= first < last < len(records[record].time), "a shooting interval is malformed")
             follows = record == 0 if before is None else record == before[0] + 1 if record != before[0] else first == before[2]
-            require(follows and first >= self.acted(records[record]), "a window does not follow, or is too early")
-            before = window
-        require(before is not None and before[0] == len(records) - 1, "a record has no window")
-        for record, first, _ in self.windows:
+            require(follows and first >= self.acted(records[record]), "a shooting interval does not follow, or is too early")
+            before = own_interval
+        require(before is not None and before[0] == len(records) - 1, "a record has no shooting interval")
+        for record, first, _ in self.shooting:
             reading, error = arb(records[record].reading[first]), records[record].error
             own.append((float((reading - error).lower()) - 1e-300, float((reading + error).upper()) + 1e-300))
             own.append((-self.fastest, self.fastest))
@@ -91,38 +91,34 @@ class Stage:
         since = (Fraction(stamp) - Fraction(record.time[0]) for stamp in record.time)
         return next((n for n, since in enumerate(since) if since >= self.longest + room), len(record.time))
 
-    def start(self, window, component):
-        return self.parameters + window * self.size + component
-
-    def framed(self):
-        """What the rows of a frame stand for: the parameters, and the states at the records' beginnings."""
-        return list(range(self.parameters)) + [self.start(first, k) for first, _ in whole(self.windows) for k in range(self.size)]
+    def start(self, interval, component):
+        return self.parameters + interval * self.size + component
 
     def equation(self, box, record):
         terms = dict(zip(self.terms, box))
         terms["disturbance"] = box[self.common + record]
         return Equation(terms, self.middle)
 
-    def columns(self, window):
-        """What slopes there are, and where each unknown stands."""
-        record = self.windows[window][0]
+    def columns(self, interval):
+        """The variables of the sensitivities, and the place of each unknown."""
+        record = self.shooting[interval][0]
         columns = [(("term", name), place) for place, name in enumerate(self.terms)]
         if self.delay is None:
             columns.append((("delay", None), len(self.terms)))
         columns.append((("term", "disturbance"), self.common + record))
-        columns += [(("start", k), self.start(window, k)) for k in range(self.size)]
+        columns += [(("start", k), self.start(interval, k)) for k in range(self.size)]
         return columns
 
-    def chained(self, reach, box):
+    def shot(self, horizon, box):
         """Inequalities by name as `(slopes, limit)` about the middle of the box, with the deviations; `None` where links part."""
         rows, ranges = {}, [span(*side) for side in box]
         centre = [arb(side.mid()) for side in ranges]
         Products.by_ends = float(ranges[0].rad()) > WIDE * float(ranges[0].mid())
-        spans = [(i, i + 1) for first, after in whole(self.windows, reach) for i in range(first, after)]
-        ends = {after for _, after in whole(self.windows, reach)}
+        spans = [(i, i + 1) for first, after in whole(self.shooting, horizon) for i in range(first, after)]
+        ends = {after for _, after in whole(self.shooting, horizon)}
         for first, after in spans:
             nodes, places = self.motion(first, after, ranges, centre)
-            record = self.records[self.windows[first][0]]
+            record = self.records[self.shooting[first][0]]
             for sample, (_, point, slopes) in nodes:
                 strays, slopes = point[0] - record.reading[sample], [(p, s[0]) for p, s in zip(places, slopes)]
                 pair(rows, ("reading", first, sample), slopes, strays, arb(record.error))
@@ -134,6 +130,8 @@ class Stage:
                     if not low <= high:
                         return None
                     ranges[place] = span(low, high)
+                    if not low <= centre[place] <= high:
+                        centre[place] = arb(ranges[place].mid())
                     own = [(p, s[k]) for p, s in zip(places, slopes)] + [(place, arb(-1))]
                     pair(rows, ("link", first, k), own, point[k] - centre[place], arb(0))
         self.bound(rows, centre)
@@ -151,9 +149,9 @@ class Stage:
             rows["least_linear",] = slopes, arb(-self.least) - sum(s * centre[p] for p, s in slopes)
 
     def motion(self, first, after, ranges, centre):
-        """States at every sample from the first of one window to the last of another, with the places of their slopes."""
-        record_index, begin, _ = self.windows[first]
-        end = self.windows[after - 1][2]
+        """States at every sample of successive shooting intervals, with the places of their sensitivities."""
+        record_index, begin, _ = self.shooting[first]
+        end = self.shooting[after - 1][2]
         record = self.records[record_index]
         columns = self.columns(first)
         places = [place for _, place in columns]
@@ -233,21 +231,19 @@ def drive(motion, record, delays, begin, end):
 
 
 def source(by):
-    """Whence inequalities are, and how many windows of each record are followed; none where nothing is."""
-    if by == "same":
-        return by, None
-    ((kind, reach),) = by.items()
-    require(kind in ("hats", "chain", "slanted") and int(reach) > 0, "an unknown enclosure")
-    return kind, int(reach)
+    """The source of inequalities, and its horizon in shooting intervals of each record."""
+    ((kind, horizon),) = by.items()
+    require(kind in ("modulating_functions", "shooting") and int(horizon) > 0, "an unknown enclosure")
+    return kind, int(horizon)
 
 
-def whole(windows, reach=None):
-    """First window of every record, and the one after the last that is followed."""
+def whole(shooting, horizon=None):
+    """The first shooting interval of every record, and the one after the last that is followed."""
     spans = []
-    for i, (record, _, _) in enumerate(windows):
-        if reach is not None and sum(own[0] == record for own in windows[:i]) >= reach:
+    for i, (record, _, _) in enumerate(shooting):
+        if horizon is not None and sum(own[0] == record for own in shooting[:i]) >= horizon:
             continue
-        if spans and windows[spans[-1][0]][0] == record:
+        if spans and shooting[spans[-1][0]][0] == record:
             spans[-1] = spans[-1][0], i + 1
         else:
             spans.append((i, i + 1))
@@ -264,7 +260,7 @@ def key(origin):
     if origin == "least_linear":
         return ("least_linear",)
     ((kind, at),) = origin.items()
-    fields = {"reading": ("window", "sample"), "link": ("window", "component"), "disturbance": ("record",)}
+    fields = {"reading": ("interval", "sample"), "link": ("interval", "component"), "disturbance": ("record",)}
     require(kind in fields, f"a row by {kind}")
     return (kind, *(int(at[f]) for f in fields[kind]), bool(at["above"]))
 
@@ -293,8 +289,8 @@ class Walk:
 
     def __init__(self, stage, name):
         self.stage, self.name = stage, name
-        self.verified, self.by_hats, self.taken = 0, 0, 0
-        self.hats = Hats(stage)
+        self.verified, self.modulated, self.taken = 0, 0, 0
+        self.modulating = Modulating(stage)
 
     def go(self):
         boxes = [Box(self.stage.box)]
@@ -309,96 +305,48 @@ class Walk:
 
     def step(self, box, step):
         """The boxes that are left to deal with, the next one last."""
-        met = box.met()
-        # Of a box that has nothing in common with its frame anything holds.
-        nothing, box = met is None, box if met is None else met
         if step == "keep":
             left = self.stage.left
             require(left is not None, "nothing is said to be left")
-            require(nothing or all(a <= f and t <= b for (f, t), (a, b) in zip(box.sides, left)), "the box is not within what is left")
+            require(all(a <= f and t <= b for (f, t), (a, b) in zip(box.sides, left)), "the box is not within what is left")
             return []
         ((kind, what),) = step.items()
         if kind == "divide":
             return box.divided(int(what["unknown"]), number(what["at"]))
-        if kind == "part":
-            return box.parted(int(what["coordinate"]), number(what["at"]))
-        require(kind in ("contract", "exclude", "turn"), "an unknown step")
-        by, reach = source(what["by"])
-        if kind == "turn":
-            require(by in ("slanted", "same"), "a turn by another enclosure")
-            given = what["frame"]
-            require(given is not None or box.frame is not None, "a turn into no frame")
-            frame = box.frame if given is None else Frame(self.stage.framed(), given["centre"], given["lower"])
-        else:
-            frame = None
-        if by == "hats":
+        require(kind in ("contract", "exclude"), "an unknown step")
+        by, horizon = source(what["by"])
+        if by == "modulating_functions":
             try:
-                cuts = None if nothing else self.hats.show(box.sides, kind, what)
-                self.by_hats += 1
+                cuts = self.modulating.show(box.sides, kind, what)
+                self.modulated += 1
             except Unsupported:
                 cuts = None if kind == "exclude" else what["cuts"]
                 self.taken += 1
             return [] if cuts is None else box.shortened(cuts)
         self.verified += 1
-        if by in ("slanted", "same"):
-            found = None if nothing else self.second_order(box, reach)
-            box = box if nothing else box.replaced(known=found)
-            most = lambda objective, rows: found.most(objective and aim(found, kind, *objective, frame), named(found, rows), box)
-        else:
-            found = self.stage.chained(reach, box.sides)
-            if found is None:
-                return []
-            _, centre, deviations = found
-            most = lambda objective, rows: dual(found, objective, rows) + (objective[1] * found[1][objective[0]] if objective else 0)
-        if kind == "exclude":
-            require(nothing or below(most(None, what["rows"]), 0), "the box is not excluded")
+        found = self.stage.shot(horizon, box.sides)
+        if found is None:
             return []
-        ranges, cuts = box.sides if kind == "contract" else box.along(frame), []
-        for cut in what["cuts"] if not nothing and ranges is not None else []:
+        if kind == "exclude":
+            require(dual(found, None, what["rows"]) < 0, "the box is not excluded")
+            return []
+        _, centre, deviations = found
+        cuts = []
+        for cut in what["cuts"]:
             place, sign = int(cut["unknown"]), 1 if cut["upper"] else -1
-            require(0 <= place < len(ranges), "a cut of no unknown")
-            cut = reached(cut, ranges[place], lambda: most((place, sign), cut["rows"]))
+            require(0 <= place < len(box.sides), "a cut of no unknown")
+            cut = reached(cut, box.sides[place], lambda: dual(found, (place, sign), cut["rows"]) + sign * centre[place])
             if cut is None:
                 continue
             cuts.append(cut)
-            if by == "chain":
-                # What is left of a range is known to the cuts that follow.
-                side = arb(cut["end"]) - centre[place]
-                low, high = deviations[place].lower(), deviations[place].upper()
-                low, high = (low, min(high, side.upper())) if sign > 0 else (max(low, side.lower()), high)
-                if not low <= high:
-                    return []
-                deviations[place] = span(low, high)
-        return box.turned(frame, cuts) if kind == "turn" else box.shortened(cuts)
-
-    def second_order(self, box, reach):
-        if reach is None:
-            require(box.known is not None, "no motion to the second order is known over the box")
-            return box.known
-        frame = box.frame if box.frame is not None else Frame.straight(self.stage.framed(), box.sides)
-        return Enclosure(self.stage, box, frame, whole(self.stage.windows, reach))
-
-
-def below(most, end):
-    """Whether an upper bound shows it; none is of what holds nothing."""
-    return most is None or most < end
-
-
-def aim(found, kind, place, sign, frame):
-    """What a cut bounds, by the coordinates of the enclosure."""
-    value = found.coordinate(place, frame) if kind == "turn" else found.theta(place)
-    return value.scaled(arb(sign))
-
-
-def named(found, combination):
-    """Rows with their multipliers."""
-    pairs = []
-    for origin, y in combination:
-        y, name = number(y), key(origin)
-        require(y >= 0, "a multiplier is negative")
-        require(name in found.rows, "a row does not exist")
-        pairs.append((found.rows[name], arb(y)))
-    return pairs
+            # The cuts that follow know what is left of the range.
+            side = arb(cut["end"]) - centre[place]
+            low, high = deviations[place].lower(), deviations[place].upper()
+            low, high = (low, min(high, side.upper())) if sign > 0 else (max(low, side.lower()), high)
+            if not low <= high:
+                return []
+            deviations[place] = span(low, high)
+        return box.shortened(cuts)
 
 
 def met(searched, records, first, witness):
@@ -407,19 +355,23 @@ def met(searched, records, first, witness):
     late = any(n > first.acted(own, ROUNDED) for n, own in zip(begins, records))
     require(not late, "the witness begins after the first row at which every command that acts is in the file")
     require(len(values) == first.parameters + first.size * len(records) and len(begins) == len(records), "the witness is malformed")
-    sides = [(v, v) for v in values]
-    windows = [[n, begin, len(records[n].time) - 1] for n, begin in enumerate(begins)]
-    stage = Stage(searched, records, {"delay_s": first.delay, "windows": windows, "from": sides[: first.parameters], "left": None, "steps": []})
+    shooting = [[n, begin, len(records[n].time) - 1] for n, begin in enumerate(begins)]
+    sides = [(v, v) for v in values[: first.parameters]]
+    stage = Stage(searched, records, {"delay_s": first.delay, "shooting": shooting, "from": sides, "left": None, "steps": []})
     # The states are those at its own first readings.
     box = first.box[: first.parameters] + stage.box[first.parameters :]
     require(all(a <= v <= b for v, (a, b) in zip(values, box)), "the witness is not in the search box")
-    # A motion that crosses zero within a small range is passed at once.
-    near = [(v - NEAR * abs(v), v + NEAR * abs(v)) for v in values]
+    rows, centre = {}, [arb(v) for v in values]
+    stage.bound(rows, centre)
+    sized = lambda slopes: sum(abs(s * centre[p]) for p, s in slopes)
+    require(all(limit.upper() >= -ROUNDING * sized(slopes) for slopes, limit in rows.values()), "the witness is not in the search box")
+    near = [span(v - NEAR * abs(v), v + NEAR * abs(v)) for v in values]
     try:
-        found = Enclosure(stage, Box(near), Frame.straight(stage.framed(), near), whole(stage.windows))
+        motions = [stage.motion(n, n + 1, near, centre)[0] for n in range(len(records))]
     except Unfollowed as fault:
         raise Refused(f"the witness: {fault}") from fault
-    return all(row.range().upper() <= 0 for name, row in found.rows.items() if name[0] == "reading")
+    strays = ((abs(point[0] - own.reading[n]), own.error) for own, nodes in zip(records, motions) for n, (_, point, _) in nodes)
+    return all(stray.upper() <= error for stray, error in strays)
 
 
 def walked(stage, name):
@@ -440,7 +392,7 @@ def walked(stage, name):
 
 
 def check(certificate):
-    """What it shows, the numbers of steps verified here by the motion and by hats, and of those taken from the file; or Refused."""
+    """What it shows, the numbers of steps verified here by the motion and by modulating functions, and of those taken from the file; or Refused."""
     rows, searched, delay, words = posed(certificate)
     records, stages, begin = [Record(item) for item in rows], [], searched["from"]
     for item in certificate["stages"]:
@@ -455,7 +407,7 @@ def check(certificate):
     if witness is not None:
         require(met(searched, records, stages[0], witness), "the witness misses a reading")
     walks = [walked(stage, f"stage {at}") for at, stage in enumerate(stages)]
-    return expected, *(sum(counts) for counts in zip(*((walk.verified, walk.by_hats, walk.taken) for walk in walks)))
+    return expected, *(sum(counts) for counts in zip(*((walk.verified, walk.modulated, walk.taken) for walk in walks)))
 
 
 def check_file(path):
@@ -466,9 +418,9 @@ def main(paths):
     accepted = True
     for path in paths:
         try:
-            shown, verified, by_hats, taken, ranges = check_file(path)
+            shown, verified, modulated, taken, ranges = check_file(path)
             rest = f"; taken from the file: {taken}" if taken else ""
-            print(f"{path}  accepted  {shown}\n  verified here: {verified} steps by the motion, {by_hats} by hats{rest}")
+            print(f"{path}  accepted  {shown}\n  verified here: {verified} steps by the motion, {modulated} by modulating functions{rest}")
             print(*(f"  assumed: {line}" for line in ranges), sep="\n")
         except Refused as reason:
             accepted = False

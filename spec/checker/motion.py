@@ -4,7 +4,9 @@ With c a point of the box, `e = v(theta) - v(c)` obeys `e' = m e + sum (theta_j 
 two velocities, p_j what the j-th term multiplies in the motion of c alone. So `state(theta)` is in `c + sum slope_j (theta_j - c_j)`.
 """
 
-from flint import arb, ctx
+from fractions import Fraction
+
+from flint import arb, ctx, fmpq
 
 ctx.prec = 80
 ORDER = 9
@@ -19,6 +21,16 @@ PUSHED = ("gain", "disturbance", "linear", "quadratic", "cubic", "stiffness", "l
 
 class Unfollowed(Exception):
     """No enclosure of a motion was found."""
+
+
+def exact(x):
+    """A ball without a radius as a fraction: instants are added and compared without rounding."""
+    mantissa, exponent = x.man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
+def ball(x):
+    return arb(fmpq(x.numerator, x.denominator))
 
 
 def span(a, b):

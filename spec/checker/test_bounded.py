@@ -24,7 +24,7 @@ def of_motion(certificate):
     """Combinations of rows by the motion. A contradiction needs all its rows; a cut without one of them goes less far, so that of the
     proof without a contradiction all are changed."""
     steps = [step for stage in certificate["stages"] for step in stage["steps"] if not isinstance(step, str)]
-    whats = [what for step in steps for what in step.values() if "by" in what and "hats" not in what["by"]]
+    whats = [what for step in steps for what in step.values() if "by" in what and "modulating_functions" not in what["by"]]
     contradictions = [what["rows"] for what in whats if len(what.get("rows", [])) > 1]
     return contradictions[:1] or [cut["rows"] for what in whats for cut in what["cuts"] if len(cut["rows"]) > 1]
 
@@ -47,8 +47,8 @@ def negate(rows):
 
 @pytest.mark.parametrize("name", FILES)
 def test_what_the_command_writes_is_accepted(name):
-    shown, verified, by_hats, taken = bounded.check(FILES[name])
-    assert shown.startswith(name) and verified > 0 and by_hats > 0 and taken == 0
+    shown, verified, modulated, taken = bounded.check(FILES[name])
+    assert shown.startswith(name) and verified > 0 and modulated > 0 and taken == 0
 
 
 @pytest.mark.parametrize("change", [drop, alter, negate])
@@ -109,10 +109,10 @@ def test_a_witness_that_misses_a_reading_is_refused():
         bounded.check(certificate)
 
 
-def test_a_witness_may_begin_before_the_first_window():
-    assert LATE["witness"]["first"][0] < LATE["stages"][0]["windows"][0][1]
-    shown, verified, by_hats, _ = bounded.check(LATE)
-    assert shown.startswith("consistent") and verified > 0 and by_hats > 0
+def test_a_witness_may_begin_before_the_first_shooting_interval():
+    assert LATE["witness"]["first"][0] < LATE["stages"][0]["shooting"][0][1]
+    shown, verified, modulated, _ = bounded.check(LATE)
+    assert shown.startswith("consistent") and verified > 0 and modulated > 0
 
 
 @pytest.mark.parametrize("place", ["gain", "position", "velocity"])
@@ -129,12 +129,12 @@ def test_a_witness_outside_of_what_is_searched_is_refused(place):
         bounded.check(certificate)
 
 
-def test_hats_use_readings_before_the_first_window_where_all_commands_are_known():
+def test_modulating_functions_use_readings_before_the_first_shooting_interval_where_all_commands_are_known():
     certificate = copy.deepcopy(LATE)
     rows, searched, delay, _ = bounded.posed(certificate)
     item = certificate["stages"][0] | {"from": searched["from"], "delay_s": delay}
     stage = bounded.Stage(searched, [bounded.Record(own) for own in rows], item)
-    [track] = bounded.Hats(stage).tracks
+    [track] = bounded.Modulating(stage).tracks
     stamps = certificate["records"][0]["time_s"]
     longest = searched["from"][len(searched["terms"])][1]
     assert stamps[track.first] - stamps[0] >= longest > stamps[track.first - 1] - stamps[0]

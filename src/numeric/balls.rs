@@ -80,15 +80,6 @@ impl Balls {
         Self { middle: [self.middle[place]; Self::COUNT], radius: [self.radius[place]; Self::COUNT] }
     }
 
-    /// Each from a place of its own.
-    #[inline]
-    pub(crate) fn gather(from: [(&Self, usize); Self::COUNT]) -> Self {
-        Self {
-            middle: from.map(|(balls, place)| balls.middle[place]),
-            radius: from.map(|(balls, place)| balls.radius[place]),
-        }
-    }
-
     #[inline]
     fn interval(middle: f64, radius: f64) -> Interval {
         // A ball that is not finite encloses nothing useful: the entire line.
@@ -129,21 +120,6 @@ impl Balls {
         let middle = self.middle() * part;
         let rounded = middle.abs() * roundings(1);
         Self::of(middle, (self.radius() * part + rounded) * larger(1) + UNDERFLOW)
-    }
-
-    /// One over each; all numbers over one that may be zero.
-    #[inline]
-    pub(crate) fn reciprocal(self) -> Self {
-        let (mut middle, mut radius) = ([0.0; Self::COUNT], [f64::INFINITY; Self::COUNT]);
-        for place in 0..Self::COUNT {
-            let (own, far) = (self.middle[place].abs(), self.radius[place]);
-            let near = (own - far) * (1.0 - roundings(1));
-            if near > 0.0 {
-                middle[place] = 1.0 / self.middle[place];
-                radius[place] = (far / (own * near) + roundings(1) / own) * larger(1) + UNDERFLOW;
-            }
-        }
-        Self { middle, radius }
     }
 
     /// The sum of all of them.
@@ -231,37 +207,9 @@ impl Sizes {
         Self([self.0[place]; Balls::COUNT])
     }
 
-    /// Each from a place of its own.
-    #[inline]
-    pub(crate) fn gather(from: [(&Self, usize); Balls::COUNT]) -> Self {
-        Self(from.map(|(sizes, place)| sizes.0[place]))
-    }
-
-    /// The larger of two in every place.
-    #[inline]
-    pub(crate) fn max(self, other: Self) -> Self {
-        // An undefined lane stays undefined.
-        Self(core::array::from_fn(|place| {
-            let (a, b) = (self.0[place], other.0[place]);
-            if a >= b || a.is_nan() { a } else { b }
-        }))
-    }
-
-    /// Whether none is more.
-    #[inline]
-    pub(crate) fn at_most(self, most: f64) -> bool {
-        self.0.iter().all(|size| *size <= most)
-    }
-
     /// The first of them.
     pub(crate) fn interval(self) -> Interval {
         Interval::point(self.0[0])
-    }
-
-    /// The sum of all of them, at most.
-    pub(crate) fn total(self) -> Interval {
-        let [a, b, c, d] = self.0.map(Interval::point);
-        (a + b) + (c + d)
     }
 
     /// Of sums of products.

@@ -7,6 +7,7 @@ mod architecture;
 mod autotune;
 mod balance;
 mod boundary;
+mod bounds;
 mod cases;
 mod catalogue;
 mod certificate;

@@ -1,72 +1,63 @@
-//! Guaranteed bounds: every reading a constraint on the motion, and the set of parameters that meet them all enclosed.
+//! Guaranteed bounds: every reading is a constraint on the motion, and the set of parameters that satisfy all constraints is enclosed.
 //!
-//! A compass that shows whole degrees does not add noise: it says that the heading was within half a degree of the reading. This
-//! is bounded-error identification by set inversion (Jaulin, Kieffer, Didrit, Walter, *Applied Interval Analysis*, 2001; Milanese et
-//! al., *Bounding Approaches to System Identification*, 1996): no distribution of errors is assumed, and an empty set is a proof that the record contradicts
-//! the model. Everything that a statement rests on is computed in intervals:
+//! Bounded-error identification by set inversion (Jaulin, Kieffer, Didrit and Walter, *Applied Interval Analysis*, 2001; Milanese et al.,
+//! *Bounding Approaches to System Identification*, 1996): no distribution of errors is assumed, and an empty set proves that the record
+//! contradicts the model.
 //!
-//! * over a wide box, the equation of motion weighed with hats gives inequalities that are linear in the parameters;
-//! * over a narrower one, validated Taylor steps enclose the motion and its slopes about a point, and each reading is two
-//!   linear inequalities with interval coefficients, window after window with the windows' states as unknowns;
-//! * a linear programme proposes multipliers, and the bound is what these give in intervals (Neumaier and Shcherbina,
-//!   *Mathematical Programming* 99, 2004; Jansson, *SIAM Journal on Optimization* 14, 2004); a box that does not shrink is divided;
-//! * the witness's motion is enclosed and meets every reading.
+//! * Over a wide box the weak form of the equation, with modulating functions, gives inequalities linear in the parameters.
+//! * Over a narrower box validated Taylor steps enclose the motion and its sensitivities; multiple shooting makes each reading two linear
+//!   inequalities with interval coefficients.
+//! * A linear programme proposes multipliers; the bound is what these give in intervals. Boxes are contracted and divided.
+//! * A feasible point is accepted only by its enclosed motion.
 
-mod bend;
-mod bounds;
-mod command;
-mod contract;
-mod divide;
-mod effort;
-mod estimate;
-mod explore;
-mod field;
-mod frame;
-mod hat;
-mod impulse;
-mod lp;
-mod mix;
-mod monotone;
-mod onset;
-mod outliers;
+mod a_priori_enclosure;
+mod answer;
+mod branch_and_prune;
+mod contraction;
+mod feasible_point;
+mod flow;
+mod linear_program;
+mod linear_relaxation;
+mod modulating_functions;
 mod problem;
+mod q_relaxed;
+mod record;
+mod refinement;
 mod report;
-mod rows;
-mod search;
-mod series;
+mod sensitivities;
+mod sensitivity_error;
 mod settings;
-mod setup;
 #[cfg(test)]
 mod simulated;
-mod slanted;
+mod solve;
 pub(crate) mod soundness;
-mod speeds;
-mod step;
-mod surface;
-mod trajectory;
-mod weak;
-mod witness;
+mod taylor_series;
+mod taylor_step;
+mod unknowns;
+mod vector_field;
+mod velocity_bounds;
+mod work;
 
 internal! { mod certificate; }
 
 #[cfg(test)]
 mod tests;
 
-pub use bounds::{Bounds, Consistency, Contradicting, Outlier, Parameters, Quantity, QuantityRange};
+pub use answer::{Bounds, Consistency, Contradicting, Outlier, ParameterValues, Quantity, QuantityRange};
 pub use settings::{BoundedModel, DelayBound, SwitchedWhen};
 
 use super::IdentifyError;
 use crate::experiment::Record;
-use certificate::{Certificate, Unproved, Witness};
-use estimate::estimated;
-use explore::explore;
-use problem::Readings;
-use setup::Setup;
+use certificate::{Certificate, Unproved};
+use feasible_point::estimate::estimated;
+use problem::Problem;
+use record::Readings;
+use solve::solve;
 
-/// Encloses the parameters with which the model meets every reading of all records, or proves that there are none in the search box.
+/// Encloses the parameters with which the model satisfies every reading of all records, or proves that the search box has none.
 ///
 /// Inertia, drags, delay, lag and stiffness are common to all records, the disturbance and the initial state each record's own. A
-/// record is taken from where every command that acts is in it.
+/// record is used from the sample after which every command that acts is in it.
 ///
 /// ```
 /// use selfosc::experiment::{Sensor, SimulatedExperiment};
@@ -83,19 +74,19 @@ use setup::Setup;
 /// ```
 ///
 /// # Errors
-/// [`IdentifyError::OutOfDomain`] for settings that are none, a record without a switching, and a sensor without an error.
+/// [`IdentifyError::OutOfDomain`] for settings out of their domain, a record without a switching, and a sensor without an error.
 pub fn enclose(records: &[&Record], settings: &BoundedModel) -> Result<Bounds, IdentifyError> {
     if settings.outliers > 0 {
-        return outliers::enclose(&Readings::of(records, settings)?, settings);
+        return q_relaxed::enclose(&Readings::of(records, settings)?, settings);
     }
-    let setup = Setup::new(records, settings)?;
-    Ok(explore(&setup, settings, || estimated(records, settings), |_, _| ())?.bounds)
+    let problem = Problem::new(records, settings)?;
+    Ok(solve(&problem, settings, || estimated(records, settings))?.bounds)
 }
 
-/// The same with the proof in a form that is checked without a search.
+/// [`enclose`] with a certificate, which is checked without a search.
 ///
 /// # Errors
-/// Those of [`enclose`]; and, within, [`certificate::Unproved::NotFound`] where a proof takes too many steps.
+/// As [`enclose`]; and, within, [`certificate::Unproved::NotFound`] where a proof takes too many steps.
 #[doc(hidden)]
 pub fn enclose_with_certificate(
     records: &[&Record],
@@ -104,12 +95,8 @@ pub fn enclose_with_certificate(
     if settings.outliers > 0 {
         return Ok((enclose(records, settings)?, Err(Unproved::Outliers { allowed: settings.outliers })));
     }
-    let setup = Setup::new(records, settings)?;
-    let mut witness = None;
-    let estimates = || estimated(records, settings);
-    let explored = explore(&setup, settings, estimates, |search, found| {
-        witness = found.map(|tried| Witness::of(search, &tried.at));
-    })?;
-    let certificate = Certificate::prove(records, &setup, settings, &explored, witness);
-    Ok((explored.bounds, certificate?))
+    let problem = Problem::new(records, settings)?;
+    let solved = solve(&problem, settings, || estimated(records, settings))?;
+    let certificate = Certificate::prove(records, &problem, settings, &solved);
+    Ok((solved.bounds, certificate?))
 }

@@ -1,188 +1,352 @@
-//! Records as constraints on the unknowns of a model.
+//! The constraint satisfaction problem: records, unknowns, and the box in which they are searched.
 
-use super::command::Command;
-use super::field::{Field, TERMS, Term, Triple};
-use super::mix::By;
-use super::trajectory::active;
-use crate::numeric::Interval;
+use std::collections::BTreeSet;
 
-/// One record: instants, readings, and how far the output may be from each.
+use super::answer::{Quantity, QuantityRange};
+use super::record::{Command, Readings, Scales};
+use super::settings::{BoundedModel, DelayBound, SwitchedWhen};
+use super::unknowns::{Shooting, Unknowns};
+use super::vector_field::FieldTerm;
+use super::work::Work;
+use crate::experiment::Record;
+use crate::identify::IdentifyError;
+use crate::numeric::{Interval, Limit, OutOfDomain};
+
+/// Room for the rounding of numbers on their way into a file: of a reading in steps of the sensor, of others in shares of themselves.
+pub(super) const ROUNDING: f64 = 1e-9;
+/// Largest negative drag rate that is searched, over the mean half-period: an unstable vehicle that grows by `e^2.5` in one.
+const DRIVING: f64 = 2.5;
+/// Longest lag that is searched: the mean half-period over this. A longer lag exchanges with the time constant of the drag.
+const LEAST_LAG_RATE: f64 = 4.0;
+/// Speeds are searched up to this times the largest mean speed of the readings.
+const FASTEST: f64 = 4.0;
+/// Most shooting intervals of a record: the linear programmes grow with them.
+const MOST_INTERVALS: usize = 40;
+/// Fewest samples of a shooting interval.
+const FEWEST_SAMPLES: usize = 6;
+/// Half-periods of the first horizon: over wide boxes they tell nearly as much as the whole record.
+const FIRST_HORIZON: usize = 3;
+/// Shooting intervals of a half-period in the first horizon; there boxes are wide, and the error of the sensitivities grows with the
+/// square of an interval's length. Later there is one of each half-period.
+const PER_HALF_PERIOD: usize = 4;
+
+/// Records, unknowns and search box.
 #[derive(Clone, Debug)]
-pub(super) struct Readings {
-    pub(super) time_s: Vec<f64>,
-    pub(super) value: Vec<f64>,
-    /// Largest error of a reading.
-    pub(super) error: f64,
-    /// Largest error of a stamp.
-    pub(super) jitter_s: f64,
-    pub(super) command: Command,
+pub(super) struct Problem {
+    pub(super) records: Vec<Readings>,
+    pub(super) unknowns: Unknowns,
+    pub(super) known_delay_s: Interval,
+    /// The speed about which quadratic drag is written.
+    pub(super) middle_speed: f64,
+    /// The largest speed that is searched.
+    pub(super) fastest: f64,
+    pub(super) half_period_s: f64,
+    /// Half the range of the output.
+    pub(super) amplitude: f64,
+    pub(super) typical_speed: f64,
+    /// Least coefficient of linear drag over alpha.
+    pub(super) least_linear: f64,
+    pub(super) search: Vec<Interval>,
+    /// Shooting intervals of each record that are followed, from its first on.
+    pub(super) horizon: usize,
+    /// Samples used as constraints, by record; `None` for all.
+    pub(super) used: Option<Vec<BTreeSet<usize>>>,
+    pub(super) work: Work,
+}
+
+fn refuse(quantity: &'static str, value: f64, unit: &'static str, limit: Limit, remedy: &'static str) -> IdentifyError {
+    OutOfDomain { quantity, value, unit, limit, remedy }.into()
+}
+
+fn interval(low: f64, high: f64) -> Interval {
+    Interval::new(low.min(high), high.max(low)).unwrap_or(Interval::ENTIRE)
+}
+
+impl BoundedModel {
+    fn check(&self) -> Result<(), IdentifyError> {
+        for (quantity, value, unit) in [
+            ("largest error of a reading", self.error, "output"),
+            ("largest error of a stamp", self.jitter_s, "s"),
+            ("step of the sensor", self.quantum.unwrap_or(0.0), "output"),
+        ] {
+            if !Limit::NonNegative.holds(value) {
+                return Err(refuse(quantity, value, unit, Limit::NonNegative, "give the sensor's largest error"));
+            }
+        }
+        if !(self.reach > 1.0 && self.reach <= 1e6) {
+            let limit = Limit::Within(1.0, 1e6);
+            return Err(refuse("reach of the search", self.reach, "", limit, "100 looks through four decades"));
+        }
+        let delays = match self.delay {
+            DelayBound::KnownS(delay_s) => [delay_s; 2],
+            DelayBound::WithinS(range) => range,
+            DelayBound::Unknown => [0.0; 2],
+        };
+        if !(delays[0] >= 0.0 && delays[0] <= delays[1] && delays[1].is_finite()) {
+            let remedy = "give the lower bound of the delay first";
+            return Err(refuse("least delay", delays[0], "s", Limit::NonNegative, remedy));
+        }
+        Ok(())
+    }
+
+    /// Step of a record's sensor, zero for none.
+    pub(super) fn step(&self, record: &Record) -> f64 {
+        self.quantum.or_else(|| record.quantum()).unwrap_or(0.0)
+    }
+
+    fn terms(&self) -> Vec<FieldTerm> {
+        let used = [
+            (FieldTerm::Gain, true),
+            (FieldTerm::Linear, self.law.has_linear()),
+            (FieldTerm::Quadratic, self.law.has_quadratic()),
+            (FieldTerm::Cubic, self.cubic),
+            (FieldTerm::Stiffness, self.stiffness),
+            (FieldTerm::LagRate, self.lag),
+        ];
+        used.into_iter().filter(|(_, used)| *used).map(|(term, _)| term).collect()
+    }
 }
 
 impl Readings {
-    /// The first ones, as if the record ended there.
-    pub(super) fn until(&self, samples: usize) -> Self {
-        let (time_s, value) = (self.time_s[..samples].to_vec(), self.value[..samples].to_vec());
-        let last = time_s.last().copied().unwrap_or(f64::NEG_INFINITY);
-        let edges = self.command.spans().iter().take_while(|(first, _)| *first <= last).count();
-        Self { time_s, value, command: self.command.until(edges), ..self.clone() }
-    }
-
-    /// The same without the first ones.
-    pub(super) fn from(&self, sample: usize) -> Self {
-        let (time_s, value) = (self.time_s[sample..].to_vec(), self.value[sample..].to_vec());
-        Self { time_s, value, ..self.clone() }
-    }
-
-    /// Switchings that are left out where it is followed from a sample on: but for the last of those before, which acts there; none where it is
-    /// followed from the first.
-    pub(super) fn skipped(&self, onset: usize) -> usize {
-        let before = self.command.spans().iter().take_while(|(first, _)| *first <= self.time_s[onset]).count();
-        if onset > 0 { before.saturating_sub(1) } else { 0 }
-    }
-
-    /// The stamp from which on every command that acts is in the log: `t - delay >= t_0 + jitter`, as the first row may be so late.
-    pub(super) fn acted_s(&self, delay_s: Interval) -> f64 {
-        (Interval::point(self.time_s[0]) + delay_s + Interval::point(self.jitter_s)).upper()
-    }
-
-    /// Mean time between two switchings.
-    pub(super) fn swing_s(&self) -> f64 {
-        (self.time_s[self.time_s.len() - 1] - self.time_s[0]) / (self.command.edges() + 1) as f64
-    }
-}
-
-/// A stretch of one record: samples from `first` to `last`, the state unknown at the first. The next stretch of the record
-/// begins with the last.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Window {
-    pub(super) record: usize,
-    pub(super) first: usize,
-    pub(super) last: usize,
-}
-
-/// Which unknowns there are, and where each stands in a box: terms and the delay, common to all; each record's disturbance and
-/// instants; each window's state.
-#[derive(Clone, Debug)]
-pub(super) struct Layout {
-    terms: Vec<Term>,
-    delay: bool,
-    /// For each record, the number of switchings at unknown instants.
-    instants: Vec<usize>,
-    windows: Vec<Window>,
-}
-
-impl Layout {
-    pub(super) fn new(terms: Vec<Term>, delay: bool, instants: Vec<usize>, windows: Vec<Window>) -> Self {
-        Self { terms, delay, instants, windows }
-    }
-
-    /// The same with other windows.
-    pub(super) fn with_windows(self, windows: Vec<Window>) -> Self {
-        Self { windows, ..self }
-    }
-
-    pub(super) fn terms(&self) -> &[Term] {
-        &self.terms
-    }
-    pub(super) fn records(&self) -> usize {
-        self.instants.len()
-    }
-    pub(super) fn windows(&self) -> &[Window] {
-        &self.windows
-    }
-    pub(super) fn common(&self) -> usize {
-        self.terms.len() + usize::from(self.delay)
-    }
-    pub(super) fn place_of(&self, term: Term) -> Option<usize> {
-        self.terms.iter().position(|own| *own == term)
-    }
-    pub(super) fn delay(&self) -> Option<usize> {
-        self.delay.then_some(self.terms.len())
-    }
-    pub(super) fn lagged(&self) -> bool {
-        self.terms.contains(&Term::LagRate)
-    }
-    pub(super) fn state_size(&self) -> usize {
-        if self.lagged() { 3 } else { 2 }
-    }
-    pub(super) fn disturbance(&self, record: usize) -> usize {
-        self.common() + record + self.instants[..record].iter().sum::<usize>()
-    }
-    pub(super) fn instant(&self, record: usize, edge: usize) -> usize {
-        self.disturbance(record) + 1 + edge
-    }
-    pub(super) fn instants(&self, record: usize) -> usize {
-        self.instants[record]
-    }
-    /// Unknowns that are no window's own.
-    pub(super) fn parameters(&self) -> usize {
-        self.common() + self.records() + self.instants.iter().sum::<usize>()
-    }
-    /// Component of the state at the beginning of a window.
-    pub(super) fn start(&self, window: usize, component: usize) -> usize {
-        self.parameters() + window * self.state_size() + component
-    }
-
-    /// Parameters, and the state at every record's beginning.
-    pub(super) fn of_whole(&self) -> Vec<usize> {
-        let first = |record| self.windows.iter().position(|window| window.record == record);
-        let states = |window| (0..self.state_size()).map(move |component| self.start(window, component));
-        (0..self.parameters()).chain((0..self.records()).filter_map(first).flat_map(states)).collect()
-    }
-
-    /// Samples of so many windows of each record, from its first on.
-    pub(super) fn followed(&self, reach: usize) -> f64 {
-        let of = |record| self.windows.iter().filter(move |window| window.record == record).take(reach);
-        (0..self.records()).flat_map(of).map(|window| (window.last - window.first) as f64).sum()
-    }
-
-    /// The state at every window's beginning as far as the reading there tells, while no speed exceeds `fastest`.
-    pub(super) fn states(&self, records: &[Readings], fastest: f64) -> Vec<Interval> {
-        let mut states = Vec::with_capacity(self.windows.len() * self.state_size());
-        for window in &self.windows {
-            let readings = &records[window.record];
-            let stray = (Interval::point(readings.jitter_s) * Interval::point(fastest)).upper();
-            let error = (Interval::point(readings.error) + Interval::point(stray)).upper();
-            states.push(Interval::point(readings.value[window.first]) + Interval::symmetric(error));
-            states.push(Interval::symmetric(fastest));
-            if self.lagged() {
-                // A lag keeps the force among the commands.
-                states.push(Interval::symmetric(readings.command.largest()));
+    /// Of every record, with the errors that are granted.
+    ///
+    /// # Errors
+    /// [`IdentifyError::OutOfDomain`] that names the quantity.
+    pub(super) fn of(records: &[&Record], settings: &BoundedModel) -> Result<Vec<Self>, IdentifyError> {
+        settings.check()?;
+        if records.is_empty() {
+            return Err(refuse("number of records", 0.0, "", Limit::AtLeast(1.0), "give a record"));
+        }
+        let readings = |record: &&Record| {
+            let error = 0.5 * settings.step(record) * (1.0 + ROUNDING) + settings.error;
+            if error <= 0.0 {
+                let remedy = "the record shows no step of its sensor: give its step, or its largest error";
+                return Err(refuse("largest error of a reading", error, "output", Limit::Positive, remedy));
             }
-        }
-        states
+            let command = Command::of(record, settings.switching == SwitchedWhen::Anywhere, settings.jitter_s);
+            if command.largest() <= 0.0 {
+                let remedy = "choose the column of the command";
+                return Err(refuse("largest command", 0.0, "force", Limit::Positive, remedy));
+            }
+            if command.edges() == 0 {
+                let remedy = "give a record in which the command changes";
+                return Err(refuse("switchings of the command", 0.0, "", Limit::AtLeast(1.0), remedy));
+            }
+            if command.spans().windows(2).any(|pair| pair[0].1 > pair[1].0) {
+                let limit = Limit::Words("at most half the shortest time between two changes of the command");
+                let remedy =
+                    "give the largest error that a stamp may have, or a log of a command that changes less often";
+                return Err(refuse("largest error of a stamp", settings.jitter_s, "s", limit, remedy));
+            }
+            let (time_s, value) = (record.time_s().to_vec(), record.output().to_vec());
+            Ok(Self { time_s, value, error, jitter_s: settings.jitter_s, command })
+        };
+        records.iter().map(readings).collect()
+    }
+}
+
+/// Shooting intervals of a record from where every command that acts is in the log; `None` where that leaves too few samples.
+fn divide(record: usize, readings: &Readings, delay: Interval) -> Option<Vec<Shooting>> {
+    let samples = readings.time_s.len();
+    let acted_s = readings.acted_s(delay);
+    let first = readings.time_s.partition_point(|time| *time < acted_s);
+    if samples < first + 3 * FEWEST_SAMPLES {
+        return None;
+    }
+    let edges = readings.command.edges();
+    let split = |from: usize, to: usize, count: usize| {
+        let count = count.min((to - from) / FEWEST_SAMPLES).max(1);
+        let node = move |index: usize| from + (to - from) * index / count;
+        (0..count).map(move |index| Shooting { record, first: node(index), last: node(index + 1) })
+    };
+    let last = samples - 1;
+    let end = readings
+        .command
+        .spans()
+        .get(FIRST_HORIZON)
+        .map_or(last, |(first, _)| readings.time_s.partition_point(|time| time < first).saturating_sub(1));
+    if edges < 2 * FIRST_HORIZON || end < first + FEWEST_SAMPLES || last < end + FEWEST_SAMPLES {
+        return Some(split(first, last, (edges + 1).clamp(2, MOST_INTERVALS)).collect());
+    }
+    let early = FIRST_HORIZON * PER_HALF_PERIOD;
+    Some(
+        split(first, end, early)
+            .chain(split(end, last, (edges + 1 - FIRST_HORIZON).min(MOST_INTERVALS - early)))
+            .collect(),
+    )
+}
+
+fn unknowns(readings: &[Readings], settings: &BoundedModel, delay: Interval) -> Result<Unknowns, IdentifyError> {
+    let mut shooting = Vec::new();
+    for (record, readings) in readings.iter().enumerate() {
+        shooting.extend(divide(record, readings, delay).ok_or_else(|| {
+            let limit = Limit::Words("well within the record");
+            refuse("longest delay", delay.upper(), "s", limit, "give a longer record, or bound the delay")
+        })?);
+    }
+    let instants = readings.iter().map(|own| own.command.unknown_instants()).collect();
+    Ok(Unknowns::new(settings.terms(), !delay.is_point(), instants, shooting))
+}
+
+impl Problem {
+    /// # Errors
+    /// [`IdentifyError::OutOfDomain`] that names the quantity.
+    pub(super) fn new(records: &[&Record], settings: &BoundedModel) -> Result<Self, IdentifyError> {
+        let readings = Readings::of(records, settings)?;
+        let scales: Vec<Scales> = readings.iter().map(Readings::scales).collect();
+        Self::of(readings, settings, &scales)
     }
 
-    /// For one window: what its derivatives are by, and where each stands in a box.
-    pub(super) fn columns(&self, window: usize) -> (Vec<By>, Vec<usize>) {
-        let record = self.windows[window].record;
-        let mut columns: Vec<(By, usize)> =
-            self.terms.iter().enumerate().map(|(place, term)| (By::Term(*term), place)).collect();
-        columns.extend(self.delay().map(|place| (By::Delay, place)));
-        columns.push((By::Term(Term::Disturbance), self.disturbance(record)));
-        columns.extend((0..self.instants[record]).map(|edge| (By::Instant(edge), self.instant(record, edge))));
-        columns.extend((0..self.state_size()).map(|k| (By::Start(k), self.start(window, k))));
-        columns.into_iter().unzip()
+    /// From readings, and parameters of these orders of magnitude.
+    ///
+    /// # Errors
+    /// [`IdentifyError::OutOfDomain`] for a record that is too short for its delay.
+    pub(super) fn of(
+        records: Vec<Readings>,
+        settings: &BoundedModel,
+        scales: &[Scales],
+    ) -> Result<Self, IdentifyError> {
+        let half_period_s = scales.iter().map(|scale| scale.half_period_s).fold(f64::INFINITY, f64::min);
+        let delay = match settings.delay {
+            DelayBound::KnownS(delay_s) => Interval::point(delay_s),
+            DelayBound::WithinS([low, high]) => interval(low, high),
+            DelayBound::Unknown => interval(0.0, half_period_s),
+        };
+        let both = settings.law.has_linear() && settings.law.has_quadratic();
+        let speed = scales.iter().map(|scale| scale.speed).sum::<f64>() / scales.len() as f64;
+        let middle_speed = if both { speed } else { 0.0 };
+        let unknowns = unknowns(&records, settings, delay)?;
+        let first = &scales[0];
+        // A force moves the vehicle by its amplitude in a half-period.
+        let gain = 4.0 * first.amplitude / (first.force * first.half_period_s * first.half_period_s);
+        let (rate, reach) = (1.0 / first.half_period_s, settings.reach);
+        let least_linear = if settings.either_sign { -DRIVING * rate } else { 0.0 };
+        let range = |term: &FieldTerm| {
+            let linear = interval(least_linear, reach * rate);
+            let quadratic = interval(0.0, reach * rate / first.speed);
+            match term {
+                FieldTerm::Gain => interval(gain / reach, gain * reach),
+                FieldTerm::Linear => linear + Interval::point(2.0 * middle_speed) * quadratic,
+                FieldTerm::Quadratic => quadratic,
+                FieldTerm::Cubic => interval(0.0, reach * rate / (first.speed * first.speed)),
+                FieldTerm::Stiffness => interval(0.0, reach * rate * rate),
+                FieldTerm::LagRate => interval(LEAST_LAG_RATE * rate, 1000.0 * rate),
+                FieldTerm::Disturbance => Interval::ZERO,
+            }
+        };
+        let mut search: Vec<Interval> = unknowns.terms.iter().map(range).collect();
+        search.extend(unknowns.delay().map(|_| delay));
+        for (record, readings) in records.iter().enumerate() {
+            // A disturbance stronger than the command leaves no oscillation.
+            search.push(Interval::symmetric(gain * reach * readings.command.largest()));
+            search.extend((0..unknowns.instants(record)).map(|edge| readings.command.span(edge)));
+        }
+        let problem = Self {
+            known_delay_s: delay,
+            middle_speed,
+            fastest: FASTEST * scales.iter().map(|scale| scale.fastest).fold(0.0, f64::max),
+            half_period_s,
+            amplitude: scales.iter().map(|scale| scale.amplitude).fold(0.0, f64::max),
+            typical_speed: speed,
+            least_linear,
+            search: Vec::new(),
+            horizon: usize::MAX,
+            used: None,
+            work: Work::default(),
+            records,
+            unknowns,
+        };
+        Ok(problem.within(&search))
     }
 
-    /// The equation for one record over a box.
-    pub(super) fn field(&self, record: usize, at: &[Interval], middle_speed: f64) -> Field {
-        let mut terms = [Interval::ZERO; TERMS];
-        for (place, term) in self.terms.iter().enumerate() {
-            terms[*term as usize] = at[place];
-        }
-        terms[Term::Disturbance as usize] = at[self.disturbance(record)];
-        let mut active = active(&self.terms);
-        active[Term::Disturbance as usize] = true;
-        Field { terms, active, middle_speed }
+    /// The same with the parameters in `at`, and the states as the readings tell them.
+    pub(super) fn within(&self, at: &[Interval]) -> Self {
+        let mut search = at[..self.unknowns.parameters()].to_vec();
+        search.extend(self.unknowns.states(&self.records, self.fastest));
+        Self { search, ..self.clone() }
     }
 
-    /// State at a window's beginning over a box.
-    pub(super) fn state_of(&self, window: usize, at: &[Interval]) -> Triple {
-        let mut state = [Interval::ZERO; 3];
-        for (component, value) in state.iter_mut().enumerate().take(self.state_size()) {
-            *value = at[self.start(window, component)];
+    /// The same with a narrower range of the delay, after which more readings can be used.
+    pub(super) fn narrowed(&self, settings: &BoundedModel, at: &[Interval]) -> Result<Self, IdentifyError> {
+        let Some(place) = self.unknowns.delay() else { return Ok(self.within(at)) };
+        let mut problem = self.clone();
+        problem.unknowns = unknowns(&self.records, settings, at[place])?;
+        let mut parameters = at[..self.unknowns.parameters()].to_vec();
+        if problem.unknowns.delay().is_none() {
+            problem.known_delay_s = parameters.remove(place);
         }
-        state
+        Ok(problem.within(&parameters))
+    }
+
+    /// Numbers of shooting intervals: the first horizon, then twice as many later ones each time, at last all.
+    pub(super) fn horizons(&self) -> Vec<usize> {
+        let all = self.unknowns.most_intervals();
+        let first = FIRST_HORIZON * PER_HALF_PERIOD;
+        let doubled = core::iter::successors(Some(FIRST_HORIZON), |later| Some(2 * later));
+        let horizons = core::iter::once(first).chain(doubled.map(|later| first + later));
+        horizons.take_while(|horizon| *horizon < all).chain([all]).collect()
+    }
+
+    /// The same with the records cut at a horizon.
+    pub(super) fn until(&self, horizon: usize) -> Self {
+        let mut problem = Self { horizon, ..self.clone() };
+        for (record, readings) in problem.records.iter_mut().enumerate() {
+            let own = self.unknowns.shooting.iter().filter(|own| own.record == record);
+            let samples = own.take(horizon).last().map_or(0, |own| own.last) + 1;
+            readings.time_s.truncate(samples);
+            readings.value.truncate(samples);
+        }
+        problem
+    }
+
+    /// Shooting intervals that are followed.
+    pub(super) fn followed(&self) -> impl Iterator<Item = (usize, Shooting)> + '_ {
+        let shooting = self.unknowns.shooting.iter().copied().enumerate();
+        shooting.filter(|(index, own)| index - self.unknowns.first(own.record) < self.horizon)
+    }
+
+    pub(super) fn delay_s(&self, at: &[Interval]) -> Interval {
+        self.unknowns.delay().map_or(self.known_delay_s, |place| at[place])
+    }
+
+    /// The range of a term over a box; zero for a term that the equation does not have.
+    pub(super) fn term(&self, term: FieldTerm, at: &[Interval]) -> Interval {
+        self.unknowns.place_of(term).map_or(Interval::ZERO, |place| at[place])
+    }
+
+    /// The linear drag over alpha, without the share of the quadratic drag at the middle speed.
+    pub(super) fn linear_drag(&self, at: &[Interval]) -> Interval {
+        self.term(FieldTerm::Linear, at)
+            - Interval::point(2.0 * self.middle_speed) * self.term(FieldTerm::Quadratic, at)
+    }
+
+    pub(super) fn least_error(&self) -> f64 {
+        self.records.iter().fold(f64::INFINITY, |least, readings| least.min(readings.error))
+    }
+
+    pub(super) fn largest_command(&self) -> f64 {
+        self.records.iter().map(|readings| readings.command.largest()).fold(0.0, f64::max)
+    }
+
+    /// A box of parameters by its quantities, in the coordinates of the search.
+    pub(super) fn ranges(&self, at: &[Interval]) -> Vec<QuantityRange> {
+        let unknowns = &self.unknowns;
+        let quantity = |term: &FieldTerm| match term {
+            FieldTerm::Gain => Some(Quantity::Gain),
+            FieldTerm::Linear => Some(Quantity::LinearRate),
+            FieldTerm::Quadratic => Some(Quantity::QuadraticRate),
+            FieldTerm::Cubic => Some(Quantity::CubicRate),
+            FieldTerm::Stiffness => Some(Quantity::StiffnessRate),
+            FieldTerm::LagRate => Some(Quantity::LagRate),
+            FieldTerm::Disturbance => None,
+        };
+        let side =
+            |term: &FieldTerm| if *term == FieldTerm::Linear { self.linear_drag(at) } else { self.term(*term, at) };
+        let terms = unknowns.terms.iter().filter_map(|term| Some((quantity(term)?, side(term))));
+        let delay = unknowns.delay().map(|place| (Quantity::DelayS, at[place]));
+        let disturbances =
+            (0..unknowns.records()).map(|record| (Quantity::DeltaRate(record), at[unknowns.disturbance(record)]));
+        let speed = (Quantity::Speed, Interval::symmetric(self.fastest));
+        terms.chain(delay).chain(disturbances).chain([speed]).map(QuantityRange::of).collect()
     }
 }

@@ -63,8 +63,8 @@ pub struct BoundedModel {
     pub outliers: usize,
     /// Factor by which inertia, and drag upwards, are looked for on either side of their order of magnitude in the record.
     pub reach: f64,
-    /// Work that may be spent, in passes over the records: of 2 ms and 2.4 us for each sample on the machine where that was measured, but counted,
-    /// so that an answer is the same on every other.
+    /// Work that may be spent, in passes of 300 integration steps or as many samples under modulating functions. It is counted and not
+    /// timed: the answer is the same on every machine.
     pub budget: usize,
 }
 

@@ -1,14 +1,10 @@
 //! Vehicles that move by another method than the one they judge.
 
-use super::field::Term;
+use super::problem::Problem;
 use super::settings::{BoundedModel, DelayBound};
-use super::setup::Setup;
+use super::vector_field::FieldTerm;
 use crate::experiment::Record;
 use crate::identify::DragLaw;
-
-pub(super) use ray::{Ray, rays};
-
-mod ray;
 
 const SAMPLE_S: f64 = 0.1;
 /// Steps of a sample's interval.
@@ -40,18 +36,6 @@ pub(super) struct Vehicle {
     /// Delay in steps.
     pub(super) delayed: usize,
 }
-
-/// Mixed drag, and nothing besides.
-pub(super) const DRAG: Vehicle = Vehicle {
-    gain: 0.9,
-    linear: 0.5,
-    quadratic: 0.4,
-    disturbance: 0.08,
-    cubic: 0.0,
-    stiffness: 0.0,
-    lag_rate: 0.0,
-    delayed: 0,
-};
 
 impl Vehicle {
     /// Position, velocity and force at every sample under a square wave; and the command.
@@ -104,29 +88,29 @@ impl Vehicle {
     }
 
     /// All unknowns of the search.
-    pub(super) fn truth(&self, setup: &Setup, motion: &[Sample]) -> Vec<f64> {
-        let layout = &setup.layout;
-        let mut truth = vec![0.0; setup.search.len()];
-        for (place, term) in layout.terms().iter().enumerate() {
+    pub(super) fn truth(&self, problem: &Problem, motion: &[Sample]) -> Vec<f64> {
+        let unknowns = &problem.unknowns;
+        let mut truth = vec![0.0; problem.search.len()];
+        for (place, term) in unknowns.terms.iter().enumerate() {
             truth[place] = match term {
-                Term::Gain => self.gain,
-                Term::Linear => self.linear + 2.0 * setup.middle_speed * self.quadratic,
-                Term::Quadratic => self.quadratic,
-                Term::Cubic => self.cubic,
-                Term::Stiffness => self.stiffness,
-                Term::LagRate => self.lag_rate,
-                Term::Disturbance => self.disturbance,
+                FieldTerm::Gain => self.gain,
+                FieldTerm::Linear => self.linear + 2.0 * problem.middle_speed * self.quadratic,
+                FieldTerm::Quadratic => self.quadratic,
+                FieldTerm::Cubic => self.cubic,
+                FieldTerm::Stiffness => self.stiffness,
+                FieldTerm::LagRate => self.lag_rate,
+                FieldTerm::Disturbance => self.disturbance,
             };
         }
-        if let Some(place) = layout.delay() {
+        if let Some(place) = unknowns.delay() {
             truth[place] = self.delay_s();
         }
-        truth[layout.disturbance(0)] = self.disturbance;
-        for (index, window) in layout.windows().iter().enumerate() {
-            let at_s = setup.records[0].time_s[window.first];
+        truth[unknowns.disturbance(0)] = self.disturbance;
+        for (index, interval) in unknowns.shooting.iter().enumerate() {
+            let at_s = problem.records[0].time_s[interval.first];
             let sample = (at_s / SAMPLE_S).round() as usize;
-            for component in 0..layout.state_size() {
-                truth[layout.start(index, component)] = motion[sample].0[component];
+            for component in 0..unknowns.state_size() {
+                truth[unknowns.start(index, component)] = motion[sample].0[component];
             }
         }
         truth

@@ -1,11 +1,9 @@
 //! What the bounds rest on, as numbers that a claim compares with independent ones.
 
-use super::contract::Span;
-use super::lp::Rows;
-use super::rows::Starts;
-use super::search::Search;
-use super::setup::Setup;
-use super::{BoundedModel, DelayBound};
+use super::linear_program::Inequalities;
+use super::linear_relaxation::Span;
+use super::problem::Problem;
+use super::settings::{BoundedModel, DelayBound};
 use crate::experiment::Record;
 use crate::identify::DragLaw;
 use crate::numeric::{Interval, Real};
@@ -20,7 +18,7 @@ pub(crate) fn dual_bound(
 ) -> f64 {
     let numbered = |values: &[f64]| -> Vec<(usize, f64)> { values.iter().copied().enumerate().collect() };
     let row = |row: &Vec<f64>| row.iter().enumerate().map(|(j, slope)| (j, Interval::point(*slope))).collect();
-    let rows = Rows { slopes: slopes.iter().map(row).collect(), limits: limits.to_vec() };
+    let rows = Inequalities { coefficients: slopes.iter().map(row).collect(), limits: limits.to_vec() };
     let sides: Vec<Interval> =
         sides.iter().map(|(low, high)| Interval::point(*low).hull(Interval::point(*high))).collect();
     rows.upper_bound(&numbered(objective), &numbered(multipliers), &sides)
@@ -32,7 +30,7 @@ const BESIDE: f64 = 0.4;
 /// An axis with linear drag and its record, in a box with the truth.
 #[derive(Debug)]
 pub(crate) struct Surrounded {
-    setup: Setup,
+    problem: Problem,
     at: Vec<Interval>,
     centre: Vec<f64>,
 }
@@ -49,32 +47,31 @@ impl Surrounded {
     ) -> Option<Self> {
         let quantum = Some(2.0 * state[0]);
         let model = BoundedModel { quantum, ..BoundedModel::new(DragLaw::Linear, DelayBound::KnownS(0.0)) };
-        let setup = Setup::new(&[record], &model).ok()?;
+        let problem = Problem::new(&[record], &model).ok()?;
         let about = |value: f64, room: f64| Interval::point(value).inflate(room);
         // Not about the truth: the middles of what is enclosed belong to the middle of the box.
         let beside = |value: f64| about(value * (1.0 + BESIDE * width), width * value.abs());
         let mut at: Vec<Interval> = truth.iter().map(|value| beside(*value)).collect();
-        for window in setup.layout.windows() {
-            let own = states.get(window.first)?;
+        for interval in &problem.unknowns.shooting {
+            let own = states.get(interval.first)?;
             at.extend([about(own[0], state[0]), about(own[1], state[1])]);
         }
         // Not the truth: of its own motion a slope says nothing.
         let centre = at.iter().map(|side| side.midpoint() + 0.7 * side.radius()).collect();
-        Some(Self { setup, at, centre })
+        Some(Self { problem, at, centre })
     }
 
     /// By how far the true positions are outside of what the mean-value form of each window encloses, at most; with the slopes' middles
     /// in place of their ranges if wanted. `None` where there is no enclosure.
     pub(crate) fn outside(&self, states: &[[f64; 2]], truth: [f64; 3], middles: bool) -> Option<f64> {
-        let search = Search::new(&self.setup);
         let mut furthest = 0.0f64;
-        for (index, window) in self.setup.layout.windows().iter().enumerate() {
-            let motion = search.model.motion(Span { from: index, to: index + 1 }, &self.at, &self.centre)?;
-            let (_, places) = self.setup.layout.columns(index);
-            let own: Vec<f64> = truth.into_iter().chain(states[window.first]).collect();
-            for (node, state) in motion.iter().zip(&states[window.first..]) {
+        for (index, interval) in self.problem.unknowns.shooting.iter().enumerate() {
+            let motion = self.problem.motion(Span::single(index), &self.at, &self.centre)?;
+            let (_, places) = self.problem.unknowns.variables(index);
+            let own: Vec<f64> = truth.into_iter().chain(states[interval.first]).collect();
+            for (node, state) in motion.iter().zip(&states[interval.first..]) {
                 let mut form = node.at[0];
-                for ((slope, place), value) in node.slopes.iter().zip(&places).zip(&own) {
+                for ((slope, place), value) in node.sensitivities.iter().zip(&places).zip(&own) {
                     let slope = if middles { Interval::point(slope[0].midpoint()) } else { slope[0] };
                     form += slope * (Interval::point(*value) - Interval::point(self.centre[*place]));
                 }
@@ -88,16 +85,16 @@ impl Surrounded {
     /// chain of windows, at most. `None` where there is no enclosure.
     pub(crate) fn missed(&self, states: &[[f64; 2]], truth: [f64; 3], shift: f64) -> Option<f64> {
         let mut at = self.at.clone();
-        let linear = Search::new(&self.setup).chained(&mut at, self.centre.clone(), Starts::Given).ok()??;
+        let relaxation = self.problem.shoot(&mut at, self.centre.clone()).ok()??;
         let mut own = truth.to_vec();
-        for (index, window) in self.setup.layout.windows().iter().enumerate() {
-            let [position, velocity] = states[window.first];
+        for (index, interval) in self.problem.unknowns.shooting.iter().enumerate() {
+            let [position, velocity] = states[interval.first];
             own.extend([position, if index == 2 { velocity + shift } else { velocity }]);
         }
-        let rows = linear.rows.slopes.iter().zip(&linear.rows.limits);
+        let rows = relaxation.inequalities.coefficients.iter().zip(&relaxation.inequalities.limits);
         Some(rows.fold(0.0, |most, (slopes, limit)| {
             let sum = slopes.iter().fold(Interval::ZERO, |sum, (place, slope)| {
-                sum + *slope * (Interval::point(own[*place]) - Interval::point(linear.centre[*place]))
+                sum + *slope * (Interval::point(own[*place]) - Interval::point(relaxation.centre[*place]))
             });
             most.max(sum.lower() - limit)
         }))

@@ -3,13 +3,13 @@
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use super::contract::{Origin, Span};
-use super::lp::Rows;
-use super::problem::Window;
-use super::rows::Starts;
-use super::search::Search;
-use super::setup::Setup;
-use super::{BoundedModel, Consistency, DelayBound, Quantity, enclose};
+use super::contraction::Contractor;
+use super::linear_program::Inequalities;
+use super::linear_relaxation::{Disjoint, Origin, Relaxation, Span, midpoints, points};
+use super::problem::Problem;
+use super::simulated::Vehicle;
+use super::unknowns::Shooting;
+use super::{BoundedModel, DelayBound};
 use crate::experiment::{Record, Sensor, SimulatedExperiment};
 use crate::identify::DragLaw;
 use crate::nonlinearity::RelayHysteresis;
@@ -52,8 +52,8 @@ fn the_dual_in_intervals_is_never_below_its_exact_value_and_in_floats_sometimes_
         let objective: Vec<i64> = (0..3).map(|_| any()).collect();
         let box_: Vec<(i64, i64)> = (0..3).map(|_| (any(), any())).map(|(a, b)| (a.min(b), a.max(b))).collect();
         let exact = exact_dual(&slopes, &limits, &y, &objective, &box_);
-        let rows = Rows {
-            slopes: slopes
+        let rows = Inequalities {
+            coefficients: slopes
                 .iter()
                 .map(|row| row.iter().enumerate().map(|(j, a)| (j, Interval::point(*a as f64))).collect())
                 .collect(),
@@ -76,8 +76,6 @@ pub(super) const BETA: f64 = 0.6;
 pub(super) const DELTA: f64 = 0.1;
 pub(super) const STEP: f64 = 0.02;
 pub(super) const TURN_S: f64 = 2.0;
-/// Bounds that differ by less of their width are the same.
-const SAME: f64 = 0.01;
 
 /// Linear drag under a square wave, by the solution in closed form: time, position, velocity and command at every sample.
 pub(super) fn motion(samples: usize) -> Vec<[f64; 4]> {
@@ -106,38 +104,35 @@ pub(super) fn record(samples: usize) -> Record {
 }
 
 /// A box about the truth, of this relative half-width, with everything that a search over it needs.
-pub(super) fn setup(width: f64) -> (Setup, Vec<Interval>) {
+pub(super) fn problem(width: f64) -> (Problem, Vec<Interval>) {
     let model = BoundedModel { quantum: Some(STEP), ..BoundedModel::new(DragLaw::Linear, DelayBound::KnownS(0.0)) };
-    let setup = Setup::new(&[&record(150)], &model).expect("a problem");
+    let problem = Problem::new(&[&record(150)], &model).expect("a problem");
     let truth = [1.0 / ALPHA, BETA / ALPHA, DELTA / ALPHA];
-    let mut at = setup.search.clone();
+    let mut at = problem.search.clone();
     for (side, value) in at.iter_mut().zip(truth) {
         *side = Interval::new(value * (1.0 - width), value * (1.0 + width)).expect("ordered");
     }
-    // Speeds at the windows' beginnings are found as the search finds them.
-    let mut search = Search::new(&setup);
-    search.weigh(&mut at).expect("not empty: the truth is inside");
-    (setup, at)
+    Contractor::new(problem.clone()).modulate(&mut at).expect("not empty: the truth is inside");
+    (problem, at)
 }
 
 #[test]
 fn outputs_lie_within_the_mean_value_form_and_not_within_that_of_the_midpoint() {
-    let (setup, at) = setup(0.05);
-    let search = Search::new(&setup);
-    let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
+    let (problem, at) = problem(0.05);
+    let centre = midpoints(&at);
     let mut random = Pcg64Mcg::seed_from_u64(2);
     let mut outside = 0;
-    for window in 0..setup.layout.windows().len() {
-        let span = Span { from: window, to: window + 1 };
-        let motion = search.model.motion(span, &at, &centre).expect("an enclosure");
-        let (_, places) = setup.layout.columns(window);
+    for window in 0..problem.unknowns.shooting.len() {
+        let span = Span::single(window);
+        let motion = problem.motion(span, &at, &centre).expect("an enclosure");
+        let (_, places) = problem.unknowns.variables(window);
         for _ in 0..20 {
             let point: Vec<f64> =
                 at.iter().map(|side| random.random_range(side.lower()..side.upper().next_up())).collect();
-            let outputs = search.model.outputs(span, &point).expect("an enclosure");
+            let outputs = problem.outputs(span, &point).expect("an enclosure");
             for (node, output) in motion.iter().zip(&outputs) {
                 let (mut form, mut middle) = (node.at[0], node.at[0]);
-                for (slope, place) in node.slopes.iter().zip(&places) {
+                for (slope, place) in node.sensitivities.iter().zip(&places) {
                     let deviation = Interval::point(point[*place]) - Interval::point(centre[*place]);
                     form += slope[0] * deviation;
                     middle += Interval::point(slope[0].midpoint()) * deviation;
@@ -151,22 +146,27 @@ fn outputs_lie_within_the_mean_value_form_and_not_within_that_of_the_midpoint() 
 }
 
 /// Whether the truth meets every row: whether some element of every slope does.
-pub(super) fn met(linear: &super::contract::Linear, truth: &[f64], keep: impl Fn(&Origin) -> bool) -> bool {
-    linear.rows.slopes.iter().zip(&linear.rows.limits).zip(&linear.origins).filter(|(_, origin)| keep(origin)).all(
-        |((slopes, limit), _)| {
+pub(super) fn satisfies(linear: &Relaxation, truth: &[f64], keep: impl Fn(&Origin) -> bool) -> bool {
+    linear
+        .inequalities
+        .coefficients
+        .iter()
+        .zip(&linear.inequalities.limits)
+        .zip(&linear.origins)
+        .filter(|(_, origin)| keep(origin))
+        .all(|((slopes, limit), _)| {
             let sum = slopes.iter().fold(Interval::ZERO, |sum, (place, slope)| {
                 sum + *slope * (Interval::point(truth[*place]) - Interval::point(linear.centre[*place]))
             });
             sum.lower() <= *limit
-        },
-    )
+        })
 }
 
 /// All unknowns of the true motion, which at each window's beginning is the one before carried on.
-pub(super) fn truth(setup: &Setup) -> Vec<f64> {
+pub(super) fn truth(problem: &Problem) -> Vec<f64> {
     let mut all = vec![1.0 / ALPHA, BETA / ALPHA, DELTA / ALPHA];
     let rate = BETA / ALPHA;
-    for window in setup.layout.windows() {
+    for window in &problem.unknowns.shooting {
         let (mut x, mut v) = (0.0f64, 0.2f64);
         for sample in 0..window.first {
             let u = if ((sample as f64 * 0.1 + 1e-9) / TURN_S).floor() % 2.0 == 0.0 { 1.0 } else { -1.0 };
@@ -181,37 +181,36 @@ pub(super) fn truth(setup: &Setup) -> Vec<f64> {
 
 #[test]
 fn the_true_motion_meets_the_chain_of_windows_and_a_state_shifted_between_two_does_not() {
-    let (setup, mut at) = setup(0.02);
-    let mut search = Search::new(&setup);
-    let centre = at.iter().map(|side| side.midpoint()).collect();
-    let Ok(Some(linear)) = search.chained(&mut at, centre, Starts::Given) else { panic!("no enclosure") };
-    let mut truth = truth(&setup);
-    assert!(met(&linear, &truth, |_| true));
+    let (problem, mut at) = problem(0.02);
+    let centre = midpoints(&at);
+    let Ok(Some(linear)) = problem.shoot(&mut at, centre) else { panic!("no enclosure") };
+    let mut truth = truth(&problem);
+    assert!(satisfies(&linear, &truth, |_| true));
     // A window that begins elsewhere than the one before ends is still a motion, but not of one vehicle.
-    let velocity = setup.layout.start(2, 1);
+    let velocity = problem.unknowns.start(2, 1);
     truth[velocity] += 0.05;
-    assert!(!met(&linear, &truth, |origin| matches!(origin, Origin::Link { .. })));
+    assert!(!satisfies(&linear, &truth, |origin| matches!(origin, Origin::Link { .. })));
 }
 
 #[test]
 fn velocities_by_the_windows_beside_them_hold_the_truth_and_the_fastest_is_refused() {
-    let (setup, mut at) = setup(0.02);
-    let mut search = Search::new(&setup);
-    let centre = at.iter().map(|side| side.midpoint()).collect();
-    let Ok(Some(mut linear)) = search.chained(&mut at, centre, Starts::Given) else { panic!("no enclosure") };
-    let truth = truth(&setup);
-    let layout = &setup.layout;
-    for window in 0..layout.windows().len() {
+    let (problem, mut at) = problem(0.02);
+    let contractor = Contractor::new(problem.clone());
+    let centre = midpoints(&at);
+    let Ok(Some(mut linear)) = problem.shoot(&mut at, centre) else { panic!("no enclosure") };
+    let truth = truth(&problem);
+    let layout = &problem.unknowns;
+    for window in 0..layout.shooting.len() {
         let beside = linear.beside(window);
-        assert!(met(&beside, &truth, |_| true));
+        assert!(satisfies(&beside, &truth, |_| true));
         let first = layout.start(window.saturating_sub(1), 0);
         let last = layout.start(window + 1, layout.state_size() - 1);
         let own = |place: &usize| *place < layout.parameters() || (first..=last).contains(place);
         assert!(beside.places().iter().all(own), "window {window}: {:?}", beside.places());
     }
     let before = at.clone();
-    search.settle(&mut linear, &mut at).expect("not empty: the truth is inside");
-    for window in 1..layout.windows().len() {
+    contractor.refine_states(&mut linear, &mut at).expect("not empty: the truth is inside");
+    for window in 1..layout.shooting.len() {
         let velocity = layout.start(window, 1);
         assert!(Interval::point(truth[velocity]).is_subset_of(at[velocity]), "window {window}");
         assert!(at[velocity].width() < 0.5 * before[velocity].width(), "window {window}: {:?}", at[velocity]);
@@ -221,37 +220,13 @@ fn velocities_by_the_windows_beside_them_hold_the_truth_and_the_fastest_is_refus
     let velocity = layout.start(2, 1);
     let mut other = before;
     other[velocity] = Interval::point(other[velocity].upper());
-    let centre = other.iter().map(|side| side.midpoint()).collect();
-    let settled = match search.chained(&mut other, centre, Starts::Given) {
-        Ok(Some(mut linear)) => search.settle(&mut linear, &mut other),
+    let centre = midpoints(&other);
+    let possible = match problem.shoot(&mut other, centre) {
+        Ok(Some(mut linear)) => contractor.refine_states(&mut linear, &mut other).is_ok(),
         Ok(None) => panic!("no enclosure"),
-        Err(empty) => Err(empty),
+        Err(Disjoint) => false,
     };
-    assert!(settled.is_err(), "a window that begins with the fastest velocity");
-}
-
-#[test]
-fn a_frame_keeps_what_is_in_the_box_and_one_whose_centre_moves_without_it_does_not() {
-    let (setup, mut at) = setup(0.02);
-    let mut search = Search::new(&setup);
-    let mut frame = None;
-    for _ in 0..3 {
-        search.slant(&mut at, &mut frame, f64::INFINITY).expect("not empty: the truth is inside");
-        let own = frame.as_ref().expect("an enclosure");
-        assert!(own.holds(&truth(&setup), 0.0));
-    }
-    let own = frame.expect("an enclosure");
-    assert!(!own.holds(&truth(&setup), 0.2), "a centre that moved by a fifth of the inertia holds it still");
-    // So does the half of a frame that holds it, along every coordinate.
-    for unknown in 0..setup.layout.parameters() {
-        let halves = own.halves(unknown).expect("it has a width");
-        let half = halves.into_iter().find(|half| half.holds(&truth(&setup), 0.0)).expect("one of two");
-        let (mut at, mut half) = (at.clone(), Some(half));
-        for _ in 0..3 {
-            search.slant(&mut at, &mut half, f64::INFINITY).expect("not empty: the truth is inside");
-            assert!(half.as_ref().expect("an enclosure").holds(&truth(&setup), 0.0), "unknown {unknown}");
-        }
-    }
+    assert!(!possible, "a window that begins with the fastest velocity");
 }
 
 /// A self-oscillation from rest, rounded to steps of `STEP`.
@@ -263,46 +238,21 @@ pub(super) fn oscillation(axis: DragAxis<f64>, samples_per_s: f64, lasted_s: f64
 }
 
 #[test]
-fn a_motion_is_known_much_better_than_the_readings_and_by_the_fastest_rate_alone_it_is_not() {
-    let record = oscillation(DragAxis::quadratic(1.2, 0.8).expect("an axis"), 10.0, 60.0);
-    // With a spring there is no closed form.
-    let model = BoundedModel { stiffness: true, ..settings(DragLaw::Quadratic) };
-    let setup = Setup::new(&[&record], &model).expect("a problem");
-    let mut search = Search::new(&setup);
-    let mut point: Vec<f64> = setup.search.iter().map(|side| side.midpoint()).collect();
-    point[..4].copy_from_slice(&[1.0 / 1.2, 0.8 / 1.2, 0.0, 0.0]);
-    // A set of parameters may leave but a thousandth of an error.
-    let unsure = |search: &Search<'_>| {
-        let outputs = search.model.outputs(search.model.whole()[0], &point).expect("an enclosure");
-        outputs.iter().map(|output| output.width()).fold(0.0, f64::max) / (0.5 * STEP)
-    };
-    let paced = unsure(&search);
-    search.model.per_s = None;
-    let unpaced = unsure(&search);
-    assert!(paced < 1e-4, "{paced} of an error");
-    assert!(unpaced > 3.0 * paced, "{unpaced} without, {paced} with");
-}
-
-#[test]
 fn a_window_may_end_within_a_change_of_sign() {
     let laws = [DragLaw::Linear, DragLaw::Quadratic].into_iter().zip([DragAxis::linear, DragAxis::quadratic]);
     for (law, axis) in laws {
         let record = oscillation(axis(1.2, 0.8).expect("an axis"), 50.0, 10.0);
-        let whole = Setup::new(&[&record], &settings(law)).expect("a problem");
+        let whole = Problem::new(&[&record], &settings(law)).expect("a problem");
         // The vehicle turns round after every switching; over the box while the point still goes backwards.
         let about = |value: f64, room: f64| Interval::point(value).inflate(room);
         let mut at = vec![about(1.0 / 1.2, 0.01), about(0.8 / 1.2, 0.01), about(0.0, 0.001)];
         at.extend([about(0.0, 0.01), about(0.0, 0.3)]);
-        let centre: Vec<f64> = at.iter().map(|side| side.midpoint()).collect();
+        let centre = midpoints(&at);
         for last in 10..300 {
-            let layout = whole.layout.clone().with_windows(vec![Window { record: 0, first: 0, last }]);
-            let setup = Setup { layout, ..whole.clone() };
-            let search = Search::new(&setup);
-            let motion = search.model.motion(Span { from: 0, to: 1 }, &at, &centre);
+            let unknowns = whole.unknowns.with_shooting(vec![Shooting { record: 0, first: 0, last }]);
+            let problem = Problem { unknowns, ..whole.clone() };
+            let motion = problem.motion(Span::single(0), &at, &centre);
             assert!(motion.is_some(), "{law:?}: no enclosure up to sample {last}");
-            // As much as 40 steps, and two for every sample.
-            let us = search.model.effort.us();
-            assert!(us < 320.0 + 18.0 * last as f64, "{law:?}: {us} us up to sample {last}");
         }
     }
 }
@@ -311,104 +261,27 @@ pub(super) fn settings(law: DragLaw) -> BoundedModel {
     BoundedModel { quantum: Some(STEP), ..BoundedModel::new(law, DelayBound::KnownS(0.0)) }
 }
 
-#[test]
-fn the_truth_is_inside_from_a_wide_start() {
-    let wide = enclose(&[&record(300)], &settings(DragLaw::Linear)).expect("bounds");
-    assert_eq!(wide.verdict, Consistency::Consistent);
-    for (quantity, value) in [(Quantity::Alpha, ALPHA), (Quantity::Beta, BETA), (Quantity::Delta(0), DELTA)] {
-        let [low, high] = wide.of(quantity).expect("a range");
-        assert!(low <= value && value <= high, "{quantity}: {value} outside [{low}, {high}]");
-    }
-}
-
-#[test]
-fn a_wide_start_and_a_near_one_end_in_the_same_bounds() {
-    let record = record(300);
-    let near = BoundedModel { reach: 5.0, ..settings(DragLaw::Linear) };
-    let [wide, near] = [settings(DragLaw::Linear), near].map(|model| enclose(&[&record], &model).expect("bounds"));
-    for quantity in [Quantity::Alpha, Quantity::Beta] {
-        let [[low, high], other] = [&wide, &near].map(|bounds| bounds.of(quantity).expect("a range"));
-        let apart = (low - other[0]).abs().max((high - other[1]).abs()) / (high - low);
-        assert!(apart < SAME, "{quantity}: [{low}, {high}] and {other:?}, {apart} of the width apart");
-    }
-}
-
 /// A box about parameters off the truth by a share, of this relative half-width.
-pub(super) fn off(setup: &Setup, share: f64, width: f64) -> Vec<Interval> {
-    let mut at = setup.search.clone();
+pub(super) fn off(problem: &Problem, share: f64, width: f64) -> Vec<Interval> {
+    let mut at = problem.search.clone();
     for (side, truth) in at.iter_mut().zip([1.0 / ALPHA, BETA / ALPHA, DELTA / ALPHA]) {
         *side = Interval::point((1.0 + share) * truth).inflate(width * truth);
     }
     at
 }
 
-/// A vehicle that obeys `v' = acceleration(v, u)`, u the logged relay's 0.4 s ago and at first what acted before the log; rounded to a
-/// hundredth.
-fn vehicle(acceleration: impl Fn(f64, f64) -> f64, before: f64) -> Record {
-    const INTERVAL_S: f64 = 0.1;
-    const PARTS: usize = 100;
-    const DELAYED: usize = 4;
-    let command = |sample: usize| if (sample / 15).is_multiple_of(2) { 1.0 } else { -1.0 };
-    let (mut position, mut velocity, h) = (0.0, 0.0, INTERVAL_S / PARTS as f64);
-    let (mut time_s, mut output, mut input) = (Vec::new(), Vec::new(), Vec::new());
-    for sample in 0..300 {
-        time_s.push(INTERVAL_S * sample as f64);
-        output.push((100.0f64 * position).round() / 100.0);
-        input.push(command(sample));
-        let u = if sample < DELAYED { before } else { command(sample - DELAYED) };
-        for _ in 0..PARTS {
-            let middle = velocity + 0.5 * h * acceleration(velocity, u);
-            position += h * middle;
-            velocity += h * acceleration(middle, u);
-        }
-    }
-    Record::new(time_s, output, input).expect("a record")
-}
-
 #[test]
-fn what_acted_before_the_log_may_have_been_anything() {
-    for before in [-6.0, 1.0, 40.0] {
-        let record = vehicle(|v, u| u - 0.5 * v, before);
-        let model = BoundedModel { delay: DelayBound::KnownS(0.4), quantum: Some(0.01), ..settings(DragLaw::Linear) };
-        let found = enclose(&[&record], &model).expect("bounds");
-        let [low, high] = found.of(Quantity::Alpha).expect("bounds of alpha");
-        assert!(found.verdict == Consistency::Consistent && low <= 1.0 && 1.0 <= high, "{before}: {found:?}");
-    }
-}
-
-#[test]
-fn speeds_are_known_from_the_first_window_on_and_are_less_than_those_looked_for() {
-    let record = vehicle(|v, u| u - 0.5 * v, 1.0);
-    let model = BoundedModel {
-        delay: DelayBound::KnownS(0.4),
-        quantum: Some(0.01),
-        either_sign: true,
-        ..settings(DragLaw::Linear)
-    };
-    let setup = Setup::new(&[&record], &model).expect("a setup");
-    let search = Search::new(&setup);
-    let mut at = setup.search.clone();
+fn velocities_are_known_from_the_first_shooting_interval_on_and_are_less_than_those_searched() {
+    let vehicle = Vehicle { gain: 1.0, linear: 0.5, delayed: 80, ..Vehicle::default() };
+    let motion = vehicle.motion(200);
+    let model = BoundedModel { either_sign: true, ..vehicle.model(true, STEP) };
+    let problem = Problem::new(&[&Vehicle::record(&motion, STEP)], &model).expect("a problem");
+    let mut at = problem.search.clone();
     (at[0], at[1]) = (Interval::point(1.0).inflate(0.1), Interval::point(0.5).inflate(0.1));
     at[2] = Interval::symmetric(0.1);
-    let speeds = search.model.speeds(0, &at).expect("speeds");
-    assert_eq!(speeds.known, setup.layout.windows()[0].first);
-    assert!(speeds.fastest() < 0.7 * setup.fastest, "{} of {}", speeds.fastest(), setup.fastest);
-}
-
-#[test]
-fn quadratic_and_cubic_drag_without_a_linear_one_are_found() {
-    let record = vehicle(|v, u| u - 0.5 * v * v.abs() - 0.3 * v * v * v, 1.0);
-    let model = BoundedModel {
-        delay: DelayBound::KnownS(0.4),
-        quantum: Some(0.01),
-        cubic: true,
-        ..settings(DragLaw::Quadratic)
-    };
-    let found = enclose(&[&record], &model).expect("bounds");
-    for (quantity, truth) in [(Quantity::Alpha, 1.0), (Quantity::BetaQuadratic, 0.5), (Quantity::BetaCubic, 0.3)] {
-        let [low, high] = found.of(quantity).expect("bounds");
-        assert!(found.verdict == Consistency::Consistent && low <= truth && truth <= high, "{quantity:?}: {found:?}");
-    }
+    let velocities = problem.velocities(0, &at).expect("velocities");
+    assert_eq!(velocities.known, problem.unknowns.shooting[0].first);
+    assert!(velocities.fastest() < 0.7 * problem.fastest, "{} of {}", velocities.fastest(), problem.fastest);
 }
 
 /// `v' = u - v / 2` from a velocity of 1, u being -1 until it is switched and 1 after that; before the first instant, too.
@@ -431,22 +304,21 @@ fn a_reading_may_be_from_beyond_what_is_followed_of_the_motion_and_from_beyond_t
             let input = (0..30).map(|sample| if sample < 15 { -1.0 } else { 1.0 }).collect();
             let record = Record::new(time_s, output, input).expect("a record");
             let model = BoundedModel { quantum: Some(0.0), error: 1e-6, jitter_s, ..settings(DragLaw::Linear) };
-            let setup = Setup::new(&[&record], &model).expect("a setup");
-            let search = Search::new(&setup);
-            let layout = &setup.layout;
+            let problem = Problem::new(&[&record], &model).expect("a problem");
+            let layout = &problem.unknowns;
             // With the instant at which the command was switched.
             let mut truth = vec![1.0, 0.5, 0.0, stamp(15)];
-            for window in layout.windows() {
+            for window in &layout.shooting {
                 truth.extend(braked(stamp(window.first), stamp(15)));
             }
-            let at: Vec<Interval> = truth.iter().map(|value| Interval::point(*value)).collect();
-            let windows = layout.windows().len();
-            let spans = (0..windows).map(|from| Span { from, to: from + 1 }).chain([Span { from: 0, to: windows }]);
+            let at = points(&truth);
+            let windows = layout.shooting.len();
+            let spans = (0..windows).map(Span::single).chain([Span { from: 0, to: windows }]);
             for span in spans {
-                let motion = search.model.motion(span, &at, &truth).expect("a motion");
-                let mut linear = search.model.about(&at, truth.clone());
-                search.model.linearise(span, &motion, false, &mut linear);
-                let least = linear.rows.limits.iter().copied().fold(f64::INFINITY, f64::min);
+                let motion = problem.motion(span, &at, &truth).expect("a motion");
+                let mut linear = problem.about(&at, truth.clone());
+                problem.add_motion(span, &motion, false, &mut linear);
+                let least = linear.inequalities.limits.iter().copied().fold(f64::INFINITY, f64::min);
                 assert!(least >= 0.0, "{jitter_s} s, {late}, {span:?}: the truth is {least} outside");
             }
         }

@@ -10,7 +10,7 @@ use crate::experiment::Record;
 use crate::identify::answer::{Delay, DragLaw, IdentifyError};
 use crate::identify::bounded::certificate::{Certificate, ReadAs, Unproved};
 use crate::identify::bounded::{
-    BoundedModel, Bounds, Consistency, Contradicting, DelayBound, Outlier, Parameters, Quantity, QuantityRange,
+    BoundedModel, Bounds, Consistency, Contradicting, DelayBound, Outlier, ParameterValues, Quantity, QuantityRange,
     enclose, enclose_with_certificate,
 };
 
@@ -127,7 +127,7 @@ impl From<&Guaranteed> for BoundedConclusion {
         let deltas: Vec<[f64; 2]> =
             (0..bounds.error.len()).filter_map(|record| bounds.of(Quantity::Delta(record))).collect();
         let range = |range: &QuantityRange| (named(range.quantity, several), [range.low, range.high]);
-        let point = |witness: &Parameters| {
+        let point = |witness: &ParameterValues| {
             witness.values.iter().map(|(quantity, value)| (named(*quantity, several), *value)).collect()
         };
         Self {

@@ -1,13 +1,10 @@
 //! What a certificate says, by its model and its rows alone: the problem anew, the words, and whether the rows are a log's.
 
+use super::super::problem::{Problem, ROUNDING};
 use super::super::settings::{BoundedModel, DelayBound, SwitchedWhen};
-use super::super::setup::Setup;
-use super::check::malformed;
-use super::{Certificate, Searched, Unproved};
+use super::format::{Certificate, Log, Searched};
+use super::unproved::{Unproved, malformed};
 use crate::experiment::Record;
-
-/// A step of the sensor is the one that readings show to within this share of it.
-const SAME: f64 = 1e-9;
 
 /// Those that hold, as a list in words.
 fn listed(items: &[(bool, &str)]) -> String {
@@ -21,8 +18,8 @@ fn listed(items: &[(bool, &str)]) -> String {
 
 impl Certificate {
     /// The records and the problem that they pose, which is the one that the file says was searched.
-    pub(super) fn problem(&self) -> Result<(Vec<Record>, Setup), Unproved> {
-        let record = |rows: &super::Rows| Record::new(rows.time_s.clone(), rows.reading.clone(), rows.command.clone());
+    pub(super) fn problem(&self) -> Result<(Vec<Record>, Problem), Unproved> {
+        let record = |rows: &Log| Record::new(rows.time_s.clone(), rows.reading.clone(), rows.command.clone());
         let records: Vec<Record> = self
             .records
             .iter()
@@ -31,13 +28,13 @@ impl Certificate {
         if self.model.outliers > 0 {
             return Err(Unproved::Outliers { allowed: self.model.outliers });
         }
-        let setup = Setup::new(&records.iter().collect::<Vec<_>>(), &self.model);
-        let setup = setup.map_err(|error| malformed(&format!("the model and its records: {error}")))?;
+        let problem = Problem::new(&records.iter().collect::<Vec<_>>(), &self.model);
+        let problem = problem.map_err(|error| malformed(&format!("the model and its records: {error}")))?;
         let steps = records.iter().zip(&self.records);
         if steps.into_iter().any(|(record, rows)| rows.quantum != self.model.step(record)) {
             return Err(Unproved::Ranges { what: "step of a sensor" });
         }
-        let (found, expected) = (&self.searched, Searched::of(&setup));
+        let (found, expected) = (&self.searched, Searched::of(&problem));
         for (same, what) in [
             (found.terms == expected.terms, "equation"),
             (found.middle_speed == expected.middle_speed, "middle speed"),
@@ -49,7 +46,7 @@ impl Certificate {
                 return Err(Unproved::Ranges { what });
             }
         }
-        Ok((records, setup))
+        Ok((records, problem))
     }
 
     /// What steps of this shape show of these records.
@@ -66,7 +63,7 @@ impl Certificate {
         let BoundedModel { delay, quantum, error, jitter_s, switching, .. } = &self.model;
         // Differences of readings are rounded.
         let shown =
-            |step: f64| records.iter().all(|own| own.quantum().is_some_and(|own| (own / step - 1.0).abs() < SAME));
+            |step: f64| records.iter().all(|own| own.quantum().is_some_and(|own| (own / step - 1.0).abs() < ROUNDING));
         let conditions = listed(&[
             (!self.model.usual_reach(), "inertia and drag are within the stated reach, which is not the usual one"),
             (matches!(delay, DelayBound::WithinS(_)), "the delay is within the stated range"),
@@ -84,7 +81,7 @@ impl Certificate {
     }
 
     /// Every range on which the words depend, beside the search box.
-    pub(super) fn ranges(&self, setup: &Setup) -> Vec<String> {
+    pub(super) fn ranges(&self, problem: &Problem) -> Vec<String> {
         let BoundedModel { law, either_sign, delay, switching, error, jitter_s, reach, .. } = &self.model;
         let sign = if *either_sign { ", of either sign where it is linear" } else { "" };
         let delay = match delay {
@@ -99,10 +96,10 @@ impl Certificate {
             "outputs in units of the log, angles in rad; times in s; forces in units of the command".to_owned(),
             "no reading may be an outlier".to_owned(),
         ];
-        let windows = setup.layout.windows();
+        let windows = &problem.unknowns.shooting;
         for (number, rows) in self.records.iter().enumerate() {
             let first = windows.iter().find(|window| window.record == number).map_or(0, |window| window.first);
-            let (readings, granted) = (rows.time_s.len(), setup.records[number].error);
+            let (readings, granted) = (rows.time_s.len(), problem.records[number].error);
             ranges.push(format!(
                 "record {}: {readings} rows, followed from row {}; the output within {granted} of a reading (a step of {}, and {error})",
                 number + 1,
@@ -139,11 +136,5 @@ impl Certificate {
             }
         }
         Ok(())
-    }
-
-    /// How the logs are to be read for it.
-    #[must_use]
-    pub fn reading(&self) -> Option<&super::ReadAs> {
-        self.read_as.as_ref()
     }
 }

@@ -4,7 +4,8 @@ use std::sync::LazyLock;
 
 use super::super::tests::{record, settings};
 use super::super::{BoundedModel, Consistency, DelayBound, enclose_with_certificate};
-use super::{By, Certificate, Combination, Stage, Step, Unproved};
+use super::format::{Certificate, Combination, ProofStage, Step};
+use super::unproved::Unproved;
 use crate::identify::DragLaw;
 
 fn written(model: &BoundedModel, verdict: Consistency) -> Certificate {
@@ -50,9 +51,7 @@ fn each_changed(change: impl Fn(&mut Combination)) -> (usize, usize) {
         for step in 0..certificate.stages[0].steps.len() {
             let mut other = certificate.clone();
             let rows = match &mut other.stages[0].steps[step] {
-                Step::Contract { cuts, .. } | Step::Turn { cuts, .. } => {
-                    cuts.iter_mut().map(|cut| &mut cut.rows).find(|rows| rows.len() > 1)
-                }
+                Step::Contract { cuts, .. } => cuts.iter_mut().map(|cut| &mut cut.rows).find(|rows| rows.len() > 1),
                 Step::Exclude { rows, .. } => Some(rows).filter(|rows| rows.len() > 1),
                 _ => None,
             };
@@ -122,7 +121,7 @@ fn boxes_left_out_or_made_smaller_are_refused() {
 fn a_stage_that_begins_elsewhere_is_refused() {
     let whole = |left: Vec<[f64; 2]>| {
         let mut mixed = REFUTED.clone();
-        let first = Stage { left: Some(left), steps: vec![Step::Keep], ..REFUTED.stages[0].clone() };
+        let first = ProofStage { left: Some(left), steps: vec![Step::Keep], ..REFUTED.stages[0].clone() };
         mixed.stages.insert(0, first);
         mixed
     };
@@ -137,12 +136,12 @@ fn a_stage_that_begins_elsewhere_is_refused() {
 }
 
 #[test]
-fn a_window_that_starts_before_its_commands_are_known_is_refused() {
+fn a_shooting_interval_that_starts_before_its_commands_are_known_is_refused() {
     let mut early = REFUTED.clone();
-    early.stages[0].windows[0][1] = 0;
+    early.stages[0].shooting[0][1] = 0;
     assert_eq!(refused(&early), "malformed");
     let mut parted = CONSISTENT.clone();
-    parted.stages[0].windows[1][1] += 1;
+    parted.stages[0].shooting[1][1] += 1;
     assert_eq!(refused(&parted), "malformed");
 }
 
@@ -155,73 +154,4 @@ fn a_witness_that_misses_a_reading_and_words_that_say_more_are_refused() {
     boast.statement = REFUTED.statement.clone();
     assert_eq!(refused(&boast), "statement");
     assert!(matches!(Certificate::read("{}"), Err(Unproved::Foreign { .. })));
-}
-
-/// Steps that turn the box, by their numbers.
-fn turns(certificate: &Certificate) -> Vec<usize> {
-    let steps = certificate.stages[0].steps.iter().enumerate();
-    steps.filter(|(_, step)| matches!(step, Step::Turn { .. })).map(|(number, _)| number).collect()
-}
-
-fn with_step(number: usize, step: Step) -> Certificate {
-    let mut other = CONSISTENT.clone();
-    other.stages[0].steps[number] = step;
-    other
-}
-
-#[test]
-fn a_coordinate_that_is_said_to_be_narrower_than_its_rows_show_is_refused() {
-    let (mut refused, mut changed) = (0, 0);
-    for number in turns(&CONSISTENT) {
-        let mut step = CONSISTENT.stages[0].steps[number].clone();
-        let Step::Turn { cuts, .. } = &mut step else { continue };
-        let Some(pair) = cuts.windows(2).position(|pair| pair[0].unknown == pair[1].unknown) else { continue };
-        cuts[pair].end = 0.6 * cuts[pair].end + 0.4 * cuts[pair + 1].end;
-        changed += 1;
-        refused += usize::from(with_step(number, step).check().is_err());
-    }
-    assert!(changed > 0 && refused == changed, "{refused} of {changed}");
-}
-
-#[test]
-fn a_frame_that_is_none_or_nothing_known_is_refused() {
-    let number = turns(&CONSISTENT)[0];
-    let Step::Turn { by, frame: Some(axes), cuts } = CONSISTENT.stages[0].steps[number].clone() else {
-        panic!("the first turn leads into a frame")
-    };
-    let mut square = axes.clone();
-    square.lower[0].push(0.5);
-    let mut short = axes.clone();
-    short.centre.pop();
-    let mut endless = axes.clone();
-    endless.lower[1][0] = f64::INFINITY;
-    for frame in [Some(square), Some(short), Some(endless), None] {
-        // Into its own frame a box may be turned that has one.
-        let step = Step::Turn { by, frame: frame.clone(), cuts: cuts.clone() };
-        assert_eq!(refused(&with_step(number, step)), "step", "{frame:?}");
-    }
-    for by in [By::Chain(1), By::Slanted(0), By::Hats(1)] {
-        let step = Step::Turn { by, frame: Some(axes.clone()), cuts: cuts.clone() };
-        assert_eq!(refused(&with_step(number, step)), "step", "{by:?}");
-    }
-    let steps = &CONSISTENT.stages[0].steps;
-    let first = steps.iter().position(|step| matches!(step, Step::Contract { by: By::Slanted(_), .. })).expect("one");
-    let Step::Contract { cuts, .. } = steps[first].clone() else { panic!("it contracts") };
-    assert_eq!(refused(&with_step(first, Step::Contract { by: By::Same, cuts })), "step");
-}
-
-#[test]
-fn a_part_without_a_frame_or_outside_of_its_range_is_refused() {
-    let insert = |number: usize, coordinate: usize, at: f64| {
-        let mut other = CONSISTENT.clone();
-        other.stages[0].steps.insert(number, Step::Part { coordinate, at });
-        other
-    };
-    assert_eq!(refused(&insert(0, 0, 0.0)), "step");
-    let after = turns(&CONSISTENT)[0] + 1;
-    for (coordinate, at) in [(0, 1e9), (0, f64::NAN), (99, 0.0)] {
-        assert_eq!(refused(&insert(after, coordinate, at)), "step", "{coordinate} {at}");
-    }
-    // A part that is left over.
-    assert_ne!(insert(after, 0, 0.0).check().map_err(|unproved| unproved.code()).err(), None);
 }

@@ -1,0 +1,195 @@
+//! What was found.
+
+use serde::{Deserialize, Serialize};
+
+/// The answer to whether a record contradicts a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Consistency {
+    /// A parameter of the model meets every reading: the witness.
+    Consistent,
+    /// None in the search box does.
+    Refuted,
+    /// The budget was spent before either was known.
+    Undecided,
+}
+
+impl Consistency {
+    /// Name in JSON and in reports.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Consistent => "consistent",
+            Self::Refuted => "refuted",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
+/// A quantity of the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// Inertia with added mass.
+    Alpha,
+    /// Coefficient of drag proportional to speed.
+    Beta,
+    /// Of drag proportional to its square.
+    BetaQuadratic,
+    /// Of drag proportional to its cube.
+    BetaCubic,
+    /// Restoring force over the coordinate.
+    Stiffness,
+    /// Time constant of the force, in s.
+    LagS,
+    /// Delay of the loop, in s.
+    DelayS,
+    /// Disturbance during the record of this number.
+    Delta(usize),
+    /// Inertia, as its reciprocal: force to acceleration.
+    Gain,
+    /// A drag coefficient over alpha, as it was searched in: linear.
+    LinearRate,
+    /// The same, quadratic.
+    QuadraticRate,
+    /// The same, cubic.
+    CubicRate,
+    /// Stiffness over alpha.
+    StiffnessRate,
+    /// Reciprocal of the lag.
+    LagRate,
+    /// Disturbance over alpha.
+    DeltaRate(usize),
+    /// Position at the first sample that the model covers, by record.
+    Position(usize),
+    /// Velocity there.
+    Velocity(usize),
+    /// Largest speed that was looked for.
+    Speed,
+}
+
+impl Quantity {
+    /// The record whose own it is; `None` for what is common to all.
+    #[must_use]
+    pub fn record(self) -> Option<usize> {
+        match self {
+            Self::Delta(record) | Self::DeltaRate(record) | Self::Position(record) | Self::Velocity(record) => {
+                Some(record)
+            }
+            _ => None,
+        }
+    }
+}
+
+impl core::fmt::Display for Quantity {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let name = match self {
+            Self::Alpha => "alpha",
+            Self::Beta => "beta",
+            Self::BetaQuadratic => "beta_quadratic",
+            Self::BetaCubic => "beta_cubic",
+            Self::Stiffness => "stiffness",
+            Self::LagS => "lag_s",
+            Self::DelayS => "delay_s",
+            Self::Delta(_) => "delta",
+            Self::Gain => "1/alpha",
+            Self::LinearRate => "beta/alpha",
+            Self::QuadraticRate => "beta_quadratic/alpha",
+            Self::CubicRate => "beta_cubic/alpha",
+            Self::StiffnessRate => "stiffness/alpha",
+            Self::LagRate => "1/lag_s",
+            Self::DeltaRate(_) => "delta/alpha",
+            Self::Position(_) => "position",
+            Self::Velocity(_) => "velocity",
+            Self::Speed => "speed",
+        };
+        f.write_str(name)
+    }
+}
+
+/// A quantity with an enclosure of what it can be, in the units of the records.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct QuantityRange {
+    /// Which.
+    pub quantity: Quantity,
+    /// Not less than this.
+    pub low: f64,
+    /// Not more than this.
+    pub high: f64,
+}
+
+impl QuantityRange {
+    pub(super) fn of((quantity, side): (Quantity, crate::numeric::Interval)) -> Self {
+        Self { quantity, low: side.lower(), high: side.upper() }
+    }
+}
+
+/// One parameter of the model.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ParameterValues {
+    /// Its quantities; each record's state is at the first sample that the model covers.
+    pub values: Vec<(Quantity, f64)>,
+    /// The largest misfit of a reading, over its largest error.
+    pub misfit: f64,
+}
+
+/// A reading that takes part in a contradiction.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Contradicting {
+    /// Number of the record.
+    pub record: usize,
+    /// Number of the sample.
+    pub sample: usize,
+    /// Whether the model stays above what the reading allows, rather than below.
+    pub model_above: bool,
+    /// Its share of the contradiction; they add up to one.
+    pub share: f64,
+}
+
+/// A reading in error by more than is granted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct Outlier {
+    /// Number of the record.
+    pub record: usize,
+    /// Number of the sample.
+    pub sample: usize,
+}
+
+/// What the records leave of a model's parameters.
+///
+/// Guaranteed: a parameter within the search box that meets every constraint lies within `bounds`; where the verdict is `refuted`
+/// there is none; where it is `consistent` the witness is one. Nothing is said about parameters outside the search box, nor
+/// about a sensor whose errors are larger than stated.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bounds {
+    /// The answer.
+    pub verdict: Consistency,
+    /// Where parameters were looked for, in the coordinates of the search.
+    pub search_box: Vec<QuantityRange>,
+    /// What is left; empty where refuted.
+    pub bounds: Vec<QuantityRange>,
+    /// A parameter whose motion, enclosed in intervals, meets every reading.
+    pub witness: Option<ParameterValues>,
+    /// The parameter found with the least largest misfit: no error of the sensor below `misfit` times the one taken is known to do.
+    pub nearest: Option<ParameterValues>,
+    /// Largest error of a reading that was taken, by record: half the sensor's step and what was given besides.
+    pub error: Vec<f64>,
+    /// The error is to be multiplied by at least the first, at most the second, for the model to be consistent.
+    pub error_factor: [f64; 2],
+    /// Readings that contradict each other, where refuted, in the part of the box that was hardest to refute; where no part shows any,
+    /// readings between two switchings that no motion meets, whatever its parameters.
+    pub contradicting: Vec<Contradicting>,
+    /// Readings that no parameter meets which misses no more than [`BoundedModel::outliers`](super::BoundedModel::outliers). Fewer
+    /// than these may be found, and the bounds are wider then: any others could be outliers.
+    pub outliers: Vec<Outlier>,
+    /// Passes over the records.
+    pub passes: usize,
+}
+
+impl Bounds {
+    /// The enclosure of one quantity.
+    #[must_use]
+    pub fn of(&self, quantity: Quantity) -> Option<[f64; 2]> {
+        self.bounds.iter().find(|range| range.quantity == quantity).map(|range| [range.low, range.high])
+    }
+}

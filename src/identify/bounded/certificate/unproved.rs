@@ -1,0 +1,130 @@
+//! Reasons for which a certificate is refused, or not written.
+
+/// Why a certificate is not accepted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Unproved {
+    /// It is no certificate.
+    #[error(
+        "not a certificate of guaranteed bounds: {text}; write one with `selfosc identify LOG --method bounded --certificate FILE`"
+    )]
+    Foreign {
+        /// What is wrong.
+        text: String,
+    },
+    /// One of another program.
+    #[error("format {found}, where this program reads format {expected}; write it anew with `identify --certificate`")]
+    Format {
+        /// Its own.
+        found: u32,
+        /// This program's.
+        expected: u32,
+    },
+    /// Its parts do not make up a problem and a proof.
+    #[error("{text}")]
+    Malformed {
+        /// What is wrong.
+        text: String,
+    },
+    /// A range is not the one that the records and the model lead to.
+    #[error("the {what} is not the one that the file's records and its model lead to")]
+    Ranges {
+        /// Of what.
+        what: &'static str,
+    },
+    /// Other logs.
+    #[error("{found} logs, where the file has {expected}; give the logs in the order in which they were identified")]
+    Logs {
+        /// Logs given.
+        found: usize,
+        /// Records in the file.
+        expected: usize,
+    },
+    /// A row is not the log's.
+    #[error("row {row} of log {log}: the {what} is {found} in the log and {expected} in the file")]
+    Row {
+        /// Number of the log, from one.
+        log: usize,
+        /// Number of the row among those used, from one.
+        row: usize,
+        /// Stamp, reading or command.
+        what: &'static str,
+        /// In the log, or that it has no such row.
+        found: String,
+        /// In the file.
+        expected: String,
+    },
+    /// The witness leaves out readings.
+    #[error("the witness begins at row {first} of record {record}, and has to meet every reading from row {most} on")]
+    Late {
+        /// Number of the record, from one.
+        record: usize,
+        /// Its first row, from one.
+        first: usize,
+        /// The last with which it may begin.
+        most: usize,
+    },
+    /// What a step says does not follow.
+    #[error("step {step} of stage {stage}: {what}")]
+    Step {
+        /// Number of the stage.
+        stage: usize,
+        /// Number of the step.
+        step: usize,
+        /// What does not follow.
+        what: &'static str,
+    },
+    /// Boxes are left that no step deals with, or steps without a box.
+    #[error("the steps of stage {stage} do not deal with the whole box")]
+    Incomplete {
+        /// Its number.
+        stage: usize,
+    },
+    /// The witness does not meet a reading.
+    #[error("the witness misses a reading by {misfit:.4} times its largest error")]
+    Witness {
+        /// The largest misfit over its largest error, at most.
+        misfit: f64,
+    },
+    /// What is said is not what the steps show.
+    #[error("the statement is not what the steps show: {expected}")]
+    Statement {
+        /// What they show.
+        expected: String,
+    },
+    /// Readings may be in error by any amount, which no certificate says.
+    #[error("no proof is written where {allowed} readings may be in error by any amount; leave them out of the log")]
+    Outliers {
+        /// So many.
+        allowed: usize,
+    },
+    /// None was found within the budget.
+    #[error("no proof was found within {steps} steps; the bounds printed do not depend on one")]
+    NotFound {
+        /// At most.
+        steps: usize,
+    },
+}
+
+impl Unproved {
+    /// Short name for scripts.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Foreign { .. } => "foreign",
+            Self::Format { .. } => "format",
+            Self::Malformed { .. } => "malformed",
+            Self::Ranges { .. } => "ranges",
+            Self::Logs { .. } | Self::Row { .. } => "log",
+            Self::Late { .. } => "late",
+            Self::Step { .. } => "step",
+            Self::Incomplete { .. } => "incomplete",
+            Self::Witness { .. } => "witness",
+            Self::Statement { .. } => "statement",
+            Self::Outliers { .. } => "outliers",
+            Self::NotFound { .. } => "not-found",
+        }
+    }
+}
+
+pub(super) fn malformed(text: &str) -> Unproved {
+    Unproved::Malformed { text: text.to_owned() }
+}

@@ -1,0 +1,199 @@
+//! Feasible points: single parameters whose motion, enclosed in intervals, satisfies every reading. They are sought by successive linear
+//! programming (Fletcher and Sainz de la Maza, *Mathematical Programming* 43, 1989) with the largest misfit as one more unknown.
+
+pub(super) mod estimate;
+#[cfg(test)]
+mod tests;
+
+use super::contraction::Contractor;
+use super::linear_program::Outcome;
+use super::linear_relaxation::{Origin, Relaxation, Span, midpoints, points};
+use crate::numeric::Interval;
+
+/// Linear programmes of one descent.
+const MOST_STEPS: usize = 16;
+/// A descent ends where a step takes less than this share off the misfit; one along an unknown, off the width of its range.
+const LEAST_GAIN: f64 = 1e-3;
+/// Factor of the trust region after a step that does not improve the misfit.
+const SHRINK: f64 = 0.25;
+/// A feasible point is sought this share of the slack inside the readings' ranges: room for the curvature of the motion.
+const INSIDE: f64 = 0.01;
+/// Largest misfits of a linear programme, in errors beyond the first: the unknowns are scaled by their ranges, and the least suffices mostly.
+const EXCESSES: [f64; 3] = [1.0, 30.0, 1000.0];
+/// Room about the states of an empty box, in largest errors of a reading.
+const ROOM: f64 = 30.0;
+
+/// A parameter with its misfit.
+#[derive(Clone, Debug)]
+pub(super) struct ParameterPoint {
+    /// All unknowns; of the states those at the beginning of each record count.
+    pub(super) at: Vec<f64>,
+    /// Upper bound of the largest misfit of a reading over its largest error.
+    pub(super) misfit: f64,
+}
+
+impl ParameterPoint {
+    pub(super) fn is_feasible(&self) -> bool {
+        self.misfit <= 1.0
+    }
+}
+
+/// The solution with the least excess; `None` where no excess suffices.
+fn least_excess(relaxation: &mut Relaxation, excess: usize) -> Option<(Vec<usize>, Vec<f64>)> {
+    let places = relaxation.places();
+    EXCESSES.into_iter().find_map(|most| {
+        relaxation.deviations[excess] = Interval::new(-1.0, most)?;
+        match relaxation.programme(&places).maximise(&[(excess, -1.0)]) {
+            Outcome::Bounded { at, .. } => Some((places.clone(), at)),
+            Outcome::Empty { .. } => None,
+        }
+    })
+}
+
+/// Confines the deviations to a box, and to the trust region: a share of the widths of the box from which the steps began.
+fn confine(relaxation: &mut Relaxation, within: &[Interval], from: &[Interval], trust: f64) {
+    for (place, (side, from)) in within.iter().zip(from).enumerate() {
+        let middle = Interval::point(relaxation.centre[place]);
+        let room = middle + Interval::symmetric(trust * from.width());
+        relaxation.deviations[place] = room.intersection(*side).unwrap_or(middle) - middle;
+    }
+}
+
+/// A point after a step; the excess, which is no unknown of the point, is left out.
+fn moved(point: &[f64], places: &[usize], step: &[f64]) -> Vec<f64> {
+    let mut next = point.to_vec();
+    for (place, step) in places.iter().zip(step).filter(|(place, _)| **place < point.len()) {
+        next[*place] += step;
+    }
+    next
+}
+
+impl Contractor {
+    /// The largest misfit of a parameter over whole records. `None` where its motion cannot be enclosed.
+    pub(super) fn misfit(&self, at: &[f64]) -> Option<f64> {
+        let mut misfits = self.problem.single_shooting().into_iter().map(|span| self.problem.misfit(span, at));
+        misfits.try_fold(0.0, |largest: f64, misfit| Some(largest.max(misfit?)))
+    }
+
+    /// Adds the excess of the misfit over one to the unknowns: `a z - E excess <= b` for the rows of readings. Its place.
+    pub(super) fn add_excess(&self, relaxation: &mut Relaxation) -> usize {
+        let excess = relaxation.deviations.len();
+        for (row, origin) in relaxation.inequalities.coefficients.iter_mut().zip(&relaxation.origins) {
+            if let Origin::Reading { interval, .. } = origin {
+                let record = self.problem.unknowns.shooting[*interval].record;
+                row.push((excess, Interval::point(-self.problem.records[record].error)));
+            }
+        }
+        relaxation.deviations.push(Interval::ZERO);
+        relaxation.centre.push(0.0);
+        excess
+    }
+
+    /// The inequalities about a point over these spans, of both ends of the enclosure of each output: feasible where its misfit is.
+    fn about(&self, centre: &[f64], spans: &[Span]) -> Option<Relaxation> {
+        let (problem, point) = (&self.problem, points(centre));
+        let mut relaxation = problem.about(&point, centre.to_vec());
+        for (index, span) in spans.iter().enumerate() {
+            let motion = problem.motion(*span, &point, centre)?;
+            let record = |span: &Span| problem.unknowns.shooting[span.from].record;
+            let linked = spans.get(index + 1).is_some_and(|next| record(next) == record(span));
+            let before = relaxation.inequalities.limits.len();
+            problem.add_motion(*span, &motion, linked, &mut relaxation);
+            // Two rows of each reading: `a z <= E - inf(x - y)` become `a z <= E - sup(x - y)`.
+            let pairs = relaxation.inequalities.limits[before..].chunks_exact_mut(2);
+            pairs.zip(&motion).for_each(|(pair, node)| pair.iter_mut().for_each(|limit| *limit -= node.at[0].width()));
+        }
+        problem.add_prior(&mut relaxation);
+        Some(relaxation)
+    }
+
+    /// A parameter with a small misfit, from the middle of a box and within another box: by single shooting, and by multiple shooting where
+    /// that leads to no feasible point.
+    pub(super) fn nearest(&self, from: &[Interval], within: &[Interval]) -> Option<ParameterPoint> {
+        let single = self.descend(from, within, &self.problem.single_shooting());
+        if single.as_ref().is_some_and(ParameterPoint::is_feasible) {
+            return single;
+        }
+        let multiple = self.descend(from, within, &self.problem.multiple_shooting());
+        single.into_iter().chain(multiple).min_by(|a, b| a.misfit.total_cmp(&b.misfit))
+    }
+
+    fn descend(&self, from: &[Interval], within: &[Interval], spans: &[Span]) -> Option<ParameterPoint> {
+        let (mut centre, mut best) = (midpoints(from), None::<ParameterPoint>);
+        // The trust region, against the box from which the descent begins.
+        let mut trust = 1.0;
+        for _ in 0..MOST_STEPS {
+            let Some(mut relaxation) = self.about(&centre, spans) else { break };
+            let excess = self.add_excess(&mut relaxation);
+            confine(&mut relaxation, within, from, trust);
+            let Some((places, step)) = least_excess(&mut relaxation, excess) else { break };
+            let next = moved(&centre, &places, &step);
+            let before = best.as_ref().map_or(f64::INFINITY, |best| best.misfit);
+            match self.misfit(&next) {
+                Some(misfit) if misfit < before => {
+                    best = Some(ParameterPoint { at: next.clone(), misfit });
+                    centre = next;
+                    if before - misfit < LEAST_GAIN * misfit {
+                        break;
+                    }
+                }
+                _ => trust *= SHRINK,
+            }
+        }
+        best
+    }
+
+    /// A box with room for a parameter that satisfies the readings nearly.
+    pub(super) fn loosened(&self, at: &[Interval]) -> Vec<Interval> {
+        let (problem, unknowns) = (&self.problem, &self.problem.unknowns);
+        let mut loose: Vec<Interval> = at.iter().map(|side| *side + Interval::symmetric(side.width())).collect();
+        for (index, interval) in unknowns.shooting.iter().enumerate() {
+            let room = ROOM * problem.records[interval.record].error;
+            let (position, velocity) = (unknowns.start(index, 0), unknowns.start(index, 1));
+            loose[position] = at[position] + Interval::symmetric(room);
+            loose[velocity] = at[velocity] + Interval::symmetric(room / problem.half_period_s + at[velocity].width());
+        }
+        for (loose, widest) in loose.iter_mut().zip(&problem.search).take(unknowns.parameters()) {
+            *loose = loose.intersection(*widest).unwrap_or(*widest);
+        }
+        loose
+    }
+
+    /// The feasible point with an unknown furthest up (or, `sign` negative, down) that linear programmes from a feasible point find in a
+    /// box, each about the furthest feasible point so far.
+    pub(super) fn furthest(
+        &self,
+        from: &ParameterPoint,
+        within: &[Interval],
+        unknown: usize,
+        sign: f64,
+    ) -> ParameterPoint {
+        let spans = self.problem.single_shooting();
+        let inside = INSIDE * (1.0 - from.misfit);
+        let (mut best, mut trust) = (from.clone(), 1.0);
+        for _ in 0..MOST_STEPS {
+            let Some(mut relaxation) = self.about(&best.at, &spans) else { break };
+            let excess = self.add_excess(&mut relaxation);
+            confine(&mut relaxation, within, within, trust);
+            relaxation.deviations[excess] = Interval::point(-inside);
+            let places = relaxation.places();
+            let Outcome::Bounded { at: step, .. } = relaxation.programme(&places).maximise(&[(unknown, sign)]) else {
+                break;
+            };
+            let at = moved(&best.at, &places, &step);
+            match self.misfit(&at) {
+                Some(misfit) if misfit <= 1.0 => {
+                    let gain = sign * (at[unknown] - best.at[unknown]);
+                    if gain > 0.0 {
+                        best = ParameterPoint { at, misfit };
+                    }
+                    if gain < LEAST_GAIN * within[unknown].width() {
+                        break;
+                    }
+                }
+                _ => trust *= SHRINK,
+            }
+        }
+        best
+    }
+}

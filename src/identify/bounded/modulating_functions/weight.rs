@@ -1,0 +1,140 @@
+//! The hat as a weight in time, and what it sees of a step that comes late by an exponentially distributed time: of a step of the command
+//! through a first-order lag T.
+//!
+//! With `r(x) = max(x, 0)` the hat is `K(t) = sum_p w_p r(p - t)` over its corners p. A function g with `g'' = K` is evaluated by the same
+//! weights, and so is its mean over an exponential distribution.
+
+use crate::numeric::{Interval, Real};
+
+#[cfg(test)]
+mod tests;
+
+/// A share of the lag's memory below this counts as gone.
+const GONE: f64 = 1e-14;
+
+/// A hat in time: zero at its ends, one at its peak.
+pub(super) struct Hat {
+    pub(super) l: Interval,
+    m: Interval,
+    pub(super) r: Interval,
+}
+
+fn intersect(a: Interval, b: Interval) -> Interval {
+    a.intersection(b).unwrap_or(b)
+}
+
+impl Hat {
+    pub(super) fn of(instants: [f64; 3]) -> Self {
+        let [l, m, r] = instants.map(Interval::point);
+        Self { l, m, r }
+    }
+    pub(super) fn left(&self) -> Interval {
+        self.m - self.l
+    }
+    pub(super) fn right(&self) -> Interval {
+        self.r - self.m
+    }
+    pub(super) fn area(&self) -> Interval {
+        Interval::point(0.5) * (self.r - self.l)
+    }
+
+    pub(super) fn height_at(&self, t: f64) -> Interval {
+        let t = Interval::point(t);
+        if t.upper() <= self.l.lower() || t.lower() >= self.r.upper() {
+            Interval::ZERO
+        } else if t.upper() <= self.m.lower() {
+            (t - self.l) / self.left()
+        } else {
+            (self.r - t) / self.right()
+        }
+    }
+
+    /// All heights from one instant to another.
+    pub(super) fn height(&self, from: f64, to: f64) -> Interval {
+        let ends = self.height_at(from).hull(self.height_at(to));
+        let peak = from <= self.m.lower() && self.m.upper() <= to;
+        if peak { ends.hull(Interval::ONE) } else { ends }
+    }
+
+    /// The area up to an instant.
+    pub(super) fn area_to(&self, t: f64) -> Interval {
+        let t = Interval::point(t);
+        let half = Interval::point(0.5);
+        if t.upper() <= self.l.lower() {
+            Interval::ZERO
+        } else if t.upper() <= self.m.lower() {
+            half * (t - self.l).square() / self.left()
+        } else if t.upper() < self.r.upper() {
+            self.area() - half * (self.r - t).square() / self.right()
+        } else {
+            self.area()
+        }
+    }
+
+    /// The largest slope.
+    fn steepness(&self) -> Interval {
+        (Interval::ONE / self.left()).max(Interval::ONE / self.right())
+    }
+
+    /// `sum_p w_p g(r(p - instant))`.
+    fn corners(&self, instant: Interval, g: impl Fn(Interval) -> Interval) -> Interval {
+        let (left, right) = (Interval::ONE / self.left(), Interval::ONE / self.right());
+        let corners = [(self.l, left), (self.m, -left - right), (self.r, right)];
+        let sum = |sum, (p, weight): (Interval, Interval)| sum + weight * g((p - instant).max(Interval::ZERO));
+        corners.into_iter().fold(Interval::ZERO, sum)
+    }
+
+    /// `exp(-(l - instant)/T)`: the share of the lag's memory that the hat still sees.
+    fn memory(&self, instant: f64, lag_s: Interval) -> Interval {
+        let ahead = (self.l - Interval::point(instant)).max(Interval::ZERO) / lag_s;
+        (-ahead).exp()
+    }
+
+    /// `int K (1 - exp(-(t - instant)/T))` after the instant: the area that sees a step. It falls with the instant and with T.
+    pub(super) fn lagged_area(&self, instant: f64, lag_s: Interval) -> Interval {
+        let (memory, half) = (self.memory(instant, lag_s), Interval::point(0.5));
+        let least = self.area() * (Interval::ONE - memory).max(Interval::ZERO);
+        let likely = if instant < self.l.lower() { least.hull(self.area()) } else { Interval::ZERO.hull(self.area()) };
+        if memory.upper() < GONE {
+            return likely;
+        }
+        let mean = self.corners(Interval::point(instant), |x| {
+            half * x.square() - x * lag_s - lag_s.square() * (-x / lag_s).exp_m1()
+        });
+        intersect(mean, likely)
+    }
+
+    /// The derivative of [`Self::lagged_area`] by the instant, negated, over ranges of instants and lags.
+    pub(super) fn lagged_height(&self, instants: Interval, lag_s: Interval) -> Interval {
+        let most = self.memory(instants.upper(), lag_s).hull(Interval::ZERO);
+        if most.upper() < GONE {
+            return most;
+        }
+        let (instant, lag, [by_instant, by_lag]) = Self::middles(instants, lag_s);
+        let mean = self.corners(instant, |x| x + lag * (-x / lag).exp_m1());
+        intersect(mean + Interval::symmetric((self.steepness() * (by_instant + by_lag)).upper()), most)
+    }
+
+    /// The derivative of [`Self::lagged_area`] by T, negated, over ranges of instants and lags.
+    pub(super) fn lagged_lever(&self, instants: Interval, lag_s: Interval) -> Interval {
+        let memory = self.memory(instants.upper(), lag_s);
+        let ahead = (self.l - Interval::point(instants.upper())).max(Interval::ZERO) / lag_s;
+        let most = ((Interval::ONE + ahead) * memory).hull(Interval::ZERO);
+        if memory.upper() < GONE {
+            return most;
+        }
+        let (instant, lag, [by_instant, by_lag]) = Self::middles(instants, lag_s);
+        let mean = self.corners(instant, |x| {
+            let gone = (-x / lag).exp_m1();
+            x * (Interval::two() + gone) + Interval::two() * lag * gone
+        });
+        let room = self.steepness() * (by_instant + Interval::two() * by_lag);
+        intersect(mean + Interval::symmetric(room.upper()), most)
+    }
+
+    /// A middle instant and lag, and the largest distances of the others from these.
+    fn middles(instants: Interval, lag_s: Interval) -> (Interval, Interval, [Interval; 2]) {
+        let [instant, lag] = [instants, lag_s].map(|range| Interval::point(range.midpoint()));
+        (instant, lag, [(instants - instant).abs(), (lag_s - lag).abs()])
+    }
+}
