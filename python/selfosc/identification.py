@@ -198,6 +198,7 @@ def identify(
     delay: float | Literal["estimate"] | None = None,
     drag: Literal["auto"] | types.Drag = "auto",
     method: Method = "all",
+    any_input: bool = False,
     assume: Mapping[str, float] | Literal["none"] | None = None,
     error: float = 0.0,
     quantum: float | None = None,
@@ -242,6 +243,9 @@ def identify(
     drag : {"auto", "linear", "quadratic", "mixed"}
     method : {"all", "fit", "exact", "iso", "bounded"}
         ``bounded`` takes every reading for a constraint; its answer is in ``bounded``. ``all`` leaves it out.
+    any_input : bool
+        Take a record of any manoeuvre: the answer is ``doubtful``, or ``widened`` where the command moves the vehicle through two
+        cycles.
     assume : mapping, or "none"
         Sizes of sources of error that no residual shows, for the practical intervals: ``sensor-gain`` and ``clock`` in percent,
         ``heading-error`` in degrees, ``thrust-dynamics`` in percent. A source left out has its usual size; ``"none"`` is no source.
@@ -316,6 +320,7 @@ def identify(
         "quantum": _number(quantum, "quantum"), "jitter_s": _arguments.number(jitter_s, "jitter_s"),
         "outliers": _arguments.whole(outliers, "outliers"), "budget": _arguments.optional(_arguments.whole, budget, "budget"),
         "stiffness": bool(stiffness), "lag": bool(lag), "cubic": bool(cubic), "either_sign": bool(either_sign),
+        "any_input": bool(any_input),
     }  # fmt: skip
     if assume is not None:
         wanted["assume"] = _assumptions(assume)

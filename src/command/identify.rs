@@ -63,6 +63,9 @@ pub(super) struct Arguments {
     /// How parameters are found
     #[arg(long, default_value = "all")]
     method: Method,
+    /// Take a log of any manoeuvre: the answer is doubtful, or widened where the command moves the vehicle through two cycles
+    #[arg(long)]
+    any_input: bool,
     /// Size of a source of error that no residual shows, of the practical intervals, or `none` for no source: sensor-gain (%)
     /// [default: 0.5], clock (%) [0.25], heading-error (degrees, of headings) [0.333], thrust-dynamics (%) [1]
     #[arg(long, value_name = "NAME=SIZE|none", value_parser = assumption, allow_negative_numbers = true)]
@@ -277,6 +280,7 @@ impl Arguments {
             cubic: self.cubic,
             either_sign: self.either_sign,
             certificate: self.certificate.is_some(),
+            any_input: self.any_input,
             assume: self.assume.iter().fold(Assumptions::default(), |sizes, given| match given {
                 Some((source, size)) => sizes.with(*source, *size),
                 None => Assumptions::NONE,

@@ -7,15 +7,20 @@ mod batch;
 mod cycle;
 mod error;
 #[cfg(feature = "std")]
+mod manoeuvre;
+#[cfg(feature = "std")]
 mod orders;
 mod peak;
 mod summary;
 
-#[cfg(feature = "std")]
-pub use batch::{RecordFeatures, RelayLevels};
 pub use cycle::{Cycle, Cycles};
 pub use error::FeatureError;
 pub use summary::{CycleStatistics, Features, Summary};
+#[cfg(feature = "std")]
+pub use {
+    batch::{RecordFeatures, RelayLevels},
+    manoeuvre::NotAnExperiment,
+};
 
 /// Half-periods without a change of the command that count as lost, against the longest seen.
 pub(crate) const LOST: f64 = 4.0;

@@ -8,11 +8,11 @@ const AT_LEVEL: f64 = 0.95;
 /// The same where it goes between them at a limited rate.
 const AT_LEVEL_MOVING: f64 = 0.5;
 /// How near to an extreme counts as there, and to the line between them as on it, against the range.
-const NEAR_LEVEL: f64 = 0.02;
+pub(super) const NEAR_LEVEL: f64 = 0.02;
 /// Part of the way that is rounding.
 const ROUNDING: f64 = 1e-6;
 /// How far a rate may be from the mean, against it.
-const SAME_RATE: f64 = 0.25;
+pub(super) const SAME_RATE: f64 = 0.25;
 
 /// Orders of a relay, and how they are carried out.
 pub(super) struct Orders {
@@ -24,16 +24,16 @@ pub(super) struct Orders {
 }
 
 /// A passage of the command between its two levels.
-struct Passage<'a> {
+pub(super) struct Passage<'a> {
     /// Samples between the levels.
-    time_s: &'a [f64],
-    input: &'a [f64],
+    pub(super) time_s: &'a [f64],
+    pub(super) input: &'a [f64],
 }
 
 /// The straight line of a passage.
-struct Line {
+pub(super) struct Line {
     /// Magnitude of its rate, in units of the command per s.
-    rate: f64,
+    pub(super) rate: f64,
     /// When it leaves its level.
     begin_s: f64,
 }
@@ -41,7 +41,7 @@ struct Line {
 impl Passage<'_> {
     /// The line through it from a level; `None` if a sample is farther than `near` from it.
     #[allow(clippy::cast_precision_loss, reason = "a count of samples")]
-    fn line(&self, level: f64, near: f64) -> Option<Line> {
+    pub(super) fn line(&self, level: f64, near: f64) -> Option<Line> {
         let count = self.time_s.len() as f64;
         let mean = |values: &[f64]| values.iter().sum::<f64>() / count;
         let (middle_s, middle) = (mean(self.time_s), mean(self.input));

@@ -140,7 +140,7 @@ impl DesignError {
         match self {
             Self::OutOfDomain(_) => "out-of-domain",
             Self::Experiment(error) => error.code(),
-            Self::NoExperiment { .. } => "no-experiment",
+            Self::NoExperiment { .. } => "no-relay",
         }
     }
 

@@ -35,6 +35,7 @@ mod integration_oracle;
 mod interval;
 mod laws;
 mod libm_single;
+mod manoeuvre;
 mod method_bias;
 mod motion_drag_axis;
 mod on_board;

@@ -326,3 +326,29 @@ fn the_table_is_that_of_its_command() {
         assert!(rows <= 1, "{} is there {rows} times", kind.name);
     }
 }
+
+/// A linear drag of 5 % of the force at top speed, in forty cycles: too little to gain in likelihood, and enough to move the other drag
+/// and the constant force. Each interval is of 95 %; three or fewer misses of twenty have a probability of 98 %.
+#[test]
+fn a_small_linear_drag_in_a_long_record_is_not_dropped() {
+    let truth = [0.4, 0.07, 1.55, 0.1, 0.15];
+    let mut misses = [0; 5];
+    for seed in 1..=20 {
+        let call = format!(
+            "simulate --alpha 0.4 --beta 0.07 --beta-quadratic 1.55 --relay 1.5 --half-width 0.2618 --delay 0.15 --delta 0.1 --hold \
+             --quantum 0.01745 --noise 0.00524 --cycles 40 --degrees --seed {seed}"
+        );
+        let log = selfosc::command::answer(call.split_whitespace()).unwrap().text;
+        let session = Session::new(Settings { method: Method::Fit, ..Settings::default() });
+        let found = session.reader("log", log.as_bytes()).unwrap().identify().unwrap();
+        let reported = found.reported().unwrap();
+        assert_eq!(reported.drag, DragLaw::Mixed);
+        let estimates =
+            [reported.alpha, reported.beta, reported.beta_quadratic, reported.deltas[0], reported.delay_s];
+        for (missed, (estimate, truth)) in misses.iter_mut().zip(estimates.into_iter().zip(truth)) {
+            let spread = estimate.spread.unwrap();
+            *missed += usize::from(!(spread.low <= truth && truth <= spread.high));
+        }
+    }
+    assert!(misses.iter().all(|missed| *missed <= 3), "{misses:?}");
+}

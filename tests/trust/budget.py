@@ -41,7 +41,7 @@ def vehicle(seed):
     }  # fmt: skip
 
 
-def simulate(axis, seed, source=None):
+def simulate(axis, seed, source=None, duration_s=DURATION_S):
     """Times, headings, commands, and the top speed."""
     draw = random.Random(seed + 1)
     size = TRIALS[source][0] if source else 0.0
@@ -57,7 +57,7 @@ def simulate(axis, seed, source=None):
     def pull(v, force):
         return (force + axis["delta"] - axis["beta"] * v - axis["beta_quadratic"] * abs(v) * v) / axis["alpha"]
 
-    for k in range(int(DURATION_S * RATE_HZ) * STEPS):
+    for k in range(int(duration_s * RATE_HZ) * STEPS):
         if k % STEPS == 0:
             seen = x + iron * math.sin(x + axis["phase"]) + draw.gauss(0.0, axis["noise"])
             if seen > axis["half_width"]:

@@ -6,11 +6,11 @@ use super::{BudgetEntry, Disturbances, DragLaw, Estimate, LawEvidence, Reason, T
 
 /// The one answer to use. All models that the records do not refute are averaged: a parameter of one that they do is absent.
 ///
-/// In the document a drag that the law excludes is null, and a reason is its code and text: there `Drag` is `Option<Estimate>`, and
+/// In the document a drag that the given law excludes is null, and a reason is its code and text: there `Drag` is `Option<Estimate>`, and
 /// `Why` is [`Caution`](crate::identify::Caution).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reported<Drag = Estimate, Why = Reason> {
-    /// Drag terms that count; mixed where the record does not tell the laws apart.
+    /// The law that was given, or mixed: the intervals of both drags say how much of each there may be.
     pub drag: DragLaw,
     /// How much likelier each law makes the records; left to the choice of the law in the document.
     #[serde(default, skip_serializing_if = "LawEvidence::is_empty")]
@@ -61,6 +61,13 @@ impl Reported {
     pub fn mean_delay_s(&self) -> f64 {
         let late = |time_s: Option<Estimate>| time_s.map_or(0.0, |estimate| estimate.value);
         self.delay_s.value + late(self.lag_s) + late(self.filter_s) + 0.5 * late(self.ramp_s)
+    }
+
+    /// With one more reason.
+    pub(crate) fn with_reason(mut self, reason: Reason) -> Self {
+        self.reasons.push(reason);
+        self.reasons.sort_by_key(|reason| core::cmp::Reverse(reason.trust()));
+        Self { trust: self.trust.max(reason.trust()), ..self }
     }
 
     /// The same in other units of force.

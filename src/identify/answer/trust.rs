@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Estimate, Term};
+use crate::features::NotAnExperiment;
 use crate::numeric::significant;
 
 /// Whether an answer is to be used.
@@ -59,6 +60,8 @@ pub enum Reason {
         #[serde(with = "crate::identify::answer::any_float")]
         relative: f64,
     },
+    /// The record is of another manoeuvre than a relay experiment.
+    NoExperiment(NotAnExperiment),
     /// The search ended before it came to rest.
     NotSettled,
     /// Several records want inertias that differ by more than chance allows.
@@ -119,6 +122,7 @@ impl Reason {
             Self::HalvesDisagree { .. } => "halves-disagree",
             Self::Outliers { .. } => "outliers",
             Self::TooWide { .. } => "too-wide",
+            Self::NoExperiment(_) => "no-experiment",
             Self::NotSettled => "not-settled",
             Self::RecordsDisagree { .. } => "records-disagree",
             Self::ThrustNotProportional { .. } => "thrust-not-proportional",
@@ -133,6 +137,9 @@ impl Reason {
     pub fn trust(self) -> Trust {
         match self {
             Self::TooWide { .. } | Self::NotSettled => Trust::Doubtful,
+            // A command of any shape tells the parameters apart if it moves the vehicle for two cycles.
+            Self::NoExperiment(NotAnExperiment::NotHeld { .. }) => Trust::Widened,
+            Self::NoExperiment(_) => Trust::Doubtful,
             Self::ForceFollowsLevel { .. } => Trust::Good,
             _ => Trust::Widened,
         }
@@ -166,6 +173,7 @@ impl core::fmt::Display for Reason {
                 "the inertia is known to within {:.0} % only; `selfosc design` computes which experiment determines it better",
                 100.0 * relative
             ),
+            Self::NoExperiment(missing) => write!(f, "the record is no relay experiment: {missing}"),
             Self::NotSettled => write!(f, "the search for the best parameters did not come to rest"),
             Self::RecordsDisagree { relative } => write!(
                 f,

@@ -7,8 +7,8 @@ use super::refusal::Refusal;
 use super::settings::{Method, Settings};
 use super::stage::Stage;
 use crate::experiment::{Log, Record};
-use crate::features::{FeatureError, RecordFeatures};
-use crate::identify::answer::{AxisParameter, Delay, DragLaw, IdentifyError, MotionScale, Reported, Warning};
+use crate::features::{FeatureError, NotAnExperiment, RecordFeatures};
+use crate::identify::answer::{AxisParameter, Delay, DragLaw, IdentifyError, MotionScale, Reason, Reported, Warning};
 use crate::identify::fit::prediction_error::{Estimator, Prediction, Several};
 use crate::identify::fit::select::likelihood::{Choice, fit_each};
 use crate::identify::fit::shooting::RecordFit;
@@ -143,7 +143,9 @@ impl<'a> Findings<'a> {
                 let headings = self.sources.iter().any(|source| source.log.is_heading());
                 let assumed = if headings { self.settings.assume } else { self.settings.assume.without_heading() };
                 let scales: Vec<MotionScale> = self.records().into_iter().map(motion_scale).collect();
-                self.reported = Some(several.reported.with_budget(&assumed, &scales));
+                let reported = several.reported.with_budget(&assumed, &scales);
+                let missing = self.records().into_iter().find_map(NotAnExperiment::find).map(Reason::NoExperiment);
+                self.reported = Some(missing.into_iter().fold(reported, Reported::with_reason));
                 self.left_out = several.left_out;
             }
             Err(error @ IdentifyError::CommandSign) => return Err(error.into()),

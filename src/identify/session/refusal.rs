@@ -2,7 +2,7 @@
 
 use super::settings::SettingsError;
 use crate::experiment::ExperimentError;
-use crate::features::FeatureError;
+use crate::features::{FeatureError, NotAnExperiment};
 use crate::files::FileError;
 use crate::identify::answer::IdentifyError;
 use crate::numeric::OutOfDomain;
@@ -33,6 +33,14 @@ pub enum Refusal {
         /// What is wrong.
         source: FeatureError,
     },
+    /// The record is of another manoeuvre than a relay experiment.
+    #[error("{name} is no relay experiment: {source}, or take the record as it is (--any-input)")]
+    NoExperiment {
+        /// The record.
+        name: String,
+        /// What is missing.
+        source: NotAnExperiment,
+    },
     /// No method gives a model.
     #[error("no model from these records: {0}")]
     Model(#[from] IdentifyError),
@@ -47,6 +55,7 @@ impl Refusal {
             Self::File(error) => error.code(),
             Self::Record { source, .. } => source.code(),
             Self::Features { source, .. } => source.code(),
+            Self::NoExperiment { .. } => "no-experiment",
             Self::Model(error) => error.code(),
         }
     }
@@ -58,7 +67,7 @@ impl Refusal {
             Self::Settings(error) => error.out_of_domain(),
             Self::Record { source, .. } => source.out_of_domain(),
             Self::Model(error) => error.out_of_domain(),
-            Self::File(_) | Self::Features { .. } => None,
+            Self::File(_) | Self::Features { .. } | Self::NoExperiment { .. } => None,
         }
     }
 
@@ -69,7 +78,7 @@ impl Refusal {
         match self {
             Self::Settings(_) | Self::File(_) => true,
             Self::Record { source, .. } => source.is_unreadable(),
-            Self::Features { .. } | Self::Model(_) => false,
+            Self::Features { .. } | Self::NoExperiment { .. } | Self::Model(_) => false,
         }
     }
 }

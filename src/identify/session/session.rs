@@ -6,10 +6,10 @@ use std::path::Path;
 use super::identification::{Caution, Identification, Source};
 use super::methods::Findings;
 use super::refusal::Refusal;
-use super::settings::Settings;
+use super::settings::{Method, Settings};
 use super::stage::Stage;
 use crate::experiment::{Columns, Log, Record};
-use crate::features::{FeatureError, RecordFeatures, RelayLevels};
+use crate::features::{FeatureError, NotAnExperiment, RecordFeatures, RelayLevels};
 use crate::files::Input;
 use crate::identify::answer::Warning;
 use crate::identify::bounded::certificate::ReadAs;
@@ -200,12 +200,21 @@ fn source(
     cautions: &mut Vec<Caution>,
 ) -> Result<(Source, Option<FeatureError>), Refusal> {
     let log = in_units(&name, log, settings)?;
-    match RecordFeatures::of(&log.record) {
+    let features = RecordFeatures::of(&log.record);
+    if let Err(source @ FeatureError::ConstantInput { .. }) = features {
+        return Err(Refusal::Features { name, source });
+    }
+    if settings.method != Method::Bounded
+        && !settings.any_input
+        && let Some(source) = NotAnExperiment::find(&log.record)
+    {
+        return Err(Refusal::NoExperiment { name, source });
+    }
+    match features {
         Ok(features) => {
             cautions.extend(Warning::of_features(&features).into_iter().map(Caution::from));
             Ok((Source { name, log, features: Some(features) }, None))
         }
-        Err(source @ FeatureError::ConstantInput { .. }) => Err(Refusal::Features { name, source }),
         Err(error) => Ok((Source { name, log, features: None }, Some(error))),
     }
 }

@@ -62,6 +62,9 @@ pub struct Settings {
     pub relay_level: Option<f64>,
     /// Level at which the command switched, in output units, above 0, if it is not to be read off the record.
     pub half_width: Option<f64>,
+    /// Whether a record of another manoeuvre than a relay experiment is taken: its answer is `doubtful`, or `widened` where a
+    /// command that is not held moves the vehicle through two cycles. The guaranteed bounds take any record.
+    pub any_input: bool,
     /// Sizes of the sources of error that no residual shows, for the practical intervals.
     pub assume: Assumptions,
     /// For the guaranteed bounds: largest error of a reading in addition to half a step of the sensor, in output units, 0 or more.

@@ -168,8 +168,7 @@ fn drag_sentence(found: &Identification, reported: &Reported) -> String {
     let gap = |law: DragLaw| laws.of(law).map_or(0.0, |value| -value);
     match laws.verdict() {
         Some(DragVerdict::NotDistinguishable) => format!(
-            "The drag law is not distinguishable: beside the likeliest, linear drag alone loses {:.1} and quadratic drag alone \
-             {:.1} in log-likelihood; their mixture is reported.",
+            "Neither simple drag law is refuted: linear drag alone loses {:.1} and quadratic drag alone {:.1} in log-likelihood.",
             gap(DragLaw::Linear),
             gap(DragLaw::Quadratic),
         ),
@@ -181,11 +180,13 @@ fn drag_sentence(found: &Identification, reported: &Reported) -> String {
         Some(DragVerdict::Law(law)) => {
             let other = if law == DragLaw::Linear { DragLaw::Quadratic } else { DragLaw::Linear };
             format!(
-                "{} drag is enough: {} drag alone loses {:.1} in log-likelihood, while both together gain {:.1} on it.",
+                "{} drag alone is refuted: it loses {:.1} in log-likelihood. {} drag alone loses {:.1} and is not: the interval of \
+                 the {} drag says how much there may be.",
+                capitalised(other.name()),
+                gap(other),
                 capitalised(law.name()),
-                other.name(),
-                gap(other) - gap(law),
                 gap(law),
+                other.name(),
             )
         }
         None => "No verdict on the drag law: not every law could be fitted.".to_owned(),

@@ -67,12 +67,19 @@ fn under_rounding(fitted: &Fitted, observations: &Observations, deviations: &mut
     }
 }
 
+/// Number of a model's linear and quadratic drags. They are no question of parsimony: any hull has both, and a law of one of them is
+/// the sum with the other at zero. A share too small to gain anything still moves the other drag, and with it the inertia. So a
+/// law's weight is its likelihood.
+pub(super) fn drags(model: &VehicleModel) -> usize {
+    [Parameter::LinearDrag, Parameter::QuadraticDrag].into_iter().filter(|drag| model.is_free(*drag)).count()
+}
+
 /// Logarithm of the prior odds against a model's terms.
 pub(super) fn log_odds_against(model: &VehicleModel, known_delay_s: Option<f64>) -> f64 {
     let (had, ways) = confounded_lags::ways(model, known_delay_s);
     let subtle = SUBTLE.iter().filter(|parameter| model.is_free(**parameter)).count();
     // The confounded lags share the odds.
-    had as f64 * (LATE_ODDS * ways as f64).ln() + PLAIN_LOG_ODDS * (model.freedom() - subtle) as f64
+    had as f64 * (LATE_ODDS * ways as f64).ln() + PLAIN_LOG_ODDS * (model.freedom() - subtle - drags(model)) as f64
 }
 
 /// The models of an average with their weights and their deviations.
@@ -155,11 +162,6 @@ impl<'a> Average<'a> {
         // A component far away with less weight than a tail moves the mean, but no end of the interval.
         Some(Estimate::new(mean.max(low).min(high), Some(ConfidenceInterval { std, low, high })))
     }
-
-    /// Weight of the models for which something holds.
-    pub(super) fn share(&self, holds: impl Fn(&VehicleModel) -> bool) -> f64 {
-        self.members.iter().filter(|member| holds(&member.1.model)).map(|member| member.0).sum()
-    }
 }
 
 /// Whether the first model has all that the second has, and more.
@@ -173,7 +175,7 @@ fn contains(a: &VehicleModel, b: &VehicleModel) -> bool {
 
 /// Least gain in log-likelihood of the first model over the second, which it contains.
 fn least_gain(more: &VehicleModel, less: &VehicleModel) -> f64 {
-    let added = more.freedom() - less.freedom();
+    let added = (more.freedom() - drags(more)).saturating_sub(less.freedom() - drags(less));
     let subtle = SUBTLE.iter().filter(|parameter| more.is_free(**parameter) && !less.is_free(**parameter)).count();
     IDLE_STRUCTURE * subtle as f64 + IDLE * added.saturating_sub(subtle) as f64
 }

@@ -75,9 +75,6 @@ pub struct Estimator {
     law: Option<DragLaw>,
 }
 
-/// Weight of a drag law's models below which the remaining laws are excluded.
-const DISTINGUISHABLE: f64 = 0.05;
-
 impl Estimator {
     /// The drag law is found; the delay is estimated, or given and checked.
     #[must_use]
@@ -145,7 +142,11 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
     let average = Average::new(
         found,
         |fitted| search.observations(&fitted.model),
-        |fitted| 0.5 * search.value(fitted) - average::log_odds_against(&fitted.model, known.delay_s),
+        |fitted| {
+            let priced = fitted.model.freedom() - average::drags(&fitted.model);
+            let price = search.observations(&fitted.model).price(priced);
+            fitted.log_likelihood - 0.5 * price - average::log_odds_against(&fitted.model, known.delay_s)
+        },
     );
     let terms = terms_of(best, known);
     let mut reasons: Vec<Reason> = Vec::new();
@@ -186,12 +187,6 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
     }
     reasons.sort_by_key(|reason| core::cmp::Reverse(reason.trust()));
     let trust = reasons.iter().map(|reason| reason.trust()).max().unwrap_or(Trust::Good);
-    let share = |parameter: Parameter| average.share(|model| model.is_free(parameter));
-    let drag = match (share(Parameter::LinearDrag), share(Parameter::QuadraticDrag)) {
-        (_, quadratic) if quadratic < DISTINGUISHABLE => DragLaw::Linear,
-        (linear, _) if linear < DISTINGUISHABLE => DragLaw::Quadratic,
-        _ => DragLaw::Mixed,
-    };
     let not_negative = |mut estimate: Estimate| {
         if let Some(spread) = &mut estimate.spread {
             (spread.low, spread.high) = (spread.low.max(0.0), spread.high.max(0.0));
@@ -199,7 +194,7 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
         estimate
     };
     let reported = Reported {
-        drag,
+        drag: known.law.unwrap_or(DragLaw::Mixed),
         laws: laws_of(found, best),
         terms,
         alpha,

@@ -119,12 +119,11 @@ impl Several {
         reasons.extend(share.map(|share| Reason::ForceFollowsLevel { share }));
         reasons.extend(Reason::too_wide(alpha));
         reasons.sort_by_key(|reason| core::cmp::Reverse(reason.trust()));
-        let drags: Vec<DragLaw> = answers.iter().map(|answer| answer.reported.drag).collect();
         let mut terms: Vec<_> = answers.iter().flat_map(|answer| answer.reported.terms.iter().copied()).collect();
         terms.sort_unstable();
         terms.dedup();
         let reported = Reported {
-            drag: if drags.iter().all(|drag| *drag == drags[0]) { drags[0] } else { DragLaw::Mixed },
+            drag: first.drag,
             laws: LawEvidence::sum(answers.iter().map(|answer| answer.reported.laws)),
             terms,
             alpha,
