@@ -94,7 +94,7 @@ impl Certificate {
             claim: claim.id.to_owned(),
             statement: claim.statement.to_owned(),
             domain: theorem.domain.to_owned(),
-            by_hand: claim.by_hand.iter().map(|&step| step.to_owned()).collect(),
+            by_hand: claim.by_hand().map(str::to_owned).collect(),
             inequalities: shown.collect(),
         })
     }

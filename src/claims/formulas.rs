@@ -6,9 +6,9 @@ use crate::describing::{ClosedForm, DescribingFunction, bias_of_output};
 use crate::identify::fit::select::pairwise::relative_spread_percent;
 use crate::identify::iso::{amplitude_sensitivity, parameters};
 use crate::nonlinearity::{
-    Absolute, Backlash, Branches, DeadZone, DeadZoneSaturation, GainChanging, Kernel, PiecewiseLinear, Polyline,
-    Polynomial, Preload, Quantizer, Relay, RelayDeadZone, RelayDeadZoneHysteresis, RelayHysteresis, Saturation,
-    SaturationAsymmetric, Side, Sinusoid,
+    Absolute, Backlash, Branches, Catalogued, DeadZone, DeadZoneSaturation, GainChanging, Kernel, NonlinearityError,
+    PiecewiseLinear, Polyline, Polynomial, Preload, Quantizer, Relay, RelayDeadZone, RelayDeadZoneHysteresis,
+    RelayHysteresis, Saturation, SaturationAsymmetric, Side, Sinusoid,
 };
 use crate::numeric::{Expression, Interval, Real};
 use crate::orbit;
@@ -21,8 +21,8 @@ const NOT_NEGATIVE: [f64; 2] = [0.0, f64::MAX];
 /// The power of two by which a band avoids overflow is one for these amplitudes; `kernel-band` proves that any other gives the same.
 const NEAR_ONE: [f64; 2] = [f64::MIN_POSITIVE, 1.5];
 
-const BIAS: (&str, [f64; 2]) = ("bias", ANY);
-const AMPLITUDE: (&str, [f64; 2]) = ("amplitude", POSITIVE);
+const BIAS: Quantity = ("bias", ANY);
+const AMPLITUDE: Quantity = ("amplitude", POSITIVE);
 
 /// Every formula, in the order of the claims: the text of `Formulas.v`.
 ///
@@ -52,19 +52,37 @@ Import ListNotations.
 Open Scope R_scope.
 ";
 
+/// The name of a quantity and its range.
+type Quantity = (&'static str, [f64; 2]);
+
 /// Definitions, one a formula.
 #[derive(Default)]
 struct Theory(String);
 
 impl Theory {
+    /// A characteristic, made of its parameters, as the list of its kernels; bias and amplitude come last.
+    fn member<C: PiecewiseLinear<Number = Expression>, const N: usize>(
+        &mut self,
+        name: &str,
+        quantities: [Quantity; N],
+        made: fn(&[Expression]) -> Result<C, NonlinearityError>,
+    ) {
+        self.define(name, quantities, |at| {
+            let (parameters, &[bias, amplitude]) = at.split_last_chunk()?;
+            let mut terms = Vec::new();
+            made(parameters).ok()?.kernels(&Sinusoid::new(bias, amplitude).ok()?, |kernel| terms.push(term(kernel)));
+            Some(format!("[{}]", terms.join("; ")))
+        });
+    }
+
     /// A formula of quantities in ranges. One that is not defined there is left out, so that what speaks of it breaks.
     fn define<const N: usize>(
         &mut self,
         name: &str,
-        quantities: [(&'static str, [f64; 2]); N],
+        quantities: [Quantity; N],
         gives: impl FnOnce([Expression; N]) -> Option<String>,
     ) {
-        let symbol = |(name, [from, to]): (&'static str, [f64; 2])| {
+        let symbol = |(name, [from, to]): Quantity| {
             Expression::symbol(name, name, Interval::new(from, to).unwrap_or(Interval::ENTIRE))
         };
         if let Some(term) = gives(quantities.map(symbol)) {
@@ -141,72 +159,41 @@ fn term(kernel: Kernel<Expression>) -> String {
     format!("{name} {}{place}", numbers.join(" "))
 }
 
-/// Each member of the piecewise-linear catalogue as its list of kernels.
+/// Each member of the piecewise-linear catalogue as its list of kernels: its parameters, bias and amplitude.
 fn members(theory: &mut Theory) {
-    fn list<C: PiecewiseLinear<Number = Expression>>(
-        member: Result<C, crate::nonlinearity::NonlinearityError>,
-        bias: Expression,
-        amplitude: Expression,
-    ) -> Option<String> {
-        let mut terms = Vec::new();
-        member.ok()?.kernels(&Sinusoid::new(bias, amplitude).ok()?, |kernel| terms.push(term(kernel)));
-        Some(format!("[{}]", terms.join("; ")))
-    }
-    const LEVEL: (&str, [f64; 2]) = ("level", POSITIVE);
-    const SLOPE: (&str, [f64; 2]) = ("slope", POSITIVE);
+    const LEVEL: Quantity = ("level", POSITIVE);
+    const SLOPE: Quantity = ("slope", POSITIVE);
     const SMALL: [f64; 2] = [0.0, 1.0];
     const LARGE: [f64; 2] = [2.0, f64::MAX];
-    theory.define("relay", [LEVEL, BIAS, AMPLITUDE], |[c, b, x]| list(Relay::new(c), b, x));
-    theory.define("relay_dead_zone", [LEVEL, ("dead_zone", NOT_NEGATIVE), BIAS, AMPLITUDE], |[c, d, b, x]| {
-        list(RelayDeadZone::new(c, d), b, x)
-    });
+    theory.member("relay", [LEVEL, BIAS, AMPLITUDE], Relay::from_values);
+    theory.member("relay_dead_zone", [LEVEL, ("dead_zone", NOT_NEGATIVE), BIAS, AMPLITUDE], RelayDeadZone::from_values);
     let hysteresis = [LEVEL, ("half_width", NOT_NEGATIVE), ("offset", ANY), BIAS, AMPLITUDE];
-    theory.define("relay_hysteresis", hysteresis, |[c, a, d, b, x]| list(RelayHysteresis::new(c, a, d), b, x));
+    theory.member("relay_hysteresis", hysteresis, RelayHysteresis::from_values);
     let three_levels = [LEVEL, ("on_", LARGE), ("off", SMALL), BIAS, AMPLITUDE];
-    theory.define("relay_dead_zone_hysteresis", three_levels, |[c, on, off, b, x]| {
-        list(RelayDeadZoneHysteresis::new(c, on, off), b, x)
-    });
-    theory.define("saturation", [SLOPE, ("breakpoint", POSITIVE), BIAS, AMPLITUDE], |[k, at, b, x]| {
-        list(Saturation::new(k, at), b, x)
-    });
-    theory.define(
-        "saturation_asymmetric",
-        [SLOPE, ("lower", SMALL), ("upper", LARGE), BIAS, AMPLITUDE],
-        |[k, lower, upper, b, x]| list(SaturationAsymmetric::new(k, lower, upper), b, x),
-    );
-    theory.define("dead_zone", [SLOPE, ("half_width", NOT_NEGATIVE), BIAS, AMPLITUDE], |[k, at, b, x]| {
-        list(DeadZone::new(k, at), b, x)
-    });
-    theory.define(
-        "dead_zone_saturation",
-        [SLOPE, ("half_width", SMALL), ("breakpoint", LARGE), BIAS, AMPLITUDE],
-        |[k, inner, outer, b, x]| list(DeadZoneSaturation::new(k, inner, outer), b, x),
-    );
+    theory.member("relay_dead_zone_hysteresis", three_levels, RelayDeadZoneHysteresis::from_values);
+    theory.member("saturation", [SLOPE, ("breakpoint", POSITIVE), BIAS, AMPLITUDE], Saturation::from_values);
+    let unequal = [SLOPE, ("lower", SMALL), ("upper", LARGE), BIAS, AMPLITUDE];
+    theory.member("saturation_asymmetric", unequal, SaturationAsymmetric::from_values);
+    theory.member("dead_zone", [SLOPE, ("half_width", NOT_NEGATIVE), BIAS, AMPLITUDE], DeadZone::from_values);
+    let dead_then_limited = [SLOPE, ("half_width", SMALL), ("breakpoint", LARGE), BIAS, AMPLITUDE];
+    theory.member("dead_zone_saturation", dead_then_limited, DeadZoneSaturation::from_values);
     // By the order of the slopes, one of three.
     for (order, inner, outer) in [(1, [1.0, 2.0], SMALL), (2, [0.5, 1.0], [1.25, 2.0]), (3, [1.0, 2.0], [-2.0, -1.0])] {
         let quantities = [("inner", inner), ("outer", outer), ("breakpoint", POSITIVE), BIAS, AMPLITUDE];
-        theory.define(&format!("gain_changing_{order}"), quantities, |[inner, outer, at, b, x]| {
-            list(GainChanging::new(inner, outer, at), b, x)
-        });
+        theory.member(&format!("gain_changing_{order}"), quantities, GainChanging::from_values);
     }
-    theory.define("preload", [SLOPE, LEVEL, BIAS, AMPLITUDE], |[k, c, b, x]| list(Preload::new(k, c), b, x));
+    theory.member("preload", [SLOPE, LEVEL, BIAS, AMPLITUDE], Preload::from_values);
     // Two treads either way.
     let two_treads = [("tread", [1.0, 1.0]), ("bias", [0.0, 0.0]), ("amplitude", [2.25, 2.25])];
-    theory.define("quantizer", two_treads, |[tread, b, x]| list(Quantizer::new(tread), b, x));
-    theory.define("absolute", [("gain", ANY), BIAS, AMPLITUDE], |[k, b, x]| list(Absolute::new(k), b, x));
+    theory.member("quantizer", two_treads, Quantizer::from_values);
+    theory.member("absolute", [("gain", ANY), BIAS, AMPLITUDE], Absolute::from_values);
     let [x0, x1, x2] = [("x0", [-2.0, -1.0]), ("x1", [0.0, 1.0]), ("x2", [2.0, 3.0])];
     let [y0, y1, y2, left, right] = ["y0", "y1", "y2", "left", "right"].map(|name| (name, ANY));
     // The bias beside the middle one of three points.
-    theory.define(
-        "polyline",
-        [x0, y0, x1, y1, x2, y2, left, right, ("bias", SMALL), AMPLITUDE],
-        |[x0, y0, x1, y1, x2, y2, left, right, b, x]| {
-            list(Polyline::new([(x0, y0), (x1, y1), (x2, y2)], left, right), b, x)
-        },
-    );
-    theory.define("backlash", [SLOPE, ("half_gap", NOT_NEGATIVE), BIAS, AMPLITUDE], |[k, gap, b, x]| {
-        list(Backlash::new(k, gap), b, x)
+    theory.member("polyline", [x0, y0, x1, y1, x2, y2, left, right, ("bias", SMALL), AMPLITUDE], |v| {
+        Polyline::new([(v[0], v[1]), (v[2], v[3]), (v[4], v[5])], v[6], v[7])
     });
+    theory.member("backlash", [SLOPE, ("half_gap", NOT_NEGATIVE), BIAS, AMPLITUDE], Backlash::from_values);
 }
 
 /// From describing function to parameters, and what they rest on.
@@ -250,8 +237,8 @@ fn identification(theory: &mut Theory) {
 
 /// The exact orbits of a drag axis.
 fn orbits(theory: &mut Theory) {
-    const G: (&str, [f64; 2]) = ("g", POSITIVE);
-    const MU: (&str, [f64; 2]) = ("mu", [-1.0, 1.0]);
+    const G: Quantity = ("g", POSITIVE);
+    const MU: Quantity = ("mu", [-1.0, 1.0]);
     theory.define("quadratic_half_cycle", [("y", ANY), ("gap", [0.0, 1.0]), ("ratio", POSITIVE)], |[y, gap, ratio]| {
         Some(orbit::quadratic_half_cycle(y, gap, ratio).coq())
     });

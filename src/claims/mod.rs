@@ -16,6 +16,7 @@ mod distortion;
 mod evidence;
 mod formulas;
 mod kernel_checked;
+mod page;
 mod registry;
 mod sampling;
 #[doc(hidden)]

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use super::distortion::Distortion;
-use super::{Budget, CLAIMS, ClaimDomain, ClaimPart, Verdict, Word};
+use super::{Budget, CLAIMS, ClaimDomain, Verdict, Word};
 use crate::orbit::theorem::Theorem;
 use crate::proof::inequality::Inequality;
 
@@ -66,21 +66,27 @@ pub struct Hypothesis {
     pub counterexample: Option<Checker>,
 }
 
-/// A definition, lemma, theorem or identity with its checkers.
+impl Hypothesis {
+    /// The statement needs it: this checker refutes the statement without it.
+    pub(crate) const fn needed(id: &'static str, counterexample: Checker) -> Self {
+        Self { id, counterexample: Some(counterexample) }
+    }
+
+    /// No case is known that violates it alone.
+    pub(crate) const fn stated(id: &'static str) -> Self {
+        Self { id, counterexample: None }
+    }
+}
+
+/// A definition, lemma, theorem or identity with its checkers; its page has the rest.
 #[derive(Clone, Copy, Debug)]
 pub struct Claim {
     /// Name: that of its file in `spec/claims`, and of `verify --claim`.
     pub id: &'static str,
-    /// Where the paper has it, or whence it comes.
-    pub equation: &'static str,
     /// Its sort.
     pub kind: Kind,
     /// The statement that holds, in one line.
     pub statement: &'static str,
-    /// For what it is stated, in parts.
-    pub domain: &'static [ClaimPart],
-    /// Steps of its proof that no program checks.
-    pub by_hand: &'static [&'static str],
     /// What is in the way of a proof of the whole statement; `None` where it is proved or every state was visited.
     pub not_proved: Option<&'static str>,
     /// As printed.
@@ -95,9 +101,7 @@ pub struct Claim {
     pub(crate) theorem: Option<(&'static Theorem, &'static Inequality)>,
     /// What the statement that holds assumes.
     pub hypotheses: &'static [Hypothesis],
-    /// Claims it rests on, by id.
-    pub depends: &'static [&'static str],
-    /// Its file.
+    /// Its page, which says for what it is stated, and on what it rests.
     pub spec: &'static str,
 }
 
@@ -164,11 +168,8 @@ impl Claim {
     /// What [`claim!`] leaves out.
     pub(crate) const BLANK: Self = Self {
         id: "",
-        equation: "",
         kind: Kind::Statement,
         statement: "",
-        domain: &[],
-        by_hand: &[],
         not_proved: None,
         printed: AsPrinted::Absent,
         corrected: None,
@@ -176,7 +177,6 @@ impl Claim {
         proof: None,
         theorem: None,
         hypotheses: &[],
-        depends: &[],
         spec: "",
     };
 
@@ -210,6 +210,8 @@ impl Claim {
             AsPrinted::Absent => None,
         };
         let corrected = self.corrected.map(|checker| proved(checker(budget)));
+        let domain = self.domain();
+        let [printed, corrected] = [printed, corrected].map(|verdict| Some(verdict?.worded(&domain)));
         let as_printed = |verdict: &Verdict| match self.printed {
             AsPrinted::Refuted(_) => verdict.is_refuted(),
             AsPrinted::Approximate(_) => matches!(verdict, Verdict::Approximate(_)),
@@ -218,8 +220,8 @@ impl Claim {
         let expected = printed.as_ref().is_none_or(as_printed) && corrected.as_ref().is_none_or(Verdict::holds);
         Finding {
             id: Cow::Borrowed(self.id),
-            domain: ClaimDomain::new(self.domain),
-            by_hand: self.by_hand.iter().copied().map(Cow::Borrowed).collect(),
+            domain,
+            by_hand: self.by_hand().map(Cow::Borrowed).collect(),
             printed,
             corrected,
             expected,
@@ -262,11 +264,10 @@ impl Claim {
 
 /// Declares a claim's constant, with its file: a missing file fails the build.
 macro_rules! claim {
-    ($constant:ident = $id:literal $equation:literal $kind:ident $statement:literal { $($field:ident: $value:expr),+ $(,)? }) => {
+    ($constant:ident = $id:literal $kind:ident $statement:literal { $($field:ident: $value:expr),+ $(,)? }) => {
         #[doc = $statement]
         pub(in crate::claims) const $constant: $crate::claims::Claim = $crate::claims::Claim {
             id: $id,
-            equation: $equation,
             kind: $crate::claims::Kind::$kind,
             statement: $statement,
             spec: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/spec/claims/", $id, ".md")),

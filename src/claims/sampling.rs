@@ -67,6 +67,15 @@ impl Draw {
         self.note("expected", expected);
         Case::margin(1.0 - (value - expected).abs() / (tolerance * scale.abs()))
     }
+    /// Equations: the name, the two sides and the scale of each.
+    pub(crate) fn equations<const N: usize>(
+        &mut self,
+        equations: [(&'static str, f64, f64, f64); N],
+        tolerance: f64,
+    ) -> Case {
+        let equal = |(name, value, expected, scale)| self.equal((name, value), expected, scale, tolerance);
+        equations.map(equal).into_iter().fold(Case::margin(f64::INFINITY), Case::and)
+    }
     /// `lesser <= greater`; the margin is the gap relative to `scale`.
     pub(crate) fn at_most(&mut self, lesser: (&'static str, f64), greater: (&'static str, f64), scale: f64) -> Case {
         self.note(lesser.0, lesser.1);
@@ -75,36 +84,28 @@ impl Draw {
     }
 }
 
-/// What one case says.
+/// That the statement holds in one case, with this margin; that it fails where the margin is negative or no number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Case {
-    /// The hypotheses do not hold: it does not count.
-    Skipped,
-    /// The statement holds with this margin, or fails where the margin is negative or no number.
-    Counted(f64),
-}
+pub(crate) struct Case(f64);
 
 impl Case {
     /// By margin: below zero, or no number, fails.
     pub(crate) fn margin(margin: f64) -> Self {
-        Self::Counted(margin)
+        Self(margin)
     }
     /// By truth.
     pub(crate) fn truth(holds: bool) -> Self {
-        Self::Counted(if holds { 1.0 } else { -1.0 })
+        Self(if holds { 1.0 } else { -1.0 })
     }
     /// Both, by the smaller margin.
     pub(crate) fn and(self, other: Self) -> Self {
-        match (self, other) {
-            (Self::Counted(a), Self::Counted(b)) => Self::Counted(if a.is_nan() || b >= a { a } else { b }),
-            _ => Self::Skipped,
-        }
+        if self.0.is_nan() || other.0 >= self.0 { self } else { other }
     }
 }
 
-/// Draws until `budget.cases` cases have counted: refuted by the first that fails, undecided where the hypotheses are met
-/// too rarely.
-pub(crate) fn sample(budget: Budget, mut case: impl FnMut(&mut Draw) -> Case) -> Verdict {
+/// Draws until `budget.cases` cases have counted; one whose hypotheses do not hold is none and does not count. Refuted by the first
+/// that fails, undecided where the hypotheses are met too rarely.
+pub(crate) fn sample(budget: Budget, mut case: impl FnMut(&mut Draw) -> Option<Case>) -> Verdict {
     let mut draw = Draw { generator: Pcg64::seed_from_u64(budget.seed), drawn: Vec::new() };
     let (mut counted, mut worst) = (0, f64::INFINITY);
     let tries = 100 * budget.cases;
@@ -114,12 +115,12 @@ pub(crate) fn sample(budget: Budget, mut case: impl FnMut(&mut Draw) -> Case) ->
         }
         draw.drawn.clear();
         match case(&mut draw) {
-            Case::Skipped => {}
-            Case::Counted(margin) if margin >= 0.0 => {
+            None => {}
+            Some(Case(margin)) if margin >= 0.0 => {
                 counted += 1;
                 worst = worst.min(margin);
             }
-            Case::Counted(_) => return Verdict::Refuted(Witness::new(draw.drawn)),
+            Some(_) => return Verdict::Refuted(Witness::new(draw.drawn)),
         }
     }
     if counted < budget.cases || counted == 0 {

@@ -224,7 +224,7 @@ fn document(findings: &[(&Claim, Finding)]) -> Value {
         let parts = finding.domain.parts.iter().map(|part| json!({ "part": part.name, "text": part.text }));
         json!({
             "id": claim.id,
-            "equation": claim.equation,
+            "equation": claim.equation(),
             "kind": claim.kind.word(),
             "statement": claim.statement,
             "as_printed": finding.as_printed(),

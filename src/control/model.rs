@@ -40,97 +40,32 @@ pub struct AxisModel<T> {
     pub delay_s: T,
 }
 
-/// Names of the fields, as in the document of `identify --json`.
-pub const NAMES: [&str; 14] = [
-    "alpha",
-    "beta",
-    "beta_quadratic",
-    "beta_cubic",
-    "skew",
-    "coulomb",
-    "stiffness",
-    "memory",
-    "memory_s",
-    "lag_s",
-    "ramp_s",
-    "filter_s",
-    "delta",
-    "delay_s",
-];
+/// The names of the fields in one order, from the fields and to them.
+macro_rules! in_order {
+    ($($field:ident),+) => {
+        /// Names of the fields, as in the document of `identify --json`.
+        pub const NAMES: [&str; 14] = [$(stringify!($field)),+];
+
+        impl<T> AxisModel<T> {
+            /// From parts in the order of [`NAMES`].
+            pub fn from_parts([$($field),+]: [T; NAMES.len()]) -> Self {
+                Self { $($field),+ }
+            }
+
+            /// The parts in the order of [`NAMES`].
+            pub fn parts(self) -> [T; NAMES.len()] {
+                let Self { $($field),+ } = self;
+                [$($field),+]
+            }
+        }
+    };
+}
+in_order! {
+    alpha, beta, beta_quadratic, beta_cubic, skew, coulomb, stiffness, memory, memory_s, lag_s, ramp_s, filter_s, delta,
+    delay_s
+}
 
 impl<T> AxisModel<T> {
-    /// From parts in the order of [`NAMES`].
-    pub fn from_parts(parts: [T; NAMES.len()]) -> Self {
-        let [
-            alpha,
-            beta,
-            beta_quadratic,
-            beta_cubic,
-            skew,
-            coulomb,
-            stiffness,
-            memory,
-            memory_s,
-            lag_s,
-            ramp_s,
-            filter_s,
-            delta,
-            delay_s,
-        ] = parts;
-        Self {
-            alpha,
-            beta,
-            beta_quadratic,
-            beta_cubic,
-            skew,
-            coulomb,
-            stiffness,
-            memory,
-            memory_s,
-            lag_s,
-            ramp_s,
-            filter_s,
-            delta,
-            delay_s,
-        }
-    }
-
-    /// The parts in the order of [`NAMES`].
-    pub fn parts(self) -> [T; NAMES.len()] {
-        let Self {
-            alpha,
-            beta,
-            beta_quadratic,
-            beta_cubic,
-            skew,
-            coulomb,
-            stiffness,
-            memory,
-            memory_s,
-            lag_s,
-            ramp_s,
-            filter_s,
-            delta,
-            delay_s,
-        } = self;
-        [
-            alpha,
-            beta,
-            beta_quadratic,
-            beta_cubic,
-            skew,
-            coulomb,
-            stiffness,
-            memory,
-            memory_s,
-            lag_s,
-            ramp_s,
-            filter_s,
-            delta,
-            delay_s,
-        ]
-    }
-
     /// Something made of each part.
     pub fn map<U>(self, of: impl FnMut(T) -> U) -> AxisModel<U> {
         AxisModel::from_parts(self.parts().map(of))

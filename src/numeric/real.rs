@@ -222,9 +222,18 @@ pub(super) fn own_sine_series<S: Real>(x: S) -> S {
     sum * square * x * S::from_f64(1.0 / 6.0)
 }
 
-/// Forwards to `libm` rather than to the platform, so that results are the same on every machine.
+/// Functions that are `libm`'s rather than the platform's, so that results are the same on every machine.
+macro_rules! by_libm {
+    ($float:ident: $($method:ident = $function:ident),+) => { $(
+        #[inline]
+        fn $method(self) -> Self {
+            libm::Libm::<$float>::$function(self)
+        }
+    )+ };
+}
+
 macro_rules! float {
-    ($float:ident, $($method:ident = $function:ident),+) => {
+    ($float:ident) => {
         impl Real for $float {
             #[allow(clippy::cast_possible_truncation, reason = "f32 holds what it can")]
             #[inline]
@@ -264,10 +273,6 @@ macro_rules! float {
                 if other > self { other } else { self }
             }
             #[inline]
-            fn floor(self) -> Self {
-                libm::Libm::<$float>::floor(self)
-            }
-            #[inline]
             fn select_all<const N: usize>(
                 self,
                 below: impl FnOnce() -> [Self; N],
@@ -287,12 +292,10 @@ macro_rules! float {
             fn pow(self, exponent: Self) -> Self {
                 libm::Libm::<$float>::pow(self, exponent)
             }
-            $(
-                #[inline]
-                fn $method(self) -> Self {
-                    libm::$function(self)
-                }
-            )+
+            by_libm! {
+                $float: sqrt = sqrt, sin = sin, cos = cos, tan = tan, asin = asin, acos = acos, atan = atan, exp = exp,
+                exp_m1 = expm1, ln = log, ln_1p = log1p, sinh = sinh, cosh = cosh, tanh = tanh, atanh = atanh, floor = floor
+            }
         }
         impl Scalar for $float {
             #[inline]
@@ -303,39 +306,5 @@ macro_rules! float {
     };
 }
 
-float!(
-    f64,
-    sqrt = sqrt,
-    sin = sin,
-    cos = cos,
-    tan = tan,
-    asin = asin,
-    acos = acos,
-    atan = atan,
-    exp = exp,
-    exp_m1 = expm1,
-    ln = log,
-    ln_1p = log1p,
-    sinh = sinh,
-    cosh = cosh,
-    tanh = tanh,
-    atanh = atanh
-);
-float!(
-    f32,
-    sqrt = sqrtf,
-    sin = sinf,
-    cos = cosf,
-    tan = tanf,
-    asin = asinf,
-    acos = acosf,
-    atan = atanf,
-    exp = expf,
-    exp_m1 = expm1f,
-    ln = logf,
-    ln_1p = log1pf,
-    sinh = sinhf,
-    cosh = coshf,
-    tanh = tanhf,
-    atanh = atanhf
-);
+float!(f64);
+float!(f32);

@@ -47,48 +47,28 @@ pub fn uncoupled<T: Real>(axis: Axis, coefficients: &Coefficients<T>, speed: T) 
     }
 }
 
+/// Inertia, its share of the water, both drags, disturbance and speed of each axis, as text and as LaTeX.
+#[rustfmt::skip]
+const SYMBOLS: [(Axis, [(&str, &str); 6]); 4] = [
+    (Axis::Surge, [("m", "m"), ("X_udot", r"X_{\dot u}"), ("X_u", "X_u"),
+        ("X_uu", r"X_{u|u|}"), ("tau_XE", r"\tau_{XE}"), ("u", "u")]),
+    (Axis::Sway, [("m", "m"), ("Y_vdot", r"Y_{\dot v}"), ("Y_v", "Y_v"),
+        ("Y_vv", r"Y_{v|v|}"), ("tau_YE", r"\tau_{YE}"), ("v", "v")]),
+    (Axis::Heave, [("m", "m"), ("Z_wdot", r"Z_{\dot w}"), ("Z_w", "Z_w"),
+        ("Z_ww", r"Z_{w|w|}"), ("tau_ZE", r"\tau_{ZE}"), ("w", "w")]),
+    (Axis::Yaw, [("I_z", "I_z"),
+        ("N_rdot", r"N_{\dot r}"), ("N_r", "N_r"), ("N_rr", r"N_{r|r|}"), ("tau_NE", r"\tau_{NE}"), ("r", "r")]),
+];
+
 /// Table 2 as formulas, axis by axis.
 #[must_use]
 pub fn formulas() -> Vec<(Axis, Terms<Expression>)> {
-    let symbol = |text, latex| Expression::symbol(text, latex, Interval::ENTIRE);
-    let (mass, weight, buoyancy) = (symbol("m", "m"), symbol("W", "W"), symbol("B", "B"));
-    let formula = |axis| {
-        let (inertia, by_acceleration, by_speed, by_speed_magnitude, external, speed) = match axis {
-            Axis::Surge => (
-                mass,
-                symbol("X_udot", r"X_{\dot u}"),
-                symbol("X_u", "X_u"),
-                symbol("X_uu", r"X_{u|u|}"),
-                symbol("tau_XE", r"\tau_{XE}"),
-                symbol("u", "u"),
-            ),
-            Axis::Sway => (
-                mass,
-                symbol("Y_vdot", r"Y_{\dot v}"),
-                symbol("Y_v", "Y_v"),
-                symbol("Y_vv", r"Y_{v|v|}"),
-                symbol("tau_YE", r"\tau_{YE}"),
-                symbol("v", "v"),
-            ),
-            Axis::Heave => (
-                mass,
-                symbol("Z_wdot", r"Z_{\dot w}"),
-                symbol("Z_w", "Z_w"),
-                symbol("Z_ww", r"Z_{w|w|}"),
-                symbol("tau_ZE", r"\tau_{ZE}"),
-                symbol("w", "w"),
-            ),
-            Axis::Yaw => (
-                symbol("I_z", "I_z"),
-                symbol("N_rdot", r"N_{\dot r}"),
-                symbol("N_r", "N_r"),
-                symbol("N_rr", r"N_{r|r|}"),
-                symbol("tau_NE", r"\tau_{NE}"),
-                symbol("r", "r"),
-            ),
-        };
+    let symbol = |(text, latex)| Expression::symbol(text, latex, Interval::ENTIRE);
+    let [weight, buoyancy] = ["W", "B"].map(|name| symbol((name, name)));
+    let formula = |(axis, symbols): (Axis, [(&'static str, &'static str); 6])| {
+        let [inertia, by_acceleration, by_speed, by_speed_magnitude, external, speed] = symbols.map(symbol);
         let terms = Coefficients { inertia, by_acceleration, by_speed, by_speed_magnitude, external, weight, buoyancy };
         (axis, uncoupled(axis, &terms, speed))
     };
-    Axis::ALL.map(formula).into()
+    SYMBOLS.map(formula).into()
 }

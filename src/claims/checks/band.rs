@@ -8,7 +8,7 @@ use crate::nonlinearity::{Kernel, Sinusoid};
 use crate::numeric::Real;
 use crate::proof::polynomial::Rational;
 
-const COVERED: ClaimPart = ClaimPart::whole("as-coded", "");
+const COVERED: ClaimPart = ClaimPart::named("as-coded");
 
 /// Of one kernel.
 fn of(kernel: Kernel<Rational>, sweep: &Sinusoid<Rational>) -> Option<DescribingFunction<Rational>> {

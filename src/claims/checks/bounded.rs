@@ -1,6 +1,6 @@
 //! What guaranteed bounds of parameters rest on: the dual, the mean-value form, the chain of stretches.
 
-use super::{AsPrinted, Budget, Case, ClaimPart, Draw, Verdict, claim, sample, tolerance};
+use super::{Budget, Case, Draw, Verdict, claim, sample, tolerance};
 use crate::experiment::Record;
 use crate::identify::bounded::soundness::{Surrounded, dual_bound};
 
@@ -10,15 +10,12 @@ const LARGEST: f64 = 68_719_476_736.0;
 const MOTIONS: usize = 200;
 
 claim! {
-    BOUNDED_DUAL = "bounded-dual" "of this project" Theorem
+    BOUNDED_DUAL = "bounded-dual" Theorem
     "Whatever nonnegative multipliers are given, the dual evaluated in intervals is not below the maximum over the rows and the box" {
         not_proved: Some("the code is compared with whole numbers at drawn rows: its intervals are not evaluated over a range of them"),
-        domain: &[ClaimPart::whole("whole", "every finite set of rows, multipliers of zero or more, and box")],
-        printed: AsPrinted::Absent,
         corrected: Some(|budget| dual(budget, dual_bound)),
         // In floats, rounded to nearest.
         falsified: |budget| dual(budget, rounded),
-        depends: &[],
     }
 }
 
@@ -56,7 +53,7 @@ fn dual(budget: Budget, dual: Dual) -> Verdict {
             (dual(&slopes, &limits, &y, &objective, &sides), exact(&slopes, &limits, &y, &objective, &sides));
         draw.note("bound", bound);
         // A float of this size is a whole number.
-        Case::truth(bound as i128 >= exact)
+        Some(Case::truth(bound as i128 >= exact))
     })
 }
 
@@ -104,46 +101,40 @@ fn motions(budget: Budget) -> Budget {
 }
 
 claim! {
-    BOUNDED_MEAN_VALUE = "bounded-mean-value" "of this project" Theorem
+    BOUNDED_MEAN_VALUE = "bounded-mean-value" Theorem
     "Over a box, every output lies in the point's own plus the slopes' ranges times what the unknowns differ" {
         not_proved: Some("compared with the closed form at drawn axes of linear drag: other laws have none to be compared with"),
-        domain: &[ClaimPart::whole("whole", "every axis, command held between switchings, and box over which there is an enclosure")],
-        printed: AsPrinted::Absent,
         corrected: Some(|budget| mean_value(budget, false)),
         // The middles of the slopes in place of their ranges.
         falsified: |budget| mean_value(budget, true),
-        depends: &[],
     }
 }
 
 fn mean_value(budget: Budget, middles: bool) -> Verdict {
     sample(motions(budget), |draw| {
-        let Some(axis) = Axis::draw(draw) else { return Case::Skipped };
+        let axis = Axis::draw(draw)?;
         let width = draw.uniform("half_width", 0.02, 0.1);
         let outside = axis.surrounded(width).and_then(|all| all.outside(&axis.states, axis.truth, middles));
-        let Some(outside) = outside else { return Case::Skipped };
-        draw.at_most(("outside", outside), ("rounding_of_the_closed_form", tolerance::ROUNDING), 1.0)
+        let outside = outside?;
+        Some(draw.at_most(("outside", outside), ("rounding_of_the_closed_form", tolerance::ROUNDING), 1.0))
     })
 }
 
 claim! {
-    BOUNDED_CHAIN = "bounded-chain" "of this project" Theorem
+    BOUNDED_CHAIN = "bounded-chain" Theorem
     "A motion meets every inequality of the chain of stretches, each of which begins where the one before ended" {
         not_proved: Some("compared with the closed form at drawn axes of linear drag: other laws have none to be compared with"),
-        domain: &[ClaimPart::whole("whole", "every axis, command held between switchings, and box over which there is an enclosure")],
-        printed: AsPrinted::Absent,
         corrected: Some(|budget| chain(budget, 0.0)),
         // A stretch that begins with another velocity than the one before ended with.
         falsified: |budget| chain(budget, 0.3),
-        depends: &["bounded-mean-value"],
     }
 }
 
 fn chain(budget: Budget, shift: f64) -> Verdict {
     sample(motions(budget), |draw| {
-        let Some(axis) = Axis::draw(draw) else { return Case::Skipped };
+        let axis = Axis::draw(draw)?;
         let missed = axis.surrounded(0.02).and_then(|all| all.missed(&axis.states, axis.truth, shift));
-        let Some(missed) = missed else { return Case::Skipped };
-        draw.at_most(("missed", missed), ("rounding_of_the_closed_form", tolerance::ROUNDING), 1.0)
+        let missed = missed?;
+        Some(draw.at_most(("missed", missed), ("rounding_of_the_closed_form", tolerance::ROUNDING), 1.0))
     })
 }

@@ -1,7 +1,7 @@
 //! What controllers from an identified axis rest on.
 
 use super::algebra::{exactly, number};
-use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use super::{Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::control::{
     Margins, OpenLoop, RelayTest, Structure, Tuning, UltimatePoint, critical_point, double_pole, place,
 };
@@ -21,25 +21,14 @@ fn design(draw: &mut Draw, delay_s: f64) -> Option<Tuning<f64>> {
     Tuning::new(&axis, structure, bandwidth).ok()
 }
 
-const POLE_PLACEMENT_WHOLE: ClaimPart =
-    ClaimPart::whole("whole", "every axis, structure and bandwidth that the design accepts");
-
 claim! {
-    POLE_PLACEMENT = "pole-placement" "of this project" Identity
-    "the gains of a design give the closed loop the double pole and the slow pole that the bandwidth asks for"
-    {
-        domain: &[POLE_PLACEMENT_WHOLE],
-        by_hand: &["the cases of sign that are proved are all that the code accepts, and limits of them"],
-        printed: AsPrinted::Absent,
+    POLE_PLACEMENT = "pole-placement" Identity
+    "the gains of a design give the closed loop the double pole and the slow pole that the bandwidth asks for" {
         corrected: Some(|budget| poles(budget, 0.0, Tuning::double_pole_rad_s)),
         // The bandwidth taken for the pole.
         falsified: |budget| poles(budget, 0.0, Tuning::bandwidth_rad_s),
         proof: Some(prove_pole_placement),
-        hypotheses: &[Hypothesis {
-            id: "no-delay",
-            counterexample: Some(|budget| poles(budget, 0.05, Tuning::double_pole_rad_s)),
-        }],
-        depends: &[],
+        hypotheses: &[Hypothesis::needed("no-delay", |budget| poles(budget, 0.05, Tuning::double_pole_rad_s))],
     }
 }
 
@@ -47,7 +36,7 @@ claim! {
 /// slow one.
 fn poles(budget: Budget, delay: f64, double_pole: fn(&Tuning<f64>) -> f64) -> Verdict {
     sample(budget, |draw| {
-        let Some(tuning) = design(draw, delay) else { return Case::Skipped };
+        let tuning = design(draw, delay)?;
         let (axis, gains, w) = (tuning.axis(), tuning.gains(), double_pole(&tuning));
         let (alpha, drag, f) = (axis.alpha(), axis.linear_drag(), gains.filter_s());
         let (kp, ki, kd) = (gains.proportional(), gains.integral(), gains.derivative());
@@ -71,22 +60,17 @@ fn poles(budget: Budget, delay: f64, double_pole: fn(&Tuning<f64>) -> f64) -> Ve
             Structure::Pd | Structure::Ipd => double,
             Structure::Pid => vanishes("slow_pole", -0.1 * w),
         };
-        double.and(slow)
+        Some(double.and(slow))
     })
 }
 
 claim! {
-    DELAY_MARGIN = "delay-margin" "of this project" Theorem
-    "the least of phase above critical over frequency at the crossovers of gain is the delay that a stable loop bears"
-    {
+    DELAY_MARGIN = "delay-margin" Theorem
+    "the least of phase above critical over frequency at the crossovers of gain is the delay that a stable loop bears" {
         not_proved: Some("the poles of a loop with delay are counted in floats; an enclosure of the count is not there"),
-        domain: &[ClaimPart::whole("whole", "every stable loop of an axis and its controller")],
-        printed: AsPrinted::Absent,
         corrected: Some(|budget| delay_margin(budget, |_, margins| margins.delay_s)),
         // The phase margin over the frequency of the pole.
         falsified: |budget| delay_margin(budget, |tuning, margins| margins.phase_rad / tuning.double_pole_rad_s()),
-        hypotheses: &[],
-        depends: &[],
     }
 }
 
@@ -95,49 +79,32 @@ type DelayMargin = fn(&Tuning<f64>, &Margins<f64>) -> f64;
 fn delay_margin(budget: Budget, margin: DelayMargin) -> Verdict {
     sample(budget, |draw| {
         let delay = draw.uniform("delay_share", 0.0, 0.2);
-        let Some(tuning) = design(draw, delay) else { return Case::Skipped };
+        let tuning = design(draw, delay)?;
         let (axis, gains, w) = (tuning.axis(), tuning.gains(), tuning.margins().crossover_rad_s);
         let more_s = draw.note("more_s", margin(&tuning, tuning.margins()));
         let with = |share: f64| {
             let late = axis.with_delay_s(axis.delay_s() + share * more_s).ok()?;
             OpenLoop::new(&late, gains, 0.0).ok()
         };
-        let (Some(less), Some(critical), Some(more)) = (with(0.999), with(1.0), with(1.001)) else {
-            return Case::Skipped;
-        };
+        let (less, critical, more) = (with(0.999)?, with(1.0)?, with(1.001)?);
         let (re, im) = critical.response(w);
         let on_axis = draw.equal(("distance_to_critical", (re + 1.0).hypot(im)), 0.0, 1.0, tolerance::CANCELLING);
-        on_axis.and(Case::truth(less.unstable_poles() == 0 && more.unstable_poles() == 2))
+        Some(on_axis.and(Case::truth(less.unstable_poles() == 0 && more.unstable_poles() == 2)))
     })
 }
 
-const RELAY_ULTIMATE_WHOLE: ClaimPart = ClaimPart::whole("whole", "every gain, dead time and level");
-
 claim! {
-    RELAY_ULTIMATE = "relay-ultimate" "of this project" Identity
-    "for an integrator with dead time the relay oscillates with the ultimate period, and its describing function gives 8/pi^2 of the ultimate gain"
-    {
-        domain: &[RELAY_ULTIMATE_WHOLE],
-        printed: AsPrinted::Absent,
+    RELAY_ULTIMATE = "relay-ultimate" Identity
+    "for an integrator with dead time the relay oscillates with the ultimate period, and its describing function gives 8/pi^2 of the ultimate gain" {
         corrected: Some(|budget| relay_ultimate(budget, SHARE, 0.0, 0.0, SLOWEST)),
         // The describing function taken for exact.
         falsified: |budget| relay_ultimate(budget, 1.0, 0.0, 0.0, SLOWEST),
         proof: Some(prove_relay_ultimate),
         hypotheses: &[
-            Hypothesis {
-                id: "no-hysteresis",
-                counterexample: Some(|budget| relay_ultimate(budget, SHARE, 0.1, 0.0, SLOWEST)),
-            },
-            Hypothesis {
-                id: "no-lag",
-                counterexample: Some(|budget| relay_ultimate(budget, SHARE, 0.0, 0.1, SLOWEST)),
-            },
-            Hypothesis {
-                id: "below-for-a-dead-time",
-                counterexample: Some(|budget| relay_ultimate(budget, SHARE, 0.0, 0.0, [0.7, 0.9])),
-            },
+            Hypothesis::needed("no-hysteresis", |budget| relay_ultimate(budget, SHARE, 0.1, 0.0, SLOWEST)),
+            Hypothesis::needed("no-lag", |budget| relay_ultimate(budget, SHARE, 0.0, 0.1, SLOWEST)),
+            Hypothesis::needed("below-for-a-dead-time", |budget| relay_ultimate(budget, SHARE, 0.0, 0.0, [0.7, 0.9])),
         ],
-        depends: &[],
     }
 }
 
@@ -164,11 +131,11 @@ fn relay_ultimate(budget: Budget, share: f64, hysteresis: f64, lag: f64, [least,
             let test = RelayTest { level, half_width, amplitude, bias: 0.0, period_s };
             Some((test.ultimate().ok()?, truth))
         };
-        let Some((found, truth)) = found() else { return Case::truth(false) };
+        let Some((found, truth)) = found() else { return Some(Case::truth(false)) };
         let period =
             draw.equal(("period_s", found.period_s()), truth.period_s(), truth.period_s(), tolerance::CANCELLING);
         let expected = share * truth.gain();
-        period.and(draw.equal(("ultimate_gain", found.gain()), expected, expected, tolerance::CANCELLING))
+        Some(period.and(draw.equal(("ultimate_gain", found.gain()), expected, expected, tolerance::CANCELLING)))
     })
 }
 
@@ -196,7 +163,7 @@ fn prove_pole_placement(distortion: Distortion) -> Verdict {
             };
             Some([value(&closed, -w), value(&slope, -w), third])
         };
-        exactly(POLE_PLACEMENT_WHOLE, distortion, &[[2.0, 0.5, 3.0]], functions)
+        exactly(ClaimPart::WHOLE, distortion, &[[2.0, 0.5, 3.0]], functions)
     };
     of(Structure::Pd).and(|| of(Structure::Pid)).and(|| of(Structure::Ipd))
 }
@@ -229,5 +196,5 @@ fn prove_relay_ultimate(distortion: Distortion) -> Verdict {
         let share = number(8.0) / pi.square();
         Some([found.gain() - factor * share * omega / gain, found.period_s() - number(2.0) * pi / omega])
     };
-    exactly(RELAY_ULTIMATE_WHOLE, distortion, &[[2.0, 0.5, 3.0]], functions)
+    exactly(ClaimPart::WHOLE, distortion, &[[2.0, 0.5, 3.0]], functions)
 }

@@ -12,15 +12,9 @@ use crate::nonlinearity::{
 use crate::numeric::Real;
 use crate::proof::polynomial::Rational;
 
-pub(super) const DECOMPOSITION: ClaimPart = ClaimPart::whole(
-    "decomposition",
-    "each member of the piecewise-linear catalogue is the sum of its kernels, every parameter",
-);
-pub(super) const SCALING: ClaimPart = ClaimPart::whole(
-    "scaling",
-    "every kernel, height, bias and amplitude as at one, none and one, and below a breakpoint as above its mirror image",
-);
-pub(super) const BEYOND: ClaimPart = ClaimPart::whole("beyond-the-sweep", "sweeps that end beyond a breakpoint");
+pub(super) const DECOMPOSITION: ClaimPart = ClaimPart::named("decomposition");
+pub(super) const SCALING: ClaimPart = ClaimPart::named("scaling");
+pub(super) const BEYOND: ClaimPart = ClaimPart::named("beyond-the-sweep");
 
 /// Most parameters of a member, two for each point of a polyline.
 const PARAMETERS: usize = 10;
@@ -55,7 +49,7 @@ where
             Some([member.value(x, branch, &sweep) - factor * sum])
         })
     };
-    settings.iter().map(each).reduce(|all, next| all.and(|| next)).unwrap_or_else(|| Verdict::undecided("nothing"))
+    Verdict::all(settings.iter().map(each))
 }
 
 /// What a member is proved by: on a branch.
@@ -102,7 +96,7 @@ const MEMBERS: [(&str, Proof); 14] = [
 pub(super) fn decomposition(distortion: Distortion) -> Verdict {
     let both =
         |(_, proof): &(&str, Proof)| proof(distortion, Branch::Rising).and(|| proof(distortion, Branch::Falling));
-    MEMBERS.iter().map(both).reduce(|all, next| all.and(|| next)).unwrap_or_else(|| Verdict::undecided("nothing"))
+    Verdict::all(MEMBERS.iter().map(both))
 }
 
 /// Kernels with one breakpoint, of a height or slope.
@@ -154,7 +148,7 @@ pub(super) fn scaling(distortion: Distortion) -> Verdict {
         BRANCHES.map(|branches| one(STEP, side, branches, false).and(|| one(RAMP, side, branches, true)))
     });
     let signs = BRANCHES.map(|branches| one(SIGN, Side::Above, branches, false));
-    kernels.chain(signs).reduce(|all, next| all.and(|| next)).unwrap_or_else(|| Verdict::undecided("nothing"))
+    Verdict::all(kernels.chain(signs))
 }
 
 /// A breakpoint beyond the sweep leaves a straight line `c + s x` on each branch that counts, with mean `c + s B`, sine component
@@ -193,7 +187,7 @@ pub(super) fn beyond(distortion: Distortion) -> Verdict {
                 .and(|| one(SIGN, sign, side, branches))
         })
     });
-    all.reduce(|all, next| all.and(|| next)).unwrap_or_else(|| Verdict::undecided("nothing"))
+    Verdict::all(all)
 }
 
 #[cfg(test)]

@@ -44,19 +44,13 @@ impl Loop {
 }
 
 claim! {
-    DELAYS_ADD = "delays-add" "36" Theorem
-    "A delay T_d before the axis and one after it are one delay 2 T_d before it: the same record, T_d later"
-    {
+    DELAYS_ADD = "delays-add" Theorem
+    "A delay T_d before the axis and one after it are one delay 2 T_d before it: the same record, T_d later" {
         not_proved: Some("a shift of time in two simulations: there is no formula of the code to be compared"),
-        domain: &[ClaimPart::whole("whole", "every axis and delay")],
         printed: AsPrinted::Holds(|budget| delays_add(budget, 2.0, 0.0, 2)),
-        corrected: None,
         // One of the two forgotten.
         falsified: |budget| delays_add(budget, 1.0, 0.0, 2),
-        hypotheses: &[
-            Hypothesis { id: "whole-samples", counterexample: Some(|budget| delays_add(budget, 2.0, 0.5, 1)) },
-        ],
-        depends: &[],
+        hypotheses: &[Hypothesis::needed("whole-samples", |budget| delays_add(budget, 2.0, 0.5, 1))],
     }
 }
 
@@ -65,7 +59,7 @@ claim! {
 fn delays_add(budget: Budget, factor: f64, fraction: f64, kinds: usize) -> Verdict {
     const RATE_HZ: f64 = 20.0;
     sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
-        let Some(Loop { axis, relay }) = Loop::draw(draw, (true, true), 0.0) else { return Case::Skipped };
+        let Loop { axis, relay } = Loop::draw(draw, (true, true), 0.0)?;
         let (late, held) = (1 + draw.index("samples_less_one", 5), draw.index("watching", kinds) == 0);
         let delay_s = draw.note("delay_s", (late as f64 + fraction) / RATE_HZ);
         let run = |input_s: f64, sensor_s: f64| -> Option<Record> {
@@ -75,7 +69,7 @@ fn delays_add(budget: Budget, factor: f64, fraction: f64, kinds: usize) -> Verdi
             if held { experiment.held() } else { experiment }.run(30.0).ok()
         };
         let (Some(apart), Some(joined)) = (run(delay_s, delay_s), run(factor * delay_s, 0.0)) else {
-            return Case::truth(false);
+            return Some(Case::truth(false));
         };
         let reached = joined.output().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let distance = |(x, y): (&f64, &f64)| (x - y).abs();
@@ -84,28 +78,23 @@ fn delays_add(budget: Budget, factor: f64, fraction: f64, kinds: usize) -> Verdi
         // Readings between samples cannot be compared; the commands' pattern can.
         let same = Case::truth(draw.note("difference_of_commands", commands) == 0.0);
         let compared = if fraction == 0.0 { outputs } else { 0.0 };
-        same.and(draw.equal(("difference_of_readings", compared), 0.0, reached, tolerance::CANCELLING))
+        Some(same.and(draw.equal(("difference_of_readings", compared), 0.0, reached, tolerance::CANCELLING)))
     })
 }
 
-const HEAVE_WHOLE: ClaimPart = ClaimPart::whole("whole", "every axis with linear drag, weight and buoyancy");
-
 claim! {
-    HEAVE = "heave" "43" Theorem
-    "In heave weight less buoyancy acts as the disturbance: with linear drag the switching times give tau_ZE + W - B"
-    {
-        domain: &[HEAVE_WHOLE],
+    HEAVE = "heave" Theorem
+    "In heave weight less buoyancy acts as the disturbance: with linear drag the switching times give tau_ZE + W - B" {
         proof: Some(prove_heave),
         printed: AsPrinted::Holds(|budget| heave(budget, 1.0, &Heave::ASSUMED)),
-        corrected: None,
         // Buoyancy less weight.
         falsified: |budget| heave(budget, -1.0, &Heave::ASSUMED),
         hypotheses: &[
-            Hypothesis { id: "level", counterexample: Some(|budget| heave(budget, 1.0, &Heave { tilt_rad: 0.3, ..Heave::ASSUMED })) },
-            Hypothesis { id: "linear-drag", counterexample: Some(|budget| heave(budget, 1.0, &Heave { quadratic: 20.0, ..Heave::ASSUMED })) },
-            Hypothesis { id: "within-relay", counterexample: Some(|budget| heave(budget, 1.0, &Heave { surplus: 3.0, ..Heave::ASSUMED })) },
+            Hypothesis::needed("level", |budget| heave(budget, 1.0, &Heave { tilt_rad: 0.3, ..Heave::ASSUMED })),
+            Hypothesis::needed("linear-drag",
+                |budget| heave(budget, 1.0, &Heave { quadratic: 20.0, ..Heave::ASSUMED })),
+            Hypothesis::needed("within-relay", |budget| heave(budget, 1.0, &Heave { surplus: 3.0, ..Heave::ASSUMED })),
         ],
-        depends: &["uncoupled-axis", "delta-from-times"],
     }
 }
 
@@ -117,8 +106,8 @@ fn prove_heave(distortion: Distortion) -> Verdict {
         let impulse = level * (positive_s - negative_s) + surplus * (positive_s + negative_s);
         Some([impulse, factor * disturbance_from_times(level, positive_s, negative_s) - surplus])
     };
-    uncoupled_axis(&HEAVE_WHOLE, distortion)
-        .and(|| exactly(HEAVE_WHOLE, distortion, &[[2.0, 1.0, 0.25, 3.0, 2.5]], functions))
+    uncoupled_axis(&ClaimPart::WHOLE, distortion)
+        .and(|| exactly(ClaimPart::WHOLE, distortion, &[[2.0, 1.0, 0.25, 3.0, 2.5]], functions))
 }
 
 /// What heave is under.
@@ -143,37 +132,31 @@ fn heave(budget: Budget, sign: f64, under: &Heave) -> Verdict {
         let felt = (weight - buoyancy) * under.tilt_rad.cos().powi(2) + external;
         let axis = DragAxis::mixed(draw.uniform("alpha", 5.0, 10.0), draw.uniform("drag", 1.0, 5.0), under.quadratic);
         let axis = axis.and_then(|axis| axis.with_disturbance(felt)).and_then(|axis| axis.with_delay_s(0.2));
-        let (Ok(axis), Ok(relay)) = (axis, RelayHysteresis::new(level, draw.uniform("half_width_m", 0.1, 0.5), 0.0))
-        else {
-            return Case::Skipped;
-        };
-        let Ok(cycle) = limit_cycle(&axis, &relay) else { return Case::truth(false) };
+        let (axis, relay) =
+            (axis.ok()?, RelayHysteresis::new(level, draw.uniform("half_width_m", 0.1, 0.5), 0.0).ok()?);
+        let Ok(cycle) = limit_cycle(&axis, &relay) else { return Some(Case::truth(false)) };
         let found = disturbance_from_times(level, cycle.time_positive_s, cycle.time_negative_s);
         let expected = sign * (external + weight - buoyancy);
-        draw.equal(("disturbance_n", found), expected, level, tolerance::CANCELLING)
+        Some(draw.equal(("disturbance_n", found), expected, level, tolerance::CANCELLING))
     })
 }
 
 claim! {
-    SURGE = "surge" "44" Theorem
-    "The relay fed with minus the integral of the speed makes surge oscillate as yaw does"
-    {
+    SURGE = "surge" Theorem
+    "The relay fed with minus the integral of the speed makes surge oscillate as yaw does" {
         not_proved: Some("two integrations step by step: there is no formula of the code to be compared"),
-        domain: &[ClaimPart::whole("whole", "every axis, level and half-width")],
         printed: AsPrinted::Holds(|budget| surge(budget, |state| state[1])),
-        corrected: None,
         // The integral with its own sign.
         falsified: |budget| surge(budget, |state| -state[1]),
-        hypotheses: &[Hypothesis { id: "integrated", counterexample: Some(|budget| surge(budget, |state| state[0])) }],
-        depends: &["uncoupled-axis"],
+        hypotheses: &[Hypothesis::needed("integrated", |budget| surge(budget, |state| state[0]))],
     }
 }
 
 /// The speed's own first-order equation and an integrator, integrated step by step, against the limit cycle of eq. 36.
 fn surge(budget: Budget, measured: fn(&[f64]) -> f64) -> Verdict {
     sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
-        let Some(case) = Loop::draw(draw, (true, true), 0.5) else { return Case::Skipped };
-        let Some(cycle) = case.cycle() else { return Case::truth(false) };
+        let case = Loop::draw(draw, (true, true), 0.5)?;
+        let Some(cycle) = case.cycle() else { return Some(Case::truth(false)) };
         let axis = case.axis;
         let rate = move |state: &[f64], input: f64, rate: &mut [f64]| {
             let drag = (axis.linear_drag() + axis.quadratic_drag() * state[0].abs()) * state[0];
@@ -181,44 +164,37 @@ fn surge(budget: Budget, measured: fn(&[f64]) -> f64) -> Verdict {
         };
         // Where the positive command has just arrived, on the cycle.
         let start = vec![cycle.lower_switch.velocity, cycle.lower_switch.position];
-        let (Ok(mut feedback), Ok(integrator)) = (
-            RelayFeedback::new(rate, measured, case.relay, 0.0, axis.delay_s()),
-            Integrator::new(1e-11, 1e-13, 100_000),
-        ) else {
-            return Case::Skipped;
-        };
+        let (mut feedback, integrator) = (
+            RelayFeedback::new(rate, measured, case.relay, 0.0, axis.delay_s()).ok()?,
+            Integrator::new(1e-11, 1e-13, 100_000).ok()?,
+        );
         let mut maximum = f64::NEG_INFINITY;
         let observe = |_, state: &[f64]| maximum = maximum.max(state[1]);
         let Ok(events) = integrator.run(&mut feedback, start, 2.5 * cycle.period_s, observe) else {
-            return Case::truth(false);
+            return Some(Case::truth(false));
         };
         let switchings: Vec<f64> = events.iter().filter(|event| event.index == 0).map(|event| event.time_s).collect();
-        let &[rising, falling, next, ..] = switchings.as_slice() else { return Case::truth(false) };
-        let scale = cycle.period_s;
-        draw.equal(("period_s", next - rising), cycle.period_s, scale, tolerance::INTEGRATED)
-            .and(draw.equal(("time_negative_s", falling - rising), cycle.time_negative_s, scale, tolerance::INTEGRATED))
-            .and(Case::truth(maximum <= cycle.maximum + tolerance::INTEGRATED * cycle.amplitude))
+        let &[rising, falling, next, ..] = switchings.as_slice() else { return Some(Case::truth(false)) };
+        let times = [
+            ("period_s", next - rising, cycle.period_s, cycle.period_s),
+            ("time_negative_s", falling - rising, cycle.time_negative_s, cycle.period_s),
+        ];
+        let reached = Case::truth(maximum <= cycle.maximum + tolerance::INTEGRATED * cycle.amplitude);
+        Some(draw.equations(times, tolerance::INTEGRATED).and(reached))
     })
 }
 
 claim! {
-    PROCEDURE = "procedure" "section 4.3, procedure" Statement
-    "Means over the cycles of a dense record, through condition 40 and Table 3, give what the exact limit cycle's features give"
-    {
+    PROCEDURE = "procedure" Statement
+    "Means over the cycles of a dense record, through condition 40 and Table 3, give what the exact limit cycle's features give" {
         not_proved: Some("means over the samples of a record: how far they are off is known by order of magnitude alone"),
-        domain: &[ClaimPart::whole("whole", "every axis whose oscillation meets condition 40")],
         printed: AsPrinted::Holds(|budget| procedure(budget, 1000.0, 1.0, CLEAR)),
-        corrected: None,
         // The delay left out.
         falsified: |budget| procedure(budget, 1000.0, 0.0, CLEAR),
         hypotheses: &[
-            Hypothesis { id: "dense", counterexample: Some(|budget| procedure(budget, 20.0, 1.0, CLEAR)) },
-            Hypothesis {
-                id: "clear-of-condition-40",
-                counterexample: Some(|budget| procedure(budget, 1000.0, 1.0, (0.97, 1.0))),
-            },
+            Hypothesis::needed("dense", |budget| procedure(budget, 20.0, 1.0, CLEAR)),
+            Hypothesis::needed("clear-of-condition-40", |budget| procedure(budget, 1000.0, 1.0, (0.97, 1.0))),
         ],
-        depends: &["table-3", "delay-rotation", "switching-condition"],
     }
 }
 
@@ -228,18 +204,18 @@ const CLEAR: (f64, f64) = (0.0, 0.8);
 /// Parameters from a simulated record with so many samples in a period, against those from the limit cycle.
 fn procedure(budget: Budget, samples: f64, delay: f64, condition_40: (f64, f64)) -> Verdict {
     sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
-        let Some(case) = Loop::draw(draw, (true, true), 0.3) else { return Case::Skipped };
-        let Some(cycle) = case.cycle() else { return Case::truth(false) };
+        let case = Loop::draw(draw, (true, true), 0.3)?;
+        let Some(cycle) = case.cycle() else { return Some(Case::truth(false)) };
         let share = (case.relay.half_width() + cycle.bias.abs()) / cycle.amplitude;
         if !(condition_40.0..condition_40.1).contains(&share) {
-            return Case::Skipped;
+            return None;
         }
         let start = State { position: cycle.lower_switch.position, velocity: cycle.lower_switch.velocity };
         let record = SimulatedExperiment::new(case.axis, case.relay, samples / cycle.period_s)
             .and_then(|experiment| experiment.from_state(start))
             .and_then(|experiment| experiment.run(5.0 * cycle.period_s));
-        let Ok(record) = record else { return Case::truth(false) };
-        let Ok(found) = RecordFeatures::of(&record) else { return Case::truth(false) };
+        let Ok(record) = record else { return Some(Case::truth(false)) };
+        let Ok(found) = RecordFeatures::of(&record) else { return Some(Case::truth(false)) };
         let exact = Oscillation {
             relay_level: case.relay.level(),
             switch_level: case.relay.half_width(),
@@ -249,31 +225,27 @@ fn procedure(budget: Budget, samples: f64, delay: f64, condition_40: (f64, f64))
             delay_s: case.axis.delay_s(),
         };
         let measured = Oscillation::of(&found.features, found.relay.level, delay * case.axis.delay_s());
-        let (Ok(exact), Ok(measured)) = (exact.identify(), measured.identify()) else { return Case::Skipped };
+        let (exact, measured) = (exact.identify().ok()?, measured.identify().ok()?);
         // One sample's motion is a share of the amplitude; the level it is read at is smaller.
         let ratio = cycle.amplitude / case.relay.half_width();
-        let mut equal =
-            |name, value: f64, expected: f64| draw.equal((name, value), expected, expected * ratio, tolerance::SAMPLED);
-        equal("alpha", measured.alpha, exact.alpha).and(equal("beta", measured.beta, exact.beta)).and(equal(
-            "beta_xx",
-            measured.beta_quadratic,
-            exact.beta_quadratic,
-        ))
+        let equations = [
+            ("alpha", measured.alpha, exact.alpha, exact.alpha * ratio),
+            ("beta", measured.beta, exact.beta, exact.beta * ratio),
+            ("beta_xx", measured.beta_quadratic, exact.beta_quadratic, exact.beta_quadratic * ratio),
+        ];
+        Some(draw.equations(equations, tolerance::SAMPLED))
     })
 }
 
 claim! {
-    HARMONIC_BALANCE = "harmonic-balance" "16-17" Theorem
-    "With a linear plant 1 + N G(jw) = 0 on the true orbit, N being the relay's true gain there and not the sinusoid's"
-    {
+    HARMONIC_BALANCE = "harmonic-balance" Theorem
+    "With a linear plant 1 + N G(jw) = 0 on the true orbit, N being the relay's true gain there and not the sinusoid's" {
         not_proved: Some("the orbits of a plant of any order come from a search, not from a formula"),
-        domain: &[ClaimPart::whole("whole", "every linear plant on its exact periodic motion")],
         printed: AsPrinted::Approximate(|budget| balance(budget, Gain::OfSinusoid, 1.0)),
         corrected: Some(|budget| balance(budget, Gain::OfOrbit, 1.0)),
         // The delay left out of the plant.
         falsified: |budget| balance(budget, Gain::OfOrbit, 0.0),
-        hypotheses: &[Hypothesis { id: "linear-plant", counterexample: Some(quadratic_balance) }],
-        depends: &["fourier-coefficients", "describing-function"],
+        hypotheses: &[Hypothesis::needed("linear-plant", quadratic_balance)],
     }
 }
 
@@ -317,7 +289,7 @@ fn oscillating(draw: &mut Draw) -> Option<(TransferFunction, RelayHysteresis<f64
 
 fn balance(budget: Budget, gain: Gain, delay: f64) -> Verdict {
     sample(Budget { cases: budget.cases.min(100), ..budget }, |draw| {
-        let Some((plant, relay, orbit)) = oscillating(draw) else { return Case::Skipped };
+        let (plant, relay, orbit) = oscillating(draw)?;
         let period_s = draw.note("period_s", orbit.period_s());
         let (omega, delay_s) = (2.0 * PI / period_s, plant.delay_s());
         let sine = match gain {
@@ -333,21 +305,18 @@ fn balance(budget: Budget, gain: Gain, delay: f64) -> Verdict {
             }
         };
         let plant = plant.with_delay(delay * delay_s).and_then(|plant| plant.response(omega));
-        let (Some(sine), Ok(response)) = (sine, plant) else { return Case::truth(false) };
-        draw.equal(("one_plus_n_g", (sine * response + 1.0).norm()), 0.0, 1.0, tolerance::CANCELLING)
+        let (Some(sine), Ok(response)) = (sine, plant) else { return Some(Case::truth(false)) };
+        Some(draw.equal(("one_plus_n_g", (sine * response + 1.0).norm()), 0.0, 1.0, tolerance::CANCELLING))
     })
 }
 
 /// Quadratic drag with the linear drag that takes as much from the first harmonic.
 fn quadratic_balance(budget: Budget) -> Verdict {
     sample(budget, |draw| {
-        let Some(case) = Loop::draw(draw, (false, true), 0.0) else { return Case::Skipped };
+        let case = Loop::draw(draw, (false, true), 0.0)?;
         let (axis, level) = (case.axis, case.relay.level());
-        let Some((axis, cycle)) =
-            axis.with_disturbance(0.0).ok().and_then(|axis| Some((axis, limit_cycle(&axis, &case.relay).ok()?)))
-        else {
-            return Case::Skipped;
-        };
+        let (axis, cycle) =
+            axis.with_disturbance(0.0).ok().and_then(|axis| Some((axis, limit_cycle(&axis, &case.relay).ok()?)))?;
         let at = |switch: crate::orbit::Switching<f64>| State { position: switch.position, velocity: switch.velocity };
         let (half, period_s) = (cycle.time_positive_s, cycle.period_s);
         let position = |t: f64| {
@@ -361,6 +330,6 @@ fn quadratic_balance(budget: Budget) -> Verdict {
         let drag = 8.0 / (3.0 * PI) * axis.quadratic_drag() * output.norm() * omega;
         let response = Complex::new(-axis.alpha() * omega * omega, drag * omega).inv();
         let gain = square_wave(level, omega, 0.0) / -output;
-        draw.equal(("one_plus_n_g", (gain * response + 1.0).norm()), 0.0, 1.0, tolerance::CANCELLING)
+        Some(draw.equal(("one_plus_n_g", (gain * response + 1.0).norm()), 0.0, 1.0, tolerance::CANCELLING))
     })
 }

@@ -1,7 +1,7 @@
 //! Families of characteristics that claims draw from.
 
-use super::Draw;
-use crate::describing::{Boxed, DescribingFunction, by_quadrature};
+use super::{Case, Draw, tolerance};
+use crate::describing::{Boxed, ClosedForm, DescribingFunction, by_quadrature};
 use crate::nonlinearity::{
     Backlash, Branch, Characteristic, Custom, DeadZone, NonlinearityError, Preload, Quantizer, Relay, RelayDeadZone,
     RelayDeadZoneHysteresis, RelayHysteresis, Saturation, SaturationAsymmetric, Sinusoid,
@@ -56,6 +56,24 @@ pub(super) fn output_scale(
 ) -> f64 {
     let at = |x| characteristic.output(x, Branch::Rising, sweep).abs();
     at(sweep.minimum()).max(at(sweep.maximum())).max(at(sweep.bias()))
+}
+
+/// Mean and first harmonic of the output in closed form, times `factor`, against quadrature.
+pub(super) fn closed_is_integral(
+    draw: &mut Draw,
+    characteristic: &(impl ClosedForm<Number = f64> + ?Sized),
+    sweep: &Sinusoid<f64>,
+    scale: f64,
+    factor: f64,
+) -> Option<Case> {
+    let closed = characteristic.describing_function(sweep).ok()? * factor;
+    let (integral, amplitude) = (by_quadrature(characteristic, sweep).ok()?, sweep.amplitude());
+    let equations = [
+        ("f0", closed.f0, integral.f0, scale),
+        ("y_p1", closed.p * amplitude, integral.p * amplitude, scale),
+        ("y_q1", closed.q * amplitude, integral.q * amplitude, scale),
+    ];
+    Some(draw.equations(equations, tolerance::QUADRATURE))
 }
 
 /// Mean output of a function without memory and without kinks.

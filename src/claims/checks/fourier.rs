@@ -4,14 +4,12 @@ use core::f64::consts::PI;
 
 use super::algebra::{exactly, number};
 use super::band::as_coded;
-use super::decomposition::{BEYOND, DECOMPOSITION, SCALING, beyond, decomposition, scaling};
-use super::family::{not_odd, odd_hysteretic, odd_nondecreasing, output_scale, sweep, unbiased};
+use super::decomposition::{beyond, decomposition, scaling};
+use super::family::{closed_is_integral, not_odd, odd_hysteretic, odd_nondecreasing, output_scale, sweep, unbiased};
 use super::kernels::{BREAKPOINT, prove_kernel};
-use super::tone::{EVERY_AMPLITUDE, prove_sine_abs_sine};
-use super::{
-    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance,
-};
-use crate::describing::{Boxed, ClosedForm, KernelForm, by_quadrature, harmonic};
+use super::tone::prove_sine_abs_sine;
+use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
+use crate::describing::{Boxed, ClosedForm, KernelForm, harmonic};
 use crate::nonlinearity::{
     Branch, Characteristic, NonlinearityError, Polynomial, Power, RelayDeadZone, RelayHysteresis, Sinusoid,
 };
@@ -20,40 +18,28 @@ use crate::numeric::quadrature::integrate;
 use crate::proof::polynomial::Rational;
 use std::array;
 
-const FOURIER_COEFFICIENTS_WHOLE: ClaimPart = ClaimPart::whole(
-    "whole",
-    "every output with a mean square, every mean, sine and cosine in place of the coefficients",
-);
-
 claim! {
-    FOURIER_COEFFICIENTS = "fourier-coefficients" "7-11" Definition
+    FOURIER_COEFFICIENTS = "fourier-coefficients" Definition
     "The mean and first harmonic of eq. 10 leave the least mean square of the output" {
-        domain: &[FOURIER_COEFFICIENTS_WHOLE],
         printed: AsPrinted::Holds(|budget| least_square(budget, 1.0)),
-        corrected: None,
         // Halved coefficients, as from 1/(2 pi) in place of 1/pi.
         falsified: |budget| least_square(budget, 0.5),
         proof: Some(prove_least_square),
-        hypotheses: &[],
-        depends: &[],
     }
 }
 
 /// Parseval: the mean square of the remainder is that of the output less the share of each harmonic.
 fn least_square(budget: Budget, factor: f64) -> Verdict {
     sample(budget, |draw| {
-        let (Ok(characteristic), Ok(sweep)) = (odd_nondecreasing(draw), sweep(draw)) else { return Case::Skipped };
-        let (Ok((mean, _)), Ok((sine, cosine))) =
-            (harmonic(&*characteristic, &sweep, 0), harmonic(&*characteristic, &sweep, 1))
-        else {
-            return Case::Skipped;
-        };
+        let (characteristic, sweep) = (odd_nondecreasing(draw).ok()?, sweep(draw).ok()?);
+        let ((mean, _), (sine, cosine)) =
+            (harmonic(&*characteristic, &sweep, 0).ok()?, harmonic(&*characteristic, &sweep, 1).ok()?);
         let (sine, cosine) = (factor * sine, factor * cosine);
         let square = |remainder: &dyn Fn(f64, f64) -> f64| mean_over_sweep(&*characteristic, &sweep, remainder);
         let whole = square(&|_, y| y * y);
         let left = square(&|theta, y| (y - mean - sine * theta.sin() - cosine * theta.cos()).powi(2));
         let expected = whole - mean * mean - 0.5 * (sine * sine + cosine * cosine);
-        draw.equal(("mean_square_left", left), expected, whole + 1e-9, tolerance::QUADRATURE)
+        Some(draw.equal(("mean_square_left", left), expected, whole + 1e-9, tolerance::QUADRATURE))
     })
 }
 
@@ -77,54 +63,29 @@ fn mean_over_sweep(
 }
 
 claim! {
-    DESCRIBING_FUNCTION = "describing-function" "12-15" Definition
+    DESCRIBING_FUNCTION = "describing-function" Definition
     "P and Q are the first-harmonic coefficients over the amplitude, F_0 the mean: closed form and integral agree" {
-        domain: &[BREAKPOINT, DECOMPOSITION, SCALING, BEYOND],
-        printed: AsPrinted::Holds(|budget| closed_is_integral(budget, 1.0)),
-        corrected: None,
-        falsified: |budget| closed_is_integral(budget, 1.000_01),
+        printed: AsPrinted::Holds(|budget| catalogue_is_integral(budget, 1.0)),
+        falsified: |budget| catalogue_is_integral(budget, 1.000_01),
         proof: Some(prove_describing_function),
-        hypotheses: &[],
-        depends: &["fourier-coefficients", "kernel-step", "kernel-ramp", "kernel-sign", "kernel-band"],
     }
 }
 
-fn closed_is_integral(budget: Budget, factor: f64) -> Verdict {
+fn catalogue_is_integral(budget: Budget, factor: f64) -> Verdict {
     sample(budget, |draw| {
         let family = [odd_nondecreasing, odd_hysteretic, not_odd][draw.index("kind", 3)];
-        let (Ok(characteristic), Ok(sweep)) = (family(draw), sweep(draw)) else { return Case::Skipped };
-        let (Ok(closed), Ok(integral)) =
-            (characteristic.describing_function(&sweep), by_quadrature(&*characteristic, &sweep))
-        else {
-            return Case::Skipped;
-        };
-        let (scale, amplitude) = (output_scale(&*characteristic, &sweep).max(1e-3), sweep.amplitude());
-        let mut equal =
-            |name, closed: f64, integral| draw.equal((name, closed * factor), integral, scale, tolerance::QUADRATURE);
-        equal("f0", closed.f0, integral.f0).and(equal("y_p1", closed.p * amplitude, integral.p * amplitude)).and(equal(
-            "y_q1",
-            closed.q * amplitude,
-            integral.q * amplitude,
-        ))
+        let (characteristic, sweep) = (family(draw).ok()?, sweep(draw).ok()?);
+        let scale = output_scale(&*characteristic, &sweep).max(1e-3);
+        closed_is_integral(draw, &*characteristic, &sweep, scale, factor)
     })
 }
 
 claim! {
-    POLYNOMIAL = "polynomial" "10" Identity
+    POLYNOMIAL = "polynomial" Identity
     "F_0 and P of a polynomial follow from its coefficients about the bias and the means of even powers of the sine" {
-        domain: &[
-            ClaimPart::over(
-                "powers",
-                "x^0 to x^9, every amplitude",
-                const { &[ClaimVariable::number("bias/amplitude", f64::NEG_INFINITY, f64::INFINITY)] },
-            ),
-        ],
-        printed: AsPrinted::Absent,
         corrected: Some(|budget| polynomial_is_integral(budget, 1.0)),
         falsified: |budget| polynomial_is_integral(budget, 1.000_01),
         proof: Some(prove_polynomial),
-        hypotheses: &[],
-        depends: &["fourier-coefficients"],
     }
 }
 
@@ -132,58 +93,34 @@ fn polynomial_is_integral(budget: Budget, factor: f64) -> Verdict {
     const NAMES: [&str; 5] = ["c0", "c1", "c2", "c3", "c4"];
     sample(budget, |draw| {
         let polynomial = Polynomial::new(NAMES.map(|name| draw.uniform(name, -1.0, 1.0)));
-        let (Ok(polynomial), Ok(sweep)) = (polynomial, sweep(draw)) else { return Case::Skipped };
-        let (Ok(closed), Ok(integral)) = (polynomial.describing_function(&sweep), by_quadrature(&polynomial, &sweep))
-        else {
-            return Case::Skipped;
-        };
-        let scale = output_scale(&polynomial, &sweep).max(1e-3);
-        let mut equal =
-            |name, closed: f64, integral| draw.equal((name, closed * factor), integral, scale, tolerance::QUADRATURE);
-        let amplitude = sweep.amplitude();
-        equal("f0", closed.f0, integral.f0).and(equal("y_p1", closed.p * amplitude, integral.p * amplitude))
+        let (polynomial, sweep) = (polynomial.ok()?, sweep(draw).ok()?);
+        closed_is_integral(draw, &polynomial, &sweep, output_scale(&polynomial, &sweep).max(1e-3), factor)
     })
 }
 
-const ODD_HARMONICS_WHOLE: ClaimPart = ClaimPart::whole(
-    "whole",
-    "every odd characteristic without memory that has Fourier coefficients, every amplitude, every even order",
-);
-
 claim! {
-    ODD_HARMONICS = "odd-harmonics" "Theorem 1" Theorem
+    ODD_HARMONICS = "odd-harmonics" Theorem
     "An odd characteristic without memory under an unbiased sinusoid gives odd harmonics only" {
-        domain: &[ODD_HARMONICS_WHOLE],
         printed: AsPrinted::Holds(|budget| even_vanish(budget, odd_nondecreasing, unbiased)),
-        corrected: None,
         falsified: |budget| even_vanish(budget, not_odd, unbiased),
         proof: Some(prove_odd_harmonics),
         hypotheses: &[
-            Hypothesis { id: "odd", counterexample: Some(|budget| even_vanish(budget, not_odd, unbiased)) },
-            Hypothesis { id: "unbiased", counterexample: Some(|budget| even_vanish(budget, odd_nondecreasing, sweep)) },
+            Hypothesis::needed("odd", |budget| even_vanish(budget, not_odd, unbiased)),
+            Hypothesis::needed("unbiased", |budget| even_vanish(budget, odd_nondecreasing, sweep)),
         ],
-        depends: &["fourier-coefficients"],
     }
 }
 
-const ODD_HARMONICS_HYSTERETIC_WHOLE: ClaimPart = ClaimPart::whole(
-    "whole",
-    "every characteristic whose branches are each other's half-turn image that has Fourier coefficients, every amplitude, every even order",
-);
-
 claim! {
-    ODD_HARMONICS_HYSTERETIC = "odd-harmonics-hysteretic" "Theorem 1, with memory" Theorem
+    ODD_HARMONICS_HYSTERETIC = "odd-harmonics-hysteretic" Theorem
     "Theorem 1 holds with memory when each branch is the other turned about the origin" {
-        domain: &[ODD_HARMONICS_HYSTERETIC_WHOLE],
-        printed: AsPrinted::Absent,
         corrected: Some(|budget| even_vanish(budget, odd_hysteretic, unbiased)),
         falsified: |budget| even_vanish(budget, not_odd, unbiased),
         proof: Some(prove_odd_harmonics_hysteretic),
         hypotheses: &[
-            Hypothesis { id: "branches-odd", counterexample: Some(|budget| even_vanish(budget, not_odd, unbiased)) },
-            Hypothesis { id: "unbiased", counterexample: Some(|budget| even_vanish(budget, odd_hysteretic, sweep)) },
+            Hypothesis::needed("branches-odd", |budget| even_vanish(budget, not_odd, unbiased)),
+            Hypothesis::needed("unbiased", |budget| even_vanish(budget, odd_hysteretic, sweep)),
         ],
-        depends: &["odd-harmonics"],
     }
 }
 
@@ -195,58 +132,47 @@ type Sweep = fn(&mut Draw) -> Result<Sinusoid<f64>, NonlinearityError>;
 /// Harmonics 0, 2, 4, 6 are zero to the accuracy of quadrature.
 fn even_vanish(budget: Budget, family: Family, sweep: Sweep) -> Verdict {
     sample(budget, |draw| {
-        let (Ok(characteristic), Ok(sweep)) = (family(draw), sweep(draw)) else { return Case::Skipped };
+        let (characteristic, sweep) = (family(draw).ok()?, sweep(draw).ok()?);
         let scale = output_scale(&*characteristic, &sweep).max(1e-3);
         let mut case = Case::truth(true);
         for order in [0, 2, 4, 6] {
-            let Ok((sine, cosine)) = harmonic(&*characteristic, &sweep, order) else { return Case::Skipped };
+            let Ok((sine, cosine)) = harmonic(&*characteristic, &sweep, order) else { return None };
             case = case.and(draw.equal(("even_harmonic", sine.hypot(cosine)), 0.0, scale, tolerance::QUADRATURE));
         }
-        case
+        Some(case)
     })
 }
 
 claim! {
-    SINE_ABS_SINE = "sine-abs-sine" "before 29" Identity
+    SINE_ABS_SINE = "sine-abs-sine" Identity
     "The first harmonic of sin abs(sin) is 8/(3 pi) sin; the next is the third, -8/(15 pi)" {
-        domain: &[EVERY_AMPLITUDE],
         printed: AsPrinted::Holds(|budget| sine_abs_sine(budget, 8.0 / (3.0 * PI))),
-        corrected: None,
         falsified: |budget| sine_abs_sine(budget, 0.85),
         proof: Some(prove_sine_abs_sine),
-        hypotheses: &[],
-        depends: &["describing-function"],
     }
 }
 
 /// By quadrature and by the gamma-function form of the power law, for any amplitude.
 fn sine_abs_sine(budget: Budget, first: f64) -> Verdict {
     sample(budget, |draw| {
-        let (Ok(square), Ok(sweep)) = (Power::new(1.0, 2.0), unbiased(draw)) else { return Case::Skipped };
-        let (Ok(closed), Ok((sine, cosine)), Ok((third, _))) =
-            (square.describing_function(&sweep), harmonic(&square, &sweep, 1), harmonic(&square, &sweep, 3))
-        else {
-            return Case::Skipped;
-        };
+        let (square, sweep) = (Power::new(1.0, 2.0).ok()?, unbiased(draw).ok()?);
+        let by_gamma = square.describing_function(&sweep).ok()?.p * sweep.amplitude();
+        let [(sine, cosine), (third, _)] = [harmonic(&square, &sweep, 1).ok()?, harmonic(&square, &sweep, 3).ok()?];
         let scale = sweep.amplitude() * sweep.amplitude();
-        draw.equal(("first", sine), first * scale, scale, tolerance::QUADRATURE)
-            .and(draw.equal(
-                ("first_by_gamma", closed.p * sweep.amplitude()),
-                first * scale,
-                scale,
-                tolerance::ROUNDING,
-            ))
-            .and(draw.equal(("cosine", cosine), 0.0, scale, tolerance::QUADRATURE))
-            .and(draw.equal(("third", third), -8.0 / (15.0 * PI) * scale, scale, tolerance::QUADRATURE))
+        let by_quadrature = [
+            ("first", sine, first * scale, scale),
+            ("cosine", cosine, 0.0, scale),
+            ("third", third, -8.0 / (15.0 * PI) * scale, scale),
+        ];
+        let closed = draw.equal(("first_by_gamma", by_gamma), first * scale, scale, tolerance::ROUNDING);
+        Some(closed.and(draw.equations(by_quadrature, tolerance::QUADRATURE)))
     })
 }
 
 /// Every kernel, at every place and scale, and each member of the catalogue as a sum of them.
 fn prove_describing_function(distortion: Distortion) -> Verdict {
     let forms = [KernelForm::Step, KernelForm::Ramp, KernelForm::Sign, KernelForm::Band];
-    let kernels = forms.map(|form| prove_kernel(form, distortion, BREAKPOINT)).into_iter();
-    let kernels = kernels.reduce(|all, next| all.and(|| next)).unwrap_or_else(|| Verdict::undecided("nothing"));
-    kernels
+    Verdict::all(forms.map(|form| prove_kernel(form, distortion, BREAKPOINT)))
         .and(|| as_coded(distortion))
         .and(|| decomposition(distortion))
         .and(|| scaling(distortion))
@@ -277,7 +203,7 @@ fn prove_polynomial(distortion: Distortion) -> Verdict {
         }
         Some(errors)
     };
-    exactly(ClaimPart::whole("powers", ""), distortion, &[[0.5]], functions)
+    exactly(ClaimPart::named("powers"), distortion, &[[0.5]], functions)
 }
 
 /// Completing the square: with any other mean, sine and cosine more is left, by the mean square of the differences.
@@ -293,7 +219,7 @@ fn prove_least_square(distortion: Distortion) -> Verdict {
         let more = a.square() + (b.square() + c.square()) / number(2.0);
         Some([left([mean + a, best_sine + b, best_cosine + c]) - left([mean, best_sine, best_cosine]) - more])
     };
-    exactly(FOURIER_COEFFICIENTS_WHOLE, distortion, &[[0.1, 0.2, 0.3, 1.0, 0.4, 0.5, 0.6]], functions)
+    exactly(ClaimPart::WHOLE, distortion, &[[0.1, 0.2, 0.3, 1.0, 0.4, 0.5, 0.6]], functions)
 }
 
 /// Without memory: the relay with a dead zone stands for what `odd` means of the code's outputs.
@@ -304,8 +230,7 @@ fn prove_odd_harmonics(distortion: Distortion) -> Verdict {
         Some([relay.output(x, Branch::Rising, &sweep) + factor * relay.output(-x, Branch::Falling, &sweep)])
     };
     let points = [[1.0, 0.5, 2.0], [1.0, 0.5, -2.0], [1.0, 0.5, 0.2], [1.0, 0.5, -0.2]];
-    even_contributions_cancel(ODD_HARMONICS_WHOLE, distortion)
-        .and(|| exactly(HALF_TURN, distortion, &points, half_turn))
+    even_contributions_cancel(ClaimPart::WHOLE, distortion).and(|| exactly(HALF_TURN, distortion, &points, half_turn))
 }
 
 /// With memory: the relay with hysteresis stands for what `branches-odd` means of the code's outputs.
@@ -317,8 +242,7 @@ fn prove_odd_harmonics_hysteretic(distortion: Distortion) -> Verdict {
         Some([sum(Branch::Rising, Branch::Falling), sum(Branch::Falling, Branch::Rising)])
     };
     let points = [[1.0, 0.5, 2.0], [1.0, 0.5, -2.0], [1.0, 0.5, 0.2], [1.0, 0.5, -0.2]];
-    even_contributions_cancel(ODD_HARMONICS_HYSTERETIC_WHOLE, distortion)
-        .and(|| exactly(HALF_TURN, distortion, &points, half_turn))
+    even_contributions_cancel(ClaimPart::WHOLE, distortion).and(|| exactly(HALF_TURN, distortion, &points, half_turn))
 }
 
 /// Of characteristics of the catalogue, not of the class.

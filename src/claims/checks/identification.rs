@@ -33,21 +33,11 @@ pub(super) fn oscillation(draw: &mut Draw, biased: bool, delayed: bool) -> Oscil
 }
 
 claim! {
-    TABLE_3 = "table-3" "Table 3" Identity
+    TABLE_3 = "table-3" Identity
     "Eqs. 27 and 29 with 30 and 31 put in are Table 3" {
-        domain: &[
-            ClaimPart::over(
-                "table",
-                "every C, X, w > 0 with x_a + abs(x_0) <= X",
-                const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
-            ),
-        ],
         printed: AsPrinted::Holds(|budget| table_3(budget, 1.5)),
-        corrected: None,
         falsified: |budget| table_3(budget, 3.0 * PI / 8.0),
         proof: Some(prove_table_3),
-        hypotheses: &[],
-        depends: &["linear-drag", "quadratic-drag", "relay-p", "relay-q"],
     }
 }
 
@@ -55,12 +45,9 @@ claim! {
 fn table_3(budget: Budget, quadratic_factor: f64) -> Verdict {
     sample(budget, |draw| {
         let o = oscillation(draw, true, false);
-        let (Ok(relay), Ok(sweep)) =
-            (RelayHysteresis::new(o.relay_level, o.switch_level, 0.0), Sinusoid::new(o.bias, o.amplitude))
-        else {
-            return Case::Skipped;
-        };
-        let Ok(gain) = by_quadrature(&relay, &sweep) else { return Case::Skipped };
+        let (relay, sweep) =
+            (RelayHysteresis::new(o.relay_level, o.switch_level, 0.0).ok()?, Sinusoid::new(o.bias, o.amplitude).ok()?);
+        let gain = by_quadrature(&relay, &sweep).ok()?;
         let omega = o.omega_rad_s();
         let composed = parameters(gain, o.amplitude, omega);
         let (level, width, amplitude) = (o.relay_level, o.switch_level, o.amplitude);
@@ -68,34 +55,22 @@ fn table_3(budget: Budget, quadratic_factor: f64) -> Verdict {
         let alpha = 2.0 * level / (PI * omega * omega * amplitude) * (root(width - o.bias) + root(width + o.bias));
         let beta = 4.0 * level * width / (PI * omega * amplitude * amplitude);
         let beta_xx = quadratic_factor * level * width / (omega * omega * amplitude.powi(3));
-        let mut equal = |name, written: f64, composed: f64| {
-            draw.equal((name, written), composed, composed.abs().max(1e-3), tolerance::CANCELLING)
-        };
-        equal("alpha", alpha, composed.alpha).and(equal("beta", beta, composed.beta)).and(equal(
-            "beta_xx",
-            beta_xx,
-            composed.beta_quadratic,
-        ))
+        let equation = |name, written: f64, composed: f64| (name, written, composed, composed.abs().max(1e-3));
+        let equations = [
+            equation("alpha", alpha, composed.alpha),
+            equation("beta", beta, composed.beta),
+            equation("beta_xx", beta_xx, composed.beta_quadratic),
+        ];
+        Some(draw.equations(equations, tolerance::CANCELLING))
     })
 }
 
 claim! {
-    DELAY_ROTATION = "delay-rotation" "33-34" Identity
+    DELAY_ROTATION = "delay-rotation" Identity
     "A delay turns the describing function by -w T_d: lengths stay, delays add, a negative one undoes" {
-        domain: &[
-            ClaimPart::over(
-                "rotation",
-                "every P and Q, one turn of the phase",
-                const { &[ClaimVariable::new("phase", "rad", 0.0, core::f64::consts::TAU)] },
-            ),
-            ClaimPart::whole("delays-add", "two delays in turn are their sum"),
-        ],
         printed: AsPrinted::Holds(|budget| rotation(budget, -1.0)),
-        corrected: None,
         falsified: |budget| rotation(budget, 1.0),
         proof: Some(prove_delay_rotation),
-        hypotheses: &[],
-        depends: &["describing-function"],
     }
 }
 
@@ -110,35 +85,26 @@ fn rotation(budget: Budget, sign: f64) -> Verdict {
         let both = turned.delayed(two);
         let at_once = gain.delayed(one + two);
         let back = turned.delayed(-one);
-        let mut equal =
-            |name, value: f64, expected: f64| draw.equal((name, value), expected, scale, tolerance::ROUNDING);
-        equal("p_turned", turned.p, expected.re)
-            .and(equal("q_turned", turned.q, expected.im))
-            .and(equal("length", turned.p.hypot(turned.q), p.hypot(q)))
-            .and(equal("p_in_two", both.p, at_once.p))
-            .and(equal("q_in_two", both.q, at_once.q))
-            .and(equal("p_back", back.p, p))
-            .and(equal("q_back", back.q, q))
+        let equations = [
+            ("p_turned", turned.p, expected.re, scale),
+            ("q_turned", turned.q, expected.im, scale),
+            ("length", turned.p.hypot(turned.q), p.hypot(q), scale),
+            ("p_in_two", both.p, at_once.p, scale),
+            ("q_in_two", both.q, at_once.q, scale),
+            ("p_back", back.p, p, scale),
+            ("q_back", back.q, q, scale),
+        ];
+        Some(draw.equations(equations, tolerance::ROUNDING))
     })
 }
 
 claim! {
-    RELATIVE_SPREAD = "relative-spread" "41" Definition
+    RELATIVE_SPREAD = "relative-spread" Definition
     "The relative spread of two values is their sample standard deviation over their mean" {
-        domain: &[
-            ClaimPart::over(
-                "ratio",
-                "two values of one sign",
-                const { &[ClaimVariable::number("v_2/v_1", 0.0, f64::INFINITY)] },
-            ),
-        ],
         printed: AsPrinted::Holds(|budget| spread(budget, 1.0)),
-        corrected: None,
         // Over n in place of n - 1.
         falsified: |budget| spread(budget, 2.0),
         proof: Some(prove_relative_spread),
-        hypotheses: &[],
-        depends: &[],
     }
 }
 
@@ -148,24 +114,22 @@ fn spread(budget: Budget, degrees_of_freedom: f64) -> Verdict {
         let mean = 0.5 * (values[0] + values[1]);
         let square: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
         let expected = (square / degrees_of_freedom).sqrt() / mean * 100.0;
-        draw.equal(("spread", relative_spread_percent(values[0], values[1])), expected, 100.0, tolerance::ROUNDING)
+        Some(draw.equal(
+            ("spread", relative_spread_percent(values[0], values[1])),
+            expected,
+            100.0,
+            tolerance::ROUNDING,
+        ))
     })
 }
 
-const DRAG_DECISION_WHOLE: ClaimPart = ClaimPart::whole("whole", "every pair of spreads and threshold, zero or more");
-
 claim! {
-    DRAG_DECISION = "drag-decision" "42" Definition
+    DRAG_DECISION = "drag-decision" Definition
     "The drag law is the one whose coefficient spreads less, by more than the margin" {
-        domain: &[DRAG_DECISION_WHOLE],
-        by_hand: &["three outcomes, each with its comparisons, are all there are"],
         printed: AsPrinted::Holds(|budget| decision(budget, decide)),
-        corrected: None,
         // The paper's two names of the laws exchanged.
         falsified: |budget| decision(budget, |linear, quadratic, margin| decide(quadratic, linear, margin)),
         proof: Some(prove_decision),
-        hypotheses: &[],
-        depends: &["relative-spread"],
     }
 }
 
@@ -181,32 +145,16 @@ fn decision(budget: Budget, rule: fn(f64, f64, f64) -> Decision) -> Verdict {
         };
         let decided = rule(linear, quadratic, margin);
         let reserved = rule(linear, quadratic, margin + wider);
-        Case::truth(decided == by_distance && (reserved == decided || reserved == Decision::Undecided))
+        Some(Case::truth(decided == by_distance && (reserved == decided || reserved == Decision::Undecided)))
     })
 }
 
 claim! {
-    ZIG_ZAG = "zig-zag" "introduction" Identity
+    ZIG_ZAG = "zig-zag" Identity
     "Nomoto's T r' + r = K delta_R is the drag axis alpha = T/K, beta = 1/K" {
-        domain: &[
-            ClaimPart::over(
-                "response",
-                "every ship of Nomoto's first order, unit rudder",
-                const {
-                    &[
-                        ClaimVariable::new("time", "s", 0.0, f64::INFINITY),
-                        ClaimVariable::new("T", "s", 0.0, f64::INFINITY),
-                        ClaimVariable::new("K", "1/s", 0.0, f64::INFINITY),
-                    ]
-                },
-            ),
-        ],
         printed: AsPrinted::Holds(|budget| nomoto(budget, |gain| 1.0 / gain)),
-        corrected: None,
         falsified: |budget| nomoto(budget, |gain| gain),
         proof: Some(prove_zig_zag),
-        hypotheses: &[],
-        depends: &[],
     }
 }
 
@@ -218,13 +166,13 @@ fn nomoto(budget: Budget, drag: fn(f64) -> f64) -> Verdict {
         let decay = (-t / time_constant).exp();
         let (rate, acceleration) = (gain * rudder * (1.0 - decay), gain * rudder * decay / time_constant);
         let moment = time_constant / gain * acceleration + drag(gain) * rate;
-        draw.equal(("moment", moment), rudder, rudder.abs() + 1e-3, tolerance::ROUNDING)
+        Some(draw.equal(("moment", moment), rudder, rudder.abs() + 1e-3, tolerance::ROUNDING))
     })
 }
 
 /// Table 3, whatever half-width and bias.
 fn prove_table_3(distortion: Distortion) -> Verdict {
-    const COVERED: ClaimPart = ClaimPart::whole("table", "");
+    const COVERED: ClaimPart = ClaimPart::named("table");
     exactly(COVERED, distortion, &SWITCHINGS, |[width, bias]: [Rational; 2], factor: Rational| {
         let found = parameters(relay(number(1.0), width, bias), number(1.0), number(1.0));
         let pi = Rational::pi();
@@ -274,7 +222,7 @@ const PHASES: [f64; 2] = [0.0, 6.5];
 
 /// Two delays in turn are their sum.
 fn prove_delays_add(distortion: Distortion) -> Verdict {
-    const COVERED: ClaimPart = ClaimPart::whole("delays-add", "");
+    const COVERED: ClaimPart = ClaimPart::named("delays-add");
     let values = |one, two| turned_twice::<Interval>(one, two, distortion);
     let series = |one, two| turned_twice::<Series>(one, two, distortion);
     match prove_zero_of_two(values, series, [PHASES; 2], tolerance::PROOF, 20_000) {
@@ -285,7 +233,7 @@ fn prove_delays_add(distortion: Distortion) -> Verdict {
 
 /// Eq. 41 squared: the first value the larger, and the second.
 fn prove_relative_spread(distortion: Distortion) -> Verdict {
-    const COVERED: ClaimPart = ClaimPart::whole("ratio", "");
+    const COVERED: ClaimPart = ClaimPart::named("ratio");
     exactly(COVERED, distortion, &[[1.0, 2.0], [2.0, 1.0]], |[first, second]: [Rational; 2], factor: Rational| {
         let mean = (first + second) / number(2.0);
         let square = (first - mean).square() + (second - mean).square();
@@ -296,7 +244,7 @@ fn prove_relative_spread(distortion: Distortion) -> Verdict {
 
 /// Nomoto's response to a unit step of the rudder satisfies the axis's equation.
 fn prove_zig_zag(distortion: Distortion) -> Verdict {
-    const COVERED: ClaimPart = ClaimPart::whole("response", "");
+    const COVERED: ClaimPart = ClaimPart::named("response");
     exactly(COVERED, distortion, &[[1.0, 2.0, 0.5]], |[t, time_constant, gain]: [Rational; 3], factor: Rational| {
         let [t] = Gradient::variables([t]);
         let [time_constant, gain] = [time_constant, gain].map(Gradient::<_, 1>::constant);
@@ -327,5 +275,5 @@ fn prove_decision(distortion: Distortion) -> Verdict {
         }
         cases += 1;
     }
-    Verdict::Holds(Evidence::identity(DRAG_DECISION_WHOLE, 0.0, cases))
+    Verdict::Holds(Evidence::identity(ClaimPart::WHOLE, 0.0, cases))
 }

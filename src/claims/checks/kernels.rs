@@ -2,11 +2,10 @@
 
 use super::band::as_coded;
 use super::enclosure::no_function;
+use super::family::closed_is_integral;
 use super::single::Single;
-use super::{
-    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, claim, sample, tolerance,
-};
-use crate::describing::{ClosedForm, DescribingFunction, KernelForm, by_quadrature};
+use super::{Budget, ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, claim, sample};
+use crate::describing::{ClosedForm, DescribingFunction, KernelForm};
 use crate::nonlinearity::{Branches, Kernel, Side, Sinusoid};
 use crate::numeric::Real;
 use crate::proof::{NotProved, Proved};
@@ -16,7 +15,7 @@ use std::sync::LazyLock;
 type Make = fn(f64, f64, Side, Branches) -> Kernel<f64>;
 
 /// Closed form times `factor` against quadrature, both sides, each branch, breakpoints on the sweep and beyond.
-fn closed_is_integral(budget: Budget, make: Make, factor: f64) -> Verdict {
+fn kernel_is_integral(budget: Budget, make: Make, factor: f64) -> Verdict {
     sample(budget, |draw| {
         let (bias, amplitude) = (draw.uniform("bias", -1.0, 1.0), draw.uniform("amplitude", 0.5, 2.0));
         let at = draw.uniform("at", -3.0, 3.0);
@@ -24,14 +23,8 @@ fn closed_is_integral(budget: Budget, make: Make, factor: f64) -> Verdict {
         let side = [Side::Above, Side::Below][draw.index("side", 2)];
         let branches = [Branches::Both, Branches::Rising, Branches::Falling][draw.index("branches", 3)];
         let single = Single(make(at, upper, side, branches));
-        let Ok(sweep) = Sinusoid::new(bias, amplitude) else { return Case::Skipped };
-        let (Ok(closed), Ok(integral)) = (single.describing_function(&sweep), by_quadrature(&single, &sweep)) else {
-            return Case::Skipped;
-        };
-        let scale = 10.0;
-        let mut equal =
-            |name, closed: f64, integral| draw.equal((name, factor * closed), integral, scale, tolerance::QUADRATURE);
-        equal("f0", closed.f0, integral.f0).and(equal("p", closed.p, integral.p)).and(equal("q", closed.q, integral.q))
+        let sweep = Sinusoid::new(bias, amplitude).ok()?;
+        closed_is_integral(draw, &single, &sweep, 10.0, factor)
     })
 }
 
@@ -47,63 +40,33 @@ const RAMP: Make = |at, _, side, branches| Kernel::Ramp { at, slope: 1.0, side, 
 const SIGN: Make = |at, _, _, branches| Kernel::Sign { at, level: 1.0, branches };
 const BAND: Make = |lower, upper, _, _| Kernel::Band { origin: 0.3, lower, upper, slope: 1.0 };
 
-claim! {
-    KERNEL_STEP = "kernel-step" "10" Identity
-    "Mean, sine and cosine component of a step are acos(u)/(2 pi), sqrt(1 - u^2)/pi and (1 - u)/pi on a branch" {
-        domain: &[BREAKPOINT],
-        printed: AsPrinted::Absent,
-        corrected: Some(|budget| closed_is_integral(budget, STEP, 1.0)),
-        falsified: |budget| closed_is_integral(budget, STEP, 1.000_01),
-        proof: Some(prove_kernel_step),
-        hypotheses: &[],
-        depends: &["fourier-coefficients"],
-    }
+/// One line a claim: constant, id, statement, kernel and proof.
+macro_rules! kernels {
+    ($($constant:ident = $id:literal $statement:literal, $kernel:ident $proof:expr;)+) => {
+        $(
+            claim! {
+                $constant = $id Identity $statement {
+                    corrected: Some(|budget| kernel_is_integral(budget, $kernel, 1.0)),
+                    falsified: |budget| kernel_is_integral(budget, $kernel, 1.000_01),
+                    proof: Some($proof),
+                }
+            }
+        )+
+    };
 }
 
-claim! {
-    KERNEL_RAMP = "kernel-ramp" "10" Identity
-    "Mean, sine and cosine component of a ramp are the closed forms in u for every breakpoint" {
-        domain: &[BREAKPOINT],
-        printed: AsPrinted::Absent,
-        corrected: Some(|budget| closed_is_integral(budget, RAMP, 1.0)),
-        falsified: |budget| closed_is_integral(budget, RAMP, 1.000_01),
-        proof: Some(prove_kernel_ramp),
-        hypotheses: &[],
-        depends: &["kernel-step"],
-    }
-}
-
-claim! {
-    KERNEL_SIGN = "kernel-sign" "10" Identity
-    "Mean, sine and cosine component of a sign are -asin(u)/pi, 2 sqrt(1 - u^2)/pi and -2 u/pi on a branch" {
-        domain: &[BREAKPOINT],
-        printed: AsPrinted::Absent,
-        corrected: Some(|budget| closed_is_integral(budget, SIGN, 1.0)),
-        falsified: |budget| closed_is_integral(budget, SIGN, 1.000_01),
-        proof: Some(prove_kernel_sign),
-        hypotheses: &[],
-        depends: &["kernel-step"],
-    }
-}
-
-claim! {
-    KERNEL_BAND = "kernel-band" "10" Identity
-    "Mean and sine component of a held input are differences of one function of each end" {
-        domain: &[
-            BREAKPOINT,
-            ClaimPart::over(
-                "as-coded",
-                "the sum over both ends as the code rearranges it, wherever they are",
-                const { &[ClaimVariable::number("u_lower", f64::NEG_INFINITY, f64::INFINITY), ClaimVariable::number("u_upper", f64::NEG_INFINITY, f64::INFINITY)] },
-            ),
-        ],
-        printed: AsPrinted::Absent,
-        corrected: Some(|budget| closed_is_integral(budget, BAND, 1.0)),
-        falsified: |budget| closed_is_integral(budget, BAND, 1.000_01),
-        proof: Some(prove_kernel_band),
-        hypotheses: &[],
-        depends: &["kernel-ramp"],
-    }
+kernels! {
+    KERNEL_STEP = "kernel-step"
+        "Mean, sine and cosine component of a step are acos(u)/(2 pi), sqrt(1 - u^2)/pi and (1 - u)/pi on a branch",
+        STEP |distortion| prove_kernel(KernelForm::Step, distortion, BREAKPOINT);
+    KERNEL_RAMP = "kernel-ramp" "Mean, sine and cosine component of a ramp are the closed forms in u for every breakpoint",
+        RAMP |distortion| prove_kernel(KernelForm::Ramp, distortion, BREAKPOINT);
+    KERNEL_SIGN = "kernel-sign"
+        "Mean, sine and cosine component of a sign are -asin(u)/pi, 2 sqrt(1 - u^2)/pi and -2 u/pi on a branch",
+        SIGN |distortion| prove_kernel(KernelForm::Sign, distortion, BREAKPOINT);
+    // Each end of a band; and the code's rearranged sum over both ends.
+    KERNEL_BAND = "kernel-band" "Mean and sine component of a held input are differences of one function of each end",
+        BAND |distortion| prove_kernel(KernelForm::Band, distortion, BREAKPOINT).and(|| as_coded(distortion));
 }
 
 pub(super) fn prove_kernel(form: KernelForm, distortion: Distortion, part: ClaimPart) -> Verdict {
@@ -123,26 +86,6 @@ pub(super) fn prove_kernel(form: KernelForm, distortion: Distortion, part: Claim
         (Distortion::None, KernelForm::Band) => verdict(&BAND),
         (distorted, form) => verdict(&form.prove_changed(&distorted)),
     }
-}
-
-/// The step, every ratio.
-fn prove_kernel_step(distortion: Distortion) -> Verdict {
-    prove_kernel(KernelForm::Step, distortion, BREAKPOINT)
-}
-
-/// The ramp, every ratio.
-fn prove_kernel_ramp(distortion: Distortion) -> Verdict {
-    prove_kernel(KernelForm::Ramp, distortion, BREAKPOINT)
-}
-
-/// The sign, every ratio.
-fn prove_kernel_sign(distortion: Distortion) -> Verdict {
-    prove_kernel(KernelForm::Sign, distortion, BREAKPOINT)
-}
-
-/// Each end of a band, every ratio; and the code's rearranged sum over both ends, over the plane of both.
-fn prove_kernel_band(distortion: Distortion) -> Verdict {
-    prove_kernel(KernelForm::Band, distortion, BREAKPOINT).and(|| as_coded(distortion))
 }
 
 /// Closed form of one kernel under a unit sinusoid.

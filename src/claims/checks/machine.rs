@@ -7,13 +7,10 @@ use std::collections::{HashSet, VecDeque};
 use super::{ClaimPart, Evidence, Verdict, Witness};
 use crate::on_board::{Coordinate, Key, Observation, Observer, Phase, Protocol, Supervisor};
 
-const POSITION: ClaimPart =
-    ClaimPart::whole("positions", "the machine on the lattice of positions -2 to 2 in steps of 1");
-const HEADING: ClaimPart =
-    ClaimPart::whole("headings", "the machine on the lattice of headings 0 to 300 degrees in steps of 60");
-const SPEED: ClaimPart = ClaimPart::whole("speeds", "the machine on the lattice of speeds -1, 0, 1");
-const COARSE: ClaimPart =
-    ClaimPart::whole("coarse", "the machine on the lattice of positions -2, 1 and 2 with a resolution of 1, for 10 s");
+const POSITION: ClaimPart = ClaimPart::named("positions");
+const HEADING: ClaimPart = ClaimPart::named("headings");
+const SPEED: ClaimPart = ClaimPart::named("speeds");
+const COARSE: ClaimPart = ClaimPart::named("coarse");
 /// The first lattices of [`Lattice::all`], and all of them: readings and times off them are not spoken of.
 pub(super) const LATTICES: &[ClaimPart] = &[POSITION, HEADING, SPEED];
 pub(super) const WITH_COARSE: &[ClaimPart] = &[POSITION, HEADING, SPEED, COARSE];
@@ -267,12 +264,7 @@ const MOST_STATES: usize = 3_000_000;
 
 /// Every reachable state of the lattices that the parts name, breadth first, so that a witness is as short as can be.
 pub(super) fn explore(parts: &[ClaimPart], defect: Defect, property: Property) -> Verdict {
-    Lattice::all()
-        .iter()
-        .take(parts.len())
-        .map(|lattice| explore_one(lattice, defect, property))
-        .reduce(|a, b| a.and(|| b))
-        .unwrap_or(Verdict::Undecided { spent: "no lattice".to_owned() })
+    Verdict::all(Lattice::all().iter().take(parts.len()).map(|lattice| explore_one(lattice, defect, property)))
 }
 
 fn explore_one(lattice: &Lattice, defect: Defect, property: Property) -> Verdict {
@@ -328,36 +320,24 @@ fn events<'a>(lattice: &'a Lattice, machine: &Machine) -> impl Iterator<Item = E
     good.chain(late).chain(broken).chain(ticks).chain([Event::Abort])
 }
 
-/// Names of the numbers of a path, by its steps.
-macro_rules! steps {
-    ($($step:literal)+) => {
-        const STEPS: &[[&str; 5]] = &[$([
-            concat!("reading_", $step),
-            concat!("after_s_", $step),
-            concat!("cycles_say_", $step),
-            concat!("abort_", $step),
-            concat!("tick_after_s_", $step),
-        ]),+];
-    };
-}
-steps!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16);
-
 /// The samples of a path, and the command at its end. `cycles_say` is 1 where a cycle ended, 2 where they are steady, 3 where
 /// condition 40 is not met.
 fn witness(path: &[(Event, Machine)]) -> Witness {
     let mut numbers = Vec::new();
-    for ((event, _), [reading_name, interval_name, observation_name, abort, tick]) in path.iter().zip(STEPS) {
+    for (step, (event, _)) in (1..).zip(path) {
+        let mut number = |name: &str, value: f64| numbers.push((format!("{name}_{step}"), value));
         match *event {
-            Event::Abort => numbers.push((*abort, 1.0)),
-            Event::Tick { age_s } => numbers.push((*tick, age_s)),
+            Event::Abort => number("abort", 1.0),
+            Event::Tick { age_s } => number("tick_after_s", age_s),
             Event::Sample { reading, interval_s, observation } => {
-                numbers.extend([(*reading_name, reading), (*interval_name, interval_s)]);
+                number("reading", reading);
+                number("after_s", interval_s);
                 if observation != Observation::Between {
-                    numbers.push((*observation_name, f64::from(observation as u8)));
+                    number("cycles_say", f64::from(observation as u8));
                 }
             }
         }
     }
-    numbers.extend(path.last().map(|(_, machine)| ("command", machine.command)));
+    numbers.extend(path.last().map(|(_, machine)| ("command".to_owned(), machine.command)));
     Witness::new(numbers)
 }

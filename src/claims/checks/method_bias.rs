@@ -24,10 +24,6 @@ pub struct MethodError<T = Interval> {
 
 /// Below this coordinate the orbit is bracketed by its first terms.
 const SMALL: f64 = 0.02;
-/// Pieces of a range are halved until their enclosures are narrower.
-const RESOLUTION: f64 = 5e-3;
-/// At most as often.
-const HALVINGS: u32 = 24;
 
 /// An orbit in units that keep it of order one as `g` goes to zero: lengths in `X_m`, times in the coordinate (linear drag)
 /// or its square root (quadratic drag).
@@ -80,49 +76,6 @@ impl SymmetricOrbit {
                 [found.alpha, found.beta, found.beta_quadratic, found.disturbance].map(|part| part.value(&stands));
             Some(Parameters { alpha: alpha?, beta: beta?, beta_quadratic: beta_quadratic?, disturbance: disturbance? })
         })
-    }
-
-    /// The errors over a range of `g`, at most 700: all that occur, and at most 0.5 % more; `None` where it is empty, negative
-    /// or too large.
-    ///
-    /// ```
-    /// use selfosc::claims::method_bias::SymmetricOrbit;
-    /// let error = SymmetricOrbit::Linear.error_over(0.99, 1.01).ok_or("a range")?;
-    /// assert!(error.alpha.lower() > -0.04 && error.alpha.upper() < -0.02);
-    /// # Ok::<(), &str>(())
-    /// ```
-    #[must_use]
-    pub fn error_over(self, from: f64, to: f64) -> Option<MethodError> {
-        if !(0.0 <= from && from <= to && to <= 700.0) {
-            return None;
-        }
-        self.hull(Interval::new(self.coordinate(from).lower(), self.coordinate(to).upper())?, HALVINGS)
-    }
-
-    /// The errors over a range of the coordinate, halved until that gains little.
-    fn hull(self, coordinate: Interval, halvings: u32) -> Option<MethodError> {
-        let whole = self.error(coordinate);
-        let narrow = |error: &MethodError| error.alpha.width() < RESOLUTION && error.drag.width() < RESOLUTION;
-        if halvings == 0 || whole.as_ref().is_some_and(narrow) {
-            return whole;
-        }
-        let (lower, upper) = coordinate.bisect();
-        let (lower, upper) = (self.hull(lower, halvings - 1)?, self.hull(upper, halvings - 1)?);
-        Some(MethodError { alpha: lower.alpha.hull(upper.alpha), drag: lower.drag.hull(upper.drag) })
-    }
-
-    /// An enclosure of the coordinate of `g` in [0, 700], by bisection with a sign that is certain.
-    fn coordinate(self, g: f64) -> Interval {
-        let (mut lower, mut upper) = (0.0, 2.0 * g + 3.0);
-        for _ in 0..100 {
-            let middle = 0.5 * (lower + upper);
-            match self.group(Interval::point(middle)) {
-                found if found.upper() <= g => lower = middle,
-                found if found.lower() >= g => upper = middle,
-                _ => break,
-            }
-        }
-        Interval::new(lower, upper).unwrap_or(Interval::ENTIRE)
     }
 }
 

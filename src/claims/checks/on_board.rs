@@ -1,20 +1,16 @@
 //! The state machine of the experiment on board, every state of it over a lattice of readings and times.
 
+use super::claim;
 use super::machine::{Defect, Event, INTERVALS_S, LATTICES, Lattice, Machine, SOUND, WITH_COARSE, explore};
-use super::{AsPrinted, claim};
 use crate::on_board::{Coordinate, Observation, Phase, Protocol};
 
 /// A property of every state of the machine, and a defect that takes it away.
 macro_rules! explored {
-    ($constant:ident = $id:literal $statement:literal $property:ident over $parts:ident, depends on $depends:expr,
-     but not $defect:ident) => {
+    ($constant:ident = $id:literal $statement:literal $property:ident over $parts:ident, but not $defect:ident) => {
         claim! {
-            $constant = $id "of this project" Theorem $statement {
-                domain: $parts,
-                printed: AsPrinted::Absent,
+            $constant = $id Theorem $statement {
                 corrected: Some(|_| explore($parts, Defect::None, $property)),
                 falsified: |_| explore($parts, Defect::$defect, $property),
-                depends: $depends,
             }
         }
     };
@@ -23,7 +19,7 @@ macro_rules! explored {
 explored! {
     ON_BOARD_ENDS = "on-board-ends"
     "Whatever the samples, the experiment ends within its time, and until that or its patience is over one more sample may complete it"
-    ends over LATTICES, depends on &[], but not Restarts
+    ends over LATTICES, but not Restarts
 }
 
 fn ends(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
@@ -48,7 +44,7 @@ fn ends(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -
 explored! {
     ON_BOARD_SWITCHES = "on-board-switches"
     "Two switchings are the least dwell apart and both half-widths, crossed at no more than the largest rate: no chattering"
-    switches over LATTICES, depends on &[], but not NoHysteresis
+    switches over LATTICES, but not NoHysteresis
 }
 
 fn switches(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
@@ -77,7 +73,7 @@ fn switches(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)
 explored! {
     ON_BOARD_ABORT = "on-board-abort"
     "From every state an abort gives the neutral command at once, and nothing but a restart changes that"
-    abort over LATTICES, depends on &[], but not IgnoresAbort
+    abort over LATTICES, but not IgnoresAbort
 }
 
 fn abort(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
@@ -92,7 +88,7 @@ fn abort(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) 
 explored! {
     ON_BOARD_LIMITS = "on-board-limits"
     "The command is within its limits in every state, after every change of the relay too, and neutral unless running"
-    limits over LATTICES, depends on &[], but not Unclamped
+    limits over LATTICES, but not Unclamped
 }
 
 fn limits(lattice: &Lattice, machine: &Machine, _: &[(Event, Machine)]) -> Result<(), Option<usize>> {
@@ -105,7 +101,7 @@ fn limits(lattice: &Lattice, machine: &Machine, _: &[(Event, Machine)]) -> Resul
 explored! {
     ON_BOARD_FAULTS = "on-board-faults"
     "A sample that a sound sensor and clock cannot have given is a fault by its name, a sound one is none, and faults stay"
-    faults over LATTICES, depends on &["on-board-limits"], but not Forgives
+    faults over LATTICES, but not Forgives
 }
 
 /// Faults of sensor and clock, rather than of the experiment.
@@ -192,7 +188,7 @@ fn expected_of_time(machine: &Machine, age_s: f64) -> Option<&'static str> {
 explored! {
     ON_BOARD_STILL = "on-board-still"
     "Readings that go nowhere for the patience end the experiment, and no level is raised upon them for want of a switching"
-    still over WITH_COARSE, depends on &["on-board-excursion"], but not Restless
+    still over WITH_COARSE, but not Restless
 }
 
 fn still(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
@@ -214,7 +210,7 @@ fn still(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) 
 explored! {
     ON_BOARD_EXCURSION = "on-board-excursion"
     "Whatever plant and sensor say, the relay drives no further than the largest excursion and one gap at the largest rate"
-    excursion over LATTICES, depends on &["on-board-faults", "on-board-limits"], but not Boundless
+    excursion over LATTICES, but not Boundless
 }
 
 /// Every sequence of readings comes, and so do those of a plant of the wrong sign, a stuck or a late one, and a sensor that

@@ -3,8 +3,8 @@
 use super::algebra::{exactly, number};
 use super::method_bias::SymmetricOrbit;
 use super::{
-    AsPrinted, Budget, Case, ClaimDomain, ClaimPart, ClaimVariable, Distortion, Evidence, Hypothesis, Verdict, Witness,
-    claim, sample,
+    Budget, Case, ClaimDomain, ClaimPart, ClaimVariable, Distortion, Evidence, Hypothesis, Verdict, Witness, claim,
+    sample,
 };
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::{Expression, Interval, Real};
@@ -52,16 +52,8 @@ fn failed(inequality: &Inequality, why: NotProved<VARIABLES>) -> Verdict {
 }
 
 /// Every disturbance below the level: the inequalities hold up to the level itself, where the forces that they are about vanish.
-const EVERY_AXIS: ClaimPart = ClaimPart::over(
-    "every-axis",
-    "every alpha, beta, C, x_a > 0; every start",
-    const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] },
-);
-const EVERY_MIX: ClaimPart = ClaimPart::over(
-    "every-axis",
-    "every mix of linear and quadratic drag, every speed below the terminal one",
-    const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] },
-);
+const EVERY_AXIS: ClaimPart =
+    ClaimPart::over("every-axis", "", const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] });
 /// What the inequalities about braking start from: under a disturbance as large as the level the drag brakes alone.
 fn at_the_level(part: ClaimPart) -> Verdict {
     exactly(part, Distortion::None, &[[0.5]], |[drag]: [Rational; 1], factor: Rational| {
@@ -69,14 +61,10 @@ fn at_the_level(part: ClaimPart) -> Verdict {
     })
 }
 
-const EXCESS: ClaimPart = ClaimPart::whole(
-    "excess",
-    "denominator less numerator of the slope grows with both drag forces, at a rate above 1.99",
-);
-const RATE: ClaimPart = ClaimPart::whole("rate", "1 - m > 0.48 (d_1 + d_2)");
-const EVERY_G: ClaimPart = ClaimPart::whole("every-g", "every g > 0");
-const UP_TO_TEN: ClaimPart =
-    ClaimPart::whole("g-up-to-ten", "every alpha, drag, C, x_a > 0 with 0 < g <= 10, delta = 0");
+const EXCESS: ClaimPart = ClaimPart::named("excess");
+const RATE: ClaimPart = ClaimPart::named("rate");
+const EVERY_G: ClaimPart = ClaimPart::named("every-g");
+const UP_TO_TEN: ClaimPart = ClaimPart::named("g-up-to-ten");
 
 fn excess_of_the_wrong_sign<T: Real>([mu, upper, lower]: [T; VARIABLES]) -> T {
     let [numerator, denominator] = return_slope(mu, [-upper, -lower]);
@@ -128,89 +116,50 @@ fn beyond_the_level(budget: Budget) -> Verdict {
     sample(budget, |draw| {
         let (level, share) = (draw.uniform("level", 0.1, 1.0), draw.uniform("disturbance_over_level", 1.0, 2.0));
         let axis = DragAxis::mixed(1.0, 0.5, 0.5).and_then(|axis| axis.with_disturbance(share * level));
-        let (Ok(axis), Ok(relay)) = (axis, RelayHysteresis::new(level, 0.2, 0.0)) else { return Case::Skipped };
-        Case::truth(limit_cycle(&axis, &relay).is_ok())
+        let (axis, relay) = (axis.ok()?, RelayHysteresis::new(level, 0.2, 0.0).ok()?);
+        Some(Case::truth(limit_cycle(&axis, &relay).is_ok()))
     })
 }
 
-const BELOW_LEVEL: Hypothesis = Hypothesis { id: "disturbance-below-level", counterexample: Some(beyond_the_level) };
+const BELOW_LEVEL: Hypothesis = Hypothesis::needed("disturbance-below-level", beyond_the_level);
 
-claim! {
-    NO_EARLY_SWITCHING = "orbit-no-early-switching" "of this project" Theorem
-    "Between two switchings the velocity changes sign once, beyond the relay's level: the command switches when the formulas say" {
-        domain: &[EVERY_MIX],
-        printed: AsPrinted::Absent,
-        corrected: Some(|_| proved(&theorem::NO_EARLY_SWITCHING, const { &[EVERY_MIX] }).and(|| at_the_level(EVERY_MIX))),
-        theorem: Some((&theorem::NO_EARLY_SWITCHING, &FALSE_BRAKING)),
-        falsified: |_| single(&FALSE_BRAKING),
-        hypotheses: &[BELOW_LEVEL],
-        depends: &[],
-    }
+/// Claims that inequalities establish, each with the theorem and a false inequality next to it, the parts, what is proved besides
+/// and what is assumed.
+macro_rules! enclosed {
+    ($($constant:ident = $id:literal $statement:literal,
+       $theorem:path, not $false:ident, on $parts:expr, $(and $more:expr,)? if $hypotheses:expr;)+) => {
+        $(
+            claim! {
+                $constant = $id Theorem $statement {
+                    corrected: Some(|_| proved(&$theorem, const { $parts })$(.and(|| $more))?),
+                    theorem: Some((&$theorem, &$false)),
+                    falsified: |_| single(&$false),
+                    hypotheses: $hypotheses,
+                }
+            }
+        )+
+    };
 }
 
-claim! {
-    MULTIPLIER = "orbit-multiplier" "of this project" Theorem
-    "Without delay 1 - m > 0.48 (d_1 + d_2): the multiplier m by the drag forces d_1, d_2 at the switchings over C" {
-        domain: &[EXCESS, RATE],
-        printed: AsPrinted::Absent,
-        corrected: Some(|_| proved(&theorem::MULTIPLIER, const { &[EXCESS, RATE] })),
-        theorem: Some((&theorem::MULTIPLIER, &FALSE_DENOMINATOR)),
-        falsified: |_| single(&FALSE_DENOMINATOR),
-        hypotheses: &[BELOW_LEVEL],
-        depends: &["orbit-no-early-switching"],
-    }
-}
-
-claim! {
-    QUADRATIC_DISTURBED = "orbit-quadratic-disturbed" "of this project" Theorem
-    "Quadratic drag with a disturbance: one limit cycle, reached from every start" {
-        domain: &[EVERY_AXIS],
-        printed: AsPrinted::Absent,
-        corrected: Some(|_| proved(&theorem::QUADRATIC_DISTURBED, const { &[EVERY_AXIS] }).and(|| at_the_level(EVERY_AXIS))),
-        theorem: Some((&theorem::QUADRATIC_DISTURBED, &FALSE_DRAG)),
-        falsified: |_| single(&FALSE_DRAG),
-        hypotheses: &[BELOW_LEVEL],
-        depends: &["orbit-multiplier"],
-    }
-}
-
-claim! {
-    LINEAR_DISTURBED = "orbit-linear-disturbed" "of this project" Theorem
-    "Linear drag with a disturbance: one limit cycle, reached from every start" {
-        domain: &[EVERY_AXIS],
-        printed: AsPrinted::Absent,
-        corrected: Some(|_| proved(&theorem::LINEAR_DISTURBED, const { &[EVERY_AXIS] }).and(|| at_the_level(EVERY_AXIS))),
-        theorem: Some((&theorem::LINEAR_DISTURBED, &FALSE_DRAG)),
-        falsified: |_| single(&FALSE_DRAG),
-        hypotheses: &[BELOW_LEVEL],
-        depends: &["orbit-multiplier"],
-    }
-}
-
-claim! {
-    AMPLITUDE_MONOTONE_QUADRATIC = "orbit-amplitude-monotone-quadratic" "of this project" Theorem
-    "Quadratic drag: (X_m - x_a)/x_a falls as g grows, so that the amplitude identifies g" {
-        domain: &[EVERY_G],
-        printed: AsPrinted::Absent,
-        corrected: Some(|_| proved(&theorem::QUADRATIC_OVERSHOOT, const { &[EVERY_G] })),
-        theorem: Some((&theorem::QUADRATIC_OVERSHOOT, &FALSE_OVERSHOOT_QUADRATIC)),
-        falsified: |_| single(&FALSE_OVERSHOOT_QUADRATIC),
-        hypotheses: &[],
-        depends: &["orbit-quadratic"],
-    }
-}
-
-claim! {
-    AMPLITUDE_MONOTONE_LINEAR = "orbit-amplitude-monotone-linear" "of this project" Theorem
-    "Linear drag: (X_m - x_a)/x_a falls as g grows, so that the amplitude identifies g" {
-        domain: &[EVERY_G],
-        printed: AsPrinted::Absent,
-        corrected: Some(|_| proved(&theorem::LINEAR_OVERSHOOT, const { &[EVERY_G] })),
-        theorem: Some((&theorem::LINEAR_OVERSHOOT, &FALSE_OVERSHOOT_LINEAR)),
-        falsified: |_| single(&FALSE_OVERSHOOT_LINEAR),
-        hypotheses: &[],
-        depends: &["orbit-linear"],
-    }
+enclosed! {
+    NO_EARLY_SWITCHING = "orbit-no-early-switching"
+        "Between two switchings the velocity changes sign once, beyond the relay's level: the command switches when the formulas say",
+        theorem::NO_EARLY_SWITCHING, not FALSE_BRAKING, on &[EVERY_AXIS], and at_the_level(EVERY_AXIS), if &[BELOW_LEVEL];
+    MULTIPLIER = "orbit-multiplier"
+        "Without delay 1 - m > 0.48 (d_1 + d_2): the multiplier m by the drag forces d_1, d_2 at the switchings over C",
+        theorem::MULTIPLIER, not FALSE_DENOMINATOR, on &[EXCESS, RATE], if &[BELOW_LEVEL];
+    QUADRATIC_DISTURBED = "orbit-quadratic-disturbed"
+        "Quadratic drag with a disturbance: one limit cycle, reached from every start",
+        theorem::QUADRATIC_DISTURBED, not FALSE_DRAG, on &[EVERY_AXIS], and at_the_level(EVERY_AXIS), if &[BELOW_LEVEL];
+    LINEAR_DISTURBED = "orbit-linear-disturbed"
+        "Linear drag with a disturbance: one limit cycle, reached from every start",
+        theorem::LINEAR_DISTURBED, not FALSE_DRAG, on &[EVERY_AXIS], and at_the_level(EVERY_AXIS), if &[BELOW_LEVEL];
+    AMPLITUDE_MONOTONE_QUADRATIC = "orbit-amplitude-monotone-quadratic"
+        "Quadratic drag: (X_m - x_a)/x_a falls as g grows, so that the amplitude identifies g",
+        theorem::QUADRATIC_OVERSHOOT, not FALSE_OVERSHOOT_QUADRATIC, on &[EVERY_G], if &[];
+    AMPLITUDE_MONOTONE_LINEAR = "orbit-amplitude-monotone-linear"
+        "Linear drag: (X_m - x_a)/x_a falls as g grows, so that the amplitude identifies g",
+        theorem::LINEAR_OVERSHOOT, not FALSE_OVERSHOOT_LINEAR, on &[EVERY_G], if &[];
 }
 
 /// One error of the method: its distance from `centre` is below `radius` on a range of the coordinate.
@@ -239,8 +188,7 @@ macro_rules! curve {
     (
         $constant:ident, $theorem:ident, $false:ident: $id:literal, $name:literal, $law:ident $part:ident,
         ends $one:literal and $ten:literal, up_to_one $small:literal, up_to_ten $large:literal, too_small $wrong:literal,
-        at_zero $zero:literal, at_one [$one_from:literal, $one_value:expr], at_ten [$ten_from:literal, $ten_value:expr],
-        depends $orbit:literal and $monotone:literal
+        at_zero $zero:literal, at_one [$one_from:literal, $one_value:expr], at_ten [$ten_from:literal, $ten_value:expr]
     ) => {
         #[doc = concat!("What `", $id, "` rests on.")]
         const $theorem: Theorem = Theorem {
@@ -257,17 +205,7 @@ macro_rules! curve {
         #[doc = concat!("Too narrow a bound for `", $id, "`.")]
 const $false: Inequality = within!("false-bound": $law $part on 0.0 to $ten is 0.0, $wrong);
 
-        claim! {
-            $constant = $id "of this project" Theorem $name {
-                printed: AsPrinted::Absent,
-                corrected: Some(|_| proved(&$theorem, const { &[UP_TO_TEN] })),
-                theorem: Some((&$theorem, &$false)),
-                domain: &[UP_TO_TEN],
-                falsified: |_| single(&$false),
-                hypotheses: &[],
-                depends: &[$orbit, "method-bias", $monotone],
-            }
-        }
+        enclosed! { $constant = $id $name, $theorem, not $false, on &[UP_TO_TEN], if &[]; }
     };
 }
 
@@ -275,26 +213,26 @@ curve! {
     BIAS_ALPHA_LINEAR, ALPHA_LINEAR, FALSE_ALPHA_LINEAR: "method-bias-alpha-linear",
     "Linear drag: the method's error of alpha is +3.2 % as g goes to 0, -3 % at 1, +47 % at 10, below 5 % for g <= 1",
     Linear alpha, ends 1.97 and 11.0, up_to_one 0.05, up_to_ten 0.48, too_small 0.4,
-    at_zero 0.032, at_one [1.95, -0.03], at_ten [10.99, 0.47], depends "orbit-linear" and "orbit-amplitude-monotone-linear"
+    at_zero 0.032, at_one [1.95, -0.03], at_ten [10.99, 0.47]
 }
 
 curve! {
     BIAS_BETA_LINEAR, BETA_LINEAR, FALSE_BETA_LINEAR: "method-bias-beta-linear",
     "Linear drag: the method's error of beta is +8 % as g goes to 0, -4 % at 1, -16 % at 10, below 17 % up to there",
     Linear drag, ends 1.97 and 11.0, up_to_one 0.09, up_to_ten 0.17, too_small 0.1,
-    at_zero 0.0808, at_one [1.95, -0.041], at_ten [10.99, -0.16], depends "orbit-linear" and "orbit-amplitude-monotone-linear"
+    at_zero 0.0808, at_one [1.95, -0.041], at_ten [10.99, -0.16]
 }
 
 curve! {
     BIAS_ALPHA_QUADRATIC, ALPHA_QUADRATIC, FALSE_ALPHA_QUADRATIC: "method-bias-alpha-quadratic",
     "Quadratic drag: the method's error of alpha is +3.2 % as g goes to 0, -6.5 % at 1, +52 % at 10",
     Quadratic alpha, ends 2.7 and 20.7, up_to_one 0.08, up_to_ten 0.53, too_small 0.4,
-    at_zero 0.032, at_one [2.68, -0.065], at_ten [20.68, 0.52], depends "orbit-quadratic" and "orbit-amplitude-monotone-quadratic"
+    at_zero 0.032, at_one [2.68, -0.065], at_ten [20.68, 0.52]
 }
 
 curve! {
     BIAS_BETA_QUADRATIC, BETA_QUADRATIC, FALSE_BETA_QUADRATIC: "method-bias-beta-quadratic",
     "Quadratic drag: the method's error of beta_xx is +22 % as g goes to 0, -9 % at 1, -35 % at 10, below 36 % up to there",
     Quadratic drag, ends 2.7 and 20.7, up_to_one 0.22, up_to_ten 0.36, too_small 0.3,
-    at_zero 0.2158, at_one [2.68, -0.088], at_ten [20.68, -0.346], depends "orbit-quadratic" and "orbit-amplitude-monotone-quadratic"
+    at_zero 0.2158, at_one [2.68, -0.088], at_ten [20.68, -0.346]
 }

@@ -34,7 +34,7 @@ const QUADRATIC: Family = Family {
     drag_of: |parameters| parameters.beta_quadratic,
 };
 
-const EVERY_AXIS: ClaimPart = ClaimPart::whole("every-axis", "every alpha, beta, C, x_a > 0; every start");
+const EVERY_AXIS: ClaimPart = ClaimPart::named("every-axis");
 
 /// An axis with its relay.
 struct Loop {
@@ -64,10 +64,8 @@ impl Loop {
 }
 
 claim! {
-    ORBIT_QUADRATIC = "orbit-quadratic" "of this project" Theorem
+    ORBIT_QUADRATIC = "orbit-quadratic" Theorem
     "Quadratic drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start" {
-        domain: &[EVERY_AXIS],
-        printed: AsPrinted::Absent,
         corrected: Some(|budget| {
             closed_form_orbit(budget, |l| {
                 let (g, reach) = (l.drag * l.half_width / l.alpha, l.alpha / (2.0 * l.drag));
@@ -86,18 +84,15 @@ claim! {
             (amplitude, 2.0 * l.alpha / (l.drag * l.level).sqrt() * orbit::quadratic_period(0.5 * g))
         }, &QUADRATIC),
         hypotheses: &[
-            Hypothesis { id: "drag-positive", counterexample: Some(without_drag) },
-            Hypothesis { id: "half-width-positive", counterexample: Some(without_hysteresis) },
+            Hypothesis::needed("drag-positive", |budget| no_cycle(budget, 0.0, 0.2)),
+            Hypothesis::needed("half-width-positive", |budget| no_cycle(budget, 1.0, 0.0)),
         ],
-        depends: &[],
     }
 }
 
 claim! {
-    ORBIT_LINEAR = "orbit-linear" "of this project" Theorem
+    ORBIT_LINEAR = "orbit-linear" Theorem
     "Linear drag: one limit cycle for every alpha, beta, C, x_a > 0, reached from every start" {
-        domain: &[EVERY_AXIS],
-        printed: AsPrinted::Absent,
         corrected: Some(|budget| closed_form_orbit(budget, |l| linear_orbit(l, 4.0), &LINEAR)
             .and(|| attracts(budget, &LINEAR))
             .backed_by(|| proved(&theorem::LINEAR, const { &[EVERY_AXIS] }))),
@@ -105,10 +100,9 @@ claim! {
         // z = beta T/(2 alpha).
         falsified: |budget| closed_form_orbit(budget, |l| linear_orbit(l, 2.0), &LINEAR),
         hypotheses: &[
-            Hypothesis { id: "drag-positive", counterexample: Some(without_drag) },
-            Hypothesis { id: "half-width-positive", counterexample: Some(without_hysteresis) },
+            Hypothesis::needed("drag-positive", |budget| no_cycle(budget, 0.0, 0.2)),
+            Hypothesis::needed("half-width-positive", |budget| no_cycle(budget, 1.0, 0.0)),
         ],
-        depends: &[],
     }
 }
 
@@ -127,52 +121,44 @@ fn linear_orbit(l: &Loop, quarter: f64) -> (f64, f64) {
 /// The general path through Newton's method gives what the closed form of the symmetric case gives.
 fn closed_form_orbit(budget: Budget, orbit: fn(&Loop) -> (f64, f64), family: &Family) -> Verdict {
     sample(budget, |draw| {
-        let Some(case) = Loop::draw(draw, family) else { return Case::Skipped };
-        let Ok(cycle) = limit_cycle(&case.axis, &case.relay) else { return Case::truth(false) };
+        let case = Loop::draw(draw, family)?;
+        let Ok(cycle) = limit_cycle(&case.axis, &case.relay) else { return Some(Case::truth(false)) };
         let (amplitude, period_s) = orbit(&case);
-        draw.equal(("amplitude", cycle.amplitude), amplitude, amplitude, tolerance::CANCELLING)
-            .and(draw.equal(("period_s", cycle.period_s), period_s, period_s, tolerance::CANCELLING))
-            .and(draw.equal(("bias", cycle.bias), 0.0, amplitude, tolerance::CANCELLING))
+        let equations = [
+            ("amplitude", cycle.amplitude, amplitude, amplitude),
+            ("period_s", cycle.period_s, period_s, period_s),
+            ("bias", cycle.bias, 0.0, amplitude),
+        ];
+        Some(draw.equations(equations, tolerance::CANCELLING))
     })
 }
 
 /// From any speed the return map moves towards the cycle's and never past it, with a slope in (0, 1) at the cycle.
 fn attracts(budget: Budget, family: &Family) -> Verdict {
     sample(budget, |draw| {
-        let Some(case) = Loop::draw(draw, family) else { return Case::Skipped };
-        let Ok(cycle) = limit_cycle(&case.axis, &case.relay) else { return Case::truth(false) };
+        let case = Loop::draw(draw, family)?;
+        let Ok(cycle) = limit_cycle(&case.axis, &case.relay) else { return Some(Case::truth(false)) };
         let fixed = cycle.upper_switch.velocity;
         let start = fixed * draw.log_uniform("start_over_fixed", 1e-3, 1e3);
         if (start / fixed - 1.0).abs() < 1e-4 {
-            return Case::Skipped;
+            return None;
         }
-        let Ok(next) = return_map(&case.axis, &case.relay, start) else { return Case::truth(false) };
+        let Ok(next) = return_map(&case.axis, &case.relay, start) else { return Some(Case::truth(false)) };
         // The share of the distance that is left after one period.
         let left = draw.note("left", (next.speed - fixed) / (start - fixed));
         let contracts = (0.0..1.0).contains(&cycle.multiplier);
         // Where drag is weak and the start is far off the share is one within rounding.
-        Case::truth(contracts && left > -tolerance::CANCELLING && left < 1.0 + tolerance::CANCELLING)
+        Some(Case::truth(contracts && left > -tolerance::CANCELLING && left < 1.0 + tolerance::CANCELLING))
     })
 }
 
-/// Without drag there is no limit cycle.
-fn without_drag(budget: Budget) -> Verdict {
-    no_cycle(budget, 0.0, 0.2)
-}
-
-/// Without hysteresis (and without delay) there is none either.
-fn without_hysteresis(budget: Budget) -> Verdict {
-    no_cycle(budget, 1.0, 0.0)
-}
-
+/// Without drag there is no limit cycle, nor without hysteresis and delay.
 fn no_cycle(budget: Budget, drag: f64, half_width: f64) -> Verdict {
     sample(budget, |draw| {
         let level = draw.uniform("level", 0.1, 1.0);
         let (drag, half_width) = (draw.note("drag", drag), draw.note("half_width", half_width));
-        let (Ok(axis), Ok(relay)) = (DragAxis::linear(1.0, drag), RelayHysteresis::new(level, half_width, 0.0)) else {
-            return Case::Skipped;
-        };
-        Case::truth(limit_cycle(&axis, &relay).is_ok())
+        let (axis, relay) = (DragAxis::linear(1.0, drag).ok()?, RelayHysteresis::new(level, half_width, 0.0).ok()?);
+        Some(Case::truth(limit_cycle(&axis, &relay).is_ok()))
     })
 }
 
@@ -191,50 +177,33 @@ fn disturbed(draw: &mut Draw, linear: bool, quadratic: bool) -> Option<(f64, f64
 
 fn delta(budget: Budget, linear: bool, quadratic: bool, sign: f64) -> Verdict {
     sample(budget, |draw| {
-        let Some((level, delta, cycle)) = disturbed(draw, linear, quadratic) else { return Case::truth(false) };
+        let Some((level, delta, cycle)) = disturbed(draw, linear, quadratic) else { return Some(Case::truth(false)) };
         let found = sign * disturbance_from_times(level, cycle.time_positive_s, cycle.time_negative_s);
-        draw.equal(("delta_found", found), delta, level, tolerance::CANCELLING)
+        Some(draw.equal(("delta_found", found), delta, level, tolerance::CANCELLING))
     })
 }
 
-const DELTA_FROM_TIMES_WHOLE: ClaimPart =
-    ClaimPart::whole("whole", "every linear drag, disturbance below the level, delay");
-
 claim! {
-    DELTA_FROM_TIMES = "delta-from-times" "32, delta = F_0" Theorem
+    DELTA_FROM_TIMES = "delta-from-times" Theorem
     "delta = -C (t_plus - t_minus)/T is exact for any waveform and delay when drag is linear" {
-        domain: &[DELTA_FROM_TIMES_WHOLE],
         printed: AsPrinted::Refuted(|budget| delta(budget, true, true, 1.0)),
         corrected: Some(|budget| delta(budget, true, false, 1.0)),
         // T_H taken for the time at command +C.
         falsified: |budget| delta(budget, true, false, -1.0),
         proof: Some(prove_delta_from_times),
-        hypotheses: &[
-            Hypothesis { id: "linear-drag", counterexample: Some(|budget| delta(budget, false, true, 1.0)) },
-        ],
-        depends: &["relay-f0"],
+        hypotheses: &[Hypothesis::needed("linear-drag", |budget| delta(budget, false, true, 1.0))],
     }
 }
 
-const METHOD_BIAS_WHOLE: ClaimPart =
-    ClaimPart::whole("whole", "every alpha, drag, C, x_a > 0, no disturbance, no delay");
-
 claim! {
-    METHOD_BIAS = "method-bias" "of this project" Theorem
+    METHOD_BIAS = "method-bias" Theorem
     "On symmetric orbits without delay the relative error of the method depends on one number g, whatever the parameters" {
-        domain: &[METHOD_BIAS_WHOLE],
-        by_hand: &["the cases of sign that are proved are all that the code accepts, and limits of them"],
         proof: Some(prove_method_bias),
-        printed: AsPrinted::Absent,
         corrected: Some(|budget| depends_on_g_alone(budget, &LINEAR, &LINEAR, 0.0)
             .and(|| depends_on_g_alone(budget, &QUADRATIC, &QUADRATIC, 0.0))),
         // The number of the other drag law.
         falsified: |budget| depends_on_g_alone(budget, &LINEAR, &Family { group: QUADRATIC.group, ..LINEAR }, 0.0),
-        hypotheses: &[Hypothesis {
-            id: "no-disturbance",
-            counterexample: Some(|budget| depends_on_g_alone(budget, &LINEAR, &LINEAR, 0.5)),
-        }],
-        depends: &["orbit-linear", "orbit-quadratic", "table-3"],
+        hypotheses: &[Hypothesis::needed("no-disturbance", |budget| depends_on_g_alone(budget, &LINEAR, &LINEAR, 0.5))],
     }
 }
 
@@ -257,32 +226,24 @@ fn method_errors(case: &Loop, family: &Family, disturbance: f64) -> Option<[f64;
 /// `assumed` has it.
 fn depends_on_g_alone(budget: Budget, family: &Family, assumed: &Family, disturbance: f64) -> Verdict {
     sample(budget, |draw| {
-        let Some(case) = Loop::draw(draw, family) else { return Case::Skipped };
+        let case = Loop::draw(draw, family)?;
         let g = case.half_width * (assumed.group)(case.alpha, case.drag, case.level);
         let unit = Loop::new(family, 1.0, 1.0, 1.0, g);
         let share = draw.uniform("disturbance_over_level", 0.5, 1.0) * disturbance;
         let errors = method_errors(&case, family, share).zip(unit.and_then(|unit| method_errors(&unit, family, 0.0)));
-        let Some((drawn, unit)) = errors else { return Case::truth(false) };
-        draw.equal(("alpha_error", drawn[0]), unit[0], 1.0, tolerance::CANCELLING).and(draw.equal(
-            ("drag_error", drawn[1]),
-            unit[1],
-            1.0,
-            tolerance::CANCELLING,
-        ))
+        let Some((drawn, unit)) = errors else { return Some(Case::truth(false)) };
+        let errors = [("alpha_error", drawn[0], unit[0], 1.0), ("drag_error", drawn[1], unit[1], 1.0)];
+        Some(draw.equations(errors, tolerance::CANCELLING))
     })
 }
 
 claim! {
-    BALANCE_CONVERGES = "balance-converges" "16-17, more harmonics" Theorem
+    BALANCE_CONVERGES = "balance-converges" Theorem
     "With more harmonics the balance of an integrating plant under a relay comes ever closer to the exact orbit" {
         not_proved: Some("the balance with many harmonics comes from a search, not from a formula"),
-        domain: &[ClaimPart::whole("whole", "every lag and half-width")],
-        printed: AsPrinted::Absent,
         corrected: Some(|budget| balance_error(budget, [1, 5, 15], 0.2)),
         // Closer by a factor of a thousand for each fivefold of harmonics.
         falsified: |budget| balance_error(budget, [1, 5, 15], 1e-3),
-        hypotheses: &[],
-        depends: &["theorem-2"],
     }
 }
 
@@ -291,11 +252,11 @@ fn balance_error(budget: Budget, orders: [usize; 3], factor: f64) -> Verdict {
     sample(Budget { cases: budget.cases.div_ceil(200), ..budget }, |draw| {
         let (lag_s, half_width) = (draw.log_uniform("lag_s", 0.3, 3.0), draw.uniform("half_width", 0.05, 0.5));
         let errors = balance_errors(lag_s, half_width, orders);
-        let Some([first, some, many]) = errors else { return Case::Skipped };
+        let [first, some, many] = errors?;
         for (name, error) in [("first", first), ("some", some), ("many", many)] {
             draw.note(name, error);
         }
-        Case::margin(1.0 - some / (factor * first)).and(Case::margin(1.0 - many / (factor * some)))
+        Some(Case::margin(1.0 - some / (factor * first)).and(Case::margin(1.0 - many / (factor * some))))
     })
 }
 
@@ -322,7 +283,7 @@ fn prove_delta_from_times(distortion: Distortion) -> Verdict {
         let impulse = level * (positive_s - negative_s) + delta * (positive_s + negative_s);
         Some([impulse, factor * disturbance_from_times(level, positive_s, negative_s) - delta])
     };
-    exactly(DELTA_FROM_TIMES_WHOLE, distortion, &[[1.0, 2.0, 0.3]], functions)
+    exactly(ClaimPart::WHOLE, distortion, &[[1.0, 2.0, 0.3]], functions)
 }
 
 /// What the method makes of an orbit, over the true parameters.
@@ -359,7 +320,7 @@ fn prove_method_bias(distortion: Distortion) -> Verdict {
     // The switchings lie in the middle half of the sweep and beyond.
     const POINTS: [[f64; 6]; 2] = [[2.0, 0.75, 3.0, 0.25, 0.25, 0.5], [2.0, 0.75, 3.0, 0.75, 0.75, 0.25]];
     let of = |relative: fn([Rational; 6]) -> Option<[Rational; 2]>| {
-        exactly(METHOD_BIAS_WHOLE, distortion, &POINTS, |at: [Rational; 6], factor: Rational| {
+        exactly(ClaimPart::WHOLE, distortion, &POINTS, |at: [Rational; 6], factor: Rational| {
             let one = number(1.0);
             let [.., first, second, third] = at;
             let unit = relative([one, one, one, first, second, third])?;

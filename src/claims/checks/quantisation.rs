@@ -3,9 +3,7 @@
 use super::algebra::{exactly, number};
 use super::enclosure::unknown;
 use super::identification::oscillation;
-use super::{
-    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Hypothesis, Verdict, claim, sample, tolerance,
-};
+use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::identify::iso::{Oscillation, Parameters, amplitude_sensitivity};
 use crate::numeric::{self, Real};
 use crate::proof::polynomial::Rational;
@@ -29,95 +27,57 @@ fn derivatives(o: &Oscillation<f64>) -> Option<[f64; 3]> {
 fn sensitivity(budget: Budget, index: usize, biased: bool, delayed: bool, factor: f64) -> Verdict {
     sample(budget, |draw| {
         let o = oscillation(draw, biased, delayed);
-        let Some(derivatives) = derivatives(&o) else { return Case::Skipped };
+        let derivatives = derivatives(&o)?;
         let printed = amplitude_sensitivity(o.amplitude / o.switch_level);
         let printed = [printed.alpha, printed.beta, printed.beta_quadratic][index];
-        draw.equal(("printed", factor * printed), derivatives[index], 1.0 + printed.abs(), tolerance::CANCELLING)
+        Some(draw.equal(("printed", factor * printed), derivatives[index], 1.0 + printed.abs(), tolerance::CANCELLING))
     })
 }
 
 const NO_DELAY: &str = "no-delay";
-const RATIO: ClaimPart = ClaimPart::over(
-    "ratio",
-    "no delay; the ratio of amplitude and half-width",
-    const { &[ClaimVariable::number("X/x_a", 1.0, f64::INFINITY)] },
-);
 
-claim! {
-    QUANTISATION_ALPHA = "quantisation-alpha" "37" Identity
-    "dalpha/alpha = [(2 - r^2)/(r^2 - 1)] dX/X with r = X_m/x_a" {
-        domain: &[RATIO],
-        printed: AsPrinted::Holds(|budget| sensitivity(budget, 0, false, false, 1.0)),
-        corrected: None,
-        falsified: |budget| sensitivity(budget, 0, false, false, 1.001),
-        proof: Some(prove_quantisation_alpha),
-        hypotheses: &[
-            Hypothesis { id: "unbiased", counterexample: Some(|budget| sensitivity(budget, 0, true, false, 1.0)) },
-            Hypothesis { id: NO_DELAY, counterexample: Some(|budget| sensitivity(budget, 0, false, true, 1.0)) },
-        ],
-        depends: &["table-3"],
-    }
+/// Eqs. 37 to 39: the parameter, whether the oscillation may be biased, and the hypotheses besides no delay.
+macro_rules! sensitivities {
+    ($($constant:ident = $id:literal $statement:literal, $index:literal $field:ident, biased $biased:literal
+       $(, without $hypothesis:expr)?;)+) => {
+        $(
+            claim! {
+                $constant = $id Identity $statement {
+                    printed: AsPrinted::Holds(|budget| sensitivity(budget, $index, $biased, false, 1.0)),
+                    falsified: |budget| sensitivity(budget, $index, $biased, false, 1.001),
+                    proof: Some(|distortion| {
+                        prove_sensitivity(distortion, |found| found.$field, |ratio| amplitude_sensitivity(ratio).$field)
+                    }),
+                    hypotheses: &[
+                        $($hypothesis,)?
+                        Hypothesis::needed(NO_DELAY, |budget| sensitivity(budget, $index, $biased, true, 1.0)),
+                    ],
+                }
+            }
+        )+
+    };
+}
+
+sensitivities! {
+    QUANTISATION_ALPHA = "quantisation-alpha" "dalpha/alpha = [(2 - r^2)/(r^2 - 1)] dX/X with r = X_m/x_a",
+        0 alpha, biased false,
+        without Hypothesis::needed("unbiased", |budget| sensitivity(budget, 0, true, false, 1.0));
+    QUANTISATION_BETA = "quantisation-beta" "dbeta/beta = -2 dX/X", 1 beta, biased true;
+    QUANTISATION_BETA_XX = "quantisation-beta-xx" "dbeta_xx/beta_xx = -3 dX/X", 2 beta_quadratic, biased true;
 }
 
 claim! {
-    QUANTISATION_BETA = "quantisation-beta" "38" Identity
-    "dbeta/beta = -2 dX/X" {
-        domain: &[RATIO],
-        printed: AsPrinted::Holds(|budget| sensitivity(budget, 1, true, false, 1.0)),
-        corrected: None,
-        falsified: |budget| sensitivity(budget, 1, true, false, 1.001),
-        proof: Some(prove_quantisation_beta),
-        hypotheses: &[Hypothesis { id: NO_DELAY, counterexample: Some(|budget| sensitivity(budget, 1, true, true, 1.0)) }],
-        depends: &["table-3"],
-    }
-}
-
-claim! {
-    QUANTISATION_BETA_XX = "quantisation-beta-xx" "39" Identity
-    "dbeta_xx/beta_xx = -3 dX/X" {
-        domain: &[RATIO],
-        printed: AsPrinted::Holds(|budget| sensitivity(budget, 2, true, false, 1.0)),
-        corrected: None,
-        falsified: |budget| sensitivity(budget, 2, true, false, 1.001),
-        proof: Some(prove_quantisation_beta_xx),
-        hypotheses: &[Hypothesis { id: NO_DELAY, counterexample: Some(|budget| sensitivity(budget, 2, true, true, 1.0)) }],
-        depends: &["table-3"],
-    }
-}
-
-claim! {
-    QUANTISATION_ZERO = "quantisation-zero" "after 37" Theorem
+    QUANTISATION_ZERO = "quantisation-zero" Theorem
     "At X_m = sqrt(2) x_a alpha is insensitive, to first order, to an error of the amplitude" {
-        domain: &[
-            ZERO,
-            ClaimPart::over(
-                "positive-below",
-                "the slope is positive below",
-                const { &[ClaimVariable::number("X/x_a", 1.0, core::f64::consts::SQRT_2)] },
-            ),
-            ClaimPart::over(
-                "negative-above",
-                "the slope is negative above",
-                const { &[ClaimVariable::number("X/x_a", core::f64::consts::SQRT_2, f64::INFINITY)] },
-            ),
-        ],
-        printed: AsPrinted::Absent,
         corrected: Some(|budget| {
             zero_at(budget, core::f64::consts::SQRT_2, false, false)
         }),
         falsified: |budget| zero_at(budget, 1.5, false, false),
         proof: Some(prove_quantisation_zero),
         hypotheses: &[
-            Hypothesis {
-                id: "unbiased",
-                counterexample: Some(|budget| zero_at(budget, core::f64::consts::SQRT_2, true, false)),
-            },
-            Hypothesis {
-                id: NO_DELAY,
-                counterexample: Some(|budget| zero_at(budget, core::f64::consts::SQRT_2, false, true)),
-            },
+            Hypothesis::needed("unbiased", |budget| zero_at(budget, core::f64::consts::SQRT_2, true, false)),
+            Hypothesis::needed(NO_DELAY, |budget| zero_at(budget, core::f64::consts::SQRT_2, false, true)),
         ],
-        depends: &["quantisation-alpha"],
     }
 }
 
@@ -130,10 +90,8 @@ fn zero_at(budget: Budget, ratio: f64, biased: bool, delayed: bool) -> Verdict {
                 Oscillation { amplitude: ratio * base.switch_level, bias: 0.8 * (ratio - 1.0) * base.bias, ..base };
             derivatives(&at).map(|derivatives| derivatives[0])
         };
-        let (Some(here), Some(below), Some(above)) = (slope(ratio), slope(0.99 * ratio), slope(1.01 * ratio)) else {
-            return Case::Skipped;
-        };
-        draw.equal(("slope", here), 0.0, 1.0, tolerance::CANCELLING).and(Case::truth(below > 0.0 && above < 0.0))
+        let (here, below, above) = (slope(ratio)?, slope(0.99 * ratio)?, slope(1.01 * ratio)?);
+        Some(draw.equal(("slope", here), 0.0, 1.0, tolerance::CANCELLING).and(Case::truth(below > 0.0 && above < 0.0)))
     })
 }
 
@@ -155,31 +113,13 @@ fn prove_sensitivity(
     read: fn(Parameters<Slope>) -> Slope,
     printed: fn(Rational) -> Rational,
 ) -> Verdict {
-    const COVERED: ClaimPart = ClaimPart::whole("ratio", "");
+    const COVERED: ClaimPart = ClaimPart::named("ratio");
     exactly(COVERED, distortion, &[[3.0], [1.5]], |[amplitude], factor: Rational| {
         let [variable] = numeric::Gradient::variables([amplitude]);
         let parameter = read(identified(variable));
         Some([amplitude * parameter.slopes()[0] - factor * printed(amplitude) * parameter.value()])
     })
 }
-
-/// Eq. 37.
-fn prove_quantisation_alpha(distortion: Distortion) -> Verdict {
-    prove_sensitivity(distortion, |found| found.alpha, |r| amplitude_sensitivity(r).alpha)
-}
-
-/// Eq. 38.
-fn prove_quantisation_beta(distortion: Distortion) -> Verdict {
-    prove_sensitivity(distortion, |found| found.beta, |r| amplitude_sensitivity(r).beta)
-}
-
-/// Eq. 39.
-fn prove_quantisation_beta_xx(distortion: Distortion) -> Verdict {
-    prove_sensitivity(distortion, |found| found.beta_quadratic, |r| amplitude_sensitivity(r).beta_quadratic)
-}
-
-/// Where the slope of alpha vanishes, and on which side it has which sign.
-const ZERO: ClaimPart = ClaimPart::whole("zero", "the slope vanishes at X/x_a = sqrt(2), unbiased, no delay");
 
 /// The slope of alpha times `r (r^2 - 1)` is `(2 - r^2)` times alpha, whose square is that of a product of positive numbers.
 fn prove_quantisation_zero(distortion: Distortion) -> Verdict {
@@ -199,12 +139,10 @@ fn prove_quantisation_zero(distortion: Distortion) -> Verdict {
         Some([identified(amplitude).alpha.slopes()[0]])
     };
     let sign = |name, point: f64| {
-        exactly(ClaimPart::whole(name, ""), distortion, &[[point]], |[ratio]: [Rational; 1], factor| {
-            slope(ratio, factor)
-        })
+        exactly(ClaimPart::named(name), distortion, &[[point]], |[ratio]: [Rational; 1], factor| slope(ratio, factor))
     };
     // Level with the middle half of the sweep only above twice the half-width.
-    exactly(ZERO, distortion, &[[]], at_root)
+    exactly(ClaimPart::named("zero"), distortion, &[[]], at_root)
         .and(|| sign("positive-below", 1.25))
         .and(|| sign("negative-above", 1.5))
         .and(|| sign("negative-above", 3.0))

@@ -5,9 +5,7 @@ use core::f64::consts::PI;
 use super::algebra::{exactly, number};
 use super::enclosure::no_function;
 use super::kernels::{BREAKPOINT, on_unit, prove_kernel};
-use super::{
-    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance,
-};
+use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::describing::{ClosedForm, DescribingFunction, KernelForm, bias_of_output, by_quadrature};
 use crate::nonlinearity::{Branches, Kernel, RelayHysteresis, Sinusoid};
 use crate::numeric::Real;
@@ -40,41 +38,23 @@ fn formula(
     gain: bool,
 ) -> Verdict {
     sample(budget, |draw| {
-        let Some(case) = switching(draw) else { return Case::Skipped };
+        let case = switching(draw)?;
         let scale = (case.level + case.offset.abs()) / if gain { case.amplitude } else { 1.0 };
-        draw.equal(("formula", formula(&case)), part(&case.integral), scale, tolerance::QUADRATURE)
+        Some(draw.equal(("formula", formula(&case)), part(&case.integral), scale, tolerance::QUADRATURE))
     })
 }
 
-/// Where a formula of several switching levels is the sum of closed forms of one.
-const TERM_BY_TERM: &[ClaimPart] = &[
-    BREAKPOINT,
-    ClaimPart::over(
-        "term",
-        "each term of the formula is the closed form of one switching level",
-        const { &[ClaimVariable::number("u", -1.0, 1.0)] },
-    ),
-    ClaimPart::over(
-        "sum",
-        "the formula is the sum that the code makes, x_a + abs(x_0) <= X",
-        const { &[ClaimVariable::number("x_a/X", 0.0, 1.0), ClaimVariable::number("abs(x_0)/X", 0.0, 1.0)] },
-    ),
-];
-
 claim! {
-    RELAY_Q = "relay-q" "30" Identity
+    RELAY_Q = "relay-q" Identity
     "Q of a relay with hysteresis is -4 C x_a/(pi X^2), whatever the bias and the offset" {
-        domain: TERM_BY_TERM,
         printed: AsPrinted::Holds(|budget| {
             formula(budget, |df| df.q, |s| -4.0 * s.level * s.half_width / (PI * s.amplitude * s.amplitude), true)
         }),
-        corrected: None,
         falsified: |budget| {
             formula(budget, |df| df.q, |s| -4.0 * s.level * (s.half_width + s.bias) / (PI * s.amplitude * s.amplitude), true)
         },
         proof: Some(prove_relay_q),
-        hypotheses: &[Hypothesis { id: "switches-both-ways", counterexample: Some(formula_below_switching) }],
-        depends: &["kernel-sign", "describing-function"],
+        hypotheses: &[Hypothesis::needed("switches-both-ways", formula_below_switching)],
     }
 }
 
@@ -84,20 +64,17 @@ fn formula_below_switching(budget: Budget) -> Verdict {
         let half_width = draw.uniform("half_width", 0.5, 1.0);
         let amplitude = draw.uniform("amplitude", 0.1, 0.5);
         let formula = -4.0 * half_width / (PI * amplitude * amplitude);
-        draw.equal(("formula", formula), 0.0, 1.0, tolerance::ROUNDING)
+        Some(draw.equal(("formula", formula), 0.0, 1.0, tolerance::ROUNDING))
     })
 }
 
 claim! {
-    RELAY_P = "relay-p" "31" Identity
+    RELAY_P = "relay-p" Identity
     "P of a relay with hysteresis is (2C/(pi X)) [sqrt(1 - ((x_a - x_0)/X)^2) + sqrt(1 - ((x_a + x_0)/X)^2)]" {
-        domain: TERM_BY_TERM,
         printed: AsPrinted::Holds(|budget| formula(budget, |df| df.p, |s| in_phase(s, s.bias), true)),
-        corrected: None,
         falsified: |budget| formula(budget, |df| df.p, |s| in_phase(s, 0.0), true),
         proof: Some(prove_relay_p),
-        hypotheses: &[Hypothesis { id: "switches-both-ways", counterexample: None }],
-        depends: &["kernel-sign", "describing-function"],
+        hypotheses: &[Hypothesis::stated("switches-both-ways")],
     }
 }
 
@@ -107,55 +84,37 @@ fn in_phase(s: &Switching, bias: f64) -> f64 {
 }
 
 claim! {
-    RELAY_F0 = "relay-f0" "32" Identity
+    RELAY_F0 = "relay-f0" Identity
     "The mean output is C (t_high - t_low)/T = (C/pi) [asin((x_a + e_0)/X) - asin((x_a - e_0)/X)], plus the offset" {
-        domain: TERM_BY_TERM,
         printed: AsPrinted::Holds(|budget| mean_output(budget, 1.0)),
-        corrected: None,
         // The times exchanged: the sign error that reading T_H as the time at command +C makes.
         falsified: |budget| mean_output(budget, -1.0),
         proof: Some(prove_relay_f0),
-        hypotheses: &[Hypothesis { id: "switches-both-ways", counterexample: None }],
-        depends: &["kernel-sign", "describing-function"],
+        hypotheses: &[Hypothesis::stated("switches-both-ways")],
     }
 }
 
 fn mean_output(budget: Budget, sign: f64) -> Verdict {
     sample(budget, |draw| {
-        let Some(s) = switching(draw) else { return Case::Skipped };
+        let s = switching(draw)?;
         let angle = |distance: f64| (distance / s.amplitude).asin();
         let (rising, falling) = (angle(s.half_width - s.bias), angle(s.half_width + s.bias));
         let by_angle = s.level / PI * (falling - rising) + s.offset;
         // High from the rising crossing to the falling one: as a share of one turn.
         let high = PI - rising + falling;
         let by_time = sign * bias_of_output(s.level, high, 2.0 * PI - high) + s.offset;
-        let scale = s.level + s.offset.abs();
-        draw.equal(("by_angle", by_angle), s.integral.f0, scale, tolerance::QUADRATURE).and(draw.equal(
-            ("by_time", by_time),
-            s.integral.f0,
-            scale,
-            tolerance::QUADRATURE,
-        ))
+        let (expected, scale) = (s.integral.f0, s.level + s.offset.abs());
+        let equations = [("by_angle", by_angle, expected, scale), ("by_time", by_time, expected, scale)];
+        Some(draw.equations(equations, tolerance::QUADRATURE))
     })
 }
 
 claim! {
-    SECOND_QUADRANT = "second-quadrant" "section 4.1 (Goldfarb)" Statement
+    SECOND_QUADRANT = "second-quadrant" Statement
     "-G_N of the unbiased relay with hysteresis covers the second quadrant, and nothing else" {
-        domain: &[
-            ClaimPart::over(
-                "covered",
-                "each direction is that of some relay, every magnitude",
-                const { &[ClaimVariable::new("angle", "rad", 0.5 * PI, PI)] },
-            ),
-            ClaimPart::whole("nothing-else", "every relay and amplitude that switches it has its point in the quadrant"),
-        ],
         printed: AsPrinted::Holds(|budget| covers(budget, 0.5 * PI, PI)),
-        corrected: None,
         falsified: |budget| covers(budget, 0.5 * PI, 1.25 * PI),
         proof: Some(prove_second_quadrant),
-        hypotheses: &[],
-        depends: &["relay-p", "relay-q"],
     }
 }
 
@@ -169,29 +128,21 @@ fn covers(budget: Budget, from: f64, to: f64) -> Verdict {
             let sweep = Sinusoid::new(0.0, amplitude).ok()?;
             RelayHysteresis::new(level, half_width, 0.0).ok()?.describing_function(&sweep).ok()
         };
-        let Some(reached) = gain(level, half_width, 1.0) else { return Case::truth(false) };
+        let Some(reached) = gain(level, half_width, 1.0) else { return Some(Case::truth(false)) };
         let hit = (-reached.p - magnitude * angle.cos()).hypot(-reached.q - magnitude * angle.sin());
         let covered = draw.equal(("distance", hit), 0.0, magnitude, tolerance::ROUNDING);
         let (width, excess) = (draw.uniform("half_width", 0.0, 2.0), draw.uniform("excess", 0.0, 2.0));
-        match gain(level, width, width + excess + 1e-9) {
-            Some(any) => covered.and(Case::truth(-any.p <= 0.0 && -any.q >= 0.0)),
-            None => Case::Skipped,
-        }
+        let any = gain(level, width, width + excess + 1e-9)?;
+        Some(covered.and(Case::truth(-any.p <= 0.0 && -any.q >= 0.0)))
     })
 }
 
-const SWITCHING_CONDITION_WHOLE: ClaimPart = ClaimPart::whole("whole", "every half-width, bias and amplitude");
-
 claim! {
-    SWITCHING_CONDITION = "switching-condition" "40" Identity
+    SWITCHING_CONDITION = "switching-condition" Identity
     "Eq. 31 has a value, and the relay oscillates, exactly when (x_a + abs(x_0))/X <= 1" {
-        domain: &[SWITCHING_CONDITION_WHOLE],
         printed: AsPrinted::Holds(|budget| condition(budget, 1.0)),
-        corrected: None,
         falsified: |budget| condition(budget, 1.1),
         proof: Some(prove_switching_condition),
-        hypotheses: &[],
-        depends: &["relay-p"],
     }
 }
 
@@ -201,12 +152,9 @@ fn condition(budget: Budget, limit: f64) -> Verdict {
         let amplitude = draw.uniform("amplitude", 0.1, 4.0);
         let meets = (half_width + bias.abs()) / amplitude <= limit;
         let radicands = [half_width - bias, half_width + bias].map(|distance| 1.0 - (distance / amplitude).powi(2));
-        let (Ok(relay), Ok(sweep)) = (RelayHysteresis::new(1.0, half_width, 0.0), Sinusoid::new(bias, amplitude))
-        else {
-            return Case::Skipped;
-        };
+        let (relay, sweep) = (RelayHysteresis::new(1.0, half_width, 0.0).ok()?, Sinusoid::new(bias, amplitude).ok()?);
         let real = radicands.iter().all(|radicand| *radicand >= 0.0);
-        Case::truth(meets == real && meets == relay.describing_function(&sweep).is_ok())
+        Some(Case::truth(meets == real && meets == relay.describing_function(&sweep).is_ok()))
     })
 }
 
@@ -238,8 +186,8 @@ fn prove_printed(
     formula: impl Fn(Rational, Rational) -> Rational,
     component: fn(DescribingFunction<Rational>) -> Rational,
 ) -> Verdict {
-    const TERM: ClaimPart = ClaimPart::whole("term", "");
-    const SUM: ClaimPart = ClaimPart::whole("sum", "");
+    const TERM: ClaimPart = ClaimPart::named("term");
+    const SUM: ClaimPart = ClaimPart::named("sum");
     let of_level = |[at]: [Rational; 1], factor: Rational| {
         let level = Kernel::Sign { at, level: number(1.0), branches: Branches::Rising };
         Some([term(at) * factor - component(on_unit(level))])
@@ -281,7 +229,7 @@ fn prove_relay_f0(distortion: Distortion) -> Verdict {
         Some([by_time - relay(number(1.0), half_width, bias).f0])
     };
     prove_printed(distortion, term, |width, bias| term(width - bias) - term(width + bias), |df| df.f0)
-        .and(|| exactly(ClaimPart::whole("sum", ""), distortion, &SWITCHINGS, times))
+        .and(|| exactly(ClaimPart::named("sum"), distortion, &SWITCHINGS, times))
 }
 
 /// Each direction of the quadrant is that of some relay: with `t` from 0 to 1 the angle is `pi - 2 atan(t)`, its cosine
@@ -301,8 +249,8 @@ fn prove_second_quadrant(distortion: Distortion) -> Verdict {
         Some([df.p - factor * scale * root(share), df.q + factor * scale * share])
     };
     let points = [[2.0, 0.25, 1.0], [2.0, 0.75, 1.0]];
-    exactly(ClaimPart::whole("covered", ""), distortion, &[[0.25], [0.75]], covered)
-        .and(|| exactly(ClaimPart::whole("nothing-else", ""), distortion, &points, nothing_else))
+    exactly(ClaimPart::named("covered"), distortion, &[[0.25], [0.75]], covered)
+        .and(|| exactly(ClaimPart::named("nothing-else"), distortion, &points, nothing_else))
 }
 
 /// The larger of the two distances that eq. 31 takes roots of is the least amplitude that the relay asks for.
@@ -313,5 +261,5 @@ fn prove_switching_condition(distortion: Distortion) -> Verdict {
         Some([farther - factor * relay.least_amplitude(bias)])
     };
     let points = [[0.5, 0.2], [0.5, -0.2], [0.2, 0.5], [0.2, -0.5]];
-    exactly(SWITCHING_CONDITION_WHOLE, distortion, &points, functions)
+    exactly(ClaimPart::WHOLE, distortion, &points, functions)
 }

@@ -8,22 +8,14 @@ use crate::experiment::RelayState;
 use crate::nonlinearity::RelayHysteresis;
 use crate::proof::polynomial::{Decision, Rational, decided};
 
-const NOISE_WHOLE: ClaimPart =
-    ClaimPart::whole("whole", "every half-width and smaller noise, inputs that move one way");
-
 claim! {
-    NOISE = "relay-noise" "section 4.1, in words" Statement
+    NOISE = "relay-noise" Statement
     "While the input moves one way, noise smaller than the half-width switches the relay at most once" {
-        domain: &[NOISE_WHOLE],
-        by_hand: &["the command turns at the samples that the decisions name and at no others"],
         proof: Some(prove_noise),
         printed: AsPrinted::Refuted(|budget| switches_once(budget, 0.0, 10.0)),
         corrected: Some(|budget| switches_once(budget, 0.0, 1.0)),
         falsified: |budget| switches_once(budget, 1.5, 2.0),
-        hypotheses: &[
-            Hypothesis { id: "noise-below-half-width", counterexample: Some(|budget| switches_once(budget, 1.5, 2.0)) },
-        ],
-        depends: &[],
+        hypotheses: &[Hypothesis::needed("noise-below-half-width", |budget| switches_once(budget, 1.5, 2.0))],
     }
 }
 
@@ -32,7 +24,7 @@ fn switches_once(budget: Budget, least: f64, most: f64) -> Verdict {
     sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
         let half_width = draw.uniform("half_width", 0.1, 1.0);
         let noise = half_width * draw.uniform("noise_over_half_width", least, most);
-        let Ok(relay) = RelayHysteresis::new(1.0, half_width, 0.0) else { return Case::Skipped };
+        let relay = RelayHysteresis::new(1.0, half_width, 0.0).ok()?;
         let mut relay = RelayState::new(relay, false);
         let (mut switchings, mut high) = (0, false);
         for step in -500..=500 {
@@ -42,23 +34,16 @@ fn switches_once(budget: Budget, least: f64, most: f64) -> Verdict {
             switchings += usize::from(now != high);
             high = now;
         }
-        Case::truth(draw.note("switchings", switchings as f64) == 1.0)
+        Some(Case::truth(draw.note("switchings", switchings as f64) == 1.0))
     })
 }
 
-const SAMPLED_LEVEL_WHOLE: ClaimPart = ClaimPart::whole("whole", "every half-width, phase and sampling interval");
-
 claim! {
-    SAMPLED_LEVEL = "sampled-level" "section 4.3" Statement
+    SAMPLED_LEVEL = "sampled-level" Statement
     "A sampled relay switches at x_a or beyond, at most one sample's motion beyond" {
-        domain: &[SAMPLED_LEVEL_WHOLE],
-        by_hand: &["the command turns at the samples that the decisions name and at no others"],
         proof: Some(prove_sampled_level),
         printed: AsPrinted::Holds(|budget| overshoot(budget, 0.0)),
-        corrected: None,
         falsified: |budget| overshoot(budget, 0.01),
-        hypotheses: &[],
-        depends: &[],
     }
 }
 
@@ -67,17 +52,17 @@ fn overshoot(budget: Budget, least: f64) -> Verdict {
     sample(budget, |draw| {
         let (half_width, step) = (draw.uniform("half_width", 0.05, 0.95), draw.uniform("step_rad", 0.001, 0.5));
         let start = draw.uniform("phase_rad", -0.5 * PI, -0.5 * PI + step);
-        let Ok(relay) = RelayHysteresis::new(1.0, half_width, 0.0) else { return Case::Skipped };
+        let relay = RelayHysteresis::new(1.0, half_width, 0.0).ok()?;
         let mut relay = RelayState::new(relay, false);
         let mut angle = start;
         while angle < 0.5 * PI && relay.step(angle.sin()) < 0.0 {
             angle += step;
         }
         if angle >= 0.5 * PI {
-            return Case::Skipped;
+            return None;
         }
         let level = draw.note("level", angle.sin());
-        Case::margin(level - half_width * (1.0 + least)).and(Case::margin(half_width + step - level))
+        Some(Case::margin(level - half_width * (1.0 + least)).and(Case::margin(half_width + step - level)))
     })
 }
 
@@ -112,7 +97,7 @@ fn prove_noise(distortion: Distortion) -> Verdict {
         let room = (half_width - first_noise) + (half_width + later_noise);
         Some([above - below + (later - first) + factor * room])
     };
-    exactly(NOISE_WHOLE, distortion, &[POINT], sum)
+    exactly(ClaimPart::WHOLE, distortion, &[POINT], sum)
 }
 
 /// A sample that turns the command is at the level or beyond, and beyond it by less than the motion since the one before, which
@@ -131,5 +116,5 @@ fn prove_sampled_level(distortion: Distortion) -> Verdict {
         let overshoot = turning - half_width;
         Some([beyond - factor * overshoot, overshoot - missed - (turning - before)])
     };
-    exactly(SAMPLED_LEVEL_WHOLE, distortion, &[POINT], functions)
+    exactly(ClaimPart::WHOLE, distortion, &[POINT], functions)
 }

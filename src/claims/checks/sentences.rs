@@ -2,7 +2,7 @@
 
 use core::f64::consts::{PI, SQRT_2};
 
-use super::{AsPrinted, Budget, Case, ClaimPart, Hypothesis, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::describing::{ClosedForm, DescribingFunction};
 use crate::identify::iso::amplitude_sensitivity;
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
@@ -13,16 +13,14 @@ use crate::plant::DragAxis;
 const SAMPLED: &str = "the program draws cases";
 
 claim! {
-    CONFIDENCE_BOUNDS = "confidence-bounds" "section 5.3" Statement
+    CONFIDENCE_BOUNDS = "confidence-bounds" Statement
     "The bounds of both drags fall as the amplitude grows; that of the inertia grows from 1.414 to 2.136 half-widths" {
-        domain: &[ClaimPart::whole("amplitudes", "every half-width, step of the reading and amplitude above the half-width")],
         not_proved: Some(SAMPLED),
         printed: AsPrinted::Refuted(|budget| inertia(budget, &[(1.0, 4.0, false)])),
         corrected: Some(|budget| {
             inertia(budget, &[(1.0, SQRT_2, false), (SQRT_2, GREATEST, true), (GREATEST, 10.0, false)])
         }),
         falsified: |budget| inertia(budget, &[(SQRT_2, 2.5, true)]),
-        depends: &["quantisation-alpha", "quantisation-beta", "quantisation-beta-xx"],
     }
 }
 
@@ -37,27 +35,25 @@ fn inertia(budget: Budget, ranges: &'static [(f64, f64, bool)]) -> Verdict {
         let [first, second] = ["first_ratio", "second_ratio"].map(|name| draw.uniform(name, from, to));
         let (smaller, larger) = (first.min(second), first.max(second));
         if larger - smaller < tolerance::CANCELLING {
-            return Case::Skipped;
+            return None;
         }
         let [at_smaller, at_larger] = [smaller, larger].map(|ratio| {
             let per_amplitude = amplitude_sensitivity(ratio);
             [per_amplitude.alpha, per_amplitude.beta, per_amplitude.beta_quadratic].map(|s| s.abs() / ratio)
         });
         let drags_fall = at_larger[1] < at_smaller[1] && at_larger[2] < at_smaller[2];
-        Case::truth(drags_fall && at_larger[0] != at_smaller[0] && (at_larger[0] > at_smaller[0]) == grows)
+        Some(Case::truth(drags_fall && at_larger[0] != at_smaller[0] && (at_larger[0] > at_smaller[0]) == grows))
     })
 }
 
 claim! {
-    DISTURBANCE_AND_DRAG = "disturbance-and-drag" "conclusion" Statement
+    DISTURBANCE_AND_DRAG = "disturbance-and-drag" Statement
     "On the first harmonic the drag identified does not depend on the disturbance; on exact orbits it does" {
-        domain: &[ClaimPart::whole("first-harmonic", "every relay with hysteresis, offset, bias and amplitude that switches it")],
         not_proved: Some(SAMPLED),
         printed: AsPrinted::Refuted(on_exact_orbits),
         corrected: Some(|budget| on_the_first_harmonic(budget, |df| df.q)),
         falsified: |budget| on_the_first_harmonic(budget, |df| df.p),
-        hypotheses: &[Hypothesis { id: "one-tone", counterexample: Some(on_exact_orbits) }],
-        depends: &["relay-q", "linear-drag"],
+        hypotheses: &[Hypothesis::needed("one-tone", on_exact_orbits)],
     }
 }
 
@@ -71,8 +67,8 @@ fn on_the_first_harmonic(budget: Budget, part: fn(DescribingFunction<f64>) -> f6
             let relay = RelayHysteresis::new(level, half_width, offset).ok()?;
             relay.describing_function(&Sinusoid::new(bias, amplitude).ok()?).ok().map(part)
         };
-        let (Some(disturbed), Some(quiet)) = (of(offset, bias), of(0.0, 0.0)) else { return Case::Skipped };
-        draw.equal(("disturbed", disturbed), quiet, level / amplitude, tolerance::ROUNDING)
+        let (disturbed, quiet) = (of(offset, bias)?, of(0.0, 0.0)?);
+        Some(draw.equal(("disturbed", disturbed), quiet, level / amplitude, tolerance::ROUNDING))
     })
 }
 
@@ -87,7 +83,7 @@ fn on_exact_orbits(budget: Budget) -> Verdict {
             let omega = 2.0 * PI / (orbit.time_positive_s + orbit.time_negative_s);
             Some(4.0 * half_width / (PI * omega * orbit.amplitude * orbit.amplitude))
         };
-        let (Some(disturbed), Some(quiet)) = (identified(disturbance), identified(0.0)) else { return Case::Skipped };
-        draw.equal(("drag_disturbed", disturbed), quiet, quiet, tolerance::CANCELLING)
+        let (disturbed, quiet) = (identified(disturbance)?, identified(0.0)?);
+        Some(draw.equal(("drag_disturbed", disturbed), quiet, quiet, tolerance::CANCELLING))
     })
 }

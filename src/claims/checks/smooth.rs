@@ -3,10 +3,9 @@
 //! The integral is replaced by a mean over equally spaced angles, whose error is bounded because the output is analytic about
 //! the real axis; the closed form less that finite sum vanishes, as an identity of two variables.
 
-use super::{
-    AsPrinted, Budget, Case, ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, claim, sample, tolerance,
-};
-use crate::describing::{ClosedForm, by_quadrature};
+use super::family::closed_is_integral;
+use super::{Budget, ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, claim, sample, tolerance};
+use crate::describing::ClosedForm;
 use crate::nonlinearity::{Arctan, Branch, NonlinearityError, Sine, Sinh, Sinusoid, Tanh};
 use crate::numeric::{Interval, Real};
 use crate::proof::identity::{Series, prove_zero_of_two};
@@ -77,20 +76,13 @@ impl<V: ClosedForm<Number = Interval>, S: ClosedForm<Number = Series>> Smooth<V,
                     ClaimVariable::number("abs(k B)", bias[0], bias[1]),
                     ClaimVariable::number("k X", amplitude[0], amplitude[1]),
                 ];
-                let part = ClaimPart { variables: sides.into(), ..ClaimPart::whole("every-sweep", "") };
+                let part = ClaimPart { variables: sides.into(), ..ClaimPart::named("every-sweep") };
                 Verdict::Holds(Evidence::identity(part, proved.bound.value() + 2.0 * RULE, proved.boxes))
             }
             Err(_) => Verdict::undecided("an identity of two variables, 3000 cells"),
         }
     }
 }
-
-/// For what each closed form here is stated.
-const EVERY: ClaimPart = ClaimPart::over(
-    "every-sweep",
-    "every gain and scale k, bias and amplitude; F_0 and X P",
-    const { &[ClaimVariable::number("abs(k B)", 0.0, f64::INFINITY), ClaimVariable::number("k X", 0.0, f64::INFINITY)] },
-);
 
 const UNIT: Interval = Interval::ONE;
 const ONE: Series = Series::constant(UNIT);
@@ -134,19 +126,14 @@ fn tanh(distortion: Distortion) -> Verdict {
 type Make<C> = fn(f64, f64) -> Result<C, NonlinearityError>;
 
 /// Closed form times `factor` against quadrature, gains and biases of either sign.
-fn closed_is_integral<C: ClosedForm<Number = f64>>(budget: Budget, make: Make<C>, factor: f64) -> Verdict {
+fn smooth_is_integral<C: ClosedForm<Number = f64>>(budget: Budget, make: Make<C>, factor: f64) -> Verdict {
     sample(budget, |draw| {
         let characteristic = make(draw.uniform("gain", -2.0, 2.0), draw.uniform("scale", 0.2, 2.0));
         let sweep = Sinusoid::new(draw.uniform("bias", -2.0, 2.0), draw.uniform("amplitude", 0.1, 2.0));
-        let (Ok(characteristic), Ok(sweep)) = (characteristic, sweep) else { return Case::Skipped };
-        let closed = characteristic.describing_function(&sweep);
-        let (Ok(closed), Ok(integral)) = (closed, by_quadrature(&characteristic, &sweep)) else { return Case::Skipped };
+        let (characteristic, sweep) = (characteristic.ok()?, sweep.ok()?);
         let [low, high] =
             [sweep.minimum(), sweep.maximum()].map(|x| characteristic.output(x, Branch::Rising, &sweep).abs());
-        let (scale, amplitude) = (low.max(high).max(1e-3), sweep.amplitude());
-        let mut equal =
-            |name, closed: f64, integral| draw.equal((name, closed * factor), integral, scale, tolerance::QUADRATURE);
-        equal("f0", closed.f0, integral.f0).and(equal("y_p1", closed.p * amplitude, integral.p * amplitude))
+        closed_is_integral(draw, &characteristic, &sweep, low.max(high).max(1e-3), factor)
     })
 }
 
@@ -155,21 +142,12 @@ macro_rules! smooth {
     ($($constant:ident = $id:literal $statement:literal, $type:ident $proof:ident;)+) => {
         $(
             claim! {
-                $constant = $id "10" Identity
+                $constant = $id Identity
                 $statement {
-                    printed: AsPrinted::Absent,
-                    corrected: Some(|budget| closed_is_integral(budget, $type::new, 1.0)),
-                    falsified: |budget| closed_is_integral(budget, $type::new, 1.000_01),
-                    domain: &[EVERY],
+                    corrected: Some(|budget| smooth_is_integral(budget, $type::new, 1.0)),
+                    falsified: |budget| smooth_is_integral(budget, $type::new, 1.000_01),
                     not_proved: Some("the error of the finite mean grows with the sweep, and boxes near amplitude zero cancel"),
-                    by_hand: &[
-                        "gain and scale are set to one by homogeneity",
-                        "negative biases by the parity of the characteristic",
-                        "the error of the finite mean by the bound for analytic functions (Trefethen, Weideman 2014)",
-                    ],
                     proof: Some($proof),
-                    hypotheses: &[],
-                    depends: &["fourier-coefficients"],
                 }
             }
         )+

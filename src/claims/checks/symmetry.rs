@@ -2,30 +2,23 @@
 
 use super::family::{mean_of, odd_nondecreasing, output_scale, sweep};
 use super::step::by_steps;
-use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Hypothesis, Verdict, claim, sample, tolerance};
+use super::{AsPrinted, Budget, Case, ClaimPart, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::describing::ClosedForm;
 use crate::nonlinearity::{RelayDeadZone, Sinusoid};
 use crate::numeric::quadrature::integrate;
 
-const LEMMA_1_WHOLE: ClaimPart = ClaimPart::whole(
-    "whole",
-    "every rising branch that is one nondecreasing function, not constant inside the sweep and its mirror image, the falling branch its half-turn image; without memory: odd, nondecreasing, not zero inside the sweep; every bias and amplitude",
-);
-
 claim! {
-    LEMMA_1 = "lemma-1" "Lemma 1" Lemma
+    LEMMA_1 = "lemma-1" Lemma
     "Odd, nondecreasing and not zero inside the sweep: the mean output has the sign of the bias, and vanishes with it" {
-        domain: &[LEMMA_1_WHOLE],
         printed: AsPrinted::Refuted(|budget| vanishes_only_unbiased(budget, |x| x * x * x - 2.0 * x)),
         corrected: Some(mean_has_sign_of_bias),
         falsified: |budget| vanishes_only_unbiased(budget, |x| (3.0 * x).sin()),
-        proof: Some(prove_lemma_1),
+        proof: Some(|distortion| by_steps(distortion, const { &[ClaimPart::WHOLE] })),
         hypotheses: &[
-            Hypothesis { id: "odd", counterexample: Some(|budget| vanishes_only_unbiased(budget, |x| x + 0.5)) },
-            Hypothesis { id: "nondecreasing", counterexample: Some(|budget| vanishes_only_unbiased(budget, f64::sin)) },
-            Hypothesis { id: "not-zero-inside-sweep", counterexample: Some(inside_the_dead_zone) },
+            Hypothesis::needed("odd", |budget| vanishes_only_unbiased(budget, |x| x + 0.5)),
+            Hypothesis::needed("nondecreasing", |budget| vanishes_only_unbiased(budget, f64::sin)),
+            Hypothesis::needed("not-zero-inside-sweep", inside_the_dead_zone),
         ],
-        depends: &["fourier-coefficients"],
     }
 }
 
@@ -41,10 +34,10 @@ fn vanishes_only_unbiased(budget: Budget, function: fn(f64) -> f64) -> Verdict {
         }
         let mean = |bias| mean_of(function, bias, amplitude);
         let scale = function(from - amplitude).abs().max(function(to + amplitude).abs());
-        match bisect(mean, from, to) {
+        Some(match bisect(mean, from, to) {
             Some(bias) => draw.at_most(("bias", bias.abs()), ("mean", mean(bias).abs()), scale),
             None => Case::truth(true),
-        }
+        })
     })
 }
 
@@ -64,18 +57,18 @@ fn bisect(f: impl Fn(f64) -> f64, mut from: f64, mut to: f64) -> Option<f64> {
 /// Strictly: the mean is on the bias's side of zero.
 fn mean_has_sign_of_bias(budget: Budget) -> Verdict {
     sample(budget, |draw| {
-        let (Ok(characteristic), Ok(sweep)) = (odd_nondecreasing(draw), sweep(draw)) else { return Case::Skipped };
-        let Ok(df) = characteristic.describing_function(&sweep) else { return Case::Skipped };
+        let (characteristic, sweep) = (odd_nondecreasing(draw).ok()?, sweep(draw).ok()?);
+        let df = characteristic.describing_function(&sweep).ok()?;
         let scale = output_scale(&*characteristic, &sweep);
         // Constant or zero over the sweep and its mirror image, and a bias lost in rounding: no hypothesis, no case.
         if scale == 0.0 || sweep.bias().abs() < 1e-6 * sweep.amplitude() {
-            return Case::Skipped;
+            return None;
         }
         let signed = draw.note("f0", df.f0) * sweep.bias().signum();
         let unbiased = Sinusoid::new(0.0, sweep.amplitude()).map(|sweep| characteristic.describing_function(&sweep));
-        let Ok(Ok(unbiased)) = unbiased else { return Case::Skipped };
+        let unbiased = unbiased.ok()?.ok()?;
         let zero = draw.equal(("f0_unbiased", unbiased.f0), 0.0, scale, tolerance::ROUNDING);
-        zero.and(if signed > 0.0 { Case::margin(signed / scale) } else { Case::truth(false) })
+        Some(zero.and(if signed > 0.0 { Case::margin(signed / scale) } else { Case::truth(false) }))
     })
 }
 
@@ -84,41 +77,25 @@ fn inside_the_dead_zone(budget: Budget) -> Verdict {
     sample(budget, |draw| {
         let (bias, amplitude) = (draw.uniform("bias", 0.1, 1.0), draw.uniform("amplitude", 0.1, 1.0));
         let dead_zone = draw.note("dead_zone", bias + amplitude);
-        let (Ok(relay), Ok(sweep)) = (RelayDeadZone::new(1.0, dead_zone), Sinusoid::new(bias, amplitude)) else {
-            return Case::Skipped;
-        };
-        relay.describing_function(&sweep).map_or(Case::Skipped, |df| Case::truth(draw.note("f0", df.f0) != 0.0))
+        let (relay, sweep) = (RelayDeadZone::new(1.0, dead_zone).ok()?, Sinusoid::new(bias, amplitude).ok()?);
+        let f0 = relay.describing_function(&sweep).ok()?.f0;
+        Some(Case::truth(draw.note("f0", f0) != 0.0))
     })
 }
 
-const LEMMA_2_WHOLE: ClaimPart = ClaimPart::whole(
-    "whole",
-    "every pair of branches with E(x) = [F_up(x) + F_down(-x)]/2 of one sign, not zero almost everywhere on the sweep; nondecreasing branches for the sign of the bias; every amplitude",
-);
-
 claim! {
-    LEMMA_2 = "lemma-2" "Lemma 2" Lemma
+    LEMMA_2 = "lemma-2" Lemma
     "With an even part of one sign the mean output cannot vanish without bias; nondecreasing, only with one of the other sign" {
-        domain: &[LEMMA_2_WHOLE],
         printed: AsPrinted::Refuted(|budget| unbiased_mean_is_not_zero(budget, |x, even| x + even * (x * x - 0.5))),
         corrected: Some(|budget| even_part_decides(budget, |x, even| x * x * x + x + even * (1.0 + (-x * x).exp()))),
         falsified: |budget| even_part_decides(budget, |x, even| x + even * (x * x - 0.5)),
-        proof: Some(prove_lemma_2),
+        proof: Some(|distortion| by_steps(distortion, const { &[ClaimPart::WHOLE] })),
         hypotheses: &[
-            Hypothesis {
-                id: "even-part-of-one-sign",
-                counterexample: Some(|budget| unbiased_mean_is_not_zero(budget, |x, even| x + even * (x * x - 0.5))),
-            },
-            Hypothesis {
-                id: "even-part-not-zero",
-                counterexample: Some(|budget| unbiased_mean_is_not_zero(budget, |x, _| x)),
-            },
-            Hypothesis {
-                id: "nondecreasing",
-                counterexample: Some(|budget| even_part_decides(budget, |x, even| even - x)),
-            },
+            Hypothesis::needed("even-part-of-one-sign",
+                |budget| unbiased_mean_is_not_zero(budget, |x, even| x + even * (x * x - 0.5))),
+            Hypothesis::needed("even-part-not-zero", |budget| unbiased_mean_is_not_zero(budget, |x, _| x)),
+            Hypothesis::needed("nondecreasing", |budget| even_part_decides(budget, |x, even| even - x)),
         ],
-        depends: &["lemma-1"],
     }
 }
 
@@ -137,7 +114,7 @@ fn unbiased_mean_is_not_zero(budget: Budget, function: WithEvenPart) -> Verdict 
     sample(budget, |draw| {
         let even = draw.uniform("even", 0.1, 1.0);
         let f0 = draw.note("f0", mean(function, even, 0.0, 1.0));
-        Case::margin(f0.abs() - tolerance::QUADRATURE)
+        Some(Case::margin(f0.abs() - tolerance::QUADRATURE))
     })
 }
 
@@ -147,7 +124,7 @@ fn even_part_decides(budget: Budget, function: WithEvenPart) -> Verdict {
         let even = draw.uniform("even", -1.0, 1.0);
         let amplitude = draw.uniform("amplitude", 0.2, 2.0);
         if even.abs() < 1e-3 {
-            return Case::Skipped;
+            return None;
         }
         let f0 = |bias| mean(function, even, bias, amplitude);
         let unbiased = draw.note("f0", f0(0.0)).abs() - tolerance::QUADRATURE;
@@ -155,16 +132,6 @@ fn even_part_decides(budget: Budget, function: WithEvenPart) -> Verdict {
             Some(bias) => Case::margin(-draw.note("bias", bias) * even.signum()),
             None => Case::truth(true),
         };
-        Case::margin(unbiased).and(opposite)
+        Some(Case::margin(unbiased).and(opposite))
     })
-}
-
-/// By the mean of a step.
-pub(super) fn prove_lemma_1(distortion: Distortion) -> Verdict {
-    by_steps(distortion, const { &[LEMMA_1_WHOLE] })
-}
-
-/// By the mean of a step.
-pub(super) fn prove_lemma_2(distortion: Distortion) -> Verdict {
-    by_steps(distortion, const { &[LEMMA_2_WHOLE] })
 }

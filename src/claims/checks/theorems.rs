@@ -18,7 +18,6 @@ fn few(budget: Budget) -> Budget {
 struct Loop {
     integrating: bool,
     offset: bool,
-    referred: bool,
 }
 
 impl Loop {
@@ -29,7 +28,7 @@ impl Loop {
         let denominator = if self.integrating { vec![lags[0], lags[1], 1.0, 0.0] } else { lags.to_vec() };
         let plant = StateSpace::realise(&TransferFunction::new(&[1.0], &denominator).ok()?).ok()?;
         let offset = if self.offset { draw.uniform("offset", 0.1, 0.5) } else { 0.0 };
-        let reference = if self.referred { draw.uniform("reference", 0.1, 0.4) } else { 0.0 };
+        let reference = draw.uniform("reference", 0.1, 0.4);
         let relay = RelayHysteresis::new(1.0, draw.uniform("half_width", 0.1, 0.3), offset).ok()?;
         let lap = first + second;
         let found =
@@ -42,31 +41,27 @@ impl Loop {
 fn symmetry(draw: &mut Draw, orbit: &RelayOrbit, centre: f64) -> Case {
     let (period, amplitude) = (orbit.period_s(), orbit.amplitude());
     let skew = orbit.time_positive_s() - orbit.time_negative_s();
-    draw.equal(("time_difference_s", skew), 0.0, period, tolerance::CANCELLING).and(draw.equal(
-        ("middle", orbit.bias()),
-        centre,
-        amplitude,
-        tolerance::CANCELLING,
-    ))
+    let equations = [("time_difference_s", skew, 0.0, period), ("middle", orbit.bias(), centre, amplitude)];
+    draw.equations(equations, tolerance::CANCELLING)
 }
 
 /// Every orbit is symmetric.
 fn symmetric(budget: Budget, family: &Loop) -> Verdict {
     sample(few(budget), |draw| {
-        let Some((orbits, reference)) = family.orbits(draw) else { return Case::Skipped };
+        let (orbits, reference) = family.orbits(draw)?;
         let centre = if family.integrating { reference } else { 0.0 };
-        orbits.iter().fold(Case::truth(true), |case, orbit| case.and(symmetry(draw, orbit, centre)))
+        Some(orbits.iter().fold(Case::truth(true), |case, orbit| case.and(symmetry(draw, orbit, centre))))
     })
 }
 
 /// No orbit is symmetric: the margin is the least difference of times, as a share of the period.
 fn asymmetric(budget: Budget, family: &Loop) -> Verdict {
     sample(few(budget), |draw| {
-        let Some((orbits, _)) = family.orbits(draw) else { return Case::Skipped };
+        let (orbits, _) = family.orbits(draw)?;
         let skew = |orbit: &RelayOrbit| {
             (orbit.time_positive_s() - orbit.time_negative_s()).abs() / orbit.period_s() - tolerance::CANCELLING
         };
-        Case::margin(draw.note("least_skew", orbits.iter().map(skew).fold(f64::INFINITY, f64::min)))
+        Some(Case::margin(draw.note("least_skew", orbits.iter().map(skew).fold(f64::INFINITY, f64::min))))
     })
 }
 
@@ -86,44 +81,30 @@ fn odd_and_astatic_without_bias(budget: Budget) -> Verdict {
         let amplitude = draw.note("amplitude", ((4.0 - 2.0 / gain) / 3.75).sqrt());
         let bias = draw.note("bias", (2.0 - 1.5 * amplitude * amplitude).sqrt());
         let balanced = residual(|x| x * x * x - 2.0 * x, gain, bias, amplitude);
-        balanced.map_or(Case::Skipped, |left| Case::margin(draw.note("residual", left) - tolerance::QUADRATURE))
+        Some(Case::margin(draw.note("residual", balanced?) - tolerance::QUADRATURE))
     })
 }
 
-const THEOREM_2_FIRST_HARMONIC: ClaimPart = ClaimPart::whole(
-    "first-harmonic",
-    "every linear process, every characteristic of lemma 1, its input a sinusoid about a bias, every constant reference",
-);
-const THEOREM_2_RELAY_ORBITS: ClaimPart = ClaimPart::whole(
-    "relay-orbits",
-    "every exact motion with one switching each way of a linear process under a relay with hysteresis, the integrator's pole the only one on the imaginary axis, every constant reference",
-);
+const FIRST_HARMONIC: ClaimPart = ClaimPart::named("first-harmonic");
+const RELAY_ORBITS: ClaimPart = ClaimPart::named("relay-orbits");
 
 claim! {
-    THEOREM_2 = "theorem-2" "Theorem 2" Theorem
+    THEOREM_2 = "theorem-2" Theorem
     "Odd, nondecreasing and not zero inside the sweep: symmetric about any constant reference if the process integrates, and about none but zero if not" {
-        domain: &[THEOREM_2_FIRST_HARMONIC, THEOREM_2_RELAY_ORBITS],
         printed: AsPrinted::Refuted(odd_and_astatic_without_bias),
         corrected: Some(|budget| {
-            symmetric(budget, &Loop { integrating: true, offset: false, referred: true })
-                .and(|| asymmetric(budget, &Loop { integrating: false, offset: false, referred: true }))
+            symmetric(budget, &Loop { integrating: true, offset: false })
+                .and(|| asymmetric(budget, &Loop { integrating: false, offset: false }))
         }),
         // A reference that does not matter without an integrator either.
-        falsified: |budget| symmetric(budget, &Loop { integrating: false, offset: false, referred: true }),
+        falsified: |budget| symmetric(budget, &Loop { integrating: false, offset: false }),
         proof: Some(prove_theorem_2),
         hypotheses: &[
-            Hypothesis {
-                id: "integrating",
-                counterexample: Some(|budget| symmetric(budget, &Loop { integrating: false, offset: false, referred: true })),
-            },
-            Hypothesis {
-                id: "odd",
-                counterexample: Some(|budget| symmetric(budget, &Loop { integrating: true, offset: true, referred: true })),
-            },
-            Hypothesis { id: "nondecreasing", counterexample: Some(odd_and_astatic_without_bias) },
-            Hypothesis { id: "not-zero-inside-sweep", counterexample: None },
+            Hypothesis::needed("integrating", |budget| symmetric(budget, &Loop { integrating: false, offset: false })),
+            Hypothesis::needed("odd", |budget| symmetric(budget, &Loop { integrating: true, offset: true })),
+            Hypothesis::needed("nondecreasing", odd_and_astatic_without_bias),
+            Hypothesis::stated("not-zero-inside-sweep"),
         ],
-        depends: &["lemma-1"],
     }
 }
 
@@ -132,38 +113,24 @@ fn not_odd_and_astatic_with_bias(budget: Budget) -> Verdict {
     sample(budget, |draw| {
         let (gain, bias, amplitude) = (draw.note("gain", 2.0), draw.note("bias", 0.0), draw.note("amplitude", 1.0));
         let balanced = residual(|x| x + x * x - 0.5, gain, bias, amplitude);
-        balanced.map_or(Case::Skipped, |left| Case::margin(draw.note("residual", left) - tolerance::QUADRATURE))
+        Some(Case::margin(draw.note("residual", balanced?) - tolerance::QUADRATURE))
     })
 }
 
-const THEOREM_3_FIRST_HARMONIC: ClaimPart = ClaimPart::whole(
-    "first-harmonic",
-    "every linear process with an integrator, every characteristic of lemma 1 or 2, its input a sinusoid about a bias, every constant reference",
-);
-const THEOREM_3_RELAY_ORBITS: ClaimPart = ClaimPart::whole(
-    "relay-orbits",
-    "every exact motion with one switching each way of a linear process with an integrator under a relay with hysteresis, the integrator's pole the only one on the imaginary axis, every offset of the levels below the level",
-);
-
 claim! {
-    THEOREM_3 = "theorem-3" "Theorem 3" Theorem
+    THEOREM_3 = "theorem-3" Theorem
     "Integrating process: an even part of one sign makes the self-oscillations asymmetric; an odd nondecreasing characteristic keeps them symmetric" {
-        domain: &[THEOREM_3_FIRST_HARMONIC, THEOREM_3_RELAY_ORBITS],
         printed: AsPrinted::Refuted(not_odd_and_astatic_with_bias),
         corrected: Some(|budget| {
-            asymmetric(budget, &Loop { integrating: true, offset: true, referred: true })
-                .and(|| symmetric(budget, &Loop { integrating: true, offset: false, referred: true }))
+            asymmetric(budget, &Loop { integrating: true, offset: true })
+                .and(|| symmetric(budget, &Loop { integrating: true, offset: false }))
         }),
-        falsified: |budget| asymmetric(budget, &Loop { integrating: true, offset: false, referred: true }),
+        falsified: |budget| asymmetric(budget, &Loop { integrating: true, offset: false }),
         proof: Some(prove_theorem_3),
         hypotheses: &[
-            Hypothesis {
-                id: "integrating",
-                counterexample: Some(|budget| symmetric(budget, &Loop { integrating: false, offset: false, referred: true })),
-            },
-            Hypothesis { id: "even-part-of-one-sign", counterexample: Some(not_odd_and_astatic_with_bias) },
+            Hypothesis::needed("integrating", |budget| symmetric(budget, &Loop { integrating: false, offset: false })),
+            Hypothesis::needed("even-part-of-one-sign", not_odd_and_astatic_with_bias),
         ],
-        depends: &["lemma-2", "theorem-2"],
     }
 }
 
@@ -181,8 +148,8 @@ fn prove_theorem_2(distortion: Distortion) -> Verdict {
             (lower + upper) / number(2.0) - reference,
         ])
     };
-    by_steps(distortion, const { &[THEOREM_2_FIRST_HARMONIC] })
-        .and(|| exactly(THEOREM_2_RELAY_ORBITS, distortion, &[[1.0, 0.6, 0.4, 0.2, 0.3]], orbits))
+    by_steps(distortion, const { &[FIRST_HARMONIC] })
+        .and(|| exactly(RELAY_ORBITS, distortion, &[[1.0, 0.6, 0.4, 0.2, 0.3]], orbits))
 }
 
 /// On the first harmonic by lemmas 1 and 2; on exact orbits by the mean of the command: with levels `offset +- level` it vanishes
@@ -196,6 +163,6 @@ fn prove_theorem_3(distortion: Distortion) -> Verdict {
             (positive_s - negative_s) / period_s + offset / level,
         ])
     };
-    by_steps(distortion, const { &[THEOREM_3_FIRST_HARMONIC] })
-        .and(|| exactly(THEOREM_3_RELAY_ORBITS, distortion, &[[1.0, 0.6, 0.3]], orbits))
+    by_steps(distortion, const { &[FIRST_HARMONIC] })
+        .and(|| exactly(RELAY_ORBITS, distortion, &[[1.0, 0.6, 0.3]], orbits))
 }

@@ -6,24 +6,14 @@ use crate::numeric::Real;
 use crate::proof::polynomial::Rational;
 use crate::vehicle::{Allocation, BilinearThruster, Compensation, ThrustSide, Thruster};
 
-const THRUSTER_BILINEAR_WHOLE: ClaimPart =
-    ClaimPart::whole("whole", "every pair of coefficients, speed of the water and thrust");
-
 claim! {
-    THRUSTER_BILINEAR = "thruster-bilinear" "1" Identity
-    "Thrust T_nn abs(n) n - T_nu abs(n) u_a and torque alike; each thrust has one rate that turns its way and does not brake"
-    {
-        domain: &[THRUSTER_BILINEAR_WHOLE],
-        by_hand: &["the cases of sign that are proved are all that the code accepts, and limits of them"],
+    THRUSTER_BILINEAR = "thruster-bilinear" Identity
+    "Thrust T_nn abs(n) n - T_nu abs(n) u_a and torque alike; each thrust has one rate that turns its way and does not brake" {
         printed: AsPrinted::Holds(|budget| bilinear(budget, 1.0, 1.0)),
-        corrected: None,
         // Still water: the rate found without the ambient speed.
         falsified: |budget| bilinear(budget, 0.0, 1.0),
         proof: Some(prove_bilinear),
-        hypotheses: &[
-            Hypothesis { id: "not-braking", counterexample: Some(|budget| bilinear(budget, 1.0, 0.0)) },
-        ],
-        depends: &[],
+        hypotheses: &[Hypothesis::needed("not-braking", |budget| bilinear(budget, 1.0, 0.0))],
     }
 }
 
@@ -35,22 +25,22 @@ fn bilinear(budget: Budget, seen: f64, least: f64) -> Verdict {
             |names: [&'static str; 2]| (draw.log_uniform(names[0], 1e-3, 1e-1), draw.log_uniform(names[1], 1e-3, 1e-1));
         let (thrust, torque) = (pair(["t_nn", "t_nu"]), pair(["q_nn", "q_nu"]));
         let ambient = draw.uniform("ambient_speed_m_s", -2.0, 2.0);
-        let Ok(thruster) = BilinearThruster::new(thrust, torque, LARGEST_RATE) else { return Case::Skipped };
+        let thruster = BilinearThruster::new(thrust, torque, LARGEST_RATE).ok()?;
         let rate = draw.uniform("rate", -LARGEST_RATE, LARGEST_RATE);
         if rate.abs() < least * 1.01 * thrust.1 * ambient.abs() / thrust.0 {
-            return Case::Skipped;
+            return None;
         }
         let eq_1 = |(by_rate, by_speed): (f64, f64)| by_rate * rate.abs() * rate - by_speed * rate.abs() * ambient;
         let scale = |(by_rate, by_speed): (f64, f64)| (by_rate * rate * rate) + by_speed * (rate * ambient).abs();
-        let Ok(back) = thruster.rate(thruster.thrust(rate, ambient), seen * ambient) else { return Case::truth(false) };
-        draw.equal(("thrust_n", thruster.thrust(rate, ambient)), eq_1(thrust), scale(thrust), tolerance::ROUNDING)
-            .and(draw.equal(
-                ("torque_n_m", thruster.torque(rate, ambient)),
-                eq_1(torque),
-                scale(torque),
-                tolerance::ROUNDING,
-            ))
-            .and(draw.equal(("rate_found", back), rate, LARGEST_RATE, tolerance::CANCELLING))
+        let Ok(back) = thruster.rate(thruster.thrust(rate, ambient), seen * ambient) else {
+            return Some(Case::truth(false));
+        };
+        let equations = [
+            ("thrust_n", thruster.thrust(rate, ambient), eq_1(thrust), scale(thrust)),
+            ("torque_n_m", thruster.torque(rate, ambient), eq_1(torque), scale(torque)),
+        ];
+        let inverse = draw.equal(("rate_found", back), rate, LARGEST_RATE, tolerance::CANCELLING);
+        Some(inverse.and(draw.equations(equations, tolerance::ROUNDING)))
     })
 }
 
@@ -98,28 +88,21 @@ impl Commands {
     }
 }
 
-const THRUSTER_AFFINE_WHOLE: ClaimPart = ClaimPart::whole("whole", "every pair of coefficients, command and thrust");
-
 claim! {
-    THRUSTER_AFFINE = "thruster-affine" "2" Identity
-    "Thrust a abs(n) n + b n is odd and has one command, sgn(T) sqrt(abs(T)/a) where b = 0"
-    {
-        domain: &[THRUSTER_AFFINE_WHOLE],
-        by_hand: &["the cases of sign that are proved are all that the code accepts, and limits of them"],
+    THRUSTER_AFFINE = "thruster-affine" Identity
+    "Thrust a abs(n) n + b n is odd and has one command, sgn(T) sqrt(abs(T)/a) where b = 0" {
         printed: AsPrinted::Holds(|budget| affine(budget, Commands::Turning, inverse)
             .and(|| simplest(budget))),
-        corrected: None,
         // The simplest thruster's inverse whatever b.
         falsified: |budget| affine(budget, Commands::Turning, |curve, thrust| {
             (thrust.abs() / curve.quadratic).sqrt().copysign(thrust)
         }),
         proof: Some(prove_affine),
         hypotheses: &[
-            Hypothesis { id: "turning", counterexample: Some(|budget| affine(budget, Commands::Standing, inverse)) },
-            Hypothesis { id: "within-limit", counterexample: Some(|budget| affine(budget, Commands::Beyond, inverse)) },
-            Hypothesis { id: "thrust-grows", counterexample: Some(falling) },
+            Hypothesis::needed("turning", |budget| affine(budget, Commands::Standing, inverse)),
+            Hypothesis::needed("within-limit", |budget| affine(budget, Commands::Beyond, inverse)),
+            Hypothesis::needed("thrust-grows", falling),
         ],
-        depends: &[],
     }
 }
 
@@ -132,14 +115,15 @@ fn affine(budget: Budget, commands: Commands, inverse: fn(&Curve, f64) -> f64) -
     sample(budget, |draw| {
         let curve = Curve::draw(draw, false);
         let command = commands.draw(draw, &curve);
-        let Ok(thruster) = Thruster::affine(curve.quadratic, curve.linear, curve.dead_zone, curve.limit) else {
-            return Case::Skipped;
-        };
+        let thruster = Thruster::affine(curve.quadratic, curve.linear, curve.dead_zone, curve.limit).ok()?;
         let thrust = curve.thrust(command);
-        draw.equal(("thrust_n", thruster.thrust(command)), thrust, thrust, tolerance::ROUNDING)
-            .and(draw.equal(("thrust_astern_n", thruster.thrust(-command)), -thrust, thrust, tolerance::ROUNDING))
-            .and(draw.equal(("command_found", inverse(&curve, thrust)), command, command, tolerance::ROUNDING))
-            .and(draw.equal(("command_astern", inverse(&curve, -thrust)), -command, command, tolerance::ROUNDING))
+        let equations = [
+            ("thrust_n", thruster.thrust(command), thrust, thrust),
+            ("thrust_astern_n", thruster.thrust(-command), -thrust, thrust),
+            ("command_found", inverse(&curve, thrust), command, command),
+            ("command_astern", inverse(&curve, -thrust), -command, command),
+        ];
+        Some(draw.equations(equations, tolerance::ROUNDING))
     })
 }
 
@@ -148,7 +132,7 @@ fn simplest(budget: Budget) -> Verdict {
         let curve = Curve::draw(draw, true);
         let thrust = curve.thrust(Commands::Turning.draw(draw, &curve));
         let root = (thrust / curve.quadratic).sqrt();
-        draw.equal(("command_found", inverse(&curve, -thrust)), -root, root, tolerance::ROUNDING)
+        Some(draw.equal(("command_found", inverse(&curve, -thrust)), -root, root, tolerance::ROUNDING))
     })
 }
 
@@ -157,61 +141,46 @@ fn falling(budget: Budget) -> Verdict {
     sample(budget, |draw| {
         let mut curve = Curve::draw(draw, false);
         curve.quadratic = draw.note("a", -0.6 * curve.linear / curve.limit);
-        Case::truth(curve.side().is_some())
+        Some(Case::truth(curve.side().is_some()))
     })
 }
 
-const THRUSTER_ASYMMETRIC_WHOLE: ClaimPart =
-    ClaimPart::whole("whole", "every two pairs of coefficients, command and thrust");
-
 claim! {
-    THRUSTER_ASYMMETRIC = "thruster-asymmetric" "3" Definition
-    "Coefficients of their own for n > 0 and n <= 0; the sign of the thrust picks the side of the inverse"
-    {
-        domain: &[THRUSTER_ASYMMETRIC_WHOLE],
-        by_hand: &["the cases of sign that are proved are all that the code accepts, and limits of them"],
+    THRUSTER_ASYMMETRIC = "thruster-asymmetric" Definition
+    "Coefficients of their own for n > 0 and n <= 0; the sign of the thrust picks the side of the inverse" {
         printed: AsPrinted::Holds(|budget| asymmetric(budget, false)),
-        corrected: None,
         // The forward coefficients astern too.
         falsified: |budget| asymmetric(budget, true),
         proof: Some(prove_asymmetric),
-        hypotheses: &[],
-        depends: &["thruster-affine"],
     }
 }
 
 fn asymmetric(budget: Budget, forward_only: bool) -> Verdict {
     sample(budget, |draw| {
         let (ahead, astern) = (Curve::draw(draw, false), Curve::draw(draw, false));
-        let (Some(forward), Some(backward)) = (ahead.side(), astern.side()) else { return Case::Skipped };
+        let (forward, backward) = (ahead.side()?, astern.side()?);
         let thruster = Thruster::asymmetric(forward, if forward_only { forward } else { backward });
         let mut case = Case::truth(thruster.thrust(0.0) == 0.0);
         for (curve, sign) in [(ahead, 1.0), (astern, -1.0)] {
             let command = sign * Commands::Turning.draw(draw, &curve);
             let thrust = curve.thrust(command);
             let found = thruster.command(thrust).unwrap_or(f64::NAN);
-            case = case
-                .and(draw.equal(("thrust_n", thruster.thrust(command)), thrust, thrust, tolerance::ROUNDING))
-                .and(draw.equal(("command_found", found), command, command, tolerance::ROUNDING));
+            let equations =
+                [("thrust_n", thruster.thrust(command), thrust, thrust), ("command_found", found, command, command)];
+            case = case.and(draw.equations(equations, tolerance::ROUNDING));
         }
-        case
+        Some(case)
     })
 }
 
-const ALLOCATION_WHOLE: ClaimPart = ClaimPart::whole("whole", "every distance, force and moment");
-
 claim! {
-    ALLOCATION = "allocation" "35" Identity
-    "X = tau_1 + tau_2, N = d (tau_1 - tau_2); tau = (X +- N/d)/2 is its inverse"
-    {
-        domain: &[ALLOCATION_WHOLE],
+    ALLOCATION = "allocation" Identity
+    "X = tau_1 + tau_2, N = d (tau_1 - tau_2); tau = (X +- N/d)/2 is its inverse" {
         printed: AsPrinted::Holds(|budget| allocation(budget, 1.0, 1.0)),
-        corrected: None,
         // The two thrusters exchanged.
         falsified: |budget| allocation(budget, -1.0, 1.0),
         proof: Some(prove_allocation),
-        hypotheses: &[Hypothesis { id: "arm-positive", counterexample: Some(|budget| allocation(budget, 1.0, 0.0)) }],
-        depends: &[],
+        hypotheses: &[Hypothesis::needed("arm-positive", |budget| allocation(budget, 1.0, 0.0))],
     }
 }
 
@@ -219,50 +188,35 @@ fn allocation(budget: Budget, sign: f64, arm_factor: f64) -> Verdict {
     sample(budget, |draw| {
         let arm = draw.log_uniform("arm_m", 0.01, 1.0) * arm_factor;
         let (port, starboard) = (draw.uniform("port_n", -5.0, 5.0), draw.uniform("starboard_n", -5.0, 5.0));
-        let Ok(pair) = Allocation::pair(arm) else { return Case::truth(false) };
+        let Ok(pair) = Allocation::pair(arm) else { return Some(Case::truth(false)) };
         let [ahead, turning] = pair.forces(&[port, starboard]);
         let [port_found, starboard_found] = pair.thrusts(&[ahead, turning]);
         let split = 0.5 * (ahead + turning / arm);
-        let mut equal = |name, value: f64, expected: f64, scale: f64| {
-            draw.equal((name, value), expected, scale, tolerance::ROUNDING)
-        };
-        equal("x_n", ahead, port + starboard, 5.0)
-            .and(equal("n_n_m", turning, sign * arm * (port - starboard), 5.0 * arm))
-            .and(equal("port_split_n", split, port, 5.0))
-            .and(equal("port_found_n", port_found, port, 5.0))
-            .and(equal("starboard_found_n", starboard_found, starboard, 5.0))
+        let equations = [
+            ("x_n", ahead, port + starboard, 5.0),
+            ("n_n_m", turning, sign * arm * (port - starboard), 5.0 * arm),
+            ("port_split_n", split, port, 5.0),
+            ("port_found_n", port_found, port, 5.0),
+            ("starboard_found_n", starboard_found, starboard, 5.0),
+        ];
+        Some(draw.equations(equations, tolerance::ROUNDING))
     })
 }
 
-const COMPENSATION_WHOLE: ClaimPart =
-    ClaimPart::whole("whole", "every pair of thrusters at a distance from the axis, every thruster, force and moment");
-
 claim! {
-    COMPENSATION = "compensation" "Fig. 11" Theorem
-    "Inverse allocation, offset and inverse maps before the thrusters leave the force asked for, plus a constant"
-    {
-        domain: &[COMPENSATION_WHOLE],
-        by_hand: &["the cases of sign that are proved are all that the code accepts, and limits of them"],
+    COMPENSATION = "compensation" Theorem
+    "Inverse allocation, offset and inverse maps before the thrusters leave the force asked for, plus a constant" {
         printed: AsPrinted::Holds(|budget| compensation(budget, &Chain::INTACT)),
-        corrected: None,
         // The constant left out of account.
         falsified: |budget| compensation(budget, &Chain { bias: 0.0, ..Chain::INTACT }),
         proof: Some(prove_compensation),
         hypotheses: &[
-            Hypothesis {
-                id: "same-thrusters",
-                counterexample: Some(|budget| compensation(budget, &Chain { actual: 0.95, ..Chain::INTACT })),
-            },
-            Hypothesis {
-                id: "within-limits",
-                counterexample: Some(|budget| compensation(budget, &Chain { reach: 20.0, ..Chain::INTACT })),
-            },
-            Hypothesis {
-                id: "outside-dead-zone",
-                counterexample: Some(|budget| compensation(budget, &Chain { offset: false, ..Chain::INTACT })),
-            },
+            Hypothesis::needed("same-thrusters",
+                |budget| compensation(budget, &Chain { actual: 0.95, ..Chain::INTACT })),
+            Hypothesis::needed("within-limits", |budget| compensation(budget, &Chain { reach: 20.0, ..Chain::INTACT })),
+            Hypothesis::needed("outside-dead-zone",
+                |budget| compensation(budget, &Chain { offset: false, ..Chain::INTACT })),
         ],
-        depends: &["allocation", "thruster-asymmetric"],
     }
 }
 
@@ -294,24 +248,24 @@ fn compensation(budget: Budget, chain: &Chain) -> Verdict {
             };
             Some(Thruster::asymmetric(scaled(ahead)?, scaled(astern)?))
         };
-        let (Some(known), Some(actual), Ok(pair)) = (thruster(1.0), thruster(chain.actual), Allocation::pair(ARM_M))
-        else {
-            return Case::Skipped;
-        };
+        let (known, actual, pair) = (thruster(1.0)?, thruster(chain.actual)?, Allocation::pair(ARM_M).ok()?);
         let made = if chain.offset {
             Compensation::against_dead_zone(pair, [known; 2], [1.0, 1.0], [0.0, LARGEST_N_M])
         } else {
             Ok(Compensation::new(pair, [known; 2]))
         };
         // Too weak a thruster for offset and moment together.
-        let Ok(compensation) = made else { return Case::Skipped };
+        let compensation = made.ok()?;
         let moment = chain.reach * draw.uniform("moment_n_m", -LARGEST_N_M, LARGEST_N_M);
-        let Ok(commands) = compensation.commands_clamped(&[0.0, moment]) else { return Case::truth(false) };
+        let Ok(commands) = compensation.commands_clamped(&[0.0, moment]) else { return Some(Case::truth(false)) };
         let ([ahead_n, turning_n_m], bias) =
             (compensation.delivered(&commands, &[actual; 2]), compensation.bias_forces());
         let scale = bias[0].abs() + moment.abs() / ARM_M;
-        draw.equal(("turning_n_m", turning_n_m), moment + chain.bias * bias[1], ARM_M * scale, tolerance::ROUNDING)
-            .and(draw.equal(("ahead_n", ahead_n), chain.bias * bias[0], scale, tolerance::ROUNDING))
+        let equations = [
+            ("turning_n_m", turning_n_m, moment + chain.bias * bias[1], ARM_M * scale),
+            ("ahead_n", ahead_n, chain.bias * bias[0], scale),
+        ];
+        Some(draw.equations(equations, tolerance::ROUNDING))
     })
 }
 
@@ -328,12 +282,7 @@ fn prove_bilinear(distortion: Distortion) -> Verdict {
         ])
     };
     let at = |ambient, rate| [0.5, 0.3, 0.2, 0.1, ambient, rate, 9.0];
-    exactly(
-        THRUSTER_BILINEAR_WHOLE,
-        distortion,
-        &[at(2.0, 3.0), at(-2.0, 3.0), at(2.0, -3.0), at(-2.0, -3.0)],
-        functions,
-    )
+    exactly(ClaimPart::WHOLE, distortion, &[at(2.0, 3.0), at(-2.0, 3.0), at(2.0, -3.0), at(-2.0, -3.0)], functions)
 }
 
 /// Eq. 2 at a command, and the commands found for the thrusts there: what must vanish on one side.
@@ -365,8 +314,8 @@ fn prove_affine(distortion: Distortion) -> Verdict {
         Some([ahead?.square() - factor * root.square(), astern? + ahead?])
     };
     let points = [[0.5, 0.3, 1.0, 9.0, 4.0], [0.5, -0.3, 1.0, 9.0, 4.0], [-0.01, 0.3, 1.0, 9.0, 4.0]];
-    exactly(THRUSTER_AFFINE_WHOLE, distortion, &points, functions)
-        .and(|| exactly(THRUSTER_AFFINE_WHOLE, distortion, &[[0.5, 1.0, 9.0, 7.0]], simplest))
+    exactly(ClaimPart::WHOLE, distortion, &points, functions)
+        .and(|| exactly(ClaimPart::WHOLE, distortion, &[[0.5, 1.0, 9.0, 7.0]], simplest))
 }
 
 /// Coefficients, dead zone, limit and command of either side.
@@ -383,7 +332,7 @@ fn prove_asymmetric(distortion: Distortion) -> Verdict {
     let sides = [[0.5, 0.3, 1.0, 9.0, 4.0], [0.4, -0.3, 1.5, 8.0, 3.0], [-0.01, 0.3, 1.0, 9.0, 4.0]];
     let pairs = sides.iter().flat_map(|ahead| sides.iter().map(move |astern| [*ahead, *astern]));
     let points: Vec<[f64; 10]> = pairs.map(|pair| core::array::from_fn(|i| pair[i / 5][i % 5])).collect();
-    exactly(THRUSTER_ASYMMETRIC_WHOLE, distortion, &points, functions)
+    exactly(ClaimPart::WHOLE, distortion, &points, functions)
 }
 
 /// Eq. 35 and its inverse, both ways.
@@ -404,7 +353,7 @@ fn prove_allocation(distortion: Distortion) -> Verdict {
             other - (first - second / arm) / two,
         ])
     };
-    exactly(ALLOCATION_WHOLE, distortion, &[[0.1, 2.0, 3.0]], functions)
+    exactly(ClaimPart::WHOLE, distortion, &[[0.1, 2.0, 3.0]], functions)
 }
 
 /// A pair of thrusters with offsets against their dead zones: what is asked for is what commands within reach would give.
@@ -431,5 +380,5 @@ fn prove_compensation(distortion: Distortion) -> Verdict {
     let (both, falling, bending) = ([0.5, 0.3], [0.5, -0.3], [-0.001, 0.5]);
     let laws = [both, falling, bending];
     let points: Vec<_> = laws.iter().flat_map(|&one| laws.iter().map(move |&other| point(one, other, 1.25))).collect();
-    exactly(COMPENSATION_WHOLE, distortion, &points, functions)
+    exactly(ClaimPart::WHOLE, distortion, &points, functions)
 }

@@ -10,7 +10,7 @@ use crate::numeric::quadrature::integrate as by_quadrature;
 use crate::numeric::{Interval, Real};
 use crate::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
 
-const TONE: ClaimPart = ClaimPart::whole("every-tone", "every alpha, beta_1, beta_2, X, w > 0");
+const TONE: ClaimPart = ClaimPart::named("every-tone");
 
 /// An axis on one tone: parameters, amplitude, angular frequency.
 struct Tone {
@@ -53,15 +53,11 @@ impl Tone {
 }
 
 claim! {
-    FIRST_HARMONIC = "first-harmonic-equations" "21-25" Identity
+    FIRST_HARMONIC = "first-harmonic-equations" Identity
     "On one tone the drag axis has f_R = -alpha w^2 and f_I = beta_1 w + (8/(3 pi)) beta_2 X w^2" {
-        domain: &[TONE],
         printed: AsPrinted::Holds(|budget| left_side(budget, 8.0 / (3.0 * PI))),
-        corrected: None,
         falsified: |budget| left_side(budget, 0.85),
         proof: Some(prove_first_harmonic),
-        hypotheses: &[],
-        depends: &["fourier-coefficients", "sine-abs-sine"],
     }
 }
 
@@ -71,38 +67,27 @@ fn left_side(budget: Budget, sine_abs_sine: f64) -> Verdict {
         let (real, imaginary) = tone.first_harmonic();
         let (inertia, scale) = (-tone.alpha * tone.omega * tone.omega, tone.scale());
         let drag = (tone.linear + sine_abs_sine * tone.quadratic * tone.amplitude * tone.omega) * tone.omega;
-        draw.equal(("f_r", real), inertia, scale, tolerance::QUADRATURE).and(draw.equal(
-            ("f_i", imaginary),
-            drag,
-            scale,
-            tolerance::QUADRATURE,
-        ))
+        Some(draw.equations([("f_r", real, inertia, scale), ("f_i", imaginary, drag, scale)], tolerance::QUADRATURE))
     })
 }
 
 claim! {
-    LINEAR_DRAG = "linear-drag" "26-27" Theorem
+    LINEAR_DRAG = "linear-drag" Theorem
     "On one tone with linear drag, alpha = P/w^2 and beta = -Q/w give the parameters back" {
-        domain: &[TONE],
         printed: AsPrinted::Holds(|budget| gives_back(budget, |tone| tone.quadratic = 0.0, |p| p.beta, |t| t.linear)),
-        corrected: None,
         falsified: |budget| gives_back(budget, |_| {}, |p| p.beta, |t| t.linear),
-        proof: Some(prove_linear_drag),
-        hypotheses: &[Hypothesis { id: "one-tone", counterexample: None }],
-        depends: &["first-harmonic-equations"],
+        proof: Some(|distortion| prove_gives_back(distortion, false, |found| found.beta)),
+        hypotheses: &[Hypothesis::stated("one-tone")],
     }
 }
 
 claim! {
-    QUADRATIC_DRAG = "quadratic-drag" "28-29" Theorem
+    QUADRATIC_DRAG = "quadratic-drag" Theorem
     "On one tone with quadratic drag, alpha = P/w^2 and beta_xx = -(3 pi/8) Q/(X w^2) give the parameters back" {
-        domain: &[TONE],
         printed: AsPrinted::Holds(|budget| gives_back(budget, |tone| tone.linear = 0.0, |p| p.beta_quadratic, |t| t.quadratic)),
-        corrected: None,
         falsified: |budget| gives_back(budget, |_| {}, |p| p.beta_quadratic, |t| t.quadratic),
-        proof: Some(prove_quadratic_drag),
-        hypotheses: &[Hypothesis { id: "one-tone", counterexample: None }],
-        depends: &["first-harmonic-equations"],
+        proof: Some(|distortion| prove_gives_back(distortion, true, |found| found.beta_quadratic)),
+        hypotheses: &[Hypothesis::stated("one-tone")],
     }
 }
 
@@ -121,12 +106,11 @@ fn gives_back(
         let found = parameters(gain, tone.amplitude, tone.omega);
         let drag_scale = tone.scale() / tone.omega * (1.0 + 1.0 / (tone.amplitude * tone.omega));
         let alpha_scale = tone.scale() / (tone.omega * tone.omega);
-        draw.equal(("alpha_found", found.alpha), tone.alpha, alpha_scale, tolerance::QUADRATURE).and(draw.equal(
-            ("drag_found", identified(&found)),
-            given(&tone),
-            drag_scale,
-            tolerance::QUADRATURE,
-        ))
+        let equations = [
+            ("alpha_found", found.alpha, tone.alpha, alpha_scale),
+            ("drag_found", identified(&found), given(&tone), drag_scale),
+        ];
+        Some(draw.equations(equations, tolerance::QUADRATURE))
     })
 }
 
@@ -153,8 +137,7 @@ fn ratio(numerator: f64, denominator: f64) -> Interval {
 }
 
 /// For what eq. 24 is stated.
-pub(super) const EVERY_AMPLITUDE: ClaimPart =
-    ClaimPart::whole("every-amplitude", "first and third harmonic, every amplitude");
+pub(super) const EVERY_AMPLITUDE: ClaimPart = ClaimPart::named("every-amplitude");
 
 /// First and third harmonic.
 pub(super) fn prove_sine_abs_sine(distortion: Distortion) -> Verdict {
@@ -190,14 +173,4 @@ fn prove_gives_back(distortion: Distortion, quadratic: bool, read: fn(Parameters
     let found = parameters(gain, Interval::ONE, Interval::ONE);
     let factor = Interval::point(distortion.factor());
     zeros(TONE, &[found.alpha - factor, read(found) - factor], cells)
-}
-
-/// Linear drag.
-fn prove_linear_drag(distortion: Distortion) -> Verdict {
-    prove_gives_back(distortion, false, |found| found.beta)
-}
-
-/// Quadratic drag.
-fn prove_quadratic_drag(distortion: Distortion) -> Verdict {
-    prove_gives_back(distortion, true, |found| found.beta_quadratic)
 }

@@ -25,17 +25,13 @@ fn angles(draw: &mut Draw, steepest_rad: f64) -> EulerAngles {
 }
 
 claim! {
-    KINEMATICS = "kinematics" "4" Identity
-    "J1 is a rotation, J2 the inverse of the matrix from Euler rates to body rates; both agree with quaternions"
-    {
+    KINEMATICS = "kinematics" Identity
+    "J1 is a rotation, J2 the inverse of the matrix from Euler rates to body rates; both agree with quaternions" {
         not_proved: Some("rotations come from a library that has floats alone"),
-        domain: &[ClaimPart::whole("whole", "every attitude short of a vertical one, every rate")],
         printed: AsPrinted::Holds(|budget| kinematics(budget, EulerAngles::rate_matrix)),
-        corrected: None,
         // Body rates taken for Euler rates.
         falsified: |budget| kinematics(budget, |_| Ok(Matrix3::identity())),
-        hypotheses: &[Hypothesis { id: "not-upright", counterexample: Some(upright) }],
-        depends: &[],
+        hypotheses: &[Hypothesis::needed("not-upright", upright)],
     }
 }
 
@@ -44,7 +40,7 @@ type RateMatrix = fn(&EulerAngles) -> Result<Matrix3<f64>, crate::vehicle::Vehic
 fn kinematics(budget: Budget, rate_matrix: RateMatrix) -> Verdict {
     sample(budget, |draw| {
         let (angles, omega) = (angles(draw, 1.4), vector3(draw, 2.0));
-        let Ok(to_rates) = rate_matrix(&angles) else { return Case::truth(false) };
+        let Ok(to_rates) = rate_matrix(&angles) else { return Some(Case::truth(false)) };
         let rotation = *angles.rotation().matrix();
         let (yaw, pitch) = (turn(Vector3::z(), angles.yaw_rad), turn(Vector3::y(), angles.pitch_rad));
         let product = yaw * pitch * turn(Vector3::x(), angles.roll_rad);
@@ -64,13 +60,14 @@ fn kinematics(budget: Budget, rate_matrix: RateMatrix) -> Verdict {
         };
         let by_quaternion = Matrix3::from_columns(&[Vector3::x(), Vector3::y(), Vector3::z()].map(carried));
         let scale = 1.0 + rates.norm();
-        let mut small =
-            |name, difference: Matrix3<f64>| draw.equal((name, difference.amax()), 0.0, scale, tolerance::ROUNDING);
-        small("orthogonal", rotation * rotation.transpose() - Matrix3::identity())
-            .and(small("three_turns", rotation - product))
-            .and(small("euler_rates", moving - rotation * spin(omega)))
-            .and(small("quaternion", by_quaternion - rotation * spin(omega)))
-            .and(draw.equal(("determinant", rotation.determinant()), 1.0, 1.0, tolerance::ROUNDING))
+        let equations = [
+            ("orthogonal", (rotation * rotation.transpose() - Matrix3::identity()).amax(), 0.0, scale),
+            ("three_turns", (rotation - product).amax(), 0.0, scale),
+            ("euler_rates", (moving - rotation * spin(omega)).amax(), 0.0, scale),
+            ("quaternion", (by_quaternion - rotation * spin(omega)).amax(), 0.0, scale),
+            ("determinant", rotation.determinant(), 1.0, 1.0),
+        ];
+        Some(draw.equations(equations, tolerance::ROUNDING))
     })
 }
 
@@ -85,7 +82,7 @@ fn upright(budget: Budget) -> Verdict {
     sample(budget, |draw| {
         let side = if draw.index("down", 2) == 0 { 1.0 } else { -1.0 };
         let pitch_rad = draw.note("pitch_rad", side * core::f64::consts::FRAC_PI_2);
-        Case::truth(EulerAngles { pitch_rad, ..angles(draw, 1.4) }.rate_matrix().is_ok())
+        Some(Case::truth(EulerAngles { pitch_rad, ..angles(draw, 1.4) }.rate_matrix().is_ok()))
     })
 }
 
@@ -112,39 +109,24 @@ fn parameters(draw: &mut Draw) -> VehicleParameters {
     }
 }
 
-const SIX_AXES_WHOLE: ClaimPart = ClaimPart::whole("whole", "every positive definite inertia, every velocity");
-
 claim! {
-    SIX_AXES = "six-axes" "5" Identity
-    "M is symmetric positive definite, C(nu) does no work, D(nu) takes energy, and eq. 5 balances"
-    {
-        domain: &[SIX_AXES_WHOLE],
-        by_hand: &["a vehicle is refused unless its inertia is positive definite and its linear drag takes no less than nothing", "solving by Cholesky's factors inverts the inertia"],
+    SIX_AXES = "six-axes" Identity
+    "M is symmetric positive definite, C(nu) does no work, D(nu) takes energy, and eq. 5 balances" {
         printed: AsPrinted::Holds(|budget| structure(budget, |_| {}, |coriolis| coriolis)),
-        corrected: None,
         // One block of C with the wrong sign.
         falsified: |budget| structure(budget, |_| {}, |mut coriolis| {
             coriolis.fixed_view_mut::<3, 3>(0, 3).neg_mut();
             coriolis
         }),
-        proof: Some(|distortion| six_axes(&SIX_AXES_WHOLE, distortion)),
+        proof: Some(|distortion| six_axes(&ClaimPart::WHOLE, distortion)),
         hypotheses: &[
-            Hypothesis {
-                id: "inertia-of-a-body",
-                counterexample: Some(|budget| structure(budget, |p| p.centre_of_gravity_m.x += 3.0, |coriolis| coriolis)),
-            },
-            Hypothesis {
-                id: "added-mass-symmetric",
-                counterexample: Some(|budget| structure(budget, |p| p.added_mass[(0, 1)] += 0.1, |coriolis| coriolis)),
-            },
-            Hypothesis {
-                id: "drag-coefficients-dissipate",
-                counterexample: Some(|budget| {
-                    structure(budget, |p| p.linear_drag -= Matrix6::identity() * 20.0, |coriolis| coriolis)
-                }),
-            },
+            Hypothesis::needed("inertia-of-a-body",
+                |budget| structure(budget, |p| p.centre_of_gravity_m.x += 3.0, |coriolis| coriolis)),
+            Hypothesis::needed("added-mass-symmetric",
+                |budget| structure(budget, |p| p.added_mass[(0, 1)] += 0.1, |coriolis| coriolis)),
+            Hypothesis::needed("drag-coefficients-dissipate",
+                |budget| structure(budget, |p| p.linear_drag -= Matrix6::identity() * 20.0, |coriolis| coriolis)),
         ],
-        depends: &[],
     }
 }
 
@@ -157,7 +139,7 @@ fn structure(
     sample(budget, |draw| {
         let mut parameters = parameters(draw);
         change(&mut parameters);
-        let Ok(vehicle) = Vehicle::new(parameters) else { return Case::truth(false) };
+        let Ok(vehicle) = Vehicle::new(parameters) else { return Some(Case::truth(false)) };
         let (mass, nu, tau) = (vehicle.mass(), vector6(draw, 2.0), vector6(draw, 20.0));
         let attitude = UnitQuaternion::from_rotation_matrix(&angles(draw, 1.4).rotation());
         let (c, drag) = (coriolis(vehicle.coriolis(&nu)), vehicle.drag(&nu) * nu);
@@ -165,34 +147,33 @@ fn structure(
         let rest = mass * rate + c * nu + drag + vehicle.restoring(&attitude) - tau;
         let scale = mass.amax() * (nu.norm_squared() + rate.amax()) + drag.amax() + tau.amax();
         let (asymmetry, work) = ((mass - mass.transpose()).amax(), nu.dot(&(c * nu)));
-        draw.equal(("asymmetry", asymmetry), 0.0, mass.amax(), tolerance::ROUNDING)
-            .and(draw.equal(("work_of_c", work), 0.0, scale * nu.norm(), tolerance::ROUNDING))
-            .and(draw.equal(("balance", rest.amax()), 0.0, scale, tolerance::ROUNDING))
-            .and(Case::truth(vehicle.kinetic_energy_j(&nu) > 0.0 && nu.dot(&drag) > 0.0))
+        let energy = Case::truth(vehicle.kinetic_energy_j(&nu) > 0.0 && nu.dot(&drag) > 0.0);
+        let equations = [
+            ("asymmetry", asymmetry, 0.0, mass.amax()),
+            ("work_of_c", work, 0.0, scale * nu.norm()),
+            ("balance", rest.amax(), 0.0, scale),
+        ];
+        Some(draw.equations(equations, tolerance::ROUNDING).and(energy))
     })
 }
 
-const UNCOUPLED_AXIS_WHOLE: ClaimPart =
-    ClaimPart::whole("whole", "every vehicle of Table 2's form, every axis and velocity");
-
 claim! {
-    UNCOUPLED_AXIS = "uncoupled-axis" "6, Table 2" Theorem
-    "Of a symmetric, level vehicle whose other axes are at rest, an axis accelerates by eq. 5 as by eq. 6"
-    {
-        domain: &[UNCOUPLED_AXIS_WHOLE],
+    UNCOUPLED_AXIS = "uncoupled-axis" Theorem
+    "Of a symmetric, level vehicle whose other axes are at rest, an axis accelerates by eq. 5 as by eq. 6" {
         printed: AsPrinted::Holds(|budget| reduction(budget, &Assumed::ALL)),
-        corrected: None,
         // Inertia without the water's.
         falsified: |budget| reduction(budget, &Assumed { water: 0.0, ..Assumed::ALL }),
-        proof: Some(|distortion| uncoupled_axis(&UNCOUPLED_AXIS_WHOLE, distortion)),
+        proof: Some(|distortion| uncoupled_axis(&ClaimPart::WHOLE, distortion)),
         hypotheses: &[
-            Hypothesis { id: "others-at-rest", counterexample: Some(|budget| reduction(budget, &Assumed { others: 1.0, ..Assumed::ALL })) },
-            Hypothesis { id: "level", counterexample: Some(|budget| reduction(budget, &Assumed { tilt_rad: 0.3, ..Assumed::ALL })) },
-            Hypothesis { id: "gravity-at-origin", counterexample: Some(|budget| reduction(budget, &Assumed { offset: 1.0, ..Assumed::ALL })) },
-            Hypothesis { id: "axes-of-inertia", counterexample: Some(|budget| reduction(budget, &Assumed { products: 1.0, ..Assumed::ALL })) },
-            Hypothesis { id: "water-uncoupled", counterexample: Some(|budget| reduction(budget, &Assumed { coupling: 1.0, ..Assumed::ALL })) },
+            Hypothesis::needed("others-at-rest", |budget| reduction(budget, &Assumed { others: 1.0, ..Assumed::ALL })),
+            Hypothesis::needed("level", |budget| reduction(budget, &Assumed { tilt_rad: 0.3, ..Assumed::ALL })),
+            Hypothesis::needed("gravity-at-origin",
+                |budget| reduction(budget, &Assumed { offset: 1.0, ..Assumed::ALL })),
+            Hypothesis::needed("axes-of-inertia",
+                |budget| reduction(budget, &Assumed { products: 1.0, ..Assumed::ALL })),
+            Hypothesis::needed("water-uncoupled",
+                |budget| reduction(budget, &Assumed { coupling: 1.0, ..Assumed::ALL })),
         ],
-        depends: &["six-axes"],
     }
 }
 
@@ -225,7 +206,7 @@ fn reduction(budget: Budget, assumed: &Assumed) -> Verdict {
             added_mass: partly(full.added_mass, assumed.coupling),
             ..full
         };
-        let Ok(vehicle) = Vehicle::new(parameters) else { return Case::Skipped };
+        let vehicle = Vehicle::new(parameters).ok()?;
         let axis = Axis::ALL[draw.index("axis", Axis::ALL.len())];
         let i = axis.index();
         let (speed, force) = (draw.uniform("speed", -2.0, 2.0), draw.uniform("force", -20.0, 20.0));
@@ -243,6 +224,6 @@ fn reduction(budget: Budget, assumed: &Assumed) -> Verdict {
         let mut external = Vector6::zeros();
         external[i] = disturbance[i];
         let by_eq_5 = vehicle.acceleration(&attitude, &nu, &(tau + external))[i];
-        draw.equal(("by_eq_5", by_eq_5), by_eq_6, 150.0 / alpha, tolerance::ROUNDING)
+        Some(draw.equal(("by_eq_5", by_eq_5), by_eq_6, 150.0 / alpha, tolerance::ROUNDING))
     })
 }

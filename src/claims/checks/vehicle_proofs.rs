@@ -131,8 +131,7 @@ fn balance(factor: f64) -> Residuals {
 /// Eq. 5.
 pub(super) fn six_axes(part: &ClaimPart, distortion: Distortion) -> Verdict {
     let factor = distortion.factor();
-    let proofs = [symmetry, skew, turning_momenta, drag, balance].map(|proof| zero(part.clone(), proof(factor)));
-    proofs.into_iter().reduce(|all, next| all.and(|| next)).unwrap_or_else(|| Verdict::undecided("nothing"))
+    Verdict::all([symmetry, skew, turning_momenta, drag, balance].map(|proof| zero(part.clone(), proof(factor))))
 }
 
 /// Vehicles of Table 2's form, every parameter a whole number drawn at random; inertias of three axes that are those of a body.

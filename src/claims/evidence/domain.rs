@@ -82,6 +82,14 @@ impl ClaimPart {
         Self::over(name, text, &[])
     }
 
+    /// All of a claim that is stated in one part.
+    pub(crate) const WHOLE: Self = Self::named("whole");
+
+    /// The part of that name, to be proved of a claim: its page says what it consists of.
+    pub(crate) const fn named(name: &'static str) -> Self {
+        Self::whole(name, "")
+    }
+
     /// A box.
     #[must_use]
     pub const fn over(name: &'static str, text: &'static str, variables: &'static [ClaimVariable]) -> Self {

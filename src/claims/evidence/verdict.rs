@@ -195,6 +195,23 @@ impl Verdict {
         }
     }
 
+    /// All of them: the first that fails, else the evidence of all.
+    pub(crate) fn all(verdicts: impl IntoIterator<Item = Self>) -> Self {
+        verdicts.into_iter().reduce(|all, next| all.and(|| next)).unwrap_or_else(|| Self::undecided("nothing"))
+    }
+
+    /// The text of each established part is that of the claim's part of its name.
+    pub(crate) fn worded(mut self, claimed: &ClaimDomain) -> Self {
+        if let Self::Holds(evidence) = &mut self {
+            for part in evidence.proved.parts.to_mut().iter_mut().chain(evidence.exhausted.parts.to_mut()) {
+                if let Some(whole) = claimed.parts.iter().find(|whole| whole.name == part.name) {
+                    part.text.clone_from(&whole.text);
+                }
+            }
+        }
+        self
+    }
+
     /// Both: the first that fails, else the evidence of both.
     pub(crate) fn and(self, other: impl FnOnce() -> Self) -> Self {
         match self {

@@ -31,8 +31,8 @@ mod numbers {
 }
 
 impl Witness {
-    pub(crate) fn new(numbers: impl IntoIterator<Item = (&'static str, f64)>) -> Self {
-        Self { numbers: numbers.into_iter().map(|(name, value)| (Cow::Borrowed(name), value)).collect() }
+    pub(crate) fn new<N: Into<Cow<'static, str>>>(numbers: impl IntoIterator<Item = (N, f64)>) -> Self {
+        Self { numbers: numbers.into_iter().map(|(name, value)| (name.into(), value)).collect() }
     }
 }
 
