@@ -343,8 +343,7 @@ fn a_small_linear_drag_in_a_long_record_is_not_dropped() {
         let found = session.reader("log", log.as_bytes()).unwrap().identify().unwrap();
         let reported = found.reported().unwrap();
         assert_eq!(reported.drag, DragLaw::Mixed);
-        let estimates =
-            [reported.alpha, reported.beta, reported.beta_quadratic, reported.deltas[0], reported.delay_s];
+        let estimates = [reported.alpha, reported.beta, reported.beta_quadratic, reported.deltas[0], reported.delay_s];
         for (missed, (estimate, truth)) in misses.iter_mut().zip(estimates.into_iter().zip(truth)) {
             let spread = estimate.spread.unwrap();
             *missed += usize::from(!(spread.low <= truth && truth <= spread.high));

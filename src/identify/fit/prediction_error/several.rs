@@ -9,7 +9,7 @@ use super::pooling::{DISAGREE, known, mean, pooled, probability_of_one};
 use super::prediction::Prediction;
 use super::thrust::{CommandLevels, Drawn, ThrustLaw, ThrustVerdict};
 use crate::experiment::Record;
-use crate::identify::answer::{DragLaw, Estimate, LawEvidence, Reason, Reported, Trust};
+use crate::identify::answer::{Estimate, LawEvidence, Reason, Reported, Trust};
 
 /// Relative standard deviation from which on a drag says nothing about the ratio of drag to inertia.
 const VAGUE: f64 = 0.3;
