@@ -12,7 +12,7 @@ const FILTER: f64 = 10.0;
 /// ```
 /// use selfosc::autotune::FirstOrderProcess;
 /// // A heater of 180 K at full power with 110 s and a dead time of 7 s.
-/// let heater = FirstOrderProcess { drag: 110.0 / 180.0, stiffness: 1.0 / 180.0, dead_time_s: 7.0, reverse: false };
+/// let heater = FirstOrderProcess::<f64> { drag: 110.0 / 180.0, stiffness: 1.0 / 180.0, dead_time_s: 7.0, reverse: false };
 /// let gains = heater.gains(0.5)?;
 /// assert!((gains.proportional() - 0.039).abs() < 0.001);
 /// # Ok::<(), selfosc::control::ControlError>(())

@@ -97,7 +97,11 @@ fn manoeuvre(name: &str, variant: u64) -> Record {
             Record::new(log.time_s().to_vec(), output, log.input().to_vec()).unwrap()
         }
         "a switched command of a vehicle that is held" => {
-            let log = driven(60.0, &mut draw, |t, _, _| if (t / (2.0 + size)) as u64 % 2 == 0 { 1.0 } else { -1.0 });
+            let log = driven(
+                60.0,
+                &mut draw,
+                |t, _, _| if ((t / (2.0 + size)) as u64).is_multiple_of(2) { 1.0 } else { -1.0 },
+            );
             let output = log.time_s().iter().map(|_| 0.01 * other.next()).collect();
             Record::new(log.time_s().to_vec(), output, log.input().to_vec()).unwrap()
         }
