@@ -101,7 +101,7 @@ typedef enum {
   SELFOSC_CHARACTERISTIC_BACKLASH = 19,
 } SelfoscCharacteristic;
 
-// What the sensor measures.
+// The measured quantity.
 typedef enum {
   // The coordinate itself.
   SELFOSC_COORDINATE_POSITION = 0,
@@ -139,7 +139,7 @@ typedef struct {
   size_t length;
 } SelfoscText;
 
-// One parameter of a characteristic.
+// A parameter of a characteristic.
 typedef struct {
   // Its name.
   SelfoscText name;
@@ -199,11 +199,11 @@ typedef struct {
   float time_positive_s;
   // Time with the negative command, s.
   float time_negative_s;
-  // What is left of a deviation after one period, as a factor.
+  // The factor of a deviation over a period.
   float multiplier;
 } SelfoscLimitCycle_f32;
 
-// What the paper's identification starts from.
+// The quantities from which the paper's identification starts.
 typedef struct {
   // Relay level, in command units.
   float relay_level;
@@ -231,7 +231,7 @@ typedef struct {
   float disturbance;
 } SelfoscParameters_f32;
 
-// What the identification by exact limit cycles starts from.
+// The quantities from which the identification by exact limit cycles starts.
 typedef struct {
   // Relay level, in command units.
   float relay_level;
@@ -265,7 +265,7 @@ typedef struct {
   float half_width;
   // The coordinate may be this far from the reference; a reading further off is a fault.
   float largest_excursion;
-  // Before the first switching the coordinate may fall back by this much.
+  // Before the first switching the coordinate may fall back by this distance.
   float wrong_way;
   // The relay keeps an output for at least this long, s.
   float dwell_s;
@@ -317,7 +317,7 @@ typedef struct {
   float std;
 } SelfoscCycleStatistics_f32;
 
-// What a finished experiment found.
+// The result of a finished experiment.
 typedef struct {
   // Half the range, in coordinate units.
   SelfoscCycleStatistics_f32 amplitude;
@@ -399,7 +399,7 @@ typedef struct {
   uint64_t words[24];
 } SelfoscController_f32;
 
-// What a step of a controller gives.
+// The result of a step of a controller.
 typedef struct {
   // The command, within the limits in any case.
   float command;
@@ -473,11 +473,11 @@ typedef struct {
   double time_positive_s;
   // Time with the negative command, s.
   double time_negative_s;
-  // What is left of a deviation after one period, as a factor.
+  // The factor of a deviation over a period.
   double multiplier;
 } SelfoscLimitCycle_f64;
 
-// What the paper's identification starts from.
+// The quantities from which the paper's identification starts.
 typedef struct {
   // Relay level, in command units.
   double relay_level;
@@ -505,7 +505,7 @@ typedef struct {
   double disturbance;
 } SelfoscParameters_f64;
 
-// What the identification by exact limit cycles starts from.
+// The quantities from which the identification by exact limit cycles starts.
 typedef struct {
   // Relay level, in command units.
   double relay_level;
@@ -539,7 +539,7 @@ typedef struct {
   double half_width;
   // The coordinate may be this far from the reference; a reading further off is a fault.
   double largest_excursion;
-  // Before the first switching the coordinate may fall back by this much.
+  // Before the first switching the coordinate may fall back by this distance.
   double wrong_way;
   // The relay keeps an output for at least this long, s.
   double dwell_s;
@@ -592,7 +592,7 @@ typedef struct {
   double std;
 } SelfoscCycleStatistics_f64;
 
-// What a finished experiment found.
+// The result of a finished experiment.
 typedef struct {
   // Half the range, in coordinate units.
   SelfoscCycleStatistics_f64 amplitude;
@@ -674,7 +674,7 @@ typedef struct {
   uint64_t words[40];
 } SelfoscController_f64;
 
-// What a step of a controller gives.
+// The result of a step of a controller.
 typedef struct {
   // The command, within the limits in any case.
   double command;

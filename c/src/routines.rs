@@ -15,8 +15,8 @@ use selfosc::vehicle;
 use super::status::{Refused, Status, Text};
 use super::values::{
     Axis, ControlFault, ControlStep, ControllerSettings, Coordinate, CycleStatistics, Delivered, DescribingFunction,
-    DragLaw, ExperimentStep, LimitCycle, Margins, MeanCycle, Oscillation, Outcome, Parameter, Parameters, Phase, Process,
-    Protocol, Structure, ThrustSide, Thruster,
+    DragLaw, ExperimentStep, LimitCycle, Margins, MeanCycle, Oscillation, Outcome, Parameter, Parameters, Phase,
+    Process, Protocol, Structure, ThrustSide, Thruster,
 };
 
 /// ProcessReadings of a process on board.
