@@ -82,7 +82,8 @@ def settings(parameters: Mapping[str, Any]) -> list[str]:
 
 def answer(subcommand: str, *arguments: str) -> tuple[bool, dict[str, Any]]:
     """Whether the command's answer is no, and its JSON document."""
-    no, text = _core.run([subcommand, *arguments, "--json"])
+    # Before a `--`, after which all arguments are files.
+    no, text = _core.run([subcommand, "--json", *arguments])
     document = json.loads(text)
     if no and "refused" in document:
         raise of(document["refused"]["code"], document["refused"]["text"], record=subcommand in ("identify", "autotune"))

@@ -28,8 +28,8 @@ class Autotuned(Result):
     trust: types.Trust
     reasons: list[types.Note]
     models: list[types.ProcessStructure]
-    gain: types.Interval | None
-    dead_time_s: types.Interval
+    gain: types.StatisticalInterval | None
+    dead_time_s: types.StatisticalInterval
     ultimate: types.Ultimate | None
     gains: types.ProcessGains | None
     lines: str | None
@@ -47,9 +47,13 @@ class Autotuned(Result):
 
     def _table(self) -> list[list[str]]:
         """Gains, and the likeliest process with half its 95 % intervals' widths."""
-        gains = {} if self.gains is None else self.gains
-        names = ("proportional", "integral", "derivative", "filter_s")
-        rows = [[name, f"{gains[name]:.5g}"] for name in names if name in gains]
+        gains = self.gains
+        rows = [] if gains is None else [
+            ["proportional", f"{gains['proportional']:.5g}"],
+            ["integral", f"{gains['integral']:.5g}"],
+            ["derivative", f"{gains['derivative']:.5g}"],
+            ["filter_s", f"{gains['filter_s']:.5g}"],
+        ]  # fmt: skip
         rows += [[rule["name"], _sensitivity(rule["sensitivity"])] for rule in self.rules]
         process = self.models[0]
         rows += [[name, measured(part["value"], 1.96 * part["std"])] for name, part in process["parameters"].items()]

@@ -39,13 +39,18 @@ class Estimate(TypedDict):
     """The practical interval; of ``reported`` alone."""
 
 
-class Interval(TypedDict):
-    """A value that always has its 95 % interval: ``low`` and ``high`` are the statistical one, right if the model is exact."""
+class StatisticalInterval(TypedDict):
+    """A value with its 95 % interval, right if the model is exact."""
 
     value: float
     std: float
     low: float
     high: float
+
+
+class Interval(StatisticalInterval):
+    """A value that always has its 95 % interval: ``low`` and ``high`` are the statistical one, right if the model is exact."""
+
     combined: Combined
     """The practical interval, the one to use."""
 
@@ -502,14 +507,23 @@ class ProcessStructure(TypedDict):
 
     family: Literal["first-order", "second-order", "equal-lags", "second-order-zero", "integrator", "integrator-lag"]
     weight: float
-    parameters: dict[str, Interval]
+    parameters: dict[str, StatisticalInterval]
+
+
+class ProcessRange(TypedDict):
+    """A value of the likeliest process, and its range over every process of the intervals; it has no standard deviation."""
+
+    value: float
+    std: None
+    low: float
+    high: float
 
 
 class Ultimate(TypedDict):
     """Ultimate gain and frequency, over every process of the intervals."""
 
-    gain: Estimate
-    omega_rad_s: Estimate
+    gain: ProcessRange
+    omega_rad_s: ProcessRange
 
 
 class ProcessGains(TypedDict):

@@ -47,7 +47,8 @@ def test_trust_and_units_come_first(found):
     title, names, alpha, *_ = repr(found).splitlines()
     assert f"trust {found.trust}" in title
     assert names.split() == ["parameter", "95", "%", "interval", "unit"]
-    half = 0.5 * (found.reported["alpha"]["high"] - found.reported["alpha"]["low"])
+    practical = found.reported["alpha"]["combined"]
+    half = 0.5 * (practical["high"] - practical["low"])
     name, value, sign, error, *unit = alpha.split()
     assert (name, sign, unit) == ("alpha", "±", ["command", f"s^2/{found.units['output']}"])
     # The digits of the value are those of its error.

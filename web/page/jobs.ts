@@ -110,7 +110,7 @@ export const jobs: Job[] = [
 /** The controller's form, shown under a model that can be trusted. */
 export const tune: Field[] = [
   { flag: "structure", label: "Controller", kind: "choice", value: "pd", options: [["pd", "PD"], ["pid", "PID"], ["ipd", "I-PD"]] },
-  number("ms", "Largest sensitivity", "1.4"),
+  number("ms", "Largest sensitivity", "1.8"),
   {
     flag: "format",
     label: "Gains for",
