@@ -5,7 +5,8 @@
 //! | file | content |
 //! |---|---|
 //! | `process` | structures, parameters with intervals |
-//! | `response`, `fit` | answers to a logged command, and least squares over them |
+//! | `response`, `projection` | answers to a logged command, and least squares over them |
+//! | `search`, `structure_fit`, `fit` | dead time and time constants; intervals and evidence of a structure; the processes of a record |
 //! | `gains` | the fastest gains whose sensitivity is proved for every process of the intervals |
 //! | `curves` | open loop and answer to a load, over the set of processes |
 //! | `rules` | rules of thumb beside them |
@@ -24,9 +25,15 @@ mod on_board;
 #[cfg(feature = "std")]
 mod process;
 #[cfg(feature = "std")]
+mod projection;
+#[cfg(feature = "std")]
 mod response;
 #[cfg(feature = "std")]
 mod rules;
+#[cfg(feature = "std")]
+mod search;
+#[cfg(feature = "std")]
+mod structure_fit;
 
 #[cfg(feature = "std")]
 pub use curves::LoopCurves;

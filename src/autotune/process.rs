@@ -88,7 +88,7 @@ pub struct Ranged {
     pub high: f64,
 }
 
-/// What a record says of one structure.
+/// A structure with its parameters as a record determines them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProcessModel {
     /// The structure.

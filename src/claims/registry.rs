@@ -101,7 +101,7 @@ pub struct Claim {
     pub(crate) theorem: Option<(&'static Theorem, &'static Inequality)>,
     /// What the statement that holds assumes.
     pub hypotheses: &'static [Hypothesis],
-    /// Its page, which says for what it is stated, and on what it rests.
+    /// Text of its page: domain, dependencies, steps by hand.
     pub spec: &'static str,
 }
 

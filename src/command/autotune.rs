@@ -18,6 +18,7 @@ use crate::autotune::{
 use crate::error::Error;
 use crate::experiment::{Columns, Log, TimeUnit};
 use crate::files::Files;
+use crate::identify::NORMAL_95;
 use crate::numeric::Interval;
 use form::Form;
 
@@ -148,12 +149,12 @@ impl Autotuned {
         let best = &self.found.models[0];
         for (index, name) in [(0, "gain"), (1, "dead time")] {
             let part = best.parameters[index];
-            if part.std * 1.96 > WIDE * part.value.abs() && part.std * 1.96 > 0.5 * self.interval_s {
+            if NORMAL_95 * part.std > (WIDE * part.value.abs()).max(0.5 * self.interval_s) {
                 reasons.push((
                     "wide",
                     format!(
                         "the {name} is known to {:.0} % only; record another period",
-                        196.0 * part.std / part.value.abs()
+                        100.0 * NORMAL_95 * part.std / part.value.abs()
                     ),
                 ));
             }

@@ -26,6 +26,8 @@ pub mod design;
 #[cfg(feature = "std")]
 mod session;
 
+#[cfg(feature = "std")]
+pub(crate) use answer::distribution::NORMAL_95;
 pub use answer::{DragLaw, IdentifyError};
 #[cfg(feature = "std")]
 pub use {

@@ -3,6 +3,7 @@
 use super::{Cell, Document, Figure, Mark, Panel, Section, Table};
 use crate::autotune::{LoopCurves, ProcessRecord, ProvedGains, Ruled};
 use crate::experiment::Log;
+use crate::identify::NORMAL_95;
 use crate::numeric::significant;
 
 /// Readings that a figure shows, the last of them.
@@ -76,7 +77,7 @@ impl ProcessPage<'_> {
             .filter(|k| *k >= from)
             .map(|k| (time[k], output[k] - self.found.residuals[k - first]))
             .collect();
-        let spread = 1.96 * self.found.residual;
+        let spread = NORMAL_95 * self.found.residual;
         let band = |sign: f64| model.iter().map(|(t, y)| (*t, y + sign * spread)).collect::<Vec<_>>();
         let [_, output_name, input_name] = &self.log.columns;
         let readings = Panel::new("time (s)", output_name)

@@ -18,6 +18,16 @@ use tempfile::TempDir;
 
 const AXIS: &str = "--alpha 1 --beta 1 --relay 1 --half-width 0.2";
 
+/// From now on children begin with SIGINT, SIGTERM and SIGHUP that end them, even where this process was begun with these ignored, as a
+/// shell's background job is: a handled signal is the default one after `exec`. This process still ends by them.
+pub(crate) fn children_heed_signals() {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    for signal in [SIGINT, SIGTERM, SIGHUP] {
+        let ends = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(true));
+        signal_hook::flag::register_conditional_default(signal, ends).unwrap();
+    }
+}
+
 fn selfosc(folder: &TempDir) -> Command {
     let mut command = Command::cargo_bin("selfosc").unwrap();
     command.current_dir(folder).stdin(Stdio::null());
@@ -363,6 +373,7 @@ fn drawn(state: &mut u64) -> u64 {
 /// An interrupt at any moment leaves inputs as they were and no part of an output; what is there is whole.
 #[test]
 fn an_interrupt_leaves_nothing_behind() {
+    children_heed_signals();
     let folder = folder();
     let before = holds(folder.path());
     let mut state = 51;

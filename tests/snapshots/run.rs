@@ -232,6 +232,7 @@ fn comments_do_not_put_silence_off() {
 /// A signal ends at the neutral command with the log on disk; so does silence.
 #[test]
 fn a_signal_and_silence_end_neutral() {
+    crate::files::children_heed_signals();
     for signal in [Some("-INT"), Some("-TERM"), None] {
         let folder = tempfile::tempdir().unwrap();
         let mut child = selfosc(&folder)

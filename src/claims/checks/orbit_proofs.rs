@@ -123,8 +123,7 @@ fn beyond_the_level(budget: Budget) -> Verdict {
 
 const BELOW_LEVEL: Hypothesis = Hypothesis::needed("disturbance-below-level", beyond_the_level);
 
-/// Claims that inequalities establish, each with the theorem and a false inequality next to it, the parts, what is proved besides
-/// and what is assumed.
+/// Claims that inequalities establish: theorem, false inequality, parts of the domain, further proofs, hypotheses.
 macro_rules! enclosed {
     ($($constant:ident = $id:literal $statement:literal,
        $theorem:path, not $false:ident, on $parts:expr, $(and $more:expr,)? if $hypotheses:expr;)+) => {

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use super::form::Form;
 use super::{Autotuned, CommandError};
+use crate::identify::NORMAL_95;
 use crate::numeric::significant;
 use crate::report::{Document, ProcessPage};
 
@@ -137,7 +138,7 @@ impl Autotuned {
                     output,
                     "    {name:24}{:>12} +- {}",
                     significant(one.value, 5),
-                    significant(1.96 * one.std, 2)
+                    significant(NORMAL_95 * one.std, 2)
                 )?;
             }
         }

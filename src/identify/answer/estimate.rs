@@ -132,7 +132,7 @@ impl Estimate {
     /// With the practical interval that `declared`, half the width of the declared sources' own interval, makes: on either side
     /// `H^2 = (2 h)^2 + declared^2` with the statistical half-width h.
     ///
-    /// The factor 2 on h allows for a structure that passes for another; it is tuned, and no fresh record has confirmed it yet.
+    /// The factor 2 on h allows for a structure that passes for another. It is tuned; `spec/trust.md` has its misses on fresh records.
     pub(super) fn with_declared(self, declared: f64) -> Self {
         let combined = self.spread.map(|spread| {
             let side = |h: f64| (2.0 * h.max(0.0)).hypot(declared);

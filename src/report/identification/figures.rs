@@ -2,7 +2,7 @@
 
 use super::tables::output_label;
 use crate::identify::fit::{Between, FittedRecord, RecordFit};
-use crate::identify::{Estimate, Identification, Model, Source};
+use crate::identify::{Estimate, Identification, Model, NORMAL_95, Source};
 use crate::report::{Figure, Mark, Panel};
 
 /// Samples that a figure shows: more than these cannot be told apart on a page.
@@ -121,7 +121,7 @@ fn distribution_figure(source: &Source, fitted: &FittedRecord) -> Option<Figure>
         bars.flat_map(|(x, y)| [(x - 0.5 * width, y), (x + 0.5 * width, y)]),
     );
     let correlation = |lag: usize| residuals.iter().zip(&residuals[lag..]).map(|(a, b)| a * b).sum::<f64>() / power;
-    let limit = 1.96 / count.sqrt();
+    let limit = NORMAL_95 / count.sqrt();
     let correlations = Panel::new("lag (samples)", "correlation of residuals")
         .with("residuals", Mark::Dots, (1..=LAGS).map(|lag| (lag as f64, correlation(lag))))
         .with("95 % of independent ones", Mark::Dashed, [(0.0, limit), (LAGS as f64, limit)])

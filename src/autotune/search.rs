@@ -1,0 +1,150 @@
+//! The search over dead times and time constants: grids, and pattern searches from their best points.
+
+use super::Family;
+use super::projection::{Problem, SearchPoint};
+
+/// Starts: so many time constants, and so many dead times, on grids.
+const TIME_CONSTANTS: u32 = 10;
+const DEAD_TIMES: u32 = 12;
+/// Starts that are followed.
+const FOLLOWED: usize = 3;
+/// Rounds of the search from one start.
+const ROUNDS: u32 = 120;
+/// The search ends where a step changes twice the log likelihood by less: a thirtieth of a standard deviation.
+pub(super) const SETTLED: f64 = 1e-3;
+/// A record without errors has no such end: then a step this small, relative to the time scale, ends the search.
+const FINEST: f64 = 1e-6;
+
+/// Times within which a structure is searched.
+#[derive(Clone, Copy)]
+pub(super) struct SearchScales {
+    /// Time scale of the record: twice the mean time between changes.
+    pub(super) scale_s: f64,
+    /// Longest dead time.
+    pub(super) longest_s: f64,
+    /// The readings' rounding, output units.
+    pub(super) quantum: f64,
+}
+
+/// The points with the least squares.
+fn few(problem: &Problem, family: Family, points: impl IntoIterator<Item = SearchPoint>) -> Vec<SearchPoint> {
+    let mut few: Vec<(f64, SearchPoint)> =
+        points.into_iter().map(|point| (problem.square(family, &point), point)).collect();
+    few.sort_by(|a, b| a.0.total_cmp(&b.0));
+    few.truncate(FOLLOWED);
+    few.into_iter().map(|(_, point)| point).collect()
+}
+
+/// Points on a grid of dead times and, where the structure has one time constant, of that.
+fn grid(family: Family, scales: SearchScales) -> Vec<SearchPoint> {
+    let lags: Vec<f64> = (0..TIME_CONSTANTS)
+        .map(|k| 0.02 * scales.scale_s * (500.0_f64).powf(f64::from(k) / f64::from(TIME_CONSTANTS - 1)))
+        .collect();
+    let delays = (0..DEAD_TIMES).map(|k| scales.longest_s * (f64::from(k) / f64::from(DEAD_TIMES - 1)).powi(2));
+    delays
+        .flat_map(|delay| match family {
+            Family::Integrator => vec![vec![delay]],
+            _ => lags.iter().map(|lag| vec![delay, *lag]).collect(),
+        })
+        .collect()
+}
+
+/// Points with a second time constant about a point without it; the second lag stands for part of the dead time, or not.
+fn with_second(point: &[f64]) -> impl Iterator<Item = SearchPoint> {
+    let (delay, lag) = (point[0], point[1]);
+    [0.05, 0.2, 0.6].into_iter().flat_map(move |share| {
+        let less = (delay - share * lag).max(0.0);
+        [vec![delay, lag, share * lag], vec![less, lag, share * lag], vec![delay, lag / share, lag]]
+    })
+}
+
+/// A pattern search from one start, which steps over the kinks where a delayed switching meets a reading.
+fn descent(problem: &Problem, family: Family, start: SearchPoint, scales: SearchScales) -> (f64, SearchPoint) {
+    let interval_s = scales.scale_s / 400.0;
+    let count = (problem.output.len() - problem.first) as f64;
+    let (mut square, mut point) = (problem.square(family, &start), start);
+    // Steps of the dead time in s, of the time constants relative.
+    let mut step: Vec<f64> = (0..point.len()).map(|k| if k == 0 { scales.longest_s / 10.0 } else { 0.5 }).collect();
+    let finest = |k: usize| FINEST * if k == 0 { interval_s } else { 1.0 };
+    for _ in 0..ROUNDS {
+        let mut settled = true;
+        for k in 0..point.len() {
+            let moved = |sign: f64| {
+                let mut other = point.clone();
+                if k == 0 {
+                    other[0] = (other[0] + sign * step[0]).max(0.0)
+                } else {
+                    other[k] *= (sign * step[k]).exp()
+                }
+                // Dead time and time constants stand for each other: a longer lag takes from the dead time.
+                let turned = (k > 0).then(|| {
+                    let mut turned = other.clone();
+                    turned[0] = (turned[0] - (other[k] - point[k])).max(0.0);
+                    turned
+                });
+                core::iter::once(other).chain(turned)
+            };
+            let around: Vec<(f64, SearchPoint)> =
+                [1.0, -1.0].into_iter().flat_map(moved).map(|other| (problem.square(family, &other), other)).collect();
+            let worst = around.iter().map(|(other, _)| *other).fold(square, f64::max);
+            let better = around.into_iter().filter(|(other, _)| *other < square).min_by(|a, b| a.0.total_cmp(&b.0));
+            // Twice the log likelihood falls by (square - least)/variance; rounding bounds the variance from below.
+            let variance = (square / count).max(scales.quantum * scales.quantum / 12.0);
+            match better {
+                Some(found) => {
+                    // A narrow valley is followed in many small gains.
+                    settled = false;
+                    (square, point) = found;
+                    step[k] *= 1.5;
+                }
+                None => {
+                    settled &= worst - square < SETTLED * variance || step[k] <= finest(k);
+                    step[k] *= 0.4;
+                }
+            }
+        }
+        if settled {
+            break;
+        }
+    }
+    (square, point)
+}
+
+/// Ends of the searches, structure by structure, the best first.
+#[derive(Default)]
+pub(super) struct Searches(Vec<(Family, Vec<SearchPoint>)>);
+
+impl Searches {
+    fn ends(&self, family: Family) -> impl Iterator<Item = &SearchPoint> {
+        self.0.iter().filter(move |found| found.0 == family).flat_map(|found| &found.1)
+    }
+
+    /// The searches of these structures on this problem, from a grid and from the ends of the pass before.
+    pub(super) fn pass(&self, problem: &Problem, families: &[Family], scales: SearchScales) -> Self {
+        let mut found = Self::default();
+        for &family in families {
+            let before = self.ends(family).cloned();
+            // Structures nest: those with two different time constants begin about the ends of those with one.
+            let starts = if matches!(family, Family::SecondOrder | Family::SecondOrderZero) {
+                let one = [Family::FirstOrder, Family::EqualLags].into_iter().flat_map(|one| found.ends(one));
+                few(problem, family, one.flat_map(|end| with_second(end)).chain(before))
+            } else {
+                few(problem, family, grid(family, scales).into_iter().chain(before))
+            };
+            let mut ends: Vec<(f64, SearchPoint)> =
+                starts.into_iter().map(|start| descent(problem, family, start, scales)).collect();
+            ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+            found.0.push((family, ends.into_iter().map(|(_, point)| point).collect()));
+        }
+        found
+    }
+
+    /// Each structure with its best point.
+    pub(super) fn best(&self) -> impl Iterator<Item = (Family, &SearchPoint)> {
+        self.0.iter().filter_map(|(family, ends)| Some((*family, ends.first()?)))
+    }
+}
+
+/// Structures with one time constant at most, and then those that begin at their ends.
+pub(super) const ONE: [Family; 4] = [Family::FirstOrder, Family::EqualLags, Family::Integrator, Family::IntegratorLag];
+pub(super) const TWO: [Family; 2] = [Family::SecondOrder, Family::SecondOrderZero];

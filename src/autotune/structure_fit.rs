@@ -1,0 +1,138 @@
+//! The fit of a structure: parameters and coefficients with their intervals, and the evidence for the structure.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::projection::{Problem, unit_columns};
+use super::search::SETTLED;
+use super::{Family, ProcessModel, Ranged};
+use crate::identify::NORMAL_95;
+
+/// Least eigenvalue of an information matrix of unit columns: below it stands rounding, and the readings tell nothing there.
+const UNTOLD: f64 = 1e-12;
+
+/// Gain, dead time and time constants of a structure, and the coefficients of its equation of motion.
+fn meaning(family: Family, point: &[f64], linear: &[f64]) -> (Vec<f64>, [f64; 5]) {
+    let (delay_s, lag) = (point[0], |k: usize| point.get(k).copied().unwrap_or(0.0));
+    match family {
+        Family::SecondOrderZero => {
+            let gain = linear[0] + linear[1];
+            // gain (zero s + 1) = c_1 (T_2 s + 1) + c_2 (T_1 s + 1).
+            let zero_s = (linear[0] * lag(2) + linear[1] * lag(1)) / gain;
+            let body = [lag(1) * lag(2), lag(1) + lag(2), 1.0].map(|part| part / gain.abs());
+            (vec![gain, delay_s, lag(1), lag(2), zero_s], [body[0], body[1], body[2], zero_s, delay_s])
+        }
+        _ => {
+            let gain = linear[0];
+            let body = match family {
+                Family::FirstOrder => [0.0, lag(1), 1.0],
+                Family::EqualLags => [lag(1) * lag(1), 2.0 * lag(1), 1.0],
+                Family::Integrator => [0.0, 1.0, 0.0],
+                Family::IntegratorLag => [lag(1), 1.0, 0.0],
+                Family::SecondOrder | Family::SecondOrderZero => [lag(1) * lag(2), lag(1) + lag(2), 1.0],
+            };
+            let body = body.map(|part| part / gain.abs());
+            let parameters = [gain, delay_s].into_iter().chain(point[1..].iter().copied()).collect();
+            (parameters, [body[0], body[1], body[2], 0.0, delay_s])
+        }
+    }
+}
+
+/// A fitted structure without its weight.
+pub(super) struct StructureFit {
+    pub(super) family: Family,
+    pub(super) criterion: f64,
+    /// Minus twice the largest log likelihood, up to a constant of the record.
+    misfit: f64,
+    pub(super) model: ProcessModel,
+    pub(super) plain: DVector<f64>,
+}
+
+pub(super) fn fitted(
+    problem: &Problem,
+    family: Family,
+    point: &[f64],
+    interval_s: f64,
+    quantum: f64,
+) -> Option<StructureFit> {
+    let found = problem.projection(family, point)?;
+    let (count, searched) = (found.residual.len() as f64, point.len());
+    let free = searched + found.linear.len();
+    // Rounding leaves an error even where the residual shows none.
+    let least = quantum * quantum / 12.0;
+    let variance = (found.square / (count - free as f64).max(1.0)).max(least);
+    let misfit = count * (found.square / count).max(least).max(f64::MIN_POSITIVE).ln();
+    let criterion = count * (variance).ln() + free as f64 * count.ln();
+    // Sensitivities of the readings to all parameters: differences over half an interval bridge the kinks.
+    let columns = problem.columns(family, point);
+    let answer = |point: &[f64], linear: &[f64]| -> DVector<f64> {
+        let columns = problem.columns(family, point);
+        let sum: Vec<f64> = (0..problem.output.len())
+            .map(|k| columns.iter().zip(linear).map(|(column, a)| a * column[k]).sum())
+            .collect();
+        DVector::from(problem.whitened(&sum))
+    };
+    let linear: Vec<f64> = found.linear.iter().copied().collect();
+    let mut sensitivities: Vec<DVector<f64>> = Vec::new();
+    let steps: Vec<f64> = (0..searched)
+        .map(|k| if k == 0 { 0.5 * interval_s.min(point[0].max(interval_s)) } else { 1e-3 * point[k] })
+        .collect();
+    for k in 0..searched {
+        let shifted = |sign: f64| {
+            let mut other = point.to_vec();
+            other[k] = (other[k] + sign * steps[k]).max(0.0);
+            other
+        };
+        let (up, down) = (shifted(1.0), shifted(-1.0));
+        let width = up[k] - down[k];
+        sensitivities.push((answer(&up, &linear) - answer(&down, &linear)) / width);
+    }
+    sensitivities.extend(columns.iter().map(|column| DVector::from(problem.whitened(column))));
+    let design = DMatrix::from_columns(&sensitivities);
+    let (scaled, sizes) = unit_columns(&design);
+    let information = scaled.transpose() * &scaled;
+    // A direction that the readings do not tell has a wide error, as no pseudo-inverse gives it.
+    let eigen = information.symmetric_eigen();
+    let inverse = DMatrix::from_diagonal(&eigen.eigenvalues.map(|value| value.max(UNTOLD).recip()));
+    let inverse = &eigen.eigenvectors * inverse * eigen.eigenvectors.transpose();
+    let covariance = DMatrix::from_fn(free, free, |i, j| variance * inverse[(i, j)] / (sizes[i] * sizes[j]));
+    // Both meanings are functions of all parameters: errors by their derivatives.
+    let all: Vec<f64> = point.iter().chain(&linear).copied().collect();
+    let meaning_of = |all: &[f64]| {
+        let (parameters, coefficients) = meaning(family, &all[..searched], &all[searched..]);
+        parameters.into_iter().chain(coefficients).collect::<Vec<f64>>()
+    };
+    let values = meaning_of(&all);
+    let mut slopes = DMatrix::zeros(values.len(), free);
+    for k in 0..free {
+        let step = 1e-6 * all[k].abs().max(1e-9);
+        let mut other = all.clone();
+        other[k] += step;
+        for (row, (moved, value)) in meaning_of(&other).iter().zip(&values).enumerate() {
+            slopes[(row, k)] = (moved - value) / step;
+        }
+    }
+    let spread = &slopes * covariance * slopes.transpose();
+    let ranged = |k: usize| {
+        let (value, std) = (values[k], spread[(k, k)].max(0.0).sqrt());
+        Ranged { value, std, low: value - NORMAL_95 * std, high: value + NORMAL_95 * std }
+    };
+    let named = family.parameters().len();
+    let model = ProcessModel {
+        family,
+        weight: 0.0,
+        parameters: (0..named).map(ranged).collect(),
+        coefficients: core::array::from_fn(|k| ranged(named + k)),
+    };
+    let finite = values.iter().chain(spread.iter()).all(|value| value.is_finite());
+    finite.then_some(StructureFit { family, criterion, misfit, model, plain: found.plain })
+}
+
+/// Without structures that fit no better than a limit of theirs: their lag is at its bound, and they are that limit.
+pub(super) fn distinct(mut fits: Vec<StructureFit>) -> Vec<StructureFit> {
+    let misfits: Vec<(Family, f64)> = fits.iter().map(|fit| (fit.family, fit.misfit)).collect();
+    fits.retain(|fit| {
+        let limits = misfits.iter().filter(|(family, _)| fit.family.limits().contains(family));
+        limits.fold(f64::INFINITY, |least, limit| least.min(limit.1)) - fit.misfit > SETTLED
+    });
+    fits
+}
