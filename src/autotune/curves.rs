@@ -1,9 +1,8 @@
-//! Curves of a loop: its open loop and its answer to a load, for the likeliest process and over the set of all.
+//! Curves of a loop: its open loop and its answer to a load, for the likeliest process and the corners of the set.
 
 use super::gains::{STEPS, STEPS_PER_PERIOD, load_step, ultimate};
 use super::{ProcessRecord, ProvedGains};
-use crate::control::{Gains, LinearProcess};
-use crate::numeric::Complex;
+use crate::control::LinearProcess;
 
 /// Points of an open loop, and frequencies over the ultimate one between which they lie.
 const POINTS: u32 = 60;
@@ -29,16 +28,6 @@ pub struct LoopCurves {
     pub load_step_range: Vec<[f64; 2]>,
 }
 
-fn open_loop(process: &LinearProcess<f64>, gains: &Gains<f64>, omega: f64) -> [f64; 2] {
-    let LinearProcess { alpha, drag, stiffness, zero_s, delay_s, .. } = *process;
-    let body = Complex::new(stiffness - alpha * omega * omega, drag * omega);
-    let late = Complex::turn(-omega * delay_s) * Complex::new(1.0, zero_s * omega);
-    let derivative = Complex::new(0.0, gains.derivative() * omega).over(Complex::new(1.0, gains.filter_s() * omega));
-    let controller = Complex::new(gains.proportional(), -gains.integral() / omega) + derivative;
-    let found = (controller * late).over(body);
-    [found.re, found.im]
-}
-
 impl ProcessRecord {
     /// The curves of proved gains under a controller that holds its command for `interval_s`; `None` where the process has no ultimate point.
     #[must_use]
@@ -52,9 +41,7 @@ impl ProcessRecord {
         let [low, high] = FREQUENCIES;
         let share = |k: u32| f64::from(k) / f64::from(POINTS - 1);
         let omega_rad_s: Vec<f64> = (0..POINTS).map(|k| ultimate_rad_s * low * (high / low).powf(share(k))).collect();
-        let curve = |process: &LinearProcess<f64>| -> Vec<[f64; 2]> {
-            omega_rad_s.iter().map(|omega| open_loop(process, gains, *omega)).collect()
-        };
+        let curve = |process: &LinearProcess<f64>| process.open_loop_at(gains, &omega_rad_s);
         let every = ((PERIODS * STEPS_PER_PERIOD) as usize).min(STEPS) / SHOWN;
         let answer = |process: &LinearProcess<f64>| {
             let (mut all, mut step) = (Vec::with_capacity(SHOWN), 0);

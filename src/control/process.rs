@@ -77,6 +77,14 @@ impl<T: Real> LinearProcess<T> {
     }
 }
 
+impl LinearProcess<f64> {
+    /// Open loop under a controller at frequencies in rad/s: real and imaginary part of each.
+    pub(crate) fn open_loop_at(&self, gains: &Gains<f64>, omega_rad_s: &[f64]) -> Vec<[f64; 2]> {
+        let open_loop = self.open_loop(constants(gains));
+        omega_rad_s.iter().map(|omega| open_loop.response(*omega, self.delay_s)).collect()
+    }
+}
+
 impl LinearProcess<Interval> {
     /// The process at the middle of all intervals.
     #[must_use]
@@ -126,5 +134,14 @@ impl<T: Real> Fraction<T> {
         let ([re, im], below) = (Self::at(&self.numerator, omega), Self::at(&self.denominator, omega));
         let (sine, cosine) = (angle.sin(), angle.cos());
         [[re * cosine + im * sine, im * cosine - re * sine], below]
+    }
+}
+
+impl Fraction<f64> {
+    /// Its value at `s = j omega` behind a delay.
+    pub(super) fn response(&self, omega: f64, delay_s: f64) -> [f64; 2] {
+        let [[re, im], [below_re, below_im]] = self.parts(omega, omega * delay_s);
+        let size = below_re.hypot(below_im).powi(2);
+        [(re * below_re + im * below_im) / size, (im * below_re - re * below_im) / size]
     }
 }

@@ -113,7 +113,7 @@ impl ProcessPage<'_> {
         let answer = Panel::new("time (s)", "deviation of the output")
             .with("likeliest process", Mark::Line, pairs(&mut curves.load_step.iter().copied()))
             .with(
-                "least and largest over the intervals",
+                "least and largest at the corners of the intervals",
                 Mark::Dashed,
                 pairs(&mut curves.load_step_range.iter().map(|r| r[0])),
             )

@@ -164,16 +164,17 @@ fn records_that_tell_nothing() {
     assert!(matches!(of(&noise[..20], &square[..20]), Err(ProcessError::FewSamples { samples: 20 })));
 }
 
-/// The sensitivity of a model `(zero s + 1) exp(-delay s)/(alpha s^2 + drag s + stiffness)` under gains, on a grid of frequencies.
-fn sensitivity_of([alpha, drag, stiffness, zero_s, delay_s]: [f64; 5], gains: &Gains<f64>) -> f64 {
-    let peak = |k: i32| {
-        let omega = 1e-2 / delay_s * 1.02_f64.powi(k);
-        let s = Complex::new(0.0, omega);
-        let controller =
-            gains.integral() / s + gains.proportional() + s * gains.derivative() / (s * gains.filter_s() + 1.0);
-        let process = (-s * delay_s).exp() * (s * zero_s + 1.0) / (s * s * alpha + s * drag + stiffness);
-        1.0 / (controller * process + 1.0).norm()
-    };
+/// The open loop of a model `(zero s + 1) exp(-delay s)/(alpha s^2 + drag s + stiffness)` under gains.
+fn open_loop_of([alpha, drag, stiffness, zero_s, delay_s]: [f64; 5], gains: &Gains<f64>, omega: f64) -> Complex<f64> {
+    let s = Complex::new(0.0, omega);
+    let controller =
+        gains.integral() / s + gains.proportional() + s * gains.derivative() / (s * gains.filter_s() + 1.0);
+    controller * (-s * delay_s).exp() * (s * zero_s + 1.0) / (s * s * alpha + s * drag + stiffness)
+}
+
+/// The sensitivity of the same, on a grid of frequencies.
+fn sensitivity_of(model: [f64; 5], gains: &Gains<f64>) -> f64 {
+    let peak = |k: i32| 1.0 / (open_loop_of(model, gains, 1e-2 / model[4] * 1.02_f64.powi(k)) + 1.0).norm();
     (0..500).map(peak).fold(0.0, f64::max)
 }
 
@@ -205,6 +206,39 @@ fn sampled(seeds: impl Iterator<Item = u64>, sets: usize, draws: usize) -> (usiz
         }
     }
     (seen, largest, outside)
+}
+
+/// The open loop is that of complex arithmetic, no curve enters the sensitivity's circle, and the answer to a load of one leaves the integral
+/// `1/Ki` of the error.
+#[test]
+fn curves_are_those_of_the_loop() {
+    for seed in 100..104 {
+        let (truth, _) = drawn(seed);
+        let swing = 0.05 * truth.gain;
+        let record = truth.record(0.02 * swing, 0.02 * swing, seed);
+        let found = ProcessRecord::of(&record).unwrap();
+        let proved = found.gains(record.interval_s(), &GainsWanted::default()).unwrap();
+        let curves = found.curves(record.interval_s(), &proved).unwrap();
+        let middle = found.sets(record.interval_s()).unwrap()[0].process().middle();
+        let model = [middle.alpha, middle.drag, middle.stiffness, middle.zero_s, middle.delay_s];
+        for (omega, [re, im]) in curves.omega_rad_s.iter().zip(&curves.open_loop) {
+            let wanted = open_loop_of(model, &proved.gains, *omega);
+            assert!((Complex::new(*re, *im) - wanted).norm() <= 1e-9 * wanted.norm(), "{seed}: {re} {im} {wanted}");
+        }
+        let near = |[re, im]: &[f64; 2]| (re + 1.0).hypot(*im);
+        let nearest =
+            curves.open_loops.iter().flatten().chain(&curves.open_loop).map(near).fold(f64::INFINITY, f64::min);
+        assert!(nearest >= 1.0 / proved.sensitivity && nearest < 1.1 / proved.sensitivity, "{seed}: {nearest}");
+        let integral: f64 = curves
+            .time_s
+            .windows(2)
+            .zip(curves.load_step.windows(2))
+            .map(|(time, y)| 0.5 * (time[1] - time[0]) * (y[0] + y[1]))
+            .sum();
+        assert!((integral * proved.gains.integral() - 1.0).abs() < 0.03, "{seed}: {integral} {proved:?}");
+        let inside = curves.load_step_range.iter().zip(&curves.load_step).all(|([low, high], y)| low <= y && y <= high);
+        assert!(inside && curves.load_step_range.iter().any(|[low, high]| high > low), "{seed}");
+    }
 }
 
 /// No model drawn from a set exceeds the limit that is proved for the set; a model that is in no set does.

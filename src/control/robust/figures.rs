@@ -23,12 +23,7 @@ const ABOVE: i32 = 6;
 impl Figures {
     pub(super) fn of(process: &LinearProcess<f64>, gains: &Gains<f64>, high: f64, an_octave: i32) -> Self {
         let open_loop = process.open_loop(constants(gains));
-        // L at a frequency: magnitude, and angle above -pi up to turns.
-        let response = |omega: f64| {
-            let [[re, im], [below_re, below_im]] = open_loop.parts(omega, omega * process.delay_s);
-            let size = below_re.hypot(below_im).powi(2);
-            [(re * below_re + im * below_im) / size, (im * below_re - re * below_im) / size]
-        };
+        let response = |omega: f64| open_loop.response(omega, process.delay_s);
         let (mut found, mut before) = (
             Self {
                 sensitivity: 1.0,
