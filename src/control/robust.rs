@@ -428,3 +428,6 @@ fn is_hurwitz(open_loop: &Fraction<Interval>) -> bool {
         decays
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,9 +4,12 @@ use nalgebra::Complex;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
-use selfosc::autotune::{Actions, Family, GainsWanted, ProcessError, ProcessRecord, rules, ultimate};
+use selfosc::autotune::{
+    Actions, Family, FirstOrderProcess, GainsWanted, ProcessError, ProcessReadings, ProcessRecord, rules, ultimate,
+};
 use selfosc::control::Gains;
 use selfosc::experiment::Record;
+use selfosc::numeric::Scalar;
 
 /// `gain exp(-dead s)/(prod (lag s + 1))`, or an integrator with these lags.
 #[derive(Clone, Debug)]
@@ -121,6 +124,47 @@ fn gains_hold_on_the_process_behind_the_record() {
         assert!(found.models.iter().any(|model| model.family == family) || seed % 4 == 1, "{seed}: {found:?}");
     }
     assert!(missed <= 2, "{missed} of 24 dead times missed");
+}
+
+/// The first-order process of at most 256 readings on board, in the number type `T`.
+fn on_board<T: Scalar>(record: &Record) -> FirstOrderProcess<f64> {
+    let numbers = |values: &[f64]| values.iter().map(|value| T::from_f64(*value)).collect::<Vec<T>>();
+    let (time, output, input) = (numbers(record.time_s()), numbers(record.output()), numbers(record.input()));
+    let found = ProcessReadings::new(&time, &output, &input).unwrap().first_order().unwrap();
+    let FirstOrderProcess { drag, stiffness, dead_time_s, reverse } = found;
+    FirstOrderProcess { drag: drag.value(), stiffness: stiffness.value(), dead_time_s: dead_time_s.value(), reverse }
+}
+
+/// On board, in f32 and f64, the gains from 256 readings are those of the command's model within 2 %. The command before the record is not
+/// that of its first row: the dead time's readings must not count.
+#[test]
+fn gains_on_board_are_those_of_the_command() {
+    for seed in (300..324).step_by(2) {
+        let (truth, family) = drawn(seed);
+        let whole = truth.record(0.0, 1e-3 * 0.05 * truth.gain, seed);
+        let rows = whole.time_s().len().min(ProcessReadings::<f32>::MOST);
+        let first = |values: &[f64]| values[..rows].to_vec();
+        let record = Record::new(first(whole.time_s()), first(whole.output()), first(whole.input())).unwrap();
+        let models = ProcessRecord::of(&record).unwrap().models;
+        let Some(model) = models.iter().find(|model| model.family == family) else { panic!("{seed}: {models:?}") };
+        let process = model.process();
+        let wanted = FirstOrderProcess {
+            drag: process.drag,
+            stiffness: process.stiffness,
+            dead_time_s: process.delay_s,
+            reverse: false,
+        }
+        .amigo(record.interval_s());
+        for (numbers, found) in [("f32", on_board::<f32>(&record)), ("f64", on_board::<f64>(&record))] {
+            assert!(!found.reverse);
+            for (gain, wanted) in found.amigo(record.interval_s()).into_iter().zip(wanted) {
+                assert!(
+                    (gain / wanted - 1.0).abs() < 0.02,
+                    "{seed}, {numbers}: {gain} {wanted} {found:?} {process:?} {truth:?}"
+                );
+            }
+        }
+    }
 }
 
 /// An output that falls with the command is the same process with its sign turned.
