@@ -1,7 +1,11 @@
 //! A first-order process with dead time, and gains for it by a rule of bounded sensitivity.
 
+#[cfg(feature = "std")]
+use super::ProcessError;
 use crate::control::{ControlError, Gains, Structure};
 use crate::numeric::{Real, Scalar};
+#[cfg(feature = "std")]
+use crate::orbit::TwoLevelRelay;
 
 /// Derivative time over the time constant of its filter.
 const FILTER: f64 = 10.0;
@@ -60,5 +64,61 @@ impl<T: Scalar> FirstOrderProcess<T> {
         let [gain, integral_s, derivative_s] = self.amigo(held_s);
         let filter_s = derivative_s / T::from_f64(FILTER);
         Gains::new(Structure::Pid, gain, gain / integral_s, gain * derivative_s, filter_s)
+    }
+}
+
+/// An oscillation under a two-level relay with one switching each way.
+#[cfg(feature = "std")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RelayCycle {
+    /// Time per period with the upper command, s.
+    pub time_high_s: f64,
+    /// Time per period with the lower command, s.
+    pub time_low_s: f64,
+    /// The least output.
+    pub minimum: f64,
+    /// The largest output.
+    pub maximum: f64,
+}
+
+#[cfg(feature = "std")]
+impl FirstOrderProcess<f64> {
+    /// The oscillation that follows once a command has stood for a dead time before the output passes its level (claim
+    /// `relay-first-order`), under a constant load at the input. A reverse process is taken with its command's sign turned.
+    ///
+    /// With a dead time the loop has faster oscillations besides: [`orbits`](crate::orbit::orbits) lists them.
+    ///
+    /// ```
+    /// use selfosc::{autotune::FirstOrderProcess, orbit::TwoLevelRelay};
+    /// // exp(-s)/s under an ideal relay: a triangle of period 4 s and amplitude 1.
+    /// let process = FirstOrderProcess { drag: 1.0, stiffness: 0.0, dead_time_s: 1.0, reverse: false };
+    /// let cycle = process.relay_cycle(&TwoLevelRelay::new(1.0, -1.0, 0.0)?, 0.0)?;
+    /// assert_eq!((cycle.time_high_s, cycle.time_low_s, cycle.maximum), (2.0, 2.0, 1.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ProcessError::NeverSwitches`] where the output settles before a level.
+    pub fn relay_cycle(&self, relay: &TwoLevelRelay, load: f64) -> Result<RelayCycle, ProcessError> {
+        let Self { drag, stiffness, dead_time_s, .. } = *self;
+        let [lower, upper] = [-relay.half_width, relay.half_width].map(|side| relay.reference + side);
+        let [low, high] = [relay.low, relay.high].map(|command| command + load);
+        for (force, level, towards) in [(high, upper, 1.0), (low, lower, -1.0)] {
+            if !((force - stiffness * level) * towards > 0.0) {
+                let settled = if stiffness > 0.0 { force / stiffness } else { level };
+                return Err(ProcessError::NeverSwitches { settled, level });
+            }
+        }
+        // (1 - exp(-rate t))/stiffness, which is t/drag without stiffness, and its inverse.
+        let rate = stiffness / drag;
+        let settle = |time_s: f64| if rate > 0.0 { -(-rate * time_s).exp_m1() / stiffness } else { time_s / drag };
+        let time_to = |share: f64| if rate > 0.0 { -(-stiffness * share).ln_1p() / rate } else { drag * share };
+        // On beyond a level for a dead time, then to the level on the other side.
+        let beyond = |level: f64, force: f64| level + (force - stiffness * level) * settle(dead_time_s);
+        let back = |from: f64, level: f64, force: f64| time_to((level - from) / (force - stiffness * from));
+        let (minimum, maximum) = (beyond(lower, low), beyond(upper, high));
+        let time_high_s = dead_time_s + back(minimum, upper, high);
+        let time_low_s = dead_time_s + back(maximum, lower, low);
+        Ok(RelayCycle { time_high_s, time_low_s, minimum, maximum })
     }
 }

@@ -40,6 +40,8 @@ pub use curves::LoopCurves;
 pub use error::ProcessError;
 pub use first_order::FirstOrderProcess;
 #[cfg(feature = "std")]
+pub use first_order::RelayCycle;
+#[cfg(feature = "std")]
 pub use gains::{Actions, GainsWanted, ProvedGains, ultimate};
 pub use on_board::ProcessReadings;
 #[cfg(feature = "std")]

@@ -109,6 +109,8 @@ pub const CLAIMS: &[Claim] = &[
     checks::control::POLE_PLACEMENT,
     checks::control::DELAY_MARGIN,
     checks::control::RELAY_ULTIMATE,
+    checks::autotune::RELAY_FIRST_ORDER,
+    checks::autotune::AMIGO_SENSITIVITY,
     checks::on_board::ON_BOARD_ENDS,
     checks::on_board::ON_BOARD_SWITCHES,
     checks::on_board::ON_BOARD_ABORT,

@@ -3,7 +3,6 @@
 #![allow(clippy::print_stdout, reason = "long runs print their figures")]
 #![allow(clippy::type_complexity, reason = "oracles are boxed closures")]
 
-mod amigo;
 mod architecture;
 mod autotune;
 mod balance;

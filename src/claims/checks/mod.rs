@@ -18,6 +18,7 @@ mod vehicle_proofs;
 
 pub(super) use single::Single;
 
+pub(super) mod autotune;
 pub(super) mod bounded;
 pub(super) mod control;
 pub(super) mod existence;
