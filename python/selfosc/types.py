@@ -55,6 +55,15 @@ class Interval(StatisticalInterval):
     """The practical interval, the one to use."""
 
 
+class DragCovariance(TypedDict):
+    """Covariance of linear, quadratic and cubic drag, in this order; rows of a drag that is not estimated are zero."""
+
+    statistical: list[list[float]]
+    """Of the record's scatter: on the diagonal the squares of ``std``."""
+    combined: list[list[float]] | None
+    """Of the practical intervals: on the diagonal the squares of ``combined["std"]``, to be taken twice."""
+
+
 class BudgetEntry(TypedDict):
     """A source of error that no residual shows, and its share of the inertia."""
 
@@ -92,6 +101,8 @@ class Reported(TypedDict):
     beta_quadratic: Interval | None
     """Quadratic drag, command s^2/output^2."""
     beta_cubic: Interval | None
+    drag_covariance: DragCovariance | None
+    """How the three vary together; ``None`` where several records do not agree."""
     skew: Interval | None
     coulomb: Interval | None
     memory: Interval | None

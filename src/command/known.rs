@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::error::Given;
 use super::{CommandError, files};
-use crate::control::{AxisModel, NAMES};
+use crate::control::{AxisModel, LinearProcess, NAMES, UncertainDrag};
 use crate::files::{LONGEST_WORD, cut};
 use crate::numeric::Interval;
 use crate::numeric::domain::Plain;
@@ -30,6 +30,8 @@ impl Known {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Model {
     pub(super) axis: AxisModel<Known>,
+    /// How the coefficients of the drag vary together; `None` where their intervals count as independent.
+    drag: Option<UncertainDrag>,
     /// Whether it is identified from a record.
     pub(super) identified: bool,
     /// Whether the log was in degrees; the model is in radians all the same.
@@ -56,7 +58,7 @@ impl Model {
             delay_s: number(delay_s),
             ..AxisModel::default()
         };
-        Self { axis, identified: false, degrees: false }
+        Self { axis, drag: None, identified: false, degrees: false }
     }
 
     /// The same with intervals that replace those there are.
@@ -70,6 +72,9 @@ impl Model {
                 return Err(CommandError::Usage { reason });
             }
             part.interval = given.or(part.interval);
+            if given.is_some() && flag.starts_with("--beta") {
+                self.drag = None;
+            }
         }
         Ok(self)
     }
@@ -79,14 +84,17 @@ impl Model {
         self.axis.map(|known| known.value)
     }
 
-    /// The intervals. A record of an oscillation shows the force at speeds, not the slope of the drag at rest, which a law only
-    /// extrapolates: down to none it is possible there.
+    /// The intervals.
     pub(super) fn ranges(&self) -> AxisModel<Interval> {
-        let mut ranges = self.axis.map(|known| known.range());
-        if self.identified {
-            ranges.beta = ranges.beta.hull(Interval::ZERO);
-        }
-        ranges
+        self.axis.map(|known| known.range())
+    }
+
+    /// Every linear process at speeds up to `top_speed`. A record of an oscillation shows the force at speeds, not the slope of the drag at
+    /// rest, which a law only extrapolates: down to none it is possible there.
+    pub(super) fn processes(&self, top_speed: f64) -> LinearProcess<Interval> {
+        let ranges = self.ranges();
+        let slopes = self.drag.map_or_else(|| ranges.slopes(top_speed), |drag| drag.slopes(top_speed));
+        ranges.processes(if self.identified { slopes.hull(Interval::ZERO) } else { slopes })
     }
 
     /// What `selfosc identify --json` reported.
@@ -146,11 +154,36 @@ impl Model {
         for (place, name) in parts.iter_mut().zip(NAMES) {
             *place = part(name)?;
         }
+        let drag = match &reported["drag_covariance"]["combined"] {
+            Value::Null => None,
+            found => Some(covariance(reported, found).ok_or_else(|| {
+                let limit = "a 3 by 3 covariance with the squares of the drags' combined.std on its diagonal";
+                wrong("drag_covariance.combined", found, limit)
+            })?),
+        };
         let inertia = parts[0].range();
         if !inertia.is_positive() {
             return Err(unusable(format!("its inertia is not told from zero ({inertia}): {FIRST_ORDER}")));
         }
         let degrees = found["units"]["output"] == "rad";
-        Ok(Self { axis: AxisModel::from_parts(parts), identified: true, degrees })
+        let axis = AxisModel::from_parts(parts);
+        let coefficients = [axis.beta, axis.beta_quadratic, axis.beta_cubic].map(|known| known.value);
+        let drag = drag.map(|covariance| UncertainDrag { coefficients, covariance });
+        Ok(Self { axis, drag, identified: true, degrees })
     }
+}
+
+/// The covariance of the drags' practical intervals; `None` where it is none, or of other intervals.
+fn covariance(reported: &Value, found: &Value) -> Option<[[f64; 3]; 3]> {
+    /// Relative difference that rounding may leave.
+    const SAME: f64 = 1e-6;
+    let covariance: [[f64; 3]; 3] = serde_json::from_value(found.clone()).ok()?;
+    let variance = ["beta", "beta_quadratic", "beta_cubic"]
+        .map(|name| reported[name]["combined"]["std"].as_f64().map_or(0.0, |std| std * std));
+    let same = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
+    let holds = |i: usize, j: usize| {
+        let (entry, most) = (covariance[i][j], (variance[i] * variance[j]).sqrt());
+        same(entry, covariance[j][i]) && entry.abs() <= (1.0 + SAME) * most && (i != j || same(entry, most))
+    };
+    (0..9).all(|k| holds(k / 3, k % 3)).then_some(covariance)
 }

@@ -20,7 +20,7 @@ use format::GainFormat;
 /// Gains of a controller for alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay), and the margins that it has.
 ///
 /// The axis is given by its parameters or as the model that `selfosc identify --json` found, with all its terms and its constant
-/// force; its 95 % intervals count. A model that is not to be trusted is refused.
+/// force; its practical intervals and the covariance of its drag count. A model that is not to be trusted is refused.
 /// The gains place the closed loop's poles for a bandwidth (-3 dB of the answer to the reference), or for the largest bandwidth
 /// at which every axis of the intervals keeps a limit of the sensitivity or of the phase margin. The margins count
 /// the delay and the filter of the derivative; poles, bandwidth and the answer to a step are computed without the
@@ -77,10 +77,10 @@ pub(super) struct Arguments {
     /// Interval of the inertia
     #[arg(long, value_name = "LOW,HIGH", value_parser = interval, allow_hyphen_values = true)]
     alpha_interval: Option<Interval>,
-    /// Interval of linear drag
+    /// Interval of linear drag; the covariance of a model's drag then does not count
     #[arg(long, value_name = "LOW,HIGH", value_parser = interval, allow_hyphen_values = true)]
     beta_interval: Option<Interval>,
-    /// Interval of quadratic drag
+    /// Interval of quadratic drag; the covariance of a model's drag then does not count
     #[arg(long, value_name = "LOW,HIGH", value_parser = interval, allow_hyphen_values = true)]
     beta_quadratic_interval: Option<Interval>,
     /// Interval of the delay

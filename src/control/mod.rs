@@ -7,6 +7,7 @@
 //! | `closed_loop` | poles and bandwidth, computed without the design equations |
 //! | `worst_case` | margins over intervals of the parameters |
 //! | `model` | an axis with every term that an identification may report |
+//! | `uncertain_drag` | slopes of a drag whose coefficients vary together |
 //! | `process`, `robust` | processes with lags, filters, memory; margins and sensitivity proved over a box of them |
 //! | `controller`, `reference` | what runs on the vehicle |
 //! | `response` | the simulated answer to a step, and its figures |
@@ -35,6 +36,8 @@ mod roots;
 mod rules;
 mod ultimate;
 #[cfg(feature = "std")]
+mod uncertain_drag;
+#[cfg(feature = "std")]
 mod worst_case;
 
 pub use controller::{ControlFault, ControlStep, Controller};
@@ -58,5 +61,7 @@ pub use rules::Rule;
 #[cfg(feature = "std")]
 pub use ultimate::critical_point;
 pub use ultimate::{FrequencyPoint, RelayTest, UltimatePoint};
+#[cfg(feature = "std")]
+pub use uncertain_drag::UncertainDrag;
 #[cfg(feature = "std")]
 pub use worst_case::{AxisIntervals, WorstMargin, WorstMargins};

@@ -1,7 +1,8 @@
 //! An axis with every term that an identification may report.
 
+use super::uncertain_drag::slope;
 use super::{ControlError, LinearProcess};
-use crate::numeric::{Interval, Real};
+use crate::numeric::Interval;
 use crate::plant::DragAxis;
 
 /// `alpha x'' + (1 + skew sgn x')(beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + memory s + stiffness x = a + delta`,
@@ -133,15 +134,17 @@ impl AxisModel<f64> {
 pub(super) type ModelState = [f64; 5];
 
 impl AxisModel<Interval> {
-    /// Every linear process that slow signals see at speeds up to `top_speed` either way: drag by its slope
-    /// `(1 + skew sgn v)(beta + 2 beta_quadratic |v| + 3 beta_cubic v^2)`, a limited rate as a delay of up to half the ramp. Coulomb
-    /// friction has no slope but at rest, where it holds the axis.
+    /// Slopes of the mean of both sides' drag at speeds up to `top_speed`: `beta + 2 beta_quadratic |v| + 3 beta_cubic v^2`.
     #[must_use]
-    pub fn processes(&self, top_speed: f64) -> LinearProcess<Interval> {
-        let number = Interval::from_f64;
+    pub fn slopes(&self, top_speed: f64) -> Interval {
         let speeds = Interval::new(0.0, top_speed).unwrap_or(Interval::ENTIRE);
-        let slopes =
-            self.beta + number(2.0) * self.beta_quadratic * speeds + number(3.0) * self.beta_cubic * speeds.square();
+        slope([self.beta, self.beta_quadratic, self.beta_cubic], speeds)
+    }
+
+    /// Every linear process that slow signals see where the drag has these slopes, times `1 + skew` to the one side and `1 - skew` to the
+    /// other; a limited rate is a delay of up to half the ramp. Coulomb friction has no slope but at rest, where it holds the axis.
+    #[must_use]
+    pub fn processes(&self, slopes: Interval) -> LinearProcess<Interval> {
         let sides = (Interval::ONE - self.skew).hull(Interval::ONE + self.skew);
         let half = Interval::new(0.0, 0.5).unwrap_or(Interval::ENTIRE);
         LinearProcess {

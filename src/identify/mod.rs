@@ -32,8 +32,8 @@ pub use answer::{DragLaw, IdentifyError};
 #[cfg(feature = "std")]
 pub use {
     answer::{
-        Assumptions, BudgetEntry, ConfidenceInterval, Delay, Disturbances, DragVerdict, ErrorSource, Estimate,
-        LawEvidence, Reason, Reported, Term, Trust, Warning,
+        Assumptions, BudgetEntry, ConfidenceInterval, Delay, Disturbances, DragCovariance, DragVerdict, ErrorSource,
+        Estimate, LawEvidence, Reason, Reported, Term, Trust, Warning,
     },
     fit::prediction_error::{PredictedMotion, Prediction},
     session::{

@@ -78,3 +78,83 @@ fn the_heading_error_counts_for_headings_alone() {
         assert!(shares.is_sorted_by(|a, b| a >= b), "{shares:?}");
     }
 }
+
+/// Speeds of the records, whose top speed is 0.7.
+const SPEEDS: [f64; 3] = [0.0, 0.3, 0.6];
+
+/// Derivatives of the drag's slope by its coefficients.
+fn derivatives(speed: f64) -> [f64; 3] {
+    [1.0, 2.0 * speed, 3.0 * speed * speed]
+}
+
+fn deviation(covariance: &[[f64; 3]; 3], speed: f64) -> f64 {
+    let by = derivatives(speed);
+    let terms = (0..9).map(|k| by[k / 3] * covariance[k / 3][k % 3] * by[k % 3]);
+    terms.sum::<f64>().sqrt()
+}
+
+/// Slopes of the drag from records of one axis scatter as much as each record's covariance says, at every speed; independent coefficients
+/// would scatter twice as much, or more, within the record's speeds.
+#[test]
+fn the_covariance_is_that_of_the_slopes_of_many_records() {
+    const RECORDS: u64 = 24;
+    let axis = DragAxis::mixed(1.0, 0.3, 0.4).unwrap().with_delay_s(0.2).unwrap();
+    let relay = RelayHysteresis::new(1.0, 0.3, 0.0).unwrap();
+    let mut squares = [[0.0; 2]; SPEEDS.len()];
+    for seed in 0..RECORDS {
+        let sensor = Sensor { noise: 0.004, ..Sensor::default() };
+        let record = SimulatedExperiment::new(axis, relay, 10.0).unwrap().held().with_seed(seed);
+        let record = record.with_sensor(sensor).unwrap();
+        let found = Session::new(settings(Assumptions::NONE)).record("log", record.run(60.0).unwrap());
+        let found = found.identify().unwrap();
+        let reported = found.reported().unwrap();
+        let covariance = reported.drag_covariance.unwrap().statistical;
+        let apart = core::array::from_fn(|i| core::array::from_fn(|j| if i == j { covariance[i][i] } else { 0.0 }));
+        for (speed, [together, independent]) in SPEEDS.into_iter().zip(&mut squares) {
+            let error = (reported.beta.value - 0.3) + 2.0 * speed * (reported.beta_quadratic.value - 0.4);
+            *together += (error / deviation(&covariance, speed)).powi(2) / RECORDS as f64;
+            *independent += (error / deviation(&apart, speed)).powi(2) / RECORDS as f64;
+        }
+    }
+    for (speed, [together, independent]) in SPEEDS.into_iter().zip(squares) {
+        assert!((0.5..1.5).contains(&together.sqrt()), "{speed}: {together}");
+        assert!(speed == 0.0 || independent.sqrt() < 0.5 * together.sqrt(), "{speed}: {independent} {together}");
+    }
+}
+
+/// Diagonals are the squares of the intervals' deviations; a scale of 1 % adds a quarter of the product of its two changes.
+#[test]
+fn the_practical_covariance_is_that_of_the_practical_intervals() {
+    let reported = scaled(1.0, 1.0, Assumptions::NONE.with(ErrorSource::Clock, 1.0));
+    let found = reported.drag_covariance.unwrap();
+    let (statistical, combined) = (found.statistical, found.combined.unwrap());
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-9 * b.abs(), "{a} {b}");
+    for (i, drag) in [reported.beta, reported.beta_quadratic].into_iter().enumerate() {
+        near(statistical[i][i], drag.spread.unwrap().std.powi(2));
+        near(combined[i][i], drag.combined.unwrap().std.powi(2));
+    }
+    // 1 % of linear drag, 2 % of quadratic drag, each half a practical interval's half-width of two deviations.
+    let scale = 0.005 * reported.beta.value * 0.01 * reported.beta_quadratic.value;
+    near(combined[0][1], 1.959_963_984_540_054_f64.powi(2) * statistical[0][1] + scale);
+    assert_eq!([combined[2], statistical[2]], [[0.0; 3]; 2], "no cubic drag");
+    assert!(statistical[0][1] < -0.5 * (statistical[0][0] * statistical[1][1]).sqrt());
+}
+
+/// Two equal records halve the covariance; records that do not agree have none.
+#[test]
+fn records_that_agree_pool_their_covariances() {
+    let session = |records: &[Record]| {
+        let session = Session::new(settings(Assumptions::NONE));
+        let session = records.iter().fold(session, |session, record| session.record("log", record.clone()));
+        session.identify().unwrap().reported().unwrap().drag_covariance
+    };
+    let (one, two) = (session(&[record()]).unwrap(), session(&[record(), record()]).unwrap());
+    for (one, two) in one.combined.unwrap().into_iter().zip(two.combined.unwrap()) {
+        one.into_iter().zip(two).for_each(|(one, two)| assert!((two - 0.5 * one).abs() <= 1e-9 * one.abs()));
+    }
+    let axis = DragAxis::mixed(1.0, 0.6, 0.4).unwrap().with_delay_s(0.2).unwrap();
+    let sensor = Sensor { noise: 0.004, ..Sensor::default() };
+    let other = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0).unwrap(), 10.0).unwrap();
+    let other = other.held().with_sensor(sensor).unwrap().run(80.0).unwrap();
+    assert_eq!(session(&[record(), other]), None);
+}

@@ -302,6 +302,50 @@ fn every_reported_term_is_tuned_for() {
     assert!((pushed["with_force"]["step"]["final_error"].as_f64().unwrap() / offset - 1.0).abs() < 0.02);
 }
 
+/// Drags that make up for each other leave fewer slopes than their box; a covariance of other intervals is refused.
+#[test]
+fn the_covariance_of_the_drag_is_tuned_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.json");
+    let tune = |covariance: &str, more: &[&str]| {
+        let drag = |value: f64, std: f64| {
+            let (low, high) = (value - 2.0 * std, value + 2.0 * std);
+            format!(r#"{{"value": {value}, "combined": {{"std": {std}, "low": {low}, "high": {high}}}}}"#)
+        };
+        let text = format!(
+            r#"{{"reported": {{"alpha": {{"value": 1}}, "beta": {}, "beta_quadratic": {}, "trust": "good",
+                "drag_covariance": {covariance}, "delay_s": {{"value": 0.1}}}}}}"#,
+            drag(0.4, 0.1),
+            drag(0.1, 0.2),
+        );
+        std::fs::write(&path, text).unwrap();
+        let call = ["tune", "--model", path.to_str().unwrap(), "--bandwidth", "0.5", "--top-speed", "1", "--json"];
+        output(&[&call, more].concat())
+    };
+    let margin = |covariance: &str, more: &[&str]| {
+        let (status, answer, complaint) = tune(covariance, more);
+        assert_eq!((status, complaint.as_str()), (Some(0), ""), "{answer}");
+        serde_json::from_str::<serde_json::Value>(&answer).unwrap()["sensitivity"]["met"].as_f64().unwrap()
+    };
+    let of = |across: f64| format!(r#"{{"combined": [[0.01, {across}, 0], [{across}, 0.04, 0], [0, 0, 0]]}}"#);
+    let (box_, together) = (margin("null", &[]), margin(&of(-0.019), &[]));
+    assert!(together < box_, "{together} {box_}");
+    // An interval given is independent of the rest.
+    let given = ["--beta-interval", "0.2,0.6"];
+    assert_eq!(margin(&of(-0.019), &given), margin("null", &given));
+    for wrong in [
+        of(-0.0201),
+        of(0.0).replacen("0.01", "0.02", 1),
+        of(0.0).replace(", [0, 0, 0]", ""),
+        of(0.0).replacen("0.01", "\"a\"", 1),
+        r#"{"combined": [[0.01, 0.001, 0], [0.002, 0.04, 0], [0, 0, 0]]}"#.to_owned(),
+        r#"{"combined": 1}"#.to_owned(),
+    ] {
+        let (status, _, complaint) = tune(&wrong, &[]);
+        assert!(status == Some(2) && complaint.contains("reported.drag_covariance.combined"), "{wrong}: {complaint}");
+    }
+}
+
 /// A limit of sensitivity or phase margin holds for every axis, and the gains can be typed in.
 #[test]
 fn tune_to_a_limit_and_in_a_form() {

@@ -2,8 +2,8 @@
 
 use crate::command::known::Model;
 use crate::control::{
-    AxisIntervals, AxisModel, ControlError, Controller, CriterionRange, OpenLoop, ProcessIntervals, RobustCriterion,
-    StepResponse, Structure, Tuning, WorstMargin,
+    AxisIntervals, AxisModel, ControlError, Controller, CriterionRange, LinearProcess, OpenLoop, ProcessIntervals,
+    RobustCriterion, StepResponse, Structure, Tuning, WorstMargin,
 };
 
 /// Samples in the time constant of the double pole, and time constants in the simulated step: the hold is a
@@ -92,10 +92,10 @@ impl Tuned {
         let with_force = acts.then(|| self::response(&values, &tuning, wanted)).transpose()?;
         let top_speed = wanted.top_speed.unwrap_or_else(|| response.top_speed());
         let poles = OpenLoop::new(&axis, tuning.gains(), 0.0)?.closed_loop_poles()?;
-        let processes = ProcessIntervals::new(model.ranges().processes(top_speed))?;
+        let processes = ProcessIntervals::new(model.processes(top_speed))?;
         let uncertain = model.axis.parts().iter().any(|part| part.interval.is_some());
         let worst = if uncertain || axis.quadratic_drag() > 0.0 || !values.is_plain() {
-            Some(worst(model, &processes, &tuning, top_speed)?)
+            Some(worst(model, &processes, &tuning)?)
         } else {
             None
         };
@@ -133,23 +133,12 @@ fn response(model: &AxisModel<f64>, tuning: &Tuning<f64>, wanted: &DesignWanted)
 }
 
 /// Margins of every axis: of a plain one by its own search, else by exclusion of zero.
-fn worst(
-    model: &Model,
-    processes: &ProcessIntervals,
-    tuning: &Tuning<f64>,
-    top_speed: f64,
-) -> Result<Worst, ControlError> {
-    let ranges = model.ranges();
-    if model.values().is_plain() && ranges.beta.lower() >= 0.0 {
-        let quadratic = ranges
-            .beta_quadratic
-            .intersection(crate::numeric::Interval::new(0.0, f64::INFINITY).unwrap_or(ranges.beta_quadratic));
-        if let Some(quadratic) = quadratic {
-            let axes = AxisIntervals::at_speeds(ranges.alpha, ranges.beta, quadratic, top_speed, ranges.delay_s)?;
-            let found = axes.worst_margins(tuning.gains())?;
-            let proved = found.converged || found.at_least.phase_rad > 0.0;
-            return Ok(Worst { at_least: found.at_least, met: found.met, boxes: Some(found.boxes), proved });
-        }
+fn worst(model: &Model, processes: &ProcessIntervals, tuning: &Tuning<f64>) -> Result<Worst, ControlError> {
+    let LinearProcess { alpha, drag, delay_s, .. } = *processes.process();
+    if model.values().is_plain() && drag.lower() >= 0.0 {
+        let found = AxisIntervals::new(alpha, drag, delay_s)?.worst_margins(tuning.gains())?;
+        let proved = found.converged || found.at_least.phase_rad > 0.0;
+        return Ok(Worst { at_least: found.at_least, met: found.met, boxes: Some(found.boxes), proved });
     }
     let enclose = |of| processes.enclose(tuning.gains(), of);
     let [gain, reduction, phase, delay] = [
@@ -181,7 +170,7 @@ fn processes(model: &Model, wanted: &DesignWanted, tuning: &Tuning<f64>) -> Resu
         Some(top_speed) => top_speed,
         None => response(&AxisModel { delta: 0.0, ..model.values() }, tuning, wanted)?.top_speed(),
     };
-    ProcessIntervals::new(model.ranges().processes(top_speed))
+    ProcessIntervals::new(model.processes(top_speed))
 }
 
 /// Bandwidths from the largest to the least for which there are gains, evenly on a logarithmic scale.

@@ -5,6 +5,8 @@ pub(crate) mod any_float;
 #[cfg(feature = "std")]
 mod budget;
 #[cfg(feature = "std")]
+mod covariance;
+#[cfg(feature = "std")]
 pub(crate) mod distribution;
 mod drag_law;
 mod error;
@@ -29,10 +31,11 @@ pub use drag_law::DragLaw;
 pub use error::IdentifyError;
 pub(crate) use error::READ_AGAIN;
 #[cfg(feature = "std")]
-pub(crate) use practical::MotionScale;
+pub(crate) use {covariance::matrix, practical::MotionScale};
 #[cfg(feature = "std")]
 pub use {
     budget::{Assumptions, BudgetEntry, ErrorSource},
+    covariance::DragCovariance,
     estimate::{ConfidenceInterval, Disturbances, Estimate},
     laws::{DragVerdict, LawEvidence},
     parameter::{AxisParameter, Delay},

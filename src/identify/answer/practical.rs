@@ -4,6 +4,7 @@
 //! What a practical interval does not hold: the scale of the thrust, and a source that is not in the table.
 
 use super::budget::{Assumptions, BudgetEntry, ErrorSource, Shares};
+use super::covariance::matrix;
 use super::{Disturbances, Estimate, Reported};
 
 /// A record's own units of force, speed and time.
@@ -29,13 +30,19 @@ struct Moved {
 impl Moved {
     /// Half the width of the declared sources' interval of a value, from shares that are independent of each other.
     fn declared(&self, value: f64, assumed: &Assumptions) -> f64 {
-        let part = |source: ErrorSource| {
-            let shares = source.shares();
-            let exact = (shares.output * self.output + shares.time * self.time).abs() * value.abs();
-            let tried = (self.trial)(&shares) * self.whole.abs();
-            0.01 * assumed.size(source) * (exact + tried)
-        };
+        let part = |source: ErrorSource| self.exact(value, source, assumed).abs() + self.tried(source, assumed);
         ErrorSource::ALL.into_iter().map(|source| part(source).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// Change by a source whose shares are powers of the unit.
+    fn exact(&self, value: f64, source: ErrorSource, assumed: &Assumptions) -> f64 {
+        let shares = source.shares();
+        0.01 * assumed.size(source) * (shares.output * self.output + shares.time * self.time) * value
+    }
+
+    /// Change by a source whose share is of the trial.
+    fn tried(&self, source: ErrorSource, assumed: &Assumptions) -> f64 {
+        0.01 * assumed.size(source) * (self.trial)(&source.shares()) * self.whole.abs()
     }
 }
 
@@ -71,6 +78,18 @@ impl Reported {
             whole: if speed > 0.0 { force / speed.powi(power) } else { 0.0 },
             ..exact(f64::from(power), f64::from(power))
         };
+        // A scale moves the three coefficients together. Which of them takes a trial's share is not known: apart.
+        let (drags, estimates) = ([1, 2, 3].map(drag), self.drags());
+        let declared = matrix(|i, j| {
+            let estimated = |k: usize| estimates[k].filter(|drag| drag.spread.is_some());
+            let Some((row, column)) = estimated(i).zip(estimated(j)) else { return 0.0 };
+            let of = |source: ErrorSource| {
+                let together = drags[i].exact(row.value, source, assumed) * drags[j].exact(column.value, source, assumed);
+                let apart = if i == j { drags[i].tried(source, assumed) } else { 0.0 };
+                together + apart * apart
+            };
+            ErrorSource::ALL.into_iter().map(of).sum()
+        });
         let practical =
             |estimate: Estimate, moved: Moved| estimate.with_declared(moved.declared(estimate.value, assumed));
         let optional = |estimate: Option<Estimate>, output: f64, time: f64| {
@@ -88,9 +107,10 @@ impl Reported {
         let delay = Moved { trial: |shares| shares.delay, whole: half_period_s, ..exact(0.0, 1.0) };
         Self {
             alpha: practical(self.alpha, alpha),
-            beta: practical(self.beta, drag(1)),
-            beta_quadratic: practical(self.beta_quadratic, drag(2)),
-            beta_cubic: self.beta_cubic.map(|cubic| practical(cubic, drag(3))),
+            beta: practical(self.beta, drags[0]),
+            beta_quadratic: practical(self.beta_quadratic, drags[1]),
+            beta_cubic: self.beta_cubic.map(|cubic| practical(cubic, drags[2])),
+            drag_covariance: self.drag_covariance.map(|covariance| covariance.with_declared(declared)),
             skew: optional(self.skew, 0.0, 0.0),
             coulomb: optional(self.coulomb, 0.0, 0.0).map(Estimate::not_below_zero),
             memory: optional(self.memory, 1.0, 1.0),

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{BudgetEntry, Disturbances, DragLaw, Estimate, LawEvidence, Reason, Term, Trust};
+use super::{BudgetEntry, Disturbances, DragCovariance, DragLaw, Estimate, LawEvidence, Reason, Term, Trust};
 
 /// The one answer to use. All models that the records do not refute are averaged: a parameter of one that they do is absent.
 ///
@@ -25,6 +25,9 @@ pub struct Reported<Drag = Estimate, Why = Reason> {
     pub beta_quadratic: Drag,
     /// Cubic drag, where the likeliest model has it.
     pub beta_cubic: Option<Estimate>,
+    /// How the three vary together; `None` where several records do not agree in each of them.
+    #[serde(default)]
+    pub drag_covariance: Option<DragCovariance>,
     /// Part by which drag is larger to the positive side than the mean of both, where the likeliest model has it.
     pub skew: Option<Estimate>,
     /// Coulomb friction, where the likeliest model has it.
@@ -63,6 +66,11 @@ impl Reported {
         self.delay_s.value + late(self.lag_s) + late(self.filter_s) + 0.5 * late(self.ramp_s)
     }
 
+    /// Linear, quadratic and cubic drag.
+    pub(crate) fn drags(&self) -> [Option<Estimate>; 3] {
+        [Some(self.beta), Some(self.beta_quadratic), self.beta_cubic]
+    }
+
     /// With one more reason.
     pub(crate) fn with_reason(mut self, reason: Reason) -> Self {
         self.reasons.push(reason);
@@ -72,12 +80,15 @@ impl Reported {
 
     /// The same in other units of force.
     pub(crate) fn in_units(self, factor: f64) -> Self {
-        self.forces(|estimate| estimate.in_units(factor))
+        let drag_covariance = self.drag_covariance.map(|covariance| covariance.in_units(factor));
+        Self { drag_covariance, ..self.forces(|estimate| estimate.in_units(factor)) }
     }
 
     /// With a relative error of the unit of force.
     pub(crate) fn with_error(self, relative: f64) -> Self {
-        self.forces(|estimate| estimate.with_error(relative))
+        let values = self.drags().map(|drag| drag.map_or(0.0, |drag| drag.value));
+        let drag_covariance = self.drag_covariance.map(|covariance| covariance.with_error(relative, values));
+        Self { drag_covariance, ..self.forces(|estimate| estimate.with_error(relative)) }
     }
 
     fn forces(mut self, change: impl Fn(Estimate) -> Estimate) -> Self {

@@ -48,7 +48,7 @@ pub type ReportedModel = Reported<Option<Estimate>, Caution>;
 impl From<&Reported> for ReportedModel {
     fn from(reported: &Reported) -> Self {
         let Reported { drag, alpha, beta_cubic, skew, coulomb, memory, memory_s, stiffness, .. } = *reported;
-        let Reported { lag_s, ramp_s, filter_s, delay_s, trust, .. } = *reported;
+        let Reported { lag_s, ramp_s, filter_s, delay_s, drag_covariance, trust, .. } = *reported;
         Self {
             drag,
             laws: LawEvidence::default(),
@@ -57,6 +57,7 @@ impl From<&Reported> for ReportedModel {
             beta: drag.has_linear().then_some(reported.beta),
             beta_quadratic: drag.has_quadratic().then_some(reported.beta_quadratic),
             beta_cubic,
+            drag_covariance,
             skew,
             coulomb,
             memory,

@@ -2,7 +2,7 @@
 
 use nalgebra::Complex;
 use proptest::prelude::*;
-use selfosc::control::{Gains, LinearProcess, ProcessIntervals, RobustCriterion, Structure};
+use selfosc::control::{Gains, LinearProcess, ProcessIntervals, RobustCriterion, Structure, UncertainDrag};
 use selfosc::numeric::Interval;
 
 use crate::sampling::recorded;
@@ -51,6 +51,37 @@ fn inside(process: &LinearProcess<Interval>, at: &[f64]) -> LinearProcess<f64> {
 fn gains(integral: f64) -> Gains<f64> {
     let structure = if integral > 0.0 { Structure::Pid } else { Structure::Pd };
     Gains::new(structure, 0.5, integral, 0.9, 0.1).unwrap()
+}
+
+proptest! {
+    #![proptest_config(recorded(64))]
+
+    /// Coefficients `c + 2 L z` with `|z| = 1` are those of the ellipsoid `2 sqrt(J C J^T)` supports, `C = L L^T`: their slopes are inside, and
+    /// the two worst of each speed near the ends.
+    #[test]
+    fn slopes_are_those_of_the_ellipsoid(
+        coefficients in proptest::array::uniform3(-1.0..1.0_f64),
+        factor in proptest::array::uniform6(-0.5..0.5_f64),
+        top_speed in 0.01..3.0_f64,
+    ) {
+        let [a, b, c, d, e, f] = factor;
+        let rows = [[a, 0.0, 0.0], [b, c, 0.0], [d, e, f]];
+        let product = |i: usize, j: usize| (0..3).map(|k| rows[i][k] * rows[j][k]).sum::<f64>();
+        let covariance = core::array::from_fn(|i| core::array::from_fn(|j| product(i, j)));
+        let slopes = UncertainDrag { coefficients, covariance }.slopes(top_speed);
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for k in 0..=200 {
+            let speed = top_speed * f64::from(k) / 200.0;
+            let by = [1.0, 2.0 * speed, 3.0 * speed * speed];
+            let across: [f64; 3] = core::array::from_fn(|k| (0..3).map(|i| rows[i][k] * by[i]).sum());
+            let reach = 2.0 * across.iter().map(|part| part * part).sum::<f64>().sqrt();
+            let slope: f64 = (0..3).map(|i| by[i] * coefficients[i]).sum();
+            (low, high) = (low.min(slope - reach), high.max(slope + reach));
+        }
+        prop_assert!(slopes.lower() <= low && high <= slopes.upper());
+        let size = 1.0 + 2.0 * top_speed + 3.0 * top_speed * top_speed;
+        prop_assert!(low - slopes.lower() <= 0.05 * size && slopes.upper() - high <= 0.05 * size, "{slopes:?} {low} {high}");
+    }
 }
 
 proptest! {

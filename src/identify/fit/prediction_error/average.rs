@@ -45,25 +45,29 @@ const SUBTLE: [Parameter; 9] = [
     Parameter::FilterS,
 ];
 
-/// Standard deviations of the structural parameters of a model under white errors, zero where not estimated; `None` where the
-/// record does not determine a parameter.
-fn deviations(fitted: &Fitted, observations: &Observations) -> Option<[f64; Parameter::COUNT]> {
+/// Covariance of the structural parameters, zero where not estimated.
+type StructureCovariance = [[f64; Parameter::COUNT]; Parameter::COUNT];
+
+/// Covariance of the structural parameters of a model under white errors; `None` where the record does not determine a parameter.
+fn covariance(fitted: &Fitted, observations: &Observations) -> Option<StructureCovariance> {
     let free = scoring::movable(&fitted.model, &fitted.score, observations);
-    let mut deviations = [0.0; Parameter::COUNT];
-    for (place, index) in free.iter().enumerate() {
+    let mut covariance = [[0.0; Parameter::COUNT]; Parameter::COUNT];
+    for index in &free {
         let mut unit = [0.0; Parameter::COUNT];
         unit[*index] = 1.0;
         let (column, _) = scoring::solve(&fitted.score.structure_information, &unit, &free, 1e-10)?;
-        deviations[*index] = column[place].sqrt();
+        free.iter().zip(column).for_each(|(row, entry)| covariance[*row][*index] = entry);
     }
-    Some(deviations)
+    Some(covariance)
 }
 
-/// The deviations under rounding errors, from the deviations under white errors.
-fn under_rounding(fitted: &Fitted, observations: &Observations, deviations: &mut [f64; Parameter::COUNT]) {
+/// The covariance under rounding errors, from that under white errors: correlations stay.
+fn under_rounding(fitted: &Fitted, observations: &Observations, covariance: &mut StructureCovariance) {
     let free = scoring::movable(&fitted.model, &fitted.score, observations);
     if let Some(factors) = rounding::factors(fitted, observations, &free) {
-        deviations.iter_mut().zip(factors).for_each(|(deviation, factor)| *deviation *= factor);
+        for (row, factor) in covariance.iter_mut().zip(factors) {
+            row.iter_mut().zip(factors).for_each(|(entry, other)| *entry *= factor * other);
+        }
     }
 }
 
@@ -82,9 +86,9 @@ pub(super) fn log_odds_against(model: &VehicleModel, known_delay_s: Option<f64>)
     had as f64 * (LATE_ODDS * ways as f64).ln() + PLAIN_LOG_ODDS * (model.freedom() - subtle - drags(model)) as f64
 }
 
-/// The models of an average with their weights and their deviations.
+/// The models of an average with their weights and their covariances.
 pub(super) struct Average<'a> {
-    pub(super) members: Vec<(f64, &'a Fitted, [f64; Parameter::COUNT])>,
+    pub(super) members: Vec<(f64, &'a Fitted, StructureCovariance)>,
 }
 
 impl<'a> Average<'a> {
@@ -97,7 +101,7 @@ impl<'a> Average<'a> {
         let best = &found.tried[found.best];
         let top = value(best);
         let temper = if confounded_lags::is_in(&best.model) { TEMPER } else { 1.0 };
-        let mut members: Vec<(f64, &Fitted, [f64; Parameter::COUNT])> = Vec::new();
+        let mut members: Vec<(f64, &Fitted, StructureCovariance)> = Vec::new();
         for fitted in &found.tried {
             let weight = (temper * (value(fitted) - top)).exp();
             if weight < 1e-3 {
@@ -108,17 +112,17 @@ impl<'a> Average<'a> {
                 if fitted.log_likelihood <= same.1.log_likelihood {
                     continue;
                 }
-                if let Some(deviations) = deviations(fitted, observations(fitted)) {
-                    *same = (weight, fitted, deviations);
+                if let Some(covariance) = covariance(fitted, observations(fitted)) {
+                    *same = (weight, fitted, covariance);
                 }
                 continue;
             }
-            if let Some(deviations) = deviations(fitted, observations(fitted)) {
-                members.push((weight, fitted, deviations));
+            if let Some(covariance) = covariance(fitted, observations(fitted)) {
+                members.push((weight, fitted, covariance));
             }
         }
         // A model that contains another and hardly gains on it has a parameter without effect.
-        let idle = |(_, fitted, _): &(f64, &Fitted, [f64; Parameter::COUNT])| {
+        let idle = |(_, fitted, _): &(f64, &Fitted, StructureCovariance)| {
             members.iter().any(|(_, other, _)| {
                 contains(&fitted.model, &other.model)
                     && 2.0 * (fitted.log_likelihood - other.log_likelihood) < least_gain(&fitted.model, &other.model)
@@ -128,9 +132,9 @@ impl<'a> Average<'a> {
         let mut keep = idle.iter().map(|idle| !idle);
         members.retain(|_| keep.next().unwrap_or(true));
         let sum: f64 = members.iter().map(|member| member.0).sum();
-        members.par_iter_mut().for_each(|(weight, fitted, deviations)| {
+        members.par_iter_mut().for_each(|(weight, fitted, covariance)| {
             *weight /= sum;
-            under_rounding(fitted, observations(fitted), deviations);
+            under_rounding(fitted, observations(fitted), covariance);
         });
         Self { members }
     }
@@ -141,10 +145,10 @@ impl<'a> Average<'a> {
         let components: Vec<MixtureComponent> = self
             .members
             .iter()
-            .map(|(weight, fitted, deviations)| MixtureComponent {
+            .map(|(weight, fitted, covariance)| MixtureComponent {
                 weight: *weight,
                 mean: fitted.model.values[index],
-                std: factor * deviations[index],
+                std: factor * covariance[index][index].sqrt(),
             })
             .collect();
         let mean: f64 = components.iter().map(|c| c.weight * c.mean).sum();
@@ -161,6 +165,26 @@ impl<'a> Average<'a> {
         let (low, high) = (quantile(&components, 0.025), quantile(&components, 0.975));
         // A component far away with less weight than a tail moves the mean, but no end of the interval.
         Some(Estimate::new(mean.max(low).min(high), Some(ConfidenceInterval { std, low, high })))
+    }
+}
+
+impl Average<'_> {
+    /// Covariance of parameters: the mean of the models' own, wider by the square of `factor`, and the covariance of their values (law of total
+    /// covariance).
+    pub(super) fn covariance<const N: usize>(&self, parameters: [Parameter; N], factor: f64) -> [[f64; N]; N] {
+        let mean = |value: &dyn Fn(&Fitted, &StructureCovariance) -> f64| -> f64 {
+            self.members.iter().map(|(weight, fitted, covariance)| weight * value(fitted, covariance)).sum()
+        };
+        let centre = parameters.map(|parameter| mean(&|fitted, _| fitted.model.value(parameter)));
+        core::array::from_fn(|i| {
+            core::array::from_fn(|j| {
+                let [row, column] = [i, j].map(|k| parameters[k]);
+                mean(&|fitted, covariance| {
+                    let apart = (fitted.model.value(row) - centre[i]) * (fitted.model.value(column) - centre[j]);
+                    factor * factor * covariance[row as usize][column as usize] + apart
+                })
+            })
+        })
     }
 }
 

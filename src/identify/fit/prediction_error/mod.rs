@@ -45,7 +45,7 @@ use rayon::prelude::*;
 use super::start;
 use crate::experiment::Record;
 use crate::identify::answer::distribution::{NORMAL_95, student_quantile_95_expanded};
-use crate::identify::answer::{Delay, DragLaw, Estimate, IdentifyError, LawEvidence, Reason, Reported, Term, Trust};
+use crate::identify::answer::{Delay, DragCovariance, DragLaw, Estimate, IdentifyError, LawEvidence, Reason, Reported, Term, Trust};
 pub use crate::identify::signal::{Clock, SwitchingInstant};
 use crate::numeric::{Limit, domain};
 use average::{Average, CHOSEN};
@@ -193,14 +193,21 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
         }
         estimate
     };
+    let drags = [Parameter::LinearDrag, Parameter::QuadraticDrag, Parameter::CubicDrag];
+    let [beta, beta_quadratic] = [estimate(drags[0]), estimate(drags[1])];
+    let beta_cubic = present(drags[2]);
     let reported = Reported {
         drag: known.law.unwrap_or(DragLaw::Mixed),
         laws: laws_of(found, best),
         terms,
         alpha,
-        beta: estimate(Parameter::LinearDrag),
-        beta_quadratic: estimate(Parameter::QuadraticDrag),
-        beta_cubic: present(Parameter::CubicDrag),
+        beta,
+        beta_quadratic,
+        beta_cubic,
+        drag_covariance: DragCovariance::scaled(
+            average.covariance(drags, factor),
+            [Some(beta), Some(beta_quadratic), beta_cubic],
+        ),
         skew: present(Parameter::Skew),
         coulomb: present(Parameter::Coulomb).map(not_negative),
         stiffness: present(Parameter::Stiffness),

@@ -52,9 +52,26 @@ pub(super) fn pooled(estimates: &[Estimate]) -> (Estimate, Option<f64>) {
     (Estimate::new(value, spread), Some(between))
 }
 
+/// The weights that [`pooled`] gives each record's number, zero for a record without one. `None` where the numbers do not agree.
+pub(super) fn weights(estimates: &[Option<Estimate>]) -> Option<Vec<f64>> {
+    let numbers = known(&estimates.iter().flatten().copied().collect::<Vec<Estimate>>());
+    if numbers.as_ref().is_some_and(|numbers| probability_of_one(numbers) < DISAGREE) {
+        return None;
+    }
+    let precision = |estimate: &Option<Estimate>| estimate.and_then(|one| one.spread).map(|one| one.deviation().powi(-2));
+    let mut weights: Vec<f64> = estimates.iter().map(|one| precision(one).unwrap_or(0.0)).collect();
+    if numbers.is_none() {
+        // The first with an error stands for all.
+        let first = weights.iter().position(|weight| *weight > 0.0);
+        weights.iter_mut().enumerate().filter(|(index, _)| Some(*index) != first).for_each(|(_, weight)| *weight = 0.0);
+    }
+    let sum: f64 = weights.iter().sum();
+    Some(weights.into_iter().map(|weight| if sum > 0.0 { weight / sum } else { 0.0 }).collect())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{ConfidenceInterval, Estimate, pooled};
+    use super::{ConfidenceInterval, Estimate, pooled, weights};
     use crate::identify::answer::distribution::NORMAL_95 as NORMAL;
 
     fn estimate(value: f64, std: f64) -> Estimate {
@@ -82,6 +99,16 @@ mod tests {
         // The 1 % point of chi-square with 1 degree of freedom is 6.635.
         let gap = |square: f64| pooled(&[estimate(0.0, 1.0), estimate((2.0 * square).sqrt(), 1.0)]).1.is_some();
         assert!(gap(6.64) && !gap(6.63));
+    }
+
+    #[test]
+    fn weights_are_those_of_the_pooled_mean() {
+        let found = weights(&[Some(estimate(2.0, 0.5)), None, Some(estimate(3.0, 1.0))]);
+        assert_eq!(found, Some(vec![0.8, 0.0, 0.2]));
+        assert_eq!(weights(&[Some(estimate(2.0, 0.1)), Some(estimate(4.0, 0.2))]), None);
+        let exact = Estimate::new(0.0, None);
+        assert_eq!(weights(&[Some(exact), Some(estimate(2.0, 0.3)), Some(estimate(9.0, 0.3))]), Some(vec![0.0, 1.0, 0.0]));
+        assert_eq!(weights(&[Some(exact), None]), Some(vec![0.0; 2]));
     }
 
     #[test]

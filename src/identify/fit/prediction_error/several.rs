@@ -5,11 +5,11 @@
 //! Records of other levels of the command may differ because thrust is not proportional to it: see [`thrust`](super::thrust).
 
 use super::candidate::RecordAnswer;
-use super::pooling::{DISAGREE, known, mean, pooled, probability_of_one};
+use super::pooling::{DISAGREE, known, mean, pooled, probability_of_one, weights};
 use super::prediction::Prediction;
 use super::thrust::{CommandLevels, Drawn, ThrustLaw, ThrustVerdict};
 use crate::experiment::Record;
-use crate::identify::answer::{Estimate, LawEvidence, Reason, Reported, Trust};
+use crate::identify::answer::{DragCovariance, Estimate, LawEvidence, Reason, Reported, Trust, matrix};
 
 /// Relative standard deviation from which on a drag says nothing about the ratio of drag to inertia.
 const VAGUE: f64 = 0.3;
@@ -89,6 +89,19 @@ impl Together {
         let all = |records: &[Reported]| records.iter().filter_map(&of).collect::<Vec<Estimate>>();
         joint(&all(&self.parts)).map(|one| one.with_error(self.shared).holding(&all(&self.held)))
     }
+
+    /// Covariance of the pooled drags: `sum_k w_ki w_kj C_k,ij` over records k with the weights of the means.
+    fn drag_covariance(&self, values: [f64; 3]) -> Option<DragCovariance> {
+        let drags: Vec<[Option<Estimate>; 3]> = self.parts.iter().map(Reported::drags).collect();
+        let own: Option<Vec<_>> = self.parts.iter().map(|part| part.drag_covariance).collect();
+        let own = own.filter(|_| self.held.is_empty())?;
+        let of = |i: usize| weights(&drags.iter().map(|drags| drags[i]).collect::<Vec<_>>());
+        let weights = [of(0)?, of(1)?, of(2)?];
+        let entry = |i: usize, j: usize| {
+            own.iter().enumerate().map(|(k, own)| weights[i][k] * weights[j][k] * own.statistical[i][j]).sum()
+        };
+        Some(DragCovariance::statistical(matrix(entry)).with_error(self.shared, values))
+    }
 }
 
 /// One from those that are there.
@@ -122,14 +135,19 @@ impl Several {
         let mut terms: Vec<_> = answers.iter().flat_map(|answer| answer.reported.terms.iter().copied()).collect();
         terms.sort_unstable();
         terms.dedup();
+        let beta = together.force(|r| Some(r.beta)).unwrap_or(first.beta);
+        let beta_quadratic = together.force(|r| Some(r.beta_quadratic)).unwrap_or(first.beta_quadratic);
+        let beta_cubic = together.force(|r| r.beta_cubic);
+        let values = [beta.value, beta_quadratic.value, beta_cubic.map_or(0.0, |cubic| cubic.value)];
         let reported = Reported {
             drag: first.drag,
             laws: LawEvidence::sum(answers.iter().map(|answer| answer.reported.laws)),
             terms,
             alpha,
-            beta: together.force(|r| Some(r.beta)).unwrap_or(first.beta),
-            beta_quadratic: together.force(|r| Some(r.beta_quadratic)).unwrap_or(first.beta_quadratic),
-            beta_cubic: together.force(|r| r.beta_cubic),
+            beta,
+            beta_quadratic,
+            beta_cubic,
+            drag_covariance: together.drag_covariance(values),
             skew: own(&|r| r.skew),
             memory: together.force(|r| r.memory),
             memory_s: own(&|r| r.memory_s),

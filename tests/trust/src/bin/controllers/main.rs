@@ -71,9 +71,12 @@ struct Arguments {
     /// Only kinds with this in their name.
     #[arg(long, default_value = "")]
     kind: String,
-    /// Markdown file to write; standard output without it.
+    /// Markdown file to write, whose sections after the table stay; standard output without it.
     #[arg(long)]
     out: Option<PathBuf>,
+    /// Folder for the logs and models, by kind and seed; without it they are not kept.
+    #[arg(long)]
+    keep: Option<PathBuf>,
     /// Prints every model that is not accepted, and every margin that is overstated, with its seed.
     #[arg(long)]
     list: bool,
@@ -83,7 +86,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments = Arguments::parse();
     let kinds: Vec<Kind> =
         KINDS.iter().filter(|name| name.contains(&arguments.kind)).filter_map(|name| Kind::named(name)).collect();
-    let folder = tempfile::tempdir()?;
+    let temporary = tempfile::tempdir()?;
+    let folder = arguments.keep.as_deref().unwrap_or(temporary.path());
     let mut score = Score::default();
     'all: for seed in arguments.seed.. {
         for kind in &kinds {
@@ -91,7 +95,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 break 'all;
             }
             let case = kind.case(seed);
-            let Some(tried) = tried(&case, folder.path())? else { continue };
+            let stem = folder.join(format!("{} {seed}", kind.name.replace('/', " per ")));
+            let Some(tried) = tried(&case, &stem)? else { continue };
             if arguments.list && tried.is_remarkable() {
                 println!("{} {seed}: {tried:?}", kind.name);
             }
@@ -99,15 +104,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
     match &arguments.out {
-        Some(path) => std::fs::write(path, score.page(arguments.seed))?,
+        Some(path) => {
+            let before = std::fs::read_to_string(path).unwrap_or_default();
+            let sections = before.find("\n## ").map_or("", |at| &before[at..]);
+            std::fs::write(path, score.page(arguments.seed) + sections)?;
+        }
         None => println!("{}", score.page(arguments.seed)),
     }
     Ok(())
 }
 
-/// What becomes of a case; `None` where its model is not trusted.
-fn tried(case: &Case, folder: &Path) -> Result<Option<Tried>, Box<dyn std::error::Error>> {
-    let (log, model) = (folder.join("log.csv"), folder.join("model.json"));
+/// What becomes of a case, whose log and model are written to files of this stem; `None` where its model is not trusted.
+fn tried(case: &Case, stem: &Path) -> Result<Option<Tried>, Box<dyn std::error::Error>> {
+    let file = |ending: &str| PathBuf::from(format!("{}.{ending}", stem.display()));
+    let (log, model) = (file("csv"), file("json"));
     let record = &case.runs[0].record;
     let mut text = "time_s,position,input\n".to_owned();
     for ((time_s, output), input) in record.time_s.iter().zip(&record.output).zip(&record.input) {
