@@ -52,7 +52,7 @@ def main():
                     times, headings, commands, _ = simulate(axis, seed, duration_s=duration_s or 2.0 * CYCLES * half_period_s)
                     stepped = (round(heading / DEGREE) * DEGREE for heading in headings)
                     rows = [f"{t:.6f},{x:.9f},{u:g}" for t, x, u in zip(times, stepped, commands)]
-                    path.write_text("time_s,heading,input\n" + "\n".join(rows) + "\n")
+                    path.write_text("time_s,output,input\n" + "\n".join(rows) + "\n")
                     reported = identified(command, path, None)
                     if reported is None or reported["trust"] == "doubtful":
                         continue
