@@ -32,6 +32,14 @@ impl Claim {
         self.items("Steps by hand")
     }
 
+    /// The case against the statement as printed: the first sentence of its item; `None` where it holds.
+    #[must_use]
+    pub fn counterexample(&self) -> Option<String> {
+        let (subject, case) = self.items("Counterexamples").next()?.split_once(": ")?;
+        let case = case.split_once(". ").map_or(case, |(first, _)| first).trim_end_matches([';', '.']);
+        subject.starts_with("as printed").then(|| case.replace('`', ""))
+    }
+
     /// The value of a line `key: value` in the header.
     fn header(&self, key: &str) -> Option<&'static str> {
         let header = self.spec.strip_prefix("```text\n")?.split("```").next()?;

@@ -12,6 +12,7 @@ use super::{CommandError, Outcome, refused, write_json};
 use crate::experiment::Sensor;
 use crate::identify::Delay;
 use crate::identify::design::{DesignError, Deviations, Proposal, Run, Situation};
+use crate::numeric::significant;
 use crate::report::{Cell, Table};
 
 /// Which relay level and half-width determine the inertia best, and which second level tells the drag laws apart.
@@ -86,23 +87,16 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     show(&proposals, output)
 }
 
-/// Digits after the first of a number shown.
-fn cell(value: f64) -> Cell {
-    if value.is_finite() { Cell::Text(format!("{value:.2e}")) } else { Cell::Missing }
+fn cell(value: f64, digits: usize) -> Cell {
+    if value.is_finite() { Cell::Text(significant(value, digits)) } else { Cell::Missing }
 }
 
 fn row(table: Table, name: &str, run: &Run, std: &Deviations) -> Table {
-    let numbers = [
-        run.relay_level,
-        run.half_width,
-        run.amplitude,
-        run.period_s,
-        std.alpha,
-        std.beta,
-        std.beta_quadratic,
-        std.delay_s,
-    ];
-    table.row([Cell::Text(name.to_owned())].into_iter().chain(numbers.map(cell)).chain([Cell::Flag(run.locks)]))
+    let run_shown = [run.relay_level, run.half_width, run.amplitude, run.period_s].map(|value| cell(value, 3));
+    let deviations = [std.alpha, std.beta, std.beta_quadratic, std.delay_s].map(|value| cell(value, 2));
+    table.row(
+        [Cell::Text(name.to_owned())].into_iter().chain(run_shown).chain(deviations).chain([Cell::Flag(run.locks)]),
+    )
 }
 
 fn show(proposals: &[Proposal], output: &mut impl Write) -> Result<Outcome, CommandError> {
@@ -130,9 +124,12 @@ fn show(proposals: &[Proposal], output: &mut impl Write) -> Result<Outcome, Comm
     if let Some(second) = proposals.first().and_then(|proposal| proposal.second.as_ref()) {
         writeln!(
             output,
-            "Record 1 with level {:.3e} and half-width {:.3e} beside it: linear drag shows by {:.1}, quadratic drag by {:.1} \
+            "Record 1 with level {} and half-width {} beside it: linear drag shows by {:.1}, quadratic drag by {:.1} \
              standard deviations. Standard deviations in a line `with` are those of both records.",
-            second.run.relay_level, second.run.half_width, second.linear_needed, second.quadratic_needed,
+            significant(second.run.relay_level, 3),
+            significant(second.run.half_width, 3),
+            second.linear_needed,
+            second.quadratic_needed,
         )?;
     }
     Ok(Outcome::Done)

@@ -12,7 +12,7 @@ use super::number::number;
 use super::{CommandError, Outcome, files, gain, write_json};
 use crate::describing::{CATALOGUE, DescribingFunction, Entry, RoundingBounds, Setting, by_quadrature, certified};
 use crate::nonlinearity::{ParameterSpec, Sinusoid};
-use crate::numeric::{Interval, Real};
+use crate::numeric::{Interval, Real, significant};
 use crate::proof::rigorous_quadrature::CellJet;
 use crate::report::characteristics;
 
@@ -60,6 +60,9 @@ pub(super) struct Arguments {
     #[arg(long)]
     json: bool,
 }
+
+/// Digits for a person; the document has all.
+const DIGITS: usize = 6;
 
 #[derive(Clone, Copy, Debug, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -124,6 +127,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     } else if let Some(DescribingFunction { f0, p, q }) = enclosed {
         writeln!(output, "F_0 in {f0}\nP   in {p}\nQ   in {q}")?;
     } else {
+        let [f0, p, q] = [f0, p, q].map(|part| significant(part, DIGITS));
         writeln!(output, "F_0 = {f0}\nP   = {p}\nQ   = {q}")?;
     }
     Ok(Outcome::Done)

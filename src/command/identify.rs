@@ -330,7 +330,7 @@ fn show(found: &Identification, output: &mut impl Write) -> Result<(), CommandEr
             writeln!(output, "{}", table.text())?;
         }
     }
-    for table in page::model_tables(found) {
+    for table in page::method_tables(found).into_iter().chain(page::answer_tables(found)) {
         writeln!(output, "{}", table.text())?;
     }
     if let Some(bounded) = found.bounded() {

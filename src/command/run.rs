@@ -19,7 +19,7 @@ use crate::experiment::Columns;
 use crate::files::Files;
 use crate::identify::document::RefusalDocument;
 use crate::identify::{DragLaw, Session, Settings};
-use crate::numeric::significant;
+use crate::numeric::Uncertain;
 use crate::on_board::{Coordinate, Experiment, Phase, Protocol, Step};
 use display::Display;
 use flags::ProtocolArguments;
@@ -198,10 +198,11 @@ fn report(experiment: &Experiment<f64>, content: &Value) {
     };
     let model = match content["reported"].as_object() {
         Some(model) => {
-            let part = |name: &str| model["alpha"][name].as_f64().map_or_else(|| "-".to_owned(), |x| significant(x, 4));
-            let [value, low, high] = ["value", "low", "high"].map(part);
+            let alpha = &model["alpha"];
+            let [value, low, high] = [&alpha["value"], &alpha["combined"]["low"], &alpha["combined"]["high"]]
+                .map(|part| part.as_f64().unwrap_or(f64::NAN));
             let trust = model["trust"].as_str().unwrap_or("-");
-            format!("inertia {value}, 95 % from {low} to {high}; trust: {trust}")
+            format!("inertia {} (practical, 95 %); trust: {trust}", Uncertain::between(value, low, high))
         }
         None => format!("no model: {}", content["refused"]["text"].as_str().unwrap_or("no method answers")),
     };

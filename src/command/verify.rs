@@ -99,16 +99,12 @@ fn check(
     // Drawn on standard error, and only where that is a terminal.
     let progress = if arguments.progress { ProgressBar::new(chosen.len() as u64) } else { ProgressBar::hidden() };
     progress.set_style(ProgressStyle::with_template("{pos}/{len} {msg}").unwrap_or(ProgressStyle::default_bar()));
-    let width = chosen.iter().map(|claim| claim.id.len()).max().unwrap_or(0);
-    if !arguments.json {
-        writeln!(output, "{:width$}  {:14}  {:14}  evidence", "claim", "as printed", "as corrected")?;
-    }
     let mut findings = Vec::with_capacity(chosen.len());
     for &claim in chosen {
         progress.set_message(claim.id);
         let finding = claim.check(budget);
         if !arguments.json {
-            progress.suspend(|| lines(claim, &finding, width, output))?;
+            progress.suspend(|| lines(claim, &finding, output))?;
             output.flush()?;
         }
         findings.push((claim, finding));
@@ -143,7 +139,10 @@ fn evidence(claim: &Claim, finding: &Finding) -> String {
     let mut said = Vec::new();
     said.extend((!proved.parts.is_empty()).then(|| format!("on {proved}")));
     said.extend((!exhausted.parts.is_empty()).then(|| format!("all states of {exhausted}")));
-    said.extend(residual_bound.map(|bound| format!("residual {bound:.1e}")));
+    said.extend(
+        residual_bound
+            .map(|bound| if bound == 0.0 { "residual 0".to_owned() } else { format!("residual {bound:.1e}") }),
+    );
     said.extend(boxes.map(|boxes| format!("{boxes} boxes")));
     said.extend(cases.map(|cases| format!("{cases} cases")));
     said.extend(margin.map(|margin| {
@@ -155,26 +154,53 @@ fn evidence(claim: &Claim, finding: &Finding) -> String {
     said.join(", ")
 }
 
-/// The finding on a claim.
-fn lines(claim: &Claim, finding: &Finding, width: usize, output: &mut impl Write) -> Result<(), CommandError> {
-    let short = |word: Word| if word == Word::NotApplicable { "-" } else { word.as_str() };
-    let (printed, corrected) = (short(finding.as_printed()), short(finding.as_corrected()));
-    writeln!(output, "{:width$}  {printed:14}  {corrected:14}  {}", claim.id, evidence(claim, finding))?;
-    if let Some(why) = claim.not_proved {
-        writeln!(output, "{:width$}  not proved as a whole: {why}", "")?;
-    }
+/// The finding on a claim: where it stands and the words for it, its statement, the case against it, the evidence.
+fn lines(claim: &Claim, finding: &Finding, output: &mut impl Write) -> Result<(), CommandError> {
+    let said = |word: Word, how: &str| (word != Word::NotApplicable).then(|| format!("{word} as {how}"));
+    let words = [said(finding.as_printed(), "printed"), said(finding.as_corrected(), "corrected")];
+    let words = words.into_iter().flatten().collect::<Vec<_>>().join(", ");
+    writeln!(output, "\n{} ({}): {words}", claim.id, place(claim))?;
+    writeln!(output, "    {}.", claim.statement)?;
     match &finding.printed {
-        Some(Verdict::Refuted(witness)) => writeln!(output, "{:width$}  as printed, refuted by {witness}", "")?,
-        Some(Verdict::Approximate(witness)) => {
-            writeln!(output, "{:width$}  as printed, approximate: off at {witness}", "")?
+        Some(Verdict::Refuted(witness)) => {
+            let case = claim.counterexample().map_or_else(String::new, |case| format!("    Counterexample: {case}.\n"));
+            writeln!(output, "{case}    As printed, refuted by {witness}")?;
         }
+        Some(Verdict::Approximate(witness)) => writeln!(output, "    As printed, approximate: off at {witness}")?,
         _ => {}
     }
+    let evidence = evidence(claim, finding);
+    if !evidence.is_empty() {
+        writeln!(output, "    Evidence: {evidence}")?;
+    }
+    if let Some(why) = claim.not_proved {
+        writeln!(output, "    Not proved as a whole: {why}")?;
+    }
     if !finding.expected {
-        writeln!(output, "{:width$}  NOT AS STATED in spec/claims/{}.md", "", claim.id)?;
+        writeln!(output, "    NOT AS STATED in spec/claims/{}.md", claim.id)?;
     }
     Ok(())
 }
+
+/// Where the paper has a claim: equations are numbers there.
+fn place(claim: &Claim) -> String {
+    let place = claim.equation();
+    let numbered = place.starts_with(|c: char| c.is_ascii_digit());
+    let several = place.contains('-');
+    format!("{}{place}", if numbered { if several { "eqs. " } else { "eq. " } } else { "" })
+}
+
+/// What the words of the evidence mean.
+const LEGEND: &str = "\
+proved          enclosed over the whole domain as stated; `on` names its parts
+proved-in-part  enclosed over the parts named
+exhausted       every state of a finite model was visited
+sampled         true of every case drawn
+boxes           parts that the domain was divided into, each enclosed by interval arithmetic
+residual        bound of the difference between both sides of an equation
+margin          distance from failure: 1 is exact, 0 the limit; of a proved inequality, its least slack
+by hand         steps of the proof that no program checks
+kernel-checked  the proof assistant Coq accepts the statement: whole, or the part named";
 
 fn summary(findings: &[(&Claim, Finding)], output: &mut impl Write) -> Result<(), CommandError> {
     let words = [Word::Proved, Word::ProvedInPart, Word::Exhausted, Word::Sampled];
@@ -183,7 +209,7 @@ fn summary(findings: &[(&Claim, Finding)], output: &mut impl Write) -> Result<()
     let (claims, checked) = (findings.len(), kernel_checked(findings));
     writeln!(
         output,
-        "\n{claims} claims: {words}; {checked} kernel-checked as a whole; {refuted} refuted as printed; {wrong} not as stated"
+        "\n{LEGEND}\n\n{claims} claims: {words}; {checked} kernel-checked as a whole; {refuted} refuted as printed; {wrong} not as stated"
     )?;
     Ok(())
 }

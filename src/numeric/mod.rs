@@ -18,6 +18,8 @@ mod real;
 mod root;
 #[cfg(feature = "std")]
 mod significant;
+#[cfg(feature = "std")]
+mod uncertain;
 
 internal! {
     mod power;
@@ -35,6 +37,8 @@ pub(crate) use balls::{Balls, Sizes};
 pub(crate) use lanes::Lanes;
 #[cfg(feature = "std")]
 pub(crate) use significant::significant;
+#[cfg(feature = "std")]
+pub(crate) use uncertain::Uncertain;
 
 pub(crate) use complex::Complex;
 pub use domain::{Limit, OutOfDomain};

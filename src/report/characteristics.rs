@@ -15,6 +15,7 @@ pub fn characteristics() -> Result<Document, ReportError> {
     let sections = CATALOGUE.iter().map(section).collect::<Result<_, CatalogueError>>()?;
     Ok(Document {
         title: "Describing functions".to_owned(),
+        answer: Vec::new(),
         sections,
         provenance: vec![concat!("Written by selfosc ", env!("CARGO_PKG_VERSION")).to_owned()],
     })

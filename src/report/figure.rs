@@ -16,6 +16,8 @@ pub enum Mark {
     Line,
     /// A dashed line through the points.
     Dashed,
+    /// A thin line through the points, of a band.
+    Thin,
     /// A dot at each point.
     Dots,
     /// A small dot at each of many points.
@@ -47,6 +49,7 @@ pub struct Panel {
     y_label: String,
     y_limits: Option<(f64, f64)>,
     equal_axes: bool,
+    strip: bool,
     rows: Vec<String>,
     series: Vec<Series>,
 }
@@ -60,6 +63,7 @@ impl Panel {
             y_label: y_label.to_owned(),
             y_limits: None,
             equal_axes: false,
+            strip: false,
             rows: Vec::new(),
             series: Vec::new(),
         }
@@ -75,6 +79,12 @@ impl Panel {
     #[must_use]
     pub fn equal_axes(self) -> Self {
         Self { equal_axes: true, ..self }
+    }
+
+    /// A low panel, as suits a signal over time.
+    #[must_use]
+    pub fn strip(self) -> Self {
+        Self { strip: true, ..self }
     }
 
     /// The panel with names in place of numbers at 0, 1, ... of its y axis, the first at the top.
@@ -128,8 +138,18 @@ impl Panel {
         let (from, to) = self.range(|point| point.1);
         let from = if self.has_bars() { 0.0 } else { from };
         let entries = self.named().count();
-        let legend = if entries > 1 { LEGEND_ENTRY * entries as f64 / f64::from(SIZE.1) } else { 0.0 };
+        let legend = if entries > 1 { LEGEND_ENTRY * entries as f64 / f64::from(self.height()) } else { 0.0 };
         self.y_limits.unwrap_or((from, to + (to - from) * legend / (1.0 - legend)))
+    }
+
+    /// In pixels; a row of names takes the same height in every figure.
+    fn height(&self) -> u32 {
+        let rows = u32::try_from(self.rows.len()).unwrap_or(1);
+        match rows {
+            0 if self.strip => STRIP,
+            0 => SIZE.1,
+            rows => 2 * MARGIN + BELOW + ROW * (rows + 1),
+        }
     }
 
     fn named(&self) -> impl Iterator<Item = &Series> {
@@ -157,6 +177,9 @@ const FINE: u32 = 10;
 /// Width of a figure and height of a panel, in pixels.
 const SIZE: (u32, u32) = (900, 420);
 const TITLE_HEIGHT: u32 = 40;
+/// Heights of a low panel and of a row of names.
+const STRIP: u32 = 250;
+const ROW: u32 = 21;
 /// Around the axes of a panel, and for the labels below and beside them, in pixels.
 const MARGIN: u32 = 14;
 const BELOW: u32 = 52;
@@ -206,39 +229,47 @@ impl Figure {
             return Err(failed("a panel without points, or a point that is not finite".to_owned()));
         }
         let mut svg = String::new();
-        self.draw(&mut svg).map_err(|error| failed(error.to_string()))?;
-        Ok(self.described(&svg))
+        let axes = self.draw(&mut svg).map_err(|error| failed(error.to_string()))?;
+        Ok(self.described(&svg, &axes))
     }
 
     fn height(&self) -> u32 {
-        TITLE_HEIGHT + SIZE.1 * u32::try_from(self.panels.len()).unwrap_or(u32::MAX / SIZE.1 - 1)
+        TITLE_HEIGHT + self.panels.iter().map(Panel::height).sum::<u32>()
     }
 
-    /// The drawing in the size of its pixels, with words for who cannot see it.
-    fn described(&self, svg: &str) -> String {
+    /// The drawing in the size of its pixels, with words for who cannot see it, and its axes for who points at it.
+    fn described(&self, svg: &str, axes: &[String]) -> String {
+        let places = axes.join(";");
         let axes = self.panels.iter().map(|panel| format!("{} over {}", panel.y_label, panel.x_label));
         let words = format!("{}: {}", self.title, axes.collect::<Vec<_>>().join("; "));
         let (width, height) = (SIZE.0, self.height());
         let drawn = format!(r#"<svg width="{}" height="{}""#, px(width), px(height));
-        let shown =
-            format!(r#"<svg role="img" aria-label="{}" width="{width}" height="{height}""#, escaped_html(&words));
+        let shown = format!(
+            r#"<svg role="img" aria-label="{}" data-axes="{places}" width="{width}" height="{height}""#,
+            escaped_html(&words)
+        );
         svg.replacen(&drawn, &shown, 1)
     }
 
-    fn draw(&self, svg: &mut String) -> Result<(), Box<dyn std::error::Error>> {
+    /// Draws; the answer is each panel's [`Panel::draw`].
+    fn draw(&self, svg: &mut String) -> Result<Vec<String>, Box<dyn std::error::Error>> {
         let root = SVGBackend::with_string(svg, (px(SIZE.0), px(self.height()))).into_drawing_area();
         root.fill(&WHITE)?;
         let root = root.titled(&self.title, (FONT, px(20)))?;
-        for (panel, area) in self.panels.iter().zip(root.split_evenly((self.panels.len(), 1))) {
-            panel.draw(&area)?;
-        }
+        let below = self.panels.iter().scan(0, |below, panel| {
+            *below += signed(panel.height());
+            Some(*below)
+        });
+        let areas = root.split_by_breakpoints([] as [i32; 0], below.take(self.panels.len() - 1).collect::<Vec<_>>());
+        let axes = self.panels.iter().zip(&areas).map(|(panel, area)| panel.draw(area)).collect::<Result<_, _>>()?;
         root.present()?;
-        Ok(())
+        Ok(axes)
     }
 }
 
 impl Panel {
-    fn draw(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), Box<dyn std::error::Error>> {
+    /// Draws; the answer is left, top, right, bottom in the drawing, and the numbers at left, right, bottom, top, with commas.
+    fn draw(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<String, Box<dyn std::error::Error>> {
         let [(x_from, x_to), (y_from, y_to)] = self.ranges();
         let mut chart = ChartBuilder::on(area)
             .margin(px(MARGIN))
@@ -259,7 +290,8 @@ impl Panel {
             .x_label_formatter(&x_tick)
             .y_label_formatter(&|value| self.y_tick(*value))
             .x_labels(11)
-            .y_labels(self.rows.len().max(9))
+            .y_labels(if self.strip { 5 } else { self.rows.len().max(9) })
+            .set_all_tick_mark_size(px(4))
             .light_line_style(TRANSPARENT)
             .bold_line_style(RGBColor(225, 225, 225).stroke_width(FINE))
             .axis_style(BLACK.stroke_width(FINE))
@@ -282,7 +314,11 @@ impl Panel {
                 .border_style(RGBColor(200, 200, 200).stroke_width(FINE))
                 .draw()?;
         }
-        Ok(())
+        let (across, down) = chart.plotting_area().get_pixel_range();
+        // Names are no numbers to point at.
+        let [low, high] = if self.rows.is_empty() { [y_from, y_to] } else { [0.0; 2] };
+        let places = [across.start, down.start, across.end, down.end].map(|place| place.to_string()).join(",");
+        Ok(format!("{places},{x_from},{x_to},{low},{high}"))
     }
 }
 
@@ -292,6 +328,7 @@ impl Series {
         let line = colour.stroke_width(px(2));
         let drawn = match self.mark {
             Mark::Line => chart.draw_series(LineSeries::new(points, line))?,
+            Mark::Thin => chart.draw_series(LineSeries::new(points, colour.stroke_width(px(1))))?,
             Mark::Dashed => chart.draw_series(DashedLineSeries::new(points, px(7), px(5), line))?,
             Mark::Dots => chart.draw_series(points.map(|point| Circle::new(point, px(5), colour.filled())))?,
             Mark::Points => chart.draw_series(points.map(|point| Circle::new(point, px(2), colour.filled())))?,
@@ -315,6 +352,7 @@ impl Series {
         let mark = self.mark;
         drawn.label(&self.label).legend(move |(x, y)| match mark {
             Mark::Line => PathElement::new([(x, y), (x + signed(22), y)], line).into_dyn(),
+            Mark::Thin => PathElement::new([(x, y), (x + signed(22), y)], colour.stroke_width(px(1))).into_dyn(),
             Mark::Dashed => DashedPathElement::new([(x, y), (x + signed(22), y)], px(7), px(5), line).into_dyn(),
             Mark::Dots => Circle::new((x + signed(11), y), px(5), colour.filled()).into_dyn(),
             Mark::Points | Mark::Arrow => Circle::new((x + signed(11), y), px(2), colour.filled()).into_dyn(),

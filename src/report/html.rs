@@ -12,7 +12,7 @@ pub struct Section {
     pub paragraphs: Vec<String>,
     /// Tables, in order.
     pub tables: Vec<Table>,
-    /// Figures, in order, below the tables.
+    /// Figures, in order, above the tables.
     pub figures: Vec<Figure>,
 }
 
@@ -21,6 +21,8 @@ pub struct Section {
 pub struct Document {
     /// Heading of the whole.
     pub title: String,
+    /// The answer, before everything else: a paragraph each, the first in larger letters.
+    pub answer: Vec<String>,
     /// Its parts.
     pub sections: Vec<Section>,
     /// Where it comes from: version, command, inputs, date. A line each, at the end.
@@ -28,52 +30,65 @@ pub struct Document {
 }
 
 const STYLE: &str = "\
-:root { color-scheme: light dark; --text: #222; --page: #fff; --line: #ccc; --faint: #e4e4e4; }
-@media (prefers-color-scheme: dark) { :root { --text: #ddd; --page: #1b1b1d; --line: #555; --faint: #333; } }
-body { font: 16px/1.5 sans-serif; color: var(--text); background: var(--page); max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }
+:root { color-scheme: light dark; --text: #222; --page: #fff; --line: #ccc; --faint: #e4e4e4; --first: #0072b2; }
+@media (prefers-color-scheme: dark) { :root { --text: #ddd; --page: #1b1b1d; --line: #555; --faint: #333; --first: #4aa8e0; } }
+body { font: 16px/1.5 sans-serif; color: var(--text); background: var(--page); max-width: 62rem; margin: 2rem auto; padding: 0 1rem; overflow-wrap: anywhere; }
 h2 { border-top: 1px solid var(--line); padding-top: 1rem; margin-top: 2.5rem; }
 nav ul { padding-left: 1.2rem; } a { color: inherit; }
-.wide { overflow-x: auto; }
+.answer { border-left: 0.4rem solid var(--first); padding: 0.1rem 0 0.1rem 1rem; }
+.answer p { margin: 0.5rem 0; } .answer p:first-child { font-size: 1.4rem; line-height: 1.3; }
+.wide { overflow-x: auto; overflow-wrap: normal; }
 table { border-collapse: collapse; margin: 1rem 0; font-size: 0.9rem; }
 caption { text-align: left; font-weight: bold; padding-bottom: 0.4rem; }
-th, td { text-align: left; padding: 0.15rem 0.8rem 0.15rem 0; border-bottom: 1px solid var(--faint); vertical-align: top; }
-.number { text-align: right; font-variant-numeric: tabular-nums; }
+th, td { text-align: left; white-space: nowrap; padding: 0.15rem 0.8rem 0.15rem 0; border-bottom: 1px solid var(--faint); vertical-align: top; }
+td { font-variant-numeric: tabular-nums; } td:last-child { white-space: normal; min-width: 12rem; } .number { text-align: right; }
 figure { margin: 1.5rem 0; overflow-x: auto; }
-figure svg { width: 100%; height: auto; background: #fff; border-radius: 4px; }
-figure.zoomed svg { width: auto; max-width: none; }
-figcaption { font-size: 0.85rem; } figcaption button { font: inherit; }
+figure svg { width: 100%; height: auto; cursor: zoom-in; }
+svg [fill='#000000'] { fill: var(--text); } svg [stroke='#000000'] { stroke: var(--text); }
+svg [fill='#FFFFFF'] { fill: var(--page); } svg [stroke='#E1E1E1'] { stroke: var(--faint); } svg [stroke='#C8C8C8'] { stroke: var(--line); }
+svg [fill='#0072B2'] { fill: var(--first); } svg [stroke='#0072B2'] { stroke: var(--first); }
+figcaption { font-size: 0.85rem; min-height: 1.7em; } figcaption button { font: inherit; margin-right: 0.6rem; }
 footer { border-top: 1px solid var(--line); margin-top: 3rem; font-size: 0.85rem; }
-@media (max-width: 480px) { body { margin: 1rem auto; padding: 0 0.6rem; } h1 { font-size: 1.5rem; } figure svg { min-width: 34rem; } }
+@media (max-width: 480px) { body { margin: 1rem auto; padding: 0 0.6rem; } h1 { font-size: 1.5rem; } .answer p:first-child { font-size: 1.2rem; } figure svg { min-width: 34rem; } }
 @media print {
-  :root { --text: #000; --page: #fff; --line: #999; --faint: #ccc; }
-  body { max-width: none; margin: 0; font-size: 10pt; } nav, figcaption { display: none; }
-  figure, table { break-inside: avoid; } h2 { break-after: avoid; } figure, .wide { overflow: visible; }
+  :root { --text: #000; --page: #fff; --line: #999; --faint: #ccc; --first: #0072b2; }
+  body { max-width: none; margin: 0; font-size: 9.5pt; } nav, figcaption { display: none; } h2 { margin-top: 1rem; }
+  figure, table { break-inside: avoid; margin: 0.6rem 0; } h2, caption { break-after: avoid; } figure, .wide { overflow: visible; } figure svg { width: 92%; }
 }
 ";
 
-/// Widens the figures, which then scroll: a look at a few cycles without a network.
+/// A click zooms in; where the pointer is, the caption says in the numbers of the axes.
 const SCRIPT: &str = "\
 for (const figure of document.querySelectorAll('figure')) {
-  const svg = figure.querySelector('svg'), caption = document.createElement('figcaption');
-  let width = 1;
-  for (const [sign, factor] of [['wider', 2], ['narrower', 0.5]]) {
-    const button = document.createElement('button');
-    button.textContent = sign;
-    button.onclick = () => {
-      width = Math.min(16, Math.max(1, width * factor));
-      figure.classList.toggle('zoomed', width > 1);
-      svg.style.width = width > 1 ? 100 * width + '%' : '';
-      svg.style.height = width > 1 ? svg.viewBox.baseVal.height / 10 + 'px' : '';
-      svg.setAttribute('preserveAspectRatio', width > 1 ? 'none' : 'xMidYMid');
-    };
-    caption.append(button, ' ');
-  }
-  figure.prepend(caption);
+  const svg = figure.querySelector('svg'), view = svg.viewBox.baseVal, all = svg.getAttribute('viewBox');
+  const panels = svg.dataset.axes.split(';').map(panel => panel.split(',').map(Number));
+  const [caption, whole, place] = ['figcaption', 'button', 'span'].map(name => document.createElement(name));
+  const at = event => new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
+  const shown = (from, to, part) => Number((from + (to - from) * part).toPrecision(4));
+  whole.textContent = 'whole';
+  whole.hidden = true;
+  place.textContent = 'Click to zoom in.';
+  svg.onpointermove = event => {
+    const { x, y } = at(event);
+    const panel = panels.find(([left, top, right, bottom]) => left <= x && x <= right && top <= y && y <= bottom);
+    if (!panel) return;
+    const [left, top, right, bottom, x0, x1, y0, y1] = panel;
+    const up = y0 === y1 ? '' : ', up: ' + shown(y0, y1, (bottom - y) / (bottom - top));
+    place.textContent = 'across: ' + shown(x0, x1, (x - left) / (right - left)) + up;
+  };
+  svg.onclick = event => {
+    const { x, y } = at(event);
+    svg.setAttribute('viewBox', [(view.x + x) / 2, (view.y + y) / 2, view.width / 2, view.height / 2].join(' '));
+    whole.hidden = false;
+  };
+  whole.onclick = () => { svg.setAttribute('viewBox', all); whole.hidden = true; };
+  caption.append(whole, place);
+  figure.append(caption);
 }
 ";
 
 /// Nothing is loaded, and of scripts only the page's own runs, by the SHA-256 of what stands between its tags.
-const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-5tr46VV6Dzz/FTxdJkueqC4qMdhdJa26ychCIuqfuAc='; base-uri 'none'; form-action 'none'";
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-7t7wGT+0BEEA5Bb22BAeY3CUBqeJH0v2o3qEhiFcMRg='; base-uri 'none'; form-action 'none'";
 
 impl Document {
     /// The document with lines that say where it comes from, after those it has.
@@ -94,6 +109,8 @@ impl Document {
         let entry = |(place, section): (usize, &Section)| {
             format!("<li><a href=\"#part-{place}\">{}</a></li>\n", escaped_html(&section.title))
         };
+        let answer: String = self.answer.iter().map(|text| format!("<p>{}</p>\n", prose_html(text))).collect();
+        let answer = if answer.is_empty() { answer } else { format!("<div class=\"answer\">\n{answer}</div>\n") };
         let contents: String = (1..).zip(&self.sections).map(entry).collect();
         let provenance: String =
             self.provenance.iter().map(|line| format!("<p>{}</p>\n", escaped_html(line))).collect();
@@ -102,7 +119,7 @@ impl Document {
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n\
-             <body>\n<h1>{title}</h1>\n<nav>\n<ul>\n{contents}</ul>\n</nav>\n{sections}{footer}<script>\n{SCRIPT}</script>\n</body>\n</html>\n"
+             <body>\n<h1>{title}</h1>\n{answer}<nav>\n<ul>\n{contents}</ul>\n</nav>\n{sections}{footer}<script>\n{SCRIPT}</script>\n</body>\n</html>\n"
         ))
     }
 }
@@ -117,6 +134,6 @@ impl Section {
             .iter()
             .map(|figure| Ok(format!("<figure>\n{}</figure>\n", figure.svg()?)))
             .collect::<Result<_, ReportError>>()?;
-        Ok(format!("<h2 id=\"part-{place}\">{}</h2>\n{paragraphs}{tables}{figures}", escaped_html(&self.title)))
+        Ok(format!("<h2 id=\"part-{place}\">{}</h2>\n{paragraphs}{figures}{tables}", escaped_html(&self.title)))
     }
 }

@@ -4,7 +4,7 @@ use super::{Cell, Document, Figure, Mark, Panel, Section, Table};
 use crate::autotune::{LoopCurves, ProcessRecord, ProvedGains, Ruled};
 use crate::experiment::Log;
 use crate::identify::NORMAL_95;
-use crate::numeric::significant;
+use crate::numeric::{Uncertain, significant};
 
 /// Readings that a figure shows, the last of them.
 const SHOWN: usize = 1500;
@@ -36,19 +36,26 @@ impl ProcessPage<'_> {
     /// The page, with the lines to type at its top.
     #[must_use]
     pub fn document(&self) -> Document {
-        let sections = [self.answer(), self.record(), self.control_loop(), self.process()];
+        let sections = [self.lines_to_type(), self.record(), self.control_loop(), self.process()];
         Document {
             title: format!("Gains from {}", self.name),
+            answer: self.answer(),
             sections: sections.into_iter().flatten().collect(),
             provenance: vec![format!("selfosc {} autotune", env!("CARGO_PKG_VERSION"))],
         }
     }
 
-    fn answer(&self) -> Option<Section> {
-        let (trust, reasons) = self.trust;
-        let lines = self.lines.unwrap_or("no gains").lines();
+    fn lines_to_type(&self) -> Option<Section> {
         let table = Table::new("lines", "Type into the controller", &["line"]);
-        let table = lines.fold(table, |table, line| table.row([Cell::Text(line.to_owned())]));
+        let table = self.lines?.lines().fold(table, |table, line| table.row([Cell::Text(line.to_owned())]));
+        Some(Section { title: "Gains".to_owned(), tables: vec![table], ..Section::default() })
+    }
+
+    /// The gains, how good they are, how sure that is.
+    fn answer(&self) -> Vec<String> {
+        let (trust, reasons) = self.trust;
+        let gains =
+            self.lines.map_or_else(|| "No gains.".to_owned(), |lines| lines.lines().collect::<Vec<_>>().join("; "));
         let sure = self.proved.map(|proved| {
             format!(
                 "Proved: whichever process of the intervals is yours, the largest sensitivity is at most {}. At 1.4 a disturbance settles \
@@ -61,8 +68,7 @@ impl ProcessPage<'_> {
             "widened" => "How sure: usable, with wider intervals for these reasons.",
             _ => "How sure: do not use these numbers, for these reasons.",
         };
-        let paragraphs = sure.into_iter().chain([words.to_owned()]).chain(reasons.iter().cloned()).collect();
-        Some(Section { title: "Gains".to_owned(), paragraphs, tables: vec![table], figures: vec![] })
+        [gains].into_iter().chain(sure).chain([words.to_owned()]).chain(reasons.iter().cloned()).collect()
     }
 
     fn record(&self) -> Option<Section> {
@@ -81,13 +87,14 @@ impl ProcessPage<'_> {
         let band = |sign: f64| model.iter().map(|(t, y)| (*t, y + sign * spread)).collect::<Vec<_>>();
         let [_, output_name, input_name] = &self.log.columns;
         let readings = Panel::new("time (s)", output_name)
+            .strip()
             .with("readings", Mark::Points, pairs(output))
             .with("model", Mark::Line, model.clone())
             .with("95 % of the readings", Mark::Dashed, band(1.0))
             .with("", Mark::Dashed, band(-1.0));
         let command: Vec<(f64, f64)> =
             pairs(input).windows(2).flat_map(|pair| [pair[0], (pair[1].0, pair[0].1)]).collect();
-        let command = Panel::new("time (s)", input_name).with("command", Mark::Line, command);
+        let command = Panel::new("time (s)", input_name).strip().with("command", Mark::Line, command);
         let figure = Figure { name: "record", title: "Record and model".to_owned(), panels: vec![readings, command] };
         Some(Section { title: "Record".to_owned(), figures: vec![figure], ..Section::default() })
     }
@@ -111,6 +118,7 @@ impl ProcessPage<'_> {
         let pairs =
             |values: &mut dyn Iterator<Item = f64>| curves.time_s.iter().copied().zip(values).collect::<Vec<_>>();
         let answer = Panel::new("time (s)", "deviation of the output")
+            .strip()
             .with("likeliest process", Mark::Line, pairs(&mut curves.load_step.iter().copied()))
             .with(
                 "least and largest at the corners of the intervals",
@@ -126,18 +134,15 @@ impl ProcessPage<'_> {
     }
 
     fn process(&self) -> Option<Section> {
-        let columns = ["structure", "evidence %", "parameter", "value", "low", "high"];
-        let mut parameters = Table::new("process", "Processes that the record leaves, with 95 % intervals", &columns);
+        let columns = ["structure", "evidence %", "parameter", "value \u{b1} 95 %"];
+        let mut parameters = Table::new("process", "Processes that the record leaves", &columns);
         for model in &self.found.models {
             for (name, part) in model.family.parameters().iter().zip(&model.parameters) {
-                let number = |value: f64| Cell::Text(significant(value, 5));
                 parameters = parameters.row([
                     Cell::Text(model.family.name().to_owned()),
                     Cell::number(100.0 * model.weight, 1),
                     Cell::Text((*name).to_owned()),
-                    number(part.value),
-                    number(part.low),
-                    number(part.high),
+                    Cell::Text(Uncertain::between(part.value, part.low, part.high).to_string()),
                 ]);
             }
         }

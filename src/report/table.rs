@@ -109,6 +109,7 @@ pub struct Table {
     columns: Vec<String>,
     rows: Vec<Vec<Cell>>,
     notes: Vec<String>,
+    folded: bool,
 }
 
 impl Table {
@@ -116,7 +117,7 @@ impl Table {
     #[must_use]
     pub fn new(name: &'static str, title: &str, columns: &[&str]) -> Self {
         let columns = columns.iter().map(|column| (*column).to_owned()).collect();
-        Self { name, title: title.to_owned(), columns, rows: Vec::new(), notes: Vec::new() }
+        Self { name, title: title.to_owned(), columns, rows: Vec::new(), notes: Vec::new(), folded: false }
     }
 
     /// The table with one more row: cells beyond the last column are dropped, cells that lack are missing.
@@ -132,6 +133,12 @@ impl Table {
     pub fn note(mut self, note: impl Into<String>) -> Self {
         self.notes.push(note.into());
         self
+    }
+
+    /// The table folded away on a page, as one of many rows always is.
+    #[must_use]
+    pub fn folded(self) -> Self {
+        Self { folded: true, ..self }
     }
 
     /// For a terminal: columns aligned, numbers to the right.
@@ -244,7 +251,7 @@ impl Table {
         let notes: String = self.notes.iter().map(|note| format!("<p>{}</p>\n", prose_html(note))).collect();
         let title = escaped_html(&self.title);
         let table = format!("<table>\n<caption>{title}</caption>\n<tr>{heading}</tr>\n{body}</table>\n");
-        if self.rows.len() > LONG {
+        if self.folded || self.rows.len() > LONG {
             format!("<details>\n<summary>{title}: {} rows</summary>\n{table}</details>\n{notes}", self.rows.len())
         } else {
             format!("{table}{notes}")
@@ -260,12 +267,19 @@ impl Table {
 /// Text as HTML has it, squares and cubes as superscripts.
 pub(super) fn escaped_html(text: &str) -> String {
     let escaped = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;");
-    escaped.replace("^2", "\u{b2}").replace("^3", "\u{b3}")
+    let signs = escaped.replace("^2", "\u{b2}").replace("^3", "\u{b3}");
+    // A number stays on the line of its uncertainty and its percent sign.
+    signs.replace(" \u{b1} ", "\u{a0}\u{b1}\u{a0}").replace(" %", "\u{a0}%")
 }
 
-/// [`escaped_html`] of sentences: `5e-3` with its power of ten.
+/// [`escaped_html`] of sentences: `5e-3` with its power of ten, what stands between backticks as code.
 pub(super) fn prose_html(text: &str) -> String {
-    let escaped = escaped_html(text);
+    let mut escaped = escaped_html(text);
+    while let Some((before, rest)) = escaped.split_once('`')
+        && let Some((code, after)) = rest.split_once('`')
+    {
+        escaped = format!("{before}<code>{code}</code>{after}");
+    }
     let mut parts = escaped.split("e-");
     let mut shown = parts.next().unwrap_or_default().to_owned();
     for part in parts {

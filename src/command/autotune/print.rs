@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::form::Form;
 use super::{Autotuned, CommandError};
 use crate::identify::NORMAL_95;
-use crate::numeric::significant;
+use crate::numeric::{Uncertain, significant};
 use crate::report::{Document, ProcessPage};
 
 impl Autotuned {
@@ -128,18 +128,13 @@ impl Autotuned {
         }
         writeln!(
             output,
-            "\nprocess, from {} samples and {} changes of the command",
+            "\nprocess, with 95 % intervals, from {} samples and {} changes of the command",
             self.found.samples, self.found.changes
         )?;
         for model in &self.found.models {
             writeln!(output, "  {} ({} % of the evidence)", model.family.name(), significant(100.0 * model.weight, 3))?;
             for (name, one) in model.family.parameters().iter().zip(&model.parameters) {
-                writeln!(
-                    output,
-                    "    {name:24}{:>12} +- {}",
-                    significant(one.value, 5),
-                    significant(NORMAL_95 * one.std, 2)
-                )?;
+                writeln!(output, "    {name:24}{}", Uncertain::new(one.value, NORMAL_95 * one.std))?;
             }
         }
         writeln!(output, "\nrules of thumb on the likeliest process (parallel form)")?;

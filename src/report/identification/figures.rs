@@ -1,25 +1,76 @@
 //! A record with its model.
 
 use super::tables::output_label;
-use crate::identify::fit::{Between, FittedRecord, RecordFit};
-use crate::identify::{Estimate, Identification, Model, NORMAL_95, Source};
+use crate::experiment::Record;
+use crate::identify::fit::{Between, FittedRecord};
+use crate::identify::{ConfidenceInterval, Estimate, Identification, Model, NORMAL_95, Prediction, Source};
+use crate::numeric::significant;
 use crate::report::{Figure, Mark, Panel};
 
 /// Samples that a figure shows: more than these cannot be told apart on a page.
 const SHOWN: usize = 1500;
 
-/// Record with model, residuals and how they are distributed, phase portrait.
-pub(super) fn figures(source: &Source, fitted: Option<(&RecordFit, &FittedRecord)>) -> Vec<Figure> {
+/// A model beside a record, at the samples that it predicts and that are no outliers.
+pub(super) struct Predicted {
+    model: String,
+    rms: f64,
+    fit_percent: f64,
+    time_s: Vec<f64>,
+    output: Vec<f64>,
+    residual: Vec<f64>,
+    command: Vec<f64>,
+}
+
+impl Predicted {
+    /// Of the reported model and the likeliest fit the one that leaves less: the first has every term of the answer, the second knows the
+    /// instant of every switching. `None` without either.
+    pub(super) fn of(found: &Identification, index: usize) -> Option<Self> {
+        let record = &found.sources()[index].log.record;
+        let motion = found.reported().and_then(|reported| reported.predicted_motion(record)).map(|motion| {
+            let Prediction { rms, fit_percent, .. } = motion.prediction;
+            Self::new("reported model".to_owned(), rms, fit_percent, record, motion.first_sample, &motion.output)
+        });
+        let fit = found.likeliest_fit().map(|fit| {
+            let FittedRecord { residual_rms, fit_percent, first_sample, output, .. } = &fit.records()[index];
+            let output: Vec<_> = output.iter().copied().map(Some).collect();
+            let name = format!("fit with {} drag", fit.law().name());
+            Self::new(name, *residual_rms, *fit_percent, record, *first_sample, &output)
+        });
+        motion.into_iter().chain(fit).min_by(|a, b| a.rms.total_cmp(&b.rms))
+    }
+
+    fn new(model: String, rms: f64, fit_percent: f64, record: &Record, first: usize, output: &[Option<f64>]) -> Self {
+        let samples = (first..).zip(output).filter_map(|(sample, output)| Some((sample, (*output)?)));
+        let (samples, output): (Vec<usize>, Vec<f64>) = samples.unzip();
+        let at = |values: &[f64]| samples.iter().map(|sample| values[*sample]).collect::<Vec<_>>();
+        let residual = at(record.output()).iter().zip(&output).map(|(reading, model)| reading - model).collect();
+        let (time_s, command) = (at(record.time_s()), at(record.input()));
+        Self { model, rms, fit_percent, time_s, output, residual, command }
+    }
+
+    pub(super) fn sentence(&self) -> String {
+        format!(
+            "The {} leaves residuals of rms {} and explains {:.1} % of the output's variation. Of independent residuals, 95 % of the \
+             correlations lie within the dashes: those of successive ones here are {:.2}.",
+            self.model,
+            significant(self.rms, 2),
+            self.fit_percent,
+            correlation(&self.residual, &self.residual, 1),
+        )
+    }
+
+    /// From a time on.
+    fn shown<'a>(&'a self, values: &'a [f64], from_s: f64) -> (&'a [f64], &'a [f64]) {
+        let before = self.time_s.partition_point(|time| *time < from_s);
+        (&self.time_s[before..], &values[before..])
+    }
+}
+
+/// The first sample that a figure shows, and how its title says so.
+fn part(source: &Source) -> (usize, String) {
     let samples = source.log.record.samples();
     let from = samples.saturating_sub(SHOWN);
-    let part = if from > 0 { format!(", the last {SHOWN} of {samples} samples") } else { String::new() };
-    let mut figures = vec![record_figure(source, fitted, from, &part)];
-    if let Some((_, fitted)) = fitted {
-        figures.push(residual_figure(source, fitted, from, &part));
-        figures.extend(distribution_figure(source, fitted));
-    }
-    figures.push(phase_figure(source, fitted.map(|(_, fitted)| fitted), from, &part));
-    figures
+    (from, if from > 0 { format!(", the last {SHOWN} of {samples} samples") } else { String::new() })
 }
 
 /// Each parameter by every method, the answer first: a dot with its 95 % interval, where there is one.
@@ -50,9 +101,16 @@ pub(super) fn interval_figure(found: &Identification) -> Option<Figure> {
         let named = rows.iter().map(|row| row.0.clone());
         let dots = rows.iter().enumerate().map(|(row, (_, estimate))| (estimate.value, row as f64));
         let panel = Panel::new(label, "").rows(named).with("", Mark::Dots, dots);
-        let bars = rows.iter().enumerate().filter_map(|(row, (_, estimate))| Some((row as f64, estimate.spread?)));
+        let bars = |of: fn(&Estimate) -> Option<ConfidenceInterval>, mark: Mark| {
+            let rows = rows.iter().enumerate();
+            rows.filter_map(move |(row, (_, estimate))| Some((row as f64, of(estimate)?, mark))).collect::<Vec<_>>()
+        };
+        let [exact, practical] = [bars(|one| one.spread, Mark::Line), bars(|one| one.combined, Mark::Thin)];
         (rows.len() > 1).then(|| {
-            bars.fold(panel, |panel, (row, spread)| panel.with("", Mark::Line, [(spread.low, row), (spread.high, row)]))
+            exact
+                .into_iter()
+                .chain(practical)
+                .fold(panel, |panel, (row, ends, mark)| panel.with("", mark, [(ends.low, row), (ends.high, row)]))
         })
     };
     let panels: Vec<Panel> = [alpha, beta, quadratic].into_iter().filter_map(panel).collect();
@@ -63,31 +121,53 @@ pub(super) fn interval_figure(found: &Identification) -> Option<Figure> {
     })
 }
 
-fn record_figure(source: &Source, fitted: Option<(&RecordFit, &FittedRecord)>, from: usize, part: &str) -> Figure {
+/// Record with the model and the band of 95 % of its readings; the command.
+pub(super) fn record(source: &Source, predicted: Option<&Predicted>, between: Option<Between>) -> Figure {
     let record = &source.log.record;
+    let (from, part) = part(source);
     let points = |values: &[f64]| pairs(&record.time_s()[from..], &values[from..]);
     // The model lies on top, where dense readings would hide it.
     let mut output =
         Panel::new("time (s)", output_label(source)).with("readings", Mark::Points, points(record.output()));
-    if let Some((_, fitted)) = fitted {
-        let (time, model) = shown(source, fitted, &fitted.output, from);
-        output = output.with("model", Mark::Line, pairs(time, model));
+    if let Some(predicted) = predicted {
+        let (time, model) = predicted.shown(&predicted.output, record.time_s()[from]);
+        let band = NORMAL_95 * predicted.rms;
+        let beside = |by: f64| time.iter().zip(model).map(move |(time, model)| (*time, model + by));
+        output = output.with(&predicted.model, Mark::Line, pairs(time, model)).with("", Mark::Thin, beside(band)).with(
+            "",
+            Mark::Thin,
+            beside(-band),
+        );
     }
-    let evenly = fitted.is_some_and(|(fit, _)| matches!(fit.between(), Between::Evenly | Between::Bent));
+    let evenly = matches!(between, Some(Between::Evenly | Between::Bent));
     let command = points(record.input());
     let command = if evenly { command } else { held(&command) };
-    let input = Panel::new("time (s)", "command").with("command", Mark::Line, command);
-    Figure { name: "record", title: format!("Record and fitted model{part}"), panels: vec![output, input] }
+    let input = Panel::new("time (s)", "command").strip().with("command", Mark::Line, command);
+    Figure {
+        name: "record",
+        title: format!("Record and model, with the band of 95 % of readings{part}"),
+        panels: vec![output, input],
+    }
+}
+
+/// What the reported model leaves: over time, how it is distributed and hangs together, and the orbit.
+pub(super) fn residuals(source: &Source, predicted: &Predicted) -> Vec<Figure> {
+    let over_time = residual_figure(source, predicted);
+    [over_time]
+        .into_iter()
+        .chain(distribution_figure(source, predicted))
+        .chain([phase_figure(source, predicted)])
+        .collect()
 }
 
 /// Residuals over time, with a band of twice their rms over the whole record.
-#[allow(clippy::cast_precision_loss, reason = "a count of samples")]
-fn residual_figure(source: &Source, fitted: &FittedRecord, from: usize, part: &str) -> Figure {
-    let (time, residuals) = shown(source, fitted, &fitted.residuals, from);
-    let power: f64 = fitted.residuals.iter().map(|value| value * value).sum();
-    let band = 2.0 * (power / fitted.residuals.len().max(1) as f64).sqrt();
+fn residual_figure(source: &Source, predicted: &Predicted) -> Figure {
+    let (from, part) = part(source);
+    let (time, residuals) = predicted.shown(&predicted.residual, source.log.record.time_s()[from]);
+    let band = 2.0 * predicted.rms;
     let level = |at: f64| [time.first(), time.last()].into_iter().flatten().map(move |time| (*time, at));
     let panel = Panel::new("time (s)", &format!("residual of {}", output_label(source)))
+        .strip()
         .with("readings less model", Mark::Points, pairs(time, residuals))
         .with("twice their rms", Mark::Dashed, level(band))
         .with("", Mark::Dashed, level(-band))
@@ -99,50 +179,63 @@ fn residual_figure(source: &Source, fitted: &FittedRecord, from: usize, part: &s
 const BARS: usize = 31;
 const LAGS: usize = 40;
 
-/// How residuals are distributed, and how those some samples apart hang together: within the dashed lines, 95 % of the
-/// correlations of independent ones lie.
+/// Correlation of values with others `lag` samples before.
+fn correlation(values: &[f64], before: &[f64], lag: usize) -> f64 {
+    let square = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
+    let products = values.iter().skip(lag).zip(before).map(|(value, before)| value * before).sum::<f64>();
+    products / (square(values) * square(before)).sqrt()
+}
+
+/// How residuals are distributed, and how they hang together with those before and with the command before: within the dashed
+/// lines, 95 % of the correlations of independent residuals lie.
 #[allow(clippy::cast_precision_loss, reason = "counts of samples")]
-fn distribution_figure(source: &Source, fitted: &FittedRecord) -> Option<Figure> {
-    let residuals = &fitted.residuals;
+fn distribution_figure(source: &Source, predicted: &Predicted) -> Option<Figure> {
+    let residuals = &predicted.residual;
     let count = residuals.len() as f64;
-    let power: f64 = residuals.iter().map(|value| value * value).sum();
     let largest = residuals.iter().fold(0.0f64, |largest, value| largest.max(value.abs()));
-    if residuals.len() <= LAGS || !(power > 0.0 && largest.is_finite()) {
+    let mean = predicted.command.iter().sum::<f64>() / count;
+    let command: Vec<f64> = predicted.command.iter().map(|value| value - mean).collect();
+    if residuals.len() <= LAGS || !(largest > 0.0 && largest.is_finite()) || command.iter().all(|value| *value == 0.0) {
         return None;
     }
     let width = 2.0 * largest / BARS as f64;
     let middle = |bar: usize| -largest + (bar as f64 + 0.5) * width;
     let within =
         |bar: usize| residuals.iter().filter(|value| (**value - middle(bar)).abs() <= 0.5 * width).count() as f64;
-    let bars = (0..BARS).map(|bar| (middle(bar), within(bar) / count));
-    let histogram = Panel::new(&format!("residual of {}", output_label(source)), "share of samples").with(
-        "",
-        Mark::Line,
-        bars.flat_map(|(x, y)| [(x - 0.5 * width, y), (x + 0.5 * width, y)]),
-    );
-    let correlation = |lag: usize| residuals.iter().zip(&residuals[lag..]).map(|(a, b)| a * b).sum::<f64>() / power;
+    let bars: Vec<(f64, f64)> = (0..BARS).map(|bar| (middle(bar), within(bar) / count)).collect();
+    let tallest = bars.iter().fold(0.0f64, |tallest, bar| tallest.max(bar.1));
+    let outline = bars.iter().flat_map(|(x, y)| [(x - 0.5 * width, *y), (x + 0.5 * width, *y)]);
+    let histogram = Panel::new(&format!("residual of {}", output_label(source)), "share of samples")
+        .strip()
+        .y_limits(0.0, 1.1 * tallest)
+        .with("", Mark::Line, [(-largest, 0.0)].into_iter().chain(outline).chain([(largest, 0.0)]));
     let limit = NORMAL_95 / count.sqrt();
-    let correlations = Panel::new("lag (samples)", "correlation of residuals")
-        .with("residuals", Mark::Dots, (1..=LAGS).map(|lag| (lag as f64, correlation(lag))))
-        .with("95 % of independent ones", Mark::Dashed, [(0.0, limit), (LAGS as f64, limit)])
-        .with("", Mark::Dashed, [(0.0, -limit), (LAGS as f64, -limit)]);
+    let correlations = |with: &str, before: &[f64], first: usize| {
+        let dots = (first..=LAGS).map(|lag| (lag as f64, correlation(residuals, before, lag)));
+        Panel::new("lag (samples)", &format!("correlation with {with}"))
+            .strip()
+            .with("", Mark::Dots, dots)
+            .with("", Mark::Dashed, [(0.0, limit), (LAGS as f64, limit)])
+            .with("", Mark::Dashed, [(0.0, -limit), (LAGS as f64, -limit)])
+    };
     Some(Figure {
         name: "distribution",
-        title: "Distribution and correlation of residuals".to_owned(),
-        panels: vec![histogram, correlations],
+        title: "Residuals: distribution, correlation with residuals and commands before".to_owned(),
+        panels: vec![histogram, correlations("residuals", residuals, 1), correlations("commands", &command, 0)],
     })
 }
 
-fn phase_figure(source: &Source, fitted: Option<&FittedRecord>, from: usize, part: &str) -> Figure {
+fn phase_figure(source: &Source, predicted: &Predicted) -> Figure {
     let record = &source.log.record;
+    let (from, part) = part(source);
     let rate = if source.log.degrees { "rate of change (rad/s)" } else { "rate of change (output per s)" };
-    let reach = reach(source);
-    let readings = speeds(&record.time_s()[from..], &record.output()[from..], reach);
-    let mut panel = Panel::new(output_label(source), rate).with("readings, by differences", Mark::Points, readings);
-    if let Some(fitted) = fitted {
-        let (time, model) = shown(source, fitted, &fitted.output, from);
-        panel = panel.with("model", Mark::Line, speeds(time, model, 1));
-    }
+    let readings = speeds(&record.time_s()[from..], &record.output()[from..], reach(source));
+    let (time, model) = predicted.shown(&predicted.output, record.time_s()[from]);
+    let panel = Panel::new(output_label(source), rate).with("readings, by differences", Mark::Points, readings).with(
+        &predicted.model,
+        Mark::Line,
+        speeds(time, model, 1),
+    );
     Figure { name: "phase", title: format!("Phase portrait{part}"), panels: vec![panel] }
 }
 
@@ -151,13 +244,6 @@ fn phase_figure(source: &Source, fitted: Option<&FittedRecord>, from: usize, par
 fn reach(source: &Source) -> usize {
     let period_s = source.features.as_ref().map_or(0.0, |found| found.features.period_s.mean);
     (period_s / (40.0 * source.log.record.interval_s())).max(1.0) as usize
-}
-
-/// Times and values of the model from sample `from` on.
-fn shown<'a>(source: &'a Source, fitted: &FittedRecord, values: &'a [f64], from: usize) -> (&'a [f64], &'a [f64]) {
-    let time = &source.log.record.time_s()[fitted.first_sample..];
-    let before = from.saturating_sub(fitted.first_sample).min(values.len());
-    (&time[before..values.len()], &values[before..])
 }
 
 fn pairs(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {

@@ -7,69 +7,68 @@ mod tables;
 
 pub(crate) use bounds::{bounds_tables, bounds_verdict};
 pub(crate) use samples::samples;
-pub(crate) use tables::{feature_table, model_tables, reasons, summary, verdict};
+pub(crate) use tables::{answer_tables, feature_table, method_tables, reasons, summary, verdict};
 
-use super::{Document, Section};
+use super::{Document, Section, Table};
+use crate::identify::fit::RecordFit;
 use crate::identify::{Identification, Source};
-use figures::figures;
+use figures::Predicted;
 use tables::{caution_table, cycle_table, refused_table};
 
-/// Everything as one file.
+/// What the model is, in the words of the guide.
+const MODEL: &str = "The model is alpha x'' + beta x' + beta_quadratic |x'| x' = u(t - delay) + delta.";
+
+/// Everything as one file: the answer, its numbers and their errors, the records, then every method.
 #[must_use]
 pub fn document(found: &Identification) -> Document {
-    let mut tables = model_tables(found);
-    let parameters = found.reported().and_then(|_| tables.next());
+    let answer = found.bounded().map_or_else(|| verdict(found), bounds_verdict);
+    let bounds = found.bounded().into_iter().flat_map(|bounded| bounds_tables(found, bounded));
     let reasons = caution_table("reasons", "Why the answer is not simply good", &reasons(found));
     let cautions = caution_table("warnings", "Warnings", found.cautions());
-    let summary = Section {
+    let model = Section {
         title: "Model".to_owned(),
-        paragraphs: found.bounded().map_or_else(|| verdict(found), bounds_verdict).lines().map(str::to_owned).collect(),
-        tables: found
-            .bounded()
-            .into_iter()
-            .flat_map(|bounded| bounds_tables(found, bounded))
-            .chain([parameters, reasons].into_iter().flatten())
-            .chain(tables)
-            .chain(refused_table(found))
-            .chain(cautions)
-            .collect(),
-        figures: Vec::new(),
+        paragraphs: vec![MODEL.to_owned()],
+        tables: reasons.into_iter().chain(bounds).chain(answer_tables(found)).chain(cautions).collect(),
+        ..Section::default()
     };
-    let records = found.sources().iter().enumerate().map(|(index, source)| record_section(found, index, source));
-    let methods = figures::interval_figure(found).map(|figure| Section {
+    let records = found.sources().iter().enumerate().flat_map(|(index, source)| record_sections(found, index, source));
+    let methods = Section {
         title: "Methods beside each other".to_owned(),
         paragraphs: vec![
-            "A dot without a bar comes without an interval. The bars of the fits hold where their own drag law does; that of \
-             the answer also allows for what the record leaves open."
+            "A bar is the interval if the model is exact, a thin line the practical one. The bars of the fits hold where their own drag law \
+             does; that of the answer also allows for what the record leaves open."
                 .to_owned(),
         ],
-        figures: vec![figure],
-        ..Section::default()
-    });
+        tables: method_tables(found).into_iter().chain(refused_table(found)).collect(),
+        figures: figures::interval_figure(found).into_iter().collect(),
+    };
     Document {
         title: "Identification from self-oscillations".to_owned(),
-        sections: std::iter::once(summary).chain(records).chain(methods).collect(),
+        answer: answer.lines().map(str::to_owned).collect(),
+        sections: std::iter::once(model).chain(records).chain([methods]).collect(),
         provenance: vec![concat!("Written by selfosc ", env!("CARGO_PKG_VERSION")).to_owned()],
     }
 }
 
-fn record_section(found: &Identification, index: usize, source: &Source) -> Section {
-    let fitted = found.likeliest_fit().map(|fit| (fit, &fit.records()[index]));
-    let mut paragraphs = vec![summary(source)];
-    paragraphs.extend(fitted.map(|(fit, record)| {
-        format!(
-            "The model with {} drag leaves residuals of rms {:.3e} and explains {:.1} % of the output's variation; \
-             successive residuals have correlation {:.2}.",
-            fit.law().name(),
-            record.residual_rms,
-            record.fit_percent,
-            record.autocorrelation
-        )
-    }));
-    Section {
+/// A record with the reported model, then what the model leaves of it.
+fn record_sections(found: &Identification, index: usize, source: &Source) -> Vec<Section> {
+    let between = found.likeliest_fit().map(RecordFit::between);
+    let predicted = Predicted::of(found, index);
+    let record = Section {
         title: format!("Record {}", source.name),
-        paragraphs,
-        tables: feature_table(source).into_iter().chain(cycle_table(source)).collect(),
-        figures: figures(source, fitted),
-    }
+        paragraphs: vec![summary(source)],
+        tables: feature_table(source).into_iter().chain(cycle_table(source).map(Table::folded)).collect(),
+        figures: vec![figures::record(source, predicted.as_ref(), between)],
+    };
+    let residuals = predicted.map(|predicted| Section {
+        title: if found.sources().len() > 1 {
+            format!("Residuals of record {}", index + 1)
+        } else {
+            "Residuals".to_owned()
+        },
+        paragraphs: vec![predicted.sentence()],
+        figures: figures::residuals(source, &predicted),
+        ..Section::default()
+    });
+    [record].into_iter().chain(residuals).collect()
 }

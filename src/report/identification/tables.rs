@@ -3,9 +3,10 @@
 use crate::features::CycleStatistics;
 use crate::identify::document::UnitNames;
 use crate::identify::{
-    BudgetEntry, Caution, DragLaw, DragVerdict, Estimate, Identification, Prediction, Reason, Reported, Source, Trust,
+    BudgetEntry, Caution, ConfidenceInterval, DragLaw, DragVerdict, Estimate, Identification, Prediction, Reason,
+    Reported, Source, Trust,
 };
-use crate::numeric::significant;
+use crate::numeric::{Uncertain, significant};
 use crate::report::{Cell, Table};
 
 /// Digits that a measured number is shown with, after the first.
@@ -67,7 +68,8 @@ pub(crate) fn feature_table(source: &Source) -> Option<Table> {
     let title = format!("Features over {} steady cycles", f.cycles);
     let table = Table::new("features", &title, &["feature", "mean", "spread"]);
     let row = |table: Table, name: &str, spread: &CycleStatistics<f64>| {
-        table.row([name.into(), cell(spread.mean), cell(spread.std)])
+        let Uncertain { value, half_width, .. } = Uncertain::new(spread.mean, spread.std);
+        table.row([name.into(), Cell::Text(value), Cell::Text(half_width)])
     };
     let angle = if source.log.degrees { " (rad)" } else { "" };
     let table = row(table, &format!("amplitude X_m{angle}"), &f.amplitude);
@@ -112,7 +114,7 @@ pub(super) fn cycle_table(source: &Source) -> Option<Table> {
     }))
 }
 
-/// The answer's trust and the drag law, a sentence each.
+/// The inertia, the trust, the drag law, the units and what to do next, a sentence each.
 #[must_use]
 pub(crate) fn verdict(found: &Identification) -> String {
     let Some(reported) = found.reported() else { return "Nothing is reported: that takes the fit.".to_owned() };
@@ -121,23 +123,39 @@ pub(crate) fn verdict(found: &Identification) -> String {
         Trust::Widened => "Trust: widened. The intervals allow for what is named below.",
         Trust::Doubtful => "Trust: doubtful. Do not use the numbers, for the reasons named below.",
     };
-    format!("{}{trust}\n{}\n{SCALE}", inertia_sentence(reported.alpha), drag_sentence(found, reported))
+    let (alpha, drag, next) =
+        (inertia_sentence(reported.alpha), drag_sentence(found, reported), next_sentence(reported));
+    format!("{alpha}{trust}\n{drag}\n{SCALE}\n{next}")
 }
 
-/// Digits of a half-width, and so of the value before it.
-const HALF_WIDTH_DIGITS: usize = 2;
+/// What to do next: gains, and what narrows the practical interval most; without trust, another record.
+fn next_sentence(reported: &Reported) -> String {
+    if reported.trust == Trust::Doubtful {
+        return "Next: another record. `selfosc design` computes which level and half-width.".to_owned();
+    }
+    let half = |interval: Option<ConfidenceInterval>| interval.map_or(0.0, |ends| 0.5 * (ends.high - ends.low));
+    // H^2 = (2 h)^2 + declared^2.
+    let (statistical, practical) = (2.0 * half(reported.alpha.spread), half(reported.alpha.combined));
+    let narrower = match reported.budget.first() {
+        Some(largest) if 2.0 * statistical.powi(2) < practical.powi(2) => largest.remedy.as_ref(),
+        _ => "record longer, or as `selfosc design` proposes",
+    };
+    format!(
+        "Next: gains, by `selfosc tune --model FILE` with this answer's --json as FILE. For a narrower interval, {narrower}."
+    )
+}
 
 /// The inertia with both intervals, the practical one first.
 fn inertia_sentence(alpha: Estimate) -> String {
     let Some((statistical, practical)) = alpha.spread.zip(alpha.combined) else { return String::new() };
-    let [practical, statistical] = [practical, statistical].map(|interval| 0.5 * (interval.high - interval.low));
-    let shown = significant(practical, HALF_WIDTH_DIGITS);
-    let decimals = shown.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    format!(
-        "alpha = {:.decimals$} \u{b1} {shown} (practical, 95 %; \u{b1} {} if the model is exact).\n",
-        alpha.value,
-        significant(statistical, HALF_WIDTH_DIGITS)
-    )
+    let [practical, statistical] = [practical, statistical].map(|interval| between(alpha, interval));
+    let (Uncertain { value, half_width, .. }, exact) = (practical, statistical.half_width);
+    format!("alpha = {value} \u{b1} {half_width} (practical, 95 %; \u{b1} {exact} if the model is exact).\n")
+}
+
+/// An estimate with one of its intervals.
+fn between(estimate: Estimate, interval: ConfidenceInterval) -> Uncertain {
+    Uncertain::between(estimate.value, interval.low, interval.high)
 }
 
 /// Sources shown to a person; the document has all.
@@ -151,7 +169,7 @@ fn budget_table(reported: &Reported) -> Option<Table> {
     let row = |table: Table, entry: &BudgetEntry| {
         let texts = [&entry.source, &entry.unit, &entry.remedy].map(|text| Cell::from(text.as_ref()));
         let [source, unit, remedy] = texts;
-        table.row([source, cell(entry.size), unit, Cell::number(entry.share_percent, 2), remedy])
+        table.row([source, Cell::Text(significant(entry.size, 2)), unit, Cell::number(entry.share_percent, 2), remedy])
     };
     (!reported.budget.is_empty()).then(|| rows.fold(table, row))
 }
@@ -205,19 +223,23 @@ pub(crate) fn reasons(found: &Identification) -> Vec<Caution> {
     reasons.iter().copied().map(|reason: Reason| Caution::from(reason)).collect()
 }
 
-/// The answer with its intervals, then every method.
-pub(crate) fn model_tables(found: &Identification) -> impl Iterator<Item = Table> + use<> {
-    let reported = found.reported().map(|reported| parameter_table(found, reported));
-    let budget = found.reported().and_then(budget_table);
+/// The answer with its intervals, and what they hold beside the record's scatter.
+pub(crate) fn answer_tables(found: &Identification) -> Vec<Table> {
+    let Some(reported) = found.reported() else { return Vec::new() };
+    [parameter_table(found, reported)].into_iter().chain(budget_table(reported)).collect()
+}
+
+/// Every method, and records predicted.
+pub(crate) fn method_tables(found: &Identification) -> Vec<Table> {
     let compared = (!found.models().is_empty()).then(|| comparison(found));
-    reported.into_iter().chain(budget).chain(compared).chain(prediction_table(found))
+    compared.into_iter().chain(prediction_table(found)).collect()
 }
 
 fn parameter_table(found: &Identification, reported: &Reported) -> Table {
     let terms: Vec<&str> = reported.terms.iter().map(|term| term.name()).collect();
     let terms = if terms.is_empty() { String::new() } else { format!(", with {}", terms.join(", ")) };
     let title = format!("Reported: {} drag{terms}", reported.drag.name());
-    let columns = ["parameter", "value", "95 % from", "to", "if exact, from", "to", "unit"];
+    let columns = ["parameter", "value \u{b1} practical, 95 %", "\u{b1} if exact", "unit"];
     let units = UnitNames::of(found.sources().iter().any(|source| source.log.degrees));
     let (one, second) = (String::new(), "s".to_owned());
     let [alpha, beta, quadratic, cubic, stiffness] =
@@ -245,11 +267,12 @@ fn parameter_table(found: &Identification, reported: &Reported) -> Table {
         _ => (format!("disturbance delta in {}", source.name), *delta, &force),
     });
     shared.chain(deltas).fold(Table::new("parameters", &title, &columns), |table, (name, estimate, unit)| {
-        let ends = [estimate.combined, estimate.spread].into_iter().flat_map(|interval| {
-            interval.map_or([const { Cell::Missing }; 2], |interval| [interval.low, interval.high].map(cell))
-        });
-        let unit = Cell::from(unit.as_str());
-        table.row([Cell::Text(name), cell(estimate.value)].into_iter().chain(ends).chain([unit]))
+        let value = estimate.combined.map_or_else(
+            || significant(estimate.value, usize::from(DIGITS) + 1),
+            |interval| between(estimate, interval).to_string(),
+        );
+        let exact = estimate.spread.map_or_else(String::new, |interval| between(estimate, interval).half_width);
+        table.row([Cell::Text(name), Cell::Text(value), Cell::Text(exact), Cell::from(unit.as_str())])
     })
 }
 

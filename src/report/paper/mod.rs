@@ -56,6 +56,7 @@ impl Reproduction {
     pub fn document(sections: Vec<Section>) -> Document {
         Document {
             title: "Self-oscillation identification, regenerated and audited".to_owned(),
+            answer: Vec::new(),
             sections,
             provenance: vec![concat!("Written by selfosc ", env!("CARGO_PKG_VERSION")).to_owned()],
         }
