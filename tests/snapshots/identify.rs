@@ -121,7 +121,7 @@ fn report_needs_nothing_outside() {
     let (status, ..) = selfosc(&folder, &["identify", "log.csv", "--delay", "0.1", "--report", "out.html"]);
     assert_eq!(status, 0);
     let html = std::fs::read_to_string(folder.path().join("out.html")).unwrap();
-    for part in ["Reported:", "Methods compared", "Cycles", "Record and fitted model", "Residuals", "Phase portrait"] {
+    for part in ["Reported:", "Methods compared", "Cycles", "Record and model", "Residuals", "Phase portrait"] {
         assert!(html.contains(part), "no {part}");
     }
     let inside =
