@@ -50,7 +50,7 @@ use terminal::Shown;
 #[derive(Debug, Parser)]
 #[command(name = "selfosc", version, max_term_width = 100)]
 #[command(
-    after_help = "Start with:  selfosc reproduce\nExit status: 0 done, 1 the answer is no, 2 usage or unreadable input."
+    after_help = "Start with:  selfosc identify LOG.csv   a vehicle under a relay\n             selfosc autotune LOG.csv   a heater, a tank, an axis\nExit status: 0 done, 1 the answer is no, 2 usage or unreadable input."
 )]
 struct Command {
     #[command(subcommand)]

@@ -41,7 +41,7 @@ nav ul { padding-left: 1.2rem; } a { color: inherit; }
 table { border-collapse: collapse; margin: 1rem 0; font-size: 0.9rem; }
 caption { text-align: left; font-weight: bold; padding-bottom: 0.4rem; }
 th, td { text-align: left; white-space: nowrap; padding: 0.15rem 0.8rem 0.15rem 0; border-bottom: 1px solid var(--faint); vertical-align: top; }
-td { font-variant-numeric: tabular-nums; } td:last-child { white-space: normal; min-width: 12rem; } .number { text-align: right; }
+td { font-variant-numeric: tabular-nums; } td:last-child { white-space: normal; } .number { text-align: right; }
 figure { margin: 1.5rem 0; overflow-x: auto; }
 figure svg { width: 100%; height: auto; cursor: zoom-in; }
 svg [fill='#000000'] { fill: var(--text); } svg [stroke='#000000'] { stroke: var(--text); }

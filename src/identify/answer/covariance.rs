@@ -26,7 +26,8 @@ impl DragCovariance {
     /// finite matrix.
     pub(crate) fn scaled(mixture: DragMatrix, drags: [Option<Estimate>; 3]) -> Option<Self> {
         let deviation = |i: usize| drags[i]?.spread.map(super::ConfidenceInterval::deviation);
-        let scale = |i: usize| deviation(i).filter(|_| mixture[i][i] > 0.0).map_or(0.0, |std| std / mixture[i][i].sqrt());
+        let scale =
+            |i: usize| deviation(i).filter(|_| mixture[i][i] > 0.0).map_or(0.0, |std| std / mixture[i][i].sqrt());
         Some(Self::statistical(matrix(|i, j| scale(i) * scale(j) * mixture[i][j]))).filter(Self::is_finite)
     }
 

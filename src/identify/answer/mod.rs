@@ -31,8 +31,6 @@ pub use drag_law::DragLaw;
 pub use error::IdentifyError;
 pub(crate) use error::READ_AGAIN;
 #[cfg(feature = "std")]
-pub(crate) use {covariance::matrix, practical::MotionScale};
-#[cfg(feature = "std")]
 pub use {
     budget::{Assumptions, BudgetEntry, ErrorSource},
     covariance::DragCovariance,
@@ -44,3 +42,5 @@ pub use {
     trust::{Reason, Trust},
     warning::Warning,
 };
+#[cfg(feature = "std")]
+pub(crate) use {covariance::matrix, practical::MotionScale};

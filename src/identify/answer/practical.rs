@@ -84,7 +84,8 @@ impl Reported {
             let estimated = |k: usize| estimates[k].filter(|drag| drag.spread.is_some());
             let Some((row, column)) = estimated(i).zip(estimated(j)) else { return 0.0 };
             let of = |source: ErrorSource| {
-                let together = drags[i].exact(row.value, source, assumed) * drags[j].exact(column.value, source, assumed);
+                let together =
+                    drags[i].exact(row.value, source, assumed) * drags[j].exact(column.value, source, assumed);
                 let apart = if i == j { drags[i].tried(source, assumed) } else { 0.0 };
                 together + apart * apart
             };

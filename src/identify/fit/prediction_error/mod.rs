@@ -45,7 +45,9 @@ use rayon::prelude::*;
 use super::start;
 use crate::experiment::Record;
 use crate::identify::answer::distribution::{NORMAL_95, student_quantile_95_expanded};
-use crate::identify::answer::{Delay, DragCovariance, DragLaw, Estimate, IdentifyError, LawEvidence, Reason, Reported, Term, Trust};
+use crate::identify::answer::{
+    Delay, DragCovariance, DragLaw, Estimate, IdentifyError, LawEvidence, Reason, Reported, Term, Trust,
+};
 pub use crate::identify::signal::{Clock, SwitchingInstant};
 use crate::numeric::{Limit, domain};
 use average::{Average, CHOSEN};

@@ -58,7 +58,8 @@ pub(super) fn weights(estimates: &[Option<Estimate>]) -> Option<Vec<f64>> {
     if numbers.as_ref().is_some_and(|numbers| probability_of_one(numbers) < DISAGREE) {
         return None;
     }
-    let precision = |estimate: &Option<Estimate>| estimate.and_then(|one| one.spread).map(|one| one.deviation().powi(-2));
+    let precision =
+        |estimate: &Option<Estimate>| estimate.and_then(|one| one.spread).map(|one| one.deviation().powi(-2));
     let mut weights: Vec<f64> = estimates.iter().map(|one| precision(one).unwrap_or(0.0)).collect();
     if numbers.is_none() {
         // The first with an error stands for all.
@@ -107,7 +108,10 @@ mod tests {
         assert_eq!(found, Some(vec![0.8, 0.0, 0.2]));
         assert_eq!(weights(&[Some(estimate(2.0, 0.1)), Some(estimate(4.0, 0.2))]), None);
         let exact = Estimate::new(0.0, None);
-        assert_eq!(weights(&[Some(exact), Some(estimate(2.0, 0.3)), Some(estimate(9.0, 0.3))]), Some(vec![0.0, 1.0, 0.0]));
+        assert_eq!(
+            weights(&[Some(exact), Some(estimate(2.0, 0.3)), Some(estimate(9.0, 0.3))]),
+            Some(vec![0.0, 1.0, 0.0])
+        );
         assert_eq!(weights(&[Some(exact), None]), Some(vec![0.0; 2]));
     }
 
