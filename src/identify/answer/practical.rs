@@ -5,7 +5,7 @@
 
 use super::budget::{Assumptions, BudgetEntry, ErrorSource, Shares};
 use super::covariance::matrix;
-use super::{Disturbances, Estimate, Reported};
+use super::{Disturbances, Estimate, Reason, Reported};
 
 /// A record's own units of force, speed and time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,8 +106,11 @@ impl Reported {
             })
             .collect();
         let delay = Moved { trial: |shares| shares.delay, whole: half_period_s, ..exact(0.0, 1.0) };
-        Self {
-            alpha: practical(self.alpha, alpha),
+        let alpha = practical(self.alpha, alpha);
+        // The practical interval may be too wide where the statistical one, half of it at most, is not.
+        self.reasons.retain(|reason| !matches!(reason, Reason::TooWide { .. }));
+        let found = Self {
+            alpha,
             beta: practical(self.beta, drags[0]),
             beta_quadratic: practical(self.beta_quadratic, drags[1]),
             beta_cubic: self.beta_cubic.map(|cubic| practical(cubic, drags[2])),
@@ -123,7 +126,8 @@ impl Reported {
             delay_s: practical(self.delay_s, delay).not_below_zero(),
             deltas,
             ..self
-        }
+        };
+        Reason::too_wide(alpha).into_iter().fold(found, Self::with_reason)
     }
 }
 
@@ -131,7 +135,17 @@ impl Reported {
 mod tests {
     use super::Moved;
     use crate::identify::answer::budget::{Assumptions, ErrorSource};
-    use crate::identify::answer::{ConfidenceInterval, Estimate};
+    use crate::identify::answer::{ConfidenceInterval, Estimate, Reason};
+
+    /// An inertia known to 28 % by its record's scatter is known to 57 % with what no record shows: of no use.
+    #[test]
+    fn the_practical_interval_decides_what_is_too_wide() {
+        let spread = ConfidenceInterval { std: 3.1, low: 15.5, high: 27.8 };
+        let alpha = Estimate::new(21.7, Some(spread));
+        assert_eq!(Reason::too_wide(alpha), None);
+        let found = Reason::too_wide(alpha.with_declared(0.3));
+        assert!(matches!(found, Some(Reason::TooWide { relative }) if (relative - 0.567).abs() < 0.01), "{found:?}");
+    }
 
     /// 3-4-5: twice a half-width of 2 beside declared sources of 3.
     #[test]

@@ -104,9 +104,10 @@ pub enum Reason {
 const TOO_WIDE: f64 = 0.5;
 
 impl Reason {
-    /// Whether this inertia is too wide to be of use.
+    /// Whether this inertia is too wide to be of use, by its practical interval where it has that.
     pub(crate) fn too_wide(alpha: Estimate) -> Option<Self> {
-        let relative = alpha.spread.map(|spread| 0.5 * (spread.high - spread.low) / alpha.value.abs());
+        let interval = alpha.combined.or(alpha.spread);
+        let relative = interval.map(|interval| 0.5 * (interval.high - interval.low) / alpha.value.abs());
         match relative {
             Some(relative) if relative < TOO_WIDE => None,
             relative => Some(Self::TooWide { relative: relative.unwrap_or(f64::INFINITY) }),
