@@ -56,7 +56,7 @@ class Interval(StatisticalInterval):
 
 
 class DragCovariance(TypedDict):
-    """Covariance of linear, quadratic and cubic drag, in this order; rows of a drag that is not estimated are zero."""
+    """Covariance of linear, quadratic and cubic drag, in this order, over all models averaged: cubic drag counts where some have it."""
 
     statistical: list[list[float]]
     """Of the record's scatter: on the diagonal the squares of ``std``."""

@@ -35,17 +35,6 @@ pub enum ProcessError {
         /// Share of the output's variance that no structure explains.
         left: f64,
     },
-    /// The output settles before it passes a level of the relay.
-    #[error(
-        "the output settles at {settled} and does not pass the relay's level {level}; give a command further out, or levels \
-         nearer to each other", settled = Plain(*.settled), level = Plain(*.level)
-    )]
-    NeverSwitches {
-        /// Where the output settles, output units.
-        settled: f64,
-        /// The level, output units.
-        level: f64,
-    },
 }
 
 /// A share, printed in percent.
@@ -71,7 +60,6 @@ impl ProcessError {
             Self::FewSamples { .. } => "few-samples",
             Self::Readings => "readings",
             Self::NoAnswer { .. } => "no-answer",
-            Self::NeverSwitches { .. } => "never-switches",
         }
     }
 }

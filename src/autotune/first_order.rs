@@ -1,11 +1,11 @@
 //! A first-order process with dead time, and gains for it by a rule of bounded sensitivity.
 
-#[cfg(feature = "std")]
-use super::ProcessError;
 use crate::control::{ControlError, Gains, Structure};
+#[cfg(feature = "std")]
+use crate::numeric::domain;
 use crate::numeric::{Real, Scalar};
 #[cfg(feature = "std")]
-use crate::orbit::TwoLevelRelay;
+use crate::orbit::{OrbitError, TwoLevelRelay};
 
 /// Derivative time over the time constant of its filter.
 const FILTER: f64 = 10.0;
@@ -98,15 +98,22 @@ impl FirstOrderProcess<f64> {
     /// ```
     ///
     /// # Errors
-    /// [`ProcessError::NeverSwitches`] where the output settles before a level.
-    pub fn relay_cycle(&self, relay: &TwoLevelRelay, load: f64) -> Result<RelayCycle, ProcessError> {
+    /// [`OrbitError::LevelNotPassed`] where the output settles before a level, or drifts away from it; [`OrbitError::NoHysteresis`] with
+    /// neither hysteresis nor dead time; [`OrbitError::OutOfDomain`] for numbers that are no process.
+    pub fn relay_cycle(&self, relay: &TwoLevelRelay, load: f64) -> Result<RelayCycle, OrbitError> {
         let Self { drag, stiffness, dead_time_s, .. } = *self;
+        domain::positive("drag", drag, "input s/output")?;
+        domain::non_negative("stiffness", stiffness, "input/output")?;
+        domain::non_negative("dead time", dead_time_s, "s")?;
+        domain::finite("load", load, "input units")?;
+        if relay.half_width == 0.0 && dead_time_s == 0.0 {
+            return Err(OrbitError::NoHysteresis);
+        }
         let [lower, upper] = [-relay.half_width, relay.half_width].map(|side| relay.reference + side);
         let [low, high] = [relay.low, relay.high].map(|command| command + load);
         for (force, level, towards) in [(high, upper, 1.0), (low, lower, -1.0)] {
             if !((force - stiffness * level) * towards > 0.0) {
-                let settled = if stiffness > 0.0 { force / stiffness } else { level };
-                return Err(ProcessError::NeverSwitches { settled, level });
+                return Err(OrbitError::LevelNotPassed { force, level });
             }
         }
         // (1 - exp(-rate t))/stiffness, which is t/drag without stiffness, and its inverse.

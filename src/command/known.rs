@@ -178,12 +178,13 @@ fn covariance(reported: &Value, found: &Value) -> Option<[[f64; 3]; 3]> {
     /// Relative difference that rounding may leave.
     const SAME: f64 = 1e-6;
     let covariance: [[f64; 3]; 3] = serde_json::from_value(found.clone()).ok()?;
-    let variance = ["beta", "beta_quadratic", "beta_cubic"]
-        .map(|name| reported[name]["combined"]["std"].as_f64().map_or(0.0, |std| std * std));
+    let variance =
+        ["beta", "beta_quadratic", "beta_cubic"].map(|name| Some(reported[name]["combined"]["std"].as_f64()?.powi(2)));
     let same = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
     let holds = |i: usize, j: usize| {
-        let (entry, most) = (covariance[i][j], (variance[i] * variance[j]).sqrt());
-        same(entry, covariance[j][i]) && entry.abs() <= (1.0 + SAME) * most && (i != j || same(entry, most))
+        let (entry, most) = (covariance[i][j], (covariance[i][i] * covariance[j][j]).sqrt());
+        let own = i != j || variance[i].is_none_or(|variance| same(entry, variance));
+        own && same(entry, covariance[j][i]) && entry.abs() <= (1.0 + SAME) * most
     };
     (0..9).all(|k| holds(k / 3, k % 3)).then_some(covariance)
 }

@@ -156,9 +156,12 @@ fn evidence(claim: &Claim, finding: &Finding) -> String {
 
 /// The finding on a claim: where it stands and the words for it, its statement, the case against it, the evidence.
 fn lines(claim: &Claim, finding: &Finding, output: &mut impl Write) -> Result<(), CommandError> {
-    let said = |word: Word, how: &str| (word != Word::NotApplicable).then(|| format!("{word} as {how}"));
-    let words = [said(finding.as_printed(), "printed"), said(finding.as_corrected(), "corrected")];
-    let words = words.into_iter().flatten().collect::<Vec<_>>().join(", ");
+    let words = match (finding.as_printed(), finding.as_corrected()) {
+        // The paper does not say it.
+        (Word::NotApplicable, word) => word.to_string(),
+        (word, Word::NotApplicable) => format!("{word} as printed"),
+        (printed, corrected) => format!("{printed} as printed, {corrected} as corrected"),
+    };
     writeln!(output, "\n{} ({}): {words}", claim.id, place(claim))?;
     writeln!(output, "    {}.", claim.statement)?;
     match &finding.printed {

@@ -36,6 +36,17 @@ pub enum OrbitError {
          one above 0"
     )]
     NoHysteresis,
+    /// A command that does not drive the output past its level.
+    #[error(
+        "a force of {force} (command and load) does not drive the output past the relay's level {level}; raise the command, \
+         or move the level", force = Plain(*.force), level = Plain(*.level)
+    )]
+    LevelNotPassed {
+        /// Command and load, input units.
+        force: f64,
+        /// The level, output units.
+        level: f64,
+    },
     /// Rounding hides the limit cycle: drag too weak for the arithmetic, or numbers beyond its range.
     #[error(
         "multiplier {multiplier} is one within rounding, or numbers overflow, so that the limit cycle cannot be told; give \
@@ -97,6 +108,7 @@ impl OrbitError {
             Self::Drift { .. } => "drifts-away",
             Self::NoDrag => "no-drag",
             Self::NoHysteresis => "no-hysteresis",
+            Self::LevelNotPassed { .. } => "level-not-passed",
             Self::Unresolved { .. } => "orbit-unresolved",
             Self::NotProved { .. } => "not-proved",
             Self::CrowdedPoles { .. } => "crowded-poles",

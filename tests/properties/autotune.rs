@@ -10,6 +10,7 @@ use selfosc::autotune::{
 use selfosc::control::Gains;
 use selfosc::experiment::Record;
 use selfosc::numeric::Scalar;
+use selfosc::orbit::TwoLevelRelay;
 
 /// `gain exp(-dead s)/(prod (lag s + 1))`, or an integrator with these lags.
 #[derive(Clone, Debug)]
@@ -164,6 +165,44 @@ fn gains_on_board_are_those_of_the_command() {
                 );
             }
         }
+    }
+}
+
+/// The sensitivity under AMIGO's gains by complex arithmetic: at most 1.5 from an integrator to a dead time alone, and near it for some.
+#[test]
+fn amigo_keeps_its_bound_in_complex_arithmetic() {
+    let largest = |r: f64| {
+        let process = FirstOrderProcess { drag: 1.0 - r, stiffness: r, dead_time_s: 1.0, reverse: false };
+        sensitivity_of([0.0, 1.0 - r, r, 0.0, 1.0], &process.gains(0.0).unwrap())
+    };
+    let most = (0..=100).map(|k| largest(0.01 * f64::from(k))).fold(0.0, f64::max);
+    assert!((1.46..=1.5).contains(&most), "{most}");
+}
+
+/// Numbers without an oscillation are refused by name, and none is not a number.
+#[test]
+fn a_relay_cycle_is_refused_by_name() {
+    let cycle = |[drag, stiffness, dead_time_s, half_width, load]: [f64; 5]| {
+        let process = FirstOrderProcess { drag, stiffness, dead_time_s, reverse: false };
+        let found =
+            process.relay_cycle(&TwoLevelRelay::new(1.0, 0.0, half_width).unwrap().with_reference(0.5).unwrap(), load);
+        found.map_err(|error| error.code())
+    };
+    let found = cycle([1.0, 1.0, 0.0, 0.1, 0.0]).unwrap();
+    // Without dead time the output turns at the levels: ln(0.6/0.4) each way.
+    assert!((found.time_high_s - 1.5_f64.ln()).abs() < 1e-12 && (found.time_low_s - 1.5_f64.ln()).abs() < 1e-12);
+    assert_eq!((found.minimum, found.maximum), (0.4, 0.6));
+    for (numbers, code) in [
+        ([1.0, 1.0, 1.0, 0.6, 0.0], "level-not-passed"),
+        ([1.0, 0.0, 1.0, 0.1, 0.0], "level-not-passed"),
+        ([1.0, 0.0, 1.0, 0.1, -1.0], "level-not-passed"),
+        ([1.0, 1.0, 0.0, 0.0, 0.0], "no-hysteresis"),
+        ([0.0, 1.0, 1.0, 0.1, 0.0], "out-of-domain"),
+        ([1.0, -1.0, 1.0, 0.1, 0.0], "out-of-domain"),
+        ([1.0, 1.0, f64::NAN, 0.1, 0.0], "out-of-domain"),
+        ([1.0, 1.0, 1.0, 0.1, f64::INFINITY], "out-of-domain"),
+    ] {
+        assert_eq!(cycle(numbers), Err(code), "{numbers:?}");
     }
 }
 

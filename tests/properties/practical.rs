@@ -128,15 +128,20 @@ fn the_practical_covariance_is_that_of_the_practical_intervals() {
     let reported = scaled(1.0, 1.0, Assumptions::NONE.with(ErrorSource::Clock, 1.0));
     let found = reported.drag_covariance.unwrap();
     let (statistical, combined) = (found.statistical, found.combined.unwrap());
-    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-9 * b.abs(), "{a} {b}");
+    let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-9 * b.abs(), "{a} {b}");
     for (i, drag) in [reported.beta, reported.beta_quadratic].into_iter().enumerate() {
         near(statistical[i][i], drag.spread.unwrap().std.powi(2));
         near(combined[i][i], drag.combined.unwrap().std.powi(2));
     }
-    // 1 % of linear drag, 2 % of quadratic drag, each half a practical interval's half-width of two deviations.
-    let scale = 0.005 * reported.beta.value * 0.01 * reported.beta_quadratic.value;
-    near(combined[0][1], 1.959_963_984_540_054_f64.powi(2) * statistical[0][1] + scale);
-    assert_eq!([combined[2], statistical[2]], [[0.0; 3]; 2], "no cubic drag");
+    // 1 % of linear drag, 2 % of quadratic drag, each half a practical interval's half-width of two deviations; cubic drag is not reported, but
+    // a model of the average may have it. The intervals' sides differ, so that correlations are compared.
+    assert!(reported.beta_cubic.is_none());
+    let moved = [0.005 * reported.beta.value, 0.01 * reported.beta_quadratic.value, 0.0];
+    let before = |i: usize, j: usize| 1.959_963_984_540_054_f64.powi(2) * statistical[i][j] + moved[i] * moved[j];
+    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+        let before = before(i, j) / (before(i, i) * before(j, j)).sqrt();
+        near(combined[i][j] / (combined[i][i] * combined[j][j]).sqrt(), before);
+    }
     assert!(statistical[0][1] < -0.5 * (statistical[0][0] * statistical[1][1]).sqrt());
 }
 
@@ -157,4 +162,22 @@ fn records_that_agree_pool_their_covariances() {
     let other = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0).unwrap(), 10.0).unwrap();
     let other = other.held().with_sensor(sensor).unwrap().run(80.0).unwrap();
     assert_eq!(session(&[record(), other]), None);
+}
+
+/// The reported values are those of one model: with them the motion leaves the error of rounding and no more. Means over the models, each
+/// parameter by itself, leave twice as much of the first record.
+#[test]
+fn the_reported_values_belong_together() {
+    const DEGREE: f64 = core::f64::consts::PI / 180.0;
+    for half_width in [0.3, 0.28, 0.34] {
+        let axis = DragAxis::mixed(0.033, 0.004, 0.02).unwrap().with_delay_s(0.2).unwrap();
+        let axis = axis.with_disturbance(0.004).unwrap();
+        let relay = RelayHysteresis::new(0.08, half_width, 0.0).unwrap();
+        let sensor = Sensor { quantum: DEGREE, ..Sensor::default() };
+        let record = SimulatedExperiment::new(axis, relay, 10.0).unwrap().held().with_sensor(sensor).unwrap();
+        let record = record.run(50.0).unwrap();
+        let found = Session::new(settings(Assumptions::NONE)).record("log", record.clone()).identify().unwrap();
+        let left = found.reported().unwrap().predict(&record).unwrap().rms;
+        assert!(left < 1.1 * DEGREE / 12_f64.sqrt(), "{half_width}: {left}");
+    }
 }

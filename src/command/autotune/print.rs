@@ -6,7 +6,6 @@ use serde_json::{Value, json};
 
 use super::form::Form;
 use super::{Autotuned, CommandError};
-use crate::identify::NORMAL_95;
 use crate::numeric::{Uncertain, significant};
 use crate::report::{Document, ProcessPage};
 
@@ -134,7 +133,7 @@ impl Autotuned {
         for model in &self.found.models {
             writeln!(output, "  {} ({} % of the evidence)", model.family.name(), significant(100.0 * model.weight, 3))?;
             for (name, one) in model.family.parameters().iter().zip(&model.parameters) {
-                writeln!(output, "    {name:24}{}", Uncertain::new(one.value, NORMAL_95 * one.std))?;
+                writeln!(output, "    {name:24}{}", Uncertain::between(one.value, one.low, one.high))?;
             }
         }
         writeln!(output, "\nrules of thumb on the likeliest process (parallel form)")?;

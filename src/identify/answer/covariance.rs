@@ -5,10 +5,11 @@ use serde::{Deserialize, Serialize};
 use super::Estimate;
 use super::distribution::NORMAL_95;
 
-/// Covariances in the order of linear, quadratic and cubic drag; zero for one that is not estimated.
+/// Covariances in the order of linear, quadratic and cubic drag.
 type DragMatrix = [[f64; 3]; 3];
 
-/// Covariance of linear, quadratic and cubic drag, in this order; rows and columns of a drag that is not estimated are zero.
+/// Covariance of linear, quadratic and cubic drag, in this order. It is that of all models averaged: rows of the cubic drag count where
+/// some of them have it, whether or not it is reported.
 ///
 /// A record shows the force of the drag. Where more of one coefficient makes up for less of another, their intervals are far wider than
 /// that force's. A function `f` of the coefficients with derivatives `J` has the standard deviation `sqrt(J C J^T)` (JCGM 100:2008, eq. 13).
@@ -22,13 +23,10 @@ pub struct DragCovariance {
 }
 
 impl DragCovariance {
-    /// From the covariance of a mixture of models, scaled to the deviations that the estimates' intervals have. `None` where it is no
-    /// finite matrix.
-    pub(crate) fn scaled(mixture: DragMatrix, drags: [Option<Estimate>; 3]) -> Option<Self> {
-        let deviation = |i: usize| drags[i]?.spread.map(super::ConfidenceInterval::deviation);
-        let scale =
-            |i: usize| deviation(i).filter(|_| mixture[i][i] > 0.0).map_or(0.0, |std| std / mixture[i][i].sqrt());
-        Some(Self::statistical(matrix(|i, j| scale(i) * scale(j) * mixture[i][j]))).filter(Self::is_finite)
+    /// With the deviations of the estimates' intervals and the correlations of a matrix. `None` where it is no finite matrix.
+    pub(crate) fn of(correlated: DragMatrix, drags: [Option<Estimate>; 3]) -> Option<Self> {
+        let std = drags.map(|drag| Some(drag?.spread?.std));
+        Some(Self::statistical(scaled(correlated, std))).filter(Self::is_finite)
     }
 
     /// Of the record's scatter alone.
@@ -51,12 +49,22 @@ impl DragCovariance {
         Self::statistical(matrix(|i, j| self.statistical[i][j] + shared(i, j)))
     }
 
-    /// With the practical covariance: `(2 h)^2 + declared^2` is four times its diagonal, with `h` the half-width of a normal interval.
-    pub(super) fn with_declared(self, declared: DragMatrix) -> Self {
+    /// With the practical covariance: `(2 h)^2 + declared^2` is four times its diagonal, with `h` the half-width of a normal interval; on its
+    /// diagonal the practical intervals' own.
+    pub(super) fn with_declared(self, declared: DragMatrix, drags: [Option<Estimate>; 3]) -> Self {
         let half_width = NORMAL_95 * NORMAL_95;
         let combined = matrix(|i, j| half_width * self.statistical[i][j] + 0.25 * declared[i][j]);
-        Self { combined: Some(combined), ..self }
+        Self { combined: Some(scaled(combined, drags.map(|drag| Some(drag?.combined?.std)))), ..self }
     }
+}
+
+/// With these deviations and the correlations of a covariance; as it is where there is no deviation.
+fn scaled(covariance: DragMatrix, std: [Option<f64>; 3]) -> DragMatrix {
+    let scale = |i: usize| {
+        let own = covariance[i][i];
+        std[i].filter(|_| own > 0.0).map_or(1.0, |std| std / own.sqrt())
+    };
+    matrix(|i, j| scale(i) * scale(j) * covariance[i][j])
 }
 
 /// The matrix of these entries.

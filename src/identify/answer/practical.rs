@@ -107,14 +107,18 @@ impl Reported {
             .collect();
         let delay = Moved { trial: |shares| shares.delay, whole: half_period_s, ..exact(0.0, 1.0) };
         let alpha = practical(self.alpha, alpha);
+        let [beta, beta_quadratic] = [practical(self.beta, drags[0]), practical(self.beta_quadratic, drags[1])];
+        let beta_cubic = self.beta_cubic.map(|cubic| practical(cubic, drags[2]));
         // The practical interval may be too wide where the statistical one, half of it at most, is not.
         self.reasons.retain(|reason| !matches!(reason, Reason::TooWide { .. }));
         let found = Self {
             alpha,
-            beta: practical(self.beta, drags[0]),
-            beta_quadratic: practical(self.beta_quadratic, drags[1]),
-            beta_cubic: self.beta_cubic.map(|cubic| practical(cubic, drags[2])),
-            drag_covariance: self.drag_covariance.map(|covariance| covariance.with_declared(declared)),
+            beta,
+            beta_quadratic,
+            beta_cubic,
+            drag_covariance: self
+                .drag_covariance
+                .map(|covariance| covariance.with_declared(declared, [Some(beta), Some(beta_quadratic), beta_cubic])),
             skew: optional(self.skew, 0.0, 0.0),
             coulomb: optional(self.coulomb, 0.0, 0.0).map(Estimate::not_below_zero),
             memory: optional(self.memory, 1.0, 1.0),
@@ -137,7 +141,7 @@ mod tests {
     use crate::identify::answer::budget::{Assumptions, ErrorSource};
     use crate::identify::answer::{ConfidenceInterval, Estimate, Reason};
 
-    /// An inertia known to 28 % by its record's scatter is known to 57 % with what no record shows: of no use.
+    /// A statistical half-width of 28 % makes a practical half-width of 57 %, of no use.
     #[test]
     fn the_practical_interval_decides_what_is_too_wide() {
         let spread = ConfidenceInterval { std: 3.1, low: 15.5, high: 27.8 };

@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{BudgetEntry, Disturbances, DragCovariance, DragLaw, Estimate, LawEvidence, Reason, Term, Trust};
 
-/// The one answer to use. All models that the records do not refute are averaged: a parameter of one that they do is absent.
+/// The one answer to use. Intervals are those of all models that the records do not refute. Values of one record are the likeliest model's, which
+/// belong together; of several, pooled means over the models, each parameter by itself.
 ///
 /// In the document a drag that the given law excludes is null, and a reason is its code and text: there `Drag` is `Option<Estimate>`, and
 /// `Why` is [`Caution`](crate::identify::Caution).

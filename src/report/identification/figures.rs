@@ -22,8 +22,7 @@ pub(super) struct Predicted {
 }
 
 impl Predicted {
-    /// Of the reported model and the likeliest fit the one that leaves less: the first has every term of the answer, the second knows the
-    /// instant of every switching. `None` without either.
+    /// Of the reported model, or of the likeliest fit where nothing is reported. `None` without either.
     pub(super) fn of(found: &Identification, index: usize) -> Option<Self> {
         let record = &found.sources()[index].log.record;
         let motion = found.reported().and_then(|reported| reported.predicted_motion(record)).map(|motion| {
@@ -36,7 +35,7 @@ impl Predicted {
             let name = format!("fit with {} drag", fit.law().name());
             Self::new(name, *residual_rms, *fit_percent, record, *first_sample, &output)
         });
-        motion.into_iter().chain(fit).min_by(|a, b| a.rms.total_cmp(&b.rms))
+        motion.or(fit)
     }
 
     fn new(model: String, rms: f64, fit_percent: f64, record: &Record, first: usize, output: &[Option<f64>]) -> Self {
@@ -150,7 +149,7 @@ pub(super) fn record(source: &Source, predicted: Option<&Predicted>, between: Op
     }
 }
 
-/// What the reported model leaves: over time, how it is distributed and hangs together, and the orbit.
+/// What the model leaves: over time, how it is distributed and hangs together, and the orbit.
 pub(super) fn residuals(source: &Source, predicted: &Predicted) -> Vec<Figure> {
     let over_time = residual_figure(source, predicted);
     [over_time]

@@ -139,7 +139,7 @@ impl<'a> Average<'a> {
         Self { members }
     }
 
-    /// The estimate of a parameter; its interval is wider than the mixture's by `factor`.
+    /// The estimate of a parameter: the mean over the models; its interval is wider than the mixture's by `factor`.
     pub(super) fn estimate(&self, parameter: Parameter, factor: f64) -> Option<Estimate> {
         let index = parameter as usize;
         let components: Vec<MixtureComponent> = self

@@ -20,6 +20,8 @@ pub struct Candidate {
 pub struct RecordAnswer {
     /// The answer to use.
     pub reported: Reported,
+    /// The same with the mean over the models of each parameter by itself, by which records are pooled.
+    pub(super) means: Reported,
     /// All models tried, the likeliest for its number of parameters first.
     pub candidates: Vec<Candidate>,
     /// Level of the command: half its range.

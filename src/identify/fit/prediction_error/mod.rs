@@ -6,7 +6,7 @@
 //! `tau a' = u - a`, `memory_s s' = x' - s`, `y = x + e`, a continuous-discrete stochastic state-space model (Jazwinski 1970;
 //! Kristensen, Madsen and Jorgensen 2004; Ljung 1999, chapter 7). Inertia, drag, disturbance and white noise are always there. Terms are a lag, a limited rate, a restoring force, cubic
 //! and one-sided drag, Coulomb friction, fluid memory, a filter of the sensor and a delay that differs from the given delay; a process force,
-//! coloured noise and jitter. Each is tried, and joins where the record is enough likelier for it. All models tried are averaged, so
+//! coloured noise and jitter. Each is tried, and joins where the record is enough likelier for it. Intervals are those of all models tried, averaged, so
 //! that an interval allows for the choice among them.
 //! Where readings are rounded, their errors belong together as far as the motion says, and the interval follows.
 //!
@@ -37,6 +37,7 @@ mod thrust;
 
 pub use candidate::{Candidate, RecordAnswer};
 pub use model::Parameter;
+use model::VehicleModel;
 pub use prediction::{PredictedMotion, Prediction};
 pub use several::Several;
 
@@ -198,7 +199,7 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
     let drags = [Parameter::LinearDrag, Parameter::QuadraticDrag, Parameter::CubicDrag];
     let [beta, beta_quadratic] = [estimate(drags[0]), estimate(drags[1])];
     let beta_cubic = present(drags[2]);
-    let reported = Reported {
+    let means = Reported {
         drag: known.law.unwrap_or(DragLaw::Mixed),
         laws: laws_of(found, best),
         terms,
@@ -206,7 +207,7 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
         beta,
         beta_quadratic,
         beta_cubic,
-        drag_covariance: DragCovariance::scaled(
+        drag_covariance: DragCovariance::of(
             average.covariance(drags, factor),
             [Some(beta), Some(beta_quadratic), beta_cubic],
         ),
@@ -233,7 +234,41 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
         values: fitted.model.values,
     };
     let candidates = tried.into_iter().map(candidate).collect();
-    RecordAnswer { reported, candidates, command_level: 0.5 * observations.range }
+    RecordAnswer {
+        reported: belonging(&means, &best.model),
+        means,
+        candidates,
+        command_level: 0.5 * observations.range,
+    }
+}
+
+/// The answer with the values of one model, within the intervals of all.
+///
+/// Means over the models, each parameter by itself, are the parameters of no model: of one with Coulomb friction and one without, they have
+/// the lesser drag that the friction makes up for, and no friction.
+fn belonging(means: &Reported, model: &VehicleModel) -> Reported {
+    let of = |parameter: Parameter, estimate: Estimate| {
+        let value = model.value(parameter);
+        Estimate { value: estimate.spread.map_or(value, |ends| value.max(ends.low).min(ends.high)), ..estimate }
+    };
+    let term = |parameter: Parameter, estimate: Option<Estimate>| estimate.map(|estimate| of(parameter, estimate));
+    Reported {
+        alpha: of(Parameter::Alpha, means.alpha),
+        beta: of(Parameter::LinearDrag, means.beta),
+        beta_quadratic: of(Parameter::QuadraticDrag, means.beta_quadratic),
+        beta_cubic: term(Parameter::CubicDrag, means.beta_cubic),
+        skew: term(Parameter::Skew, means.skew),
+        coulomb: term(Parameter::Coulomb, means.coulomb),
+        stiffness: term(Parameter::Stiffness, means.stiffness),
+        memory: term(Parameter::Memory, means.memory),
+        memory_s: term(Parameter::MemoryS, means.memory_s),
+        lag_s: term(Parameter::LagS, means.lag_s),
+        ramp_s: term(Parameter::RampS, means.ramp_s),
+        filter_s: term(Parameter::FilterS, means.filter_s),
+        delay_s: of(Parameter::DelayS, means.delay_s),
+        deltas: means.deltas.iter().map(|delta| of(Parameter::Disturbance, *delta)).collect(),
+        ..means.clone()
+    }
 }
 
 /// Comparison of the drag laws, with the terms of the best model.

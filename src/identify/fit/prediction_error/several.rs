@@ -91,16 +91,25 @@ impl Together {
     }
 
     /// Covariance of the pooled drags: `sum_k w_ki w_kj C_k,ij` over records k with the weights of the means.
-    fn drag_covariance(&self, values: [f64; 3]) -> Option<DragCovariance> {
+    fn drag_covariance(&self, pooled: [Option<Estimate>; 3]) -> Option<DragCovariance> {
+        let values = pooled.map(|drag| drag.map_or(0.0, |drag| drag.value));
         let drags: Vec<[Option<Estimate>; 3]> = self.parts.iter().map(Reported::drags).collect();
         let own: Option<Vec<_>> = self.parts.iter().map(|part| part.drag_covariance).collect();
         let own = own.filter(|_| self.held.is_empty())?;
-        let of = |i: usize| weights(&drags.iter().map(|drags| drags[i]).collect::<Vec<_>>());
+        let of = |i: usize| {
+            let drags: Vec<Option<Estimate>> = drags.iter().map(|drags| drags[i]).collect();
+            // A drag that no record reports is zero in each: a plain mean.
+            let none = drags.iter().all(Option::is_none);
+            if none { Some(vec![1.0 / drags.len() as f64; drags.len()]) } else { weights(&drags) }
+        };
         let weights = [of(0)?, of(1)?, of(2)?];
         let entry = |i: usize, j: usize| {
             own.iter().enumerate().map(|(k, own)| weights[i][k] * weights[j][k] * own.statistical[i][j]).sum()
         };
-        Some(DragCovariance::statistical(matrix(entry)).with_error(self.shared, values))
+        DragCovariance::of(
+            DragCovariance::statistical(matrix(entry)).with_error(self.shared, values).statistical,
+            pooled,
+        )
     }
 }
 
@@ -112,8 +121,19 @@ fn joint(estimates: &[Estimate]) -> Option<Estimate> {
 impl Several {
     /// The joint answer; there is at least one.
     pub(super) fn of(answers: Vec<RecordAnswer>) -> Self {
-        let levels = CommandLevels::of(&answers);
-        let together = Together::of(&answers, levels.as_ref());
+        if let [alone] = &answers[..] {
+            return Self { reported: alone.reported.clone(), answers, left_out: vec![None] };
+        }
+        let pooled: Vec<RecordAnswer> =
+            answers.iter().map(|answer| RecordAnswer { reported: answer.means.clone(), ..answer.clone() }).collect();
+        let reported = Self::pooled(&pooled);
+        let left_out = vec![None; answers.len()];
+        Self { reported, answers, left_out }
+    }
+
+    fn pooled(answers: &[RecordAnswer]) -> Reported {
+        let levels = CommandLevels::of(answers);
+        let together = Together::of(answers, levels.as_ref());
         let own = |of: &dyn Fn(&Reported) -> Option<Estimate>| {
             joint(&answers.iter().filter_map(|answer| of(&answer.reported)).collect::<Vec<_>>())
         };
@@ -138,8 +158,7 @@ impl Several {
         let beta = together.force(|r| Some(r.beta)).unwrap_or(first.beta);
         let beta_quadratic = together.force(|r| Some(r.beta_quadratic)).unwrap_or(first.beta_quadratic);
         let beta_cubic = together.force(|r| r.beta_cubic);
-        let values = [beta.value, beta_quadratic.value, beta_cubic.map_or(0.0, |cubic| cubic.value)];
-        let reported = Reported {
+        Reported {
             drag: first.drag,
             laws: LawEvidence::sum(answers.iter().map(|answer| answer.reported.laws)),
             terms,
@@ -147,7 +166,7 @@ impl Several {
             beta,
             beta_quadratic,
             beta_cubic,
-            drag_covariance: together.drag_covariance(values),
+            drag_covariance: together.drag_covariance([Some(beta), Some(beta_quadratic), beta_cubic]),
             skew: own(&|r| r.skew),
             memory: together.force(|r| r.memory),
             memory_s: own(&|r| r.memory_s),
@@ -165,9 +184,7 @@ impl Several {
             budget: Vec::new(),
             trust: reasons.iter().map(|reason| reason.trust()).max().unwrap_or(Trust::Good),
             reasons,
-        };
-        let left_out = vec![None; answers.len()];
-        Self { reported, answers, left_out }
+        }
     }
 
     /// With each record predicted from all others.
