@@ -97,6 +97,12 @@ impl Model {
         ranges.processes(if self.identified { slopes.hull(Interval::ZERO) } else { slopes })
     }
 
+    /// Slopes of the drag at rest: the value, of a drag that drives none, and the least that its interval leaves.
+    pub(super) fn slopes_at_rest(&self) -> [f64; 2] {
+        let slopes = self.drag.map_or_else(|| self.ranges().slopes(0.0), |drag| drag.slopes(0.0));
+        [self.axis.beta.value.max(0.0), slopes.lower()]
+    }
+
     /// What `selfosc identify --json` reported.
     pub(super) fn read(path: &Path) -> Result<Self, CommandError> {
         let unusable = |reason: String| CommandError::Model { flag: "--model", path: path.to_owned(), reason };

@@ -22,7 +22,8 @@ use format::GainFormat;
 /// The axis is given by its parameters or as the model that `selfosc identify --json` found, with all its terms and its constant
 /// force; its practical intervals and the covariance of its drag count. A model that is not to be trusted is refused.
 /// The gains place the closed loop's poles for a bandwidth (-3 dB of the answer to the reference), or for the largest bandwidth
-/// at which every axis of the intervals keeps a limit of the sensitivity or of the phase margin. The margins count
+/// at which every axis of the intervals keeps a limit of the sensitivity or of the phase margin. Drag counts with its slope at rest;
+/// where that leaves some axis of the intervals unstable, with the least slope that they leave. The margins count
 /// the delay and the filter of the derivative; poles, bandwidth and the answer to a step are computed without the
 /// design equations. With intervals, further terms or quadratic drag, margins are proved for every axis too. Exit status 1
 /// where some axis in the intervals is not stabilised.

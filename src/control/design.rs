@@ -37,9 +37,9 @@ impl Structure {
 ///
 /// The closed loop without delay gets the poles `(s + w)^2 (s + c w)(s + p)`: w from the bandwidth, c = 0, 0.1, 1 for
 /// PD, PID, I-PD, and p the pole that the filter adds, about `8/w`, which the design takes into account. Drag enters
-/// with its slope at rest, `beta_1`, the least there is: quadratic drag only damps more. With `f` the filter's time
-/// constant and `q = alpha (1 - (2 + c) w f) + beta_1 f`, `K_i = q c w^3`, `K_p + K_i f = alpha f c w^3 + q (1 + 2c)
-/// w^2`, `K_d + K_p f = alpha f (1 + 2c) w^2 + q (2 + c) w - beta_1`.
+/// with a slope, `d`: that at rest, `beta_1`, the least there is, since quadratic drag only damps more. With `f` the filter's
+/// time constant and `q = alpha (1 - (2 + c) w f) + d f`, `K_i = q c w^3`, `K_p + K_i f = alpha f c w^3 + q (1 + 2c)
+/// w^2`, `K_d + K_p f = alpha f (1 + 2c) w^2 + q (2 + c) w - d`.
 ///
 /// The bandwidth is that of the answer to the reference, at -3 dB. Filter and delay move it; the filter by less than
 /// 0.5 %.
@@ -61,6 +61,7 @@ impl Structure {
 )]
 pub struct Tuning<T> {
     axis: DragAxis<T>,
+    slope: T,
     bandwidth_rad_s: T,
     gains: Gains<T>,
     margins: Margins<T>,
@@ -72,6 +73,7 @@ pub struct Tuning<T> {
 #[serde(bound(deserialize = "T: Scalar + serde::Deserialize<'de>"))]
 struct Wanted<T> {
     axis: DragAxis<T>,
+    slope: T,
     bandwidth_rad_s: T,
     gains: Gains<T>,
 }
@@ -81,7 +83,7 @@ impl<T: Scalar> TryFrom<Wanted<T>> for Tuning<T> {
     type Error = ControlError;
 
     fn try_from(wanted: Wanted<T>) -> Result<Self, ControlError> {
-        Self::new(&wanted.axis, wanted.gains.structure(), wanted.bandwidth_rad_s)
+        Self::for_slope(&wanted.axis, wanted.slope, wanted.gains.structure(), wanted.bandwidth_rad_s)
     }
 }
 
@@ -99,19 +101,44 @@ impl<T: Scalar> Tuning<T> {
     /// bandwidth at which drag alone damps more than the design; [`ControlError::TooFast`] above that at which the
     /// margins fall below the least ones; [`ControlError::NoBandwidth`] where the two leave none.
     pub fn new(axis: &DragAxis<T>, structure: Structure, bandwidth_rad_s: T) -> Result<Self, ControlError> {
+        Self::for_slope(axis, axis.linear_drag(), structure, bandwidth_rad_s)
+    }
+
+    /// Designs for a drag that may be less than the axis' own: for the least slope that it may have, below zero where it drives. Every
+    /// larger slope damps more and answers slower than the bandwidth. The margins are those of the axis.
+    ///
+    /// ```
+    /// use selfosc::control::{Structure, Tuning};
+    /// use selfosc::plant::DragAxis;
+    /// let yaw = DragAxis::mixed(0.033, 0.01, 0.06)?.with_delay_s(0.2)?;
+    /// let (known, uncertain) = (Tuning::new(&yaw, Structure::Pd, 0.5)?, Tuning::for_slope(&yaw, -0.005, Structure::Pd, 0.5)?);
+    /// assert!(uncertain.gains().derivative() > known.gains().derivative());
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); [`ControlError::OutOfDomain`] unless the slope is finite.
+    pub fn for_slope(
+        axis: &DragAxis<T>,
+        slope: T,
+        structure: Structure,
+        bandwidth_rad_s: T,
+    ) -> Result<Self, ControlError> {
         domain::positive("bandwidth", bandwidth_rad_s, "rad/s")?;
-        let least = least_bandwidth(axis, structure);
+        domain::finite("slope of the drag", slope, "F s/x")?;
+        let body = Body { alpha: axis.alpha(), slope };
+        let least = body.least_bandwidth(structure);
         if bandwidth_rad_s < least {
             let (bandwidth_rad_s, least_rad_s) = (bandwidth_rad_s.value(), least.value());
             return Err(ControlError::Overdamped { bandwidth_rad_s, least_rad_s });
         }
-        let gains = place(axis, structure, bandwidth_rad_s)?;
+        let gains = body.place(structure, bandwidth_rad_s)?;
         if let Some(margins) = sufficient(axis, &gains) {
-            return Ok(Self { axis: *axis, bandwidth_rad_s, gains, margins });
+            return Ok(Self { axis: *axis, slope, bandwidth_rad_s, gains, margins });
         }
         let delay_s = axis.delay_s().value();
-        let most = most_bandwidth(axis, structure, bandwidth_rad_s);
-        if most < least {
+        let most = body.most_bandwidth(axis, structure, bandwidth_rad_s);
+        if most < least || most == T::zero() {
             let (least_rad_s, most_rad_s) = (least.value(), most.value());
             return Err(ControlError::NoBandwidth { delay_s, least_rad_s, most_rad_s });
         }
@@ -127,6 +154,10 @@ impl<T: Scalar> Tuning<T> {
     /// The axis designed for.
     pub fn axis(&self) -> &DragAxis<T> {
         &self.axis
+    }
+    /// The slope of the drag that the poles are placed for, F s/x.
+    pub fn slope(&self) -> T {
+        self.slope
     }
     /// The bandwidth asked for, rad/s.
     pub fn bandwidth_rad_s(&self) -> T {
@@ -150,43 +181,74 @@ pub(crate) fn double_pole<T: Scalar>(structure: Structure, bandwidth: T) -> T {
     bandwidth / T::from_f64(structure.bandwidth_ratio())
 }
 
-/// Gains that place the poles; the derivative gain is negative below the least bandwidth.
-fn unchecked<T: Scalar>(axis: &DragAxis<T>, structure: Structure, bandwidth: T) -> [T; 4] {
-    let (one, two) = (T::one(), T::two());
-    let (c, w) = (T::from_f64(structure.slow_pole()), double_pole(structure, bandwidth));
-    let (alpha, drag, filter) = (axis.alpha(), axis.linear_drag(), T::from_f64(FILTER) / w);
-    let (sum, products) = ((two + c) * w, (one + two * c) * w.square());
-    let cube = c * w * w.square();
-    let q = alpha * (one - sum * filter) + drag * filter;
-    let integral = q * cube;
-    let proportional = alpha * filter * cube + q * products - integral * filter;
-    let derivative = alpha * filter * products + q * sum - drag - proportional * filter;
-    [proportional, integral, derivative, filter]
+/// Inertia and slope of the drag that the poles are placed for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Body<T> {
+    pub(crate) alpha: T,
+    pub(crate) slope: T,
 }
 
-pub(crate) fn place<T: Scalar>(
-    axis: &DragAxis<T>,
-    structure: Structure,
-    bandwidth: T,
-) -> Result<Gains<T>, ControlError> {
-    let [proportional, integral, derivative, filter] = unchecked(axis, structure, bandwidth);
-    let gives = proportional > T::zero() && proportional.is_finite() && filter.is_finite();
-    let limit = Limit::Words("such that the gains are neither 0 nor beyond the largest number");
-    domain::require_that(gives, "bandwidth", bandwidth, "rad/s", limit, "check the units of inertia and bandwidth")?;
-    // Rounding at the least bandwidth itself.
-    Gains::new(structure, proportional, integral, derivative.max(T::zero()), filter)
-}
+impl<T: Scalar> Body<T> {
+    /// Gains that place the poles; the derivative gain is negative below the least bandwidth.
+    fn unchecked(&self, structure: Structure, bandwidth: T) -> [T; 4] {
+        let (one, two) = (T::one(), T::two());
+        let (c, w) = (T::from_f64(structure.slow_pole()), double_pole(structure, bandwidth));
+        let (Self { alpha, slope }, filter) = (*self, T::from_f64(FILTER) / w);
+        let (sum, products) = ((two + c) * w, (one + two * c) * w.square());
+        let cube = c * w * w.square();
+        let q = alpha * (one - sum * filter) + slope * filter;
+        let integral = q * cube;
+        let proportional = alpha * filter * cube + q * products - integral * filter;
+        let derivative = alpha * filter * products + q * sum - slope - proportional * filter;
+        [proportional, integral, derivative, filter]
+    }
 
-/// The bandwidth at which the derivative gain is zero: that gain over `alpha w` is a straight line in `beta_1/(alpha
-/// w)`.
-fn least_bandwidth<T: Scalar>(axis: &DragAxis<T>, structure: Structure) -> T {
-    let (zero, one) = (T::zero(), T::one());
-    let derivative = |drag| {
-        let shape = DragAxis::linear(one, drag).ok()?;
-        Some(unchecked(&shape, structure, T::from_f64(structure.bandwidth_ratio()))[2])
-    };
-    let (Some(without), Some(with)) = (derivative(zero), derivative(one)) else { return zero };
-    axis.linear_drag() / axis.alpha() * (without - with) / without * T::from_f64(structure.bandwidth_ratio())
+    pub(crate) fn place(&self, structure: Structure, bandwidth: T) -> Result<Gains<T>, ControlError> {
+        let [proportional, integral, derivative, filter] = self.unchecked(structure, bandwidth);
+        let gives = proportional > T::zero() && proportional.is_finite() && filter.is_finite();
+        let limit = Limit::Words("such that the gains are neither 0 nor beyond the largest number");
+        domain::require_that(
+            gives,
+            "bandwidth",
+            bandwidth,
+            "rad/s",
+            limit,
+            "check the units of inertia and bandwidth",
+        )?;
+        // Rounding at the least bandwidth itself.
+        Gains::new(structure, proportional, integral, derivative.max(T::zero()), filter)
+    }
+
+    /// The bandwidth at which the derivative gain is zero, and zero for a slope below: that gain over `alpha w` is a straight line
+    /// in `slope/(alpha w)`.
+    fn least_bandwidth(&self, structure: Structure) -> T {
+        let ratio = T::from_f64(structure.bandwidth_ratio());
+        let derivative = |slope| Self { alpha: T::one(), slope }.unchecked(structure, ratio)[2];
+        let (without, with) = (derivative(T::zero()), derivative(T::one()));
+        (self.slope / self.alpha * (without - with) / without * ratio).max(T::zero())
+    }
+
+    /// The largest bandwidth below one that is too large whose margins suffice, to 1 %; zero where none does in thirty halvings.
+    fn most_bandwidth(&self, axis: &DragAxis<T>, structure: Structure, too_large: T) -> T {
+        let suffices =
+            |bandwidth| self.place(structure, bandwidth).is_ok_and(|gains| sufficient(axis, &gains).is_some());
+        let (mut lower, mut upper) = (too_large, too_large);
+        for _ in 0..30 {
+            lower = lower / T::two();
+            if suffices(lower) {
+                break;
+            }
+            upper = lower;
+        }
+        if upper == lower {
+            return T::zero();
+        }
+        while upper - lower > T::from_f64(0.01) * upper {
+            let middle = (lower + upper) / T::two();
+            if suffices(middle) { lower = middle } else { upper = middle }
+        }
+        lower
+    }
 }
 
 /// The margins, if they are at least the least ones.
@@ -195,23 +257,4 @@ fn sufficient<T: Scalar>(axis: &DragAxis<T>, gains: &Gains<T>) -> Option<Margins
     let least = |margin: Option<T>| margin.is_none_or(|m| m >= T::from_f64(Tuning::<T>::LEAST_GAIN_MARGIN));
     let phase = margins.phase_rad >= T::from_f64(Tuning::<T>::LEAST_PHASE_MARGIN_DEG.to_radians());
     (phase && least(margins.gain) && least(margins.gain_reduction)).then_some(margins)
-}
-
-/// The largest bandwidth below one that is too large whose margins suffice, to 1 %; where none does, what is left after
-/// thirty halvings.
-fn most_bandwidth<T: Scalar>(axis: &DragAxis<T>, structure: Structure, too_large: T) -> T {
-    let suffices = |bandwidth| place(axis, structure, bandwidth).is_ok_and(|gains| sufficient(axis, &gains).is_some());
-    let (mut lower, mut upper) = (too_large, too_large);
-    for _ in 0..30 {
-        lower = lower / T::two();
-        if suffices(lower) {
-            break;
-        }
-        upper = lower;
-    }
-    while upper - lower > T::from_f64(0.01) * upper && suffices(lower) {
-        let middle = (lower + upper) / T::two();
-        if suffices(middle) { lower = middle } else { upper = middle }
-    }
-    lower
 }

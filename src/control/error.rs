@@ -1,7 +1,7 @@
 //! Why there is no controller.
 
 use crate::numeric::OutOfDomain;
-use crate::numeric::domain::Plain;
+use crate::numeric::domain::{About, AtLeast, AtMost, Plain};
 use crate::plant::PlantError;
 
 /// A refusal of the control layer: which number, which limit, what to do.
@@ -18,7 +18,7 @@ pub enum ControlError {
     #[error(
         "bandwidth = {} rad/s is below {} rad/s, under which the drag of the axis alone \
          damps more than the design and the derivative gain would be negative; ask for at least {} rad/s",
-        Plain(*.bandwidth_rad_s), Plain(*.least_rad_s), Plain(*.least_rad_s)
+        Plain(*.bandwidth_rad_s), AtLeast(*.least_rad_s), AtLeast(*.least_rad_s)
     )]
     Overdamped {
         /// The bandwidth asked for, rad/s.
@@ -30,7 +30,7 @@ pub enum ControlError {
     #[error(
         "bandwidth = {} rad/s with a delay of {} s leaves less than a gain margin of {gain} \
          and a phase margin of {phase_deg} degrees; ask for at most {} rad/s or shorten the delay",
-        Plain(*.bandwidth_rad_s), Plain(*.delay_s), Plain(*.most_rad_s)
+        Plain(*.bandwidth_rad_s), About(*.delay_s), AtMost(*.most_rad_s)
     )]
     TooFast {
         /// The bandwidth asked for, rad/s.
@@ -48,7 +48,7 @@ pub enum ControlError {
     #[error(
         "with a delay of {} s the bandwidth may be {} rad/s at most, and drag wants {} \
          rad/s at least; shorten the delay",
-        Plain(*.delay_s), Plain(*.most_rad_s), Plain(*.least_rad_s)
+        About(*.delay_s), AtMost(*.most_rad_s), AtLeast(*.least_rad_s)
     )]
     NoBandwidth {
         /// The delay of the loop, s.
@@ -62,7 +62,7 @@ pub enum ControlError {
     #[error(
         "no bandwidth from {} to {} rad/s is proved to keep the limit for every axis of the intervals; allow more (--ms, --phase-margin) \
          or identify from a longer record",
-        Plain(*.least_rad_s), Plain(*.most_rad_s)
+        AtLeast(*.least_rad_s), AtMost(*.most_rad_s)
     )]
     OutOfReach {
         /// Where gains begin, rad/s.
@@ -74,7 +74,7 @@ pub enum ControlError {
     #[error(
         "the closed loop is not proved to be stable for every process of the intervals (not at inertia {}, drag {}, delay {} s); \
          {}",
-        Plain(*.alpha), Plain(*.drag), Plain(*.delay_s), Remedy(*.stabilised_rad_s)
+        About(*.alpha), About(*.drag), About(*.delay_s), Remedy(*.stabilised_rad_s)
     )]
     NotStabilised {
         /// Inertia of the process.
@@ -90,7 +90,7 @@ pub enum ControlError {
     #[error(
         "the closed loop has {poles} poles that do not decay (inertia {}, drag {}, delay {} s), all \
          must decay for margins; lower the gains or shorten the delay",
-        Plain(*.alpha), Plain(*.drag), Plain(*.delay_s)
+        About(*.alpha), About(*.drag), About(*.delay_s)
     )]
     Unstable {
         /// Poles in the right half plane or, as far as rounding tells, on its edge.

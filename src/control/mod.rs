@@ -43,7 +43,7 @@ mod worst_case;
 pub use controller::{ControlFault, ControlStep, Controller};
 pub use design::Tuning;
 #[cfg(feature = "std")]
-pub(crate) use design::{double_pole, place};
+pub(crate) use design::{Body, double_pole};
 pub use error::ControlError;
 pub use gains::{Gains, Structure};
 pub use margins::Margins;

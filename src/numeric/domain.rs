@@ -100,6 +100,41 @@ impl fmt::Display for Plain {
     }
 }
 
+/// A computed number, to three digits.
+pub(crate) struct About(pub(crate) f64);
+/// A computed upper bound that a user may type in: three digits, not rounded up.
+pub(crate) struct AtMost(pub(crate) f64);
+/// A computed lower bound, not rounded down.
+pub(crate) struct AtLeast(pub(crate) f64);
+
+impl fmt::Display for About {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        Plain(three_digits(self.0, libm::round)).fmt(f)
+    }
+}
+
+impl fmt::Display for AtMost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        Plain(three_digits(self.0, libm::floor)).fmt(f)
+    }
+}
+
+impl fmt::Display for AtLeast {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        Plain(three_digits(self.0, libm::ceil)).fmt(f)
+    }
+}
+
+fn three_digits(value: f64, round: fn(f64) -> f64) -> f64 {
+    let exponent = 2 - libm::floor(libm::log10(value.abs())) as i32;
+    let place = libm::pow(10.0, f64::from(exponent.abs()));
+    match exponent {
+        _ if value == 0.0 || !place.is_finite() => value,
+        0.. => round(value * place) / place,
+        _ => round(value / place) * place,
+    }
+}
+
 struct Unit<'a>(&'a str);
 
 impl fmt::Display for Unit<'_> {

@@ -382,3 +382,17 @@ fn tune_to_a_limit_and_in_a_form() {
         assert!((made / pid["gains"][name].as_f64().unwrap() - 1.0).abs() < 1e-2, "{name}");
     }
 }
+
+/// Where the value of the drag leaves some axis of its interval unstable, gains are placed for the least slope, and say so.
+#[test]
+fn an_uncertain_drag_is_placed_for() {
+    let call = ["tune", "--alpha=1", "--beta=0", "--beta-interval=-1.2,1.2", "--delay=0.25", "--json"];
+    let slope = |bandwidth: &str| {
+        let document: serde_json::Value = serde_json::from_str(&done(&[&call[..], &[bandwidth]].concat())).unwrap();
+        assert_eq!(document["worst_case"]["proved"], true);
+        document["placed_for_slope"].as_f64().unwrap()
+    };
+    assert_eq!(slope("--bandwidth=0.7"), 0.0);
+    assert_eq!(slope("--bandwidth=0.3"), -1.2);
+    assert!(done(&[&call[..5], &["--bandwidth=0.3"]].concat()).contains("placed for a drag of slope -1.2"));
+}

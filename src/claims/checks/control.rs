@@ -3,7 +3,7 @@
 use super::algebra::{exactly, number};
 use super::{Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::control::{
-    Margins, OpenLoop, RelayTest, Structure, Tuning, UltimatePoint, critical_point, double_pole, place,
+    Body, Margins, OpenLoop, RelayTest, Structure, Tuning, UltimatePoint, critical_point, double_pole,
 };
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::Real;
@@ -144,7 +144,7 @@ fn prove_pole_placement(distortion: Distortion) -> Verdict {
     let of = |structure: Structure| {
         let functions = move |[alpha, drag, bandwidth]: [Rational; 3], factor: Rational| {
             let axis = DragAxis::linear(alpha, drag).ok()?;
-            let gains = place(&axis, structure, bandwidth).ok()?;
+            let gains = Body { alpha, slope: drag }.place(structure, bandwidth).ok()?;
             let (fed_back, own) = OpenLoop::new(&axis, &gains, number(0.0)).ok()?.polynomials();
             let lacking = own.len().checked_sub(fed_back.len())?;
             let term = |(place, own): (usize, &Rational)| match place.checked_sub(lacking) {

@@ -66,26 +66,45 @@ pub(super) struct Tuned {
 }
 
 impl Tuned {
+    /// Gains are placed for the drag's slope at rest; where these leave some axis of the intervals unstable, or beyond the limit, for the
+    /// least slope that the intervals leave.
+    ///
     /// # Errors
     /// Where some axis of the intervals is not stabilised, with the nearest bandwidth at which all are.
     pub(super) fn new(model: &Model, wanted: &DesignWanted) -> Result<Self, ControlError> {
-        let Target::BandwidthRadS(asked_rad_s) = wanted.target else {
-            return Self::at(model, wanted, largest_bandwidth(model, wanted)?);
+        let [at_rest, least] = model.slopes_at_rest();
+        let designed = |slope: f64| {
+            let bandwidth_rad_s = match wanted.target {
+                Target::BandwidthRadS(asked_rad_s) => asked_rad_s,
+                _ => largest_bandwidth(model, wanted, slope)?,
+            };
+            Self::at(model, wanted, slope, bandwidth_rad_s)
         };
-        Self::at(model, wanted, asked_rad_s).map_err(|error| match error {
-            ControlError::NotStabilised { alpha, drag, delay_s, .. }
-            | ControlError::Unstable { alpha, drag, delay_s, .. } => {
-                let stabilised_rad_s = stabilised(model, wanted, asked_rad_s);
+        let error = match designed(at_rest) {
+            Err(error) if ["unstable", "out-of-reach"].contains(&error.code()) => error,
+            other => return other,
+        };
+        if let Ok(tuned) = designed(least) {
+            return Ok(tuned);
+        }
+        Err(match (error, wanted.target) {
+            (
+                ControlError::NotStabilised { alpha, drag, delay_s, .. }
+                | ControlError::Unstable { alpha, drag, delay_s, .. },
+                Target::BandwidthRadS(asked_rad_s),
+            ) => {
+                let stabilised_rad_s =
+                    [at_rest, least].into_iter().find_map(|slope| stabilised(model, wanted, slope, asked_rad_s));
                 ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s }
             }
-            other => other,
+            (other, _) => other,
         })
     }
 
-    fn at(model: &Model, wanted: &DesignWanted, bandwidth_rad_s: f64) -> Result<Self, ControlError> {
+    fn at(model: &Model, wanted: &DesignWanted, slope: f64, bandwidth_rad_s: f64) -> Result<Self, ControlError> {
         let values = model.values();
         let axis = values.design_axis()?;
-        let tuning = Tuning::new(&axis, wanted.structure, bandwidth_rad_s)?;
+        let tuning = Tuning::for_slope(&axis, slope, wanted.structure, bandwidth_rad_s)?;
         let calm = AxisModel { delta: 0.0, ..values };
         let response = response(&calm, &tuning, wanted)?;
         let acts = values.delta != 0.0 && model.axis.delta.interval.is_none_or(|interval| !interval.contains(0.0));
@@ -179,32 +198,32 @@ fn grid((least, most): (f64, f64)) -> impl Fn(u32) -> f64 {
 }
 
 /// The bandwidth nearest to the one asked for whose gains are proved to stabilise every axis of the intervals, to two digits.
-fn stabilised(model: &Model, wanted: &DesignWanted, asked_rad_s: f64) -> Option<f64> {
+fn stabilised(model: &Model, wanted: &DesignWanted, slope: f64, asked_rad_s: f64) -> Option<f64> {
     let axis = model.values().design_axis().ok()?;
-    let at = grid(bandwidths(&axis, wanted.structure).ok()?);
+    let at = grid(bandwidths(&axis, slope, wanted.structure).ok()?);
     let mut candidates: Vec<f64> = (0..=GRID).filter_map(|k| format!("{:.1e}", at(k)).parse().ok()).collect();
     let far = |bandwidth: &f64| (bandwidth / asked_rad_s).ln().abs();
     candidates.sort_by(|a, b| far(a).total_cmp(&far(b)));
     candidates.into_iter().find(|bandwidth| {
-        let Ok(tuning) = Tuning::new(&axis, wanted.structure, *bandwidth) else { return false };
+        let Ok(tuning) = Tuning::for_slope(&axis, slope, wanted.structure, *bandwidth) else { return false };
         let Ok(processes) = processes(model, wanted, &tuning) else { return false };
         processes.points_stable(tuning.gains())
             && processes.all_stable(tuning.gains())
-            && Tuned::at(model, wanted, *bandwidth).is_ok()
+            && Tuned::at(model, wanted, slope, *bandwidth).is_ok()
     })
 }
 
 /// The largest bandwidth at which the limit is proved for every axis of the intervals.
-fn largest_bandwidth(model: &Model, wanted: &DesignWanted) -> Result<f64, ControlError> {
+fn largest_bandwidth(model: &Model, wanted: &DesignWanted, slope: f64) -> Result<f64, ControlError> {
     let axis = model.values().design_axis()?;
-    let (least, most) = bandwidths(&axis, wanted.structure)?;
+    let (least, most) = bandwidths(&axis, slope, wanted.structure)?;
     let criterion = match wanted.target {
         Target::Sensitivity(most) => RobustCriterion::Sensitivity(most),
         Target::PhaseRad(least) => RobustCriterion::PhaseRad(least),
         Target::BandwidthRadS(bandwidth) => return Ok(bandwidth),
     };
     let keeps = |bandwidth: f64| {
-        let Ok(tuning) = Tuning::new(&axis, wanted.structure, bandwidth) else { return false };
+        let Ok(tuning) = Tuning::for_slope(&axis, slope, wanted.structure, bandwidth) else { return false };
         processes(model, wanted, &tuning).is_ok_and(|processes| {
             processes.meets(tuning.gains(), criterion) && processes.points_stable(tuning.gains())
         })
@@ -221,23 +240,27 @@ fn largest_bandwidth(model: &Model, wanted: &DesignWanted) -> Result<f64, Contro
     (0..STEPS_BACK)
         .map(|back| low * 0.98_f64.powi(back))
         .find(|bandwidth| {
-            let Ok(tuning) = Tuning::new(&axis, wanted.structure, *bandwidth) else { return false };
+            let Ok(tuning) = Tuning::for_slope(&axis, slope, wanted.structure, *bandwidth) else { return false };
             processes(model, wanted, &tuning).is_ok_and(|processes| processes.all_have(tuning.gains(), criterion))
         })
         .ok_or(out_of_reach)
 }
 
 /// The range of bandwidths for which there are gains.
-fn bandwidths(axis: &crate::plant::DragAxis<f64>, structure: Structure) -> Result<(f64, f64), ControlError> {
+fn bandwidths(
+    axis: &crate::plant::DragAxis<f64>,
+    slope: f64,
+    structure: Structure,
+) -> Result<(f64, f64), ControlError> {
     // Without delay nothing but the drag's pace limits the range; ten thousand times that is as good as no limit.
-    let pace = axis.linear_drag() / axis.alpha();
+    let pace = slope.abs() / axis.alpha();
     let beyond = if axis.delay_s() > 0.0 { 100.0 / axis.delay_s() } else { 1e4 * pace.max(1e-4) };
-    let most = match Tuning::new(axis, structure, beyond) {
+    let most = match Tuning::for_slope(axis, slope, structure, beyond) {
         Ok(_) => beyond,
         Err(ControlError::TooFast { most_rad_s, .. }) => most_rad_s,
         Err(error) => return Err(error),
     };
-    let least = match Tuning::new(axis, structure, 1e-3 * most) {
+    let least = match Tuning::for_slope(axis, slope, structure, 1e-3 * most) {
         Err(ControlError::Overdamped { least_rad_s, .. }) => least_rad_s,
         _ => 1e-3 * most,
     };

@@ -26,6 +26,7 @@ impl Tuned {
         json!({
             "gains": self.tuning.gains(),
             "double_pole_rad_s": self.tuning.double_pole_rad_s(),
+            "placed_for_slope": self.tuning.slope(),
             "margins": self.tuning.margins(),
             "verified": {
                 "poles": self.poles.iter().map(|pole| [pole.re, pole.im]).collect::<Vec<_>>(),
@@ -64,6 +65,13 @@ impl Tuned {
         row("integral gain", &format!("(F/({x} s))"), gains.integral())?;
         row("derivative gain", &format!("(F s/{x})"), gains.derivative())?;
         row("filter of the derivative", "s", gains.filter_s())?;
+        if self.tuning.slope() != self.tuning.axis().linear_drag() {
+            writeln!(
+                output,
+                "placed for a drag of slope {} F s/{x}, the least that the intervals leave: other slopes answer slower",
+                significant(self.tuning.slope(), 4)
+            )?;
+        }
         let Margins { gain, gain_reduction, phase_rad, delay_s, .. } = *margins;
         let nominal = WorstMargin { gain, gain_reduction, phase_rad, delay_s };
         let worst = self.worst.as_ref();

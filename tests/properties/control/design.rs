@@ -131,3 +131,38 @@ fn a_delay_and_drag_that_leave_no_bandwidth_are_said_so() {
         "{refusal:?}"
     );
 }
+
+/// Poles for another slope than the axis' own; the bandwidths that a refusal names can be typed in as printed.
+#[test]
+fn gains_for_an_uncertain_slope() {
+    let axis = DragAxis::linear(0.033, 0.02).unwrap().with_delay_s(0.2).unwrap();
+    let (slope, w) = (-0.015, 0.4 / Structure::Pd.bandwidth_ratio());
+    let tuning = Tuning::for_slope(&axis, slope, Structure::Pd, 0.4).unwrap();
+    let residue = |drag: f64| {
+        let (alpha, g) = (axis.alpha(), tuning.gains());
+        let f = g.filter_s();
+        let [cubic, square, linear, constant] =
+            [alpha * f, alpha + drag * f, drag + g.derivative() + g.proportional() * f, g.proportional()];
+        let value = -cubic * w.powi(3) + square * w * w - linear * w + constant;
+        let derivative = 3.0 * cubic * w * w - 2.0 * square * w + linear;
+        value.abs() / constant + derivative.abs() / linear
+    };
+    assert!(residue(slope) < ROUNDING_MARGIN, "{}", residue(slope));
+    assert!(residue(axis.linear_drag()) > 0.1);
+
+    // Drag that drives so strongly that the delay leaves no gains.
+    let none = Tuning::for_slope(&axis, -0.2, Structure::Pd, 1.0).unwrap_err();
+    assert!(matches!(none, ControlError::NoBandwidth { most_rad_s: 0.0, .. }), "{none:?}");
+    assert!(Tuning::for_slope(&axis, f64::NAN, Structure::Pd, 1.0).is_err());
+
+    let named = |error: ControlError| -> f64 {
+        let text = error.to_string();
+        let (_, rest) = text.split_once("ask for at ").unwrap();
+        rest.split(' ').nth(1).unwrap().parse().unwrap()
+    };
+    for (alpha, drag, delay_s, asked) in [(0.033, 0.02, 0.2, 9.0), (3.7, 5.3, 0.05, 0.1), (1234.5, 1.1, 0.9, 9.0)] {
+        let axis = DragAxis::linear(alpha, drag).unwrap().with_delay_s(delay_s).unwrap();
+        let bandwidth = named(Tuning::new(&axis, Structure::Pd, asked).unwrap_err());
+        assert!(Tuning::new(&axis, Structure::Pd, bandwidth).is_ok(), "{bandwidth}");
+    }
+}
