@@ -24,6 +24,7 @@ class Tuned(Result):
 
     gains: types.Gains
     double_pole_rad_s: float
+    placed_for_slope: float
     margins: types.Margins
     verified: types.Verified
     sensitivity: types.SensitivityRange

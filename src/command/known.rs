@@ -89,18 +89,21 @@ impl Model {
         self.axis.map(|known| known.range())
     }
 
-    /// Every linear process at speeds up to `top_speed`. A record of an oscillation shows the force at speeds, not the slope of the drag at
-    /// rest, which a law only extrapolates: down to none it is possible there.
+    /// Every linear process at speeds up to `top_speed`.
     pub(super) fn processes(&self, top_speed: f64) -> LinearProcess<Interval> {
-        let ranges = self.ranges();
-        let slopes = self.drag.map_or_else(|| ranges.slopes(top_speed), |drag| drag.slopes(top_speed));
-        ranges.processes(if self.identified { slopes.hull(Interval::ZERO) } else { slopes })
+        self.ranges().processes(self.slopes(top_speed))
     }
 
-    /// Slopes of the drag at rest: the value, of a drag that drives none, and the least that its interval leaves.
+    /// Slopes of the drag at rest: the value, of a drag that drives none, and the least there may be.
     pub(super) fn slopes_at_rest(&self) -> [f64; 2] {
-        let slopes = self.drag.map_or_else(|| self.ranges().slopes(0.0), |drag| drag.slopes(0.0));
-        [self.axis.beta.value.max(0.0), slopes.lower()]
+        [self.axis.beta.value.max(0.0), self.slopes(0.0).lower()]
+    }
+
+    /// Slopes of the drag at speeds up to `top_speed`. A record of an oscillation shows the force at speeds, not the slope of the drag at
+    /// rest, which a law only extrapolates: down to none it is possible there.
+    fn slopes(&self, top_speed: f64) -> Interval {
+        let slopes = self.drag.map_or_else(|| self.ranges().slopes(top_speed), |drag| drag.slopes(top_speed));
+        if self.identified { slopes.hull(Interval::ZERO) } else { slopes }
     }
 
     /// What `selfosc identify --json` reported.

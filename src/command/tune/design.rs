@@ -66,8 +66,8 @@ pub(super) struct Tuned {
 }
 
 impl Tuned {
-    /// Gains are placed for the drag's slope at rest; where these leave some axis of the intervals unstable, or beyond the limit, for the
-    /// least slope that the intervals leave.
+    /// Gains are placed for the drag's slope at rest; where there are none, or these leave some axis of the intervals unstable or beyond
+    /// the limit, for the least slope that the intervals leave.
     ///
     /// # Errors
     /// Where some axis of the intervals is not stabilised, with the nearest bandwidth at which all are.
@@ -81,7 +81,7 @@ impl Tuned {
             Self::at(model, wanted, slope, bandwidth_rad_s)
         };
         let error = match designed(at_rest) {
-            Err(error) if ["unstable", "out-of-reach"].contains(&error.code()) => error,
+            Err(error) if ["unstable", "out-of-reach", "overdamped", "no-bandwidth"].contains(&error.code()) => error,
             other => return other,
         };
         if let Ok(tuned) = designed(least) {

@@ -689,6 +689,13 @@ fn tuning<T: Scalar>(probe: &mut Probe) {
         let numbers = [gains.proportional(), gains.integral(), gains.derivative(), gains.filter_s()];
         probe.note(name, &numbers, numbers.iter().all(|number| *number >= T::zero()), &said);
     }
+    let slope = probe.given();
+    if let Some(uncertain) = probe.result("Tuning::for_slope", Tuning::for_slope(&axis, slope, structure, bandwidth)) {
+        let numbers = [uncertain.gains().proportional(), uncertain.gains().integral(), uncertain.gains().derivative()];
+        let holds = uncertain.slope() == slope && numbers.iter().all(|number| *number >= T::zero());
+        probe.note("Tuning::for_slope", &numbers, holds, &(said, slope));
+    }
+    probe.note("Tuning::slope", &[tuning.slope()], tuning.slope() == axis.linear_drag(), &said);
     probe.note("Tuning::bandwidth_rad_s", &[tuning.bandwidth_rad_s()], true, &said);
     probe.note("Tuning::double_pole_rad_s", &[tuning.double_pole_rad_s()], true, &said);
     probe.note::<T>("Tuning::axis", &[], *tuning.axis() == axis, &said);
