@@ -126,12 +126,17 @@ impl fmt::Display for AtLeast {
 }
 
 fn three_digits(value: f64, round: fn(f64) -> f64) -> f64 {
-    let exponent = 2 - libm::floor(libm::log10(value.abs())) as i32;
-    let place = libm::pow(10.0, f64::from(exponent.abs()));
-    match exponent {
-        _ if value == 0.0 || !place.is_finite() => value,
-        0.. => round(value * place) / place,
-        _ => round(value / place) * place,
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    let exponent = 2.0 - libm::floor(libm::log10(value.abs()));
+    let place = libm::pow(10.0, exponent.abs());
+    if !place.is_finite() {
+        value
+    } else if exponent >= 0.0 {
+        round(value * place) / place
+    } else {
+        round(value / place) * place
     }
 }
 
