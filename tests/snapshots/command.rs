@@ -395,4 +395,17 @@ fn an_uncertain_drag_is_placed_for() {
     assert_eq!(slope("--bandwidth=0.7"), 0.0);
     assert_eq!(slope("--bandwidth=0.3"), -1.2);
     assert!(done(&[&call[..5], &["--bandwidth=0.3"]].concat()).contains("placed for a drag of slope -1.2"));
+
+    // A record does not tell the slope at rest: an identified axis of strong drag has gains below the bandwidth of its drag.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.json");
+    let drag = r#"{"value": 2, "combined": {"std": 0.1, "low": 1.8, "high": 2.2}}"#;
+    let model = format!(
+        r#"{{"reported": {{"alpha": {{"value": 1}}, "beta": {drag}, "trust": "good", "delay_s": {{"value": 0.9}}}}}}"#
+    );
+    std::fs::write(&path, model).unwrap();
+    let identified = done(&["tune", "--model", path.to_str().unwrap(), "--bandwidth=0.2"]);
+    assert!(identified.contains("placed for a drag of slope 0 "), "{identified}");
+    let (status, _, complaint) = output(&["tune", "--alpha=1", "--beta=2", "--delay=0.9", "--bandwidth=0.2"]);
+    assert!(status == Some(2) && complaint.contains("is below"), "{complaint}");
 }
