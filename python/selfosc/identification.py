@@ -76,16 +76,17 @@ class Identification(Result):
         return f"{record}trust {self.reported['trust']}{reasons}; {self.reported['drag']} drag"
 
     def _table(self) -> list[list[str]]:
-        """The reported parameters with half their 95 % intervals' widths."""
+        """The reported parameters with the farther ends of their practical 95 % intervals."""
         if self.reported is None:
             return super()._table()
         units = _units(self.units)
-        table = [["parameter", "95 % interval", "unit"]]
+        table = [["parameter", "practical, 95 %", "unit"]]
         for name, part in self.reported.items():
             if isinstance(part, dict) and part.get("value") is not None:
                 spread = part.get("combined") or part
-                half = None if spread["low"] is None else 0.5 * (spread["high"] - spread["low"])
-                table.append([name, measured(part["value"], half), units.get(name, "")])
+                value = part["value"]
+                farther = None if spread["low"] is None else max(value - spread["low"], spread["high"] - value)
+                table.append([name, measured(value, farther), units.get(name, "")])
         return table
 
     def report(self, path: str | os.PathLike[str]) -> Path:

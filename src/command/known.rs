@@ -113,7 +113,10 @@ impl Model {
         let found: Value = serde_json::from_str(&text).map_err(|error| unusable(format!("{error}; {WRITTEN}")))?;
         let reported = &found["reported"];
         if reported.is_null() {
-            return Err(unusable("it reports no model; identify again, or give --alpha and the others".to_owned()));
+            return Err(unusable(
+                "it reports no model; identify again by `--method all` or `fit`, or give --alpha and the others"
+                    .to_owned(),
+            ));
         }
         let wrong = |field: &str, found: &Value, limit: &str| {
             let found = cut(&found.to_string(), LONGEST_WORD);

@@ -23,7 +23,8 @@ use format::GainFormat;
 /// force; its practical intervals and the covariance of its drag count. A model that is not to be trusted is refused.
 /// The gains place the closed loop's poles for a bandwidth (-3 dB of the answer to the reference), or for the largest bandwidth
 /// at which every axis of the intervals keeps a limit of the sensitivity or of the phase margin. Drag counts with its slope at rest;
-/// where that leaves some axis of the intervals unstable, with the least slope that they leave. The margins count
+/// where that leaves some axis of the intervals unstable or with a sensitivity above 2, with the least slope, if that is better.
+/// The margins count
 /// the delay and the filter of the derivative; poles, bandwidth and the answer to a step are computed without the
 /// design equations. With intervals, further terms or quadratic drag, margins are proved for every axis too. Exit status 1
 /// where some axis in the intervals is not stabilised.
@@ -98,13 +99,17 @@ pub(super) struct Arguments {
     json: bool,
 }
 
+/// Limits that may be asked for.
+const SENSITIVITIES: core::ops::RangeInclusive<f64> = 1.05..=4.0;
+const PHASES_DEG: core::ops::RangeInclusive<f64> = 5.0..=80.0;
+
 fn sensitivity(text: &str) -> Result<f64, String> {
-    let within = |value: &f64| (1.05..=4.0).contains(value);
+    let within = |value: &f64| SENSITIVITIES.contains(value);
     number(text).ok().filter(within).ok_or_else(|| "must be from 1.05 to 4; 1.4 is usual".to_owned())
 }
 
 fn phase(text: &str) -> Result<f64, String> {
-    let within = |value: &f64| (5.0..=80.0).contains(value);
+    let within = |value: &f64| PHASES_DEG.contains(value);
     number(text).ok().filter(within).ok_or_else(|| "must be from 5 to 80 degrees; 45 is usual".to_owned())
 }
 

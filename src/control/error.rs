@@ -60,15 +60,16 @@ pub enum ControlError {
     },
     /// No bandwidth keeps a limit for every axis of the intervals.
     #[error(
-        "no bandwidth from {} to {} rad/s is proved to keep the limit for every axis of the intervals; allow more (--ms, --phase-margin) \
-         or identify from a longer record",
-        AtLeast(*.least_rad_s), AtMost(*.most_rad_s)
+        "no bandwidth from {} to {} rad/s is proved to keep the limit for every axis of the intervals; {}identify from a longer record",
+        AtLeast(*.least_rad_s), AtMost(*.most_rad_s), Allowed(*.within_reach)
     )]
     OutOfReach {
         /// Where gains begin, rad/s.
         least_rad_s: f64,
         /// Where they end, rad/s.
         most_rad_s: f64,
+        /// A limit of the same kind that gains were found for.
+        within_reach: Option<LoopLimit>,
     },
     /// A process of a box that is not proved to be stable under the gains.
     #[error(
@@ -83,7 +84,7 @@ pub enum ControlError {
         drag: f64,
         /// Delay of the loop, s.
         delay_s: f64,
-        /// A bandwidth whose gains are proved to stabilise all, rad/s, where one was found.
+        /// The bandwidth, rad/s, whose gains are proved to stabilise all with the least sensitivity, where one was found.
         stabilised_rad_s: Option<f64>,
     },
     /// A loop that is not stable has no margins.
@@ -135,6 +136,30 @@ pub enum ControlError {
         /// Where it ended, rad/s.
         to_rad_s: f64,
     },
+}
+
+/// A limit that every axis is to keep.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LoopLimit {
+    /// Largest sensitivity.
+    Sensitivity(f64),
+    /// Least phase margin, degrees.
+    PhaseDeg(f64),
+}
+
+/// Which limit to ask for, where one is known.
+struct Allowed(Option<LoopLimit>);
+
+impl core::fmt::Display for Allowed {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self.0 {
+            Some(LoopLimit::Sensitivity(most)) => write!(f, "allow a sensitivity of {} (--ms) or ", AtLeast(most)),
+            Some(LoopLimit::PhaseDeg(least)) => {
+                write!(f, "allow a phase margin of {} degrees (--phase-margin) or ", AtMost(least))
+            }
+            None => Ok(()),
+        }
+    }
 }
 
 /// What helps where gains do not stabilise every process.

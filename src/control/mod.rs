@@ -44,7 +44,7 @@ pub use controller::{ControlFault, ControlStep, Controller};
 pub use design::Tuning;
 #[cfg(feature = "std")]
 pub(crate) use design::{Body, double_pole};
-pub use error::ControlError;
+pub use error::{ControlError, LoopLimit};
 pub use gains::{Gains, Structure};
 pub use margins::Margins;
 #[cfg(feature = "std")]

@@ -294,7 +294,6 @@ impl ProcessIntervals {
     /// Whether the middle and the corners of the box meet the criterion, up to rounding: no proof.
     #[must_use]
     pub fn meets(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> bool {
-        let high = self.highest_frequency(gains, RobustCriterion::Gain(1.0)).unwrap_or(f64::INFINITY);
         let wanted = match criterion {
             RobustCriterion::Sensitivity(number)
             | RobustCriterion::Gain(number)
@@ -302,30 +301,32 @@ impl ProcessIntervals {
             | RobustCriterion::PhaseRad(number)
             | RobustCriterion::DelayS(number) => number,
         };
-        self.points().iter().all(|process| {
-            let found = Figures::of(process, gains, high, FEW).number(criterion);
-            if matches!(criterion, RobustCriterion::Sensitivity(_)) { found <= wanted } else { found >= wanted }
-        })
+        let found = self.worst_of_points(gains, criterion, FEW);
+        if matches!(criterion, RobustCriterion::Sensitivity(_)) { found <= wanted } else { found >= wanted }
+    }
+
+    /// The worst number of the criterion at the middle and the corners of the box, up to rounding: no proof.
+    #[must_use]
+    pub fn nearly(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> f64 {
+        self.worst_of_points(gains, criterion, FEW)
+    }
+
+    fn worst_of_points(&self, gains: &Gains<f64>, criterion: RobustCriterion, an_octave: i32) -> f64 {
+        let high = self.highest_frequency(gains, RobustCriterion::Gain(1.0)).unwrap_or(f64::INFINITY);
+        let points = self.points();
+        let numbers = points.iter().map(|process| Figures::of(process, gains, high, an_octave).number(criterion));
+        let worse = if matches!(criterion, RobustCriterion::Sensitivity(_)) { f64::max } else { f64::min };
+        numbers.reduce(worse).unwrap_or(f64::NAN)
     }
 
     /// The worst number of the criterion at the points of the box.
     fn worst_met(&self, gains: &Gains<f64>, of: fn(f64) -> RobustCriterion) -> Result<f64, ControlError> {
-        let mut worst: Option<f64> = None;
-        let high = self.highest_frequency(gains, RobustCriterion::Gain(1.0)).unwrap_or(f64::INFINITY);
-        for process in self.points() {
-            let number = Figures::of(&process, gains, high, AN_OCTAVE).number(of(1.0));
-            worst = Some(match (worst, of(1.0)) {
-                (None, _) => number,
-                (Some(worst), RobustCriterion::Sensitivity(_)) => worst.max(number),
-                (Some(worst), _) => worst.min(number),
-            });
-        }
         if !self.all_stable(gains)
             && let Some(LinearProcess { alpha, drag, delay_s, .. }) = self.unstable_point(gains)
         {
             return Err(ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s: None });
         }
-        Ok(worst.unwrap_or(f64::NAN))
+        Ok(self.worst_of_points(gains, of(1.0), AN_OCTAVE))
     }
 
     /// Whether the middle and the corners of the box are each proved to be stable; nothing is said of the processes between.

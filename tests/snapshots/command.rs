@@ -406,6 +406,15 @@ fn an_uncertain_drag_is_placed_for() {
     std::fs::write(&path, model).unwrap();
     let identified = done(&["tune", "--model", path.to_str().unwrap(), "--bandwidth=0.2"]);
     assert!(identified.contains("placed for a drag of slope 0 "), "{identified}");
+
+    // A limit out of reach names one that is within.
+    for (flag, asked, words) in [("--ms", "1.2", "a sensitivity of "), ("--phase-margin", "75", "a phase margin of ")] {
+        let limited = |limit: &str| output(&[&call[..5], &[flag, limit]].concat());
+        let (status, refused, _) = limited(asked);
+        assert_eq!(status, Some(1), "{refused}");
+        let (_, named) = refused.split_once(words).unwrap();
+        assert_eq!(limited(named.split(' ').next().unwrap()).0, Some(0), "{refused}");
+    }
     let (status, _, complaint) = output(&["tune", "--alpha=1", "--beta=2", "--delay=0.9", "--bandwidth=0.2"]);
     assert!(status == Some(2) && complaint.contains("is below"), "{complaint}");
 }

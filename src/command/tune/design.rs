@@ -1,9 +1,10 @@
 //! A design, and what holds of it over all that the model may be.
 
+use super::{PHASES_DEG, SENSITIVITIES};
 use crate::command::known::Model;
 use crate::control::{
-    AxisIntervals, AxisModel, ControlError, Controller, CriterionRange, LinearProcess, OpenLoop, ProcessIntervals,
-    RobustCriterion, StepResponse, Structure, Tuning, WorstMargin,
+    AxisIntervals, AxisModel, ControlError, Controller, CriterionRange, LinearProcess, LoopLimit, OpenLoop,
+    ProcessIntervals, RobustCriterion, StepResponse, Structure, Tuning, WorstMargin,
 };
 
 /// Samples in the time constant of the double pole, and time constants in the simulated step: the hold is a
@@ -15,6 +16,10 @@ const TIME_CONSTANTS: f64 = 60.0;
 const GRID: u32 = 40;
 const HALVINGS: u32 = 8;
 const STEPS_BACK: i32 = 12;
+/// Part of a number met at points that the proof over the box may need: the second step of what a bound gives up.
+const FOR_THE_PROOF: f64 = 0.02;
+/// Largest sensitivities are usually between 1.2 and 2 (Astrom and Hagglund, *Advanced PID Control*, ch. 4).
+const MOST_USUAL: f64 = 2.0;
 
 /// What the gains are for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,13 +71,13 @@ pub(super) struct Tuned {
 }
 
 impl Tuned {
-    /// Gains are placed for the drag's slope at rest; where there are none, or these leave some axis of the intervals unstable or beyond
-    /// the limit, for the least slope that the intervals leave.
+    /// Gains are placed for the drag's slope at rest. Where there are none, or these leave some axis of the intervals unstable, beyond the
+    /// limit or with a sensitivity above the usual, gains for the least slope that the intervals leave are compared with them.
     ///
     /// # Errors
-    /// Where some axis of the intervals is not stabilised, with the nearest bandwidth at which all are.
+    /// Where some axis of the intervals is not stabilised, with the bandwidth whose worst sensitivity is least.
     pub(super) fn new(model: &Model, wanted: &DesignWanted) -> Result<Self, ControlError> {
-        let [at_rest, least] = model.slopes_at_rest();
+        let slopes = model.slopes_at_rest();
         let designed = |slope: f64| {
             let bandwidth_rad_s = match wanted.target {
                 Target::BandwidthRadS(asked_rad_s) => asked_rad_s,
@@ -80,25 +85,37 @@ impl Tuned {
             };
             Self::at(model, wanted, slope, bandwidth_rad_s)
         };
-        let error = match designed(at_rest) {
-            Err(error) if ["unstable", "out-of-reach", "overdamped", "no-bandwidth"].contains(&error.code()) => error,
-            other => return other,
+        let [at_rest, least] = slopes;
+        let first = designed(at_rest);
+        let enough = match &first {
+            Ok(tuned) => !matches!(wanted.target, Target::BandwidthRadS(_)) || !tuned.has_little_margin(),
+            Err(error) => !["unstable", "out-of-reach", "overdamped", "no-bandwidth"].contains(&error.code()),
         };
-        if let Ok(tuned) = designed(least) {
-            return Ok(tuned);
+        if enough || least == at_rest {
+            return first;
         }
-        Err(match (error, wanted.target) {
+        match (first, designed(least)) {
+            (Ok(tuned), Ok(other)) if tuned.sensitivity.met <= other.sensitivity.met => Ok(tuned),
+            (_, Ok(other)) => Ok(other),
+            (Ok(tuned), Err(_)) => Ok(tuned),
+            (Err(ControlError::OutOfReach { within_reach: None, .. }), Err(again)) => Err(again),
             (
-                ControlError::NotStabilised { alpha, drag, delay_s, .. }
-                | ControlError::Unstable { alpha, drag, delay_s, .. },
-                Target::BandwidthRadS(asked_rad_s),
+                Err(
+                    ControlError::NotStabilised { alpha, drag, delay_s, .. }
+                    | ControlError::Unstable { alpha, drag, delay_s, .. },
+                ),
+                Err(_),
             ) => {
-                let stabilised_rad_s =
-                    [at_rest, least].into_iter().find_map(|slope| stabilised(model, wanted, slope, asked_rad_s));
-                ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s }
+                let stabilised_rad_s = stabilised(model, wanted, slopes);
+                Err(ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s })
             }
-            (other, _) => other,
-        })
+            (Err(error), Err(_)) => Err(error),
+        }
+    }
+
+    /// Whether some axis has a larger sensitivity than is usual.
+    pub(super) fn has_little_margin(&self) -> bool {
+        self.sensitivity.met > MOST_USUAL
     }
 
     fn at(model: &Model, wanted: &DesignWanted, slope: f64, bandwidth_rad_s: f64) -> Result<Self, ControlError> {
@@ -197,20 +214,26 @@ fn grid((least, most): (f64, f64)) -> impl Fn(u32) -> f64 {
     move |k| most * (least / most).powf(f64::from(k) / f64::from(GRID))
 }
 
-/// The bandwidth nearest to the one asked for whose gains are proved to stabilise every axis of the intervals, to two digits.
-fn stabilised(model: &Model, wanted: &DesignWanted, slope: f64, asked_rad_s: f64) -> Option<f64> {
+/// The bandwidth, to two digits, whose gains are proved to stabilise every axis of the intervals with the least sensitivity.
+fn stabilised(model: &Model, wanted: &DesignWanted, slopes: [f64; 2]) -> Option<f64> {
     let axis = model.values().design_axis().ok()?;
-    let at = grid(bandwidths(&axis, slope, wanted.structure).ok()?);
-    let mut candidates: Vec<f64> = (0..=GRID).filter_map(|k| format!("{:.1e}", at(k)).parse().ok()).collect();
-    let far = |bandwidth: &f64| (bandwidth / asked_rad_s).ln().abs();
-    candidates.sort_by(|a, b| far(a).total_cmp(&far(b)));
-    candidates.into_iter().find(|bandwidth| {
-        let Ok(tuning) = Tuning::for_slope(&axis, slope, wanted.structure, *bandwidth) else { return false };
-        let Ok(processes) = processes(model, wanted, &tuning) else { return false };
-        processes.points_stable(tuning.gains())
-            && processes.all_stable(tuning.gains())
-            && Tuned::at(model, wanted, slope, *bandwidth).is_ok()
-    })
+    let mut candidates: Vec<(f64, f64, f64)> = Vec::new();
+    for slope in slopes {
+        let Ok(range) = bandwidths(&axis, slope, wanted.structure) else { continue };
+        let at = grid(range);
+        candidates.extend((0..=GRID).filter_map(|k| {
+            let bandwidth: f64 = format!("{:.1e}", at(k)).parse().ok()?;
+            let sensitivity = number_at(model, wanted, slope, bandwidth, RobustCriterion::Sensitivity(1.0))?;
+            Some((sensitivity, slope, bandwidth))
+        }));
+    }
+    candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let proved = |slope: f64, bandwidth: f64| {
+        let tuning = Tuning::for_slope(&axis, slope, wanted.structure, bandwidth).ok()?;
+        let stable = processes(model, wanted, &tuning).ok()?.all_stable(tuning.gains());
+        stable.then(|| Tuned::at(model, wanted, slope, bandwidth).ok())?
+    };
+    candidates.into_iter().find(|(_, slope, bandwidth)| proved(*slope, *bandwidth).is_some()).map(|found| found.2)
 }
 
 /// The largest bandwidth at which the limit is proved for every axis of the intervals.
@@ -222,6 +245,10 @@ fn largest_bandwidth(model: &Model, wanted: &DesignWanted, slope: f64) -> Result
         Target::PhaseRad(least) => RobustCriterion::PhaseRad(least),
         Target::BandwidthRadS(bandwidth) => return Ok(bandwidth),
     };
+    let at = grid((least, most));
+    // A step or a speed that makes no sense is said, not taken for a limit out of reach.
+    let slowest = Tuning::for_slope(&axis, slope, wanted.structure, at(GRID));
+    slowest.and_then(|tuning| processes(model, wanted, &tuning))?;
     let keeps = |bandwidth: f64| {
         let Ok(tuning) = Tuning::for_slope(&axis, slope, wanted.structure, bandwidth) else { return false };
         processes(model, wanted, &tuning).is_ok_and(|processes| {
@@ -229,9 +256,11 @@ fn largest_bandwidth(model: &Model, wanted: &DesignWanted, slope: f64) -> Result
         })
     };
     // Slow gains can be worse than fast ones, where drag is uncertain: no bisection from the ends.
-    let at = grid((least, most));
-    let out_of_reach = ControlError::OutOfReach { least_rad_s: least, most_rad_s: most };
-    let Some(first) = (0..=GRID).find(|k| keeps(at(*k))) else { return Err(out_of_reach) };
+    let out_of_reach = |within_reach| ControlError::OutOfReach { least_rad_s: least, most_rad_s: most, within_reach };
+    let Some(first) = (0..=GRID).find(|k| keeps(at(*k))) else {
+        let numbers = (0..=GRID).filter_map(|k| number_at(model, wanted, slope, at(k), criterion));
+        return Err(out_of_reach(within_reach(numbers, criterion)));
+    };
     let (mut low, mut high) = (at(first), at(first.saturating_sub(1)));
     for _ in 0..HALVINGS {
         let middle = (low * high).sqrt();
@@ -243,7 +272,32 @@ fn largest_bandwidth(model: &Model, wanted: &DesignWanted, slope: f64) -> Result
             let Ok(tuning) = Tuning::for_slope(&axis, slope, wanted.structure, *bandwidth) else { return false };
             processes(model, wanted, &tuning).is_ok_and(|processes| processes.all_have(tuning.gains(), criterion))
         })
-        .ok_or(out_of_reach)
+        .ok_or(out_of_reach(None))
+}
+
+/// The criterion's worst number at a bandwidth, where every axis is stable.
+fn number_at(
+    model: &Model,
+    wanted: &DesignWanted,
+    slope: f64,
+    bandwidth_rad_s: f64,
+    criterion: RobustCriterion,
+) -> Option<f64> {
+    let axis = model.values().design_axis().ok()?;
+    let tuning = Tuning::for_slope(&axis, slope, wanted.structure, bandwidth_rad_s).ok()?;
+    let processes = processes(model, wanted, &tuning).ok()?;
+    processes.points_stable(tuning.gains()).then(|| processes.nearly(tuning.gains(), criterion))
+}
+
+/// The best of the numbers less a part that a proof may need.
+fn within_reach(numbers: impl Iterator<Item = f64>, criterion: RobustCriterion) -> Option<LoopLimit> {
+    if matches!(criterion, RobustCriterion::Sensitivity(_)) {
+        let least = numbers.min_by(f64::total_cmp).map(|best| best * (1.0 + FOR_THE_PROOF));
+        least.filter(|limit| SENSITIVITIES.contains(limit)).map(LoopLimit::Sensitivity)
+    } else {
+        let most = numbers.max_by(f64::total_cmp).map(|best| (best * (1.0 - FOR_THE_PROOF)).to_degrees());
+        most.filter(|limit| PHASES_DEG.contains(limit)).map(LoopLimit::PhaseDeg)
+    }
 }
 
 /// The range of bandwidths for which there are gains.

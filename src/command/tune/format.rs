@@ -5,6 +5,7 @@ use clap::ValueEnum;
 use super::design::Tuned;
 use crate::command::CommandError;
 use crate::control::{Gains, Structure};
+use crate::numeric::significant;
 
 /// A form of the gains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -24,11 +25,21 @@ pub(super) enum GainFormat {
 impl GainFormat {
     pub(super) fn text(self, tuned: &Tuned, full_command: f64) -> Result<String, CommandError> {
         let gains = tuned.tuning.gains();
-        match self {
-            Self::Ardusub => ardusub(gains, full_command),
-            Self::Px4 => px4(gains, full_command),
-            _ => Ok(c(gains)),
+        let parameters = match self {
+            Self::Ardusub => ardusub(gains, full_command)?,
+            Self::Px4 => px4(gains, full_command)?,
+            _ => return Ok(c(gains)),
+        };
+        let mut notes =
+            format!("# command from -1 to 1: {full_command} of the log's unit is 1 (--full-command); angles in rad\n");
+        notes += &format!("# largest sensitivity of any axis {}\n", significant(tuned.sensitivity.met, 3));
+        if tuned.offset() != 0.0 {
+            let offset = significant(tuned.offset(), 3);
+            notes += &format!(
+                "# the constant force leaves the vehicle {offset} rad off; choose --structure pid against it\n"
+            );
         }
+        Ok(notes + &parameters)
     }
 }
 
@@ -52,7 +63,7 @@ fn ardusub(gains: &Gains<f64>, full_command: f64) -> Result<String, CommandError
     let angle = (proportional + root.sqrt()) / (2.0 * derivative);
     let rate_integral = integral / angle;
     Ok(format!(
-        "# command from -1 to 1, angles in rad; set the rate loop's own filter apart\n\
+        "# set the rate loop's own filter apart\n\
          ATC_ANG_YAW_P {angle:.4}\nATC_RAT_YAW_P {derivative:.6}\nATC_RAT_YAW_I {rate_integral:.6}\nATC_RAT_YAW_D 0\n"
     ))
 }
@@ -63,7 +74,7 @@ fn px4(gains: &Gains<f64>, full_command: f64) -> Result<String, CommandError> {
         return Err(no_form("PX4's controller of underwater vehicles has no integral; choose --structure pd"));
     }
     let (proportional, derivative) = (gains.proportional() / full_command, gains.derivative() / full_command);
-    Ok(format!("# command from -1 to 1, angles in rad\nUUV_YAW_P {proportional:.6}\nUUV_YAW_D {derivative:.6}\n"))
+    Ok(format!("UUV_YAW_P {proportional:.6}\nUUV_YAW_D {derivative:.6}\n"))
 }
 
 fn c(gains: &Gains<f64>) -> String {

@@ -68,7 +68,7 @@ impl Tuned {
         if self.tuning.slope() != self.tuning.axis().linear_drag() {
             writeln!(
                 output,
-                "placed for a drag of slope {} F s/{x}, the least that the intervals leave: other slopes answer slower",
+                "poles placed for a drag of slope {} F s/{x} at rest, the least that the intervals leave; other slopes answer slower",
                 significant(self.tuning.slope(), 4)
             )?;
         }
@@ -100,6 +100,9 @@ impl Tuned {
             .proved
             .map_or_else(|| "not proved".to_owned(), |most| format!("at most {}", significant(most, 4)));
         writeln!(output, "{:34}{:>14}{peak:>20}", "largest sensitivity", significant(self.sensitivity.met, 4))?;
+        if self.has_little_margin() {
+            writeln!(output, "a sensitivity above 2 leaves little margin: ask for another bandwidth, or for --ms 2")?;
+        }
         if worst.is_some() {
             writeln!(
                 output,
