@@ -113,13 +113,12 @@ fn curves(entry: &Entry, example: &Example) -> Result<Panel, CatalogueError> {
     let bias = 0.25 * example.amplitude;
     let curve = |bias| entry.curve(&example.values, bias, &amplitudes);
     let curves = [(Mark::Line, curve(0.0)?), (Mark::Dashed, curve(bias)?)];
-    let parts: [(_, fn(&DescribingFunction<f64>) -> f64); 3] =
-        [("P", |df| df.p), ("F_0", |df| df.f0), ("Q", |df| df.q)];
+    let parts = |df: &DescribingFunction<f64>| [df.p, df.f0, df.q];
     let mut panel = Panel::new(&format!("amplitude X (dashed: bias {bias})"), "F_0 (output); P, Q (output per input)");
-    for (name, part) in parts {
-        let mut label = name;
+    for (part, mut label) in ["P", "F_0", "Q"].into_iter().enumerate() {
         for (mark, curve) in &curves {
-            let points = curve.iter().filter_map(|(x, df)| Some((*x, part(df.as_ref().ok()?)))).collect::<Vec<_>>();
+            let points =
+                curve.iter().filter_map(|(x, df)| Some((*x, parts(df.as_ref().ok()?)[part]))).collect::<Vec<_>>();
             // A part that is zero all along tells nothing.
             if points.iter().any(|(_, value)| value.abs() > 1e-9) {
                 panel = panel.with(label, *mark, points);
