@@ -97,8 +97,6 @@ pub struct Entry {
     pub ordered: &'static [(&'static str, &'static str)],
     /// Its page, Markdown: formula, domain, limits, source.
     pub page: &'static str,
-    /// Its graph, SVG without line breaks.
-    pub sketch: &'static str,
 }
 
 impl Entry {
@@ -174,7 +172,6 @@ macro_rules! catalogue {
                 parameters: <$type<f64> as Catalogued<f64>>::PARAMETERS,
                 ordered: <$type<f64> as Catalogued<f64>>::ORDERED,
                 page: <$type<f64> as Catalogued<f64>>::SPEC,
-                sketch: <$type<f64> as Catalogued<f64>>::SKETCH,
             }
         ),+];
 

@@ -5,7 +5,7 @@ use super::{CatalogueError, DescribingError, DescribingFunction, Entry, Setting,
 /// Amplitude and parameter values that show what a characteristic does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Example {
-    /// Amplitude of the sweep that the sketch shows, in input units.
+    /// Amplitude of the sweep that the figure shows, in input units.
     pub amplitude: f64,
     /// Parameter values, as [`Entry::build`] takes them.
     pub values: Vec<f64>,

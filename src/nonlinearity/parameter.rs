@@ -70,8 +70,6 @@ pub trait Catalogued<T>: Sized {
     const ORDERED: &'static [(&'static str, &'static str)];
     /// Its page `spec/characteristics/<name>.md`: formula, domain, source, limits.
     const SPEC: &'static str;
-    /// Its graph, an SVG that a test compares with the characteristic.
-    const SKETCH: &'static str;
 
     /// Builds it from one value for each parameter.
     ///
@@ -101,15 +99,7 @@ macro_rules! specification {
 }
 pub(super) use specification;
 
-/// The graph of a characteristic.
-macro_rules! sketch {
-    ($name:literal) => {
-        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/spec/characteristics/", $name, ".svg"))
-    };
-}
-pub(super) use sketch;
-
-/// Graph and page together, as the documentation of the type has them.
+/// Figure and page together, as the documentation of the type has them.
 macro_rules! document {
     ($name:literal) => {
         concat!(
@@ -185,7 +175,6 @@ macro_rules! characteristic {
             const ORDERED: &'static [(&'static str, &'static str)] =
                 &[$($((stringify!($lesser), stringify!($greater))),+)?];
             const SPEC: &'static str = super::parameter::specification!($name);
-            const SKETCH: &'static str = super::parameter::sketch!($name);
 
             fn from_values(values: &[T]) -> Result<Self, super::NonlinearityError> {
                 let mut values = values.iter().copied();

@@ -95,7 +95,6 @@ impl<T: Real> Catalogued<T> for Polyline<T, Vec<(T, T)>> {
     ];
     const ORDERED: &'static [(&'static str, &'static str)] = &[];
     const SPEC: &'static str = super::parameter::specification!("piecewise-linear");
-    const SKETCH: &'static str = super::parameter::sketch!("piecewise-linear");
 
     fn from_values(values: &[T]) -> Result<Self, NonlinearityError> {
         let mut slopes = values.iter().copied().chain(core::iter::repeat(T::from_f64(f64::NAN)));

@@ -58,7 +58,6 @@ impl<T: Real> Catalogued<T> for Polynomial<T> {
     };
     const ORDERED: &'static [(&'static str, &'static str)] = &[];
     const SPEC: &'static str = super::parameter::specification!("polynomial");
-    const SKETCH: &'static str = super::parameter::sketch!("polynomial");
 
     fn from_values(values: &[T]) -> Result<Self, NonlinearityError> {
         Self::new(core::array::from_fn(|power| values.get(power).copied().unwrap_or_else(|| T::from_f64(f64::NAN))))

@@ -50,6 +50,7 @@ pub struct Panel {
     y_limits: Option<(f64, f64)>,
     equal_axes: bool,
     strip: bool,
+    beside: bool,
     rows: Vec<String>,
     series: Vec<Series>,
 }
@@ -64,6 +65,7 @@ impl Panel {
             y_limits: None,
             equal_axes: false,
             strip: false,
+            beside: false,
             rows: Vec::new(),
             series: Vec::new(),
         }
@@ -85,6 +87,12 @@ impl Panel {
     #[must_use]
     pub fn strip(self) -> Self {
         Self { strip: true, ..self }
+    }
+
+    /// The panel to the right of the one before, in place of below it.
+    #[must_use]
+    pub fn beside(self) -> Self {
+        Self { beside: true, ..self }
     }
 
     /// The panel with names in place of numbers at 0, 1, ... of its y axis, the first at the top.
@@ -161,14 +169,14 @@ impl Panel {
     }
 }
 
-/// Panels stacked under a title.
+/// Panels under a title.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Name of its file.
     pub name: &'static str,
     /// Title above the panels.
     pub title: String,
-    /// From top to bottom.
+    /// From top to bottom, but for those [beside](Panel::beside) the one before.
     pub panels: Vec<Panel>,
 }
 
@@ -177,6 +185,8 @@ const FINE: u32 = 10;
 /// Width of a figure and height of a panel, in pixels.
 const SIZE: (u32, u32) = (900, 420);
 const TITLE_HEIGHT: u32 = 40;
+/// Between the upper edge and the title, in pixels.
+const ABOVE: u32 = 8;
 /// Heights of a low panel and of a row of names.
 const STRIP: u32 = 250;
 const ROW: u32 = 21;
@@ -190,6 +200,8 @@ const BESIDE_NAMES: u32 = 170;
 const PLOT: (u32, u32) = (SIZE.0 - 2 * MARGIN - BESIDE, SIZE.1 - 2 * MARGIN - BELOW);
 /// Height of a legend's entry with its share of the border, in pixels.
 const LEGEND_ENTRY: f64 = 30.0;
+/// Width of the drawing for each tick of the x axis.
+const TICK: usize = px(80) as usize;
 const FONT: &str = "sans-serif";
 
 /// A length in pixels, as it is drawn.
@@ -234,7 +246,16 @@ impl Figure {
     }
 
     fn height(&self) -> u32 {
-        TITLE_HEIGHT + self.panels.iter().map(Panel::height).sum::<u32>()
+        TITLE_HEIGHT + self.row_heights().sum::<u32>()
+    }
+
+    /// Panels side by side.
+    fn rows(&self) -> impl Iterator<Item = &[Panel]> {
+        self.panels.chunk_by(|_, next| next.beside)
+    }
+
+    fn row_heights(&self) -> impl Iterator<Item = u32> {
+        self.rows().map(|row| row.iter().map(Panel::height).max().unwrap_or(0))
     }
 
     /// The drawing in the size of its pixels, with words for who cannot see it, and its axes for who points at it.
@@ -255,12 +276,13 @@ impl Figure {
     fn draw(&self, svg: &mut String) -> Result<Vec<String>, Box<dyn std::error::Error>> {
         let root = SVGBackend::with_string(svg, (px(SIZE.0), px(self.height()))).into_drawing_area();
         root.fill(&WHITE)?;
-        let root = root.titled(&self.title, (FONT, px(20)))?;
-        let below = self.panels.iter().scan(0, |below, panel| {
-            *below += signed(panel.height());
+        let root = root.margin(px(ABOVE), 0, 0, 0).titled(&self.title, (FONT, px(20)))?;
+        let below = self.row_heights().scan(0, |below, height| {
+            *below += signed(height);
             Some(*below)
         });
-        let areas = root.split_by_breakpoints([] as [i32; 0], below.take(self.panels.len() - 1).collect::<Vec<_>>());
+        let areas = root.split_by_breakpoints([] as [i32; 0], below.take(self.rows().count() - 1).collect::<Vec<_>>());
+        let areas: Vec<_> = self.rows().zip(&areas).flat_map(|(row, area)| area.split_evenly((1, row.len()))).collect();
         let axes = self.panels.iter().zip(&areas).map(|(panel, area)| panel.draw(area)).collect::<Result<_, _>>()?;
         root.present()?;
         Ok(axes)
@@ -289,7 +311,7 @@ impl Panel {
             .label_style((FONT, px(15)))
             .x_label_formatter(&x_tick)
             .y_label_formatter(&|value| self.y_tick(*value))
-            .x_labels(11)
+            .x_labels(area.dim_in_pixel().0 as usize / TICK)
             .y_labels(if self.strip { 5 } else { self.rows.len().max(9) })
             .set_all_tick_mark_size(px(4))
             .light_line_style(TRANSPARENT)

@@ -12,14 +12,12 @@ pub mod identification;
 mod nyquist;
 pub mod paper;
 mod process;
-mod sketch;
 mod table;
 
-pub use characteristics::characteristics;
+pub use characteristics::{characteristic, characteristics};
 pub use error::ReportError;
 pub use figure::{Figure, Mark, Panel, Series};
 pub use html::{Document, Section};
 pub use nyquist::nyquist;
 pub use process::ProcessPage;
-pub use sketch::sketch;
 pub use table::{Cell, Table};

@@ -61,7 +61,7 @@ pub fn nyquist(
 }
 
 /// Two points near the middle of a curve's length, in its direction; none of a curve without length.
-fn direction(curve: &[(f64, f64)]) -> Vec<(f64, f64)> {
+pub(super) fn direction(curve: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let step = |pair: &[(f64, f64)]| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
     let half = 0.5 * curve.windows(2).map(step).sum::<f64>();
     let mut length = 0.0;

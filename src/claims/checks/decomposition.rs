@@ -207,7 +207,6 @@ mod tests {
         const PARAMETERS: &'static [ParameterSpec] = DeadZone::<Rational>::PARAMETERS;
         const ORDERED: &'static [(&'static str, &'static str)] = &[];
         const SPEC: &'static str = "";
-        const SKETCH: &'static str = "";
 
         fn from_values(values: &[Rational]) -> Result<Self, NonlinearityError> {
             DeadZone::from_values(values).map(Self)
