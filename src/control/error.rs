@@ -84,7 +84,7 @@ pub enum ControlError {
         drag: f64,
         /// Delay of the loop, s.
         delay_s: f64,
-        /// The bandwidth, rad/s, whose gains are proved to stabilise all with the least sensitivity, where one was found.
+        /// A bandwidth whose gains are proved to stabilise all, rad/s, where one was found.
         stabilised_rad_s: Option<f64>,
     },
     /// A loop that is not stable has no margins.

@@ -409,7 +409,9 @@ fn an_uncertain_drag_is_placed_for() {
 
     // A limit out of reach names one that is within.
     for (flag, asked, words) in [("--ms", "1.2", "a sensitivity of "), ("--phase-margin", "75", "a phase margin of ")] {
-        let limited = |limit: &str| output(&[&call[..5], &[flag, limit]].concat());
+        let limited = |limit: &str| {
+            output(&["tune", "--alpha=1", "--beta=0", "--beta-interval=-0.4,0.4", "--delay=0.25", flag, limit])
+        };
         let (status, refused, _) = limited(asked);
         assert_eq!(status, Some(1), "{refused}");
         let (_, named) = refused.split_once(words).unwrap();

@@ -75,7 +75,7 @@ impl Tuned {
     /// limit or with a sensitivity above the usual, gains for the least slope that the intervals leave are compared with them.
     ///
     /// # Errors
-    /// Where some axis of the intervals is not stabilised, with the bandwidth whose worst sensitivity is least.
+    /// Where some axis of the intervals is not stabilised, with the nearest bandwidth at which all are.
     pub(super) fn new(model: &Model, wanted: &DesignWanted) -> Result<Self, ControlError> {
         let slopes = model.slopes_at_rest();
         let designed = |slope: f64| {
@@ -98,18 +98,21 @@ impl Tuned {
             (Ok(tuned), Ok(other)) if tuned.sensitivity.met <= other.sensitivity.met => Ok(tuned),
             (_, Ok(other)) => Ok(other),
             (Ok(tuned), Err(_)) => Ok(tuned),
-            (Err(ControlError::OutOfReach { within_reach: None, .. }), Err(again)) => Err(again),
             (
-                Err(
+                Err(ControlError::OutOfReach { within_reach, .. }),
+                Err(again @ ControlError::OutOfReach { within_reach: better, .. }),
+            ) if is_better(better, within_reach) => Err(again),
+            (Err(error), Err(_)) => Err(match (error, wanted.target) {
+                (
                     ControlError::NotStabilised { alpha, drag, delay_s, .. }
                     | ControlError::Unstable { alpha, drag, delay_s, .. },
-                ),
-                Err(_),
-            ) => {
-                let stabilised_rad_s = stabilised(model, wanted, slopes);
-                Err(ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s })
-            }
-            (Err(error), Err(_)) => Err(error),
+                    Target::BandwidthRadS(asked_rad_s),
+                ) => {
+                    let stabilised_rad_s = stabilised(model, wanted, slopes, asked_rad_s);
+                    ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s }
+                }
+                (error, _) => error,
+            }),
         }
     }
 
@@ -214,8 +217,9 @@ fn grid((least, most): (f64, f64)) -> impl Fn(u32) -> f64 {
     move |k| most * (least / most).powf(f64::from(k) / f64::from(GRID))
 }
 
-/// The bandwidth, to two digits, whose gains are proved to stabilise every axis of the intervals with the least sensitivity.
-fn stabilised(model: &Model, wanted: &DesignWanted, slopes: [f64; 2]) -> Option<f64> {
+/// The bandwidth nearest to the one asked for, to two digits, whose gains are proved to stabilise every axis of the intervals, with a
+/// sensitivity not above the usual where there is one, else with the least.
+fn stabilised(model: &Model, wanted: &DesignWanted, slopes: [f64; 2], asked_rad_s: f64) -> Option<f64> {
     let axis = model.values().design_axis().ok()?;
     let mut candidates: Vec<(f64, f64, f64)> = Vec::new();
     for slope in slopes {
@@ -224,10 +228,11 @@ fn stabilised(model: &Model, wanted: &DesignWanted, slopes: [f64; 2]) -> Option<
         candidates.extend((0..=GRID).filter_map(|k| {
             let bandwidth: f64 = format!("{:.1e}", at(k)).parse().ok()?;
             let sensitivity = number_at(model, wanted, slope, bandwidth, RobustCriterion::Sensitivity(1.0))?;
-            Some((sensitivity, slope, bandwidth))
+            Some((sensitivity.max(MOST_USUAL), slope, bandwidth))
         }));
     }
-    candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let far = |bandwidth: f64| (bandwidth / asked_rad_s).ln().abs();
+    candidates.sort_by(|a, b| a.0.total_cmp(&b.0).then(far(a.2).total_cmp(&far(b.2))));
     let proved = |slope: f64, bandwidth: f64| {
         let tuning = Tuning::for_slope(&axis, slope, wanted.structure, bandwidth).ok()?;
         let stable = processes(model, wanted, &tuning).ok()?.all_stable(tuning.gains());
@@ -247,8 +252,10 @@ fn largest_bandwidth(model: &Model, wanted: &DesignWanted, slope: f64) -> Result
     };
     let at = grid((least, most));
     // A step or a speed that makes no sense is said, not taken for a limit out of reach.
-    let slowest = Tuning::for_slope(&axis, slope, wanted.structure, at(GRID));
-    slowest.and_then(|tuning| processes(model, wanted, &tuning))?;
+    let tuning_at = |k| Tuning::for_slope(&axis, slope, wanted.structure, at(k)).ok();
+    if let Some(tuning) = (0..=GRID).find_map(tuning_at) {
+        processes(model, wanted, &tuning)?;
+    }
     let keeps = |bandwidth: f64| {
         let Ok(tuning) = Tuning::for_slope(&axis, slope, wanted.structure, bandwidth) else { return false };
         processes(model, wanted, &tuning).is_ok_and(|processes| {
@@ -287,6 +294,15 @@ fn number_at(
     let tuning = Tuning::for_slope(&axis, slope, wanted.structure, bandwidth_rad_s).ok()?;
     let processes = processes(model, wanted, &tuning).ok()?;
     processes.points_stable(tuning.gains()).then(|| processes.nearly(tuning.gains(), criterion))
+}
+
+/// Whether a limit asks for more margin than another one, or there is no other.
+fn is_better(limit: Option<LoopLimit>, other: Option<LoopLimit>) -> bool {
+    match (limit, other) {
+        (Some(LoopLimit::Sensitivity(limit)), Some(LoopLimit::Sensitivity(other))) => limit < other,
+        (Some(LoopLimit::PhaseDeg(limit)), Some(LoopLimit::PhaseDeg(other))) => limit > other,
+        (limit, other) => limit.is_some() && other.is_none(),
+    }
 }
 
 /// The best of the numbers less a part that a proof may need.
