@@ -91,7 +91,7 @@ impl Tuned {
             Ok(tuned) => !matches!(wanted.target, Target::BandwidthRadS(_)) || !tuned.has_little_margin(),
             Err(error) => !["unstable", "out-of-reach", "overdamped", "no-bandwidth"].contains(&error.code()),
         };
-        if enough || least == at_rest {
+        if enough {
             return first;
         }
         match (first, designed(least)) {
