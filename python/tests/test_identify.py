@@ -46,7 +46,7 @@ def test_shown_in_a_notebook(found):
 def test_trust_and_units_come_first(found):
     title, names, alpha, *_ = repr(found).splitlines()
     assert f"trust {found.trust}" in title
-    assert names.split() == ["parameter", "95", "%", "interval", "unit"]
+    assert names.split() == ["parameter", "practical,", "95", "%", "unit"]
     practical = found.reported["alpha"]["combined"]
     half = 0.5 * (practical["high"] - practical["low"])
     name, value, sign, error, *unit = alpha.split()
