@@ -1,7 +1,7 @@
 //! What a controller costs on board, and what its margins cost at the desk.
 
 use divan::Bencher;
-use selfosc::control::{AxisIntervals, Controller, FeedForward, OpenLoop, Structure, Tuning};
+use selfosc::control::{Controller, FeedForward, LinearProcess, OpenLoop, ProcessIntervals, Structure, Tuning};
 use selfosc::numeric::Interval;
 use selfosc::plant::DragAxis;
 
@@ -40,7 +40,10 @@ fn margins(bencher: Bencher) {
 #[divan::bench]
 fn worst_margins(bencher: Bencher) {
     let between = |low, high| Interval::new(low, high).unwrap_or(Interval::ENTIRE);
-    let intervals = AxisIntervals::new(between(0.031, 0.035), between(0.005, 0.08), between(0.18, 0.22));
-    let (Some(tuning), Ok(intervals)) = (tuned(), intervals) else { return };
+    let mut parts = [Interval::ZERO; 9];
+    (parts[0], parts[1], parts[8]) = (between(0.031, 0.035), between(0.005, 0.08), between(0.18, 0.22));
+    let (Some(tuning), Ok(intervals)) = (tuned(), ProcessIntervals::new(LinearProcess::from_parts(parts))) else {
+        return;
+    };
     bencher.bench(|| intervals.worst_margins(tuning.gains()));
 }

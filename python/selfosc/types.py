@@ -495,7 +495,6 @@ class WorstCase(TypedDict):
     top_speed: float
     at_least: WorstMargin
     met: WorstMargin
-    boxes: int | None
     proved: bool
 
 

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use super::known::{FIRST_ORDER, Model};
 use super::number::{non_negative, number, positive};
 use super::{CommandError, Outcome, refused, write_json};
-use crate::control::Structure;
+use crate::control::{RobustCriterion, Structure};
 use crate::numeric::Interval;
 use crate::plant::DragAxis;
 use clap::{ArgGroup, Args};
@@ -151,8 +151,8 @@ impl Arguments {
 
     fn target(&self) -> Target {
         match (self.ms, self.phase_margin) {
-            (Some(most), _) => Target::Sensitivity(most),
-            (None, Some(degrees)) => Target::PhaseRad(degrees.to_radians()),
+            (Some(most), _) => Target::Limit(RobustCriterion::Sensitivity(most)),
+            (None, Some(degrees)) => Target::Limit(RobustCriterion::PhaseRad(degrees.to_radians())),
             (None, None) => Target::BandwidthRadS(self.bandwidth.unwrap_or(f64::NAN)),
         }
     }

@@ -1,5 +1,6 @@
 //! Why there is no controller.
 
+use super::RobustCriterion;
 use crate::numeric::OutOfDomain;
 use crate::numeric::domain::{About, AtLeast, AtMost, Plain};
 use crate::plant::PlantError;
@@ -68,8 +69,8 @@ pub enum ControlError {
         least_rad_s: f64,
         /// Where they end, rad/s.
         most_rad_s: f64,
-        /// A limit of the same kind that gains were found for.
-        within_reach: Option<LoopLimit>,
+        /// A limit of the same kind that is proved of some gains.
+        within_reach: Option<RobustCriterion>,
     },
     /// A process of a box that is not proved to be stable under the gains.
     #[error(
@@ -138,26 +139,19 @@ pub enum ControlError {
     },
 }
 
-/// A limit that every axis is to keep.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LoopLimit {
-    /// Largest sensitivity.
-    Sensitivity(f64),
-    /// Least phase margin, degrees.
-    PhaseDeg(f64),
-}
-
 /// Which limit to ask for, where one is known.
-struct Allowed(Option<LoopLimit>);
+struct Allowed(Option<RobustCriterion>);
 
 impl core::fmt::Display for Allowed {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self.0 {
-            Some(LoopLimit::Sensitivity(most)) => write!(f, "allow a sensitivity of {} (--ms) or ", AtLeast(most)),
-            Some(LoopLimit::PhaseDeg(least)) => {
-                write!(f, "allow a phase margin of {} degrees (--phase-margin) or ", AtMost(least))
+            Some(RobustCriterion::Sensitivity(most)) => {
+                write!(f, "allow a sensitivity of {} (--ms) or ", AtLeast(most))
             }
-            None => Ok(()),
+            Some(RobustCriterion::PhaseRad(least)) => {
+                write!(f, "allow a phase margin of {} degrees (--phase-margin) or ", AtMost(least.to_degrees()))
+            }
+            _ => Ok(()),
         }
     }
 }

@@ -5,7 +5,6 @@
 //! | `design` | gains from a bandwidth by pole placement |
 //! | `open_loop`, `margins` | crossovers, stability and margins with the delay |
 //! | `closed_loop` | poles and bandwidth, computed without the design equations |
-//! | `worst_case` | margins over intervals of the parameters |
 //! | `model` | an axis with every term that an identification may report |
 //! | `uncertain_drag` | slopes of a drag whose coefficients vary together |
 //! | `process`, `robust` | processes with lags, filters, memory; margins and sensitivity proved over a box of them |
@@ -18,6 +17,7 @@
 #[cfg(feature = "std")]
 mod closed_loop;
 mod controller;
+mod criterion;
 mod design;
 mod error;
 mod gains;
@@ -37,14 +37,13 @@ mod rules;
 mod ultimate;
 #[cfg(feature = "std")]
 mod uncertain_drag;
-#[cfg(feature = "std")]
-mod worst_case;
 
 pub use controller::{ControlFault, ControlStep, Controller};
+pub use criterion::RobustCriterion;
 pub use design::Tuning;
 #[cfg(feature = "std")]
 pub(crate) use design::{Body, double_pole};
-pub use error::{ControlError, LoopLimit};
+pub use error::ControlError;
 pub use gains::{Gains, Structure};
 pub use margins::Margins;
 #[cfg(feature = "std")]
@@ -56,12 +55,10 @@ pub use reference::FeedForward;
 #[cfg(feature = "std")]
 pub use response::{Answer, StepResponse};
 #[cfg(feature = "std")]
-pub use robust::{CriterionRange, ProcessIntervals, RobustCriterion};
+pub use robust::{CriterionRange, ProcessIntervals, WorstMargin, WorstMargins};
 pub use rules::Rule;
 #[cfg(feature = "std")]
 pub use ultimate::critical_point;
 pub use ultimate::{FrequencyPoint, RelayTest, UltimatePoint};
 #[cfg(feature = "std")]
 pub use uncertain_drag::UncertainDrag;
-#[cfg(feature = "std")]
-pub use worst_case::{AxisIntervals, WorstMargin, WorstMargins};

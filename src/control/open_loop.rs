@@ -234,19 +234,6 @@ impl<T: Scalar> OpenLoop<T> {
         (numerator, denominator)
     }
 
-    /// Bounds of `|L|` between two frequencies: numerator and denominator by themselves.
-    #[cfg(feature = "std")]
-    pub(super) fn magnitude_over(&self, from: T, to: T) -> (T, T) {
-        let size = self.numerator_squared();
-        let (low, high) = (from.square(), to.square());
-        // A parabola that opens upwards.
-        let lowest = if size[2] > T::zero() { (-size[1] / (T::two() * size[2])).max(low).min(high) } else { low };
-        let at = |y| horner(&size, y).0;
-        let below = |y| horner(&self.denominator_squared(), y).0;
-        let least = at(lowest).min(at(high)) / below(high);
-        (least.max(T::zero()).sqrt(), (at(low).max(at(high)) / below(low)).sqrt())
-    }
-
     /// Roots of the closed loop's characteristic equation `1 + L = 0` that do not decay.
     ///
     /// Without delay by Routh's table. With it by the direct method (Walton and Marshall, 1987): roots can pass the

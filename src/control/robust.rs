@@ -7,24 +7,9 @@
 mod figures;
 
 use super::process::{Fraction, LinearProcess, PARAMETERS, constants};
-use super::{ControlError, Gains};
+use super::{ControlError, Gains, RobustCriterion};
 use crate::numeric::{Gradient, Interval, Real, domain};
 use figures::{AN_OCTAVE, FEW, Figures};
-
-/// What every process of a box is to have.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum RobustCriterion {
-    /// `|1/(1 + L)|` is below this at every frequency.
-    Sensitivity(f64),
-    /// Stable with every gain from its own to this factor of it.
-    Gain(f64),
-    /// Stable with every gain from its own to this part of it.
-    GainReduction(f64),
-    /// Stable with up to so much more lag, or lead, of phase, rad.
-    PhaseRad(f64),
-    /// Stable with up to so much more delay, s.
-    DelayS(f64),
-}
 
 impl RobustCriterion {
     /// The variable that the criterion adds, and `1/M^2`.
@@ -90,6 +75,39 @@ pub struct CriterionRange {
     pub proved: Option<f64>,
     /// Some process of the box is no better.
     pub met: f64,
+}
+
+/// Margins of a box of processes, between a proved bound and the worst that was met.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
+pub struct WorstMargins {
+    /// Every process of the box has at least these: proved in interval arithmetic. A factor of one, a phase or a delay of zero says nothing.
+    pub at_least: WorstMargin,
+    /// Some process of the box has this little of one kind, another of another.
+    pub met: WorstMargin,
+    /// Whether all four bounds say something.
+    pub proved: bool,
+}
+
+/// The four margins, without the place where each is met; fields as in [`Margins`](super::Margins).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
+pub struct WorstMargin {
+    /// The gain may grow by less than this factor; `None` for none below [`ProcessIntervals::NO_LIMIT`].
+    pub gain: Option<f64>,
+    /// The gain may be divided by less than this factor; `None` likewise.
+    pub gain_reduction: Option<f64>,
+    /// Phase, rad.
+    pub phase_rad: f64,
+    /// Delay, s, on top of the process' own.
+    pub delay_s: f64,
+}
+
+impl WorstMargin {
+    fn new(gain: f64, gain_reduction: f64, phase_rad: f64, delay_s: f64) -> Self {
+        let limited = |factor: f64| Some(factor).filter(|factor| *factor < ProcessIntervals::NO_LIMIT);
+        Self { gain: limited(gain), gain_reduction: limited(gain_reduction), phase_rad, delay_s }
+    }
 }
 
 impl ProcessIntervals {
@@ -249,24 +267,75 @@ impl ProcessIntervals {
         bounds.min_by(|a, b| a.upper().total_cmp(&b.upper()))
     }
 
-    /// What the criterion's number is over the box: the worst that was met at corners and on the way down from them, and the best
-    /// number near it that is proved. `of` makes the criterion from its number.
+    /// What the criterion's number is over the box: the worst that was met at middle and corners, and the best number near it that is
+    /// proved. `of` makes the criterion from its number.
     ///
     /// # Errors
     /// [`ControlError::NotStabilised`] with a process of the box whose stability under the gains is not proved.
     pub fn enclose(&self, gains: &Gains<f64>, of: fn(f64) -> RobustCriterion) -> Result<CriterionRange, ControlError> {
-        let met = self.worst_met(gains, of)?;
-        let limited = met.is_finite();
-        let proved = GIVEN_UP.iter().find_map(|share| {
-            let number = match of(1.0) {
-                RobustCriterion::Sensitivity(_) => met * (1.0 + share),
-                RobustCriterion::Gain(_) | RobustCriterion::GainReduction(_) if !limited => Self::NO_LIMIT,
-                RobustCriterion::Gain(_) | RobustCriterion::GainReduction(_) => 1.0 + (met - 1.0) * (1.0 - share),
-                _ => met * (1.0 - share),
-            };
-            self.all_have(gains, of(number)).then_some(number)
+        let (figures, stable) = self.figures_met(gains)?;
+        Ok(self.near(gains, of, &figures, stable))
+    }
+
+    /// The four margins over the box, each as by [`enclose`](Self::enclose).
+    ///
+    /// Parameters are taken to be constant; a slope of drag that moves with the speed is covered only as far as it moves slowly.
+    ///
+    /// ```
+    /// use selfosc::control::{LinearProcess, ProcessIntervals, Structure, Tuning};
+    /// use selfosc::numeric::Interval;
+    /// use selfosc::plant::DragAxis;
+    /// let tuning = Tuning::new(&DragAxis::linear(1.0, 0.3)?.with_delay_s(0.2)?, Structure::Pid, 0.7)?;
+    /// let between = |low, high| Interval::new(low, high).ok_or("reversed");
+    /// let mut parts = [Interval::ZERO; 9];
+    /// (parts[0], parts[1], parts[8]) = (between(0.9, 1.1)?, between(0.2, 0.4)?, between(0.15, 0.25)?);
+    /// let worst = ProcessIntervals::new(LinearProcess::from_parts(parts))?.worst_margins(tuning.gains())?;
+    /// assert!(worst.at_least.phase_rad <= worst.met.phase_rad && worst.met.phase_rad < tuning.margins().phase_rad);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`enclose`](Self::enclose).
+    pub fn worst_margins(&self, gains: &Gains<f64>) -> Result<WorstMargins, ControlError> {
+        let (figures, stable) = self.figures_met(gains)?;
+        let near = |of| self.near(gains, of, &figures, stable);
+        let [gain, reduction, phase, delay] = [
+            near(RobustCriterion::Gain),
+            near(RobustCriterion::GainReduction),
+            near(RobustCriterion::PhaseRad),
+            near(RobustCriterion::DelayS),
+        ];
+        let proved = |range: CriterionRange, none: f64| range.proved.unwrap_or(none);
+        Ok(WorstMargins {
+            at_least: WorstMargin::new(
+                proved(gain, 1.0),
+                proved(reduction, 1.0),
+                proved(phase, 0.0),
+                proved(delay, 0.0),
+            ),
+            met: WorstMargin::new(gain.met, reduction.met, phase.met, delay.met),
+            proved: [gain, reduction, phase, delay].iter().all(|range| range.proved.is_some()),
+        })
+    }
+
+    /// The best number near the worst that was met which is proved, of processes that are proved to be stable.
+    fn near(
+        &self,
+        gains: &Gains<f64>,
+        of: fn(f64) -> RobustCriterion,
+        figures: &Figures,
+        stable: bool,
+    ) -> CriterionRange {
+        let met = figures.number(of(1.0));
+        let shares = GIVEN_UP.iter().filter(|_| stable);
+        let numbers = shares.map(|share| match of(1.0) {
+            RobustCriterion::Sensitivity(_) => met * (1.0 + share),
+            RobustCriterion::Gain(_) | RobustCriterion::GainReduction(_) if !met.is_finite() => Self::NO_LIMIT,
+            RobustCriterion::Gain(_) | RobustCriterion::GainReduction(_) => 1.0 + (met - 1.0) * (1.0 - share),
+            _ => met * (1.0 - share),
         });
-        Ok(CriterionRange { proved, met })
+        let proved = numbers.into_iter().find(|number| self.excluded(gains, of(*number)));
+        CriterionRange { proved, met }
     }
 }
 
@@ -294,39 +363,30 @@ impl ProcessIntervals {
     /// Whether the middle and the corners of the box meet the criterion, up to rounding: no proof.
     #[must_use]
     pub fn meets(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> bool {
-        let wanted = match criterion {
-            RobustCriterion::Sensitivity(number)
-            | RobustCriterion::Gain(number)
-            | RobustCriterion::GainReduction(number)
-            | RobustCriterion::PhaseRad(number)
-            | RobustCriterion::DelayS(number) => number,
-        };
-        let found = self.worst_of_points(gains, criterion, FEW);
-        if matches!(criterion, RobustCriterion::Sensitivity(_)) { found <= wanted } else { found >= wanted }
+        criterion.is_met_by(self.worst_number(gains, criterion))
     }
 
     /// The worst number of the criterion at the middle and the corners of the box, up to rounding: no proof.
     #[must_use]
-    pub fn nearly(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> f64 {
-        self.worst_of_points(gains, criterion, FEW)
+    pub fn worst_number(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> f64 {
+        self.figures(gains, FEW).number(criterion)
     }
 
-    fn worst_of_points(&self, gains: &Gains<f64>, criterion: RobustCriterion, an_octave: i32) -> f64 {
+    /// The worst figures at the middle and the corners of the box.
+    fn figures(&self, gains: &Gains<f64>, an_octave: i32) -> Figures {
         let high = self.highest_frequency(gains, RobustCriterion::Gain(1.0)).unwrap_or(f64::INFINITY);
-        let points = self.points();
-        let numbers = points.iter().map(|process| Figures::of(process, gains, high, an_octave).number(criterion));
-        let worse = if matches!(criterion, RobustCriterion::Sensitivity(_)) { f64::max } else { f64::min };
-        numbers.reduce(worse).unwrap_or(f64::NAN)
+        self.points().iter().map(|point| Figures::of(point, gains, high, an_octave)).fold(Figures::NONE, Figures::worse)
     }
 
-    /// The worst number of the criterion at the points of the box.
-    fn worst_met(&self, gains: &Gains<f64>, of: fn(f64) -> RobustCriterion) -> Result<f64, ControlError> {
-        if !self.all_stable(gains)
-            && let Some(LinearProcess { alpha, drag, delay_s, .. }) = self.unstable_point(gains)
-        {
-            return Err(ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s: None });
+    /// The worst figures, and whether every process is proved to be stable.
+    fn figures_met(&self, gains: &Gains<f64>) -> Result<(Figures, bool), ControlError> {
+        let stable = self.all_stable(gains);
+        match self.unstable_point(gains).filter(|_| !stable) {
+            Some(LinearProcess { alpha, drag, delay_s, .. }) => {
+                Err(ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s: None })
+            }
+            None => Ok((self.figures(gains, AN_OCTAVE), stable)),
         }
-        Ok(self.worst_of_points(gains, of(1.0), AN_OCTAVE))
     }
 
     /// Whether the middle and the corners of the box are each proved to be stable; nothing is said of the processes between.

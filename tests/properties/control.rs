@@ -7,4 +7,4 @@ mod oracle;
 mod robust;
 mod ultimate;
 mod vehicle;
-mod worst_case;
+pub mod worst_case;

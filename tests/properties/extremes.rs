@@ -1,6 +1,6 @@
 //! Numbers at the ends of the arithmetic, and calls whose work had no end: an error by name, never a number that is none.
 
-use selfosc::control::{AxisIntervals, Gains, OpenLoop, RelayTest, Structure, Tuning};
+use selfosc::control::{Gains, OpenLoop, RelayTest, Structure, Tuning};
 use selfosc::describing::{by_quadrature, harmonic, nearest_amplitude};
 use selfosc::identify::iso::Oscillation;
 use selfosc::nonlinearity::{Power, RelayHysteresis, Sinusoid};
@@ -8,6 +8,8 @@ use selfosc::numeric::Interval;
 use selfosc::orbit::{TwoLevelRelay, orbits};
 use selfosc::plant::{DragAxis, TransferFunction};
 use selfosc::vehicle::Allocation;
+
+use crate::control::worst_case::axes;
 
 /// Sizes from the least to the largest that a float has.
 const SIZES: [f64; 9] = [5e-324, 1e-307, 1e-160, 1e-100, 1.0, 1e100, 1e154, 1e200, 1.7e308];
@@ -107,13 +109,13 @@ fn work_without_end_is_refused_or_cut_short() {
 }
 
 #[test]
-fn worst_margins_say_where_they_were_cut_short() {
+fn worst_margins_of_extreme_delays_are_refused_or_bounded() {
     let tuning = Tuning::new(&DragAxis::linear(1.0, 0.3).unwrap(), Structure::Pd, 0.7).unwrap();
     let between = |low, high| Interval::new(low, high).unwrap();
-    let tame = AxisIntervals::new(between(0.9, 1.1), between(0.2, 0.4), between(0.05, 0.1)).unwrap();
-    assert!(tame.worst_margins(tuning.gains()).unwrap().converged);
-    let wild = AxisIntervals::new(between(0.9, 1.1), between(0.2, 0.4), between(4e-300, 4e-142)).unwrap();
-    if let Ok(worst) = wild.worst_margins(tuning.gains()) {
-        assert!(worst.converged || worst.boxes < 20_000, "{worst:?}");
+    let of_delays = |delay_s| axes([between(0.9, 1.1), between(0.2, 0.4), delay_s]);
+    assert!(of_delays(between(0.05, 0.1)).worst_margins(tuning.gains()).unwrap().proved);
+    if let Ok(worst) = of_delays(between(4e-300, 4e-142)).worst_margins(tuning.gains()) {
+        assert!(worst.at_least.phase_rad <= worst.met.phase_rad, "{worst:?}");
     }
+    assert!(of_delays(between(1.0, 1e300)).worst_margins(tuning.gains()).is_err());
 }

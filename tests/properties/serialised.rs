@@ -3,7 +3,7 @@
 use serde::{Serialize, de::DeserializeOwned};
 
 use selfosc::balance::{HarmonicBalance, Intersection};
-use selfosc::control::{AxisIntervals, Structure, Tuning, WorstMargins};
+use selfosc::control::{Structure, Tuning, WorstMargins};
 use selfosc::describing::{Certified, ClosedForm, DescribingFunction, certified};
 use selfosc::experiment::SimulatedExperiment;
 use selfosc::features::RecordFeatures;
@@ -13,6 +13,8 @@ use selfosc::on_board::Outcome;
 use selfosc::orbit::{Certificate, certify};
 use selfosc::plant::{DragAxis, StateSpace, TransferFunction};
 use selfosc::proof::rigorous_quadrature::CellJet;
+
+use crate::control::worst_case::axes;
 
 fn comes_back<T: Serialize + DeserializeOwned + PartialEq + core::fmt::Debug + Clone + Send + Sync>(value: &T) {
     let text = serde_json::to_string(value).unwrap();
@@ -62,7 +64,7 @@ fn margins_and_outcomes_come_back() {
     let axis = DragAxis::linear(1.0, 0.4).unwrap();
     let tuning = Tuning::new(&axis, Structure::Pd, 1.0).unwrap();
     let interval = |low, high| Interval::new(low, high).unwrap();
-    let axes = AxisIntervals::new(interval(0.9, 1.1), interval(0.35, 0.45), interval(0.0, 0.05)).unwrap();
+    let axes = axes([interval(0.9, 1.1), interval(0.35, 0.45), interval(0.0, 0.05)]);
     comes_back::<WorstMargins>(&axes.worst_margins(tuning.gains()).unwrap());
     let record = SimulatedExperiment::new(axis, relay(), 10.0).unwrap().run(60.0).unwrap();
     let features = RecordFeatures::of(&record).unwrap().features;

@@ -3,9 +3,10 @@
 use super::{PHASES_DEG, SENSITIVITIES};
 use crate::command::known::Model;
 use crate::control::{
-    AxisIntervals, AxisModel, ControlError, Controller, CriterionRange, LinearProcess, LoopLimit, OpenLoop,
-    ProcessIntervals, RobustCriterion, StepResponse, Structure, Tuning, WorstMargin,
+    AxisModel, ControlError, Controller, CriterionRange, Gains, OpenLoop, ProcessIntervals, RobustCriterion,
+    StepResponse, Structure, Tuning, WorstMargins,
 };
+use crate::plant::DragAxis;
 
 /// Samples in the time constant of the double pole, and time constants in the simulated step: the hold is a
 /// four-hundredth of one, and the slow pole of a PID has six of its own.
@@ -26,10 +27,8 @@ const MOST_USUAL: f64 = 2.0;
 pub(super) enum Target {
     /// A bandwidth, rad/s.
     BandwidthRadS(f64),
-    /// The largest bandwidth at which no axis has a larger sensitivity.
-    Sensitivity(f64),
-    /// The largest bandwidth at which every axis has this phase margin, rad.
-    PhaseRad(f64),
+    /// The largest bandwidth at which every axis meets this.
+    Limit(RobustCriterion),
 }
 
 /// What is asked for.
@@ -41,17 +40,6 @@ pub(super) struct DesignWanted {
     pub(super) step: f64,
     pub(super) limit: Option<f64>,
     pub(super) top_speed: Option<f64>,
-}
-
-/// What every axis of the intervals has, and what some have.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Worst {
-    pub(super) at_least: WorstMargin,
-    pub(super) met: WorstMargin,
-    /// Boxes that the plain axis' intervals were divided into.
-    pub(super) boxes: Option<usize>,
-    /// Whether all four bounds say something.
-    pub(super) proved: bool,
 }
 
 /// A design and what was found on it.
@@ -67,7 +55,7 @@ pub(super) struct Tuned {
     pub(super) top_speed: f64,
     pub(super) sensitivity: CriterionRange,
     /// `None` where the parameters are points, drag is linear and there are no further terms.
-    pub(super) worst: Option<Worst>,
+    pub(super) worst: Option<WorstMargins>,
 }
 
 impl Tuned {
@@ -77,15 +65,13 @@ impl Tuned {
     /// # Errors
     /// Where some axis of the intervals is not stabilised, with the nearest bandwidth at which all are.
     pub(super) fn new(model: &Model, wanted: &DesignWanted) -> Result<Self, ControlError> {
-        let slopes = model.slopes_at_rest();
-        let designed = |slope: f64| {
-            let bandwidth_rad_s = match wanted.target {
-                Target::BandwidthRadS(asked_rad_s) => asked_rad_s,
-                _ => largest_bandwidth(model, wanted, slope)?,
-            };
-            Self::at(model, wanted, slope, bandwidth_rad_s)
+        let axis = model.values().design_axis()?;
+        let families = model.slopes_at_rest().map(|slope| Family { model, wanted, axis, slope });
+        let designed = |family: &Family| match wanted.target {
+            Target::BandwidthRadS(asked_rad_s) => family.design(asked_rad_s),
+            Target::Limit(limit) => family.design(family.largest_bandwidth(limit)?),
         };
-        let [at_rest, least] = slopes;
+        let [at_rest, least] = &families;
         let first = designed(at_rest);
         let enough = match &first {
             Ok(tuned) => !matches!(wanted.target, Target::BandwidthRadS(_)) || !tuned.has_little_margin(),
@@ -100,15 +86,15 @@ impl Tuned {
             (Ok(tuned), Err(_)) => Ok(tuned),
             (
                 Err(ControlError::OutOfReach { within_reach, .. }),
-                Err(again @ ControlError::OutOfReach { within_reach: better, .. }),
-            ) if is_better(better, within_reach) => Err(again),
+                Err(again @ ControlError::OutOfReach { within_reach: Some(better), .. }),
+            ) if within_reach.is_none_or(|limit| limit.is_met_by(better.number())) => Err(again),
             (Err(error), Err(_)) => Err(match (error, wanted.target) {
                 (
                     ControlError::NotStabilised { alpha, drag, delay_s, .. }
                     | ControlError::Unstable { alpha, drag, delay_s, .. },
                     Target::BandwidthRadS(asked_rad_s),
                 ) => {
-                    let stabilised_rad_s = stabilised(model, wanted, slopes, asked_rad_s);
+                    let stabilised_rad_s = stabilised(&families, asked_rad_s);
                     ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s }
                 }
                 (error, _) => error,
@@ -119,32 +105,6 @@ impl Tuned {
     /// Whether some axis has a larger sensitivity than is usual.
     pub(super) fn has_little_margin(&self) -> bool {
         self.sensitivity.met > MOST_USUAL
-    }
-
-    fn at(model: &Model, wanted: &DesignWanted, slope: f64, bandwidth_rad_s: f64) -> Result<Self, ControlError> {
-        let values = model.values();
-        let axis = values.design_axis()?;
-        let tuning = Tuning::for_slope(&axis, slope, wanted.structure, bandwidth_rad_s)?;
-        let calm = AxisModel { delta: 0.0, ..values };
-        let response = response(&calm, &tuning, wanted)?;
-        let acts = values.delta != 0.0 && model.axis.delta.interval.is_none_or(|interval| !interval.contains(0.0));
-        let with_force = acts.then(|| self::response(&values, &tuning, wanted)).transpose()?;
-        let top_speed = wanted.top_speed.unwrap_or_else(|| response.top_speed());
-        let poles = OpenLoop::new(&axis, tuning.gains(), 0.0)?.closed_loop_poles()?;
-        let processes = ProcessIntervals::new(model.processes(top_speed))?;
-        let uncertain = model.axis.parts().iter().any(|part| part.interval.is_some());
-        let worst = if uncertain || axis.quadratic_drag() > 0.0 || !values.is_plain() {
-            Some(worst(model, &processes, &tuning)?)
-        } else {
-            None
-        };
-        let mut sensitivity = processes.enclose(tuning.gains(), RobustCriterion::Sensitivity)?;
-        if let Target::Sensitivity(limit) = wanted.target {
-            // That limit is proved already.
-            sensitivity.proved = sensitivity.proved.map(|proved| proved.min(limit)).or(Some(limit));
-        }
-        let (step, degrees) = (wanted.step, model.degrees);
-        Ok(Self { model: values, degrees, tuning, poles, step, response, with_force, top_speed, sensitivity, worst })
     }
 
     /// Where a PD controller leaves the axis under the constant force: `delta/(K_p + stiffness)` from where it would be without.
@@ -171,168 +131,155 @@ fn response(model: &AxisModel<f64>, tuning: &Tuning<f64>, wanted: &DesignWanted)
     }
 }
 
-/// Margins of every axis: of a plain one by its own search, else by exclusion of zero.
-fn worst(model: &Model, processes: &ProcessIntervals, tuning: &Tuning<f64>) -> Result<Worst, ControlError> {
-    let LinearProcess { alpha, drag, delay_s, .. } = *processes.process();
-    if model.values().is_plain() && drag.lower() >= 0.0 {
-        let found = AxisIntervals::new(alpha, drag, delay_s)?.worst_margins(tuning.gains())?;
-        let proved = found.converged || found.at_least.phase_rad > 0.0;
-        return Ok(Worst { at_least: found.at_least, met: found.met, boxes: Some(found.boxes), proved });
+/// Gains of one structure, placed for one slope of the drag, over bandwidths.
+struct Family<'a> {
+    model: &'a Model,
+    wanted: &'a DesignWanted,
+    axis: DragAxis<f64>,
+    slope: f64,
+}
+
+impl Family<'_> {
+    fn tuning(&self, bandwidth_rad_s: f64) -> Result<Tuning<f64>, ControlError> {
+        Tuning::for_slope(&self.axis, self.slope, self.wanted.structure, bandwidth_rad_s)
     }
-    let enclose = |of| processes.enclose(tuning.gains(), of);
-    let [gain, reduction, phase, delay] = [
-        enclose(RobustCriterion::Gain)?,
-        enclose(RobustCriterion::GainReduction)?,
-        enclose(RobustCriterion::PhaseRad)?,
-        enclose(RobustCriterion::DelayS)?,
-    ];
-    let limited = |number: f64| Some(number).filter(|number| *number < ProcessIntervals::NO_LIMIT);
-    let at_least = WorstMargin {
-        gain: limited(gain.proved.unwrap_or(1.0)),
-        gain_reduction: limited(reduction.proved.unwrap_or(1.0)),
-        phase_rad: phase.proved.unwrap_or(0.0),
-        delay_s: delay.proved.unwrap_or(0.0),
-    };
-    let met = WorstMargin {
-        gain: limited(gain.met),
-        gain_reduction: limited(reduction.met),
-        phase_rad: phase.met,
-        delay_s: delay.met,
-    };
-    let proved = [gain, reduction, phase, delay].iter().all(|one| one.proved.is_some());
-    Ok(Worst { at_least, met, boxes: None, proved })
+
+    /// The answer to the step without the constant force.
+    fn calm(&self, tuning: &Tuning<f64>) -> Result<StepResponse, ControlError> {
+        response(&AxisModel { delta: 0.0, ..self.model.values() }, tuning, self.wanted)
+    }
+
+    /// Gains, and every process that their step shows.
+    fn loops(&self, bandwidth_rad_s: f64) -> Result<(Gains<f64>, ProcessIntervals), ControlError> {
+        let tuning = self.tuning(bandwidth_rad_s)?;
+        let top_speed =
+            self.wanted.top_speed.map_or_else(|| Ok(self.calm(&tuning)?.top_speed()), Ok::<_, ControlError>)?;
+        Ok((*tuning.gains(), ProcessIntervals::new(self.model.processes(top_speed))?))
+    }
+
+    fn design(&self, bandwidth_rad_s: f64) -> Result<Tuned, ControlError> {
+        let (model, wanted, axis) = (self.model, self.wanted, &self.axis);
+        let (values, tuning) = (model.values(), self.tuning(bandwidth_rad_s)?);
+        let response = self.calm(&tuning)?;
+        let acts = values.delta != 0.0 && model.axis.delta.interval.is_none_or(|interval| !interval.contains(0.0));
+        let with_force = acts.then(|| self::response(&values, &tuning, wanted)).transpose()?;
+        let top_speed = wanted.top_speed.unwrap_or_else(|| response.top_speed());
+        let poles = OpenLoop::new(axis, tuning.gains(), 0.0)?.closed_loop_poles()?;
+        let processes = ProcessIntervals::new(model.processes(top_speed))?;
+        let uncertain = model.axis.parts().iter().any(|part| part.interval.is_some());
+        let varies = uncertain || axis.quadratic_drag() > 0.0 || !values.is_plain();
+        let worst = varies.then(|| processes.worst_margins(tuning.gains())).transpose()?;
+        let mut sensitivity = processes.enclose(tuning.gains(), RobustCriterion::Sensitivity)?;
+        if let Target::Limit(RobustCriterion::Sensitivity(limit)) = wanted.target {
+            // That limit is proved already.
+            sensitivity.proved = sensitivity.proved.map(|proved| proved.min(limit)).or(Some(limit));
+        }
+        let (step, degrees) = (wanted.step, model.degrees);
+        Ok(Tuned { model: values, degrees, tuning, poles, step, response, with_force, top_speed, sensitivity, worst })
+    }
+
+    /// The criterion's worst number, where every axis is stable: no proof.
+    fn number(&self, bandwidth_rad_s: f64, criterion: RobustCriterion) -> Option<f64> {
+        let (gains, processes) = self.loops(bandwidth_rad_s).ok()?;
+        processes.points_stable(&gains).then(|| processes.worst_number(&gains, criterion))
+    }
+
+    /// Whether the criterion is proved for every axis.
+    fn has(&self, bandwidth_rad_s: f64, criterion: RobustCriterion) -> bool {
+        self.loops(bandwidth_rad_s).is_ok_and(|(gains, processes)| processes.all_have(&gains, criterion))
+    }
+
+    /// The range of bandwidths for which there are gains.
+    fn range(&self) -> Result<[f64; 2], ControlError> {
+        // Without delay nothing but the drag's pace limits the range; ten thousand times that is as good as no limit.
+        let pace = self.slope.abs() / self.axis.alpha();
+        let beyond = if self.axis.delay_s() > 0.0 { 100.0 / self.axis.delay_s() } else { 1e4 * pace.max(1e-4) };
+        let most = match self.tuning(beyond) {
+            Ok(_) => beyond,
+            Err(ControlError::TooFast { most_rad_s, .. }) => most_rad_s,
+            Err(error) => return Err(error),
+        };
+        let least = match self.tuning(1e-3 * most) {
+            Err(ControlError::Overdamped { least_rad_s, .. }) => least_rad_s,
+            _ => 1e-3 * most,
+        };
+        Ok([least * (1.0 + 1e-9), most])
+    }
+
+    /// The largest bandwidth at which the limit is proved for every axis of the intervals.
+    fn largest_bandwidth(&self, limit: RobustCriterion) -> Result<f64, ControlError> {
+        let [least_rad_s, most_rad_s] = self.range()?;
+        let at = grid([least_rad_s, most_rad_s]);
+        // A step or a speed that makes no sense is said, not taken for a limit out of reach.
+        if let Some(bandwidth) = at.iter().find(|bandwidth| self.tuning(**bandwidth).is_ok()) {
+            self.loops(*bandwidth)?;
+        }
+        let keeps = |bandwidth: f64| self.number(bandwidth, limit).is_some_and(|number| limit.is_met_by(number));
+        // Slow gains can be worse than fast ones, where drag is uncertain: no bisection from the ends.
+        let Some(first) = at.iter().position(|bandwidth| keeps(*bandwidth)) else {
+            return Err(ControlError::OutOfReach {
+                least_rad_s,
+                most_rad_s,
+                within_reach: self.within_reach(&at, limit),
+            });
+        };
+        let (mut low, mut high) = (at[first], at[first.saturating_sub(1)]);
+        for _ in 0..HALVINGS {
+            let middle = (low * high).sqrt();
+            if keeps(middle) { low = middle } else { high = middle }
+        }
+        let back = (0..STEPS_BACK).map(|back| low * 0.98_f64.powi(back));
+        back.into_iter().find(|bandwidth| self.has(*bandwidth, limit)).ok_or(ControlError::OutOfReach {
+            least_rad_s,
+            most_rad_s,
+            within_reach: None,
+        })
+    }
+
+    /// The best limit of this kind that is proved at one of the bandwidths.
+    fn within_reach(&self, bandwidths: &[f64], limit: RobustCriterion) -> Option<RobustCriterion> {
+        let mut found: Vec<(f64, RobustCriterion)> = Vec::new();
+        for &bandwidth in bandwidths {
+            let with_room = self.number(bandwidth, limit).and_then(|number| match limit {
+                RobustCriterion::Sensitivity(_) => Some(number * (1.0 + FOR_THE_PROOF))
+                    .filter(|most| SENSITIVITIES.contains(most))
+                    .map(RobustCriterion::Sensitivity),
+                _ => Some(number * (1.0 - FOR_THE_PROOF))
+                    .filter(|least| PHASES_DEG.contains(&least.to_degrees()))
+                    .map(RobustCriterion::PhaseRad),
+            });
+            found.extend(with_room.map(|with_room| (bandwidth, with_room)));
+        }
+        found.sort_by(|(_, a), (_, b)| match limit {
+            RobustCriterion::Sensitivity(_) => a.number().total_cmp(&b.number()),
+            _ => b.number().total_cmp(&a.number()),
+        });
+        found.into_iter().find(|(bandwidth, limit)| self.has(*bandwidth, *limit)).map(|(_, limit)| limit)
+    }
 }
 
-/// Every process that the step of these gains shows.
-fn processes(model: &Model, wanted: &DesignWanted, tuning: &Tuning<f64>) -> Result<ProcessIntervals, ControlError> {
-    let top_speed = match wanted.top_speed {
-        Some(top_speed) => top_speed,
-        None => response(&AxisModel { delta: 0.0, ..model.values() }, tuning, wanted)?.top_speed(),
-    };
-    ProcessIntervals::new(model.processes(top_speed))
-}
-
-/// Bandwidths from the largest to the least for which there are gains, evenly on a logarithmic scale.
-fn grid((least, most): (f64, f64)) -> impl Fn(u32) -> f64 {
-    move |k| most * (least / most).powf(f64::from(k) / f64::from(GRID))
+/// Bandwidths from the largest to the least, evenly on a logarithmic scale.
+fn grid([least, most]: [f64; 2]) -> Vec<f64> {
+    (0..=GRID).map(|k| most * (least / most).powf(f64::from(k) / f64::from(GRID))).collect()
 }
 
 /// The bandwidth nearest to the one asked for, to two digits, whose gains are proved to stabilise every axis of the intervals, with a
 /// sensitivity not above the usual where there is one, else with the least.
-fn stabilised(model: &Model, wanted: &DesignWanted, slopes: [f64; 2], asked_rad_s: f64) -> Option<f64> {
-    let axis = model.values().design_axis().ok()?;
-    let mut candidates: Vec<(f64, f64, f64)> = Vec::new();
-    for slope in slopes {
-        let Ok(range) = bandwidths(&axis, slope, wanted.structure) else { continue };
-        let at = grid(range);
-        candidates.extend((0..=GRID).filter_map(|k| {
-            let bandwidth: f64 = format!("{:.1e}", at(k)).parse().ok()?;
-            let sensitivity = number_at(model, wanted, slope, bandwidth, RobustCriterion::Sensitivity(1.0))?;
-            Some((sensitivity.max(MOST_USUAL), slope, bandwidth))
+fn stabilised(families: &[Family; 2], asked_rad_s: f64) -> Option<f64> {
+    let mut candidates: Vec<(f64, &Family, f64)> = Vec::new();
+    for family in families {
+        let Ok(range) = family.range() else { continue };
+        candidates.extend(grid(range).into_iter().filter_map(|bandwidth| {
+            let bandwidth: f64 = format!("{bandwidth:.1e}").parse().ok()?;
+            let sensitivity = family.number(bandwidth, RobustCriterion::Sensitivity(1.0))?;
+            Some((sensitivity.max(MOST_USUAL), family, bandwidth))
         }));
     }
     let far = |bandwidth: f64| (bandwidth / asked_rad_s).ln().abs();
     candidates.sort_by(|a, b| a.0.total_cmp(&b.0).then(far(a.2).total_cmp(&far(b.2))));
-    let proved = |slope: f64, bandwidth: f64| {
-        let tuning = Tuning::for_slope(&axis, slope, wanted.structure, bandwidth).ok()?;
-        let stable = processes(model, wanted, &tuning).ok()?.all_stable(tuning.gains());
-        stable.then(|| Tuned::at(model, wanted, slope, bandwidth).ok())?
+    let proved = |family: &Family, bandwidth: f64| {
+        let stable = family.loops(bandwidth).is_ok_and(|(gains, processes)| processes.all_stable(&gains));
+        stable && family.design(bandwidth).is_ok()
     };
-    candidates.into_iter().find(|(_, slope, bandwidth)| proved(*slope, *bandwidth).is_some()).map(|found| found.2)
-}
-
-/// The largest bandwidth at which the limit is proved for every axis of the intervals.
-fn largest_bandwidth(model: &Model, wanted: &DesignWanted, slope: f64) -> Result<f64, ControlError> {
-    let axis = model.values().design_axis()?;
-    let (least, most) = bandwidths(&axis, slope, wanted.structure)?;
-    let criterion = match wanted.target {
-        Target::Sensitivity(most) => RobustCriterion::Sensitivity(most),
-        Target::PhaseRad(least) => RobustCriterion::PhaseRad(least),
-        Target::BandwidthRadS(bandwidth) => return Ok(bandwidth),
-    };
-    let at = grid((least, most));
-    // A step or a speed that makes no sense is said, not taken for a limit out of reach.
-    let tuning_at = |k| Tuning::for_slope(&axis, slope, wanted.structure, at(k)).ok();
-    if let Some(tuning) = (0..=GRID).find_map(tuning_at) {
-        processes(model, wanted, &tuning)?;
-    }
-    let keeps = |bandwidth: f64| {
-        let Ok(tuning) = Tuning::for_slope(&axis, slope, wanted.structure, bandwidth) else { return false };
-        processes(model, wanted, &tuning).is_ok_and(|processes| {
-            processes.meets(tuning.gains(), criterion) && processes.points_stable(tuning.gains())
-        })
-    };
-    // Slow gains can be worse than fast ones, where drag is uncertain: no bisection from the ends.
-    let out_of_reach = |within_reach| ControlError::OutOfReach { least_rad_s: least, most_rad_s: most, within_reach };
-    let Some(first) = (0..=GRID).find(|k| keeps(at(*k))) else {
-        let numbers = (0..=GRID).filter_map(|k| number_at(model, wanted, slope, at(k), criterion));
-        return Err(out_of_reach(within_reach(numbers, criterion)));
-    };
-    let (mut low, mut high) = (at(first), at(first.saturating_sub(1)));
-    for _ in 0..HALVINGS {
-        let middle = (low * high).sqrt();
-        if keeps(middle) { low = middle } else { high = middle }
-    }
-    (0..STEPS_BACK)
-        .map(|back| low * 0.98_f64.powi(back))
-        .find(|bandwidth| {
-            let Ok(tuning) = Tuning::for_slope(&axis, slope, wanted.structure, *bandwidth) else { return false };
-            processes(model, wanted, &tuning).is_ok_and(|processes| processes.all_have(tuning.gains(), criterion))
-        })
-        .ok_or(out_of_reach(None))
-}
-
-/// The criterion's worst number at a bandwidth, where every axis is stable.
-fn number_at(
-    model: &Model,
-    wanted: &DesignWanted,
-    slope: f64,
-    bandwidth_rad_s: f64,
-    criterion: RobustCriterion,
-) -> Option<f64> {
-    let axis = model.values().design_axis().ok()?;
-    let tuning = Tuning::for_slope(&axis, slope, wanted.structure, bandwidth_rad_s).ok()?;
-    let processes = processes(model, wanted, &tuning).ok()?;
-    processes.points_stable(tuning.gains()).then(|| processes.nearly(tuning.gains(), criterion))
-}
-
-/// Whether a limit asks for more margin than another one, or there is no other.
-fn is_better(limit: Option<LoopLimit>, other: Option<LoopLimit>) -> bool {
-    match (limit, other) {
-        (Some(LoopLimit::Sensitivity(limit)), Some(LoopLimit::Sensitivity(other))) => limit < other,
-        (Some(LoopLimit::PhaseDeg(limit)), Some(LoopLimit::PhaseDeg(other))) => limit > other,
-        (limit, other) => limit.is_some() && other.is_none(),
-    }
-}
-
-/// The best of the numbers less a part that a proof may need.
-fn within_reach(numbers: impl Iterator<Item = f64>, criterion: RobustCriterion) -> Option<LoopLimit> {
-    if matches!(criterion, RobustCriterion::Sensitivity(_)) {
-        let least = numbers.min_by(f64::total_cmp).map(|best| best * (1.0 + FOR_THE_PROOF));
-        least.filter(|limit| SENSITIVITIES.contains(limit)).map(LoopLimit::Sensitivity)
-    } else {
-        let most = numbers.max_by(f64::total_cmp).map(|best| (best * (1.0 - FOR_THE_PROOF)).to_degrees());
-        most.filter(|limit| PHASES_DEG.contains(limit)).map(LoopLimit::PhaseDeg)
-    }
-}
-
-/// The range of bandwidths for which there are gains.
-fn bandwidths(
-    axis: &crate::plant::DragAxis<f64>,
-    slope: f64,
-    structure: Structure,
-) -> Result<(f64, f64), ControlError> {
-    // Without delay nothing but the drag's pace limits the range; ten thousand times that is as good as no limit.
-    let pace = slope.abs() / axis.alpha();
-    let beyond = if axis.delay_s() > 0.0 { 100.0 / axis.delay_s() } else { 1e4 * pace.max(1e-4) };
-    let most = match Tuning::for_slope(axis, slope, structure, beyond) {
-        Ok(_) => beyond,
-        Err(ControlError::TooFast { most_rad_s, .. }) => most_rad_s,
-        Err(error) => return Err(error),
-    };
-    let least = match Tuning::for_slope(axis, slope, structure, 1e-3 * most) {
-        Err(ControlError::Overdamped { least_rad_s, .. }) => least_rad_s,
-        _ => 1e-3 * most,
-    };
-    Ok((least * (1.0 + 1e-9), most))
+    candidates.into_iter().find(|(_, family, bandwidth)| proved(family, *bandwidth)).map(|found| found.2)
 }

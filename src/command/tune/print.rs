@@ -38,7 +38,6 @@ impl Tuned {
                 "top_speed": self.top_speed,
                 "at_least": found.at_least,
                 "met": found.met,
-                "boxes": found.boxes,
                 "proved": found.proved,
             })),
             "offset": self.offset(),
@@ -68,7 +67,7 @@ impl Tuned {
         if self.tuning.slope() != self.tuning.axis().linear_drag() {
             writeln!(
                 output,
-                "poles placed for a drag of slope {} F s/{x} at rest, the least that the intervals leave; other slopes answer slower",
+                "poles placed for a drag of slope {} F s/{x} at rest, the least that the intervals leave; other slopes damp more",
                 significant(self.tuning.slope(), 4)
             )?;
         }

@@ -21,19 +21,29 @@ const BELOW: i32 = 16;
 const ABOVE: i32 = 6;
 
 impl Figures {
+    /// Those of no loop at all.
+    pub(super) const NONE: Self = Self {
+        sensitivity: 1.0,
+        gain: f64::INFINITY,
+        gain_reduction: f64::INFINITY,
+        phase_rad: f64::INFINITY,
+        delay_s: f64::INFINITY,
+    };
+
+    pub(super) fn worse(self, other: Self) -> Self {
+        Self {
+            sensitivity: self.sensitivity.max(other.sensitivity),
+            gain: self.gain.min(other.gain),
+            gain_reduction: self.gain_reduction.min(other.gain_reduction),
+            phase_rad: self.phase_rad.min(other.phase_rad),
+            delay_s: self.delay_s.min(other.delay_s),
+        }
+    }
+
     pub(super) fn of(process: &LinearProcess<f64>, gains: &Gains<f64>, high: f64, an_octave: i32) -> Self {
         let open_loop = process.open_loop(constants(gains));
         let response = |omega: f64| open_loop.response(omega, process.delay_s);
-        let (mut found, mut before) = (
-            Self {
-                sensitivity: 1.0,
-                gain: f64::INFINITY,
-                gain_reduction: f64::INFINITY,
-                phase_rad: f64::INFINITY,
-                delay_s: f64::INFINITY,
-            },
-            None::<(f64, [f64; 2])>,
-        );
+        let (mut found, mut before) = (Self::NONE, None::<(f64, [f64; 2])>);
         for k in 0..=an_octave * (BELOW + ABOVE) {
             let omega = high * 2f64.powf(f64::from(k) / f64::from(an_octave) - f64::from(BELOW));
             let here = response(omega);

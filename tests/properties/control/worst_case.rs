@@ -1,7 +1,9 @@
 //! Margins over intervals: nothing inside falls below the bound, and the bound is near.
 
 use proptest::prelude::*;
-use selfosc::control::{AxisIntervals, ControlError, OpenLoop, Structure, Tuning, WorstMargin};
+use selfosc::control::{
+    ControlError, LinearProcess, OpenLoop, ProcessIntervals, RobustCriterion, Structure, Tuning, WorstMargin,
+};
 use selfosc::numeric::Interval;
 use selfosc::plant::DragAxis;
 
@@ -9,6 +11,13 @@ use crate::sampling::recorded;
 
 fn around(value: f64, share: f64) -> Interval {
     Interval::new(value * (1.0 - share), value * (1.0 + share)).unwrap()
+}
+
+/// Axes with a drag of these slopes.
+pub fn axes([alpha, drag, delay_s]: [Interval; 3]) -> ProcessIntervals {
+    let mut parts = [Interval::ZERO; 9];
+    (parts[0], parts[1], parts[8]) = (alpha, drag, delay_s);
+    ProcessIntervals::new(LinearProcess::from_parts(parts)).unwrap()
 }
 
 fn list(margin: &WorstMargin) -> [f64; 4] {
@@ -29,12 +38,10 @@ proptest! {
         let structure = [Structure::Pd, Structure::Pid, Structure::Ipd][which];
         let Ok(tuning) = Tuning::new(&axis, structure, 0.8) else { return Ok(()) };
         let intervals = [around(1.3, shares[0]), around(drag, shares[1]), around(delay_s, shares[2])];
-        let Ok(worst) = AxisIntervals::new(intervals[0], intervals[1], intervals[2]).unwrap().worst_margins(tuning.gains()) else {
-            return Ok(());
-        };
+        let Ok(worst) = axes(intervals).worst_margins(tuning.gains()) else { return Ok(()) };
         let (least, met) = (list(&worst.at_least), list(&worst.met));
         for (least, met) in least.iter().zip(met) {
-            prop_assert!(*least <= met && (*least >= 0.985 * met || worst.boxes >= 19_000), "{:?}", worst);
+            prop_assert!(*least <= met && (*least >= 0.98 * met || !worst.proved), "{:?}", worst);
         }
         for at in inside {
             let place = |k: usize| intervals[k].lower() + at[k] * intervals[k].width();
@@ -49,28 +56,37 @@ proptest! {
     }
 }
 
-/// The worst of the delay margin inside, not at a corner, is what corners alone would miss: the bound does not.
+/// Margins that are met are not proved by 1 % more: the proof has teeth.
 #[test]
-fn an_unstable_axis_inside_is_found() {
+fn more_than_is_met_is_not_proved() {
+    let axis = DragAxis::linear(1.0, 0.5).unwrap().with_delay_s(0.1).unwrap();
+    for (structure, share) in [(Structure::Pd, 0.0), (Structure::Pd, 0.1), (Structure::Pid, 0.2), (Structure::Ipd, 0.1)]
+    {
+        let tuning = Tuning::new(&axis, structure, 0.8).unwrap();
+        let processes = axes([around(1.0, share), around(0.5, share), around(0.1, share)]);
+        let worst = processes.worst_margins(tuning.gains()).unwrap();
+        assert!(worst.proved, "{worst:?}");
+        let kinds = [
+            RobustCriterion::Gain as fn(f64) -> RobustCriterion,
+            RobustCriterion::GainReduction,
+            RobustCriterion::PhaseRad,
+            RobustCriterion::DelayS,
+        ];
+        for (of, (least, met)) in kinds.into_iter().zip(list(&worst.at_least).into_iter().zip(list(&worst.met))) {
+            let unlimited = !met.is_finite();
+            assert!(unlimited || processes.all_have(tuning.gains(), of(least)), "{structure:?} {share} {least}");
+            assert!(unlimited || !processes.all_have(tuning.gains(), of(1.01 * met)), "{structure:?} {share} {met}");
+        }
+    }
+}
+
+/// A delay within the interval, below its end, at which the axis is unstable.
+#[test]
+fn an_unstable_axis_is_found() {
     let axis = DragAxis::linear(1.0, 0.5).unwrap().with_delay_s(0.1).unwrap();
     let tuning = Tuning::new(&axis, Structure::Pd, 1.0).unwrap();
     let between = |low, high| Interval::new(low, high).unwrap();
-    let wide = AxisIntervals::new(between(0.9, 1.1), between(0.4, 0.6), between(0.0, 3.0)).unwrap();
-    assert!(matches!(wide.worst_margins(tuning.gains()), Err(ControlError::Unstable { delay_s, .. }) if delay_s > 0.1));
-}
-
-/// A slope of quadratic drag over a range of speeds.
-#[test]
-fn a_range_of_speeds_is_a_range_of_slopes() {
-    let between = |low, high| Interval::new(low, high).unwrap();
-    let made =
-        AxisIntervals::at_speeds(between(0.9, 1.1), between(0.1, 0.2), between(0.3, 0.4), 2.0, between(0.1, 0.1))
-            .unwrap();
-    let slopes = between(0.1, 0.2 + 2.0 * 0.4 * 2.0);
-    let direct = AxisIntervals::new(between(0.9, 1.1), slopes, between(0.1, 0.1)).unwrap();
-    let gains = Tuning::new(&DragAxis::linear(1.0, 0.1).unwrap(), Structure::Pd, 0.8).unwrap();
-    let (a, b) = (made.worst_margins(gains.gains()).unwrap(), direct.worst_margins(gains.gains()).unwrap());
-    for (a, b) in list(&a.at_least).iter().zip(list(&b.at_least)) {
-        assert!(*a == b || (a / b - 1.0).abs() < 1e-9, "{a} {b}");
-    }
+    let wide = axes([between(0.9, 1.1), between(0.4, 0.6), between(0.0, 3.0)]);
+    let refusal = wide.worst_margins(tuning.gains());
+    assert!(matches!(refusal, Err(ControlError::NotStabilised { delay_s, .. }) if delay_s > 0.1), "{refusal:?}");
 }
