@@ -7,4 +7,4 @@ mod oracle;
 mod robust;
 mod ultimate;
 mod vehicle;
-pub mod worst_case;
+pub(crate) mod worst_case;

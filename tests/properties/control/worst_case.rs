@@ -14,7 +14,7 @@ fn around(value: f64, share: f64) -> Interval {
 }
 
 /// Axes with a drag of these slopes.
-pub fn axes([alpha, drag, delay_s]: [Interval; 3]) -> ProcessIntervals {
+pub(crate) fn axes([alpha, drag, delay_s]: [Interval; 3]) -> ProcessIntervals {
     let mut parts = [Interval::ZERO; 9];
     (parts[0], parts[1], parts[8]) = (alpha, drag, delay_s);
     ProcessIntervals::new(LinearProcess::from_parts(parts)).unwrap()
