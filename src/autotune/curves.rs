@@ -1,7 +1,7 @@
 //! Curves of a loop: its open loop and its answer to a load, for the likeliest process and the corners of the set.
 
+use super::ProvedGains;
 use super::gains::{STEPS, STEPS_PER_PERIOD, load_step, ultimate};
-use super::{ProcessRecord, ProvedGains};
 use crate::control::LinearProcess;
 
 /// Points of an open loop, and frequencies over the ultimate one between which they lie.
@@ -28,16 +28,16 @@ pub struct LoopCurves {
     pub load_step_range: Vec<[f64; 2]>,
 }
 
-impl ProcessRecord {
-    /// The curves of proved gains under a controller that holds its command for `interval_s`; `None` where the process has no ultimate point.
+impl ProvedGains {
+    /// The curves of the gains, the controller's hold among the delays; `None` where the process has no ultimate point.
     #[must_use]
-    pub fn curves(&self, interval_s: f64, proved: &ProvedGains) -> Option<LoopCurves> {
-        let sets = self.sets(interval_s)?;
-        let nominal = sets.first()?.process().middle();
+    pub fn curves(&self) -> Option<LoopCurves> {
+        let sets = &self.sets;
+        let nominal = sets.first()?.middle();
         let [_, ultimate_rad_s] = ultimate(&nominal)?;
         let period_s = core::f64::consts::TAU / ultimate_rad_s;
         let corners: Vec<LinearProcess<f64>> = sets.iter().flat_map(|set| set.corners()).collect();
-        let gains = &proved.gains;
+        let gains = &self.gains;
         let [low, high] = FREQUENCIES;
         let share = |k: u32| f64::from(k) / f64::from(POINTS - 1);
         let omega_rad_s: Vec<f64> = (0..POINTS).map(|k| ultimate_rad_s * low * (high / low).powf(share(k))).collect();

@@ -1,7 +1,9 @@
 //! Gains for every process that a record leaves: the smallest integral of the absolute error after a step of the load, under a limit
 //! of the sensitivity that is proved for all of them.
 
-use super::{ProcessModel, ProcessRecord, Ranged};
+use nalgebra::SMatrix;
+
+use super::{ProcessModel, ProcessRecord};
 use crate::control::{Gains, LinearProcess, ProcessIntervals, RobustCriterion, Structure};
 use crate::numeric::Interval;
 
@@ -35,34 +37,31 @@ impl Default for GainsWanted {
 }
 
 /// Gains with what is proved of them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ProvedGains {
     /// For an output that rises with the command; of a reverse process all change their sign.
     pub gains: Gains<f64>,
-    /// No process of the record's set has a larger sensitivity.
+    /// No process of the sets has a larger sensitivity.
     pub sensitivity: f64,
+    /// The processes that the record leaves, structure by structure, the likeliest first: 95 % of each.
+    pub sets: Vec<ProcessIntervals>,
 }
 
-/// Standard deviations that the set of processes reaches: 95 % for five coefficients at once (Bonferroni).
-const REACH: f64 = 2.58;
+/// Standard deviations that a set of processes reaches along each principal axis: 95 % for five independent axes at once, since
+/// `(2 Phi(2.57) - 1)^5 = 0.95`; along each coefficient the same or more (Sidak's inequality).
+const REACH: f64 = 2.57;
+/// A principal axis shorter than this, over the errors' own size, is rounding.
+const FLAT: f64 = 1e-9;
 /// A derivative has to take off so much of the integral of the absolute error.
 const WORTH: f64 = 0.9;
 /// The search aims so far below the limit: a proof at the limit itself has no room, and splits boxes without end.
 const ROOM: f64 = 0.01;
-/// Steps back from the largest gain until the limit is proved, each so much.
-const STEPS_BACK: u32 = 15;
+/// Steps back from the largest gain until the limit is proved: each twice the one before in the logarithm, the first this much.
+const STEPS_BACK: u32 = 5;
 const BACK: f64 = 0.97;
 /// Times of integral and derivative that are tried first, over the ultimate period.
 const INTEGRAL: [f64; 10] = [0.15, 0.22, 0.33, 0.5, 0.7, 1.0, 1.5, 2.2, 3.5, 6.0];
 const DERIVATIVE: [f64; 5] = [0.05, 0.08, 0.12, 0.17, 0.25];
-
-impl Ranged {
-    /// The interval that takes part in the set, cut where no process is.
-    fn interval(&self, least: f64) -> Option<Interval> {
-        let (low, high) = (self.value - REACH * self.std, self.value + REACH * self.std);
-        Interval::new(low.max(least).min(self.value), high.max(self.value))
-    }
-}
 
 impl ProcessModel {
     /// The process in numbers, for a gain above zero.
@@ -83,25 +82,37 @@ impl ProcessModel {
         }
     }
 
-    /// Every process of this structure within the record's errors; a controller that holds its command for `interval_s` adds half of
-    /// that to the delay.
-    #[must_use]
-    pub fn processes(&self, interval_s: f64) -> Option<ProcessIntervals> {
-        let [alpha, drag, stiffness, zero_s, delay_s] = self.coefficients;
-        let none = Interval::ZERO;
-        let process = LinearProcess {
-            alpha: alpha.interval(0.0)?,
-            drag: drag.interval(f64::NEG_INFINITY)?,
-            stiffness: stiffness.interval(f64::NEG_INFINITY)?,
-            memory: none,
-            memory_s: none,
-            lag_s: none,
-            filter_s: none,
-            zero_s: zero_s.interval(f64::NEG_INFINITY)?,
-            delay_s: delay_s.interval(0.0)? + Interval::point(0.5 * interval_s),
+    /// The processes of this structure within the record's errors; a controller that holds its command for `interval_s` adds half of that
+    /// to the delay.
+    fn processes(&self, interval_s: f64, axes: Axes) -> Option<ProcessIntervals> {
+        let std = self.coefficients.map(|part| part.std);
+        let scaled = |i: usize, j: usize| self.covariance[i][j] / (std[i] * std[j]).max(f64::MIN_POSITIVE);
+        let correlation = match axes {
+            Axes::Principal => SMatrix::<f64, 5, 5>::from_fn(scaled),
+            Axes::Coefficients => SMatrix::from_fn(|i, j| if i == j { scaled(i, i) } else { 0.0 }),
         };
-        ProcessIntervals::new(process).ok().filter(|_| process.drag.is_positive())
+        let found = correlation.symmetric_eigen();
+        let lengths = found.eigenvalues.iter().map(|square| square.max(0.0).sqrt());
+        let long = lengths.zip(found.eigenvectors.column_iter()).filter(|(length, _)| *length > FLAT);
+        let directions = long.map(|(length, axis)| {
+            let [alpha, drag, stiffness, zero_s, delay_s] = core::array::from_fn(|k| REACH * length * axis[k] * std[k]);
+            let none = 0.0;
+            [alpha, drag, stiffness, none, none, none, none, zero_s, delay_s]
+        });
+        let mut process = self.process();
+        process.delay_s += 0.5 * interval_s;
+        let found = ProcessIntervals::along(process.parts(), &directions.collect::<Vec<_>>()).ok();
+        found.filter(|found| found.process().drag.is_positive())
     }
+}
+
+/// Along which axes a set is a parallelepiped: it holds 95 % either way.
+#[derive(Clone, Copy)]
+enum Axes {
+    /// Those of the coefficients' correlation: the smallest.
+    Principal,
+    /// The coefficients: longer, and shorter in projection where they vary independently.
+    Coefficients,
 }
 
 /// Ultimate gain and frequency, rad/s: where the phase passes -pi; `None` where it does not.
@@ -210,7 +221,7 @@ impl<'a> GainExchange<'a> {
         let point = |process: &LinearProcess<f64>| {
             ProcessIntervals::new(LinearProcess::from_parts(process.parts().map(Interval::point))).ok()
         };
-        let points = sets.iter().flat_map(|set| core::iter::once(set.process().middle()).chain(set.corners()));
+        let points = sets.iter().flat_map(|set| core::iter::once(set.middle()).chain(set.corners()));
         let all = points.map(|process| point(&process)).collect::<Option<Vec<_>>>()?;
         let active = vec![point(&nominal)?];
         Some(Self { nominal, ultimate, period_s: core::f64::consts::TAU / omega, all, active, wanted })
@@ -285,18 +296,27 @@ impl<'a> GainExchange<'a> {
 }
 
 impl ProcessRecord {
-    /// The sets of processes that the record leaves, structure by structure; `None` where one reaches beyond all processes.
-    #[must_use]
-    pub fn sets(&self, interval_s: f64) -> Option<Vec<ProcessIntervals>> {
-        self.models.iter().map(|model| model.processes(interval_s)).collect()
-    }
-
     /// The gains; `None` where no controller is proved for every process: the set is too wide.
     #[must_use]
     pub fn gains(&self, interval_s: f64, wanted: &GainsWanted) -> Option<ProvedGains> {
-        let sets = self.sets(interval_s)?;
-        let nominal = self.models.first()?.processes(interval_s)?.process().middle();
-        let mut search = GainExchange::new(nominal, &sets, wanted)?;
+        [Axes::Principal, Axes::Coefficients].into_iter().find_map(|axes| {
+            let sets = self.models.iter().map(|model| model.processes(interval_s, axes)).collect::<Option<_>>()?;
+            self.gains_for(sets, wanted)
+        })
+    }
+
+    /// Ranges of ultimate gain and frequency, rad/s, over the corners of every structure's set.
+    #[must_use]
+    pub fn ultimate(&self) -> Option<[Interval; 2]> {
+        let best = ultimate(&self.models.first()?.process())?;
+        let sets =
+            self.models.iter().map(|model| model.processes(0.0, Axes::Coefficients)).collect::<Option<Vec<_>>>()?;
+        let all = sets.iter().flat_map(ProcessIntervals::corners).filter_map(|corner| ultimate(&corner));
+        Some(all.fold(best.map(Interval::point), |range, one| [0, 1].map(|k| range[k].hull(Interval::point(one[k])))))
+    }
+
+    fn gains_for(&self, sets: Vec<ProcessIntervals>, wanted: &GainsWanted) -> Option<ProvedGains> {
+        let mut search = GainExchange::new(sets.first()?.middle(), &sets, wanted)?;
         let any = f64::INFINITY;
         let chosen = match wanted.actions {
             Actions::Pi => search.best(false, any)?,
@@ -307,11 +327,12 @@ impl ProcessRecord {
             }
         };
         let ([gain, integral_s, derivative_s], _) = chosen;
-        (0..STEPS_BACK).find_map(|back| {
-            let less = gain * BACK.powi(back as i32);
+        let gains = (0..STEPS_BACK).find_map(|back| {
+            let less = gain * BACK.powi(2_i32.pow(back) - 1);
             let gains = ideal([less, integral_s, derivative_s], wanted.derivative_filter)?;
-            let proved = sets.iter().all(|set| set.all_have(&gains, RobustCriterion::Sensitivity(wanted.sensitivity)));
-            proved.then_some(ProvedGains { gains, sensitivity: wanted.sensitivity })
-        })
+            let limit = RobustCriterion::Sensitivity(wanted.sensitivity);
+            sets.iter().all(|set| set.all_have(&gains, limit)).then_some(gains)
+        })?;
+        Some(ProvedGains { gains, sensitivity: wanted.sensitivity, sets })
     }
 }

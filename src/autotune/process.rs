@@ -100,6 +100,8 @@ pub struct ProcessModel {
     /// `alpha, drag, stiffness, zero_s, delay_s` of `(zero_s s + 1) exp(-delay_s s)/(alpha s^2 + drag s + stiffness)` for a gain above
     /// zero: these depend on each other far less than gain and time constants do.
     pub coefficients: [Ranged; 5],
+    /// Covariance of these.
+    pub covariance: [[f64; 5]; 5],
 }
 
 /// How a record shows that no linear process answers its command.

@@ -122,6 +122,7 @@ pub(super) fn fitted(
         weight: 0.0,
         parameters: (0..named).map(ranged).collect(),
         coefficients: core::array::from_fn(|k| ranged(named + k)),
+        covariance: core::array::from_fn(|i| core::array::from_fn(|j| spread[(named + i, named + j)])),
     };
     let finite = values.iter().chain(spread.iter()).all(|value| value.is_finite());
     finite.then_some(StructureFit { family, criterion, misfit, model, plain: found.plain })

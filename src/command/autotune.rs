@@ -12,9 +12,7 @@ use serde_json::{Value, json};
 use super::error::Given;
 use super::number::{finite, number, positive, time_unit};
 use super::{CommandError, Outcome, files, refused, write_json};
-use crate::autotune::{
-    Actions, Contradiction, GainsWanted, LoopCurves, ProcessRecord, ProvedGains, Ruled, rules, ultimate,
-};
+use crate::autotune::{Actions, Contradiction, GainsWanted, LoopCurves, ProcessRecord, ProvedGains, Ruled, rules};
 use crate::error::Error;
 use crate::experiment::{Columns, Log, TimeUnit};
 use crate::files::Files;
@@ -228,10 +226,10 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     // Gains of the wrong sign drive the output away.
     let proved = if found.contradiction.is_some() { None } else { found.gains(interval_s, &wanted) };
     let tuned = Autotuned {
-        curves: proved.and_then(|proved| found.curves(interval_s, &proved)),
+        curves: proved.as_ref().and_then(ProvedGains::curves),
         proved,
         rules: rules(&nominal),
-        ultimate: ultimate_range(&found),
+        ultimate: found.ultimate(),
         log,
         found,
         interval_s,
@@ -251,12 +249,4 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         }
     }
     Ok(outcome)
-}
-
-/// Ultimate gain and frequency over the corners of every structure's set.
-fn ultimate_range(found: &ProcessRecord) -> Option<[Interval; 2]> {
-    let best = ultimate(&found.models.first()?.process())?;
-    let corners = found.sets(0.0)?.into_iter().flat_map(|set| set.corners());
-    let all = corners.filter_map(|corner| ultimate(&corner));
-    Some(all.fold(best.map(Interval::point), |range, one| [0, 1].map(|k| range[k].hull(Interval::point(one[k])))))
 }

@@ -5,11 +5,13 @@
 //! an angle or a delay as one more variable and `1/M = 0` (zero exclusion principle: Ackermann, *Robust Control*, 2002, ch. 4).
 
 mod figures;
+mod shape;
 
 use super::process::{Fraction, LinearProcess, PARAMETERS, constants};
 use super::{ControlError, Gains, RobustCriterion};
 use crate::numeric::{Gradient, Interval, Real, domain};
 use figures::{AN_OCTAVE, FEW, Figures};
+use shape::Shape;
 
 impl RobustCriterion {
     /// The variable that the criterion adds, and `1/M^2`.
@@ -61,10 +63,18 @@ const OCTAVES: i32 = 100;
 /// Sides smaller than this, relative to the whole, are not halved any more.
 const SMALLEST: f64 = 1e-12;
 
-/// Processes whose parameters lie in intervals.
+/// Processes whose parameters lie in intervals: in all of their box, or in a parallelepiped inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProcessIntervals {
     process: LinearProcess<Interval>,
+    shape: Shape,
+}
+
+/// A criterion, or stability on the way from no delay to the process' own.
+#[derive(Clone, Copy, Debug)]
+struct Question {
+    criterion: RobustCriterion,
+    on_the_way: bool,
 }
 
 /// What is known of a criterion over a box.
@@ -134,13 +144,23 @@ impl ProcessIntervals {
         for (index, (name, part)) in names.into_iter().zip(process.parts()).enumerate() {
             domain::finite(name, part.lower(), "")?;
             domain::finite(name, part.upper(), "")?;
-            if index == 0 || (4..=6).contains(&index) || index == 8 {
+            if shape::is_time_or_inertia(index) {
                 domain::non_negative(name, part.lower(), "")?;
             }
         }
         let leading = process.alpha.lower().max(process.drag.lower()).max(process.stiffness.lower());
         domain::positive("inertia, drag or stiffness", leading, "")?;
-        Ok(Self { process })
+        Ok(Self { process, shape: Shape::Box })
+    }
+
+    /// Every process at `centre + sum z_k directions_k` with all `|z_k| <= 1`, parameters in the order of [`LinearProcess::parts`], whose
+    /// inertia, times and delay are not negative. At most nine directions count.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), for the intervals of the parameters.
+    pub fn along(centre: [f64; PARAMETERS], directions: &[[f64; PARAMETERS]]) -> Result<Self, ControlError> {
+        let shape = Shape::along(centre, directions);
+        Ok(Self { shape, ..Self::new(shape.hull())? })
     }
 
     /// The intervals.
@@ -168,32 +188,33 @@ impl ProcessIntervals {
     /// ```
     #[must_use]
     pub fn all_have(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> bool {
-        self.all_stable(gains) && self.excluded(gains, criterion)
+        self.all_stable(gains) && self.excluded(gains, Question { criterion, on_the_way: false })
     }
 
     /// Whether every process is proved to be stable under the gains: one without delay is by Routh's table, and no pole passes the
     /// imaginary axis on the way from it to any other.
     #[must_use]
     pub fn all_stable(&self, gains: &Gains<f64>) -> bool {
-        let Some(sooner) = Interval::new(0.0, self.process.delay_s.upper()) else { return false };
-        let all = Self { process: LinearProcess { delay_s: sooner, ..self.process } };
-        let one = LinearProcess { delay_s: Interval::ZERO, ..all.process };
-        let one = LinearProcess::from_parts(one.parts().map(|part| Interval::point(part.midpoint())));
-        is_hurwitz(&one.open_loop(constants(gains))) && all.excluded(gains, RobustCriterion::Gain(1.0))
+        let start = LinearProcess { delay_s: 0.0, ..self.middle() };
+        let start = LinearProcess::from_parts(start.parts().map(Interval::point));
+        let on_the_way = Question { criterion: RobustCriterion::Gain(1.0), on_the_way: true };
+        is_hurwitz(&start.open_loop(constants(gains))) && self.excluded(gains, on_the_way)
     }
 
-    /// Whether the criterion's excess is above zero at every frequency, for every process.
-    fn excluded(&self, gains: &Gains<f64>, criterion: RobustCriterion) -> bool {
-        let extra = criterion.variable().0;
-        let Some(highest) = self.highest_frequency(gains, criterion) else { return false };
+    /// Whether the excess is above zero at every frequency, for every process.
+    fn excluded(&self, gains: &Gains<f64>, question: Question) -> bool {
+        let Some(highest) = self.highest_frequency(gains, question.criterion) else { return false };
         let Some(omega) = Interval::new(0.0, highest) else { return false };
         let mut domain = [Interval::ZERO; VARIABLES];
-        domain[..PARAMETERS].copy_from_slice(&self.process.parts());
-        (domain[OMEGA], domain[EXTRA]) = (omega, extra);
+        domain[..PARAMETERS].copy_from_slice(&self.shape.sides(&self.process));
+        (domain[OMEGA], domain[EXTRA]) = (omega, question.criterion.variable().0);
+        if question.on_the_way {
+            domain[EXTRA] = Interval::ZERO.hull(Interval::ONE);
+        }
         let (mut open, mut boxes) = (vec![domain], 0);
         while let Some(at) = open.pop() {
             boxes += 1;
-            let Some((face, side)) = undecided(criterion, gains, at) else { continue };
+            let Some((face, side)) = self.undecided(question, gains, at) else { continue };
             let large_enough = face[side].width() > SMALLEST * domain[side].width();
             if boxes >= BOXES || !large_enough {
                 return false;
@@ -206,6 +227,60 @@ impl ProcessIntervals {
             }
         }
         true
+    }
+
+    /// The excess as a function of the variables.
+    fn excess<T: Real>(&self, question: Question, gains: &Gains<f64>, variables: [T; VARIABLES]) -> T {
+        let process = self.shape.process(core::array::from_fn(|k| variables[k]));
+        let (omega, extra) = (variables[OMEGA], variables[EXTRA]);
+        if question.on_the_way {
+            let sooner = LinearProcess { delay_s: process.delay_s * extra, ..process };
+            question.criterion.excess(&sooner, gains, omega, T::one())
+        } else {
+            question.criterion.excess(&process, gains, omega, extra)
+        }
+    }
+
+    /// `None` where the excess is positive on the box; else a face of the box on which it is least, and the side of that face along
+    /// which it changes most.
+    fn undecided(
+        &self,
+        question: Question,
+        gains: &Gains<f64>,
+        mut at: [Interval; VARIABLES],
+    ) -> Option<([Interval; VARIABLES], usize)> {
+        loop {
+            if self.excess(question, gains, at).is_positive() {
+                return None;
+            }
+            let slopes = self.excess(question, gains, Gradient::variables(at)).slopes();
+            // A function that rises along a side is least at its lower end.
+            let mut fell = false;
+            for (side, slope) in at.iter_mut().zip(slopes) {
+                let end = if slope.lower() >= 0.0 {
+                    side.lower()
+                } else if slope.upper() <= 0.0 {
+                    side.upper()
+                } else {
+                    continue;
+                };
+                fell |= !side.is_point();
+                *side = Interval::point(end);
+            }
+            if fell {
+                continue;
+            }
+            // Mean value form: F(x) >= F(m) - sum |F'_i| r_i.
+            let middle = at.map(|side| Interval::point(side.midpoint()));
+            let form = (0..VARIABLES)
+                .filter(|k| !at[*k].is_point())
+                .fold(self.excess(question, gains, middle), |sum, k| sum + slopes[k] * (at[k] - middle[k]));
+            if form.is_positive() {
+                return None;
+            }
+            let size = |k: &usize| if at[*k].is_point() { -1.0 } else { slopes[*k].magnitude() * at[*k].width() };
+            return (0..VARIABLES).max_by(|a, b| size(a).total_cmp(&size(b))).map(|side| (at, side));
+        }
     }
 
     /// A frequency above which `|L|` is too small for the criterion to fail, for every process.
@@ -334,30 +409,46 @@ impl ProcessIntervals {
             RobustCriterion::Gain(_) | RobustCriterion::GainReduction(_) => 1.0 + (met - 1.0) * (1.0 - share),
             _ => met * (1.0 - share),
         });
-        let proved = numbers.into_iter().find(|number| self.excluded(gains, of(*number)));
+        let proved = numbers
+            .into_iter()
+            .find(|number| self.excluded(gains, Question { criterion: of(*number), on_the_way: false }));
         CriterionRange { proved, met }
     }
 }
 
 impl ProcessIntervals {
-    /// The corners of the box.
+    /// The process in the middle.
+    #[must_use]
+    pub fn middle(&self) -> LinearProcess<f64> {
+        self.shape.near(&self.process, [0.0; PARAMETERS])
+    }
+
+    /// The process at coordinates from -1 to 1, as many as directions or parameters; `None` where an inertia, a time or a delay is negative.
+    #[must_use]
+    pub fn at(&self, coordinates: [f64; PARAMETERS]) -> Option<LinearProcess<f64>> {
+        let near = self.shape.near(&self.process, coordinates);
+        let inside = near.parts().iter().zip(self.process.parts()).all(|(part, hull)| hull.contains(*part));
+        inside.then_some(near)
+    }
+
+    /// The corners; what is negative there and must not be is zero.
     #[must_use]
     pub fn corners(&self) -> Vec<LinearProcess<f64>> {
-        self.points().split_off(1)
+        let sides = self.shape.sides(&self.process);
+        let wide: Vec<usize> = (0..PARAMETERS).filter(|k| !sides[*k].is_point()).collect();
+        let corner = |bits: usize| {
+            let mut coordinates = [0.0; PARAMETERS];
+            for (place, &k) in wide.iter().enumerate() {
+                coordinates[k] = if bits >> place & 1 == 0 { -1.0 } else { 1.0 };
+            }
+            self.shape.near(&self.process, coordinates)
+        };
+        (0..1 << wide.len()).map(corner).collect()
     }
 
     /// Points of the box: its middle, and its corners.
     fn points(&self) -> Vec<LinearProcess<f64>> {
-        let parts = self.process.parts();
-        let wide: Vec<usize> = (0..PARAMETERS).filter(|k| !parts[*k].is_point()).collect();
-        let corner = |bits: usize| {
-            let mut corner = parts.map(Interval::midpoint);
-            for (place, &k) in wide.iter().enumerate() {
-                corner[k] = if bits >> place & 1 == 0 { parts[k].lower() } else { parts[k].upper() };
-            }
-            LinearProcess::from_parts(corner)
-        };
-        core::iter::once(self.process.middle()).chain((0..1 << wide.len()).map(corner)).collect()
+        core::iter::once(self.middle()).chain(self.corners()).collect()
     }
 
     /// Whether the middle and the corners of the box meet the criterion, up to rounding: no proof.
@@ -398,8 +489,8 @@ impl ProcessIntervals {
     /// A point of the box that is not proved to be stable.
     fn unstable_point(&self, gains: &Gains<f64>) -> Option<LinearProcess<f64>> {
         self.points().into_iter().find(|process| {
-            let point = Self { process: LinearProcess::from_parts(process.parts().map(Interval::point)) };
-            !point.all_stable(gains)
+            let process = LinearProcess::from_parts(process.parts().map(Interval::point));
+            !Self { process, shape: Shape::Box }.all_stable(gains)
         })
     }
 }
@@ -422,53 +513,6 @@ fn halves(whole: Interval, of_frequency: bool) -> (Interval, Interval) {
     match (Interval::new(low, middle), Interval::new(middle, high)) {
         (Some(lower), Some(upper)) => (lower, upper),
         _ => whole.bisect(),
-    }
-}
-
-/// `None` where the excess is positive on the box; else a face of the box on which it is least, and the side of that face along
-/// which it changes most.
-fn undecided(
-    criterion: RobustCriterion,
-    gains: &Gains<f64>,
-    mut at: [Interval; VARIABLES],
-) -> Option<([Interval; VARIABLES], usize)> {
-    let value = |at: &[Interval; VARIABLES]| {
-        let process = LinearProcess::from_parts(core::array::from_fn(|k| at[k]));
-        criterion.excess(&process, gains, at[OMEGA], at[EXTRA])
-    };
-    loop {
-        if value(&at).is_positive() {
-            return None;
-        }
-        let variables = Gradient::variables(at);
-        let process = LinearProcess::from_parts(core::array::from_fn(|k| variables[k]));
-        let slopes = criterion.excess(&process, gains, variables[OMEGA], variables[EXTRA]).slopes();
-        // A function that rises along a side is least at its lower end.
-        let mut fell = false;
-        for (side, slope) in at.iter_mut().zip(slopes) {
-            let end = if slope.lower() >= 0.0 {
-                side.lower()
-            } else if slope.upper() <= 0.0 {
-                side.upper()
-            } else {
-                continue;
-            };
-            fell |= !side.is_point();
-            *side = Interval::point(end);
-        }
-        if fell {
-            continue;
-        }
-        // Mean value form: F(x) >= F(m) - sum |F'_i| r_i.
-        let middle = at.map(|side| Interval::point(side.midpoint()));
-        let form = (0..VARIABLES)
-            .filter(|k| !at[*k].is_point())
-            .fold(value(&middle), |sum, k| sum + slopes[k] * (at[k] - middle[k]));
-        if form.is_positive() {
-            return None;
-        }
-        let size = |k: &usize| if at[*k].is_point() { -1.0 } else { slopes[*k].magnitude() * at[*k].width() };
-        return (0..VARIABLES).max_by(|a, b| size(a).total_cmp(&size(b))).map(|side| (at, side));
     }
 }
 

@@ -7,7 +7,7 @@ use rand_pcg::Pcg64Mcg;
 use selfosc::autotune::{
     Actions, Family, FirstOrderProcess, GainsWanted, ProcessError, ProcessReadings, ProcessRecord, rules, ultimate,
 };
-use selfosc::control::Gains;
+use selfosc::control::{Gains, LinearProcess};
 use selfosc::experiment::Record;
 use selfosc::numeric::Scalar;
 use selfosc::orbit::TwoLevelRelay;
@@ -272,16 +272,18 @@ fn sampled(seeds: impl Iterator<Item = u64>, sets: usize, draws: usize) -> (usiz
         let found = ProcessRecord::of(&record).unwrap();
         let Some(proved) = found.gains(record.interval_s(), &GainsWanted::default()) else { continue };
         let mut random = Pcg64Mcg::seed_from_u64(seed);
-        for set in found.sets(record.interval_s()).unwrap() {
-            let parts = set.process();
-            let sides = [parts.alpha, parts.drag, parts.stiffness, parts.zero_s, parts.delay_s];
+        for set in &proved.sets {
+            let numbers = |process: LinearProcess<f64>| {
+                [process.alpha, process.drag, process.stiffness, process.zero_s, process.delay_s]
+            };
             for _ in 0..draws {
-                let model = sides.map(|side| side.lower() + (side.upper() - side.lower()) * random.random::<f64>());
-                largest = largest.max(sensitivity_of(model, &proved.gains) / proved.sensitivity);
+                let coordinates = core::array::from_fn(|_| 2.0 * random.random::<f64>() - 1.0);
+                let Some(process) = set.at(coordinates) else { continue };
+                largest = largest.max(sensitivity_of(numbers(process), &proved.gains) / proved.sensitivity);
             }
-            let [alpha, drag, stiffness, zero_s, delay_s] = sides.map(|side| side.midpoint());
-            let peak = sensitivity_of([alpha, drag, stiffness, zero_s, 2.0 * delay_s], &proved.gains);
-            outside += usize::from(peak > proved.sensitivity);
+            let middle = set.middle();
+            let late = LinearProcess { delay_s: 2.0 * middle.delay_s, ..middle };
+            outside += usize::from(sensitivity_of(numbers(late), &proved.gains) > proved.sensitivity);
             seen += 1;
             if seen == sets {
                 return (seen, largest, outside);
@@ -301,8 +303,8 @@ fn curves_are_those_of_the_loop() {
         let record = truth.record(0.02 * swing, 0.02 * swing, seed);
         let found = ProcessRecord::of(&record).unwrap();
         let proved = found.gains(record.interval_s(), &GainsWanted::default()).unwrap();
-        let curves = found.curves(record.interval_s(), &proved).unwrap();
-        let middle = found.sets(record.interval_s()).unwrap()[0].process().middle();
+        let curves = proved.curves().unwrap();
+        let middle = proved.sets[0].middle();
         let model = [middle.alpha, middle.drag, middle.stiffness, middle.zero_s, middle.delay_s];
         for (omega, [re, im]) in curves.omega_rad_s.iter().zip(&curves.open_loop) {
             let wanted = open_loop_of(model, &proved.gains, *omega);
@@ -349,7 +351,8 @@ fn a_set_that_reaches_outside_has_no_gains() {
     let record = truth.record(0.0, 1e-3 * truth.gain, 4);
     let mut found = ProcessRecord::of(&record).unwrap();
     assert!(found.gains(record.interval_s(), &GainsWanted::default()).is_some());
-    let drag = &mut found.models[0].coefficients[1];
-    drag.std = drag.value;
+    let model = &mut found.models[0];
+    model.coefficients[1].std = model.coefficients[1].value;
+    model.covariance[1][1] = model.coefficients[1].value.powi(2);
     assert_eq!(found.gains(record.interval_s(), &GainsWanted { sensitivity: 3.0, ..GainsWanted::default() }), None);
 }

@@ -15,7 +15,7 @@ impl Autotuned {
         let input = self.log.record.input();
         let largest = input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let least = input.iter().copied().fold(f64::INFINITY, f64::min);
-        self.proved.map(|proved| form.lines(&proved.gains, self.sign(), largest - least, self.interval_s))
+        self.proved.as_ref().map(|proved| form.lines(&proved.gains, self.sign(), largest - least, self.interval_s))
     }
 
     /// The page of `--report`.
@@ -50,7 +50,7 @@ impl Autotuned {
             })
             .collect();
         let integrates = self.found.models[0].family.integrates();
-        let gains = self.proved.map(|proved| {
+        let gains = self.proved.as_ref().map(|proved| {
             json!({
                 "form": "parallel",
                 "proportional": sign * proved.gains.proportional(),
@@ -93,7 +93,7 @@ impl Autotuned {
             "gains": gains,
             // In the form asked for, which may have no such gains.
             "lines": self.lines(form).and_then(Result::ok),
-            "sensitivity": { "limit": self.limit, "proved_upper": self.proved.map(|proved| proved.sensitivity) },
+            "sensitivity": { "limit": self.limit, "proved_upper": self.proved.as_ref().map(|proved| proved.sensitivity) },
             "rules": rules,
             "curves": self.curves,
             "record": {

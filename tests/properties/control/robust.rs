@@ -189,3 +189,33 @@ fn parts_may_reach_zero() {
         assert!(ProcessIntervals::new(driven).is_ok_and(|processes| !processes.all_stable(&gains)));
     }
 }
+
+/// Of a parallelepiped no process inside exceeds its proved sensitivity, and its box has a process that does: what varies together counts.
+#[test]
+fn a_parallelepiped_is_proved_and_is_less_than_its_box() {
+    let centre = [1.0, 0.3, 0.1, 0.0, 0.0, 0.05, 0.0, 0.0, 0.2];
+    // A heavier process has the shorter delay.
+    let heavy = [0.2, 0.05, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -0.15];
+    let stiff = [0.02, 0.0, 0.05, 0.0, 0.0, 0.02, 0.0, 0.0, 0.01];
+    let gains = gains(0.0);
+    let set = ProcessIntervals::along(centre, &[heavy, stiff]).unwrap();
+    let proved = set.enclose(&gains, RobustCriterion::Sensitivity).unwrap().proved.unwrap();
+    let mut largest = 0.0_f64;
+    for k in 0..400_u32 {
+        let place = |step: u32| 2.0 * f64::from(step * k + 1).sqrt().fract() - 1.0;
+        let mut coordinates = [0.0; 9];
+        (coordinates[0], coordinates[1]) = (place(7), place(13));
+        let process = set.at(coordinates).unwrap();
+        largest = largest.max(sensitivity(&process, &gains));
+    }
+    assert!(largest <= proved && proved < 1.31 * largest, "{largest} {proved}");
+    let whole = ProcessIntervals::new(*set.process()).unwrap();
+    let worst = whole.corners().iter().map(|corner| sensitivity(corner, &gains)).fold(0.0, f64::max);
+    assert!(worst > 1.05 * proved, "{worst} {proved}");
+    assert!(!whole.all_have(&gains, RobustCriterion::Sensitivity(proved)));
+    // What would be negative and cannot is no process of the set.
+    let reaching = ProcessIntervals::along(centre, &[[0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.0]]).unwrap();
+    assert_eq!(reaching.process().lag_s.lower(), 0.0);
+    assert!(reaching.at([-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]).is_none());
+    assert!(reaching.corners().iter().all(|corner| corner.lag_s >= 0.0));
+}
