@@ -176,6 +176,8 @@ pub struct Figure {
     pub name: &'static str,
     /// Title above the panels.
     pub title: String,
+    /// What is drawn, and what to look at.
+    pub caption: &'static str,
     /// From top to bottom, but for those [beside](Panel::beside) the one before.
     pub panels: Vec<Panel>,
 }
