@@ -25,7 +25,7 @@ pub fn characteristics() -> Result<Document, ReportError> {
 }
 
 fn section(entry: &Entry) -> Result<Section, CatalogueError> {
-    let text = |paragraph: &str| paragraph.replace("**", "").replace('`', "").replace('\n', " ");
+    let text = |paragraph: &str| paragraph.replace('*', "").replace('\n', " ");
     Ok(Section {
         title: entry.name.to_owned(),
         paragraphs: entry.page.split("\n\n").filter(|p| !p.starts_with("Sketch:")).map(text).collect(),

@@ -40,7 +40,7 @@ nav ul { padding-left: 1.2rem; } a { color: inherit; }
 .answer { border-left: 0.4rem solid var(--first); padding: 0.1rem 0 0.1rem 1rem; }
 .answer p { margin: 0.5rem 0; } .answer p:first-child { font-size: 1.4rem; line-height: 1.3; }
 .wide { overflow-x: auto; overflow-wrap: normal; background: linear-gradient(90deg, var(--page) 2rem, transparent 4rem) local, linear-gradient(270deg, var(--page) 2rem, transparent 4rem) local,
-  linear-gradient(90deg, var(--shade), transparent 1rem), linear-gradient(270deg, var(--shade), transparent 1rem); }
+  linear-gradient(90deg, var(--shade), transparent 1rem, transparent calc(100% - 1rem), var(--shade)) 2px 2px / calc(100% - 4px) calc(100% - 4px) no-repeat; }
 math { display: inline math; font-size: 1.1em; }
 table { border-collapse: collapse; margin: 1rem 0; font-size: 0.9rem; }
 caption { text-align: left; font-weight: bold; padding-bottom: 0.4rem; }
@@ -53,12 +53,13 @@ svg [fill='#FFFFFF'] { fill: var(--page); } svg [stroke='#E1E1E1'] { stroke: var
 svg [fill='#0072B2'] { fill: var(--first); } svg [stroke='#0072B2'] { stroke: var(--first); }
 figcaption { font-size: 0.9rem; } figure p { font-size: 0.8rem; min-height: 1.7em; margin: 0; } figure button { font: inherit; margin-right: 0.6rem; }
 footer { border-top: 1px solid var(--line); margin-top: 3rem; font-size: 0.85rem; }
-@media (max-width: 480px) { body { margin: 1rem auto; padding: 0 0.6rem; } h1 { font-size: 1.5rem; } .answer p:first-child { font-size: 1.2rem; } td { white-space: normal; }
-  svg [font-size='150'], svg [font-size='170'] { font-size: 200px; } }
+@media (max-width: 480px) { body { margin: 1rem auto; padding: 0 0.6rem; } h1 { font-size: 1.5rem; } .answer p:first-child { font-size: 1.2rem; }
+  th, td { white-space: normal; padding-right: 0.5rem; } svg [font-size^='12'], svg [font-size^='13'] { font-size: 175px; }
+  svg [font-size^='129'] { font-size: 155px; } svg [font-size^='16'] { font-size: 200px; } }
 @media print {
   :root { --text: #000; --page: #fff; --line: #999; --faint: #ccc; --first: #0072b2; }
   body { max-width: none; margin: 0; font-size: 9.5pt; } nav, figure p { display: none; } h2 { margin-top: 1rem; }
-  figure, table { break-inside: avoid; margin: 0.6rem 0; } h2, caption { break-after: avoid; } .wide { overflow: visible; background: none; } figure svg { width: 92%; }
+  figure, table { break-inside: avoid; margin: 0.6rem 0; } h2, h2 + p, caption { break-after: avoid; } .wide { overflow: visible; background: none; } figure svg { width: 85%; }
 }
 ";
 
@@ -93,7 +94,7 @@ for (const figure of document.querySelectorAll('figure')) {
 ";
 
 /// Nothing is loaded, and of scripts only the page's own runs, by the SHA-256 of what stands between its tags.
-const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-7t7wGT+0BEEA5Bb22BAeY3CUBqeJH0v2o3qEhiFcMRg='; base-uri 'none'; form-action 'none'";
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-SaAGi9um7WTDhPvwOs3sWIo8HM3XAv2mPYLc4DX9FKo='; base-uri 'none'; form-action 'none'";
 
 impl Document {
     /// The document with lines that say where it comes from, after those it has.

@@ -148,12 +148,12 @@ impl ProcessPage<'_> {
                 parameters = parameters.row([
                     Cell::Text(model.family.name().to_owned()),
                     Cell::number(100.0 * model.weight, 1),
-                    Cell::Text((*name).to_owned()),
+                    Cell::Text(name.replace("_s", " (s)").replace('_', " ")),
                     Cell::Text(Uncertain::between(part.value, part.low, part.high).to_string()),
                 ]);
             }
         }
-        let columns = ["rule", "Kp", "Ki", "Kd", "sensitivity"];
+        let columns = ["rule", "proportional Kp", "integral Ki (1/s)", "derivative Kd (s)", "largest sensitivity"];
         let mut rules = Table::new("rules", "Rules of thumb on the likeliest process", &columns);
         let sign = if self.found.reverse { -1.0 } else { 1.0 };
         for rule in self.rules {

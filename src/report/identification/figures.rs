@@ -133,7 +133,7 @@ pub(super) fn budget_figure(found: &Identification) -> Option<Figure> {
     (!budget.is_empty()).then(|| Figure {
         name: "budget",
         title: "Errors that no residual shows".to_owned(),
-        caption: "Sizes are those of the table, or declared by --assume. Look at the longest bar: a shorter interval begins there.",
+        caption: "The longest bar is the first to shorten: the table has the remedy, and --assume declares another size.",
         panels: vec![panel],
     })
 }
@@ -160,12 +160,14 @@ pub(super) fn record(source: &Source, predicted: Option<&Predicted>, between: Op
     let command = points(record.input());
     let command = if evenly { command } else { held(&command) };
     let input = Panel::new("time (s)", "command").strip().with("command", Mark::Line, command);
-    Figure {
-        name: "record",
-        title: format!("Record and model, with the band of 95 % of readings{part}"),
-        caption: "Thin lines hold 95 % of the readings; below, the command. Look for swings that the line misses.",
-        panels: vec![output, input],
-    }
+    let (title, caption) = match predicted {
+        Some(_) => (
+            "Record and model, with the band of 95 % of readings",
+            "Thin lines hold 95 % of the readings; below, the command. Look for swings that the line misses.",
+        ),
+        None => ("Record", "Above, the readings; below, the command."),
+    };
+    Figure { name: "record", title: format!("{title}{part}"), caption, panels: vec![output, input] }
 }
 
 /// What the model leaves: over time, how it is distributed and hangs together, and the orbit.

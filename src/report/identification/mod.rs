@@ -42,20 +42,21 @@ pub fn document(found: &Identification) -> Document {
         ..Section::default()
     });
     let records = found.sources().iter().enumerate().flat_map(|(index, source)| record_sections(found, index, source));
-    let methods = Section {
+    let tables: Vec<Table> = method_tables(found).into_iter().chain(refused_table(found)).collect();
+    let methods = (!tables.is_empty()).then(|| Section {
         title: "Methods beside each other".to_owned(),
         paragraphs: vec![
             "The bars of the fits hold where their own drag law does; that of the answer also allows for what the record leaves open."
                 .to_owned(),
         ],
-        tables: method_tables(found).into_iter().chain(refused_table(found)).collect(),
+        tables,
         figures: figures::interval_figure(found).into_iter().collect(),
         ..Section::default()
-    };
+    });
     Document {
         title: "Identification from self-oscillations".to_owned(),
         answer: answer.lines().map(str::to_owned).collect(),
-        sections: std::iter::once(model).chain(errors).chain(records).chain([methods]).collect(),
+        sections: std::iter::once(model).chain(errors).chain(records).chain(methods).collect(),
         provenance: vec![concat!("Written by selfosc ", env!("CARGO_PKG_VERSION")).to_owned()],
     }
 }

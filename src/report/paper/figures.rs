@@ -59,7 +59,7 @@ pub(super) fn figure7() -> Figure {
 
 pub(super) fn figure9() -> Result<Figure, ReportError> {
     let map = thruster_figure::figure9()?;
-    let side = |fit: &FittedSide| format!("{:.2e} n^2 + {:.2e} abs(n)", fit.quadratic, fit.linear);
+    let side = |fit: &FittedSide| format!("{:.2e} n\u{b2} + {:.2e} |n|", fit.quadratic, fit.linear);
     let title = format!("Thrust ahead {}, astern {} (N)", side(&map.map.forward), side(&map.map.backward));
     let panel = Panel::new("thruster command n", "thrust (N)").with("readings", Mark::Dots, map.readings).with(
         "fit",
