@@ -176,7 +176,7 @@ pub struct Figure {
     pub name: &'static str,
     /// Title above the panels.
     pub title: String,
-    /// What is drawn, and what to look at.
+    /// Below the panels on a page: the quantities drawn and the feature to look for.
     pub caption: &'static str,
     /// From top to bottom, but for those [beside](Panel::beside) the one before.
     pub panels: Vec<Panel>,
