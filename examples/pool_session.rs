@@ -229,7 +229,8 @@ fn thruster_figure(points: &[DynamometerPoint], map: &ThrusterMap) -> Figure {
     let panel = Panel::new("command", "thrust / N")
         .with("dynamometer", Mark::Points, points.iter().map(|point| (point.command, point.thrust_n)))
         .with("fitted map", Mark::Line, fitted);
-    Figure { name: "thruster-map", title: "Thruster map".to_owned(), panels: vec![panel] }
+    let caption = "Readings of the dynamometer and the fitted map. Look at zero, where thrusters are weakest.";
+    Figure { name: "thruster-map", title: "Thruster map".to_owned(), caption, panels: vec![panel] }
 }
 
 fn step_figure(before: &Run, after: &Run) -> Figure {
@@ -245,6 +246,7 @@ fn step_figure(before: &Run, after: &Run) -> Figure {
     Figure {
         name: "heading-step",
         title: "Heading step before and after identification".to_owned(),
+        caption: "The same step with guessed gains and with gains from the identified axis. Look at the overshoot.",
         panels: vec![heading, moment],
     }
 }

@@ -25,12 +25,12 @@ pub fn characteristics() -> Result<Document, ReportError> {
 }
 
 fn section(entry: &Entry) -> Result<Section, CatalogueError> {
-    let text = |paragraph: &str| paragraph.replace("**", "").replace('`', "").replace('\n', " ");
+    let text = |paragraph: &str| paragraph.replace('*', "").replace('\n', " ");
     Ok(Section {
         title: entry.name.to_owned(),
         paragraphs: entry.page.split("\n\n").filter(|p| !p.starts_with("Sketch:")).map(text).collect(),
-        tables: Vec::new(),
         figures: vec![characteristic(entry)?],
+        ..Section::default()
     })
 }
 
@@ -46,7 +46,9 @@ pub fn characteristic(entry: &Entry) -> Result<Figure, CatalogueError> {
     let settings = entry.settings(&example.values).into_iter().filter(|(_, value)| *value != Setting::Number(0.0));
     let settings: Vec<_> = settings.map(|(name, value)| format!("{name} = {value}")).collect();
     let title = format!("{} ({})", entry.name, settings.join(", "));
-    Ok(Figure { name: entry.name, title, panels: vec![graph(entry, &example)?, curves(entry, &example)?.beside()] })
+    let caption = "Left, output over input, breakpoints and levels dashed. Right, mean output F_0 and gains P, Q.";
+    let panels = vec![graph(entry, &example)?, curves(entry, &example)?.beside()];
+    Ok(Figure { name: entry.name, title, caption, panels })
 }
 
 /// The output up and down again, with a line through each breakpoint or level that a parameter places.

@@ -176,6 +176,8 @@ pub struct Figure {
     pub name: &'static str,
     /// Title above the panels.
     pub title: String,
+    /// Below the panels on a page: the quantities drawn and the feature to look for.
+    pub caption: &'static str,
     /// From top to bottom, but for those [beside](Panel::beside) the one before.
     pub panels: Vec<Panel>,
 }
@@ -261,7 +263,10 @@ impl Figure {
     /// The drawing in the size of its pixels, with words for who cannot see it, and its axes for who points at it.
     fn described(&self, svg: &str, axes: &[String]) -> String {
         let places = axes.join(";");
-        let axes = self.panels.iter().map(|panel| format!("{} over {}", panel.y_label, panel.x_label));
+        let axes = self.panels.iter().map(|panel| match &*panel.y_label {
+            "" => panel.x_label.clone(),
+            y_label => format!("{y_label} over {}", panel.x_label),
+        });
         let words = format!("{}: {}", self.title, axes.collect::<Vec<_>>().join("; "));
         let (width, height) = (SIZE.0, self.height());
         let drawn = format!(r#"<svg width="{}" height="{}""#, px(width), px(height));
@@ -331,7 +336,7 @@ impl Panel {
                 .position(SeriesLabelPosition::UpperRight)
                 .margin(px(10))
                 .legend_area_size(px(30))
-                .label_font((FONT, px(15)))
+                .label_font((FONT, px(16)))
                 .background_style(WHITE.mix(0.9))
                 .border_style(RGBColor(200, 200, 200).stroke_width(FINE))
                 .draw()?;

@@ -57,7 +57,9 @@ pub fn nyquist(
         0 => panel,
         more => panel.with(&format!("{more} faster"), Mark::Points, fast.iter().map(|(_, point)| (point.re, point.im))),
     };
-    Ok(Figure { name: "nyquist", title: "Harmonic balance: G(jw) = -1/N(X)".to_owned(), panels: vec![panel] })
+    let caption =
+        "Where the curves cross, an oscillation is predicted: its frequency from G(jw), its amplitude X from -1/N(X).";
+    Ok(Figure { name: "nyquist", title: "Harmonic balance: G(jw) = -1/N(X)".to_owned(), caption, panels: vec![panel] })
 }
 
 /// Two points near the middle of a curve's length, in its direction; none of a curve without length.

@@ -95,7 +95,10 @@ impl ProcessPage<'_> {
         let command: Vec<(f64, f64)> =
             pairs(input).windows(2).flat_map(|pair| [pair[0], (pair[1].0, pair[0].1)]).collect();
         let command = Panel::new("time (s)", input_name).strip().with("command", Mark::Line, command);
-        let figure = Figure { name: "record", title: "Record and model".to_owned(), panels: vec![readings, command] };
+        let title = "Record and model".to_owned();
+        let caption =
+            "Above, readings and the likeliest process; below, the command. Look for swings that the line misses.";
+        let figure = Figure { name: "record", title, caption, panels: vec![readings, command] };
         Some(Section { title: "Record".to_owned(), figures: vec![figure], ..Section::default() })
     }
 
@@ -126,9 +129,13 @@ impl ProcessPage<'_> {
                 pairs(&mut curves.load_step_range.iter().map(|r| r[0])),
             )
             .with("", Mark::Dashed, pairs(&mut curves.load_step_range.iter().map(|r| r[1])));
+        let figure =
+            |name, title: &str, caption, panel| Figure { name, title: title.to_owned(), caption, panels: vec![panel] };
+        let margin = "No curve enters the dashed circle about the critical point: its radius is the proved margin.";
+        let load = "Output after a step of the load. The lower the peak and the sooner it is over, the better.";
         let figures = vec![
-            Figure { name: "nyquist", title: "Open loop".to_owned(), panels: vec![plane] },
-            Figure { name: "load", title: "Answer to a load of one command unit".to_owned(), panels: vec![answer] },
+            figure("nyquist", "Open loop", margin, plane),
+            figure("load", "Answer to a load of one command unit", load, answer),
         ];
         Some(Section { title: "Loop".to_owned(), figures, ..Section::default() })
     }
@@ -141,12 +148,12 @@ impl ProcessPage<'_> {
                 parameters = parameters.row([
                     Cell::Text(model.family.name().to_owned()),
                     Cell::number(100.0 * model.weight, 1),
-                    Cell::Text((*name).to_owned()),
+                    Cell::Text(name.replace("_s", " (s)").replace('_', " ")),
                     Cell::Text(Uncertain::between(part.value, part.low, part.high).to_string()),
                 ]);
             }
         }
-        let columns = ["rule", "Kp", "Ki", "Kd", "sensitivity"];
+        let columns = ["rule", "proportional Kp", "integral Ki (1/s)", "derivative Kd (s)", "largest sensitivity"];
         let mut rules = Table::new("rules", "Rules of thumb on the likeliest process", &columns);
         let sign = if self.found.reverse { -1.0 } else { 1.0 };
         for rule in self.rules {

@@ -1,5 +1,7 @@
 //! One table, in several notations.
 
+use pulldown_latex::config::{DisplayMode, RenderConfig};
+use pulldown_latex::{Parser, Storage, push_mathml};
 use serde_json::{Map, Value, json};
 
 use super::ReportError;
@@ -236,7 +238,7 @@ impl Table {
             let class = if self.is_right(column) { " class=\"number\"" } else { "" };
             format!("<{tag}{class}>{content}</{tag}>")
         };
-        let formula = |formula: Expression| format!("<code>{}</code>", escaped_html(&formula.to_string()));
+        let formula = |formula: Expression| math_html(&formula.latex());
         let heading: String =
             self.columns.iter().enumerate().map(|(i, column)| cell("th", i, escaped_html(column))).collect();
         let row = |row: &Vec<Cell>| {
@@ -262,6 +264,15 @@ impl Table {
     fn is_right(&self, column: usize) -> bool {
         self.rows.iter().all(|row| row[column].is_number())
     }
+}
+
+/// LaTeX as MathML, which a browser sets by itself.
+pub(super) fn math_html(latex: &str) -> String {
+    let (storage, mut math) = (Storage::new(), String::new());
+    let config = RenderConfig { display_mode: DisplayMode::Block, ..RenderConfig::default() };
+    // A text takes all that is written, and an error stands in the page where it was read.
+    let _ = push_mathml(&mut math, Parser::new(latex, &storage), config);
+    math
 }
 
 /// Text as HTML has it, squares and cubes as superscripts.

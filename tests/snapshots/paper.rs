@@ -37,6 +37,19 @@ fn table_3_in_latex() {
     golden!("table3-latex", std::fs::read_to_string(folder.path().join("table3.tex")).unwrap());
 }
 
+/// Formulas are MathML, every figure is explained, every column has a name.
+#[test]
+fn the_page_explains_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    reproduce(&["--out", folder.path().to_str().unwrap()]);
+    let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
+    // Equation 6, Tables 2 and 3, and their symbols.
+    assert_eq!(page.matches("<math").count(), 1 + 4 * 3 + 8 + 2 * 5 + 8);
+    assert!(!page.contains("<merror"));
+    assert_eq!(page.matches("<svg").count(), page.matches("<figcaption>").count());
+    assert!(!page.contains("<figcaption></figcaption>") && !page.contains("<th></th>"));
+}
+
 #[test]
 fn table_4() {
     golden!("table4", reproduce(&["--only", "table4"]));

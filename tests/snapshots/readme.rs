@@ -88,22 +88,28 @@ fn the_first_answer_is_the_one_shown() {
     }
 }
 
-/// With `SELFOSC_WRITE_TABLES=1` the picture is written instead.
+/// With `SELFOSC_WRITE_TABLES=1` the pictures are written instead. The first is README's, too.
 #[test]
-fn the_picture_is_the_report_s() {
+fn the_gallery_is_the_program_s() {
     let folder = folder_with_fixtures();
-    let output = shell("selfosc identify fixtures/pool/heading.csv --report report.html", folder.path());
-    assert!(output.status.success());
-    let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
-    let (from, to) = (page.find("<svg").unwrap(), page.find("</svg>").unwrap());
-    let picture = format!("{}</svg>\n", &page[from..to]);
-    if std::env::var_os("SELFOSC_WRITE_TABLES").is_some() {
-        std::fs::write("spec/figures/pool.svg", &picture).unwrap();
+    let between = |text: &str, from: &str, to: &str| {
+        text.split_once(from).and_then(|(_, rest)| rest.split_once(to)).unwrap().0.to_owned()
+    };
+    for part in include_str!("../../spec/gallery.md").split("\n## ").skip(1) {
+        let command = between(part, "```sh\n", "\n");
+        let output = shell(&command, folder.path());
+        assert!(output.status.success(), "{command}\n{}", String::from_utf8_lossy(&output.stderr));
+        let page = std::fs::read_to_string(folder.path().join(command.rsplit(' ').next().unwrap())).unwrap();
+        let title = between(part, "![", "]");
+        let titled = |svg: &&str| svg.contains(&format!("aria-label=\"{title}"));
+        let drawn = page.split("<svg").find(titled).and_then(|svg| svg.split_once("</svg>"));
+        let picture = format!("<svg{}</svg>\n", drawn.unwrap_or_else(|| panic!("no figure {title}")).0);
+        let file = format!("spec/{}", between(part, "](", ")"));
+        if std::env::var_os("SELFOSC_WRITE_TABLES").is_some() {
+            std::fs::write(&file, &picture).unwrap();
+        }
+        assert!(std::fs::read_to_string(&file).unwrap() == picture, "{file} is another picture");
     }
-    assert!(
-        std::fs::read_to_string("spec/figures/pool.svg").unwrap() == picture,
-        "spec/figures/pool.svg is another picture"
-    );
 }
 
 /// The sample log is what the command beside it makes.

@@ -116,7 +116,25 @@ pub(super) fn interval_figure(found: &Identification) -> Option<Figure> {
     (!panels.is_empty()).then(|| Figure {
         name: "intervals",
         title: "Every method, with 95 % intervals".to_owned(),
+        caption: "Dot: value. Bar: interval if the model is exact. Thin line: practical interval. The answer is on top.",
         panels,
+    })
+}
+
+/// Each source of error by its share, a bar each.
+#[allow(clippy::cast_precision_loss, reason = "a number of rows")]
+pub(super) fn budget_figure(found: &Identification) -> Option<Figure> {
+    let budget = &found.reported()?.budget;
+    let named = budget.iter().map(|entry| entry.source.clone().into_owned());
+    let panel = Panel::new("half-width of alpha's interval by this source alone (% of alpha)", "").rows(named);
+    let bars = budget.iter().enumerate().map(|(row, entry)| [(0.0, row as f64), (entry.share_percent, row as f64)]);
+    let panel =
+        bars.fold(panel, |panel, bar| panel.with("", Mark::Line, bar).with("", Mark::Dots, bar.into_iter().skip(1)));
+    (!budget.is_empty()).then(|| Figure {
+        name: "budget",
+        title: "Errors that no residual shows".to_owned(),
+        caption: "The longest bar is the first to shorten: the table has the remedy, and --assume declares another size.",
+        panels: vec![panel],
     })
 }
 
@@ -142,11 +160,14 @@ pub(super) fn record(source: &Source, predicted: Option<&Predicted>, between: Op
     let command = points(record.input());
     let command = if evenly { command } else { held(&command) };
     let input = Panel::new("time (s)", "command").strip().with("command", Mark::Line, command);
-    Figure {
-        name: "record",
-        title: format!("Record and model, with the band of 95 % of readings{part}"),
-        panels: vec![output, input],
-    }
+    let (title, caption) = match predicted {
+        Some(_) => (
+            "Record and model, with the band of 95 % of readings",
+            "Thin lines hold 95 % of the readings; below, the command. Look for swings that the line misses.",
+        ),
+        None => ("Record", "Above, the readings; below, the command."),
+    };
+    Figure { name: "record", title: format!("{title}{part}"), caption, panels: vec![output, input] }
 }
 
 /// What the model leaves: over time, how it is distributed and hangs together, and the orbit.
@@ -171,7 +192,8 @@ fn residual_figure(source: &Source, predicted: &Predicted) -> Figure {
         .with("twice their rms", Mark::Dashed, level(band))
         .with("", Mark::Dashed, level(-band))
         .with("", Mark::Line, level(0.0));
-    Figure { name: "residuals", title: format!("Residuals{part}"), panels: vec![panel] }
+    let caption = "Noise between the dashes, without a pattern, is good; waves are motion that the model lacks.";
+    Figure { name: "residuals", title: format!("Residuals{part}"), caption, panels: vec![panel] }
 }
 
 /// Bars of the histogram of residuals, and lags of their correlation.
@@ -220,6 +242,7 @@ fn distribution_figure(source: &Source, predicted: &Predicted) -> Option<Figure>
     Some(Figure {
         name: "distribution",
         title: "Residuals: distribution, correlation with residuals and commands before".to_owned(),
+        caption: "Above, samples by residual. Below, dots beyond the dashes show motion that the model lacks.",
         panels: vec![histogram, correlations("residuals", residuals, 1), correlations("commands", &command, 0)],
     })
 }
@@ -235,7 +258,8 @@ fn phase_figure(source: &Source, predicted: &Predicted) -> Figure {
         Mark::Line,
         speeds(time, model, 1),
     );
-    Figure { name: "phase", title: format!("Phase portrait{part}"), panels: vec![panel] }
+    let caption = "A steady oscillation is a closed curve. Where dots and line part, the model moves otherwise.";
+    Figure { name: "phase", title: format!("Phase portrait{part}"), caption, panels: vec![panel] }
 }
 
 /// Samples on either side of one over which rounding does not drown its rate: up to a fortieth of the period.

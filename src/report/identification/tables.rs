@@ -68,6 +68,9 @@ pub(crate) fn feature_table(source: &Source) -> Option<Table> {
     let title = format!("Features over {} steady cycles", f.cycles);
     let table = Table::new("features", &title, &["feature", "mean", "spread"]);
     let row = |table: Table, name: &str, spread: &CycleStatistics<f64>| {
+        if spread.std < NOTHING * spread.mean.abs() {
+            return table.row([name.into(), cell(spread.mean), cell(0.0)]);
+        }
         let Uncertain { value, half_width, .. } = Uncertain::new(spread.mean, spread.std);
         table.row([name.into(), Cell::Text(value), Cell::Text(half_width)])
     };

@@ -19,7 +19,8 @@ pub(super) fn quantisation() -> Figure {
         .with("beta (eq. 38)", Mark::Line, curve(|point| point.sensitivity.beta))
         .with("beta_xx (eq. 39)", Mark::Line, curve(|point| point.sensitivity.beta_quadratic))
         .with("X_m = sqrt(2) x_a", Mark::Dots, [zero]);
-    Figure { name: "quantisation", title: "Sensitivity to the amplitude".to_owned(), panels: vec![panel] }
+    let caption = "Relative error of a parameter per that of the amplitude. Only the inertia's curve crosses zero.";
+    Figure { name: "quantisation", title: "Sensitivity to the amplitude".to_owned(), caption, panels: vec![panel] }
 }
 
 pub(super) fn figure5() -> Result<Figure, ReportError> {
@@ -27,7 +28,9 @@ pub(super) fn figure5() -> Result<Figure, ReportError> {
     let panel = Panel::new("relay input e (units of x_a)", "relay output u (units of C)")
         .with("e rising", Mark::Line, rising)
         .with("e falling", Mark::Dashed, falling);
-    Ok(Figure { name: "fig5", title: "Relay with hysteresis, level offset d = 0.3 C".to_owned(), panels: vec![panel] })
+    let caption = "Output over input, up along the line and down along the dashes. The offset raises both levels.";
+    let title = "Relay with hysteresis, level offset d = 0.3 C".to_owned();
+    Ok(Figure { name: "fig5", title, caption, panels: vec![panel] })
 }
 
 pub(super) fn figure6() -> Result<Figure, ReportError> {
@@ -38,7 +41,9 @@ pub(super) fn figure6() -> Result<Figure, ReportError> {
         .with("output u", Mark::Line, output)
         .with("switching levels", Mark::Dashed, level(half_width))
         .with("", Mark::Dashed, level(-half_width));
-    Ok(Figure { name: "fig6", title: "Relay under a biased sinusoid".to_owned(), panels: vec![panel] })
+    let caption =
+        "The output jumps where the input passes a dashed level. The bias makes the upper output last longer.";
+    Ok(Figure { name: "fig6", title: "Relay under a biased sinusoid".to_owned(), caption, panels: vec![panel] })
 }
 
 pub(super) fn figure7() -> Figure {
@@ -48,19 +53,21 @@ pub(super) fn figure7() -> Figure {
         .with("samples", Mark::Dots, samples)
         .with("preset level 3", Mark::Dashed, [(0.0, preset_level), (11.0, preset_level)])
         .with("switches here, at 6.57", Mark::Dots, [switching]);
-    Figure { name: "fig7", title: "Late switching of a sampled relay".to_owned(), panels: vec![panel] }
+    let caption = "The relay sees the samples alone. The first above the preset level is at 6.57: there it switches.";
+    Figure { name: "fig7", title: "Late switching of a sampled relay".to_owned(), caption, panels: vec![panel] }
 }
 
 pub(super) fn figure9() -> Result<Figure, ReportError> {
     let map = thruster_figure::figure9()?;
-    let side = |fit: &FittedSide| format!("{:.2e} n^2 + {:.2e} abs(n)", fit.quadratic, fit.linear);
+    let side = |fit: &FittedSide| format!("{:.2e} n\u{b2} + {:.2e} |n|", fit.quadratic, fit.linear);
     let title = format!("Thrust ahead {}, astern {} (N)", side(&map.map.forward), side(&map.map.backward));
     let panel = Panel::new("thruster command n", "thrust (N)").with("readings", Mark::Dots, map.readings).with(
         "fit",
         Mark::Line,
         map.fitted,
     );
-    Ok(Figure { name: "fig9", title, panels: vec![panel] })
+    let caption = "Readings and their fit, quadratic and linear on either side. Look at the sides' difference.";
+    Ok(Figure { name: "fig9", title, caption, panels: vec![panel] })
 }
 
 fn response(name: &'static str, title: &str, response: Response) -> Figure {
@@ -75,7 +82,8 @@ fn response(name: &'static str, title: &str, response: Response) -> Figure {
         .with("preset levels", Mark::Dashed, level(half_width_deg))
         .with("", Mark::Dashed, level(-half_width_deg));
     let below = Panel::new("time (s)", "command (1e-2 N m)").with("command", Mark::Line, command);
-    Figure { name, title: title.to_owned(), panels: vec![above, below] }
+    let caption = "Delay and inertia carry the heading past the dashed level. Dots are readings of a row of Table 4.";
+    Figure { name, title: title.to_owned(), caption, panels: vec![above, below] }
 }
 
 impl Reproduction {
@@ -104,7 +112,8 @@ impl Reproduction {
         let drag = panel(drag, "beta_r", |e| e.percent.beta_r, |e| e.bound_percent.beta_r);
         let drag = panel(drag, "beta_rr", |e| e.percent.beta_rr, |e| e.bound_percent.beta_rr);
         let title = "Errors against the mean, bounds by a compass step of 1 degree";
-        Figure { name: "fig14", title: title.to_owned(), panels: vec![alpha, drag] }
+        let caption = "Experiments against their mean. The compass's rounding alone explains dots between the dashes.";
+        Figure { name: "fig14", title: title.to_owned(), caption, panels: vec![alpha, drag] }
     }
 
     pub(super) fn figure15(&self) -> Figure {
@@ -116,6 +125,8 @@ impl Reproduction {
             .with("correct", mark, bars(-0.24, |counts| counts.correct))
             .with("wrong", mark, bars(0.0, |counts| counts.wrong))
             .with("undecided", mark, bars(0.24, |counts| counts.undecided));
-        Figure { name: "fig15", title: "Drag law decided from two experiments".to_owned(), panels: vec![panel] }
+        let title = "Drag law decided from two experiments".to_owned();
+        let caption = "Verdicts under each criterion. With a larger margin fewer are wrong, more pairs undecided.";
+        Figure { name: "fig15", title, caption, panels: vec![panel] }
     }
 }

@@ -69,6 +69,7 @@ pub struct Part {
     pub name: &'static str,
     title: &'static str,
     about: &'static str,
+    equations: &'static [&'static str],
     tables: fn(&Reproduction) -> Result<Vec<Table>, ReportError>,
     figures: fn(&Reproduction) -> Result<Vec<Figure>, ReportError>,
 }
@@ -90,6 +91,7 @@ impl Part {
         Ok(Section {
             title: self.title.to_owned(),
             paragraphs: vec![self.about.to_owned()],
+            equations: self.equations.to_vec(),
             tables: self.tables(reproduction)?,
             figures: (self.figures)(reproduction)?,
         })
@@ -102,14 +104,19 @@ impl std::fmt::Debug for Part {
     }
 }
 
+/// A part without content.
+const NOTHING: Part =
+    Part { name: "", title: "", about: "", equations: &[], tables: |_| Ok(Vec::new()), figures: |_| Ok(Vec::new()) };
+
 /// Every part, in the order of the paper.
 pub const PARTS: &[Part] = &[
     Part {
         name: "table2",
         title: "Table 2: uncoupled axes",
-        about: "Each axis obeys alpha nu' + beta(nu) nu = delta + tau; derivatives of the hydrodynamic force are negative.",
-        tables: |_| Ok(vec![tables::table2()]),
-        figures: |_| Ok(Vec::new()),
+        about: "Each axis obeys eq. 6, nu its speed and tau its command; derivatives of the hydrodynamic force are negative.",
+        equations: &[r"\alpha \dot\nu + \beta(\nu)\, \nu = \delta + \tau"],
+        tables: |_| Ok(vec![tables::table2(), tables::symbols("table2-symbols", 0)]),
+        ..NOTHING
     },
     Part {
         name: "table3",
@@ -117,7 +124,7 @@ pub const PARTS: &[Part] = &[
         about: "The formulas are printed by the functions that the program identifies with, evaluated over symbols. P and Q are \
                 those of a relay with hysteresis whose sweep passes both switching levels (condition 40).",
         tables: |reproduction| reproduction.table3(),
-        figures: |_| Ok(Vec::new()),
+        ..NOTHING
     },
     Part {
         name: "table4",
@@ -125,7 +132,7 @@ pub const PARTS: &[Part] = &[
         about: "Recomputed from the printed relay levels, switching levels, amplitudes, biases and periods, with a delay of \
                 0.2 s, beside what is printed.",
         tables: |reproduction| Ok(vec![reproduction.parameters_table(), reproduction.table4()]),
-        figures: |_| Ok(Vec::new()),
+        ..NOTHING
     },
     Part {
         name: "quantisation",
@@ -133,50 +140,51 @@ pub const PARTS: &[Part] = &[
         about: "At X_m = sqrt(2) x_a the inertia is insensitive, to first order, to an error of the amplitude.",
         tables: |_| Ok(vec![tables::quantisation()]),
         figures: |_| Ok(vec![figures::quantisation()]),
+        ..NOTHING
     },
     Part {
         name: "fig5",
         title: "Fig. 5: relay with hysteresis and level offset",
         about: "Drawn for C = 1, x_a = 1, d = 0.3.",
-        tables: |_| Ok(Vec::new()),
         figures: |_| Ok(vec![figures::figure5()?]),
+        ..NOTHING
     },
     Part {
         name: "fig6",
         title: "Fig. 6: output under a biased sinusoid",
         about: "The same relay under 0.4 + 2 sin: a bias of the input makes the output asymmetric in time.",
-        tables: |_| Ok(Vec::new()),
         figures: |_| Ok(vec![figures::figure6()?]),
+        ..NOTHING
     },
     Part {
         name: "fig7",
         title: "Fig. 7: late switching in discrete time",
         about: "A relay set to 3 that sees 2.15 and then 6.57 switches at 6.57: the level to compute with is the measured one.",
-        tables: |_| Ok(Vec::new()),
         figures: |_| Ok(vec![figures::figure7()]),
+        ..NOTHING
     },
     Part {
         name: "fig9",
         title: "Fig. 9 (b): thruster map",
         about: "The paper prints no coefficients: readings are those of this project's own pool vehicle, rounded to 0.1 N.",
-        tables: |_| Ok(Vec::new()),
         figures: |_| Ok(vec![figures::figure9()?]),
+        ..NOTHING
     },
     Part {
         name: "fig12",
         title: "Fig. 12: responses in an experiment, simulated",
         about: "Simulated, not measured: the quadratic drag of all experiments together (delay 0.2 s), C = 8.23e-2 N m, half-width \
                 10 degrees, a disturbance of 0.5e-2 N m; compass in whole degrees, a command held for 0.1 s, delays of 0.1 s each way.",
-        tables: |_| Ok(Vec::new()),
         figures: |reproduction| Ok(vec![reproduction.figure12()?]),
+        ..NOTHING
     },
     Part {
         name: "fig13",
         title: "Fig. 13: no hysteresis, simulated",
         about: "Simulated as Fig. 12 with half-width 0: sampling and delay alone keep a small oscillation of few degrees, which the \
                 method cannot use.",
-        tables: |_| Ok(Vec::new()),
         figures: |reproduction| Ok(vec![reproduction.figure13()?]),
+        ..NOTHING
     },
     Part {
         name: "fig14",
@@ -184,6 +192,7 @@ pub const PARTS: &[Part] = &[
         about: "Errors of the printed parameters against their means; bounds from eqs. 37-39 for an amplitude error of 1 degree.",
         tables: |reproduction| Ok(vec![reproduction.figure14_table()]),
         figures: |reproduction| Ok(vec![reproduction.figure14()]),
+        ..NOTHING
     },
     Part {
         name: "fig15",
@@ -191,6 +200,7 @@ pub const PARTS: &[Part] = &[
         about: "All pairs with different relay levels, decided by eqs. 41-42; quadratic drag counts as correct.",
         tables: |reproduction| Ok(vec![reproduction.figure15_table()]),
         figures: |reproduction| Ok(vec![reproduction.figure15()]),
+        ..NOTHING
     },
     Part {
         name: "joint",
@@ -198,7 +208,7 @@ pub const PARTS: &[Part] = &[
         about: "One vehicle for all 19 experiments, exact limit cycles in place of first harmonics, least squares of ln T and ln X_m: \
                 first with the paper's delay of 0.2 s, then with the delay estimated too.",
         tables: |reproduction| Ok(vec![reproduction.joint_table()]),
-        figures: |_| Ok(Vec::new()),
+        ..NOTHING
     },
     Part {
         name: "audit",
@@ -209,6 +219,6 @@ pub const PARTS: &[Part] = &[
         tables: |reproduction| {
             Ok(vec![reproduction.audit_summary(), reproduction.consistency_table(), reproduction.audit_table()])
         },
-        figures: |_| Ok(Vec::new()),
+        ..NOTHING
     },
 ];

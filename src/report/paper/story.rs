@@ -37,11 +37,11 @@ impl Reproduction {
         ];
         let open = |group: &&Group| group.agreeing() < group.items.len();
         let table =
-            super::Table::new("disagreements", "Where print and computation part", &["printed", "agree", "why"]);
+            super::Table::new("disagreements", "Where print and computation part", &["quantity", "agree", "why"]);
         let table = self.audit.iter().filter(open).fold(table, |table, group| {
             table.row([group.name.as_str(), &self.tally(&group.name), &group.note].map(Cell::from))
         });
-        Section { title: "What was found".to_owned(), paragraphs, tables: vec![table], figures: Vec::new() }
+        Section { title: "What was found".to_owned(), paragraphs, tables: vec![table], ..Section::default() }
     }
 
     /// How many of a group agree; nothing of a group that is not there.

@@ -1,15 +1,48 @@
 //! The regenerated paper's tables.
 
 use super::Reproduction;
-use crate::numeric::Expression;
+use crate::numeric::{Expression, Interval};
 use crate::paper::consistency::Verdict;
 use crate::paper::figure15::CRITERIA;
 use crate::paper::quantisation::{curves, figure14};
 use crate::paper::{table2, table3, table4};
 use crate::report::{Cell, ReportError, Table};
 
+/// Units of Table 4's parameters.
+const UNITS: &str = "Units: alpha 1e-4 N m/(deg/s^2), beta_r 1e-4 N m/(deg/s), beta_rr 1e-5 N m/(deg/s)^2.";
+
+/// Symbols of Tables 2 and 3 with their LaTeX, meanings and units.
+#[rustfmt::skip]
+const SYMBOLS: [[[&str; 4]; 8]; 2] = [[
+    ["m", "m", "mass; I_z, moment of inertia", "kg; kg m^2"],
+    ["u", "u", "speed of surge; v sway, w heave, r yaw", "m/s; rad/s"],
+    ["X_udot", r"X_{\dot u}", "hydrodynamic force per acceleration", "kg; kg m^2"],
+    ["X_u", "X_u", "hydrodynamic force per speed", "N/(m/s); N m/(rad/s)"],
+    ["X_uu", r"X_{u|u|}", "hydrodynamic force per squared speed", "N/(m/s)^2; N m/(rad/s)^2"],
+    ["tau_XE", r"\tau_{XE}", "constant external force", "N; N m"],
+    ["W", "W", "weight", "N"],
+    ["B", "B", "buoyancy", "N"],
+], [
+    ["C", "C", "relay level", "N; N m"],
+    ["x_a", "x_a", "output at which the relay switches", "m; rad"],
+    ["X_m", "X_m", "amplitude of the output", "m; rad"],
+    ["x_0", "x_0", "bias of the output", "m; rad"],
+    ["w", r"\omega", "frequency of the oscillation", "rad/s"],
+    ["T_d", "T_d", "delay of the loop", "s"],
+    ["t_plus", "t_+", "time per period at command +C", "s"],
+    ["t_minus", "t_-", "time per period at command -C", "s"],
+]];
+
+pub(super) fn symbols(name: &'static str, of: usize) -> Table {
+    let table = Table::new(name, "Symbols", &["symbol", "meaning", "unit"]);
+    SYMBOLS[of].into_iter().fold(table, |table, [text, latex, meaning, unit]| {
+        table.row([Expression::symbol(text, latex, Interval::ENTIRE).into(), meaning.into(), unit.into()])
+    })
+}
+
 pub(super) fn table2() -> Table {
-    let table = Table::new("table2", "Uncoupled axes (eq. 6)", &["axis", "alpha", "-beta(nu)", "delta"]);
+    let columns = ["axis", "inertia alpha", "drag -beta(nu)", "disturbance delta"];
+    let table = Table::new("table2", "Uncoupled axes (eq. 6)", &columns);
     table2::formulas().into_iter().fold(table, |table, (axis, terms)| {
         let name = format!("{axis:?}").to_lowercase();
         table.row([Cell::Text(name), terms.alpha.into(), terms.minus_beta.into(), terms.delta.into()])
@@ -17,7 +50,7 @@ pub(super) fn table2() -> Table {
 }
 
 pub(super) fn quantisation() -> Table {
-    let columns = ["X_m/x_a", "alpha (% per %)", "beta (% per %)", "beta_xx (% per %)"];
+    let columns = ["amplitude X_m/x_a", "inertia (% per %)", "linear drag (% per %)", "quadratic drag (% per %)"];
     curves().into_iter().fold(
         Table::new("quantisation", "Error per error of the amplitude", &columns),
         |table, point| {
@@ -37,20 +70,26 @@ pub(super) fn quantisation() -> Table {
 impl Reproduction {
     /// Formulas without and with delay, and their values for an experiment of Table 4 in SI units per degree.
     pub(super) fn table3(&self) -> Result<Vec<Table>, ReportError> {
-        let quantities =
-            ["alpha", "beta (linear drag)", "beta_xx (quadratic drag)", "delta (bias of the input)", "delta (times)"];
+        let quantities = [
+            ("inertia alpha", "N s^2/m"),
+            ("linear drag beta", "N s/m"),
+            ("quadratic drag beta_xx", "N s^2/m^2"),
+            ("disturbance delta, by the bias", "N"),
+            ("disturbance delta, by the times", "N"),
+        ];
         let listed = |table: &table3::Table3<Expression>| {
             let p = table.parameters;
             [p.alpha, p.beta, p.beta_quadratic, p.disturbance, table.disturbance_from_times]
         };
         let formulas = |name, title, delayed| -> Result<Table, ReportError> {
-            let table = Table::new(name, title, &["parameter", "formula"]);
+            let table = Table::new(name, title, &["parameter", "unit", "formula"]);
             let rows = quantities.into_iter().zip(listed(&table3::formulas(delayed)?));
-            Ok(rows.fold(table, |table, (quantity, formula)| table.row([quantity.into(), formula.into()])))
+            Ok(rows.fold(table, |table, ((name, unit), formula)| table.row([name.into(), unit.into(), formula.into()])))
         };
         Ok(vec![
             formulas("table3", "Formulas without delay", false)?,
             formulas("table3-delay", "Formulas with the delay corrected (eq. 34)", true)?,
+            symbols("table3-symbols", 1).note("Of yaw, N m stands for N and rad for m."),
         ])
     }
 
@@ -61,8 +100,9 @@ impl Reproduction {
             let values = yaw.named().map(|(_, value)| Cell::number(value, 2));
             [Cell::from(name)].into_iter().chain(values)
         };
-        let columns = ["", "alpha (1e-4)", "beta_r (1e-4)", "beta_rr (1e-5)"];
-        Table::new("table4-means", "Table 4: 19 experiments on the yaw axis (N m, degrees, seconds)", &columns)
+        let columns = ["statistic", "inertia alpha", "linear drag beta_r", "quadratic drag beta_rr"];
+        Table::new("table4-means", "Table 4: 19 experiments on the yaw axis", &columns)
+            .note(UNITS)
             .row(row("mean, printed rows", t.mean))
             .row(row("mean, recomputed rows", t.recomputed_mean))
             .row(row("spread in %, printed rows", t.std_percent))
@@ -72,16 +112,16 @@ impl Reproduction {
     pub(super) fn table4(&self) -> Table {
         let columns = [
             "experiment",
-            "alpha",
+            "inertia alpha",
             "alpha printed",
             "alpha raised",
-            "beta_r",
+            "linear drag beta_r",
             "beta_r printed",
-            "beta_rr",
+            "quadratic drag beta_rr",
             "beta_rr printed",
         ];
         let table = Table::new("table4", "Recomputed and printed", &columns).note(format!(
-            "Units: alpha 1e-4 N m/(deg/s^2), beta_r 1e-4 N m/(deg/s), beta_rr 1e-5 N m/(deg/s)^2. Raised: with {:.3}e-2 N m added \
+            "{UNITS} Raised: with {:.3}e-2 N m added \
              to the relay level, the constant that fits best; it leaves {:.2} %.",
             self.table4.level_offset, self.table4.level_offset_residual_percent,
         ));
@@ -95,8 +135,9 @@ impl Reproduction {
     }
 
     pub(super) fn figure14_table(&self) -> Table {
-        let columns = ["experiment", "alpha (%)", "bound (%)", "beta_r (%)", "bound (%)", "beta_rr (%)", "bound (%)"];
-        let table = Table::new("fig14", "Relative errors and their bounds by quantisation", &columns);
+        let columns =
+            ["experiment", "inertia", "its bound", "linear drag", "bound of it", "quadratic drag", "bound of that"];
+        let table = Table::new("fig14", "Relative errors and their bounds by quantisation (%)", &columns);
         figure14(&self.printed).into_iter().fold(table, |table, error| {
             let pairs = error.percent.named().into_iter().zip(error.bound_percent.named());
             let values = pairs.flat_map(|((_, percent), (_, bound))| [percent, bound]);
@@ -108,7 +149,7 @@ impl Reproduction {
 
     pub(super) fn figure15_table(&self) -> Table {
         let title = "Fig. 15: the drag law from pairs of experiments with different relay levels";
-        let table = Table::new("fig15", title, &["criterion", "margin (%)", "pairs", "correct", "wrong", "undecided"]);
+        let table = Table::new("fig15", title, &["criterion", "margin", "pairs", "correct", "wrong", "undecided"]);
         self.figure15.iter().zip(&CRITERIA).fold(table, |table, (counts, criterion)| {
             let numbers = [counts.correct, counts.wrong, counts.undecided];
             let total: u32 = numbers.iter().sum();
@@ -122,12 +163,12 @@ impl Reproduction {
     }
 
     pub(super) fn joint_table(&self) -> Table {
-        let columns = ["drag", "delay (s)", "alpha", "beta_r", "beta_rr", "residual (%)"];
+        let columns = ["law", "delay (s)", "inertia alpha", "linear beta_r", "quadratic beta_rr", "residual (%)"];
         let title = "All 19 experiments together, exact limit cycles (value and half-width of the 95 % interval)";
-        let table = Table::new("joint", title, &columns);
+        let table = Table::new("joint", title, &columns).note(UNITS);
         let with_error = |value: f64, interval: Option<[f64; 2]>, decimals: usize| {
             let half = interval.map(|[low, high]| (high - value).max(value - low));
-            let shown = half.map_or_else(String::new, |half| format!(" +- {half:.decimals$}"));
+            let shown = half.map_or_else(String::new, |half| format!(" \u{b1} {half:.decimals$}"));
             Cell::from(format!("{value:.decimals$}{shown}").as_str())
         };
         self.joint.iter().fold(table, |table, row| {
@@ -145,7 +186,7 @@ impl Reproduction {
     }
 
     pub(super) fn audit_summary(&self) -> Table {
-        let columns = ["printed", "agree", "of", "off by", ""];
+        let columns = ["printed quantity", "agree", "of", "off by", "reason"];
         let table = Table::new("audit", "Audit: printed numbers that meet their recomputation in intervals", &columns);
         self.audit.iter().fold(table, |table, group| {
             let (agree, of) = (Cell::count(group.agreeing()), Cell::count(group.items.len()));
@@ -155,7 +196,8 @@ impl Reproduction {
     }
 
     pub(super) fn consistency_table(&self) -> Table {
-        let columns = ["all rows agree in", "relay level off by", "", "delay (s)", "offset", "growth", "experiments"];
+        let columns =
+            ["all rows agree in", "relay level off by", "verdict", "delay (s)", "offset", "growth", "experiments"];
         let note = "Searched: delays 0 to 0.6 s, offsets of the relay level -1 to 2 (1e-2 N m), factors 0.5 to 2, drag coefficients of \
                     zero or more. Refuted: proved that nothing there meets all rows, by the formulas of first harmonics. Else what no \
                     row contradicts lies within the bounds of delay and offset. Growth: half-units of the last decimal so many times \
