@@ -179,12 +179,12 @@ impl Autotuned {
             ));
         }
         let (held_s, dead_s) = (0.5 * self.interval_s, best.parameters[1].value);
-        if held_s > SLOW * dead_s {
+        if self.proved.is_some() && held_s > SLOW * dead_s {
             reasons.push((
                 SLOW_CODE,
                 format!(
-                    "a command held for {} s delays by {} s more, above half of the dead time of {} s; the gains account for it, and a \
-                     shorter interval allows faster ones (--interval)",
+                    "a command that stays for {} s delays by {} s more, above half of the dead time of {} s; the gains account for it, \
+                     and a shorter interval allows faster gains (--interval)",
                     About(self.interval_s), About(held_s), About(dead_s)
                 ),
             ));

@@ -89,7 +89,7 @@ fn table(listing: &OrbitListing, output: &mut impl Write) -> Result<(), CommandE
     if listing.orbits.is_empty() {
         writeln!(
             output,
-            "no oscillation with one switching each way in a period; raise the levels (--relay) or narrow the hysteresis (--half-width) for one"
+            "no oscillation with one switching each way in a period; raise the levels (--relay) or narrow the hysteresis (--half-width)"
         )?;
     } else {
         let head = ["period / s", "at HIGH / s", "at LOW / s", "amplitude", "bias", "multiplier"];

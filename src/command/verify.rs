@@ -42,7 +42,7 @@ pub(super) struct Arguments {
     /// Seed of the cases
     #[arg(long, value_parser = whole::<u64>, value_name = "S", default_value_t = Budget::default().seed, allow_negative_numbers = true)]
     seed: u64,
-    /// Writes the proofs of all orbit theorems to this folder, whatever --claim names, one file a theorem, with every box
+    /// Writes the proofs of all orbit theorems to this folder, one file a theorem, with every box; --claim does not choose them
     #[arg(long, value_name = "DIR")]
     certificates: Option<PathBuf>,
     /// Writes the program's formulas to `Formulas.v` in this folder, as definitions of the proof assistant Coq; checks nothing
@@ -88,7 +88,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     } else {
         summary(&findings, output)?;
         if let Some(folder) = &arguments.certificates {
-            writeln!(output, "proofs of all orbit theorems, whatever --claim names, in {}", folder.display())?;
+            writeln!(output, "proofs of all orbit theorems in {}; --claim does not choose them", folder.display())?;
         }
     }
     let expected = findings.iter().all(|(_, finding)| finding.expected);

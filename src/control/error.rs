@@ -73,7 +73,7 @@ pub enum ControlError {
     },
     /// A process of a box that is not proved to be stable under the gains.
     #[error(
-        "the closed loop is not proved to be stable for every process of the intervals (not at inertia {}, drag {}, delay {} s); \
+        "the closed loop must be stable for every process of the intervals, and is not proved to be at inertia {}, drag {}, delay {} s; \
          {}",
         About(*.alpha), About(*.drag), About(*.delay_s), Remedy(*.stabilised_rad_s)
     )]
@@ -139,8 +139,7 @@ pub enum ControlError {
 }
 
 /// The remedy for intervals that hold too many axes.
-const NARROWER: &str =
-    "narrow the intervals, by a longer record or by hand (--alpha-interval, --beta-interval, --delay-interval)";
+const NARROWER: &str = "narrow the intervals, by a longer record or by hand (--alpha-interval, --beta-interval, --delay-interval, --top-speed)";
 
 /// A limit that every axis is to keep.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -129,7 +129,7 @@ fn fmt_three_digits(value: f64, round: fn(f64) -> f64, f: &mut fmt::Formatter<'_
     let shown = three_digits(value, round);
     // Beyond, powers of ten are inexact, and so is the product.
     if shown == 0.0 || !shown.is_finite() || (1e-20..1e20).contains(&shown.abs()) {
-        Plain(shown).fmt(f)
+        fmt::Display::fmt(&Plain(shown), f)
     } else {
         write!(f, "{shown:.2e}")
     }
