@@ -43,7 +43,7 @@ fn write_files(folder: &Path) {
         ("ragged.csv", "time_s,heading_deg,command\n0,1,1\n1,2\n".to_owned()),
         ("columns.csv", "a,b,c\n0,1,1\n1,2,1\n".to_owned()),
         ("still.csv", log(header, |k, _| [k / 10.0, 0.0, 1.0])),
-        ("back.csv", log(header, |k, _| [-k, k % 7.0, 1.0])),
+        ("back.csv", log(header, |k, _| [0.0 - k, k % 7.0, 1.0])),
         ("nan.csv", mended("1.9,nan,1")),
         ("infinite.csv", mended("1.9,inf,1")),
         ("huge.csv", mended("1.9,1e200,1")),
