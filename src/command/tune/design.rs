@@ -223,7 +223,7 @@ fn stabilised(model: &Model, wanted: &DesignWanted, slopes: [f64; 2], asked_rad_
     let axis = model.values().design_axis().ok()?;
     let mut candidates: Vec<(f64, f64, f64)> = Vec::new();
     for slope in slopes {
-        let Ok(range) = bandwidths(&axis, slope, wanted.structure) else { continue };
+        let Ok(range) = bandwidths(model, slope, wanted.structure) else { continue };
         let at = grid(range);
         candidates.extend((0..=GRID).filter_map(|k| {
             let bandwidth: f64 = format!("{:.1e}", at(k)).parse().ok()?;
@@ -244,7 +244,7 @@ fn stabilised(model: &Model, wanted: &DesignWanted, slopes: [f64; 2], asked_rad_
 /// The largest bandwidth at which the limit is proved for every axis of the intervals.
 fn largest_bandwidth(model: &Model, wanted: &DesignWanted, slope: f64) -> Result<f64, ControlError> {
     let axis = model.values().design_axis()?;
-    let (least, most) = bandwidths(&axis, slope, wanted.structure)?;
+    let (least, most) = bandwidths(model, slope, wanted.structure)?;
     let criterion = match wanted.target {
         Target::Sensitivity(most) => RobustCriterion::Sensitivity(most),
         Target::PhaseRad(least) => RobustCriterion::PhaseRad(least),
@@ -317,14 +317,13 @@ fn within_reach(numbers: impl Iterator<Item = f64>, criterion: RobustCriterion) 
 }
 
 /// The range of bandwidths for which there are gains.
-fn bandwidths(
-    axis: &crate::plant::DragAxis<f64>,
-    slope: f64,
-    structure: Structure,
-) -> Result<(f64, f64), ControlError> {
+fn bandwidths(model: &Model, slope: f64, structure: Structure) -> Result<(f64, f64), ControlError> {
+    let axis = &model.values().design_axis()?;
+    // No gains are fast beside the longest delay.
+    let longest_s = model.ranges().delay_s.upper().max(axis.delay_s());
     // Without delay nothing but the drag's pace limits the range; ten thousand times that is as good as no limit.
     let pace = slope.abs() / axis.alpha();
-    let beyond = if axis.delay_s() > 0.0 { 100.0 / axis.delay_s() } else { 1e4 * pace.max(1e-4) };
+    let beyond = if longest_s > 0.0 { 100.0 / longest_s } else { 1e4 * pace.max(1e-4) };
     let most = match Tuning::for_slope(axis, slope, structure, beyond) {
         Ok(_) => beyond,
         Err(ControlError::TooFast { most_rad_s, .. }) => most_rad_s,
