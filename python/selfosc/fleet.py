@@ -74,7 +74,8 @@ def identify_record(table: pa.Table, record: str = "record", **settings: Any) ->
     try:
         row |= _row(identify(table, **settings).to_dict())
     except SelfoscError as refusal:
-        row |= {"samples": table.num_rows, "refused": refusal.code, "text": str(refusal)}
+        # The shape of any frame: Arrow, pandas, polars.
+        row |= {"samples": getattr(table, "shape", (None,))[0], "refused": refusal.code, "text": str(refusal)}
     return pa.Table.from_pylist([row], schema=SCHEMA)
 
 

@@ -3,7 +3,7 @@
 use crate::describing::DescribingError;
 use crate::nonlinearity::NonlinearityError;
 use crate::numeric::OutOfDomain;
-use crate::numeric::domain::Plain;
+use crate::numeric::domain::{About, Plain};
 use crate::plant::PlantError;
 
 /// Why a harmonic balance cannot be computed. That there is no intersection is not an error but an empty answer.
@@ -47,8 +47,8 @@ pub enum BalanceError {
     },
     /// Newton's method did not settle with more harmonics.
     #[error(
-        "no balance found with {order} harmonics: the residual stays at {residual} of the amplitude; \
-         give another number of harmonics"
+        "no balance found with {order} harmonics: the residual stays at {} of the amplitude; give another number of harmonics",
+        About(*.residual)
     )]
     NotConverged {
         /// Number of harmonics.
@@ -58,8 +58,8 @@ pub enum BalanceError {
     },
     /// A characteristic with memory whose input turns inside a period where the memory acts.
     #[error(
-        "the input turns at {input} within the range where the characteristic has memory; \
-         its output there is not known from the input's range alone; give fewer harmonics, or simulate"
+        "the input turns at {} within the range where the characteristic has memory, so that its output does not follow from the \
+         input's range alone; give fewer harmonics, or simulate", About(*.input)
     )]
     TurnsInMemory {
         /// Input value of the turning point.
@@ -67,8 +67,9 @@ pub enum BalanceError {
     },
     /// No sinusoid balances a drag axis.
     #[error(
-        "no sinusoid balances: it needs drag (linear_drag = {linear_drag}, quadratic_drag = {quadratic_drag}), a constant \
-         force ({constant_force}) below the relay level {level}, and a half-width ({half_width}) or a delay above 0"
+        "no sinusoid balances: it needs drag (linear_drag = {}, quadratic_drag = {}), a constant force ({}) below the relay \
+         level {}, and a half-width ({}) or a delay above 0; change these",
+        Plain(*.linear_drag), Plain(*.quadratic_drag), Plain(*.constant_force), Plain(*.level), Plain(*.half_width)
     )]
     NoAxisBalance {
         /// Linear drag, force per speed.

@@ -4,13 +4,14 @@ mod form;
 mod print;
 
 use std::io::Write;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::{Value, json};
 
 use super::error::Given;
-use super::number::{finite, number, positive, time_unit};
+use super::number::{count, finite, number, positive, time_unit};
 use super::{CommandError, Outcome, files, refused, write_json};
 use crate::autotune::{Actions, Contradiction, GainsWanted, LoopCurves, ProcessRecord, ProvedGains, Ruled, rules};
 use crate::error::Error;
@@ -18,6 +19,7 @@ use crate::experiment::{Columns, Log, TimeUnit};
 use crate::files::Files;
 use crate::identify::NORMAL_95;
 use crate::numeric::Interval;
+use crate::numeric::domain::About;
 use form::Form;
 
 /// PI or PID gains for a heater, a tank, an axis: from one record of its relay, thermostat or on-off control.
@@ -73,6 +75,12 @@ pub(super) struct Arguments {
     /// Uses samples up to this time, in s on the log's clock
     #[arg(long, value_name = "T", value_parser = finite, allow_negative_numbers = true)]
     to: Option<f64>,
+    /// Uses this part of a log whose clock starts again, counted from 1
+    #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
+    part: Option<NonZeroUsize>,
+    /// The samples were taken at even intervals, whatever their stamps: those are of arrival
+    #[arg(long)]
+    even_stamps: bool,
     /// Leaves out rows without three numbers, at most a fifth of all
     #[arg(long)]
     skip_bad_rows: bool,
@@ -91,6 +99,10 @@ fn sensitivity(text: &str) -> Result<f64, String> {
 
 /// Relative half-width of a gain or a dead time above which the answer is less than good.
 const WIDE: f64 = 0.25;
+/// A command that is held delays by half its interval; from this part of the dead time on, it is named.
+const SLOW: f64 = 0.5;
+/// Its code: the gains account for it, and the trust stays.
+const SLOW_CODE: &str = "slow-controller";
 /// Correlation of neighbouring residuals from which on the load counts as drifting.
 const WANDERS: f64 = 0.8;
 
@@ -164,6 +176,17 @@ impl Autotuned {
                     .to_owned(),
             ));
         }
+        let (held_s, dead_s) = (0.5 * self.interval_s, best.parameters[1].value);
+        if self.proved.is_some() && held_s > SLOW * dead_s {
+            reasons.push((
+                SLOW_CODE,
+                format!(
+                    "a command that stays for {} s delays by {} s more, above half of the dead time of {} s; the gains account for it, \
+                     and a shorter interval allows faster gains (--interval)",
+                    About(self.interval_s), About(held_s), About(dead_s)
+                ),
+            ));
+        }
         reasons
     }
 
@@ -171,7 +194,7 @@ impl Autotuned {
         let reasons = self.reasons();
         if reasons.iter().any(|(code, _)| ["too-wide", "against-relay", "saturated"].contains(code)) {
             "doubtful"
-        } else if reasons.is_empty() {
+        } else if reasons.iter().all(|(code, _)| *code == SLOW_CODE) {
             "good"
         } else {
             "widened"
@@ -194,6 +217,8 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         time_unit: arguments.time_unit,
         from_s: arguments.from,
         to_s: arguments.to,
+        part: arguments.part,
+        even_stamps: arguments.even_stamps,
         skip_bad_rows: arguments.skip_bad_rows,
         process: true,
         // The level of no command is part of the load.

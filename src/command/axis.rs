@@ -51,7 +51,7 @@ pub(super) struct RelayArguments {
     /// Relay level C, command units
     #[arg(long, value_parser = number, value_name = "C", allow_negative_numbers = true)]
     pub(super) relay: f64,
-    /// Half-width x_a of the relay's hysteresis, output units
+    /// Half-width x_a of the relay's hysteresis, which switches at x_a and at -x_a; output units (with --degrees still radians)
     #[arg(long, value_parser = number, value_name = "XA", allow_negative_numbers = true)]
     pub(super) half_width: f64,
 }

@@ -108,7 +108,10 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     }
     if found.is_empty() {
         let (from, to) = balance.omega_rad_s().into_inner();
-        writeln!(output, "no oscillation: -1/N does not meet the plant's curve between {from:.3e} and {to:.3e} rad/s")?;
+        writeln!(
+            output,
+            "no oscillation: -1/N does not meet the plant's curve between {from:.3e} and {to:.3e} rad/s; raise the gain (--num)"
+        )?;
     } else {
         print(&found, &exact, &by_loeb, output)?;
     }

@@ -52,7 +52,7 @@ pub(super) struct Arguments {
     /// Standard deviation of the noise on a reading, output units
     #[arg(long, value_parser = number, value_name = "SD", default_value_t = 0.0, allow_negative_numbers = true)]
     noise: f64,
-    /// The largest amplitude allowed, output units [default: any]
+    /// The largest amplitude allowed, output units: 0.8 rad keeps a heading within a quarter turn [default: any]
     #[arg(long, value_parser = number, value_name = "X", default_value_t = f64::INFINITY, hide_default_value = true, allow_negative_numbers = true)]
     largest_amplitude: f64,
     /// Proposals shown

@@ -30,13 +30,13 @@ Examples:
   selfosc df --list --page catalogue.html")]
 pub(super) struct Arguments {
     /// Name of the characteristic, as --list shows it
-    #[arg(required_unless_present_any = ["list", "fit"])]
+    #[arg(required_unless_present_any = ["list", "fit", "page"])]
     name: Option<String>,
     /// A parameter of the characteristic, as key=value; repeat for each
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     settings: Vec<(String, Setting)>,
     /// Amplitude X of the input
-    #[arg(long, value_parser = number, value_name = "X", required_unless_present_any = ["list", "fit", "gain"], conflicts_with = "gain", allow_negative_numbers = true)]
+    #[arg(long, value_parser = number, value_name = "X", required_unless_present_any = ["list", "fit", "gain", "page"], conflicts_with = "gain", allow_negative_numbers = true)]
     amplitude: Option<f64>,
     /// In place of the amplitude: every amplitude from 0.001 to 1000 at which P has this value
     #[arg(long, value_parser = number, value_name = "P", allow_negative_numbers = true)]
@@ -76,7 +76,7 @@ enum Method {
 }
 
 pub(super) fn setting(text: &str) -> Result<(String, Setting), String> {
-    let (key, value) = text.split_once('=').ok_or_else(|| format!("`{text}` is not key=value"))?;
+    let (key, value) = text.split_once('=').ok_or_else(|| "must be KEY=VALUE; write it as level=2".to_owned())?;
     let setting = value.parse().map_err(|error| format!("{key}: {error}"))?;
     Ok((key.to_owned(), setting))
 }

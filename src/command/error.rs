@@ -124,8 +124,10 @@ fn flags(error: &Error) -> Option<&'static str> {
         (Error::Plant(_), _) => "--num, --den",
         (Error::Balance(_), _) => "--num, --den, --delay",
         (Error::Describing(_) | Error::Nonlinearity(_), _) => "--amplitude, --bias, --set",
-        (Error::Control(_), _) => "--bandwidth, --delay",
-        (Error::Identification(_), "condition-40" | "no-orbit") => "--half-width, --delay",
+        (Error::Control(_), "overdamped") => "--bandwidth",
+        (Error::Control(_), "too-fast") => "--bandwidth, --delay",
+        (Error::Control(_), "no-bandwidth") => "--delay",
+        (Error::Identification(_), "condition-40") => "--half-width, --delay",
         _ => return None,
     })
 }

@@ -18,11 +18,10 @@ pub(super) fn input(files: &mut Files, path: &Path, most: u64) -> Result<Input, 
     if path == Path::new("-") { files.read_standard(most) } else { files.read(path, most) }
 }
 
-/// Reads a text file of a size that a proof or a model may have.
+/// Reads a text file of a size that a proof or a model may have; bytes that are no text are for its reader to refuse.
 pub(super) fn text(path: &Path) -> Result<String, FileError> {
     let input = input(&mut Files::default(), path, LONGEST)?;
-    let text = core::str::from_utf8(input.bytes()).map(str::to_owned);
-    text.map_err(|error| FileError::Unreadable { name: input.name().to_owned(), reason: error.to_string() })
+    Ok(String::from_utf8_lossy(input.bytes()).into_owned())
 }
 
 /// Reads a proof.

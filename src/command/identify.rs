@@ -135,7 +135,8 @@ pub(super) struct Arguments {
     /// Leaves out rows without three numbers, or with a time that does not come after the one before: at most a fifth of all
     #[arg(long)]
     skip_bad_rows: bool,
-    /// Logs that are predicted and take no part in the estimate: percent of fit of each
+    /// Logs that are predicted and take no part in the estimate; where an answer explains less than half of the variance of one, it is
+    /// doubtful
     #[arg(long, value_name = "LOG", num_args = 1..)]
     validate: Vec<PathBuf>,
     /// Writes one HTML file with figures, which needs no network

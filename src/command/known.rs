@@ -8,8 +8,8 @@ use super::error::Given;
 use super::{CommandError, files};
 use crate::control::{AxisModel, LinearProcess, NAMES, UncertainDrag};
 use crate::files::{LONGEST_WORD, cut};
-use crate::numeric::Interval;
-use crate::numeric::domain::Plain;
+use crate::numeric::domain::{AtLeast, AtMost, Plain, require};
+use crate::numeric::{Interval, Limit};
 
 /// A parameter.
 #[derive(Clone, Copy, Debug, Default)]
@@ -36,6 +36,8 @@ pub(super) struct Model {
     pub(super) identified: bool,
     /// Whether the log was in degrees; the model is in radians all the same.
     pub(super) degrees: bool,
+    /// Whether the log's output is a length in m, hence no angle.
+    pub(super) length: bool,
 }
 
 /// Where a model comes from.
@@ -58,11 +60,11 @@ impl Model {
             delay_s: number(delay_s),
             ..AxisModel::default()
         };
-        Self { axis, drag: None, identified: false, degrees: false }
+        Self { axis, drag: None, identified: false, degrees: false, length: false }
     }
 
     /// The same with intervals that replace those there are.
-    pub(super) fn with_intervals(mut self, given: [(&str, Option<Interval>); 4]) -> Result<Self, CommandError> {
+    pub(super) fn with_intervals(mut self, given: [(&'static str, Option<Interval>); 4]) -> Result<Self, CommandError> {
         let axis = &mut self.axis;
         let parts = [&mut axis.alpha, &mut axis.beta, &mut axis.beta_quadratic, &mut axis.delay_s];
         for (part, (flag, given)) in parts.into_iter().zip(given) {
@@ -71,6 +73,13 @@ impl Model {
                 let reason = format!("{flag}: {interval} must contain the value, {value}; give an interval around it");
                 return Err(CommandError::Usage { reason });
             }
+            let limit = match flag {
+                "--alpha-interval" => Limit::Positive,
+                "--delay-interval" => Limit::NonNegative,
+                _ => Limit::Finite,
+            };
+            let lower = given.map_or(1.0, |interval| interval.lower());
+            require("lower end of the interval", lower, "", limit, "raise it").given(flag)?;
             part.interval = given.or(part.interval);
             if given.is_some() && flag.starts_with("--beta") {
                 self.drag = None;
@@ -175,13 +184,14 @@ impl Model {
         };
         let inertia = parts[0].range();
         if !inertia.is_positive() {
-            return Err(unusable(format!("its inertia is not told from zero ({inertia}): {FIRST_ORDER}")));
+            let (low, high) = (AtMost(inertia.lower()), AtLeast(inertia.upper()));
+            return Err(unusable(format!("its inertia is from {low} to {high}: {FIRST_ORDER}")));
         }
-        let degrees = found["units"]["output"] == "rad";
+        let [degrees, length] = ["rad", "m"].map(|unit| found["units"]["output"] == unit);
         let axis = AxisModel::from_parts(parts);
         let coefficients = [axis.beta, axis.beta_quadratic, axis.beta_cubic].map(|known| known.value);
         let drag = drag.map(|covariance| UncertainDrag { coefficients, covariance });
-        Ok(Self { axis, drag, identified: true, degrees })
+        Ok(Self { axis, drag, identified: true, degrees, length })
     }
 }
 

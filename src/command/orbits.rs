@@ -87,7 +87,10 @@ pub(super) fn run(given: Loop<'_>, as_json: bool, output: &mut impl Write) -> Re
 
 fn table(listing: &OrbitListing, output: &mut impl Write) -> Result<(), CommandError> {
     if listing.orbits.is_empty() {
-        writeln!(output, "no oscillation with one switching each way in a period")?;
+        writeln!(
+            output,
+            "no oscillation with one switching each way in a period; raise the levels (--relay) or narrow the hysteresis (--half-width)"
+        )?;
     } else {
         let head = ["period / s", "at HIGH / s", "at LOW / s", "amplitude", "bias", "multiplier"];
         writeln!(output, "{}  attracting", head.map(|name| format!("{name:>12}")).join("  "))?;

@@ -142,7 +142,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     let exact = match limit_cycle(&axis, &relay) {
         Ok(cycle) => cycle,
         Err(reason) if arguments.json => {
-            let no_cycle = json!({ "code": reason.code(), "text": reason.to_string() });
+            let no_cycle = json!({ "code": reason.code(), "text": in_context(&reason.into()) });
             write_json(output, &json!({ "no_limit_cycle": no_cycle }))?;
             return Ok(Outcome::No);
         }

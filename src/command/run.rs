@@ -16,13 +16,13 @@ use super::lines::{Event, Lines};
 use super::number::positive;
 use super::{CommandError, Outcome};
 use crate::experiment::Columns;
-use crate::files::Files;
+use crate::files::{Files, Output};
 use crate::identify::document::RefusalDocument;
 use crate::identify::{DragLaw, Session, Settings};
 use crate::numeric::Uncertain;
 use crate::on_board::{Coordinate, Experiment, Phase, Protocol, Step};
 use display::Display;
-use flags::ProtocolArguments;
+use flags::{ProtocolArguments, in_words};
 
 /// Runs a relay experiment for any program that reads a sensor and drives an actuator.
 ///
@@ -99,9 +99,10 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     let protocol = arguments.protocol.protocol();
     let mut experiment = arguments.experiment()?;
     let mut files = Files::default();
-    let log = arguments.log.as_ref().map(|path| files.output(path)?.stream()).transpose().given("--log")?;
+    let log = arguments.log.as_ref().map(|path| files.output(path)).transpose().given("--log")?;
     let json = arguments.json.as_ref().and_then(Option::as_ref);
     let document = json.map(|path| files.output(path)).transpose().given("--json")?;
+    let log = log.map(Output::stream).transpose().given("--log")?;
     let longest_s = (Protocol::<f64>::LONGEST_GAP * protocol.interval_s).max(1.0);
     let wait = Duration::try_from_secs_f64(arguments.timeout.unwrap_or(longest_s)).unwrap_or(Duration::MAX);
     let mut samples = LiveLog::new(protocol.coordinate, log);
@@ -161,11 +162,19 @@ fn conclusion(experiment: &Experiment<f64>, protocol: &Protocol<f64>, log: &str)
     let session = Session::new(Settings::default()).with_columns(columns).reader("the experiment", log.as_bytes());
     let (mut content, identified) = match session.and_then(Session::identify) {
         Ok(found) => (json!(found.conclusion()), found.reported().is_some()),
-        Err(refusal) => (json!(RefusalDocument::from(&refusal)), false),
+        Err(refusal) => {
+            let mut document = RefusalDocument::from(&refusal);
+            // The remedies of a log that is read do not help one that is made.
+            let fault = document.refused.text.split("; ").next().unwrap_or_default();
+            document.refused.text = format!(
+                "{fault}; let the experiment run to its end, or longer (--duration), or read its log (--log) by `selfosc identify`"
+            );
+            (json!(document), false)
+        }
     };
     let outcome = experiment.outcome();
     let fault = match experiment.phase() {
-        Phase::Failed(fault) => json!({ "code": fault.code(), "text": fault.to_string() }),
+        Phase::Failed(fault) => json!({ "code": fault.code(), "text": in_words(fault) }),
         _ => Value::Null,
     };
     let exact = outcome.iter().flat_map(|outcome| {
@@ -193,7 +202,7 @@ fn conclusion(experiment: &Experiment<f64>, protocol: &Protocol<f64>, log: &str)
 /// How it ended, for a person: standard output belongs to the actuator.
 fn report(experiment: &Experiment<f64>, content: &Value) {
     let why = match experiment.phase() {
-        Phase::Failed(fault) => format!(": {fault}"),
+        Phase::Failed(fault) => format!(": {}", in_words(fault)),
         _ => String::new(),
     };
     let model = match content["reported"].as_object() {

@@ -33,7 +33,7 @@ pub(super) struct Arguments {
     #[arg(long, conflicts_with_all = ["relay", "half_width", "cycles", "hold", "json"])]
     live: bool,
     /// With --live: readings come at their times, and a command that is late acts late
-    #[arg(long, requires = "live")]
+    #[arg(long, requires = "live", conflicts_with_all = ["relay", "half_width"])]
     real_time: bool,
     /// Cycles of the limit cycle that the record lasts
     #[arg(long, value_parser = number, value_name = "N", default_value_t = 10.0, allow_negative_numbers = true)]

@@ -29,6 +29,7 @@ use format::GainFormat;
 /// design equations. With intervals, further terms or quadratic drag, margins are proved for every axis too. Exit status 1
 /// where some axis in the intervals is not stabilised.
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("axis").required(true).args(["model", "alpha"]))]
 #[command(group = ArgGroup::new("target").required(true).args(["bandwidth", "ms", "phase_margin"]))]
 #[command(after_help = "\
 Examples:
@@ -37,7 +38,7 @@ Examples:
   selfosc tune --alpha 7.5 --beta 3 --bandwidth 0.5 --structure ipd --alpha-interval 7,8 --beta-interval 2,4 --json")]
 pub(super) struct Arguments {
     /// Model to tune for: what `selfosc identify --json` printed; its intervals count too
-    #[arg(long, value_name = "RESULT.json", required_unless_present = "alpha", conflicts_with_all = ["alpha", "beta", "beta_quadratic", "delta", "delay"])]
+    #[arg(long, value_name = "RESULT.json", conflicts_with_all = ["beta", "beta_quadratic", "delta", "delay"])]
     model: Option<PathBuf>,
     /// Inertia with added mass, command units per output unit per s^2
     #[arg(long, value_parser = number, value_name = "A", allow_negative_numbers = true)]
@@ -160,6 +161,7 @@ impl Arguments {
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let model = arguments.known()?;
+    arguments.format.takes(&model)?;
     let wanted = design::DesignWanted {
         target: arguments.target(),
         structure: arguments.structure,

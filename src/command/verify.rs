@@ -23,13 +23,16 @@ use crate::claims::{Budget, CLAIMS, Claim, Evidence, Finding, Verdict, Word, for
 #[command(after_help = "\
 Examples:
   selfosc verify
-  selfosc verify --claim lemma-1 --claim lemma-2 --cases 100000 --seed 7
+  selfosc verify lemma-1 lemma-2 --cases 100000 --seed 7
   selfosc verify --certificates proofs
   selfosc verify --check proofs
   selfosc verify --formulas spec/formal
   selfosc verify --check bounds.json --log log.csv
   selfosc verify --json")]
 pub(super) struct Arguments {
+    /// Only these claims
+    #[arg(value_name = "ID")]
+    ids: Vec<String>,
     /// Only this claim; repeat or list several
     #[arg(long = "claim", value_name = "ID", num_args = 1..)]
     claims: Vec<String>,
@@ -39,14 +42,14 @@ pub(super) struct Arguments {
     /// Seed of the cases
     #[arg(long, value_parser = whole::<u64>, value_name = "S", default_value_t = Budget::default().seed, allow_negative_numbers = true)]
     seed: u64,
-    /// Writes the proofs of the orbit theorems to this folder, one file a theorem, with every box
+    /// Writes the proofs of all orbit theorems to this folder, one file a theorem, with every box; --claim does not choose them
     #[arg(long, value_name = "DIR")]
     certificates: Option<PathBuf>,
     /// Writes the program's formulas to `Formulas.v` in this folder, as definitions of the proof assistant Coq; checks nothing
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["claims", "cases", "seed", "certificates", "check", "json"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["ids", "claims", "cases", "seed", "certificates", "check", "json"])]
     formulas: Option<PathBuf>,
     /// Checks such files, or one that `identify --certificate` wrote, without searching for anything, in place of the claims
-    #[arg(long, value_name = "DIR|FILE", conflicts_with_all = ["claims", "cases", "seed", "certificates", "json"])]
+    #[arg(long, value_name = "DIR|FILE", conflicts_with_all = ["ids", "claims", "cases", "seed", "certificates", "json"])]
     check: Option<PathBuf>,
     /// Compares the stamps, readings and commands in the file of bounds with those of these logs
     #[arg(long, value_name = "LOG", num_args = 1.., requires = "check")]
@@ -76,7 +79,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
     if let Some(folder) = &arguments.check {
         return certificates::check(folder, &arguments.log, output);
     }
-    let chosen = chosen(&arguments.claims)?;
+    let chosen = chosen(&[&arguments.ids[..], &arguments.claims].concat())?;
     let written = arguments.certificates.as_deref().map(certificates::write).transpose()?;
     let budget = Budget { cases: arguments.cases, seed: arguments.seed };
     let findings = check(&chosen, budget, arguments, output)?;
@@ -84,6 +87,9 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         write_json(output, &document(&findings))?;
     } else {
         summary(&findings, output)?;
+        if let Some(folder) = &arguments.certificates {
+            writeln!(output, "proofs of all orbit theorems in {}; --claim does not choose them", folder.display())?;
+        }
     }
     let expected = findings.iter().all(|(_, finding)| finding.expected);
     Ok(if expected { written.unwrap_or(Outcome::Done) } else { Outcome::No })

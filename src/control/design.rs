@@ -130,7 +130,11 @@ impl<T: Scalar> Tuning<T> {
         let least = body.least_bandwidth(structure);
         if bandwidth_rad_s < least {
             let (bandwidth_rad_s, least_rad_s) = (bandwidth_rad_s.value(), least.value());
-            return Err(ControlError::Overdamped { bandwidth_rad_s, least_rad_s });
+            // A least bandwidth that the delay forbids is no remedy.
+            return match Self::for_slope(axis, slope, structure, least) {
+                Err(none @ ControlError::NoBandwidth { .. }) => Err(none),
+                _ => Err(ControlError::Overdamped { bandwidth_rad_s, least_rad_s }),
+            };
         }
         let gains = body.place(structure, bandwidth_rad_s)?;
         if let Some(margins) = sufficient(axis, &gains) {

@@ -61,8 +61,8 @@ pub enum ControlError {
     },
     /// No bandwidth keeps a limit for every axis of the intervals.
     #[error(
-        "no bandwidth from {} to {} rad/s is proved to keep the limit for every axis of the intervals; {}identify from a longer record",
-        AtLeast(*.least_rad_s), AtMost(*.most_rad_s), Allowed(*.within_reach)
+        "no bandwidth from {} to {} rad/s is proved to keep the limit for every axis of the intervals; {}{}",
+        AtLeast(*.least_rad_s), AtMost(*.most_rad_s), Allowed(*.within_reach), NARROWER
     )]
     OutOfReach {
         /// Where gains begin, rad/s.
@@ -74,7 +74,7 @@ pub enum ControlError {
     },
     /// A process of a box that is not proved to be stable under the gains.
     #[error(
-        "the closed loop is not proved to be stable for every process of the intervals (not at inertia {}, drag {}, delay {} s); \
+        "the closed loop must be stable for every process of the intervals, and is not proved to be at inertia {}, drag {}, delay {} s; \
          {}",
         About(*.alpha), About(*.drag), About(*.delay_s), Remedy(*.stabilised_rad_s)
     )]
@@ -106,8 +106,8 @@ pub enum ControlError {
     },
     /// An oscillation that no relay with this half-width makes.
     #[error(
-        "amplitude = {amplitude} with bias {bias} does not pass both levels at +-{half_width}: condition 40 fails; \
-         repeat the experiment with a smaller half-width or a higher relay level"
+        "amplitude = {} with bias {} does not pass both levels at +-{}: condition 40 fails; repeat the experiment with a smaller \
+         half-width or a higher relay level", About(*.amplitude), About(*.bias), Plain(*.half_width)
     )]
     BelowSwitching {
         /// Amplitude of the oscillation.
@@ -119,8 +119,8 @@ pub enum ControlError {
     },
     /// Two oscillations at one phase do not tell where another phase is.
     #[error(
-        "both experiments are at a phase of {phase_deg} degrees; repeat one with another half-width, so that the \
-         critical point can be found from the two"
+        "both experiments are at a phase of {} degrees; repeat one with another half-width, so that the critical point can be \
+         found from the two", About(*.phase_deg)
     )]
     OnePhase {
         /// Phase of both, degrees.
@@ -128,8 +128,8 @@ pub enum ControlError {
     },
     /// A process whose phase does not reach -180 degrees.
     #[error(
-        "the phase does not pass -180 degrees between {from_rad_s} and {to_rad_s} rad/s: no ultimate gain there; \
-         widen the range or choose a rule that needs none"
+        "the phase does not pass -180 degrees between {} and {} rad/s: no ultimate gain there; widen the range or choose a rule \
+         that needs none", Plain(*.from_rad_s), Plain(*.to_rad_s)
     )]
     NoCriticalPoint {
         /// Where the search began, rad/s.
@@ -138,6 +138,9 @@ pub enum ControlError {
         to_rad_s: f64,
     },
 }
+
+/// The remedy for intervals that hold too many axes.
+const NARROWER: &str = "narrow the intervals, by a longer record or by hand (--alpha-interval, --beta-interval, --delay-interval, --top-speed)";
 
 /// Which limit to ask for, where one is known.
 struct Allowed(Option<RobustCriterion>);
@@ -162,8 +165,10 @@ struct Remedy(Option<f64>);
 impl core::fmt::Display for Remedy {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self.0 {
-            Some(bandwidth) => write!(f, "ask for a bandwidth of {} rad/s, at which it is", Plain(bandwidth)),
-            None => f.write_str("narrow the intervals: identify from a longer record"),
+            Some(bandwidth) => {
+                write!(f, "ask for a bandwidth of {} rad/s (--bandwidth), at which it is", Plain(bandwidth))
+            }
+            None => f.write_str(NARROWER),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::nonlinearity::NonlinearityError;
 use crate::numeric::OutOfDomain;
-use crate::numeric::domain::Plain;
+use crate::numeric::domain::{About, Plain};
 
 /// Why a describing function cannot be given. Values are in the caller's input and output units.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -13,8 +13,8 @@ pub enum DescribingError {
     Nonlinearity(#[from] NonlinearityError),
     /// Quadrature ran out of cells before the error estimate met the tolerance.
     #[error(
-        "quadrature stopped at an estimated error of {estimate} (limit {tolerance}) after {cells} cells; \
-         give the input values at which the characteristic has kinks, a smaller amplitude, or a smoother characteristic"
+        "quadrature stopped at an estimated error of {} (limit {}) after {cells} cells; give the input values at which the \
+         characteristic has kinks, a smaller amplitude, or a smoother characteristic", About(*.estimate), About(*.tolerance)
     )]
     Quadrature {
         /// Estimated error of the integral.
@@ -34,8 +34,8 @@ pub enum DescribingError {
     },
     /// No closed form for this case.
     #[error(
-        "{characteristic}: no closed form with bias = {bias} and exponent = {exponent}; \
-         give a bias of 0, an exponent with a closed form, or compute by quadrature"
+        "{characteristic}: no closed form with bias = {} and exponent = {}; give a bias of 0, an exponent with a closed form, or \
+         compute by quadrature (--method quadrature)", Plain(*.bias), Plain(*.exponent)
     )]
     NoClosedForm {
         /// Catalogue name of the characteristic.

@@ -57,22 +57,26 @@ impl TimeUnit {
 }
 
 /// The longest middle interval of a record in which a relay's cycles could be seen, in s.
-const SLOWEST_S: f64 = 10.0;
+pub(super) const SLOWEST_S: f64 = 10.0;
+/// The shortest, in s: an inertial sensor of 8 kHz is slower.
+pub(super) const FASTEST_S: f64 = 1e-4;
 /// Headings in radians count from -pi to pi or from 0 to 2 pi; this excess is attributed to rounding.
 const HEADING_MARGIN_RAD: f64 = 0.01;
 /// Middle of a command that never changes sign, in halves of its range, from which on its neutral is not zero.
 const FAR_FROM_ZERO: f64 = 4.0;
 
-/// Refuses times that make no sense in seconds, where no unit was given.
-pub(super) fn seconds(time_s: &[f64]) -> Result<(), ExperimentError> {
+/// Refuses times that make no sense in seconds; slow ones only where no unit was given.
+pub(super) fn seconds(time_s: &[f64], unit_given: bool) -> Result<(), ExperimentError> {
     let intervals = time_s.windows(2).map(|pair| pair[1] - pair[0]);
-    let mut intervals: Vec<f64> = intervals.filter(|interval| interval.is_finite()).collect();
+    // Repeated stamps and stamps out of order are named by the rows.
+    let mut intervals: Vec<f64> = intervals.filter(|interval| *interval > 0.0 && interval.is_finite()).collect();
     if intervals.is_empty() {
         return Ok(());
     }
     let middle = intervals.len() / 2;
     let interval_s = *intervals.select_nth_unstable_by(middle, f64::total_cmp).1;
-    if interval_s > SLOWEST_S { Err(ExperimentError::TimeUnit { interval_s }) } else { Ok(()) }
+    let senseless = interval_s < FASTEST_S || interval_s > SLOWEST_S && !unit_given;
+    if senseless { Err(ExperimentError::TimeUnit { interval_s }) } else { Ok(()) }
 }
 
 /// Refuses headings that no angle in radians reaches.

@@ -2,9 +2,10 @@
 
 use core::fmt;
 
+use super::clinic::{FASTEST_S, SLOWEST_S};
 use crate::nonlinearity::NonlinearityError;
-use crate::numeric::domain::Plain;
-use crate::numeric::{OutOfDomain, significant};
+use crate::numeric::OutOfDomain;
+use crate::numeric::domain::{About, AtLeast, AtMost, Plain};
 
 /// Where in a record something is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,7 +91,7 @@ pub enum ExperimentError {
     /// Samples are missing: the input in between is not known.
     #[error(
         "{place}: no sample for {} s, at most {} s allowed; use the part before or after (--from, --to)",
-        significant(*gap_s, 6), significant(*limit_s, 6)
+        AtLeast(*.gap_s), AtMost(*.limit_s)
     )]
     Gap {
         /// Where the gap ends.
@@ -104,7 +105,7 @@ pub enum ExperimentError {
     #[error(
         "samples come in bursts: {count} gaps of {} s on average, the others {} s apart: such stamps are those of arrival; log \
          the time of each reading, or say that samples are evenly spaced (--even-stamps)",
-        significant(*gap_s, 3), significant(*interval_s, 3)
+        About(*.gap_s), About(*.interval_s)
     )]
     Bursts {
         /// Gaps.
@@ -195,8 +196,8 @@ pub enum ExperimentError {
     },
     /// Times that make no sense in seconds.
     #[error(
-        "samples are {} s apart in the middle, if times are in seconds: say the unit of the log, s, ms, us or ns (--time-unit)",
-        Plain(*.interval_s)
+        "samples are {} s apart in the middle, and must be from {} to {} s: say the unit of the log's times, s, ms, us or ns \
+         (--time-unit)", About(*.interval_s), Plain(FASTEST_S), Plain(SLOWEST_S)
     )]
     TimeUnit {
         /// The middle interval, in s.
@@ -206,7 +207,7 @@ pub enum ExperimentError {
     #[error(
         "{column} goes from {} to {}, a heading in radians from -pi to pi or from 0 to 2 pi: say that it is in degrees \
          (--degrees), or in radians all the same (--radians)",
-        Plain(*.low), Plain(*.high)
+        About(*.low), About(*.high)
     )]
     Degrees {
         /// Name of the column.
@@ -219,7 +220,7 @@ pub enum ExperimentError {
     /// An output that jumps by a turn.
     #[error(
         "{place}: {column} jumps by {}, a turn: say that it is an angle (--wrap, with --degrees if it is in degrees)",
-        significant(*jump, 6)
+        About(*.jump)
     )]
     Turns {
         /// Where.

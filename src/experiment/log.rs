@@ -118,6 +118,12 @@ impl Log {
     pub fn is_heading(&self) -> bool {
         self.degrees || self.unwrapped > 0 || is_named_heading(&self.columns[1].to_lowercase())
     }
+
+    /// Whether the output is a length in m: of a column of depth, or whose name ends in `_m`.
+    pub(crate) fn is_length(&self) -> bool {
+        let column = self.columns[1].to_lowercase();
+        column.starts_with("depth") || column.ends_with("_m")
+    }
 }
 
 /// Whether a column's name in small letters is that of a heading.
@@ -248,9 +254,7 @@ impl Columns {
         let unit = self.time_unit.or(named).unwrap_or(TimeUnit::Seconds);
         rows.values[0].iter_mut().for_each(|time| *time /= unit.per_second());
         // Tanks and ovens are read by the minute: there a column's name suffices.
-        if self.time_unit.is_none() && !(self.process && named.is_some()) {
-            clinic::seconds(&rows.values[0])?;
-        }
+        clinic::seconds(&rows.values[0], self.time_unit.is_some() || self.process && named.is_some())?;
         let Chosen { values: [time_s, mut output, mut input], rows: kept, skipped } = rows.chosen(self)?;
         let place = |sample: usize| (rows.place)(kept[sample]);
         let name = &columns[1];

@@ -101,8 +101,8 @@ impl SimulatedExperiment {
         domain::positive("duration", duration_s, "s")?;
         let last = (duration_s * self.rate_hz + 1e-9).floor();
         let remedy = "shorten the experiment or lower the rate";
-        let limit = Limit::AtMost(Self::MOST_SAMPLES - 1.0);
-        domain::require("number of samples", last, "", limit, remedy)?;
+        let samples = if last < Self::MOST_SAMPLES { last + 1.0 } else { domain::three_digits(last, f64::ceil) };
+        domain::require("number of samples", samples, "", Limit::AtMost(Self::MOST_SAMPLES), remedy)?;
         let mut random = Pcg64Mcg::seed_from_u64(self.seed);
         let mut relay = RelayState::new(self.relay, true);
         let mut motion = Motion::new(self.axis, self.start, relay.output());

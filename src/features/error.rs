@@ -1,7 +1,7 @@
 //! Why a record has no features.
 
 use crate::numeric::OutOfDomain;
-use crate::numeric::domain::Plain;
+use crate::numeric::domain::{About, Plain};
 
 /// Why a record shows no steady self-oscillation. Values are in the record's units.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -16,7 +16,7 @@ pub enum FeatureError {
     /// The command has more than two values, and does not go between them as a rudder does.
     #[error(
         "only {percent:.0} % of the input lie at its two extremes, at least {required:.0} % needed for a relay, and it does not \
-         go straight from one to the other at one rate; fit the whole record instead"
+         go straight from one to the other at one rate; fit the whole record instead (--method fit)"
     )]
     NotARelay {
         /// Share of samples at either extreme, in percent.
@@ -26,8 +26,8 @@ pub enum FeatureError {
     },
     /// The command stays at one level: the relay has lost the axis.
     #[error(
-        "the command stays at {level} for the last {duration_s} s, {ratio:.1} times a half period; it does not overcome \
-         the disturbance: raise the relay level or trim"
+        "the command stays at {} for the last {} s, {ratio:.1} times a half period, and does not overcome the disturbance; raise \
+         the relay level, trim the vehicle, or leave that part out (--to)", Plain(*.level), About(*.duration_s)
     )]
     Saturated {
         /// The level.

@@ -119,9 +119,9 @@ pub enum DesignError {
     Experiment(#[from] ExperimentError),
     /// No relay of the grid makes the rough model oscillate as wanted.
     #[error(
-        "no relay up to level {} makes five cycles of at least eight samples within {} s and amplitude {}; allow a larger level \
-         (--level) or amplitude (--largest-amplitude), log longer (--time) or faster (--rate)",
-        Plain(*.largest_level), Plain(*.time_limit_s), Plain(*.largest_amplitude)
+        "no relay up to level {} makes five cycles of at least eight samples within {} s{}; give drag (--beta, --beta-quadratic), \
+         allow a larger level (--level) or amplitude (--largest-amplitude), log longer (--time) or faster (--rate)",
+        Plain(*.largest_level), Plain(*.time_limit_s), Within(*.largest_amplitude)
     )]
     NoExperiment {
         /// The largest level.
@@ -131,6 +131,15 @@ pub enum DesignError {
         /// The largest amplitude.
         largest_amplitude: f64,
     },
+}
+
+/// A limit of the amplitude, where there is one.
+struct Within(f64);
+
+impl core::fmt::Display for Within {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        if self.0.is_finite() { write!(f, " and amplitude {}", Plain(self.0)) } else { Ok(()) }
+    }
 }
 
 impl DesignError {

@@ -1,7 +1,7 @@
 //! What can be wrong with a characteristic or its input.
 
 use crate::numeric::OutOfDomain;
-use crate::numeric::domain::Plain;
+use crate::numeric::domain::{About, Plain};
 
 /// Why a characteristic cannot be built or has no periodic output. Values are in the caller's input and output units.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -20,7 +20,8 @@ pub enum NonlinearityError {
     OutOfDomain(#[from] OutOfDomain),
     /// Two parameters in the wrong order.
     #[error(
-        "{characteristic}: {lesser} = {lesser_value} must be below {greater} = {greater_value}; exchange or separate them"
+        "{characteristic}: {lesser} = {} must be below {greater} = {}; exchange or separate them",
+        Plain(*.lesser_value), Plain(*.greater_value)
     )]
     Order {
         /// Catalogue name of the characteristic.
@@ -54,7 +55,7 @@ pub enum NonlinearityError {
     #[error(
         "quantizer: amplitude = {} with bias = {} sweeps {} treads; at most {limit} are summed, \
          treat a finer step as a straight line",
-        Plain(*.amplitude), Plain(*.bias), Plain(*.treads)
+        Plain(*.amplitude), Plain(*.bias), About(*.treads)
     )]
     Treads {
         /// Amplitude of the input.

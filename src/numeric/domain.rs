@@ -109,23 +109,34 @@ pub(crate) struct AtLeast(pub(crate) f64);
 
 impl fmt::Display for About {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        Plain(three_digits(self.0, libm::round)).fmt(f)
+        fmt_three_digits(self.0, libm::round, f)
     }
 }
 
 impl fmt::Display for AtMost {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        Plain(three_digits(self.0, libm::floor)).fmt(f)
+        fmt_three_digits(self.0, libm::floor, f)
     }
 }
 
 impl fmt::Display for AtLeast {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        Plain(three_digits(self.0, libm::ceil)).fmt(f)
+        fmt_three_digits(self.0, libm::ceil, f)
     }
 }
 
-fn three_digits(value: f64, round: fn(f64) -> f64) -> f64 {
+fn fmt_three_digits(value: f64, round: fn(f64) -> f64, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    let shown = three_digits(value, round);
+    // Beyond, powers of ten are inexact, and so is the product.
+    if shown == 0.0 || !shown.is_finite() || (1e-20..1e20).contains(&shown.abs()) {
+        fmt::Display::fmt(&Plain(shown), f)
+    } else {
+        write!(f, "{shown:.2e}")
+    }
+}
+
+/// A number rounded to three digits.
+pub(crate) fn three_digits(value: f64, round: fn(f64) -> f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return value;
     }

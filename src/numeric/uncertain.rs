@@ -11,9 +11,13 @@ pub(crate) struct Uncertain {
     percent: Option<String>,
 }
 
+/// Relative half-width below which it is that of rounding.
+const ROUNDING: f64 = 1e-12;
+
 impl Uncertain {
-    /// A value with four digits where the half-width is zero or not finite.
+    /// A value with four digits where the half-width is zero, rounding alone or not finite.
     pub(crate) fn new(value: f64, half_width: f64) -> Self {
+        let half_width = if half_width < ROUNDING * value.abs() { 0.0 } else { half_width };
         if !(half_width > 0.0 && half_width.is_finite() && value.is_finite()) {
             return Self { value: significant(value, 4), half_width: significant(half_width, 2), percent: None };
         }

@@ -1,5 +1,7 @@
 //! Why an experiment was not accepted, or was broken off.
 
+use crate::numeric::domain::{About, AtLeast, AtMost, Plain};
+
 /// Why a running experiment was broken off. Values are in the units of the [`Protocol`](super::Protocol), as f64 whatever the arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -13,7 +15,7 @@ pub enum Fault {
         value: f32,
     },
     /// A time that is not after the one before.
-    #[error("time {time_s} s after {previous_s} s; samples must be in order and each given once")]
+    #[error("time {} s after {} s; samples must be in order and each given once", Plain(*.time_s), Plain(*.previous_s))]
     TimeOrder {
         /// Time of this sample.
         time_s: f64,
@@ -22,7 +24,8 @@ pub enum Fault {
     },
     /// A clock too far on for the arithmetic, as the time since power-up in f32 is after hours.
     #[error(
-        "at {time_s} s no {interval_s} s can be told; give the time in s since the start of the experiment, or use f64"
+        "at {} s no {} s can be told; give the time in s since the start of the experiment, or use f64",
+        About(*.time_s), Plain(*.interval_s)
     )]
     CoarseTime {
         /// Time at which the experiment would be over.
@@ -31,7 +34,7 @@ pub enum Fault {
         interval_s: f64,
     },
     /// No sample for too long.
-    #[error("{gap_s} s without a sample, limit {limit_s} s; speed up the loop or plan a longer interval")]
+    #[error("{} s without a sample, limit {} s; speed up the loop or plan a longer interval", AtLeast(*.gap_s), AtMost(*.limit_s))]
     Gap {
         /// Time between two samples.
         gap_s: f64,
@@ -39,7 +42,7 @@ pub enum Fault {
         limit_s: f64,
     },
     /// A reading further from the one before than the vehicle can have moved.
-    #[error("the reading jumped by {change}, limit {limit}; check the sensor or allow a higher rate")]
+    #[error("the reading jumped by {}, limit {}; check the sensor or allow a higher rate", About(*.change), AtMost(*.limit))]
     Jump {
         /// Change of the reading, for a heading the short way round.
         change: f64,
@@ -47,7 +50,7 @@ pub enum Fault {
         limit: f64,
     },
     /// A heading of more turns than any sensor counts.
-    #[error("the heading reads {reading}, limit {limit} either way; check the sensor and its units")]
+    #[error("the heading reads {}, limit {} either way; check the sensor and its units", About(*.reading), AtMost(*.limit))]
     Range {
         /// The reading.
         reading: f64,
@@ -56,7 +59,8 @@ pub enum Fault {
     },
     /// The coordinate has left the space given to the experiment.
     #[error(
-        "{distance} from the reference, limit {limit}; check the actuator's sign and the disturbance, or give more room"
+        "{} from the reference, limit {}; check the actuator's sign and the disturbance, or give more room",
+        AtLeast(*.distance), AtMost(*.limit)
     )]
     Excursion {
         /// Distance from the reference.
@@ -66,8 +70,8 @@ pub enum Fault {
     },
     /// The first command drives the vehicle away from the reference.
     #[error(
-        "under the first command the reading moved {moved} away from the reference, limit {limit}; check the signs of \
-         actuator and sensor, or trim"
+        "under the first command the reading moved {} away from the reference, limit {}; check the signs of actuator and \
+         sensor, or trim", AtLeast(*.moved), AtMost(*.limit)
     )]
     WrongWay {
         /// Way in the wrong direction.
@@ -77,8 +81,8 @@ pub enum Fault {
     },
     /// The reading flickers, but goes nowhere: for four times the longest half-period before the last, or the patience.
     #[error(
-        "the reading stays within {range} for {unchanged_s} s under a relay that drives; check the sensor, the \
-         thrusters and the trim"
+        "the reading stays within {} for {} s under a relay that drives; check the sensor, the thrusters and the trim",
+        About(*.range), About(*.unchanged_s)
     )]
     NoMotion {
         /// How far it may be from where it was: half a half-width, or more for a coarse sensor.
@@ -88,8 +92,8 @@ pub enum Fault {
     },
     /// The sensor's noise switches the relay, in the last attempt either.
     #[error(
-        "noise would switch the relay within {dwell_s} s of the switching before, at half-width {half_width}; quieten \
-         the sensor or allow a wider relay"
+        "noise would switch the relay within {} s of the switching before, at half-width {}; quieten the sensor or allow a \
+         wider relay", About(*.dwell_s), About(*.half_width)
     )]
     Noise {
         /// Half-width of the last attempt.
@@ -99,7 +103,8 @@ pub enum Fault {
     },
     /// A reading that does not move.
     #[error(
-        "the reading is {reading} for {unchanged_s} s under a relay that drives; check the sensor and the thrusters"
+        "the reading is {} for {} s under a relay that drives; check the sensor and the thrusters",
+        About(*.reading), About(*.unchanged_s)
     )]
     Stuck {
         /// The reading.
@@ -109,22 +114,24 @@ pub enum Fault {
     },
     /// The relay did not switch, in the last attempt either.
     #[error(
-        "no switching at relay level {relay_level}; it does not overcome the disturbance: raise the limits or trim"
+        "no switching at relay level {}; it does not overcome the disturbance: raise the limits or trim", About(*.relay_level)
     )]
     NoOscillation {
         /// Level of the last attempt.
         relay_level: f64,
     },
     /// The cycles did not repeat, in the last attempt either.
-    #[error("cycles not alike at half-width {half_width}; allow more cycles or a larger spread, or quieten the water")]
+    #[error(
+        "cycles not alike at half-width {}; allow more cycles or a larger spread, or quieten the water", About(*.half_width)
+    )]
     NotConverged {
         /// Half-width of the last attempt.
         half_width: f64,
     },
     /// Condition 40 was not met, in the last attempt either.
     #[error(
-        "x_a + |x_0| above X_m (condition 40) at relay level {relay_level}, half-width {half_width}; trim or raise the \
-         limits"
+        "x_a + |x_0| above X_m (condition 40) at relay level {}, half-width {}; trim or raise the limits",
+        About(*.relay_level), About(*.half_width)
     )]
     Condition40 {
         /// Level of the last attempt.
@@ -133,7 +140,7 @@ pub enum Fault {
         half_width: f64,
     },
     /// The whole experiment took too long.
-    #[error("not done after {duration_s} s; plan for longer or for fewer attempts")]
+    #[error("not done after {} s; plan for longer or for fewer attempts", Plain(*.duration_s))]
     Overtime {
         /// The time planned.
         duration_s: f64,

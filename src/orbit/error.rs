@@ -1,7 +1,7 @@
 //! Why there is no limit cycle.
 
 use crate::numeric::OutOfDomain;
-use crate::numeric::domain::Plain;
+use crate::numeric::domain::{About, Plain};
 #[cfg(feature = "std")]
 use crate::plant::PlantError;
 
@@ -49,8 +49,8 @@ pub enum OrbitError {
     },
     /// Rounding hides the limit cycle: drag too weak for the arithmetic, or numbers beyond its range.
     #[error(
-        "multiplier {multiplier} is one within rounding, or numbers overflow, so that the limit cycle cannot be told; give \
-         more drag or hysteresis, or other units in which the numbers are near 1"
+        "multiplier differs from one by {}, which rounding hides, or numbers overflow; give more drag or hysteresis, or other \
+         units in which the numbers are near 1", About(*.multiplier - 1.0)
     )]
     Unresolved {
         /// Multiplier of the return map where the search ended; NaN after an overflow.
@@ -60,7 +60,7 @@ pub enum OrbitError {
     #[error(transparent)]
     OutOfDomain(#[from] OutOfDomain),
     /// An enclosure that stayed too wide, or a cycle that is none.
-    #[error("not proved of the cycle with half-period {half_period_s} s: {what}; scale time and state to order one")]
+    #[error("not proved of the cycle with half-period {} s: {what}; scale time and state to order one", About(*.half_period_s))]
     NotProved {
         /// What was to be proved.
         what: &'static str,
@@ -78,8 +78,8 @@ pub enum OrbitError {
     },
     /// A step size that shrank to nothing.
     #[error(
-        "the step at t = {time_s} s fell to {step_s} s; the right side is not smooth there or not finite; \
-         correct it, or loosen the tolerances"
+        "the step at t = {} s fell to {} s; the right side is not smooth there or not finite; correct it, or loosen the \
+         tolerances", About(*.time_s), About(*.step_s)
     )]
     StepTooSmall {
         /// Time, s.
@@ -88,7 +88,7 @@ pub enum OrbitError {
         step_s: f64,
     },
     /// More steps or events than allowed.
-    #[error("stopped at t = {time_s} s after {steps} steps; raise the limit or the tolerances")]
+    #[error("stopped at t = {} s after {steps} steps; raise the limit or the tolerances", About(*.time_s))]
     TooManySteps {
         /// Time reached, s.
         time_s: f64,

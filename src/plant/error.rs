@@ -1,6 +1,7 @@
 //! What can be wrong with a plant.
 
 use crate::numeric::OutOfDomain;
+use crate::numeric::domain::About;
 
 /// Why a plant cannot be built. Values are in the caller's units.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -37,7 +38,7 @@ pub enum PlantError {
     /// A numerator of higher degree than the denominator.
     #[error(
         "numerator of degree {numerator} over denominator of degree {denominator} is improper; \
-         the numerator's degree may be {denominator} at most"
+         the numerator's degree may be {denominator} at most; add the lags that the plant has"
     )]
     Improper {
         /// Degree of the numerator.
@@ -76,7 +77,7 @@ pub enum PlantError {
         outputs: usize,
     },
     /// The frequency response at a pole on the imaginary axis.
-    #[error("the plant has a pole at s = {omega_rad_s}j: no frequency response there; choose another frequency")]
+    #[error("the plant has a pole at s = {}j: no frequency response there; choose another frequency", About(*.omega_rad_s))]
     PoleAt {
         /// The frequency, rad/s.
         omega_rad_s: f64,

@@ -1,6 +1,7 @@
 //! What can be wrong with a vehicle, a thruster or a demand on them.
 
 use crate::numeric::OutOfDomain;
+use crate::numeric::domain::{About, AtLeast, AtMost, Plain};
 
 /// A refusal of the vehicle layer: which number, which limit, what to do.
 ///
@@ -13,8 +14,9 @@ pub enum VehicleError {
     OutOfDomain(#[from] OutOfDomain),
     /// Thrust that is negative or falls as the command grows: no inverse.
     #[error(
-        "thrust {thrust_at_dead_zone_n} N with slope {slope_at_dead_zone} at the dead zone {dead_zone}, slope {slope_at_limit} at \
-         the limit {limit}: thrust must not be negative nor fall between them; narrow the range or fit again"
+        "thrust {} N with slope {} at the dead zone {}, slope {} at the limit {}: thrust must not be negative nor fall between \
+         them; narrow the range or fit again", About(*.thrust_at_dead_zone_n), About(*.slope_at_dead_zone), Plain(*.dead_zone),
+        About(*.slope_at_limit), Plain(*.limit)
     )]
     NotMonotone {
         /// Command magnitude at which the propeller starts.
@@ -30,7 +32,8 @@ pub enum VehicleError {
     },
     /// More thrust than the largest command gives.
     #[error(
-        "thruster {thruster}: {thrust_n} N asked for, {largest_n} N is the most on that side; ask for less or clamp"
+        "thruster {thruster}: {} N asked for, {} N is the most on that side; ask for less or clamp",
+        Plain(*.thrust_n), AtMost(*.largest_n)
     )]
     Saturated {
         /// Number of the thruster.
@@ -42,8 +45,8 @@ pub enum VehicleError {
     },
     /// A thrust between standing still and the slowest rotation.
     #[error(
-        "thruster {thruster}: {thrust_n} N asked for, {smallest_n} N is the least while turning on that side; bias the thruster \
-         out of its dead zone or clamp"
+        "thruster {thruster}: {} N asked for, {} N is the least while turning on that side; bias the thruster out of its dead \
+         zone or clamp", Plain(*.thrust_n), AtLeast(*.smallest_n)
     )]
     InDeadZone {
         /// Number of the thruster.
@@ -54,7 +57,9 @@ pub enum VehicleError {
         smallest_n: f64,
     },
     /// Thrusters that cannot produce every axis independently, or data that cannot tell parameters apart.
-    #[error("{what} has rank {rank}, {needed} is needed: columns depend on each other")]
+    #[error(
+        "{what} has rank {rank}, {needed} is needed: columns depend on each other; place or measure them differently"
+    )]
     RankDeficient {
         /// The matrix.
         what: &'static str,
@@ -64,7 +69,7 @@ pub enum VehicleError {
         needed: usize,
     },
     /// A wrong number of items.
-    #[error("{count} {what} given: {needed} needed")]
+    #[error("{count} {what} given, {needed} needed; give that many")]
     Count {
         /// The items.
         what: &'static str,
@@ -99,7 +104,7 @@ pub enum VehicleError {
         threshold_n: f64,
     },
     /// Euler angles near pitch = +-90 degrees, where roll and yaw are the same rotation.
-    #[error("pitch {pitch_rad} rad: Euler rates need abs(cos(pitch)) >= {limit}; use the quaternion form")]
+    #[error("pitch {} rad: Euler rates need abs(cos(pitch)) >= {limit}; use the quaternion form", About(*.pitch_rad))]
     PitchSingular {
         /// The pitch.
         pitch_rad: f64,
@@ -107,7 +112,7 @@ pub enum VehicleError {
         limit: f64,
     },
     /// A matrix that is not symmetric, or not positive definite where inertia or drag must be.
-    #[error("{matrix} is not {property}: {value} is below {limit}")]
+    #[error("{matrix} is not {property}: {} is below {}; correct its entries", About(*.value), Plain(*.limit))]
     Indefinite {
         /// The matrix.
         matrix: &'static str,
@@ -119,7 +124,7 @@ pub enum VehicleError {
         limit: f64,
     },
     /// An integration step after which the state is no number.
-    #[error("the state is not finite {time_s} s after the start with steps of {step_s} s: take smaller steps")]
+    #[error("the state is not finite {} s after the start with steps of {} s; take smaller steps", About(*.time_s), Plain(*.step_s))]
     Diverged {
         /// Simulated time.
         time_s: f64,
@@ -127,7 +132,7 @@ pub enum VehicleError {
         step_s: f64,
     },
     /// An iteration that rounding keeps from its end.
-    #[error("{what} did not settle: scale axes and weights to similar size")]
+    #[error("{what} did not settle; scale axes and weights to similar size")]
     NoConvergence {
         /// The iteration.
         what: &'static str,

@@ -181,6 +181,59 @@ fn several_records_are_one_vehicle() {
     assert!(found["features"].is_null() && found["records"][1]["features"].is_object());
 }
 
+/// A record of the same vehicle at another level is predicted; one of a vehicle with three times the inertia is not, and no controller is
+/// made of that answer.
+#[test]
+fn a_record_that_is_not_predicted_makes_the_answer_doubtful() {
+    let folder = simulated(AXIS, &["--noise", "0.003"]);
+    for (name, alpha) in [("same.csv", "1"), ("other.csv", "3")] {
+        let vehicle = ["simulate", "--alpha", alpha, "--beta-quadratic", "0.5", "--relay", "2", "--half-width", "0.2"];
+        let (_, log, _) = selfosc(&folder, &[&vehicle[..], &["--delay", "0.1", "--hold"]].concat());
+        std::fs::write(folder.path().join(name), log).unwrap();
+    }
+    let same = json(&folder, &["--validate", "same.csv"]);
+    assert_eq!(same["reported"]["trust"], "good", "{}", same["reported"]["reasons"]);
+    let other = json(&folder, &["--validate", "same.csv", "other.csv"]);
+    let reported = &other["reported"];
+    assert_eq!((&reported["trust"], &reported["reasons"][0]["code"]), (&"doubtful".into(), &"does-not-predict".into()));
+    assert_eq!(reported["alpha"], same["reported"]["alpha"]);
+    std::fs::write(folder.path().join("model.json"), other.to_string()).unwrap();
+    let (status, _, complaint) = selfosc(&folder, &["tune", "--model", "model.json", "--bandwidth", "0.5"]);
+    assert!(status == 2 && complaint.contains("does-not-predict"), "{complaint}");
+    golden!("identify-does-not-predict", reported["reasons"][0]["text"].as_str().unwrap());
+}
+
+/// A depth is in m, and no autopilot's yaw loop takes its model.
+#[test]
+fn a_depth_has_no_yaw_loop() {
+    let folder = simulated(AXIS, &["--noise", "0.003"]);
+    let log = std::fs::read_to_string(folder.path().join("log.csv")).unwrap();
+    std::fs::write(folder.path().join("log.csv"), log.replace("output", "depth_m")).unwrap();
+    let found = json(&folder, &[]);
+    assert_eq!(found["units"]["output"], "m");
+    std::fs::write(folder.path().join("model.json"), found.to_string()).unwrap();
+    let tuned = |format| selfosc(&folder, &["tune", "--model", "model.json", "--bandwidth", "0.5", "--format", format]);
+    assert_eq!(["text", "json", "c", "ardusub", "px4"].map(|format| tuned(format).0), [0, 0, 0, 2, 2]);
+    assert!(tuned("ardusub").2.contains("--format: the model's output is in m, and must be an angle"));
+}
+
+/// A controller that holds its command for longer than the dead time is named; its gains hold the limit all the same.
+#[test]
+fn a_slow_controller_is_named() {
+    let folder = simulated(AXIS, &["--noise", "0.003"]);
+    let tuned = |interval| -> Value {
+        let (status, answer, _) = selfosc(&folder, &["autotune", "log.csv", "--interval", interval, "--json"]);
+        assert_eq!(status, 0, "{answer}");
+        serde_json::from_str(&answer).unwrap()
+    };
+    let [fast, slow] = ["0.02", "1"].map(tuned);
+    let named =
+        |answer: &Value| answer["reasons"].as_array().unwrap().iter().any(|one| one["code"] == "slow-controller");
+    assert_eq!((named(&fast), named(&slow)), (false, true));
+    assert_eq!(fast["trust"], slow["trust"]);
+    assert!(slow["sensitivity"]["proved_upper"].as_f64().unwrap() <= 1.4);
+}
+
 #[test]
 fn refusals() {
     let square = |time: f64| if (time / 2.0).fract() < 0.5 { 1.0 } else { -1.0 };

@@ -5,7 +5,7 @@ use clap::Args;
 use crate::command::CommandError;
 use crate::command::number::{finite, positive, small_count};
 use crate::numeric::OutOfDomain;
-use crate::on_board::{Coordinate, Experiment, Protocol};
+use crate::on_board::{Coordinate, Experiment, Fault, Protocol};
 
 /// The numbers of [`Protocol`]; those that are not given are its own.
 #[derive(Debug, Args)]
@@ -85,31 +85,50 @@ fn coordinate(text: &str) -> Result<Coordinate, String> {
     }
 }
 
-/// The flag of a number that the protocol refuses.
+/// The flags of a number that the protocol refuses.
 fn flag(fault: &OutOfDomain) -> &'static str {
     match fault.quantity {
         "reference" => "--reference",
         "neutral command" => "--neutral",
         "lowest command" => "--lowest",
         "highest command" => "--highest",
-        "relay level" => "--relay",
+        "relay level" => "--relay, --lowest, --highest",
         "half-width" => "--half-width",
-        "largest excursion" => "--excursion",
+        "largest excursion" => "--excursion, --half-width",
         "way in the wrong direction" => "--wrong-way",
-        "least time between switchings" => "--dwell",
+        "least time between switchings" => "--dwell, --patience",
         "sampling interval" => "--interval",
         "resolution of the reading" => "--resolution",
         "largest rate" => "--largest-rate",
-        "time of one reading" => "--unchanged",
-        "patience" => "--patience",
+        "time of one reading" => "--unchanged, --interval, --patience",
+        "patience" => "--patience, --duration",
         "duration" => "--duration",
         "spread of cycles" => "--spread",
         "factor between attempts" => "--factor",
         "cycles alike" => "--cycles",
-        "cycles of an attempt" => "--most-cycles",
+        "cycles of an attempt" => "--most-cycles, --cycles",
         "attempts" => "--attempts",
         _ => "the protocol",
     }
+}
+
+/// A fault in words, with the flags of its limits.
+pub(super) fn in_words(fault: Fault) -> String {
+    let flags = match fault.code() {
+        "gap" => "--interval",
+        "jump" => "--largest-rate",
+        "range" => "--coordinate",
+        "excursion" => "--excursion, --relay",
+        "wrong-way" => "--wrong-way",
+        "no-motion" | "stuck" => "--unchanged",
+        "noise" => "--half-width, --dwell",
+        "no-oscillation" => "--relay, --lowest, --highest, --patience",
+        "not-converged" => "--most-cycles, --spread",
+        "condition-40" => "--relay, --half-width",
+        "overtime" => "--duration, --attempts",
+        _ => return fault.to_string(),
+    };
+    format!("{fault} ({flags})")
 }
 
 impl ProtocolArguments {

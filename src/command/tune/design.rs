@@ -191,9 +191,11 @@ impl Family<'_> {
 
     /// The range of bandwidths for which there are gains.
     fn range(&self) -> Result<[f64; 2], ControlError> {
+        // No gains are fast beside the longest delay.
+        let longest_s = self.model.ranges().delay_s.upper().max(self.axis.delay_s());
         // Without delay nothing but the drag's pace limits the range; ten thousand times that is as good as no limit.
         let pace = self.slope.abs() / self.axis.alpha();
-        let beyond = if self.axis.delay_s() > 0.0 { 100.0 / self.axis.delay_s() } else { 1e4 * pace.max(1e-4) };
+        let beyond = if longest_s > 0.0 { 100.0 / longest_s } else { 1e4 * pace.max(1e-4) };
         let most = match self.tuning(beyond) {
             Ok(_) => beyond,
             Err(ControlError::TooFast { most_rad_s, .. }) => most_rad_s,

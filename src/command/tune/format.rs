@@ -1,10 +1,14 @@
 //! Gains in the form in which they are typed in.
 
+use core::f64::consts::TAU;
+
 use clap::ValueEnum;
 
 use super::design::Tuned;
 use crate::command::CommandError;
+use crate::command::known::Model;
 use crate::control::{Gains, Structure};
+use crate::numeric::domain::{AtLeast, AtMost};
 use crate::numeric::significant;
 
 /// A form of the gains.
@@ -22,7 +26,22 @@ pub(super) enum GainFormat {
     C,
 }
 
+/// Steps per second of the autopilots' loops: `SCHED_LOOP_RATE` of ArduSub.
+const LOOP_HZ: f64 = 400.0;
+/// Least rate of a loop over its bandwidth: 10 to 30 by Astrom and Wittenmark, *Computer-Controlled Systems* (1997), section 2.9.
+const STEPS: f64 = 10.0;
+
 impl GainFormat {
+    /// Whether this form is for such a model: an autopilot's yaw loops take a heading.
+    pub(super) fn takes(self, model: &Model) -> Result<(), CommandError> {
+        if model.length && matches!(self, Self::Ardusub | Self::Px4) {
+            let reason = "the model's output is in m, and must be an angle for the autopilot's yaw loops; choose text, json or c, or give \
+                          the model of a heading (--model)";
+            return Err(no_form(reason));
+        }
+        Ok(())
+    }
+
     pub(super) fn text(self, tuned: &Tuned, full_command: f64) -> Result<String, CommandError> {
         let gains = tuned.tuning.gains();
         let parameters = match self {
@@ -30,6 +49,15 @@ impl GainFormat {
             Self::Px4 => px4(gains, full_command)?,
             _ => return Ok(c(gains)),
         };
+        let (pole_rad_s, most_rad_s) = (tuned.tuning.double_pole_rad_s(), TAU * LOOP_HZ / STEPS);
+        if pole_rad_s > most_rad_s {
+            return Err(no_form(&format!(
+                "poles at {} rad/s, at most {} rad/s for the autopilot's loop of {LOOP_HZ} Hz; check the unit of the log's times \
+                 (`selfosc identify --time-unit`), or ask for less (--bandwidth)",
+                AtLeast(pole_rad_s),
+                AtMost(most_rad_s)
+            )));
+        }
         let mut notes =
             format!("# command from -1 to 1: {full_command} of the log's unit is 1 (--full-command); angles in rad\n");
         notes += &format!("# largest sensitivity of any axis {}\n", significant(tuned.sensitivity.met, 3));

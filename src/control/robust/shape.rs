@@ -5,10 +5,11 @@ use crate::control::process::PARAMETERS;
 use crate::numeric::{Interval, Real};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "a copy is nothing beside the boxes of a proof")]
 pub(super) enum Shape {
     /// The variables are the parameters.
     Box,
-    /// `centre + sum z_k directions_k`, and of each direction whether it is there.
+    /// They are coordinates from -1 to 1: `centre + sum z_k directions_k`.
     Along { centre: [f64; PARAMETERS], directions: [[f64; PARAMETERS]; PARAMETERS] },
 }
 

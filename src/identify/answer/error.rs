@@ -3,7 +3,7 @@
 use crate::describing::DescribingError;
 use crate::nonlinearity::NonlinearityError;
 use crate::numeric::OutOfDomain;
-use crate::numeric::domain::Plain;
+use crate::numeric::domain::{About, AtLeast, AtMost, Plain};
 use crate::orbit::OrbitError;
 use crate::plant::PlantError;
 
@@ -16,9 +16,9 @@ pub enum IdentifyError {
     OutOfDomain(#[from] OutOfDomain),
     /// No orbit of a drag axis has these features.
     #[error(
-        "switching level over amplitude is {ratio}, but orbits with these times and this delay have it below {limit} \
-         (1 - delay (1/t_plus + 1/t_minus)), and above 0 without a delay; read the level where the command was given, and \
-         check the delay"
+        "switching level over amplitude is {}, but orbits with these times and this delay have it below {} \
+         (1 - delay (1/t_plus + 1/t_minus)), and above 0 without a delay; read the level where the command was given \
+         (--half-width), and check the delay (--delay)", AtLeast(*.ratio), AtMost(*.limit)
     )]
     NoOrbit {
         /// Switching level over amplitude.
@@ -28,8 +28,8 @@ pub enum IdentifyError {
     },
     /// The features are those of an orbit whose drag is lost in rounding.
     #[error(
-        "switching level over amplitude is {ratio}, too near its limits to tell the drag; repeat \
-         the experiment with another half-width"
+        "switching level over amplitude is {}, too near its limits to tell the drag; repeat the experiment with another \
+         half-width, as `selfosc design` proposes", About(*.ratio)
     )]
     Unresolved {
         /// Switching level over amplitude.
@@ -38,7 +38,7 @@ pub enum IdentifyError {
     /// Fewer numbers measured than parameters asked for.
     #[error(
         "{equations} residuals for {parameters} parameters, which leaves nothing to judge the fit by; give more \
-         experiments or fix the delay"
+         experiments or fix the delay (--delay)"
     )]
     TooFewEquations {
         /// Residuals there are.
@@ -48,8 +48,8 @@ pub enum IdentifyError {
     },
     /// The experiments do not tell the parameters apart.
     #[error(
-        "some combination of the parameters changes the residuals only {ratio} times as much as another does; give \
-         experiments that differ more in relay level or half-width, or fix the delay"
+        "some combination of the parameters changes the residuals only {} times as much as another does; give \
+         experiments that differ more in relay level or half-width, or fix the delay (--delay)", About(*.ratio)
     )]
     Confounded {
         /// Smallest over largest singular value of the scaled Jacobian.
@@ -57,8 +57,8 @@ pub enum IdentifyError {
     },
     /// The search for the best parameters did not end.
     #[error(
-        "the parameters still move after {steps} steps, at a residual rms of {rms}; start nearer or leave out \
-         experiments that do not belong to this vehicle"
+        "the parameters still move after {steps} steps, at a residual rms of {}; leave out the start-up (--from) and records of \
+         other vehicles, or give the delay (--delay) or the drag law (--drag)", About(*.rms)
     )]
     NotSettled {
         /// Steps made.

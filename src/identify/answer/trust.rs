@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Estimate, Term};
 use crate::features::NotAnExperiment;
+use crate::numeric::domain::About;
 use crate::numeric::significant;
 
 /// Whether an answer is to be used.
@@ -64,6 +65,11 @@ pub enum Reason {
     NoExperiment(NotAnExperiment),
     /// The search ended before it came to rest.
     NotSettled,
+    /// A record that took no part in the estimate is predicted badly.
+    DoesNotPredict {
+        /// Part of the variance of its output that the answer explains, the least of all such records; `None` where the motion diverges.
+        explained: Option<f64>,
+    },
     /// Several records want inertias that differ by more than chance allows.
     RecordsDisagree {
         /// Standard deviation between records over the mean.
@@ -102,6 +108,9 @@ pub enum Reason {
 
 /// Half the interval's width over the value from which on an answer is of no use.
 const TOO_WIDE: f64 = 0.5;
+/// Least explained part of the variance, the efficiency of Nash and Sutcliffe (1970): satisfactory above by Moriasi et al. (2007), Trans.
+/// ASABE 50, table 4.
+const LEAST_EXPLAINED: f64 = 0.5;
 
 impl Reason {
     /// Whether this inertia is too wide to be of use, by its practical interval where it has that.
@@ -112,6 +121,12 @@ impl Reason {
             Some(relative) if relative < TOO_WIDE => None,
             relative => Some(Self::TooWide { relative: relative.unwrap_or(f64::INFINITY) }),
         }
+    }
+
+    /// Whether a record that took no part in the estimate is predicted worse than is satisfactory.
+    pub(crate) fn does_not_predict(explained: Option<f64>) -> Option<Self> {
+        let enough = explained.is_some_and(|part| part >= LEAST_EXPLAINED);
+        (!enough).then_some(Self::DoesNotPredict { explained: explained.filter(|part| part.is_finite()) })
     }
 
     /// The name that scripts see.
@@ -125,6 +140,7 @@ impl Reason {
             Self::TooWide { .. } => "too-wide",
             Self::NoExperiment(_) => "no-experiment",
             Self::NotSettled => "not-settled",
+            Self::DoesNotPredict { .. } => "does-not-predict",
             Self::RecordsDisagree { .. } => "records-disagree",
             Self::ThrustNotProportional { .. } => "thrust-not-proportional",
             Self::ThrustDeadZone { .. } => "thrust-dead-zone",
@@ -137,7 +153,7 @@ impl Reason {
     #[must_use]
     pub fn trust(self) -> Trust {
         match self {
-            Self::TooWide { .. } | Self::NotSettled => Trust::Doubtful,
+            Self::TooWide { .. } | Self::NotSettled | Self::DoesNotPredict { .. } => Trust::Doubtful,
             // A command of any shape tells the parameters apart if it moves the vehicle for two cycles.
             Self::NoExperiment(NotAnExperiment::NotHeld { .. }) => Trust::Widened,
             Self::NoExperiment(_) => Trust::Doubtful,
@@ -175,7 +191,23 @@ impl core::fmt::Display for Reason {
                 100.0 * relative
             ),
             Self::NoExperiment(missing) => write!(f, "the record is no relay experiment: {missing}"),
-            Self::NotSettled => write!(f, "the search for the best parameters did not come to rest"),
+            Self::NotSettled => write!(
+                f,
+                "the search for the best parameters did not come to rest; leave out the start-up (--from), or give the delay (--delay) \
+                 or the drag law (--drag)"
+            ),
+            Self::DoesNotPredict { explained } => {
+                match explained {
+                    Some(part) => write!(f, "the answer explains {} % of the variance", About(100.0 * part))?,
+                    None => write!(f, "the motion diverges under the command")?,
+                }
+                write!(
+                    f,
+                    " of a record that it should predict (--validate), at least {} % needed: vehicle, load or unit of the command \
+                     differ, or the model lacks a structure; check these, or fit all records together",
+                    100.0 * LEAST_EXPLAINED
+                )
+            }
             Self::RecordsDisagree { relative } => write!(
                 f,
                 "the records want inertias that scatter by {:.1} % beyond chance; the interval holds their scatter",

@@ -75,7 +75,7 @@ impl From<&Reported> for ReportedModel {
     }
 }
 
-/// Units of the numbers: `command` and `output` are those of the log's columns, angles in radians.
+/// Units of the numbers: `command` and `output` are those of the log's columns, angles in radians, depths in m.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct UnitNames {
     /// Of the output column as read.
@@ -95,9 +95,14 @@ pub struct UnitNames {
 }
 
 impl UnitNames {
-    pub(crate) fn of(degrees: bool) -> Self {
+    pub(crate) fn of(sources: &[Source]) -> Self {
+        let output = match sources {
+            _ if sources.iter().any(|source| source.log.degrees) => "rad",
+            [_, ..] if sources.iter().all(|source| source.log.is_length()) => "m",
+            _ => "output",
+        };
         Self {
-            output: if degrees { "rad" } else { "output" }.into(),
+            output: output.into(),
             alpha: "command s^2/output".into(),
             beta: "command s/output".into(),
             beta_quadratic: "command s^2/output^2".into(),
@@ -214,7 +219,7 @@ impl Identification {
             warnings: self.cautions.clone(),
             records,
             validation: self.validation.clone(),
-            units: UnitNames::of(self.sources.iter().any(|source| source.log.degrees)),
+            units: UnitNames::of(&self.sources),
             version: env!("CARGO_PKG_VERSION").into(),
         }
     }

@@ -1,5 +1,7 @@
 //! Every method asked for, on the same records. A method that refuses gives its reason.
 
+use core::cmp::Ordering;
+
 use super::guaranteed::Guaranteed;
 use super::identification::{Caution, Identification, MethodRefusal, Source, Validation};
 use super::model::Model;
@@ -73,7 +75,12 @@ impl<'a> Findings<'a> {
             let prediction = reported.as_ref().and_then(|reported| reported.predict(&log.record));
             Validation { file, prediction }
         });
-        let validation = validated.collect();
+        let validation: Vec<Validation> = validated.collect();
+        let explained = validation.iter().map(|one| one.prediction.map(|prediction| prediction.explained()));
+        // The least: `None`, where a motion diverges, is less than any number.
+        let worst = explained.min_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Less));
+        let reason = worst.and_then(Reason::does_not_predict);
+        let reported = reported.map(|reported| reason.into_iter().fold(reported, Reported::with_reason));
         let law_given = settings.drag;
         Ok(Identification {
             sources,

@@ -6,13 +6,14 @@ use std::path::Path;
 use super::identification::{Caution, Identification, Source};
 use super::methods::Findings;
 use super::refusal::Refusal;
-use super::settings::{Method, Settings};
+use super::settings::{Method, Settings, SettingsError};
 use super::stage::Stage;
 use crate::experiment::{Columns, Log, Record};
 use crate::features::{FeatureError, NotAnExperiment, RecordFeatures, RelayLevels};
 use crate::files::Input;
-use crate::identify::answer::Warning;
+use crate::identify::answer::{Delay, Warning};
 use crate::identify::bounded::certificate::ReadAs;
+use crate::numeric::{Limit, domain};
 
 /// A vehicle to be identified: settings, and its records, which are fitted jointly.
 ///
@@ -160,6 +161,12 @@ impl Session {
     /// As [`identify`](Self::identify).
     pub fn identify_with(self, progress: impl Fn(Stage)) -> Result<Identification, Refusal> {
         self.settings.check()?;
+        if let Delay::KnownS(delay_s) = self.settings.delay {
+            let shortest_s = self.logs.iter().map(|(_, log)| log.record.duration_s()).fold(f64::MAX, f64::min);
+            let limit = Limit::AtMost(domain::three_digits(shortest_s, f64::floor));
+            let remedy = "the record is no longer: give it in s, or leave it out to have it estimated";
+            domain::require("delay", delay_s, "s", limit, remedy).map_err(SettingsError::from)?;
+        }
         progress(Stage::Cycles);
         let mut cautions = Vec::new();
         let mut sources = Vec::with_capacity(self.logs.len());

@@ -97,10 +97,10 @@ pub enum SettingsError {
     /// Mixed drag without the fit.
     #[error("only the fit knows mixed drag; use it (--method fit), or another drag law (--drag)")]
     MixedNeedsFit,
-    /// A term or a certificate that only the guaranteed bounds have.
+    /// An assumption on the errors, a term or a certificate that only the guaranteed bounds have.
     #[error(
-        "--stiffness, --lag, --cubic, --either-sign, --jitter, --outliers, --budget and --certificate are of the guaranteed \
-         bounds; use these (--method bounded)"
+        "--error, --quantum, --jitter, --outliers, --budget, --stiffness, --lag, --cubic, --either-sign and --certificate are of the \
+         guaranteed bounds; use these (--method bounded)"
     )]
     NeedsBounded,
     /// A level outside its domain.
@@ -138,7 +138,7 @@ impl Settings {
         if !self.method.includes(Method::Fit) && self.method != Method::Bounded && self.drag == Some(DragLaw::Mixed) {
             return Err(SettingsError::MixedNeedsFit);
         }
-        let doubted = self.jitter_s > 0.0 || self.outliers > 0;
+        let doubted = self.error > 0.0 || self.quantum.is_some() || self.jitter_s > 0.0 || self.outliers > 0;
         let terms = [self.stiffness, self.lag, self.cubic, self.either_sign];
         let of_bounded = doubted || terms.contains(&true) || self.budget.is_some() || self.certificate;
         if self.method != Method::Bounded && of_bounded {

@@ -243,7 +243,7 @@ fn parameter_table(found: &Identification, reported: &Reported) -> Table {
     let terms = if terms.is_empty() { String::new() } else { format!(", with {}", terms.join(", ")) };
     let title = format!("Reported: {} drag{terms}", reported.drag.name());
     let columns = ["parameter", "value \u{b1} practical, 95 %", "\u{b1} if exact", "unit"];
-    let units = UnitNames::of(found.sources().iter().any(|source| source.log.degrees));
+    let units = UnitNames::of(found.sources());
     let (one, second) = (String::new(), "s".to_owned());
     let [alpha, beta, quadratic, cubic, stiffness] =
         [&units.alpha, &units.beta, &units.beta_quadratic, &units.beta_cubic, &units.stiffness]

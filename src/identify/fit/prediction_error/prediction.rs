@@ -27,6 +27,13 @@ pub struct Prediction {
     pub disturbance: f64,
 }
 
+impl Prediction {
+    /// Part of the output's variance that the prediction explains: one less the squared error over the variance.
+    pub(crate) fn explained(&self) -> f64 {
+        1.0 - (1.0 - 0.01 * self.fit_percent).powi(2)
+    }
+}
+
 /// A record's outputs as an answer predicts them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PredictedMotion {
