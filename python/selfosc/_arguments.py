@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import functools
 import inspect
+import math
 import operator
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, ParamSpec, TypeVar, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._names import nearest
+from ._names import near, nearest
 from .errors import UsageError
 
 _P = ParamSpec("_P")
@@ -31,10 +32,16 @@ def named(function: Callable[_P, _R]) -> Callable[_P, _R]:
             try:
                 signature.bind(*arguments, **options)
             except TypeError as error:
-                raise UsageError(_unbound(function.__name__, signature, options, error)) from None
+                raise UsageError(_unbound(function.__qualname__.removesuffix(".__init__"), signature, options, error)) from None
             raise
 
     return checked
+
+
+def constructed(kind: type[_R]) -> type[_R]:
+    """The same class, whose constructor answers as :func:`named`."""
+    kind.__init__ = named(kind.__init__)  # type: ignore[method-assign]
+    return kind
 
 
 def check(function: Callable[..., object], options: Iterable[str]) -> None:
@@ -47,7 +54,8 @@ def check(function: Callable[..., object], options: Iterable[str]) -> None:
 
 def _unbound(name: str, signature: inspect.Signature, options: Iterable[str], error: TypeError) -> str:
     """Why arguments do not fit a function."""
-    known = [one.name for one in signature.parameters.values() if one.kind not in (one.VAR_POSITIONAL, one.VAR_KEYWORD)]
+    named = (one for one in signature.parameters.values() if one.kind not in (one.VAR_POSITIONAL, one.VAR_KEYWORD))
+    known = [one.name for one in named if one.name != "self"]
     # Other keywords are parameters of a characteristic.
     open_ended = any(one.kind is one.VAR_KEYWORD for one in signature.parameters.values())
     unknown = [] if open_ended else [one for one in options if one not in known]
@@ -62,13 +70,15 @@ def shown(value: object) -> str:
         text = repr(value)
     except ValueError:  # sys.set_int_max_str_digits
         return f"an integer of {value.bit_length()} bits" if isinstance(value, int) else f"a {type(value).__name__}"
+    if "\n" in text:
+        return f"an object of type {type(value).__name__}"
     return text if len(text) <= 40 else f"{text[:20]}...{text[-20:]}"
 
 
 def number(value: Any, name: str) -> float:
     """A float; complex numbers, texts and integers that no float holds are refused."""
     try:
-        if isinstance(value, (str, bytes)) or np.ma.is_masked(value):
+        if np.ma.is_masked(value):
             raise TypeError
         return _real(value)
     except (TypeError, ValueError, OverflowError) as error:
@@ -76,15 +86,70 @@ def number(value: Any, name: str) -> float:
         raise UsageError(f"{name} is {shown(value)}: must be {limit}; give another") from error
 
 
-def whole(value: Any, name: str) -> int:
-    """An integer from 0 on that the machine counts with."""
+def finite(value: Any, name: str) -> float:
+    """A float that is neither infinite nor NaN."""
+    found = number(value, name)
+    if not math.isfinite(found):
+        raise UsageError(f"{name} is {found}: must be a finite number; give another")
+    return found
+
+
+def pair(value: Any, name: str) -> tuple[float, float]:
+    """Two floats."""
+    try:
+        lower, upper = value
+    except (TypeError, ValueError) as error:
+        raise UsageError(f"{name} is {shown(value)}: must be two numbers; give the lower first") from error
+    return number(lower, name), number(upper, name)
+
+
+def whole(value: Any, name: str, least: int = 0) -> int:
+    """An integer that the machine counts with."""
     try:
         count = operator.index(value)
     except TypeError as error:
-        raise UsageError(f"{name} is {shown(value)}: must be a whole number; give one from 0 on") from error
-    if not 0 <= count < 1 << 64:
-        raise UsageError(f"{name} is {shown(count)}: must be from 0 to 18446744073709551615; give another")
+        raise UsageError(f"{name} is {shown(value)}: must be a whole number; give one from {least} on") from error
+    if not least <= count < 1 << 64:
+        raise UsageError(f"{name} is {shown(count)}: must be from {least} to 18446744073709551615; give another")
     return count
+
+
+def switch(value: Any, name: str) -> bool:
+    """True or False, and no object that is merely taken for one of them."""
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    raise UsageError(f"{name} is {shown(value)}: must be True or False; give one of these")
+
+
+def text(value: Any, name: str) -> str:
+    """A text."""
+    if isinstance(value, str):
+        return value
+    raise UsageError(f"{name} is {shown(value)}: must be text; give a str")
+
+
+def mapping(value: Any, name: str, known: Iterable[str] | None = None) -> Mapping[str, Any]:
+    """A mapping, with no other keys than the known ones."""
+    if not isinstance(value, Mapping):
+        raise UsageError(f"{name} is {shown(value)}: must be a mapping from names to values; give one")
+    names = list(known or value)
+    for key in value:
+        if key not in names:
+            raise UsageError(f"{name} has {shown(key)}: must have no other keys than {', '.join(names)}; {nearest(str(key), names)}")
+    return value
+
+
+def several(value: Any, single: type | tuple[type, ...]) -> list[Any]:
+    """The elements of an iterable; what is single, or cannot be iterated over, alone."""
+    return [value] if isinstance(value, single) or not isinstance(value, Iterable) else list(value)
+
+
+def required(module: Callable[[], Any], extra: str) -> Any:
+    """A library, or how to get it."""
+    try:
+        return module()
+    except ImportError as error:
+        raise UsageError(f'{error.name} is not installed; pip install "selfosc[{extra}]"', "not-installed") from error
 
 
 def choice(value: Any, name: str, names: Any) -> Any:
@@ -92,7 +157,8 @@ def choice(value: Any, name: str, names: Any) -> Any:
     known = get_args(names)
     if isinstance(value, str) and value in known:
         return value
-    remedy = nearest(value, known) if isinstance(value, str) else "give one of these"
+    meant = near(value.lower(), known) if isinstance(value, str) else None
+    remedy = f"did you mean {meant}?" if meant else "give one of these"
     raise UsageError(f"{name} is {shown(value)}: must be {', '.join(known[:-1])} or {known[-1]}; {remedy}")
 
 
@@ -106,7 +172,7 @@ def array(values: Any, name: str) -> NDArray[np.float64]:
     try:
         return floats(values)
     except (TypeError, ValueError, OverflowError) as error:
-        raise UsageError(f"{name} is no array of real numbers ({cut(error)}); give numbers in it") from error
+        raise UsageError(f"{name} is {shown(values)}: must be an array of real numbers ({cut(error)}); give numbers in it") from error
 
 
 def floats(values: Any) -> NDArray[np.float64]:
@@ -118,8 +184,8 @@ def floats(values: Any) -> NDArray[np.float64]:
     found = np.asarray(values.data if masked else values)
     if found.dtype.kind == "O":
         found = np.array([np.nan if _missing(one) else _real(one) for one in found.ravel()]).reshape(found.shape)
-    if found.dtype.kind == "c":
-        raise TypeError("complex numbers")
+    if found.dtype.kind in "cSU":
+        raise TypeError("complex numbers" if found.dtype.kind == "c" else "texts")
     found = np.asarray(found, dtype=np.float64)
     return np.where(np.ma.getmaskarray(values), np.nan, found) if masked else found
 
@@ -128,6 +194,8 @@ def _real(one: Any) -> float:
     # numpy would leave the imaginary part out.
     if np.iscomplexobj(one):
         raise TypeError("a complex number")
+    if isinstance(one, (str, bytes)):
+        raise TypeError("a text")
     return float(one)
 
 
@@ -148,6 +216,8 @@ def path(given: Any, name: str = "path") -> str:
         named = os.fsencode(text)
     except (TypeError, UnicodeError) as error:
         raise UsageError(f"{name} is {shown(given)}: must be a path that the system can name; give another") from error
+    if not text:
+        raise UsageError(f"{name} is '': must be a path; give one")
     if b"\0" in named:
         raise UsageError(f"{name} is {shown(text)}: must have no character of code 0; give another")
     return text

@@ -29,20 +29,24 @@ def points(value: Any, name: str) -> list[tuple[float, float]]:
 
 def setting(value: Any, name: str) -> str:
     """The value of a characteristic's parameter: a number, or points."""
-    if isinstance(value, str):
-        return value
     if isinstance(value, Iterable):
         return ",".join(f"{x!r}:{y!r}" for x, y in points(value, name))
     return number(value, name)
 
 
 #: Options that count, which the command reads as integers.
-_COUNTS = {"cases", "seed", "proposals"}
+_COUNTS = {"cases", "proposals", "seed"}
+#: Options that are text, those of which several may be given, and those that are switched on.
+_TEXTS = {"coordinate", "form", "method", "model", "nonlinearity", "out", "structure", "time_unit"}
+_REPEATED = {"claim", "only"}
+_SWITCHES = {"degrees", "delay_known", "hold", "pi", "pid", "skip_bad_rows"}
 
 
 def _text(value: Any, name: str) -> str:
-    if isinstance(value, str):
-        return value
+    if name in _TEXTS or name in _REPEATED:
+        return _arguments.text(value, name)
+    if isinstance(value, bool):
+        raise UsageError(f"{name} is {value}: must be a number; give one")
     return str(_arguments.whole(value, name)) if name in _COUNTS else number(value, name)
 
 
@@ -59,19 +63,19 @@ def json_of(settings: Mapping[str, Any]) -> str:
 
 
 def flags(**options: Any) -> list[str]:
-    """Options as a shell would pass them: what is ``None`` or ``False`` is left out."""
+    """Options as a shell would pass them: those that are ``None`` or ``False`` are left out."""
     arguments: list[str] = []
     for name, value in options.items():
         flag = "--" + name.replace("_", "-")
-        if value is None or value is False:
+        if value is None:
             continue
-        if value is True:
-            arguments.append(flag)
-        elif isinstance(value, Iterable) and not isinstance(value, (str, bytes)):
-            values = [_text(one, name) for one in value]
-            arguments.append(f"{flag}={','.join(values)}") if name in _JOINED else arguments.extend(f"{flag}={one}" for one in values)
+        if name in _SWITCHES:
+            arguments += [flag] if _arguments.switch(value, name) else []
+        elif name in _REPEATED:
+            arguments += [f"{flag}={_text(one, name)}" for one in value]
         else:
-            arguments.append(f"{flag}={_text(value, name)}")
+            values = _arguments.several(value, str) if name in _JOINED else [value]
+            arguments.append(f"{flag}={','.join(_text(one, name) for one in values)}")
     return arguments
 
 
@@ -119,6 +123,9 @@ def coefficients(plant: Any, delay: float) -> tuple[list[float], list[float], fl
         num, den = ([*part] for part in plant)
     except (TypeError, ValueError) as error:
         raise UsageError("a plant of coefficients is a pair (numerator, denominator); give two sequences", "unknown-plant") from error
+    for part, name in ((num, "numerator"), (den, "denominator")):
+        if not part:
+            raise UsageError(f"{name} is []: must have a coefficient; give them in descending powers of s", "unknown-plant")
     num, den = ([_arguments.number(c, name) for c in part] for part, name in ((num, "numerator"), (den, "denominator")))
     # Other packages keep numerator and denominator of one length; here a degree is what its length says.
     while len(num) > 1 and num[0] == 0.0:

@@ -7,15 +7,16 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from ._names import nearest
+from ._names import Suggesting
 
 if TYPE_CHECKING:
     import pandas as pd
+    from matplotlib.figure import Figure
 
 __all__ = ["Result"]
 
 
-class Result:
+class Result(Suggesting):
     """A result with the command's JSON document behind it.
 
     Fields of the document are attributes: ``result.exact["amplitude"]`` is ``result.to_dict()["exact"]["amplitude"]``. Results
@@ -36,16 +37,12 @@ class Result:
         """The document: the same fields and numbers, bit for bit, as the command's JSON."""
         return self._document
 
-    if not TYPE_CHECKING:  # A type checker knows the fields from each class, and so finds one that is not there.
+    if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
             # Not while being unpickled, when there is no document yet.
             document = self.__dict__.get("_document", {})
-            if name in document:
-                return document[name]
-            # Protocols of Python and of notebooks ask for names that nobody meant.
-            remedy = "" if name.startswith("_") else f"; {nearest(name, [one for one in dir(self) if not one.startswith('_')])}"
-            raise AttributeError(f"{type(self).__name__} has no {name}{remedy}")
+            return document[name] if name in document else super().__getattr__(name)
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.__dict__.get("_document", {})]
@@ -97,6 +94,16 @@ _ROWS = 16
 def _cut(cell: str) -> str:
     """A cell that a line of a terminal holds."""
     return cell if len(cell) <= 60 else f"{cell[:57]}..."
+
+
+def finished(figure: Figure) -> Figure:
+    """A figure as a method returns it. A notebook shows what a cell returns; left open, it would be shown twice."""
+    import matplotlib
+    from matplotlib import pyplot
+
+    if "inline" in matplotlib.get_backend():
+        pyplot.close(figure)
+    return figure
 
 
 def measured(value: float, half_width: float | None) -> str:

@@ -24,8 +24,9 @@ _CHANNELS = {".ulg": "read_ulog", ".bin": "read_dataflash", ".mcap": "read_mcap"
 
 def sources(given: Any, columns: Mapping[str, Any]) -> list[Source]:
     """The logs in what a user gives: one, or a sequence of them."""
-    several = isinstance(given, Iterable) and not (_is_table(given) or isinstance(given, (str, bytes, os.PathLike)))
-    logs = list(given) if several else [given]
+    # An open file would give its lines.
+    single = _is_table(given) or isinstance(given, (str, bytes, os.PathLike)) or hasattr(given, "read")
+    logs = [given] if single or not isinstance(given, Iterable) else list(given)
     if not logs:
         raise UsageError("there is no log; give one or more")
     return [_source(log, "record" if len(logs) == 1 else f"record {place}", columns) for place, log in enumerate(logs, 1)]
@@ -55,6 +56,8 @@ def _source(log: Any, name: str, columns: Mapping[str, Any]) -> Source:
     labels = log if isinstance(log, Mapping) else getattr(log, "column_names", None) or log.columns
     # A name that is no text to the system is shown as near as may be.
     labels = list(labels)
+    if not labels:
+        raise RecordRefused(f"{name} has no columns: must have time, output and command; give three", "unknown-column")
     names = [_arguments.in_text(str(one)) for one in labels]
     places = _core.choose_columns(_documents.json_of(columns), names)
     chosen = [_numbers(_column(log, labels[place], place), names[place], name) for place in places]

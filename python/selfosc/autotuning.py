@@ -5,12 +5,15 @@ from __future__ import annotations
 import csv
 import tempfile
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from . import _arguments, _documents, _tables, types
-from ._results import Result, measured
+from ._results import Result, finished, measured
 from .errors import RecordRefused, UsageError
 from .identification import TimeUnit
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 __all__ = ["Autotuned", "autotune"]
 
@@ -58,6 +61,28 @@ class Autotuned(Result):
         process = self.models[0]
         rows += [[name, measured(part["value"], 1.96 * part["std"])] for name, part in process["parameters"].items()]
         return [["", process["family"]], *rows]
+
+    def plot(self) -> Figure:
+        """The open loop with the circle about -1 that it does not enter, and the answer to a load, for every process of the intervals."""
+        from matplotlib import pyplot
+
+        curves, limit = self.curves, self.sensitivity["proved_upper"]
+        if curves is None or limit is None:
+            raise UsageError("gains is None: a plot needs proved gains; read reasons, or allow a larger ms", "no-gains")
+        figure, (plane, answer) = pyplot.subplots(1, 2, figsize=(9.0, 4.0), layout="constrained")
+        for points in curves["open_loops"]:
+            plane.plot(*zip(*points, strict=True), linewidth=0.8, color="0.75")
+        plane.plot(*zip(*curves["open_loop"], strict=True), color="C0", label="likeliest process")
+        plane.add_patch(pyplot.Circle((-1.0, 0.0), 1.0 / limit, fill=False, linestyle="--", label=f"sensitivity {limit:.3g}"))
+        plane.plot(-1.0, 0.0, "+", color="C3", label="critical point")
+        plane.set(xlabel="real part", ylabel="imaginary part", xlim=(-3.0, 1.5), ylim=(-2.5, 2.0), aspect="equal")
+        plane.legend(fontsize="small")
+        _, output, command = self.record["columns"]
+        answer.fill_between(curves["time_s"], *zip(*curves["load_step_range"], strict=True), color="0.85", label="all processes")
+        answer.plot(curves["time_s"], curves["load_step"], color="C0", label="likeliest process")
+        answer.set(xlabel="time (s)", ylabel=f"{output} after a step of one unit of {command}")
+        answer.legend(fontsize="small")
+        return finished(figure)
 
 
 def _sensitivity(value: float | None) -> str:
@@ -133,25 +158,31 @@ def autotune(
     >>> found.models[0]["family"], round(found.dead_time_s["value"], 1), found.sensitivity["proved_upper"]
     ('first-order', 1.0, 1.4)
     """
-    columns = {"time": time, "output": output, "input": input, "process": True}
+    names = {"time": time, "output": output, "input": input}
+    columns = {name: _arguments.optional(_arguments.text, value, name) for name, value in names.items()} | {"process": True}
     sources = _tables.sources(source, columns)
     if len(sources) > 1:
         raise UsageError(f"there are {len(sources)} logs; give one")
     action = _arguments.choice(actions, "actions", Actions)
     flags = _documents.flags(
         ms=ms, pi=action == "pi", pid=action == "pid", form=_arguments.choice(form, "form", Form), derivative_filter=derivative_filter,
-        interval=interval, time=time, output=output, input=input, to=to_s,
-        time_unit=None if time_unit is None else _arguments.choice(time_unit, "time_unit", TimeUnit), skip_bad_rows=bool(skip_bad_rows), **{"from": from_s},
+        interval=interval, to=to_s,
+        time_unit=None if time_unit is None else _arguments.choice(time_unit, "time_unit", TimeUnit), skip_bad_rows=skip_bad_rows, **{"from": from_s},
     )  # fmt: skip
+    flags += [f"--{name}={value}" for name, value in names.items() if value is not None]
     [log] = sources
     if isinstance(log, Path):
         return Autotuned(_documents.answer("autotune", *flags, "--", str(log))[1])
-    name, names, values = log
+    name, labels, values = log
+    sizes = [len(column) for column in values]
+    if len(set(sizes)) > 1:
+        text = "{}: {} times, {} outputs and {} inputs must be as many; give one of each for every sample"
+        raise RecordRefused(text.format(name, *sizes), "unequal-columns")
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "record.csv"
         with path.open("w", encoding="utf-8", newline="") as file:
             rows = csv.writer(file)
-            rows.writerow(names)
+            rows.writerow(labels)
             rows.writerows([repr(float(value)) for value in row] for row in zip(*values, strict=True))
         try:
             document = _documents.answer("autotune", *flags, "--", str(path))[1]

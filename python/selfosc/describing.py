@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Literal, NamedTuple
+from functools import cached_property
+from typing import Any, Literal, NamedTuple, TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arguments, _core, _documents, types
+from ._names import Suggesting
 from ._results import Result
 from .errors import OutOfDomain, SelfoscError, UsageError
 
@@ -40,7 +42,7 @@ class DescribingFunction(NamedTuple):
     @property
     def gain(self) -> NDArray[np.complex128] | complex:
         """``p + jq``."""
-        return np.asarray(self.p) + 1j * np.asarray(self.q) if np.ndim(self.p) else complex(self.p, self.q)
+        return complex(self.p, self.q) if isinstance(self.p, float) else np.asarray(self.p) + 1j * np.asarray(self.q)
 
 
 class Described(Result):
@@ -57,7 +59,7 @@ class Described(Result):
     enclosure: types.DescribingFunctionEnclosure | None
 
 
-class Nonlinearity:
+class Nonlinearity(Suggesting):
     """A characteristic of the catalogue with its parameters; made by :func:`nonlinearity`.
 
     python-control takes it wherever it takes its own. Called, it gives the output for an input; one with memory (hysteresis,
@@ -65,14 +67,11 @@ class Nonlinearity:
     """
 
     def __init__(self, name: str, **parameters: Any) -> None:
-        if not isinstance(name, str):
-            raise UsageError(f"{_arguments.shown(name)} is no name of a characteristic; selfosc.catalogue() lists them")
+        named_characteristic(name)
         given = [(key, _parameter(value, key)) for key, value in parameters.items()]
         self._core = _core.Characteristic(name, given)
         self.name = name
         self._has_memory = name in _WITH_MEMORY
-        numbers = (abs(value) for value in self.parameters.values() if isinstance(value, float))
-        self._reach = 4.0 * sum(numbers)
         self._last: float | None = None
 
     @property
@@ -117,6 +116,10 @@ class Nonlinearity:
             outputs = self._core.outputs(np.require(inputs, requirements=["C", "A"]).reshape(-1)).reshape(inputs.shape)
         return outputs if inputs.ndim else float(outputs)
 
+    @cached_property
+    def _reach(self) -> float:
+        return 4.0 * sum(abs(value) for value in self.parameters.values() if isinstance(value, float))
+
     def _follow(self, x: float) -> float:
         """Between what a rising and a falling input would give, the output stays where it was."""
         # A sweep so wide that neither of its turning points matters.
@@ -157,6 +160,8 @@ class Nonlinearity:
         Where the input is too small to switch a hysteresis or to cross a gap, the output rests, and the gain is 0. Its mean is
         then wherever it came to rest, which :func:`describing_function` refuses to say.
         """
+        if _single(A) and _single(bias) and A > 0.0:
+            return self._at_rest(A, bias)
         amplitude, centre = _broadcast(_arguments.array(A, "amplitude"), _arguments.array(bias, "bias"))
         if (amplitude < 0.0).any():
             value = float(amplitude[amplitude < 0.0].flat[0])
@@ -177,10 +182,11 @@ class Nonlinearity:
     def _at_rest(self, amplitude: float, bias: float) -> complex:
         """The gain where there is no describing function: none of an output that rests, else why there is none."""
         try:
-            return complex(describing_function(self, amplitude, bias).gain)
+            _, p, q = self._core.of_sweep(amplitude, bias)
+            return complex(p, q)
         except SelfoscError as refusal:
             if refusal.code == "below-switching":
-                return 0.0
+                return 0j
             raise
 
     def _slope(self, bias: float) -> complex:
@@ -289,6 +295,13 @@ def describing_function(
     >>> round(describing_function(lambda x: x**3, 2.0).p, 12)
     3.0
     """
+    if isinstance(characteristic, str):
+        characteristic = Nonlinearity(characteristic, **parameters)
+    elif parameters:
+        raise UsageError(f"parameters {', '.join(parameters)} go with a name only; leave them out")
+    # Without arrays a single sweep takes a tenth of the time.
+    if isinstance(characteristic, Nonlinearity) and undefined == "raise" and _single(amplitude) and _single(bias):
+        return DescribingFunction(*characteristic._core.of_sweep(amplitude, bias))
     sizes = _arguments.array(amplitude, "amplitude"), _arguments.array(bias, "bias")
     wide, centre = _broadcast(*sizes)
     shape = wide.shape
@@ -301,20 +314,29 @@ def describing_function(
         empty = np.empty(shape)
         return DescribingFunction(empty, empty.copy(), empty.copy())
     _arguments.choice(undefined, "undefined", Undefined)
-    if isinstance(characteristic, str):
-        characteristic = Nonlinearity(characteristic, **parameters)
-    elif parameters:
-        raise UsageError(f"parameters {', '.join(parameters)} go with a name only; leave them out")
     parts: Iterable[NDArray[np.float64]]
     if isinstance(characteristic, Nonlinearity):
         parts = characteristic._core.describing_function(wide, centre, undefined == "nan")
     elif callable(characteristic):
-        parts = _core.by_quadrature(_of_branch(characteristic), [_arguments.number(kink, "kinks") for kink in kinks], wide, centre)
+        places = [_arguments.finite(kink, "kinks") for kink in _arguments.several(kinks, str)]
+        parts = _core.by_quadrature(_of_branch(characteristic), places, wide, centre)
     else:
         raise UsageError(f"{characteristic!r} is no characteristic: give a name, an object of nonlinearity() or a function")
     if shape:
         return DescribingFunction(*(part.reshape(shape) for part in parts))
     return DescribingFunction(*(float(part[0]) for part in parts))
+
+
+def named_characteristic(name: Any) -> str:
+    """A name, which the catalogue may still not have."""
+    if not isinstance(name, str):
+        raise UsageError(f"{_arguments.shown(name)} is no name of a characteristic; selfosc.catalogue() lists them")
+    return name
+
+
+def _single(value: Any) -> TypeGuard[float]:
+    """Whether a value is one number that a float holds."""
+    return isinstance(value, (float, int)) and abs(value) < 1e308
 
 
 def _broadcast(amplitude: NDArray[np.float64], bias: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
@@ -333,8 +355,13 @@ def _of_branch(function: Callable[..., Any]) -> Callable[[float, bool], float]:
     except (TypeError, ValueError):
         takes_branch = False
     if takes_branch:
-        return lambda x, rising: float(function(x, rising))
-    return lambda x, _: float(np.squeeze(function(x)))
+        return lambda x, rising: _output(function(x, rising))
+    return lambda x, _: _output(function(x))
+
+
+def _output(value: Any) -> float:
+    """A value of a user's function, which may be an array of one element."""
+    return value if isinstance(value, float) else _arguments.number(np.squeeze(value), "the function's value")
 
 
 @_arguments.named
@@ -372,9 +399,7 @@ def df(
     True
     """
     arguments = _documents.flags(amplitude=amplitude, bias=bias, method=_arguments.choice(method, "method", Method))
-    if not isinstance(name, str):
-        raise UsageError(f"{_arguments.shown(name)} is no name of a characteristic; selfosc.catalogue() lists them")
-    return Described(_documents.answer("df", name, *_documents.settings(parameters), *arguments)[1])
+    return Described(_documents.answer("df", named_characteristic(name), *_documents.settings(parameters), *arguments)[1])
 
 
 @_arguments.named

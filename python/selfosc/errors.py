@@ -86,7 +86,9 @@ _SWITCHES = {"any-input", "degrees", "even-stamps", "invert", "radians", "skip-b
 #: What the command does, as Python does it.
 _CALLS = {
     ", --budget and --certificate are": " and --budget are",
+    "`selfosc autotune LOG`": "selfosc.autotune",
     "`selfosc df --list`": "selfosc.catalogue()",
+    "; write them as 0.5,2": "; give (0.5, 2)",
     "`selfosc identify LOG --json > RESULT.json`": "selfosc.identify",
     "`selfosc verify --certificates DIR`": "the command `selfosc verify`",
     "`selfosc verify` without --claim": "selfosc.verify()",
@@ -109,13 +111,29 @@ def _in_python(text: str) -> str:
     # A name that is not known stands before those that are.
     text = re.sub(r"`(?P<name>[^`]+)`; (?:known|it has): (?P<known>.+)", _meant, text)
     # A flag of which a message shows what it takes.
-    text = re.sub(r"(?<=')(--[a-z-]+) <[A-Z]+>(?:\.\.\.)?(?=')", r"\1", text)
+    text = re.sub(r"(?<=')(--[a-z-]+) <[^'>]+>(?:\.\.\.)?(?=')", r"\1", text)
+    # The sentences of the command's parser.
+    text = re.sub(r"the following required arguments were not provided:\s+<?(.+)", _missing, text)
+    text = re.sub(r"the argument '--([a-z-]+)' cannot be used with '--([a-z-]+)'", r"--\1 must not be given with --\2; give one of them", text)
+    text = re.sub(r"\s+\[possible values: (.+)\]", r": must be one of \1", text)
+    text = re.sub(r"\s+tip: a similar value exists: '(.+)'", r"; did you mean \1?", text)
+    text = re.sub(r"none is named (?P<name>[^ ,]+) among (?P<known>.+?); name one of these", _column, text)
     # A value stands in the parentheses of a remedy; elsewhere a word that follows is one of the sentence.
     text = re.sub(r"(?<=\()--(?P<name>[a-z][a-z-]*)(?: (?P<value>[^\s,)]+))?(?=[,)])", named, text)
     text = text.replace("--set ", "")
     text = re.sub(r"--(?P<name>[a-z][a-z-]*)(?P<value>)", named, text)
     # `alpha: alpha is -1` says it once.
-    return re.sub(r"^(\w+): (?=\1 )", "", text)
+    return re.sub(r"^(\w+): (?=\1 )", "", text).replace("(plant, plant)", "(plant)")
+
+
+def _missing(flags: re.Match[str]) -> str:
+    names = [name.replace("-", "_") for name in re.findall(r"--([a-z-]+)", flags[1]) if name != "num"]
+    return f"{names[0]} is None: must be a value; give one" if len(names) == 1 else f"none of {', '.join(names)} is given: must be one; give one"
+
+
+def _column(unknown: re.Match[str]) -> str:
+    meant = near(unknown["name"], unknown["known"].split(", "))
+    return unknown[0] if meant is None else f"none is named {unknown['name']} among {unknown['known']}; did you mean {meant}? Name one of these"
 
 
 def _meant(unknown: re.Match[str]) -> str:

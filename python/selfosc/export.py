@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 from xml.etree import ElementTree
 
 from . import _arguments, types
@@ -24,6 +23,7 @@ __all__ = [
     "xacro_hydrodynamics",
 ]
 
+Axis = Literal["surge", "sway", "heave", "roll", "pitch", "yaw"]
 #: Axes of a body by the letters of force and velocity (SNAME).
 AXES = {"surge": "xU", "sway": "yV", "heave": "zW", "roll": "kP", "pitch": "mQ", "yaw": "nR"}
 
@@ -31,7 +31,9 @@ AXES = {"surge": "xU", "sway": "yV", "heave": "zW", "roll": "kP", "pitch": "mQ",
 def _values(model: Identification | Mapping[str, float]) -> dict[str, float]:
     """Inertia, drags and delay, of an identification or given."""
     if isinstance(model, Mapping):
-        values = {name: _arguments.number(model.get(name, 0.0), name) for name in ("alpha", "beta", "beta_quadratic", "delay")}
+        names = ("alpha", "beta", "beta_quadratic", "delay")
+        _arguments.mapping(model, "model", (*names, "delta", "drag"))
+        values = {name: _arguments.finite(model.get(name, 0.0), name) for name in names}
     elif not isinstance(model, Identification):
         raise UsageError(f"model is {_arguments.shown(model)}: must be an Identification or a mapping; give one of these")
     else:
@@ -42,9 +44,15 @@ def _values(model: Identification | Mapping[str, float]) -> dict[str, float]:
             raise UsageError("the model is doubtful; give alpha and drag yourself, or log another record", "doubtful")
         drag = {name: 0.0 if part is None else part["value"] for name, part in _drag_of(answer).items()}
         values = {"alpha": answer["alpha"]["value"], **drag, "delay": answer["delay_s"]["value"]}
-    if not (math.isfinite(values["alpha"]) and values["alpha"] > 0.0):
-        raise UsageError(f"alpha is {values['alpha']}: must be above 0; check where it comes from", "out-of-domain")
+    _least("alpha", values["alpha"], "above 0", values["alpha"] > 0.0)
+    _least("delay", values["delay"], "0 or more", values["delay"] >= 0.0)
     return values
+
+
+def _least(name: str, value: float, limit: str, kept: bool) -> float:
+    if not kept:
+        raise UsageError(f"{name} is {value}: must be {limit}; check where it comes from", "out-of-domain", name, value)
+    return value
 
 
 def _drag_of(answer: types.Reported) -> dict[str, types.Interval | None]:
@@ -79,10 +87,10 @@ def state_space(model: Identification | Mapping[str, float], speed: float = 0.0,
     import control
 
     values = _values(model)
-    slope = values["beta"] + 2.0 * values["beta_quadratic"] * abs(_arguments.number(speed, "speed"))
+    slope = values["beta"] + 2.0 * values["beta_quadratic"] * abs(_arguments.finite(speed, "speed"))
     alpha = values["alpha"]
     axis = control.ss([[0.0, 1.0], [0.0, -slope / alpha]], [[0.0], [1.0 / alpha]], [[1.0, 0.0]], [[0.0]])
-    if pade:
+    if _arguments.whole(pade, "pade"):
         return control.ss(axis * control.tf(*control.pade(values["delay"], pade)))
     return axis
 
@@ -124,10 +132,11 @@ def hydrodynamic_coefficients(
     >>> hydrodynamic_coefficients({"alpha": 3.0, "beta": 0.5, "beta_quadratic": 2.0}, "yaw", rigid_inertia=1.0)
     {'nDotR': -2.0, 'nR': -0.5, 'nRabsR': -2.0}
     """
-    if axis not in AXES:
-        raise UsageError(f"{axis!r} is no axis; choose one of {', '.join(AXES)}")
-    values, scale = _values(model), _arguments.number(scale, "scale")
-    rigid_inertia = _arguments.number(rigid_inertia, "rigid_inertia")
+    _arguments.choice(axis, "axis", Axis)
+    values, scale = _values(model), _arguments.finite(scale, "scale")
+    _least("scale", scale, "above 0", scale > 0.0)
+    rigid_inertia = _arguments.finite(rigid_inertia, "rigid_inertia")
+    _least("rigid_inertia", rigid_inertia, "0 or more", rigid_inertia >= 0.0)
     force, velocity = AXES[axis][0], AXES[axis][1]
     added = values["alpha"] * scale - rigid_inertia
     if added < 0.0:
@@ -158,7 +167,13 @@ def gazebo_hydrodynamics(coefficients: Mapping[str, float], link: str, *, water_
     </plugin>
     """
     plugin = ElementTree.Element("plugin", filename="gz-sim-hydrodynamics-system", name="gz::sim::systems::Hydrodynamics")
-    for name, value in {"link_name": link, "water_density": _arguments.number(water_density, "water_density"), **coefficients}.items():
+    density = _arguments.finite(water_density, "water_density")
+    settings = {"link_name": _arguments.text(link, "link"), "water_density": _least("water_density", density, "above 0", density > 0.0)}
+    for name, value in _arguments.mapping(coefficients, "coefficients").items():
+        if not _arguments.text(name, "a coefficient's name").isidentifier():
+            raise UsageError(f"coefficients has {name!r}: must be a derivative, as nDotR; take them from hydrodynamic_coefficients")
+        settings[name] = _arguments.finite(value, name)
+    for name, value in settings.items():
         ElementTree.SubElement(plugin, name).text = str(value)
     ElementTree.indent(plugin)
     return ElementTree.tostring(plugin, encoding="unicode")
@@ -175,7 +190,7 @@ def xacro_hydrodynamics(coefficients: Mapping[str, float], name: str = "hydrodyn
     <xacro:macro name="hydrodynamics" params="link">
     """
     robot = ElementTree.Element("robot", {"xmlns:xacro": "http://www.ros.org/wiki/xacro"})
-    macro = ElementTree.SubElement(robot, "xacro:macro", name=name, params="link")
+    macro = ElementTree.SubElement(robot, "xacro:macro", name=_arguments.text(name, "name"), params="link")
     gazebo = ElementTree.SubElement(macro, "gazebo")
     gazebo.append(ElementTree.fromstring(gazebo_hydrodynamics(coefficients, "${link}")))
     ElementTree.indent(robot)
@@ -204,8 +219,7 @@ def ardusub_parameters(tuned: Tuned, axis: str = "yaw") -> dict[str, float]:
     measurement with ``derivative = RAT_P`` and ``proportional = RAT_P ANG_P``. Its limits of rate and acceleration, its
     square-root shaping of large errors and the filter of the derivative are not in this.
     """
-    if axis not in ("roll", "pitch", "yaw"):
-        raise UsageError(f"{axis!r} has no attitude loop; choose roll, pitch or yaw")
+    _arguments.choice(axis, "axis", Literal["roll", "pitch", "yaw"])
     if not isinstance(tuned, Tuned):
         raise UsageError(f"tuned is {_arguments.shown(tuned)}: must be a result of selfosc.tune(); give one")
     gains = tuned.gains

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import pyarrow as pa
 
 from . import __version__, _arguments
-from .errors import SelfoscError
+from .errors import SelfoscError, UsageError
 from .identification import identify
 
 if TYPE_CHECKING:
@@ -70,7 +70,9 @@ def identify_record(table: pa.Table, record: str = "record", **settings: Any) ->
     'too-short'
     """
     _arguments.check(identify, settings)
-    row: dict[str, Any] = {"record": record, "version": __version__}
+    if not isinstance(table, pa.Table):
+        raise UsageError(f"table is {_arguments.shown(table)}: must be a pyarrow.Table; give one")
+    row: dict[str, Any] = {"record": _arguments.text(record, "record"), "version": __version__}
     try:
         row |= _row(identify(table, **settings).to_dict())
     except SelfoscError as refusal:
@@ -94,8 +96,15 @@ def _row(document: dict[str, Any]) -> dict[str, Any]:
 
 def identify_tables(records: Iterable[tuple[str, pa.Table]], **settings: Any) -> pa.Table:
     """Records one after the other: names and tables in, one row for each, in their order."""
-    rows = [identify_record(table, record, **settings) for record, table in records]
+    rows = [identify_record(table, record, **settings) for record, table in _pairs(records)]
     return pa.concat_tables(rows) if rows else SCHEMA.empty_table()
+
+
+def _pairs(records: Any) -> list[tuple[str, pa.Table]]:
+    try:
+        return [(record, table) for record, table in records]
+    except (TypeError, ValueError) as error:
+        raise UsageError(f"records is {_arguments.shown(records)}: must be pairs of a name and a table; give these") from error
 
 
 def identify_spark(frame: pyspark.sql.DataFrame, key: str, **settings: Any) -> pyspark.sql.DataFrame:
@@ -103,7 +112,7 @@ def identify_spark(frame: pyspark.sql.DataFrame, key: str, **settings: Any) -> p
 
     Spark works on a lost worker's records again elsewhere.
     """
-    from pyspark.sql.pandas.types import from_arrow_schema
+    from_arrow_schema = _arguments.required(lambda: __import__("pyspark.sql.pandas.types", fromlist=["types"]), "spark").from_arrow_schema
 
     def work(name: tuple[Any, ...], table: pa.Table) -> pa.Table:
         # What is shuffled has lost its order.
@@ -123,7 +132,10 @@ def identify_dask(records: Iterable[tuple[str, pa.Table]], client: Any, *, retri
 
     Dask works on a lost worker's records again elsewhere, ``retries`` times.
     """
-    futures = [client.submit(identify_record, table, record, **settings, retries=retries, pure=False) for record, table in records]
+    if not hasattr(client, "submit"):
+        raise UsageError(f"client is {_arguments.shown(client)}: must be a dask.distributed.Client; give one")
+    pairs = _pairs(records)
+    futures = [client.submit(identify_record, table, record, **settings, retries=retries, pure=False) for record, table in pairs]
     rows = client.gather(futures)
     return pa.concat_tables(rows) if rows else SCHEMA.empty_table()
 
@@ -133,8 +145,7 @@ def identify_ray(records: Iterable[tuple[str, pa.Table]], *, retries: int = 3, *
 
     Ray works on a lost worker's records again elsewhere, ``retries`` times.
     """
-    import ray
-
+    ray = _arguments.required(lambda: __import__("ray"), "ray")
     work = ray.remote(max_retries=retries)(identify_record)
-    rows = ray.get([work.remote(table, record, **settings) for record, table in records])
+    rows = ray.get([work.remote(table, record, **settings) for record, table in _pairs(records)])
     return pa.concat_tables(rows) if rows else SCHEMA.empty_table()

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 
 from . import _arguments, _core, _documents, _tables, types
-from ._results import Result, _flat, measured
+from ._results import Result, _flat, finished, measured
 from .errors import OutOfDomain, UsageError
 
 if TYPE_CHECKING:
@@ -89,6 +89,7 @@ class Identification(Result):
                 table.append([name, measured(value, farther), units.get(name, "")])
         return table
 
+    @_arguments.named
     def report(self, path: str | os.PathLike[str]) -> Path:
         """Writes one HTML file with tables and figures, which needs no network.
 
@@ -111,20 +112,20 @@ class Identification(Result):
         The model drawn is that of the fit with the likeliest drag law, beside the record that it was fitted to; the intervals
         are those of ``reported``.
         """
-        import matplotlib
         from matplotlib import pyplot
 
         logs = [source["log"]["record"] for source in self.details["sources"]]
         fitted = _fitted(self.details, len(logs))
+        unit = self.units["output"]
+        in_unit = "" if unit == "output" else f" ({unit})"
         figure = pyplot.figure(figsize=(9.0, 3.6 * len(logs) + 2.2), layout="constrained")
-        grid = figure.add_gridspec(2 * len(logs) + 1, 1, height_ratios=[2.2, 1.0] * len(logs) + [1.6])
-        for place, (log, fit) in enumerate(zip(logs, fitted, strict=True)):
-            above = figure.add_subplot(grid[2 * place])
-            below = figure.add_subplot(grid[2 * place + 1], sharex=above)
+        *records, values = figure.subfigures(len(logs) + 1, 1, height_ratios=[3.6] * len(logs) + [2.2], squeeze=False).flat
+        for place, (part, log, fit) in enumerate(zip(records, logs, fitted, strict=True)):
+            above, below = part.subplots(2, 1, sharex=True, height_ratios=[2.2, 1.0])
             time = np.asarray(log["time_s"])
             above.plot(time, log["output"], ".", markersize=3, color="0.45", label="record")
             above.set_title(self.details["sources"][place]["name"], fontsize="medium")
-            above.set_ylabel("output")
+            above.set_ylabel(f"output{in_unit}")
             if fit is not None:
                 first, output, residuals = fit
                 inside = time[first : first + len(output)]
@@ -132,31 +133,26 @@ class Identification(Result):
                 below.plot(inside, residuals, linewidth=0.8, color="C3")
             command = above.twinx()
             command.step(time, log["input"], where="post", linewidth=0.8, color="C1", alpha=0.6, label="command")
-            command.set_ylabel("command")
+            command.set_ylabel("command (as logged)")
             above.legend(loc="upper right", fontsize="small")
-            below.set_ylabel("residual")
-            below.set_xlabel("time / s")
-        self._plot_intervals(figure.add_subplot(grid[-1]))
-        if "inline" in matplotlib.get_backend():
-            # A notebook shows what a cell returns; left open, it would be shown twice.
-            pyplot.close(figure)
-        return figure
+            below.set_ylabel(f"residual{in_unit}")
+            below.set_xlabel("time (s)")
+        self._plot_intervals(values)
+        return finished(figure)
 
-    def _plot_intervals(self, axes: Any) -> None:
-        """Each parameter's interval relative to its value."""
+    def _plot_intervals(self, figure: Any) -> None:
+        """Each parameter's statistical interval, thick, in its practical one, on an axis in its unit."""
         answer = self.to_dict().get("reported") or {}
         named = {name: part for name, part in answer.items() if isinstance(part, dict) and part.get("low") is not None}
-        for row, (_, part) in enumerate(named.items()):
-            scale = abs(part["value"]) or 1.0
-            middle = 100.0 * (part["value"] / scale if part["value"] == 0.0 else 0.0)
-            ends = [100.0 * (part[end] - part["value"]) / scale for end in ("low", "high")]
-            axes.plot(ends, [row, row], color="C0", marker="|")
-            axes.plot([middle], [row], "o", color="C0")
-        axes.set_yticks(range(len(named)), [f"{name} = {part['value']:.4g}" for name, part in named.items()])
-        axes.invert_yaxis()
-        # A constant force near zero is uncertain by many times its value, an inertia by a hundredth.
-        axes.set_xscale("symlog", linthresh=1.0)
-        axes.set_xlabel("95 % interval, percent of the value (of one where that is zero)")
+        units = _units(self.units)
+        columns = 4
+        for place, (name, part) in enumerate(named.items(), 1):
+            panel = figure.add_subplot(math.ceil(len(named) / columns), columns, place)
+            for interval, width in ((part.get("combined") or part, 1.0), (part, 4.0)):
+                panel.plot([interval["low"], interval["high"]], [0.0, 0.0], color="C0", linewidth=width)
+            panel.plot(part["value"], 0.0, "o", color="C0")
+            panel.set(xlabel=f"{name}\n({units[name]})" if name in units else name, yticks=[])
+            panel.locator_params(axis="x", nbins=4)
 
 
 def _units(units: types.Units) -> dict[str, str]:
@@ -182,6 +178,7 @@ def _fitted(details: dict[str, Any], records: int) -> list[tuple[int, list[float
 AnyPath = str | bytes | os.PathLike[str] | os.PathLike[bytes]
 Method = Literal["all", "fit", "exact", "iso", "bounded"]
 TimeUnit = Literal["s", "ms", "us", "ns"]
+BoundedQuantity = Literal["alpha", "beta", "beta_quadratic", "beta_cubic", "stiffness", "lag_s", "delay_s"]
 Switching = Literal["at-samples", "anywhere"]
 
 
@@ -308,20 +305,24 @@ def identify(
     >>> abs(found.reported["alpha"]["value"] - 1.0) < 0.02
     True
     """
+    if degrees is True and radians is True:
+        raise UsageError("degrees and radians are both True: the output must be in one of them; leave one out")
+    whole, optional, switch, texts = _arguments.whole, _arguments.optional, _arguments.switch, _arguments.text
     columns = {
-        "time": time, "output": output, "input": input, "degrees": bool(degrees), "wrap": bool(wrap), "radians": bool(radians),
-        "time_unit": None if time_unit is None else _arguments.choice(time_unit, "time_unit", TimeUnit), "invert": bool(invert),
+        "time": optional(texts, time, "time"), "output": optional(texts, output, "output"), "input": optional(texts, input, "input"),
+        "degrees": switch(degrees, "degrees"), "wrap": switch(wrap, "wrap"), "radians": switch(radians, "radians"),
+        "time_unit": None if time_unit is None else _arguments.choice(time_unit, "time_unit", TimeUnit), "invert": switch(invert, "invert"),
         "neutral": _number(neutral, "neutral"), "from_s": _number(from_s, "from_s"), "to_s": _number(to_s, "to_s"),
-        "part": _arguments.optional(_arguments.whole, part, "part"), "even_stamps": bool(even_stamps),
-        "skip_bad_rows": bool(skip_bad_rows),
+        "part": None if part is None else whole(part, "part", 1), "even_stamps": switch(even_stamps, "even_stamps"),
+        "skip_bad_rows": switch(skip_bad_rows, "skip_bad_rows"),
     }  # fmt: skip
     wanted: dict[str, Any] = {
         "method": _arguments.choice(method, "method", Method), "relay_level": _number(relay, "relay"),
-        "half_width": _number(half_width, "half_width"), "error": _arguments.number(error, "error"),
-        "quantum": _number(quantum, "quantum"), "jitter_s": _arguments.number(jitter_s, "jitter_s"),
-        "outliers": _arguments.whole(outliers, "outliers"), "budget": _arguments.optional(_arguments.whole, budget, "budget"),
-        "stiffness": bool(stiffness), "lag": bool(lag), "cubic": bool(cubic), "either_sign": bool(either_sign),
-        "any_input": bool(any_input),
+        "half_width": _number(half_width, "half_width"), "error": _arguments.finite(error, "error"),
+        "quantum": _number(quantum, "quantum"), "jitter_s": _arguments.finite(jitter_s, "jitter_s"),
+        "outliers": whole(outliers, "outliers"), "budget": None if budget is None else whole(budget, "budget", 1),
+        "stiffness": switch(stiffness, "stiffness"), "lag": switch(lag, "lag"), "cubic": switch(cubic, "cubic"),
+        "either_sign": switch(either_sign, "either_sign"), "any_input": switch(any_input, "any_input"),
     }  # fmt: skip
     if assume is not None:
         wanted["assume"] = _assumptions(assume)
@@ -330,12 +331,16 @@ def identify(
     if delay is not None:
         wanted["delay"] = "estimated" if isinstance(delay, str) and delay == "estimate" else {"known_s": _delay(delay)}
     logs = _tables.sources(source, columns)
-    paths = [validate] if isinstance(validate, (str, bytes, os.PathLike)) else validate
-    validation = [_arguments.path(one, "validate") for one in paths]
+    validation = [_arguments.path(one, "validate") for one in _arguments.several(validate, (str, bytes, os.PathLike, Mapping))]
     settings = _documents.json_of(wanted), _documents.json_of(columns)
     with _Shown(progress) as shown:
         core = _core.identify(logs, validation, *settings, shown)
     return Identification(core)
+
+
+def _of_record(quantity: types.Quantity) -> str:
+    """A quantity's name with the number of its record, from 1."""
+    return quantity if isinstance(quantity, str) else " ".join(f"{name}, record {index + 1}" for name, index in quantity.items())
 
 
 class Bounds(Result):
@@ -353,11 +358,14 @@ class Bounds(Result):
     passes: int
 
     def _rows(self) -> list[dict[str, Any]]:
-        return self.to_dict()["bounds"] or [{"verdict": self.to_dict()["verdict"]}]
+        rows = [{**one, "quantity": _of_record(one["quantity"])} for one in self.to_dict()["bounds"]]
+        return rows or [{"verdict": self.to_dict()["verdict"]}]
 
     def of(self, quantity: types.Quantity) -> tuple[float, float] | None:
         """The interval of ``"alpha"``, ``"beta"``, ``"delay_s"``, ..., or of the first record's ``{"delta": 0}``; ``None`` where
         there is none."""
+        if not isinstance(quantity, dict):
+            _arguments.choice(quantity, "quantity", BoundedQuantity)
         found = next((one for one in self.bounds if one["quantity"] == quantity), None)
         return found and (found["low"], found["high"])
 
@@ -429,19 +437,24 @@ def bounded(
     >>> low <= 1.0 <= high
     True
     """
-    columns = {"time": time, "output": output, "input": input, "degrees": bool(degrees), "wrap": bool(wrap)}
+    names = {"time": time, "output": output, "input": input}
+    columns: dict[str, Any] = {name: _arguments.optional(_arguments.text, value, name) for name, value in names.items()}
+    columns |= {"degrees": _arguments.switch(degrees, "degrees"), "wrap": _arguments.switch(wrap, "wrap")}
     numbers = {"error": error, "quantum": quantum, "jitter_s": jitter_s, "reach": reach}
-    counts = {"outliers": outliers, "budget": budget}
+    least = {"outliers": (outliers, 0), "budget": (budget, 1)}
     terms = {"stiffness": stiffness, "lag": lag, "cubic": cubic, "either_sign": either_sign}
     wanted: dict[str, Any] = {"law": _arguments.choice(drag, "drag", types.Drag)}
     wanted["switching"] = None if switching is None else _arguments.choice(switching, "switching", Switching)
     wanted |= {name: _number(value, name) for name, value in numbers.items()}
-    wanted |= {name: _arguments.optional(_arguments.whole, value, name) for name, value in counts.items()}
-    wanted |= {name: None if value is None else bool(value) for name, value in terms.items()}
-    if delay is not None:
-        wanted["delay"] = (
-            {"within-s": [_delay(end) for end in delay]} if isinstance(delay, (tuple, list)) else {"known-s": _delay(delay)}
-        )
+    wanted |= {name: None if value is None else _arguments.whole(value, name, start) for name, (value, start) in least.items()}
+    wanted |= {name: _arguments.optional(_arguments.switch, value, name) for name, value in terms.items()}
+    if isinstance(delay, (tuple, list)):
+        shortest, longest = (_delay(end) for end in _arguments.pair(delay, "delay"))
+        if shortest > longest:
+            raise UsageError(f"delay is {_arguments.shown(delay)}: must be two numbers, the shorter first; swap them")
+        wanted["delay"] = {"within-s": [shortest, longest]}
+    elif delay is not None:
+        wanted["delay"] = {"known-s": _delay(delay)}
     given = {name: value for name, value in wanted.items() if value is not None}
     logs = _tables.sources(source, columns)
     return Bounds(json.loads(_core.bounds(logs, _documents.json_of(columns), _documents.json_of(given))))
@@ -462,11 +475,11 @@ def _assumptions(value: Mapping[str, float] | Literal["none"]) -> dict[str, floa
         return dict.fromkeys(sources, 0.0)
     if not isinstance(value, Mapping):
         raise UsageError(f'assume is {_arguments.shown(value)}: must be a mapping or "none"; give sizes of {", ".join(sources)}')
-    return {_arguments.choice(name, "assume", types.ErrorSource): _arguments.number(size, f"assume[{name}]") for name, size in value.items()}
+    return {_arguments.choice(name, "assume", types.ErrorSource): _arguments.finite(size, f"assume[{name}]") for name, size in value.items()}
 
 
 def _number(value: Any, name: str) -> float | None:
-    return _arguments.optional(_arguments.number, value, name)
+    return _arguments.optional(_arguments.finite, value, name)
 
 
 class _Shown:
@@ -479,7 +492,7 @@ class _Shown:
     def __enter__(self) -> Callable[[str], object] | None:
         if callable(self._progress):
             return self._progress
-        if not self._progress:
+        if not _arguments.switch(self._progress, "progress"):
             return None
         try:
             from tqdm.auto import tqdm

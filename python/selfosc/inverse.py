@@ -7,11 +7,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arguments, _documents, types
 from ._results import Result, _flat
-from .describing import Nonlinearity
+from .describing import Nonlinearity, named_characteristic
 from .errors import UsageError
 
 __all__ = ["Amplitudes", "FittedCharacteristics", "amplitudes", "fit_characteristic"]
@@ -101,7 +102,7 @@ def amplitudes(characteristic: str | Nonlinearity, gain: float, bias: float = 0.
             raise UsageError(f"parameters {', '.join(parameters)} go with a name only; leave them out")
         name, parameters = characteristic.name, characteristic.parameters
     else:
-        name = characteristic
+        name = named_characteristic(characteristic)
     arguments = _documents.flags(gain=gain, bias=bias)
     return Amplitudes(_documents.answer("df", name, *_documents.settings(parameters), *arguments)[1])
 
@@ -146,8 +147,14 @@ def fit_characteristic(amplitude: ArrayLike, p: ArrayLike, bias: float = 0.0) ->
     wide, gains = (_arguments.array(column, name) for column, name in ((amplitude, "amplitude"), (p, "p")))
     if wide.ndim != 1 or wide.shape != gains.shape:
         raise UsageError(f"amplitude and p have the shapes {wide.shape} and {gains.shape}; give one gain for each amplitude")
+    if wide.size == 0:
+        raise UsageError("amplitude is []: must have a point for each parameter, and one more; give measured gains")
+    for name, column in (("amplitude", wide), ("p", gains)):
+        if not np.isfinite(column).all():
+            place = int(np.flatnonzero(~np.isfinite(column))[0])
+            raise UsageError(f"{name}[{place}] is {column[place]}: must be finite; leave the point out", "not-finite")
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "gains.csv"
         rows = (f"{float(x)!r},{float(y)!r}\n" for x, y in zip(wide, gains, strict=True))
         path.write_text("amplitude,p\n" + "".join(rows), encoding="utf-8")
-        return FittedCharacteristics(_documents.answer("df", f"--fit={path}", *_documents.flags(bias=bias))[1])
+        return FittedCharacteristics(_documents.answer("df", f"--fit={path}", *_documents.flags(bias=_arguments.number(bias, "bias")))[1])

@@ -9,8 +9,8 @@ from typing import Any
 
 from . import _arguments, _core, _documents, types
 from ._results import Result
-from .describing import Nonlinearity
-from .errors import NoLimitCycle, UsageError
+from .describing import Nonlinearity, named_characteristic
+from .errors import NoLimitCycle, SelfoscError, UsageError
 
 __all__ = ["Balance", "Certificate", "Drawing", "Prediction", "balance", "certify", "predict", "simulate"]
 
@@ -26,7 +26,12 @@ class Drawing:
 
     def save(self, path: str | Path) -> None:
         """Writes the SVG file."""
-        Path(path).write_text(self.svg, encoding="utf-8")
+        place = _arguments.path(path)
+        try:
+            Path(place).write_text(self.svg, encoding="utf-8")
+        except OSError as error:
+            text = f"cannot write {_arguments.in_text(place)}: {error.strerror}; choose a place that you may write to"
+            raise SelfoscError(text, "unwritable") from error
 
 
 class Balance(Result):
@@ -130,7 +135,7 @@ def balance(plant: Any, characteristic: str | Nonlinearity, *, delay: float = 0.
     if isinstance(characteristic, Nonlinearity):
         name, parameters = characteristic.name, {**characteristic.parameters, **parameters}
     else:
-        name = characteristic
+        name = named_characteristic(characteristic)
     num, den, delay = _documents.coefficients(plant, delay)
     arguments = _documents.flags(num=num, den=den, delay=delay, nonlinearity=name, bias=bias) + _documents.settings(parameters)
     return Balance(_documents.answer("balance", *arguments)[1], arguments)
@@ -250,18 +255,9 @@ def certify(
         relay=[offset + level, offset - level],
         half_width=parameters.get("half_width", 0.0),
         reference=reference,
-        periods=None if period_s is None else _ends(period_s),
+        periods=_arguments.optional(_arguments.pair, period_s, "period_s"),
     )
     return Certificate(_documents.answer("predict", *arguments)[1])
-
-
-def _ends(given: Any) -> tuple[float, float]:
-    """The ends of a range of periods."""
-    try:
-        first, last = given
-    except (TypeError, ValueError) as error:
-        raise UsageError(f"period_s is {_arguments.shown(given)}: must be two numbers, s; give the ends of a range") from error
-    return _arguments.number(first, "period_s"), _arguments.number(last, "period_s")
 
 
 @_arguments.named

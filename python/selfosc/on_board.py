@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arguments, _core, _documents, types
+from ._names import Suggesting
 from ._results import Result
-from .control import Tuned
+from .control import Structure, Tuned
 from .errors import UsageError
 from .identification import Identification, identify
 
@@ -21,8 +22,9 @@ __all__ = ["ControlStep", "Controller", "Experiment", "Outcome", "Protocol", "St
 Coordinate = Literal["position", "heading-rad", "heading-deg", "speed"]
 
 
+@_arguments.constructed
 @dataclass(frozen=True, kw_only=True)
-class Protocol:
+class Protocol(Suggesting):
     """A relay experiment: its relay, its limits, and when it counts as done. ``None`` stands for the default of ``selfosc run``.
 
     Parameters
@@ -100,9 +102,9 @@ class Protocol:
 
     def _begun(self) -> _core.Experiment:
         options = asdict(self)
-        counts = {name: options[name] for name in ("cycles", "most_cycles", "attempts") if options[name] is not None}
-        whole = {name: str(_arguments.whole(count, name)) for name, count in counts.items()}
-        return _core.Experiment(_documents.flags(**options | whole))
+        counts = {name: options.pop(name) for name in ("cycles", "most_cycles", "attempts")}
+        whole = [f"--{name.replace('_', '-')}={_arguments.whole(count, name)}" for name, count in counts.items() if count is not None]
+        return _core.Experiment(_documents.flags(**options) + whole)
 
 
 class Step(NamedTuple):
@@ -138,7 +140,8 @@ class Outcome(Result):
         return answer
 
 
-class Experiment:
+@_arguments.constructed
+class Experiment(Suggesting):
     """A relay experiment that runs sample by sample: the state machine of ``selfosc run`` and of the C library, bit for bit.
 
     Any readings and times may come. What a sound sensor and clock cannot have said, ``None`` and texts included, is a fault,
@@ -160,10 +163,12 @@ class Experiment:
         self.protocol = protocol
         self._core = protocol._begun()
 
+    @_arguments.named
     def step(self, reading: float | None, time_s: float) -> Step:
         """Takes a reading and its time in s; the command to give now."""
         return Step(*self._core.step(_reading(reading), _reading(time_s)))
 
+    @_arguments.named
     def tick(self, time_s: float) -> Step:
         """The command at a time without a reading, for a timer beside a driver that may block."""
         return Step(*self._core.tick(_reading(time_s)))
@@ -231,7 +236,8 @@ class ControlStep(NamedTuple):
     fault: str | None
 
 
-class Controller:
+@_arguments.constructed
+class Controller(Suggesting):
     """A controller with its memory: the one that the library and its C form run, bit for bit.
 
     Parameters
@@ -279,25 +285,30 @@ class Controller:
         top_speed: float | None = None,
     ) -> None:
         number = _arguments.number
+        if isinstance(gains, Tuned):
+            gains = gains.gains
+        parts = ("proportional", "integral", "derivative", "filter_s")
+        if not isinstance(gains, Mapping):
+            raise UsageError(f"gains is {_arguments.shown(gains)}: must be a result of selfosc.tune() or its gains; give one")
+        given = _arguments.mapping(gains, "gains", ("structure", *parts))
+        wanted = {name: _arguments.finite(given.get(name), name) for name in parts}
+        wanted |= {"structure": _arguments.choice(given.get("structure"), "structure", Structure)}
         if (axis is None) != (pace is None):
             raise UsageError("axis and pace guide the reference together; give both or neither")
         guide = None
         if axis is not None:
             names = ("alpha", "beta", "beta_quadratic", "delta", "delay_s")
-            parts = [number(axis.get(name, 0.0), name) for name in names]
-            guide = parts, number(pace, "pace"), _arguments.optional(number, top_speed, "top_speed")
-        try:
-            lower_upper = None if limits is None else (number(limits[0], "limits"), number(limits[1], "limits"))
-        except (TypeError, IndexError, KeyError) as error:
-            raise UsageError(f"limits is {_arguments.shown(limits)}: must be two numbers; give the lower first") from error
+            axis = _arguments.mapping(axis, "axis", (*names, "drag"))
+            guide = [number(axis.get(name, 0.0), name) for name in names], number(pace, "pace"), _arguments.optional(number, top_speed, "top_speed")
         self._core = _core.Controller(
-            json.dumps(gains.gains if isinstance(gains, Tuned) else gains),
-            lower_upper,
+            json.dumps(wanted),
+            _arguments.optional(_arguments.pair, limits, "limits"),
             _arguments.optional(number, turn, "turn"),
             None if hold is None else (number(hold, "hold"), number(neutral, "neutral")),
             guide,
         )
 
+    @_arguments.named
     def step(self, reference: float, measurement: float | None, dt_s: float) -> ControlStep:
         """The next command, given the time since the step before, s. What is no number holds the command."""
         return ControlStep(*self._core.step(_reading(reference), _reading(measurement), _reading(dt_s)))

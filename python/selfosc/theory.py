@@ -102,6 +102,5 @@ def reproduce(only: Sequence[str] = (), out: str | bytes | os.PathLike[str] | No
     >>> sorted(reproduce(["table4"]).table4["mean"])
     ['alpha', 'beta_r', 'beta_rr']
     """
-    only = [only] if isinstance(only, str) else list(only)
-    arguments = _documents.flags(only=only or None, out=_arguments.optional(_arguments.path, out, "out"))
+    arguments = _documents.flags(only=_arguments.several(only, str) or None, out=_arguments.optional(_arguments.path, out, "out"))
     return Reproduction(_documents.answer("reproduce", *arguments)[1])

@@ -96,6 +96,14 @@ impl Characteristic {
         Ok(array)
     }
 
+    /// `F_0`, `P`, `Q` of one sweep, bit for bit those of [`Characteristic::describing_function`].
+    fn of_sweep(&self, py: Python<'_>, amplitude: f64, bias: f64) -> PyResult<(f64, f64, f64)> {
+        let of = |sweep| Ok::<_, Error>(self.entry.build(&self.values)?.describing_function(&sweep)?);
+        let df = Sinusoid::new(bias, amplitude).map_err(|error| DescribingError::from(error).into()).and_then(of);
+        let df = df.map_err(|error| failure::library(py, error))?;
+        Ok((df.f0, df.p, df.q))
+    }
+
     /// The outputs on the way up and on the way down, for the sweeps of these biases and amplitudes.
     fn branches(&self, py: Python<'_>, x: f64, bias: f64, amplitude: f64) -> PyResult<(f64, f64)> {
         let characteristic = self.build(py)?;

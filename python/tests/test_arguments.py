@@ -1,6 +1,7 @@
 """Arguments that are none: the package's own error, in Python's words, with the nearest name."""
 
 import inspect
+import io
 import re
 
 import log_files
@@ -12,6 +13,7 @@ import selfosc
 
 HUGE = 10**400
 AXIS = {"alpha": 1.0, "beta": 0.5}
+PROTOCOL = selfosc.Protocol(relay=0.1, half_width=0.2, interval=0.1)
 
 CALLS = {
     "predict": lambda bad: selfosc.predict(**{**YAW, "alpha": bad}),
@@ -143,6 +145,11 @@ def test_a_channel_nearly_named(tmp_path):
         (lambda: selfosc.nonlinearity("relay", leve=1.0), "level"),
         (lambda: selfosc.nonlinearity("relay-hysteresi"), "relay-hysteresis"),
         (lambda: selfosc.fleet.identify_record({}, dely=0.1), "delay"),
+        (lambda: selfosc.Controller(selfosc.tune(**AXIS, bandwidth=0.3), limts=(-1, 1)), "limits"),
+        (lambda: selfosc.Controller(selfosc.tune(**AXIS, bandwidth=0.3)).step(refrence=1, measurement=0, dt_s=0.1), "reference"),
+        (lambda: selfosc.Protocol(relay=0.1, half_width=0.2, intervall=0.1), "interval"),
+        (lambda: selfosc.Experiment(protokol=PROTOCOL), "protocol"),
+        (lambda: selfosc.Experiment(PROTOCOL).step(redaing=0.0, time_s=0.0), "reading"),
     ],
 )  # fmt: skip
 def test_an_argument_nearly_named(call, meant):
@@ -158,6 +165,10 @@ def test_an_argument_nearly_named(call, meant):
         (lambda: selfosc.predict(**YAW), "exct", "exact"),
         (lambda: selfosc.tune(**AXIS, bandwidth=0.3), "gain", "gains"),
         (lambda: selfosc.predict(**YAW), "to_fram", "to_frame"),
+        (lambda: selfosc.Controller(selfosc.tune(**AXIS, bandwidth=0.3)), "rset", "reset"),
+        (lambda: selfosc.Experiment(PROTOCOL), "phse", "phase"),
+        (lambda: PROTOCOL, "intervall", "interval"),
+        (lambda: selfosc.nonlinearity("relay"), "paramters", "parameters"),
         (lambda: selfosc, "identfy", "identify"),
         (lambda: selfosc, "fleat", "fleet"),
     ],
@@ -239,3 +250,78 @@ def test_messages_name_python_s_arguments(record, call):
     known = {name for function in functions for name in inspect.signature(function).parameters}
     # What stands in the parentheses of a remedy as name=value is an argument.
     assert {name for name in re.findall(r"[(,] ?(\w+)=", text)} <= known
+
+
+#: Wrong kinds of arguments, of which no foreign error may come.
+WRONG = [
+    lambda log: selfosc.identify(log, degrees="no"),
+    lambda log: selfosc.identify(log, degrees=True, radians=True),
+    lambda log: selfosc.identify(log, validate=3),
+    lambda log: selfosc.identify(log, progress=3),
+    lambda log: selfosc.identify(log, output=1),
+    lambda log: selfosc.identify(log, output="heding_deg"),
+    lambda log: selfosc.identify(log, part=0),
+    lambda log: selfosc.identify(log, relay=float("nan")),
+    lambda log: selfosc.identify(log, assume={"clock": float("nan")}),
+    lambda log: selfosc.identify(log, skip_bad_rows=np.array([1, 2])),
+    lambda log: selfosc.identify({}),
+    lambda log: selfosc.identify(""),
+    lambda log: selfosc.identify(io.StringIO("t,y,u")),
+    lambda log: selfosc.identify({**log, "input": ["0.1"] * len(log["input"])}),
+    lambda log: selfosc.bounded(log, delay=(0.3, 0.1)),
+    lambda log: selfosc.bounded(log, delay=(0.1, 0.2, 0.3)),
+    lambda log: selfosc.tune(**AXIS, ms="1.4"),
+    lambda log: selfosc.tune(**AXIS),
+    lambda log: selfosc.tune(**AXIS, ms=1.4, bandwidth=1.0),
+    lambda log: selfosc.design(**AXIS, level=1.0, time=60, delay_known="yes"),
+    lambda log: selfosc.predict(alpha="1", relay=1, half_width=0.1),
+    lambda log: selfosc.predict(alpha=None, relay=1, half_width=0.1),
+    lambda log: selfosc.predict(alpha=True, relay=1, half_width=0.1),
+    lambda log: selfosc.predict(alpha=[1.0], relay=1, half_width=0.1),
+    lambda log: selfosc.simulate(**YAW, hold="yes"),
+    lambda log: selfosc.balance(([], []), "relay"),
+    lambda log: selfosc.balance(([1], [1, 1]), None),
+    lambda log: selfosc.df("relay", [1, 2]),
+    lambda log: selfosc.df("saturation", 1, breakpoint="wide"),
+    lambda log: selfosc.describing_function("relay", "1"),
+    lambda log: selfosc.describing_function(abs, 1.0, kinks=[float("nan")]),
+    lambda log: selfosc.describing_function(lambda x: "a", 1.0),
+    lambda log: selfosc.nonlinearity("relay")("1"),
+    lambda log: selfosc.amplitudes("relay", "1"),
+    lambda log: selfosc.fit_characteristic([], []),
+    lambda log: selfosc.fit_characteristic([1, 2, 3], [1, float("nan"), 2]),
+    lambda log: selfosc.fit_characteristic([1, 2, 3], [1, 2, 3], bias=None),
+    lambda log: selfosc.verify(3),
+    lambda log: selfosc.verify("lemma-1", cases=10)[0],
+    lambda log: selfosc.reproduce(4),
+    lambda log: selfosc.reproduce(["tabel4"]),
+    lambda log: selfosc.autotune({"time": [1, 2, 3], "temperature": [1, 2], "heater": [0, 1, 0]}),
+    lambda log: selfosc.Protocol(relay="0.1", half_width=0.2, interval=0.1),
+    lambda log: selfosc.Controller(None),
+    lambda log: selfosc.Controller({}),
+    lambda log: selfosc.Controller(selfosc.tune(**AXIS, bandwidth=0.3), limits=(-1, 0, 1)),
+    lambda log: selfosc.Controller(selfosc.tune(**AXIS, bandwidth=0.3), axis=[1.0], pace=1.0),
+    lambda log: selfosc.Controller(selfosc.tune(**AXIS, bandwidth=0.3), axis={"alpa": 1.0}, pace=1.0),
+    lambda log: selfosc.export.state_space({"alpha": 1.0, "beeta": 2.0}),
+    lambda log: selfosc.export.state_space({"alpha": 1.0}, speed=float("nan")),
+    lambda log: selfosc.export.state_space({"alpha": 1.0, "delay": 0.1}, pade=-1),
+    lambda log: selfosc.export.hydrodynamic_coefficients(AXIS, ["yaw"], 0.01),
+    lambda log: selfosc.export.hydrodynamic_coefficients(AXIS, "yaw", -5),
+    lambda log: selfosc.export.gazebo_hydrodynamics(3, "base"),
+    lambda log: selfosc.export.gazebo_hydrodynamics({"nR": "a"}, "base"),
+    lambda log: selfosc.export.gazebo_hydrodynamics({"nR": -1.0}, None),
+    lambda log: selfosc.export.xacro_hydrodynamics({"nR": -1.0}, name=3),
+    lambda log: selfosc.fleet.identify_record(None),
+    lambda log: selfosc.fleet.identify_tables(3),
+    lambda log: selfosc.fleet.identify_dask([], None),
+    lambda log: selfosc.logs.align(None, None),
+    lambda log: selfosc.logs.Channel("a.yaw", np.arange(3.0), np.arange(2.0)),
+    lambda log: selfosc.balance(([8], [1, 2, 2, 1]), "saturation", breakpoint=1).plot().save("/no-folder/a.svg"),
+]
+
+
+@pytest.mark.parametrize("call", WRONG)
+def test_wrong_kinds_are_refused_with_a_remedy(record, call):
+    with pytest.raises(selfosc.SelfoscError, match=r"; |did you mean") as refusal:
+        call(record)
+    assert "at line 1 column" not in str(refusal.value)

@@ -53,6 +53,31 @@ def test_a_shuffled_array_is_its_elements_to_the_bit(name, bias):
     assert np.any(np.isfinite(array))
 
 
+@pytest.mark.parametrize("name", ENTRIES)
+@pytest.mark.parametrize("bias", [0.0, 0.1, -0.8])
+def test_a_number_is_an_array_of_it_to_the_bit(name, bias):
+    relay = nonlinearity(name, **ENTRIES[name])
+    for amplitude in (1.3, 2, np.float64(7.5)):
+        alone, array = describing_function(relay, amplitude, bias), describing_function(relay, [amplitude], bias)
+        assert all(type(part) is float for part in alone)
+        assert [part.hex() for part in alone] == [part.item().hex() for part in array]
+        assert relay.describing_function(amplitude, bias) == relay.describing_function([amplitude], bias)[0] == alone.gain
+
+
+@pytest.mark.parametrize("amplitude", [-1.0, 0.0, 0, float("nan"), float("inf"), 10**400, True, 1e308, 0.3, "1", None, 1j])
+@pytest.mark.parametrize("bias", [0.0, float("nan"), 1e200])
+def test_a_number_is_refused_as_an_array_of_it(amplitude, bias):
+    for relay in (nonlinearity("relay-hysteresis", half_width=0.5), nonlinearity("saturation", breakpoint=1.0)):
+        for call in (relay.describing_function, lambda *sweep: describing_function(relay, *sweep)):
+            answers = []
+            for sweep in ((amplitude, bias), ([amplitude], [bias])):
+                try:
+                    answers.append(repr([np.asarray(part).item() for part in np.atleast_1d(call(*sweep))]))
+                except selfosc.SelfoscError as refusal:
+                    answers.append((refusal.code, refusal.quantity))
+            assert answers[0] == answers[1]
+
+
 def test_shapes():
     assert describing_function("relay", np.ones((2, 1, 3)), np.zeros((4, 1))).f0.shape == (2, 4, 3)
     assert describing_function("relay", []).p.shape == (0,)

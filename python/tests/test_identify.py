@@ -72,7 +72,9 @@ def test_digits_follow_the_uncertainty(value, half, text):
 def test_plot_and_report(found, tmp_path):
     figure = found.plot()
     figure.savefig(tmp_path / "figure.png", dpi=50)
-    assert len(figure.axes) == 4
+    # Output, command and residual; an axis in its unit for each parameter.
+    assert len(figure.axes) == 3 + len(found._table()[1:])
+    assert all(axes.get_xscale() == "linear" for axes in figure.axes)
     assert (tmp_path / "figure.png").stat().st_size > 5_000
     assert "<svg" in found.report(tmp_path / "report.html").read_text()
 

@@ -160,7 +160,9 @@ RESULTS = {
 
 @pytest.mark.parametrize("make", RESULTS.values(), ids=RESULTS.keys())
 def test_documents_are_as_declared(make, record):
-    checked(make(record))
+    result = make(record)
+    checked(result)
+    assert 1 < len(result._table()[0]) <= 8 and "<table>" in result._repr_html_()
 
 
 def test_the_corpus_is_as_declared():

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _arguments
-from .._names import near
+from .._names import Suggesting, near
 from ..errors import UnreadableLog, UsageError
 
 if TYPE_CHECKING:
@@ -27,8 +26,9 @@ _SI = {
 }  # fmt: skip
 
 
+@_arguments.constructed
 @dataclass(frozen=True)
-class Channel:
+class Channel(Suggesting):
     """One quantity of a log.
 
     Attributes
@@ -48,6 +48,15 @@ class Channel:
     values: NDArray[np.float64]
     unit: str = ""
     frame: str = ""
+
+    def __post_init__(self) -> None:
+        for name in ("time_s", "values"):
+            object.__setattr__(self, name, _arguments.array(getattr(self, name), f"{name} of {_arguments.text(self.name, 'name')}"))
+        sizes = self.time_s.shape, self.values.shape
+        if len(sizes[0]) != 1 or sizes[0] != sizes[1]:
+            raise UsageError(f"{self.name}: time_s and values have the shapes {sizes[0]} and {sizes[1]}; give one value for each stamp")
+        if not np.isfinite(self.time_s).all():
+            raise UsageError(f"{self.name}: a stamp is no finite number; leave the sample out", "not-finite")
 
     def in_si(self) -> Channel:
         """The same in SI units; a unit that is not known stays."""
@@ -101,8 +110,10 @@ def align(
     """
     import pandas as pd
 
-    neutral, scale = _arguments.number(neutral, "neutral"), _arguments.number(scale, "scale")
-    for channel in (output, command):
+    neutral, scale = _arguments.finite(neutral, "neutral"), _arguments.finite(scale, "scale")
+    for name, channel in (("output", output), ("command", command)):
+        if not isinstance(channel, Channel):
+            raise UsageError(f"{name} is {_arguments.shown(channel)}: must be a selfosc.logs.Channel; give one")
         if len(channel.time_s) == 0:
             raise UnreadableLog(f"{channel.name} has no sample; name a channel that was logged", "no-channel")
         backwards = np.flatnonzero(np.diff(channel.time_s) < 0.0)
@@ -199,14 +210,6 @@ def missing(path: Any, error: OSError) -> UnreadableLog:
     """The refusal of a path."""
     text = f"cannot read {path}: {error.strerror or error}; give the path of a log that you may read"
     return UnreadableLog(_arguments.in_text(text), "unreadable")
-
-
-def required(module: Callable[[], Any], extra: str) -> Any:
-    """A library, or how to get it."""
-    try:
-        return module()
-    except ImportError as error:
-        raise UsageError(f'{error.name} is not installed; pip install "selfosc[{extra}]"', "not-installed") from error
 
 
 def of_topics(stamps_ns: dict[str, list[int]], messages: dict[str, list[Any]], names: tuple[str, ...]) -> list[Channel]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _arguments
-from ._align import Channel, align, damaged, instance, missing, numbers, required, split, unknown
+from ._align import Channel, align, damaged, instance, missing, numbers, split, unknown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -46,7 +46,7 @@ def read_dataflash(path: str | bytes | os.PathLike[str], output: str, command: s
         For a log with bytes between its messages that are none, or another file; for a channel that is not there. What power
         cut off at the end is left out.
     """
-    reader = required(lambda: __import__("pymavlink.DFReader", fromlist=["DFReader"]), "dataflash")
+    reader = _arguments.required(lambda: __import__("pymavlink.DFReader", fromlist=["DFReader"]), "dataflash")
     path = _arguments.path(path)
     _arguments.check(align, how)
     try:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from .. import _arguments
 from ..errors import SelfoscError
-from ._align import align, damaged, missing, of_topics, required, split, unknown
+from ._align import align, damaged, missing, of_topics, split, unknown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -43,8 +43,8 @@ def read_mcap(path: str | bytes | os.PathLike[str], output: str, command: str, *
     UnreadableLog
         For a damaged or unfinished file, a topic or field that is not there.
     """
-    reading = required(lambda: __import__("mcap.reader", fromlist=["reader"]), "mcap")
-    decoding = required(lambda: __import__("mcap_ros2.decoder", fromlist=["decoder"]), "mcap")
+    reading = _arguments.required(lambda: __import__("mcap.reader", fromlist=["reader"]), "mcap")
+    decoding = _arguments.required(lambda: __import__("mcap_ros2.decoder", fromlist=["decoder"]), "mcap")
     _arguments.choice(stamp, "stamp", Stamp)
     path = _arguments.path(path)
     _arguments.check(align, how)

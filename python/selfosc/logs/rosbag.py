@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from .. import _arguments
 from ..errors import SelfoscError
-from ._align import align, damaged, missing, of_topics, required, split, unknown
+from ._align import align, damaged, missing, of_topics, split, unknown
 from .mcap import Stamp, stamp_ns
 
 if TYPE_CHECKING:
@@ -40,8 +40,8 @@ def read_rosbag(
     UnreadableLog
         For a damaged bag, a topic or field that is not there.
     """
-    reading = required(lambda: __import__("rosbags.highlevel", fromlist=["highlevel"]), "rosbag")
-    types = required(lambda: __import__("rosbags.typesys", fromlist=["typesys"]), "rosbag")
+    reading = _arguments.required(lambda: __import__("rosbags.highlevel", fromlist=["highlevel"]), "rosbag")
+    types = _arguments.required(lambda: __import__("rosbags.typesys", fromlist=["typesys"]), "rosbag")
     _arguments.choice(stamp, "stamp", Stamp)
     path = _arguments.path(path)
     _arguments.check(align, how)

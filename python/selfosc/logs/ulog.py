@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _arguments
-from ._align import Channel, align, angles, damaged, instance, missing, numbers, required, split, unknown
+from ._align import Channel, align, angles, damaged, instance, missing, numbers, split, unknown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -46,7 +46,7 @@ def read_ulog(path: str | bytes | os.PathLike[str], output: str, command: str, *
         For a log with bytes between its messages that are none (pyulog passes over them), another file, a channel that is not
         there. What power cut off at the end is left out. ULog has no checksums: a number changed in place goes unseen.
     """
-    core = required(lambda: __import__("pyulog.core", fromlist=["core"]), "ulog")
+    core = _arguments.required(lambda: __import__("pyulog.core", fromlist=["core"]), "ulog")
     path = _arguments.path(path)
     _arguments.check(align, how)
     try:
