@@ -56,9 +56,9 @@ const FLAT: f64 = 1e-9;
 const WORTH: f64 = 0.9;
 /// The search aims so far below the limit: a proof at the limit itself has no room, and splits boxes without end.
 const ROOM: f64 = 0.01;
-/// Steps back from the largest gain until the limit is proved: each twice the one before in the logarithm, the first this much.
-const STEPS_BACK: u32 = 5;
-const BACK: f64 = 0.97;
+/// Steps back from the largest gain until the limit is proved, each so much.
+const STEPS_BACK: i32 = 8;
+const BACK: f64 = 0.95;
 /// Times of integral and derivative that are tried first, over the ultimate period.
 const INTEGRAL: [f64; 10] = [0.15, 0.22, 0.33, 0.5, 0.7, 1.0, 1.5, 2.2, 3.5, 6.0];
 const DERIVATIVE: [f64; 5] = [0.05, 0.08, 0.12, 0.17, 0.25];
@@ -328,7 +328,7 @@ impl ProcessRecord {
         };
         let ([gain, integral_s, derivative_s], _) = chosen;
         let gains = (0..STEPS_BACK).find_map(|back| {
-            let less = gain * BACK.powi(2_i32.pow(back) - 1);
+            let less = gain * BACK.powi(back);
             let gains = ideal([less, integral_s, derivative_s], wanted.derivative_filter)?;
             let limit = RobustCriterion::Sensitivity(wanted.sensitivity);
             sets.iter().all(|set| set.all_have(&gains, limit)).then_some(gains)

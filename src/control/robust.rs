@@ -420,15 +420,21 @@ impl ProcessIntervals {
     /// The process in the middle.
     #[must_use]
     pub fn middle(&self) -> LinearProcess<f64> {
-        self.shape.near(&self.process, [0.0; PARAMETERS])
+        self.process_at([0.0; PARAMETERS])
     }
 
     /// The process at coordinates from -1 to 1, as many as directions or parameters; `None` where an inertia, a time or a delay is negative.
     #[must_use]
     pub fn at(&self, coordinates: [f64; PARAMETERS]) -> Option<LinearProcess<f64>> {
-        let near = self.shape.near(&self.process, coordinates);
-        let inside = near.parts().iter().zip(self.process.parts()).all(|(part, hull)| hull.contains(*part));
-        inside.then_some(near)
+        let found = self.shape.at(&self.process, coordinates);
+        (found == self.process_at(coordinates)).then_some(found)
+    }
+
+    /// The same, where an inertia, a time or a delay that would be negative is zero.
+    fn process_at(&self, coordinates: [f64; PARAMETERS]) -> LinearProcess<f64> {
+        let parts = self.shape.at(&self.process, coordinates).parts();
+        let not_negative = |k: usize| if shape::is_time_or_inertia(k) { parts[k].max(0.0) } else { parts[k] };
+        LinearProcess::from_parts(core::array::from_fn(not_negative))
     }
 
     /// The corners; what is negative there and must not be is zero.
@@ -441,7 +447,7 @@ impl ProcessIntervals {
             for (place, &k) in wide.iter().enumerate() {
                 coordinates[k] = if bits >> place & 1 == 0 { -1.0 } else { 1.0 };
             }
-            self.shape.near(&self.process, coordinates)
+            self.process_at(coordinates)
         };
         (0..1 << wide.len()).map(corner).collect()
     }

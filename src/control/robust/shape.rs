@@ -52,21 +52,19 @@ impl Shape {
         LinearProcess::from_parts(parts)
     }
 
-    /// The process at coordinates from -1 to 1; what is negative there and must not be is zero.
-    pub(super) fn near(&self, process: &LinearProcess<Interval>, coordinates: [f64; PARAMETERS]) -> LinearProcess<f64> {
-        let parts = match self {
-            Self::Box => core::array::from_fn(|k| {
+    /// The numbers at coordinates from -1 to 1.
+    pub(super) fn at(&self, process: &LinearProcess<Interval>, coordinates: [f64; PARAMETERS]) -> LinearProcess<f64> {
+        match self {
+            Self::Box => LinearProcess::from_parts(core::array::from_fn(|k| {
                 let (side, z) = (process.parts()[k], coordinates[k]);
                 match z {
                     -1.0 => side.lower(),
                     1.0 => side.upper(),
                     _ => (side.midpoint() + 0.5 * z * side.width()).clamp(side.lower(), side.upper()),
                 }
-            }),
-            Self::Along { .. } => self.process(coordinates).parts(),
-        };
-        let not_negative = |part: usize| if is_time_or_inertia(part) { parts[part].max(0.0) } else { parts[part] };
-        LinearProcess::from_parts(core::array::from_fn(not_negative))
+            })),
+            Self::Along { .. } => self.process(coordinates),
+        }
     }
 }
 

@@ -2,7 +2,8 @@
 
 use selfosc::autotune::{FirstOrderProcess, ProcessReadings};
 use selfosc::control::{
-    Controller, FeedForward, FrequencyPoint, Gains, OpenLoop, RelayTest, Rule, Structure, Tuning, UltimatePoint,
+    Controller, FeedForward, FrequencyPoint, Gains, OpenLoop, RelayTest, RobustCriterion, Rule, Structure, Tuning,
+    UltimatePoint,
 };
 use selfosc::describing::{ClosedForm, DescribingFunction};
 use selfosc::experiment::RelayState;
@@ -671,6 +672,12 @@ fn gains<T: Scalar>(probe: &mut Probe) {
     if let Some(margins) = probe.result("OpenLoop::margins", open.margins()) {
         check_margins(probe, "OpenLoop::margins", &margins, &said);
     }
+    let number = probe.random.between(0.5, 2.0);
+    let (least, most) = (RobustCriterion::PhaseRad(number), RobustCriterion::Sensitivity(number));
+    probe.note("RobustCriterion::number", &[T::from_f64(least.number())], least.number() == number, &said);
+    let [met, missed] = [2.0 * number, 0.5 * number];
+    let met = least.is_met_by(met) && !least.is_met_by(missed) && most.is_met_by(missed) && !most.is_met_by(met);
+    probe.note::<T>("RobustCriterion::is_met_by", &[], met, &said);
 }
 
 fn tuning<T: Scalar>(probe: &mut Probe) {
