@@ -10,7 +10,7 @@ from typing import Any
 from . import _arguments, _core, _documents, types
 from ._results import Result
 from .describing import Nonlinearity, named_characteristic
-from .errors import NoLimitCycle, SelfoscError, UsageError
+from .errors import NoLimitCycle, SelfoscError, UsageError, _in_python
 
 __all__ = ["Balance", "Certificate", "Drawing", "Prediction", "balance", "certify", "predict", "simulate"]
 
@@ -193,7 +193,7 @@ def predict(
     )
     no, document = _documents.answer("predict", *arguments)
     if no:
-        raise NoLimitCycle(document["no_limit_cycle"]["text"], "no-limit-cycle")
+        raise NoLimitCycle(_in_python(document["no_limit_cycle"]["text"]), "no-limit-cycle")
     return Prediction(document)
 
 
