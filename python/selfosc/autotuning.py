@@ -22,7 +22,7 @@ Actions = Literal["best", "pi", "pid"]
 
 
 class Autotuned(Result):
-    """A process from a record, and gains whose largest sensitivity is proved for every process in the intervals.
+    """A process from a record, and gains whose largest sensitivity is proved for every process of the confidence set.
 
     ``gains`` are in parallel form; ``lines`` are those to type in the form asked for. Both are ``None`` where no gains keep the
     limit for every process that the record leaves: ``reasons`` say so.
@@ -63,7 +63,7 @@ class Autotuned(Result):
         return [["", process["family"]], *rows]
 
     def plot(self) -> Figure:
-        """The open loop with the circle about -1 that it does not enter, and the answer to a load, for every process of the intervals."""
+        """The open loop with the circle about -1 that it does not enter, and the answer to a load, for every process of the confidence set."""
         from matplotlib import pyplot
 
         curves, limit = self.curves, self.sensitivity["proved_upper"]
@@ -113,7 +113,7 @@ def autotune(
     source : path, pandas.DataFrame, polars.DataFrame, pyarrow.Table or mapping
         As for :func:`selfosc.identify`, with two periods at least.
     ms : float
-        Largest sensitivity ``1/abs(1 + L)`` of any process in the intervals, from 1.1 to 3; 1.4 is well damped.
+        Largest sensitivity ``1/abs(1 + L)`` of any process of the confidence set, from 1.1 to 3; 1.4 is well damped.
     actions : {"best", "pi", "pid"}
         ``best`` takes the derivative where it takes a tenth off the integral of the absolute error.
     form : {"parallel", "ideal", "series", "klipper", "marlin", "reprap", "esphome"}

@@ -7,7 +7,7 @@
 //! | `process` | structures, parameters with intervals |
 //! | `response`, `projection` | answers to a logged command, and least squares over them |
 //! | `search`, `structure_fit`, `fit` | dead time and time constants; intervals and evidence of a structure; the processes of a record |
-//! | `gains` | the fastest gains whose sensitivity is proved for every process of the intervals |
+//! | `gains` | the fastest gains whose sensitivity is proved for every process of the record's confidence set |
 //! | `curves` | open loop and answer to a load, of the likeliest process and at the corners of the set |
 //! | `rules` | rules of thumb beside them |
 //! | `first_order`, `on_board` | on a controller: gains of bounded sensitivity, a first-order process from readings, without allocation |

@@ -25,7 +25,7 @@ use form::Form;
 /// PI or PID gains for a heater, a tank, an axis: from one record of its relay, thermostat or on-off control.
 ///
 /// The record needs two periods. Structures with dead time are fitted to every sample; the gains hold a limit of the sensitivity
-/// for every process in the intervals, proved in interval arithmetic, and are the fastest against a load that do. Beside them
+/// for every process of the record's confidence set, proved in interval arithmetic, and are the fastest against a load that do. Beside them
 /// stand rules of thumb, each with the sensitivity that it would have on this process: 1.4 is well damped, above 2 it rings.
 /// Exit status 1 where the record gives no gains, with the reason.
 #[derive(Debug, Args)]
@@ -51,7 +51,7 @@ pub(super) struct Arguments {
     /// Unit of the times [default: that which the column's name ends in, as _ms does, else s]
     #[arg(long, value_name = "UNIT", value_parser = time_unit)]
     time_unit: Option<TimeUnit>,
-    /// Largest sensitivity 1/|1 + L| of any process in the intervals
+    /// Largest sensitivity 1/|1 + L| of any process of the confidence set
     #[arg(long, value_name = "M", default_value_t = 1.4, value_parser = sensitivity, allow_negative_numbers = true)]
     ms: f64,
     /// Proportional and integral only

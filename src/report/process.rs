@@ -58,7 +58,7 @@ impl ProcessPage<'_> {
             self.lines.map_or_else(|| "No gains.".to_owned(), |lines| lines.lines().collect::<Vec<_>>().join("; "));
         let sure = self.proved.map(|proved| {
             format!(
-                "Proved: whichever process of the intervals is yours, the largest sensitivity is at most {}. At 1.4 a disturbance settles \
+                "Proved: whichever process of the confidence set is yours, the largest sensitivity is at most {}. At 1.4 a disturbance settles \
                  without ringing; above 2 it rings.",
                 significant(proved.sensitivity, 4)
             )
@@ -114,7 +114,7 @@ impl ProcessPage<'_> {
         let all: Vec<(f64, f64)> = curves.open_loops.iter().flat_map(|one| near(one)).collect();
         let plane = Panel::new("real part", "imaginary part")
             .equal_axes()
-            .with("corners of the intervals", Mark::Points, all)
+            .with("corners of the confidence set", Mark::Points, all)
             .with("likeliest process", Mark::Line, near(&curves.open_loop))
             .with("no process enters: the sensitivity's limit", Mark::Dashed, circle)
             .with("critical point", Mark::Dots, [(-1.0, 0.0)]);
@@ -124,7 +124,7 @@ impl ProcessPage<'_> {
             .strip()
             .with("likeliest process", Mark::Line, pairs(&mut curves.load_step.iter().copied()))
             .with(
-                "least and largest at the corners of the intervals",
+                "least and largest at the corners of the confidence set",
                 Mark::Dashed,
                 pairs(&mut curves.load_step_range.iter().map(|r| r[0])),
             )

@@ -20,7 +20,7 @@ LIMITS = """
 - The loop is judged with half the record's interval as the hold of its command; a slower controller needs `--interval`.
 - The optimum is found by a search of Nelder and Mead from two starts: a ratio below 1 is its shortfall.
 - `AMIGO after Berner` is told the equilibrium of load and output, which no record shows.
-- Gains are those for every process of the intervals: where these are wide, the error is larger than the optimum of the known process.
+- Gains are those for every process of the confidence set: where that is wide, the error is larger than the optimum of the known process.
 - Outside the structures of `autotune` the intervals of the gain are those of the nearest structure: half of them miss. Ultimate gain and
   frequency, on which stability rests, are held.
 """

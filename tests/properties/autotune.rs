@@ -326,6 +326,44 @@ fn curves_are_those_of_the_loop() {
     }
 }
 
+/// Half axes of a confidence set make the covariance of its coefficients, at `z` standard deviations with `(2 Phi(z) - 1)^5 = 0.95`. The hold
+/// adds half its interval to the delay.
+#[test]
+fn a_confidence_set_has_the_covariance_of_its_coefficients() {
+    // 2 Phi(2.5690) - 1 = 0.95^(1/5), by a table.
+    const REACH: f64 = 2.569;
+    let mut correlated = 0.0_f64;
+    for seed in 100..104 {
+        let (truth, _) = drawn(seed);
+        let record = truth.record(1e-3 * truth.gain, 1e-3 * truth.gain, seed);
+        let (found, hold_s) = (ProcessRecord::of(&record).unwrap(), 3.0 * record.interval_s());
+        let Some(proved) = found.gains(hold_s, &GainsWanted::default()) else { continue };
+        let (model, set) = (&found.models[0], &proved.sets[0]);
+        let place = |process: LinearProcess<f64>| {
+            [process.alpha, process.drag, process.stiffness, process.zero_s, process.delay_s]
+        };
+        let middle = place(set.middle());
+        assert!((middle[4] - model.coefficients[4].value - 1.5 * record.interval_s()).abs() < 1e-12 * middle[4]);
+        let axis = |k: usize| {
+            let mut coordinates = [0.0; 9];
+            // Near the middle: at an end the inertia may be negative.
+            coordinates[k] = 0.01;
+            let near = place(set.at(coordinates).unwrap());
+            core::array::from_fn::<f64, 5, _>(|i| (near[i] - middle[i]) / (0.01 * REACH))
+        };
+        let axes: Vec<[f64; 5]> = (0..5).map(axis).collect();
+        for (i, j) in (0..25).map(|k| (k / 5, k % 5)) {
+            let sum: f64 = axes.iter().map(|axis| axis[i] * axis[j]).sum();
+            let size = model.coefficients[i].std * model.coefficients[j].std;
+            assert!((sum - model.covariance[i][j]).abs() <= 2e-3 * size, "{seed}: {i} {j}: {sum}");
+            if i != j && size > 0.0 {
+                correlated = correlated.max((sum / size).abs());
+            }
+        }
+    }
+    assert!(correlated > 0.5, "{correlated}");
+}
+
 /// No model drawn from a set exceeds the limit that is proved for the set; a model that is in no set does.
 #[test]
 fn no_model_of_the_set_exceeds_the_proved_limit() {

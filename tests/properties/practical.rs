@@ -157,6 +157,15 @@ fn records_that_agree_pool_their_covariances() {
     for (one, two) in one.combined.unwrap().into_iter().zip(two.combined.unwrap()) {
         one.into_iter().zip(two).for_each(|(one, two)| assert!((two - 0.5 * one).abs() <= 1e-9 * one.abs()));
     }
+    // Its diagonal is that of the pooled intervals.
+    let pooled = [record(), record()]
+        .into_iter()
+        .fold(Session::new(settings(Assumptions::NONE)), |session, record| session.record("log", record));
+    let pooled = pooled.identify().unwrap().reported().cloned().unwrap();
+    for (i, drag) in [pooled.beta, pooled.beta_quadratic].into_iter().enumerate() {
+        let (variance, deviation) = (two.combined.unwrap()[i][i], drag.combined.unwrap().std);
+        assert!((variance - deviation.powi(2)).abs() <= 1e-9 * variance, "{i}: {variance} {deviation}");
+    }
     let axis = DragAxis::mixed(1.0, 0.6, 0.4).unwrap().with_delay_s(0.2).unwrap();
     let sensor = Sensor { noise: 0.004, ..Sensor::default() };
     let other = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0).unwrap(), 10.0).unwrap();

@@ -233,6 +233,25 @@ fn tune_unstable() {
     golden!("tune-unstable", answer);
 }
 
+/// The limit that a refusal names is proved at some bandwidth, and 3 % less is not in reach.
+#[test]
+fn the_named_limit_is_in_reach_and_the_least() {
+    let axis: [&str; 9] =
+        ["tune", "--alpha", "0.033", "--beta", "0.01", "--delay", "0.2", "--beta-interval", "-0.005,0.02"];
+    for (flag, asked, begin, end, less) in [
+        ("--ms", "1.05", "allow a sensitivity of ", " (--ms)", 0.97),
+        ("--phase-margin", "80", "allow a phase margin of ", " degrees (--phase-margin)", 1.03),
+    ] {
+        let limit = |number: &str| output(&[&axis[..], &[flag, number]].concat());
+        let (status, answer, _) = limit(asked);
+        let named = answer.split_once(begin).and_then(|(_, rest)| rest.split_once(end));
+        let named = named.unwrap_or_else(|| panic!("{status:?} {answer}")).0;
+        assert_eq!(limit(named).0, Some(0), "{flag} {named}: {}", limit(named).1);
+        let beyond = less * named.parse::<f64>().unwrap();
+        assert_eq!(limit(&beyond.to_string()).0, Some(1), "{flag} {beyond}");
+    }
+}
+
 /// No limit cycle is an answer: status 1 and the reason on standard output.
 #[test]
 fn no_limit_cycle() {

@@ -76,7 +76,7 @@ export function plot(title: string, time: ArrayLike<number>, curves: Curve[], x:
   return holder;
 }
 
-/** The answer to a load of the likeliest process, in the band of all processes of the intervals. */
+/** The answer to a load of the likeliest process, in the band of all processes of the confidence set. */
 export function loadStep({ time_s, load_step, load_step_range }: NonNullable<Autotuned["curves"]>): HTMLElement {
   const ends = [0, 1].map((end) => load_step_range.map((range) => range[end as 0 | 1]));
   const curves: Curve[] = [

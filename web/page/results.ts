@@ -110,7 +110,7 @@ export function autotuned(found: Autotuned): (HTMLElement | null)[] {
     found.lines === null ? h("p", {}, "No gains in this form: choose another.") : copyable("Type into your controller:", found.lines),
     sensitivity.proved_upper === null
       ? null
-      : h("p", {}, `Proved: the sensitivity of every process in the intervals is at most ${significant(sensitivity.proved_upper, 4)}. 1.4 is well damped; above 2 it rings.`),
+      : h("p", {}, `Proved: the sensitivity of every process of the confidence set is at most ${significant(sensitivity.proved_upper, 4)}. 1.4 is well damped; above 2 it rings.`),
     reasons("Why the answer is not simply good", found.reasons),
     best ? table(`Process: ${best.family}, ${significant(100 * best.weight, 3)} % of the evidence`, ["parameter", "value, 95 %"], Object.entries(best.parameters).map(([name, estimate]) => [name.replaceAll("_", " "), statistical(estimate)])) : null,
     table(

@@ -117,7 +117,7 @@ impl Autotuned {
         if let Some(proved) = &self.proved {
             writeln!(
                 output,
-                "\nproved: the sensitivity of every process in the intervals is at most {}",
+                "\nproved: the sensitivity of every process of the confidence set is at most {}",
                 significant(proved.sensitivity, 4)
             )?;
         }

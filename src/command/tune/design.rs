@@ -3,8 +3,8 @@
 use super::{PHASES_DEG, SENSITIVITIES};
 use crate::command::known::Model;
 use crate::control::{
-    AxisModel, ControlError, Controller, CriterionRange, Gains, OpenLoop, ProcessIntervals, RobustCriterion,
-    StepResponse, Structure, Tuning, WorstMargins,
+    AxisModel, ControlError, Controller, Gains, OpenLoop, ProcessIntervals, RobustCriterion, StepResponse, Structure,
+    Tuning, WorstMargins,
 };
 use crate::plant::DragAxis;
 
@@ -53,9 +53,9 @@ pub(super) struct Tuned {
     pub(super) response: StepResponse,
     pub(super) with_force: Option<StepResponse>,
     pub(super) top_speed: f64,
-    pub(super) sensitivity: CriterionRange,
-    /// `None` where the parameters are points, drag is linear and there are no further terms.
-    pub(super) worst: Option<WorstMargins>,
+    pub(super) worst: WorstMargins,
+    /// Whether there is more than one process: parameters have intervals, drag is not linear, or there are further terms.
+    pub(super) varies: bool,
 }
 
 impl Tuned {
@@ -81,7 +81,7 @@ impl Tuned {
             return first;
         }
         match (first, designed(least)) {
-            (Ok(tuned), Ok(other)) if tuned.sensitivity.met <= other.sensitivity.met => Ok(tuned),
+            (Ok(tuned), Ok(other)) if tuned.worst.sensitivity.met <= other.worst.sensitivity.met => Ok(tuned),
             (_, Ok(other)) => Ok(other),
             (Ok(tuned), Err(_)) => Ok(tuned),
             (
@@ -104,7 +104,7 @@ impl Tuned {
 
     /// Whether some axis has a larger sensitivity than is usual.
     pub(super) fn has_little_margin(&self) -> bool {
-        self.sensitivity.met > MOST_USUAL
+        self.worst.sensitivity.met > MOST_USUAL
     }
 
     /// Where a PD controller leaves the axis under the constant force: `delta/(K_p + stiffness)` from where it would be without.
@@ -168,14 +168,13 @@ impl Family<'_> {
         let processes = ProcessIntervals::new(model.processes(top_speed))?;
         let uncertain = model.axis.parts().iter().any(|part| part.interval.is_some());
         let varies = uncertain || axis.quadratic_drag() > 0.0 || !values.is_plain();
-        let worst = varies.then(|| processes.worst_margins(tuning.gains())).transpose()?;
-        let mut sensitivity = processes.enclose(tuning.gains(), RobustCriterion::Sensitivity)?;
+        let mut worst = processes.worst_margins(tuning.gains())?;
         if let Target::Limit(RobustCriterion::Sensitivity(limit)) = wanted.target {
             // That limit is proved already.
-            sensitivity.proved = sensitivity.proved.map(|proved| proved.min(limit)).or(Some(limit));
+            worst.sensitivity.proved = worst.sensitivity.proved.map(|proved| proved.min(limit)).or(Some(limit));
         }
         let (step, degrees) = (wanted.step, model.degrees);
-        Ok(Tuned { model: values, degrees, tuning, poles, step, response, with_force, top_speed, sensitivity, worst })
+        Ok(Tuned { model: values, degrees, tuning, poles, step, response, with_force, top_speed, worst, varies })
     }
 
     /// The criterion's worst number, where every axis is stable: no proof.
@@ -216,7 +215,10 @@ impl Family<'_> {
         if let Some(bandwidth) = at.iter().find(|bandwidth| self.tuning(**bandwidth).is_ok()) {
             self.loops(*bandwidth)?;
         }
-        let keeps = |bandwidth: f64| self.number(bandwidth, limit).is_some_and(|number| limit.is_met_by(number));
+        let keeps = |bandwidth: f64| {
+            self.loops(bandwidth)
+                .is_ok_and(|(gains, processes)| processes.meets(&gains, limit) && processes.points_stable(&gains))
+        };
         // Slow gains can be worse than fast ones, where drag is uncertain: no bisection from the ends.
         let Some(first) = at.iter().position(|bandwidth| keeps(*bandwidth)) else {
             return Err(ControlError::OutOfReach {
@@ -230,8 +232,8 @@ impl Family<'_> {
             let middle = (low * high).sqrt();
             if keeps(middle) { low = middle } else { high = middle }
         }
-        let back = (0..STEPS_BACK).map(|back| low * 0.98_f64.powi(back));
-        back.into_iter().find(|bandwidth| self.has(*bandwidth, limit)).ok_or(ControlError::OutOfReach {
+        let mut back = (0..STEPS_BACK).map(|back| low * 0.98_f64.powi(back));
+        back.find(|bandwidth| self.has(*bandwidth, limit)).ok_or(ControlError::OutOfReach {
             least_rad_s,
             most_rad_s,
             within_reach: None,
@@ -265,8 +267,8 @@ fn grid([least, most]: [f64; 2]) -> Vec<f64> {
     (0..=GRID).map(|k| most * (least / most).powf(f64::from(k) / f64::from(GRID))).collect()
 }
 
-/// The bandwidth nearest to the one asked for, to two digits, whose gains are proved to stabilise every axis of the intervals, with a
-/// sensitivity not above the usual where there is one, else with the least.
+/// The bandwidth nearest to the one asked for, to two digits, at which every axis of the intervals is proved to be stable. Those with a
+/// usual sensitivity come first, then that of the least.
 fn stabilised(families: &[Family; 2], asked_rad_s: f64) -> Option<f64> {
     let mut candidates: Vec<(f64, &Family, f64)> = Vec::new();
     for family in families {

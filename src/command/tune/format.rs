@@ -60,7 +60,7 @@ impl GainFormat {
         }
         let mut notes =
             format!("# command from -1 to 1: {full_command} of the log's unit is 1 (--full-command); angles in rad\n");
-        notes += &format!("# largest sensitivity of any axis {}\n", significant(tuned.sensitivity.met, 3));
+        notes += &format!("# largest sensitivity of any axis {}\n", significant(tuned.worst.sensitivity.met, 3));
         if tuned.offset() != 0.0 {
             let offset = significant(tuned.offset(), 3);
             notes += &format!(

@@ -33,8 +33,8 @@ impl Tuned {
                 "bandwidth_rad_s": self.tuning.achieved_bandwidth_rad_s(),
                 "step": step_json(self.step, &self.response),
             },
-            "sensitivity": { "met": self.sensitivity.met, "proved_upper": self.sensitivity.proved },
-            "worst_case": self.worst.as_ref().map(|found| json!({
+            "sensitivity": { "met": self.worst.sensitivity.met, "proved_upper": self.worst.sensitivity.proved },
+            "worst_case": self.varies.then_some(&self.worst).map(|found| json!({
                 "top_speed": self.top_speed,
                 "at_least": found.at_least,
                 "met": found.met,
@@ -73,7 +73,7 @@ impl Tuned {
         }
         let Margins { gain, gain_reduction, phase_rad, delay_s, .. } = *margins;
         let nominal = WorstMargin { gain, gain_reduction, phase_rad, delay_s };
-        let worst = self.worst.as_ref();
+        let worst = self.varies.then_some(&self.worst);
         let mut line = |name: &str, nominal: &str, all: Option<String>| {
             let all = all.map_or_else(String::new, |all| format!("{all:>20}"));
             writeln!(output, "{name:34}{nominal:>14}{all}")
@@ -95,10 +95,11 @@ impl Tuned {
             line(name, &text(&nominal), worst.map(|found| all(&found.at_least)))?;
         }
         let peak = self
+            .worst
             .sensitivity
             .proved
             .map_or_else(|| "not proved".to_owned(), |most| format!("at most {}", significant(most, 4)));
-        writeln!(output, "{:34}{:>14}{peak:>20}", "largest sensitivity", significant(self.sensitivity.met, 4))?;
+        writeln!(output, "{:34}{:>14}{peak:>20}", "largest sensitivity", significant(self.worst.sensitivity.met, 4))?;
         if self.has_little_margin() {
             writeln!(output, "a sensitivity above 2 leaves little margin: ask for another bandwidth, or for --ms 2")?;
         }

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use selfosc::control::{
-    ControlError, LinearProcess, OpenLoop, ProcessIntervals, RobustCriterion, Structure, Tuning, WorstMargin,
+    ControlError, Gains, LinearProcess, OpenLoop, ProcessIntervals, RobustCriterion, Structure, Tuning, WorstMargin,
 };
 use selfosc::numeric::Interval;
 use selfosc::plant::DragAxis;
@@ -89,4 +89,13 @@ fn an_unstable_axis_is_found() {
     let wide = axes([between(0.9, 1.1), between(0.4, 0.6), between(0.0, 3.0)]);
     let refusal = wide.worst_margins(tuning.gains());
     assert!(matches!(refusal, Err(ControlError::NotStabilised { delay_s, .. }) if delay_s > 0.1), "{refusal:?}");
+}
+
+/// At one delay beyond the critical one an axis is unstable, though it is stable without delay and not critical with its own.
+#[test]
+fn an_axis_beyond_its_critical_delay_is_not_proved() {
+    let gains = Gains::new(Structure::Pd, 1.0, 0.0, 1.0, 0.1).unwrap();
+    let late = |delay_s| axes([Interval::ONE, Interval::point(0.1), Interval::point(delay_s)]);
+    assert!(late(0.1).all_stable(&gains) && !late(3.0).all_stable(&gains));
+    assert!(!late(3.0).all_have(&gains, RobustCriterion::PhaseRad(0.0)));
 }
