@@ -186,13 +186,17 @@ fn several_records_are_one_vehicle() {
 #[test]
 fn a_record_that_is_not_predicted_makes_the_answer_doubtful() {
     let folder = simulated(AXIS, &["--noise", "0.003"]);
-    for (name, alpha) in [("same.csv", "1"), ("other.csv", "3")] {
+    for (name, alpha, noise) in [("same.csv", "1", "0"), ("noisy.csv", "1", "0.4"), ("other.csv", "3", "0")] {
         let vehicle = ["simulate", "--alpha", alpha, "--beta-quadratic", "0.5", "--relay", "2", "--half-width", "0.2"];
-        let (_, log, _) = selfosc(&folder, &[&vehicle[..], &["--delay", "0.1", "--hold"]].concat());
+        let (_, log, _) = selfosc(&folder, &[&vehicle[..], &["--delay", "0.1", "--hold", "--noise", noise]].concat());
         std::fs::write(folder.path().join(name), log).unwrap();
     }
     let same = json(&folder, &["--validate", "same.csv"]);
     assert_eq!(same["reported"]["trust"], "good", "{}", same["reported"]["reasons"]);
+    // Noise that leaves most of the variance explained is no fault of the model.
+    let noisy = json(&folder, &["--validate", "noisy.csv"]);
+    let fit = noisy["validation"][0]["fit_percent"].as_f64().unwrap();
+    assert!((30.0..85.0).contains(&fit) && noisy["reported"]["trust"] == "good", "{noisy}");
     let other = json(&folder, &["--validate", "same.csv", "other.csv"]);
     let reported = &other["reported"];
     assert_eq!((&reported["trust"], &reported["reasons"][0]["code"]), (&"doubtful".into(), &"does-not-predict".into()));
@@ -201,6 +205,23 @@ fn a_record_that_is_not_predicted_makes_the_answer_doubtful() {
     let (status, _, complaint) = selfosc(&folder, &["tune", "--model", "model.json", "--bandwidth", "0.5"]);
     assert!(status == 2 && complaint.contains("does-not-predict"), "{complaint}");
     golden!("identify-does-not-predict", reported["reasons"][0]["text"].as_str().unwrap());
+}
+
+/// Where terms are looked for in a part of the record only, the answer says so, and its interval is that of all samples.
+#[test]
+fn a_long_record_says_where_terms_were_looked_for() {
+    let [short, long] = ["40", "100"].map(|cycles| {
+        let folder = simulated(AXIS, &["--noise", "0.01", "--hold", "--cycles", cycles]);
+        let found = json(&folder, &["--method", "fit"]);
+        let told: Vec<String> =
+            found["warnings"].as_array().unwrap().iter().map(|one| one["code"].to_string()).collect();
+        assert_eq!(found["reported"]["trust"], "good");
+        let std = found["reported"]["alpha"]["std"].as_f64().unwrap();
+        (found["record"]["samples"].as_u64().unwrap(), told, std)
+    });
+    assert!(short.0 <= 4000 && short.1.is_empty(), "{short:?}");
+    assert!(long.0 > 4000 && long.1 == ["\"searched-in-part\""], "{long:?}");
+    assert!(long.2 < 0.8 * short.2, "{short:?} {long:?}");
 }
 
 /// A depth is in m, and no autopilot's yaw loop takes its model.
@@ -221,7 +242,7 @@ fn a_depth_has_no_yaw_loop() {
 #[test]
 fn a_slow_controller_is_named() {
     let folder = simulated(AXIS, &["--noise", "0.003"]);
-    let tuned = |interval| -> Value {
+    let tuned = |interval: &str| -> Value {
         let (status, answer, _) = selfosc(&folder, &["autotune", "log.csv", "--interval", interval, "--json"]);
         assert_eq!(status, 0, "{answer}");
         serde_json::from_str(&answer).unwrap()
@@ -230,6 +251,10 @@ fn a_slow_controller_is_named() {
     let named =
         |answer: &Value| answer["reasons"].as_array().unwrap().iter().any(|one| one["code"] == "slow-controller");
     assert_eq!((named(&fast), named(&slow)), (false, true));
+    // Half of the interval is half of the dead time where the interval is the dead time.
+    let dead_s = fast["models"][0]["parameters"]["dead_time_s"]["value"].as_f64().unwrap();
+    let around = [0.95, 1.05].map(|part| named(&tuned(&(part * dead_s).to_string())));
+    assert_eq!(around, [false, true], "{dead_s} s");
     assert_eq!(fast["trust"], slow["trust"]);
     assert!(slow["sensitivity"]["proved_upper"].as_f64().unwrap() <= 1.4);
 }

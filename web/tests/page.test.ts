@@ -4,10 +4,9 @@ import { execFile } from "node:child_process";
 import { mkdirSync, readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { promisify } from "node:util";
-import { give, job, type Served, serve } from "./server";
+import { give, job, selfosc, type Served, serve } from "./server";
 
 const root = new URL("../../", import.meta.url).pathname;
-const selfosc = process.env.SELFOSC_COMMAND ?? `${root}target/release/selfosc`;
 const shots = process.env.SCREENSHOTS;
 const log = (path: string) => readFileSync(root + path);
 

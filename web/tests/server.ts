@@ -5,6 +5,9 @@ import type { AddressInfo } from "node:net";
 import { extname } from "node:path";
 import { type Browser, type BrowserContextOptions, chromium, type Page } from "playwright-core";
 
+/** The command that the page is compared with. */
+export const selfosc = process.env.SELFOSC_COMMAND ?? new URL("../../target/release/selfosc", import.meta.url).pathname;
+
 const dist = new URL("../dist/", import.meta.url).pathname;
 const TYPES: Record<string, string> = {
   ".html": "text/html; charset=utf-8",

@@ -29,6 +29,13 @@ pub enum Warning {
         #[serde(with = "super::any_float")]
         ratio: f64,
     },
+    /// The record is long: terms were looked for in its beginning, and the whole record fitted the likeliest models of it.
+    SearchedInPart {
+        /// Samples of the beginning.
+        searched: usize,
+        /// Samples of the record.
+        samples: usize,
+    },
 }
 
 /// Switching level over amplitude from which inertia is ill-conditioned.
@@ -41,6 +48,7 @@ impl Warning {
             Self::OrdersDerived { .. } => "orders-derived",
             Self::IllConditioned { .. } => "ill-conditioned",
             Self::MethodsDisagree { .. } => "methods-disagree",
+            Self::SearchedInPart { .. } => "searched-in-part",
         }
     }
 
@@ -71,6 +79,11 @@ impl fmt::Display for Warning {
                 "the paper's method gives {ratio:.2} times the {} reported: it takes the oscillation for a sinusoid, and knows no \
                  other term than drag and constant force",
                 parameter.name()
+            ),
+            Self::SearchedInPart { searched, samples } => write!(
+                f,
+                "terms were looked for in the first {searched} of {samples} samples; a part of the record alone (--from, --to) tells \
+                 whether others are at work there"
             ),
         }
     }

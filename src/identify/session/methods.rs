@@ -154,6 +154,12 @@ impl<'a> Findings<'a> {
                 let missing = self.records().into_iter().find_map(NotAnExperiment::find).map(Reason::NoExperiment);
                 self.reported = Some(missing.into_iter().fold(reported, Reported::with_reason));
                 self.left_out = several.left_out;
+                self.cautions.extend(self.sources.iter().enumerate().filter_map(|(index, source)| {
+                    let (searched, samples) = (Estimator::SEARCHED, source.log.record.samples());
+                    let alone = self.sources.len() == 1;
+                    let warning = Warning::SearchedInPart { searched, samples };
+                    (samples > searched).then(|| source.caution(warning, (!alone).then_some(index)))
+                }));
             }
             Err(error @ IdentifyError::CommandSign) => return Err(error.into()),
             Err(error) => self.refuse("prediction-error", None, error),

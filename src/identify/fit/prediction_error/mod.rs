@@ -79,6 +79,9 @@ pub struct Estimator {
 }
 
 impl Estimator {
+    /// Samples of a record in which terms are looked for: its first.
+    pub const SEARCHED: usize = structure_search::LONGEST_SEARCHED;
+
     /// The drag law is found; the delay is estimated, or given and checked.
     #[must_use]
     pub fn new(delay: Delay) -> Self {

@@ -1,5 +1,7 @@
 //! Which terms a record has: from inertia and drag alone, the term that makes it likeliest joins, until none is worth it;
 //! then those that are no longer needed leave. Every model tried is kept for the average.
+//!
+//! Of a long record terms join by its first [`LONGEST_SEARCHED`] samples; the whole record fits the likeliest of these models.
 
 mod gaps;
 
@@ -45,8 +47,8 @@ const MOST_TERMS: usize = 8;
 
 /// A model that does not promise to gain as much in log-likelihood is not followed to its end.
 const WORTH_FOLLOWING: f64 = 0.1;
-/// Samples of a longer record in which terms are looked for first, and how many of the models found there go on.
-const LONGEST_SEARCHED: usize = 4000;
+/// Samples of a longer record in which terms are looked for, and how many of the models found there are fitted to all of it.
+pub(super) const LONGEST_SEARCHED: usize = 4000;
 const CONTINUED: usize = 3;
 /// How often instants of switching in gaps are looked for at most.
 const MOST_READINGS: usize = 3;
@@ -242,27 +244,9 @@ impl<'a> StructureSearch<'a> {
         Some((self, found))
     }
 
-    /// From models that are fitted: terms join, confounded lags replace each other, unneeded terms leave.
+    /// From models that are fitted: terms join unless the record is long, and unneeded terms leave.
     fn search(&self, mut tried: Vec<Fitted>) -> SearchOutcome {
-        let start = self.best(&tried);
-        // Noise and process force can hide a structure: where they come first, the structure alone is tried too.
-        let mut best = self.grow(&mut tried, start, |_| true);
-        let first = tried[start].model.freedom();
-        let structural = |fitted: &Fitted| {
-            let has = |term: &Term| term.is_in(&fitted.model) && (*term != Term::Delay || self.known.delay_s.is_some());
-            Term::ALL.into_iter().filter(has).all(Term::is_structural)
-        };
-        let noisy = Term::ALL.into_iter().any(|term| term.is_in(&tried[best].model) && !term.is_structural());
-        let worth = tried[start].log_likelihood + 0.5 * JOINS;
-        let alone = tried.iter().enumerate().filter(|(_, fitted)| structural(fitted) && fitted.log_likelihood > worth);
-        let alone = alone.filter(|(_, fitted)| fitted.model.freedom() > first);
-        let alone = alone.max_by(|a, b| a.1.log_likelihood.total_cmp(&b.1.log_likelihood)).map(|(index, _)| index);
-        if let Some(alone) = alone.filter(|_| noisy) {
-            let grown = self.grow(&mut tried, alone, Term::is_structural);
-            self.grow(&mut tried, grown, |_| true);
-            best = self.best(&tried);
-        }
-        best = self.confounded_otherwise(&mut tried, best);
+        let mut best = if self.is_long() { self.best(&tried) } else { self.joined(&mut tried) };
         // Leave out what is no longer needed, drag terms too.
         loop {
             let current = tried[best].clone();
@@ -280,6 +264,29 @@ impl<'a> StructureSearch<'a> {
         tried.extend(others.into_par_iter().filter_map(|model| self.climb(model)).collect::<Vec<_>>());
         best = self.best(&tried);
         SearchOutcome { tried, best }
+    }
+
+    /// Terms join, confounded lags replace each other; returns the number of the best model.
+    fn joined(&self, tried: &mut Vec<Fitted>) -> usize {
+        let start = self.best(tried);
+        // Noise and process force can hide a structure: where they come first, the structure alone is tried too.
+        let mut best = self.grow(tried, start, |_| true);
+        let first = tried[start].model.freedom();
+        let structural = |fitted: &Fitted| {
+            let has = |term: &Term| term.is_in(&fitted.model) && (*term != Term::Delay || self.known.delay_s.is_some());
+            Term::ALL.into_iter().filter(has).all(Term::is_structural)
+        };
+        let noisy = Term::ALL.into_iter().any(|term| term.is_in(&tried[best].model) && !term.is_structural());
+        let worth = tried[start].log_likelihood + 0.5 * JOINS;
+        let alone = tried.iter().enumerate().filter(|(_, fitted)| structural(fitted) && fitted.log_likelihood > worth);
+        let alone = alone.filter(|(_, fitted)| fitted.model.freedom() > first);
+        let alone = alone.max_by(|a, b| a.1.log_likelihood.total_cmp(&b.1.log_likelihood)).map(|(index, _)| index);
+        if let Some(alone) = alone.filter(|_| noisy) {
+            let grown = self.grow(tried, alone, Term::is_structural);
+            self.grow(tried, grown, |_| true);
+            best = self.best(tried);
+        }
+        self.confounded_otherwise(tried, best)
     }
 
     /// Replaces the confounded lags by each other; returns the number of the best model.
@@ -370,15 +377,12 @@ impl<'a> StructureSearch<'a> {
                 }
                 moves.push((starts, term.freedom() as f64));
                 // Instants left to chance may hide a structure, and a structure may look like such instants.
-                if observations.switched && term.is_structural() && !self.is_long() {
+                if observations.switched && term.is_structural() {
                     let mut starts = term.starts(model, observations);
                     starts.iter_mut().for_each(|start| start.switching = start.switching.other());
                     moves.push((starts, term.freedom() as f64));
                 }
             }
-        }
-        if self.is_long() {
-            return moves;
         }
         moves.extend(self.swaps(model).into_iter().map(|model| (vec![model], 0.0)));
         for (out, term) in RIVALS {
