@@ -86,7 +86,9 @@ pub(super) fn run(given: Loop<'_>, as_json: bool, output: &mut impl Write) -> Re
 }
 
 fn table(listing: &OrbitListing, output: &mut impl Write) -> Result<(), CommandError> {
-    if listing.orbits.is_empty() {
+    if listing.orbits.is_empty() && !listing.is_complete() {
+        writeln!(output, "no oscillation is proved, and none is refuted in the periods below")?;
+    } else if listing.orbits.is_empty() {
         writeln!(
             output,
             "no oscillation with one switching each way in a period; raise the levels (--relay) or narrow the hysteresis (--half-width)"

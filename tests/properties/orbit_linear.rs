@@ -301,6 +301,26 @@ fn short_excursions_past_a_guard() {
     }
 }
 
+/// Time constants 3 and 15 % apart, whose shares of the output cancel: the orbit is found, and to the last digits.
+#[test]
+fn poles_near_each_other_are_no_hindrance() {
+    for (times, half_width) in [([1.659, 1.706, 1.955], 0.155), ([1.0, 1.05, 1.1], 0.1), ([1.0, 1.02, 1.04], 0.1)] {
+        let found = listed(&lags(&times, true, 0.0), relay(half_width, 0.0), 0.05..=400.0);
+        assert!(found.is_complete(), "{times:?} {:?}", found.not_covered);
+        let [orbit] = &found.orbits[..] else { panic!("{times:?}: {} orbits", found.orbits.len()) };
+        assert!(orbit.period_s.width() < 1e-12 * orbit.period_s.midpoint(), "{times:?} {}", orbit.period_s);
+        assert_eq!(orbit.attracting, Some(true));
+    }
+}
+
+/// Five poles in a row, each 15 % from the next, are too many for one group, and no reason to refuse.
+#[test]
+fn poles_in_a_row_are_divided() {
+    let times: Vec<f64> = (0..5).map(|at| 1.15_f64.powi(at)).collect();
+    let found = orbits(&lags(&times, false, 0.0), &relay(0.1, 0.0).into(), Some(20.0..=40.0));
+    assert!(found.is_ok_and(|found| found.is_complete()));
+}
+
 proptest! {
     #![proptest_config(crate::sampling::config(24))]
 

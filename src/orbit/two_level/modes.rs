@@ -8,9 +8,9 @@ use crate::orbit::OrbitError;
 use crate::plant::{TransferFunction, product};
 use crate::proof::interval_matrix::solve;
 
-/// Poles nearer to each other than this share of their size form a group: computed roots of a multiple root are spread by a
-/// root of the rounding error, 1e-4 for four of them.
-const GAP: f64 = 0.02;
+/// Poles nearer to each other than this share of their size form a group: the shares of separate poles grow with the inverse of
+/// their distances and cancel.
+const GAP: f64 = 0.2;
 
 /// One group of poles of the plant: `x' = A x + u`, its share of the output `sum_j output_j x_j`.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,7 +59,9 @@ fn factors(descending: &[f64]) -> Result<Vec<Vec<f64>>, OrbitError> {
         }
     }
     let mut found = Vec::new();
-    for group in groups {
+    // More poles than a group takes are divided evenly.
+    let even = |group: &Vec<f64>| group.len().div_ceil(group.len().div_ceil(MOST));
+    for group in groups.iter().flat_map(|group| group.chunks(even(group))) {
         let monic = group.iter().fold(vec![1.0], |factor, &pole| product(&factor, &[1.0, -pole]));
         found.push(monic[1..].iter().rev().copied().collect());
     }
@@ -205,9 +207,8 @@ pub(super) fn modes(plant: &TransferFunction) -> Result<Vec<Mode>, OrbitError> {
     let mut parts: Vec<Vec<Interval>> = Vec::new();
     let crowded = |order| OrbitError::CrowdedPoles { order };
     if rest.len() > 1 {
-        let near = factors(rest)?;
         let monic: Vec<Interval> = rest[1..].iter().rev().map(|&c| Interval::point(c) / lead).collect();
-        parts = enclose(&near, &monic).ok_or(crowded(order))?;
+        parts = enclose(&factors(rest)?, &monic).ok_or(crowded(order))?;
     }
     if at_zero > 0 {
         parts.insert(0, vec![Interval::ZERO; at_zero]);
