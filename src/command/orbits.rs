@@ -87,11 +87,11 @@ pub(super) fn run(given: Loop<'_>, as_json: bool, output: &mut impl Write) -> Re
 
 fn table(listing: &OrbitListing, output: &mut impl Write) -> Result<(), CommandError> {
     if listing.orbits.is_empty() && !listing.is_complete() {
-        writeln!(output, "no oscillation is proved, and none is refuted in the periods below")?;
+        writeln!(output, "no oscillation is proved, and some periods are not decided")?;
     } else if listing.orbits.is_empty() {
         writeln!(
             output,
-            "no oscillation with one switching each way in a period; raise the levels (--relay) or narrow the hysteresis (--half-width)"
+            "no oscillation with one switching each way in the periods searched; raise the levels (--relay) or narrow the hysteresis (--half-width)"
         )?;
     } else {
         let head = ["period / s", "at HIGH / s", "at LOW / s", "amplitude", "bias", "multiplier"];

@@ -351,3 +351,19 @@ fn a_small_linear_drag_in_a_long_record_is_not_dropped() {
     }
     assert!(misses.iter().all(|missed| *missed <= 3), "{misses:?}");
 }
+
+/// The whole of a long record fits a few models: fewer than its beginning, in which terms are looked for.
+#[test]
+fn a_long_record_does_not_try_every_term_on_all_samples() {
+    let axis = DragAxis::quadratic(1.0, 0.5).unwrap().with_delay_s(0.1).unwrap();
+    let experiment = SimulatedExperiment::new(axis, RelayHysteresis::new(1.0, 0.3, 0.0).unwrap(), 10.0).unwrap().held();
+    let sensor = Sensor { noise: 0.01, ..Sensor::default() };
+    let tried = [1.0, 1.5].map(|times| {
+        let record =
+            experiment.with_sensor(sensor).unwrap().run(times * 0.1 * (Estimator::SEARCHED - 1) as f64).unwrap();
+        let answer = Estimator::new(Delay::Estimated).record(&record).unwrap();
+        (record.samples(), answer.candidates.len())
+    });
+    assert!(tried[0].0 <= Estimator::SEARCHED && tried[1].0 > Estimator::SEARCHED, "{tried:?}");
+    assert!(2 * tried[1].1 < tried[0].1, "{tried:?}");
+}

@@ -260,6 +260,17 @@ fn no_limit_cycle() {
     golden!("no-limit-cycle", answer);
 }
 
+/// Five lags, each 15 % from the next, oscillate with 12.6 s by harmonic balance, and the search ends undecided: it says what is open,
+/// and not that there is none.
+#[test]
+fn an_undecided_search_is_not_called_none() {
+    let five = "4.0455577357079076,15.595537536260636,23.815656071646472,18.008057521093743,6.742381249999999,1.0";
+    let (status, answer, _) = output(&["predict", "--num", "1", "--den", five, "--relay", "1", "--half-width", "0.1"]);
+    assert_eq!(status, Some(1));
+    assert!(answer.starts_with("no oscillation is proved, and some periods are not decided\n"), "{answer}");
+    assert!(answer.contains("\nnot decided: periods from "), "{answer}");
+}
+
 /// A gain has its amplitudes, and gains have their characteristic.
 #[test]
 fn the_other_way_round() {

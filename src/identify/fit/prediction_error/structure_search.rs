@@ -82,7 +82,6 @@ pub(super) struct StructureSearch<'a> {
     known: KnownBefore,
     clocks: Vec<Clock>,
     readings: [OnceLock<Observations>; 4],
-    head_readings: [OnceLock<Observations>; 4],
     unseen_s: f64,
 }
 
@@ -98,29 +97,13 @@ impl<'a> StructureSearch<'a> {
     pub(super) fn new(record: &'a Record, known: KnownBefore) -> Self {
         let clocks = if grid(record).is_some() { vec![Clock::Stamps, Clock::Grid] } else { vec![Clock::Stamps] };
         let head = record.beginning(LONGEST_SEARCHED);
-        let [readings, head_readings] = [const { [const { OnceLock::new() }; 4] }; 2];
-        Self { record, head, known, clocks, readings, head_readings, unseen_s: 0.0 }
+        let readings = [const { OnceLock::new() }; 4];
+        Self { record, head, known, clocks, readings, unseen_s: 0.0 }
     }
 
     pub(super) fn observations(&self, model: &VehicleModel) -> &Observations {
-        self.reading(self.record, &self.readings, model)
-    }
-
-    /// Of the first part of a long record, else of all: enough to choose a start by.
-    fn beginning(&self, model: &VehicleModel) -> &Observations {
-        self.head
-            .as_ref()
-            .map_or_else(|| self.observations(model), |head| self.reading(head, &self.head_readings, model))
-    }
-
-    fn reading<'b>(
-        &self,
-        record: &Record,
-        readings: &'b [OnceLock<Observations>; 4],
-        model: &VehicleModel,
-    ) -> &'b Observations {
-        readings[reading_index(model)].get_or_init(|| {
-            let mut observations = Observations::new(record, model.clock, model.switching);
+        self.readings[reading_index(model)].get_or_init(|| {
+            let mut observations = Observations::new(self.record, model.clock, model.switching);
             observations.skip(self.unseen_s);
             observations
         })
@@ -138,7 +121,7 @@ impl<'a> StructureSearch<'a> {
     /// The likeliest of several starts, climbed from.
     fn climb_from(&self, starts: Vec<VehicleModel>, worth: f64) -> Option<Fitted> {
         let value = |model: &VehicleModel| {
-            filter::run(self.beginning(model), model, filter::Evaluation::Likelihood).map(|pass| pass.log_likelihood)
+            filter::run(self.observations(model), model, filter::Evaluation::Likelihood).map(|pass| pass.log_likelihood)
         };
         let valued = starts.into_iter().filter_map(|model| Some((value(&model)?, model)));
         let (_, best) = valued.max_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -192,7 +175,7 @@ impl<'a> StructureSearch<'a> {
     fn continued(&mut self) -> Option<Vec<Fitted>> {
         let (search, mut found) = StructureSearch::new(self.head.as_ref()?, self.known).run()?;
         found.tried.sort_by(|a, b| search.value(b).total_cmp(&search.value(a)));
-        (self.unseen_s, self.head_readings) = (search.unseen_s, search.readings);
+        self.unseen_s = search.unseen_s;
         let mut models: Vec<VehicleModel> = Vec::new();
         for Fitted { model, .. } in found.tried {
             let same = |other: &VehicleModel| {
