@@ -19,7 +19,7 @@ pub(super) struct Fitted {
 
 /// Steps of one search.
 pub(super) const MOST_STEPS: usize = 40;
-/// A step that promises to gain less ends the search.
+/// A step that promises to gain less, or gains less, ends the search.
 const NEGLIGIBLE_GAIN: f64 = 2e-3;
 /// A search that ran out of steps counts as at rest where the structure promises less than this.
 const NEARLY_SETTLED: f64 = 0.1;
@@ -125,7 +125,7 @@ pub(super) fn climb_beyond(
     let mut pass = filter::run(observations, &model, filter::Evaluation::Score)?;
     let mut damping = LEAST_DAMPING;
     let mut settled = false;
-    let mut steps = 0;
+    let (mut steps, mut rejected) = (0, 0);
     while steps < most_steps {
         steps += 1;
         let (score, log_likelihood) = (pass.score(), pass.log_likelihood);
@@ -175,14 +175,17 @@ pub(super) fn climb_beyond(
                 let gained = better.log_likelihood - log_likelihood;
                 pass = better;
                 model = next;
+                rejected = 0;
                 damping = (damping * if damping > 1e-3 { 0.1 } else { 0.3 }).max(1e-9);
-                if gained < 0.1 * NEGLIGIBLE_GAIN {
+                if gained < NEGLIGIBLE_GAIN {
                     settled = true;
                     break;
                 }
             }
             None => {
-                damping = (damping * 10.0).max(1e-3);
+                // Damping grows the faster the more steps in a row are rejected (Nielsen 1999).
+                rejected += 1;
+                damping = (damping * 10f64.powi(rejected)).max(1e-3);
                 if damping > MOST_DAMPING {
                     // The predictor's gradient is not quite that of the likelihood: no step improves it any more.
                     settled = gain + noise_gain < 0.5;
