@@ -132,5 +132,5 @@ def _short(value: Any) -> str:
     if value is None:
         return ""
     if isinstance(value, (list, dict)):
-        return f"{len(value)} of them" if value else ""
+        return {0: "", 1: "1 entry"}.get(len(value), f"{len(value)} entries")
     return f"{value:.4g}" if isinstance(value, float) else str(value)
