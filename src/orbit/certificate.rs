@@ -39,13 +39,13 @@ pub enum Starts {
 
 /// The limit cycle of `axis` under `relay` by enclosure: nothing in it rests on rounding having been kind.
 ///
-/// **Existence** by Krawczyk's operator, for four unknowns: each half cycle's speed at the relay's level and at the
-/// real switching. **Uniqueness and attraction** because the way from rest to the level maps onto the next such way by
-/// an increasing, concave function with a positive value at zero: its slope `2 C v/((C -+ (delta + d) + drag(v)) v_0) -
-/// 1`, `v_0` the speed at the level and `v` at the switching, is positive and falls with `v_0` for linear, quadratic
-/// and mixed drag and any delay. The half cycles in turn have exactly 1 fixed point, which every start with at most a
-/// single command on its way approaches from its own side. Every start is such a start where the axis, driven from rest
-/// by the larger force, takes longer than the delay between the levels: it rests between crossing either.
+/// **Existence** by Krawczyk's operator, for four unknowns: each half cycle's speed at the relay's level and at the real
+/// switching. **Uniqueness and attraction** because the way from rest to the level maps onto the next such way by an
+/// increasing, concave function with a positive value at zero: its slope `2 C v/((C -+ (delta + d) + drag(v)) v_0) - 1`,
+/// `v_0` the speed at the level and `v` at the switching, is positive and falls with `v_0` for linear, quadratic and
+/// mixed drag and any delay. The half cycles in turn have exactly 1 fixed point, which every start with at most a single
+/// command on its way approaches from its own side. Every start is such a start where the axis, driven from rest by the
+/// larger force, takes longer than the delay between the levels: it rests between crossing either.
 ///
 /// ```
 /// use selfosc::{nonlinearity::RelayHysteresis, orbit::certify, plant::DragAxis};
@@ -122,8 +122,8 @@ fn angles(half: &HalfCycle<f64>, swing: &Swing<f64>, axis: &DragAxis<f64>) -> [f
     [angle(speed, acceleration), angle(lag.speed, acceleration * lag.speed_gain)]
 }
 
-/// A half cycle over intervals. The motion from rest has the coordinate `angle` with `speed = terminal (1 -
-/// exp(-angle))`, whose rate is `slow + (fast - slow)(1 - exp(-angle))`: nothing in it is singular at terminal speed.
+/// A half cycle over intervals. The motion from rest has the coordinate `angle` with `speed = terminal (1 - exp(-angle))`,
+/// whose rate is `slow + (fast - slow)(1 - exp(-angle))`: nothing in it is singular at terminal speed.
 #[derive(Clone, Copy, Debug)]
 struct Half {
     /// Force of the command that drives over alpha.

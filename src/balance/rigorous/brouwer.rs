@@ -2,10 +2,10 @@
 //!
 //! Let `x = u + v`, u the harmonics up to K, odd or all, v the rest, and `c`, `r` the middle and half the range of the
 //! slopes. Where `rho = inf over k > K of abs(g_k + c)` exceeds `r`, the equations above K are a contraction of ratio
-//! `r/rho` in v, so v is unique, continuous in frequency and u, and `norm(v) <= eta = (T_0 + (r/rho) norm(h))/(1 -
-//! r/rho)` for `u = u_0 + h` (Mees and Bergen 1975). The equations up to K are `E(u) + [N(u + v) - N(u)]`. A
-//! preconditioner B and the mean value form in frequency map the box of radii R into itself if in every row `abs(B E) +
-//! abs(1 - B J) R + norm2(B_i) sqrt 2 (r eta + e) <= R`.
+//! `r/rho` in v, so v is unique, continuous in frequency and u, and
+//! `norm(v) <= eta = (T_0 + (r/rho) norm(h))/(1 - r/rho)` for `u = u_0 + h` (Mees and Bergen 1975). The equations up to
+//! K are `E(u) + [N(u + v) - N(u)]`. A preconditioner B and the mean value form in frequency map the box of radii R
+//! into itself if in every row `abs(B E) + abs(1 - B J) R + norm2(B_i) sqrt 2 (r eta + e) <= R`.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,9 +1,9 @@
 //! Modulating functions (Shinbrot, *Transactions of the ASME* 79, 1957; Preisig and Rippin, *Computers and Chemical Engineering* 17, 1993):
 //! the weak form of the equation gives inequalities linear in the terms, over any box.
 //!
-//! For a hat K, 1 at a sample and falling linearly to zero at a sample on either side, `int K x'' = (x_2 - x_1)/(t_2 -
-//! t_1) - (x_1 - x_0)/(t_1 - t_0)`: three readings give it to within their errors. By the equation it is a combination
-//! of the terms, whose coefficients `int K` of the command, of velocities and of positions follow from the log.
+//! For a hat K, 1 at a sample and falling linearly to zero at a sample on either side,
+//! `int K x'' = (x_2 - x_1)/(t_2 - t_1) - (x_1 - x_0)/(t_1 - t_0)`: three readings give it to within their errors. By the equation
+//! it is a combination of the terms, whose coefficients `int K` of the command, of velocities and of positions follow from the log.
 
 mod forcing;
 #[cfg(test)]

@@ -104,9 +104,9 @@ impl PowerMoments {
 
     /// In `z = (1 - u)/2`: `m = alpha sum a_n z^n + c sum b_j z^(p + 1/2 + j)`, the exponents of the equation at `u = 1`.
     ///
-    /// With `p + 1/2 = N + delta` the coefficients a_n from `n = N` on and c grow like `1/delta` and cancel; at `delta
-    /// = 0` they leave a logarithm. Hence terms of equal whole order are paired, `(A_j - B_j w abs(z)^delta)/delta`,
-    /// and the recurrence runs on `B_j` and on `D_j = (A_j - B_j)/delta`, which stays finite.
+    /// With `p + 1/2 = N + delta` the coefficients a_n from `n = N` on and c grow like `1/delta` and cancel; at `delta = 0`
+    /// they leave a logarithm. Hence terms of equal whole order are paired, `(A_j - B_j w abs(z)^delta)/delta`, and the
+    /// recurrence runs on `B_j` and on `D_j = (A_j - B_j)/delta`, which stays finite.
     #[inline]
     pub(super) fn about_one<T: Real>(&self, u: T, z: T, share: f64) -> Moments<T> {
         let (p, half) = (T::from_f64(self.exponent), T::from_f64(0.5));

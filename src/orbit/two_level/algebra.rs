@@ -1,8 +1,8 @@
 //! The functions of a group of poles: the algebra of polynomials in its nilpotent or rotating part, over intervals.
 //!
-//! A group of `degree` poles is `A = shift + scale nu` with `nu^degree = sum_j modulus_j nu^j` and `sum_j
-//! abs(modulus_j) <= 1`. Thus `abs(sum_i a_i nu^i) = sum_i abs(a_i)` is a norm under which a product is at most the
-//! product of the norms, and every function of `A` is an element of at most `MOST` coordinates.
+//! A group of `degree` poles is `A = shift + scale nu` with `nu^degree = sum_j modulus_j nu^j` and
+//! `sum_j abs(modulus_j) <= 1`. Thus `abs(sum_i a_i nu^i) = sum_i abs(a_i)` is a norm under which a product is at most
+//! the product of the norms, and every function of `A` is an element of at most `MOST` coordinates.
 
 use nalgebra::DMatrix;
 

@@ -1,10 +1,10 @@
 //! The plant's periodic answer to a single input step a period, over intervals of time and period.
 //!
-//! A two-level input is a constant plus the difference of two such steps: the periodic output is `gain u + (high -
-//! low)(W(t1) - W(t2))`, with `t1`, `t2` the times since its last rise and fall. For a group of poles away from zero `W
-//! = output(A^-1 exp(A t) (1 - exp(A T))^-1)`, for an unstable group `-output(A^-1 exp(-A (T - t)) (1 - exp(-A
-//! T))^-1)`. Where `abs(A) T <= 1`, and for poles at zero, the mean of the input is split off and `W = -sum_(j >= 2)
-//! (B_j(t/T)/j!) output(A^(j-2)) T^(j-1)`, which does not cancel.
+//! A two-level input is a constant plus the difference of two such steps: the periodic output is
+//! `gain u + (high - low)(W(t1) - W(t2))`, with `t1`, `t2` the times since its last rise and fall. For a group of poles
+//! away from zero `W = output(A^-1 exp(A t) (1 - exp(A T))^-1)`, for an unstable group
+//! `-output(A^-1 exp(-A (T - t)) (1 - exp(-A T))^-1)`. Where `abs(A) T <= 1`, and for poles at zero, the mean of the
+//! input is split off and `W = -sum_(j >= 2) (B_j(t/T)/j!) output(A^(j-2)) T^(j-1)`, which does not cancel.
 
 use core::f64::consts::TAU;
 use std::sync::LazyLock;
