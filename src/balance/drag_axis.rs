@@ -1,4 +1,4 @@
-//! Harmonic balance of a drag axis under a relay: what the paper's approximation predicts (eqs. 21-34).
+//! Harmonic balance of a drag axis under a relay: predictions of the paper's approximation (eqs. 21-34).
 
 use core::f64::consts::PI;
 
@@ -99,7 +99,7 @@ impl AxisBalance<'_> {
         Some(AxisOscillation { amplitude, bias: -input_bias, omega_rad_s })
     }
 
-    /// Angle by which the axis lags beyond what relay and delay take up, in radians: zero at balance.
+    /// Angle by which the axis lags beyond the phase of relay and delay, in radians: zero at balance.
     fn lag(&self, amplitude: f64) -> Option<f64> {
         let (_, df) = self.relay(amplitude)?;
         let omega = self.omega(amplitude, df.p.hypot(df.q))?;

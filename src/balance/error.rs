@@ -22,7 +22,7 @@ pub enum BalanceError {
     /// A bias, reference, disturbance or range outside its domain.
     #[error(transparent)]
     OutOfDomain(#[from] OutOfDomain),
-    /// A curve that winds too much for its range.
+    /// A curve with too many turns for its range.
     #[error(
         "the curve over {quantity} from {} to {} needs more than {limit} points; give a range that begins later or ends \
          earlier, or a plant whose times are nearer to each other", Plain(*.from), Plain(*.to)

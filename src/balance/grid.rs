@@ -7,14 +7,14 @@ use crate::numeric::domain;
 
 /// Points in a decade before refinement.
 const PER_DECADE: f64 = 24.0;
-/// Halvings of a gap: the edge of a domain is met to 1e-7 of its place.
+/// Halvings of a gap: the edge of a domain is found to 1e-7 of its place.
 const DEPTH: u32 = 20;
 /// Halvings where the curve is defined on both sides.
 const SMOOTH_DEPTH: u32 = 12;
-/// The most points of one curve.
+/// The most points of a curve.
 const POINTS: usize = 100_000;
 
-/// What is sampled, for errors.
+/// The sampled quantity, for errors.
 pub(super) struct Axis {
     pub(super) quantity: &'static str,
     pub(super) range: RangeInclusive<f64>,

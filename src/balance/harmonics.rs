@@ -109,7 +109,7 @@ where
         Ok(MultiHarmonic { omega_rad_s, bias, harmonics, turns })
     }
 
-    /// The harmonics that the plant answers with to what the characteristic makes of the ones there are.
+    /// The plant's response to the harmonics of the characteristic's output under the present harmonics.
     fn extended(
         &self,
         characteristic: &(impl Characteristic<Number = f64> + ?Sized),
@@ -124,8 +124,8 @@ where
         Ok(pack(bias, omega, &harmonics))
     }
 
-    /// Newton's method with backtracking on the residual's norm. Its own loop: a step counts
-    /// only if it lessens that norm, and what is left when none does is reported; the first harmonic alone stops by its steps.
+    /// Newton's method with backtracking on the residual's norm. Its own loop: a step counts only if it lessens that
+    /// norm, and the residual when none does is reported; the first harmonic alone stops by its steps.
     fn settle(
         &self,
         characteristic: &(impl Characteristic<Number = f64> + ?Sized),
@@ -275,7 +275,7 @@ fn output_harmonics(
     Ok((mean, sums.into_iter().skip(1).map(|sum| sum / PI).collect()))
 }
 
-/// Adds `weighted (sin(k theta) + j cos(k theta))` to the k-th sum; to the one for zero, `weighted`.
+/// Adds `weighted (sin(k theta) + j cos(k theta))` to the k-th sum; to the sum for zero, `weighted`.
 fn add(sums: &mut [Complex<f64>], theta: f64, weighted: f64) {
     let turn = Complex::from_polar(1.0, theta);
     let mut power = Complex::new(1.0, 0.0);

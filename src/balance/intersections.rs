@@ -16,16 +16,16 @@ use crate::plant::TransferFunction;
 
 /// Loop gain below which no oscillation can be near: the curve is not refined there.
 const QUIET: f64 = 0.3;
-/// Two solutions nearer than this, relative, are one.
+/// Two solutions nearer than this, relative, are the same.
 const SAME: f64 = 1e-6;
-/// Sine of the angle between the derivatives of the balance at which Loeb's criterion says nothing.
+/// Sine of the angle between the derivatives of the balance at which Loeb's criterion is degenerate.
 const PARALLEL: f64 = 1e-6;
-/// Distance from the axis, over the frequency, beyond which a root counts as one beside the pair on it.
+/// Distance from the axis, over the frequency, beyond which a root counts in addition to the pair on it.
 const ASIDE: f64 = 1e-4;
 /// Step of the difference quotients, relative.
 const STEP: f64 = 1e-5;
 
-/// What fixes the mean of the characteristic's input.
+/// The condition on the mean of the characteristic's input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bias {
     /// It is given, in input units.
@@ -40,7 +40,7 @@ pub enum Bias {
     },
 }
 
-/// One oscillation predicted by the first harmonic.
+/// An oscillation predicted by the first harmonic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 pub struct Intersection {
@@ -54,8 +54,8 @@ pub struct Intersection {
     /// further roots in the right half plane: their motions would grow. `None` where the criterion is degenerate: the curves
     /// touch, or the balance does not fix the bias. A statement of the approximation, not of the loop.
     pub stable: Option<bool>,
-    /// Roots of `1 + N G` in the right half plane beside the pair on the axis: the generalised Nyquist count, dead time included. `None`
-    /// where N is complex or the count fails; then `stable` is Loeb's criterion alone.
+    /// Roots of `1 + N G` in the right half plane, without the pair on the axis: the generalised Nyquist count, dead
+    /// time included. `None` where N is complex or the count fails; then `stable` is Loeb's criterion alone.
     pub unstable_roots: Option<usize>,
 }
 
@@ -84,7 +84,7 @@ pub struct HarmonicBalance<'a, N> {
     omega_rad_s: RangeInclusive<f64>,
 }
 
-/// The gain of the characteristic at one amplitude and bias.
+/// The gain of the characteristic at an amplitude and bias.
 #[derive(Clone, Copy, PartialEq)]
 struct Gain {
     bias: f64,
@@ -155,12 +155,12 @@ where
     /// All solutions of `1 + N(X) G(jw) = 0` and of the condition on the bias, ascending in frequency, then amplitude.
     ///
     /// Both curves are sampled to a tenth of their magnitude, every pair of steps is tried with their linear parts, and
-    /// Newton's method finishes. So two solutions are told apart where the curves bend less than that between them; a
+    /// Newton's method finishes. Two solutions are separated where the curves bend less than that between them; a
     /// solution at which the curves touch may be missed.
     ///
     /// # Errors
-    /// [`BalanceError::TooManyPoints`]; [`BalanceError::Describing`] where the describing function fails other than for
-    /// an amplitude below switching.
+    /// [`BalanceError::TooManyPoints`]; [`BalanceError::Describing`] where the describing function fails, except for an
+    /// amplitude below switching.
     pub fn intersections(&self) -> Result<Vec<Intersection>, BalanceError> {
         let failure = Cell::new(None);
         let amplitude = Axis::amplitude(&self.amplitude)?;
@@ -235,7 +235,7 @@ where
         (self.describing)(&Sinusoid::new(bias, amplitude)?)
     }
 
-    /// What the bias is off by, with `f0` the mean of the characteristic's output.
+    /// The error of the bias, with `f0` the mean of the characteristic's output.
     pub(super) fn bias_miss(&self, bias: f64, f0: f64) -> f64 {
         match (self.bias, self.plant.static_gain()) {
             (Bias::Fixed(fixed), _) => bias - fixed,
@@ -244,7 +244,7 @@ where
         }
     }
 
-    /// Every bias that fits an amplitude, with the gain there. Keeps a failure other than of the amplitude's size.
+    /// Every bias that fits an amplitude, with the gain there. Keeps every failure but of the amplitude's size.
     fn gains(&self, amplitude: f64, failure: &Cell<Option<DescribingError>>) -> Vec<Gain> {
         let describe = |bias: f64| match self.describe(amplitude, bias) {
             Ok(df) => Some(df),

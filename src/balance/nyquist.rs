@@ -18,7 +18,7 @@ pub(super) fn near(a: Complex<f64>, b: Complex<f64>) -> bool {
 }
 
 /// `G(jw)` over a range of frequencies in rad/s, as pairs of frequency and response, at most a tenth of its magnitude
-/// apart. A pole on the imaginary axis leaves a gap.
+/// apart. A pole on the imaginary axis makes a gap.
 ///
 /// # Errors
 /// [`BalanceError::OutOfDomain`]; [`BalanceError::TooManyPoints`] where a delay turns the curve too often.
@@ -40,8 +40,8 @@ pub fn nyquist_locus(
     Ok(points.into_iter().filter_map(|(omega, response)| Some((omega, response?))).collect())
 }
 
-/// `-1/N(X)` over a range of amplitudes at one bias of the characteristic's input, as pairs of amplitude and value, at
-/// most a tenth of its magnitude apart. Amplitudes without describing function, or where it vanishes, are left out.
+/// `-1/N(X)` over a range of amplitudes at a bias of the characteristic's input, as pairs of amplitude and value, at
+/// most a tenth of its magnitude apart. Amplitudes without describing function, or where it vanishes, are omitted.
 ///
 /// # Errors
 /// [`BalanceError::OutOfDomain`], [`BalanceError::TooManyPoints`].

@@ -4,7 +4,7 @@ use nalgebra::Complex;
 
 use crate::plant::{TransferFunction, horner};
 
-/// Largest change of the argument over a step, rad, and steps into which one is halved at most.
+/// Largest change of the argument over a step, rad, and steps into which a step is halved at most.
 const TURN: f64 = 0.4;
 const HALVINGS: u32 = 40;
 /// Steps in all; a dead time of very many periods needs more.
@@ -15,7 +15,7 @@ const SMALL: f64 = 0.02;
 /// The number of roots of `denominator + gain numerator exp(-s delay)` to the right of `Re s = beyond`, in rad/s.
 ///
 /// By the argument along that line: the function has no poles, and over `(s + c)^n` it tends to a constant where `Re s` or
-/// `Im s` is large. So plants with poles in the right half plane or on the axis need no case of their own. `None` where the
+/// `Im s` is large. Plants with poles in the right half plane or on the axis need no case of their own. `None` where the
 /// line passes a root too near, or the gain does not vanish at infinity.
 pub(super) fn roots_beyond(plant: &TransferFunction, gain: f64, beyond: f64) -> Option<usize> {
     let order = plant.denominator().len() - 1;
@@ -60,7 +60,7 @@ pub(super) fn roots_beyond(plant: &TransferFunction, gain: f64, beyond: f64) -> 
         }
     }
     turned += (Complex::new(plant.denominator()[0], 0.0) / value(node)).arg();
-    // The other half of the line turns as much, and roots to its right make it turn clockwise.
+    // The second half of the line turns by the same angle, and roots to its right make it turn clockwise.
     let count = -turned / core::f64::consts::PI;
     ((count - count.round()).abs() < 0.1 && count > -0.1).then(|| count.round() as usize)
 }

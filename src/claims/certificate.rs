@@ -10,7 +10,7 @@ use crate::proof::margin::Form;
 /// Changes with the meaning of a field.
 const FORMAT: u32 = 1;
 
-/// A theorem's proofs with what they prove. A file holds one as JSON; an unbounded end is null.
+/// A theorem's statement with its proofs. A file holds a single certificate as JSON; an unbounded end is null.
 ///
 /// ```
 /// use selfosc::claims::{Claim, Certificate};
@@ -44,13 +44,13 @@ pub struct Certificate {
 /// An inequality with its proof.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Shown {
-    /// What is positive, in words.
+    /// The positive quantity, in words.
     pub statement: String,
-    /// Names of its variables; an empty one is not used.
+    /// Names of its variables; an empty name belongs to no variable.
     pub variables: Vec<String>,
-    /// How the expression makes what is positive.
+    /// How the expression makes the positive quantity.
     pub form: Form,
-    /// The formula as the code that is run gives it, constants rounded to doubles; null where no one formula does.
+    /// The formula as the code that is run gives it, constants rounded to doubles; null without a single formula.
     pub expression: Option<String>,
     /// ClaimDomain, bound, boxes.
     #[serde(flatten)]
@@ -99,7 +99,7 @@ impl Certificate {
         })
     }
 
-    /// Whether it says what the claim of its name says, and its proofs show that, by evaluation on the boxes listed.
+    /// Whether its statement is the claim's of its name, and its proofs show the statement, by evaluation on the boxes listed.
     ///
     /// # Errors
     /// The first [`Refusal`].

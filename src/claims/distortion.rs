@@ -1,10 +1,10 @@
-//! False statements for the proofs: a proof that accepts one is wrong.
+//! False statements for the proofs: a proof that accepts any is wrong.
 
 use crate::numeric::Real;
 use crate::numeric::special::Special;
 use crate::proof::Change;
 
-/// What a formula is multiplied by before it is proved.
+/// The factor of a formula before its proof.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Distortion {
     /// One: the statement itself.
@@ -21,7 +21,7 @@ pub(crate) enum Distortion {
 }
 
 impl Distortion {
-    /// The false ones that every proof is tried with.
+    /// The distortions that no proof may survive.
     pub(crate) const FALSE: [Self; 4] = [
         Self::Everywhere(1.000_01),
         Self::Everywhere(0.999_99),

@@ -1,4 +1,4 @@
-//! The program's formulas as definitions of Coq: what is run, evaluated over symbols, for proofs by a kernel to be about.
+//! The program's formulas as definitions of Coq: the code that runs, evaluated over symbols, as the subject of proofs by a kernel.
 
 use super::CLAIMS;
 use super::checks::Single;
@@ -18,7 +18,7 @@ use crate::vehicle::{Allocation, bilinear};
 const ANY: [f64; 2] = [-f64::MAX, f64::MAX];
 const POSITIVE: [f64; 2] = [f64::MIN_POSITIVE, f64::MAX];
 const NOT_NEGATIVE: [f64; 2] = [0.0, f64::MAX];
-/// The power of two by which a band avoids overflow is one for these amplitudes; `kernel-band` proves that any other gives the same.
+/// The power of two by which a band avoids overflow is 1 for these amplitudes; `kernel-band` proves that every power gives the same.
 const NEAR_ONE: [f64; 2] = [f64::MIN_POSITIVE, 1.5];
 
 const BIAS: Quantity = ("bias", ANY);
@@ -75,7 +75,7 @@ impl Theory {
         });
     }
 
-    /// A formula of quantities in ranges. One that is not defined there is left out, so that what speaks of it breaks.
+    /// A formula of quantities in ranges. An undefined formula is omitted, and every proof about it breaks.
     fn define<const N: usize>(
         &mut self,
         name: &str,
@@ -177,7 +177,7 @@ fn members(theory: &mut Theory) {
     theory.member("dead_zone", [SLOPE, ("half_width", NOT_NEGATIVE), BIAS, AMPLITUDE], DeadZone::from_values);
     let dead_then_limited = [SLOPE, ("half_width", SMALL), ("breakpoint", LARGE), BIAS, AMPLITUDE];
     theory.member("dead_zone_saturation", dead_then_limited, DeadZoneSaturation::from_values);
-    // By the order of the slopes, one of three.
+    // By the three orders of the slopes.
     for (order, inner, outer) in [(1, [1.0, 2.0], SMALL), (2, [0.5, 1.0], [1.25, 2.0]), (3, [1.0, 2.0], [-2.0, -1.0])] {
         let quantities = [("inner", inner), ("outer", outer), ("breakpoint", POSITIVE), BIAS, AMPLITUDE];
         theory.member(&format!("gain_changing_{order}"), quantities, GainChanging::from_values);
@@ -189,14 +189,14 @@ fn members(theory: &mut Theory) {
     theory.member("absolute", [("gain", ANY), BIAS, AMPLITUDE], Absolute::from_values);
     let [x0, x1, x2] = [("x0", [-2.0, -1.0]), ("x1", [0.0, 1.0]), ("x2", [2.0, 3.0])];
     let [y0, y1, y2, left, right] = ["y0", "y1", "y2", "left", "right"].map(|name| (name, ANY));
-    // The bias beside the middle one of three points.
+    // The bias near the middle of three points.
     theory.member("polyline", [x0, y0, x1, y1, x2, y2, left, right, ("bias", SMALL), AMPLITUDE], |v| {
         Polyline::new([(v[0], v[1]), (v[2], v[3]), (v[4], v[5])], v[6], v[7])
     });
     theory.member("backlash", [SLOPE, ("half_gap", NOT_NEGATIVE), BIAS, AMPLITUDE], Backlash::from_values);
 }
 
-/// From describing function to parameters, and what they rest on.
+/// From describing function to parameters, and their basis.
 fn identification(theory: &mut Theory) {
     let [f0, p, q] = ["f0", "p", "q"].map(|name| (name, ANY));
     theory.define(
@@ -255,7 +255,7 @@ fn orbits(theory: &mut Theory) {
     });
 }
 
-/// What each inequality of the orbit theorems is about, as its certificate prints it.
+/// The expression of each inequality of the orbit theorems, as its certificate prints it.
 fn inequalities(theory: &mut Theory) {
     for claim in CLAIMS {
         for inequality in claim.theorem().map_or(&[][..], |theorem| theorem.inequalities) {

@@ -1,4 +1,4 @@
-//! What the kernel of a proof assistant has checked of a claim: read off the tables beside its theories.
+//! The part of a claim that the kernel of a proof assistant has checked: read off the tables next to its theories.
 
 use core::fmt;
 
@@ -15,7 +15,7 @@ pub struct KernelChecked {
     pub file: &'static str,
     /// The theorem.
     pub theorem: &'static str,
-    /// What of the claim it says: `whole`, the `statement` without what the page adds to it, or `steps` of its proof by number.
+    /// The part of the claim: `whole`, the `statement` without the page's additions, or `steps` of its proof by number.
     pub covers: &'static str,
 }
 
@@ -26,7 +26,7 @@ impl fmt::Display for KernelChecked {
 }
 
 impl Claim {
-    /// What of the claim is checked by a kernel.
+    /// The parts of the claim that a kernel has checked.
     ///
     /// ```
     /// use selfosc::claims::Claim;

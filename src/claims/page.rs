@@ -1,4 +1,4 @@
-//! What the page of a claim says, read by the program: where the paper has it, its domain in parts, what it rests on.
+//! The page of a claim, read by the program: where the paper has it, its domain in parts, its dependencies.
 
 use super::{Claim, ClaimDomain, ClaimPart, ClaimVariable};
 
@@ -14,7 +14,7 @@ impl Claim {
         self.header("depends").unwrap_or_default().split(", ").filter(|&id| id != "none")
     }
 
-    /// For what it is stated, in parts.
+    /// The domain of its statement, in parts.
     ///
     /// ```
     /// use selfosc::claims::Claim;

@@ -12,10 +12,10 @@ use crate::proof::inequality::Inequality;
 /// A checker: the same budget gives the same verdict.
 pub type Checker = fn(Budget) -> Verdict;
 
-/// A proof of a statement, or of a false one next to it.
+/// A proof of a statement, or of a false statement next to it.
 pub(crate) type Prover = fn(Distortion) -> Verdict;
 
-/// What sort of statement a claim is.
+/// The sort of a claim's statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Fixes a meaning; the check is that the code means it.
@@ -26,7 +26,7 @@ pub enum Kind {
     Lemma,
     /// A theorem, of the paper or of this project.
     Theorem,
-    /// Something the paper says in words.
+    /// A sentence of the paper.
     Statement,
 }
 
@@ -62,7 +62,7 @@ pub enum AsPrinted {
 pub struct Hypothesis {
     /// Short name.
     pub id: &'static str,
-    /// Refutes the statement by a case that violates this hypothesis and no other; `None` where no such case is known.
+    /// Refutes the statement by a case that violates this hypothesis alone; `None` without such a case.
     pub counterexample: Option<Checker>,
 }
 
@@ -72,7 +72,7 @@ impl Hypothesis {
         Self { id, counterexample: Some(counterexample) }
     }
 
-    /// No case is known that violates it alone.
+    /// Without a case that violates it alone.
     pub(crate) const fn stated(id: &'static str) -> Self {
         Self { id, counterexample: None }
     }
@@ -85,32 +85,32 @@ pub struct Claim {
     pub id: &'static str,
     /// Its sort.
     pub kind: Kind,
-    /// The statement that holds, in one line.
+    /// The statement that holds, in a single line.
     pub statement: &'static str,
-    /// What is in the way of a proof of the whole statement; `None` where it is proved or every state was visited.
+    /// The obstacle to a proof of the whole statement; `None` where it is proved or every state was visited.
     pub not_proved: Option<&'static str>,
     /// As printed.
     pub printed: AsPrinted,
     /// As corrected; `None` where the print needs no correction.
     pub corrected: Option<Checker>,
-    /// A statement close to this one and false: its checker must refute it, which shows that checkers can.
+    /// A false statement close to the claim's: its checker must refute it, which shows that checkers can.
     pub falsified: Checker,
     /// The proof by enclosure that it declares; the statement is undecided where that does not succeed.
     pub(crate) proof: Option<Prover>,
-    /// The inequalities that its checker proves, and a false one among them.
+    /// The inequalities that its checker proves, and a false inequality among them.
     pub(crate) theorem: Option<(&'static Theorem, &'static Inequality)>,
-    /// What the statement that holds assumes.
+    /// Assumptions of the statement that holds.
     pub hypotheses: &'static [Hypothesis],
     /// Text of its page: domain, dependencies, steps by hand.
     pub spec: &'static str,
 }
 
-/// The verdicts on one claim, with what they are to be compared with.
+/// The verdicts on a claim, with the expectations they are compared with.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Finding {
     /// Name of the claim.
     pub id: Cow<'static, str>,
-    /// For what the claim is stated.
+    /// The domain of the claim's statement.
     pub domain: ClaimDomain,
     /// Steps of its proof that no program checks.
     pub by_hand: Vec<Cow<'static, str>>,
@@ -118,7 +118,7 @@ pub struct Finding {
     pub printed: Option<Verdict>,
     /// As corrected; `None` where the print needs no correction.
     pub corrected: Option<Verdict>,
-    /// Whether each verdict is the expected one, and each declared proof succeeded.
+    /// Whether each verdict is as expected, and each declared proof succeeded.
     pub expected: bool,
 }
 
@@ -152,7 +152,7 @@ impl Finding {
     }
 }
 
-/// Checks the claims of these ids, or every one where none is given, in the order of the ids.
+/// Checks the claims of these ids, or every claim without ids, in the order of the ids.
 ///
 /// # Errors
 /// The first id that no claim has.
@@ -234,8 +234,8 @@ impl Claim {
         self.proof.map(|proof| proof(Distortion::None))
     }
 
-    /// The declared proof on false statements next to this one, each with its name: the formula off by a factor everywhere, and
-    /// by a millionth on a thousandth of the domain. None may succeed.
+    /// The declared proof on false statements next to the claim's, each with its name: the formula off by a factor
+    /// everywhere, and by a millionth on a thousandth of the domain. None may succeed.
     pub fn prove_falsehoods(&self) -> impl Iterator<Item = (String, Verdict)> {
         let proof = self.proof;
         Distortion::FALSE.into_iter().filter_map(move |false_one| Some((format!("{false_one:?}"), proof?(false_one))))
@@ -253,7 +253,7 @@ impl Claim {
         self.theorem.map(|(_, false_one)| false_one)
     }
 
-    /// The budget with a seed of this claim's own, so that its cases do not depend on what else is run.
+    /// The budget with a seed of this claim's own: its cases do not depend on the claims run before.
     #[must_use]
     pub fn stream(&self, budget: Budget) -> Budget {
         let hash =

@@ -1,4 +1,4 @@
-//! Drawing cases, with a record of what was drawn.
+//! Drawing cases, with a record of the numbers.
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -22,7 +22,7 @@ impl Default for Budget {
     }
 }
 
-/// Numbers of one case, with the names they are reported under.
+/// Numbers of a case, with the names they are reported under.
 #[derive(Debug)]
 pub(crate) struct Draw {
     generator: Pcg64,
@@ -50,7 +50,7 @@ impl Draw {
         self.note(name, value as f64);
         value
     }
-    /// Adds a number that follows from the drawn ones to what a witness shows.
+    /// Adds a number that follows from the random numbers to the witness.
     pub(crate) fn note(&mut self, name: &'static str, value: f64) -> f64 {
         self.drawn.push((name, value));
         value
@@ -84,7 +84,7 @@ impl Draw {
     }
 }
 
-/// That the statement holds in one case, with this margin; that it fails where the margin is negative or no number.
+/// That the statement holds in a case, with this margin; that it fails where the margin is negative or no number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Case(f64);
 
@@ -103,8 +103,8 @@ impl Case {
     }
 }
 
-/// Draws until `budget.cases` cases have counted; one whose hypotheses do not hold is none and does not count. Refuted by the first
-/// that fails, undecided where the hypotheses are met too rarely.
+/// Draws until `budget.cases` cases have counted; a draw that violates the hypotheses does not count. Refuted by the
+/// first that fails, undecided where the hypotheses hold too rarely.
 pub(crate) fn sample(budget: Budget, mut case: impl FnMut(&mut Draw) -> Option<Case>) -> Verdict {
     let mut draw = Draw { generator: Pcg64::seed_from_u64(budget.seed), drawn: Vec::new() };
     let (mut counted, mut worst) = (0, f64::INFINITY);

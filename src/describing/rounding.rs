@@ -151,8 +151,8 @@ impl Entry {
         let number = |bound: f64| if bound > 0.0 { format!("{bound:e}") } else { "0".to_owned() };
         let numbers = |df: DescribingFunction<f64>| [df.f0, df.p, df.q].map(number).join(", ");
         Some(format!(
-            "**Rounding.** For all floats with {}, {last}, the computed `F_0`, `P`, `Q` are within {} of the exact ones in f64 and within {} \
-             in f32; `spec/rounding.md` says what that rests on.",
+            "**Rounding.** For all floats with {}, {last}, the computed `F_0`, `P`, `Q` are within {} of the exact values in f64 and within {} \
+             in f32; `spec/rounding.md` gives the assumptions.",
             inputs.join(", "),
             numbers(bounds.double),
             numbers(bounds.single),

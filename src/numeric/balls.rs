@@ -1,7 +1,7 @@
 //! Several intervals side by side, each as a middle and a radius: long sums of products by plain floats.
 //!
 //! Roundings are counted, not directed: a sum of n rounded products is off by at most n half epsilons of the sum of magnitudes (Rump,
-//! *Acta Numerica* 19, 2010). For a product of wide ones this is wider than [`Interval`] by the product of the radii.
+//! *Acta Numerica* 19, 2010). For a product of wide factors this is wider than [`Interval`] by the product of the radii.
 
 #[cfg(test)]
 mod tests;
@@ -12,22 +12,22 @@ use wide::f64x4;
 
 use super::Interval;
 
-/// More than what all products of a sum lose by underflow.
+/// More than all products of a sum lose by underflow.
 const UNDERFLOW: f64 = 1e-300;
 
-/// A share that is more than all roundings of a sum of so many products.
+/// A share that is more than all roundings of a sum of `products` products.
 #[inline]
 fn roundings(products: usize) -> f64 {
     (products + 4) as f64 * f64::EPSILON
 }
 
-/// What makes up for the roundings of a radius: it is the sum of so many products, and of as many again.
+/// A factor that covers the roundings of a radius, a sum of twice `products` products.
 #[inline]
 fn larger(products: usize) -> f64 {
     1.0 + 4.0 * roundings(products)
 }
 
-/// Each is every real number that is off its middle by no more than its radius; an infinite or undefined one stands for all numbers.
+/// Each is every real number that is off its middle by no more than its radius; an infinite or undefined radius stands for all numbers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Balls {
     // Arrays: the allocator is slow where more than its own alignment is asked for.
@@ -107,7 +107,7 @@ impl Balls {
         Self { middle: [0.0; Self::COUNT], radius: sizes.0 }
     }
 
-    /// What no element exceeds in magnitude.
+    /// Upper bounds of all elements' magnitudes.
     #[inline]
     pub(crate) fn sizes(self) -> Sizes {
         Sizes::of((self.middle().abs() + self.radius()) * larger(1))

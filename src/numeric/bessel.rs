@@ -20,7 +20,7 @@ const CUT: f64 = 1.4e-17;
 const TERMS: usize = 26;
 
 /// `sum_k z^k/(k! (n + k)!)` for n in {0, 1}, z finite: `[J_0(x), J_1(x) 2/x]` for `z = -x^2/4`, I for `x^2/4`. Every
-/// ratio of terms is below 1/2 when the sums end, so the remainder is below the last term.
+/// ratio of terms is below 1/2 when the sums end: the remainder is below the last term.
 fn power_series<T: Real>(z: T) -> [T; 2] {
     let size = magnitude(z);
     let (mut zeroth, mut first, mut term, mut k) = (T::one(), T::one(), T::one(), 0.0);
@@ -30,7 +30,7 @@ fn power_series<T: Real>(z: T) -> [T; 2] {
         zeroth = zeroth + term;
         first = first + term / T::from_f64(k + 1.0);
         let rest = magnitude(term);
-        // Negated, so that NaN ends it.
+        // Negated: NaN ends it.
         if !(rest > CUT * magnitude(zeroth) || 2.0 * size > (k + 1.0) * (k + 1.0)) {
             return [zeroth, first].map(|sum| sum.inflate(rest));
         }
@@ -57,7 +57,7 @@ fn alternating<T: Real>(terms: &[T], first: usize, step: usize) -> T {
 }
 
 /// `exp(-x) [I_0(x), I_1(x)]` for `x >= 20`. For the rest: DLMF 10.34.2, 10.40.11 with `2 chi(26) exp(3 chi(1)/(4 x)) < 15`,
-/// and `2 exp(-2 x)` of the other exponential.
+/// and `2 exp(-2 x)` of the second exponential.
 fn large_i<T: Real>(x: T) -> [T; 2] {
     let root = (T::two() * T::pi() * x).sqrt();
     [0.0, 1.0].map(|order| {
@@ -102,7 +102,7 @@ pub(super) fn enclosed_j(x: Interval) -> [Interval; 2] {
 }
 
 /// For `10 <= x <= 14`: Taylor's series about [`MIDDLE`], by the recurrence that Bessel's equation gives its coefficients; no derivative of J_0 or
-/// J_1 exceeds 1, so the remainder is below `2^25/25!`, and J_1 is the derivative of -J_0.
+/// J_1 exceeds 1: the remainder is below `2^25/25!`, and J_1 is the derivative of -J_0.
 fn middle_j(x: Interval) -> [Interval; 2] {
     let at = Interval::point(MIDDLE);
     let h = x - at;
@@ -126,7 +126,7 @@ fn middle_j(x: Interval) -> [Interval; 2] {
 }
 
 /// `J_n = sqrt(2/(pi x)) (P cos(w) - Q sin(w))`, `w = x - n pi/2 - pi/4`; on the positive axis the rest of either sum is
-/// below its first term left out (DLMF 10.17(iii)).
+/// below its first omitted term (DLMF 10.17(iii)).
 fn large_j(x: Interval) -> [Interval; 2] {
     let phase = x - Interval::PI / Interval::point(4.0);
     let (sine, cosine) = (phase.sin(), phase.cos());
@@ -150,7 +150,7 @@ pub(super) fn enclosed_i_scaled(x: Interval) -> [Interval; 2] {
         let scale = (-x).exp();
         [scale * zeroth, scale * half * first]
     } else if x.lower() < I_LARGE {
-        // Both fall or rise to less than one half and stay positive.
+        // Both fall or rise to less than 1/2 and stay positive.
         [Interval::UNIT.max(Interval::ZERO); 2]
     } else {
         large_i(x)

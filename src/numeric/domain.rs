@@ -1,4 +1,4 @@
-//! The one error of a number outside its domain, and the checks that give it.
+//! The error of a number outside its domain, and the checks that give it.
 
 use core::fmt;
 
@@ -21,13 +21,13 @@ pub struct OutOfDomain {
     pub value: f64,
     /// Unit of the value; empty where it has none.
     pub unit: &'static str,
-    /// What the value has to be, in the same unit.
+    /// The condition on the value, in the same unit.
     pub limit: Limit,
     /// What to do.
     pub remedy: &'static str,
 }
 
-/// What a number has to be. Not a number and infinity are within none.
+/// A condition on a number. Not a number and infinity are within none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Limit {
@@ -52,7 +52,7 @@ pub enum Limit {
 }
 
 impl Limit {
-    /// Whether the value, or all of an interval, is finite and within the limit. What takes words is for the caller to check.
+    /// Whether the value, or all of an interval, is finite and within the limit. A condition in words is for the caller to check.
     #[inline]
     pub(crate) fn holds<T: Real>(self, value: T) -> bool {
         let (lower, upper) = value.bounds();
@@ -127,7 +127,7 @@ impl fmt::Display for AtLeast {
 
 fn fmt_three_digits(value: f64, round: fn(f64) -> f64, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     let shown = three_digits(value, round);
-    // Beyond, powers of ten are inexact, and so is the product.
+    // Beyond, powers of ten and the product are inexact.
     if shown == 0.0 || !shown.is_finite() || (1e-20..1e20).contains(&shown.abs()) {
         fmt::Display::fmt(&Plain(shown), f)
     } else {
@@ -211,11 +211,11 @@ pub(crate) fn non_negative<T: Real>(quantity: &'static str, value: T, unit: &'st
     require(quantity, value, unit, Limit::NonNegative, "check its sign and where it comes from")
 }
 
-/// What to do where a result cannot be represented.
+/// The remedy where a result cannot be represented.
 pub(crate) const UNITS: &str =
     "the result leaves the range of the arithmetic: choose units in which the numbers are nearer to one";
 
-/// A result, where it can be represented: no infinity, and no number that is none. Of an interval one bound may be infinite.
+/// A result, where it can be represented: no infinity, and no number that is none. Of an interval a single bound may be infinite.
 pub(crate) fn representable<T: Real>(quantity: &'static str, value: T, unit: &'static str) -> Result<T, OutOfDomain> {
     let (lower, upper) = value.bounds();
     let number = lower.is_finite() || lower < upper;

@@ -7,9 +7,9 @@ use core::ops::Neg;
 
 use super::{Interval, Real};
 
-/// A formula over named quantities, each of which is known to lie in an interval.
+/// A formula over named quantities, each within an interval.
 ///
-/// It implements the arithmetic trait, so a formula printed from it is the formula the program evaluates: `2 x / (x x)`
+/// It implements the arithmetic trait: a formula printed from it is the formula the program evaluates: `2 x / (x x)`
 /// comes out as `2/x`. It collects powers and equal terms, multiplies a single term into a sum, and writes
 /// `(a + b)(a - b)` as a difference of squares; it cancels `x/x` without asking whether `x` is zero. `min`, `max` and
 /// `select` that the intervals decide are gone from the result, which therefore holds **for quantities in those
@@ -43,7 +43,7 @@ struct Product {
     factors: Vec<(Expression, i32)>,
 }
 
-/// Declares the functions of one argument, and implements the arithmetic.
+/// Declares the functions of a single argument, and implements the arithmetic.
 macro_rules! functions {
     ($($function:ident)+) => {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -149,7 +149,7 @@ impl Expression {
     }
 
     /// The formula's value in another arithmetic, where `of` gives the value of a symbol by its plain name; the circle
-    /// constant is known. `None` where `of` does not know a symbol.
+    /// constant has its own. `None` where `of` does not know a symbol.
     pub fn value<T: Real>(self, of: &impl Fn(&str) -> Option<T>) -> Option<T> {
         self.evaluate(&|text, _| of(text))
     }

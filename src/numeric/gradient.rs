@@ -6,9 +6,9 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{Interval, Real, Scalar};
 
-/// A number that a gradient can be made of: what its comparisons say of derivatives.
+/// A number that a gradient can be made of: with its derivatives at comparisons.
 pub trait Component: Real + PartialEq {
-    /// The derivative where a function may jump: nothing is known of it.
+    /// The derivative where a function may jump: any number.
     const UNKNOWN: Self;
     /// Whether the number is positive; `None` where it may be and may not.
     fn sign(self) -> Option<bool>;
@@ -119,9 +119,9 @@ impl<const N: usize> Component for Gradient<Interval, N> {
 /// A value with its `N` partial derivatives, all of them always there: of floats for inner loops and sensitivities, of
 /// [intervals](Interval) for enclosures over a box, as interval Newton and the mean value form ask for.
 ///
-/// At a kink (`abs`, `min`, `max` of values that may coincide) the derivatives of floats are those of one side; those of
-/// intervals enclose both sides, so the mean value theorem holds across it. At a jump that an interval straddles (`floor`,
-/// `select`), and outside a domain, its derivatives are [`Interval::ENTIRE`].
+/// At a kink (`abs`, `min`, `max` of values that may coincide) the derivatives of floats are those of a single side;
+/// those of intervals enclose both sides, for the mean value theorem to hold across it. At a jump that an interval
+/// straddles (`floor`, `select`), and outside a domain, its derivatives are [`Interval::ENTIRE`].
 ///
 /// Two are equal, and floats in order, by their values.
 ///
@@ -187,7 +187,7 @@ impl<T: Component, const N: usize> Gradient<T, N> {
         self
     }
 
-    /// The value of a function that may be discontinuous there, so that no derivative exists.
+    /// The value of a function that may be discontinuous there, without a derivative.
     const fn jump(value: T) -> Self {
         Self { value, slopes: [T::UNKNOWN; N] }
     }
@@ -268,7 +268,7 @@ impl<T: Component, const N: usize> Div for Gradient<T, N> {
     }
 }
 
-/// Functions of one variable: value, and derivative in terms of the argument `x` and the value `y`.
+/// Functions of a single variable: value, and derivative in terms of the argument `x` and the value `y`.
 macro_rules! functions {
     ($($name:ident: |$x:ident, $y:ident| $slope:expr;)+) => {
         $(

@@ -1,4 +1,4 @@
-//! Interval arithmetic: sets of real numbers with f64 endpoints that enclose whatever a formula can give.
+//! Interval arithmetic: sets of real numbers with f64 endpoints that enclose all values of a formula.
 
 mod circular;
 mod exponential;
@@ -21,11 +21,11 @@ use rounding::{product, quotient, sum};
 ///
 /// **Outside a domain** (division by an interval that contains zero, the square root of an interval that reaches below zero, the
 /// inverse sine beyond 1, the tangent across a pole) the result is [`Interval::ENTIRE`], the whole real line. It is sticky: every
-/// operation on it except [`intersection`](Self::intersection) gives it again, even `abs`, `tanh` or `0 *`, so a
+/// operation on it except [`intersection`](Self::intersection) gives it again, even `abs`, `tanh` or `0 *`: a
 /// violated domain cannot be laundered into a proof. No operation gives NaN.
 ///
 /// Intervals have no order and no [`Scalar`](super::Scalar); ask [`is_positive`](Self::is_positive),
-/// [`is_interior_to`](Self::is_interior_to) and the like, whose `false` means "not known".
+/// [`is_interior_to`](Self::is_interior_to) and the like, whose `false` means "not decided".
 ///
 /// ```
 /// use selfosc::numeric::{Interval, Real};
@@ -38,13 +38,13 @@ use rounding::{product, quotient, sum};
 #[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "std", serde(into = "[Option<f64>; 2]", try_from = "[Option<f64>; 2]"))]
 pub struct Interval {
-    // Invariant: lo <= hi, lo < inf, hi > -inf; so neither is NaN.
+    // Invariant: lo <= hi, lo < inf, hi > -inf; neither is NaN.
     lo: f64,
     hi: f64,
 }
 
 impl Interval {
-    /// All real numbers: nothing is known, or a domain was violated.
+    /// All real numbers: no bound, or a violated domain.
     pub const ENTIRE: Self = Self { lo: f64::NEG_INFINITY, hi: f64::INFINITY };
     /// Zero.
     pub const ZERO: Self = Self { lo: 0.0, hi: 0.0 };
@@ -99,7 +99,7 @@ impl Interval {
         self.hi
     }
 
-    /// Whether nothing is known ([`Self::ENTIRE`]).
+    /// Whether it has no bound ([`Self::ENTIRE`]).
     #[must_use]
     pub const fn is_entire(self) -> bool {
         self.lo == f64::NEG_INFINITY && self.hi == f64::INFINITY
@@ -212,7 +212,7 @@ impl Interval {
         (0..=8).find(|&count| self == Self::from(f64::from(count)))
     }
 
-    /// The sum of products, of at most a thousand, rounded to nearest with one step outwards for all roundings.
+    /// The sum of products, of at most a thousand, rounded to nearest with a single step outwards for all roundings.
     #[inline]
     pub(crate) fn dot(pairs: impl Iterator<Item = (Self, Self)> + Clone) -> Self {
         /// Between these nothing overflows, and underflow adds up to less than `UNDERFLOW`.
@@ -233,7 +233,7 @@ impl Interval {
         Self { lo: lower.down() - UNDERFLOW, hi: UNDERFLOW - minus_upper.down() }
     }
 
-    /// The values of an increasing function, from `at_point`: its enclosure at an endpoint, or its limit at an infinite one.
+    /// The values of an increasing function, from `at_point`: its enclosure at an endpoint, or its limit at an infinite endpoint.
     #[inline]
     fn increasing(self, at_point: impl Fn(f64) -> Self) -> Self {
         if self.is_entire() {
@@ -246,7 +246,7 @@ impl Interval {
         Self { lo: at_lower.lo, hi: at_point(self.hi).hi }
     }
 
-    /// [`increasing`](Self::increasing) by a single enclosure, for an interval so narrow that evaluating both ends would not be tighter.
+    /// [`increasing`](Self::increasing) by a single enclosure, for an interval too narrow for an evaluation of both ends to be tighter.
     #[inline]
     fn increasing_over(self, over: impl Fn(Self) -> Self) -> Self {
         const NARROW: f64 = 4096.0 * f64::EPSILON;
@@ -258,7 +258,7 @@ impl Interval {
 #[derive(Clone, Copy, Default)]
 struct Sum {
     nearest: f64,
-    /// Of absolute values of the numbers and of the sums so far: each was rounded by half an epsilon of it at most.
+    /// Of absolute values of the numbers and of the partial sums: each was rounded by half an epsilon of it at most.
     rounded: f64,
 }
 
@@ -282,7 +282,7 @@ impl From<f64> for Interval {
     }
 }
 
-/// Both ends, an infinite one as `None`: what a file without infinities holds.
+/// Both ends, an infinite end as `None`: for a file without infinities.
 impl From<Interval> for [Option<f64>; 2] {
     fn from(Interval { lo, hi }: Interval) -> Self {
         [lo, hi].map(|end| Some(end).filter(|end| end.is_finite()))

@@ -6,11 +6,11 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use super::{Interval, Real};
 
 /// Enclosures of the first `N` Taylor coefficients `f^(k)(t)/k!`, `k < N`, for every point `t` of the interval the
-/// variable was started with. `N` is at least one.
+/// variable was started with. `N` is at least 1.
 ///
 /// Outside a domain the coefficients are [`Interval::ENTIRE`], as for intervals. At a kink or jump (`abs`, `min`, `max` of values
-/// that may coincide, `floor`, `select`) the value is enclosed and the derivatives are `ENTIRE`: [`is_bounded`](Self::is_bounded) tells
-/// whether the jet says anything about all of them.
+/// that may coincide, `floor`, `select`) the value is enclosed and the derivatives are `ENTIRE`:
+/// [`is_bounded`](Self::is_bounded): whether the jet bounds all of them.
 ///
 /// ```
 /// use selfosc::numeric::{Interval, Jet, Real};
@@ -60,7 +60,7 @@ impl<const N: usize> Jet<N> {
         self.coefficients.iter().all(|c| c.is_bounded())
     }
 
-    /// The jet of the derivative; its last coefficient is not known, hence [`Interval::ENTIRE`].
+    /// The jet of the derivative; its last coefficient is unknown, hence [`Interval::ENTIRE`].
     #[must_use]
     pub fn derivative(&self) -> Self {
         Self::from_terms(|k, _| match self.coefficients.get(k + 1) {

@@ -1,4 +1,4 @@
-//! Several floats side by side: what they have in common is decided once, and the processor works on them together.
+//! Several floats side by side: common decisions are made once, and the processor works on them together.
 
 mod circular;
 #[cfg(test)]
@@ -12,15 +12,15 @@ use wide::f64x4;
 use super::Real;
 use super::real::{near_reciprocal, own_sine_series};
 
-/// Floats of which each takes the same operations as it would alone, so that a formula gives the same bits.
+/// Floats of which each takes the same operations as it would alone: a formula gives the same bits.
 ///
-/// Both sides of a decision are evaluated where they do not agree. [`bounds`](Real::bounds) are those of all of them, and
-/// not a number where one of them is not finite: a check that passes has passed for each. A formula that branches on them
-/// otherwise is none for this arithmetic.
+/// Both sides of a decision are evaluated where they do not agree. [`bounds`](Real::bounds) are those of all of them,
+/// and not a number where any of them is not finite: a check that passes has passed for each. A formula that branches
+/// on them otherwise is none for this arithmetic.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lanes(f64x4);
 
-/// Whether the processor's minimum and maximum answer with the second number where both are equal, or one is none.
+/// Whether the processor's minimum and maximum answer with the second number where both are equal, or either is NaN.
 const AS_ALONE: bool = cfg!(target_feature = "sse2");
 
 impl Lanes {
@@ -56,7 +56,7 @@ impl Lanes {
         below: impl FnOnce() -> [Self; N],
         above: impl FnOnce() -> [Self; N],
     ) -> [Self; N] {
-        // Each side is called at a single place, so that it is inlined.
+        // Each side is called at a single place, to be inlined.
         let mut chosen = [Self(answers); N];
         if !answers.all() {
             chosen = below();

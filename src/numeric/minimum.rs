@@ -6,7 +6,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Golden-section search: narrows `from` to `to` (ascending) around a minimum of `cost` until it is at most `width` wide or
 /// floats end. `None` as soon as `cost` gives none, which is how a caller ends the search.
 ///
-/// With several minima it ends at one of them.
+/// With several minima it ends at any of them.
 ///
 /// ```
 /// use selfosc::numeric::golden_section;

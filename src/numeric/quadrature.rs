@@ -13,8 +13,8 @@ pub(crate) const RULE: [(f64, f64, f64); 8] = [
     (0.0, 0.209_482_141_084_727_83, 0.417_959_183_673_469_4),
 ];
 
-/// Part of a cell's error that either half of it is taken to have still. A smooth integrand leaves far less; `x^p` with its
-/// zero at an end leaves `2^(-p-1)`.
+/// Part of a cell's error that either half of it is taken to have still. With a smooth integrand the part is far
+/// smaller; for `x^p` with its zero at an end it is `2^(-p-1)`.
 const CARRIED: f64 = 1.0 / 16.0;
 
 /// An integral with an estimate of its error.

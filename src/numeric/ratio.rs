@@ -108,7 +108,7 @@ fn atanh_series<T: Real>(z: T, terms: u32) -> T {
     series(z, terms, |k| (2.0 * k - 1.0) / (2.0 * k + 1.0))
 }
 
-/// One of three expressions: up to `small`, in `sqrt -z` below, in `sqrt z` above.
+/// Choice of three expressions: up to `small`, in `sqrt -z` below, in `sqrt z` above.
 fn around_zero<T: Real>(
     z: T,
     small: f64,

@@ -5,8 +5,8 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number a formula of this crate can be written over: f32, f64, dual numbers, intervals.
 ///
-/// A formula generic over `Real` has no branches on values: an interval can straddle a case distinction, so `Real` has no
-/// order. Where a decision is needed, ask for [`Scalar`], which intervals do not implement.
+/// A formula generic over `Real` has no branches on values: an interval can straddle a case distinction, hence `Real`
+/// has no order. Where a decision is needed, ask for [`Scalar`], which intervals do not implement.
 ///
 /// Angles are in radians. Outside its domain (the square root of a negative number, say) a function gives NaN in
 /// floating point and the widest enclosure, or none, in intervals; the layers above check domains before they call.
@@ -27,7 +27,7 @@ pub trait Real:
     /// Lower and upper bound as f64: both the value itself for a point arithmetic, the real part for a dual number.
     fn bounds(self) -> (f64, f64);
 
-    /// Whether this is zero with all its derivatives, so that nothing it multiplies need be computed; `false` says nothing.
+    /// Whether this is zero with all its derivatives: its factors need not be computed; `false` decides nothing.
     #[inline]
     fn vanishes(self) -> bool {
         false
@@ -69,10 +69,10 @@ pub trait Real:
     /// Power with a real exponent, domain `self >= 0`; `0^0 = 1`.
     #[must_use]
     fn pow(self, exponent: Self) -> Self;
-    /// The largest whole number not above; every one that can be, for an interval.
+    /// The largest whole number not above; all of them, for an interval.
     fn floor(self) -> Self;
     /// `above` where this number is positive, `below` where it is not; both, joined, where an interval straddles zero.
-    /// Several numbers that hang on one decision are selected together.
+    /// Several numbers that hang on the same decision are selected together.
     #[must_use]
     fn select_all<const N: usize>(
         self,
@@ -90,22 +90,22 @@ pub trait Real:
     ) -> [Self; N] {
         self.select_all(below, above)
     }
-    /// This number, known but for an error of at most that magnitude: an enclosure contains what it may be; a float is
-    /// returned unchanged.
-    /// Of a jet or gradient the value alone is widened: it bounds every function that near the one with these derivatives.
+    /// This number, with an error of at most that magnitude: an enclosure is widened by it; a float is returned
+    /// unchanged. Of a jet or gradient the value alone is widened: it bounds every function that near the function with
+    /// these derivatives.
     #[must_use]
     fn inflate(self, error: f64) -> Self;
-    /// `self - sin(self)` for `self >= 0` without cancellation near zero, given `sine = sin(self)` found some other way.
+    /// `self - sin(self)` for `self >= 0` without cancellation near zero, given `sine = sin(self)` from elsewhere.
     fn minus_own_sine(self, sine: Self) -> Self;
 
-    /// [`select_all`](Self::select_all) of one number.
+    /// [`select_all`](Self::select_all) of a single number.
     #[must_use]
     #[inline]
     fn select(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
         let [selected] = self.select_all(|| [below()], || [above()]);
         selected
     }
-    /// [`prefer_all`](Self::prefer_all) of one number.
+    /// [`prefer_all`](Self::prefer_all) of a single number.
     #[must_use]
     #[inline(always)]
     fn prefer(self, below: impl FnOnce() -> Self, above: impl FnOnce() -> Self) -> Self {
@@ -123,7 +123,7 @@ pub trait Real:
         Self::one() / Self::pi()
     }
     /// A power of two that scales a positive number to about 1, if any: multiplying by it is exact. A constant,
-    /// for what does not hang on it.
+    /// for types whose results do not hang on it.
     #[must_use]
     #[inline]
     fn near_reciprocal(self) -> Self {
@@ -163,15 +163,15 @@ pub trait Real:
 
 /// A [`Real`] whose comparisons decide: f32, f64, dual numbers (by their real part). Intervals are not scalars.
 pub trait Scalar: Real + PartialOrd {
-    /// Distance from one to the next larger number, as the real part's arithmetic has it.
+    /// Distance from 1 to the next larger number, as the real part's arithmetic has it.
     fn epsilon() -> Self;
     /// The value as f64 (the real part of a dual number).
     #[must_use]
     fn value(self) -> f64 {
         self.bounds().0
     }
-    /// A function known at the real part by value and slope, carried over to this arithmetic: a float gets the value, a dual
-    /// number of first order its derivatives. An infinite slope becomes the largest number.
+    /// A function given at the real part by value and slope, carried over to this arithmetic: a float gets the value, a
+    /// dual number of first order its derivatives. An infinite slope becomes the largest number.
     #[must_use]
     fn lift(self, value: f64, slope: f64) -> Self {
         let slope = slope.clamp(-f64::MAX, f64::MAX);
@@ -191,7 +191,7 @@ pub(super) fn magnitude<T: Real>(x: T) -> f64 {
     lower.abs().max(upper.abs())
 }
 
-/// The power of two that brings a positive number near one, as long as neither it nor its own reciprocal is below `smallest`.
+/// The power of two that brings a positive number near 1, as long as neither it nor its own reciprocal is below `smallest`.
 #[inline(always)]
 pub(super) fn near_reciprocal(x: f64, smallest: f64) -> f64 {
     const LARGEST_POWER: f64 = f64::from_bits(f64::INFINITY.to_bits() - (1 << (f64::MANTISSA_DIGITS - 1)));
@@ -199,13 +199,13 @@ pub(super) fn near_reciprocal(x: f64, smallest: f64) -> f64 {
     f64::from_bits(LARGEST_POWER.to_bits().wrapping_sub(exponent)).max(smallest).min(1.0 / smallest)
 }
 
-/// `x - sin x`: the series below one, where the difference cancels.
+/// `x - sin x`: the series below 1, where the difference cancels.
 #[inline]
 pub(super) fn minus_own_sine<S: Scalar>(x: S, sine: S) -> S {
     if x >= S::one() { x - sine } else { own_sine_series(x) }
 }
 
-/// `x - sin x` for x of at most one; the first term left out is below 2e-17 of the sum.
+/// `x - sin x` for `x <= 1`; the first omitted term is below 2e-17 of the sum.
 #[inline]
 pub(super) fn own_sine_series<S: Real>(x: S) -> S {
     // 6 (-1)^k/(2 k + 3)!, in pairs: the processor works on several at once.
@@ -222,7 +222,7 @@ pub(super) fn own_sine_series<S: Real>(x: S) -> S {
     sum * square * x * S::from_f64(1.0 / 6.0)
 }
 
-/// Functions that are `libm`'s rather than the platform's, so that results are the same on every machine.
+/// Functions that are `libm`'s rather than the platform's: results are the same on every machine.
 macro_rules! by_libm {
     ($float:ident: $($method:ident = $function:ident),+) => { $(
         #[inline]

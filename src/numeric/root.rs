@@ -2,13 +2,13 @@
 
 use super::Scalar;
 
-/// Steps allowed: bisection alone needs one for each bit and each power of two of the bracket.
+/// Steps allowed: bisection alone needs a step for each bit and each power of two of the bracket.
 const MAX_STEPS: usize = 200;
 
 /// The root of an increasing function between `lower`, where it is not positive, and `upper`, where it is not negative.
 ///
-/// `function` gives value and slope. Newton's method, with bisection wherever a step leaves the bracket or shrinks too
-/// little. The last step is always Newton's, so that a dual number carries the derivative of the root by the
+/// `function` gives value and slope. Newton's method, with bisection after a step out of the bracket or too small a
+/// gain. The last step is always Newton's: a dual number carries the derivative of the root by the
 /// implicit function theorem. `None` after 200 steps, which a NaN among the values causes.
 ///
 /// ```

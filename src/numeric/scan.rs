@@ -1,16 +1,16 @@
-//! Roots of a function of one variable from samples, each refined by Chandrupatla's method: sees what the samples resolve, and proves nothing.
+//! Roots of a function of a single variable from samples, each refined by Chandrupatla's method: as fine as the samples, without proof.
 
 use super::golden_section;
 
-/// A function of one variable that may be undefined in places.
+/// A function of a single variable that may be undefined in places.
 type Partial<'a> = &'a mut dyn FnMut(f64) -> Option<f64>;
 
-/// Halvings after which an interval of f64 has nothing left to halve.
+/// Halvings after which an interval of f64 cannot be halved.
 const HALVINGS: usize = 200;
 
 /// Roots of `f` between consecutive `nodes` (ascending), in order.
 ///
-/// Finds every simple root that has no second one between the same two nodes; a pair between two nodes where the
+/// Finds every simple root without a second root between the same two nodes; a pair between two nodes where the
 /// samples turn back towards zero; a root between a node and the edge of the domain. Poles are not taken for roots.
 ///
 /// ```
@@ -70,7 +70,7 @@ fn domain_edge(f: Partial, mut inside: f64, mut outside: f64) -> f64 {
     inside
 }
 
-/// Roots within a run of samples of one connected domain.
+/// Roots within a run of samples of a connected domain.
 fn in_run(f: Partial, samples: &[(f64, f64)], found: &mut Vec<f64>) {
     for (index, pair) in samples.windows(2).enumerate() {
         let (a, b) = (pair[0], pair[1]);
@@ -99,7 +99,7 @@ fn in_run(f: Partial, samples: &[(f64, f64)], found: &mut Vec<f64>) {
 /// Share of an interval down to which a pair of roots in it is sought.
 const PAIR: f64 = 3e-13;
 
-/// A point of the other sign, sought by golden sections towards the least of `sign f`.
+/// A point of the opposite sign, sought by golden sections towards the least of `sign f`.
 fn crossing_between(f: Partial, from: f64, to: f64, sign: f64) -> Option<(f64, f64)> {
     let mut crossing = None;
     let positive = |x| {

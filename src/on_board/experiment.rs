@@ -55,9 +55,9 @@ impl<T: Scalar> Experiment<T> {
         self.supervisor.step(reading, time_s, &mut Judge { steadiness: &mut self.steadiness, relay_level })
     }
 
-    /// The command at a time at which there is no reading: for a timer beside a driver that may block, which would otherwise
-    /// leave the last command standing. Readings that stay out for more than [`Protocol::LONGEST_GAP`] are a fault; before the
-    /// first reading nothing is.
+    /// The command at a time at which there is no reading: for a timer next to a driver that may block, which would
+    /// otherwise leave the last command standing. Readings that stay out for more than [`Protocol::LONGEST_GAP`] are a
+    /// fault; before the first reading nothing is.
     ///
     /// ```
     /// use selfosc::on_board::{Experiment, Protocol};
@@ -71,7 +71,7 @@ impl<T: Scalar> Experiment<T> {
         self.supervisor.tick(time_s)
     }
 
-    /// Stops a running experiment: the command is neutral from now on. An end or a fault stays what it is.
+    /// Stops a running experiment: the command is neutral from now on. An end or a fault stays.
     pub fn abort(&mut self) {
         self.supervisor.abort();
     }
@@ -101,17 +101,17 @@ impl<T: Scalar> Experiment<T> {
         self.supervisor.position()
     }
 
-    /// What it was made of.
+    /// Its settings.
     pub fn protocol(&self) -> &Protocol<T> {
         self.supervisor.protocol()
     }
 
-    /// Attempt under way, or the last one: 1, 2, ...
+    /// Attempt under way, or the last attempt: 1, 2, ...
     pub fn attempt(&self) -> u8 {
         self.supervisor.attempt()
     }
 
-    /// What was found, once the experiment is [`Done`](Phase::Done).
+    /// The result, once the experiment is [`Done`](Phase::Done).
     pub fn outcome(&self) -> Option<Outcome<T>> {
         let supervisor = &self.supervisor;
         let features = self.steadiness.features().filter(|_| supervisor.phase() == Phase::Done)?;
@@ -119,5 +119,5 @@ impl<T: Scalar> Experiment<T> {
     }
 }
 
-/// What a microcontroller has to keep, limits and settings included.
+/// The memory for a microcontroller, limits and settings included.
 const _: () = assert!(core::mem::size_of::<Experiment<f64>>() < 1024);

@@ -2,7 +2,7 @@
 
 use crate::numeric::domain::{About, AtLeast, AtMost, Plain};
 
-/// Why a running experiment was broken off. Values are in the units of the [`Protocol`](super::Protocol), as f64 whatever the arithmetic.
+/// Why a running experiment was broken off. Values are in the units of the [`Protocol`](super::Protocol), as f64 in every arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
@@ -11,15 +11,15 @@ pub enum Fault {
     NotFinite {
         /// Reading, time, or the integral of the readings.
         quantity: &'static str,
-        /// The value, which is one in f32 as well.
+        /// The value: NaN or infinite, in f32 too.
         value: f32,
     },
-    /// A time that is not after the one before.
+    /// A time that is not after its predecessor.
     #[error("time {} s after {} s; samples must be in order and each given once", Plain(*.time_s), Plain(*.previous_s))]
     TimeOrder {
         /// Time of this sample.
         time_s: f64,
-        /// Time of the one before.
+        /// Time of the sample before.
         previous_s: f64,
     },
     /// A clock too far on for the arithmetic, as the time since power-up in f32 is after hours.
@@ -41,7 +41,7 @@ pub enum Fault {
         /// The limit.
         limit_s: f64,
     },
-    /// A reading further from the one before than the vehicle can have moved.
+    /// A reading further from its predecessor than the vehicle can have moved.
     #[error("the reading jumped by {}, limit {}; check the sensor or allow a higher rate", About(*.change), AtMost(*.limit))]
     Jump {
         /// Change of the reading, for a heading the short way round.
@@ -57,7 +57,7 @@ pub enum Fault {
         /// The limit.
         limit: f64,
     },
-    /// The coordinate has left the space given to the experiment.
+    /// The coordinate is outside the space given to the experiment.
     #[error(
         "{} from the reference, limit {}; check the actuator's sign and the disturbance, or give more room",
         AtLeast(*.distance), AtMost(*.limit)
@@ -128,7 +128,7 @@ pub enum Fault {
         /// Half-width of the last attempt.
         half_width: f64,
     },
-    /// Condition 40 was not met, in the last attempt either.
+    /// Condition 40 failed, in the last attempt too.
     #[error(
         "x_a + |x_0| above X_m (condition 40) at relay level {}, half-width {}; trim or raise the limits",
         About(*.relay_level), About(*.half_width)

@@ -1,4 +1,4 @@
-//! What a finished experiment found.
+//! The result of a finished experiment.
 
 use crate::features::Features;
 use crate::identify::exact::MeanCycle;
@@ -7,8 +7,8 @@ use crate::identify::{DragLaw, IdentifyError};
 use crate::numeric::Scalar;
 use crate::plant::DragAxis;
 
-/// Features of the steady cycles of the last attempt, with what they were got by. Their spreads and number are its quality;
-/// what the sensor and the drag law do to the parameters is not in them.
+/// Features of the steady cycles of the last attempt, with the relay's parameters. Their spreads and number are its
+/// quality; errors of the parameters by the sensor and the drag law are not in them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]

@@ -1,4 +1,4 @@
-//! What is to be done, and within which limits.
+//! The settings of an experiment, and its limits.
 
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::{Limit, OutOfDomain, Scalar, domain};
@@ -17,7 +17,7 @@ pub enum Coordinate {
 }
 
 impl Coordinate {
-    /// Name of its column in a log, by which the unit is known.
+    /// Name of its column in a log, which has the unit.
     #[must_use]
     pub fn column(self) -> &'static str {
         match self {
@@ -63,8 +63,8 @@ pub struct Protocol<T> {
     pub half_width: T,
     /// The coordinate may be this far from the reference; a reading further off ends the experiment.
     pub largest_excursion: T,
-    /// Before the relay has switched for the first time, the coordinate may fall back from the farthest it has come by this much. A
-    /// vehicle that goes further obeys a reversed actuator, or a disturbance beyond the relay level.
+    /// Before the relay has switched for the first time, the coordinate may fall back from its farthest place by at
+    /// most this way. A vehicle that goes further obeys a reversed actuator, or a disturbance beyond the relay level.
     pub wrong_way: T,
     /// The relay keeps an output for at least this long, in s. Noise that would switch it earlier counts against the half-width.
     pub dwell_s: T,
@@ -87,7 +87,7 @@ pub struct Protocol<T> {
     /// How alike: the range of either peak over these cycles against the amplitude, and of either time against half the period.
     /// The sensor's resolution and a sampling interval are allowed in addition.
     pub spread: T,
-    /// An attempt fails where so many cycles have passed without that.
+    /// An attempt fails after this number of cycles without that.
     pub most_cycles: u8,
     /// Attempts in all, each with new relay parameters.
     pub attempts: u8,
@@ -98,7 +98,7 @@ pub struct Protocol<T> {
 impl<T: Scalar> Protocol<T> {
     /// Gap between two samples that is a fault, in planned intervals.
     pub const LONGEST_GAP: f64 = 4.0;
-    /// Turns either way that a heading may read: sensors that count turns stay below, what is beyond is no heading.
+    /// Turns either way that a heading may read: sensors that count turns stay below, a reading beyond is no heading.
     pub const MOST_TURNS: f64 = 100.0;
 
     /// An experiment about zero with these relay parameters and readings every `interval_s`, that may go `largest_excursion`
@@ -106,14 +106,14 @@ impl<T: Scalar> Protocol<T> {
     ///
     /// - commands up to twice the relay level, a rate of at most the largest excursion in a second, two half-widths the wrong way;
     /// - at least four intervals between switchings;
-    /// - three cycles alike to 10 % out of at most 12, three attempts, each 1.5 times as strong as the one before.
+    /// - three cycles alike to 10 % out of at most 12, three attempts, each 1.5 times as strong as the last.
     ///
-    /// Set `largest_rate` and `resolution` if they are known, and the
-    /// times for slow vehicles: 5 s for one value of the reading, 20 s for one of the command, 5 minutes in all.
+    /// Set `largest_rate` and `resolution` if they are given, and the
+    /// times for slow vehicles: 5 s for a constant reading, 20 s for a constant command, 5 minutes in all.
     ///
-    /// The excursion is that of the reading. A vehicle whose sensor is true to `resolution`, and which goes no faster than
-    /// `largest_rate`, is driven no further than `largest_excursion` and the way of one gap, whatever its actuators do; what it
-    /// coasts after that, at the neutral command, is its own.
+    /// The excursion is that of the reading. A vehicle whose sensor is true to `resolution`, and which goes no faster
+    /// than `largest_rate`, is driven no further than `largest_excursion` and the way of a gap, with any fault of its
+    /// actuators; its coasting after that, at the neutral command, is not bounded.
     #[must_use]
     pub fn new(coordinate: Coordinate, relay_level: T, half_width: T, largest_excursion: T, interval_s: T) -> Self {
         let number = T::from_f64;

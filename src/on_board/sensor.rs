@@ -3,14 +3,14 @@
 use super::{Coordinate, Fault, Protocol};
 use crate::numeric::Scalar;
 
-/// The last sample, and what follows from those before.
+/// The last sample, and the state from those before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sensor<T> {
     pub(super) time_s: T,
     pub(super) reading: T,
     /// The coordinate: for a heading without jumps, for a speed its integral.
     pub(super) position: T,
-    /// Since when the reading is what it is.
+    /// Since when the reading is the same.
     pub(super) changed_s: T,
 }
 

@@ -13,7 +13,7 @@ pub enum Phase {
     Running,
     /// Steady cycles were found; the command is neutral until a restart.
     Done,
-    /// It was told to stop; the command is neutral until a restart.
+    /// It was stopped by the caller; the command is neutral until a restart.
     Aborted,
     /// Something went wrong; the command is neutral until a restart.
     Failed(Fault),
@@ -34,13 +34,13 @@ impl core::fmt::Display for Phase {
 /// The answer to a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step<T> {
-    /// Command to give now, within the limits whatever the phase.
+    /// Command to give now, within the limits in every phase.
     pub command: T,
     /// Where the experiment stands after this sample.
     pub phase: Phase,
 }
 
-/// What the cycles say after a sample.
+/// The verdict on the cycles after a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Observation {
     /// No cycle ended with it.
@@ -49,13 +49,13 @@ pub(crate) enum Observation {
     Unsteady,
     /// They are alike.
     Steady,
-    /// They are alike, and condition 40 is not met.
+    /// They are alike, and condition 40 fails.
     Condition40,
 }
 
 /// Whoever looks at the cycles.
 pub(crate) trait Observer<T> {
-    /// Forgets all cycles: an attempt with other relay parameters begins.
+    /// Forgets all cycles: an attempt with new relay parameters begins.
     fn begin(&mut self, protocol: &Protocol<T>);
     /// Takes a sample with the command given upon it.
     fn sample(&mut self, protocol: &Protocol<T>, time_s: T, position: T, command: T) -> Observation;
@@ -70,13 +70,13 @@ enum Failure {
     Noise,
 }
 
-/// Switchings wanted too early before an attempt is given up for noise. A fast start may want one.
+/// Switchings wanted too early before an attempt is given up for noise. A fast start may want a single early switching.
 const MOST_EARLY: u8 = 4;
 
-/// Switchings until a half-period of either sign has ended before the last one.
+/// Switchings until a half-period of either sign has ended before the last.
 const SEEN: u8 = 4;
 
-/// All that decides on what a supervisor does next, its protocol being given; exact in its numbers.
+/// All that decides on a supervisor's next action, its protocol being given; exact in its numbers.
 #[cfg(feature = "std")]
 pub(crate) type Key = (&'static str, [u64; 3], [u64; 7], [u64; 4], [u8; 5]);
 
@@ -99,11 +99,11 @@ pub(crate) struct Supervisor<T> {
     /// Position of the last motion or switching, and time of the last motion: away from there by the way of `moves`.
     anchor: T,
     moved_s: T,
-    /// Half-periods: the longest but for the last, and the last; zero before there is one.
+    /// Half-periods: the longest but for the last, and the last; zero before the first.
     half_periods_s: (T, T),
     attempt: u8,
     cycles: u8,
-    /// Switchings of the attempt after which noise wanted the next one too early, and whether it did after the last.
+    /// Switchings of the attempt after which noise wanted the next switching too early, and whether it did after the last.
     early: u8,
     hasty: bool,
 }
@@ -199,7 +199,7 @@ impl<T: Scalar> Supervisor<T> {
         (self.switchings == 0 && self.begun).then_some(self.farthest)
     }
 
-    /// The state, for a table of visited ones. Of a fault its name: the numbers in it decide nothing.
+    /// The state, for a table of visited states. Of a fault its name: the numbers in it decide nothing.
     #[cfg(feature = "std")]
     pub(crate) fn key(&self) -> Key {
         let Self { phase, relay, started_s, switched_s, farthest, anchor, moved_s, half_periods_s, .. } = self;
@@ -241,8 +241,8 @@ impl<T: Scalar> Supervisor<T> {
         if moved <= limit { Ok(()) } else { Err(wrong_way(moved, limit)) }
     }
 
-    /// For how long the relay may not switch and the coordinate not move. A sensor that freezes may end one half-period: the last does
-    /// not count yet. One of either sign has to count, since a disturbance makes them differ.
+    /// For how long the relay may not switch and the coordinate not move. A sensor that freezes may end a half-period:
+    /// the last does not count yet. A half-period of either sign has to count, since a disturbance makes them differ.
     fn patience_s(&self) -> T {
         let patience_s = self.protocol.patience_s;
         if self.switchings < SEEN { patience_s } else { patience_s.min(T::from_f64(LOST) * self.half_periods_s.0) }
@@ -255,7 +255,7 @@ impl<T: Scalar> Supervisor<T> {
         if T::two() * gone < self.half_width() && time_s - self.moved_s <= self.half_periods_s.0 {
             return Ok(false);
         }
-        // A step of the sensor is no motion. Between two switchings the coordinate goes two half-widths, hence one from any anchor.
+        // A step of the sensor is no motion. Between switchings the coordinate goes two half-widths, hence a half-width from any anchor.
         let (step, half_width) = (T::from_f64(1.5) * self.protocol.resolution, self.half_width());
         let way = step.max(half_width / T::two()).min(half_width);
         let moves = gone >= way;
@@ -332,11 +332,11 @@ impl<T: Scalar> Supervisor<T> {
         }
     }
 
-    /// The next attempt with other relay parameters, at the output that the relay has; a fault where there is none left.
+    /// The next attempt with new relay parameters, at the output that the relay has; a fault after the last attempt.
     ///
     /// A relay that does not switch, or hardly overcomes the disturbance, gets a higher level; at the limit, a narrower
-    /// hysteresis makes the oscillation larger against it. Cycles that differ call for a wider hysteresis, and so does noise: against noise
-    /// no level is raised, and for want of a switching only at a sample that shows motion since the last.
+    /// hysteresis makes the oscillation larger against it. Cycles that differ, and noise, call for a wider hysteresis:
+    /// against noise no level is raised, and for want of a switching only at a sample that shows motion since the last.
     #[cold]
     fn retry(&mut self, failure: Failure, time_s: T, observer: &mut impl Observer<T>) -> Result<(), Fault> {
         let failure = match failure {

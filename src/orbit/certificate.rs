@@ -1,4 +1,4 @@
-//! A limit cycle with proof: for one given axis, existence in a narrow enclosure; uniqueness and attraction by theorem.
+//! A limit cycle with proof: for a given axis, existence in a narrow enclosure; uniqueness and attraction by theorem.
 
 use super::drag_axis::{End, LimitCycle, solve};
 use super::half_cycle::{HalfCycle, Swing};
@@ -10,13 +10,13 @@ use crate::proof::Gradient;
 use crate::proof::enclosure::{Roots, krawczyk};
 use crate::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
 
-/// What is proved of the limit cycle of one axis.
+/// The proof about the limit cycle of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Certificate {
-    /// There is no other oscillation. With a delay that does not exclude several commands on their way at once this is withheld:
-    /// faster oscillations of that kind may exist.
+    /// It is the only oscillation. With a delay that does not exclude several commands on their way at once this is
+    /// withheld: faster oscillations of that kind may exist.
     pub unique: bool,
     /// Every start that leads to switchings of both kinds approaches it. Withheld likewise.
     pub attracting: bool,
@@ -30,10 +30,10 @@ pub struct Certificate {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "std", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Starts {
-    /// From everywhere: the delay is shorter than any way from one level to the other can take, so that after one delay at
-    /// most one command is on its way.
+    /// From everywhere: the delay is shorter than every passage between the levels: after a delay at most a
+    /// single command is on its way.
     Every,
-    /// From where at most one command is on its way, and from then on no more are. Among these motions the cycle is unique.
+    /// From states with at most a single command on its way, then and later. Among these motions the cycle is unique.
     OneCommandOnItsWay,
 }
 
@@ -42,10 +42,10 @@ pub enum Starts {
 /// **Existence** by Krawczyk's operator, for four unknowns: each half cycle's speed at the relay's level and at the real
 /// switching. **Uniqueness and attraction** because the way from rest to the level maps onto the next such way by an
 /// increasing, concave function with a positive value at zero: its slope `2 C v/((C -+ (delta + d) + drag(v)) v_0) - 1`,
-/// `v_0` the speed at the level and `v` at the switching, is positive and falls with `v_0` for linear, quadratic and mixed
-/// drag and any delay. So the half cycles in turn have exactly one fixed point, which every start with at most one command on its
-/// way approaches from its own side. That there is no other start is known where the axis, driven from rest by the larger
-/// force, takes longer than the delay from one level to the other: it rests between crossing either.
+/// `v_0` the speed at the level and `v` at the switching, is positive and falls with `v_0` for linear, quadratic and
+/// mixed drag and any delay. The half cycles in turn have exactly 1 fixed point, which every start with at most a single
+/// command on its way approaches from its own side. Every start is such a start where the axis, driven from rest by the
+/// larger force, takes longer than the delay between the levels: it rests between crossing either.
 ///
 /// ```
 /// use selfosc::{nonlinearity::RelayHysteresis, orbit::certify, plant::DragAxis};
@@ -58,7 +58,7 @@ pub enum Starts {
 /// ```
 ///
 /// # Errors
-/// As [`limit_cycle`]; [`OrbitError::NotProved`] where the enclosure fails, as with a multiplier near one.
+/// As [`limit_cycle`]; [`OrbitError::NotProved`] where the enclosure fails, as with a multiplier near 1.
 pub fn certify(axis: &DragAxis<f64>, relay: &RelayHysteresis<f64>) -> Result<Certificate, OrbitError> {
     let halves = HalfCycle::pair(axis, relay)?;
     let (_, swings) = solve(&halves)?;
@@ -122,7 +122,7 @@ fn angles(half: &HalfCycle<f64>, swing: &Swing<f64>, axis: &DragAxis<f64>) -> [f
     [angle(speed, acceleration), angle(lag.speed, acceleration * lag.speed_gain)]
 }
 
-/// One half cycle over intervals. The motion from rest has the coordinate `angle` with `speed = terminal (1 - exp(-angle))`,
+/// A half cycle over intervals. The motion from rest has the coordinate `angle` with `speed = terminal (1 - exp(-angle))`,
 /// whose rate is `slow + (fast - slow)(1 - exp(-angle))`: nothing in it is singular at terminal speed.
 #[derive(Clone, Copy, Debug)]
 struct Half {
@@ -180,7 +180,7 @@ impl Half {
         angle.chain(way, self.speed(at) / self.rate(at))
     }
 
-    /// Way from a speed, reached at `angle`, to rest under the other command.
+    /// Way from a speed, reached at `angle`, to rest under the opposite command.
     fn stop(&self, angle: Gradient<4>) -> Gradient<4> {
         let speed = self.speed(angle.value());
         let slope = self.terminal * (-angle.value()).exp() * speed / self.braking(speed);
@@ -210,7 +210,7 @@ impl Half {
         let lag = (self.approach(constant(switch)) - self.approach(constant(level))).value();
         let (speed, level_speed) = (self.speed(switch), self.speed(level));
         let [stop, stop_time_s] = self.stop_integrals(speed);
-        // Speeds by angles, so that nothing cancels near terminal speed.
+        // Speeds by angles: nothing cancels near terminal speed.
         let gained = -self.terminal * (-level).exp() * (level - switch).exp_m1();
         let driving = self.terminal * (-switch).exp() * self.rate(switch);
         End {

@@ -1,4 +1,4 @@
-//! The drag axis with one law of drag: formulas without case distinctions, for every arithmetic.
+//! The drag axis with a single law of drag: formulas without case distinctions, for every arithmetic.
 //!
 //! Without delay, and with quadratic drag alone, everything depends on `E = exp(-4 g)`, `g = beta x_a/alpha`, which maps all
 //! parameters onto (0, 1); with linear drag alone on `g = x_a beta^2/(C alpha)`. The disturbance enters as the
@@ -6,10 +6,10 @@
 
 use crate::numeric::{Real, minus_ln_1p, minus_tanh};
 
-/// Quadratic drag, half-cycle map: from `y = (V/k)^2` at one switching to that at the next, `k = sqrt(C/beta)`, when the
+/// Quadratic drag, half-cycle map: from `y = (V/k)^2` at a switching to that at the next, `k = sqrt(C/beta)`, when the
 /// command in between gives the force `ratio` (in units of C); `gap = 1 - E = 1 - exp(-4 g)`.
 ///
-/// `y -> ratio (y + ratio gap)/(y + ratio)`; with ratio one it is `1 - E/(1 + y)`.
+/// `y -> ratio (y + ratio gap)/(y + ratio)`; with ratio 1 it is `1 - E/(1 + y)`.
 pub fn quadratic_half_cycle<T: Real>(y: T, gap: T, ratio: T) -> T {
     ratio * (y + ratio * gap) / (y + ratio)
 }
@@ -30,7 +30,7 @@ pub fn quadratic_speeds<T: Real>(gap: T, mu: T) -> [T; 2] {
 
 /// Quadratic drag without disturbance: `T/2 sqrt(beta C)/alpha = atan sqrt(y) + atanh sqrt(y)` at `y = sqrt(gap)`.
 ///
-/// For large g, sqrt(y) is one within rounding; `1 - y = E/(1 + y)` then gives the logarithm from g itself.
+/// For large g, sqrt(y) is 1 within rounding; `1 - y = E/(1 + y)` then gives the logarithm from g itself.
 pub fn quadratic_period<T: Real>(g: T) -> T {
     let four = T::from_f64(4.0);
     let y = (-(-four * g).exp_m1()).sqrt();
@@ -40,7 +40,7 @@ pub fn quadratic_period<T: Real>(g: T) -> T {
     root.atan() + (g - T::from_f64(0.1)).select(|| root.atanh(), || large)
 }
 
-/// Linear drag: zero where `next` follows `speed` (both `V beta/C`) over one half cycle; `g` as above, force `ratio` as in
+/// Linear drag: zero where `next` follows `speed` (both `V beta/C`) over a half cycle; `g` as above, force `ratio` as in
 /// [`quadratic_half_cycle`]. It increases with `next` and decreases with `speed`, for `0 <= next < ratio`.
 pub fn linear_half_cycle<T: Real>(speed: T, next: T, g: T, ratio: T) -> T {
     let (before, after) = (speed / ratio, next / ratio);
@@ -58,18 +58,18 @@ pub fn linear_amplitude_excess<T: Real>(z: T) -> T {
     minus_ln_1p(z.tanh())
 }
 
-/// Slope of the return map without delay, as numerator and denominator, whatever the drag law: the drag forces at the
+/// Slope of the return map without delay, as numerator and denominator, for every drag law: the drag forces at the
 /// upper and at the lower switching are `drags`, the disturbance with the relay's offset is `mu`, all in units of C.
 ///
-/// Energy gives a half cycle's share: force left over force that brakes, `(1 + mu - d_1)/(1 - mu + d_1)`. The
-/// denominator exceeds the numerator by exactly `2 (d_1 + d_2)`, so that the map contracts wherever there is drag.
+/// Energy gives a half cycle's share: net driving force over force that brakes, `(1 + mu - d_1)/(1 - mu + d_1)`. The
+/// denominator exceeds the numerator by exactly `2 (d_1 + d_2)`: the map contracts wherever there is drag.
 pub fn return_slope<T: Real>(mu: T, drags: [T; 2]) -> [T; 2] {
     let [upward, downward] = [T::one() + mu, T::one() - mu];
     let [upper, lower] = drags;
     [(upward - upper) * (downward - lower), (downward + upper) * (upward + lower)]
 }
 
-/// Share of a force that drag leaves, at the share `speed` of the terminal speed, where `linear` is the linear share of the
+/// 1 less drag over force, at the share `speed` of the terminal speed, where `linear` is the linear share of the
 /// drag at terminal speed.
 pub fn force_left<T: Real>(speed: T, linear: T) -> T {
     T::one() - (linear + (T::one() - linear) * speed) * speed

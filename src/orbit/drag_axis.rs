@@ -39,22 +39,22 @@ pub struct LimitCycle<T> {
     pub upper_switch: Switching<T>,
     /// Where the positive command begins to act: x falls there.
     pub lower_switch: Switching<T>,
-    /// Factor by which a small deviation shrinks from one period to the next: the slope of the return map, in (0, 1).
+    /// Factor by which a small deviation shrinks in a period: the slope of the return map, in (0, 1).
     pub multiplier: T,
 }
 
-/// One end of a limit cycle, seen outwards from the middle; every quantity is positive.
+/// An end of a limit cycle, seen outwards from the middle; every quantity is positive.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End<T> {
     /// Way from the relay's level to rest.
     pub(super) excursion: T,
-    /// Way from the relay's level to where the other command begins to act, and the speed there.
+    /// Way from the relay's level to where the opposite command begins to act, and the speed there.
     pub(super) switch_lag: T,
     pub(super) switch_speed: T,
-    /// Time from rest at the other end to there, and from there to rest at this end.
+    /// Time from rest at the opposite end to there, and from there to rest at this end.
     pub(super) rise_time_s: T,
     pub(super) stop_time_s: T,
-    /// Derivative of the next approach with respect to the one to this end.
+    /// Derivative of the next approach with respect to the approach to this end.
     pub(super) gain: T,
 }
 
@@ -82,7 +82,7 @@ impl<T: Real> LimitCycle<T> {
 /// A point of the return map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Return<T> {
-    /// Speed one period later.
+    /// Speed a period later.
     pub speed: T,
     /// Its derivative with respect to the speed now.
     pub derivative: T,
@@ -92,13 +92,13 @@ pub struct Return<T> {
 ///
 /// Exact up to rounding: the motion between switchings is in closed form (see [`OneWay`](crate::plant::OneWay)), and the
 /// two times from rest to the relay's levels solve two equations by Newton's method. The lengths of successive
-/// approaches map onto each other by increasing, concave functions, so without a delay Newton's method converges from
+/// approaches map onto the next by increasing, concave functions: without a delay Newton's method converges from
 /// every start.
 ///
-/// A delay of any length is allowed. A half cycle always outlasts it: the axis turns only after a command has acted, and
-/// must turn before the next. So at most one command is on its way. A delay longer than the period without delay also
-/// admits faster periodic motions with several commands on their way (the limit cycles for the delay less some whole
-/// number of their own periods); those are not what this gives.
+/// A delay of any length is allowed. A half cycle always outlasts it: the axis turns only after a command has acted,
+/// and must turn before the next. Hence at most a single command is on its way. A delay longer than the period without
+/// delay also admits faster periodic motions with several commands on their way (the limit cycles for the delay less
+/// some whole number of their own periods); those are not given here.
 ///
 /// In dual numbers the result carries its derivatives with respect to every parameter.
 ///
@@ -132,9 +132,9 @@ pub fn limit_cycle<S: Scalar>(axis: &DragAxis<S>, relay: &RelayHysteresis<S>) ->
     if sound { Ok(cycle) } else { Err(OrbitError::Unresolved { multiplier: cycle.multiplier.value() }) }
 }
 
-/// The return map of the speed at which x rises past the relay's half-width, one period on.
+/// The return map of the speed at which x rises past the relay's half-width, a period on.
 ///
-/// Without delay it is the speed at switching. The map is increasing; its one fixed point belongs to the limit cycle.
+/// Without delay it is the speed at switching. The map is increasing; its only fixed point belongs to the limit cycle.
 ///
 /// ```
 /// use selfosc::{nonlinearity::RelayHysteresis, orbit::return_map, plant::DragAxis};
@@ -181,7 +181,7 @@ pub(super) fn solve<S: Scalar>(halves: &[HalfCycle<S>; 2]) -> Result<Solution<S>
     let one = S::one();
     let mean_drive = (halves[0].drive.drive + halves[1].drive.drive) / S::two();
     let mut times = [0, 1].map(|half: usize| S::from_f64(halves[half].time_guess(mean_drive)));
-    // Convergence is quadratic: the step after one as small as this is below rounding.
+    // Convergence is quadratic: the step after a step as small as this is below rounding.
     let tolerance = S::epsilon().sqrt() / S::two();
     let mut multiplier = f64::NAN;
     for _ in 0..MAX_STEPS {
@@ -190,7 +190,7 @@ pub(super) fn solve<S: Scalar>(halves: &[HalfCycle<S>; 2]) -> Result<Solution<S>
         let contraction = one - upward.gain * downward.gain;
         multiplier = (one - contraction).value();
         if contraction <= S::zero() {
-            // Left of where the map contracts, which happens only with a delay.
+            // Below the times at which the map contracts, which happens only with a delay.
             times = times.map(|time| S::two() * time);
             continue;
         }

@@ -13,7 +13,7 @@ pub enum OrbitError {
     #[cfg(feature = "std")]
     #[error(transparent)]
     Plant(#[from] PlantError),
-    /// The relay cannot overcome the constant force, so that the axis drifts away.
+    /// The relay cannot overcome the constant force: the axis drifts away.
     #[error(
         "disturbance {} plus relay offset {} must be smaller in magnitude than the relay level \
          {}, or the axis drifts away; raise the level or trim the disturbance",
@@ -27,7 +27,7 @@ pub enum OrbitError {
         /// Level C of the relay, in force units.
         level: f64,
     },
-    /// Nothing takes energy out, so that the oscillation grows without limit.
+    /// Nothing takes energy out: the oscillation grows without limit.
     #[error("linear_drag = 0 and quadratic_drag = 0: the oscillation grows without limit; give at least one above 0")]
     NoDrag,
     /// Nothing keeps the relay from switching ever faster, and the axis comes to rest.
@@ -62,12 +62,12 @@ pub enum OrbitError {
     /// An enclosure that stayed too wide, or a cycle that is none.
     #[error("not proved of the cycle with half-period {} s: {what}; scale time and state to order one", About(*.half_period_s))]
     NotProved {
-        /// What was to be proved.
+        /// The statement to prove.
         what: &'static str,
         /// Half the cycle's period, s.
         half_period_s: f64,
     },
-    /// Poles that cannot be told apart, nor taken as one group.
+    /// Poles that cannot be separated, nor taken as a group.
     #[error(
         "the {order} poles of the plant cannot be enclosed: more than four of them, or two complex pairs, are within a \
          few per cent of each other; move them apart or leave some out"

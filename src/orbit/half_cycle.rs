@@ -1,14 +1,14 @@
-//! One half of a cycle: from the turning point across the relay's level to the next turning point.
+//! A half cycle: from the turning point across the relay's level to the next turning point.
 
 use super::OrbitError;
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::Scalar;
 use crate::plant::{DragAxis, OneWay};
 
-/// The half cycle that one command drives.
+/// The half cycle that a command drives.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HalfCycle<S> {
-    /// Motion from rest until the other command acts.
+    /// Motion from rest until the opposite command acts.
     pub(super) drive: OneWay<S>,
     /// Motion after that until rest.
     pub(super) brake: OneWay<S>,
@@ -16,12 +16,12 @@ pub(super) struct HalfCycle<S> {
     half_width: S,
 }
 
-/// What happens from the crossing of the relay's level to rest.
+/// The motion from the crossing of the relay's level to rest.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Overshoot<S> {
-    /// Speed when the other command begins to act.
+    /// Speed when the opposite command begins to act.
     pub(super) switch_speed: S,
-    /// Way from the relay's level to the place where the other command begins to act.
+    /// Way from the relay's level to the place where the opposite command begins to act.
     pub(super) switch_lag: S,
     /// Time from then to rest.
     pub(super) stop_time_s: S,
@@ -41,7 +41,7 @@ pub(super) struct Swing<S> {
     /// Way from the turning point to the relay's level.
     pub(super) approach: S,
     pub(super) overshoot: Overshoot<S>,
-    /// Derivative of the next approach with respect to this one.
+    /// Derivative of the next approach with respect to this approach.
     pub(super) gain: S,
 }
 
@@ -98,7 +98,7 @@ impl<S: Scalar> HalfCycle<S> {
     }
 
     fn stop(&self, speed: S, lag: S, speed_gain: S, lag_gain: S) -> Overshoot<S> {
-        // The drive of a brake is negative, so there is always a rest.
+        // The drive of a brake is negative: there is always a rest.
         let stop_time_s = self.brake.time_to_rest(speed).unwrap_or(S::zero());
         let stop = self.brake.advance(speed, stop_time_s).distance;
         let braking = -self.brake.acceleration(speed);
@@ -111,7 +111,7 @@ impl<S: Scalar> HalfCycle<S> {
         }
     }
 
-    /// Way from the turning point reached by an overshoot to the other level.
+    /// Way from the turning point reached by an overshoot to the opposite level.
     pub(super) fn approach_after(&self, excursion: S) -> S {
         excursion + S::two() * self.half_width
     }
@@ -129,8 +129,8 @@ impl<S: Scalar> HalfCycle<S> {
         let [drive, mean] = [self.drive.drive, mean_drive].map(Scalar::value);
         let (x, t, thrust) = (self.half_width.value(), self.delay_s.value(), mean * mean);
         let terminal = OneWay { drive: mean, linear, quadratic }.terminal_speed();
-        // Cubes of the speeds that each drag alone allows. Weak drag: what the relay does in a half cycle, drag undoes over a half
-        // cycle of speed nearly linear in time.
+        // Cubes of the speeds that each drag alone allows. Weak drag: the relay's work in a half cycle is lost to drag
+        // over a half cycle of speed nearly linear in time.
         let waiting = libm::sqrt(3.0 * thrust * t / linear);
         let square = libm::sqrt(4.0 * thrust * x / quadratic);
         let linear_alone = (waiting * waiting * waiting).max(3.0 * thrust * x / linear);

@@ -1,8 +1,8 @@
 //! Loops without closed form: an integrator that stops at events, and the loops of this crate as systems for it.
 //!
 //! The step is Dormand and Prince's of order 5(4). An event is sought in every step on its cubic interpolant, at eight
-//! points and at the turning points between them, and then located by steps of the method itself, so that it is as exact
-//! as a step. An excursion past a guard that lasts less than a sixteenth of a step can still go unseen.
+//! points and at the turning points between them, and then located by steps of the method itself, as exactly as
+//! a step. An excursion past a guard that lasts less than a sixteenth of a step can still go unseen.
 
 use std::collections::VecDeque;
 
@@ -10,7 +10,7 @@ use super::OrbitError;
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::{Limit, domain, scan};
 
-/// A system that is smooth between events. What has happened so far is its own state.
+/// A system that is smooth between events. Its history is its own state.
 pub trait EventSystem {
     /// Rate of the state.
     fn rate(&self, time_s: f64, state: &[f64], rate: &mut [f64]);
@@ -18,7 +18,7 @@ pub trait EventSystem {
     fn guards(&self) -> usize;
     /// A guard's value; its event is the passage from negative or zero to positive, or a positive value at time zero.
     fn guard(&self, index: usize, time_s: f64, state: &[f64]) -> f64;
-    /// What the event changes.
+    /// The changes by the event.
     fn event(&mut self, index: usize, time_s: f64, state: &mut [f64]);
 }
 
@@ -124,7 +124,7 @@ impl Integrator {
     }
 }
 
-/// One step of Dormand and Prince (*J. Comput. Appl. Math.* 6, 1980).
+/// A step of Dormand and Prince (*J. Comput. Appl. Math.* 6, 1980).
 struct Step {
     length: f64,
     state: Vec<f64>,
@@ -167,7 +167,7 @@ impl Step {
         Self { length, state, rates: (first, last), difference }
     }
 
-    /// Root mean square of the error over the tolerance: the step is good up to one.
+    /// Root mean square of the error over the tolerance: the step is good up to 1.
     fn error(&self, from: &[f64], tolerances: &Integrator) -> f64 {
         let square = |((difference, a), b): ((&f64, &f64), &f64)| {
             (difference / (tolerances.absolute + tolerances.relative * a.abs().max(b.abs()))).powi(2)
@@ -206,7 +206,7 @@ fn first_event(system: &impl EventSystem, time: f64, from: &[f64], step: &Step) 
             let part = share * step.length;
             Some(system.guard(index, time + part, &Step::new(system, time, from, part).state))
         };
-        // Rising passages only; one at the very start is the event that began this step.
+        // Rising passages only; a passage at the very start is the event that began this step.
         let rising = |share: &f64| *share > 0.0 && exact(share + 1e-6).is_some_and(|after| after > 0.0);
         if let Some(share) = scan::roots(&nodes, exact).into_iter().find(rising) {
             let part = share * step.length;

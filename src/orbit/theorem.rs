@@ -1,8 +1,8 @@
-//! What holds of every drag axis under a relay, as inequalities that interval arithmetic proves over whole domains.
+//! Theorems on every drag axis under a relay, as inequalities that interval arithmetic proves over whole domains.
 //!
 //! Each theorem follows from its inequalities by the few lines of algebra in its file in `spec/claims`. Where a quantity vanishes at
 //! the border of the domain (weak drag, terminal speed), the inequality is about the Taylor coefficient of the first order
-//! that does not vanish, enclosed from the border on; so the open domain is covered, the neighbourhood of its border too.
+//! that does not vanish, enclosed from the border on: this covers the open domain, the neighbourhood of its border too.
 
 use super::closed_form::{force_left, quadratic_half_cycle, return_slope};
 use crate::numeric::Real;
@@ -18,15 +18,15 @@ pub struct Theorem {
     pub id: &'static str,
     /// For which parameters, in words.
     pub domain: &'static str,
-    /// What has to be shown by enclosure.
+    /// The inequalities to show by enclosure.
     pub inequalities: &'static [Inequality],
 }
 
-/// Boxes allowed for one inequality.
+/// Boxes allowed for an inequality.
 pub const BUDGET: usize = 200_000;
 
 impl Theorem {
-    /// Proofs of all inequalities, or the first search that does not end in one.
+    /// Proofs of all inequalities, or the first search that does not end in a proof.
     ///
     /// # Errors
     /// The inequality that is not proved, and why.
@@ -35,8 +35,8 @@ impl Theorem {
         self.inequalities.iter().map(prove).collect()
     }
 
-    /// Whether `proofs` show every inequality: by [`Inequality::check`], which searches nothing. Proofs of other inequalities
-    /// do not matter.
+    /// Whether `proofs` show every inequality: by [`Inequality::check`], which searches nothing. Further proofs do
+    /// not matter.
     ///
     /// ```
     /// use selfosc::orbit::theorem::QUADRATIC;
@@ -60,7 +60,7 @@ impl Theorem {
 const NONE: Extent = Extent::NONE;
 /// Up to here a multiple zero at zero is divided out.
 const NEAR_ZERO: f64 = 0.05;
-/// From here on a border at one is treated by itself.
+/// From here on a border at 1 is treated by itself.
 const NEAR_ONE: f64 = 0.9;
 
 /// Denominator less numerator of the return map's slope, over the drag forces, less a rate of growth.
@@ -71,14 +71,14 @@ fn excess<T: Real>([mu, upper, lower]: [T; VARIABLES]) -> T {
 
 /// The excess grows with either drag force at more than this rate.
 const GROWTH: f64 = 1.99;
-/// The multiplier falls short of one by more than this share of the drag forces.
+/// The multiplier falls short of 1 by more than this share of the drag forces.
 const RATE: f64 = 0.48;
 
 const MU_ALL: Extent = Extent::new("mu", -1.0, 1.0);
 const DRAG_1: Extent = Extent::new("d_1", 0.0, 2.0);
 const DRAG_2: Extent = Extent::new("d_2", 0.0, 2.0);
 
-/// With no drag the excess is zero, so it is positive where there is drag.
+/// With no drag the excess is zero, hence it is positive where there is drag.
 pub const EXCESS_FIRST: Inequality = Inequality {
     id: "excess-first",
     statement: "the excess of the slope's denominator over its numerator grows with the drag at the upper switching, at a rate above 1.99",
@@ -86,7 +86,7 @@ pub const EXCESS_FIRST: Inequality = Inequality {
     margin: Margin::Slope { of: formula!(excess), by: 1 },
 };
 
-/// The same for the other drag.
+/// The same for the second drag.
 pub const EXCESS_SECOND: Inequality = Inequality {
     id: "excess-second",
     statement: "the excess of the slope's denominator over its numerator grows with the drag at the lower switching, at a rate above 1.99",
@@ -94,7 +94,7 @@ pub const EXCESS_SECOND: Inequality = Inequality {
     ..EXCESS_FIRST
 };
 
-/// What the growth of the excess leaves over the rate times the slope's denominator, the drag forces as shares of the forces
+/// The growth of the excess less the rate times the slope's denominator, the drag forces as shares of the forces
 /// that drive.
 fn rate_left<T: Real>([mu, first, second]: [T; VARIABLES]) -> T {
     let [upward, downward] = [T::one() + mu, T::one() - mu];
@@ -126,7 +126,7 @@ pub const FORCE_SLOW: Inequality = Inequality {
     margin: Margin::Value(formula!(force)),
 };
 
-/// None is left at terminal speed, so some is left below.
+/// The force is zero at terminal speed, hence positive below.
 pub const FORCE_FAST: Inequality = Inequality {
     id: "force-fast",
     statement: "the force that drag leaves falls from half the terminal speed to all of it",
@@ -134,7 +134,7 @@ pub const FORCE_FAST: Inequality = Inequality {
     margin: Margin::Slope { of: formula!(force_lost), by: 0 },
 };
 
-/// The force that brakes after a switching: the other command's, less the disturbance, and the drag.
+/// The force that brakes after a switching: the opposite command's, less the disturbance, and the drag.
 pub(crate) fn brake<T: Real>([mu, drag, _]: [T; VARIABLES]) -> T {
     T::one() - mu + drag
 }
@@ -143,7 +143,7 @@ fn brake_lost<T: Real>(at: [T; VARIABLES]) -> T {
     -brake(at)
 }
 
-/// A disturbance as large as the level leaves the drag alone, so a smaller one leaves more.
+/// Under a disturbance as large as the level the drag brakes alone; a smaller disturbance adds to it.
 pub const BRAKING: Inequality = Inequality {
     id: "braking",
     statement: "the force that brakes after a switching falls as the disturbance grows, up to that of the relay's level",
@@ -151,7 +151,7 @@ pub const BRAKING: Inequality = Inequality {
     margin: Margin::Slope { of: formula!(brake_lost), by: 0 },
 };
 
-/// It is zero for a disturbance as large as the level at rest, so it is zero or more there at every speed.
+/// It is zero for a disturbance as large as the level at rest, hence zero or more there at every speed.
 pub const BRAKING_DRAG: Inequality = Inequality {
     id: "braking-drag",
     statement: "the force that brakes after a switching grows with the drag",
@@ -163,7 +163,7 @@ fn quadratic_next<T: Real>([y, gap, _]: [T; VARIABLES]) -> T {
     quadratic_half_cycle(y, gap, T::one())
 }
 
-/// At `gap = 1` the next speed is the terminal one, so it lies below for every finite g.
+/// At `gap = 1` the next speed is the terminal speed, hence it lies below for every finite g.
 pub const QUADRATIC_NEXT: Inequality = Inequality {
     id: "quadratic-next",
     statement: "quadratic drag: the next switching speed grows with the gap 1 - exp(-4 g)",
@@ -251,7 +251,7 @@ fn logarithm<T: Real>([v, _, _]: [T; VARIABLES]) -> T {
     v.exp() - T::two() * v
 }
 
-/// `w ln(1/w) < sqrt w` for `w` from `exp(-2)` to one.
+/// `w ln(1/w) < sqrt w` for `w` from `exp(-2)` to 1.
 pub const LOGARITHM_LOW: Inequality = Inequality {
     id: "logarithm-low",
     statement: "exp(v) exceeds 2 v for v <= 1",
@@ -267,14 +267,14 @@ pub const LOGARITHM_HIGH: Inequality = Inequality {
     margin: Margin::Slope { of: formula!(logarithm), by: 0 },
 };
 
-/// Quadratic drag: one attracting limit cycle.
+/// Quadratic drag: a single limit cycle, attracting.
 pub const QUADRATIC: Theorem = Theorem {
     id: "orbit-quadratic",
     domain: "every alpha, beta, C, x_a > 0, as exp(-4 g) in (0, 1); every start",
     inequalities: &[EXCESS_FIRST, EXCESS_SECOND, DENOMINATOR, FORCE_SLOW, FORCE_FAST, QUADRATIC_NEXT],
 };
 
-/// Linear drag: one attracting limit cycle.
+/// Linear drag: a single limit cycle, attracting.
 pub const LINEAR: Theorem = Theorem {
     id: "orbit-linear",
     domain: "every alpha, beta, C, x_a > 0, as z in (0, inf); every start",
@@ -289,21 +289,21 @@ pub const LINEAR: Theorem = Theorem {
     ],
 };
 
-/// Quadratic drag with a disturbance: one attracting limit cycle.
+/// Quadratic drag with a disturbance: a single limit cycle, attracting.
 pub const QUADRATIC_DISTURBED: Theorem = Theorem {
     id: "orbit-quadratic-disturbed",
     domain: "every alpha, beta, C, x_a > 0 with |delta| < C; every start",
     inequalities: &[EXCESS_FIRST, EXCESS_SECOND, DENOMINATOR, FORCE_SLOW, FORCE_FAST, BRAKING, BRAKING_DRAG],
 };
 
-/// Linear drag with a disturbance: one attracting limit cycle.
+/// Linear drag with a disturbance: a single limit cycle, attracting.
 pub const LINEAR_DISTURBED: Theorem = Theorem {
     id: "orbit-linear-disturbed",
     domain: "every alpha, beta, C, x_a > 0 with |delta| < C; every start",
     inequalities: &[EXCESS_FIRST, EXCESS_SECOND, DENOMINATOR, FORCE_SLOW, FORCE_FAST, BRAKING, BRAKING_DRAG],
 };
 
-/// No switching earlier than the one that the formulas assume.
+/// No switching earlier than in the formulas.
 pub const NO_EARLY_SWITCHING: Theorem = Theorem {
     id: "orbit-no-early-switching",
     domain: "every mix of linear and quadratic drag, |delta| < C, every speed below the terminal one",

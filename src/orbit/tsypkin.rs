@@ -7,11 +7,11 @@ use crate::plant::{PlantError, StateSpace};
 /// `sum of Re G(jkw) + j Im G(jkw)/k` over the first `terms` odd k, delay included.
 ///
 /// A symmetric oscillation of frequency w under a relay of level C and half-width x_a has
-/// `(4 C/pi) Im = -x_a` and `Re < 0` in the limit of many terms (Tsypkin, *Relay Control Systems*, 1984). What is left
-/// out of the imaginary part falls as `terms^-r`, with r the excess of poles over zeros, at least 2 of them.
+/// `(4 C/pi) Im = -x_a` and `Re < 0` in the limit of many terms (Tsypkin, *Relay Control Systems*, 1984). The
+/// remainder of the imaginary part falls as `terms^-r`, with r the excess of poles over zeros, at least 2 of them.
 ///
 /// # Errors
-/// [`PlantError::PoleAt`] where a harmonic meets a pole on the imaginary axis.
+/// [`PlantError::PoleAt`] where a harmonic coincides with a pole on the imaginary axis.
 ///
 /// ```
 /// use selfosc::orbit::tsypkin_locus;

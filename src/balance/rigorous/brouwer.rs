@@ -1,11 +1,11 @@
-//! The proof: a box of frequency and harmonics that is mapped into itself, so that it holds an oscillation (Brouwer).
+//! The proof: a box of frequency and harmonics that is mapped into itself and hence holds an oscillation (Brouwer).
 //!
-//! Let `x = u + v`, u the harmonics up to K, odd ones or all, v the others, and `c`, `r` the middle and half the range of the slopes.
-//! Where `rho = inf over k > K of abs(g_k + c)` exceeds `r`, the equations above K are a contraction of ratio `r/rho` in v, so v
-//! is unique, continuous in frequency and u, and `norm(v) <= eta = (T_0 + (r/rho) norm(h))/(1 - r/rho)` for `u = u_0 + h` (Mees
-//! and Bergen 1975). The equations up to K are `E(u) + [N(u + v) - N(u)]`. A preconditioner B and the mean value form in frequency
-//! map the box of radii R into itself if in every row
-//! `abs(B E) + abs(1 - B J) R + norm2(B_i) sqrt 2 (r eta + e) <= R`.
+//! Let `x = u + v`, u the harmonics up to K, odd or all, v the rest, and `c`, `r` the middle and half the range of the
+//! slopes. Where `rho = inf over k > K of abs(g_k + c)` exceeds `r`, the equations above K are a contraction of ratio
+//! `r/rho` in v, so v is unique, continuous in frequency and u, and
+//! `norm(v) <= eta = (T_0 + (r/rho) norm(h))/(1 - r/rho)` for `u = u_0 + h` (Mees and Bergen 1975). The equations up to
+//! K are `E(u) + [N(u + v) - N(u)]`. A preconditioner B and the mean value form in frequency map the box of radii R
+//! into itself if in every row `abs(B E) + abs(1 - B J) R + norm2(B_i) sqrt 2 (r eta + e) <= R`.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -18,7 +18,7 @@ use crate::numeric::{Interval, Real};
 /// Share by which the range of the slopes reaches beyond the centre's own, where they are bounded on the range alone.
 const BEYOND: f64 = 1.01;
 
-/// What was shown of a box.
+/// The result on a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ShownBox {
     /// Upper bound of the root mean square of the harmonics above K.
@@ -74,8 +74,8 @@ fn sizes(orders: HarmonicOrders, radii: &DVector<f64>) -> (Interval, Interval) {
 }
 
 impl LipschitzLoop<'_> {
-    /// Upper bound of the wave's magnitude: at a maximum the derivative vanishes, so a sample within `d` of it is below by at most
-    /// `bend d^2/2`.
+    /// Upper bound of the wave's magnitude: at a maximum the derivative vanishes: a sample within `d` of it is below by
+    /// at most `bend d^2/2`.
     fn peak(&self, centre: &Centre) -> Interval {
         const SAMPLES: u32 = 1024;
         let step = centre.wave.orders.span() / point(f64::from(SAMPLES));
@@ -129,7 +129,7 @@ impl LipschitzLoop<'_> {
         let orders = centre.wave.orders;
         let outputs = &spectrum.harmonics.output;
         let last = orders.at(outputs.len() - 1);
-        // Listed harmonics one by one.
+        // Listed harmonics, each by itself.
         let mut rho = f64::INFINITY;
         let (mut first, mut output, mut gain) = (Interval::ZERO, Interval::ZERO, Interval::ZERO);
         let (listed, output_above) = (centre.wave.harmonics.len(), orders.between(centre.wave.highest(), last));
@@ -180,7 +180,7 @@ impl LipschitzLoop<'_> {
             .zip(radii.iter())
             .map(|(image, radius)| image / radius)
             .fold(0.0, |a: f64, b| if b.is_nan() { f64::INFINITY } else { a.max(b) });
-        // Strictly, so that B J, hence B, is invertible and a fixed point solves the equations.
+        // Strictly: B J, hence B, is invertible and a fixed point solves the equations.
         if !(ratio < 1.0) {
             return Err(CannotTell::NoContraction { ratio });
         }

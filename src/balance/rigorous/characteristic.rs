@@ -1,4 +1,4 @@
-//! Odd characteristics of bounded slope: what the proof has to know of them.
+//! Odd characteristics of bounded slope: the data of them for the proof.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +16,7 @@ pub enum OddCharacteristic {
     PiecewiseLinear {
         /// Inputs above zero at which the slope changes, growing, in input units.
         kinks: Vec<f64>,
-        /// Slopes from zero outwards, one more than kinks, output units per input unit.
+        /// Slopes from zero outwards, 1 more than kinks, output units per input unit.
         slopes: Vec<f64>,
     },
     /// `sum c_j x^j` over odd j.
@@ -37,7 +37,7 @@ impl OddCharacteristic {
     /// From a name of the [catalogue](crate::describing::CATALOGUE) and the values of its parameters, in the catalogue's order.
     ///
     /// # Errors
-    /// [`ExistenceError::Characteristic`] for one that is not odd, jumps, has memory, or whose slope the proof does not know.
+    /// [`ExistenceError::Characteristic`] for a characteristic that is not odd, jumps, has memory, or has no slope for the proof.
     pub fn from_catalogue(name: &str, values: &[f64]) -> Result<Self, ExistenceError> {
         let found = match (name, values) {
             ("saturation", &[slope, breakpoint]) => Self::piecewise(&[breakpoint], &[slope, 0.0]),
@@ -152,7 +152,7 @@ impl OddCharacteristic {
                 Interval::point(*gain) * Interval::point(*scale) * Interval::new(0.0, 1.0).unwrap_or(Interval::ENTIRE)
             }
             Self::Polynomial { .. } => {
-                // In parts: the terms of one polynomial cancel each other.
+                // In parts: the terms of a polynomial cancel.
                 let part = |i: u32| Interval::new(reach * f64::from(i) / 256.0, reach * f64::from(i + 1) / 256.0);
                 let parts = (0..256).map(|i| part(i).map_or(Interval::ENTIRE, |part| self.smooth(part).1));
                 parts.reduce(Interval::hull).unwrap_or(Interval::ENTIRE)

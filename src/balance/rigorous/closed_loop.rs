@@ -21,7 +21,7 @@ pub struct LipschitzLoop<'a> {
     pub(super) characteristic: OddCharacteristic,
 }
 
-/// A frequency and the harmonics of the characteristic's input, `X_1 = a` real: what a proof is about, not what is shown.
+/// A frequency and the harmonics of the characteristic's input, `X_1 = a` real: the subject of a proof, not its result.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Centre {
     pub(super) omega_rad_s: f64,
@@ -45,7 +45,7 @@ impl Centre {
         DVector::from_vec(core::iter::once(self.omega_rad_s).chain(self.wave.orders.unknowns(&harmonics)).collect())
     }
 
-    /// The centre of other unknowns of the same orders.
+    /// The centre of new unknowns of the same orders.
     pub(super) fn moved(&self, unknowns: &DVector<f64>) -> Self {
         let orders = self.wave.orders;
         Self::new(unknowns[0], orders, &orders.pairs(&unknowns.as_slice()[1..]))

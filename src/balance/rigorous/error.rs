@@ -4,7 +4,7 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExistenceError {
-    /// The characteristic is not odd, jumps, has memory, or its slope is not known.
+    /// The characteristic is not odd, jumps, has memory, or its slope is unknown.
     #[error(
         "{name} is no odd characteristic of bounded slope; the proof knows saturation, dead-zone, dead-zone-saturation, gain-changing, \
          tanh and polynomials of odd powers"
@@ -22,7 +22,7 @@ pub enum ExistenceError {
     /// A document that is no box of a loop.
     #[error("no proof of an oscillation: {text}; write it anew with selfosc balance --certificates DIR")]
     Malformed {
-        /// What is wrong with it.
+        /// Its fault.
         text: String,
     },
     /// The box of a document is not shown to hold an oscillation.
@@ -54,7 +54,7 @@ impl ExistenceError {
     }
 }
 
-/// Why no oscillation is shown to exist. None of these says that there is none.
+/// Why no oscillation is shown to exist. None of these excludes an oscillation.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CannotTell {

@@ -34,7 +34,7 @@ impl<'a> InverseResponse<'a> {
 
     /// A number `c` with `abs(g(jy)) >= c y^q` for all `y >= from`, q the relative degree: lower orders count less as y grows.
     pub(super) fn growth(&self, from: Interval) -> Interval {
-        // The share of the orders below the leading one: sum over i of abs(p_i/p_n) y^(i - n).
+        // The share of the orders below the leading order: sum over i of abs(p_i/p_n) y^(i - n).
         let share = |coefficients: &[f64]| {
             let mut power = Interval::ONE;
             coefficients.iter().skip(1).fold(Interval::ZERO, |sum, &coefficient| {

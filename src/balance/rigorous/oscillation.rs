@@ -1,4 +1,4 @@
-//! Oscillations proved to exist, and the document that shows one.
+//! Oscillations proved to exist, and the document that shows an oscillation.
 
 use core::fmt;
 use core::ops::RangeInclusive;
@@ -24,15 +24,15 @@ const ENOUGH: usize = 97;
 const NARROW: f64 = 1e-10;
 /// Share of the remainder shown that is stated: another checker bounds the same series in another way.
 const STATED: f64 = 1.01;
-/// Highest harmonic of the centres that are compared, and the relative distance below which two are one.
+/// Highest harmonic of the centres that are compared, and the relative distance below which two are the same.
 const COMPARED: usize = 9;
 const SAME: f64 = 1e-6;
 
 /// A box of frequency and harmonics in which an oscillation of a loop exists.
 ///
-/// The oscillation is `x(t) = Re sum of X_k exp(jkwt)` over odd k or all at the characteristic's input, `X_1` real and positive: frequency
-/// and harmonics up to the highest listed lie within the radii, all others together have at most the remainder as root mean square. It
-/// is not shown to be the only one in the box, nor to attract or repel.
+/// The oscillation is `x(t) = Re sum of X_k exp(jkwt)` over odd k or all at the characteristic's input, `X_1` real and
+/// positive: frequency and harmonics up to the highest listed lie within the radii, the rest together have at most the
+/// remainder as root mean square. It is not shown to be unique in the box, nor to attract or repel.
 ///
 /// Written as JSON it is a certificate: [`check`](Self::check) proves it again without a search.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,10 +64,10 @@ pub struct UnprovedOscillation {
     pub reason: CannotTell,
 }
 
-/// What is shown of a loop.
+/// The result on a loop.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Oscillations {
-    /// Each once, by growing amplitude. There may be others.
+    /// Each once, by growing amplitude. There may be more.
     pub proved: Vec<ProvedOscillation>,
     /// For each intersection given, its place in `proved`, or why none is shown.
     pub at: Vec<Result<usize, CannotTell>>,
@@ -125,7 +125,7 @@ impl LipschitzLoop<'_> {
     /// Oscillations of the loop that a scan of harmonic balances finds over a range of frequencies, and those near
     /// [intersections](super::super::HarmonicBalance::intersections), each proved or with the reason why not.
     ///
-    /// The scan follows curves on which the loop gain varies, so that it passes folds, where the first harmonic has no balance.
+    /// The scan follows curves on which the loop gain varies, and passes folds, where the first harmonic has no balance.
     #[must_use]
     pub fn oscillations(&self, omega_rad_s: &RangeInclusive<f64>, intersections: &[Intersection]) -> Oscillations {
         let mut tried: Vec<(Centre, Result<ProvedOscillation, CannotTell>)> = Vec::new();
@@ -169,7 +169,7 @@ impl LipschitzLoop<'_> {
         Oscillations { proved, at, unproved }
     }
 
-    /// The balance of a few harmonics, by which oscillations are told apart.
+    /// The balance of a few harmonics, by which oscillations are separated.
     fn compared(&self, start: Centre) -> Result<Centre, CannotTell> {
         self.refine(start, COMPARED)
     }
@@ -224,7 +224,7 @@ fn around(middle: f64, radius: f64) -> Interval {
 }
 
 impl ProvedOscillation {
-    /// What every document of this kind has in its field `claim`.
+    /// The field `claim` of every document of this kind.
     pub const CLAIM: &'static str = "oscillation";
 
     /// Bounds of the first harmonic's amplitude, in input units.
@@ -266,7 +266,7 @@ impl ProvedOscillation {
         self.harmonics.len().checked_sub(1).map_or(0, |last| self.orders.at(last))
     }
 
-    /// Upper bound of the root mean square of all harmonics above the highest one listed, in input units.
+    /// Upper bound of the root mean square of all harmonics above the highest listed, in input units.
     #[must_use]
     pub fn remainder(&self) -> f64 {
         self.remainder

@@ -54,7 +54,7 @@ impl LipschitzLoop<'_> {
         Err(CannotTell::NoBalance)
     }
 
-    /// Radii for which the proof holds, with what it shows.
+    /// Radii for which the proof holds, with its result.
     pub(super) fn enclose_near(&self, centre: &Centre) -> Result<(DVector<f64>, ShownBox), CannotTell> {
         let mut radii = DVector::zeros(centre.unknowns().len());
         let mut why = CannotTell::NoContraction { ratio: f64::INFINITY };

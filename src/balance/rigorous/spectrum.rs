@@ -19,7 +19,7 @@ pub(super) struct Spectrum<T> {
     pub(super) slope: Vec<Complex<T>>,
 }
 
-/// A spectrum enclosed, with the bounds that the proof needs beside it.
+/// A spectrum enclosed, with further bounds for the proof.
 #[derive(Clone, Debug)]
 pub(super) struct EnclosedSpectrum {
     pub(super) harmonics: Spectrum<Interval>,
@@ -49,8 +49,8 @@ impl<T: Real> Spectrum<T> {
         if m < 0 { found.conjugate() } else { found }
     }
 
-    /// By the trapezoid rule: from `samples` phases of a turn, a multiple of four, of which the span's suffice. What it leaves out are
-    /// the harmonics of the orders `k + j samples`.
+    /// By the trapezoid rule: from `samples` phases of a turn, a multiple of four, of which the span's suffice. Its
+    /// error are the harmonics of the orders `k + j samples`.
     pub(super) fn sampled(
         wave: &Wave,
         output_and_slope: impl Fn(T) -> (T, T),
@@ -190,7 +190,7 @@ fn mean_output(offset: Interval, mean_slope: Interval, wave: &Wave, jumps: &[(In
 /// Samples of a turn, fewest and most.
 const SAMPLES: core::ops::RangeInclusive<usize> = 256..=16_384;
 
-/// The trapezoid rule; a strip around the real phases on which output and slope are bounded bounds what it leaves out.
+/// The trapezoid rule; a strip around the real phases on which output and slope are bounded bounds its error.
 fn smooth(characteristic: &OddCharacteristic, wave: &Wave, reach: f64) -> Option<EnclosedSpectrum> {
     let (highest, step) = (wave.highest(), wave.orders.step());
     let mut samples = *SAMPLES.start();
@@ -207,7 +207,7 @@ fn smooth(characteristic: &OddCharacteristic, wave: &Wave, reach: f64) -> Option
         samples *= 2;
     };
     let mut harmonics = Spectrum::sampled(wave, |x| characteristic.smooth(x), samples, last, 2 * highest);
-    // What stands for N_k holds also N_(k + j samples), and D_m likewise.
+    // The sampled N_k contains also N_(k + j samples), and D_m likewise.
     let missed = |bound: Interval, order: usize| {
         let far = strip.power(samples - order) * Interval::point(2.0) / (Interval::ONE - strip.power(samples));
         Interval::symmetric((bound * far).upper())
@@ -249,7 +249,7 @@ impl Strip {
         (-self.width * Interval::point(order as f64)).exp()
     }
 
-    /// Size of a harmonic beside the whole.
+    /// Size of a harmonic relative to the whole.
     fn decay(&self, order: usize) -> f64 {
         (self.power(order) * self.output).upper()
     }

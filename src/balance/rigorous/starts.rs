@@ -26,16 +26,16 @@ const LENGTH: usize = 2000;
 /// Newton steps at most, and the step that ends them: samples of a kink move the derivative in jumps.
 const NEWTON_STEPS: usize = 8;
 const ARRIVED: f64 = 1e-7;
-/// Logarithm of the gain beyond which a curve is left.
+/// Logarithm of the gain at which a curve ends.
 const FAR: f64 = 6.0;
-/// Distance between two curves' points that makes them one curve.
+/// Distance between two curves' points that makes them the same curve.
 const SAME: f64 = 1e-3;
 
 /// Logarithms of frequency, gain and amplitude, then real and imaginary parts of `X_k/a` from k = 3.
 type Coordinates = DVector<f64>;
 
 impl LipschitzLoop<'_> {
-    /// Waves of a few harmonics near which oscillations may be, over a range of frequencies. A scan: it may miss one.
+    /// Waves of a few harmonics near which oscillations may be, over a range of frequencies. A scan: it may miss a wave.
     ///
     /// The gain that balances is a function along curves of amplitude and frequency; where it is the loop's own, a wave begins.
     pub(super) fn starts(&self, omega_rad_s: &RangeInclusive<f64>) -> Vec<Centre> {
@@ -140,14 +140,14 @@ impl LipschitzLoop<'_> {
         None
     }
 
-    /// The curve through a point, in one of its directions, until it leaves the range.
+    /// The curve through a point, in either direction, up to the end of the range.
     fn traced(&self, begin: &Coordinates, sign: f64, range: &RangeInclusive<f64>) -> Vec<Coordinates> {
         let mut curve = Vec::new();
         let mut at = begin.clone();
         let mut along = DVector::from_fn(at.len(), |place, _| f64::from(u8::from(place == 2)) * sign);
         let mut step = LONGEST;
         while curve.len() < LENGTH && step > SHORTEST {
-            // The direction in which the equations stay as they are, on from the last one.
+            // The direction in which the equations stay as they are, on from the last direction.
             let (_, slopes) = self.equations(&at);
             let onwards = DVector::from_fn(at.len(), |place, _| f64::from(u8::from(place + 1 == at.len())));
             let Some(tangent) = bordered(&slopes, &along).lu().solve(&onwards) else { break };

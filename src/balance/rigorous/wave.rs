@@ -30,7 +30,7 @@ impl HarmonicOrders {
         }
     }
 
-    /// From one order to the next.
+    /// From an order to the next.
     pub(super) fn step(self) -> usize {
         match self {
             Self::Odd => 2,
@@ -163,8 +163,8 @@ impl Wave {
 
     /// Every passage of a span through `kinks` and their opposites.
     ///
-    /// A cell is settled where the wave keeps more than `margin` from every level, or where its derivative has one sign. A run of
-    /// cells of the second kind lies between two of the first, so it passes each level between its ends once.
+    /// A cell is settled where the wave keeps more than `margin` from every level, or where its derivative has a constant sign.
+    /// A run of cells of the second kind lies between two of the first, hence it passes each level between its ends once.
     pub(super) fn passages(&self, kinks: &[f64], margin: f64) -> Result<KinkPassages, CannotTell> {
         let levels: Vec<(usize, f64)> =
             kinks.iter().enumerate().flat_map(|(i, &kink)| [(i, kink), (i, -kink)]).collect();
@@ -239,14 +239,14 @@ impl Wave {
         Ok(KinkPassages { all, piece, below_zero: value.is_negative() })
     }
 
-    /// The passage through a level in a cell over which the derivative has one sign, by interval Newton.
+    /// The passage through a level in a cell over which the derivative has a constant sign, by interval Newton.
     fn narrowed(&self, mut cell: Interval, level: Interval, bend: Interval) -> Option<Interval> {
         for _ in 0..STEPS {
             let middle = Interval::point(cell.midpoint());
             let (value, slope) = self.at(middle);
             let slope = slope + Interval::symmetric((bend * (cell - middle).abs()).upper());
             if slope.contains_zero() {
-                // Only the run's parts are known to have one sign: halve towards the passage.
+                // Only the run's parts are shown to have a constant sign: halve towards the passage.
                 let (below, above) = cell.bisect();
                 let (start, centre) = (self.at(Interval::point(cell.lower())).0 - level, value - level);
                 if centre.contains_zero() || start.contains_zero() {
@@ -265,7 +265,7 @@ impl Wave {
     }
 }
 
-/// Cells side by side over which the derivative has one sign.
+/// Cells side by side over which the derivative has a constant sign.
 struct MonotoneRun {
     cell: Interval,
     slope: Interval,

@@ -1,10 +1,10 @@
-//! What the exact proofs have in common: identities of rational functions, case by case.
+//! The common part of the exact proofs: identities of rational functions, case by case.
 
 use super::{ClaimPart, Distortion, Evidence, Verdict};
 use crate::proof::polynomial::{Rational, prove_identity};
 
-/// That functions of the code vanish identically in the cases in which the points lie. They take the variables and what the
-/// statement is multiplied by, one where it is to be proved.
+/// That functions of the code vanish identically in the cases in which the points lie. They take the variables and the
+/// factor of the statement, 1 where it is to be proved.
 pub(super) fn exactly<const N: usize, const M: usize>(
     part: ClaimPart,
     distortion: Distortion,
@@ -33,7 +33,7 @@ mod tests {
     /// Claims whose proofs take many subdivisions: `tests/properties` tries theirs.
     const LONG: &str = "kernel-step kernel-ramp kernel-sign kernel-band describing-function power-law sine sinh arctan tanh delay-rotation";
 
-    /// The other proofs: each holds, covers what is claimed, and no false variant of it holds.
+    /// The other proofs: each holds, covers the claimed domain, and no false variant of it holds.
     #[test]
     fn exact_proofs_hold_and_false_ones_do_not() {
         let short = CLAIMS.iter().filter(|claim| claim.proof.is_some() && LONG.split(' ').all(|id| id != claim.id));

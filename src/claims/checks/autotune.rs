@@ -26,7 +26,7 @@ claim! {
     }
 }
 
-/// The oscillation of the closed form, or one of the faster ones that a dead time allows.
+/// The oscillation of the closed form, or a faster oscillation that a dead time allows.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Searched {
     Slowest,
@@ -149,7 +149,7 @@ fn falls_off(largest: f64) -> bool {
     found.unsettled.is_none()
 }
 
-/// One process of the family is stable under its gains: no root passes the imaginary axis, where `|1 + C P| > 0`, on the way to another.
+/// A process of the family is stable under its gains: no root passes the imaginary axis, where `|1 + C P| > 0`, on the way to another.
 fn one_is_stable() -> bool {
     let one = process(0.5);
     let number = Interval::point;

@@ -56,7 +56,7 @@ fn by_ramps(distortion: Distortion) -> Verdict {
     })
 }
 
-/// Where an end lies on a sweep of amplitude one half: above its minimum by the square of a sine, or beyond a turning point.
+/// Where an end lies on a sweep of amplitude 1/2: above its minimum by the square of a sine, or beyond a turning point.
 #[derive(Clone, Copy)]
 enum End {
     At { sine: Rational, cosine: Rational },
@@ -111,7 +111,7 @@ fn from_the_middle(bias: Rational, [lower, upper]: [End; 2], factor: Rational) -
     Some([found.f0 - factor * ramps.f0, found.p - factor * ramps.p, found.q, tangents[0], tangents[1]])
 }
 
-/// The form from the middle where both ends are on the sweep, and where one of them is beyond it.
+/// The form from the middle where both ends are on the sweep, and where an end is beyond it.
 fn by_tangents(distortion: Distortion) -> Verdict {
     let on_sweep = |[first, second, bias]: [Rational; 3], factor: Rational| {
         from_the_middle(bias, [End::at(first), End::at(second)], factor)
@@ -127,7 +127,7 @@ fn by_tangents(distortion: Distortion) -> Verdict {
         .and(|| exactly(COVERED, distortion, &[[0.8, 0.1, 0.3]], above))
 }
 
-/// Every form, whatever the ends.
+/// Every form, for all ends.
 pub(super) fn as_coded(distortion: Distortion) -> Verdict {
     by_ramps(distortion).and(|| by_tangents(distortion))
 }

@@ -1,4 +1,4 @@
-//! What guaranteed bounds of parameters rest on: the dual, the mean-value form, the chain of stretches.
+//! The basis of guaranteed bounds of parameters: the dual, the mean-value form, the chain of stretches.
 
 use super::{Budget, Case, Draw, Verdict, claim, sample, tolerance};
 use crate::experiment::Record;
@@ -125,7 +125,7 @@ claim! {
     "A motion meets every inequality of the chain of stretches, each of which begins where the one before ended" {
         not_proved: Some("compared with the closed form at drawn axes of linear drag: other laws have none to be compared with"),
         corrected: Some(|budget| chain(budget, 0.0)),
-        // A stretch that begins with another velocity than the one before ended with.
+        // A stretch whose first velocity is not the last of the stretch before.
         falsified: |budget| chain(budget, 0.3),
     }
 }

@@ -1,4 +1,4 @@
-//! What controllers from an identified axis rest on.
+//! The basis of controllers from an identified axis.
 
 use super::algebra::{exactly, number};
 use super::{Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
@@ -33,14 +33,14 @@ claim! {
 }
 
 /// The characteristic function `D(s) + N(s) exp(-s delay)` and its slope vanish at the double pole, it alone at the
-/// slow one.
+/// slow pole.
 fn poles(budget: Budget, delay: f64, double_pole: fn(&Tuning<f64>) -> f64) -> Verdict {
     sample(budget, |draw| {
         let tuning = design(draw, delay)?;
         let (axis, gains, w) = (tuning.axis(), tuning.gains(), double_pole(&tuning));
         let (alpha, drag, f) = (axis.alpha(), axis.linear_drag(), gains.filter_s());
         let (kp, ki, kd) = (gains.proportional(), gains.integral(), gains.derivative());
-        // Over s^2, so that the size of the terms does not vanish with the slow pole.
+        // Over s^2: the size of the terms does not vanish with the slow pole.
         let terms = |s: f64| {
             let late = (-s * axis.delay_s()).exp();
             let axis_terms = [alpha * f * s * s, (alpha + drag * f) * s, drag];
@@ -138,8 +138,8 @@ fn relay_ultimate(budget: Budget, share: f64, hysteresis: f64, lag: f64, [least,
     })
 }
 
-/// The closed loop's characteristic polynomial and its slope vanish at the double pole, it alone at the slow one; where that is
-/// the double one, its second derivative does.
+/// The closed loop's characteristic polynomial and its slope vanish at the double pole, it alone at the slow pole;
+/// where that is the double pole, its second derivative does.
 fn prove_pole_placement(distortion: Distortion) -> Verdict {
     let of = |structure: Structure| {
         let functions = move |[alpha, drag, bandwidth]: [Rational; 3], factor: Rational| {

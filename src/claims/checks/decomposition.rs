@@ -18,7 +18,7 @@ pub(super) const BEYOND: ClaimPart = ClaimPart::named("beyond-the-sweep");
 
 /// Most parameters of a member, two for each point of a polyline.
 const PARAMETERS: usize = 10;
-/// Bias, amplitude and place on the sweep besides.
+/// With bias, amplitude and place on the sweep.
 const VARIABLES: usize = PARAMETERS + 3;
 
 /// A member's output less the sum of its kernels, on one branch, at these settings and at sweeps and places that lie on every
@@ -52,7 +52,7 @@ where
     Verdict::all(settings.iter().map(each))
 }
 
-/// What a member is proved by: on a branch.
+/// The proof of a member on a branch.
 type Proof = fn(Distortion, Branch) -> Verdict;
 
 /// Each member with settings in every order that its parameters can have; a polyline of up to four points, the bias in each of
@@ -99,7 +99,7 @@ pub(super) fn decomposition(distortion: Distortion) -> Verdict {
     Verdict::all(MEMBERS.iter().map(both))
 }
 
-/// Kernels with one breakpoint, of a height or slope.
+/// Kernels with a single breakpoint, of a height or slope.
 type Make = fn(at: Rational, height: Rational, side: Side, branches: Branches) -> Kernel<Rational>;
 
 const STEP: Make = |at, height, side, branches| Kernel::Step { at, height, side, branches };
@@ -118,9 +118,9 @@ fn output(df: DescribingFunction<Rational>, amplitude: Rational) -> [Rational; 3
     [df.f0, df.p * amplitude, df.q * amplitude]
 }
 
-/// Every height, bias and amplitude from a unit kernel on the unit sweep, on the rising branch and above: the falling branch
-/// turns the cosine component round, a kernel below is one above its mirror image with the sine component turned round, and
-/// what is on both branches is the sum.
+/// Every height, bias and amplitude from a unit kernel on the unit sweep, on the rising branch and above: the falling
+/// branch turns the cosine component round, a kernel below is the kernel above its mirror image with the sine component
+/// turned round, and a kernel on both branches is the sum.
 pub(super) fn scaling(distortion: Distortion) -> Verdict {
     let one = |make: Make, side: Side, branches: Branches, is_ramp: bool| {
         let points = [0.25, -0.25, 0.75, -0.75].map(|u| [u, 0.3, 2.0, 0.7]);
@@ -151,8 +151,8 @@ pub(super) fn scaling(distortion: Distortion) -> Verdict {
     Verdict::all(kernels.chain(signs))
 }
 
-/// A breakpoint beyond the sweep leaves a straight line `c + s x` on each branch that counts, with mean `c + s B`, sine component
-/// `s X` and, on a branch alone, cosine component `4 (c + s B)/pi` of either sign: half of each on a branch.
+/// With its breakpoint beyond the sweep a kernel is a straight line `c + s x` on each branch that counts, with mean `c + s B`,
+/// sine component `s X` and, on a branch alone, cosine component `4 (c + s B)/pi` of either sign: half of each on a branch.
 pub(super) fn beyond(distortion: Distortion) -> Verdict {
     let one = |make: Make, line: fn(Side, bool) -> [f64; 2], side: Side, branches: Branches| {
         let points = [[4.0, 0.3, 2.0, 0.7], [-4.0, 0.3, 2.0, 0.7]];
@@ -199,7 +199,7 @@ mod tests {
     use crate::describing::CATALOGUE;
     use crate::nonlinearity::{NonlinearityError, ParameterSpec};
 
-    /// A dead zone whose kernels are off by a millionth: each in its place, or one of them in its slope.
+    /// A dead zone whose kernels are off by a millionth: each in its place, or a single kernel in its slope.
     struct Off<const SLOPE: bool>(DeadZone<Rational>);
 
     impl<const SLOPE: bool> Catalogued<Rational> for Off<SLOPE> {

@@ -1,15 +1,15 @@
-//! What the proofs have in common: identities of one variable, numbers that vanish.
+//! The common part of the proofs: identities of a single variable, numbers that vanish.
 
 use super::{ClaimPart, ClaimVariable, Distortion, Evidence, Verdict, tolerance};
 use crate::describing::DescribingFunction;
 use crate::numeric::{Interval, Real};
 use crate::proof::identity::{Series, prove_zero};
 
-/// Cells of an identity of one variable.
+/// Cells of an identity of a single variable.
 const CELLS: usize = 5000;
 
-/// That functions of one variable vanish between the ends of the part's first side. They take the variable and what the
-/// statement is multiplied by, one where it is to be proved.
+/// That functions of a single variable vanish between the ends of the part's first side. They take the variable and the
+/// factor of the statement, 1 where it is to be proved.
 pub(super) fn identity<const M: usize>(
     part: ClaimPart,
     distortion: Distortion,
@@ -34,7 +34,7 @@ pub(super) fn zeros(part: ClaimPart, numbers: &[Interval], boxes: usize) -> Verd
     }
 }
 
-/// A value that proves nothing, where a domain was left.
+/// A value that proves nothing, for an argument outside a domain.
 pub(super) fn unknown<T: Real>() -> T {
     T::from_f64(f64::NAN)
 }

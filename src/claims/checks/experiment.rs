@@ -48,14 +48,14 @@ claim! {
     "A delay T_d before the axis and one after it are one delay 2 T_d before it: the same record, T_d later" {
         not_proved: Some("a shift of time in two simulations: there is no formula of the code to be compared"),
         printed: AsPrinted::Holds(|budget| delays_add(budget, 2.0, 0.0, 2)),
-        // One of the two forgotten.
+        // A single delay for two.
         falsified: |budget| delays_add(budget, 1.0, 0.0, 2),
         hypotheses: &[Hypothesis::needed("whole-samples", |budget| delays_add(budget, 2.0, 0.5, 1))],
     }
 }
 
-/// Two simulations from rest, the one with sensor and input delay of a whole number of samples and a `fraction`, the other
-/// with `factor` times the delay at the input; the relay held, or (of `kinds` = 2) else watching all the time.
+/// Two simulations from rest, the first with sensor and input delay of a whole number of samples and a `fraction`, the
+/// second with `factor` times the delay at the input; the relay switching at samples, or (of `kinds` = 2) else at any time.
 fn delays_add(budget: Budget, factor: f64, fraction: f64, kinds: usize) -> Verdict {
     const RATE_HZ: f64 = 20.0;
     sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
@@ -98,7 +98,7 @@ claim! {
     }
 }
 
-/// Weight less buoyancy is the force that eq. 5 leaves in heave, and times at which it has mean zero with the command give it.
+/// Weight less buoyancy is the constant force of eq. 5 in heave, and times at which it has mean zero with the command give it.
 fn prove_heave(distortion: Distortion) -> Verdict {
     let functions = |[level, positive_s, external, weight, buoyancy]: [Rational; 5], factor: Rational| {
         let surplus = external + weight - buoyancy;
@@ -110,7 +110,7 @@ fn prove_heave(distortion: Distortion) -> Verdict {
         .and(|| exactly(ClaimPart::WHOLE, distortion, &[[2.0, 1.0, 0.25, 3.0, 2.5]], functions))
 }
 
-/// What heave is under.
+/// Conditions of heave.
 struct Heave {
     tilt_rad: f64,
     quadratic: f64,
@@ -189,7 +189,7 @@ claim! {
     "Means over the cycles of a dense record, through condition 40 and Table 3, give what the exact limit cycle's features give" {
         not_proved: Some("means over the samples of a record: how far they are off is known by order of magnitude alone"),
         printed: AsPrinted::Holds(|budget| procedure(budget, 1000.0, 1.0, CLEAR)),
-        // The delay left out.
+        // Without the delay.
         falsified: |budget| procedure(budget, 1000.0, 0.0, CLEAR),
         hypotheses: &[
             Hypothesis::needed("dense", |budget| procedure(budget, 20.0, 1.0, CLEAR)),
@@ -201,7 +201,7 @@ claim! {
 /// `(x_a + abs(x_0))/X_m`, from and to, where eq. 31 is far from the end of its domain.
 const CLEAR: (f64, f64) = (0.0, 0.8);
 
-/// Parameters from a simulated record with so many samples in a period, against those from the limit cycle.
+/// Parameters from a simulated record, given its samples a period, against those from the limit cycle.
 fn procedure(budget: Budget, samples: f64, delay: f64, condition_40: (f64, f64)) -> Verdict {
     sample(Budget { cases: budget.cases.min(200), ..budget }, |draw| {
         let case = Loop::draw(draw, (true, true), 0.3)?;
@@ -226,7 +226,7 @@ fn procedure(budget: Budget, samples: f64, delay: f64, condition_40: (f64, f64))
         };
         let measured = Oscillation::of(&found.features, found.relay.level, delay * case.axis.delay_s());
         let (exact, measured) = (exact.identify().ok()?, measured.identify().ok()?);
-        // One sample's motion is a share of the amplitude; the level it is read at is smaller.
+        // The motion of a sample is a share of the amplitude; the level it is read at is smaller.
         let ratio = cycle.amplitude / case.relay.half_width();
         let equations = [
             ("alpha", measured.alpha, exact.alpha, exact.alpha * ratio),
@@ -243,7 +243,7 @@ claim! {
         not_proved: Some("the orbits of a plant of any order come from a search, not from a formula"),
         printed: AsPrinted::Approximate(|budget| balance(budget, Gain::OfSinusoid, 1.0)),
         corrected: Some(|budget| balance(budget, Gain::OfOrbit, 1.0)),
-        // The delay left out of the plant.
+        // The plant without the delay.
         falsified: |budget| balance(budget, Gain::OfOrbit, 0.0),
         hypotheses: &[Hypothesis::needed("linear-plant", quadratic_balance)],
     }
@@ -258,7 +258,7 @@ enum Gain {
     OfOrbit,
 }
 
-/// First harmonic `X_1` of `x(t)` over one period, as `(2/T) integral of x exp(-jwt)`, by pieces that are smooth.
+/// First harmonic `X_1` of `x(t)` over a period, as `(2/T) integral of x exp(-jwt)`, by pieces that are smooth.
 fn first_harmonic(x: impl Fn(f64) -> f64, ends: &[f64], period_s: f64) -> Complex<f64> {
     let omega = 2.0 * PI / period_s;
     let part = |weight: fn(f64) -> f64| -> f64 {
@@ -289,7 +289,7 @@ fn oscillating(draw: &mut Draw) -> Option<(TransferFunction, RelayHysteresis<f64
 }
 
 /// First harmonic of the output under a square wave `+-level` that steps up at time zero: the half-period from the state that it
-/// turns into its opposite (Åström), and the other half alike.
+/// turns into its opposite (Åström), and the second half alike.
 fn forced_output(plant: &TransferFunction, level: f64, period_s: f64) -> Option<Complex<f64>> {
     let plant = StateSpace::realise(plant).ok()?;
     let half = plant.flow(0.5 * period_s);
@@ -323,7 +323,7 @@ fn balance(budget: Budget, gain: Gain, delay: f64) -> Verdict {
     })
 }
 
-/// Quadratic drag with the linear drag that takes as much from the first harmonic.
+/// Quadratic drag with the linear drag of the same first harmonic.
 fn quadratic_balance(budget: Budget) -> Verdict {
     sample(budget, |draw| {
         let case = Loop::draw(draw, (false, true), 0.0)?;

@@ -20,7 +20,7 @@ pub(super) fn odd_nondecreasing(draw: &mut Draw) -> Result<Boxed<f64>, Nonlinear
     })
 }
 
-/// Odd with memory: the rising branch is the falling one turned about the origin.
+/// Odd with memory: the rising branch is the falling branch turned about the origin.
 pub(super) fn odd_hysteretic(draw: &mut Draw) -> Result<Boxed<f64>, NonlinearityError> {
     let (a, b) = (draw.uniform("a", 0.1, 3.0), draw.uniform("b", 0.1, 2.0));
     Ok(match draw.index("family", 3) {
@@ -30,7 +30,7 @@ pub(super) fn odd_hysteretic(draw: &mut Draw) -> Result<Boxed<f64>, Nonlinearity
     })
 }
 
-/// Not odd: what Theorem 1 and the lemmas exclude.
+/// Not odd: excluded by Theorem 1 and the lemmas.
 pub(super) fn not_odd(draw: &mut Draw) -> Result<Boxed<f64>, NonlinearityError> {
     let (a, b) = (draw.uniform("a", 0.1, 3.0), draw.uniform("b", 0.1, 2.0));
     Ok(match draw.index("family", 2) {

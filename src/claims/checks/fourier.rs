@@ -43,7 +43,7 @@ fn least_square(budget: Budget, factor: f64) -> Verdict {
     })
 }
 
-/// Mean of `of(theta, output)` over one period of the input.
+/// Mean of `of(theta, output)` over a period of the input.
 fn mean_over_sweep(
     characteristic: &(impl Characteristic<Number = f64> + ?Sized),
     sweep: &Sinusoid<f64>,
@@ -179,8 +179,8 @@ fn prove_describing_function(distortion: Distortion) -> Verdict {
         .and(|| beyond(distortion))
 }
 
-/// Powers up to the ninth. The mean over twelve equally spaced angles is the mean over the circle for every trigonometric
-/// polynomial of degree below twelve, so the integral needs no antiderivative.
+/// Powers up to the ninth. The mean over twelve equally spaced angles is the mean over the circle for every
+/// trigonometric polynomial of degree below twelve: no antiderivative is needed.
 fn prove_polynomial(distortion: Distortion) -> Verdict {
     let functions = |[bias]: [Rational; 1], factor: Rational| {
         let sweep = Sinusoid::new(bias, number(1.0)).ok()?;
@@ -206,7 +206,7 @@ fn prove_polynomial(distortion: Distortion) -> Verdict {
     exactly(ClaimPart::named("powers"), distortion, &[[0.5]], functions)
 }
 
-/// Completing the square: with any other mean, sine and cosine more is left, by the mean square of the differences.
+/// Completing the square: with another mean, sine and cosine the mean square grows, by the mean square of the differences.
 fn prove_least_square(distortion: Distortion) -> Verdict {
     // Means of the output, of its products with sine and cosine, and of its square; then the differences.
     let functions = |[mean, by_sine, by_cosine, square, a, b, c]: [Rational; 7], factor: Rational| {
@@ -222,7 +222,7 @@ fn prove_least_square(distortion: Distortion) -> Verdict {
     exactly(ClaimPart::WHOLE, distortion, &[[0.1, 0.2, 0.3, 1.0, 0.4, 0.5, 0.6]], functions)
 }
 
-/// Without memory: the relay with a dead zone stands for what `odd` means of the code's outputs.
+/// Without memory: the relay with a dead zone stands for `odd` as a property of the code's outputs.
 fn prove_odd_harmonics(distortion: Distortion) -> Verdict {
     let half_turn = |[level, half_width, x]: [Rational; 3], factor: Rational| {
         let (relay, sweep) =
@@ -233,7 +233,7 @@ fn prove_odd_harmonics(distortion: Distortion) -> Verdict {
     even_contributions_cancel(ClaimPart::WHOLE, distortion).and(|| exactly(HALF_TURN, distortion, &points, half_turn))
 }
 
-/// With memory: the relay with hysteresis stands for what `branches-odd` means of the code's outputs.
+/// With memory: the relay with hysteresis stands for `branches-odd` as a property of the code's outputs.
 fn prove_odd_harmonics_hysteretic(distortion: Distortion) -> Verdict {
     let half_turn = |[level, half_width, x]: [Rational; 3], factor: Rational| {
         let relay = RelayHysteresis::new(level, half_width, number(0.0)).ok()?;
@@ -253,7 +253,7 @@ fn next_multiple<T: Real>(cosine: T, [last, before]: [T; 2]) -> T {
     T::two() * cosine * last - before
 }
 
-/// Half a turn on, cosine and sine of an even multiple are what they were, of an odd one their negatives: if so for two orders,
+/// Half a turn on, cosine and sine of an even multiple are unchanged, of an odd multiple their negatives: if for two orders,
 /// then for the next, whichever of the two is even. Where the output changes sign, an even order's contributions cancel.
 fn even_contributions_cancel(part: ClaimPart, distortion: Distortion) -> Verdict {
     let functions = |[cosine, last, before, output]: [Rational; 4], factor: Rational| {

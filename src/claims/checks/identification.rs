@@ -18,7 +18,7 @@ use crate::identify::fit::select::pairwise::{Decision, decide, relative_spread_p
 use crate::identify::iso::{Oscillation, parameters};
 use crate::nonlinearity::{RelayHysteresis, Sinusoid};
 
-/// Features of an oscillation that meets condition 40, with room to differentiate.
+/// Features of an oscillation that satisfies condition 40, with room to differentiate.
 pub(super) fn oscillation(draw: &mut Draw, biased: bool, delayed: bool) -> Oscillation<f64> {
     let switch_level = draw.uniform("switch_level", 0.1, 1.0);
     let bias = if biased { draw.uniform("bias", -0.5, 0.5) * switch_level } else { 0.0 };
@@ -170,7 +170,7 @@ fn nomoto(budget: Budget, drag: fn(f64) -> f64) -> Verdict {
     })
 }
 
-/// Table 3, whatever half-width and bias.
+/// Table 3, for all half-widths and biases.
 fn prove_table_3(distortion: Distortion) -> Verdict {
     const COVERED: ClaimPart = ClaimPart::named("table");
     exactly(COVERED, distortion, &SWITCHINGS, |[width, bias]: [Rational; 2], factor: Rational| {
@@ -254,7 +254,7 @@ fn prove_zig_zag(distortion: Distortion) -> Verdict {
     })
 }
 
-/// The code's comparisons, read off: each outcome comes with those that define it, and with no other.
+/// The code's comparisons, read off: each outcome comes with those that define it, and no more.
 fn prove_decision(distortion: Distortion) -> Verdict {
     let factor = number(distortion.factor());
     let mut cases = 0;
@@ -264,7 +264,7 @@ fn prove_decision(distortion: Distortion) -> Verdict {
             [linear - quadratic - factor * margin, -factor * margin - (linear - quadratic)]
         })
         .0;
-        // By how much the difference exceeds the margin, then by how much it falls short of its negative.
+        // The difference less the margin, then the margin's negative less the difference.
         let defining = match decision {
             Decision::Quadratic => vec![(above, true)],
             Decision::Linear => vec![(above, false), (-below, false)],

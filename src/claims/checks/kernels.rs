@@ -11,7 +11,7 @@ use crate::numeric::Real;
 use crate::proof::{NotProved, Proved};
 use std::sync::LazyLock;
 
-/// Makes a kernel from a breakpoint, a second one above it, a side and branches.
+/// Makes a kernel from a breakpoint, a second breakpoint above it, a side and branches.
 type Make = fn(f64, f64, Side, Branches) -> Kernel<f64>;
 
 /// Closed form times `factor` against quadrature, both sides, each branch, breakpoints on the sweep and beyond.
@@ -88,7 +88,7 @@ pub(super) fn prove_kernel(form: KernelForm, distortion: Distortion, part: Claim
     }
 }
 
-/// Closed form of one kernel under a unit sinusoid.
+/// Closed form of a kernel under a unit sinusoid.
 pub(super) fn on_unit<T: Real>(kernel: Kernel<T>) -> DescribingFunction<T> {
     let sweep = Sinusoid::new(T::zero(), T::one()).ok();
     sweep.and_then(|sweep| Single(kernel).describing_function(&sweep).ok()).unwrap_or_else(no_function)

@@ -1,6 +1,6 @@
 //! The on-board state machine as a transition system, and its exhaustive exploration.
 //!
-//! The machine is explored with whatever an observer of cycles may say at whatever sample: a superset of what happens.
+//! The machine is explored with every answer of an observer of cycles at every sample: a superset of all runs.
 
 use std::collections::{HashSet, VecDeque};
 
@@ -22,13 +22,13 @@ pub(super) struct Lattice {
     pub(super) readings: &'static [f64],
 }
 
-/// Times between samples in s: sound ones, a gap, a clock that stands, runs backwards or fails.
+/// Times between samples in s: sound times, a gap, a clock that stands, runs backwards or fails.
 pub(super) const INTERVALS_S: [f64; 6] = [1.0, 2.0, 3.0, 0.0, -1.0, f64::NAN];
 /// How many of them are sound.
 pub(super) const SOUND: usize = 2;
-/// Readings that come besides the lattice's.
+/// Readings in addition to the lattice's.
 const BROKEN: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
-/// What an observer may say.
+/// Answers of an observer.
 const OBSERVATIONS: [Observation; 4] =
     [Observation::Between, Observation::Unsteady, Observation::Steady, Observation::Condition40];
 
@@ -53,7 +53,7 @@ impl Lattice {
         Self { part, protocol, readings }
     }
 
-    /// One for each kind of coordinate, and one that sees half-periods. All numbers are whole or halves: sums are exact.
+    /// A lattice for each kind of coordinate, and a lattice with half-periods. All numbers are whole or halves: sums are exact.
     pub(super) fn all() -> [Self; 4] {
         let Self { part, protocol, readings } = Self::of(COARSE, Coordinate::Position, 2.0, &[-2.0, 1.0, 2.0]);
         let protocol = Protocol { dwell_s: 1.0, patience_s: 5.0, duration_s: 10.0, attempts: 2, ..protocol };
@@ -67,7 +67,7 @@ impl Lattice {
     }
 }
 
-/// What can befall the machine.
+/// Events of the machine.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Event {
     Abort,
@@ -82,7 +82,7 @@ pub(super) enum Event {
     },
 }
 
-/// What a machine has been broken by, so that a claim fails.
+/// A fault of the machine by which a claim fails.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Defect {
     None,
@@ -98,11 +98,11 @@ pub(super) enum Defect {
     Forgives,
     /// Goes on wherever the coordinate is.
     Boundless,
-    /// Raises the level where the relay has not switched for its patience, whatever the readings.
+    /// Raises the level where the relay has not switched for its patience, at any reading.
     Restless,
 }
 
-/// The motion as whoever stands beside sees it, while the machine runs.
+/// The motion as an onlooker sees it, while the machine runs.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Motion {
     /// Position from which there is a way to go, and when that was gone last.
@@ -116,7 +116,7 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    /// Half a half-width, or more than a step of the sensor: whether a position is so far away.
+    /// Half a half-width, or more than a step of the sensor: whether a position is at such a distance.
     pub(super) fn gone(&self, protocol: &Protocol<f64>, half_width: f64, position: f64) -> bool {
         (position - self.anchor).abs() >= half_width.min(1.5 * protocol.resolution.max(half_width / 3.0))
     }
@@ -137,12 +137,12 @@ pub(super) struct Machine {
     pub(super) command: f64,
     /// Time of the last sample; the first has time zero.
     pub(super) time_s: f64,
-    /// Last reading and since when it has been the same, once there was one.
+    /// Last reading and since when it has been the same, once there was a reading.
     pub(super) seen: Option<(f64, f64)>,
     pub(super) motion: Motion,
 }
 
-/// An observer that says what it is told to.
+/// An observer with a given answer.
 struct Says(Observation);
 
 impl Observer<f64> for Says {
@@ -239,7 +239,7 @@ impl Machine {
         (motion.longest_s, motion.last_s) = (wider * motion.longest_s, wider * motion.last_s);
     }
 
-    /// What the machine commands now, spoilt by its defect.
+    /// The machine's command now, spoilt by its defect.
     fn answer(&self) -> f64 {
         let (command, protocol) = (self.supervisor.command(), self.supervisor.protocol());
         let Some(position) = self.position().filter(|_| self.running()) else { return command };
@@ -256,13 +256,13 @@ impl Machine {
     }
 }
 
-/// What must hold of a machine and of all its successors; the successor that shows that it does not, or none for the machine.
+/// A property that must hold of a machine and of all its successors; the successor that shows that it does not, or none for the machine.
 pub(super) type Property = fn(&Lattice, &Machine, &[(Event, Machine)]) -> Result<(), Option<usize>>;
 
 /// States beyond this are not waited for.
 const MOST_STATES: usize = 3_000_000;
 
-/// Every reachable state of the lattices that the parts name, breadth first, so that a witness is as short as can be.
+/// Every reachable state of the lattices that the parts name, breadth first, for the shortest witness.
 pub(super) fn explore(parts: &[ClaimPart], defect: Defect, property: Property) -> Verdict {
     Verdict::all(Lattice::all().iter().take(parts.len()).map(|lattice| explore_one(lattice, defect, property)))
 }
@@ -271,7 +271,7 @@ fn explore_one(lattice: &Lattice, defect: Defect, property: Property) -> Verdict
     let Some(start) = Machine::new(lattice, defect) else {
         return Verdict::Undecided { spent: format!("{}: protocol refused", lattice.part.name) };
     };
-    // State, the one before, and the event between.
+    // State, its predecessor, and the event between.
     let mut states: Vec<(Machine, usize, Event)> = vec![(start, 0, Event::Abort)];
     let mut visited = HashSet::from([start.key()]);
     let mut waiting = VecDeque::from([0]);
@@ -320,8 +320,8 @@ fn events<'a>(lattice: &'a Lattice, machine: &Machine) -> impl Iterator<Item = E
     good.chain(late).chain(broken).chain(ticks).chain([Event::Abort])
 }
 
-/// The samples of a path, and the command at its end. `cycles_say` is 1 where a cycle ended, 2 where they are steady, 3 where
-/// condition 40 is not met.
+/// The samples of a path, and the command at its end. `cycles_say` is 1 where a cycle ended, 2 where they are steady, 3
+/// where condition 40 fails.
 fn witness(path: &[(Event, Machine)]) -> Witness {
     let mut numbers = Vec::new();
     for (step, (event, _)) in (1..).zip(path) {

@@ -1,4 +1,4 @@
-//! What the first-harmonic method makes of the exact symmetric orbits, enclosed over ranges of the one number `g`.
+//! Errors of the first-harmonic method on the exact symmetric orbits, enclosed over ranges of their single number `g`.
 
 use crate::identify::iso::{Oscillation, Parameters};
 use crate::numeric::{Expression, Interval, Real};
@@ -25,8 +25,8 @@ pub struct MethodError<T = Interval> {
 /// Below this coordinate the orbit is bracketed by its first terms.
 const SMALL: f64 = 0.02;
 
-/// An orbit in units that keep it of order one as `g` goes to zero: lengths in `X_m`, times in the coordinate (linear drag)
-/// or its square root (quadratic drag).
+/// An orbit in units that keep it of order 1 as `g` goes to zero: lengths in `X_m`, times in the coordinate (linear
+/// drag) or its square root (quadratic drag).
 struct Shape<T> {
     /// `X_m` over the square of the unit of time: the true alpha in these units.
     alpha: T,
@@ -63,7 +63,7 @@ impl SymmetricOrbit {
             Self::Linear => linear_orbit(coordinate),
             Self::Quadratic => quadratic_orbit(coordinate),
         };
-        // The method asks whether the half-width is below the amplitude: of symbols that lie so, then of what stands for them.
+        // The method asks whether the half-width is below the amplitude: of symbols in that order, then of their values.
         let symbol = |name, upper| Some(Expression::symbol(name, name, Interval::new(f64::MIN_POSITIVE, upper)?));
         let found = read(symbol("half_width", 0.5)?, symbol("period", 10.0)?)?;
         shape.error(self, |half_width, period| {
@@ -80,10 +80,10 @@ impl SymmetricOrbit {
 }
 
 impl<T: Real> Shape<T> {
-    /// The errors of what the method reads off the half-width and the period.
+    /// The errors of the method's parameters from the half-width and the period.
     fn error(&self, law: SymmetricOrbit, read: impl Fn(T, T) -> Option<Parameters<T>>) -> Option<MethodError<T>> {
         let alpha = read(self.share, self.period)?.alpha / self.alpha;
-        // The drag found is proportional to the half-width, and the true one to the coordinate.
+        // The drag found is proportional to the half-width, and the true drag to the coordinate.
         let found = read(self.share_rate, self.period)?;
         let drag = match law {
             SymmetricOrbit::Linear => found.beta / self.alpha,
@@ -93,7 +93,7 @@ impl<T: Real> Shape<T> {
     }
 }
 
-/// The method on an unbiased oscillation without delay, by half-width and period; the amplitude and the level are one.
+/// The method on an unbiased oscillation without delay, by half-width and period; the amplitude and the level are 1.
 fn read<T: Real>(half_width: T, period_s: T) -> Option<Parameters<T>> {
     let (one, zero) = (T::one(), T::zero());
     let (relay_level, switch_level) = (one, half_width);

@@ -1,4 +1,4 @@
-//! The claims by topic, each with its checks: cases drawn, proofs, false variants.
+//! The claims by topic, each with its checks: sampled cases, proofs, false variants.
 
 use super::distortion::Distortion;
 use super::evidence::{ClaimDomain, ClaimPart, ClaimVariable, Evidence, Verdict, Witness};

@@ -25,7 +25,7 @@ explored! {
 fn ends(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
     let duration_s = lattice.protocol.duration_s;
     for (index, (event, after)) in successors.iter().enumerate() {
-        // A running machine has accepted its sample, which was later than the one before: there are finitely many.
+        // A running machine has accepted its sample, which was later than the sample before: there are finitely many.
         let later = matches!(event, Event::Sample { .. }) && (after.time_s > machine.time_s || machine.seen.is_none());
         let in_time = match *event {
             Event::Tick { age_s } => machine.seen.is_none() || machine.time_s + age_s < duration_s,
@@ -54,7 +54,7 @@ fn switches(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)
         let Some(position) = after.position().filter(|_| after.running()) else { continue };
         let up = machine.command < neutral && after.command > neutral;
         let down = machine.command > neutral && after.command < neutral;
-        // An upward switching lies beyond one threshold, a downward one beyond the other.
+        // An upward switching lies beyond the upper threshold, a downward switching beyond the lower.
         let crossed = (!up || position <= protocol.reference - machine.half_width())
             && (!down || position >= protocol.reference + machine.half_width());
         // The rate bounds the motion of a coordinate that is measured; a speed's integral moves by the speed.
@@ -200,7 +200,7 @@ fn still(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) 
         let gone = machine.motion.gone(protocol, machine.half_width(), position);
         let late = !gone && machine.motion.still(protocol, after.time_s);
         let named = matches!(after.phase(), Phase::Failed(fault) if fault.code() == "no-motion");
-        // A cycle whose end this is may be one of too small an amplitude.
+        // A cycle that ends here may have too small an amplitude.
         let raised = after.running() && level(after) > level(machine);
         named && !late || after.running() && late || raised && !gone && *observation != Observation::Condition40
     });
@@ -213,8 +213,8 @@ explored! {
     excursion over LATTICES, but not Boundless
 }
 
-/// Every sequence of readings comes, and so do those of a plant of the wrong sign, a stuck or a late one, and a sensor that
-/// wanders. The coordinate is what is read: a wandering sensor adds its error.
+/// Every sequence of readings comes, those of a plant of the wrong sign, a stuck or a late plant, and a sensor that
+/// wanders too. The coordinate is the reading: a wandering sensor adds its error.
 fn excursion(lattice: &Lattice, machine: &Machine, successors: &[(Event, Machine)]) -> Result<(), Option<usize>> {
     let protocol = &lattice.protocol;
     let drives = |machine: &Machine| machine.command != protocol.neutral_command;

@@ -29,7 +29,7 @@ pub(super) fn proved(theorem: &Theorem, parts: &'static [ClaimPart]) -> Verdict 
     }
 }
 
-/// The verdict of one inequality by itself, which establishes no part of any claim.
+/// The verdict of an inequality by itself, which establishes no part of any claim.
 fn single(inequality: &Inequality) -> Verdict {
     match inequality.prove(BUDGET) {
         Ok(proof) => Verdict::Holds(Evidence::inequality(ClaimDomain::default(), proof.bound, proof.boxes.len())),
@@ -54,7 +54,7 @@ fn failed(inequality: &Inequality, why: NotProved<VARIABLES>) -> Verdict {
 /// Every disturbance below the level: the inequalities hold up to the level itself, where the forces that they are about vanish.
 const EVERY_AXIS: ClaimPart =
     ClaimPart::over("every-axis", "", const { &[ClaimVariable::number("abs(delta)/C", 0.0, 1.0)] });
-/// What the inequalities about braking start from: under a disturbance as large as the level the drag brakes alone.
+/// The start of the inequalities about braking: under a disturbance as large as the level the drag brakes alone.
 fn at_the_level(part: ClaimPart) -> Verdict {
     exactly(part, Distortion::None, &[[0.5]], |[drag]: [Rational; 1], factor: Rational| {
         Some([theorem::brake([number(1.0), drag, number(0.0)]) - factor * drag])
@@ -111,7 +111,7 @@ const FALSE_OVERSHOOT_LINEAR: Inequality = Inequality {
     ..theorem::LINEAR_OVERSHOOT_WEAK
 };
 
-/// A disturbance above the level leaves no limit cycle.
+/// Under a disturbance above the level there is no limit cycle.
 fn beyond_the_level(budget: Budget) -> Verdict {
     sample(budget, |draw| {
         let (level, share) = (draw.uniform("level", 0.1, 1.0), draw.uniform("disturbance_over_level", 1.0, 2.0));
@@ -161,7 +161,7 @@ enclosed! {
         theorem::LINEAR_OVERSHOOT, not FALSE_OVERSHOOT_LINEAR, on &[EVERY_G], if &[];
 }
 
-/// One error of the method: its distance from `centre` is below `radius` on a range of the coordinate.
+/// An error of the method: its distance from `centre` is below `radius` on a range of the coordinate.
 macro_rules! within {
     ($id:literal: $law:ident $part:ident on $from:literal to $to:literal is $centre:expr, $radius:literal) => {
         Inequality {

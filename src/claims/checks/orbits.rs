@@ -1,4 +1,4 @@
-//! Exact limit cycles of a drag axis, and what the first-harmonic method makes of them.
+//! Exact limit cycles of a drag axis, and the parameters that the first-harmonic method reads off them.
 
 use super::algebra::{exactly, number};
 use super::orbit_proofs::{FALSE_DRAG, proved};
@@ -12,7 +12,7 @@ use crate::orbit::{self, LimitCycle, limit_cycle, return_map, theorem};
 use crate::plant::{DragAxis, PlantError, TransferFunction};
 use crate::proof::polynomial::Rational;
 
-/// A drag law of one coefficient.
+/// A drag law with a single coefficient.
 struct Family {
     law: fn(alpha: f64, drag: f64) -> Result<DragAxis<f64>, PlantError>,
     /// The number `g` that everything depends on, over the half-width.
@@ -47,7 +47,7 @@ struct Loop {
 }
 
 impl Loop {
-    /// From its four numbers; `None` where one is out of range.
+    /// From its four numbers; `None` for a value out of range.
     fn new(family: &Family, alpha: f64, drag: f64, level: f64, half_width: f64) -> Option<Self> {
         let axis = (family.law)(alpha, drag).ok()?;
         let relay = RelayHysteresis::new(level, half_width, 0.0).ok()?;
@@ -118,7 +118,7 @@ fn linear_orbit(l: &Loop, quarter: f64) -> (f64, f64) {
     (l.half_width + reach * orbit::linear_amplitude_excess(low), quarter * low * l.alpha / l.drag)
 }
 
-/// The general path through Newton's method gives what the closed form of the symmetric case gives.
+/// The general path through Newton's method gives the closed form of the symmetric case.
 fn closed_form_orbit(budget: Budget, orbit: fn(&Loop) -> (f64, f64), family: &Family) -> Verdict {
     sample(budget, |draw| {
         let case = Loop::draw(draw, family)?;
@@ -144,10 +144,10 @@ fn attracts(budget: Budget, family: &Family) -> Verdict {
             return None;
         }
         let Ok(next) = return_map(&case.axis, &case.relay, start) else { return Some(Case::truth(false)) };
-        // The share of the distance that is left after one period.
+        // The distance after a period over the distance before.
         let left = draw.note("left", (next.speed - fixed) / (start - fixed));
         let contracts = (0.0..1.0).contains(&cycle.multiplier);
-        // Where drag is weak and the start is far off the share is one within rounding.
+        // Where drag is weak and the start is far off the share is 1 within rounding.
         Some(Case::truth(contracts && left > -tolerance::CANCELLING && left < 1.0 + tolerance::CANCELLING))
     })
 }
@@ -201,7 +201,7 @@ claim! {
         proof: Some(prove_method_bias),
         corrected: Some(|budget| depends_on_g_alone(budget, &LINEAR, &LINEAR, 0.0)
             .and(|| depends_on_g_alone(budget, &QUADRATIC, &QUADRATIC, 0.0))),
-        // The number of the other drag law.
+        // The number `g` of the wrong drag law.
         falsified: |budget| depends_on_g_alone(budget, &LINEAR, &Family { group: QUADRATIC.group, ..LINEAR }, 0.0),
         hypotheses: &[Hypothesis::needed("no-disturbance", |budget| depends_on_g_alone(budget, &LINEAR, &LINEAR, 0.5))],
     }
@@ -222,8 +222,8 @@ fn method_errors(case: &Loop, family: &Family, disturbance: f64) -> Option<[f64;
     Some([found.alpha / case.alpha - 1.0, (family.drag_of)(&found) / case.drag - 1.0])
 }
 
-/// The method's errors on a drawn loop, disturbed, equal those on the loop of unit parameters whose half-width is `g` as
-/// `assumed` has it.
+/// The method's errors on a random loop, disturbed, equal those on the loop of unit parameters whose half-width is `g`
+/// as `assumed` has it.
 fn depends_on_g_alone(budget: Budget, family: &Family, assumed: &Family, disturbance: f64) -> Verdict {
     sample(budget, |draw| {
         let case = Loop::draw(draw, family)?;
@@ -247,7 +247,7 @@ claim! {
     }
 }
 
-/// Relative errors of the period with ever more harmonics: each at most `factor` times the one before.
+/// Relative errors of the period with ever more harmonics: each at most `factor` times its predecessor.
 fn balance_error(budget: Budget, orders: [usize; 3], factor: f64) -> Verdict {
     sample(Budget { cases: budget.cases.div_ceil(200), ..budget }, |draw| {
         let (lag_s, half_width) = (draw.log_uniform("lag_s", 0.3, 3.0), draw.uniform("half_width", 0.05, 0.5));
@@ -285,7 +285,7 @@ fn prove_delta_from_times(distortion: Distortion) -> Verdict {
     exactly(ClaimPart::WHOLE, distortion, &[[1.0, 2.0, 0.3]], functions)
 }
 
-/// What the method makes of an orbit, over the true parameters.
+/// The method's parameters from an orbit, over the true parameters.
 fn relative(
     family: fn(&Parameters<Rational>) -> Rational,
     [level, half_width, amplitude, period_s]: [Rational; 4],
@@ -298,14 +298,14 @@ fn relative(
     Some([found.alpha / alpha, family(&found) / drag])
 }
 
-/// Linear drag: the closed form of the orbit, through the method. `z - tanh z` and `tanh z - ln(1 + tanh z)` are given beside z.
+/// Linear drag: the closed form of the orbit, through the method. `z - tanh z` and `tanh z - ln(1 + tanh z)` are given with z.
 fn linear_relative([alpha, drag, level, z, width, excess]: [Rational; 6]) -> Option<[Rational; 2]> {
     let reach = level * alpha / drag.square();
     let period_s = number(4.0) * z * alpha / drag;
     relative(|found| found.beta, [level, reach * width, reach * (width + excess), period_s], [alpha, drag])
 }
 
-/// Quadratic drag; drag and level by their roots. Logarithm and angles of the closed form are given beside g.
+/// Quadratic drag; drag and level by their roots. Logarithm and angles of the closed form are given with g.
 fn quadratic_relative([alpha, drag_root, level_root, g, excess, angles]: [Rational; 6]) -> Option<[Rational; 2]> {
     let (drag, level, two) = (drag_root.square(), level_root.square(), number(2.0));
     let half_width = g * alpha / drag;
@@ -314,7 +314,7 @@ fn quadratic_relative([alpha, drag_root, level_root, g, excess, angles]: [Ration
     relative(|found| found.beta_quadratic, [level, half_width, amplitude, period_s], [alpha, drag])
 }
 
-/// With whatever inertia, drag and level the method errs as with ones.
+/// For all inertias, drags and levels the method errs as for unit values.
 fn prove_method_bias(distortion: Distortion) -> Verdict {
     // The switchings lie in the middle half of the sweep and beyond.
     const POINTS: [[f64; 6]; 2] = [[2.0, 0.75, 3.0, 0.25, 0.25, 0.5], [2.0, 0.75, 3.0, 0.75, 0.75, 0.25]];

@@ -33,8 +33,8 @@ const LISTED: ClaimPart = ClaimPart::named("listed-exponents");
 /// Exponents whose constants are compared; the identities hold for all.
 const EXPONENTS: [f64; 9] = [0.0, 0.5, 1.0, 1.5, 1.7, 2.0, 2.5, 3.0, 8.5];
 
-/// That code and integral obey one differential equation, by identities on integers; that they agree at a point of each
-/// series; and how far they can be apart elsewhere then.
+/// That code and integral obey the same differential equation, by identities on integers; that they agree at a point of
+/// each series; and how far they can be apart elsewhere then.
 fn power_law(distortion: Distortion) -> Verdict {
     if !identities_hold() {
         return Verdict::undecided("identities of polynomials");
@@ -56,13 +56,13 @@ fn number(value: f64) -> Interval {
     Interval::point(value)
 }
 
-/// What the operator `(1 - u^2) m'' + (2p - 1) u m' - p^2 m` takes from `u^k`; besides it gives `k (k - 1) u^(k-2)`.
+/// The multiple of `u^k` that the operator `(1 - u^2) m'' + (2p - 1) u m' - p^2 m` subtracts; besides it gives `k (k - 1) u^(k-2)`.
 fn taken(k: Interval, p: Interval) -> Interval {
     k * (k - Interval::ONE) - (p + p - Interval::ONE) * k + p * p
 }
 
-/// Identities between polynomials of degree seven at most in each of three variables, hence proved by 512 points. Arithmetic is
-/// exact there, so that the differences come out as zero itself.
+/// Identities between polynomials of degree seven at most in each of three variables, hence proved by 512 points.
+/// Arithmetic is exact there: the differences come out as zero itself.
 fn identities_hold() -> bool {
     let (one, half) = (Interval::ONE, number(0.5));
     let grid = || (0..8u8).map(|k| number(f64::from(k)));
@@ -121,7 +121,7 @@ fn steepest_beyond(p: Interval, value: Interval, slope: Interval) -> Interval {
     (slope.square() + (p * value).square()).sqrt()
 }
 
-/// A power law and its closed form, made false unless the factor is one.
+/// A power law and its closed form, made false unless the factor is 1.
 struct Law {
     exponent: f64,
     factor: f64,
@@ -131,7 +131,7 @@ impl Law {
     /// Bound of the error of m and h at every bias, relative to the largest output.
     fn error(&self, boxes: &mut usize) -> Result<f64, Box<dyn std::error::Error>> {
         let p = number(self.exponent);
-        // Multiples of the one odd solution, and of the one that is regular at infinity.
+        // Multiples of the odd solution, and of the solution that is regular at infinity.
         let [mean, _] = self.closed(0.5)?;
         let [inner, _] = self.difference(0.5, boxes)?;
         let [outer_mean, _] = self.closed(2.0)?;
@@ -188,7 +188,7 @@ impl Law {
 mod tests {
     use super::{INNER, OUTER, most_within, number, steepest_beyond};
 
-    /// Values and slopes of a solution from one argument to another, by the classical Runge-Kutta method.
+    /// Values and slopes of a solution between two arguments, by the classical Runge-Kutta method.
     fn solution(bend: impl Fn(f64, [f64; 2]) -> f64, from: f64, to: f64, start: [f64; 2]) -> Vec<[f64; 2]> {
         const STEPS: u32 = 20_000;
         let h = (to - from) / f64::from(STEPS);

@@ -1,4 +1,4 @@
-//! What an error of the amplitude does to the parameters: eqs. 37-39.
+//! The effect of an error of the amplitude on the parameters: eqs. 37-39.
 
 use super::algebra::{exactly, number};
 use super::enclosure::unknown;
@@ -36,7 +36,7 @@ fn sensitivity(budget: Budget, index: usize, biased: bool, delayed: bool, factor
 
 const NO_DELAY: &str = "no-delay";
 
-/// Eqs. 37 to 39: the parameter, whether the oscillation may be biased, and the hypotheses besides no delay.
+/// Eqs. 37 to 39: the parameter, whether the oscillation may be biased, and the hypotheses in addition to no delay.
 macro_rules! sensitivities {
     ($($constant:ident = $id:literal $statement:literal, $index:literal $field:ident, biased $biased:literal
        $(, without $hypothesis:expr)?;)+) => {
@@ -95,7 +95,7 @@ fn zero_at(budget: Budget, ratio: f64, biased: bool, delayed: bool) -> Verdict {
     })
 }
 
-/// What is identified from an unbiased oscillation of that amplitude, half-width, level and angular frequency one.
+/// Parameters from an unbiased oscillation of that amplitude; half-width, level and angular frequency are 1.
 fn identified<T: Real>(amplitude: T) -> Parameters<T> {
     let (one, zero) = (T::one(), T::zero());
     let period_s = T::two() * T::pi();
@@ -107,7 +107,7 @@ fn identified<T: Real>(amplitude: T) -> Parameters<T> {
 /// A formula with its derivative.
 type Slope = numeric::Gradient<Rational, 1>;
 
-/// `X dp/dX = sensitivity p` for one of the parameters, whatever the ratio: level with the middle half of the sweep, and beyond.
+/// `X dp/dX = sensitivity p` for a parameter at every ratio: level with the middle half of the sweep, and beyond.
 fn prove_sensitivity(
     distortion: Distortion,
     read: fn(Parameters<Slope>) -> Slope,

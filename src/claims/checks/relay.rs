@@ -1,4 +1,4 @@
-//! The relay with hysteresis: eqs. 30-32 and what the paper says of it in words.
+//! The relay with hysteresis: eqs. 30-32 and the paper's sentences on it.
 
 use core::f64::consts::PI;
 
@@ -100,7 +100,7 @@ fn mean_output(budget: Budget, sign: f64) -> Verdict {
         let angle = |distance: f64| (distance / s.amplitude).asin();
         let (rising, falling) = (angle(s.half_width - s.bias), angle(s.half_width + s.bias));
         let by_angle = s.level / PI * (falling - rising) + s.offset;
-        // High from the rising crossing to the falling one: as a share of one turn.
+        // High from the rising to the falling crossing: as a share of a turn.
         let high = PI - rising + falling;
         let by_time = sign * bias_of_output(s.level, high, 2.0 * PI - high) + s.offset;
         let (expected, scale) = (s.integral.f0, s.level + s.offset.abs());
@@ -169,8 +169,8 @@ pub(super) fn root<T: Real>(distance: T) -> T {
     (T::one() - distance.square()).sqrt()
 }
 
-/// Half-widths and biases, over the amplitude, in each case of sign: which of the two is the larger, the bias's sign, and whether
-/// none, one or both levels lie in the middle half of the sweep, where the code goes another way.
+/// Half-widths and biases, over the amplitude, in each case of sign: which of the two is the larger, the bias's sign,
+/// and how many of the two levels lie in the middle half of the sweep, where the code goes another way.
 #[rustfmt::skip]
 pub(super) const SWITCHINGS: [[f64; 2]; 12] = [
     [0.3, 0.1], [0.3, -0.1], [0.1, 0.3], [0.1, -0.3],
@@ -178,8 +178,8 @@ pub(super) const SWITCHINGS: [[f64; 2]; 12] = [
     [0.75, 0.125], [0.75, -0.125], [0.125, 0.75], [0.125, -0.75],
 ];
 
-/// Proof of a printed formula in three parts, whatever half-width and bias: the closed form of a sign is its integral; the
-/// formula's term of one switching level, at the ratio u, is that closed form; the terms are put together as the code does.
+/// Proof of a printed formula in three parts, for all half-widths and biases: the closed form of a sign is its integral; the
+/// formula's term of a switching level, at the ratio u, is that closed form; the terms are put together as the code does.
 fn prove_printed(
     distortion: Distortion,
     term: impl Fn(Rational) -> Rational,
@@ -233,7 +233,7 @@ fn prove_relay_f0(distortion: Distortion) -> Verdict {
 }
 
 /// Each direction of the quadrant is that of some relay: with `t` from 0 to 1 the angle is `pi - 2 atan(t)`, its cosine
-/// `-(1 - t^2)/(1 + t^2)`, its sine `2 t/(1 + t^2)`. And components of one sign each are all that there is.
+/// `-(1 - t^2)/(1 + t^2)`, its sine `2 t/(1 + t^2)`. Conversely every relay's components have these signs.
 fn prove_second_quadrant(distortion: Distortion) -> Verdict {
     let covered = |[t]: [Rational; 1], factor: Rational| {
         let square = t.square();

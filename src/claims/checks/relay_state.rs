@@ -1,4 +1,4 @@
-//! The relay as a state machine: what the paper says of it in words.
+//! The relay as a state machine: the paper's sentences on it.
 
 use core::f64::consts::PI;
 
@@ -47,7 +47,7 @@ claim! {
     }
 }
 
-/// The level at which a sampled relay switches up on a sinusoid, against `x_a (1 + least)` and `x_a` plus one step.
+/// The level at which a sampled relay switches up on a sinusoid, against `x_a (1 + least)` and `x_a` plus a step.
 fn overshoot(budget: Budget, least: f64) -> Verdict {
     sample(budget, |draw| {
         let (half_width, step) = (draw.uniform("half_width", 0.05, 0.95), draw.uniform("step_rad", 0.001, 0.5));
@@ -66,7 +66,7 @@ fn overshoot(budget: Budget, least: f64) -> Verdict {
     })
 }
 
-/// What the relay asks of an input, each a number and whether it is positive, and whether the command turns.
+/// The relay's comparisons of an input, each a number and whether it is positive, and whether the command turns.
 fn asked<const N: usize>(
     point: [f64; N],
     high: bool,
@@ -82,10 +82,10 @@ fn asked<const N: usize>(
     Some((decisions, turned?))
 }
 
-/// The relay turns up at one input and down at a later, higher one: what it found then, the growth of the input and the two
-/// distances of the noise from the half-width add up to zero, so that not all of them are what they should be.
+/// The relay turns up at an input and down at a later, higher input: its comparisons there, the growth of the input and
+/// the two distances of the noise from the half-width add up to zero, hence not all have the required sign.
 fn prove_noise(distortion: Distortion) -> Verdict {
-    // The disturbed inputs are where the relay turns; that the noise is too large there is what the identity shows.
+    // The disturbed inputs are where the relay turns; the identity shows that the noise is too large there.
     const POINT: [f64; 5] = [1.0, 0.5, -1.0, -0.5, 0.25];
     let up = asked(POINT, false, |[input, noise, .., half_width]| [input + noise, half_width]);
     let down = asked(POINT, true, |[_, _, input, noise, half_width]| [input + noise, half_width]);
@@ -100,8 +100,8 @@ fn prove_noise(distortion: Distortion) -> Verdict {
     exactly(ClaimPart::WHOLE, distortion, &[POINT], sum)
 }
 
-/// A sample that turns the command is at the level or beyond, and beyond it by less than the motion since the one before, which
-/// did not.
+/// A sample that turns the command is at the level or beyond, and beyond it by less than the motion since the sample
+/// before, which did not.
 fn prove_sampled_level(distortion: Distortion) -> Verdict {
     const POINT: [f64; 3] = [0.25, 0.75, 0.5];
     let before = asked(POINT, false, |[input, _, half_width]| [input, half_width]);

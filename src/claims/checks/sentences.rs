@@ -1,4 +1,4 @@
-//! What the paper says in passing, of bounds and of the disturbance: section 5.3 and the conclusion.
+//! The paper's remarks on bounds and on the disturbance: section 5.3 and the conclusion.
 
 use core::f64::consts::{PI, SQRT_2};
 
@@ -72,7 +72,7 @@ fn on_the_first_harmonic(budget: Budget, part: fn(DescribingFunction<f64>) -> f6
     })
 }
 
-/// The drag that Table 3 makes of the exact oscillation of one vehicle with linear drag, disturbed by a share of the level or not.
+/// The drag that Table 3 makes of the exact oscillation of a vehicle with linear drag, disturbed by a share of the level or not.
 fn on_exact_orbits(budget: Budget) -> Verdict {
     sample(budget, |draw| {
         let half_width = draw.log_uniform("half_width", 0.1, 5.0);

@@ -1,9 +1,9 @@
-//! A characteristic made of one kernel, for what is claimed and proved of kernels.
+//! A characteristic made of a single kernel, for the claims and proofs of kernels.
 
 use crate::nonlinearity::{Branch, Branches, Kernel, PiecewiseLinear, Side, Sinusoid};
 use crate::numeric::Real;
 
-/// One kernel, by itself a characteristic; only its values are written here.
+/// A kernel, by itself a characteristic; only its values are written here.
 pub(in crate::claims) struct Single<T>(pub(in crate::claims) Kernel<T>);
 
 impl<T: Real> PiecewiseLinear for Single<T> {

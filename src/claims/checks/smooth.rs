@@ -14,7 +14,7 @@ use crate::proof::identity::{Series, prove_zero_of_two};
 const RULE: f64 = 1e-13;
 const CELLS: usize = 3000;
 
-/// A characteristic of unit gain and scale in two arithmetics, with what is known of its output off the real axis.
+/// A characteristic of unit gain and scale in two arithmetics, with bounds of its output off the real axis.
 struct Smooth<V, S> {
     values: Result<V, NonlinearityError>,
     series: Result<S, NonlinearityError>,
@@ -25,7 +25,7 @@ struct Smooth<V, S> {
     magnitude: fn(real: Interval, imaginary: Interval) -> Interval,
 }
 
-/// Closed form, made false unless the factor is one, less the mean over the angles with these cosines: mean and component.
+/// Closed form, made false unless the factor is 1, less the mean over the angles with these cosines: mean and component.
 fn error<T: Real>(
     characteristic: &impl ClosedForm<Number = T>,
     cosines: &[Interval],

@@ -1,4 +1,4 @@
-//! When the mean output vanishes: the paper's lemmas on odd and other characteristics.
+//! When the mean output vanishes: the paper's lemmas on characteristics, odd or not.
 
 use super::family::{mean_of, odd_nondecreasing, output_scale, sweep};
 use super::step::by_steps;
@@ -22,7 +22,7 @@ claim! {
     }
 }
 
-/// Looks for a bias other than zero at which the mean output of `function` vanishes.
+/// Looks for a nonzero bias at which the mean output of `function` vanishes.
 fn vanishes_only_unbiased(budget: Budget, function: fn(f64) -> f64) -> Verdict {
     sample(budget, |draw| {
         let amplitude = draw.uniform("amplitude", 0.5, 1.5);

@@ -24,7 +24,7 @@ struct Loop {
 }
 
 impl Loop {
-    /// Its exact orbits with one switching each way, and the reference.
+    /// Its exact orbits with a single switching each way, and the reference.
     fn orbits(&self, draw: &mut Draw) -> Option<(Vec<ListedOrbit>, f64)> {
         let (first, second) = (draw.log_uniform("first_lag_s", 0.3, 3.0), draw.log_uniform("second_lag_s", 0.3, 3.0));
         let lags = [first * second, first + second, 1.0];
@@ -45,7 +45,7 @@ fn skew_s(orbit: &ListedOrbit) -> Interval {
     orbit.time_high_s - orbit.time_low_s
 }
 
-/// The number of an enclosure that is nearest to another: of two close poles it is wider than the rounding of one number.
+/// The number of an enclosure that is nearest to another: of two close poles it is wider than the rounding of a number.
 fn nearest(enclosure: Interval, to: f64) -> f64 {
     to.clamp(enclosure.lower(), enclosure.upper())
 }
@@ -85,7 +85,7 @@ fn residual(function: fn(f64) -> f64, gain: f64, bias: f64, amplitude: f64) -> O
     Some(df.f0.abs().max((1.0 - 0.5 * gain * df.p).abs()))
 }
 
-/// Poles beside the integrator of `gain/(s (s + 1)^2)`.
+/// Poles of `gain/(s (s + 1)^2)` without its integrator.
 const EQUAL_LAGS: [f64; 2] = [1.0, 1.0];
 
 /// `gain/(s (s + a)(s + b))`.
@@ -93,8 +93,8 @@ fn with_integrator([a, b]: [f64; 2], gain: f64) -> Option<TransferFunction> {
     TransferFunction::new(&[gain], &[1.0, a + b, a * b, 0.0]).ok()
 }
 
-/// `gain/(s (s + 1)^2)` oscillates with a bias under `x^3 - 2x`, which is odd: proved, and met again by an integration over a
-/// period. The search begins at the first harmonic's balance: the bias solves `F_0 = 0`, the amplitude `1 + P G = 0`.
+/// `gain/(s (s + 1)^2)` oscillates with a bias under `x^3 - 2x`, which is odd: proved, and confirmed by an integration over
+/// a period. The search begins at the first harmonic's balance: the bias solves `F_0 = 0`, the amplitude `1 + P G = 0`.
 fn odd_and_astatic_without_bias(budget: Budget) -> Verdict {
     sample(few(budget), |draw| {
         let gain = draw.uniform("gain", 0.56, 0.75);
@@ -196,7 +196,7 @@ fn prove_theorem_2(distortion: Distortion) -> Verdict {
     let orbits = |[level, positive_s, negative_s, half_width, reference]: [Rational; 5], factor: Rational| {
         let relay = RelayHysteresis::new(level, half_width, number(0.0)).ok()?;
         let mean = bias_of_output(level, positive_s, negative_s);
-        // The input is the reference less the output; it rises through one level and falls through the other.
+        // The input is the reference less the output; it rises through the first level and falls through the second.
         let [rising, falling] = relay.switching_levels();
         let (lower, upper) = (reference - rising, reference - falling);
         Some([

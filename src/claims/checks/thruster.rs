@@ -17,7 +17,7 @@ claim! {
     }
 }
 
-/// Eq. 1 and back, the inverse told `seen` of the ambient speed; rates from `least` braking rates upwards.
+/// Eq. 1 and back, `seen` the share of the ambient speed given to the inverse; rates from `least` braking rates upwards.
 fn bilinear(budget: Budget, seen: f64, least: f64) -> Verdict {
     const LARGEST_RATE: f64 = 40.0;
     sample(budget, |draw| {
@@ -44,7 +44,7 @@ fn bilinear(budget: Budget, seen: f64, least: f64) -> Verdict {
     })
 }
 
-/// One direction of a thruster: thrust grows from zero.
+/// A direction of a thruster: thrust grows from zero.
 #[derive(Clone, Copy)]
 struct Curve {
     quadratic: f64,
@@ -70,7 +70,7 @@ impl Curve {
     }
 }
 
-/// Where commands are drawn from.
+/// The range of the random commands.
 #[derive(Clone, Copy)]
 enum Commands {
     Turning,
@@ -93,7 +93,7 @@ claim! {
     "Thrust a abs(n) n + b n is odd and has one command, sgn(T) sqrt(abs(T)/a) where b = 0" {
         printed: AsPrinted::Holds(|budget| affine(budget, Commands::Turning, inverse)
             .and(|| simplest(budget))),
-        // The simplest thruster's inverse whatever b.
+        // The simplest thruster's inverse for every b.
         falsified: |budget| affine(budget, Commands::Turning, |curve, thrust| {
             (thrust.abs() / curve.quadratic).sqrt().copysign(thrust)
         }),
@@ -207,7 +207,7 @@ claim! {
     COMPENSATION = "compensation" Theorem
     "Inverse allocation, offset and inverse maps before the thrusters leave the force asked for, plus a constant" {
         printed: AsPrinted::Holds(|budget| compensation(budget, &Chain::INTACT)),
-        // The constant left out of account.
+        // Without the constant.
         falsified: |budget| compensation(budget, &Chain { bias: 0.0, ..Chain::INTACT }),
         proof: Some(prove_compensation),
         hypotheses: &[
@@ -220,15 +220,15 @@ claim! {
     }
 }
 
-/// A compensated vehicle, and what is wrong with it.
+/// A compensated vehicle, and its faults.
 struct Chain {
-    /// Thrust of the real thrusters over that of the ones compensated for.
+    /// Thrust of the real thrusters over that of the compensated model.
     actual: f64,
     /// Moments asked for over the largest the offset is made for.
     reach: f64,
     /// Whether the offset stands against the dead zone.
     offset: bool,
-    /// How much of the constant is accounted for.
+    /// Share of the constant that is accounted for.
     bias: f64,
 }
 
@@ -285,7 +285,7 @@ fn prove_bilinear(distortion: Distortion) -> Verdict {
     exactly(ClaimPart::WHOLE, distortion, &[at(2.0, 3.0), at(-2.0, 3.0), at(2.0, -3.0), at(-2.0, -3.0)], functions)
 }
 
-/// Eq. 2 at a command, and the commands found for the thrusts there: what must vanish on one side.
+/// Eq. 2 at a command, and the commands found for the thrusts there: on a side, the terms that must vanish.
 fn eq_2(
     thruster: &Thruster<Rational>,
     [quadratic, linear]: [Rational; 2],
@@ -297,7 +297,7 @@ fn eq_2(
     Some([thrust - factor * printed, thruster.command(thrust).ok()? - command])
 }
 
-/// Coefficients, dead zone, limit and a command between them: both coefficients positive, or one of them.
+/// Coefficients, dead zone, limit and a command between them: both coefficients positive, or a single coefficient.
 fn prove_affine(distortion: Distortion) -> Verdict {
     let functions = |[quadratic, linear, dead_zone, limit, command]: [Rational; 5], factor: Rational| {
         let thruster = Thruster::affine(quadratic, linear, dead_zone, limit).ok()?;
@@ -356,7 +356,7 @@ fn prove_allocation(distortion: Distortion) -> Verdict {
     exactly(ClaimPart::WHOLE, distortion, &[[0.1, 2.0, 3.0]], functions)
 }
 
-/// A pair of thrusters with offsets against their dead zones: what is asked for is what commands within reach would give.
+/// A pair of thrusters with offsets against their dead zones: the thrusts asked for are those of commands within reach.
 fn prove_compensation(distortion: Distortion) -> Verdict {
     let functions = |at: [Rational; 10], factor: Rational| {
         let [arm, largest, a, b, dead_zone, first, a_other, b_other, dead_other, second] = at;

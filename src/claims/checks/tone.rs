@@ -1,4 +1,4 @@
-//! One tone through inertia and drag: eqs. 21-29.
+//! A tone through inertia and drag: eqs. 21-29.
 
 use core::f64::consts::PI;
 
@@ -12,7 +12,7 @@ use crate::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
 
 const TONE: ClaimPart = ClaimPart::named("every-tone");
 
-/// An axis on one tone: parameters, amplitude, angular frequency.
+/// An axis on a tone: parameters, amplitude, angular frequency.
 struct Tone {
     alpha: f64,
     linear: f64,
@@ -91,7 +91,7 @@ claim! {
     }
 }
 
-/// The relay's gain balances the left side; the identification gives back what the left side was made of.
+/// The relay's gain balances the left side; the identification gives back the coefficients of that side.
 fn gives_back(
     budget: Budget,
     law: fn(&mut Tone),
@@ -114,7 +114,7 @@ fn gives_back(
     })
 }
 
-/// Products of sine, cosine and their magnitudes over one turn.
+/// Products of sine, cosine and their magnitudes over a turn.
 struct Products<const M: usize>(fn(CellJet, CellJet) -> [CellJet; M]);
 
 impl<const M: usize> Integrand<M> for Products<M> {
@@ -126,7 +126,7 @@ impl<const M: usize> Integrand<M> for Products<M> {
     }
 }
 
-/// Fourier coefficients: integrals over one turn, over pi.
+/// Fourier coefficients: integrals over a turn, over pi.
 fn coefficients<const M: usize>(of: fn(CellJet, CellJet) -> [CellJet; M]) -> ([Interval; M], usize) {
     let found = integrate(&Products(of), Interval::ZERO, Interval::two() * Interval::PI, 1e-12, 20_000);
     (found.integrals.map(|integral| integral / Interval::PI), found.cells)
@@ -165,7 +165,7 @@ fn prove_first_harmonic(distortion: Distortion) -> Verdict {
     zeros(TONE, &numbers, cells)
 }
 
-/// Inertia and one drag coefficient, given back.
+/// Inertia and a drag coefficient, given back.
 fn prove_gives_back(distortion: Distortion, quadratic: bool, read: fn(Parameters<Interval>) -> Interval) -> Verdict {
     let ([inertia, linear_p, quadratic_p, inertia_q, linear_q, quadratic_q], cells) = tone();
     let (in_phase, in_quadrature) = if quadratic { (quadratic_p, quadratic_q) } else { (linear_p, linear_q) };

@@ -113,7 +113,7 @@ claim! {
     SIX_AXES = "six-axes" Identity
     "M is symmetric positive definite, C(nu) does no work, D(nu) takes energy, and eq. 5 balances" {
         printed: AsPrinted::Holds(|budget| structure(budget, |_| {}, |coriolis| coriolis)),
-        // One block of C with the wrong sign.
+        // A block of C with the wrong sign.
         falsified: |budget| structure(budget, |_| {}, |mut coriolis| {
             coriolis.fixed_view_mut::<3, 3>(0, 3).neg_mut();
             coriolis
@@ -177,14 +177,14 @@ claim! {
     }
 }
 
-/// How much of what the reduction leaves out is there after all.
+/// Sizes of the terms that the reduction omits.
 struct Assumed {
     others: f64,
     tilt_rad: f64,
     offset: f64,
     products: f64,
     coupling: f64,
-    /// How much of the added mass the axis is given.
+    /// Share of the added mass that the axis is given.
     water: f64,
 }
 

@@ -1,6 +1,6 @@
-//! Eqs. 5 and 6 as the code has them, in whole numbers: doubles add and multiply these exactly, and what is linear in each of
-//! its arguments vanishes where it does for their units. The parameters of Table 2 are whole numbers drawn at random, so that no
-//! two axes agree by chance.
+//! Eqs. 5 and 6 as the code has them, in whole numbers: doubles add and multiply these exactly, and a form linear in
+//! each argument vanishes where it does for their units. The parameters of Table 2 are random whole numbers: no two
+//! axes agree by chance.
 
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 use rand::{RngExt, SeedableRng};
@@ -27,12 +27,12 @@ fn unit(place: usize) -> Vector6<f64> {
     Vector6::from_fn(|row, _| if row == place { 1.0 } else { 0.0 })
 }
 
-/// Symmetric matrices of which every symmetric one is a combination.
+/// A basis of the symmetric matrices.
 fn symmetric() -> impl Iterator<Item = Matrix6<f64>> {
     (0..6).flat_map(|i| (0..=i).map(move |j| unit(i) * unit(j).transpose() + unit(j) * unit(i).transpose()))
 }
 
-/// What should be zero; none where a vehicle is refused.
+/// Numbers that should be zero; none where a vehicle is refused.
 type Residuals = Option<Vec<f64>>;
 
 /// Each is zero itself, not zero to rounding.
@@ -67,14 +67,14 @@ fn symmetry(factor: f64) -> Residuals {
     Some(found)
 }
 
-/// `C(nu)`, linear in inertia and velocity, is its transpose's negative: so it does no work.
+/// `C(nu)`, linear in inertia and velocity, is its transpose's negative: it does no work.
 fn skew(factor: f64) -> Residuals {
     let pairs = symmetric().flat_map(|mass| (0..6).map(move |place| coriolis(&mass, &unit(place))));
     Some(pairs.flat_map(|c| (c + c.transpose() * factor).iter().copied().collect::<Vec<_>>()).collect())
 }
 
-/// `C(nu) nu` is what turning axes make of the momenta `(p, h) = M nu`: `omega x p` and `v x p + omega x h` (Kirchhoff). Quadratic in
-/// the velocity: sums of two units decide.
+/// `C(nu) nu` is the effect of turning axes on the momenta `(p, h) = M nu`: `omega x p` and `v x p + omega x h`
+/// (Kirchhoff). Quadratic in the velocity: sums of two units decide.
 fn turning_momenta(factor: f64) -> Residuals {
     let mut found = Vec::new();
     for (mass, i, j) in symmetric().flat_map(|mass| (0..36).map(move |pair| (mass, pair / 6, pair % 6))) {
@@ -89,7 +89,7 @@ fn turning_momenta(factor: f64) -> Residuals {
     Some(found)
 }
 
-/// `D(nu)` is the linear drag, and on the diagonal the quadratic one times the speed.
+/// `D(nu)` is the linear drag, and on the diagonal the quadratic drag times the speed.
 fn drag(factor: f64) -> Residuals {
     let mut found = Vec::new();
     for linear_drag in symmetric().map(|matrix| matrix + Matrix6::identity() * 8.0) {
@@ -106,8 +106,8 @@ fn drag(factor: f64) -> Residuals {
     Some(found)
 }
 
-/// Inertia times acceleration, with all other forces, is the force given: where the inertia is a power of two in each axis, so
-/// that the division is exact too.
+/// Inertia times acceleration plus all further forces is the force given: the inertia is a power of two in each
+/// axis, for an exact division.
 fn balance(factor: f64) -> Residuals {
     let mut found = Vec::new();
     let parameters = VehicleParameters {
@@ -134,7 +134,7 @@ pub(super) fn six_axes(part: &ClaimPart, distortion: Distortion) -> Verdict {
     Verdict::all([symmetry, skew, turning_momenta, drag, balance].map(|proof| zero(part.clone(), proof(factor))))
 }
 
-/// Vehicles of Table 2's form, every parameter a whole number drawn at random; inertias of three axes that are those of a body.
+/// Vehicles of Table 2's form, every parameter a random whole number; inertias of three axes that are those of a body.
 fn table_2() -> impl Iterator<Item = VehicleParameters> {
     let mut generator = Pcg64::seed_from_u64(2);
     core::iter::repeat_with(move || {

@@ -1,11 +1,11 @@
-//! Domains as data, and whether one covers another.
+//! Domains as data, and whether a domain covers another.
 
 use std::borrow::Cow;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// A variable of a box, between two ends. In a claim an end may be open or infinite; what a proof covers is closed.
+/// A variable of a box, between two ends. In a claim an end may be open or infinite; the domain of a proof is closed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClaimVariable {
     /// Name, a quotient where only a quotient matters.
@@ -64,12 +64,12 @@ impl fmt::Display for ClaimVariable {
     }
 }
 
-/// A part of a domain: with variables a box of them, without variables all that its text says.
+/// A part of a domain: with variables a box of them, without variables the whole of its text.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClaimPart {
-    /// Short name: a claim's part and what is proved of it have the same.
+    /// Short name: a claim's part and the proof of it have the same.
     pub name: Cow<'static, str>,
-    /// What it consists of, in one line.
+    /// Its text, in a single line.
     pub text: Cow<'static, str>,
     /// Sides of the box; empty where the part is covered whole or not at all.
     pub variables: Cow<'static, [ClaimVariable]>,
@@ -82,10 +82,10 @@ impl ClaimPart {
         Self::over(name, text, &[])
     }
 
-    /// All of a claim that is stated in one part.
+    /// The whole of a claim in a single part.
     pub(crate) const WHOLE: Self = Self::named("whole");
 
-    /// The part of that name, to be proved of a claim: its page says what it consists of.
+    /// The part of that name, to be proved of a claim: its page has the text.
     pub(crate) const fn named(name: &'static str) -> Self {
         Self::whole(name, "")
     }
@@ -114,7 +114,7 @@ impl ClaimPart {
         self.variables.iter().position(|mine| mine.name == side.name && mine.unit == side.unit)
     }
 
-    /// The ends of the variables of `claimed`; of all values where this part says nothing of a variable.
+    /// The ends of the variables of `claimed`; all values of a variable that this part does not have.
     fn sides_for(&self, claimed: &Self) -> Vec<[f64; 2]> {
         let mut sides = vec![[f64::NEG_INFINITY, f64::INFINITY]; claimed.variables.len()];
         for side in self.variables.iter() {
@@ -126,8 +126,8 @@ impl ClaimPart {
     }
 }
 
-/// Whether closed boxes cover one: what a box leaves over on each of its sides must be covered by the rest. What is left over is
-/// taken open, which its closure in closed boxes makes the same.
+/// Whether closed boxes cover a box: the remainder on each side of the first box must be covered by the rest. The
+/// remainder is taken open; closed boxes that cover it cover its closure.
 fn covered(whole: Vec<[f64; 2]>, boxes: &[Vec<[f64; 2]>]) -> bool {
     let Some((first, rest)) = boxes.split_first() else { return false };
     let meets = whole.iter().zip(first).all(
@@ -175,7 +175,7 @@ pub struct ClaimDomain {
 }
 
 impl ClaimDomain {
-    /// Of parts known when the program is built.
+    /// Of parts given when the program is built.
     #[must_use]
     pub const fn new(parts: &'static [ClaimPart]) -> Self {
         Self { parts: Cow::Borrowed(parts) }

@@ -1,4 +1,4 @@
-//! Evidence as data: what was found, on which part of a claim's domain, by which numbers.
+//! Evidence as data: the finding, on which part of a claim's domain, by which numbers.
 
 mod domain;
 mod verdict;

@@ -1,4 +1,4 @@
-//! What a check found, and the word for it.
+//! The finding of a check, and the word for it.
 
 use std::fmt;
 
@@ -14,7 +14,7 @@ pub enum Verdict {
     Holds(Evidence),
     /// It does not, and here is the case.
     Refuted(Witness),
-    /// It is said to hold approximately; as an equation it does not, and here is a case.
+    /// The paper has it as approximate; as an equation it does not, and here is a case.
     Approximate(Witness),
     /// The budget ran out first, or a proof did not succeed.
     Undecided {
@@ -28,15 +28,15 @@ pub enum Verdict {
 pub struct Evidence {
     /// Enclosed: true of every point of these parts.
     pub proved: ClaimDomain,
-    /// Finite models of which every state was visited: true of each of them, and said of nothing else.
+    /// Finite models of which every state was visited: true of each of them alone.
     pub exhausted: ClaimDomain,
-    /// Cases drawn that meet the hypotheses, or states visited.
+    /// Random cases that satisfy the hypotheses, or states visited.
     pub cases: Option<usize>,
     /// Boxes that the proved parts were divided into.
     pub boxes: Option<usize>,
     /// An identity's sides differ by no more than this on the proved parts.
     pub residual_bound: Option<f64>,
-    /// Smallest margin: of an inequality over the proved parts, else of the cases drawn, where 1 is exact and 0 the limit.
+    /// Smallest margin: of an inequality over the proved parts, else of the random cases, where 1 is exact and 0 the limit.
     pub margin: Option<f64>,
 }
 
@@ -58,7 +58,7 @@ impl Evidence {
         Self { exhausted: part.into(), cases: Some(states), ..Self::default() }
     }
 
-    /// That of two statements together: each part belongs to what was established of it.
+    /// That of two statements together: each part keeps its own evidence.
     fn with(self, other: Self) -> Self {
         fn both<T>(a: Option<T>, b: Option<T>, join: fn(T, T) -> T) -> Option<T> {
             match (a, b) {
@@ -77,7 +77,7 @@ impl Evidence {
     }
 }
 
-/// One word for a verdict.
+/// A word for a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Word {
@@ -87,7 +87,7 @@ pub enum Word {
     ProvedInPart,
     /// Every state of a finite model was visited, and these models are the whole domain as stated.
     Exhausted,
-    /// True of every case drawn.
+    /// True of every random case.
     Sampled,
     /// False, with a witness.
     Refuted,
@@ -173,7 +173,7 @@ impl Verdict {
         matches!(self, Self::Refuted(_))
     }
 
-    /// Of an approximation: the case that refutes the equation shows by how much it is off.
+    /// Of an approximation: the case that refutes the equation shows its error.
     pub(crate) fn approximated(self) -> Self {
         match self {
             Self::Refuted(witness) => Self::Approximate(witness),
@@ -181,7 +181,7 @@ impl Verdict {
         }
     }
 
-    /// Sampled and proved: refuted by either, undecided unless both hold. The margin is then that of the proof where it has one.
+    /// Sampled and proved: refuted by either, undecided unless both hold. The margin is then the proof's, if any.
     pub(crate) fn backed_by(self, proof: impl FnOnce() -> Self) -> Self {
         match (self, proof) {
             (Self::Holds(sampled), proof) => match proof() {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// A case that refutes, as numbers that a reader can put in again.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Witness {
-    /// Names and values, SI units unless the name says otherwise. A value that is no number is null in JSON.
+    /// Names and values, SI units unless the name has a unit. A value that is no number is null in JSON.
     #[serde(with = "numbers")]
     pub numbers: Vec<(Cow<'static, str>, f64)>,
 }

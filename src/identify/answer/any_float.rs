@@ -1,4 +1,4 @@
-//! A float in JSON where it need not be finite: a number, or one of the texts `inf`, `-inf`, `NaN`.
+//! A float in JSON where it need not be finite: a number, or a text: `inf`, `-inf`, `NaN`.
 
 use serde::{Deserialize, Deserializer, Serializer, de::Error};
 

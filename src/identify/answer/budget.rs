@@ -1,7 +1,7 @@
-//! The uncertainty budget: sources of error that no residual shows, and what each moves.
+//! The uncertainty budget: sources of error that no residual shows, and the shift of each.
 //!
 //! The record's scatter gives the statistical interval (type A of JCGM 100:2008, the GUM). A compass with hard iron or a thruster
-//! whose thrust changes after a reversal moves the inertia and leaves the residuals as they are: such sources have sizes that are
+//! whose thrust changes after a reversal moves the inertia and not the residuals: such sources have sizes that are
 //! declared (type B).
 //! The [practical half-width](super::practical) adds them.
 
@@ -19,13 +19,13 @@ pub enum ErrorSource {
     SensorGain,
     /// Scale of the time stamps.
     Clock,
-    /// Heading error of one cycle per turn, as hard iron beside a compass makes.
+    /// Heading error of a single cycle per turn, as by hard iron near a compass.
     HeadingError,
     /// Thrust after a reversal that differs from steady thrust, as the propeller's own wash makes.
     ThrustDynamics,
 }
 
-/// What one unit of a source moves, in percent.
+/// The shift by a unit of a source, in percent.
 pub(super) struct Shares {
     /// Scale of the output, and of time: they move every parameter by the power that its unit has of them.
     pub(super) output: f64,
@@ -43,7 +43,7 @@ pub(super) struct Shares {
 /// Shares of the trial: medians over 24 simulated vehicles, seeds 5530000 to 5530023, made by `tests/trust/budget.py`.
 const HEADING_ERROR: Shares = Shares { output: 0.0, time: 0.0, alpha: 1.4, drag: 8.8, delta: 1.3, delay: 0.11 };
 const THRUST_DYNAMICS: Shares = Shares { output: 0.0, time: 0.0, alpha: 0.45, drag: 0.93, delta: 0.001, delay: 0.004 };
-/// Exact: the record of `(1 + e) x` or of `(1 + e) t` is one of the same model with other parameters.
+/// Exact: the record of `(1 + e) x` or of `(1 + e) t` is a record of the same model with scaled parameters.
 const SENSOR_GAIN: Shares = Shares { output: 1.0, time: 0.0, alpha: 0.0, drag: 0.0, delta: 0.0, delay: 0.0 };
 const CLOCK: Shares = Shares { output: 0.0, time: 1.0, alpha: 0.0, drag: 0.0, delta: 0.0, delay: 0.0 };
 
@@ -109,7 +109,7 @@ pub struct Assumptions {
     /// Scale error of the time stamps, in percent.
     #[serde(rename = "clock")]
     pub clock_percent: f64,
-    /// Amplitude of the heading error of one cycle per turn, in degrees. It counts for headings alone.
+    /// Amplitude of the heading error of a single cycle per turn, in degrees. It counts for headings alone.
     #[serde(rename = "heading-error")]
     pub heading_error_deg: f64,
     /// Difference of the thrust after a reversal from steady thrust, in percent of steady thrust.
@@ -130,7 +130,7 @@ impl Default for Assumptions {
 }
 
 impl Assumptions {
-    /// No source: the practical intervals are twice as wide as the statistical ones.
+    /// No source: the practical intervals are twice as wide as the statistical intervals.
     pub const NONE: Self =
         Self { sensor_gain_percent: 0.0, clock_percent: 0.0, heading_error_deg: 0.0, thrust_dynamics_percent: 0.0 };
 
@@ -145,7 +145,7 @@ impl Assumptions {
         }
     }
 
-    /// With another size of one source.
+    /// With another size of a source.
     #[must_use]
     pub fn with(mut self, source: ErrorSource, size: f64) -> Self {
         *match source {
@@ -172,7 +172,7 @@ impl Assumptions {
     }
 }
 
-/// One line of the budget.
+/// A line of the budget.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BudgetEntry {
     /// Name of the [source](ErrorSource).

@@ -38,7 +38,7 @@ impl DragCovariance {
         self.statistical.iter().flatten().all(|entry| entry.is_finite())
     }
 
-    /// In other units of force.
+    /// In new units of force.
     pub(crate) fn in_units(self, factor: f64) -> Self {
         Self::statistical(matrix(|i, j| factor * factor * self.statistical[i][j]))
     }

@@ -42,15 +42,15 @@ fn within(angle: f64, n: usize) -> (f64, f64) {
         let k = power as f64;
         term *= square * (k - 1.0) / k;
     }
-    // The first term left out, times n over the cosine, is the derivative.
+    // The first omitted term, times n over the cosine, is the derivative.
     let density = term * n as f64 / cosine;
     if odd { (2.0 / PI * (angle + sine * sum), 2.0 / PI * density) } else { (sine * sum, density) }
 }
 
-/// Probability that a chi-square variable exceeds a value, zero or more; with one degree of freedom or more.
+/// Probability that a chi-square variable exceeds a value, zero or more; with 1 degree of freedom or more.
 #[allow(clippy::cast_precision_loss, reason = "a count of parameters or records")]
 pub(crate) fn chi_square_tail(value: f64, freedom: usize) -> f64 {
-    // The upper incomplete gamma function at half the freedom, from that at a half or one upwards (Abramowitz and Stegun 26.4.4, 26.4.5).
+    // The upper incomplete gamma function at half the freedom, from that at 1/2 or 1 upwards (Abramowitz and Stegun 26.4.4, 26.4.5).
     let (half, density) = (0.5 * value, libm::exp(-0.5 * value));
     let (mut order, mut tail, mut term) = if freedom.is_multiple_of(2) {
         (1.0, density, half * density)

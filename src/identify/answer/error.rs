@@ -23,7 +23,7 @@ pub enum IdentifyError {
     NoOrbit {
         /// Switching level over amplitude.
         ratio: f64,
-        /// What it stays below, however strong the drag.
+        /// Its upper bound, however strong the drag.
         limit: f64,
     },
     /// The features are those of an orbit whose drag is lost in rounding.
@@ -134,5 +134,5 @@ impl From<NonlinearityError> for IdentifyError {
     }
 }
 
-/// What to do about a feature that is none.
+/// The remedy for a feature that is no number.
 pub(crate) const READ_AGAIN: &str = "read it off the record again";

@@ -59,7 +59,7 @@ pub struct ConfidenceInterval {
     pub high: f64,
 }
 
-/// The constant force during each record. In JSON the only record's stands beside the list as `delta`, null for several.
+/// The constant force during each record. In JSON a single record's is repeated as `delta`, null for several.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(into = "DisturbanceFields", from = "DisturbanceFields")]
 pub struct Disturbances(Vec<Estimate>);
@@ -117,7 +117,7 @@ impl ConfidenceInterval {
         Self { std, low: value - NORMAL_95 * std, high: value + NORMAL_95 * std }
     }
 
-    /// Half its width in normal standard deviations: right where it is no normal one, too.
+    /// Half its width in normal standard deviations: right for an interval that is not normal, too.
     pub(crate) fn deviation(self) -> f64 {
         0.5 * (self.high - self.low) / NORMAL_95
     }
@@ -161,7 +161,7 @@ impl Estimate {
         self
     }
 
-    /// With an interval that holds those of the others, too.
+    /// With an interval that contains the rest, too.
     pub(crate) fn holding(mut self, others: &[Self]) -> Self {
         if let Some(spread) = &mut self.spread {
             for other in others.iter().filter_map(|other| other.spread) {

@@ -1,14 +1,14 @@
-//! What records say of the drag law: linear and quadratic drag alone against their sum, by the likelihood ratio.
+//! Evidence of records on the drag law: linear and quadratic drag alone against their sum, by the likelihood ratio.
 //!
-//! Mixed drag contains both simple laws, so no record refutes it in their favour, and a small difference is no evidence for a simple law:
-//! only a refuted law is excluded.
+//! Mixed drag contains both simple laws: no record refutes it in their favour, and a small difference is no evidence
+//! for a simple law: only a refuted law is excluded.
 
 use serde::{Deserialize, Serialize};
 
 use super::DragLaw;
 use super::distribution::chi_square_tail;
 
-/// Log-likelihood of the records under each drag law, the other terms alike, less that of the likeliest: zero or negative.
+/// Log-likelihood of the records under each drag law, all further terms alike, less that of the likeliest: zero or negative.
 ///
 /// `None` for a law that was not fitted (another was given) or could not be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -23,11 +23,11 @@ pub struct LawEvidence {
     pub records: usize,
 }
 
-/// What records say of the drag law.
+/// The verdict of records on the drag law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DragVerdict {
-    /// Either simple law does for these records, and so does their sum.
+    /// Either simple law and their sum do for these records.
     NotDistinguishable,
     /// This law does; a simple law outside it does not. Mixed: neither simple law does.
     #[serde(untagged)]
@@ -73,8 +73,8 @@ impl LawEvidence {
         })
     }
 
-    /// One less the largest [probability by chance](Self::by_chance) among the laws that the verdict excludes: how surely they
-    /// are refuted, not how probable the verdict is. `None` where nothing is excluded.
+    /// 1 less the largest [probability by chance](Self::by_chance) among the laws that the verdict excludes: how surely
+    /// they are refuted, not how probable the verdict is. `None` where nothing is excluded.
     #[must_use]
     pub fn confidence(&self) -> Option<f64> {
         let excluded = match self.verdict()? {
@@ -86,7 +86,7 @@ impl LawEvidence {
         excluded.into_iter().filter_map(|law| self.by_chance(law)).reduce(f64::max).map(|chance| 1.0 - chance)
     }
 
-    /// From log-likelihoods of linear, quadratic and mixed drag on one record.
+    /// From log-likelihoods of linear, quadratic and mixed drag on a record.
     pub(crate) fn from_log_likelihoods([linear, quadratic, mixed]: [Option<f64>; 3]) -> Self {
         // The sum contains the simple laws: a search that ended below them ended too early.
         let mixed = mixed.map(|mixed| [linear, quadratic].into_iter().flatten().fold(mixed, f64::max));

@@ -1,4 +1,4 @@
-//! What every method answers in: the drag law, an estimate with its error, trust and its reasons, warnings, errors.
+//! The common answer of every method: the drag law, an estimate with its error, trust and its reasons, warnings, errors.
 
 #[cfg(feature = "std")]
 pub(crate) mod any_float;

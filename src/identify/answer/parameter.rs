@@ -29,13 +29,13 @@ impl AxisParameter {
     }
 }
 
-/// What is done about the delay.
+/// The treatment of the delay.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Delay {
-    /// It is known, in seconds.
+    /// It is given, in seconds.
     KnownS(f64),
-    /// It is estimated with the other parameters, zero or more.
+    /// It is estimated with the parameters of motion, zero or more.
     #[default]
     Estimated,
 }

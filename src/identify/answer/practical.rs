@@ -1,7 +1,7 @@
 //! The practical interval: `H^2 = (2 h)^2 + sum_i (share_i size_i)^2`, h the statistical half-width, the sum over the sources of the
 //! [budget](super::budget).
 //!
-//! What a practical interval does not hold: the scale of the thrust, and a source that is not in the table.
+//! Not in a practical interval: the scale of the thrust, and a source that is not in the table.
 
 use super::budget::{Assumptions, BudgetEntry, ErrorSource, Shares};
 use super::covariance::matrix;
@@ -23,12 +23,12 @@ struct Moved {
     output: f64,
     time: f64,
     trial: fn(&Shares) -> f64,
-    /// What the trial's share is a share of.
+    /// The whole of the trial's share.
     whole: f64,
 }
 
 impl Moved {
-    /// Half the width of the declared sources' interval of a value, from shares that are independent of each other.
+    /// Half the width of the declared sources' interval of a value, from independent shares.
     fn declared(&self, value: f64, assumed: &Assumptions) -> f64 {
         let part = |source: ErrorSource| self.exact(value, source, assumed).abs() + self.tried(source, assumed);
         ErrorSource::ALL.into_iter().map(|source| part(source).powi(2)).sum::<f64>().sqrt()
@@ -78,7 +78,7 @@ impl Reported {
             whole: if speed > 0.0 { force / speed.powi(power) } else { 0.0 },
             ..exact(f64::from(power), f64::from(power))
         };
-        // A scale moves the three coefficients together. Which of them takes a trial's share is not known: apart.
+        // A scale moves the three coefficients together. Which of them takes a trial's share is undecided: apart.
         let (drags, estimates) = ([1, 2, 3].map(drag), self.drags());
         let declared = matrix(|i, j| {
             let estimated = |k: usize| estimates[k].filter(|drag| drag.spread.is_some());
@@ -109,7 +109,7 @@ impl Reported {
         let alpha = practical(self.alpha, alpha);
         let [beta, beta_quadratic] = [practical(self.beta, drags[0]), practical(self.beta_quadratic, drags[1])];
         let beta_cubic = self.beta_cubic.map(|cubic| practical(cubic, drags[2]));
-        // The practical interval may be too wide where the statistical one, half of it at most, is not.
+        // The practical interval may be too wide where the statistical interval, half of it at most, is not.
         self.reasons.retain(|reason| !matches!(reason, Reason::TooWide { .. }));
         let found = Self {
             alpha,
@@ -151,7 +151,7 @@ mod tests {
         assert!(matches!(found, Some(Reason::TooWide { relative }) if (relative - 0.567).abs() < 0.01), "{found:?}");
     }
 
-    /// 3-4-5: twice a half-width of 2 beside declared sources of 3.
+    /// 3-4-5: twice a half-width of 2 with declared sources of 3.
     #[test]
     fn practical_half_widths_add_in_squares() {
         let spread = ConfidenceInterval { std: 1.0, low: 8.0, high: 12.0 };

@@ -1,19 +1,19 @@
-//! The one answer to use.
+//! The answer to use.
 
 use serde::{Deserialize, Serialize};
 
 use super::{BudgetEntry, Disturbances, DragCovariance, DragLaw, Estimate, LawEvidence, Reason, Term, Trust};
 
-/// The one answer to use. Intervals are those of all models that the records do not refute. Values of one record are the likeliest model's, which
-/// belong together; of several, pooled means over the models, each parameter by itself.
+/// The answer to use. Intervals are those of all models that the records do not refute. Values of a single record are
+/// the likeliest model's, which belong together; of several, pooled means over the models, each parameter by itself.
 ///
 /// In the document a drag that the given law excludes is null, and a reason is its code and text: there `Drag` is `Option<Estimate>`, and
 /// `Why` is [`Caution`](crate::identify::Caution).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reported<Drag = Estimate, Why = Reason> {
-    /// The law that was given, or mixed: the intervals of both drags say how much of each there may be.
+    /// The law that was given, or mixed: the intervals of both drags bound each.
     pub drag: DragLaw,
-    /// How much likelier each law makes the records; left to the choice of the law in the document.
+    /// The likelihood of the records by each law; in the document with the choice of the law.
     #[serde(default, skip_serializing_if = "LawEvidence::is_empty")]
     pub laws: LawEvidence,
     /// Terms of the likeliest model.
@@ -50,7 +50,7 @@ pub struct Reported<Drag = Estimate, Why = Reason> {
     pub deltas: Disturbances,
     /// Delay in s.
     pub delay_s: Estimate,
-    /// Sources of error that no residual shows, the largest first: what the practical intervals hold beside the record's scatter.
+    /// Sources of error that no residual shows, the largest first: the part of the practical intervals beyond the record's scatter.
     #[serde(default)]
     pub budget: Vec<BudgetEntry>,
     /// Whether to use it.
@@ -72,14 +72,14 @@ impl Reported {
         [Some(self.beta), Some(self.beta_quadratic), self.beta_cubic]
     }
 
-    /// With one more reason.
+    /// With a further reason.
     pub(crate) fn with_reason(mut self, reason: Reason) -> Self {
         self.reasons.push(reason);
         self.reasons.sort_by_key(|reason| core::cmp::Reverse(reason.trust()));
         Self { trust: self.trust.max(reason.trust()), ..self }
     }
 
-    /// The same in other units of force.
+    /// The same in new units of force.
     pub(crate) fn in_units(self, factor: f64) -> Self {
         let drag_covariance = self.drag_covariance.map(|covariance| covariance.in_units(factor));
         Self { drag_covariance, ..self.forces(|estimate| estimate.in_units(factor)) }

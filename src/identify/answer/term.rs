@@ -1,8 +1,8 @@
-//! Terms that a model may have beside inertia, linear and quadratic drag and white noise.
+//! Terms that a model may have in addition to inertia, linear and quadratic drag and white noise.
 
 use serde::{Deserialize, Serialize};
 
-/// What a model may have in addition, each tried where it makes the record likelier.
+/// Additional terms of a model, each tried where it makes the record likelier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Term {
@@ -75,7 +75,7 @@ impl Term {
         }
     }
 
-    /// What a record with the term shows, as the beginning of a sentence.
+    /// The observation on a record with the term, as the beginning of a sentence.
     pub(super) fn finding(self) -> &'static str {
         match self {
             Self::Lag => "the actuator follows the command with a lag",

@@ -11,7 +11,7 @@ use crate::numeric::significant;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Trust {
-    /// No test contradicts the model, and the interval is the ordinary one.
+    /// No test contradicts the model, and the interval is as usual.
     Good,
     /// A named misfit is paid for in the interval.
     Widened,
@@ -36,7 +36,7 @@ impl Trust {
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Reason {
-    /// The record has this term beside inertia, drag and white noise.
+    /// The record has this term in addition to inertia, drag and white noise.
     Term(Term),
     /// The record contradicts the delay given: it has another.
     DelayContradicted {
@@ -50,7 +50,7 @@ pub enum Reason {
         /// Probability of a statistic at least as large by chance.
         probability: f64,
     },
-    /// Readings far from all others were left out.
+    /// Readings far from the rest were excluded.
     Outliers {
         /// How many.
         count: usize,
@@ -149,12 +149,12 @@ impl Reason {
         }
     }
 
-    /// What it does to the trust.
+    /// Its effect on the trust.
     #[must_use]
     pub fn trust(self) -> Trust {
         match self {
             Self::TooWide { .. } | Self::NotSettled | Self::DoesNotPredict { .. } => Trust::Doubtful,
-            // A command of any shape tells the parameters apart if it moves the vehicle for two cycles.
+            // A command of any shape separates the parameters if it moves the vehicle for two cycles.
             Self::NoExperiment(NotAnExperiment::NotHeld { .. }) => Trust::Widened,
             Self::NoExperiment(_) => Trust::Doubtful,
             Self::ForceFollowsLevel { .. } => Trust::Good,

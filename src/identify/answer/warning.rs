@@ -1,11 +1,11 @@
-//! What a user should know before trusting a result.
+//! Warnings to read before trusting a result.
 
 use core::fmt;
 
 use super::AxisParameter;
 use crate::features::RecordFeatures;
 
-/// Something that would mislead. Ratios are plain numbers; one to an estimate of zero is infinite, and written as text in JSON.
+/// Something that would mislead. Ratios are plain numbers; a ratio to an estimate of zero is infinite, and written as text in JSON.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(tag = "code", rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -25,7 +25,7 @@ pub enum Warning {
     MethodsDisagree {
         /// The parameter.
         parameter: AxisParameter,
-        /// Value by the paper's method over the reported one.
+        /// Value by the paper's method over the reported value.
         #[serde(with = "super::any_float")]
         ratio: f64,
     },

@@ -1,4 +1,4 @@
-//! The states that a motion passes during a step, before its Taylor polynomial is known.
+//! The states that a motion passes during a step, before its Taylor polynomial is computed.
 //!
 //! Picard-Lindelöf: a box B with `start + [0, h] f(B)` inside B holds every solution up to h (Lohner 1987; Nedialkov, Jackson and Corliss,
 //! *Applied Mathematics and Computation* 105, 1999). Here each component is bounded by a scalar differential inequality, which is
@@ -12,7 +12,7 @@ const ATTEMPTS: usize = 6;
 /// Room that is added to position, velocity and force after a failed attempt: the force moves the velocity, and that the position.
 const INFLATION: [f64; 3] = [0.4, 0.15, 0.05];
 
-/// States that no solution leaves within `h`, given the rate of each component.
+/// States that contain every solution for `h`, given the rate of each component.
 pub(super) fn enclose(start: &State, h: Interval, rate: impl Fn(usize, &State) -> Interval) -> Option<State> {
     let h = Interval::point(h.upper());
     let picard = |guess: &State| -> Option<State> {
@@ -50,7 +50,7 @@ pub(super) fn enclose(start: &State, h: Interval, rate: impl Fn(usize, &State) -
 }
 
 impl VectorField {
-    /// States that no motion leaves within `h`.
+    /// States that contain every motion for `h`.
     pub(super) fn passed(&self, start: &State, u: Interval, h: Interval) -> Option<State> {
         let damped = self.passed_damped(start, u, h);
         damped.or_else(|| enclose(start, h, |component, state| self.rate_of(component, state, u)))

@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Consistency {
-    /// A parameter of the model meets every reading: the witness.
+    /// A parameter of the model satisfies every reading: the witness.
     Consistent,
     /// None in the search box does.
     Refuted,
-    /// The budget was spent before either was known.
+    /// The budget was spent before a decision.
     Undecided,
 }
 
@@ -140,7 +140,7 @@ pub struct Contradicting {
     pub record: usize,
     /// Number of the sample.
     pub sample: usize,
-    /// Whether the model stays above what the reading allows, rather than below.
+    /// Whether the model stays above the reading's bounds, rather than below.
     pub model_above: bool,
     /// Its share of the contradiction; their sum is 1.
     pub share: f64,
@@ -155,11 +155,11 @@ pub struct Outlier {
     pub sample: usize,
 }
 
-/// What the records leave of a model's parameters.
+/// The parameters of a model that no record excludes.
 ///
-/// Guaranteed: a parameter within the search box that meets every constraint lies within `bounds`; where the verdict is `refuted`
-/// there is none; where it is `consistent` the witness is one. Nothing is said about parameters outside the search box, nor
-/// about a sensor whose errors are larger than stated.
+/// Guaranteed: a parameter within the search box that satisfies every constraint lies within `bounds`; where the
+/// verdict is `refuted` there is none; where it is `consistent` the witness satisfies all. No guarantee covers
+/// parameters outside the search box, or a sensor whose errors are larger than stated.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bounds {
     /// The answer.
@@ -168,19 +168,19 @@ pub struct Bounds {
     pub search_box: Vec<QuantityRange>,
     /// What is left; empty where refuted.
     pub bounds: Vec<QuantityRange>,
-    /// A parameter whose motion, enclosed in intervals, meets every reading.
+    /// A parameter whose motion, enclosed in intervals, satisfies every reading.
     pub witness: Option<ParameterValues>,
-    /// The parameter found with the least largest misfit: no error of the sensor below `misfit` times the one taken is known to do.
+    /// The parameter found with the least largest misfit: for less than `misfit` times the given error no parameter is shown.
     pub nearest: Option<ParameterValues>,
-    /// Largest error of a reading that was taken, by record: half the sensor's step and what was given besides.
+    /// Largest error of a reading that was taken, by record: half the sensor's step and the given error.
     pub error: Vec<f64>,
     /// The error is to be multiplied by at least the first, at most the second, for the model to be consistent.
     pub error_factor: [f64; 2],
-    /// Readings that contradict each other, where refuted, in the part of the box that was hardest to refute; where no part shows any,
-    /// readings between two switchings that no motion meets, whatever its parameters.
+    /// Contradictory readings, where refuted, in the part of the box that was hardest to refute; where no part shows
+    /// any, readings between two switchings that no motion satisfies with any parameters.
     pub contradicting: Vec<Contradicting>,
-    /// Readings that no parameter meets which misses no more than [`BoundedModel::outliers`](super::BoundedModel::outliers). Fewer
-    /// than these may be found, and the bounds are wider then: any others could be outliers.
+    /// Readings missed by every parameter that misses no more than [`BoundedModel::outliers`](super::BoundedModel::outliers).
+    /// Fewer than these may be found, and the bounds are wider then: any of the rest could be outliers.
     pub outliers: Vec<Outlier>,
     /// Passes over the records.
     pub passes: usize,

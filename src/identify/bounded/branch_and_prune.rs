@@ -15,7 +15,7 @@ pub(super) const KEPT: f64 = 0.7;
 /// A box is not divided below this uncertainty: the bounds then depend on the readings alone.
 pub(super) const FINEST: f64 = 1e-5;
 
-/// A box that is left.
+/// A remaining box.
 #[derive(Clone, Debug)]
 pub(super) struct Kept {
     pub(super) at: Vec<Interval>,
@@ -57,7 +57,7 @@ impl Queue {
     }
 }
 
-/// One end of the range of an unknown.
+/// An end of the range of an unknown.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End {
     pub(super) unknown: usize,
@@ -76,7 +76,7 @@ impl End {
 }
 
 impl Kept {
-    /// Keeps the part beyond a value, towards the end; the other part, if there is any.
+    /// Keeps the part beyond a value, towards the end; the second part, if there is any.
     fn cut(&mut self, end: End, value: f64) -> Option<Self> {
         let side = self.at[end.unknown];
         let value = if end.upper { value } else { -value };
@@ -98,11 +98,11 @@ pub(super) fn hull(boxes: impl IntoIterator<Item = Vec<Interval>>) -> Option<Vec
     boxes.into_iter().reduce(|hull, at| hull.iter().zip(&at).map(|(a, b)| a.hull(*b)).collect())
 }
 
-/// The boxes that are left, and the last empty one with a contradiction of its readings.
+/// The remaining boxes, and the last empty box with a contradiction of its readings.
 pub(super) struct Division {
     pub(super) last_empty: Option<Empty>,
     pub(super) kept: Vec<Kept>,
-    /// Whether the motion was followed over every box that is left.
+    /// Whether the motion was followed over every remaining box.
     pub(super) complete: bool,
 }
 
@@ -130,7 +130,7 @@ impl Division {
         all.max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// The smallest box that contains all that is left; `None` where nothing is.
+    /// The smallest box that contains all remaining boxes; `None` where nothing is.
     pub(super) fn hull(&self) -> Option<Vec<Interval>> {
         hull(self.kept.iter().map(|kept| kept.at.clone()))
     }
@@ -151,7 +151,7 @@ impl Contractor {
         Some(parts)
     }
 
-    /// Boxes contracted and divided until the motion is followed over each that is left, or the budget is spent.
+    /// Boxes contracted and divided until the motion is followed over each remaining box, or the budget is spent.
     pub(super) fn prune(&mut self, boxes: Vec<Vec<Interval>>, budget: usize) -> Division {
         let mut division = Division::new();
         let open = boxes.into_iter().map(|at| Open { at, modulating: true }).collect();

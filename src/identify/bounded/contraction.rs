@@ -1,4 +1,4 @@
-//! Contraction of one box: by modulating functions while it is wide, then by multiple shooting, until neither helps.
+//! Contraction of a box: by modulating functions while it is wide, then by multiple shooting, until neither helps.
 
 #[cfg(test)]
 mod tests;
@@ -11,16 +11,16 @@ use super::problem::Problem;
 use super::vector_field::FieldTerm;
 use crate::numeric::Interval;
 
-/// A contraction is repeated while it leaves less than this share of the width of some parameter.
+/// A contraction is repeated while it shrinks the width of some parameter below this share.
 pub(super) const HELPED: f64 = 0.75;
 /// A box is too wide for shooting while the range of a parameter changes the force by more than this share of the largest command.
 const WIDE: f64 = 0.25;
-/// The gain is divided first until its ends are within this factor: the other parameters scale with it.
+/// The gain is divided first until its ends are within this factor: the remaining parameters scale with it.
 const DECADE: f64 = 4.0;
-/// Contractions of one box.
+/// Contractions of a box.
 const MOST_CONTRACTIONS: usize = 30;
 
-/// By what a box was proved empty.
+/// The kind of constraint by which a box was proved empty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ConstraintKind {
     ModulatingFunctions,
@@ -32,7 +32,7 @@ pub(super) enum ConstraintKind {
 pub(super) struct Empty {
     pub(super) method: ConstraintKind,
     pub(super) multipliers: Multipliers,
-    /// The inequalities that contradict each other; `None` where two enclosures have no value in common.
+    /// The contradictory inequalities; `None` where two enclosures have no value in common.
     pub(super) relaxation: Option<Relaxation>,
 }
 
@@ -65,7 +65,7 @@ impl Contractor {
         Self { supports: problem.records.iter().map(of).collect(), problem, contradicting: Vec::new() }
     }
 
-    /// The same with readings that contradict each other, as another contractor found them.
+    /// The same with contradictory readings, as another contractor found them.
     pub(super) fn with_contradicting(self, contradicting: Vec<Contradicting>) -> Self {
         Self { contradicting, ..self }
     }
@@ -171,7 +171,7 @@ impl Contractor {
         (share > WIDE).then_some(widest)
     }
 
-    /// The least share of a parameter's width that a contraction left.
+    /// The least share of a parameter's width after a contraction.
     pub(super) fn share_left(&self, before: &[Interval], after: &[Interval]) -> f64 {
         let widths = before.iter().zip(after).take(self.problem.unknowns.parameters());
         widths.map(|(b, a)| if b.width() > 0.0 { a.width() / b.width() } else { 1.0 }).fold(1.0, f64::min)

@@ -1,5 +1,5 @@
 //! Feasible points: single parameters whose motion, enclosed in intervals, satisfies every reading. They are sought by successive linear
-//! programming (Fletcher and Sainz de la Maza, *Mathematical Programming* 43, 1989) with the largest misfit as one more unknown.
+//! programming (Fletcher and Sainz de la Maza, *Mathematical Programming* 43, 1989) with the largest misfit as a further unknown.
 
 pub(super) mod estimate;
 #[cfg(test)]
@@ -10,9 +10,9 @@ use super::linear_program::Outcome;
 use super::linear_relaxation::{Origin, Relaxation, Span, midpoints, points};
 use crate::numeric::Interval;
 
-/// Linear programmes of one descent.
+/// Linear programmes of a descent.
 const MOST_STEPS: usize = 16;
-/// A descent ends where a step takes less than this share off the misfit; one along an unknown, off the width of its range.
+/// A descent ends where a step takes less than this share off the misfit; a descent along an unknown, off the width of its range.
 const LEAST_GAIN: f64 = 1e-3;
 /// Factor of the trust region after a step that does not improve the misfit.
 const SHRINK: f64 = 0.25;
@@ -59,7 +59,7 @@ fn confine(relaxation: &mut Relaxation, within: &[Interval], from: &[Interval], 
     }
 }
 
-/// A point after a step; the excess, which is no unknown of the point, is left out.
+/// A point after a step; the excess, which is no unknown of the point, is omitted.
 fn moved(point: &[f64], places: &[usize], step: &[f64]) -> Vec<f64> {
     let mut next = point.to_vec();
     for (place, step) in places.iter().zip(step).filter(|(place, _)| **place < point.len()) {
@@ -75,7 +75,7 @@ impl Contractor {
         misfits.try_fold(0.0, |largest: f64, misfit| Some(largest.max(misfit?)))
     }
 
-    /// Adds the excess of the misfit over one to the unknowns: `a z - E excess <= b` for the rows of readings. Its place.
+    /// Adds the excess of the misfit over 1 to the unknowns: `a z - E excess <= b` for the rows of readings. Its place.
     pub(super) fn add_excess(&self, relaxation: &mut Relaxation) -> usize {
         let excess = relaxation.deviations.len();
         for (row, origin) in relaxation.inequalities.coefficients.iter_mut().zip(&relaxation.origins) {

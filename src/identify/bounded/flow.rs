@@ -39,7 +39,7 @@ pub(super) struct Input<'a> {
     pub(super) delay_at_s: f64,
     /// A faster motion is given up.
     pub(super) fastest: f64,
-    /// What a step may leave uncertain of the point's velocity.
+    /// The largest uncertainty of the point's velocity after a step.
     pub(super) allowed: f64,
     pub(super) work: &'a Work,
 }
@@ -47,7 +47,7 @@ pub(super) struct Input<'a> {
 /// A switching at an uncertain instant, which may have happened.
 struct Uncertain {
     edge: usize,
-    /// The states to which a unit impulse at the switching may have led by now.
+    /// The states to which a unit impulse at the switching may have brought the motion by now.
     impulse: State,
 }
 
@@ -68,7 +68,7 @@ fn shorten(part: &mut Interval, length: f64) {
     }
 }
 
-/// One step of at most the length `part`, which it shortens; `Some(None)` where the velocity is about to change its sign.
+/// A step of at most the length `part`, which it shortens; `Some(None)` where the velocity is about to change its sign.
 fn stride(
     fields: &Fields,
     state: &StatePair,
@@ -289,7 +289,7 @@ impl Flow<'_> {
         None
     }
 
-    /// One step by rates, the end of the point's motion, and the states that it passes.
+    /// A step by rates, the end of the point's motion, and the states that it passes.
     fn by_rates(&self, u: Interval, u_at: Interval, part: &mut Interval) -> Option<(Box<FlowStep>, State, State)> {
         let fields = &self.input.fields;
         shorten(part, BY_RATES / fields.over.fastest_rate(self.state.over[VELOCITY]));
@@ -321,8 +321,8 @@ impl Passed {
     }
 }
 
-/// The motion at those of the `times` that are used, the first among them, where it starts; with sensitivities by variables, which
-/// deviate so far from the point. `None` where it cannot be enclosed.
+/// The motion at those of the `times` that are used, the first among them, where it starts; with sensitivities by
+/// variables, and their deviations from the point. `None` where it cannot be enclosed.
 pub(super) fn follow(
     input: &Input<'_>,
     start: StatePair,

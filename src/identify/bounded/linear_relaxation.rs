@@ -47,7 +47,7 @@ pub(super) struct Relaxation {
     pub(super) deviations: Vec<Interval>,
 }
 
-/// Successive shooting intervals of one record, from the first to before the last.
+/// Successive shooting intervals of a record, from the first to before the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Span {
     pub(super) from: usize,
@@ -92,7 +92,7 @@ impl Problem {
         self.all_samples(span).map(|(sample, used)| (time_s[sample], used)).collect()
     }
 
-    /// Records as far as they are followed, one span each: single shooting.
+    /// Records as far as they are followed, a span each: single shooting.
     pub(super) fn single_shooting(&self) -> Vec<Span> {
         let mut spans: Vec<Span> = Vec::new();
         for (index, interval) in self.followed() {
@@ -104,7 +104,7 @@ impl Problem {
         spans
     }
 
-    /// Shooting intervals that are followed, one span each: multiple shooting.
+    /// Shooting intervals that are followed, a span each: multiple shooting.
     pub(super) fn multiple_shooting(&self) -> Vec<Span> {
         self.followed().map(|(index, _)| Span::single(index)).collect()
     }
@@ -114,16 +114,16 @@ impl Problem {
         self.follow(span, at, centre, true, &self.times(span))
     }
 
-    /// The outputs of one point over a span.
+    /// The outputs of a point over a span.
     pub(super) fn outputs(&self, span: Span, point: &[f64]) -> Option<Vec<Interval>> {
         let motion = self.follow(span, &points(point), point, false, &self.times(span))?;
         Some(motion.iter().map(|node| node.at[0]).collect())
     }
 
-    /// Upper bound of the largest misfit of one point over a span, in largest errors. `None` where its motion cannot be enclosed.
+    /// Upper bound of the largest misfit of a point over a span, in largest errors. `None` where its motion cannot be enclosed.
     ///
-    /// A reading y was taken within the jitter J of its stamp t. The output is continuous: it is within E of y at some instant between two
-    /// of `[t - J, t + J]`, at one of which it is not above y + E and at the other not below y - E.
+    /// A reading y was taken within the jitter J of its stamp t. The output is continuous: it is within E of y at some
+    /// instant between two of `[t - J, t + J]`, not above y + E at either end and not below y - E at the opposite end.
     pub(super) fn misfit(&self, span: Span, point: &[f64]) -> Option<f64> {
         let Readings { time_s, value, error, jitter_s, .. } = &self.records[self.unknowns.shooting[span.from].record];
         let (samples, mut times) = (self.samples(span), self.times(span));
@@ -232,7 +232,7 @@ impl Problem {
         }
     }
 
-    /// Adds the inequalities of the readings of a span, whose motion is known about the same centre; with `linked` those of its end.
+    /// Adds the inequalities of the readings of a span, whose motion is enclosed about the same centre; with `linked` those of its end.
     pub(super) fn add_motion(&self, span: Span, motion: &[Node], linked: bool, relaxation: &mut Relaxation) {
         let (_, places) = self.unknowns.variables(span.from);
         let record = self.unknowns.shooting[span.from].record;
@@ -258,9 +258,9 @@ impl Problem {
         }
     }
 
-    /// The inequalities of all shooting intervals that are followed, about `centre`. The state at the end of one is intersected with the
-    /// box at the beginning of the next; a centre that is left outside moves to the middle of the intersection: the mean value form is wide
-    /// about a far centre. `None` where there is no enclosure.
+    /// The inequalities of all shooting intervals that are followed, about `centre`. The state at the end of an
+    /// interval is intersected with the box at the beginning of the next; a centre outside moves to the middle of the
+    /// intersection: the mean value form is wide about a far centre. `None` where there is no enclosure.
     pub(super) fn shoot(&self, at: &mut [Interval], centre: Vec<f64>) -> Result<Option<Relaxation>, Disjoint> {
         let mut relaxation = self.about(at, centre);
         for span in self.multiple_shooting() {
@@ -284,7 +284,7 @@ impl Problem {
     }
 }
 
-/// Half of a range at one side of a value.
+/// Half of a range at a side of a value.
 pub(super) fn half_line(end: f64, upper: bool) -> Interval {
     let half = if upper { Interval::new(f64::NEG_INFINITY, end) } else { Interval::new(end, f64::INFINITY) };
     half.unwrap_or(Interval::ENTIRE)
@@ -383,13 +383,13 @@ impl Relaxation {
         Ok(())
     }
 
-    /// A side whose deviation, times `sign`, is at most `bound`; `None` where nothing is left.
+    /// A side whose deviation, times `sign`, is at most `bound`; `None` where it is empty.
     pub(super) fn cut(&self, side: Interval, unknown: usize, sign: f64, bound: f64) -> Option<Interval> {
         let end = Interval::point(self.centre[unknown]) + Interval::point(sign * bound);
         side.intersection(half_line(if sign > 0.0 { end.upper() } else { end.lower() }, sign > 0.0))
     }
 
-    /// The range of a combination of unknowns, `sum_j c_j theta_j`. `None` where the inequalities contradict each other.
+    /// The range of a combination of unknowns, `sum_j c_j theta_j`. `None` where the inequalities have no solution.
     pub(super) fn combination(&self, parts: &[(usize, f64)]) -> Option<Interval> {
         let programme = self.programme(&self.places());
         let end = |sign: f64| {

@@ -7,7 +7,7 @@
 //! * Over a wide box the weak form of the equation, with modulating functions, gives inequalities linear in the parameters.
 //! * Over a narrower box validated Taylor steps enclose the motion and its sensitivities; multiple shooting makes each reading two linear
 //!   inequalities with interval coefficients.
-//! * A linear programme proposes multipliers; the bound is what these give in intervals. Boxes are contracted and divided.
+//! * A linear programme proposes multipliers; the bound is their value in intervals. Boxes are contracted and divided.
 //! * A feasible point is accepted only by its enclosed motion.
 
 mod a_priori_enclosure;

@@ -1,9 +1,9 @@
 //! Modulating functions (Shinbrot, *Transactions of the ASME* 79, 1957; Preisig and Rippin, *Computers and Chemical Engineering* 17, 1993):
 //! the weak form of the equation gives inequalities linear in the terms, over any box.
 //!
-//! For a hat K, one at a sample and falling linearly to zero at two others, `int K x'' = (x_2 - x_1)/(t_2 - t_1) - (x_1 - x_0)/(t_1 - t_0)`:
-//! three readings give it to within their errors. By the equation it is a combination of the terms, whose coefficients `int K`
-//! of the command, of velocities and of positions follow from the log.
+//! For a hat K, 1 at a sample and falling linearly to zero at a sample on either side,
+//! `int K x'' = (x_2 - x_1)/(t_2 - t_1) - (x_1 - x_0)/(t_1 - t_0)`: three readings give it to within their errors. By the equation
+//! it is a combination of the terms, whose coefficients `int K` of the command, of velocities and of positions follow from the log.
 
 mod forcing;
 #[cfg(test)]
@@ -21,7 +21,7 @@ use weight::Hat;
 
 /// Half-widths of the hats in mean half-periods: from a fifth, in which readings tell accelerations, to two, in which drag averages.
 const HALF_WIDTHS: [f64; 5] = [0.2, 0.4, 0.8, 1.4, 2.2];
-/// Most hats of one width.
+/// Most hats of the same width.
 const MOST_HATS: usize = 60;
 
 /// Hats of all widths along a record, the mean half-period given.
@@ -97,8 +97,8 @@ struct Modulated<'a> {
 impl Modulated<'_> {
     /// `int K f(v)`, f by a tangent in each interval between samples.
     ///
-    /// `int K slope v = sum slope_i K_i (x_(i+1) - x_i)` with `K_i` the mean of K: the errors of the readings add up by the differences of
-    /// successive weights. K differs from its mean by at most `|K_(i+1) - K_i|/2`, more in one half and less in the other.
+    /// `int K slope v = sum slope_i K_i (x_(i+1) - x_i)` with `K_i` the mean of K: the errors of the readings add up by the differences
+    /// of successive weights. K differs from its mean by at most `|K_(i+1) - K_i|/2`, with opposite signs in its two halves.
     fn drag(&self, f: impl Fn(Interval) -> Tangent) -> Interval {
         let (time, value) = (&self.readings.time_s, &self.readings.value);
         let (mut sum, mut errors, mut before) = (Interval::ZERO, Interval::ZERO, Interval::ZERO);

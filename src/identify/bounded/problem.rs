@@ -12,9 +12,9 @@ use crate::experiment::Record;
 use crate::identify::IdentifyError;
 use crate::numeric::{Interval, Limit, OutOfDomain};
 
-/// Room for the rounding of numbers on their way into a file: of a reading in steps of the sensor, of others in shares of themselves.
+/// Room for the rounding of numbers on their way into a file: of a reading in steps of the sensor, of the rest in shares of themselves.
 pub(super) const ROUNDING: f64 = 1e-9;
-/// Largest negative drag rate that is searched, over the mean half-period: an unstable vehicle that grows by `e^2.5` in one.
+/// Largest negative drag rate that is searched, over the mean half-period: an unstable vehicle that grows by `e^2.5` in it.
 const DRIVING: f64 = 2.5;
 /// Longest lag that is searched: the mean half-period over this. A longer lag exchanges with the time constant of the drag.
 const LEAST_LAG_RATE: f64 = 4.0;
@@ -24,10 +24,10 @@ const FASTEST: f64 = 4.0;
 const MOST_INTERVALS: usize = 40;
 /// Fewest samples of a shooting interval.
 const FEWEST_SAMPLES: usize = 6;
-/// Half-periods of the first horizon: over wide boxes they tell nearly as much as the whole record.
+/// Half-periods of the first horizon: over wide boxes they narrow nearly as far as the whole record.
 const FIRST_HORIZON: usize = 3;
 /// Shooting intervals of a half-period in the first horizon; there boxes are wide, and the error of the sensitivities grows with the
-/// square of an interval's length. Later there is one of each half-period.
+/// square of an interval's length. Later there is a single interval for each half-period.
 const PER_HALF_PERIOD: usize = 4;
 
 /// Records, unknowns and search box.
@@ -237,7 +237,7 @@ impl Problem {
         let mut search: Vec<Interval> = unknowns.terms.iter().map(range).collect();
         search.extend(unknowns.delay().map(|_| delay));
         for (record, readings) in records.iter().enumerate() {
-            // A disturbance stronger than the command leaves no oscillation.
+            // Under a disturbance stronger than the command there is no oscillation.
             search.push(Interval::symmetric(gain * reach * readings.command.largest()));
             search.extend((0..unknowns.instants(record)).map(|edge| readings.command.span(edge)));
         }

@@ -116,7 +116,7 @@ impl Relaxed<'_> {
         while groups > 2 {
             pieces = self.pieces(groups, &at)?;
             if let (Some(bounds), true) = (self.hardest.take(), pieces.is_empty()) {
-                // How much larger errors would have to be is known for this pair alone.
+                // The factor of larger errors is found for this pair alone.
                 return Ok(self.answer(Bounds { nearest: None, error_factor: [1.0, f64::MAX], ..bounds }, &whole));
             }
             at = hull(pieces.iter().filter_map(|(_, piece)| piece.at.clone())).unwrap_or(at);
@@ -173,7 +173,7 @@ impl Relaxed<'_> {
         }
     }
 
-    /// What the readings that are kept leave of a box, at the cost of so many passes over all.
+    /// The remainder of a box by the kept readings, for at most `budget` passes over all.
     fn leave(
         &mut self,
         keep: impl Fn(&Self, Outlier) -> bool,
@@ -252,7 +252,7 @@ impl Relaxed<'_> {
         Ok(Contractor::new(problem.clone()).prune(vec![problem.search], PROOF).kept.is_empty())
     }
 
-    /// The answer once no more outliers are found, of which so many are still `allowed`.
+    /// The answer once no more outliers are found, with a number of them still `allowed`.
     fn conclude(
         mut self,
         whole: &Problem,
@@ -266,7 +266,7 @@ impl Relaxed<'_> {
         }
         let mut tried = all.bounds;
         if tried.witness.is_none() {
-            // Which readings are outliers is not known, but a parameter that misses few shows that they may be.
+            // Which readings are outliers is undecided, but a parameter that misses few shows that they may be.
             let missed = pieces.iter().map(|(_, piece)| &piece.missed).filter(|missed| !missed.is_empty());
             let fewest = missed.min_by_key(|missed| missed.len()).cloned().unwrap_or_default();
             let suspects = &fewest[..fewest.len().min(allowed)];
@@ -285,7 +285,7 @@ impl Relaxed<'_> {
     }
 }
 
-/// What all pairs leave of each quantity; a record's first state is another one's with each pair, and left out.
+/// The union over all pairs of each quantity's range; a record's first state differs with each pair, and is omitted.
 fn union(pieces: &[(Groups, Left)]) -> Vec<QuantityRange> {
     let mut all: Vec<QuantityRange> = Vec::new();
     for range in pieces.iter().flat_map(|(_, piece)| &piece.bounds.bounds) {

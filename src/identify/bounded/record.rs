@@ -7,7 +7,7 @@ use crate::numeric::Interval;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Command {
     levels: Vec<f64>,
-    /// First and last instant of each switching; equal where the instant is known.
+    /// First and last instant of each switching; equal where the instant is certain.
     spans: Vec<(f64, f64)>,
 }
 
@@ -53,7 +53,7 @@ impl Command {
         Interval::point(first).hull(Interval::point(last))
     }
 
-    /// The same with other ranges of the instants.
+    /// The same with new ranges of the instants.
     pub(super) fn with_spans(&self, spans: impl Iterator<Item = Interval>) -> Self {
         Self { levels: self.levels.clone(), spans: spans.map(|span| (span.lower(), span.upper())).collect() }
     }

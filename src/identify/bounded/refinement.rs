@@ -1,4 +1,4 @@
-//! Refinement of the bounds once a feasible point is known: boxes of low uncertainty, and ends that move in to feasible points.
+//! Refinement of the bounds once a feasible point is found: boxes of low uncertainty, and ends that move in to feasible points.
 
 use super::answer::Quantity;
 use super::branch_and_prune::{Division, End, FINEST, hull};
@@ -12,7 +12,7 @@ const MOST_PASSES: usize = 640;
 /// Bounds are good where feasible points reach over this share of their width.
 const GOOD: f64 = 0.98;
 /// Boxes are bisected until their uncertainty is below this share of a reading's error; beyond an end, of the slack of the nearest point: a
-/// feasible point is then found in the box, if there is one.
+/// feasible point is then found in the box, if any.
 const FINE: f64 = 0.1;
 /// Rounds over all ends.
 const ROUNDS: usize = 6;
@@ -46,7 +46,7 @@ impl Points {
         }
     }
 
-    /// Seeks the point with the least misfit in the boxes that are left, or where the last boxes were empty.
+    /// Seeks the point with the least misfit in the remaining boxes, or where the last boxes were empty.
     pub(super) fn seek(&mut self, contractor: &Contractor, division: &Division) {
         let mut boxes: Vec<Vec<Interval>> = division.kept.iter().map(|kept| kept.at.clone()).take(2).collect();
         boxes.extend(division.hull());
@@ -84,7 +84,7 @@ impl Points {
         }
         for round in 1..=ROUNDS {
             for (done, &end) in ends.iter().enumerate() {
-                // A share of the budget; ends that need less leave it to the others.
+                // A share of the budget; ends that need less yield it to the rest.
                 let left = budget.saturating_sub(contractor.passes());
                 let share = left / (ends.len() - done) / (ROUNDS + 1 - round).min(2);
                 self.move_in(contractor, division, end, contractor.passes() + share);

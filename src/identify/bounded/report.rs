@@ -1,4 +1,4 @@
-//! From the boxes that are left to the answer.
+//! From the remaining boxes to the answer.
 
 use super::answer::{Bounds, Consistency, Contradicting, ParameterValues, Quantity, QuantityRange};
 use super::branch_and_prune::{Division, Kept};
@@ -106,7 +106,7 @@ fn values(problem: &Problem, at: &[f64]) -> Vec<(Quantity, f64)> {
     values
 }
 
-/// The quantities over a box that is left.
+/// The quantities over a remaining box.
 fn box_ranges(problem: &Problem, at: &[Interval], relaxation: Option<&Relaxation>) -> Vec<QuantityRange> {
     let (unknowns, gain) = (&problem.unknowns, at[0]);
     let ratio = |parts: &[(usize, f64)]| over_gain(at, relaxation, parts);

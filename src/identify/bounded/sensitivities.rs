@@ -8,7 +8,7 @@
 use super::vector_field::{FORCE, FieldTerm, POSITION, TERMS, VELOCITY, VectorField};
 use crate::numeric::{Balls, Interval, Sizes};
 
-/// By what a column of sensitivities is.
+/// The variable of a column of sensitivities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Variable {
     /// A component of the initial state.
@@ -17,7 +17,7 @@ pub(super) enum Variable {
     FieldTerm(FieldTerm),
     /// The delay, which moves every switching.
     Delay,
-    /// The instant of one switching, by its number.
+    /// The instant of a switching, by its number.
     Switching(usize),
 }
 
@@ -29,7 +29,7 @@ pub(super) struct Block {
     pub(super) initial: [Balls; 3],
     /// How far each variable may be from the point.
     pub(super) deviations: Balls,
-    /// Terms of the equation among the variables, and one in the lane of each.
+    /// Terms of the equation among the variables, and a 1 in the lane of each.
     forcing: Vec<(FieldTerm, Balls)>,
 }
 
@@ -75,7 +75,7 @@ impl Block {
         [of(false), of(true)]
     }
 
-    /// By how much a switching comes later with each variable; `None` for not at all.
+    /// The delay of a switching by each variable; `None` for not at all.
     pub(super) fn shifts(&self, edge: usize) -> Option<Balls> {
         let shift = |variable: &Variable| match variable {
             Variable::Delay => 1.0,
@@ -168,7 +168,7 @@ impl Equation {
         let mut within = self.gronwall(damping, forcing.map(Balls::sizes), start, h)?.map(Balls::within);
         let (damping, passed) = (Balls::splat(damping), Balls::splat(Interval::ZERO.hull(h)));
         let rates = |within: [Balls; 3]| self.rates(damping * within[VELOCITY], within, forcing);
-        // Picard iterations, each inside the one before.
+        // Picard iterations, each inside its predecessor.
         for _ in 0..2 {
             let rates = rates(within);
             within = [POSITION, VELOCITY, FORCE].map(|k| start[k] + passed * rates[k]);

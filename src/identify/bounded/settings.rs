@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::identify::DragLaw;
 
-/// What is known of the whole delay of the loop.
+/// Prior knowledge of the whole delay of the loop.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DelayBound {
@@ -47,15 +47,15 @@ pub struct BoundedModel {
     /// A restoring force proportional to the coordinate.
     pub stiffness: bool,
     /// The force follows the command with a first-order lag, of at most a quarter of the mean time between switchings. When the record
-    /// is first followed it is taken to be among the commands of the log, whatever came before.
+    /// is first followed it is taken to be among the commands of the log, for any earlier command.
     pub lag: bool,
-    /// What is known of the delay.
+    /// Prior knowledge of the delay.
     pub delay: DelayBound,
     /// When the command changed.
     pub switching: SwitchedWhen,
     /// Step of the sensor, zero for none; found in the record if not given.
     pub quantum: Option<f64>,
-    /// Largest error of a reading besides half a step, in units of the output.
+    /// Largest error of a reading in addition to half a step, in units of the output.
     pub error: f64,
     /// Largest error of a stamp, in s.
     pub jitter_s: f64,
@@ -77,7 +77,7 @@ impl BoundedModel {
         self.reach.total_cmp(&Self::REACH).is_eq()
     }
 
-    /// A drag law and what is known of the delay; a perfect sensor but for its step, which is found in the record; the command
+    /// A drag law and a bound of the delay; a perfect sensor but for its step, which is found in the record; the command
     /// switched at samples; inertia over four decades.
     #[must_use]
     pub fn new(law: DragLaw, delay: DelayBound) -> Self {

@@ -1,4 +1,4 @@
-//! Vehicles that move by another method than the one they judge.
+//! Vehicles that move by a method independent of the judged code.
 
 use super::problem::Problem;
 use super::settings::{BoundedModel, DelayBound};
@@ -13,7 +13,7 @@ const STEPS: usize = 20;
 /// Position, velocity and force; and the command.
 pub(super) type Sample = ([f64; 3], f64);
 
-/// One step of the classical method of Runge and Kutta.
+/// A step of the classical method of Runge and Kutta.
 pub(super) fn runge_kutta<const N: usize>(state: [f64; N], h: f64, rate: impl Fn([f64; N]) -> [f64; N]) -> [f64; N] {
     let more = |by: f64, rate: [f64; N]| core::array::from_fn(|k| state[k] + by * rate[k]);
     let first = rate(state);
@@ -23,7 +23,7 @@ pub(super) fn runge_kutta<const N: usize>(state: [f64; N], h: f64, rate: impl Fn
     core::array::from_fn(|k| state[k] + h / 6.0 * (first[k] + 2.0 * second[k] + 2.0 * third[k] + fourth[k]))
 }
 
-/// Terms over inertia, and what is constant.
+/// Terms over inertia, and the constants.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Vehicle {
     pub(super) gain: f64,

@@ -14,9 +14,9 @@ use crate::numeric::Interval;
 /// A solved problem.
 pub(super) struct Solved {
     pub(super) bounds: Bounds,
-    /// The hull of what was left; before it, of what was left before the delay was narrowed. `None` for nothing.
+    /// The hull of the remainder; before it, of the remainder before the delay was narrowed. `None` for nothing.
     pub(super) hulls: Vec<Option<Vec<Interval>>>,
-    /// The parameters that are left, as the problem was posed; `None` for nothing.
+    /// The remaining parameters, as the problem was posed; `None` for nothing.
     pub(super) left: Option<Vec<Interval>>,
     /// A feasible point, and the problem whose unknowns it has.
     pub(super) feasible: Option<(ParameterPoint, Problem)>,
@@ -31,7 +31,7 @@ pub(super) fn solve(
     let (mut contractor, mut division) = prune(problem, settings.budget);
     let mut hulls = Vec::new();
     if let (Some(hull), true) = (division.hull(), problem.unknowns.delay().is_some() && division.complete) {
-        // A shorter longest delay leaves more readings.
+        // A shorter longest delay admits more readings.
         (contractor, division) = prune(&problem.narrowed(settings, &hull)?, settings.budget);
         hulls.push(Some(hull));
     }
@@ -67,7 +67,7 @@ pub(super) fn solve(
     Ok(Solved { bounds, hulls, left, feasible })
 }
 
-/// Branch and prune over each horizon, from the hull of what the horizon before left.
+/// Branch and prune over each horizon, from the hull of the remainder before.
 fn prune(problem: &Problem, budget: usize) -> (Contractor, Division) {
     let mut boxes = vec![problem.search.clone()];
     let mut contradicting = Vec::new();

@@ -1,4 +1,4 @@
-//! What the bounds rest on, as numbers that a claim compares with independent ones.
+//! The basis of the bounds, as numbers that a claim compares with independent numbers.
 
 use super::linear_program::Inequalities;
 use super::linear_relaxation::Span;
@@ -49,7 +49,7 @@ impl Surrounded {
         let model = BoundedModel { quantum, ..BoundedModel::new(DragLaw::Linear, DelayBound::KnownS(0.0)) };
         let problem = Problem::new(&[record], &model).ok()?;
         let about = |value: f64, room: f64| Interval::point(value).inflate(room);
-        // Not about the truth: the middles of what is enclosed belong to the middle of the box.
+        // Not about the truth: the middles of the enclosures belong to the middle of the box.
         let beside = |value: f64| about(value * (1.0 + BESIDE * width), width * value.abs());
         let mut at: Vec<Interval> = truth.iter().map(|value| beside(*value)).collect();
         for interval in &problem.unknowns.shooting {
@@ -61,8 +61,8 @@ impl Surrounded {
         Some(Self { problem, at, centre })
     }
 
-    /// By how far the true positions are outside of what the mean-value form of each window encloses, at most; with the slopes' middles
-    /// in place of their ranges if wanted. `None` where there is no enclosure.
+    /// The largest distance of the true positions outside of the mean-value form's enclosure of each window; with the
+    /// slopes' middles in place of their ranges if wanted. `None` where there is no enclosure.
     pub(crate) fn outside(&self, states: &[[f64; 2]], truth: [f64; 3], middles: bool) -> Option<f64> {
         let mut furthest = 0.0f64;
         for (index, interval) in self.problem.unknowns.shooting.iter().enumerate() {

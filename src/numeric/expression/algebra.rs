@@ -1,4 +1,4 @@
-//! Sums and products of expressions in a form that shows what cancels.
+//! Sums and products of expressions in a form that shows cancellation.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -37,7 +37,7 @@ impl Expression {
         }
     }
 
-    /// A sum as what its terms have in common times the rest; anything else as it is.
+    /// A sum as the common factor of its terms times the rest; anything else as it is.
     fn factored(self) -> Product {
         match self.0 {
             Node::Sum(terms) => {
@@ -49,8 +49,8 @@ impl Expression {
     }
 }
 
-/// What all terms have in common, and the terms without it: the lowest powers, and the smallest coefficient where the others
-/// are multiples of it.
+/// The common factor of all terms, and the terms without it: the lowest powers, and the smallest coefficient where the
+/// rest are multiples of it.
 pub(super) fn common(terms: &[Product]) -> (Product, Vec<Product>) {
     let Some((first, others)) = terms.split_first() else { return (Product::number(1.0), Vec::new()) };
     let smallest = terms.iter().map(|term| term.coefficient.abs()).fold(f64::INFINITY, f64::min);
@@ -95,7 +95,7 @@ impl Product {
         self
     }
 
-    /// The same factors in whatever order.
+    /// The same factors in any order.
     fn is_like(&self, other: &Self) -> bool {
         self.factors.len() == other.factors.len() && self.factors.iter().all(|factor| other.factors.contains(factor))
     }

@@ -1,11 +1,11 @@
-//! An expression in plain text, in LaTeX and in Coq: one traversal, three notations.
+//! An expression in plain text, in LaTeX and in Coq: a single traversal, three notations.
 
 use core::fmt;
 
 use super::algebra::common;
 use super::{Expression, Function, Node, PI, Product};
 
-/// What differs between the three.
+/// The notations.
 #[derive(Clone, Copy, PartialEq)]
 enum Notation {
     Text,
@@ -168,7 +168,7 @@ fn coq_call(function: Function, arguments: &[String]) -> String {
     arguments.iter().fold(name.to_owned(), |call, argument| format!("{call} {}", coq_bracketed(argument)))
 }
 
-/// A term of Coq as an argument: a name, a number or what is bracketed already as it is.
+/// A term of Coq as an argument: a name, a number or a bracketed term as it is.
 fn coq_bracketed(term: &str) -> String {
     let mut depth = 0;
     let mut outside = term.char_indices().filter(|&(place, letter)| {
@@ -190,7 +190,7 @@ fn whole(over: String, under: String) -> (String, String) {
     }
 }
 
-/// A number as numerator and denominator where a small denominator makes both whole, as a decimal over one elsewhere.
+/// A number as numerator and denominator where a small denominator makes both whole, as a decimal over 1 elsewhere.
 fn fraction(value: f64) -> (String, String) {
     let exact = (1..=64).map(f64::from).find(|denominator| (value * denominator).fract() == 0.0);
     match exact {

@@ -61,7 +61,7 @@ fn reduce_large(x: f64) -> (i32, Interval) {
     const LONG: u128 = 1 << 60;
     let bits = x.abs().to_bits();
     let (significand, exponent) = (bits & ((1 << 52) - 1) | 1 << 52, (bits >> 52) as usize);
-    // x = significand 2^(exponent - 1075); words that give multiples of four are left out.
+    // x = significand 2^(exponent - 1075); words that give multiples of four are skipped.
     let skipped = exponent.saturating_sub(1077) / 64;
     let mut product = [0_u64; 6];
     for (place, &word) in TWO_OVER_PI[skipped..skipped + 4].iter().rev().enumerate() {
@@ -88,7 +88,7 @@ fn reduce_large(x: f64) -> (i32, Interval) {
     if x < 0.0 { (-count, -rest) } else { (count, rest) }
 }
 
-/// What a series adds to its first term, in units of that.
+/// The rest of a series over its first term.
 #[inline]
 fn series(series: &Series<7>, r: Interval) -> Interval {
     let square = r.square();
@@ -178,7 +178,7 @@ pub(super) fn complement(x: Interval) -> Interval {
     ((Interval::ONE - x) * (Interval::ONE + x)).sqrt()
 }
 
-/// What an inverse sine or tangent can be.
+/// The range of the inverse sine and tangent.
 pub(super) const HALF_TURN: Interval = Interval { lo: -HALF_PI.hi, hi: HALF_PI.hi };
 
 fn asin_over(sine: Interval) -> Interval {
@@ -225,14 +225,14 @@ pub(super) fn minus_own_sine(x: Interval, difference: Interval) -> Interval {
         return difference;
     }
     let increasing = x.increasing_over(|x| if x.magnitude() < LIMIT { -(x * series(&SINE, x)) } else { x - sin(x) });
-    // Both enclose it, so they meet.
+    // Both enclose it: they intersect.
     increasing.intersection(difference).unwrap_or(difference)
 }
 
 /// Up to here the inverse functions are their argument but for its cube, far below its rounding.
 const SMALL: f64 = 1.0 / 134_217_728.0; // 2^-27
 
-/// The argument's cube, and what lies between it and zero: `x <= asin x <= x + x^3` and `x - x^3 <= atan x <= x` for `0 <= x <= 1/2`.
+/// All numbers between zero and the argument's cube: `x <= asin x <= x + x^3` and `x - x^3 <= atan x <= x` for `0 <= x <= 1/2`.
 fn up_to_cube(x: Interval) -> Interval {
     (x * x.square()).hull(Interval::ZERO)
 }

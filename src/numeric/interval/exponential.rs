@@ -6,7 +6,7 @@ use super::Interval;
 use super::series::Series;
 use crate::numeric::Real;
 
-/// `ln 2 = LN_2_HIGH + LN_2_LOW`; the first has 32 significant bits, so that its product with an exponent is exact.
+/// `ln 2 = LN_2_HIGH + LN_2_LOW`; the first has 32 significant bits: its product with an exponent is exact.
 pub(super) const LN_2_HIGH: f64 = 0.693_147_180_369_123_8;
 pub(super) const LN_2_LOW: Interval =
     Interval { lo: 1.908_214_929_270_587_7e-10, hi: 1.908_214_929_270_587_7e-10_f64.next_up() };
@@ -35,7 +35,7 @@ fn power_of_two(k: i32) -> f64 {
     f64::from_bits(u64::from((k + 1023).unsigned_abs()) << 52)
 }
 
-/// `exp(x)` times one or a half.
+/// `exp(x)` times 1 or 1/2.
 fn scaled_exp(x: f64, halved: bool) -> Interval {
     if x > 711.0 {
         return Interval { lo: f64::MAX, hi: f64::INFINITY }; // exp(711)/2 > f64::MAX
@@ -90,7 +90,7 @@ fn ln_at(x: f64) -> Interval {
     let (normal, shift) = if x < f64::MIN_POSITIVE { (x * power_of_two(54), -54) } else { (x, 0) };
     let exponent = (normal.to_bits() >> 52) as i32 - 1023;
     let mantissa = f64::from_bits(normal.to_bits() & (u64::MAX >> 12) | 1_f64.to_bits());
-    // 1 + t lies between 0.707 and 1.415, so t is exact.
+    // 1 + t lies between 0.707 and 1.415: t is exact.
     let (t, halvings) =
         if mantissa > core::f64::consts::SQRT_2 { (0.5 * mantissa - 1.0, 1) } else { (mantissa - 1.0, 0) };
     let k = f64::from(exponent + shift + halvings);

@@ -79,7 +79,7 @@ impl Real for Interval {
         } else if exponent.lo < 0.0 {
             Self::ENTIRE
         } else {
-            // Zero to a positive power is zero; one is a value if the exponent may vanish.
+            // Zero to a positive power is zero; 1 is a value if the exponent may vanish.
             let at_zero = Self { lo: 0.0, hi: if exponent.lo > 0.0 { 0.0 } else { 1.0 } };
             if self.hi > 0.0 { at_zero.hull((exponent * Self::point(self.hi).ln()).exp()) } else { at_zero }
         }

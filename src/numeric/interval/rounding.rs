@@ -1,11 +1,11 @@
 //! Directed rounding of `+ - * / sqrt` from round-to-nearest arithmetic.
 //!
-//! IEEE 754 rounds these five correctly, so the exact result lies within one step of the rounded one. The sign of the
-//! rounding error, where it can be had without rounding (Knuth's two-sum; products of the significands as integers), says
-//! on which side; where it cannot (near overflow and underflow) the step is taken in any case. An exact result is
+//! IEEE 754 rounds these five correctly: the exact result lies within a step of the rounded result. The sign of the
+//! rounding error, where it can be had without rounding (Knuth's two-sum; products of the significands as integers),
+//! shows on which side; where it cannot (near overflow and underflow) the step is taken in any case. An exact result is
 //! therefore kept, and `1 - u^2` does not fall below zero at `|u| = 1`.
 
-/// A rounded result, and whether the exact one may lie above or below it.
+/// A rounded result, and whether the exact result may lie above or below it.
 #[derive(Clone, Copy)]
 pub(super) struct Rounded {
     nearest: f64,
@@ -37,7 +37,7 @@ impl Rounded {
         }
     }
 
-    /// The largest number known not to lie above the exact result.
+    /// The largest number that is shown not to exceed the exact result.
     #[inline]
     pub(super) fn down(self) -> f64 {
         // As f64::next_down, but free of branches, as roundings are not to be foreseen. A zero with anything below it is
@@ -48,7 +48,7 @@ impl Rounded {
         f64::from_bits(bits.wrapping_add(if step { outward } else { 0 }))
     }
 
-    /// The smallest number known not to lie below the exact result.
+    /// The smallest number that is shown not to be below the exact result.
     #[inline]
     pub(super) fn up(self) -> f64 {
         -Self { nearest: -self.nearest, above: self.below, below: self.above }.down()
@@ -93,9 +93,9 @@ pub(super) fn square_root(a: f64) -> Rounded {
 }
 
 /// `abs(a b) - abs(c)` in units of its own, for a c that is `a b` rounded, or of which `a` is the rounded quotient or root;
-/// `None` where one of the three is no normal number.
+/// `None` where any of the three is no normal number.
 ///
-/// With significands of 53 bits as integers, the difference is below `2^62` in magnitude, so that its last 64 bits tell it.
+/// With significands of 53 bits as integers, the difference is below `2^62` in magnitude: its last 64 bits determine it.
 #[inline]
 fn product_less(a: f64, b: f64, c: f64) -> Option<i64> {
     let [a, b, c] = [a, b, c].map(f64::to_bits);
@@ -105,7 +105,7 @@ fn product_less(a: f64, b: f64, c: f64) -> Option<i64> {
     if !(normal(a) & normal(b) & normal(c)) {
         return None;
     }
-    // 52 or 53: the exponents' biases cancel but for one.
+    // 52 or 53: the exponents' biases cancel but for a single bias.
     let shift = (exponent(c) + 1075).wrapping_sub(exponent(a) + exponent(b));
     let product = significand(a).wrapping_mul(significand(b));
     Some(product.wrapping_sub(significand(c) << (shift & 63)).cast_signed())

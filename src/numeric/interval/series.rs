@@ -1,18 +1,18 @@
-//! Power series of entire functions, with a proved bound of all that is left out or rounded.
+//! Power series of entire functions, with a proved bound of truncation and rounding.
 
 use super::Interval;
 
 /// `c_0 + c_1 x + c_2 x^2 + ...` with reciprocals of factorials as coefficients: all positive for `abs(x) <= 0.36`, or alternating
 /// for `0 <= x <= 1.44`.
 ///
-/// The first two, which decide how wide the sum is, are intervals. The others, the tail, are summed in floating point.
+/// The first two, which decide how wide the sum is, are intervals. The rest, the tail, is summed in floating point.
 pub(super) struct Series<const N: usize> {
     pub(super) head: [Interval; 2],
     tail: [f64; N],
 }
 
-/// The tail's error over its first term. In the stated ranges each term is below a tenth of the one before: rounding the
-/// coefficients and Horner's rule cost less than `2^-50`, and what at least seven terms leave out, less than `2^-47.5`.
+/// The tail's error over its first term. In the stated ranges each term is below a tenth of its predecessor: rounding the
+/// coefficients and Horner's rule cost less than `2^-50`, and truncation after at least seven terms less than `2^-47.5`.
 const TAIL_ERROR: f64 = 1.0 / 140_737_488_355_328.0; // 2^-47
 
 impl<const N: usize> Series<N> {
@@ -45,7 +45,7 @@ impl<const N: usize> Series<N> {
         first + x * (second + x * self.tail_at(x))
     }
 
-    /// What the tail adds up to, over `x^2`.
+    /// The tail's sum over `x^2`.
     #[inline]
     pub(super) fn tail_at(&self, x: Interval) -> Interval {
         let sum = self.tail.iter().rev().fold(0.0, |sum, &coefficient| coefficient + x.hi * sum);

@@ -1,13 +1,13 @@
-//! Inverse circular functions without branches, so that all lanes go through together.
+//! Inverse circular functions without branches: all lanes go through together.
 //!
 //! The rational and polynomial approximations of Sun Microsystems' fdlibm (1993), operation by operation as `libm` has them:
-//! the bits are those of one float alone.
+//! the bits are those of a float alone.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use wide::f64x4;
 
-/// Approximates `(asin x - x)/x` in `x^2`, for `|x|` below one half: numerator and denominator, lowest power first.
+/// Approximates `(asin x - x)/x` in `x^2`, for `|x|` below 1/2: numerator and denominator, lowest power first.
 const ARC_SINE: ([f64; 6], [f64; 5]) = (
     [
         0.166_666_666_666_666_66,
@@ -79,7 +79,7 @@ pub(super) fn atan(x: f64x4) -> f64x4 {
     angle | (x & f64x4::splat(-0.0))
 }
 
-/// The inverse tangent of what is not below zero.
+/// The inverse tangent of a number that is not below zero.
 #[inline(always)]
 fn rotated(slope: f64x4) -> f64x4 {
     let splat = f64x4::splat;
@@ -103,7 +103,7 @@ fn rotated(slope: f64x4) -> f64x4 {
     less_bend(over, under, high, low)
 }
 
-/// The slope after the first rotations, as `libm` forms them: over and under, by one half both doubled.
+/// The slope after the first rotations, as `libm` forms them: over and under; by 1/2: both doubled.
 #[inline(always)]
 fn by(rotations: usize, slope: f64x4) -> (f64x4, f64x4) {
     match rotations {

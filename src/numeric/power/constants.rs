@@ -1,10 +1,10 @@
-//! What the series need of the exponent alone: ratios of gamma functions, enclosed.
+//! The constants of the series by the exponent alone: ratios of gamma functions, enclosed.
 
 use super::series::{Known, STEEP, analytic_step};
 use super::{Pairs, PowerMoments};
 use crate::numeric::{Interval, Real};
 
-/// Argument from which on Stirling's series leaves less than rounding.
+/// Argument from which on the remainder of Stirling's series is below rounding.
 const FAR: f64 = 10.0;
 /// Largest delta up to which `A_0 - B_0` is found by the logarithm of their ratio.
 const NEAR: f64 = 0.02;
@@ -81,7 +81,7 @@ fn first_of_a(at_one: Interval, p: Interval, order: f64) -> Interval {
 /// `Gamma(x + 1/2)/Gamma(x + 1)` for `x >= 0`, by Stirling's series (DLMF 5.11.1), whose rest is below its first omitted term
 /// (5.11(ii)); from `far` on, which the argument is raised to by the functional equation. The mean of `abs(sin)^(2x)` is this over `sqrt(pi)` (5.12.2).
 fn gamma_ratio(x: Interval, far: f64) -> Interval {
-    /// `B_2k/(2k (2k - 1))` as fractions; the one after them is below 0.03.
+    /// `B_2k/(2k (2k - 1))` as fractions; the next fraction is below 0.03.
     const SERIES: [(f64, f64); 7] =
         [(1.0, 12.0), (-1.0, 360.0), (1.0, 1260.0), (-1.0, 1680.0), (1.0, 1188.0), (-691.0, 360_360.0), (1.0, 156.0)];
     let half = number(0.5);
@@ -106,7 +106,7 @@ fn gamma_ratio(x: Interval, far: f64) -> Interval {
 /// `16^delta Gamma(1+delta)^3/(Gamma(1-delta) Gamma(1+2 delta)^2) prod (1 + delta/k)`, k up to the order, by the series of
 /// `ln Gamma(1 + x)` (DLMF 5.7.3), of which Euler's constant cancels.
 fn log_ratio(delta: Interval, order: f64) -> Interval {
-    // Term k is below `7 (2 delta)^(k-1)/k`, so the truncated terms sum to less than the ninth power after the last.
+    // Term k is below `7 (2 delta)^(k-1)/k`: the truncated terms sum to less than the ninth power after the last.
     let twice = 2.0 * delta.magnitude();
     let rest = ZETA.iter().fold(1.1 * twice, |power, _| power * twice);
     let mut sum = Interval::two().ln() * number(4.0) + Interval::symmetric(rest);

@@ -15,20 +15,20 @@ use series::{Known, Moments};
 
 use super::{Interval, Jet, Real, Scalar};
 
-/// An exponent, with what the series need of it alone: constants of two gamma functions, enclosed once.
+/// An exponent, with the constants of the series by it alone: constants of two gamma functions, enclosed once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerMoments {
-    /// NaN where the exponent is known to an interval only: then nothing is known.
+    /// NaN where the exponent is an interval: every moment is then unknown.
     exponent: f64,
     /// `m'(0)`.
     slope_at_zero: Known,
     /// `m(1)`.
     at_one: Known,
-    /// Of the series about one, where it serves.
+    /// Of the series about 1, where it serves.
     pairs: Pairs,
 }
 
-/// Where the pairs of the series about one start, and the weights of the part that is not analytic there.
+/// Where the pairs of the series about 1 start, and the weights of the part that is not analytic there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Pairs {
     b: Known,
@@ -37,7 +37,7 @@ struct Pairs {
     sides: [[Known; 2]; 2],
 }
 
-/// Share of a sum below which its terms are enclosed together: what rounding makes of the sum's width anyway.
+/// Share of a sum below which its terms are enclosed together: the sum's width by rounding.
 const ENCLOSED: f64 = 1e-14;
 
 impl PowerMoments {
@@ -62,8 +62,8 @@ impl PowerMoments {
         (whole + 1.0, T::from_f64(exponent - whole) - T::from_f64(0.5))
     }
 
-    /// Which series serves, and what it gives; `bias >= 0`, neither number wider than rounding, nor their difference of
-    /// unknown sign; terms below that share of a sum are left out, or enclosed.
+    /// The series that serves, and its sum; `bias >= 0`, neither number wider than rounding, nor their difference of
+    /// unknown sign; terms below that share of a sum are omitted, or enclosed.
     #[inline]
     fn of_sweep<T: Real>(&self, bias: T, amplitude: T, share: f64) -> Found<T> {
         let (u, room) = (bias / amplitude, amplitude - bias);
@@ -81,7 +81,7 @@ impl PowerMoments {
 
     /// As [`of_sweep`](Self::of_sweep) for intervals of any width and sign.
     fn of_any(&self, bias: Interval, amplitude: Interval) -> Found<Interval> {
-        /// Relative width of a ratio that is known but for rounding.
+        /// Relative width of a ratio that is exact but for rounding.
         const THIN: f64 = 1e-14;
         if self.exponent.is_nan() {
             let [m, m_slope, h, h_slope] = [Interval::ENTIRE; 4];
@@ -103,7 +103,7 @@ impl PowerMoments {
     }
 
     /// m and h over an interval of any width, in units of the amplitude to the exponent. m grows with u, as f does; h grows with
-    /// `abs(u)` where `f'` grows with `abs(x)`, from exponent one on, and else falls: `h' = <sin (f'(u + sin) - f'(u - sin))>/2`.
+    /// `abs(u)` where `f'` grows with `abs(x)`, from exponent 1 on, and else falls: `h' = <sin (f'(u + sin) - f'(u - sin))>/2`.
     fn over(&self, u: Interval) -> [Interval; 2] {
         if !u.is_bounded() {
             return [Interval::ENTIRE; 2];

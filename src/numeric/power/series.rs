@@ -1,4 +1,4 @@
-//! The three series, each one piece of code for floats and enclosures.
+//! The three series, each with the same code for floats and enclosures.
 
 use super::PowerMoments;
 use crate::numeric::real::magnitude;
@@ -8,7 +8,7 @@ use crate::numeric::{Interval, Real};
 pub(crate) const INNER: f64 = 0.7;
 pub(crate) const OUTER: f64 = 1.35;
 /// Exponent from which on the two outer series converge fast enough up to `u = 1`, where their n-th term is about
-/// `n^(-p - 3/2)`; the series about one would cancel.
+/// `n^(-p - 3/2)`; the series about 1 would cancel.
 pub(crate) const STEEP: f64 = 8.0;
 
 /// m and h with their derivatives.
@@ -48,7 +48,7 @@ pub(crate) fn step<T: Real>(a: T, b: T, c: f64, n: f64) -> [T; 2] {
 }
 
 /// `2F1(a, b; c; x)` and its derivative by x, for `0 <= x <= 1`, `a <= b < c` and `c - a - b > 1`; terms below a share of
-/// the derivative are left out.
+/// the derivative are omitted.
 #[inline]
 fn hypergeometric<T: Real>(a: T, b: T, c: f64, x: T, share: f64) -> [T; 2] {
     let ratio = |n: f64| {
@@ -104,9 +104,9 @@ impl PowerMoments {
 
     /// In `z = (1 - u)/2`: `m = alpha sum a_n z^n + c sum b_j z^(p + 1/2 + j)`, the exponents of the equation at `u = 1`.
     ///
-    /// With `p + 1/2 = N + delta` the coefficients a_n from `n = N` on and c grow like `1/delta` and cancel; at `delta = 0` they
-    /// leave a logarithm. So terms of equal whole order are paired, `(A_j - B_j w abs(z)^delta)/delta`, and the recurrence runs
-    /// on `B_j` and on `D_j = (A_j - B_j)/delta`, which stays finite.
+    /// With `p + 1/2 = N + delta` the coefficients a_n from `n = N` on and c grow like `1/delta` and cancel; at `delta = 0`
+    /// they leave a logarithm. Hence terms of equal whole order are paired, `(A_j - B_j w abs(z)^delta)/delta`, and the
+    /// recurrence runs on `B_j` and on `D_j = (A_j - B_j)/delta`, which stays finite.
     #[inline]
     pub(super) fn about_one<T: Real>(&self, u: T, z: T, share: f64) -> Moments<T> {
         let (p, half) = (T::from_f64(self.exponent), T::from_f64(0.5));
@@ -150,8 +150,8 @@ impl PowerMoments {
         loop {
             let pair = d - b * level;
             (pairs, moving, tail) = (pairs + pair, moving + T::from_f64(j) * pair, tail + b);
-            // For `abs(z) <= 1/4`: B falls, D grows by at most `4 B/(j + 1/2)` a step, so that the slope's terms from the next on
-            // add up to less than this. Doubled for the rounding of this bound.
+            // For `abs(z) <= 1/4`: B falls, D grows by at most `4 B/(j + 1/2)` a step, hence the slope's terms from the
+            // next on add up to less than this. Doubled for the rounding of this bound.
             let rest =
                 2.0 * (order + j + 1.0) * (magnitude(d) + magnitude(b) * (magnitude(level) + magnitude(weight) + 4.0));
             if !(rest * reach > enough) {
@@ -199,7 +199,7 @@ mod tests {
 
     type Series = fn(&PowerMoments, Interval, f64) -> Moments<Interval>;
 
-    /// However early a series is cut, the bound of its rest covers what is missing, and is no more than some times that.
+    /// However early a series is cut, the bound of its rest covers the missing terms, and is at most some multiple of them.
     #[test]
     fn what_is_cut_off_is_enclosed() {
         let series: [(Series, &[f64]); 3] = [

@@ -4,15 +4,15 @@ use core::fmt::Debug;
 
 /// A binary floating-point format, rounded to nearest.
 pub trait Format: Copy + Debug + PartialEq + Send + Sync + 'static {
-    /// Half the distance from one to the next larger number.
+    /// Half the distance from 1 to the next larger number.
     const UNIT: f64;
     /// Half the least number above zero.
     const TINY: f64;
     /// Results up to this do not overflow.
     const LARGEST: f64;
-    /// Error of `libm`'s functions of one real number, in units in the last place of the exact value.
+    /// Error of `libm`'s functions of a real number, in units in the last place of the exact value.
     ///
-    /// In single precision it is known, from all arguments; in double precision it is assumed, and looked for by sampling.
+    /// In single precision it is measured, at all arguments; in double precision it is assumed, and looked for by sampling.
     const FUNCTIONS: Units;
     /// The number nearest to `value`.
     fn nearest(value: f64) -> f64;
@@ -25,13 +25,13 @@ pub struct Units {
     pub sin_cos: f64,
     /// Tangent.
     pub tan: f64,
-    /// Inverse sine, at arguments up to one.
+    /// Inverse sine, at arguments up to 1.
     pub asin: f64,
     /// Inverse tangent.
     pub atan: f64,
-    /// Exponential function, and less one.
+    /// Exponential function, and less 1.
     pub exp: f64,
-    /// Natural logarithm, and of one more.
+    /// Natural logarithm, and of 1 more.
     pub ln: f64,
     /// Hyperbolic sine, cosine, tangent, and inverse tangent.
     pub hyperbolic: f64,

@@ -7,8 +7,8 @@ use crate::numeric::{Interval, Real, Special};
 
 /// Relative error of the series of `x - sin(x)` for x < 1: truncation, and rounding of its constants to double precision.
 const SERIES: f64 = 3e-16;
-/// What `bessel_j`, of size one at most, and the moments of a power are assumed to keep in double precision, in half epsilons: of
-/// one, and of the larger moment. What is computed in it and rounded to single precision has this error too.
+/// The assumed errors of `bessel_j`, of size 1 at most, and of the moments of a power in double precision, in half
+/// epsilons: of 1, and of the larger moment. A value from it that is rounded to single precision has this error too.
 const BESSEL: f64 = 8.0;
 const BESSEL_SCALED: f64 = 8.0;
 const MOMENTS: f64 = 64.0;
@@ -159,7 +159,7 @@ impl<F: Format> Real for Rounded<F> {
             }
         }
     }
-    /// The exact values of both expressions are one: either float is as near to it as it is to its own.
+    /// The exact values of both expressions are equal: either float is as near to it as it is to its own.
     fn prefer_all<const N: usize>(
         self,
         below: impl FnOnce() -> [Self; N],
@@ -186,7 +186,7 @@ impl<F: Format> Real for Rounded<F> {
             let series = own_sine_series(self);
             let exact = self.exact.minus_own_sine(sine.exact);
             let left_out = up(SERIES * series.exact.magnitude());
-            // What came in is passed on by the slope 1 - cos(x), below x^2/2, and is in the series' error already.
+            // The input's error is passed on by the slope 1 - cos(x), below x^2/2, and is in the series' error already.
             [Self { exact, error: up(series.error + left_out), ..series }]
         };
         let [difference] = (Self::one() - self)

@@ -1,8 +1,8 @@
 //! Rounding error of a formula: intervals of the exact and of the floating-point value, and a bound of their distance.
 //!
-//! A formula written over [`Real`](super::Real) runs in [`Rounded`] as it does in a float, and every operation adds what rounding can do to
-//! it: half a unit in the last place, or a function's own error, on top of the errors that came in times the slope of the
-//! operation. What comes out holds for all floats within the given intervals at once.
+//! A formula written over [`Real`](super::Real) runs in [`Rounded`] as it does in a float, and every operation adds its
+//! largest rounding error: half a unit in the last place, or a function's own error, on top of the errors that came in
+//! times the slope of the operation. The result holds for all floats within the given intervals at once.
 //!
 //! | file | content |
 //! |---|---|
@@ -34,7 +34,7 @@ use super::{Interval, Real};
 ///
 /// **Guarantee.** It holds for all floats within the intervals given to [`Rounded::input`]. `exact` contains the formula's value in real
 /// numbers, `float` the formula's value in the format, and `error` is at least their distance. The format's functions are assumed as exact
-/// as [`Format`] says. An infinite `error` is no bound: a domain may have been left.
+/// as in [`Format`]. An infinite `error` is no bound: an argument may lie outside its domain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounded<F> {
     exact: Interval,
@@ -91,8 +91,8 @@ impl<F: Format> Rounded<F> {
         self.exact.hull(self.float)
     }
 
-    /// The union of two branches chosen by rounding or by the numbers; adds `apart` where the exact value may be from one branch and
-    /// the float from the second.
+    /// The union of two branches chosen by rounding or by the numbers; adds `apart` where the exact value may be from
+    /// the first branch and the float from the second.
     fn either(self, other: Self, apart: f64) -> Self {
         Self {
             exact: self.exact.hull(other.exact),
@@ -138,7 +138,7 @@ impl<F: Format> Mul for Rounded<F> {
         if self.vanishes() || other.vanishes() {
             return Self::of(self.exact * other.exact, self.float * other.float, 0.0, 0.0);
         }
-        // What is multiplied by a power of two is rounded where it underflows only, and TINY is for that.
+        // A product with a power of two is rounded where it underflows only, and TINY is for that.
         let own = if self.is_power_of_two() || other.is_power_of_two() { f64::MIN_POSITIVE } else { F::UNIT };
         let (a, b) = (self.exact.magnitude(), other.float.magnitude());
         Self::of(self.exact * other.exact, self.float * other.float, up(a * other.error) + up(b * self.error), own)
@@ -161,7 +161,7 @@ impl<F: Format> Div for Rounded<F> {
 }
 
 impl<F: Format> Rounded<F> {
-    /// Whether it is one power of two, in both senses, or its opposite.
+    /// Whether it is a single power of two, in both senses, or its opposite.
     fn is_power_of_two(self) -> bool {
         const FRACTION: u64 = (1 << 52) - 1;
         let value = self.exact.lower();

@@ -1,8 +1,8 @@
-//! The functions of one group of poles: the algebra of polynomials in its nilpotent or rotating part, over intervals.
+//! The functions of a group of poles: the algebra of polynomials in its nilpotent or rotating part, over intervals.
 //!
-//! A group of `degree` poles is `A = shift + scale nu` with `nu^degree = sum_j modulus_j nu^j` and `sum_j abs(modulus_j) <= 1`. So
-//! `abs(sum_i a_i nu^i) = sum_i abs(a_i)` is a norm under which a product is at most the product of the norms, and every
-//! function of `A` is an element of at most `MOST` coordinates.
+//! A group of `degree` poles is `A = shift + scale nu` with `nu^degree = sum_j modulus_j nu^j` and
+//! `sum_j abs(modulus_j) <= 1`. Thus `abs(sum_i a_i nu^i) = sum_i abs(a_i)` is a norm under which a product is at most
+//! the product of the norms, and every function of `A` is an element of at most `MOST` coordinates.
 
 use nalgebra::DMatrix;
 
@@ -29,9 +29,9 @@ pub(super) const ONE: Element = {
 /// How far `exp(A s)` reaches for large `s`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Shape {
-    /// `nu` turns: one pair of complex poles, `nu^2 = modulus_0 < 0`, at this frequency in rad/s.
+    /// `nu` turns: a pair of complex poles, `nu^2 = modulus_0 < 0`, at this frequency in rad/s.
     Turning(Interval),
-    /// `nu` is nearly nilpotent: one real pole, or several within a few per cent.
+    /// `nu` is nearly nilpotent: a real pole, or several within a few per cent.
     Nilpotent,
 }
 
@@ -57,7 +57,7 @@ impl Algebra {
         let (middle, mut modulus) = (shift.midpoint().abs(), ZERO);
         let square = if degree == 2 { -ascending[0] } else { Interval::ZERO };
         let turning = degree == 2 && square.is_negative() && (-square).sqrt().lower() > 0.01 * middle;
-        // Above the frequency by more than rounding: the norm of nu^2 stays below one.
+        // Above the frequency by more than rounding: the norm of nu^2 stays below 1.
         let scale = match (turning, degree) {
             (true, _) => (-square).sqrt().upper() * (1.0 + 1e-12),
             (false, 1) => 1.0,
@@ -185,7 +185,7 @@ impl Algebra {
                 break;
             }
             if size < NEGLIGIBLE {
-                // What is left of the series is at most size exp((rate + scale) time).
+                // The series' remainder is at most size exp((rate + scale) time).
                 let largest = decaying_power(rate + Interval::point(self.scale), time, 0).magnitude();
                 (0..self.degree).for_each(|at| sum[at] += Interval::symmetric(size * largest));
                 break;

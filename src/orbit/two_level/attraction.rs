@@ -23,9 +23,9 @@ type IntervalMatrix = DMatrix<Interval>;
 /// What deviations do.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Attraction {
-    /// Eigenvalues of the return map, largest first, computed; those that are zero are left out.
+    /// Eigenvalues of the return map, largest first, computed, without the zeros.
     pub(super) multipliers: Vec<Complex<f64>>,
-    /// Shown: all inside the unit circle, or one outside.
+    /// Shown: all inside the unit circle, or at least 1 outside.
     pub(super) attracting: Option<bool>,
 }
 
@@ -66,7 +66,7 @@ fn whole(time: Interval, period: Interval) -> Option<f64> {
 }
 
 impl Conditions {
-    /// The return map from one passage of the lower level to the next: the deviation of the plant's state and of the
+    /// The return map from a passage of the lower level to the next: the deviation of the plant's state and of the
     /// instants of the commands under way. `None` where events cannot be put in order, or too many commands are under way.
     fn return_map(&self, path: &Path<'_>) -> Option<IntervalMatrix> {
         let (high, period) = (path.times.high.value(), path.times.period.value());
@@ -97,7 +97,7 @@ impl Conditions {
         }
         let output: Vec<Interval> = self.modes.iter().flat_map(|mode| mode.output_row().to_vec()).collect();
         let output = RowDVector::from_vec(output);
-        // One unit of input raises the first coordinate of every group.
+        // A unit of input raises the first coordinate of every group.
         let firsts =
             self.modes.iter().scan(0, |place, mode| Some(core::mem::replace(place, *place + mode.algebra.degree)));
         let mut input = DVector::from_element(order, Interval::ZERO);
@@ -128,7 +128,7 @@ impl Conditions {
         for (row, late) in queue.iter().take(under_way).enumerate() {
             map.row_mut(order + row).copy_from(late);
         }
-        // Deviations along the orbit are none: the passage of the level is what is compared.
+        // Deviations along the orbit are none: the passages of the level are compared.
         let rates = path.rates();
         let rates = rates.iter().zip(&self.modes).flat_map(|(rate, mode)| rate[..mode.algebra.degree].to_vec());
         let rates: Vec<Interval> = rates.collect();
@@ -143,12 +143,12 @@ impl Conditions {
         Some(map - along * passed)
     }
 
-    /// Multipliers of an orbit and what they show.
+    /// Multipliers of an orbit and its attraction.
     pub(super) fn attraction(&self, path: &Path<'_>) -> Attraction {
         let Some(map) = self.return_map(path).filter(|map| norm(map).is_finite()) else {
             return Attraction { multipliers: Vec::new(), attracting: None };
         };
-        // Printed only: what is shown rests on the powers of the map.
+        // Printed only: the proof rests on the powers of the map.
         let mut multipliers = eigenvalues(&map.map(Interval::midpoint)).unwrap_or_default();
         multipliers.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
         let largest = multipliers.first().map_or(0.0, |one| one.norm());
@@ -157,8 +157,8 @@ impl Conditions {
     }
 }
 
-/// A power of the map shrinks every vector in the norm of the largest component: true. Its trace exceeds its size, hence an eigenvalue
-/// exceeds one in magnitude: false.
+/// A power of the map shrinks every vector in the norm of the largest component: true. Its trace exceeds its size,
+/// hence an eigenvalue exceeds 1 in magnitude: false.
 fn shrinks(map: &IntervalMatrix) -> Option<bool> {
     // The same map in the basis of computed Schur vectors, in which its powers stay narrow.
     let vectors =

@@ -1,4 +1,4 @@
-//! Orbits as a file: the loop, the enclosures and what is said of each, checked without a search.
+//! Orbits as a file: the loop, the enclosures and the statements on each, checked without a search.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,8 +12,8 @@ const FORMAT: u32 = 1;
 const STATEMENT: &str = "Each box of half-periods holds those of an orbit with one switching each way; its extremes are within their bounds; small \
      deviations from it die out (true), grow (false) or are not decided (null)";
 
-/// Orbits of a loop with what proves them: a reader needs their enclosures only, and no search. The plant's coefficients, dead time and
-/// levels count as exactly the numbers given. It says nothing of orbits that are not listed.
+/// Orbits of a loop with their proofs: a reader needs their enclosures only, and no search. The plant's coefficients,
+/// dead time and levels count as exactly the numbers given. It does not exclude orbits that are not listed.
 ///
 /// ```
 /// use selfosc::orbit::{OrbitCertificate, TwoLevelRelay, orbits};
@@ -79,17 +79,17 @@ pub enum OrbitRefusal {
     /// No loop has these numbers.
     #[error("the loop: {0}")]
     Loop(#[from] OrbitError),
-    /// Something said of an orbit is not shown.
+    /// A statement on an orbit is not shown.
     #[error("orbit {number}: not shown that {}", claim.words())]
     NotShown {
-        /// Place in the file, from one.
+        /// Place in the file, from 1.
         number: usize,
-        /// What is not shown.
+        /// The statement.
         claim: OrbitClaim,
     },
 }
 
-/// What a certificate says of an orbit.
+/// A statement of a certificate on an orbit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OrbitClaim {
     /// The box of half-periods holds those of an orbit.
@@ -156,7 +156,7 @@ impl OrbitCertificate {
         }
     }
 
-    /// What the certificate says of each orbit.
+    /// The statement on each orbit.
     #[must_use]
     pub fn statement(&self) -> &str {
         &self.statement
@@ -165,7 +165,7 @@ impl OrbitCertificate {
     /// The number of orbits, all shown anew: existence by Krawczyk's operator on the box, extremes and return map by enclosure.
     ///
     /// # Errors
-    /// [`OrbitRefusal`] with the first thing that is not shown.
+    /// [`OrbitRefusal`] with the first statement that is not shown.
     pub fn check(&self) -> Result<usize, OrbitRefusal> {
         let own = [
             ("kind of certificate", self.certificate == Self::KIND),

@@ -1,10 +1,10 @@
-//! The plant's periodic answer to one input step a period, over intervals of time and period.
+//! The plant's periodic answer to a single input step a period, over intervals of time and period.
 //!
-//! A two-level input is a constant plus the difference of two such steps, so the periodic output is
-//! `gain u + (high - low)(W(t1) - W(t2))`, with `t1`, `t2` the times since its last rise and fall. For a group of poles away from zero
-//! `W = output(A^-1 exp(A t) (1 - exp(A T))^-1)`, for an unstable one `-output(A^-1 exp(-A (T - t)) (1 - exp(-A T))^-1)`. Where
-//! `abs(A) T <= 1`, and for poles at zero, the mean of the input is split off and
-//! `W = -sum_(j >= 2) (B_j(t/T)/j!) output(A^(j-2)) T^(j-1)`, which does not cancel.
+//! A two-level input is a constant plus the difference of two such steps: the periodic output is
+//! `gain u + (high - low)(W(t1) - W(t2))`, with `t1`, `t2` the times since its last rise and fall. For a group of poles
+//! away from zero `W = output(A^-1 exp(A t) (1 - exp(A T))^-1)`, for an unstable group
+//! `-output(A^-1 exp(-A (T - t)) (1 - exp(-A T))^-1)`. Where `abs(A) T <= 1`, and for poles at zero, the mean of the
+//! input is split off and `W = -sum_(j >= 2) (B_j(t/T)/j!) output(A^(j-2)) T^(j-1)`, which does not cancel.
 
 use core::f64::consts::TAU;
 use std::sync::LazyLock;
@@ -13,7 +13,7 @@ use super::algebra::{Element, ONE, ZERO, add, scaled};
 use super::modes::Mode;
 use crate::numeric::{Interval, Real};
 
-/// Terms of the series in Bernoulli polynomials: the ratio of one to the next is at most `1/(2 pi)`.
+/// Terms of the series in Bernoulli polynomials: the ratio of successive terms is at most `1/(2 pi)`.
 const TERMS: usize = 22;
 /// `B_2k(1/2)/(2k)! = (2^(1 - 2k) - 1) B_2k/(2k)!`: the Bernoulli numbers `B_2k` as fractions.
 const BERNOULLI: [(f64, f64); 12] = [
@@ -31,7 +31,7 @@ const BERNOULLI: [(f64, f64); 12] = [
     (854_513.0, 138.0),
 ];
 
-/// A moment in the period: time since the step, time until the next one, and the share of the period gone.
+/// A moment in the period: time since the step, time until the next step, and the share of the period gone.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moment {
     pub(super) time: Interval,
@@ -47,12 +47,12 @@ pub(super) struct Answer {
     pub(super) by_period: Interval,
 }
 
-/// One group at a given period.
+/// A group at a given period.
 #[derive(Debug)]
 enum Form {
-    /// `(1 - exp(+-A T))^-1`, and that by which the derivative by the period differs from the one by time.
+    /// `(1 - exp(+-A T))^-1`, and the difference between the derivatives by the period and by time.
     Closed { factor: Element, turned: Element },
-    /// `output(A^i) T^(i+1)`; the powers of `A T`; a bound of what the powers left out add, for `W` itself.
+    /// `output(A^i) T^(i+1)`; the powers of `A T`; a bound of the omitted powers' sum, for `W` itself.
     Series { weights: Vec<Interval>, powers: Vec<Element>, rest: f64 },
 }
 
@@ -67,7 +67,7 @@ pub(super) struct Periodic<'a> {
 }
 
 impl<'a> Periodic<'a> {
-    /// `None` where the period meets a pole on the imaginary axis.
+    /// `None` where the period is that of a pole on the imaginary axis.
     pub(super) fn new(modes: &'a [Mode], period: Interval) -> Option<Self> {
         let mut forms = Vec::with_capacity(modes.len());
         for mode in modes {
@@ -186,13 +186,13 @@ fn closed(mode: &Mode, factor: &Element, turned: &Element, at: &Moment) -> Answe
     Answer { value, by_time: mode.output(&motion), by_period: mode.output(&algebra.product(&motion, turned)) }
 }
 
-/// Terms after which the ratio of at most `size/(2 pi)` leaves less than the rounding.
+/// Terms after which, by the ratio of at most `size/(2 pi)`, the remainder is below the rounding.
 fn terms(size: f64) -> usize {
     (8..TERMS).find(|&terms| (size / TAU).powi(terms as i32) < 1e-18).unwrap_or(TERMS)
 }
 
 /// Bounds the sum of `(j + 7) abs(B_j(x))/j! size^(j-2)` over `j > terms`, as `abs(B_j(x))/j! <= 2 zeta(2)/(2 pi)^j <= 4/(2 pi)^j` and
-/// `size <= 1`: less than `4 (terms + 9)/(2 pi)^2 q^(terms-1)/(1 - q)^2`, `q = size/(2 pi)`; `4/(2 pi)^2 < 0.102` leaves
+/// `size <= 1`: less than `4 (terms + 9)/(2 pi)^2 q^(terms-1)/(1 - q)^2`, `q = size/(2 pi)`; `4/(2 pi)^2 < 0.102` has
 /// room for rounding.
 fn remainder(size: f64) -> f64 {
     let (terms, ratio) = (terms(size), size / TAU);
@@ -245,7 +245,7 @@ fn bernoulli(share: Interval, degree: usize) -> [Interval; TERMS + 1] {
     polynomials
 }
 
-/// What the Bernoulli polynomials are made of.
+/// The coefficients of the Bernoulli polynomials.
 struct TermTable {
     /// `B_2k(1/2)/(2k)!`.
     middles: [Interval; TERMS / 2 + 1],
@@ -294,7 +294,7 @@ pub(super) fn rise_at_zero(modes: &[Mode], share: Interval, delay: Interval) -> 
     ascending
 }
 
-/// A bound of `abs(W)` over all moments and all periods up to this one; infinite where the series does not converge.
+/// A bound of `abs(W)` over all moments and all periods up to this period; infinite where the series does not converge.
 pub(super) fn bound(modes: &[Mode], period: f64) -> f64 {
     let period = Interval::point(period);
     let four_over = Interval::point(4.0) / (Interval::two() * Interval::PI).square();
@@ -322,7 +322,7 @@ mod tests {
 
     #[test]
     fn series_and_closed_form_agree() {
-        // The same plant on both sides of the switch between the two forms, in differences, which are what counts.
+        // The same plant on both sides of the switch between the two forms, in differences: the orbit uses no more.
         for den in [vec![1.0, 1.0], vec![1.0, -0.7], vec![1.0, 0.4, 1.3], vec![1.0, 2.0, 1.0]] {
             let modes = modes(&TransferFunction::new(&[1.0], &den).unwrap()).unwrap();
             let period = 0.9 / modes.iter().map(|mode| mode.algebra.size()).fold(0.0, f64::max);

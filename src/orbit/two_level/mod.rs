@@ -1,10 +1,10 @@
 //! All orbits of a linear plant with dead time under a two-level relay, with proof.
 //!
-//! One switching each way in a period. Between switchings the output is known in closed form, so an orbit is a solution of two
-//! equations in its two half-periods. They are solved in interval arithmetic over all periods of a range: an orbit that is not
-//! listed does not exist, except in the sub-ranges named. Krawczyk's operator shows that an orbit exists and is alone in its enclosure.
-//! The output, enclosed over the period, shows that the relay switches nowhere else. Powers of the return map, with every command under
-//! way, show that deviations die out or grow.
+//! A single switching each way in a period. Between switchings the output has a closed form: an orbit is a solution of
+//! two equations in its two half-periods. They are solved in interval arithmetic over all periods of a range: an orbit
+//! that is not listed does not exist, except in the sub-ranges named. Krawczyk's operator shows that an orbit exists
+//! and is alone in its enclosure. The output, enclosed over the period, shows that the relay switches nowhere else.
+//! Powers of the return map, with every command under way, show that deviations die out or grow.
 
 mod algebra;
 mod attraction;
@@ -76,15 +76,15 @@ impl From<RelayHysteresis<f64>> for TwoLevelRelay {
     }
 }
 
-/// All orbits with one switching each way, as far as the search reached.
+/// All orbits with a single switching each way, as far as the search reached.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct OrbitListing {
     /// The orbits, longest period first.
     pub orbits: Vec<ListedOrbit>,
-    /// Range of periods searched, s; a missing end is open. It is the range asked for; without one it begins where the search ended.
+    /// Range of periods searched, s; a missing end is open. It is the range asked for; without a range it begins where the search ended.
     pub range_s: [Option<f64>; 2],
-    /// Sub-ranges of that range in which there may be other orbits, s; a missing end is open.
+    /// Sub-ranges of that range in which there may be unlisted orbits, s; a missing end is open.
     pub not_covered: Vec<[Option<f64>; 2]>,
 }
 
@@ -110,8 +110,8 @@ pub struct ListedOrbit {
     pub minimum: Interval,
     /// The largest output.
     pub maximum: Interval,
-    /// Eigenvalues of the return map, largest first, computed, not enclosed; those that are zero are left out, and all where the map
-    /// is not known.
+    /// Eigenvalues of the return map, largest first, computed, not enclosed, without the zeros; empty where the map is
+    /// not decided.
     pub multipliers: Vec<Complex<f64>>,
     /// Whether small deviations die out, where that is shown.
     pub attracting: Option<bool>,
@@ -130,8 +130,8 @@ impl ListedOrbit {
     }
 }
 
-/// All orbits of `plant` under `relay` with one switching each way in a period, from the slowest down; within a range of periods in
-/// s, or all.
+/// All orbits of `plant` under `relay` with a single switching each way in a period, from the slowest down; within a
+/// range of periods in s, or all.
 ///
 /// A dead time and a relay without hysteresis have infinitely many orbits, and a narrow hysteresis has very many: the search ends after
 /// the five slowest. Then `range_s` of a search for all begins at the fifth; of a range asked for, the rest is not covered. An orbit
@@ -196,7 +196,7 @@ struct Undecided;
 /// A loop in intervals.
 struct SwitchedLoop {
     conditions: Conditions,
-    /// By how much the output is above that of the conditions.
+    /// The output less that of the conditions.
     shift: Interval,
 }
 
@@ -204,7 +204,7 @@ impl SwitchedLoop {
     /// `None` where the output drifts, because the mean of an integrator's input cannot vanish.
     fn new(plant: &TransferFunction, relay: &TwoLevelRelay) -> Result<Option<Self>, OrbitError> {
         let TwoLevelRelay { high, low, half_width, reference } = *relay;
-        // With a relative degree of one or two the ideal relay slides, or switches ever faster.
+        // With a relative degree of 1 or 2 the ideal relay slides, or switches ever faster.
         let relative_degree = plant.denominator().len().saturating_sub(plant.numerator().len());
         if half_width == 0.0 && plant.delay_s() == 0.0 && relative_degree < 3 {
             return Err(OrbitError::NoHysteresis);
@@ -217,13 +217,13 @@ impl SwitchedLoop {
             return Ok(None);
         }
         let share = integrates.then(|| -low / (high - low));
-        // A pole at zero leaves the output's constant free.
+        // With a pole at zero the output's constant is free.
         let (middle, shift) = if integrates { (Interval::ZERO, reference) } else { (reference, Interval::ZERO) };
         let (upper, lower) = (middle + half_width, middle - half_width);
         Ok(Some(Self { conditions: Conditions { modes, delay, high, low, upper, lower, share }, shift }))
     }
 
-    /// The orbit of a solution of the switching conditions, if it is one.
+    /// The orbit of a solution of the switching conditions, if it is an orbit.
     fn orbit(&self, at: &search::HalfPeriods) -> Result<Option<ListedOrbit>, Undecided> {
         let path = Path::new(&self.conditions, at).ok_or(Undecided)?;
         match path.genuine() {
@@ -249,7 +249,7 @@ impl SwitchedLoop {
 impl Conditions {
     /// The range of periods searched: from where a period is too short for the output to pass both levels.
     fn range(&self, period_s: Option<&RangeInclusive<f64>>) -> PeriodRange {
-        // How long a group takes to decay, or one that does not to turn a hundred times.
+        // How long a group takes to decay, or an undamped group to turn a hundred times.
         let time = |mode: &Mode| 1.0 / mode.algebra.shift.magnitude().max(0.01 * mode.algebra.size());
         let times = self.modes.iter().filter(|mode| mode.inverse.is_some()).map(time);
         let slowest = times.fold(self.delay.upper(), f64::max);
@@ -264,7 +264,7 @@ impl Conditions {
     }
 }
 
-/// Ranges that touch as one, in order.
+/// Ranges that touch joined, in order.
 fn merged(mut ranges: Vec<Interval>) -> Vec<[Option<f64>; 2]> {
     ranges.sort_by(|a, b| a.lower().total_cmp(&b.lower()));
     let mut kept: Vec<Interval> = Vec::new();

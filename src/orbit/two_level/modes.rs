@@ -8,18 +8,18 @@ use crate::orbit::OrbitError;
 use crate::plant::{TransferFunction, product};
 use crate::proof::interval_matrix::solve;
 
-/// Poles nearer to each other than this share of their size form a group: the shares of separate poles grow with the inverse of
+/// Poles within this share of their size form a group: the shares of separate poles grow with the inverse of
 /// their distances and cancel.
 const GAP: f64 = 0.2;
 
-/// One group of poles of the plant: `x' = A x + u`, its share of the output `sum_j output_j x_j`.
+/// A group of poles of the plant: `x' = A x + u`, its share of the output `sum_j output_j x_j`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Mode {
     pub(super) algebra: Algebra,
     output: Element,
     /// `1/A`; `None` for the poles at zero.
     pub(super) inverse: Option<Element>,
-    /// Whether it is unstable, so that its bounded motion is known from the future.
+    /// Whether it is unstable: its bounded motion follows from the future.
     pub(super) backwards: bool,
 }
 
@@ -43,7 +43,7 @@ impl Mode {
     }
 }
 
-/// Approximate factors, ascending without the leading one, of a polynomial without a root at zero.
+/// Approximate factors, ascending without the leading coefficient, of a polynomial without a root at zero.
 fn factors(descending: &[f64]) -> Result<Vec<Vec<f64>>, OrbitError> {
     let poles = TransferFunction::new(&[1.0], descending)?.poles()?;
     let near_axis = |im: f64, size: f64| 2.0 * im.abs() <= GAP * size;
@@ -74,7 +74,7 @@ fn factors(descending: &[f64]) -> Result<Vec<Vec<f64>>, OrbitError> {
     Ok(found)
 }
 
-/// Product of monic polynomials, ascending, all but one of them; `None` leaves none out.
+/// Product of monic polynomials, ascending, all but the factor `without`; `None`: of all.
 fn others(factors: &[Vec<Interval>], without: Option<usize>) -> Vec<Interval> {
     let kept = factors.iter().enumerate().filter(|(index, _)| Some(*index) != without).map(|(_, factor)| factor);
     kept.fold(vec![Interval::ONE], |product, factor| {
@@ -88,7 +88,7 @@ fn others(factors: &[Vec<Interval>], without: Option<usize>) -> Vec<Interval> {
     })
 }
 
-/// The matrix whose columns are `s^j` times the product of the other factors, for each coefficient of each factor.
+/// The matrix whose columns are `s^j` times the product of the remaining factors, for each coefficient of each factor.
 fn columns(factors: &[Vec<Interval>]) -> DMatrix<Interval> {
     let size = factors.iter().map(Vec::len).sum();
     let mut matrix = DMatrix::zeros(size, size);
@@ -103,7 +103,7 @@ fn columns(factors: &[Vec<Interval>]) -> DMatrix<Interval> {
     matrix
 }
 
-/// Encloses the factors near approximate ones: Krawczyk's operator on the coefficients. `monic` ascends.
+/// Encloses the factors near approximate factors: Krawczyk's operator on the coefficients. `monic` ascends.
 fn enclose(near: &[Vec<f64>], monic: &[Interval]) -> Option<Vec<Vec<Interval>>> {
     if let [_] = near {
         return Some(vec![monic.to_vec()]);
@@ -163,7 +163,7 @@ fn shifted(ascending: &[Interval], shift: Interval) -> Vec<Interval> {
 fn mode(factor: &[Interval], numerator: &[Interval], at_zero: bool) -> Option<Mode> {
     let degree = factor.len();
     let last = factor[degree - 1] / Interval::point(degree as f64);
-    // A pair or a double pole is moved by exactly the mean of its poles, which leaves no linear term.
+    // A pair or a double pole is moved by exactly the mean of its poles: no linear term remains.
     let shift = match degree {
         _ if at_zero => Interval::ZERO,
         1 => Interval::ZERO,

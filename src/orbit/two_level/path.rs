@@ -28,7 +28,7 @@ pub(super) struct Path<'a> {
     pub(super) times: Times<2>,
     pub(super) on: Place,
     pub(super) off: Place,
-    /// The output's constant where a pole at zero leaves it free; zero otherwise.
+    /// The output's constant where it is free by a pole at zero; zero otherwise.
     constant: Interval,
 }
 
@@ -45,7 +45,7 @@ struct OutputArc {
 }
 
 impl<'a> Path<'a> {
-    /// `None` where the order of the changes is not known.
+    /// `None` where the order of the changes is not decided.
     pub(super) fn new(conditions: &'a Conditions, at: &HalfPeriods) -> Option<Self> {
         let times = conditions.times(at);
         let periodic = Periodic::new(&conditions.modes, times.period.value())?;
@@ -204,8 +204,8 @@ impl<'a> Path<'a> {
         Some([-self.largest(&arcs, -Interval::ONE)?, self.largest(&arcs, Interval::ONE)?])
     }
 
-    /// Bounds of the largest output times `sign`: where the slope keeps its sign it is at an end of the cell; other cells are
-    /// halved until the value at a point is nearly as wide as that over the cell.
+    /// Bounds of the largest output times `sign`: where the slope keeps its sign it is at an end of the cell; the
+    /// remaining cells are halved until the value at a point is nearly as wide as that over the cell.
     fn largest(&self, arcs: &[OutputArc], sign: Interval) -> Option<Interval> {
         let (mut reached, mut top) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
         for arc in arcs {
@@ -219,7 +219,7 @@ impl<'a> Path<'a> {
                 if value.upper() <= reached {
                     continue;
                 }
-                // An end of the arc is known to its enclosure only.
+                // An end of the arc has an enclosure only.
                 let end = if slope.is_positive() {
                     Some(if cell.upper() == arc.to.upper() { arc.to } else { Interval::point(cell.upper()) })
                 } else if slope.is_negative() {

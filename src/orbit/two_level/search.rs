@@ -13,9 +13,9 @@ use crate::proof::enclosure::{Roots, krawczyk};
 const BOXES: usize = 12_000;
 /// Orbits after which the search ends: a relay with dead time and without hysteresis has infinitely many, ever faster.
 const ORBITS: usize = 5;
-/// Newton steps on a box before it is halved: a second one gains less than it costs.
+/// Newton steps on a box before it is halved: a second step gains less than it costs.
 const STEPS: usize = 1;
-/// A step that leaves less of every side has come near a solution.
+/// A step that shrinks every side below this share has come near a solution.
 const SHRUNK: f64 = 0.3;
 /// A box of this size relative to its period is not halved further.
 const SMALLEST: f64 = 1e-9;
@@ -23,12 +23,12 @@ const SMALLEST: f64 = 1e-9;
 /// Half-periods at the upper and at the lower level.
 pub(super) type HalfPeriods = [Interval; 2];
 
-/// What a search has found.
+/// The result of a search.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Found {
-    /// Enclosures of solutions, each of one.
+    /// Enclosures of solutions, each of a single solution.
     pub(super) solutions: Vec<HalfPeriods>,
-    /// Periods from `searched_from` up outside these hold no other solution.
+    /// Periods from `searched_from` up outside these have no further solution.
     pub(super) not_covered: Vec<Interval>,
     /// The period, s, at which the search ended before the shortest of its range; `None` where it did not.
     pub(super) searched_from: Option<f64>,
@@ -58,7 +58,7 @@ impl<const N: usize> Ord for Part<N> {
     }
 }
 
-/// What of a box's periods is asked for, and the time by which unbounded boxes are cut.
+/// The periods asked for, and the time by which unbounded boxes are cut.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PeriodRange {
     pub(super) shortest: f64,
@@ -120,7 +120,7 @@ impl Conditions {
         }
     }
 
-    /// The one solution in a box of half-periods, enclosed.
+    /// The only solution in a box of half-periods, enclosed.
     pub(super) fn solution_in(&self, at: &HalfPeriods) -> Option<HalfPeriods> {
         match self.share {
             Some(share) => only(&SharedConditions(self, share), [at[0] + at[1]]),
@@ -204,7 +204,7 @@ impl Conditions {
     }
 }
 
-/// The one solution that Krawczyk's operator shows in a box.
+/// The only solution that Krawczyk's operator shows in a box.
 fn only<const N: usize>(equations: &impl BoxEquations<N>, at: [Interval; N]) -> Option<HalfPeriods> {
     let miss = |unknowns: [Gradient<N>; N]| equations.miss(unknowns);
     let Roots::Unique { enclosure, .. } = krawczyk(miss, at, 30) else { return None };
@@ -212,8 +212,8 @@ fn only<const N: usize>(equations: &impl BoxEquations<N>, at: [Interval; N]) -> 
     Some([times.high.value(), times.low.value()])
 }
 
-/// What Newton steps show of a box. Where a step has shrunk it, a solution may be on the border of what is left: then of a larger box,
-/// so that a solution found may lie outside this one.
+/// Newton steps on a box. Where a step has shrunk it, a solution may be on the border of the remainder: then on a
+/// larger box, and a solution found may lie outside this box.
 fn about<const N: usize>(
     miss: impl Fn([Gradient<N>; N]) -> [Gradient<N>; N],
     at: [Interval; N],
@@ -230,7 +230,7 @@ fn about<const N: usize>(
     }
 }
 
-/// The enclosure of the one solution in a box, as narrow as a small box about its floating-point approximation gives it.
+/// The enclosure of the only solution in a box, as narrow as a small box about its floating-point approximation gives it.
 fn narrowed<const N: usize>(miss: impl Fn([Gradient<N>; N]) -> [Gradient<N>; N], at: [Interval; N]) -> [Interval; N] {
     let mut point = at.map(Interval::midpoint);
     for _ in 0..20 {
@@ -252,7 +252,7 @@ fn narrowed<const N: usize>(miss: impl Fn([Gradient<N>; N]) -> [Gradient<N>; N],
     enclosed.filter(|enclosure| (0..N).all(|side| enclosure[side].is_subset_of(at[side]))).unwrap_or(at)
 }
 
-/// Whether two enclosures are shown to be of one solution.
+/// Whether two enclosures are shown to be of the same solution.
 fn same<const N: usize>(
     miss: impl Fn([Gradient<N>; N]) -> [Gradient<N>; N],
     a: &[Interval; N],

@@ -88,7 +88,7 @@ impl<const N: usize> Times<N> {
         };
         let shift = Gradient::constant(shift);
         if let Some(share) = self.share {
-            // One product, so that nothing is counted twice.
+            // A single product: nothing is counted twice.
             let rest = Interval::ONE - share;
             let whole = Interval::point(rises) * share + Interval::point(falls) * rest;
             return self.period * Gradient::constant(whole) + shift;
@@ -162,8 +162,8 @@ impl Conditions {
         Some([since_rise, since_fall])
     }
 
-    /// The output where a change is, over a box of half-periods, less the constant that a pole at zero leaves free; `None` where the
-    /// box is too wide.
+    /// The output where a change is, over a box of half-periods, less the constant that is free with a pole at zero;
+    /// `None` where the box is too wide.
     pub(super) fn output<const N: usize>(
         &self,
         periodic: &Periodic<'_>,
@@ -224,7 +224,7 @@ impl Conditions {
         }
     }
 
-    /// The same where a pole at zero leaves the output's constant free: the output's rise less the hysteresis.
+    /// The same where a pole at zero makes the output's constant free: the output's rise less the hysteresis.
     pub(super) fn rise_miss(&self, period: Gradient<1>, share: Interval) -> Gradient<1> {
         if !period.value().is_bounded() {
             return Gradient::constant(self.rise_far(period.value(), share).unwrap_or(Interval::ENTIRE));
@@ -302,8 +302,8 @@ impl Conditions {
         after.filter(|&after_s| after_s < shortest).any(|after_s| past(at(0.0, 0.0, after_s), at(1.0, 0.0, after_s)))
     }
 
-    /// The one place of a change, given its enclosed half-periods; just before the input's own change where they coincide
-    /// for want of a delay. `None` where they may coincide otherwise.
+    /// The only place of a change, given its enclosed half-periods; just before the input's own change where they
+    /// coincide for want of a delay. `None` where they may coincide otherwise.
     pub(super) fn place<const N: usize>(&self, times: &Times<N>, change: Change) -> Option<Place> {
         if self.delay.upper() == 0.0 {
             return Some(match change {
@@ -329,7 +329,7 @@ fn hull<const N: usize>(a: Gradient<N>, b: Gradient<N>) -> Gradient<N> {
 }
 
 impl Conditions {
-    /// A period below which the output cannot move from one level to the other; zero without hysteresis.
+    /// A period below which the output cannot move between the levels; zero without hysteresis.
     pub(super) fn shortest_period(&self, longest: f64) -> f64 {
         let width = (self.upper - self.lower).lower();
         let step = Interval::point(4.0) * (self.high - self.low).abs();

@@ -8,16 +8,16 @@ use super::walk::{Checked, Walk, within};
 use crate::experiment::Record;
 use crate::numeric::Interval;
 
-/// What an accepted certificate shows, and by how much work.
+/// The result of an accepted certificate, and its work.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shown {
     /// In words.
     pub statement: String,
-    /// What it depends on, in words.
+    /// Its assumptions, in words.
     pub ranges: Vec<String>,
     /// Where parameters were searched: the terms and the delay.
     pub searched: Vec<(&'static str, [f64; 2])>,
-    /// What is left of them; nothing where refuted.
+    /// The remainder of them; nothing where refuted.
     pub left: Vec<(&'static str, [f64; 2])>,
     /// Speeds were searched up to this, in units of the readings per s.
     pub fastest: f64,
@@ -30,7 +30,7 @@ pub struct Shown {
 }
 
 impl Certificate {
-    /// What the certificate shows of its records.
+    /// The certificate's result on its records.
     ///
     /// # Errors
     /// The first [`Unproved`].
@@ -78,7 +78,7 @@ impl Certificate {
     }
 }
 
-/// The witness as if it were all that is left, with one shooting interval for each record.
+/// The witness as if it were the whole remainder, with a single shooting interval for each record.
 fn check_witness(problem: &Problem, witness: &Witness) -> Result<(), Unproved> {
     let outside = || malformed("the witness is not in the search box");
     let (at, unknowns) = (&witness.values, &problem.unknowns);

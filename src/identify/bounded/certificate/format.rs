@@ -13,7 +13,7 @@ use crate::numeric::Interval;
 /// Changes with the meaning of a field.
 const FORMAT: u32 = 4;
 
-/// What is shown, of which readings, and the steps.
+/// The statement, its readings, and the steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Certificate {
@@ -21,9 +21,9 @@ pub struct Certificate {
     pub(super) format: u32,
     /// Of the crate that wrote it.
     pub(super) version: String,
-    /// In words, by the others.
+    /// In words, by the fields below.
     pub(super) statement: String,
-    /// The equation, and what is granted to a reading and a stamp.
+    /// The equation, and the errors granted to a reading and a stamp.
     pub(super) model: BoundedModel,
     /// How the readings were taken from the logs; null where they are from none.
     pub(super) read_as: Option<ReadAs>,
@@ -31,7 +31,7 @@ pub struct Certificate {
     pub(super) records: Vec<Log>,
     /// The ranges that follow from these and the model.
     pub(super) searched: Searched,
-    /// One after the other; each begins where the one before ended.
+    /// In order; each begins where its predecessor ended.
     pub(super) stages: Vec<ProofStage>,
     /// A parameter.
     pub(super) witness: Option<Witness>,
@@ -63,7 +63,7 @@ pub(super) struct Searched {
     pub(super) from: Vec<[f64; 2]>,
 }
 
-/// A parameter that meets every reading from some sample on.
+/// A parameter that satisfies every reading from some sample on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Witness {
@@ -80,22 +80,22 @@ pub(super) struct Log {
     pub(super) time_s: Vec<f64>,
     pub(super) reading: Vec<f64>,
     pub(super) command: Vec<f64>,
-    /// Step of the sensor: the model's, else the one that the readings show; zero for none.
+    /// Step of the sensor: the model's, else the readings' own; zero for none.
     pub(super) quantum: f64,
 }
 
-/// The proof that a box has no feasible parameters but those left: the search box, or what the stage before left.
+/// The proof that a box has no feasible parameters but the remainder: the search box, or the remainder of the stage before.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ProofStage {
     /// Record, first and last sample of each shooting interval.
     pub(super) shooting: Vec<[usize; 3]>,
-    /// What is left; null for nothing.
+    /// The remainder; null for nothing.
     pub(super) left: Option<Vec<[f64; 2]>>,
     pub(super) steps: Vec<Step>,
 }
 
-/// The source of inequalities, over so many shooting intervals of each record, from its first on.
+/// The source of inequalities, over a number of shooting intervals of each record, from its first on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum By {
@@ -108,7 +108,7 @@ pub(super) enum By {
 /// Inequalities with nonnegative multipliers.
 pub(super) type Combination = Vec<(Origin, f64)>;
 
-/// A new end of the range of one unknown.
+/// A new end of the range of an unknown.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Cut {
@@ -134,7 +134,7 @@ pub(super) enum Step {
 }
 
 impl Cut {
-    /// Shortens the range; `false` where nothing is left of it.
+    /// Shortens the range; `false` where it becomes empty.
     pub(super) fn shorten(&self, at: &mut [Interval]) -> bool {
         let side = at[self.unknown];
         let half =
@@ -181,7 +181,7 @@ impl Certificate {
         }
     }
 
-    /// The same of logs that were read so.
+    /// The same of logs that were read likewise.
     pub(crate) fn read_as(self, read_as: ReadAs) -> Self {
         Self { read_as: Some(read_as), ..self }
     }

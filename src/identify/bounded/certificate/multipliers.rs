@@ -7,18 +7,18 @@ use super::format::{Combination, Cut};
 use crate::numeric::Interval;
 
 /// Room for the enclosures of another checker: on either side of a range, in shares of it; and of a contradiction, in shares of the slack of
-/// its readings. A cut that takes less off a range is left out.
+/// its readings. A cut that takes less off a range is omitted.
 pub(super) const ROOM: f64 = 0.03;
 
 /// The result of a contraction.
 pub(super) enum Found {
-    /// A contradiction, and by how much.
+    /// A contradiction, and its size.
     Contradiction(Combination, f64),
     Cuts(Vec<Cut>),
 }
 
 impl Found {
-    /// A contradiction as a cut that leaves nothing of the first unknown: any objective is bounded by enough of a contradiction.
+    /// A contradiction as a cut that empties the range of the first unknown: any objective is bounded by enough of a contradiction.
     pub(super) fn into_cuts(self, at: &[Interval]) -> Vec<Cut> {
         match self {
             Self::Cuts(cuts) => cuts,
@@ -34,8 +34,8 @@ impl Found {
 /// Shares by which a contradiction counts.
 #[derive(Clone, Copy)]
 pub(super) struct ExclusionMargin {
-    /// Of the errors of the readings: the slack of the feasible point. Beyond bounds that are wider by half, misfits exceed one by about the
-    /// slack: a larger margin would leave points near the bounds that no step excludes.
+    /// Of the errors of the readings: the slack of the feasible point. Beyond bounds that are wider by half, misfits
+    /// exceed 1 by about the slack: a larger margin would leave points near the bounds that no step excludes.
     pub(super) slack: f64,
     /// Of the ranges of the coefficients.
     pub(super) of_uncertainty: f64,
@@ -96,7 +96,7 @@ pub(super) fn seek(
                 continue;
             }
             let empty = sign * (other - end) > least + uncertainty(multipliers);
-            // Of a range that may be empty a sliver is left.
+            // Of a range that may be empty a sliver remains.
             let end = if empty || sign * (end - other) > least { end } else { other + sign * least };
             let cut = Cut { unknown, upper, end, rows: named(multipliers) };
             if empty {

@@ -1,4 +1,4 @@
-//! The proof, once it is known what is left: branch and prune again, towards a box with some room around what is left.
+//! The proof, once the remainder is found: branch and prune again, towards a box with some room around it.
 
 use super::super::branch_and_prune::{KEPT, halves};
 use super::super::contraction::{Contractor, HELPED};
@@ -13,17 +13,17 @@ use crate::experiment::Record;
 use crate::identify::IdentifyError;
 use crate::numeric::{Interval, Real};
 
-/// What is left is given wider than it was found by this share of its width on either side: fewer boxes, and room for other enclosures.
+/// The remainder is stated wider by this share of its width on either side: fewer boxes, and room for another program.
 const ROOM: f64 = 0.5;
 /// Steps of a stage.
 const MOST_STEPS: usize = 4000;
 /// A contradiction by shooting counts where it exceeds this share of the ranges of the coefficients; the second checker's are wider.
 const OF_UNCERTAINTY: f64 = 0.25;
-/// A box at most this much wider than what is left is divided where it extends beyond.
+/// A box at most this factor wider than the remainder is divided where it extends beyond.
 const NEAR: f64 = 4.0;
 
 impl Certificate {
-    /// The proof of what was solved; two stages where a narrower delay left more readings.
+    /// The proof of a solved problem; two stages where a narrower delay admits more readings.
     ///
     /// # Errors
     /// [`Unproved::NotFound`] where a stage takes too many steps.
@@ -244,7 +244,7 @@ impl Prover {
         Next::Stuck(widest)
     }
 
-    /// Notes the result of a contraction, and applies it to the box; whether nothing is left.
+    /// Notes the result of a contraction, and applies it to the box; whether it is empty.
     fn take(&mut self, by: By, found: Found, here: &mut Pending) -> bool {
         match found {
             Found::Contradiction(rows, _) => {
@@ -260,8 +260,8 @@ impl Prover {
         }
     }
 
-    /// The unknown and its halves: where a box near what is left extends furthest beyond it, else the widest, or the next that can be
-    /// divided.
+    /// The unknown and its halves: where a box near the remainder extends furthest beyond it, else the widest, or the
+    /// next that can be divided.
     fn divide(&self, at: &[Interval], widest: usize) -> Result<(usize, [Interval; 2]), Unproved> {
         if let Some((unknown, value)) = self.furthest_beyond(at)
             && let Some(parts) = halves(at[unknown], value)

@@ -1,4 +1,4 @@
-//! What a certificate says, by its model and its rows alone: the problem anew, the words, and whether the rows are a log's.
+//! The statement of a certificate, by its model and its rows alone: the problem anew, the words, and whether the rows are a log's.
 
 use super::super::problem::{Problem, ROUNDING};
 use super::super::settings::{BoundedModel, DelayBound, SwitchedWhen};
@@ -17,7 +17,7 @@ fn listed(items: &[(bool, &str)]) -> String {
 }
 
 impl Certificate {
-    /// The records and the problem that they pose, which is the one that the file says was searched.
+    /// The records and the problem that they pose, which must be the file's.
     pub(super) fn problem(&self) -> Result<(Vec<Record>, Problem), Unproved> {
         let record = |rows: &Log| Record::new(rows.time_s.clone(), rows.reading.clone(), rows.command.clone());
         let records: Vec<Record> = self
@@ -49,7 +49,7 @@ impl Certificate {
         Ok((records, problem))
     }
 
-    /// What steps of this shape show of these records.
+    /// The statement that steps of this shape show of these records.
     pub(super) fn words(&self, records: &[&Record]) -> String {
         let left = self.stages.last().and_then(|stage| stage.left.as_ref());
         let words = match (left, &self.witness) {
@@ -80,7 +80,7 @@ impl Certificate {
         format!("{before}{words}{after}")
     }
 
-    /// Every range on which the words depend, beside the search box.
+    /// Every range on which the words depend, in addition to the search box.
     pub(super) fn ranges(&self, problem: &Problem) -> Vec<String> {
         let BoundedModel { law, either_sign, delay, switching, error, jitter_s, reach, .. } = &self.model;
         let sign = if *either_sign { ", of either sign where it is linear" } else { "" };

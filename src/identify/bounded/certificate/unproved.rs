@@ -11,7 +11,7 @@ pub enum Unproved {
         /// What is wrong.
         text: String,
     },
-    /// One of another program.
+    /// A file of another program.
     #[error("format {found}, where this program reads format {expected}; write it anew with `identify --certificate`")]
     Format {
         /// Its own.
@@ -42,9 +42,9 @@ pub enum Unproved {
     /// A row is not the log's.
     #[error("row {row} of log {log}: the {what} is {found} in the log and {expected} in the file")]
     Row {
-        /// Number of the log, from one.
+        /// Number of the log, from 1.
         log: usize,
-        /// Number of the row among those used, from one.
+        /// Number of the row among those used, from 1.
         row: usize,
         /// Stamp, reading or command.
         what: &'static str,
@@ -56,24 +56,24 @@ pub enum Unproved {
     /// The witness omits readings.
     #[error("the witness begins at row {first} of record {record}, and has to meet every reading from row {most} on")]
     Late {
-        /// Number of the record, from one.
+        /// Number of the record, from 1.
         record: usize,
-        /// Its first row, from one.
+        /// Its first row, from 1.
         first: usize,
         /// The last with which it may begin.
         most: usize,
     },
-    /// What a step says does not follow.
+    /// A step's statement does not follow.
     #[error("step {step} of stage {stage}: {what}")]
     Step {
         /// Number of the stage.
         stage: usize,
         /// Number of the step.
         step: usize,
-        /// What does not follow.
+        /// The statement.
         what: &'static str,
     },
-    /// Boxes are left that no step deals with, or steps without a box.
+    /// Boxes without a step, or steps without a box.
     #[error("the steps of stage {stage} do not deal with the whole box")]
     Incomplete {
         /// Its number.
@@ -85,13 +85,13 @@ pub enum Unproved {
         /// The largest misfit over its largest error, at most.
         misfit: f64,
     },
-    /// What is said is not what the steps show.
+    /// The statement is not shown by the steps.
     #[error("the statement is not what the steps show: {expected}")]
     Statement {
         /// What they show.
         expected: String,
     },
-    /// Readings may be in error by any amount, which no certificate says.
+    /// Readings may be in error by any amount, which no certificate covers.
     #[error("no proof is written where {allowed} readings may be in error by any amount; leave them out of the log")]
     Outliers {
         /// So many.

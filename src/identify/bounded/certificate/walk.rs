@@ -1,4 +1,4 @@
-//! The check of one stage: enclosures over the boxes of its tree, and sums.
+//! The check of a stage: enclosures over the boxes of its tree, and sums.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -34,7 +34,7 @@ pub(super) struct Walk<'a> {
 struct Enclosed {
     relaxation: Relaxation,
     rows: BTreeMap<Origin, usize>,
-    /// The box as the enclosure itself leaves it.
+    /// The box, cut by the enclosure itself.
     direct: Vec<Interval>,
 }
 
@@ -132,7 +132,7 @@ impl<'a> Walk<'a> {
         if open.is_empty() { Ok(()) } else { Err(incomplete) }
     }
 
-    /// The boxes that a step leaves, the next last; or why it is refused.
+    /// The boxes after a step, the next last; or why it is refused.
     fn step(
         &self,
         mut here: Vec<Interval>,

@@ -1,4 +1,4 @@
-//! Where a feasible point is sought when division has led to none: about the maximum likelihood fit, which is not trusted.
+//! Where a feasible point is sought when division has found none: about the maximum likelihood fit, which is not trusted.
 
 use super::super::answer::Quantity;
 use super::super::contraction::Contractor;
@@ -13,7 +13,7 @@ use crate::numeric::Interval;
 /// Half-widths of the boxes about the estimate, in shares of the command.
 const SHARES: [f64; 2] = [0.03, 0.2];
 
-/// Whether a fit has the terms of the model beside its drag, and no others.
+/// Whether a fit has the terms of the model in addition to its drag, and no more.
 fn has_terms_of(candidate: &Candidate, settings: &BoundedModel) -> bool {
     let terms = [(Term::Lag, settings.lag), (Term::Stiffness, settings.stiffness), (Term::CubicDrag, settings.cubic)];
     candidate.clock == Clock::Stamps

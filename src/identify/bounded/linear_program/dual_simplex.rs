@@ -22,7 +22,7 @@ pub(in super::super) enum Outcome {
     Empty { multipliers: Multipliers },
 }
 
-/// The coefficients of one unknown, from the first row that has it to the last.
+/// The coefficients of an unknown, from the first row that has it to the last.
 #[derive(Default)]
 struct Column {
     first: usize,
@@ -86,7 +86,7 @@ impl Programme {
             for (unknown, coefficient) in coefficients {
                 let index = column[*unknown];
                 let Some(radius) = programme.radius.get(index) else { continue };
-                // Where z has one sign, one end of the coefficient gives the weakest inequality, and nothing is lost.
+                // Where z has a constant sign, an end of the coefficient gives the weakest inequality, and nothing is lost.
                 let deviation = deviations[*unknown];
                 let middle = if deviation.lower() >= 0.0 {
                     coefficient.lower()
@@ -183,7 +183,7 @@ impl Programme {
     }
 }
 
-/// An objective with a little of everything else, so that no two vertices are equally good.
+/// An objective with a little of everything else, by which no two vertices are equally good.
 fn perturbed(objective: &[f64]) -> Vec<f64> {
     let largest = objective.iter().fold(0.0f64, |largest, weight| largest.max(weight.abs()));
     let unit = PERTURBATION * if largest > 0.0 { largest } else { 1.0 };
@@ -191,7 +191,7 @@ fn perturbed(objective: &[f64]) -> Vec<f64> {
     objective.iter().enumerate().map(|(index, weight)| weight + unit * side_of(*weight < 0.0) * odd(index)).collect()
 }
 
-/// By how much a point violates each row, updated as the point moves.
+/// A point's violation of each row, updated as the point moves.
 struct Violations<'a> {
     programme: &'a Programme,
     by: Vec<f64>,

@@ -6,13 +6,13 @@ pub(super) const TOLERANCE: f64 = 1e-9;
 /// A constraint of a programme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Constraint {
-    /// One of its rows.
+    /// A row.
     Row(usize),
-    /// A side of the box `[-1, 1]`, the lower one or the upper one, of an unknown.
+    /// A side of the box `[-1, 1]`, the lower or the upper side, of an unknown.
     Side { unknown: usize, lower: bool },
 }
 
-/// Which constraint leaves the vertex for another, by its place, and the weight of the other.
+/// The constraint that another replaces at the vertex, by its place, and the weight of the new constraint.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Exchange {
     out: usize,
@@ -24,7 +24,7 @@ pub(super) struct Vertex {
     pub(super) basis: Vec<Constraint>,
     limits: Vec<f64>,
     weights: Vec<f64>,
-    /// By rows, one for each unknown: `z = inverse . limits`.
+    /// By rows, a row for each unknown: `z = inverse . limits`.
     inverse: Vec<f64>,
     /// Unknowns at a side of the box, and its place: the only entry of their rows.
     sided: Vec<Option<usize>>,
@@ -72,7 +72,7 @@ impl Vertex {
         }
     }
 
-    /// The ratio test: the constraint that leaves the basis. `None` where the row contradicts the basis.
+    /// The ratio test: the constraint that is replaced in the basis. `None` where the row contradicts the basis.
     pub(super) fn exchange(&self, shares: &[f64]) -> Option<Exchange> {
         let mut least = f64::INFINITY;
         let mut found = None;

@@ -1,8 +1,8 @@
-//! The hat as a weight in time, and what it sees of a step that comes late by an exponentially distributed time: of a step of the command
-//! through a first-order lag T.
+//! The hat as a weight in time, and its integral against a step that comes late by an exponentially distributed time:
+//! of a step of the command through a first-order lag T.
 //!
-//! With `r(x) = max(x, 0)` the hat is `K(t) = sum_p w_p r(p - t)` over its corners p. A function g with `g'' = K` is evaluated by the same
-//! weights, and so is its mean over an exponential distribution.
+//! With `r(x) = max(x, 0)` the hat is `K(t) = sum_p w_p r(p - t)` over its corners p. A function g with `g'' = K` and
+//! its mean over an exponential distribution are evaluated by the same weights.
 
 use crate::numeric::{Interval, Real};
 
@@ -12,7 +12,7 @@ mod tests;
 /// A share of the lag's memory below this counts as gone.
 const GONE: f64 = 1e-14;
 
-/// A hat in time: zero at its ends, one at its peak.
+/// A hat in time: zero at its ends, 1 at its peak.
 pub(super) struct Hat {
     pub(super) l: Interval,
     m: Interval,
@@ -49,7 +49,7 @@ impl Hat {
         }
     }
 
-    /// All heights from one instant to another.
+    /// All heights between two instants.
     pub(super) fn height(&self, from: f64, to: f64) -> Interval {
         let ends = self.height_at(from).hull(self.height_at(to));
         let peak = from <= self.m.lower() && self.m.upper() <= to;
@@ -132,7 +132,7 @@ impl Hat {
         intersect(mean + Interval::symmetric(room.upper()), most)
     }
 
-    /// A middle instant and lag, and the largest distances of the others from these.
+    /// A middle instant and lag, and the largest distances from these.
     fn middles(instants: Interval, lag_s: Interval) -> (Interval, Interval, [Interval; 2]) {
         let [instant, lag] = [instants, lag_s].map(|range| Interval::point(range.midpoint()));
         (instant, lag, [(instants - instant).abs(), (lag_s - lag).abs()])
