@@ -96,6 +96,7 @@ def autotune(
     ms: float = 1.4,
     actions: Actions = "best",
     form: Form = "parallel",
+    full_power: float | None = None,
     derivative_filter: float = 10.0,
     interval: float | None = None,
     time: str | None = None,
@@ -118,6 +119,8 @@ def autotune(
         ``best`` takes the derivative where it takes a tenth off the integral of the absolute error.
     form : {"parallel", "ideal", "series", "klipper", "marlin", "reprap", "esphome"}
         Of ``lines``.
+    full_power : float, optional
+        Command at full power, of which a firmware's gains are shares; by default 1, 100 or 255, where it is the largest in the log.
     derivative_filter : float
         Derivative time over the time constant of its filter.
     interval : float, optional
@@ -166,7 +169,7 @@ def autotune(
     action = _arguments.choice(actions, "actions", Actions)
     flags = _documents.flags(
         ms=ms, pi=action == "pi", pid=action == "pid", form=_arguments.choice(form, "form", Form), derivative_filter=derivative_filter,
-        interval=interval, to=to_s,
+        interval=interval, full_power=full_power, to=to_s,
         time_unit=None if time_unit is None else _arguments.choice(time_unit, "time_unit", TimeUnit), skip_bad_rows=skip_bad_rows, **{"from": from_s},
     )  # fmt: skip
     flags += [f"--{name}={value}" for name, value in names.items() if value is not None]

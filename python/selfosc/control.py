@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal
 
@@ -32,20 +33,25 @@ class Tuned(Result):
     offset: float
     with_force: types.UnderForce | None
 
+    def __init__(self, document: Mapping[str, Any], output_unit: str = "x") -> None:
+        super().__init__(document)
+        self._output_unit = output_unit
+
     def _title(self) -> str:
         peak = self.sensitivity["proved_upper"]
         limit = "not proved" if peak is None else f"at most {peak:.4g}"
         return f"{self.gains['structure']} controller; largest sensitivity {limit}"
 
     def _table(self) -> list[list[str]]:
-        """Gains, margins and the step; F is the command's unit, x the output's, an angle in rad."""
+        """Gains, margins and the step; F is the command's unit, x the output's where no model names it."""
+        x = self._output_unit
         gains, step, worst = self.gains, self.verified["step"], self.worst_case
         margins = self.margins if worst is None else worst["at_least"]
         over = "" if worst is None else ", all axes"
         rows: list[tuple[str, float | None, str]] = [
-            ("proportional", gains["proportional"], "F/x"),
-            ("integral", gains["integral"] or None, "F/(x s)"),
-            ("derivative", gains["derivative"], "F s/x"),
+            ("proportional", gains["proportional"], f"F/{x}"),
+            ("integral", gains["integral"] or None, f"F/({x} s)"),
+            ("derivative", gains["derivative"], f"F s/{x}"),
             ("filter", gains["filter_s"], "s"),
             ("bandwidth", self.verified["bandwidth_rad_s"], "rad/s"),
             (f"gain margin{over}", margins["gain"], ""),
@@ -53,7 +59,7 @@ class Tuned(Result):
             (f"delay margin{over}", margins["delay_s"], "s"),
             ("overshoot", step["overshoot_percent"], "%"),
             ("settling", step["settling_s"], "s"),
-            ("offset by the force", self.offset or None, "x"),
+            ("offset by the force", self.offset or None, x),
         ]
         return [["", "value", "unit"], *([name, f"{value:.4g}", unit] for name, value, unit in rows if value is not None)]
 
@@ -143,7 +149,7 @@ def tune(
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "model.json"
         path.write_text(json.dumps(model.to_dict()), encoding="utf-8")
-        return Tuned(_documents.answer("tune", *_documents.flags(model=str(path), **options))[1])
+        return Tuned(_documents.answer("tune", *_documents.flags(model=str(path), **options))[1], model.units["output"])
 
 
 class Design(Result):

@@ -18,8 +18,8 @@ use crate::error::Error;
 use crate::experiment::{Columns, Log, TimeUnit};
 use crate::files::Files;
 use crate::identify::NORMAL_95;
-use crate::numeric::Interval;
 use crate::numeric::domain::About;
+use crate::numeric::{Interval, significant};
 use form::Form;
 
 /// PI or PID gains for a heater, a tank, an axis: from one record of its relay, thermostat or on-off control.
@@ -42,7 +42,7 @@ pub(super) struct Arguments {
     /// Column of times in s
     #[arg(long, value_name = "COL")]
     time: Option<String>,
-    /// Column of the measured value [default: temperature, temp, pv, or as for identify]
+    /// Column of the measured value [default: the first named temperature, temp, pv, process_value, measured, y, output, level or position]
     #[arg(long, value_name = "COL")]
     output: Option<String>,
     /// Column of the command [default: duty, power, heater, or as for identify]
@@ -69,6 +69,9 @@ pub(super) struct Arguments {
     /// In which form the gains are printed
     #[arg(long, value_enum, value_name = "FORM", default_value_t = Form::Parallel)]
     form: Form,
+    /// Command at full power, of which a firmware's gains are shares [default: 1, 100 or 255, where it is the largest in the log]
+    #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true)]
+    full_power: Option<f64>,
     /// Uses samples from this time on, in s on the log's clock
     #[arg(long, value_name = "T", value_parser = finite, allow_negative_numbers = true)]
     from: Option<f64>,
@@ -106,6 +109,22 @@ const SLOW_CODE: &str = "slow-controller";
 /// Correlation of neighbouring residuals from which on the load counts as drifting.
 const WANDERS: f64 = 0.8;
 
+/// Full power as it is usually counted: a duty, percent, a byte.
+const USUAL_FULL_POWER: [f64; 3] = [1.0, 100.0, 255.0];
+
+/// The command at full power: as given, or the log's largest where that is a usual count.
+fn full_power(arguments: &Arguments, input: &[f64]) -> Result<f64, CommandError> {
+    let largest = input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let usual = |largest: &f64| !arguments.form.is_of_full_power() || USUAL_FULL_POWER.contains(largest);
+    arguments.full_power.or(Some(largest).filter(usual)).ok_or_else(|| CommandError::Usage {
+        reason: format!(
+            "--form: a firmware's gains are shares of full power, and the log's largest command, {}, is neither 1, 100 nor 255; \
+             give the command at full power (--full-power)",
+            significant(largest, 4)
+        ),
+    })
+}
+
 /// The whole answer to a record.
 struct Autotuned {
     log: Log,
@@ -115,6 +134,8 @@ struct Autotuned {
     ultimate: Option<[Interval; 2]>,
     curves: Option<LoopCurves>,
     interval_s: f64,
+    /// Command at full power, of which a firmware's gains are shares.
+    full_power: f64,
     limit: f64,
 }
 
@@ -236,6 +257,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
             return refused(&refusal.into(), arguments.json, output);
         }
     };
+    let full_power = full_power(arguments, log.record.input())?;
     let found = match ProcessRecord::of(&log.record) {
         Ok(found) => found,
         Err(error) => return refused(&Error::from(error), arguments.json, output),
@@ -258,6 +280,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         log,
         found,
         interval_s,
+        full_power,
         limit: arguments.ms,
     };
     if let Some(report) = report {

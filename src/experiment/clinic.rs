@@ -62,8 +62,8 @@ pub(super) const SLOWEST_S: f64 = 10.0;
 pub(super) const FASTEST_S: f64 = 1e-4;
 /// Headings in radians count from -pi to pi or from 0 to 2 pi; this excess is attributed to rounding.
 const HEADING_MARGIN_RAD: f64 = 0.01;
-/// Middle of a command that never changes sign, in halves of its range, from which on its neutral is not zero.
-const FAR_FROM_ZERO: f64 = 4.0;
+/// Distance of a command's middle from its neutral, in halves of its range, from which on another neutral is meant.
+const FAR_FROM_NEUTRAL: f64 = 4.0;
 
 /// Refuses times that make no sense in seconds; slow ones only where no unit was given.
 pub(super) fn seconds(time_s: &[f64], unit_given: bool) -> Result<(), ExperimentError> {
@@ -123,12 +123,12 @@ pub(super) fn turn(degrees: bool) -> [f64; 2] {
     if degrees { [TAU, TAU] } else { [TAU, 360.0] }
 }
 
-/// Refuses a command that never changes its sign and stays far from zero.
-pub(super) fn neutral(column: &str, input: &[f64]) -> Result<(), ExperimentError> {
+/// Refuses a command that stays far to one side of its neutral.
+pub(super) fn neutral(column: &str, input: &[f64], neutral: f64) -> Result<(), ExperimentError> {
     let (low, high) = range(input);
     let (middle, half) = (f64::midpoint(low, high), 0.5 * (high - low));
-    if half > 0.0 && middle.is_finite() && middle.abs() >= FAR_FROM_ZERO * half {
-        return Err(ExperimentError::Neutral { column: column.to_owned(), low, high, middle });
+    if half > 0.0 && middle.is_finite() && (middle - neutral).abs() >= FAR_FROM_NEUTRAL * half {
+        return Err(ExperimentError::Neutral { column: column.to_owned(), low, high, middle, neutral });
     }
     Ok(())
 }

@@ -230,10 +230,10 @@ pub enum ExperimentError {
         /// The jump.
         jump: f64,
     },
-    /// A command whose neutral is not zero.
+    /// A command far to one side of its neutral.
     #[error(
-        "{column} lies between {} and {} and never changes its sign: say which command is neutral (--neutral {}), or that zero \
-         is (--neutral 0)", Plain(*.low), Plain(*.high), Plain(*.middle)
+        "{column} lies between {} and {}, far from a neutral of {}: say which command is neutral (--neutral {}), or that zero \
+         is (--neutral 0)", Plain(*.low), Plain(*.high), Plain(*.neutral), Plain(*.middle)
     )]
     Neutral {
         /// Name of the column.
@@ -244,6 +244,8 @@ pub enum ExperimentError {
         high: f64,
         /// Their middle.
         middle: f64,
+        /// Neutral command, zero unless given.
+        neutral: f64,
     },
     /// A cell without a number.
     #[error("line {line}, column {column}: the cell is blank; fill it in, or leave such rows out (--skip-bad-rows)")]

@@ -271,10 +271,12 @@ impl Columns {
         if !wrap && !self.process {
             clinic::turns(name, &output, clinic::turn(degrees), place)?;
         }
-        match self.neutral {
-            Some(neutral) => input.iter_mut().for_each(|command| *command -= neutral),
-            None => clinic::neutral(&columns[2], &input)?,
+        let neutral = self.neutral.unwrap_or(0.0);
+        // That zero is neutral may be said of any command.
+        if self.neutral != Some(0.0) {
+            clinic::neutral(&columns[2], &input, neutral)?;
         }
+        input.iter_mut().for_each(|command| *command -= neutral);
         if self.invert {
             input.iter_mut().for_each(|command| *command = -*command);
         }

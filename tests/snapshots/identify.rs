@@ -238,6 +238,48 @@ fn a_depth_has_no_yaw_loop() {
     assert!(tuned("ardusub").2.contains("--format: the model's output is in m, and must be an angle"));
 }
 
+/// A firmware's gains are shares of full power, of which the relay used some.
+#[test]
+fn gains_of_a_firmware_are_shares_of_full_power() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/heater.csv")).unwrap();
+    let halved = |line: &str| {
+        let (before, command) = line.rsplit_once(',').unwrap();
+        command.parse::<f64>().map_or(line.to_owned(), |command| format!("{before},{}", 0.5 * command))
+    };
+    std::fs::write(folder.path().join("whole.csv"), &whole).unwrap();
+    std::fs::write(folder.path().join("half.csv"), whole.lines().map(halved).collect::<Vec<_>>().join("\n")).unwrap();
+    let gains = |log: &str, more: &[&str]| {
+        let (status, answer, _) = selfosc(&folder, &[&["autotune", log, "--form", "klipper"], more].concat());
+        assert_eq!(status, 0, "{answer}");
+        let of = |name: &str| answer.lines().find_map(|line| line.trim().strip_prefix(name)).unwrap().trim().to_owned();
+        ["pid_Kp:", "pid_Ki:", "pid_Kd:"].map(|name| of(name).parse::<f64>().unwrap())
+    };
+    let expected = gains("whole.csv", &[]);
+    for (full_power, factor) in [("0.5", 1.0), ("1", 0.5)] {
+        for (gain, expected) in gains("half.csv", &["--full-power", full_power]).into_iter().zip(expected) {
+            assert!((gain / (factor * expected) - 1.0).abs() < 1e-3, "{gain} for {factor} times {expected}");
+        }
+    }
+    let (status, _, message) = selfosc(&folder, &["autotune", "half.csv", "--form", "klipper"]);
+    assert_eq!(status, 2);
+    assert!(
+        message.contains("0.5, is neither 1, 100 nor 255; give the command at full power (--full-power)"),
+        "{message}"
+    );
+    assert_eq!(selfosc(&folder, &["autotune", "half.csv", "--form", "ideal"]).0, 0);
+}
+
+/// A neutral beside all commands would make a disturbance of them.
+#[test]
+fn a_neutral_far_from_the_commands_is_refused() {
+    let folder = simulated(AXIS, &["--noise", "0.003"]);
+    let (status, _, message) = selfosc(&folder, &["identify", "log.csv", "--neutral", "1500"]);
+    assert_eq!(status, 1);
+    assert!(message.contains("far from a neutral of 1500: say which command is neutral (--neutral 0)"), "{message}");
+    assert_eq!(selfosc(&folder, &["identify", "log.csv", "--neutral", "0.5"]).0, 0);
+}
+
 /// A controller that holds its command for longer than the dead time is named; its gains hold the limit all the same.
 #[test]
 fn a_slow_controller_is_named() {

@@ -78,6 +78,7 @@ export const jobs: Job[] = [
       number("ms", "Largest sensitivity", "1.4"),
       { flag: "pi", label: "Without derivative", kind: "switch" },
       number("interval", "Time between two commands (s)"),
+      number("full-power", "Command at full power"),
       ...columns,
       ...cut,
       skip,

@@ -18,25 +18,30 @@ pub(super) enum Form {
     Klipper,
     /// Marlin's M301, power from 0 to 255
     Marlin,
-    /// RepRapFirmware's M307, power from 0 to 1
+    /// RepRapFirmware's M301, power from 0 to 255
     Reprap,
     /// ESPHome's climate pid, power from 0 to 1
     Esphome,
 }
 
 impl Form {
-    /// The lines to type. `range` is the command's largest less its least value in the record, `interval_s` the controller's.
+    /// Whether the gains are in shares of full power.
+    pub(super) fn is_of_full_power(self) -> bool {
+        matches!(self, Self::Klipper | Self::Marlin | Self::Reprap | Self::Esphome)
+    }
+
+    /// The lines to type. `full_power` is the command at full power, `interval_s` the controller's.
     pub(super) fn lines(
         self,
         gains: &Gains<f64>,
         sign: f64,
-        range: f64,
+        full_power: f64,
         interval_s: f64,
     ) -> Result<String, &'static str> {
         let [p, i, d] = [gains.proportional(), gains.integral(), gains.derivative()].map(|gain| sign * gain);
         let number = |value: f64| significant(value, 5);
         // Firmware counts the command as a share of full power, or in 255ths.
-        let of_full = |full: f64| [p, i, d].map(|gain| gain * full / range);
+        let of_full = |full: f64| [p, i, d].map(|gain| gain * full / full_power);
         Ok(match self {
             Self::Parallel => format!(
                 "Kp {}\nKi {} / s\nKd {} s\nfilter of the derivative {} s",

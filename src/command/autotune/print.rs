@@ -12,10 +12,7 @@ use crate::report::{Document, ProcessPage};
 impl Autotuned {
     /// The gains to type in a form; `None` without gains.
     fn lines(&self, form: Form) -> Option<Result<String, &'static str>> {
-        let input = self.log.record.input();
-        let largest = input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let least = input.iter().copied().fold(f64::INFINITY, f64::min);
-        self.proved.as_ref().map(|proved| form.lines(&proved.gains, self.sign(), largest - least, self.interval_s))
+        self.proved.as_ref().map(|proved| form.lines(&proved.gains, self.sign(), self.full_power, self.interval_s))
     }
 
     /// The page of `--report`.
