@@ -22,7 +22,7 @@ impl Coordinate {
     pub fn column(self) -> &'static str {
         match self {
             Self::HeadingDegrees => "heading_deg",
-            Self::HeadingRad => "output",
+            Self::HeadingRad => "heading",
             Self::Position | Self::Speed => "position",
         }
     }

@@ -97,7 +97,7 @@ pub struct UnitNames {
 impl UnitNames {
     pub(crate) fn of(sources: &[Source]) -> Self {
         let output = match sources {
-            _ if sources.iter().any(|source| source.log.degrees) => "rad",
+            _ if sources.iter().any(|source| source.log.is_heading()) => "rad",
             [_, ..] if sources.iter().all(|source| source.log.is_length()) => "m",
             _ => "output",
         };
