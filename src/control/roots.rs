@@ -1,6 +1,6 @@
-//! Positive roots of polynomials of low degree, all of them and without a heap.
+//! Positive roots of polynomials of low degree, all of them, and Routh's table, without a heap.
 
-use crate::numeric::{Scalar, increasing_root};
+use crate::numeric::{Real, Scalar, increasing_root};
 
 /// Coefficients of degree four or less, ascending.
 pub(super) type Polynomial<S> = [S; 5];
@@ -44,6 +44,12 @@ pub(super) fn product<S: Scalar>(a: &[S], b: &[S]) -> Polynomial<S> {
     product
 }
 
+/// The polynomial less another of its degree or a lower one.
+pub(super) fn less<S: Scalar, const N: usize>(mut polynomial: Polynomial<S>, other: [S; N]) -> Polynomial<S> {
+    polynomial.iter_mut().zip(other).for_each(|(place, c)| *place = *place - c);
+    polynomial
+}
+
 /// The points `> 0` where the polynomial changes its sign: between the critical points, which are the roots of the
 /// derivative.
 pub(super) fn positive_roots<S: Scalar>(polynomial: &Polynomial<S>) -> Few<S> {
@@ -85,4 +91,19 @@ fn between<S: Scalar>(polynomial: &Polynomial<S>, degree: usize, turns: &Few<S>)
         lower = upper;
     }
     roots
+}
+
+/// The first column of Routh's table of a polynomial in ascending powers; what stands behind its degree means nothing.
+pub(super) fn routh<T: Real, const N: usize>(polynomial: &[T; N], degree: usize) -> [T; N] {
+    let entry = |index: usize| degree.checked_sub(index).map_or(T::zero(), |power| polynomial[power]);
+    let row = |first: usize| core::array::from_fn(|k| entry(first + 2 * k));
+    let (mut upper, mut lower): ([T; N], [T; N]) = (row(0), row(1));
+    let mut column = [upper[0]; N];
+    for place in &mut column[1..=degree] {
+        *place = lower[0];
+        let (ratio, past) = (upper[0] / lower[0], N - 1);
+        let next = |k: usize| if k < past { upper[k + 1] - ratio * lower[k + 1] } else { T::zero() };
+        (upper, lower) = (lower, core::array::from_fn(next));
+    }
+    column
 }
