@@ -150,7 +150,7 @@ impl<T: Scalar> OpenLoop<T> {
         let mut from = (zero, begins(self.drag > zero) - begins(self.numerator[0] > zero));
         let turns = self.phase_turns_squared();
         let mut visits = CROSSOVERS;
-        for y in turns.as_slice() {
+        for y in turns.into_iter().flatten() {
             let to = y.sqrt();
             let at_to = self.angle_above_critical(to);
             let (low, high) = if from.1 < at_to { (from.1, at_to) } else { (at_to, from.1) };
@@ -232,7 +232,7 @@ impl<T: Scalar> OpenLoop<T> {
         let turn = T::two() * T::pi();
         let undelayed = Self { delay_s: T::zero(), ..*self };
         let excess = self.excess();
-        for &y in self.gain_crossovers_squared().as_slice() {
+        for y in self.gain_crossovers_squared().into_iter().flatten() {
             let omega = y.sqrt();
             let angle = undelayed.angle_above_critical(omega);
             let first = angle - (angle / turn).floor() * turn;

@@ -5,27 +5,8 @@ use crate::numeric::{Real, Scalar, increasing_root};
 /// Coefficients of degree four or less, ascending.
 pub(super) type Polynomial<S> = [S; 5];
 
-/// At most four numbers, ascending.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Few<S> {
-    values: [S; 4],
-    count: usize,
-}
-
-impl<S: Scalar> Few<S> {
-    fn none() -> Self {
-        Self { values: [S::zero(); 4], count: 0 }
-    }
-    fn push(&mut self, value: S) {
-        if let Some(place) = self.values.get_mut(self.count) {
-            *place = value;
-            self.count += 1;
-        }
-    }
-    pub(super) fn as_slice(&self) -> &[S] {
-        self.values.get(..self.count).unwrap_or_default()
-    }
-}
+/// At most four numbers, ascending, with places that are empty.
+pub(super) type Few<S> = [Option<S>; 4];
 
 /// Value and derivative of the polynomial at a point.
 pub(super) fn horner<S: Scalar>(polynomial: &[S], at: S) -> (S, S) {
@@ -55,7 +36,7 @@ pub(super) fn less<S: Scalar, const N: usize>(mut polynomial: Polynomial<S>, oth
 pub(super) fn positive_roots<S: Scalar>(polynomial: &Polynomial<S>) -> Few<S> {
     // The derivatives, from the one of first degree to the polynomial itself.
     let degree = polynomial.iter().rposition(|c| *c != S::zero()).unwrap_or(0);
-    let mut turns = Few::none();
+    let mut turns = [None; 4];
     for order in (0..degree).rev() {
         let mut derivative = *polynomial;
         for _ in 0..order {
@@ -64,19 +45,19 @@ pub(super) fn positive_roots<S: Scalar>(polynomial: &Polynomial<S>) -> Few<S> {
             }
             derivative[4] = S::zero();
         }
-        turns = between(&derivative, degree - order, &turns);
+        turns = between(&derivative, degree - order, turns);
     }
     turns
 }
 
 /// Sign changes between neighbours of zero, the critical points, and a bound of all roots.
-fn between<S: Scalar>(polynomial: &Polynomial<S>, degree: usize, turns: &Few<S>) -> Few<S> {
+fn between<S: Scalar>(polynomial: &Polynomial<S>, degree: usize, turns: Few<S>) -> Few<S> {
     let leading = polynomial[degree];
     let largest = polynomial[..degree].iter().fold(S::zero(), |most, c| most.max((*c / leading).abs()));
     let bound = S::two() + largest;
-    let mut roots = Few::none();
+    let mut roots = [None; 4];
     let mut lower = S::zero();
-    for &upper in turns.as_slice().iter().chain([&bound]) {
+    for (root, upper) in roots.iter_mut().zip(turns.into_iter().flatten().chain([bound])) {
         let (at_lower, at_upper) = (horner(polynomial, lower).0, horner(polynomial, upper).0);
         if (at_lower < S::zero() && at_upper > S::zero()) || (at_lower > S::zero() && at_upper < S::zero()) {
             let sign = if at_upper > S::zero() { S::one() } else { -S::one() };
@@ -84,9 +65,7 @@ fn between<S: Scalar>(polynomial: &Polynomial<S>, degree: usize, turns: &Few<S>)
                 let (value, slope) = horner(polynomial, at);
                 (sign * value, sign * slope)
             };
-            if let Some(root) = increasing_root(signed, lower, upper, (lower + upper) / S::two()) {
-                roots.push(root);
-            }
+            *root = increasing_root(signed, lower, upper, (lower + upper) / S::two());
         }
         lower = upper;
     }

@@ -83,7 +83,6 @@ impl Display {
             Coordinate::HeadingDegrees => "deg",
             Coordinate::Position | Coordinate::Speed => "",
         };
-        let span = |middle: f64, half: f64, value: f64| bar((value - middle) / half);
         let room = (protocol.highest_command - protocol.neutral_command)
             .max(protocol.neutral_command - protocol.lowest_command);
         let rows = [
@@ -92,12 +91,12 @@ impl Display {
             format!(
                 "coordinate  {:>10} {unit:3} {}",
                 significant(position, 4),
-                span(protocol.reference, protocol.largest_excursion, position)
+                bar((position - protocol.reference) / protocol.largest_excursion)
             ),
             format!(
                 "command     {:>10}     {}",
                 significant(command, 4),
-                span(protocol.neutral_command, room, command)
+                bar((command - protocol.neutral_command) / room)
             ),
             format!("cycles      {}", self.last.as_ref().map_or_else(|| "none yet".to_owned(), cycle_text)),
             format!("estimate    {}", self.estimate()),

@@ -40,20 +40,20 @@ impl Figures {
     pub(super) fn of(process: &LinearProcess<f64>, gains: &Gains<f64>, high: f64, an_octave: i32) -> Self {
         let open_loop = process.open_loop(constants(gains));
         let response = |omega: f64| open_loop.response(omega, process.delay_s);
-        let (mut found, mut sensitivity, mut before) = (Self::NONE, 1.0_f64, None::<(f64, [f64; 2])>);
-        for k in 0..=an_octave * (BELOW + ABOVE) {
-            let omega = high * 2f64.powf(f64::from(k) / f64::from(an_octave) - f64::from(BELOW));
-            let here = response(omega);
-            sensitivity = sensitivity.max((1.0 + here[0]).hypot(here[1]).recip());
-            if let Some((last, [last_re, last_im])) = before {
-                let [re, im] = here;
+        let excess = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
+        let at = |k: i32| high * 2f64.powf(f64::from(k) / f64::from(an_octave) - f64::from(BELOW));
+        let samples = (0..=an_octave * (BELOW + ABOVE)).map(|k| (at(k), response(at(k))));
+        let (mut found, mut sensitivity, mut before) = (Self::NONE, 1.0_f64, None);
+        for (omega, here) in samples {
+            let [re, im] = here;
+            sensitivity = sensitivity.max((1.0 + re).hypot(im).recip());
+            if let Some((last, [last_re, last_im])) = before.replace((omega, here)) {
                 if last_im * im <= 0.0 && re < 0.0 && last_re < 0.0 {
                     let at = bisect(|omega| response(omega)[1], last, omega);
                     let size = response(at)[0].abs();
                     let gain = RobustCriterion::Gain(1.0 / size);
                     found = found.with(if size < 1.0 { gain } else { RobustCriterion::GainReduction(size) });
                 }
-                let excess = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
                 if excess([last_re, last_im]) * excess(here) <= 0.0 {
                     let at = bisect(|omega| excess(response(omega)), last, omega);
                     let [re, im] = response(at);
@@ -63,7 +63,6 @@ impl Figures {
                     found = found.with(RobustCriterion::PhaseRad(phase_rad)).with(RobustCriterion::DelayS(above / at));
                 }
             }
-            before = Some((omega, here));
         }
         found.with(RobustCriterion::Sensitivity(sensitivity))
     }
