@@ -10,6 +10,7 @@ use crate::control::{AxisModel, LinearProcess, NAMES, UncertainDrag};
 use crate::files::{LONGEST_WORD, cut};
 use crate::numeric::domain::{AtLeast, AtMost, Plain, require};
 use crate::numeric::{Interval, Limit};
+use crate::plant::DragAxis;
 
 /// A parameter.
 #[derive(Clone, Copy, Debug, Default)]
@@ -49,35 +50,25 @@ pub(super) const FIRST_ORDER: &str = "must be above 0; an axis without inertia i
 const TIMES: [&str; 5] = ["memory_s", "lag_s", "ramp_s", "filter_s", "delay_s"];
 
 impl Model {
-    /// Parameters that are given as numbers.
-    pub(super) fn given([alpha, beta, beta_quadratic, delta, delay_s]: [f64; 5]) -> Self {
-        let number = |value| Known { value, interval: None };
-        let axis = AxisModel {
-            alpha: number(alpha),
-            beta: number(beta),
-            beta_quadratic: number(beta_quadratic),
-            delta: number(delta),
-            delay_s: number(delay_s),
-            ..AxisModel::default()
-        };
+    /// An axis that is given.
+    pub(super) fn given(axis: &DragAxis<f64>) -> Self {
+        let axis = AxisModel::from(axis).map(|value| Known { value, interval: None });
         Self { axis, drag: None, identified: false, degrees: false, length: false }
     }
 
-    /// The same with intervals that replace those there are.
-    pub(super) fn with_intervals(mut self, given: [(&'static str, Option<Interval>); 4]) -> Result<Self, CommandError> {
+    /// The same with intervals that replace those there are, each with the limit of its lower end.
+    pub(super) fn with_intervals(
+        mut self,
+        given: [(&'static str, Option<Interval>, Limit); 4],
+    ) -> Result<Self, CommandError> {
         let axis = &mut self.axis;
         let parts = [&mut axis.alpha, &mut axis.beta, &mut axis.beta_quadratic, &mut axis.delay_s];
-        for (part, (flag, given)) in parts.into_iter().zip(given) {
+        for (part, (flag, given, limit)) in parts.into_iter().zip(given) {
             if let Some(interval) = given.filter(|interval| !interval.contains(part.value)) {
                 let value = Plain(part.value);
                 let reason = format!("{flag}: {interval} must contain the value, {value}; give an interval around it");
                 return Err(CommandError::Usage { reason });
             }
-            let limit = match flag {
-                "--alpha-interval" => Limit::Positive,
-                "--delay-interval" => Limit::NonNegative,
-                _ => Limit::Finite,
-            };
             let lower = given.map_or(1.0, |interval| interval.lower());
             require("lower end of the interval", lower, "", limit, "raise it").given(flag)?;
             part.interval = given.or(part.interval);
@@ -151,11 +142,8 @@ impl Model {
             };
             let estimate = &reported[name];
             let Some(value) = number(estimate, "value")? else {
-                return if name == "alpha" {
-                    Err(wrong("alpha.value", &Value::Null, "a number"))
-                } else {
-                    Ok(Known::default())
-                };
+                let missing = || wrong("alpha.value", &Value::Null, "a number");
+                return if name == "alpha" { Err(missing()) } else { Ok(Known::default()) };
             };
             // The practical interval, where there is one.
             let place = if estimate["combined"].is_null() { estimate } else { &estimate["combined"] };

@@ -89,15 +89,15 @@ fn sample(line: &str) -> [f64; 2] {
 }
 
 impl Arguments {
-    /// The experiment, which starts with its first sample.
+    /// What the flags of the protocol make.
     pub(super) fn experiment(&self) -> Result<Experiment<f64>, CommandError> {
         self.protocol.experiment()
     }
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
-    let protocol = arguments.protocol.protocol();
     let mut experiment = arguments.experiment()?;
+    let protocol = *experiment.protocol();
     let mut files = Files::default();
     let log = arguments.log.as_ref().map(|path| files.output(path)).transpose().given("--log")?;
     let json = arguments.json.as_ref().and_then(Option::as_ref);

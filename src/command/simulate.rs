@@ -64,10 +64,10 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let axis = arguments.axis.axis()?;
     let sensor = Sensor { delay_s: 0.0, quantum: arguments.quantum, noise: arguments.noise };
+    let (scale, name) = if arguments.degrees { (1f64.to_degrees(), "heading_deg") } else { (1.0, "output") };
     if arguments.live {
         let vehicle = LiveVehicle::new(axis, sensor, arguments.rate, arguments.seed)?;
-        let turn = if arguments.degrees { 1f64.to_degrees() } else { 1.0 };
-        return obey(vehicle, turn, arguments.real_time, output);
+        return obey(vehicle, scale, arguments.real_time, output);
     }
     let Some(relay) = &arguments.relay else {
         let reason = "--relay and --half-width are missing; give both, or --live for an axis that obeys standard input";
@@ -80,8 +80,6 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         SimulatedExperiment::new(axis, relay, arguments.rate)?.with_sensor(sensor)?.with_seed(arguments.seed);
     let experiment = if arguments.hold { experiment.held() } else { experiment };
     let record = experiment.run(duration_s)?;
-    let scale = if arguments.degrees { 1f64.to_degrees() } else { 1.0 };
-    let name = if arguments.degrees { "heading_deg" } else { "output" };
     if arguments.json {
         let scaled: Vec<f64> = record.output().iter().map(|reading| reading * scale).collect();
         write_json(output, &serde_json::json!({ "time_s": record.time_s(), name: scaled, "input": record.input() }))?;
@@ -108,15 +106,11 @@ fn obey(
         output.flush()?;
         let due = begun + Duration::try_from_secs_f64(vehicle.time_s()).unwrap_or(Duration::MAX);
         loop {
-            let line = if real_time {
-                match lines.before(due) {
-                    Event::TimeOut => break,
-                    event => event,
-                }
-            } else {
-                lines.next()
+            let line = match if real_time { lines.before(due) } else { lines.next() } {
+                Event::Line(line) => line,
+                Event::TimeOut => break,
+                Event::End | Event::Signal => return Ok(Outcome::Done),
             };
-            let Event::Line(line) = line else { return Ok(Outcome::Done) };
             let mut words = line.split_whitespace();
             if let Some(command) = words.next().and_then(|word| word.parse().ok()) {
                 vehicle.command(command);

@@ -11,10 +11,10 @@ use super::known::{FIRST_ORDER, Model};
 use super::number::{non_negative, number, positive};
 use super::{CommandError, Outcome, refused, write_json};
 use crate::control::{RobustCriterion, Structure};
-use crate::numeric::Interval;
+use crate::numeric::{Interval, Limit};
 use crate::plant::DragAxis;
 use clap::{ArgGroup, Args};
-use design::{Target, Tuned};
+use design::Tuned;
 use format::GainFormat;
 
 /// Gains of a controller for alpha x'' + (beta + beta_quadratic |x'|) x' = u(t - delay), and the margins that it has.
@@ -134,42 +134,30 @@ impl Arguments {
         let model = match (&self.model, self.alpha) {
             (Some(path), _) => Model::read(path)?,
             (None, alpha) => {
-                let alpha = alpha.unwrap_or(f64::NAN);
                 // What a record found may drive the axis a little; what is given may not.
-                DragAxis::mixed(alpha, self.beta, self.beta_quadratic)?
-                    .with_disturbance(self.delta)?
-                    .with_delay_s(self.delay)?;
-                Model::given([alpha, self.beta, self.beta_quadratic, self.delta, self.delay])
+                let axis = DragAxis::mixed(alpha.unwrap_or(f64::NAN), self.beta, self.beta_quadratic)?;
+                Model::given(&axis.with_disturbance(self.delta)?.with_delay_s(self.delay)?)
             }
         };
         model.with_intervals([
-            ("--alpha-interval", self.alpha_interval),
-            ("--beta-interval", self.beta_interval),
-            ("--beta-quadratic-interval", self.beta_quadratic_interval),
-            ("--delay-interval", self.delay_interval),
+            ("--alpha-interval", self.alpha_interval, Limit::Positive),
+            ("--beta-interval", self.beta_interval, Limit::Finite),
+            ("--beta-quadratic-interval", self.beta_quadratic_interval, Limit::Finite),
+            ("--delay-interval", self.delay_interval, Limit::NonNegative),
         ])
     }
 
-    fn target(&self) -> Target {
-        match (self.ms, self.phase_margin) {
-            (Some(most), _) => Target::Limit(RobustCriterion::Sensitivity(most)),
-            (None, Some(degrees)) => Target::Limit(RobustCriterion::PhaseRad(degrees.to_radians())),
-            (None, None) => Target::BandwidthRadS(self.bandwidth.unwrap_or(f64::NAN)),
-        }
+    /// What every axis is to have, where no bandwidth is asked for.
+    fn limit_of_all(&self) -> Option<RobustCriterion> {
+        let phase = self.phase_margin.map(|degrees| RobustCriterion::PhaseRad(degrees.to_radians()));
+        self.ms.map(RobustCriterion::Sensitivity).or(phase)
     }
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let model = arguments.known()?;
     arguments.format.takes(&model)?;
-    let wanted = design::DesignWanted {
-        target: arguments.target(),
-        structure: arguments.structure,
-        step: arguments.step,
-        limit: arguments.limit,
-        top_speed: arguments.top_speed,
-    };
-    let tuned = match Tuned::new(&model, &wanted) {
+    let tuned = match Tuned::new(&model, arguments) {
         Err(error) if ["unstable", "out-of-reach"].contains(&error.code()) => {
             return refused(&error.into(), arguments.json, output);
         }

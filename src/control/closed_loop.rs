@@ -36,8 +36,8 @@ impl OpenLoop<f64> {
         let pace = 1.0 + numerator.iter().chain(&denominator).map(|c| (c / denominator[0]).abs()).fold(0.0, f64::max);
         let delay_s = if self.delay_s() * pace < NEGLIGIBLE { 0.0 } else { self.delay_s() };
         let delay = TransferFunction::pade(delay_s, PADE_ORDER)?;
-        let (open, fed_back) = (product(&denominator, delay.denominator()), product(&numerator, delay.numerator()));
-        let mut characteristic = open;
+        let fed_back = product(&numerator, delay.numerator());
+        let mut characteristic = product(&denominator, delay.denominator());
         let offset = characteristic.len() - fed_back.len();
         for (place, term) in characteristic[offset..].iter_mut().zip(fed_back) {
             *place += term;

@@ -146,13 +146,8 @@ impl<T: Scalar> Tuning<T> {
             let (least_rad_s, most_rad_s) = (least.value(), most.value());
             return Err(ControlError::NoBandwidth { delay_s, least_rad_s, most_rad_s });
         }
-        Err(ControlError::TooFast {
-            bandwidth_rad_s: bandwidth_rad_s.value(),
-            delay_s,
-            gain: Self::LEAST_GAIN_MARGIN,
-            phase_deg: Self::LEAST_PHASE_MARGIN_DEG,
-            most_rad_s: most.value(),
-        })
+        let (bandwidth_rad_s, most_rad_s) = (bandwidth_rad_s.value(), most.value());
+        Err(ControlError::TooFast { bandwidth_rad_s, delay_s, most_rad_s })
     }
 
     /// The axis designed for.
@@ -211,14 +206,8 @@ impl<T: Scalar> Body<T> {
         let [proportional, integral, derivative, filter] = self.unchecked(structure, bandwidth);
         let gives = proportional > T::zero() && proportional.is_finite() && filter.is_finite();
         let limit = Limit::Words("such that the gains are neither 0 nor beyond the largest number");
-        domain::require_that(
-            gives,
-            "bandwidth",
-            bandwidth,
-            "rad/s",
-            limit,
-            "check the units of inertia and bandwidth",
-        )?;
+        let remedy = "check the units of inertia and bandwidth";
+        domain::require_that(gives, "bandwidth", bandwidth, "rad/s", limit, remedy)?;
         // Rounding at the least bandwidth itself.
         Gains::new(structure, proportional, integral, derivative.max(T::zero()), filter)
     }

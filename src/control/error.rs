@@ -1,6 +1,6 @@
 //! Why there is no controller.
 
-use super::RobustCriterion;
+use super::{RobustCriterion, Tuning};
 use crate::numeric::OutOfDomain;
 use crate::numeric::domain::{About, AtLeast, AtMost, Plain};
 use crate::plant::PlantError;
@@ -29,19 +29,16 @@ pub enum ControlError {
     },
     /// The delay leaves too little margin.
     #[error(
-        "bandwidth = {} rad/s with a delay of {} s leaves less than a gain margin of {gain} \
-         and a phase margin of {phase_deg} degrees; ask for at most {} rad/s or shorten the delay",
-        Plain(*.bandwidth_rad_s), About(*.delay_s), AtMost(*.most_rad_s)
+        "bandwidth = {} rad/s with a delay of {} s leaves less than a gain margin of {} \
+         and a phase margin of {} degrees; ask for at most {} rad/s or shorten the delay",
+        Plain(*.bandwidth_rad_s), About(*.delay_s), Tuning::<f64>::LEAST_GAIN_MARGIN, Tuning::<f64>::LEAST_PHASE_MARGIN_DEG,
+        AtMost(*.most_rad_s)
     )]
     TooFast {
         /// The bandwidth asked for, rad/s.
         bandwidth_rad_s: f64,
         /// The delay of the loop, s.
         delay_s: f64,
-        /// The gain margin wanted, a factor.
-        gain: f64,
-        /// The phase margin wanted, degrees.
-        phase_deg: f64,
         /// The largest bandwidth that leaves them, rad/s, to 1 %.
         most_rad_s: f64,
     },

@@ -51,7 +51,7 @@ impl<T: Scalar> OpenLoop<T> {
         }
         let turn = T::two() * T::pi();
         let mut margins: Option<Margins<T>> = None;
-        for y in self.gain_crossovers_squared().as_slice() {
+        for y in self.gain_crossovers_squared().into_iter().flatten() {
             let omega = y.sqrt();
             let angle = self.angle_above_critical(omega);
             let above = angle - (angle / turn).floor() * turn;

@@ -62,3 +62,8 @@ pub use ultimate::critical_point;
 pub use ultimate::{FrequencyPoint, RelayTest, UltimatePoint};
 #[cfg(feature = "std")]
 pub use uncertain_drag::UncertainDrag;
+
+internal! {
+    #[cfg(feature = "std")]
+    use robust::{loop_gain_beyond};
+}

@@ -1,9 +1,10 @@
 //! An axis with every term that an identification may report.
 
+use super::process::in_order;
 use super::uncertain_drag::slope;
 use super::{ControlError, LinearProcess};
 use crate::numeric::Interval;
-use crate::plant::DragAxis;
+use crate::plant::{DragAxis, State};
 
 /// `alpha x'' + (1 + skew sgn x')(beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + memory s + stiffness x = a + delta`,
 /// `memory_s s' = x' - s`, `lag_s a' = u(t - delay_s) - a`, and a reading `filter_s y' = x - y`.
@@ -41,35 +42,23 @@ pub struct AxisModel<T> {
     pub delay_s: T,
 }
 
-/// The names of the fields in one order, from the fields and to them.
-macro_rules! in_order {
-    ($($field:ident),+) => {
-        /// Names of the fields, as in the document of `identify --json`.
-        pub const NAMES: [&str; 14] = [$(stringify!($field)),+];
-
-        impl<T> AxisModel<T> {
-            /// From parts in the order of [`NAMES`].
-            pub fn from_parts([$($field),+]: [T; NAMES.len()]) -> Self {
-                Self { $($field),+ }
-            }
-
-            /// The parts in the order of [`NAMES`].
-            pub fn parts(self) -> [T; NAMES.len()] {
-                let Self { $($field),+ } = self;
-                [$($field),+]
-            }
-        }
-    };
-}
 in_order! {
-    alpha, beta, beta_quadratic, beta_cubic, skew, coulomb, stiffness, memory, memory_s, lag_s, ramp_s, filter_s, delta,
-    delay_s
+    pub NAMES[14] of AxisModel: alpha, beta, beta_quadratic, beta_cubic, skew, coulomb, stiffness, memory, memory_s, lag_s, ramp_s,
+    filter_s, delta, delay_s
 }
 
 impl<T> AxisModel<T> {
     /// Something made of each part.
     pub fn map<U>(self, of: impl FnMut(T) -> U) -> AxisModel<U> {
         AxisModel::from_parts(self.parts().map(of))
+    }
+}
+
+impl From<&DragAxis<f64>> for AxisModel<f64> {
+    fn from(axis: &DragAxis<f64>) -> Self {
+        let (beta, beta_quadratic) = (axis.linear_drag(), axis.quadratic_drag());
+        let (alpha, delta, delay_s) = (axis.alpha(), axis.disturbance(), axis.delay_s());
+        Self { alpha, beta, beta_quadratic, delta, delay_s, ..Self::default() }
     }
 }
 
@@ -114,8 +103,21 @@ impl AxisModel<f64> {
         ]
     }
 
-    /// The state some time later under a constant command: one step of the classic Runge-Kutta method.
-    pub(super) fn advance(&self, state: ModelState, command: f64, time_s: f64, fast: f64) -> ModelState {
+    /// The state some time later under a constant command: of a drag axis in closed form, else by four Runge-Kutta steps.
+    pub(super) fn motion(&self, fast: f64) -> Result<impl Fn(ModelState, f64, f64) -> ModelState, ControlError> {
+        const STEPS: u32 = 4;
+        let drag_axis = self.is_plain().then(|| self.design_axis()).transpose()?;
+        Ok(move |state: ModelState, command: f64, time_s: f64| match &drag_axis {
+            Some(axis) => {
+                let moved = axis.advance(State { position: state[0], velocity: state[1] }, command, time_s);
+                [moved.position, moved.velocity, 0.0, 0.0, 0.0]
+            }
+            None => (0..STEPS).fold(state, |state, _| self.advance(state, command, time_s / f64::from(STEPS), fast)),
+        })
+    }
+
+    /// One step of the classic Runge-Kutta method.
+    fn advance(&self, state: ModelState, command: f64, time_s: f64, fast: f64) -> ModelState {
         let along = |rates: &ModelState, share: f64| core::array::from_fn(|i| state[i] + share * time_s * rates[i]);
         let first = self.rates(state, command, fast);
         let second = self.rates(along(&first, 0.5), command, fast);

@@ -1,6 +1,6 @@
 //! The loop of an axis and its controller, cut open at the command.
 
-use super::roots::{Few, Polynomial, horner, positive_roots, product};
+use super::roots::{Few, Polynomial, horner, less, positive_roots, product, routh};
 use super::{ControlError, Gains};
 use crate::numeric::{Limit, Scalar, domain, increasing_root};
 use crate::plant::DragAxis;
@@ -43,24 +43,20 @@ impl<T: Scalar> OpenLoop<T> {
     pub fn new(axis: &DragAxis<T>, gains: &Gains<T>, speed: T) -> Result<Self, ControlError> {
         domain::finite("speed", speed, "output units per s")?;
         let slope = axis.linear_drag() + T::two() * axis.quadratic_drag() * speed.abs();
-        let open_loop = Self::linear(axis.alpha(), slope, axis.delay_s(), gains);
+        let (alpha, filter_s) = (axis.alpha(), gains.filter_s());
+        let numerator = [
+            gains.integral(),
+            gains.proportional() + gains.integral() * filter_s,
+            gains.derivative() + gains.proportional() * filter_s,
+        ];
+        let (numerator, drag, delay_s) = (numerator.map(|n| n / alpha), slope / alpha, axis.delay_s());
+        let open_loop = Self { alpha, numerator, filter_s, drag, delay_s };
         let size = |squares: &[T]| squares.iter().fold(T::zero(), |sum, square| sum + square.abs());
         domain::representable("squared gain over inertia", size(&open_loop.numerator_squared()), "")?;
         domain::representable("squared drag over inertia, or filter", size(&open_loop.denominator_squared()), "")?;
         let remedy = "choose units in which gain and inertia are nearer to one";
         domain::require("gain over inertia", open_loop.numerator[1], "", Limit::Positive, remedy)?;
         Ok(open_loop)
-    }
-
-    /// The loop about an axis with linear drag.
-    pub(super) fn linear(alpha: T, drag: T, delay_s: T, gains: &Gains<T>) -> Self {
-        let filter_s = gains.filter_s();
-        let numerator = [
-            gains.integral(),
-            gains.proportional() + gains.integral() * filter_s,
-            gains.derivative() + gains.proportional() * filter_s,
-        ];
-        Self { alpha, numerator: numerator.map(|n| n / alpha), filter_s, drag: drag / alpha, delay_s }
     }
 
     /// Its delay, s.
@@ -109,11 +105,7 @@ impl<T: Scalar> OpenLoop<T> {
 
     /// `|denominator|^2 - |numerator|^2`: positive where `|L| < 1`.
     fn excess(&self) -> Polynomial<T> {
-        let mut excess = self.denominator_squared();
-        for (place, n) in excess.iter_mut().zip(self.numerator_squared()) {
-            *place = *place - n;
-        }
-        excess
+        less(self.denominator_squared(), self.numerator_squared())
     }
 
     /// The squared frequencies at which `|L|` passes one, all of them, ascending.
@@ -128,18 +120,13 @@ impl<T: Scalar> OpenLoop<T> {
         let size = self.numerator_squared();
         let (filter, drag) = ([one, self.filter_s.square()], [self.drag.square(), one]);
         let both = product(&filter, &drag);
-        let mut slope = product(&[n1 * n0, n1 * n2], &both[..3]);
+        let lead = product(&[n1 * n0, n1 * n2], &both[..3]);
         let parts = [
             product(&product(&size, &drag)[..4], &[self.filter_s]),
             product(&product(&size, &filter)[..4], &[self.drag]),
             product(&product(&size, &both[..3]), &[self.delay_s]),
         ];
-        for part in parts {
-            for (place, p) in slope.iter_mut().zip(part) {
-                *place = *place - p;
-            }
-        }
-        positive_roots(&slope)
+        positive_roots(&parts.into_iter().fold(lead, less))
     }
 
     /// Slope of [`angle_above_critical`](Self::angle_above_critical) over frequency, s.
@@ -163,7 +150,7 @@ impl<T: Scalar> OpenLoop<T> {
         let mut from = (zero, begins(self.drag > zero) - begins(self.numerator[0] > zero));
         let turns = self.phase_turns_squared();
         let mut visits = CROSSOVERS;
-        for y in turns.as_slice() {
+        for y in turns.into_iter().flatten() {
             let to = y.sqrt();
             let at_to = self.angle_above_critical(to);
             let (low, high) = if from.1 < at_to { (from.1, at_to) } else { (at_to, from.1) };
@@ -245,7 +232,7 @@ impl<T: Scalar> OpenLoop<T> {
         let turn = T::two() * T::pi();
         let undelayed = Self { delay_s: T::zero(), ..*self };
         let excess = self.excess();
-        for &y in self.gain_crossovers_squared().as_slice() {
+        for y in self.gain_crossovers_squared().into_iter().flatten() {
             let omega = y.sqrt();
             let angle = undelayed.angle_above_critical(omega);
             let first = angle - (angle / turn).floor() * turn;
@@ -270,19 +257,8 @@ impl<T: Scalar> OpenLoop<T> {
             polynomial.rotate_left(1);
         }
         let degree = polynomial.iter().rposition(|c| *c != T::zero()).unwrap_or(0);
-        let coefficient = |k: usize| if k <= degree { polynomial[degree - k] } else { T::zero() };
-        let mut upper = [coefficient(0), coefficient(2), coefficient(4)];
-        let mut lower = [coefficient(1), coefficient(3), T::zero()];
-        let mut changes = 0;
-        for _ in 0..degree {
-            if !(upper[0] * lower[0] > T::zero()) {
-                changes += 1;
-            }
-            let ratio = upper[0] / lower[0];
-            let next = [upper[1] - ratio * lower[1], upper[2] - ratio * lower[2], T::zero()];
-            (upper, lower) = (lower, next);
-        }
-        changes
+        let column = routh(&polynomial, degree);
+        (0..degree).fold(0, |changes, k| changes + u32::from(!(column[k] * column[k + 1] > T::zero())))
     }
 }
 

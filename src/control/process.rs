@@ -1,10 +1,10 @@
 //! A linear process with everything that an identification may find in it.
 
 use super::Gains;
-use crate::numeric::{Interval, Real};
+use crate::numeric::Real;
 
 /// Parameters of a [`LinearProcess`].
-pub(super) const PARAMETERS: usize = 9;
+pub(super) const PARAMETERS: usize = NAMES.len();
 
 /// `y = (zero_s s + 1) exp(-delay_s s) u / ((lag_s s + 1)(filter_s s + 1)(alpha s^2 + drag s + stiffness + memory s/(memory_s s + 1)))`.
 ///
@@ -33,46 +33,50 @@ pub struct LinearProcess<T> {
     pub delay_s: T,
 }
 
+/// The fields of a struct in one order: their names, from them and to them.
+macro_rules! in_order {
+    ($visible:vis $names:ident[$count:expr] of $type:ident: $($field:ident),+) => {
+        /// Names of the fields, in the order of the parts.
+        $visible const $names: [&str; $count] = [$(stringify!($field)),+];
+
+        impl<T> $type<T> {
+            /// From parts in the order of the fields.
+            pub fn from_parts([$($field),+]: [T; $count]) -> Self {
+                Self { $($field),+ }
+            }
+
+            /// The parts in the order of the fields.
+            pub fn parts(self) -> [T; $count] {
+                let Self { $($field),+ } = self;
+                [$($field),+]
+            }
+        }
+    };
+}
+pub(super) use in_order;
+in_order! { NAMES[9] of LinearProcess: alpha, drag, stiffness, memory, memory_s, lag_s, filter_s, zero_s, delay_s }
+
 impl<T: Real> LinearProcess<T> {
-    /// The parameters in the order of the fields.
-    pub fn parts(self) -> [T; PARAMETERS] {
-        let Self { alpha, drag, stiffness, memory, memory_s, lag_s, filter_s, zero_s, delay_s } = self;
-        [alpha, drag, stiffness, memory, memory_s, lag_s, filter_s, zero_s, delay_s]
-    }
-
-    /// From parameters in the order of the fields.
-    pub fn from_parts(
-        [alpha, drag, stiffness, memory, memory_s, lag_s, filter_s, zero_s, delay_s]: [T; PARAMETERS],
-    ) -> Self {
-        Self { alpha, drag, stiffness, memory, memory_s, lag_s, filter_s, zero_s, delay_s }
-    }
-
     /// Numerator and denominator of the open loop without its delay, ascending powers of s.
     pub(super) fn open_loop(&self, gains: [T; 4]) -> Fraction<T> {
         let [proportional, integral, derivative, gain_filter_s] = gains;
-        let (zero, one) = (T::zero(), T::one());
-        let controller = [integral, proportional + integral * gain_filter_s, derivative + proportional * gain_filter_s];
-        // (alpha s^2 + drag s + stiffness)(memory_s s + 1) + memory s.
-        let body = [
+        let mut controller =
+            [integral, proportional + integral * gain_filter_s, derivative + proportional * gain_filter_s];
+        // s ((alpha s^2 + drag s + stiffness)(memory_s s + 1) + memory s).
+        let mut body = [
+            T::zero(),
             self.stiffness,
             self.drag + self.memory + self.stiffness * self.memory_s,
             self.alpha + self.drag * self.memory_s,
             self.alpha * self.memory_s,
         ];
-        let first_order = |time_s: T| [one, time_s];
         // Without integral action numerator and denominator have the factor s in common.
-        let common = integral.vanishes();
-        let controller = if common { [controller[1], controller[2], zero] } else { controller };
-        let body = if common {
-            [body[0], body[1], body[2], body[3], zero]
-        } else {
-            [zero, body[0], body[1], body[2], body[3]]
-        };
+        if integral.vanishes() {
+            controller.rotate_left(1);
+            body.rotate_left(1);
+        }
         let numerator = times(times(spread(controller), self.zero_s), self.memory_s);
-        let denominator = [gain_filter_s, self.lag_s, self.filter_s]
-            .map(first_order)
-            .iter()
-            .fold(spread(body), |product, factor| times(product, factor[1]));
+        let denominator = [gain_filter_s, self.lag_s, self.filter_s].into_iter().fold(spread(body), times);
         Fraction { numerator, denominator }
     }
 }
@@ -82,14 +86,6 @@ impl LinearProcess<f64> {
     pub(crate) fn open_loop_at(&self, gains: &Gains<f64>, omega_rad_s: &[f64]) -> Vec<[f64; 2]> {
         let open_loop = self.open_loop(constants(gains));
         omega_rad_s.iter().map(|omega| open_loop.response(*omega, self.delay_s)).collect()
-    }
-}
-
-impl LinearProcess<Interval> {
-    /// The process at the middle of all intervals.
-    #[must_use]
-    pub fn middle(&self) -> LinearProcess<f64> {
-        LinearProcess::from_parts(self.parts().map(Interval::midpoint))
     }
 }
 

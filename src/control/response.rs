@@ -4,7 +4,6 @@ use crate::numeric::{Limit, domain};
 use std::collections::VecDeque;
 
 use super::{AxisModel, ControlError, Controller};
-use crate::plant::{DragAxis, State};
 
 /// What is read off an answer to a step.
 ///
@@ -52,7 +51,7 @@ impl Answer {
 
 /// An axis under a controller that steps its reference at time zero.
 ///
-/// The motion is in closed form between the commands, quadratic drag and the delay included; the controller reads the
+/// The motion of a drag axis is in closed form between the commands, quadratic drag and the delay included; the controller reads the
 /// true coordinate at the given rate and holds its command between.
 ///
 /// ```
@@ -77,94 +76,47 @@ impl StepResponse {
     /// The most samples of a simulation.
     pub const MOST_SAMPLES: f64 = 1e7;
 
-    /// From rest at zero, the reference at `size` (m, or rad) from the first sample on.
+    /// From rest at zero, the reference at `size` (m, or rad) from the first sample on. An axis with further terms moves by Runge-Kutta
+    /// steps of an eighth of an interval, a limited rate as half its ramp more delay.
     ///
     /// # Errors
     /// [`ControlError::OutOfDomain`] unless the size is finite and not zero, rate and duration positive and finite with
     /// at most [`MOST_SAMPLES`](Self::MOST_SAMPLES) samples, in the delay too.
     pub fn simulate(
-        axis: &DragAxis<f64>,
+        axis: impl Into<AxisModel<f64>>,
         mut controller: Controller<f64>,
         size: f64,
         rate_hz: f64,
         duration_s: f64,
-    ) -> Result<Self, ControlError> {
-        let mut state = State { position: 0.0, velocity: 0.0 };
-        Self::run(axis.delay_s(), &mut controller, size, rate_hz, duration_s, |command, time_s| {
-            if let Some(command) = command {
-                state = axis.advance(state, command, time_s);
-            }
-            [state.position, state.position, state.velocity]
-        })
-    }
-
-    /// The same of an axis with further terms, by Runge-Kutta steps of an eighth of an interval; a limited rate as half its ramp more delay.
-    ///
-    /// # Errors
-    /// As [`simulate`](Self::simulate).
-    pub fn of_model(
-        model: &AxisModel<f64>,
-        mut controller: Controller<f64>,
-        size: f64,
-        rate_hz: f64,
-        duration_s: f64,
-    ) -> Result<Self, ControlError> {
-        const STEPS: u32 = 4;
-        let mut state = [0.0; 5];
-        let fast = size.abs() * rate_hz;
-        let delay_s = model.delay_s + 0.5 * model.ramp_s;
-        Self::run(delay_s, &mut controller, size, rate_hz, duration_s, |command, time_s| {
-            if let Some(command) = command {
-                for _ in 0..STEPS {
-                    state = model.advance(state, command, time_s / f64::from(STEPS), fast);
-                }
-            }
-            [model.reading(&state), state[0], state[1]]
-        })
-    }
-
-    /// A controller in the loop with what `advance` makes of a command over a time: reading, coordinate and speed.
-    fn run(
-        delay_s: f64,
-        controller: &mut Controller<f64>,
-        size: f64,
-        rate_hz: f64,
-        duration_s: f64,
-        mut advance: impl FnMut(Option<f64>, f64) -> [f64; 3],
     ) -> Result<Self, ControlError> {
         domain::require("size of the step", size, "output units", Limit::NonZero, "give the step of the reference")?;
         domain::positive("rate", rate_hz, "Hz")?;
         let steps = duration_s * rate_hz;
         let limit = Limit::Within(0.0, Self::MOST_SAMPLES);
         domain::require("duration", steps, "samples", limit, "shorten the response or lower its rate")?;
-        let late = delay_s * rate_hz;
-        domain::require(
-            "delay",
-            late,
-            "samples",
-            Limit::AtMost(Self::MOST_SAMPLES),
-            "shorten the delay or lower the rate",
-        )?;
+        let model = axis.into();
+        let delay_s = model.delay_s + 0.5 * model.ramp_s;
+        let (late, limit) = (delay_s * rate_hz, Limit::AtMost(Self::MOST_SAMPLES));
+        domain::require("delay", late, "samples", limit, "shorten the delay or lower the rate")?;
         let interval_s = 1.0 / rate_hz;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
         let (whole, last) = (late.floor() as usize, steps.floor() as usize);
         // The command acts a whole number of intervals and a part of one later.
         let part_s = delay_s - whole as f64 * interval_s;
         let mut under_way: VecDeque<f64> = std::iter::repeat_n(0.0, whole + 1).collect();
-        let [mut reading, mut position, mut velocity] = advance(None, 0.0);
+        let (motion, mut state) = (model.motion(size.abs() * rate_hz)?, [0.0; 5]);
         let mut response =
             Self { size, time_s: Vec::new(), output: Vec::new(), speed: Vec::new(), command: Vec::new() };
         for sample in 0..=last {
-            let command = controller.step(size, reading, interval_s).command;
+            let command = controller.step(size, model.reading(&state), interval_s).command;
             response.time_s.push(sample as f64 * interval_s);
-            response.output.push(position);
-            response.speed.push(velocity);
+            response.output.push(state[0]);
+            response.speed.push(state[1]);
             response.command.push(command);
             under_way.push_back(command);
             let before = under_way.pop_front().unwrap_or(command);
             let after = under_way.front().copied().unwrap_or(command);
-            advance(Some(before), part_s);
-            [reading, position, velocity] = advance(Some(after), interval_s - part_s);
+            state = motion(motion(state, before, part_s), after, interval_s - part_s);
         }
         Ok(response)
     }

@@ -6,6 +6,7 @@
 
 mod exclusion;
 mod figures;
+mod high_frequency;
 mod shape;
 
 use super::process::{LinearProcess, PARAMETERS, constants};
@@ -13,6 +14,7 @@ use super::{ControlError, Gains, RobustCriterion};
 use crate::numeric::{Interval, domain};
 use exclusion::{Question, is_hurwitz};
 use figures::{AN_OCTAVE, FEW, Figures};
+pub use high_frequency::loop_gain_beyond;
 use shape::Shape;
 
 /// Processes whose parameters lie in intervals: in all of their box, or in a parallelepiped inside.
@@ -61,7 +63,7 @@ pub struct WorstMargin {
 }
 
 impl WorstMargin {
-    fn new(gain: f64, gain_reduction: f64, phase_rad: f64, delay_s: f64) -> Self {
+    fn new([gain, gain_reduction, phase_rad, delay_s]: [f64; 4]) -> Self {
         let limited = |factor: f64| Some(factor).filter(|factor| *factor < ProcessIntervals::NO_LIMIT);
         Self { gain: limited(gain), gain_reduction: limited(gain_reduction), phase_rad, delay_s }
     }
@@ -106,7 +108,8 @@ impl ProcessIntervals {
     /// # Errors
     /// As [`new`](Self::new), for the intervals of the parameters.
     pub fn along(centre: [f64; PARAMETERS], directions: &[[f64; PARAMETERS]]) -> Result<Self, ControlError> {
-        let shape = Shape::along(centre, directions);
+        let directions = core::array::from_fn(|k| directions.get(k).copied().unwrap_or([0.0; PARAMETERS]));
+        let shape = Shape::Along { centre, directions };
         Ok(Self { shape, ..Self::new(shape.hull())? })
     }
 
@@ -154,8 +157,7 @@ impl ProcessIntervals {
     /// # Errors
     /// [`ControlError::NotStabilised`] with a process of the box whose stability under the gains is not proved.
     pub fn enclose(&self, gains: &Gains<f64>, of: fn(f64) -> RobustCriterion) -> Result<CriterionRange, ControlError> {
-        let (figures, stable) = self.figures_met(gains)?;
-        Ok(self.near(gains, of, &figures, stable))
+        Ok(self.ranges(gains)?(of))
     }
 
     /// The four margins and the sensitivity over the box, each as by [`enclose`](Self::enclose).
@@ -178,52 +180,47 @@ impl ProcessIntervals {
     /// # Errors
     /// As [`enclose`](Self::enclose).
     pub fn worst_margins(&self, gains: &Gains<f64>) -> Result<WorstMargins, ControlError> {
-        let (figures, stable) = self.figures_met(gains)?;
-        let near = |of| self.near(gains, of, &figures, stable);
-        let [gain, reduction, phase, delay] = [
+        let near = self.ranges(gains)?;
+        let margins = [
             near(RobustCriterion::Gain),
             near(RobustCriterion::GainReduction),
             near(RobustCriterion::PhaseRad),
             near(RobustCriterion::DelayS),
         ];
-        let proved = |range: CriterionRange, none: f64| range.proved.unwrap_or(none);
+        let none = [1.0, 1.0, 0.0, 0.0];
         Ok(WorstMargins {
-            at_least: WorstMargin::new(
-                proved(gain, 1.0),
-                proved(reduction, 1.0),
-                proved(phase, 0.0),
-                proved(delay, 0.0),
-            ),
-            met: WorstMargin::new(gain.met, reduction.met, phase.met, delay.met),
-            proved: [gain, reduction, phase, delay].iter().all(|range| range.proved.is_some()),
+            at_least: WorstMargin::new(core::array::from_fn(|k| margins[k].proved.unwrap_or(none[k]))),
+            met: WorstMargin::new(margins.map(|range| range.met)),
+            proved: margins.iter().all(|range| range.proved.is_some()),
             sensitivity: near(RobustCriterion::Sensitivity),
         })
     }
 
-    /// The best number near the worst that was met which is proved, of processes that are proved to be stable.
-    fn near(
+    /// What is known of each criterion: of processes that are proved to be stable, the best number near the worst that was met which is
+    /// proved.
+    fn ranges(
         &self,
         gains: &Gains<f64>,
-        of: fn(f64) -> RobustCriterion,
-        figures: &Figures,
-        stable: bool,
-    ) -> CriterionRange {
-        let met = figures.number(of(1.0));
-        let shares = GIVEN_UP.iter().filter(|_| stable);
-        let numbers = shares.map(|share| match of(1.0) {
-            RobustCriterion::Sensitivity(_) => met * (1.0 + share),
-            RobustCriterion::Gain(_) | RobustCriterion::GainReduction(_) if !met.is_finite() => Self::NO_LIMIT,
-            RobustCriterion::Gain(_) | RobustCriterion::GainReduction(_) => 1.0 + (met - 1.0) * (1.0 - share),
-            _ => met * (1.0 - share),
-        });
-        let proved = numbers
-            .into_iter()
-            .find(|number| self.excluded(gains, Question { criterion: of(*number), on_the_way: false }));
-        CriterionRange { proved, met }
+    ) -> Result<impl Fn(fn(f64) -> RobustCriterion) -> CriterionRange, ControlError> {
+        let stable = self.all_stable(gains);
+        if !stable && let Some(LinearProcess { alpha, drag, delay_s, .. }) = self.unstable_point(gains) {
+            return Err(ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s: None });
+        }
+        let figures = self.figures(gains, AN_OCTAVE);
+        Ok(move |of: fn(f64) -> RobustCriterion| {
+            let met = figures.number(of(1.0));
+            let number = |share: &f64| match of(1.0) {
+                RobustCriterion::Sensitivity(_) => met * (1.0 + share),
+                RobustCriterion::Gain(_) | RobustCriterion::GainReduction(_) if !met.is_finite() => Self::NO_LIMIT,
+                RobustCriterion::Gain(_) | RobustCriterion::GainReduction(_) => 1.0 + (met - 1.0) * (1.0 - share),
+                _ => met * (1.0 - share),
+            };
+            let has = |number: &f64| self.excluded(gains, Question { criterion: of(*number), on_the_way: false });
+            let proved = GIVEN_UP.iter().filter(|_| stable).map(number).find(has);
+            CriterionRange { proved, met }
+        })
     }
-}
 
-impl ProcessIntervals {
     /// The process in the middle.
     #[must_use]
     pub fn middle(&self) -> LinearProcess<f64> {
@@ -282,17 +279,6 @@ impl ProcessIntervals {
         self.points().iter().map(|point| Figures::of(point, gains, high, an_octave)).fold(Figures::NONE, Figures::worse)
     }
 
-    /// The worst figures, and whether every process is proved to be stable.
-    fn figures_met(&self, gains: &Gains<f64>) -> Result<(Figures, bool), ControlError> {
-        let stable = self.all_stable(gains);
-        match self.unstable_point(gains).filter(|_| !stable) {
-            Some(LinearProcess { alpha, drag, delay_s, .. }) => {
-                Err(ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s: None })
-            }
-            None => Ok((self.figures(gains, AN_OCTAVE), stable)),
-        }
-    }
-
     /// Whether the middle and the corners of the box are each proved to be stable; nothing is said of the processes between.
     #[must_use]
     pub fn points_stable(&self, gains: &Gains<f64>) -> bool {
@@ -310,6 +296,3 @@ impl ProcessIntervals {
 
 /// What is given up of the worst that was met, so that a proof is found: the least first.
 const GIVEN_UP: [f64; 4] = [0.003, 0.02, 0.1, 0.3];
-
-#[cfg(test)]
-mod tests;

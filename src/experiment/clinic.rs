@@ -4,6 +4,7 @@
 
 use core::f64::consts::{PI, TAU};
 
+use super::record::middle;
 use super::{ExperimentError, Place};
 
 /// Unit of the times in a log.
@@ -38,15 +39,10 @@ impl TimeUnit {
         }
     }
 
-    /// How many of them a second has.
+    /// How many of them a second has: each is a thousandth of the one before.
     #[must_use]
     pub fn per_second(self) -> f64 {
-        match self {
-            Self::Seconds => 1.0,
-            Self::Milliseconds => 1e3,
-            Self::Microseconds => 1e6,
-            Self::Nanoseconds => 1e9,
-        }
+        1e3_f64.powi(self as i32)
     }
 
     /// The unit that a column's name ends in.
@@ -69,12 +65,8 @@ const FAR_FROM_NEUTRAL: f64 = 4.0;
 pub(super) fn seconds(time_s: &[f64], unit_given: bool) -> Result<(), ExperimentError> {
     let intervals = time_s.windows(2).map(|pair| pair[1] - pair[0]);
     // Repeated stamps and stamps out of order are named by the rows.
-    let mut intervals: Vec<f64> = intervals.filter(|interval| *interval > 0.0 && interval.is_finite()).collect();
-    if intervals.is_empty() {
-        return Ok(());
-    }
-    let middle = intervals.len() / 2;
-    let interval_s = *intervals.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let usable = intervals.filter(|interval| *interval > 0.0 && interval.is_finite());
+    let Some(interval_s) = middle(usable.collect()) else { return Ok(()) };
     let senseless = interval_s < FASTEST_S || interval_s > SLOWEST_S && !unit_given;
     if senseless { Err(ExperimentError::TimeUnit { interval_s }) } else { Ok(()) }
 }
@@ -98,13 +90,15 @@ fn range(values: &[f64]) -> (f64, f64) {
 pub(super) fn turns(
     column: &str,
     output: &[f64],
-    turn: [f64; 2],
+    degrees: bool,
     place: impl Fn(usize) -> Place,
 ) -> Result<(), ExperimentError> {
     let mut sizes: Vec<f64> = output.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let unsorted = sizes.clone();
     let Some(most) = sizes.len().checked_sub(1 + sizes.len() / 20) else { return Ok(()) };
     let usual = *sizes.select_nth_unstable_by(most, f64::total_cmp).1;
+    // The column is in radians by now; an undeclared column of degrees jumps by 360.
+    let turn = if degrees { [TAU, TAU] } else { [TAU, 360.0] };
     // A jump is a turn less what the vehicle turned meanwhile.
     let is_turn =
         |jump: f64| turn.iter().any(|turn| (jump - turn).abs() <= (2.0 * usual).min(0.05 * turn) && jump > 8.0 * usual);
@@ -115,12 +109,6 @@ pub(super) fn turns(
         }
         None => Ok(()),
     }
-}
-
-/// What a turn is in the unit of a column.
-pub(super) fn turn(degrees: bool) -> [f64; 2] {
-    // The column is in radians by now; an undeclared column of degrees jumps by 360.
-    if degrees { [TAU, TAU] } else { [TAU, 360.0] }
 }
 
 /// Refuses a command that stays far to one side of its neutral.

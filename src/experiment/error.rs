@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::clinic::{FASTEST_S, SLOWEST_S};
+use super::{Columns, Record};
 use crate::nonlinearity::NonlinearityError;
 use crate::numeric::OutOfDomain;
 use crate::numeric::domain::{About, AtLeast, AtMost, Plain};
@@ -41,13 +42,12 @@ pub enum ExperimentError {
     },
     /// Too few samples for any identification.
     #[error(
-        "{samples} samples, at least {required} needed; log longer or faster, or cut less off (--from, --to, --part)"
+        "{samples} samples, at least {} needed; log longer or faster, or cut less off (--from, --to, --part)",
+        Record::FEWEST_SAMPLES
     )]
     TooShort {
         /// Samples found.
         samples: usize,
-        /// Samples needed.
-        required: usize,
     },
     /// NaN or an infinity.
     #[error("{place}: {column} = {value} must be finite; log a number there, or leave such rows out (--skip-bad-rows)")]
@@ -61,8 +61,9 @@ pub enum ExperimentError {
     },
     /// A number whose square leaves the arithmetic.
     #[error(
-        "{place}: {column} = {value:e} must be at most {limit:e} in magnitude; log another unit, or leave such rows out \
-         (--skip-bad-rows)"
+        "{place}: {column} = {value:e} must be at most {:e} in magnitude; log another unit, or leave such rows out \
+         (--skip-bad-rows)",
+        Record::LARGEST
     )]
     TooLarge {
         /// Where.
@@ -71,8 +72,6 @@ pub enum ExperimentError {
         column: &'static str,
         /// The value.
         value: f64,
-        /// The largest magnitude allowed.
-        limit: f64,
     },
     /// A time that does not come after the one before it.
     #[error(
@@ -133,7 +132,7 @@ pub enum ExperimentError {
     /// More rows that cannot be used than may be left out.
     #[error(
         "{bad} of {rows} rows cannot be used, at most {} % may be left out (--skip-bad-rows); use a part with fewer (--from, \
-         --to), or log again", 100.0 * super::Columns::MOST_SKIPPED
+         --to), or log again", 100.0 * Columns::MOST_SKIPPED
     )]
     TooManyBad {
         /// Rows that cannot be used.
@@ -268,11 +267,8 @@ pub enum ExperimentError {
         text: String,
     },
     /// More than is read.
-    #[error("longer than {limit_mib} MiB; cut the log to the experiment, or thin it out")]
-    TooLong {
-        /// What is read at most, MiB.
-        limit_mib: u64,
-    },
+    #[error("longer than {} MiB; cut the log to the experiment, or thin it out", Columns::LONGEST >> 20)]
+    TooLong,
     /// The reader failed.
     #[error("line {line}: {reason}; make every line as the header says")]
     Unreadable {
@@ -315,7 +311,7 @@ impl ExperimentError {
             Self::Neutral { .. } => "neutral",
             Self::Blank { .. } => "blank-cell",
             Self::NotANumber { .. } => "not-a-number",
-            Self::TooLong { .. } => "too-long",
+            Self::TooLong => "too-long",
             Self::Unreadable { .. } => "unreadable",
             Self::OutOfDomain(_) => "setting",
             Self::Relay(_) => "relay",
@@ -331,7 +327,7 @@ impl ExperimentError {
                 | Self::Binary { .. }
                 | Self::UnknownColumn { .. }
                 | Self::SameColumn { .. }
-                | Self::TooLong { .. }
+                | Self::TooLong
                 | Self::Unreadable { .. }
         )
     }

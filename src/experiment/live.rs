@@ -1,7 +1,6 @@
 //! A simulated vehicle that obeys commands as they come.
 
 use rand::SeedableRng;
-use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
 use super::simulation::Motion;
@@ -59,8 +58,7 @@ impl LiveVehicle {
         let now_s = self.time_s();
         self.samples += 1;
         self.motion.seen_s = now_s;
-        let noise: f64 = StandardNormal.sample(&mut self.random);
-        (now_s, self.sensor.read(self.motion.at(now_s).position + self.sensor.noise * noise))
+        (now_s, self.sensor.read(self.motion.at(now_s).position, &mut self.random))
     }
 
     /// A command given upon the last reading. One that is no finite number changes nothing.

@@ -9,39 +9,14 @@ use super::rows::{Chosen, Rows};
 use super::{ExperimentError, Place, Record};
 use crate::files::{LONGEST_WORD, cut};
 
-/// Names tried for each column, best first.
-const TIME: &[&str] = &[
-    "time_s",
-    "time",
-    "t",
-    "timestamp",
-    "time_ms",
-    "time_us",
-    "time_ns",
-    "timestamp_s",
-    "timestamp_ms",
-    "timestamp_us",
-    "timestamp_ns",
-];
-const OUTPUT: &[&str] = &[
-    "heading_deg",
-    "yaw_deg",
-    "heading",
-    "yaw",
-    "depth_m",
-    "position_m",
-    "position",
-    "output",
-    "y",
-    "depth",
-    "temperature",
-];
-const INPUT: &[&str] = &["command", "input", "u", "pwm", "duty"];
+/// Names tried for each column, best first, as a message lists them.
+const TIME: &str =
+    "time_s, time, t, timestamp, time_ms, time_us, time_ns, timestamp_s, timestamp_ms, timestamp_us, timestamp_ns";
+const OUTPUT: &str = "heading_deg, yaw_deg, heading, yaw, depth_m, position_m, position, output, y, depth, temperature";
+const INPUT: &str = "command, input, u, pwm, duty";
 /// The same where a controller's output is the command.
-const PROCESS_OUTPUT: &[&str] =
-    &["temperature", "temp", "pv", "process_value", "measured", "y", "output", "level", "position"];
-const PROCESS_INPUT: &[&str] =
-    &["duty", "power", "heater", "heating", "relay", "valve", "pwm", "command", "input", "u", "output"];
+const PROCESS_OUTPUT: &str = "temperature, temp, pv, process_value, measured, y, output, level, position";
+const PROCESS_INPUT: &str = "duty, power, heater, heating, relay, valve, pwm, command, input, u, output";
 
 /// Longest list of names that a message shows.
 const LONGEST_LIST: usize = 200;
@@ -156,7 +131,7 @@ impl Columns {
         let length = source.take(Self::LONGEST + 1).read_to_end(&mut bytes);
         let length = length.map_err(|error| ExperimentError::Unreadable { line: 0, reason: error.to_string() })?;
         if length as u64 > Self::LONGEST {
-            return Err(ExperimentError::TooLong { limit_mib: Self::LONGEST >> 20 });
+            return Err(ExperimentError::TooLong);
         }
         let text = String::from_utf8_lossy(&bytes);
         self.parse(text.trim_start_matches('\u{feff}'))
@@ -269,7 +244,7 @@ impl Columns {
         }
         let unwrapped = if wrap { clinic::unwrap(&mut output) } else { 0 };
         if !wrap && !self.process {
-            clinic::turns(name, &output, clinic::turn(degrees), place)?;
+            clinic::turns(name, &output, degrees, place)?;
         }
         let neutral = self.neutral.unwrap_or(0.0);
         // That zero is neutral may be said of any command.
@@ -301,7 +276,7 @@ fn column(
     names: &[String],
     role: &'static str,
     wanted: Option<&str>,
-    defaults: &[&str],
+    defaults: &str,
 ) -> Result<usize, ExperimentError> {
     let all = |name: &str| -> Vec<usize> {
         let those = |same: fn(&str, &str) -> bool| {
@@ -316,14 +291,14 @@ fn column(
     };
     let found = match wanted {
         Some(name) => all(name),
-        None => defaults.iter().map(|name| all(name)).find(|found| !found.is_empty()).unwrap_or_default(),
+        None => defaults.split(", ").map(&all).find(|found| !found.is_empty()).unwrap_or_default(),
     };
     match (&found[..], wanted.and_then(numbered)) {
         ([only], _) => Ok(*only),
         ([], Some(numbered)) => Ok(numbered),
         ([], None) => Err(ExperimentError::UnknownColumn {
             role,
-            wanted: wanted.map_or_else(|| defaults.join(", "), |name| cut(name, LONGEST_WORD)),
+            wanted: wanted.map_or_else(|| defaults.to_owned(), |name| cut(name, LONGEST_WORD)),
             found: cut(&names.join(", "), LONGEST_LIST),
         }),
         (several, _) => {

@@ -42,6 +42,12 @@ impl TryFrom<Samples> for Record {
     }
 }
 
+/// The value in the middle of all; of two the larger.
+pub(super) fn middle(mut values: Vec<f64>) -> Option<f64> {
+    let half = values.len() / 2;
+    (half < values.len()).then(|| *values.select_nth_unstable_by(half, f64::total_cmp).1)
+}
+
 impl Record {
     /// The fewest samples that make a record.
     pub const FEWEST_SAMPLES: usize = 16;
@@ -73,25 +79,23 @@ impl Record {
             return Err(Self::unusable(place(sample), columns, sample));
         }
         if samples < Self::FEWEST_SAMPLES {
-            return Err(ExperimentError::TooShort { samples, required: Self::FEWEST_SAMPLES });
+            return Err(ExperimentError::TooShort { samples });
         }
-        let mut intervals: Vec<f64> = time_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let intervals: Vec<f64> = time_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
         if let Some(sample) = intervals.iter().position(|interval| *interval <= 0.0) {
             let (previous_s, time_s) = (time_s[sample], time_s[sample + 1]);
             return Err(ExperimentError::TimeOrder { place: place(sample + 1), time_s, previous_s });
         }
-        let middle = intervals.len() / 2;
-        let unsorted = intervals.clone();
-        let interval_s = *intervals.select_nth_unstable_by(middle, f64::total_cmp).1;
+        let interval_s = middle(intervals.clone()).unwrap_or(f64::NAN);
         let limit_s = Self::LONGEST_GAP * interval_s;
-        if let Some(sample) = unsorted.iter().position(|interval| *interval > limit_s) {
-            let gaps = || unsorted.iter().filter(|interval| **interval > limit_s);
+        if let Some(sample) = intervals.iter().position(|interval| *interval > limit_s) {
+            let gaps = || intervals.iter().filter(|interval| **interval > limit_s);
             let (count, all_s) = (gaps().count(), gaps().sum::<f64>());
             if count >= FEWEST_BURSTS && all_s > 0.5 * (time_s[samples - 1] - time_s[0]) {
                 #[allow(clippy::cast_precision_loss, reason = "fewer samples than 2^53")]
                 return Err(ExperimentError::Bursts { count, gap_s: all_s / count as f64, interval_s });
             }
-            return Err(ExperimentError::Gap { place: place(sample + 1), gap_s: unsorted[sample], limit_s });
+            return Err(ExperimentError::Gap { place: place(sample + 1), gap_s: intervals[sample], limit_s });
         }
         Ok(Self { time_s, output, input, interval_s })
     }
@@ -103,7 +107,7 @@ impl Record {
         let worst = named.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
         let (column, value) = worst.unwrap_or(("time", f64::NAN));
         if value.is_finite() {
-            return ExperimentError::TooLarge { place, column, value, limit: Self::LARGEST };
+            return ExperimentError::TooLarge { place, column, value };
         }
         ExperimentError::NotFinite { place, column, value }
     }

@@ -1,5 +1,6 @@
 //! Rows of a log before they are a record: the part and the cut asked for, and what cannot be used.
 
+use super::record::middle;
 use super::{Columns, ExperimentError, Place, Record};
 
 /// Time in s, output and input of every row; a cell that holds no number is NaN.
@@ -73,10 +74,8 @@ impl Rows<'_> {
 
     /// Rows of the part and the cut, bad ones among them.
     fn inside(&self, clock: &[f64], how: &Columns) -> Result<Vec<usize>, ExperimentError> {
-        let mut steps: Vec<f64> = clock.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
-        let middle = steps.len() / 2;
-        let usual =
-            if steps.is_empty() { f64::INFINITY } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 };
+        let steps: Vec<f64> = clock.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
+        let usual = middle(steps).unwrap_or(f64::INFINITY);
         // Less is a stamp out of order.
         let starts_again = |before: usize, row: usize| clock[before] - clock[row] > Record::LONGEST_GAP * usual;
         let begins = (1..clock.len()).filter(|row| starts_again(row - 1, *row));

@@ -122,8 +122,7 @@ impl SimulatedExperiment {
                 self.watch(&mut relay, &mut motion, now);
             }
             let position = motion.at(now - self.sensor.delay_s).position;
-            let noise: f64 = StandardNormal.sample(&mut random);
-            let reading = self.sensor.read(position + self.sensor.noise * noise);
+            let reading = self.sensor.read(position, &mut random);
             if self.held {
                 relay.step(-reading);
                 motion.command(now + self.axis.delay_s(), relay.output());
@@ -159,9 +158,11 @@ impl Sensor {
         Ok(self)
     }
 
-    /// The reading of a value, rounded.
-    pub(crate) fn read(&self, value: f64) -> f64 {
-        if self.quantum > 0.0 { (value / self.quantum).round() * self.quantum } else { value }
+    /// The reading of a value: with noise, rounded.
+    pub(crate) fn read(&self, value: f64, random: &mut Pcg64Mcg) -> f64 {
+        let noise: f64 = StandardNormal.sample(random);
+        let noisy = value + self.noise * noise;
+        if self.quantum > 0.0 { (noisy / self.quantum).round() * self.quantum } else { noisy }
     }
 }
 

@@ -57,8 +57,7 @@ impl Files {
         if input.place.is_some() && input.place == standard_output() {
             return Err(FileError::Taken { name: "standard output".to_owned(), other });
         }
-        let digest: String = Sha256::digest(input.bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
-        self.digests.push(format!("{}: SHA-256 {digest}", input.name()));
+        self.digests.push(format!("{}: SHA-256 {:x}", input.name(), Sha256::digest(input.bytes())));
         self.known.push((other, input.place.clone()));
         Ok(input)
     }

@@ -6,7 +6,6 @@ use std::collections::VecDeque;
 
 use nalgebra::{Matrix4, Vector4, Vector6};
 use rand::SeedableRng;
-use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
 use super::{Axis, AxisParameters, BodyState, Motion, Simulation, Vehicle, VehicleError};
@@ -164,8 +163,7 @@ impl Trial {
             }
             let time_s = simulation.time_s();
             let force = run.experiment.command();
-            let noise: f64 = StandardNormal.sample(&mut random);
-            let step = run.experiment.step(self.sensor.read(under_way[0] + self.sensor.noise * noise), time_s);
+            let step = run.experiment.step(self.sensor.read(under_way[0], &mut random), time_s);
             run.time_s.push(time_s);
             run.position.push(run.experiment.position().unwrap_or(self.protocol.reference));
             run.states.push(*simulation.state());

@@ -2,6 +2,7 @@
 
 mod controller;
 mod design;
+mod high_frequency;
 mod margins;
 mod oracle;
 mod robust;

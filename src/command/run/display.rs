@@ -46,8 +46,8 @@ impl Display {
     /// A sample: time, coordinate, command.
     pub(super) fn sample(&mut self, experiment: &Experiment<f64>, [time_s, position, command]: [f64; 3]) {
         if experiment.attempt() != self.attempt {
-            *self = Self { started_s: self.started_s, drawn: self.drawn, ..Self::new(&self.protocol, self.terminal) };
-            self.attempt = experiment.attempt();
+            let (started_s, drawn, attempt) = (self.started_s, self.drawn, experiment.attempt());
+            *self = Self { started_s, drawn, attempt, ..Self::new(&self.protocol, self.terminal) };
         }
         self.elapsed_s = time_s - *self.started_s.get_or_insert(time_s);
         let ended = self.finder.step(time_s, position, command);
@@ -83,7 +83,6 @@ impl Display {
             Coordinate::HeadingDegrees => "deg",
             Coordinate::Position | Coordinate::Speed => "",
         };
-        let span = |middle: f64, half: f64, value: f64| bar((value - middle) / half);
         let room = (protocol.highest_command - protocol.neutral_command)
             .max(protocol.neutral_command - protocol.lowest_command);
         let rows = [
@@ -92,12 +91,12 @@ impl Display {
             format!(
                 "coordinate  {:>10} {unit:3} {}",
                 significant(position, 4),
-                span(protocol.reference, protocol.largest_excursion, position)
+                bar((position - protocol.reference) / protocol.largest_excursion)
             ),
             format!(
                 "command     {:>10}     {}",
                 significant(command, 4),
-                span(protocol.neutral_command, room, command)
+                bar((command - protocol.neutral_command) / room)
             ),
             format!("cycles      {}", self.last.as_ref().map_or_else(|| "none yet".to_owned(), cycle_text)),
             format!("estimate    {}", self.estimate()),
@@ -139,16 +138,7 @@ fn bar(place: f64) -> String {
     let half = (BAR / 2) as f64;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to BAR - 1")]
     let mark = (half + (place.clamp(-1.0, 1.0) * half).round()) as usize;
-    let line: String = (0..BAR)
-        .map(|at| {
-            if at == mark {
-                '*'
-            } else if at == BAR / 2 {
-                '|'
-            } else {
-                '-'
-            }
-        })
-        .collect();
-    format!("[{line}]")
+    let mut line = ["-"; BAR];
+    (line[BAR / 2], line[mark]) = ("|", "*");
+    format!("[{}]", line.concat())
 }

@@ -132,18 +132,14 @@ pub(super) fn in_words(fault: Fault) -> String {
 }
 
 impl ProtocolArguments {
+    /// The experiment, which starts with its first sample.
     pub(super) fn experiment(&self) -> Result<Experiment<f64>, CommandError> {
-        Experiment::new(self.protocol())
-            .map_err(|fault| CommandError::Given { flag: flag(&fault), error: fault.into() })
-    }
-
-    pub(super) fn protocol(&self) -> Protocol<f64> {
         let (coordinate, relay, half_width, interval_s) = (self.coordinate, self.relay, self.half_width, self.interval);
         let usual = match self.excursion {
             Some(excursion) => Protocol::new(coordinate, relay, half_width, excursion, interval_s),
             None => Protocol::usual(coordinate, relay, half_width, interval_s),
         };
-        Protocol {
+        let protocol = Protocol {
             reference: self.reference,
             neutral_command: self.neutral,
             lowest_command: self.lowest.unwrap_or(self.neutral + usual.lowest_command),
@@ -161,6 +157,7 @@ impl ProtocolArguments {
             attempts: self.attempts.unwrap_or(usual.attempts),
             factor: self.factor.unwrap_or(usual.factor),
             ..usual
-        }
+        };
+        Experiment::new(protocol).map_err(|fault| CommandError::Given { flag: flag(&fault), error: fault.into() })
     }
 }

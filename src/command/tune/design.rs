@@ -1,6 +1,6 @@
 //! A design, and what holds of it over all that the model may be.
 
-use super::{PHASES_DEG, SENSITIVITIES};
+use super::{Arguments, PHASES_DEG, SENSITIVITIES};
 use crate::command::known::Model;
 use crate::control::{
     AxisModel, ControlError, Controller, Gains, OpenLoop, ProcessIntervals, RobustCriterion, StepResponse, Structure,
@@ -21,26 +21,6 @@ const STEPS_BACK: i32 = 12;
 const FOR_THE_PROOF: f64 = 0.02;
 /// Largest sensitivities are usually between 1.2 and 2 (Astrom and Hagglund, *Advanced PID Control*, ch. 4).
 const MOST_USUAL: f64 = 2.0;
-
-/// What the gains are for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Target {
-    /// A bandwidth, rad/s.
-    BandwidthRadS(f64),
-    /// The largest bandwidth at which every axis meets this.
-    Limit(RobustCriterion),
-}
-
-/// What is asked for.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct DesignWanted {
-    pub(super) target: Target,
-    pub(super) structure: Structure,
-    /// Step of the reference, and the largest command in it.
-    pub(super) step: f64,
-    pub(super) limit: Option<f64>,
-    pub(super) top_speed: Option<f64>,
-}
 
 /// A design and what was found on it.
 pub(super) struct Tuned {
@@ -64,17 +44,16 @@ impl Tuned {
     ///
     /// # Errors
     /// Where some axis of the intervals is not stabilised, with the nearest bandwidth at which all are.
-    pub(super) fn new(model: &Model, wanted: &DesignWanted) -> Result<Self, ControlError> {
-        let axis = model.values().design_axis()?;
+    pub(super) fn new(model: &Model, wanted: &Arguments) -> Result<Self, ControlError> {
+        let (axis, limit) = (model.values().design_axis()?, wanted.limit_of_all());
         let families = model.slopes_at_rest().map(|slope| Family { model, wanted, axis, slope });
-        let designed = |family: &Family| match wanted.target {
-            Target::BandwidthRadS(asked_rad_s) => family.design(asked_rad_s),
-            Target::Limit(limit) => family.design(family.largest_bandwidth(limit)?),
-        };
+        let asked_rad_s = wanted.bandwidth.unwrap_or(f64::NAN);
+        let designed =
+            |family: &Family| family.design(limit.map_or(Ok(asked_rad_s), |limit| family.largest_bandwidth(limit))?);
         let [at_rest, least] = &families;
         let first = designed(at_rest);
         let enough = match &first {
-            Ok(tuned) => !matches!(wanted.target, Target::BandwidthRadS(_)) || !tuned.has_little_margin(),
+            Ok(tuned) => limit.is_some() || !tuned.has_little_margin(),
             Err(error) => !["unstable", "out-of-reach", "overdamped", "no-bandwidth"].contains(&error.code()),
         };
         if enough {
@@ -88,17 +67,17 @@ impl Tuned {
                 Err(ControlError::OutOfReach { within_reach, .. }),
                 Err(again @ ControlError::OutOfReach { within_reach: Some(better), .. }),
             ) if within_reach.is_none_or(|limit| limit.is_met_by(better.number())) => Err(again),
-            (Err(error), Err(_)) => Err(match (error, wanted.target) {
-                (
+            (
+                Err(
                     ControlError::NotStabilised { alpha, drag, delay_s, .. }
                     | ControlError::Unstable { alpha, drag, delay_s, .. },
-                    Target::BandwidthRadS(asked_rad_s),
-                ) => {
-                    let stabilised_rad_s = stabilised(&families, asked_rad_s);
-                    ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s }
-                }
-                (error, _) => error,
-            }),
+                ),
+                Err(_),
+            ) if limit.is_none() => {
+                let stabilised_rad_s = stabilised(&families, asked_rad_s);
+                Err(ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s })
+            }
+            (Err(error), Err(_)) => Err(error),
         }
     }
 
@@ -116,25 +95,10 @@ impl Tuned {
     }
 }
 
-fn response(model: &AxisModel<f64>, tuning: &Tuning<f64>, wanted: &DesignWanted) -> Result<StepResponse, ControlError> {
-    let w = tuning.double_pole_rad_s();
-    let controller = Controller::new(tuning.gains());
-    let controller = match wanted.limit {
-        Some(limit) => controller.with_limits(-limit, limit)?,
-        None => controller,
-    };
-    let (rate_hz, duration_s) = (SAMPLES * w, TIME_CONSTANTS / w);
-    if model.is_plain() {
-        StepResponse::simulate(&model.design_axis()?, controller, wanted.step, rate_hz, duration_s)
-    } else {
-        StepResponse::of_model(model, controller, wanted.step, rate_hz, duration_s)
-    }
-}
-
 /// Gains of one structure, placed for one slope of the drag, over bandwidths.
 struct Family<'a> {
     model: &'a Model,
-    wanted: &'a DesignWanted,
+    wanted: &'a Arguments,
     axis: DragAxis<f64>,
     slope: f64,
 }
@@ -144,32 +108,39 @@ impl Family<'_> {
         Tuning::for_slope(&self.axis, self.slope, self.wanted.structure, bandwidth_rad_s)
     }
 
-    /// The answer to the step without the constant force.
-    fn calm(&self, tuning: &Tuning<f64>) -> Result<StepResponse, ControlError> {
-        response(&AxisModel { delta: 0.0, ..self.model.values() }, tuning, self.wanted)
+    /// The answer to the step under a constant force.
+    fn response(&self, tuning: &Tuning<f64>, delta: f64) -> Result<StepResponse, ControlError> {
+        let (model, w) = (AxisModel { delta, ..self.model.values() }, tuning.double_pole_rad_s());
+        let mut controller = Controller::new(tuning.gains());
+        if let Some(limit) = self.wanted.limit {
+            controller = controller.with_limits(-limit, limit)?;
+        }
+        StepResponse::simulate(model, controller, self.wanted.step, SAMPLES * w, TIME_CONSTANTS / w)
     }
 
     /// Gains, and every process that their step shows.
     fn loops(&self, bandwidth_rad_s: f64) -> Result<(Gains<f64>, ProcessIntervals), ControlError> {
         let tuning = self.tuning(bandwidth_rad_s)?;
-        let top_speed =
-            self.wanted.top_speed.map_or_else(|| Ok(self.calm(&tuning)?.top_speed()), Ok::<_, ControlError>)?;
+        let top_speed = match self.wanted.top_speed {
+            Some(top_speed) => top_speed,
+            None => self.response(&tuning, 0.0)?.top_speed(),
+        };
         Ok((*tuning.gains(), ProcessIntervals::new(self.model.processes(top_speed))?))
     }
 
     fn design(&self, bandwidth_rad_s: f64) -> Result<Tuned, ControlError> {
         let (model, wanted, axis) = (self.model, self.wanted, &self.axis);
         let (values, tuning) = (model.values(), self.tuning(bandwidth_rad_s)?);
-        let response = self.calm(&tuning)?;
+        let response = self.response(&tuning, 0.0)?;
         let acts = values.delta != 0.0 && model.axis.delta.interval.is_none_or(|interval| !interval.contains(0.0));
-        let with_force = acts.then(|| self::response(&values, &tuning, wanted)).transpose()?;
+        let with_force = acts.then(|| self.response(&tuning, values.delta)).transpose()?;
         let top_speed = wanted.top_speed.unwrap_or_else(|| response.top_speed());
         let poles = OpenLoop::new(axis, tuning.gains(), 0.0)?.closed_loop_poles()?;
         let processes = ProcessIntervals::new(model.processes(top_speed))?;
         let uncertain = model.axis.parts().iter().any(|part| part.interval.is_some());
         let varies = uncertain || axis.quadratic_drag() > 0.0 || !values.is_plain();
         let mut worst = processes.worst_margins(tuning.gains())?;
-        if let Target::Limit(RobustCriterion::Sensitivity(limit)) = wanted.target {
+        if let Some(limit) = wanted.ms {
             // That limit is proved already.
             worst.sensitivity.proved = worst.sensitivity.proved.map(|proved| proved.min(limit)).or(Some(limit));
         }
@@ -221,11 +192,8 @@ impl Family<'_> {
         };
         // Slow gains can be worse than fast ones, where drag is uncertain: no bisection from the ends.
         let Some(first) = at.iter().position(|bandwidth| keeps(*bandwidth)) else {
-            return Err(ControlError::OutOfReach {
-                least_rad_s,
-                most_rad_s,
-                within_reach: self.within_reach(&at, limit),
-            });
+            let within_reach = self.within_reach(&at, limit);
+            return Err(ControlError::OutOfReach { least_rad_s, most_rad_s, within_reach });
         };
         let (mut low, mut high) = (at[first], at[first.saturating_sub(1)]);
         for _ in 0..HALVINGS {
@@ -233,31 +201,24 @@ impl Family<'_> {
             if keeps(middle) { low = middle } else { high = middle }
         }
         let mut back = (0..STEPS_BACK).map(|back| low * 0.98_f64.powi(back));
-        back.find(|bandwidth| self.has(*bandwidth, limit)).ok_or(ControlError::OutOfReach {
-            least_rad_s,
-            most_rad_s,
-            within_reach: None,
-        })
+        let out_of_reach = ControlError::OutOfReach { least_rad_s, most_rad_s, within_reach: None };
+        back.find(|bandwidth| self.has(*bandwidth, limit)).ok_or(out_of_reach)
     }
 
     /// The best limit of this kind that is proved at one of the bandwidths.
     fn within_reach(&self, bandwidths: &[f64], limit: RobustCriterion) -> Option<RobustCriterion> {
-        let mut found: Vec<(f64, RobustCriterion)> = Vec::new();
-        for &bandwidth in bandwidths {
-            let with_room = self.number(bandwidth, limit).and_then(|number| match limit {
-                RobustCriterion::Sensitivity(_) => Some(number * (1.0 + FOR_THE_PROOF))
-                    .filter(|most| SENSITIVITIES.contains(most))
-                    .map(RobustCriterion::Sensitivity),
-                _ => Some(number * (1.0 - FOR_THE_PROOF))
-                    .filter(|least| PHASES_DEG.contains(&least.to_degrees()))
-                    .map(RobustCriterion::PhaseRad),
-            });
-            found.extend(with_room.map(|with_room| (bandwidth, with_room)));
-        }
-        found.sort_by(|(_, a), (_, b)| match limit {
-            RobustCriterion::Sensitivity(_) => a.number().total_cmp(&b.number()),
-            _ => b.number().total_cmp(&a.number()),
-        });
+        let (of, sign): (fn(f64) -> RobustCriterion, f64) = match limit {
+            RobustCriterion::Sensitivity(_) => (RobustCriterion::Sensitivity, 1.0),
+            _ => (RobustCriterion::PhaseRad, -1.0),
+        };
+        let with_room = |bandwidth: f64| Some(of(self.number(bandwidth, limit)? * (1.0 + sign * FOR_THE_PROOF)));
+        let may_be_asked = |limit: &RobustCriterion| match *limit {
+            RobustCriterion::Sensitivity(most) => SENSITIVITIES.contains(&most),
+            least => PHASES_DEG.contains(&least.number().to_degrees()),
+        };
+        let candidate = |bandwidth: &f64| Some((*bandwidth, with_room(*bandwidth).filter(may_be_asked)?));
+        let mut found: Vec<(f64, RobustCriterion)> = bandwidths.iter().filter_map(candidate).collect();
+        found.sort_by(|(_, a), (_, b)| (sign * a.number()).total_cmp(&(sign * b.number())));
         found.into_iter().find(|(bandwidth, limit)| self.has(*bandwidth, *limit)).map(|(_, limit)| limit)
     }
 }

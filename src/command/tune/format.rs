@@ -58,16 +58,18 @@ impl GainFormat {
                 AtMost(most_rad_s)
             )));
         }
-        let mut notes =
-            format!("# command from -1 to 1: {full_command} of the log's unit is 1 (--full-command); angles in rad\n");
-        notes += &format!("# largest sensitivity of any axis {}\n", significant(tuned.worst.sensitivity.met, 3));
-        if tuned.offset() != 0.0 {
-            let offset = significant(tuned.offset(), 3);
-            notes += &format!(
-                "# the constant force leaves the vehicle {offset} rad off; choose --structure pid against it\n"
-            );
-        }
-        Ok(notes + &parameters)
+        let offset = match tuned.offset() {
+            0.0 => String::new(),
+            offset => format!(
+                "# the constant force leaves the vehicle {} rad off; choose --structure pid against it\n",
+                significant(offset, 3)
+            ),
+        };
+        Ok(format!(
+            "# command from -1 to 1: {full_command} of the log's unit is 1 (--full-command); angles in rad\n\
+             # largest sensitivity of any axis {}\n{offset}{parameters}",
+            significant(tuned.worst.sensitivity.met, 3)
+        ))
     }
 }
 

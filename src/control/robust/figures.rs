@@ -1,18 +1,14 @@
 //! Margins and peak of the sensitivity of a loop on a grid of frequencies, by floating point: to choose by, no proof.
 
+use core::mem::discriminant;
+
 use super::RobustCriterion;
 use crate::control::Gains;
 use crate::control::process::{LinearProcess, constants};
 
-/// Margins and peak of the sensitivity of one loop.
+/// Of each criterion the worst number that was met.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Figures {
-    sensitivity: f64,
-    gain: f64,
-    gain_reduction: f64,
-    phase_rad: f64,
-    delay_s: f64,
-}
+pub(super) struct Figures([RobustCriterion; 5]);
 
 /// Frequencies an octave, to judge by and to choose by; octaves below and above the highest frequency at which the gain may be one.
 pub(super) const AN_OCTAVE: i32 = 40;
@@ -22,66 +18,59 @@ const ABOVE: i32 = 6;
 
 impl Figures {
     /// Those of no loop at all.
-    pub(super) const NONE: Self = Self {
-        sensitivity: 1.0,
-        gain: f64::INFINITY,
-        gain_reduction: f64::INFINITY,
-        phase_rad: f64::INFINITY,
-        delay_s: f64::INFINITY,
-    };
+    pub(super) const NONE: Self = Self([
+        RobustCriterion::Sensitivity(1.0),
+        RobustCriterion::Gain(f64::INFINITY),
+        RobustCriterion::GainReduction(f64::INFINITY),
+        RobustCriterion::PhaseRad(f64::INFINITY),
+        RobustCriterion::DelayS(f64::INFINITY),
+    ]);
+
+    /// The same after one more number was met.
+    fn with(self, met: RobustCriterion) -> Self {
+        let worse =
+            |known: &RobustCriterion| discriminant(known) == discriminant(&met) && met.is_met_by(known.number());
+        Self(self.0.map(|known| if worse(&known) { met } else { known }))
+    }
 
     pub(super) fn worse(self, other: Self) -> Self {
-        Self {
-            sensitivity: self.sensitivity.max(other.sensitivity),
-            gain: self.gain.min(other.gain),
-            gain_reduction: self.gain_reduction.min(other.gain_reduction),
-            phase_rad: self.phase_rad.min(other.phase_rad),
-            delay_s: self.delay_s.min(other.delay_s),
-        }
+        other.0.into_iter().fold(self, Self::with)
     }
 
     pub(super) fn of(process: &LinearProcess<f64>, gains: &Gains<f64>, high: f64, an_octave: i32) -> Self {
         let open_loop = process.open_loop(constants(gains));
         let response = |omega: f64| open_loop.response(omega, process.delay_s);
-        let (mut found, mut before) = (Self::NONE, None::<(f64, [f64; 2])>);
-        for k in 0..=an_octave * (BELOW + ABOVE) {
-            let omega = high * 2f64.powf(f64::from(k) / f64::from(an_octave) - f64::from(BELOW));
-            let here = response(omega);
-            found.sensitivity = found.sensitivity.max((1.0 + here[0]).hypot(here[1]).recip());
-            if let Some((last, [last_re, last_im])) = before {
-                let [re, im] = here;
+        let excess = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
+        let at = |k: i32| high * 2f64.powf(f64::from(k) / f64::from(an_octave) - f64::from(BELOW));
+        let samples = (0..=an_octave * (BELOW + ABOVE)).map(|k| (at(k), response(at(k))));
+        let (mut found, mut sensitivity, mut before) = (Self::NONE, 1.0_f64, None);
+        for (omega, here) in samples {
+            let [re, im] = here;
+            sensitivity = sensitivity.max((1.0 + re).hypot(im).recip());
+            if let Some((last, [last_re, last_im])) = before.replace((omega, here)) {
                 if last_im * im <= 0.0 && re < 0.0 && last_re < 0.0 {
                     let at = bisect(|omega| response(omega)[1], last, omega);
                     let size = response(at)[0].abs();
-                    if size < 1.0 {
-                        found.gain = found.gain.min(1.0 / size);
-                    } else {
-                        found.gain_reduction = found.gain_reduction.min(size);
-                    }
+                    let gain = RobustCriterion::Gain(1.0 / size);
+                    found = found.with(if size < 1.0 { gain } else { RobustCriterion::GainReduction(size) });
                 }
-                let excess = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
                 if excess([last_re, last_im]) * excess(here) <= 0.0 {
                     let at = bisect(|omega| excess(response(omega)), last, omega);
                     let [re, im] = response(at);
                     // Angle above critical, from 0 to a turn.
                     let above = (-im).atan2(-re).rem_euclid(core::f64::consts::TAU);
-                    found.phase_rad = found.phase_rad.min(above.min(core::f64::consts::TAU - above));
-                    found.delay_s = found.delay_s.min(above / at);
+                    let phase_rad = above.min(core::f64::consts::TAU - above);
+                    found = found.with(RobustCriterion::PhaseRad(phase_rad)).with(RobustCriterion::DelayS(above / at));
                 }
             }
-            before = Some((omega, here));
         }
-        found
+        found.with(RobustCriterion::Sensitivity(sensitivity))
     }
 
+    /// The worst number of this criterion.
     pub(super) fn number(&self, criterion: RobustCriterion) -> f64 {
-        match criterion {
-            RobustCriterion::Sensitivity(_) => self.sensitivity,
-            RobustCriterion::Gain(_) => self.gain,
-            RobustCriterion::GainReduction(_) => self.gain_reduction,
-            RobustCriterion::PhaseRad(_) => self.phase_rad,
-            RobustCriterion::DelayS(_) => self.delay_s,
-        }
+        let known = self.0.iter().find(|known| discriminant(*known) == discriminant(&criterion));
+        known.map_or(f64::NAN, |known| known.number())
     }
 }
 

@@ -14,11 +14,6 @@ pub(super) enum Shape {
 }
 
 impl Shape {
-    pub(super) fn along(centre: [f64; PARAMETERS], some: &[[f64; PARAMETERS]]) -> Self {
-        let directions = core::array::from_fn(|k| some.get(k).copied().unwrap_or([0.0; PARAMETERS]));
-        Self::Along { centre, directions }
-    }
-
     /// The range of each variable; `process` has those of the parameters.
     pub(super) fn sides(&self, process: &LinearProcess<Interval>) -> [Interval; PARAMETERS] {
         match self {
