@@ -3,8 +3,8 @@
 use super::{Arguments, PHASES_DEG, SENSITIVITIES};
 use crate::command::known::Model;
 use crate::control::{
-    AxisModel, ControlError, Controller, Gains, OpenLoop, ProcessIntervals, RobustCriterion, StepResponse, Structure,
-    Tuning, WorstMargins,
+    AxisModel, ControlError, Controller, Gains, OpenLoop, ProcessIntervals, RobustCriterion, StepResponse, Tuning,
+    WorstMargins,
 };
 use crate::plant::DragAxis;
 
