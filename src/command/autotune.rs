@@ -18,8 +18,8 @@ use crate::error::Error;
 use crate::experiment::{Columns, Log, TimeUnit};
 use crate::files::Files;
 use crate::identify::NORMAL_95;
+use crate::numeric::Interval;
 use crate::numeric::domain::About;
-use crate::numeric::{Interval, significant};
 use form::Form;
 
 /// PI or PID gains for a heater, a tank, an axis: from one record of its relay, thermostat or on-off control.
@@ -118,9 +118,8 @@ fn full_power(arguments: &Arguments, input: &[f64]) -> Result<f64, CommandError>
     let usual = |largest: &f64| !arguments.form.is_of_full_power() || USUAL_FULL_POWER.contains(largest);
     arguments.full_power.or(Some(largest).filter(usual)).ok_or_else(|| CommandError::Usage {
         reason: format!(
-            "--form: a firmware's gains are shares of full power, and the log's largest command, {}, is neither 1, 100 nor 255; \
-             give the command at full power (--full-power)",
-            significant(largest, 4)
+            "--form: a firmware's gains are shares of full power, and the log's largest command, {largest}, is neither 1, 100 nor 255; \
+             give the command at full power (--full-power)"
         ),
     })
 }

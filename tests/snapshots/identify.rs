@@ -274,8 +274,9 @@ fn gains_of_a_firmware_are_shares_of_full_power() {
 #[test]
 fn a_neutral_far_from_the_commands_is_refused() {
     let folder = simulated(AXIS, &["--noise", "0.003"]);
-    let (status, _, message) = selfosc(&folder, &["identify", "log.csv", "--neutral", "1500"]);
+    let (status, printed, message) = selfosc(&folder, &["identify", "log.csv", "--neutral", "1500"]);
     assert_eq!(status, 1);
+    let message = printed + &message;
     assert!(message.contains("far from a neutral of 1500: say which command is neutral (--neutral 0)"), "{message}");
     assert_eq!(selfosc(&folder, &["identify", "log.csv", "--neutral", "0.5"]).0, 0);
 }
