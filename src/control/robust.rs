@@ -69,6 +69,9 @@ impl WorstMargin {
     }
 }
 
+/// The criterion of a number.
+type CriterionOf = fn(f64) -> RobustCriterion;
+
 impl ProcessIntervals {
     /// A gain without a limit is one within this factor.
     pub const NO_LIMIT: f64 = 1e3;
@@ -198,16 +201,13 @@ impl ProcessIntervals {
 
     /// What is known of each criterion: of processes that are proved to be stable, the best number near the worst that was met which is
     /// proved.
-    fn ranges(
-        &self,
-        gains: &Gains<f64>,
-    ) -> Result<impl Fn(fn(f64) -> RobustCriterion) -> CriterionRange, ControlError> {
+    fn ranges(&self, gains: &Gains<f64>) -> Result<impl Fn(CriterionOf) -> CriterionRange, ControlError> {
         let stable = self.all_stable(gains);
         if !stable && let Some(LinearProcess { alpha, drag, delay_s, .. }) = self.unstable_point(gains) {
             return Err(ControlError::NotStabilised { alpha, drag, delay_s, stabilised_rad_s: None });
         }
         let figures = self.figures(gains, AN_OCTAVE);
-        Ok(move |of: fn(f64) -> RobustCriterion| {
+        Ok(move |of: CriterionOf| {
             let met = figures.number(of(1.0));
             let number = |share: &f64| match of(1.0) {
                 RobustCriterion::Sensitivity(_) => met * (1.0 + share),
