@@ -22,6 +22,16 @@ def test_it_is_the_command_s_document(command):
     assert selfosc.autotune(HEATER, ms=1.6, actions="pi", form="klipper").to_dict() == json.loads(printed)
 
 
+def test_gains_of_a_firmware_are_shares_of_full_power():
+    table = columns() | {"heater": 0.5 * columns()["heater"]}
+    whole = selfosc.autotune(HEATER, form="klipper").lines
+    half = selfosc.autotune(table, form="klipper", full_power=0.5).lines
+    numbers = [[float(line.split(":")[1]) for line in lines.splitlines()[1:]] for lines in (whole, half)]
+    assert numbers[1] == pytest.approx(numbers[0], rel=1e-3)
+    with pytest.raises(selfosc.SelfoscError, match="full power"):
+        selfosc.autotune(table, form="klipper")
+
+
 def test_a_table_gives_the_numbers_of_its_file():
     of_file, of_table = selfosc.autotune(HEATER).to_dict(), selfosc.autotune(columns()).to_dict()
     assert of_file["record"].pop("name") != of_table["record"].pop("name")

@@ -2,6 +2,7 @@
 
 import json
 import os
+import pickle
 import re
 import signal
 import subprocess
@@ -41,6 +42,14 @@ def test_shown_in_a_notebook(found):
         assert page.count("<th>") <= 8
         assert max(map(len, text.splitlines())) <= 100
         assert len(text.splitlines()) <= 19
+
+
+def test_gains_have_the_unit_of_their_model(found):
+    tuned = selfosc.tune(found, bandwidth=0.5)
+    unit = found.units["output"]
+    for shown in (tuned, pickle.loads(pickle.dumps(tuned))):
+        assert [f"F/{unit}", f"F s/{unit}"] == [row[2] for row in shown._table() if row[0] in ("proportional", "derivative")]
+    assert "F/x" in repr(selfosc.tune(alpha=1.0, beta=1.0, bandwidth=0.3))
 
 
 def test_trust_and_units_come_first(found):

@@ -45,7 +45,7 @@ pub(super) struct Arguments {
     /// Column of the measured value [default: the first named temperature, temp, pv, process_value, measured, y, output, level or position]
     #[arg(long, value_name = "COL")]
     output: Option<String>,
-    /// Column of the command [default: duty, power, heater, or as for identify]
+    /// Column of the command [default: the first named duty, power, heater, heating, relay, valve, pwm, command, input, u or output]
     #[arg(long, value_name = "COL")]
     input: Option<String>,
     /// Unit of the times [default: that which the column's name ends in, as _ms does, else s]
@@ -115,13 +115,18 @@ const USUAL_FULL_POWER: [f64; 3] = [1.0, 100.0, 255.0];
 /// The command at full power: as given, or the log's largest where that is a usual count.
 fn full_power(arguments: &Arguments, input: &[f64]) -> Result<f64, CommandError> {
     let largest = input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let usual = |largest: &f64| !arguments.form.is_of_full_power() || USUAL_FULL_POWER.contains(largest);
-    arguments.full_power.or(Some(largest).filter(usual)).ok_or_else(|| CommandError::Usage {
-        reason: format!(
-            "--form: a firmware's gains are shares of full power, and the log's largest command, {largest}, is neither 1, 100 nor 255; \
-             give the command at full power (--full-power)"
+    let reason = match (arguments.form.is_of_firmware(), arguments.full_power) {
+        (false, Some(_)) => {
+            "--full-power: this form has gains in units of the command; leave it out, or choose a firmware's (--form)"
+                .to_owned()
+        }
+        (true, None) if !USUAL_FULL_POWER.contains(&largest) => format!(
+            "--form: a firmware's gains are shares of full power, and the log's largest command, {largest}, is neither 1, 100 nor \
+             255; give the command at full power (--full-power)"
         ),
-    })
+        (_, given) => return Ok(given.unwrap_or(largest)),
+    };
+    Err(CommandError::Usage { reason })
 }
 
 /// The whole answer to a record.

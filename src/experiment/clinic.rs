@@ -39,10 +39,15 @@ impl TimeUnit {
         }
     }
 
-    /// How many of them a second has: each is a thousandth of the one before.
+    /// How many of them a second has.
     #[must_use]
     pub fn per_second(self) -> f64 {
-        1e3_f64.powi(self as i32)
+        match self {
+            Self::Seconds => 1.0,
+            Self::Milliseconds => 1e3,
+            Self::Microseconds => 1e6,
+            Self::Nanoseconds => 1e9,
+        }
     }
 
     /// The unit that a column's name ends in.

@@ -1,7 +1,7 @@
 //! The experiment on the vehicle itself: sample by sample, without allocation, in f32 or f64.
 //!
 //! An [`Experiment`] is fed with readings and answers with commands. It watches its sensor and its clock, switches the relay,
-//! finds the cycles, notices when they repeat, tries new relay parameters when they do not, and ends at the neutral
+//! finds the cycles, notices when they repeat, and tries new relay parameters when they do not. It ends at the neutral
 //! command: with an [`Outcome`], with a named [`Fault`], or upon [`Experiment::abort`]. No reading of a sensor makes it
 //! panic or exceed the command's limits.
 //!

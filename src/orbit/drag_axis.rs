@@ -97,8 +97,8 @@ pub struct Return<T> {
 ///
 /// A delay of any length is allowed. A half cycle always outlasts it: the axis turns only after a command has acted,
 /// and must turn before the next. Hence at most a single command is on its way. A delay longer than the period without
-/// delay also admits faster periodic motions with several commands on their way (the limit cycles for the delay less
-/// some whole number of their own periods); those are not given here.
+/// delay also admits faster periodic motions, with several commands on their way. They are the limit cycles for the delay less
+/// some whole number of their own periods, and are not given here.
 ///
 /// In dual numbers the result carries its derivatives with respect to every parameter.
 ///

@@ -1,8 +1,7 @@
 //! Loops without closed form: an integrator that stops at events, and the loops of this crate as systems for it.
 //!
 //! The step is Dormand and Prince's of order 5(4). An event is sought in every step on its cubic interpolant, at eight
-//! points and at the turning points between them, and then located by steps of the method itself, as exactly as
-//! a step. An excursion past a guard that lasts less than a sixteenth of a step can still go unseen.
+//! points and at the turning points between them. Steps of the method itself then locate it, as exactly as a step. An excursion past a guard that lasts less than a sixteenth of a step can still go unseen.
 
 use std::collections::VecDeque;
 

@@ -1,8 +1,8 @@
 //! Theorems on every drag axis under a relay, as inequalities that interval arithmetic proves over whole domains.
 //!
-//! Each theorem follows from its inequalities by the few lines of algebra in its file in `spec/claims`. Where a quantity vanishes at
-//! the border of the domain (weak drag, terminal speed), the inequality is about the Taylor coefficient of the first order
-//! that does not vanish, enclosed from the border on: this covers the open domain, the neighbourhood of its border too.
+//! Each theorem follows from its inequalities by the few lines of algebra in its file in `spec/claims`. Some quantities vanish at
+//! the border of the domain (weak drag, terminal speed). There the inequality is about the first Taylor coefficient that does not
+//! vanish, enclosed from the border on: this covers the open domain, the neighbourhood of its border too.
 
 use super::closed_form::{force_left, quadratic_half_cycle, return_slope};
 use crate::numeric::Real;

@@ -256,6 +256,14 @@ fn gains_of_a_firmware_are_shares_of_full_power() {
         ["pid_Kp:", "pid_Ki:", "pid_Kd:"].map(|name| of(name).parse::<f64>().unwrap())
     };
     let expected = gains("whole.csv", &[]);
+    // Klipper divides its gains by 255 and its power goes from 0 to 1 (klippy/extras/heaters.py).
+    let (_, parallel, _) = selfosc(&folder, &["autotune", "whole.csv"]);
+    let of = |name: &str| {
+        parallel.lines().find_map(|line| line.trim().strip_prefix(name)?.split_whitespace().next()).unwrap()
+    };
+    for (gain, name) in expected.into_iter().zip(["Kp ", "Ki ", "Kd "]) {
+        assert!((gain / 255.0 / of(name).parse::<f64>().unwrap() - 1.0).abs() < 1e-3, "{gain} for {name}{}", of(name));
+    }
     for (full_power, factor) in [("0.5", 1.0), ("1", 0.5)] {
         for (gain, expected) in gains("half.csv", &["--full-power", full_power]).into_iter().zip(expected) {
             assert!((gain / (factor * expected) - 1.0).abs() < 1e-3, "{gain} for {factor} times {expected}");
@@ -268,6 +276,26 @@ fn gains_of_a_firmware_are_shares_of_full_power() {
         "{message}"
     );
     assert_eq!(selfosc(&folder, &["autotune", "half.csv", "--form", "ideal"]).0, 0);
+    let (status, _, message) = selfosc(&folder, &["autotune", "half.csv", "--form", "ideal", "--full-power", "1"]);
+    assert_eq!(status, 2);
+    assert!(message.contains("--full-power: this form has gains in units of the command"), "{message}");
+}
+
+/// A column of a heading without degrees is in radians, and its sensor is a compass.
+#[test]
+fn a_heading_in_radians_is_one() {
+    let folder = simulated(AXIS, &["--noise", "0.003"]);
+    let log = std::fs::read_to_string(folder.path().join("log.csv")).unwrap();
+    let found = |column: &str| {
+        std::fs::write(folder.path().join("log.csv"), log.replace("output", column)).unwrap();
+        let found = json(&folder, &[]);
+        let budget = found["reported"]["budget"].as_array().unwrap();
+        (found["units"]["output"].clone(), budget.iter().any(|share| share["source"] == "heading-error"))
+    };
+    assert_eq!(found("heading"), ("rad".into(), true));
+    assert_eq!(found("position"), ("output".into(), false));
+    // The column of the experiment that counts in radians.
+    assert_eq!(found(selfosc::on_board::Coordinate::HeadingRad.column()), ("rad".into(), true));
 }
 
 /// A neutral beside all commands would make a disturbance of them.

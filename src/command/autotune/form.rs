@@ -14,23 +14,23 @@ pub(super) enum Form {
     Ideal,
     /// u = K (1 + 1/(Ti s)) (1 + Td s) e
     Series,
-    /// Klipper's printer.cfg, power from 0 to 1
+    /// Klipper's printer.cfg, gains in 255ths of full power
     Klipper,
-    /// Marlin's M301, power from 0 to 255
+    /// Marlin's M301, gains in 255ths of full power
     Marlin,
-    /// RepRapFirmware's M301, power from 0 to 255
+    /// RepRapFirmware's M301, gains in 255ths of full power
     Reprap,
-    /// ESPHome's climate pid, power from 0 to 1
+    /// ESPHome's climate pid, gains in shares of full power
     Esphome,
 }
 
 impl Form {
-    /// Whether the gains are in shares of full power.
-    pub(super) fn is_of_full_power(self) -> bool {
+    /// Whether the gains are in shares of full power: those of a firmware.
+    pub(super) fn is_of_firmware(self) -> bool {
         matches!(self, Self::Klipper | Self::Marlin | Self::Reprap | Self::Esphome)
     }
 
-    /// The lines to type. `full_power` is the command at full power, `interval_s` the controller's.
+    /// The lines to type. `full_power` is the command at full power, of a firmware; `interval_s` the controller's.
     pub(super) fn lines(
         self,
         gains: &Gains<f64>,
