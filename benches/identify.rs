@@ -1,7 +1,7 @@
 //! Benchmarks of the identification.
 
 use divan::{Bencher, black_box};
-use selfosc::experiment::{Record, Sensor, SimulatedExperiment};
+use selfosc::experiment::{Columns, Record, Sensor, SimulatedExperiment};
 use selfosc::features::RecordFeatures;
 use selfosc::identify::exact::MeanCycle;
 use selfosc::identify::fit::joint::{FeatureRow, fit_rows};
@@ -87,4 +87,12 @@ fn fit_of_record<const ROUNDED: bool>(bencher: Bencher<'_, '_>, duration_s: f64)
 fn answer_of_record<const ROUNDED: bool>(bencher: Bencher<'_, '_>, duration_s: f64) {
     let record = record(duration_s, ROUNDED);
     bencher.bench(|| Estimator::new(Delay::Estimated).record(black_box(record.as_ref()?)).ok());
+}
+
+/// The costliest kind of record: a heater, of which many terms explain a part.
+#[divan::bench(sample_count = 1)]
+fn answer_of_heater(bencher: Bencher<'_, '_>) {
+    let columns = Columns { process: true, ..Columns::default() };
+    let log = columns.read(include_bytes!("../fixtures/heater.csv").as_slice()).ok();
+    bencher.bench(|| Estimator::new(Delay::Estimated).record(&black_box(log.as_ref()?).record).ok());
 }

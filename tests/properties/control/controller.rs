@@ -3,11 +3,13 @@
 use std::f64::consts::TAU;
 
 use proptest::prelude::*;
-use selfosc::control::{Answer, ControlFault, Controller, FeedForward, Gains, StepResponse, Structure, Tuning};
+use selfosc::control::{
+    Answer, AxisModel, ControlFault, Controller, FeedForward, Gains, StepResponse, Structure, Tuning,
+};
 use selfosc::plant::DragAxis;
 
 use crate::sampling::{recorded, seeded};
-use crate::tolerance::{ROUNDING_MARGIN, SINGLE};
+use crate::tolerance::{self, ROUNDING_MARGIN, SINGLE};
 
 fn gains(structure: Structure) -> Gains<f64> {
     let integral = if structure == Structure::Pd { 0.0 } else { 0.3 };
@@ -97,6 +99,48 @@ fn difference_equations() {
         let expected = kp * (1.0 - x) + integral - kd * speed;
         assert!((controller.step(1.0, *x, dt).command - expected).abs() < 1e-14);
     }
+}
+
+/// The answer of an axis with every smooth term is that of its equations by the midpoint rule, two hundred steps a sample.
+#[test]
+fn further_terms_are_simulated() {
+    let model = AxisModel {
+        alpha: 1.0,
+        beta: 0.4,
+        beta_quadratic: 0.5,
+        beta_cubic: 0.2,
+        skew: 0.1,
+        stiffness: 0.3,
+        memory: 0.2,
+        memory_s: 1.5,
+        lag_s: 0.3,
+        ramp_s: 0.2,
+        filter_s: 0.25,
+        delta: 0.05,
+        delay_s: 0.4,
+        ..AxisModel::default()
+    };
+    let (controller, dt_s, steps) = (Controller::new(&gains(Structure::Pd)), 0.02, 200);
+    let response = StepResponse::simulate(model, controller, 1.0, 1.0 / dt_s, 12.0).unwrap();
+    let rates = |[x, v, late, force, _]: [f64; 5], read: f64, command: f64| {
+        let drag = (1.0 + 0.1 * v.signum()) * (0.4 + 0.5 * v.abs() + 0.2 * v * v) * v;
+        let acceleration = force + 0.05 - drag - 0.2 * late - 0.3 * x;
+        [v, acceleration, (v - late) / 1.5, (command - force) / 0.3, (x - read) / 0.25]
+    };
+    // The delay and half of the ramp are 0.5 s: twenty-five samples.
+    let (mut controller, mut state, mut commands, mut farthest) = (controller, [0.0; 5], vec![0.0; 25], 0.0_f64);
+    for output in response.output() {
+        farthest = farthest.max((state[0] - output).abs());
+        commands.push(controller.step(1.0, state[4], dt_s).command);
+        let command = commands[commands.len() - 26];
+        for _ in 0..steps {
+            let h_s = dt_s / f64::from(steps);
+            let along = |rates: [f64; 5], h_s: f64| core::array::from_fn(|k| state[k] + h_s * rates[k]);
+            let middle: [f64; 5] = along(rates(state, state[4], command), 0.5 * h_s);
+            state = along(rates(middle, middle[4], command), h_s);
+        }
+    }
+    assert!(farthest < tolerance::ANOTHER_RULE, "{farthest}");
 }
 
 /// A step with a limit that holds for long: an integral that winds up overshoots, one led back does not.

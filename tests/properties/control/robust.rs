@@ -119,6 +119,22 @@ fn what_is_false_is_not_proved() {
     assert!(wide.enclose(&gains, RobustCriterion::PhaseRad).is_err());
 }
 
+/// A peak of the sensitivity may lie where the gain is below one: `K exp(-T s)/s` with `K = 0.99`, whose phase is critical at
+/// `pi/(2 T) = 1.287`, has 4.3 there, and at most 2.8 where the gain is one.
+#[test]
+fn a_peak_above_the_crossover_is_seen() {
+    let point = Interval::point;
+    let [alpha, stiffness, memory, memory_s, lag_s, filter_s, zero_s] = [Interval::ZERO; 7];
+    let (drag, delay_s) = (Interval::ONE, point(core::f64::consts::FRAC_PI_2 / 1.287));
+    let process = LinearProcess { alpha, drag, stiffness, memory, memory_s, lag_s, filter_s, zero_s, delay_s };
+    let processes = ProcessIntervals::new(process).unwrap();
+    let gains = Gains::new(Structure::Pd, 0.99, 0.0, 0.0, 0.0).unwrap();
+    let critical = 1.0 / (1.0 - 0.99 / 1.287);
+    assert!(!processes.all_have(&gains, RobustCriterion::Sensitivity(0.99 * critical)));
+    let peak = sensitivity(&processes.middle(), &gains);
+    assert!(peak >= critical && processes.all_have(&gains, RobustCriterion::Sensitivity(1.02 * peak)), "{peak}");
+}
+
 /// A first-order process with dead time under a proportional controller: margins in closed form.
 #[test]
 fn margins_of_a_known_loop() {
