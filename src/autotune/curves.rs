@@ -40,7 +40,8 @@ impl ProvedGains {
         let gains = &self.gains;
         let [low, high] = FREQUENCIES;
         let share = |k: u32| f64::from(k) / f64::from(POINTS - 1);
-        let omega_rad_s: Vec<f64> = (0..POINTS).map(|k| ultimate_rad_s * low * (high / low).powf(share(k))).collect();
+        let omega_rad_s: Vec<f64> =
+            (0..POINTS).map(|k| ultimate_rad_s * low * libm::pow(high / low, share(k))).collect();
         let curve = |process: &LinearProcess<f64>| process.open_loop_at(gains, &omega_rad_s);
         let every = ((PERIODS * STEPS_PER_PERIOD) as usize).min(STEPS) / SHOWN;
         let answer = |process: &LinearProcess<f64>| {

@@ -118,8 +118,8 @@ impl FirstOrderProcess<f64> {
         }
         // (1 - exp(-rate t))/stiffness, which is t/drag without stiffness, and its inverse.
         let rate = stiffness / drag;
-        let settle = |time_s: f64| if rate > 0.0 { -(-rate * time_s).exp_m1() / stiffness } else { time_s / drag };
-        let time_to = |share: f64| if rate > 0.0 { -(-stiffness * share).ln_1p() / rate } else { drag * share };
+        let settle = |time_s: f64| if rate > 0.0 { -libm::expm1(-rate * time_s) / stiffness } else { time_s / drag };
+        let time_to = |share: f64| if rate > 0.0 { -libm::log1p(-stiffness * share) / rate } else { drag * share };
         // On beyond a level for a dead time, then to the level on the other side.
         let beyond = |level: f64, force: f64| level + (force - stiffness * level) * settle(dead_time_s);
         let back = |from: f64, level: f64, force: f64| time_to((level - from) / (force - stiffness * from));

@@ -34,7 +34,7 @@ fn against_relay(record: &Record, reverse: bool, residual: f64, half_s: f64) -> 
 /// the time; an output that settles there has a model, and residuals that do not hang together.
 fn saturated(output: &[f64], quantum: f64, correlation: f64) -> bool {
     let ends = output.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(*y), high.max(*y)]);
-    let expected = (1.0 - 2.0 * quantum / (ends[1] - ends[0])).clamp(-1.0, 1.0).acos() / core::f64::consts::PI;
+    let expected = libm::acos((1.0 - 2.0 * quantum / (ends[1] - ends[0])).clamp(-1.0, 1.0)) / core::f64::consts::PI;
     let stands = |end: f64| {
         let runs = output.chunk_by(|a, b| (*a == end) == (*b == end));
         let runs = runs.filter(|run| run[0] == end && run.len() >= LEAST_RUN).map(<[f64]>::len);
@@ -107,12 +107,12 @@ pub(super) fn fit(record: &Record) -> Result<ProcessRecord, ProcessError> {
     let residuals: Vec<f64> = found.first().map_or_else(Vec::new, |best| best.plain.iter().copied().collect());
     let residual = (residuals.iter().map(|part| part * part).sum::<f64>() / residuals.len().max(1) as f64).sqrt();
     let least = found.first().map_or(0.0, |best| best.criterion);
-    let total: f64 = found.iter().map(|fit| (-0.5 * (fit.criterion - least)).exp()).sum();
+    let total: f64 = found.iter().map(|fit| libm::exp(-0.5 * (fit.criterion - least))).sum();
     let reverse = found.first().is_some_and(|best| best.model.parameters[0].value < 0.0);
     let models = found
         .into_iter()
         .map(|fit| ProcessModel {
-            weight: (-0.5 * (fit.criterion - least)).exp() / total,
+            weight: libm::exp(-0.5 * (fit.criterion - least)) / total,
             family: fit.family,
             ..fit.model
         })

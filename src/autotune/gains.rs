@@ -121,8 +121,8 @@ enum Axes {
 pub fn ultimate(process: &LinearProcess<f64>) -> Option<[f64; 2]> {
     let LinearProcess { alpha, drag, stiffness, zero_s, delay_s, .. } = *process;
     let lag = |omega: f64| {
-        (drag * omega).atan2(stiffness - alpha * omega * omega) + omega * delay_s
-            - (zero_s * omega).atan()
+        libm::atan2(drag * omega, stiffness - alpha * omega * omega) + omega * delay_s
+            - libm::atan(zero_s * omega)
             - core::f64::consts::PI
     };
     let (mut low, mut high) = (0.0, 1.0 / (delay_s + (alpha / drag).abs()).max(f64::MIN_POSITIVE));
@@ -140,8 +140,8 @@ pub fn ultimate(process: &LinearProcess<f64>) -> Option<[f64; 2]> {
         if lag(middle) > 0.0 { high = middle } else { low = middle }
     }
     let omega = 0.5 * (low + high);
-    let body = (stiffness - alpha * omega * omega).hypot(drag * omega);
-    Some([body / (zero_s * omega).hypot(1.0), omega])
+    let body = libm::hypot(stiffness - alpha * omega * omega, drag * omega);
+    Some([body / libm::hypot(zero_s * omega, 1.0), omega])
 }
 
 /// Gains in the ideal form: gain, integral time, derivative time.

@@ -42,8 +42,8 @@ impl Problem {
         let (command, delay_s) = (&self.command, point[0]);
         let time = command.time_s();
         let constant = || vec![1.0; time.len()];
-        let mode = |lag_s: f64| time.iter().map(|t| (-t / lag_s).exp()).collect::<Vec<_>>();
-        let late_mode = |lag_s: f64| time.iter().map(|t| t / lag_s * (-t / lag_s).exp()).collect::<Vec<_>>();
+        let mode = |lag_s: f64| time.iter().map(|t| libm::exp(-t / lag_s)).collect::<Vec<_>>();
+        let late_mode = |lag_s: f64| time.iter().map(|t| t / lag_s * libm::exp(-t / lag_s)).collect::<Vec<_>>();
         match family {
             Family::FirstOrder => vec![command.lagged(delay_s, point[1]), constant(), mode(point[1])],
             Family::SecondOrder => {
@@ -142,7 +142,7 @@ pub(super) fn autoregression(errors: &DVector<f64>) -> Vec<f64> {
     };
     let left = (&target - design * &found).norm_squared() / target.norm_squared().max(f64::MIN_POSITIVE);
     // The Bayesian criterion for two coefficients.
-    if count as f64 * left.ln() + ORDER as f64 * (count as f64).ln() < 0.0 {
+    if count as f64 * libm::log(left) + ORDER as f64 * libm::log(count as f64) < 0.0 {
         found.iter().copied().collect()
     } else {
         vec![]

@@ -59,13 +59,13 @@ impl Command {
 
     /// `1/(lag_s s + 1)`.
     pub(super) fn lagged(&self, delay_s: f64, lag_s: f64) -> Vec<f64> {
-        self.answer(delay_s, 0.0, |x, u, time_s| u + (x - u) * (-time_s / lag_s).exp(), |x| x)
+        self.answer(delay_s, 0.0, |x, u, time_s| u + (x - u) * libm::exp(-time_s / lag_s), |x| x)
     }
 
     /// `1/(lag_s s + 1)^2`.
     pub(super) fn lagged_twice(&self, delay_s: f64, lag_s: f64) -> Vec<f64> {
         let advance = |[x, y]: [f64; 2], u: f64, time_s: f64| {
-            let (share, decay) = (time_s / lag_s, (-time_s / lag_s).exp());
+            let (share, decay) = (time_s / lag_s, libm::exp(-time_s / lag_s));
             [u + (x - u) * decay, u + (y - u + (x - u) * share) * decay]
         };
         self.answer(delay_s, [0.0; 2], advance, |[_, y]| y)

@@ -38,7 +38,7 @@ fn few(problem: &Problem, family: Family, points: impl IntoIterator<Item = Searc
 /// Points on a grid of dead times and, where the structure has one time constant, of that.
 fn grid(family: Family, scales: SearchScales) -> Vec<SearchPoint> {
     let lags: Vec<f64> = (0..TIME_CONSTANTS)
-        .map(|k| 0.02 * scales.scale_s * (500.0_f64).powf(f64::from(k) / f64::from(TIME_CONSTANTS - 1)))
+        .map(|k| 0.02 * scales.scale_s * libm::pow(500.0_f64, f64::from(k) / f64::from(TIME_CONSTANTS - 1)))
         .collect();
     let delays = (0..DEAD_TIMES).map(|k| scales.longest_s * (f64::from(k) / f64::from(DEAD_TIMES - 1)).powi(2));
     delays
@@ -74,7 +74,7 @@ fn descent(problem: &Problem, family: Family, start: SearchPoint, scales: Search
                 if k == 0 {
                     other[0] = (other[0] + sign * step[0]).max(0.0)
                 } else {
-                    other[k] *= (sign * step[k]).exp()
+                    other[k] *= libm::exp(sign * step[k])
                 }
                 // Dead time and time constants stand for each other: a longer lag takes from the dead time.
                 let turned = (k > 0).then(|| {

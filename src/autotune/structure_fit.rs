@@ -60,8 +60,8 @@ pub(super) fn fitted(
     // Rounding leaves an error even where the residual shows none.
     let least = quantum * quantum / 12.0;
     let variance = (found.square / (count - free as f64).max(1.0)).max(least);
-    let misfit = count * (found.square / count).max(least).max(f64::MIN_POSITIVE).ln();
-    let criterion = count * (variance).ln() + free as f64 * count.ln();
+    let misfit = count * libm::log((found.square / count).max(least).max(f64::MIN_POSITIVE));
+    let criterion = count * libm::log(variance) + free as f64 * libm::log(count);
     // Sensitivities of the readings to all parameters: differences over half an interval bridge the kinks.
     let columns = problem.columns(family, point);
     let answer = |point: &[f64], linear: &[f64]| -> DVector<f64> {

@@ -88,22 +88,22 @@ impl AxisBalance<'_> {
         let most = (gain / self.axis.alpha()).sqrt();
         let excess = |omega: f64| {
             let (inertia, drag) = self.resistance(amplitude, omega);
-            Some(inertia.hypot(drag) / gain - 1.0)
+            Some(libm::hypot(inertia, drag) / gain - 1.0)
         };
         scan::bracketed(excess, most * 1e-12, most * (1.0 + 1e-9))
     }
 
     fn at(&self, amplitude: f64) -> Option<AxisOscillation> {
         let (input_bias, df) = self.relay(amplitude)?;
-        let omega_rad_s = self.omega(amplitude, df.p.hypot(df.q))?;
+        let omega_rad_s = self.omega(amplitude, libm::hypot(df.p, df.q))?;
         Some(AxisOscillation { amplitude, bias: -input_bias, omega_rad_s })
     }
 
     /// Angle by which the axis lags beyond the phase of relay and delay, in radians: zero at balance.
     fn lag(&self, amplitude: f64) -> Option<f64> {
         let (_, df) = self.relay(amplitude)?;
-        let omega = self.omega(amplitude, df.p.hypot(df.q))?;
+        let omega = self.omega(amplitude, libm::hypot(df.p, df.q))?;
         let (inertia, drag) = self.resistance(amplitude, omega);
-        Some(drag.atan2(inertia) - omega * self.axis.delay_s() + df.q.atan2(df.p))
+        Some(libm::atan2(drag, inertia) - omega * self.axis.delay_s() + libm::atan2(df.q, df.p))
     }
 }

@@ -39,14 +39,14 @@ impl Axis {
         close: impl Fn(&V, &V) -> bool,
     ) -> Result<Vec<(f64, Option<V>)>, BalanceError> {
         let (from, to) = (*self.range.start(), *self.range.end());
-        let gaps = ((to / from).log10() * PER_DECADE).ceil().max(1.0);
+        let gaps = (libm::log10(to / from) * PER_DECADE).ceil().max(1.0);
         let too_many = BalanceError::TooManyPoints { quantity: self.quantity, from, to, limit: POINTS };
         if gaps >= POINTS as f64 {
             return Err(too_many);
         }
         let mut points: Vec<(f64, Option<V>)> = vec![(from, curve(from))];
         for index in 1..=gaps as usize {
-            let end = if index == gaps as usize { to } else { from * (to / from).powf(index as f64 / gaps) };
+            let end = if index == gaps as usize { to } else { from * libm::pow(to / from, index as f64 / gaps) };
             // Ends of the gaps still to be checked, the nearest on top.
             let mut stack = vec![(end, curve(end), 0)];
             while let Some((x, value, depth)) = stack.pop() {

@@ -93,7 +93,7 @@ where
         if !(1..=ORDER).contains(&order) {
             return Err(BalanceError::Order { order, limit: ORDER });
         }
-        let mut unknowns = DVector::from_column_slice(&[start.bias, start.amplitude, start.omega_rad_s.ln()]);
+        let mut unknowns = DVector::from_column_slice(&[start.bias, start.amplitude, libm::log(start.omega_rad_s)]);
         let mut reached = 1;
         loop {
             unknowns = self.settle(characteristic, unknowns, reached)?;
@@ -187,14 +187,14 @@ where
 /// Unknowns in order: bias, b_1, logarithm of frequency, then b_k and c_k from k = 2.
 fn pack(bias: f64, omega: f64, harmonics: &[Complex<f64>]) -> DVector<f64> {
     let higher = harmonics.iter().skip(1).flat_map(|harmonic| [harmonic.re, harmonic.im]);
-    let values: Vec<f64> = [bias, harmonics[0].re, omega.ln()].into_iter().chain(higher).collect();
+    let values: Vec<f64> = [bias, harmonics[0].re, libm::log(omega)].into_iter().chain(higher).collect();
     DVector::from_vec(values)
 }
 
 fn unpack(unknowns: &DVector<f64>) -> (f64, f64, Vec<Complex<f64>>) {
     let mut harmonics = vec![Complex::new(unknowns[1], 0.0)];
     harmonics.extend(unknowns.as_slice()[3..].chunks(2).map(|pair| Complex::new(pair[0], pair[1])));
-    (unknowns[0], unknowns[2].exp(), harmonics)
+    (unknowns[0], libm::exp(unknowns[2]), harmonics)
 }
 
 /// Value and derivative at phase `theta`.

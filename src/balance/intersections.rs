@@ -193,15 +193,15 @@ where
                 for pair in responses.windows(2) {
                     let (Some(g), Some(g_after)) = (pair[0].1, pair[1].1) else { continue };
                     let Some(share) = crossing(gain.gain, after.gain, g, g_after) else { continue };
-                    let between = |a: f64, b: f64, share: f64| (a.ln() + share * (b / a).ln()).exp();
+                    let between = |a: f64, b: f64, share: f64| libm::exp(libm::log(a) + share * libm::log(b / a));
                     let guess = Vector3::new(
                         between(steps[0].0, steps[1].0, share[0]),
                         gain.bias + share[0] * (after.bias - gain.bias),
                         between(pair[0].0, pair[1].0, share[1]),
                     );
                     let same = |known: &Intersection, at: &Vector3<f64>| {
-                        (known.amplitude / at[0]).ln().abs() < SAME
-                            && (known.omega_rad_s / at[2]).ln().abs() < SAME
+                        libm::log(known.amplitude / at[0]).abs() < SAME
+                            && libm::log(known.omega_rad_s / at[2]).abs() < SAME
                             && (known.bias - at[1]).abs() < SAME * at[0]
                     };
                     let Some((root, slopes)) = self.newton(guess) else { continue };

@@ -37,7 +37,7 @@ impl Draw {
     }
     /// Uniform in the logarithm on `[from, to)`, both positive.
     pub(crate) fn log_uniform(&mut self, name: &'static str, from: f64, to: f64) -> f64 {
-        let value = self.generator.random_range(from.ln()..to.ln()).exp();
+        let value = libm::exp(self.generator.random_range(libm::log(from)..libm::log(to)));
         self.note(name, value)
     }
     /// Uniform on `[from, to)`, too many of a kind to be shown in a witness.

@@ -185,7 +185,7 @@ fn exact(
     let Ok(listing) = crate::orbit::orbits(plant, &relay, None) else { return Ok(beside) };
     for orbit in listing.orbits {
         let away =
-            |one: &Intersection| (one.omega_rad_s * orbit.period_s.midpoint() / core::f64::consts::TAU).ln().abs();
+            |one: &Intersection| libm::log(one.omega_rad_s * orbit.period_s.midpoint() / core::f64::consts::TAU).abs();
         let nearest = (0..found.len()).min_by(|&a, &b| away(&found[a]).total_cmp(&away(&found[b])));
         if let Some(place) = nearest.filter(|&place| away(&found[place]) < NEAR && beside[place].is_none()) {
             beside[place] = Some(orbit);

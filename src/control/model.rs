@@ -86,7 +86,7 @@ impl AxisModel<f64> {
     fn drag(&self, speed: f64, fast: f64) -> f64 {
         let side = 1.0 + self.skew * speed.signum();
         let viscous = side * (self.beta + self.beta_quadratic * speed.abs() + self.beta_cubic * speed * speed) * speed;
-        viscous + self.coulomb * (speed / (1e-3 * fast)).tanh()
+        viscous + self.coulomb * libm::tanh(speed / (1e-3 * fast))
     }
 
     /// Rates of position, speed, late speed, force and reading under a command.

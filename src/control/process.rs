@@ -137,7 +137,7 @@ impl Fraction<f64> {
     /// Its value at `s = j omega` behind a delay.
     pub(super) fn response(&self, omega: f64, delay_s: f64) -> [f64; 2] {
         let [[re, im], [below_re, below_im]] = self.parts(omega, omega * delay_s);
-        let size = below_re.hypot(below_im).powi(2);
+        let size = libm::hypot(below_re, below_im).powi(2);
         [(re * below_re + im * below_im) / size, (im * below_re - re * below_im) / size]
     }
 }

@@ -178,7 +178,7 @@ pub fn critical_point(
     let (from, to) = omega_rad_s.into_inner();
     domain::positive("lowest frequency", from, "rad/s")?;
     domain::require("highest frequency", to, "rad/s", Limit::Above(from), "give the range with the lower end first")?;
-    let ratio = (to / from).powf(1.0 / f64::from(POINTS));
+    let ratio = libm::pow(to / from, 1.0 / f64::from(POINTS));
     let mut nodes = vec![from];
     while let Some(&last) = nodes.last().filter(|last| **last < to && nodes.len() < 1_000_000) {
         nodes.push((last * ratio).min(last + 0.2 / plant.delay_s().max(f64::MIN_POSITIVE)).min(to));

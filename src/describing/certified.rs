@@ -111,7 +111,7 @@ impl<C: Characteristic<Number = CellJet> + ?Sized> Branches<'_, C> {
             let (above, below) = (maximum - x, x - minimum);
             if above > 0.0 && below > 0.0 {
                 let half_chord = (above * below).sqrt();
-                angles.push(((x - bias).atan2(half_chord), 2.0 * half_chord / (maximum - minimum)));
+                angles.push((libm::atan2(x - bias, half_chord), 2.0 * half_chord / (maximum - minimum)));
             }
         });
         angles.sort_by(|a, b| a.0.total_cmp(&b.0));

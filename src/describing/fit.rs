@@ -59,7 +59,7 @@ pub fn fit(points: &[(f64, f64)], bias: f64) -> Result<Vec<FittedCharacteristic>
 
 /// A parameter as the search sees it: of one sign by its logarithm.
 fn value(parameter: &ParameterSpec, searched: f64) -> f64 {
-    if parameter.domain == ParameterDomain::Finite { searched } else { searched.exp() }
+    if parameter.domain == ParameterDomain::Finite { searched } else { libm::exp(searched) }
 }
 
 fn values(entry: &Entry, searched: &DVector<f64>) -> Vec<f64> {
@@ -106,7 +106,7 @@ fn best(entry: &'static Entry, points: &[(f64, f64)], bias: f64) -> Option<Fitte
 fn candidate(entry: &Entry, points: &[(f64, f64)], number: u32) -> DVector<f64> {
     const STEPS: [f64; 10] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0];
     let sizes = points.iter().flat_map(|&(amplitude, p)| [amplitude, p.abs(), (p * amplitude).abs(), 1.0]);
-    let sizes = sizes.filter(|size| *size > 0.0).map(f64::ln);
+    let sizes = sizes.filter(|size| *size > 0.0).map(libm::log);
     let (low, high) =
         sizes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), size| (low.min(size), high.max(size)));
     let size = |(place, parameter): (usize, &ParameterSpec)| {
@@ -114,8 +114,8 @@ fn candidate(entry: &Entry, points: &[(f64, f64)], number: u32) -> DVector<f64> 
         let size = low - 1.0 + (high - low + 2.0) * fraction;
         match (parameter.domain, parameter.default) {
             (ParameterDomain::Finite, Some(0.0)) => 0.0,
-            (ParameterDomain::Finite, _) if number % 3 == 2 => -size.exp(),
-            (ParameterDomain::Finite, _) => size.exp(),
+            (ParameterDomain::Finite, _) if number % 3 == 2 => -libm::exp(size),
+            (ParameterDomain::Finite, _) => libm::exp(size),
             _ => size,
         }
     };

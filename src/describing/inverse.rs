@@ -112,7 +112,7 @@ pub fn nearest_amplitude(
     domain::finite("wanted gain, in phase", p, "").map_err(NonlinearityError::from)?;
     domain::finite("wanted gain, in quadrature", q, "").map_err(NonlinearityError::from)?;
     let largest = *range.end();
-    let distance = |solution: Solution| (solution.df.p - p).hypot(solution.df.q - q);
+    let distance = |solution: Solution| libm::hypot(solution.df.p - p, solution.df.q - q);
     let solve = |amplitude| at(characteristic, bias, amplitude);
     let samples = sampled(characteristic, bias, range)?;
     let order = |a: &usize, b: &usize| distance(samples[*a]).total_cmp(&distance(samples[*b]));
@@ -153,7 +153,11 @@ fn sampled(
     let amplitude = |k: u32| {
         let share = f64::from(k) / f64::from(SAMPLES);
         let ratio = to / from;
-        if ratio.is_finite() { from * ratio.powf(share) } else { from.powf(1.0 - share) * to.powf(share) }
+        if ratio.is_finite() {
+            from * libm::pow(ratio, share)
+        } else {
+            libm::pow(from, 1.0 - share) * libm::pow(to, share)
+        }
     };
     let grid = (0..=SAMPLES).map(amplitude);
     let results = over_amplitudes(characteristic, bias, grid.clone());

@@ -54,7 +54,7 @@ pub fn harmonic(
         // By its tangent, which is accurate where the sweep barely passes x.
         let (above, below) = (sweep.maximum() - x, x - sweep.minimum());
         if above > 0.0 && below > 0.0 {
-            angles.push((x - sweep.bias()).atan2((above * below).sqrt()));
+            angles.push(libm::atan2(x - sweep.bias(), (above * below).sqrt()));
         }
     });
     angles.sort_by(f64::total_cmp);
@@ -66,7 +66,7 @@ pub fn harmonic(
         for piece in angles.windows(2) {
             let mut fault = None;
             let mut weighted = |angle: f64, weight: fn(f64) -> f64| {
-                let x = sweep.bias() + sweep.amplitude() * angle.sin();
+                let x = sweep.bias() + sweep.amplitude() * libm::sin(angle);
                 let output = characteristic.output(x, branch, sweep);
                 if !output.is_finite() {
                     fault = Some(DescribingError::NotFinite { input: x, output });
@@ -76,10 +76,10 @@ pub fn harmonic(
                 let theta = if branch == Branch::Rising { angle } else { PI - angle };
                 output * weight(k * theta)
             };
-            let y = integrate(|angle| weighted(angle, f64::cos), piece[0], piece[1], TOLERANCE, CELLS);
+            let y = integrate(|angle| weighted(angle, libm::cos), piece[0], piece[1], TOLERANCE, CELLS);
             cosine += settled(y)?;
             if order > 0 {
-                let y = integrate(|angle| weighted(angle, f64::sin), piece[0], piece[1], TOLERANCE, CELLS);
+                let y = integrate(|angle| weighted(angle, libm::sin), piece[0], piece[1], TOLERANCE, CELLS);
                 sine += settled(y)?;
             }
             if let Some(fault) = fault {

@@ -195,7 +195,7 @@ impl Situation {
             positive("largest amplitude", self.largest_amplitude, "output units")?;
         }
         let Sensor { quantum, noise, .. } = self.sensor.checked()?;
-        let error = quantum.hypot(noise);
+        let error = libm::hypot(quantum, noise);
         // Without an error the scale is how far the largest level drives the axis in a few samples.
         let travel = self.largest_level / self.axis.alpha() * (3.0 / self.rate_hz).powi(2);
         let narrowest = if error > 0.0 { NARROWEST * error } else { travel };

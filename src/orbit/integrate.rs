@@ -97,7 +97,7 @@ impl Integrator {
             let length = step.min(until_s - time);
             let trial = Step::new(system, time, &state, length);
             let error = trial.error(&state, self);
-            let factor = if error > 0.0 { (0.9 * error.powf(-0.2)).clamp(0.2, 5.0) } else { 5.0 };
+            let factor = if error > 0.0 { (0.9 * libm::pow(error, -0.2)).clamp(0.2, 5.0) } else { 5.0 };
             if error.is_nan() || error > 1.0 {
                 step = length * if error.is_finite() { factor } else { 0.2 };
                 if step <= 1e-15 * until_s {

@@ -55,9 +55,9 @@ pub struct Response6 {
 pub fn figure6() -> Result<Response6, PaperError> {
     let (relay, sweep) = (relay()?, Sinusoid::new(0.4, 2.0)?);
     let times = || (0..=1000).map(|i| f64::from(i) / 500.0);
-    let input = |time: f64| sweep.bias() + sweep.amplitude() * (core::f64::consts::TAU * time).sin();
+    let input = |time: f64| sweep.bias() + sweep.amplitude() * libm::sin(core::f64::consts::TAU * time);
     let output = |time: f64| {
-        let rising = (core::f64::consts::TAU * time).cos() > 0.0;
+        let rising = libm::cos(core::f64::consts::TAU * time) > 0.0;
         relay.output(input(time), if rising { Branch::Rising } else { Branch::Falling }, &sweep)
     };
     Ok(Response6 {
@@ -84,8 +84,8 @@ pub struct LateSwitching7 {
 #[must_use]
 pub fn figure7() -> LateSwitching7 {
     let (before, after, step, amplitude, preset_level) = (2.15_f64, 6.57_f64, 5.0, 10.0, 3.0);
-    let (first, second) = ((before / amplitude).asin(), (after / amplitude).asin());
-    let input = |time: f64| amplitude * (first + (second - first) * (time - step)).sin();
+    let (first, second) = (libm::asin(before / amplitude), libm::asin(after / amplitude));
+    let input = |time: f64| amplitude * libm::sin(first + (second - first) * (time - step));
     let samples: Curve = (0..=11).map(|i| (f64::from(i), input(f64::from(i)))).collect();
     let late = samples.windows(2).find(|pair| pair[0].1 < preset_level && pair[1].1 >= preset_level);
     LateSwitching7 {

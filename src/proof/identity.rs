@@ -131,7 +131,7 @@ fn chebyshev(interval: Interval) -> Option<[Interval; NODES]> {
     let (middle, half) = (interval.midpoint(), 0.5 * interval.width());
     let node = |k: usize| {
         let angle = core::f64::consts::PI * (k as f64 + 0.5) / NODES as f64;
-        Interval::point(middle + half * angle.cos())
+        Interval::point(middle + half * libm::cos(angle))
     };
     (half > 1e-3 * (1.0 + middle.abs())).then(|| array::from_fn(node))
 }

@@ -110,7 +110,7 @@ fn graph(entry: &Entry, example: &Example) -> Result<Panel, CatalogueError> {
 /// `F_0`, `P`, `Q` over amplitude: a colour each, dashed with the bias.
 fn curves(entry: &Entry, example: &Example) -> Result<Panel, CatalogueError> {
     let (from, to) = AMPLITUDES;
-    let step = |k: u32| example.amplitude * from * (to / from).powf(f64::from(k) / f64::from(POINTS));
+    let step = |k: u32| example.amplitude * from * libm::pow(to / from, f64::from(k) / f64::from(POINTS));
     let amplitudes: Vec<f64> = (0..=POINTS).map(step).collect();
     let bias = 0.25 * example.amplitude;
     let curve = |bias| entry.curve(&example.values, bias, &amplitudes);

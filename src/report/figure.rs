@@ -397,7 +397,7 @@ impl Series {
 fn arrow_head(pixels: &[(i32, i32)]) -> Option<Vec<(i32, i32)>> {
     let &[(from_x, from_y), (to_x, to_y)] = pixels else { return None };
     let (along, across) = (f64::from(to_x) - f64::from(from_x), f64::from(to_y) - f64::from(from_y));
-    let length = along.hypot(across);
+    let length = libm::hypot(along, across);
     if length == 0.0 {
         return None;
     }

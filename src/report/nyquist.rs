@@ -31,7 +31,11 @@ pub fn nyquist(
     let reach = REACH * marks.iter().map(|(_, point)| point.norm()).fold(0.0, f64::max);
     let reach = if reach > 0.0 { reach } else { REACH };
     let curve = |points: Vec<(f64, Complex<f64>)>| {
-        points.into_iter().map(|(_, z)| (z.re, z.im)).filter(move |(re, im)| re.hypot(*im) <= reach).collect::<Vec<_>>()
+        points
+            .into_iter()
+            .map(|(_, z)| (z.re, z.im))
+            .filter(move |(re, im)| libm::hypot(*re, *im) <= reach)
+            .collect::<Vec<_>>()
     };
     let response = curve(nyquist_locus(plant, omega_rad_s)?);
     let inverse = curve(negative_inverse_locus(describing, bias, 1e-3..=1e3)?);
@@ -64,7 +68,7 @@ pub fn nyquist(
 
 /// Two points near the middle of a curve's length, in its direction; none of a curve without length.
 pub(super) fn direction(curve: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let step = |pair: &[(f64, f64)]| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
+    let step = |pair: &[(f64, f64)]| libm::hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
     let half = 0.5 * curve.windows(2).map(step).sum::<f64>();
     let mut length = 0.0;
     let middle = curve.windows(2).find(|pair| {

@@ -105,11 +105,11 @@ impl ProcessPage<'_> {
     fn control_loop(&self) -> Option<Section> {
         let (curves, proved) = (self.curves?, self.proved?);
         let near = |points: &[[f64; 2]]| -> Vec<(f64, f64)> {
-            points.iter().map(|[re, im]| (*re, *im)).filter(|(re, im)| (re + 1.0).hypot(*im) <= PLANE).collect()
+            points.iter().map(|[re, im]| (*re, *im)).filter(|(re, im)| libm::hypot(re + 1.0, *im) <= PLANE).collect()
         };
         let circle = (0..=180).map(|k| {
             let angle = f64::from(k) * core::f64::consts::TAU / 180.0;
-            (-1.0 + angle.cos() / proved.sensitivity, angle.sin() / proved.sensitivity)
+            (-1.0 + libm::cos(angle) / proved.sensitivity, libm::sin(angle) / proved.sensitivity)
         });
         let all: Vec<(f64, f64)> = curves.open_loops.iter().flat_map(|one| near(one)).collect();
         let plane = Panel::new("real part", "imaginary part")

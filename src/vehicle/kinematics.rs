@@ -34,8 +34,8 @@ impl EulerAngles {
         for angle in [self.roll_rad, self.pitch_rad, self.yaw_rad] {
             domain::finite("Euler angle", angle, "rad")?;
         }
-        let (sin_roll, cos_roll) = self.roll_rad.sin_cos();
-        let (sin_pitch, cos_pitch) = self.pitch_rad.sin_cos();
+        let (sin_roll, cos_roll) = libm::sincos(self.roll_rad);
+        let (sin_pitch, cos_pitch) = libm::sincos(self.pitch_rad);
         if cos_pitch.abs() < Self::LEAST_COS_PITCH {
             return Err(VehicleError::PitchSingular { pitch_rad: self.pitch_rad, limit: Self::LEAST_COS_PITCH });
         }

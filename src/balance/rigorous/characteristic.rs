@@ -216,11 +216,12 @@ impl OddCharacteristic {
                 for (i, a) in odd_coefficients.iter().enumerate() {
                     for (j, b) in odd_coefficients.iter().enumerate().skip(i + 1) {
                         bends.extend(
-                            Some((a / b).abs().powf(0.5 / (j - i) as f64)).filter(|&one| one.is_finite() && one > 0.0),
+                            Some(libm::pow((a / b).abs(), 0.5 / (j - i) as f64))
+                                .filter(|&one| one.is_finite() && one > 0.0),
                         );
                     }
                 }
-                let leading = odd_coefficients.last().map_or(1.0, |c| c.abs().powf(-0.5));
+                let leading = odd_coefficients.last().map_or(1.0, |c| libm::pow(c.abs(), -0.5));
                 let at = |of: fn(f64, f64) -> f64| bends.iter().copied().reduce(of).unwrap_or(leading);
                 (at(f64::min), at(f64::max))
             }

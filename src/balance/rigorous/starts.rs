@@ -40,8 +40,8 @@ impl LipschitzLoop<'_> {
     /// The gain that balances is a function along curves of amplitude and frequency; where it is the loop's own, a wave begins.
     pub(super) fn starts(&self, omega_rad_s: &RangeInclusive<f64>) -> Vec<Centre> {
         let (low, high) = self.characteristic.bends();
-        let range = (BELOW * low).ln()..=(ABOVE * high).ln();
-        let count = ((range.end() - range.start()) / RATIO.ln()).ceil();
+        let range = libm::log(BELOW * low)..=libm::log(ABOVE * high);
+        let count = ((range.end() - range.start()) / libm::log(RATIO)).ceil();
         if !count.is_finite() {
             return Vec::new();
         }
@@ -75,11 +75,11 @@ impl LipschitzLoop<'_> {
 
     /// Frequencies at which `G(jw)` is real.
     fn real_crossings(&self, omega_rad_s: &RangeInclusive<f64>) -> Vec<f64> {
-        let (low, high) = (omega_rad_s.start().ln(), omega_rad_s.end().ln());
+        let (low, high) = (libm::log(*omega_rad_s.start()), libm::log(*omega_rad_s.end()));
         let turn = self.plant.delay_s() * omega_rad_s.end();
         let count = (1000.0 + 40.0 * turn).min(1e5) as i32;
         let nodes: Vec<f64> =
-            (0..=count).map(|i| (low + (high - low) * f64::from(i) / f64::from(count)).exp()).collect();
+            (0..=count).map(|i| libm::exp(low + (high - low) * f64::from(i) / f64::from(count))).collect();
         let mut crossings = scan::roots(&nodes, |omega| Some(self.plant.response(omega).ok()?.im));
         crossings.truncate(CROSSINGS);
         crossings
@@ -88,10 +88,10 @@ impl LipschitzLoop<'_> {
     /// The balance of the first harmonic alone, at an amplitude and a frequency at which the plant's response is real.
     fn first_harmonic(&self, log_amplitude: f64, omega_rad_s: f64) -> Option<Coordinates> {
         let mut point = DVector::zeros(3 + HIGHEST - 1);
-        (point[0], point[2]) = (omega_rad_s.ln(), log_amplitude);
-        let gain = self.sampled(&centre(&point)).output[0].re / log_amplitude.exp();
+        (point[0], point[2]) = (libm::log(omega_rad_s), log_amplitude);
+        let gain = self.sampled(&centre(&point)).output[0].re / libm::exp(log_amplitude);
         let factor = -1.0 / (gain * self.plant.response(omega_rad_s).ok()?.re);
-        point[1] = factor.ln();
+        point[1] = libm::log(factor);
         point[1].is_finite().then_some(point)
     }
 
@@ -102,7 +102,7 @@ impl LipschitzLoop<'_> {
     /// The equations over the amplitude, and their derivatives by the coordinates of a point.
     fn equations(&self, point: &Coordinates) -> (DVector<f64>, DMatrix<f64>) {
         let centre = centre(point);
-        let (amplitude, gain) = (centre.amplitude(), point[1].exp());
+        let (amplitude, gain) = (centre.amplitude(), libm::exp(point[1]));
         let mut spectrum = self.sampled(&centre);
         for harmonic in spectrum.output.iter_mut().chain(&mut spectrum.slope) {
             *harmonic = harmonic.scaled(gain);
@@ -186,8 +186,8 @@ fn is_on(point: &Coordinates, curve: &[Coordinates]) -> bool {
 }
 
 fn centre(point: &Coordinates) -> Centre {
-    let amplitude = point[2].exp();
+    let amplitude = libm::exp(point[2]);
     let higher = point.as_slice()[3..].chunks_exact(2).map(|pair| [amplitude * pair[0], amplitude * pair[1]]);
     let harmonics: Vec<[f64; 2]> = core::iter::once([amplitude, 0.0]).chain(higher).collect();
-    Centre::new(point[0].exp(), HarmonicOrders::Odd, &harmonics)
+    Centre::new(libm::exp(point[0]), HarmonicOrders::Odd, &harmonics)
 }

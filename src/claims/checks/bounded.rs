@@ -75,7 +75,7 @@ impl Axis {
         let delta = draw.uniform("delta", 0.05, 0.3);
         let (mut x, mut v) = (0.0, draw.uniform("velocity", -0.3, 0.3));
         let rate = beta / alpha;
-        let decay = (-rate * INTERVAL_S).exp();
+        let decay = libm::exp(-rate * INTERVAL_S);
         let (mut time, mut input, mut states) = (Vec::new(), Vec::new(), Vec::new());
         for sample in 0..SAMPLES {
             let u = if (sample / SWING).is_multiple_of(2) { 1.0 } else { -1.0 };

@@ -42,7 +42,7 @@ fn poles(budget: Budget, delay: f64, double_pole: fn(&Tuning<f64>) -> f64) -> Ve
         let (kp, ki, kd) = (gains.proportional(), gains.integral(), gains.derivative());
         // Over s^2: the size of the terms does not vanish with the slow pole.
         let terms = |s: f64| {
-            let late = (-s * axis.delay_s()).exp();
+            let late = libm::exp(-s * axis.delay_s());
             let axis_terms = [alpha * f * s * s, (alpha + drag * f) * s, drag];
             let fed_back = [kd + kp * f, (kp + ki * f) / s, ki / (s * s)];
             (axis_terms.iter().sum::<f64>() + late * fed_back.iter().sum::<f64>(), fed_back[1].abs() + drag)
@@ -88,7 +88,7 @@ fn delay_margin(budget: Budget, margin: DelayMargin) -> Verdict {
         };
         let (less, critical, more) = (with(0.999)?, with(1.0)?, with(1.001)?);
         let (re, im) = critical.response(w);
-        let on_axis = draw.equal(("distance_to_critical", (re + 1.0).hypot(im)), 0.0, 1.0, tolerance::CANCELLING);
+        let on_axis = draw.equal(("distance_to_critical", libm::hypot(re + 1.0, im)), 0.0, 1.0, tolerance::CANCELLING);
         Some(on_axis.and(Case::truth(less.unstable_poles() == 0 && more.unstable_poles() == 2)))
     })
 }

@@ -129,7 +129,7 @@ fn heave(budget: Budget, sign: f64, under: &Heave) -> Verdict {
         let external = 0.1 * level * draw.uniform("external_over_tenth_of_level", -1.0, 1.0);
         let buoyancy = weight + level * draw.uniform("buoyancy_over_weight_over_level", 0.3, under.surplus - 0.1);
         // Along the body's own axis a tilted vehicle feels only a part.
-        let felt = (weight - buoyancy) * under.tilt_rad.cos().powi(2) + external;
+        let felt = (weight - buoyancy) * libm::cos(under.tilt_rad).powi(2) + external;
         let axis = DragAxis::mixed(draw.uniform("alpha", 5.0, 10.0), draw.uniform("drag", 1.0, 5.0), under.quadratic);
         let axis = axis.and_then(|axis| axis.with_disturbance(felt)).and_then(|axis| axis.with_delay_s(0.2));
         let (axis, relay) =
@@ -265,7 +265,7 @@ fn first_harmonic(x: impl Fn(f64) -> f64, ends: &[f64], period_s: f64) -> Comple
         let piece = |pair: &[f64]| integrate(|t| x(t) * weight(omega * t), pair[0], pair[1], 1e-13, 200).value;
         ends.windows(2).map(piece).sum::<f64>() * 2.0 / period_s
     };
-    Complex::new(part(f64::cos), -part(f64::sin))
+    Complex::new(part(libm::cos), -part(libm::sin))
 }
 
 /// First harmonic of a square wave `+-level` that steps up at time `on_s`, the times at either level equal.

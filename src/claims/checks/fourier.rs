@@ -37,7 +37,7 @@ fn least_square(budget: Budget, factor: f64) -> Verdict {
         let (sine, cosine) = (factor * sine, factor * cosine);
         let square = |remainder: &dyn Fn(f64, f64) -> f64| mean_over_sweep(&*characteristic, &sweep, remainder);
         let whole = square(&|_, y| y * y);
-        let left = square(&|theta, y| (y - mean - sine * theta.sin() - cosine * theta.cos()).powi(2));
+        let left = square(&|theta, y| (y - mean - sine * libm::sin(theta) - cosine * libm::cos(theta)).powi(2));
         let expected = whole - mean * mean - 0.5 * (sine * sine + cosine * cosine);
         Some(draw.equal(("mean_square_left", left), expected, whole + 1e-9, tolerance::QUADRATURE))
     })
@@ -50,11 +50,12 @@ fn mean_over_sweep(
     of: &dyn Fn(f64, f64) -> f64,
 ) -> f64 {
     let mut angles = vec![-0.5 * PI, 0.5 * PI];
-    characteristic.kinks(sweep, &mut |x| angles.push(((x - sweep.bias()) / sweep.amplitude()).clamp(-1.0, 1.0).asin()));
+    characteristic
+        .kinks(sweep, &mut |x| angles.push(libm::asin(((x - sweep.bias()) / sweep.amplitude()).clamp(-1.0, 1.0))));
     angles.sort_by(f64::total_cmp);
     let half = |branch: Branch, theta: fn(f64) -> f64| {
         let integrand = |angle: f64| {
-            let x = sweep.bias() + sweep.amplitude() * angle.sin();
+            let x = sweep.bias() + sweep.amplitude() * libm::sin(angle);
             of(theta(angle), characteristic.output(x, branch, sweep))
         };
         angles.windows(2).map(|piece| integrate(integrand, piece[0], piece[1], 1e-13, 1000).value).sum::<f64>()
@@ -137,7 +138,8 @@ fn even_vanish(budget: Budget, family: Family, sweep: Sweep) -> Verdict {
         let mut case = Case::truth(true);
         for order in [0, 2, 4, 6] {
             let Ok((sine, cosine)) = harmonic(&*characteristic, &sweep, order) else { return None };
-            case = case.and(draw.equal(("even_harmonic", sine.hypot(cosine)), 0.0, scale, tolerance::QUADRATURE));
+            case =
+                case.and(draw.equal(("even_harmonic", libm::hypot(sine, cosine)), 0.0, scale, tolerance::QUADRATURE));
         }
         Some(case)
     })

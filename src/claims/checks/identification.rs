@@ -81,14 +81,14 @@ fn rotation(budget: Budget, sign: f64) -> Verdict {
         let gain = DescribingFunction { f0: 0.0, p, q };
         let turned = gain.delayed(one);
         let expected = Complex::new(p, q) * Complex::new(0.0, sign * one).exp();
-        let scale = p.hypot(q) + 1e-3;
+        let scale = libm::hypot(p, q) + 1e-3;
         let both = turned.delayed(two);
         let at_once = gain.delayed(one + two);
         let back = turned.delayed(-one);
         let equations = [
             ("p_turned", turned.p, expected.re, scale),
             ("q_turned", turned.q, expected.im, scale),
-            ("length", turned.p.hypot(turned.q), p.hypot(q), scale),
+            ("length", libm::hypot(turned.p, turned.q), libm::hypot(p, q), scale),
             ("p_in_two", both.p, at_once.p, scale),
             ("q_in_two", both.q, at_once.q, scale),
             ("p_back", back.p, p, scale),
@@ -163,7 +163,7 @@ fn nomoto(budget: Budget, drag: fn(f64) -> f64) -> Verdict {
     sample(budget, |draw| {
         let (time_constant, gain) = (draw.uniform("time_constant_s", 0.5, 20.0), draw.uniform("gain_per_s", 0.05, 0.9));
         let (rudder, t) = (draw.uniform("rudder_rad", -0.4, 0.4), draw.uniform("time_s", 0.0, 30.0));
-        let decay = (-t / time_constant).exp();
+        let decay = libm::exp(-t / time_constant);
         let (rate, acceleration) = (gain * rudder * (1.0 - decay), gain * rudder * decay / time_constant);
         let moment = time_constant / gain * acceleration + drag(gain) * rate;
         Some(draw.equal(("moment", moment), rudder, rudder.abs() + 1e-3, tolerance::ROUNDING))

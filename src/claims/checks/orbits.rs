@@ -69,7 +69,7 @@ claim! {
         corrected: Some(|budget| {
             closed_form_orbit(budget, |l| {
                 let (g, reach) = (l.drag * l.half_width / l.alpha, l.alpha / (2.0 * l.drag));
-                let amplitude = l.half_width + reach * orbit::quadratic_speeds(-(-4.0 * g).exp_m1(), 0.0)[0].ln_1p();
+                let amplitude = l.half_width + reach * libm::log1p(orbit::quadratic_speeds(-libm::expm1(-4.0 * g), 0.0)[0]);
                 let period = 2.0 * l.alpha / (l.drag * l.level).sqrt() * orbit::quadratic_period(g);
                 (amplitude, period)
             }, &QUADRATIC)
@@ -80,7 +80,7 @@ claim! {
         // E = exp(-2 g) in place of exp(-4 g): the energy of a whole swing taken for half of it.
         falsified: |budget| closed_form_orbit(budget, |l| {
             let (g, reach) = (l.drag * l.half_width / l.alpha, l.alpha / (2.0 * l.drag));
-            let amplitude = l.half_width + reach * (-(-2.0 * g).exp_m1()).sqrt().ln_1p();
+            let amplitude = l.half_width + reach * libm::log1p((-libm::expm1(-2.0 * g)).sqrt());
             (amplitude, 2.0 * l.alpha / (l.drag * l.level).sqrt() * orbit::quadratic_period(0.5 * g))
         }, &QUADRATIC),
         hypotheses: &[
@@ -109,7 +109,7 @@ claim! {
 /// Amplitude and period from `z - tanh z = g`, solved by bisection in z.
 fn linear_orbit(l: &Loop, quarter: f64) -> (f64, f64) {
     let g = l.half_width * l.drag * l.drag / (l.level * l.alpha);
-    let (mut low, mut high) = (0.0, g + 1.0 + (3.0 * g).cbrt());
+    let (mut low, mut high) = (0.0, g + 1.0 + libm::cbrt(3.0 * g));
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
         if orbit::linear_half_width(middle) < g { low = middle } else { high = middle }

@@ -97,7 +97,7 @@ claim! {
 fn mean_output(budget: Budget, sign: f64) -> Verdict {
     sample(budget, |draw| {
         let s = switching(draw)?;
-        let angle = |distance: f64| (distance / s.amplitude).asin();
+        let angle = |distance: f64| libm::asin(distance / s.amplitude);
         let (rising, falling) = (angle(s.half_width - s.bias), angle(s.half_width + s.bias));
         let by_angle = s.level / PI * (falling - rising) + s.offset;
         // High from the rising to the falling crossing: as a share of a turn.
@@ -123,13 +123,13 @@ fn covers(budget: Budget, from: f64, to: f64) -> Verdict {
     sample(budget, |draw| {
         let (angle, magnitude) = (draw.uniform("angle", from, to), draw.log_uniform("magnitude", 1e-3, 1e3));
         // -G_N = (4C/(pi X)) exp(j (pi - asin(x_a/X))): choose X = 1.
-        let (half_width, level) = ((PI - angle).sin(), 0.25 * PI * magnitude);
+        let (half_width, level) = (libm::sin(PI - angle), 0.25 * PI * magnitude);
         let gain = |level: f64, half_width: f64, amplitude: f64| {
             let sweep = Sinusoid::new(0.0, amplitude).ok()?;
             RelayHysteresis::new(level, half_width, 0.0).ok()?.describing_function(&sweep).ok()
         };
         let Some(reached) = gain(level, half_width, 1.0) else { return Some(Case::truth(false)) };
-        let hit = (-reached.p - magnitude * angle.cos()).hypot(-reached.q - magnitude * angle.sin());
+        let hit = libm::hypot(-reached.p - magnitude * libm::cos(angle), -reached.q - magnitude * libm::sin(angle));
         let covered = draw.equal(("distance", hit), 0.0, magnitude, tolerance::ROUNDING);
         let (width, excess) = (draw.uniform("half_width", 0.0, 2.0), draw.uniform("excess", 0.0, 2.0));
         let any = gain(level, width, width + excess + 1e-9)?;

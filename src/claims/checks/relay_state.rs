@@ -55,13 +55,13 @@ fn overshoot(budget: Budget, least: f64) -> Verdict {
         let relay = RelayHysteresis::new(1.0, half_width, 0.0).ok()?;
         let mut relay = RelayState::new(relay, false);
         let mut angle = start;
-        while angle < 0.5 * PI && relay.step(angle.sin()) < 0.0 {
+        while angle < 0.5 * PI && relay.step(libm::sin(angle)) < 0.0 {
             angle += step;
         }
         if angle >= 0.5 * PI {
             return None;
         }
-        let level = draw.note("level", angle.sin());
+        let level = draw.note("level", libm::sin(angle));
         Some(Case::margin(level - half_width * (1.0 + least)).and(Case::margin(half_width + step - level)))
     })
 }

@@ -12,11 +12,11 @@ claim! {
     "Odd, nondecreasing and not zero inside the sweep: the mean output has the sign of the bias, and vanishes with it" {
         printed: AsPrinted::Refuted(|budget| vanishes_only_unbiased(budget, |x| x * x * x - 2.0 * x)),
         corrected: Some(mean_has_sign_of_bias),
-        falsified: |budget| vanishes_only_unbiased(budget, |x| (3.0 * x).sin()),
+        falsified: |budget| vanishes_only_unbiased(budget, |x| libm::sin(3.0 * x)),
         proof: Some(|distortion| by_steps(distortion, const { &[ClaimPart::WHOLE] })),
         hypotheses: &[
             Hypothesis::needed("odd", |budget| vanishes_only_unbiased(budget, |x| x + 0.5)),
-            Hypothesis::needed("nondecreasing", |budget| vanishes_only_unbiased(budget, f64::sin)),
+            Hypothesis::needed("nondecreasing", |budget| vanishes_only_unbiased(budget, libm::sin)),
             Hypothesis::needed("not-zero-inside-sweep", inside_the_dead_zone),
         ],
     }
@@ -87,7 +87,7 @@ claim! {
     LEMMA_2 = "lemma-2" Lemma
     "With an even part of one sign the mean output cannot vanish without bias; nondecreasing, only with one of the other sign" {
         printed: AsPrinted::Refuted(|budget| unbiased_mean_is_not_zero(budget, |x, even| x + even * (x * x - 0.5))),
-        corrected: Some(|budget| even_part_decides(budget, |x, even| x * x * x + x + even * (1.0 + (-x * x).exp()))),
+        corrected: Some(|budget| even_part_decides(budget, |x, even| x * x * x + x + even * (1.0 + libm::exp(-x * x)))),
         falsified: |budget| even_part_decides(budget, |x, even| x + even * (x * x - 0.5)),
         proof: Some(|distortion| by_steps(distortion, const { &[ClaimPart::WHOLE] })),
         hypotheses: &[
@@ -104,7 +104,7 @@ type WithEvenPart = fn(f64, f64) -> f64;
 
 /// Mean of `function` over a sinusoid of amplitude `amplitude`.
 fn mean(function: WithEvenPart, even: f64, bias: f64, amplitude: f64) -> f64 {
-    let integrand = |angle: f64| function(bias + amplitude * angle.sin(), even);
+    let integrand = |angle: f64| function(bias + amplitude * libm::sin(angle), even);
     integrate(integrand, -core::f64::consts::FRAC_PI_2, core::f64::consts::FRAC_PI_2, 1e-14, 1000).value
         / core::f64::consts::PI
 }

@@ -35,15 +35,15 @@ impl Tone {
     /// First harmonic `(f_R, f_I)` of the left side over the amplitude, by quadrature along the sinusoid.
     fn first_harmonic(&self) -> (f64, f64) {
         let force = |angle: f64| {
-            let speed = self.amplitude * self.omega * angle.cos();
-            let acceleration = -self.amplitude * self.omega * self.omega * angle.sin();
+            let speed = self.amplitude * self.omega * libm::cos(angle);
+            let acceleration = -self.amplitude * self.omega * self.omega * libm::sin(angle);
             self.alpha * acceleration + self.linear * speed + self.quadratic * speed * speed.abs()
         };
         let coefficient = |weight: fn(f64) -> f64| {
             let piece = |from, to| by_quadrature(|angle| force(angle) * weight(angle), from, to, 1e-14, 1000).value;
             (piece(-0.5 * PI, 0.5 * PI) + piece(0.5 * PI, 1.5 * PI)) / (PI * self.amplitude)
         };
-        (coefficient(f64::sin), coefficient(f64::cos))
+        (coefficient(libm::sin), coefficient(libm::cos))
     }
 
     /// Size of the left side over the amplitude.

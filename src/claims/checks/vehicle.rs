@@ -74,7 +74,7 @@ fn kinematics(budget: Budget, rate_matrix: RateMatrix) -> Verdict {
 /// Rodrigues' formula.
 fn turn(axis: Vector3<f64>, angle: f64) -> Matrix3<f64> {
     let s = axis.cross_matrix();
-    Matrix3::identity() + s * angle.sin() + s * s * (1.0 - angle.cos())
+    Matrix3::identity() + s * libm::sin(angle) + s * s * (1.0 - libm::cos(angle))
 }
 
 /// At pitch +-90 degrees there is no rate matrix.

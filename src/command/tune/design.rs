@@ -225,7 +225,7 @@ impl Family<'_> {
 
 /// Bandwidths from the largest to the least, evenly on a logarithmic scale.
 fn grid([least, most]: [f64; 2]) -> Vec<f64> {
-    (0..=GRID).map(|k| most * (least / most).powf(f64::from(k) / f64::from(GRID))).collect()
+    (0..=GRID).map(|k| most * libm::pow(least / most, f64::from(k) / f64::from(GRID))).collect()
 }
 
 /// The bandwidth nearest to the one asked for, to two digits, at which every axis of the intervals is proved to be stable. Those with a
@@ -240,7 +240,7 @@ fn stabilised(families: &[Family; 2], asked_rad_s: f64) -> Option<f64> {
             Some((sensitivity.max(MOST_USUAL), family, bandwidth))
         }));
     }
-    let far = |bandwidth: f64| (bandwidth / asked_rad_s).ln().abs();
+    let far = |bandwidth: f64| libm::log(bandwidth / asked_rad_s).abs();
     candidates.sort_by(|a, b| a.0.total_cmp(&b.0).then(far(a.2).total_cmp(&far(b.2))));
     let proved = |family: &Family, bandwidth: f64| {
         let stable = family.loops(bandwidth).is_ok_and(|(gains, processes)| processes.all_stable(&gains));

@@ -40,13 +40,13 @@ impl Figures {
     pub(super) fn of(process: &LinearProcess<f64>, gains: &Gains<f64>, high: f64, an_octave: i32) -> Self {
         let open_loop = process.open_loop(constants(gains));
         let response = |omega: f64| open_loop.response(omega, process.delay_s);
-        let excess = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
-        let at = |k: i32| high * 2f64.powf(f64::from(k) / f64::from(an_octave) - f64::from(BELOW));
+        let excess = |[re, im]: [f64; 2]| libm::hypot(re, im) - 1.0;
+        let at = |k: i32| high * libm::pow(2f64, f64::from(k) / f64::from(an_octave) - f64::from(BELOW));
         let samples = (0..=an_octave * (BELOW + ABOVE)).map(|k| (at(k), response(at(k))));
         let (mut found, mut sensitivity, mut before) = (Self::NONE, 1.0_f64, None);
         for (omega, here) in samples {
             let [re, im] = here;
-            sensitivity = sensitivity.max((1.0 + re).hypot(im).recip());
+            sensitivity = sensitivity.max(libm::hypot(1.0 + re, im).recip());
             if let Some((last, [last_re, last_im])) = before.replace((omega, here)) {
                 if last_im * im <= 0.0 && re < 0.0 && last_re < 0.0 {
                     let at = bisect(|omega| response(omega)[1], last, omega);
@@ -58,7 +58,7 @@ impl Figures {
                     let at = bisect(|omega| excess(response(omega)), last, omega);
                     let [re, im] = response(at);
                     // Angle above critical, from 0 to a turn.
-                    let above = (-im).atan2(-re).rem_euclid(core::f64::consts::TAU);
+                    let above = libm::atan2(-im, -re).rem_euclid(core::f64::consts::TAU);
                     let phase_rad = above.min(core::f64::consts::TAU - above);
                     found = found.with(RobustCriterion::PhaseRad(phase_rad)).with(RobustCriterion::DelayS(above / at));
                 }

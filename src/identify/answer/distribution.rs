@@ -25,13 +25,13 @@ pub(crate) fn student_quantile_95(degrees_of_freedom: usize) -> f64 {
     };
     let n = degrees_of_freedom as f64;
     // Two standard deviations, as for many degrees of freedom; the bracket catches the rest.
-    let angle = increasing_root(excess, 0.0, FRAC_PI_2, (2.0 / n.sqrt()).atan());
-    angle.map_or(f64::NAN, |angle| n.sqrt() * angle.tan())
+    let angle = increasing_root(excess, 0.0, FRAC_PI_2, libm::atan(2.0 / n.sqrt()));
+    angle.map_or(f64::NAN, |angle| n.sqrt() * libm::tan(angle))
 }
 
 /// Probability that `|t| < sqrt(n) tan(angle)`, and its derivative.
 fn within(angle: f64, n: usize) -> (f64, f64) {
-    let (sine, cosine) = angle.sin_cos();
+    let (sine, cosine) = libm::sincos(angle);
     let square = cosine * cosine;
     let odd = n % 2 == 1;
     // The terms of the sum run over the powers of the cosine below n, from the first or the zeroth in steps of two.

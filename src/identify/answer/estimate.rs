@@ -135,7 +135,7 @@ impl Estimate {
     /// The factor 2 on h allows for a structure that passes for another. It is tuned; `spec/trust.md` has its misses on fresh records.
     pub(super) fn with_declared(self, declared: f64) -> Self {
         let combined = self.spread.map(|spread| {
-            let side = |h: f64| (2.0 * h.max(0.0)).hypot(declared);
+            let side = |h: f64| libm::hypot(2.0 * h.max(0.0), declared);
             let (below, above) = (side(self.value - spread.low), side(spread.high - self.value));
             ConfidenceInterval { std: 0.25 * (below + above), low: self.value - below, high: self.value + above }
         });
@@ -154,8 +154,8 @@ impl Estimate {
     pub(crate) fn with_error(mut self, relative: f64) -> Self {
         if let Some(spread) = &mut self.spread {
             let more = self.value.abs() * relative;
-            let wider = NORMAL_95 * (spread.deviation().hypot(more) - spread.deviation());
-            let std = spread.std.hypot(more);
+            let wider = NORMAL_95 * (libm::hypot(spread.deviation(), more) - spread.deviation());
+            let std = libm::hypot(spread.std, more);
             *spread = ConfidenceInterval { std, low: spread.low - wider, high: spread.high + wider };
         }
         self

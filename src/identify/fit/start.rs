@@ -105,7 +105,7 @@ impl ModulatedEquations {
             let rate = core::f64::consts::TAU / half_period;
             for k in from..to {
                 let weight = 0.5 * (time_s[k + 1] - time_s[k - 1]);
-                let (sine, cosine) = (rate * (time_s[k] - begin)).sin_cos();
+                let (sine, cosine) = libm::sincos(rate * (time_s[k] - begin));
                 let (value, slope, bend) = (0.5 * (1.0 - cosine), 0.5 * rate * sine, 0.5 * rate * rate * cosine);
                 let (back, ahead) = (k.saturating_sub(reach), (k + reach).min(last));
                 let speed = (output[ahead] - output[back]) / (time_s[ahead] - time_s[back]);
@@ -193,7 +193,7 @@ pub(crate) fn with_one_drag(signal: &Signal, law: DragLaw, delay_s: f64) -> Opti
 /// The command under the weight that begins at a time, integrated piece by piece.
 fn weighted(pieces: &[CommandPiece], begin: f64, half_period: f64) -> f64 {
     let rate = core::f64::consts::TAU / half_period;
-    let integral = |t: f64| 0.5 * (t - (rate * t).sin() / rate);
+    let integral = |t: f64| 0.5 * (t - libm::sin(rate * t) / rate);
     let mut sum = 0.0;
     let mut index = pieces.partition_point(|piece| piece.begin_s <= begin).saturating_sub(1);
     while index < pieces.len() {

@@ -141,14 +141,14 @@ fn start(rows: &[FeatureRow], law: DragLaw, delay: Delay) -> Result<DragAxis<f64
             let axis = if quadratic { cycle.quadratic_drag() } else { cycle.linear_drag() };
             match axis {
                 Ok(axis) => {
-                    logarithms[0] += axis.alpha().ln();
-                    logarithms[1] += (axis.linear_drag() + axis.quadratic_drag()).ln();
+                    logarithms[0] += libm::log(axis.alpha());
+                    logarithms[1] += libm::log(axis.linear_drag() + axis.quadratic_drag());
                     count += 1.0;
                 }
                 Err(error) => failure = error,
             }
         }
-        if count > 0.0 { Ok(logarithms.map(|sum: f64| (sum / count).exp())) } else { Err(failure) }
+        if count > 0.0 { Ok(logarithms.map(|sum: f64| libm::exp(sum / count))) } else { Err(failure) }
     };
     let axis = match law {
         DragLaw::Linear => mean(false).map(|[alpha, drag]| DragAxis::linear(alpha, drag))?,

@@ -94,7 +94,7 @@ impl Actuator {
             return Force { value: input, by_delay: -slope, by_lag: 0.0, by_ramp };
         }
         let lag = self.lag_s;
-        let left = (-since / lag).exp();
+        let left = libm::exp(-since / lag);
         let transient = at_begin.value - value + slope * lag;
         let force = input - slope * lag + transient * left;
         Force {

@@ -83,7 +83,7 @@ pub(super) fn log_odds_against(model: &VehicleModel, known_delay_s: Option<f64>)
     let (had, ways) = confounded_lags::ways(model, known_delay_s);
     let subtle = SUBTLE.iter().filter(|parameter| model.is_free(**parameter)).count();
     // The confounded lags share the odds.
-    had as f64 * (LATE_ODDS * ways as f64).ln() + PLAIN_LOG_ODDS * (model.freedom() - subtle - drags(model)) as f64
+    had as f64 * libm::log(LATE_ODDS * ways as f64) + PLAIN_LOG_ODDS * (model.freedom() - subtle - drags(model)) as f64
 }
 
 /// The models of an average with their weights and their covariances.
@@ -103,7 +103,7 @@ impl<'a> Average<'a> {
         let temper = if confounded_lags::is_in(&best.model) { TEMPER } else { 1.0 };
         let mut members: Vec<(f64, &Fitted, StructureCovariance)> = Vec::new();
         for fitted in &found.tried {
-            let weight = (temper * (value(fitted) - top)).exp();
+            let weight = libm::exp(temper * (value(fitted) - top));
             if weight < 1e-3 {
                 continue;
             }

@@ -192,8 +192,7 @@ fn run_with<const N: usize>(
         if !(innovation.variance > 0.0 && innovation.error.abs() < BOUNDS * observations.span) {
             return None;
         }
-        log_likelihood -=
-            0.5 * weight * (core::f64::consts::TAU.ln() + innovation.variance.ln() + innovation.standardised().powi(2));
+        log_likelihood += weight * innovation.log_density();
         innovations.push(innovation);
         if derivatives && done > parts.len() {
             parts.push(part.take());
@@ -316,8 +315,8 @@ impl<'a, const N: usize> Filter<'a, N> {
         let pushed = core::array::from_fn(|k| forces[k].value + offset - late_force(k));
         let step = self.dynamics.step((begin.position, begin.velocity), pushed, h_s);
         let mut transition = Transition::new(&step, alpha);
-        transition.force = (-self.sizes.force_rate * h_s).exp();
-        transition.colour = (-self.sizes.colour_rate * h_s).exp();
+        transition.force = libm::exp(-self.sizes.force_rate * h_s);
+        transition.colour = libm::exp(-self.sizes.colour_rate * h_s);
         self.state[..4].copy_from_slice(&[
             step.end.position,
             step.end.velocity,
@@ -388,8 +387,8 @@ impl<'a, const N: usize> Filter<'a, N> {
         // Variance that the coloured error gains, and its derivative with respect to the logarithm of the rate.
         let decayed = 2.0 * colour_rate * h_s;
         let (gained, gained_by_rate) = if decayed > SLOW_DECAY {
-            let gained = -colour * (-decayed).exp_m1() / (2.0 * colour_rate);
-            (gained, colour * h_s * (-decayed).exp() - gained)
+            let gained = -colour * libm::expm1(-decayed) / (2.0 * colour_rate);
+            (gained, colour * h_s * libm::exp(-decayed) - gained)
         } else {
             (colour * h_s, 0.0)
         };

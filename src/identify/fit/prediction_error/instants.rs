@@ -59,7 +59,7 @@ fn shares(open: &Observations, group: &[usize], model: &VehicleModel) -> Option<
     }
     let share = |values: Vec<f64>| {
         let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let likelihoods: Vec<f64> = values.iter().map(|value| (value - most).exp()).collect();
+        let likelihoods: Vec<f64> = values.iter().map(|value| libm::exp(value - most)).collect();
         let sum: f64 = likelihoods.iter().sum();
         likelihoods.into_iter().map(|likelihood| likelihood / sum).collect()
     };

@@ -185,7 +185,7 @@ fn conclude(search: &StructureSearch<'_>, found: &SearchOutcome, known: KnownBef
         && probability < residuals::DISAGREE
     {
         (spread.low, spread.high) = (spread.low - apart, spread.high + apart);
-        spread.std = spread.std.hypot(apart);
+        spread.std = libm::hypot(spread.std, apart);
     }
     reasons.extend(Reason::too_wide(alpha));
     if !best.settled {

@@ -143,7 +143,7 @@ impl VehicleModel {
 
     /// The size itself, zero for an absent term.
     pub(super) fn size(&self, noise: NoiseParameter) -> f64 {
-        self.noise[noise as usize].exp()
+        libm::exp(self.noise[noise as usize])
     }
 
     pub(super) fn set(&mut self, parameter: Parameter, value: f64, free: bool) {
@@ -152,7 +152,7 @@ impl VehicleModel {
     }
 
     pub(super) fn set_noise(&mut self, noise: NoiseParameter, size: f64, free: bool) {
-        self.noise[noise as usize] = size.ln();
+        self.noise[noise as usize] = libm::log(size);
         self.noise_free[noise as usize] = free;
     }
 

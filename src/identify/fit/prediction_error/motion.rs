@@ -53,7 +53,7 @@ impl Dynamics {
 
     /// The sign of a velocity, smooth across zero.
     pub(super) fn sense(&self, velocity: f64) -> f64 {
-        (velocity / self.creep).tanh()
+        libm::tanh(velocity / self.creep)
     }
 
     /// Derivative of the drag with respect to velocity, over the inertia.

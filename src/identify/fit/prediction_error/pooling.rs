@@ -46,7 +46,7 @@ pub(super) fn pooled(estimates: &[Estimate]) -> (Estimate, Option<f64>) {
     let count = numbers.len() as f64;
     let value = numbers.iter().map(|(value, _)| value).sum::<f64>() / count;
     let between = (numbers.iter().map(|(v, _)| (v - value).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
-    let spread = ConfidenceInterval { std: between.hypot(std), low: value, high: value };
+    let spread = ConfidenceInterval { std: libm::hypot(between, std), low: value, high: value };
     let held = Estimate::new(value, Some(spread)).holding(estimates);
     let spread = held.spread.map(|held| ConfidenceInterval { std: spread.std, ..held });
     (Estimate::new(value, spread), Some(between))

@@ -63,7 +63,7 @@ fn noise_beside(variance: f64, count: f64) -> f64 {
 /// Variance of a harmonic of roundings, in squares of the step, under a noise before them.
 fn strength(harmonic: f64, noise: f64) -> f64 {
     let turn = PI * harmonic;
-    (-4.0 * turn * turn * noise).exp() / (2.0 * turn * turn)
+    libm::exp(-4.0 * turn * turn * noise) / (2.0 * turn * turn)
 }
 
 /// Sums over the readings of a least-squares estimate: matrices below their diagonals, row by row.
@@ -100,7 +100,7 @@ impl Sums {
                 place += 1;
             }
         }
-        let (sin, cos) = (TAU * steps).sin_cos();
+        let (sin, cos) = libm::sincos(TAU * steps);
         let (mut real, mut imaginary) = (weight, 0.0);
         for waves in self.waves.chunks_exact_mut(2 * self.parameters) {
             (real, imaginary) = (real * cos - imaginary * sin, real * sin + imaginary * cos);

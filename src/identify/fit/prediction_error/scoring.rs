@@ -70,7 +70,7 @@ fn noise_bounds(noise: NoiseParameter, observations: &Observations) -> (f64, f64
             (1e-10 * (span / half_period).powi(2) / half_period, 100.0 * (span / half_period).powi(2) / half_period)
         }
     };
-    (low.ln(), high.ln())
+    (libm::log(low), libm::log(high))
 }
 
 /// Solves for the part of a step that the free parameters make; damped where the information leaves them open.

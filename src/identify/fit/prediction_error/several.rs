@@ -33,7 +33,7 @@ fn vehicles_differ(all: &[Reported]) -> bool {
             let both = known(&[reported.alpha, drag(reported)])?;
             let relative = |(value, std): (f64, f64)| Some(std / value.abs()).filter(|part| *part < VAGUE);
             let ratio = both[1].0 / both[0].0;
-            Some((ratio, ratio.abs() * relative(both[0])?.hypot(relative(both[1])?)))
+            Some((ratio, ratio.abs() * libm::hypot(relative(both[0])?, relative(both[1])?)))
         };
         let ratios: Option<Vec<(f64, f64)>> = all.iter().map(ratio).collect();
         ratios.is_some_and(|ratios| probability_of_one(&ratios) < 0.5 * DISAGREE)

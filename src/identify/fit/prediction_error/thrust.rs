@@ -34,7 +34,7 @@ impl ThrustLaw {
     pub(super) fn factor(self, at: f64) -> Option<f64> {
         match self {
             Self::DeadZone { width } => (at > width).then(|| at / (at - width)),
-            Self::Power { exponent, level } => Some((at / level).powf(1.0 - exponent)),
+            Self::Power { exponent, level } => Some(libm::pow(at / level, 1.0 - exponent)),
         }
     }
 
@@ -148,7 +148,7 @@ impl CommandLevels {
             (Some(only), None) | (None, Some(only)) if self.count() > 2 => Some(ThrustVerdict::One(only)),
             (dead_zone, Some(power)) => {
                 let exponent = line.slope;
-                let level = self.largest() * (alpha / power.alpha).powf((1.0 - exponent).recip());
+                let level = self.largest() * libm::pow(alpha / power.alpha, (1.0 - exponent).recip());
                 (level.is_finite() && level > 0.0).then_some(ThrustVerdict::Open { dead_zone, exponent, level })
             }
             (_, None) => None,
@@ -173,7 +173,7 @@ impl CommandLevels {
     fn logarithms(&self) -> RegressionLine {
         let level = self.largest();
         let points: Vec<_> =
-            self.0.iter().map(|(at, alpha, std)| ((at / level).ln(), (at / alpha).ln(), std / alpha)).collect();
+            self.0.iter().map(|(at, alpha, std)| (libm::log(at / level), libm::log(at / alpha), std / alpha)).collect();
         RegressionLine::through(&points)
     }
 
@@ -181,7 +181,7 @@ impl CommandLevels {
     fn power(&self, line: &RegressionLine) -> Option<Drawn> {
         let RegressionLine { intercept, slope: exponent, intercept_std: relative, probability, .. } = *line;
         let level = self.largest();
-        let (law, alpha) = (ThrustLaw::Power { exponent, level }, level / intercept.exp());
+        let (law, alpha) = (ThrustLaw::Power { exponent, level }, level / libm::exp(intercept));
         (exponent > 0.0).then_some(Drawn { law, alpha, relative, probability })
     }
 

@@ -90,12 +90,12 @@ impl Choice {
             }
         }
         #[allow(clippy::cast_precision_loss, reason = "counts")]
-        let score = |fit: &RecordFit| fit.log_likelihood() - 0.5 * fit.parameters() as f64 * (samples as f64).ln();
+        let score = |fit: &RecordFit| fit.log_likelihood() - 0.5 * fit.parameters() as f64 * libm::log(samples as f64);
         let best = fits.iter().map(score).fold(f64::NEG_INFINITY, f64::max);
         if !best.is_finite() {
             return Err(failure);
         }
-        let weights: Vec<f64> = fits.iter().map(|fit| (score(fit) - best).exp()).collect();
+        let weights: Vec<f64> = fits.iter().map(|fit| libm::exp(score(fit) - best)).collect();
         let sum: f64 = weights.iter().sum();
         Ok(Self { probabilities: weights.into_iter().map(|weight| weight / sum).collect(), fits })
     }

@@ -95,7 +95,7 @@ impl CondensedChain {
 
     /// Sum over the shooting intervals of the logarithm of the instant's information, as a standard deviation's inverse.
     pub(super) fn log_information(&self) -> impl Iterator<Item = f64> {
-        self.instants.iter().map(|row| row[(0, 0)].abs().ln())
+        self.instants.iter().map(|row| libm::log(row[(0, 0)].abs()))
     }
 
     /// The record's own unknowns (position, velocity, disturbance), given the common unknowns, for a right-hand side.

@@ -416,7 +416,7 @@ impl<'a> GaussNewton<'a> {
             if self.steps > 0 {
                 let before = motion.noise.std;
                 motion.update_noise(&linearised, parameters);
-                moved = moved.max(NOISE_WEIGHT * (motion.noise.std / before).ln().abs());
+                moved = moved.max(NOISE_WEIGHT * libm::log(motion.noise.std / before).abs());
             }
             let links = motion.links(&linearised, 0, |_, _| Vec::new(), Vec::new);
             let chain = CondensedChain::new(&links);
@@ -424,7 +424,7 @@ impl<'a> GaussNewton<'a> {
             for (information, instant) in chain.log_information().zip(&linearised.instants) {
                 if let Some(edge) = *instant {
                     let std = motion.edges[edge].std_s;
-                    evidence -= 0.5 * (motion.deviations[edge] / std).powi(2) + information + std.ln();
+                    evidence -= 0.5 * (motion.deviations[edge] / std).powi(2) + information + libm::log(std);
                 }
             }
             chains.push((chain, linearised.instants));

@@ -36,7 +36,7 @@ impl ReadingNoise {
         let precision = 1.0 / self.std;
         if self.quantum == 0.0 {
             let scaled = residual * precision;
-            let log = -0.5 * scaled * scaled - self.std.ln() - 0.5 * (2.0 * PI).ln();
+            let log = -0.5 * scaled * scaled - libm::log((2.0 * PI).sqrt() * self.std);
             return Likelihood { log, score: scaled * precision, information: precision * precision };
         }
         // The noise lies between these two, in standard deviations; by symmetry nearer to the lower end.
@@ -45,13 +45,13 @@ impl ReadingNoise {
         let (log, lower, upper) = if low > FAR_OUT {
             // Far out, the nearer end decides: P = density(low)/low (1 - 1/low^2 + ...).
             let series = 1.0 - 1.0 / (low * low) + 3.0 / low.powi(4);
-            let ratio = (-0.5 * (high * high - low * low)).exp();
-            let log = -0.5 * low * low - 0.5 * (2.0 * PI).ln() - low.ln() + series.ln();
+            let ratio = libm::exp(-0.5 * (high * high - low * low));
+            let log = -0.5 * low * low + libm::log(series / ((2.0 * PI).sqrt() * low));
             (log, low / series, ratio * low / series)
         } else {
             let probability = 0.5 * (libm::erfc(low / SQRT_2) - libm::erfc(high / SQRT_2));
-            let density = |z: f64| (-0.5 * z * z).exp() / (2.0 * PI).sqrt();
-            (probability.ln(), density(low) / probability, density(high) / probability)
+            let density = |z: f64| libm::exp(-0.5 * z * z) / (2.0 * PI).sqrt();
+            (libm::log(probability), density(low) / probability, density(high) / probability)
         };
         let score = (lower - upper) * precision;
         let curvature = score * precision * (lower - upper) - (low * lower - high * upper) * precision * precision;
@@ -67,12 +67,12 @@ impl ReadingNoise {
     /// The standard deviation, between `least` and `most`, under which the residuals are likeliest.
     pub(super) fn likeliest_std(residuals: &[f64], quantum: f64, least: f64, most: f64) -> f64 {
         let cost = |ln: f64| -> f64 {
-            let noise = Self { std: ln.exp(), quantum };
+            let noise = Self { std: libm::exp(ln), quantum };
             -residuals.iter().map(|residual| noise.likelihood(*residual).log).sum::<f64>()
         };
-        let (low, high) = (least.ln(), most.max(2.0 * least).ln());
+        let (low, high) = (libm::log(least), libm::log(most.max(2.0 * least)));
         golden_section(|ln| Some(cost(ln)), low, high, NOISE_TOLERANCE * LN_2)
-            .map_or(least, |[low, high]| f64::midpoint(low, high).exp())
+            .map_or(least, |[low, high]| libm::exp(f64::midpoint(low, high)))
     }
 }
 

@@ -74,7 +74,7 @@ fn ljung_box_deviate(correlations: &[f64], samples: usize) -> f64 {
         correlations.iter().enumerate().map(|(k, correlation)| correlation * correlation / (n - 1.0 - k as f64));
     let statistic = n * (n + 2.0) * terms.sum::<f64>();
     let unit = 2.0 / (9.0 * lags);
-    ((statistic / lags).cbrt() - (1.0 - unit)) / unit.sqrt()
+    (libm::cbrt(statistic / lags) - (1.0 - unit)) / unit.sqrt()
 }
 
 impl GaussNewton<'_> {

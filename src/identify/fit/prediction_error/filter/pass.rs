@@ -20,7 +20,7 @@ impl Innovation {
 
     /// Logarithm of its density.
     pub(crate) fn log_density(self) -> f64 {
-        -0.5 * (core::f64::consts::TAU.ln() + self.variance.ln() + self.standardised().powi(2))
+        -0.5 * (libm::log(core::f64::consts::TAU * self.variance) + self.standardised().powi(2))
     }
 }
 

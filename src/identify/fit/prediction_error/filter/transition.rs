@@ -116,9 +116,9 @@ pub(super) struct LowPass {
 impl LowPass {
     pub(super) fn new(time_s: f64, h_s: f64) -> Self {
         let q = h_s / time_s;
-        let kept = (-q).exp();
+        let kept = libm::exp(-q);
         // Moments of the weight exp(-(h - s) / time) / time over s / h, and their derivatives with respect to q.
-        let m0 = -(-q).exp_m1();
+        let m0 = -libm::expm1(-q);
         let m1 = 1.0 - m0 / q;
         let m2 = 1.0 - 2.0 * m1 / q;
         let (d0, d1) = (kept, (m0 - q * kept) / (q * q));
@@ -161,7 +161,7 @@ impl LateSpeed {
     pub(super) fn along(time_s: f64, h_s: f64, before: f64, velocity: f64, acceleration: f64) -> Self {
         let since = [0.0, 0.5 * h_s, h_s];
         let behind = before - velocity + acceleration * time_s;
-        let kept = since.map(|t| (-t / time_s).exp());
+        let kept = since.map(|t| libm::exp(-t / time_s));
         let at = |k: usize| velocity + acceleration * (since[k] - time_s) + behind * kept[k];
         let by_time = |k: usize| acceleration * (kept[k] - 1.0) + behind * kept[k] * since[k] / (time_s * time_s);
         Self { values: [at(0), at(1), at(2)], by_time: [by_time(0), by_time(1), by_time(2)], kept }
