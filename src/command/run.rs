@@ -17,7 +17,7 @@ use super::number::positive;
 use super::{CommandError, Outcome};
 use crate::experiment::Columns;
 use crate::files::{Files, Output};
-use crate::identify::document::RefusalDocument;
+use crate::identify::document::{RefusalDocument, UnitNames};
 use crate::identify::{DragLaw, Session, Settings};
 use crate::numeric::Uncertain;
 use crate::on_board::{Coordinate, Experiment, Phase, Protocol, Step};
@@ -193,6 +193,7 @@ fn conclusion(experiment: &Experiment<f64>, protocol: &Protocol<f64>, log: &str)
         "phase": experiment.phase().to_string(),
         "fault": fault,
         "attempts": experiment.attempt(),
+        "units": UnitNames::with_output(display::angle_unit(protocol.coordinate).unwrap_or("output")),
         "outcome": outcome,
         "exact": exact.collect::<Vec<_>>(),
     });

@@ -30,7 +30,7 @@ Examples:
   selfosc verify --check bounds.json --log log.csv
   selfosc verify --json")]
 pub(super) struct Arguments {
-    /// Only these claims
+    /// Only these claims, by name or by the paper's: lemma-1, theorem-1
     #[arg(value_name = "ID")]
     ids: Vec<String>,
     /// Only this claim; repeat or list several
@@ -124,13 +124,22 @@ fn chosen(ids: &[String]) -> Result<Vec<&'static Claim>, CommandError> {
     if ids.is_empty() {
         return Ok(CLAIMS.iter().collect());
     }
-    let find = |id: &String| {
-        Claim::find(id).ok_or_else(|| CommandError::UnknownClaim {
-            id: id.clone(),
-            nearest: suggestion::nearest(id, CLAIMS.iter().map(|claim| claim.id)),
-        })
-    };
-    ids.iter().map(find).collect()
+    let mut found = Vec::new();
+    for id in ids {
+        let before = found.len();
+        let printed = as_printed(id);
+        found.extend(CLAIMS.iter().filter(|claim| claim.id == id || as_printed(claim.equation()) == printed));
+        if found.len() == before {
+            let nearest = suggestion::nearest(id, CLAIMS.iter().map(|claim| claim.id));
+            return Err(CommandError::UnknownClaim { id: id.clone(), nearest });
+        }
+    }
+    Ok(found)
+}
+
+/// The paper's name of a result, however it is typed: `Theorem 1`, `theorem-1`.
+fn as_printed(name: &str) -> String {
+    name.to_lowercase().replace('-', " ")
 }
 
 /// What was found of the parts that are established, then the numbers, in the order of the fields.

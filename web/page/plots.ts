@@ -6,7 +6,11 @@ import type { Autotuned } from "./results";
 
 export interface Curve {
   label: string;
-  values: ArrayLike<number | null>;
+  /** NaN where nothing is known: a gap. */
+  values: ArrayLike<number>;
+  /** Shown as `scale * value + offset`. */
+  scale?: number;
+  offset?: number;
   /** A colour of the style sheet: `--readings`, `--model`, `--command`. */
   colour: string;
   points?: boolean;
@@ -18,8 +22,48 @@ export interface Curve {
 let queue: Promise<unknown> = Promise.resolve();
 const later = (act: () => void) => (queue = queue.then(() => new Promise((done) => setTimeout(() => done(act())))));
 
-/** More readings than these are drawn as a line: points would hide each other. */
+/** More readings than these are drawn as a line, points would hide each other; and of each pixel the extremes alone. */
 const MOST_POINTS = 3000;
+
+/** Of the samples in view every one, or the extremes of all curves in each of `parts`: a line through them looks the same. The record's ends
+ * stay, so that a double click finds them. */
+function inView(time: ArrayLike<number>, curves: Curve[], from: number, to: number, parts: number): number[] {
+  const before = (limit: number) => {
+    let [low, high] = [0, time.length];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (time[middle]! < limit) low = middle + 1;
+      else high = middle;
+    }
+    return low;
+  };
+  const [first, last] = [Math.max(before(from) - 1, 0), Math.min(before(to) + 1, time.length)];
+  const kept = new Set([0, first, last - 1, time.length - 1]);
+  const size = last - first <= MOST_POINTS ? 1 : (last - first) / parts;
+  for (let start = first; start < last; start += size) {
+    const [begin, end] = [Math.floor(start), Math.min(Math.floor(start + size), last)];
+    kept.add(begin);
+    for (const { values } of size > 1 ? curves : []) {
+      let [least, most, low, high] = [begin, begin, Infinity, -Infinity];
+      for (let k = begin; k < end; k++) {
+        if (values[k]! < low) low = values[(least = k)]!;
+        if (values[k]! > high) high = values[(most = k)]!;
+      }
+      kept.add(least).add(most);
+    }
+  }
+  return [...kept].sort((a, b) => a - b);
+}
+
+const FONT = "12px system-ui, sans-serif";
+
+// A browser's first canvas waits for fonts and its painter: here while nobody looks.
+requestIdleCallback(() => {
+  const { canvas } = Object.assign(document.createElement("canvas").getContext("2d")!, { font: FONT });
+  const context = canvas.getContext("2d")!;
+  context.fillText("0", 0, 10);
+  context.getImageData(0, 0, 1, 1);
+});
 
 const style = (name: string) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -31,8 +75,8 @@ export function plot(title: string, time: ArrayLike<number>, curves: Curve[], x:
       size,
       space: size > 50 ? 28 : 50,
       stroke: style("--text"),
-      font: "12px system-ui, sans-serif",
-      labelFont: "12px system-ui, sans-serif",
+      font: FONT,
+      labelFont: FONT,
       grid: { stroke: style("--grid"), width: 1 },
       ticks: { stroke: style("--grid"), width: 1 },
     });
@@ -41,7 +85,7 @@ export function plot(title: string, time: ArrayLike<number>, curves: Curve[], x:
       return {
         label,
         stroke: style(colour),
-        width: dots ? 0 : 1.5,
+        width: dots ? 0 : values.length > MOST_POINTS ? 1 : 1.5,
         paths: dots ? () => null : held ? uPlot.paths.stepped!({ align: 1 }) : undefined,
         points: dots ? { show: true, size: 4, fill: style(colour), stroke: style(colour) } : { show: false },
         value: (_, value) => (value === null || !Number.isFinite(value) ? "\u2013" : value.toPrecision(5)),
@@ -57,8 +101,23 @@ export function plot(title: string, time: ArrayLike<number>, curves: Curve[], x:
       cursor: { sync: { key } },
       bands: band ? [{ series: band, fill: style("--band") }] : undefined,
     };
+    const data = (from: number, to: number) => {
+      const kept = inView(time, curves, from, to, options.width / 2);
+      // A band is narrower than the swing within a pixel: it waits for a closer view.
+      const hidden = (index: number) => band?.includes(index + 1) && kept.length < time.length && kept.length > MOST_POINTS / 2;
+      const picked = ({ values, scale = 1, offset = 0 }: Curve, index: number) => kept.map((k) => (hidden(index) || Number.isNaN(values[k]!) ? null : scale * values[k]! + offset));
+      return [kept.map((k) => time[k]!), ...curves.map(picked)] as uPlot.AlignedData;
+    };
+    let view = [-Infinity, Infinity];
+    const zoomed = (u: uPlot, key: string) => {
+      const { min, max } = u.scales[key]!;
+      if (key !== "x" || min === undefined || max === undefined || min === null || max === null || time.length <= MOST_POINTS || (view[0] === min && view[1] === max)) return;
+      const began = view[0] === -Infinity;
+      view = [min, max];
+      if (!began) queueMicrotask(() => u.batch(() => (u.setData(data(min, max), false), u.setScale("x", { min, max }))));
+    };
     holder.replaceChildren();
-    return new uPlot(options, [time, ...curves.map((curve) => curve.values)] as unknown as uPlot.AlignedData, holder);
+    return new uPlot({ ...options, hooks: { setScale: [zoomed] } }, data(-Infinity, Infinity), holder);
   };
   let drawn: uPlot | null = null;
   let asked = false;
@@ -94,22 +153,20 @@ export function records(all: Samples[], names: string[], angle: boolean): HTMLEl
   const scale = angle ? DEGREES : 1;
   const unit = angle ? " (deg)" : "";
   return all.flatMap(({ time_s: time, output, input, model, residual }, index) => {
-    // A scale is found from numbers; where nothing is predicted stands a gap.
-    const in_degrees = (column: Float64Array, offset = 0) => Array.from(column, (value) => (Number.isNaN(value) ? null : scale * (value + offset)));
     const known = residual.filter((value) => !Number.isNaN(value));
     const rms = Math.sqrt(known.reduce((sum, value) => sum + value * value, 0) / Math.max(known.length, 1));
-    const shown: Curve[] = [{ label: "readings", values: in_degrees(output), colour: "--readings", points: true }];
+    const shown: Curve[] = [{ label: "readings", values: output, scale, colour: "--readings", points: true }];
     const modelled = known.length > 0;
     if (modelled) {
-      shown.push({ label: "model", values: in_degrees(model), colour: "--model" });
-      shown.push({ label: "+2 rms", values: in_degrees(model, 2 * rms), colour: "--edge" });
-      shown.push({ label: "\u22122 rms", values: in_degrees(model, -2 * rms), colour: "--edge" });
+      shown.push({ label: "model", values: model, scale, colour: "--model" });
+      shown.push({ label: "+2 rms", values: model, scale, offset: 2 * rms * scale, colour: "--edge" });
+      shown.push({ label: "\u22122 rms", values: model, scale, offset: -2 * rms * scale, colour: "--edge" });
     }
     const key = `record ${index}`;
     const title = names.length > 1 ? (names[index] ?? "") : "Record and model";
     return [
       plot(title, time, shown, "time (s)", `output${unit}`, modelled ? [3, 4] : undefined, key),
-      ...(modelled ? [plot("Residuals: readings less model", time, [{ label: "residual", values: in_degrees(residual), colour: "--readings", points: true }], "time (s)", `residual${unit}`, undefined, key)] : []),
+      ...(modelled ? [plot("Residuals: readings less model", time, [{ label: "residual", values: residual, scale, colour: "--readings", points: true }], "time (s)", `residual${unit}`, undefined, key)] : []),
       plot("Command", time, [{ label: "command", values: input, colour: "--command", held: true }], "time (s)", "command", undefined, key),
     ];
   });

@@ -6,7 +6,8 @@ const compiled = WebAssembly.compileStreaming(fetch("selfosc.wasm"));
 // A failure is said by the first call.
 compiled.catch(() => undefined);
 
-const say = (message: Message) => postMessage(message);
+/** Large parts change hands: the page does not wait for a copy. */
+const say = (message: Message, handed: Transferable[] = []) => postMessage(message, handed);
 const text = (bytes: Uint8Array) => new TextDecoder().decode(bytes);
 
 async function run({ id, args, files }: Call): Promise<Answer> {
@@ -51,7 +52,7 @@ function columns(csv: string): Samples[] {
 
 addEventListener("message", ({ data }: MessageEvent<Call>) => {
   run(data).then(
-    (answer) => say({ id: data.id, kind: "answer", answer }),
+    (answer) => say({ id: data.id, kind: "answer", answer }, [...answer.samples.flatMap(Object.values), ...answer.files.values()].map((part) => part.buffer)),
     (error: unknown) => say({ id: data.id, kind: "crash", text: String(error) }),
   );
 });

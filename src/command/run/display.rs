@@ -78,11 +78,7 @@ impl Display {
 
     fn draw(&mut self, phase: Phase, [position, command]: [f64; 2]) {
         let protocol = &self.protocol;
-        let unit = match protocol.coordinate {
-            Coordinate::HeadingRad => "rad",
-            Coordinate::HeadingDegrees => "deg",
-            Coordinate::Position | Coordinate::Speed => "",
-        };
+        let unit = angle_unit(protocol.coordinate).unwrap_or_default();
         let room = (protocol.highest_command - protocol.neutral_command)
             .max(protocol.neutral_command - protocol.lowest_command);
         let rows = [
@@ -141,4 +137,13 @@ fn bar(place: f64) -> String {
     let mut line = ["-"; BAR];
     (line[BAR / 2], line[mark]) = ("|", "*");
     format!("[{}]", line.concat())
+}
+
+/// The unit of a heading.
+pub(super) fn angle_unit(coordinate: Coordinate) -> Option<&'static str> {
+    match coordinate {
+        Coordinate::HeadingRad => Some("rad"),
+        Coordinate::HeadingDegrees => Some("deg"),
+        Coordinate::Position | Coordinate::Speed => None,
+    }
 }

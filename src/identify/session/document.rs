@@ -101,6 +101,11 @@ impl UnitNames {
             [_, ..] if sources.iter().all(|source| source.log.is_length()) => "m",
             _ => "output",
         };
+        Self::with_output(output)
+    }
+
+    /// Where the output is in this unit.
+    pub(crate) fn with_output(output: &'static str) -> Self {
         Self {
             output: output.into(),
             alpha: "command s^2/output".into(),
