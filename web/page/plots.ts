@@ -117,7 +117,9 @@ export function plot(title: string, time: ArrayLike<number>, curves: Curve[], x:
       if (!began) queueMicrotask(() => u.batch(() => (u.setData(data(min, max), false), u.setScale("x", { min, max }))));
     };
     holder.replaceChildren();
-    return new uPlot({ ...options, hooks: { setScale: [zoomed] } }, data(-Infinity, Infinity), holder);
+    const empty = new uPlot({ ...options, hooks: { setScale: [zoomed] } }, [[], ...curves.map(() => [])], holder);
+    later(() => empty.setData(data(-Infinity, Infinity)));
+    return empty;
   };
   let drawn: uPlot | null = null;
   let asked = false;
