@@ -54,6 +54,14 @@ fn verify() {
     insta::with_settings!({ filters => [(r"margin \S+", "margin [..]")] }, { golden!("verify", summary) });
 }
 
+/// A reader of the paper types its name of a result.
+#[test]
+fn a_claim_by_the_paper_s_name() {
+    let by = |name: &str| done(&["verify", name, "--cases", "10", "--json"]);
+    assert_eq!(by("theorem-1"), by("odd-harmonics"));
+    assert_eq!(by("Theorem 1"), by("odd-harmonics"));
+}
+
 const RELAY: [&str; 4] = ["df", "relay-hysteresis", "--set", "half_width=0.3"];
 const AXIS: [&str; 7] = ["predict", "--alpha", "1", "--beta", "1", "--relay", "1"];
 

@@ -207,6 +207,23 @@ fn a_record_that_is_not_predicted_makes_the_answer_doubtful() {
     golden!("identify-does-not-predict", reported["reasons"][0]["text"].as_str().unwrap());
 }
 
+/// A rounded oscillation that is locked to the sampling repeats itself: no length of the record helps, and the advice says so.
+#[test]
+fn a_locked_oscillation_asks_for_another_level() {
+    let heading = |noise: &str| {
+        let axis = ["simulate", "--alpha", "0.033", "--beta", "0.01", "--beta-quadratic", "0.06", "--delay", "0.2"];
+        let record = ["--relay", "0.02", "--half-width", "0.2", "--hold", "--rate", "10", "--cycles", "5"];
+        let folder = tempfile::tempdir().unwrap();
+        let sensor = ["--degrees", "--quantum", "0.017453292519943295", "--noise", noise];
+        let (_, log, _) = selfosc(&folder, &[&axis[..], &record, &sensor].concat());
+        std::fs::write(folder.path().join("log.csv"), log).unwrap();
+        let (_, text, _) = selfosc(&folder, &["identify", "log.csv"]);
+        (text.contains(" locked: "), text.contains("record another relay level"))
+    };
+    assert_eq!(heading("0"), (true, true));
+    assert_eq!(heading("0.01"), (false, false));
+}
+
 /// Where terms are looked for in a part of the record only, the answer says so, and its interval is that of all samples.
 #[test]
 fn a_long_record_says_where_terms_were_looked_for() {

@@ -52,6 +52,7 @@ fn one_pipe_from_the_experiment_to_gains() {
         serde_json::from_slice(&std::fs::read(folder.path().join("model.json")).unwrap()).unwrap();
     assert!((model["reported"]["alpha"]["value"].as_f64().unwrap() / 0.033 - 1.0).abs() < 0.02);
     assert_eq!(model["experiment"]["phase"], "done");
+    assert_eq!(model["experiment"]["units"], model["units"]);
     let delta = model["reported"]["delta"]["value"].as_f64().unwrap();
     let offset = tuned["offset"].as_f64().unwrap();
     assert!((offset * tuned["gains"]["proportional"].as_f64().unwrap() - delta).abs() < 1e-15);

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::AxisParameter;
-use crate::features::RecordFeatures;
+use crate::features::{CycleStatistics, RecordFeatures};
 
 /// Something that would mislead. Ratios are plain numbers; a ratio to an estimate of zero is infinite, and written as text in JSON.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -36,7 +36,17 @@ pub enum Warning {
         /// Samples of the record.
         samples: usize,
     },
+    /// A rounded oscillation locked to the sampling: each cycle repeats the last reading for reading.
+    Locked {
+        /// Cycles.
+        cycles: u32,
+        /// Their period, in s.
+        period_s: f64,
+    },
 }
+
+/// Relative spread that is rounding of sums: readings in steps differ by more.
+const SAME: f64 = 1e-9;
 
 /// Switching level over amplitude from which inertia is ill-conditioned.
 const NEAR_AMPLITUDE: f64 = 0.9;
@@ -49,15 +59,20 @@ impl Warning {
             Self::IllConditioned { .. } => "ill-conditioned",
             Self::MethodsDisagree { .. } => "methods-disagree",
             Self::SearchedInPart { .. } => "searched-in-part",
+            Self::Locked { .. } => "locked",
         }
     }
 
-    /// Warnings that features give.
+    /// Warnings that features give, of a sensor with this step.
     #[must_use]
-    pub fn of_features(RecordFeatures { features, ramp_s, .. }: &RecordFeatures) -> Vec<Self> {
+    pub fn of_features(RecordFeatures { features, ramp_s, .. }: &RecordFeatures, quantum: Option<f64>) -> Vec<Self> {
         let ratio = (features.switch_level.mean + features.bias.mean.abs()) / features.amplitude.mean;
         let derived = (*ramp_s > 0.0).then_some(Self::OrdersDerived { ramp_s: *ramp_s });
-        derived.into_iter().chain((ratio > NEAR_AMPLITUDE).then_some(Self::IllConditioned { ratio })).collect()
+        let same = |of: CycleStatistics<f64>| of.std <= SAME * of.mean;
+        let locked = quantum.is_some() && features.cycles > 1 && same(features.period_s) && same(features.amplitude);
+        let locked = locked.then_some(Self::Locked { cycles: features.cycles, period_s: features.period_s.mean });
+        let near = (ratio > NEAR_AMPLITUDE).then_some(Self::IllConditioned { ratio });
+        derived.into_iter().chain(near).chain(locked).collect()
     }
 }
 
@@ -84,6 +99,11 @@ impl fmt::Display for Warning {
                 f,
                 "terms were looked for in the first {searched} of {samples} samples; a part of the record alone (--from, --to) tells \
                  whether others are at work there"
+            ),
+            Self::Locked { cycles, period_s } => write!(
+                f,
+                "all {cycles} steady cycles are one, reading for reading, with a period of {period_s:.4} s: a longer record adds \
+                 nothing; give a second record at another relay level beside it"
             ),
         }
     }

@@ -127,12 +127,12 @@ pub(crate) fn verdict(found: &Identification) -> String {
         Trust::Doubtful => "Trust: doubtful. Do not use the numbers, for the reasons named below.",
     };
     let (alpha, drag, next) =
-        (inertia_sentence(reported.alpha), drag_sentence(found, reported), next_sentence(reported));
+        (inertia_sentence(reported.alpha), drag_sentence(found, reported), next_sentence(found, reported));
     format!("{alpha}{trust}\n{drag}\n{SCALE}\n{next}")
 }
 
 /// What to do next: gains, and what narrows the practical interval most; without trust, another record.
-fn next_sentence(reported: &Reported) -> String {
+fn next_sentence(found: &Identification, reported: &Reported) -> String {
     if reported.trust == Trust::Doubtful {
         return "Next: another record. `selfosc design` computes which level and half-width.".to_owned();
     }
@@ -141,6 +141,9 @@ fn next_sentence(reported: &Reported) -> String {
     let (statistical, practical) = (2.0 * half(reported.alpha.spread), half(reported.alpha.combined));
     let narrower = match reported.budget.first() {
         Some(largest) if 2.0 * statistical.powi(2) < practical.powi(2) => largest.remedy.as_ref(),
+        _ if found.cautions().iter().any(|caution| caution.code == "locked") => {
+            "record another relay level and give both"
+        }
         _ => "record longer, or as `selfosc design` proposes",
     };
     format!(
