@@ -394,3 +394,31 @@ fn a_set_that_reaches_outside_has_no_gains() {
     model.covariance[1][1] = model.coefficients[1].value.powi(2);
     assert_eq!(found.gains(record.interval_s(), &GainsWanted { sensitivity: 3.0, ..GainsWanted::default() }), None);
 }
+
+/// Along axes at 45 degrees to drag and delay a set reaches sqrt(2) further in each: where that is beyond no drag, the box of the coefficients,
+/// which holds 95 % as well, has gains; where the box is beyond it too, nothing has.
+#[test]
+fn the_box_has_gains_where_the_principal_axes_reach_outside() {
+    const REACH: f64 = 2.57;
+    let (truth, _) = drawn(4);
+    let record = truth.record(0.0, 1e-3 * truth.gain, 4);
+    let mut found = ProcessRecord::of(&record).unwrap();
+    found.models.truncate(1);
+    let [_, drag, _, _, delay] = found.models[0].coefficients.map(|part| part.value);
+    let mut with = |reached: f64| {
+        let model = &mut found.models[0];
+        let std = [0.0, reached / REACH * drag, 0.0, 0.0, 0.01 * delay];
+        let correlated = |i: usize, j: usize| if i == j { 1.0 } else { 0.01 };
+        model.covariance = core::array::from_fn(|i| core::array::from_fn(|j| correlated(i, j) * std[i] * std[j]));
+        for (part, std) in model.coefficients.iter_mut().zip(std) {
+            part.std = std;
+        }
+        found.gains(record.interval_s(), &GainsWanted::default())
+    };
+    let boxed = with(0.8).unwrap();
+    let on_axis = |k: usize, end: f64| core::array::from_fn(|i| if i == k { end } else { 0.0 });
+    let reached = (0..9).flat_map(|k| [-1.0, 1.0].map(|end| boxed.sets[0].at(on_axis(k, end)).unwrap().drag));
+    let [low, high] = reached.fold([drag; 2], |[low, high], one| [low.min(one), high.max(one)]);
+    assert!((low - 0.2 * drag).abs() < 1e-9 * drag && (high - 1.8 * drag).abs() < 1e-9 * drag, "{low} {high} {drag}");
+    assert_eq!(with(1.1), None);
+}

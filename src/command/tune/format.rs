@@ -60,10 +60,13 @@ impl GainFormat {
         }
         let offset = match tuned.offset() {
             0.0 => String::new(),
-            offset => format!(
-                "# the constant force leaves the vehicle {} rad off; choose --structure pid against it\n",
-                significant(offset, 3)
-            ),
+            offset => {
+                let remedy = match self {
+                    Self::Px4 => "PX4's controller has no integral against it",
+                    _ => "choose --structure pid against it",
+                };
+                format!("# the constant force leaves the vehicle {} rad off; {remedy}\n", significant(offset, 3))
+            }
         };
         Ok(format!(
             "# command from -1 to 1: {full_command} of the log's unit is 1 (--full-command); angles in rad\n\
