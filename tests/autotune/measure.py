@@ -2,7 +2,8 @@
 """`selfosc autotune` and rules of other tools on fresh records: needs numpy and scipy.
 
     python tests/autotune/measure.py run target/release/selfosc --from 1000000 --records 2000 --list results.jsonl
-    python tests/autotune/measure.py page results.jsonl > spec/autotune.md
+    python tests/autotune/heaters.py target/release/selfosc > heaters.md
+    python tests/autotune/measure.py page results.jsonl heaters.md > spec/autotune.md
 
 `run` adds one line a record and may be stopped and called again. Seeds below 1 000 000 are for development.
 """
@@ -89,10 +90,12 @@ def main() -> None:
     run.add_argument("--from", type=int, default=1_000_000, dest="first")
     run.add_argument("--records", type=int, default=2000)
     run.add_argument("--list", type=Path, required=True)
-    jobs.add_parser("page").add_argument("list", type=Path)
+    printed = jobs.add_parser("page")
+    printed.add_argument("list", type=Path)
+    printed.add_argument("heaters", type=Path)
     arguments = parser.parse_args()
     if arguments.job == "page":
-        print(page.of([json.loads(line) for line in arguments.list.read_text().splitlines()]))
+        print(page.of([json.loads(line) for line in arguments.list.read_text().splitlines()], arguments.heaters.read_text()))
         return
     done = len(arguments.list.read_text().splitlines()) if arguments.list.exists() else 0
     with tempfile.TemporaryDirectory() as folder, arguments.list.open("a") as results:

@@ -97,7 +97,7 @@ def drawn(seed: int) -> tuple[Plant, str, dict[str, float], np.random.Generator]
     return plant, condition, settings, random
 
 
-def _relay(plant, load, dt, hysteresis, noise, quantum, samples, cold, wander, random):
+def relay(plant, load, dt, hysteresis, noise, quantum, samples, cold, wander, random):
     """Rows (time, reading, command) under a relay from 0 to 1 about the level that the load holds."""
     a, b, c = plant.state_space()
     order = len(b)
@@ -139,7 +139,7 @@ def _relay(plant, load, dt, hysteresis, noise, quantum, samples, cold, wander, r
     return np.array(rows)
 
 
-def _cycle(rows: np.ndarray) -> tuple[float, float]:
+def swing_and_period(rows: np.ndarray) -> tuple[float, float]:
     """Swing and period of the later half of a run."""
     changes = np.flatnonzero(np.diff(rows[:, 2]))
     settled = rows[changes[len(changes) // 2] :]
@@ -153,17 +153,17 @@ def record(seed: int) -> tuple[Plant, str, np.ndarray, float, float]:
     load, share = settings["load"], settings["per_period"]
     dt = (plant.dead_s + 0.3 * sum(plant.lags_s)) / 40.0
     # Runs without noise tell swing and period, in which the sensor and the relay are drawn; noise must not switch the relay.
-    swing, _ = _cycle(_relay(plant, load, dt, 0.0, 0.0, 0.0, 1600, False, 0.0, random))
+    swing, _ = swing_and_period(relay(plant, load, dt, 0.0, 0.0, 0.0, 1600, False, 0.0, random))
     noise, quantum = 0.5 * settings["noise"] * swing, 0.5 * settings["quantum"] * swing
     hysteresis = 2.0 * noise + 0.5 * quantum
-    _, period_s = _cycle(_relay(plant, load, dt, hysteresis, 0.0, 0.0, 1600, False, 0.0, random))
+    _, period_s = swing_and_period(relay(plant, load, dt, hysteresis, 0.0, 0.0, 1600, False, 0.0, random))
     dt = period_s / share
     cold = condition == "cold" and not plant.integrates
     wander = 0.05 if condition == "wandering" else 0.0
     before = 0 if cold else int(share * (2.0 + settings["phase"]))
     periods = {"warm": 3.5, "short": 1.75, "cold": 3.5, "wandering": 3.5}[condition]
     samples = before + int(share * (periods + 8.0 * cold)) + 1
-    rows = _relay(plant, load, dt, hysteresis, noise, quantum, samples, cold, wander, random)[before:]
+    rows = relay(plant, load, dt, hysteresis, noise, quantum, samples, cold, wander, random)[before:]
     if cold:
         first = int(np.flatnonzero(np.diff(rows[:, 2]))[0]) if np.any(np.diff(rows[:, 2])) else 0
         rows = rows[: first + int(share * periods)]
