@@ -253,8 +253,10 @@ typedef struct {
   uint32_t coordinate;
   // Value of the coordinate to oscillate about.
   float reference;
-  // Command between the relay's two levels, given before, afterwards and upon a fault.
+  // Command before, afterwards and upon a fault.
   float neutral_command;
+  // Middle of the relay's two levels less the neutral command; a disturbance is counted from the middle.
+  float relay_offset;
   // Least command that is ever given.
   float lowest_command;
   // Largest command that is ever given.
@@ -527,8 +529,10 @@ typedef struct {
   uint32_t coordinate;
   // Value of the coordinate to oscillate about.
   double reference;
-  // Command between the relay's two levels, given before, afterwards and upon a fault.
+  // Command before, afterwards and upon a fault.
   double neutral_command;
+  // Middle of the relay's two levels less the neutral command; a disturbance is counted from the middle.
+  double relay_offset;
   // Least command that is ever given.
   double lowest_command;
   // Largest command that is ever given.

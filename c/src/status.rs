@@ -166,8 +166,8 @@ answers! {
     Parameters<T> { alpha, beta, beta_quadratic, disturbance },
     Axis<T> { alpha, linear_drag, quadratic_drag, disturbance, delay_s },
     Protocol<T> {
-        reference, neutral_command, lowest_command, highest_command, relay_level, half_width, largest_excursion, wrong_way,
-        dwell_s, interval_s, resolution, largest_rate, unchanged_s, patience_s, duration_s, spread, factor
+        reference, neutral_command, relay_offset, lowest_command, highest_command, relay_level, half_width, largest_excursion,
+        wrong_way, dwell_s, interval_s, resolution, largest_rate, unchanged_s, patience_s, duration_s, spread, factor
         ; coordinate; cycles; most_cycles; attempts
     },
     ExperimentStep<T> { command; phase; fault },

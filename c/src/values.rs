@@ -188,8 +188,10 @@ pub struct Protocol<T> {
     pub coordinate: u32,
     /// Value of the coordinate to oscillate about.
     pub reference: T,
-    /// Command between the relay's two levels, given before, afterwards and upon a fault.
+    /// Command before, afterwards and upon a fault.
     pub neutral_command: T,
+    /// Middle of the relay's two levels less the neutral command; a disturbance is counted from the middle.
+    pub relay_offset: T,
     /// Least command that is ever given.
     pub lowest_command: T,
     /// Largest command that is ever given.

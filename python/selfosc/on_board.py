@@ -42,9 +42,12 @@ class Protocol(Suggesting):
     reference : float
         Value of the coordinate to oscillate about.
     neutral : float
-        Command before, after, and upon a fault; the relay's levels lie about it.
+        Command before, after, and upon a fault; the relay's levels lie about it, or about ``offset`` from it.
+    offset : float
+        Middle of the relay's levels less the neutral command; of a heater, off or full on, the relay level. A disturbance of
+        :meth:`Outcome.axis` is counted from the middle.
     lowest, highest : float, optional
-        Least and largest command ever given; by default two relay levels from neutral.
+        Least and largest command ever given; by default two relay levels from the middle.
     wrong_way : float, optional
         Way back under the first command that counts as the wrong sign; by default two half-widths.
     dwell : float, optional
@@ -81,6 +84,7 @@ class Protocol(Suggesting):
     excursion: float | None = None
     reference: float = 0.0
     neutral: float = 0.0
+    offset: float = 0.0
     lowest: float | None = None
     highest: float | None = None
     wrong_way: float | None = None

@@ -185,7 +185,8 @@ fn conclusion(experiment: &Experiment<f64>, protocol: &Protocol<f64>, log: &str)
                 "alpha": axis.alpha(),
                 "beta": axis.linear_drag(),
                 "beta_quadratic": axis.quadratic_drag(),
-                "delta": axis.disturbance(),
+                // From the neutral command, as that of `reported`.
+                "delta": axis.disturbance() - protocol.relay_offset,
             }))
         })
     });

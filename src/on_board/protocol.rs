@@ -51,8 +51,11 @@ pub struct Protocol<T> {
     pub coordinate: Coordinate,
     /// Value of the coordinate to oscillate about.
     pub reference: T,
-    /// Command that the relay's two levels lie about, and that is given before, afterwards and upon a fault.
+    /// Command before, afterwards and upon a fault.
     pub neutral_command: T,
+    /// Middle of the relay's two levels less the neutral command: one relay level for a heater that is off or full on. A disturbance is
+    /// counted from the middle.
+    pub relay_offset: T,
     /// Least command that is ever given.
     pub lowest_command: T,
     /// Largest command that is ever given.
@@ -121,6 +124,7 @@ impl<T: Scalar> Protocol<T> {
             coordinate,
             reference: T::zero(),
             neutral_command: T::zero(),
+            relay_offset: T::zero(),
             lowest_command: -T::two() * relay_level,
             highest_command: T::two() * relay_level,
             relay_level,
@@ -180,14 +184,19 @@ impl<T: Scalar> Protocol<T> {
         Self::usual(Coordinate::HeadingDegrees, relay_level, half_width, interval_s)
     }
 
+    /// Middle of the relay's two levels.
+    pub(crate) fn middle_command(&self) -> T {
+        self.neutral_command + self.relay_offset
+    }
+
     /// The largest relay level within the limits.
     pub(super) fn largest_level(&self) -> T {
-        (self.highest_command - self.neutral_command).min(self.neutral_command - self.lowest_command)
+        (self.highest_command - self.middle_command()).min(self.middle_command() - self.lowest_command)
     }
 
     /// The relay of an attempt.
     pub(super) fn relay(&self, level: T, half_width: T) -> Result<RelayHysteresis<T>, OutOfDomain> {
-        let relay = RelayHysteresis::new(level, half_width, self.neutral_command).ok();
+        let relay = RelayHysteresis::new(level, half_width, self.middle_command()).ok();
         relay.filter(|relay| relay.half_width() > T::zero()).ok_or(OutOfDomain {
             quantity: "half-width",
             value: half_width.value(),
@@ -201,7 +210,7 @@ impl<T: Scalar> Protocol<T> {
     pub(super) fn checked(self) -> Result<Self, OutOfDomain> {
         let level_fits = self.relay_level <= self.largest_level();
         let unchanged_fits = self.unchanged_s > self.interval_s && self.unchanged_s < self.patience_s;
-        let within = Limit::Words("within the limits about the neutral command");
+        let within = Limit::Words("within the limits about the middle of the levels");
         let patient = Limit::Words("below the patience");
         let stuck = Limit::Words("above the interval and below the patience");
         let wider = Limit::Words("above the half-width");
@@ -209,6 +218,7 @@ impl<T: Scalar> Protocol<T> {
         for (quantity, value, unit, inside, limit) in [
             ("reference", self.reference, COORDINATE, true, Limit::Finite),
             ("neutral command", self.neutral_command, COMMAND, true, Limit::Finite),
+            ("offset of the relay", self.relay_offset, COMMAND, true, Limit::Finite),
             ("lowest command", self.lowest_command, COMMAND, true, Limit::Finite),
             ("highest command", self.highest_command, COMMAND, true, Limit::Finite),
             ("relay level", self.relay_level, COMMAND, true, Limit::Positive),

@@ -19,7 +19,7 @@ pub(super) struct Steadiness<T> {
 impl<T: Scalar> Steadiness<T> {
     pub(super) fn new(protocol: &Protocol<T>) -> Self {
         Self {
-            cycles: Cycles::new(protocol.neutral_command),
+            cycles: Cycles::new(protocol.middle_command()),
             summary: Summary::new(),
             ranges: [(T::zero(), T::zero()); 4],
             alike: 0,

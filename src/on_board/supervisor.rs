@@ -4,6 +4,7 @@ use super::sensor::Sensor;
 use super::{Fault, Protocol};
 use crate::experiment::RelayState;
 use crate::features::LOST;
+use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::{OutOfDomain, Scalar};
 
 /// Where an experiment stands.
@@ -85,7 +86,9 @@ pub(crate) type Key = (&'static str, [u64; 3], [u64; 7], [u64; 4], [u8; 5]);
 pub(crate) struct Supervisor<T> {
     protocol: Protocol<T>,
     phase: Phase,
-    relay: RelayState<T>,
+    relay: RelayHysteresis<T>,
+    /// Whether the relay gives its upper level.
+    high: bool,
     /// Of use once there was a sample.
     sensor: Sensor<T>,
     begun: bool,
@@ -115,7 +118,8 @@ impl<T: Scalar> Supervisor<T> {
         Ok(Self {
             protocol,
             phase: Phase::Running,
-            relay: RelayState::new(relay, false),
+            relay,
+            high: false,
             sensor: Sensor { time_s: zero, reading: zero, position: zero, changed_s: zero },
             begun: false,
             started_s: zero,
@@ -163,7 +167,7 @@ impl<T: Scalar> Supervisor<T> {
     pub(crate) fn command(&self) -> T {
         let protocol = &self.protocol;
         let driving = self.phase == Phase::Running && self.begun;
-        let command = if driving { self.relay.output() } else { protocol.neutral_command };
+        let command = if driving { self.state().output() } else { protocol.neutral_command };
         // The levels lie within the limits up to rounding.
         command.max(protocol.lowest_command).min(protocol.highest_command)
     }
@@ -178,10 +182,13 @@ impl<T: Scalar> Supervisor<T> {
         self.attempt
     }
     pub(crate) fn relay_level(&self) -> T {
-        self.relay.characteristic().level()
+        self.relay.level()
     }
     pub(crate) fn half_width(&self) -> T {
-        self.relay.characteristic().half_width()
+        self.relay.half_width()
+    }
+    fn state(&self) -> RelayState<T> {
+        RelayState::new(self.relay, self.high)
     }
     /// The coordinate that the relay sees, once there was a sample.
     pub(crate) fn position(&self) -> Option<T> {
@@ -202,7 +209,7 @@ impl<T: Scalar> Supervisor<T> {
     /// The state, for a table of visited states. Of a fault its name: the numbers in it decide nothing.
     #[cfg(feature = "std")]
     pub(crate) fn key(&self) -> Key {
-        let Self { phase, relay, started_s, switched_s, farthest, anchor, moved_s, half_periods_s, .. } = self;
+        let Self { phase, started_s, switched_s, farthest, anchor, moved_s, half_periods_s, .. } = self;
         let phase = match phase {
             Phase::Running => "running",
             Phase::Done => "done",
@@ -210,7 +217,7 @@ impl<T: Scalar> Supervisor<T> {
             Phase::Failed(fault) => fault.code(),
         };
         let (bits, (longest_s, last_s)) = (|value: T| value.value().to_bits(), *half_periods_s);
-        let relay = [relay.output(), self.relay_level(), self.half_width()].map(bits);
+        let relay = [self.state().output(), self.relay_level(), self.half_width()].map(bits);
         let numbers = [*started_s, *switched_s, *farthest, *anchor, *moved_s, longest_s, last_s].map(bits);
         let flags = u8::from(self.begun) + 2 * u8::from(self.hasty);
         (phase, relay, numbers, self.sensor.key(), [self.attempt, self.cycles, self.early, self.switchings, flags])
@@ -234,8 +241,7 @@ impl<T: Scalar> Supervisor<T> {
         if self.switchings > 0 {
             return Ok(());
         }
-        let high = self.relay.output() > protocol.neutral_command;
-        let moved = if high { self.farthest - position } else { position - self.farthest };
+        let moved = if self.high { self.farthest - position } else { position - self.farthest };
         self.farthest = if moved < T::zero() { position } else { self.farthest };
         let limit = protocol.wrong_way + protocol.resolution;
         if moved <= limit { Ok(()) } else { Err(wrong_way(moved, limit)) }
@@ -269,11 +275,11 @@ impl<T: Scalar> Supervisor<T> {
 
     /// The relay's command at a position; held where the last switching is too near.
     fn switch(&mut self, position: T, time_s: T) -> T {
-        let (before, input) = (self.relay.output(), self.protocol.reference - position);
-        if !self.relay.changes(input) {
+        let (mut relay, input) = (self.state(), self.protocol.reference - position);
+        let before = relay.output();
+        if !relay.changes(input) {
             return before;
         }
-        let mut relay = self.relay;
         if relay.step(input) == before {
             return before;
         }
@@ -287,7 +293,7 @@ impl<T: Scalar> Supervisor<T> {
             let longest_s = self.half_periods_s.0.max(self.half_periods_s.1);
             self.half_periods_s = (longest_s.min(self.protocol.patience_s), half_period_s);
         }
-        (self.relay, self.switchings, self.hasty) = (relay, (self.switchings + 1).min(SEEN), false);
+        (self.high, self.switchings, self.hasty) = (!self.high, (self.switchings + 1).min(SEEN), false);
         (self.switched_s, self.anchor) = (time_s, position);
         relay.output()
     }
@@ -299,7 +305,7 @@ impl<T: Scalar> Supervisor<T> {
         let position = sensor.position();
         (self.started_s, self.switched_s) = (time_s, time_s);
         (self.farthest, self.anchor, self.moved_s) = (position, position, time_s);
-        self.relay = RelayState::new(*self.relay.characteristic(), position <= self.protocol.reference);
+        self.high = position <= self.protocol.reference;
         (self.sensor, self.begun) = (sensor, true);
         Ok(position)
     }
@@ -364,9 +370,8 @@ impl<T: Scalar> Supervisor<T> {
                 Failure::Noise => Fault::Noise { half_width, dwell_s: self.protocol.dwell_s.value() },
             });
         };
-        let high = self.relay.output() > self.protocol.neutral_command;
-        let relay = self.protocol.relay(level, width).map_err(|_| Fault::NotConverged { half_width: width.value() })?;
-        self.relay = RelayState::new(relay, high);
+        self.relay =
+            self.protocol.relay(level, width).map_err(|_| Fault::NotConverged { half_width: width.value() })?;
         (self.switched_s, self.cycles, self.early, self.hasty) = (time_s, 0, 0, false);
         self.farthest = self.sensor.position();
         // Half-periods grow by no more than the half-width does.

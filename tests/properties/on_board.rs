@@ -228,6 +228,8 @@ fn a_protocol_outside_its_domain_is_refused() {
         Protocol { lowest_command: f64::NEG_INFINITY, ..good },
         Protocol { highest_command: 0.5, ..good },
         Protocol { neutral_command: 1.5, ..good },
+        Protocol { relay_offset: f64::NAN, ..good },
+        Protocol { relay_offset: 1.5, ..good },
         Protocol { relay_level: 0.0, ..good },
         Protocol { half_width: 0.0, ..good },
         Protocol { largest_excursion: 0.5, ..good },
@@ -267,6 +269,20 @@ fn attempts_change_the_relay() {
     let narrow = Protocol { half_width: 0.15, largest_rate: 1e3, spread: 0.3, factor: 2.0, attempts: 6, ..protocol() };
     let outcome = done(&run(narrow, Pool::new(axis((0.5, 0.0), 0.0), 1), ripple));
     assert!(outcome.attempts > 1 && outcome.half_width > 0.15, "{outcome:?}");
+}
+
+/// A relay that is off or full on swings a vehicle under a constant force as one about zero does without; off again when it ends.
+#[test]
+fn levels_about_an_offset_are_a_constant_force() {
+    let heater = Protocol { relay_offset: 1.0, lowest_command: 0.0, ..protocol() };
+    let symmetric = run(protocol(), Pool::new(axis((0.5, 0.0), 0.1), 0), plain);
+    let shifted = run(heater, Pool::new(axis((0.5, 0.0), 0.1 - 1.0), 0), plain);
+    assert!(shifted.command.iter().all(|command| [0.0, 2.0].contains(command)));
+    let [about_zero, off_or_on] =
+        [symmetric, shifted].map(|run| done(&run).exact(DragLaw::Linear, 0.5 * INTERVAL_S).unwrap());
+    for of in [DragAxis::alpha, DragAxis::linear_drag, DragAxis::disturbance] {
+        approx::assert_relative_eq!(of(&off_or_on), of(&about_zero), max_relative = tolerance::AXIS_INTEGRATION);
+    }
 }
 
 #[test]

@@ -26,7 +26,7 @@ const CALLS: [&str; 18] = [
     "identify FOLDER/log.csv --method iso --time time_s --output output --input input --relay 1 --half-width 0.2 --delay 0 --drag linear --assume clock=0.5 --time-unit s --neutral 0 --from 0 --to 90 --part 1 --validate FOLDER/log.csv --report FOLDER/report.html --samples FOLDER/samples.csv --progress",
     "identify FOLDER/log.csv --method bounded --delay 0 --drag linear --error 0.01 --quantum 0.01 --jitter 0 --outliers 0 --budget 1",
     "autotune FOLDER/log.csv --time time_s --output output --input input --time-unit s --ms 1.6 --pi --derivative-filter 10 --interval 0.05 --from 0 --to 15 --part 1 --form klipper --full-power 1 --report FOLDER/report.html",
-    "run --coordinate position --relay 1 --half-width 0.2 --interval 0.1 --excursion 1 --reference 0 --neutral 0 --lowest -2 --highest 2 --wrong-way 0.4 --dwell 0.4 --resolution 0 --largest-rate 1 --unchanged 5 --patience 20 --duration 300 --cycles 3 --spread 0.1 --most-cycles 12 --attempts 3 --factor 1.5 --timeout 1 --log FOLDER/run.csv --json FOLDER/run.json",
+    "run --coordinate position --relay 1 --half-width 0.2 --interval 0.1 --excursion 1 --reference 0 --neutral 0 --offset 0 --lowest -2 --highest 2 --wrong-way 0.4 --dwell 0.4 --resolution 0 --largest-rate 1 --unchanged 5 --patience 20 --duration 300 --cycles 3 --spread 0.1 --most-cycles 12 --attempts 3 --factor 1.5 --timeout 1 --log FOLDER/run.csv --json FOLDER/run.json",
     "verify --claim lemma-1 --cases 1 --seed 1 --certificates FOLDER/proofs",
 ];
 /// Other options, each with the test that holds it.

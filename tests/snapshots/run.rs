@@ -35,6 +35,27 @@ fn answers(arguments: &[&str], lines: &[u8]) -> (Option<i32>, String, String) {
     (output.status.code(), text(output.stdout), text(output.stderr))
 }
 
+/// An actuator that is off or full on, against a constant force: both answers count it from off.
+#[test]
+fn a_relay_about_an_offset() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = Command::cargo_bin("selfosc").unwrap().get_program().to_owned();
+    let script = "mkfifo commands
+        \"$0\" simulate --live --alpha 0.033 --beta 0.03 --delta -0.018 < commands |
+        \"$0\" run --relay 0.02 --offset 0.02 --lowest 0 --half-width 0.2 --interval 0.1 --log log.csv --json model.json > commands";
+    let output = Command::new("sh").arg("-c").arg(script).arg(program).current_dir(&folder).output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let log = std::fs::read_to_string(folder.path().join("log.csv")).unwrap();
+    let commands: std::collections::BTreeSet<&str> =
+        log.lines().skip(1).map(|line| line.rsplit(',').next().unwrap()).collect();
+    assert_eq!(commands.into_iter().collect::<Vec<_>>(), ["0", "0.04"]);
+    let model: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(folder.path().join("model.json")).unwrap()).unwrap();
+    for delta in [&model["reported"]["delta"]["value"], &model["experiment"]["exact"][0]["delta"]] {
+        assert!((delta.as_f64().unwrap() + 0.018).abs() < 0.001, "{delta}");
+    }
+}
+
 /// One shell pipe: experiment, model, gains.
 #[test]
 fn one_pipe_from_the_experiment_to_gains() {

@@ -36,7 +36,7 @@ impl Display {
             started_s: None,
             elapsed_s: 0.0,
             attempt: 1,
-            finder: Cycles::new(protocol.neutral_command),
+            finder: Cycles::new(protocol.middle_command()),
             summary: Summary::new(),
             last: None,
             found: None,

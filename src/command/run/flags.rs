@@ -28,13 +28,16 @@ pub(super) struct ProtocolArguments {
     /// Value of the coordinate to oscillate about
     #[arg(long, value_name = "R", default_value_t = 0.0, value_parser = finite, allow_negative_numbers = true)]
     reference: f64,
-    /// Command before, after, and upon a fault; the relay's levels lie about it
+    /// Command before, after, and upon a fault; the relay's levels lie about it, or about --offset from it
     #[arg(long, value_name = "U", default_value_t = 0.0, value_parser = finite, allow_negative_numbers = true)]
     neutral: f64,
-    /// Least command ever given [default: 2 relay levels below neutral]
+    /// Middle of the relay's levels less the neutral command; of a heater, off or full on, the relay level
+    #[arg(long, value_name = "U", default_value_t = 0.0, value_parser = finite, allow_negative_numbers = true)]
+    offset: f64,
+    /// Least command ever given [default: 2 relay levels below the middle]
     #[arg(long, value_name = "U", value_parser = finite, allow_negative_numbers = true)]
     lowest: Option<f64>,
-    /// Largest command ever given [default: 2 relay levels above neutral]
+    /// Largest command ever given [default: 2 relay levels above the middle]
     #[arg(long, value_name = "U", value_parser = finite, allow_negative_numbers = true)]
     highest: Option<f64>,
     /// Way back under the first command that counts as the wrong sign [default: 2 half-widths]
@@ -90,9 +93,10 @@ fn flag(fault: &OutOfDomain) -> &'static str {
     match fault.quantity {
         "reference" => "--reference",
         "neutral command" => "--neutral",
+        "offset of the relay" => "--offset",
         "lowest command" => "--lowest",
         "highest command" => "--highest",
-        "relay level" => "--relay, --lowest, --highest",
+        "relay level" => "--relay, --offset, --lowest, --highest",
         "half-width" => "--half-width",
         "largest excursion" => "--excursion, --half-width",
         "way in the wrong direction" => "--wrong-way",
@@ -139,11 +143,13 @@ impl ProtocolArguments {
             Some(excursion) => Protocol::new(coordinate, relay, half_width, excursion, interval_s),
             None => Protocol::usual(coordinate, relay, half_width, interval_s),
         };
+        let middle = self.neutral + self.offset;
         let protocol = Protocol {
             reference: self.reference,
             neutral_command: self.neutral,
-            lowest_command: self.lowest.unwrap_or(self.neutral + usual.lowest_command),
-            highest_command: self.highest.unwrap_or(self.neutral + usual.highest_command),
+            relay_offset: self.offset,
+            lowest_command: self.lowest.unwrap_or(middle + usual.lowest_command),
+            highest_command: self.highest.unwrap_or(middle + usual.highest_command),
             wrong_way: self.wrong_way.unwrap_or(usual.wrong_way),
             dwell_s: self.dwell.unwrap_or(usual.dwell_s),
             resolution: self.resolution,

@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use super::*;
-use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::rounded::{Compared, Double, Rounded, every_outcome};
 use crate::numeric::{Interval, Real};
 use crate::on_board::Coordinate;
@@ -32,6 +31,7 @@ fn running(largest_excursion: f64, high: bool, switched: bool, started: bool) ->
     let any = between(-1e6, 1e6);
     let protocol = Protocol {
         neutral_command: between(NEUTRAL, NEUTRAL),
+        relay_offset: between(-1.0, 1.0),
         lowest_command: between(-8.0, -4.0),
         highest_command: between(4.0, 8.0),
         wrong_way: between(0.1, 10.0),
@@ -49,11 +49,12 @@ fn running(largest_excursion: f64, high: bool, switched: bool, started: bool) ->
             between(0.01, 1.0),
         )
     };
-    let relay = RelayHysteresis::new(protocol.relay_level, protocol.half_width, protocol.neutral_command).unwrap();
+    let relay = protocol.relay(protocol.relay_level, protocol.half_width).unwrap();
     Supervisor {
         protocol,
         phase: Phase::Running,
-        relay: RelayState::new(relay, high),
+        relay,
+        high,
         sensor: Sensor { time_s: any, reading: any, position: any, changed_s: any },
         begun: started,
         started_s: any,

@@ -404,7 +404,7 @@ fn on_board<T: Scalar>(probe: &mut Probe) {
     if probe.draw == Draw::Any {
         for _ in 0..probe.random.below(3) {
             let value = probe.any();
-            match probe.random.below(10) {
+            match probe.random.below(11) {
                 0 => protocol.reference = value,
                 1 => protocol.neutral_command = value,
                 2 => protocol.lowest_command = value,
@@ -414,6 +414,7 @@ fn on_board<T: Scalar>(probe: &mut Probe) {
                 6 => protocol.spread = value,
                 7 => protocol.factor = value,
                 8 => protocol.patience_s = value,
+                9 => protocol.relay_offset = value,
                 _ => protocol.wrong_way = value,
             }
         }
