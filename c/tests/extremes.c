@@ -173,6 +173,7 @@ static int experiments(void)
     protocol.largest_rate = bits() % 4 ? 10 * excursion : any();
     protocol.spread = bits() % 4 ? protocol.spread : any();
     protocol.reference = bits() % 8 ? 0 : any();
+    protocol.relay_offset = bits() % 8 ? 0 : any();
     if (!answers(BEGIN, selfosc_experiment_begin_f64(&experiment, &protocol, NULL)))
         return 0;
     for (sample = 0; sample < 1000; ++sample) {

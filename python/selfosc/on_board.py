@@ -47,7 +47,7 @@ class Protocol(Suggesting):
         Middle of the relay's levels less the neutral command; of a heater, off or full on, the relay level. A disturbance of
         :meth:`Outcome.axis` is counted from the middle.
     lowest, highest : float, optional
-        Least and largest command ever given; by default two relay levels from the middle.
+        Least and largest command ever given; by default neutral, or two relay levels from the middle.
     wrong_way : float, optional
         Way back under the first command that counts as the wrong sign; by default two half-widths.
     dwell : float, optional

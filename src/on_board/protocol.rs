@@ -209,6 +209,7 @@ impl<T: Scalar> Protocol<T> {
     /// The same, where every number is in its domain.
     pub(super) fn checked(self) -> Result<Self, OutOfDomain> {
         let level_fits = self.relay_level <= self.largest_level();
+        let neutral_fits = self.lowest_command <= self.neutral_command && self.neutral_command <= self.highest_command;
         let unchanged_fits = self.unchanged_s > self.interval_s && self.unchanged_s < self.patience_s;
         let within = Limit::Words("within the limits about the middle of the levels");
         let patient = Limit::Words("below the patience");
@@ -221,6 +222,7 @@ impl<T: Scalar> Protocol<T> {
             ("offset of the relay", self.relay_offset, COMMAND, true, Limit::Finite),
             ("lowest command", self.lowest_command, COMMAND, true, Limit::Finite),
             ("highest command", self.highest_command, COMMAND, true, Limit::Finite),
+            ("neutral command", self.neutral_command, COMMAND, neutral_fits, Limit::Words("within the limits")),
             ("relay level", self.relay_level, COMMAND, true, Limit::Positive),
             ("relay level", self.relay_level, COMMAND, level_fits, within),
             ("half-width", self.half_width, COORDINATE, true, Limit::Positive),

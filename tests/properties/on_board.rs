@@ -230,6 +230,8 @@ fn a_protocol_outside_its_domain_is_refused() {
         Protocol { neutral_command: 1.5, ..good },
         Protocol { relay_offset: f64::NAN, ..good },
         Protocol { relay_offset: 1.5, ..good },
+        // The neutral command lies outside the limits.
+        Protocol { relay_offset: 3.0, lowest_command: 1.0, highest_command: 5.0, ..good },
         Protocol { relay_level: 0.0, ..good },
         Protocol { half_width: 0.0, ..good },
         Protocol { largest_excursion: 0.5, ..good },

@@ -34,10 +34,10 @@ pub(super) struct ProtocolArguments {
     /// Middle of the relay's levels less the neutral command; of a heater, off or full on, the relay level
     #[arg(long, value_name = "U", default_value_t = 0.0, value_parser = finite, allow_negative_numbers = true)]
     offset: f64,
-    /// Least command ever given [default: 2 relay levels below the middle]
+    /// Least command ever given [default: neutral, or 2 relay levels below the middle]
     #[arg(long, value_name = "U", value_parser = finite, allow_negative_numbers = true)]
     lowest: Option<f64>,
-    /// Largest command ever given [default: 2 relay levels above the middle]
+    /// Largest command ever given [default: neutral, or 2 relay levels above the middle]
     #[arg(long, value_name = "U", value_parser = finite, allow_negative_numbers = true)]
     highest: Option<f64>,
     /// Way back under the first command that counts as the wrong sign [default: 2 half-widths]
@@ -92,7 +92,7 @@ fn coordinate(text: &str) -> Result<Coordinate, String> {
 fn flag(fault: &OutOfDomain) -> &'static str {
     match fault.quantity {
         "reference" => "--reference",
-        "neutral command" => "--neutral",
+        "neutral command" => "--neutral, --lowest, --highest",
         "offset of the relay" => "--offset",
         "lowest command" => "--lowest",
         "highest command" => "--highest",
@@ -148,8 +148,8 @@ impl ProtocolArguments {
             reference: self.reference,
             neutral_command: self.neutral,
             relay_offset: self.offset,
-            lowest_command: self.lowest.unwrap_or(middle + usual.lowest_command),
-            highest_command: self.highest.unwrap_or(middle + usual.highest_command),
+            lowest_command: self.lowest.unwrap_or(self.neutral.min(middle + usual.lowest_command)),
+            highest_command: self.highest.unwrap_or(self.neutral.max(middle + usual.highest_command)),
             wrong_way: self.wrong_way.unwrap_or(usual.wrong_way),
             dwell_s: self.dwell.unwrap_or(usual.dwell_s),
             resolution: self.resolution,
