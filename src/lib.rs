@@ -28,7 +28,7 @@
 //! | `theory` (default) | its subcommands `reproduce` and `verify` |
 //! | `internals` | what the tests of this package reach into: no promise, nothing documented |
 #![cfg_attr(not(feature = "std"), no_std)]
-// The same numbers on every machine and in a browser: clippy.toml. Tests judge by the machine's own functions.
+// Numbers do not depend on the machine's elementary functions: clippy.toml. Tests judge by those.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 // What only tests reach is public with the feature `internals` and is checked there.
 #![cfg_attr(not(feature = "internals"), allow(dead_code, unreachable_pub, unused_imports))]

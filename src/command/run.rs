@@ -194,7 +194,7 @@ fn conclusion(experiment: &Experiment<f64>, protocol: &Protocol<f64>, log: &str)
         "phase": experiment.phase().to_string(),
         "fault": fault,
         "attempts": experiment.attempt(),
-        "units": UnitNames::with_output(display::angle_unit(protocol.coordinate).unwrap_or("output")),
+        "units": UnitNames::with_output(protocol.coordinate.angle_unit().unwrap_or("output")),
         "outcome": outcome,
         "exact": exact.collect::<Vec<_>>(),
     });

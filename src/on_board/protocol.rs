@@ -26,6 +26,15 @@ impl Coordinate {
             Self::Position | Self::Speed => "position",
         }
     }
+
+    /// Unit of a heading.
+    pub(crate) fn angle_unit(self) -> Option<&'static str> {
+        match self {
+            Self::HeadingRad => Some("rad"),
+            Self::HeadingDegrees => Some("deg"),
+            Self::Position | Self::Speed => None,
+        }
+    }
 }
 
 /// One experiment: its relay, its limits, and when it counts as done. All fields are read once, by

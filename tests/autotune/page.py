@@ -17,9 +17,9 @@ HEATERS = """
 ## Two heaters of printers
 
 Published processes: gain, time constant and dead time of an E3D V6 hotend (340 degrees at full power, 140 s, 5.5 s) and of a PCB bed (90 degrees,
-700 s, 10 s), from RepRapFirmware's `Configuration.h`. Targets are 200 and 60 degrees in a room of 25; the record is that of Klipper's
-`PID_CALIBRATE`: on below the target, off above, 5 degrees between, readings every 0.3 s with 0.05 degrees of noise, three periods.
-Gains are in Klipper's 255ths of full power. `tests/autotune/heaters.py` makes the table.
+700 s, 10 s), from RepRapFirmware's `Configuration.h`. Targets are 200 and 60 degrees in a room of 25. The relay's thresholds are 5 degrees
+apart, as in Klipper's `PID_CALIBRATE`, 2.5 on either side of the target; readings every 0.3 s with 0.05 degrees of noise, three periods.
+Gains are in Klipper's 255ths of full power; every rule's derivative is filtered by a tenth of its time, Klipper's own filter is not modelled. `tests/autotune/heaters.py` makes the table.
 
 """
 

@@ -277,12 +277,16 @@ fn attempts_change_the_relay() {
 #[test]
 fn levels_about_an_offset_are_a_constant_force() {
     let heater = Protocol { relay_offset: 1.0, lowest_command: 0.0, ..protocol() };
-    let symmetric = run(protocol(), Pool::new(axis((0.5, 0.0), 0.1), 0), plain);
-    let shifted = run(heater, Pool::new(axis((0.5, 0.0), 0.1 - 1.0), 0), plain);
+    // The neutral command is no level, and lies on one side of both.
+    let pump = Protocol { relay_offset: 3.0, lowest_command: 0.0, highest_command: 4.0, ..protocol() };
+    let [symmetric, shifted, one_sided] = [(protocol(), 0.0), (heater, 1.0), (pump, 3.0)]
+        .map(|(protocol, offset)| run(protocol, Pool::new(axis((0.5, 0.0), 0.1 - offset), 0), plain));
     assert!(shifted.command.iter().all(|command| [0.0, 2.0].contains(command)));
-    let [about_zero, off_or_on] =
-        [symmetric, shifted].map(|run| done(&run).exact(DragLaw::Linear, 0.5 * INTERVAL_S).unwrap());
+    assert!(one_sided.command.iter().all(|command| [2.0, 4.0].contains(command)));
+    let [about_zero, off_or_on, on_one_side] =
+        [symmetric, shifted, one_sided].map(|run| done(&run).exact(DragLaw::Linear, 0.5 * INTERVAL_S).unwrap());
     for of in [DragAxis::alpha, DragAxis::linear_drag, DragAxis::disturbance] {
+        approx::assert_relative_eq!(of(&on_one_side), of(&about_zero), max_relative = tolerance::AXIS_INTEGRATION);
         approx::assert_relative_eq!(of(&off_or_on), of(&about_zero), max_relative = tolerance::AXIS_INTEGRATION);
     }
 }

@@ -406,6 +406,10 @@ fn tune_to_a_limit_and_in_a_form() {
     assert!(least.to_degrees() >= 49.0);
     let forms = ["ardusub", "px4", "c"].map(|form| done(&with(&model, &["--bandwidth", "0.8", "--format", form])));
     golden!("tune-forms", forms.join("\n"));
+    // Each names a remedy that it takes.
+    let against = |form| done(&with(&model, &["--bandwidth", "0.8", "--delta", "0.004", "--format", form]));
+    assert!(against("ardusub").contains("choose --structure pid against it"));
+    assert!(against("px4").contains("no integral against it") && !against("px4").contains("--structure"));
     // ArduSub's cascade is the same controller.
     let pid = json(&["--bandwidth", "0.8", "--structure", "pid", "--json"]);
     let text = done(&with(&model, &["--bandwidth", "0.8", "--structure", "pid", "--format", "ardusub"]));

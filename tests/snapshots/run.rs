@@ -56,6 +56,26 @@ fn a_relay_about_an_offset() {
     }
 }
 
+/// Limits that are not given hold the neutral command, which ends the experiment.
+#[test]
+fn the_neutral_command_is_within_the_usual_limits() {
+    let (_, commands, _) = answers(&["--offset", "0.06"], b"0 0\n");
+    let lines: Vec<&str> = commands.lines().collect();
+    assert!(lines[0] == "0.08 running" && lines[lines.len() - 1].starts_with("0 "), "{lines:?}");
+}
+
+/// Numbers of the experiment have the unit of its readings.
+#[test]
+fn a_heading_in_degrees_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let flags =
+        ["run", "--coordinate", "heading-deg", "--relay", "1", "--half-width", "2", "--interval", "0.1", "--json"];
+    let output = selfosc(&folder).args(flags).stdin(Stdio::null()).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let document: serde_json::Value = serde_json::from_str(text.lines().last().unwrap()).unwrap();
+    assert_eq!(document["experiment"]["units"]["output"], "deg");
+}
+
 /// One shell pipe: experiment, model, gains.
 #[test]
 fn one_pipe_from_the_experiment_to_gains() {

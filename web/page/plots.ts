@@ -1,6 +1,7 @@
 /** Curves over time that are zoomed by dragging and reset by a double click; all of a record share their cursor. */
 import uPlot from "uplot";
 import { h } from "./element";
+import { inView, MOST_POINTS } from "./in_view";
 import type { Samples } from "./protocol";
 import type { Autotuned } from "./results";
 
@@ -22,45 +23,12 @@ export interface Curve {
 let queue: Promise<unknown> = Promise.resolve();
 const later = (act: () => void) => (queue = queue.then(() => new Promise((done) => setTimeout(() => done(act())))));
 
-/** More readings than these are drawn as a line, points would hide each other; and of each pixel the extremes alone. */
-const MOST_POINTS = 3000;
-
-/** Of the samples in view every one, or the extremes of all curves in each of `parts`: a line through them looks the same. The record's ends
- * stay, so that a double click finds them. */
-function inView(time: ArrayLike<number>, curves: Curve[], from: number, to: number, parts: number): number[] {
-  const before = (limit: number) => {
-    let [low, high] = [0, time.length];
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (time[middle]! < limit) low = middle + 1;
-      else high = middle;
-    }
-    return low;
-  };
-  const [first, last] = [Math.max(before(from) - 1, 0), Math.min(before(to) + 1, time.length)];
-  const kept = new Set([0, first, last - 1, time.length - 1]);
-  const size = last - first <= MOST_POINTS ? 1 : (last - first) / parts;
-  for (let start = first; start < last; start += size) {
-    const [begin, end] = [Math.floor(start), Math.min(Math.floor(start + size), last)];
-    kept.add(begin);
-    for (const { values } of size > 1 ? curves : []) {
-      let [least, most, low, high] = [begin, begin, Infinity, -Infinity];
-      for (let k = begin; k < end; k++) {
-        if (values[k]! < low) low = values[(least = k)]!;
-        if (values[k]! > high) high = values[(most = k)]!;
-      }
-      kept.add(least).add(most);
-    }
-  }
-  return [...kept].sort((a, b) => a - b);
-}
-
 const FONT = "12px system-ui, sans-serif";
 
-// A browser's first canvas waits for fonts and its painter: here while nobody looks.
-requestIdleCallback(() => {
-  const { canvas } = Object.assign(document.createElement("canvas").getContext("2d")!, { font: FONT });
-  const context = canvas.getContext("2d")!;
+// A browser's first canvas waits for fonts and its painter: here before a plot is wanted.
+setTimeout(() => {
+  const context = document.createElement("canvas").getContext("2d")!;
+  context.font = FONT;
   context.fillText("0", 0, 10);
   context.getImageData(0, 0, 1, 1);
 });
@@ -102,9 +70,9 @@ export function plot(title: string, time: ArrayLike<number>, curves: Curve[], x:
       bands: band ? [{ series: band, fill: style("--band") }] : undefined,
     };
     const data = (from: number, to: number) => {
-      const kept = inView(time, curves, from, to, options.width / 2);
-      // A band is narrower than the swing within a pixel: it waits for a closer view.
-      const hidden = (index: number) => band?.includes(index + 1) && kept.length < time.length && kept.length > MOST_POINTS / 2;
+      const { kept, whole } = inView(time, curves, from, to, options.width / 2);
+      // A band is narrower than the swing within a pixel: it waits until every sample is drawn.
+      const hidden = (index: number) => !whole && band?.includes(index + 1);
       const picked = ({ values, scale = 1, offset = 0 }: Curve, index: number) => kept.map((k) => (hidden(index) || Number.isNaN(values[k]!) ? null : scale * values[k]! + offset));
       return [kept.map((k) => time[k]!), ...curves.map(picked)] as uPlot.AlignedData;
     };

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use crate::features::{Cycle, Cycles, Features, Summary};
 use crate::identify::exact::MeanCycle;
 use crate::numeric::significant;
-use crate::on_board::{Coordinate, Experiment, Phase, Protocol};
+use crate::on_board::{Experiment, Phase, Protocol};
 
 /// Between two pictures.
 const PAUSE: Duration = Duration::from_millis(100);
@@ -78,7 +78,7 @@ impl Display {
 
     fn draw(&mut self, phase: Phase, [position, command]: [f64; 2]) {
         let protocol = &self.protocol;
-        let unit = angle_unit(protocol.coordinate).unwrap_or_default();
+        let unit = protocol.coordinate.angle_unit().unwrap_or_default();
         let room = (protocol.highest_command - protocol.neutral_command)
             .max(protocol.neutral_command - protocol.lowest_command);
         let rows = [
@@ -137,13 +137,4 @@ fn bar(place: f64) -> String {
     let mut line = ["-"; BAR];
     (line[BAR / 2], line[mark]) = ("|", "*");
     format!("[{}]", line.concat())
-}
-
-/// The unit of a heading.
-pub(super) fn angle_unit(coordinate: Coordinate) -> Option<&'static str> {
-    match coordinate {
-        Coordinate::HeadingRad => Some("rad"),
-        Coordinate::HeadingDegrees => Some("deg"),
-        Coordinate::Position | Coordinate::Speed => None,
-    }
 }
