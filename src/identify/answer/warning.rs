@@ -102,8 +102,8 @@ impl fmt::Display for Warning {
             ),
             Self::Locked { cycles, period_s } => write!(
                 f,
-                "all {cycles} steady cycles are one, reading for reading, with a period of {period_s:.4} s: a longer record adds \
-                 nothing; give a second record at another relay level beside it"
+                "all {cycles} steady cycles are one, reading for reading, with a period of {period_s:.4} s: further cycles bring no \
+                 new reading; give a record at another relay level beside it"
             ),
         }
     }
