@@ -207,7 +207,7 @@ fn a_record_that_is_not_predicted_makes_the_answer_doubtful() {
     golden!("identify-does-not-predict", reported["reasons"][0]["text"].as_str().unwrap());
 }
 
-/// A rounded oscillation that is locked to the sampling repeats itself: further cycles bring no new reading, and the advice says so.
+/// An oscillation that is locked to the sampling repeats itself: further cycles bring no new reading, and the advice says so.
 #[test]
 fn a_locked_oscillation_asks_for_another_level() {
     let heading = |noise: &str| {

@@ -36,7 +36,7 @@ pub enum Warning {
         /// Samples of the record.
         samples: usize,
     },
-    /// A rounded oscillation locked to the sampling: each cycle repeats the last reading for reading.
+    /// An oscillation locked to the sampling: each cycle repeats the last reading for reading.
     Locked {
         /// Cycles.
         cycles: u32,
@@ -63,13 +63,13 @@ impl Warning {
         }
     }
 
-    /// Warnings that features give, of a sensor with this step.
+    /// Warnings that features give.
     #[must_use]
-    pub fn of_features(RecordFeatures { features, ramp_s, .. }: &RecordFeatures, quantum: Option<f64>) -> Vec<Self> {
+    pub fn of_features(RecordFeatures { features, ramp_s, .. }: &RecordFeatures) -> Vec<Self> {
         let ratio = (features.switch_level.mean + features.bias.mean.abs()) / features.amplitude.mean;
         let derived = (*ramp_s > 0.0).then_some(Self::OrdersDerived { ramp_s: *ramp_s });
         let same = |of: CycleStatistics<f64>| of.std <= SAME * of.mean;
-        let locked = quantum.is_some() && features.cycles > 1 && same(features.period_s) && same(features.amplitude);
+        let locked = features.cycles > 1 && same(features.period_s) && same(features.amplitude);
         let locked = locked.then_some(Self::Locked { cycles: features.cycles, period_s: features.period_s.mean });
         let near = (ratio > NEAR_AMPLITUDE).then_some(Self::IllConditioned { ratio });
         derived.into_iter().chain(near).chain(locked).collect()

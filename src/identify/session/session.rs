@@ -219,7 +219,7 @@ fn source(
     }
     match features {
         Ok(features) => {
-            cautions.extend(Warning::of_features(&features, log.record.quantum()).into_iter().map(Caution::from));
+            cautions.extend(Warning::of_features(&features).into_iter().map(Caution::from));
             Ok((Source { name, log, features: Some(features) }, None))
         }
         Err(error) => Ok((Source { name, log, features: None }, Some(error))),

@@ -111,3 +111,19 @@ impl ScoreTable {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The tail's series continues the difference of two error functions, but for the term that it leaves out.
+    #[test]
+    fn the_likelihood_is_continuous_where_the_tail_begins() {
+        let noise = ReadingNoise { std: 0.1, quantum: 0.2 };
+        let beside = |low: f64| noise.likelihood(0.1 * low + 0.1);
+        let (within, beyond) = (beside(FAR_OUT - 1e-9), beside(FAR_OUT + 1e-9));
+        let left_out = 15.0 / FAR_OUT.powi(6);
+        assert!((within.log - beyond.log).abs() <= 1.1 * left_out, "{} {}", within.log, beyond.log);
+        assert!((within.score / beyond.score - 1.0).abs() <= 1.1 * left_out, "{} {}", within.score, beyond.score);
+    }
+}
