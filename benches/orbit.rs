@@ -3,7 +3,7 @@
 
 use divan::{AllocProfiler, Bencher, black_box};
 use selfosc::nonlinearity::RelayHysteresis;
-use selfosc::orbit::{limit_cycle, return_map};
+use selfosc::orbit::limit_cycle;
 use selfosc::plant::DragAxis;
 
 #[global_allocator]
@@ -35,10 +35,4 @@ fn build(name: &str) -> (DragAxis<f64>, RelayHysteresis<f64>) {
 fn exact_orbit(bencher: Bencher<'_, '_>, name: &str) {
     let (axis, relay) = build(name);
     bencher.bench(|| limit_cycle(black_box(&axis), black_box(&relay)).unwrap());
-}
-
-#[divan::bench(args = CASES.map(|case| case.0))]
-fn one_return(bencher: Bencher<'_, '_>, name: &str) {
-    let (axis, relay) = build(name);
-    bencher.bench(|| return_map(black_box(&axis), black_box(&relay), black_box(0.5)).unwrap());
 }

@@ -8,7 +8,8 @@ pub const QUADRATURE: f64 = 2e-12;
 pub const ROUNDING: f64 = 1e-13;
 /// The same where the two forms cancel to a part of their terms: three decimal digits of [`ROUNDING`].
 pub const CANCELLING: f64 = 1e-10;
-/// Closed form against step-by-step integration with 1e-11 a step, over at most a few hundred steps and two events.
+/// Closed form against step-by-step integration of fourth order with 4000 steps a period, `(2 pi/4000)^3/6 = 6e-10` at the kink of quadratic
+/// drag, over two switchings.
 pub const INTEGRATED: f64 = 1e-8;
 /// The same where the motion passes kinks, each of which costs a square of the step, `2 pi/4000` of the period.
 pub const INTEGRATED_ACROSS_KINKS: f64 = 1e-5;

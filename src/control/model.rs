@@ -3,7 +3,7 @@
 use super::process::in_order;
 use super::uncertain_drag::slope;
 use super::{ControlError, LinearProcess};
-use crate::numeric::Interval;
+use crate::numeric::{Interval, runge_kutta};
 use crate::plant::{DragAxis, State};
 
 /// `alpha x'' + (1 + skew sgn x')(beta + beta_quadratic |x'| + beta_cubic x'^2) x' + coulomb sgn x' + memory s + stiffness x = a + delta`,
@@ -112,18 +112,10 @@ impl AxisModel<f64> {
                 let moved = axis.advance(State { position: state[0], velocity: state[1] }, command, time_s);
                 [moved.position, moved.velocity, 0.0, 0.0, 0.0]
             }
-            None => (0..STEPS).fold(state, |state, _| self.advance(state, command, time_s / f64::from(STEPS), fast)),
+            None => (0..STEPS).fold(state, |state, _| {
+                runge_kutta(state, time_s / f64::from(STEPS), |state| self.rates(state, command, fast))
+            }),
         })
-    }
-
-    /// One step of the classic Runge-Kutta method.
-    fn advance(&self, state: ModelState, command: f64, time_s: f64, fast: f64) -> ModelState {
-        let along = |rates: &ModelState, share: f64| core::array::from_fn(|i| state[i] + share * time_s * rates[i]);
-        let first = self.rates(state, command, fast);
-        let second = self.rates(along(&first, 0.5), command, fast);
-        let third = self.rates(along(&second, 0.5), command, fast);
-        let fourth = self.rates(along(&third, 1.0), command, fast);
-        core::array::from_fn(|i| state[i] + time_s / 6.0 * (first[i] + 2.0 * second[i] + 2.0 * third[i] + fourth[i]))
     }
 
     /// What the sensor says.

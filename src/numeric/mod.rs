@@ -17,6 +17,8 @@ mod ratio;
 mod real;
 mod root;
 #[cfg(feature = "std")]
+mod runge_kutta;
+#[cfg(feature = "std")]
 mod significant;
 #[cfg(feature = "std")]
 mod uncertain;
@@ -35,6 +37,8 @@ internal! {
 pub(crate) use balls::{Balls, Sizes};
 #[cfg(feature = "std")]
 pub(crate) use lanes::Lanes;
+#[cfg(feature = "std")]
+pub(crate) use runge_kutta::runge_kutta;
 #[cfg(feature = "std")]
 pub(crate) use significant::significant;
 #[cfg(feature = "std")]

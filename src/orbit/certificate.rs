@@ -61,7 +61,7 @@ pub enum Starts {
 /// As [`limit_cycle`]; [`OrbitError::NotProved`] where the enclosure fails, as with a multiplier near 1.
 pub fn certify(axis: &DragAxis<f64>, relay: &RelayHysteresis<f64>) -> Result<Certificate, OrbitError> {
     let halves = HalfCycle::pair(axis, relay)?;
-    let (_, swings) = solve(&halves)?;
+    let swings = solve(&halves)?;
     let half_period_s = 0.5 * limit_cycle(axis, relay)?.period_s;
     let not_proved = |what| OrbitError::NotProved { what, half_period_s };
     let [upward, downward] = Half::pair(axis, relay)?;

@@ -3,7 +3,7 @@
 use super::OrbitError;
 use super::half_cycle::{HalfCycle, Swing};
 use crate::nonlinearity::RelayHysteresis;
-use crate::numeric::{Limit, Real, Scalar, domain};
+use crate::numeric::{Real, Scalar};
 use crate::plant::DragAxis;
 
 /// The moment at which another command begins to act, delay included.
@@ -79,15 +79,6 @@ impl<T: Real> LimitCycle<T> {
     }
 }
 
-/// A point of the return map.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Return<T> {
-    /// Speed a period later.
-    pub speed: T,
-    /// Its derivative with respect to the speed now.
-    pub derivative: T,
-}
-
 /// The limit cycle of `axis` under `relay`, with reference zero.
 ///
 /// Exact up to rounding: the motion between switchings is in closed form (see [`OneWay`](crate::plant::OneWay)), and the
@@ -116,68 +107,20 @@ pub struct Return<T> {
 /// [`OrbitError::Unresolved`] where rounding hides it.
 pub fn limit_cycle<S: Scalar>(axis: &DragAxis<S>, relay: &RelayHysteresis<S>) -> Result<LimitCycle<S>, OrbitError> {
     let halves = HalfCycle::pair(axis, relay)?;
-    let (times, [upward, downward]) = solve(&halves)?;
-    let end = |swing: &Swing<S>, time_s: S| End {
-        excursion: swing.overshoot.excursion,
-        switch_lag: swing.overshoot.switch_lag,
-        switch_speed: swing.overshoot.switch_speed,
-        rise_time_s: time_s + axis.delay_s(),
-        stop_time_s: swing.overshoot.stop_time_s,
-        gain: swing.gain,
-    };
-    let cycle = LimitCycle::between(relay.half_width(), &end(&upward, times[0]), &end(&downward, times[1]));
+    let [upward, downward] = solve(&halves)?;
+    let cycle = LimitCycle::between(relay.half_width(), &upward.end, &downward.end);
     let positive = [cycle.amplitude, cycle.time_positive_s, cycle.time_negative_s, cycle.period_s];
     let others = [cycle.bias, cycle.upper_switch.velocity, cycle.lower_switch.velocity, cycle.multiplier];
     let sound = positive.iter().all(|v| *v > S::zero()) && positive.iter().chain(&others).all(|v| v.is_finite());
     if sound { Ok(cycle) } else { Err(OrbitError::Unresolved { multiplier: cycle.multiplier.value() }) }
 }
 
-/// The return map of the speed at which x rises past the relay's half-width, a period on.
-///
-/// Without delay it is the speed at switching. The map is increasing; its only fixed point belongs to the limit cycle.
-///
-/// ```
-/// use selfosc::{nonlinearity::RelayHysteresis, orbit::return_map, plant::DragAxis};
-/// let axis = DragAxis::quadratic(1.0, 0.5)?;
-/// let relay = RelayHysteresis::new(1.0, 0.3, 0.0)?;
-/// let fixed = (2.0 * (1.0 - (-0.6f64).exp()).sqrt()).sqrt();
-/// assert!((return_map(&axis, &relay, fixed)?.speed - fixed).abs() < 1e-14);
-/// # Ok::<(), Box<dyn core::error::Error>>(())
-/// ```
-///
-/// # Errors
-/// [`OrbitError::OutOfDomain`] unless `speed` is finite and zero or more; otherwise as [`limit_cycle`].
-pub fn return_map<S: Scalar>(
-    axis: &DragAxis<S>,
-    relay: &RelayHysteresis<S>,
-    speed: S,
-) -> Result<Return<S>, OrbitError> {
-    let [upward, downward] = HalfCycle::pair(axis, relay)?;
-    let remedy = "give the magnitude of the speed at the switching level";
-    domain::require("speed", speed, "output units per s", Limit::NonNegative, remedy)?;
-    let unresolved = OrbitError::Unresolved { multiplier: f64::NAN };
-    let mut point = Return { speed, derivative: S::one() };
-    for (from, to) in [(upward, downward), (downward, upward)] {
-        let overshoot = from.overshoot(point.speed);
-        let approach = from.approach_after(overshoot.excursion);
-        if approach <= S::zero() || !approach.is_finite() {
-            return Err(unresolved);
-        }
-        let (speed, slope) = to.level_speed(approach).ok_or(unresolved)?;
-        point = Return { speed, derivative: slope * overshoot.gain * point.derivative };
-    }
-    Ok(point)
-}
-
 /// Newton steps allowed; about six are needed.
 const MAX_STEPS: usize = 60;
 
-/// Times from rest to the levels on the limit cycle, with the swings they give.
-pub(super) type Solution<S> = ([S; 2], [Swing<S>; 2]);
-
-/// Newton's method for the lengths of the two approaches, with the times as coordinates. Its own loop: it has two unknowns,
-/// derivatives in closed form, any [`Scalar`], and doubles both times where the return map does not contract.
-pub(super) fn solve<S: Scalar>(halves: &[HalfCycle<S>; 2]) -> Result<Solution<S>, OrbitError> {
+/// Both swings of the limit cycle: Newton's method for the lengths of the two approaches, with the times as coordinates. Its own loop:
+/// it has two unknowns, derivatives in closed form, any [`Scalar`], and doubles both times where the return map does not contract.
+pub(super) fn solve<S: Scalar>(halves: &[HalfCycle<S>; 2]) -> Result<[Swing<S>; 2], OrbitError> {
     let one = S::one();
     let mean_drive = (halves[0].drive.drive + halves[1].drive.drive) / S::two();
     let mut times = [0, 1].map(|half: usize| S::from_f64(halves[half].time_guess(mean_drive)));
@@ -187,7 +130,7 @@ pub(super) fn solve<S: Scalar>(halves: &[HalfCycle<S>; 2]) -> Result<Solution<S>
     for _ in 0..MAX_STEPS {
         let swings = [halves[0].swing(times[0]), halves[1].swing(times[1])];
         let [upward, downward] = swings;
-        let contraction = one - upward.gain * downward.gain;
+        let contraction = one - upward.end.gain * downward.end.gain;
         multiplier = (one - contraction).value();
         if contraction <= S::zero() {
             // Below the times at which the map contracts, which happens only with a delay.
@@ -195,12 +138,12 @@ pub(super) fn solve<S: Scalar>(halves: &[HalfCycle<S>; 2]) -> Result<Solution<S>
             continue;
         }
         let miss = [
-            halves[1].approach_after(upward.overshoot.excursion) - downward.approach,
-            halves[0].approach_after(downward.overshoot.excursion) - upward.approach,
+            halves[1].approach_after(upward.end.excursion) - downward.approach,
+            halves[0].approach_after(downward.end.excursion) - upward.approach,
         ];
         let steps = [
-            upward.prolongation((miss[1] + downward.gain * miss[0]) / contraction),
-            downward.prolongation((miss[0] + upward.gain * miss[1]) / contraction),
+            upward.prolongation((miss[1] + downward.end.gain * miss[0]) / contraction),
+            downward.prolongation((miss[0] + upward.end.gain * miss[1]) / contraction),
         ];
         if !(steps[0].is_finite() && steps[1].is_finite()) {
             break;
@@ -210,7 +153,7 @@ pub(super) fn solve<S: Scalar>(halves: &[HalfCycle<S>; 2]) -> Result<Solution<S>
             *time = (*time + step).max(*time / S::from_f64(8.0));
         }
         if settled && contraction > S::from_f64(1e3) * S::epsilon() {
-            return Ok((times, [halves[0].swing(times[0]), halves[1].swing(times[1])]));
+            return Ok([halves[0].swing(times[0]), halves[1].swing(times[1])]);
         }
     }
     Err(OrbitError::Unresolved { multiplier })

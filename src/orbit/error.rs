@@ -56,7 +56,7 @@ pub enum OrbitError {
         /// Multiplier of the return map where the search ended; NaN after an overflow.
         multiplier: f64,
     },
-    /// A speed, reference, disturbance, tolerance or range of periods outside its domain.
+    /// A reference, disturbance or range of periods outside its domain.
     #[error(transparent)]
     OutOfDomain(#[from] OutOfDomain),
     /// An enclosure that stayed too wide, or a cycle that is none.
@@ -76,25 +76,6 @@ pub enum OrbitError {
         /// Order of the plant.
         order: usize,
     },
-    /// A step size that shrank to nothing.
-    #[error(
-        "the step at t = {} s fell to {} s; the right side is not smooth there or not finite; correct it, or loosen the \
-         tolerances", About(*.time_s), About(*.step_s)
-    )]
-    StepTooSmall {
-        /// Time, s.
-        time_s: f64,
-        /// The step, s.
-        step_s: f64,
-    },
-    /// More steps or events than allowed.
-    #[error("stopped at t = {} s after {steps} steps; raise the limit or the tolerances", About(*.time_s))]
-    TooManySteps {
-        /// Time reached, s.
-        time_s: f64,
-        /// Steps taken.
-        steps: usize,
-    },
 }
 
 impl OrbitError {
@@ -112,8 +93,6 @@ impl OrbitError {
             Self::Unresolved { .. } => "orbit-unresolved",
             Self::NotProved { .. } => "not-proved",
             Self::CrowdedPoles { .. } => "crowded-poles",
-            Self::StepTooSmall { .. } => "step-too-small",
-            Self::TooManySteps { .. } => "too-many-steps",
         }
     }
 

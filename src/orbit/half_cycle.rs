@@ -1,9 +1,10 @@
 //! A half cycle: from the turning point across the relay's level to the next turning point.
 
 use super::OrbitError;
+use super::drag_axis::End;
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::Scalar;
-use crate::plant::{DragAxis, OneWay};
+use crate::plant::{DragAxis, OneWay, Passage};
 
 /// The half cycle that a command drives.
 #[derive(Clone, Copy, Debug)]
@@ -16,21 +17,6 @@ pub(super) struct HalfCycle<S> {
     half_width: S,
 }
 
-/// The motion from the crossing of the relay's level to rest.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Overshoot<S> {
-    /// Speed when the opposite command begins to act.
-    pub(super) switch_speed: S,
-    /// Way from the relay's level to the place where the opposite command begins to act.
-    pub(super) switch_lag: S,
-    /// Time from then to rest.
-    pub(super) stop_time_s: S,
-    /// Way from the relay's level to rest.
-    pub(super) excursion: S,
-    /// Derivative of the excursion with respect to the speed at the level, in s.
-    pub(super) gain: S,
-}
-
 /// The half cycle seen from the turning point before it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Swing<S> {
@@ -40,9 +26,7 @@ pub(super) struct Swing<S> {
     pub(super) level_acceleration: S,
     /// Way from the turning point to the relay's level.
     pub(super) approach: S,
-    pub(super) overshoot: Overshoot<S>,
-    /// Derivative of the next approach with respect to this approach.
-    pub(super) gain: S,
+    pub(super) end: End<S>,
 }
 
 impl<S: Scalar> HalfCycle<S> {
@@ -70,57 +54,36 @@ impl<S: Scalar> HalfCycle<S> {
         Ok([half(upward, downward), half(downward, upward)])
     }
 
-    /// From the crossing of the level with `level_speed`.
-    pub(super) fn overshoot(&self, level_speed: S) -> Overshoot<S> {
-        let lag = self.drive.advance(level_speed, self.delay_s);
-        self.stop(lag.speed, lag.distance, lag.speed_gain, lag.distance_gain)
-    }
-
     /// From rest, `time_s` before the crossing of the level.
     pub(super) fn swing(&self, time_s: S) -> Swing<S> {
         let approach = self.drive.advance(S::zero(), time_s);
         // The speed gain is also the ratio of the accelerations at both ends; no difference cancels in it.
         let acceleration = self.drive.drive * approach.speed_gain;
-        let overshoot = if self.delay_s == S::zero() {
+        let lag = if self.delay_s == S::zero() {
             // First order in the delay: exact, and a dual number keeps its derivative.
-            let (lag, gain) = (self.delay_s * approach.speed, self.delay_s * acceleration);
-            self.stop(approach.speed + gain, lag, S::one(), self.delay_s)
+            let (speed, distance) = (approach.speed + self.delay_s * acceleration, self.delay_s * approach.speed);
+            Passage { distance, speed, speed_gain: S::one(), distance_gain: self.delay_s }
         } else {
-            self.overshoot(approach.speed)
+            self.drive.advance(approach.speed, self.delay_s)
         };
-        Swing {
-            level_speed: approach.speed,
-            level_acceleration: acceleration,
-            approach: approach.distance,
-            overshoot,
-            gain: overshoot.gain * acceleration / approach.speed,
-        }
-    }
-
-    fn stop(&self, speed: S, lag: S, speed_gain: S, lag_gain: S) -> Overshoot<S> {
         // The drive of a brake is negative: there is always a rest.
-        let stop_time_s = self.brake.time_to_rest(speed).unwrap_or(S::zero());
-        let stop = self.brake.advance(speed, stop_time_s).distance;
-        let braking = -self.brake.acceleration(speed);
-        Overshoot {
-            switch_speed: speed,
-            switch_lag: lag,
+        let stop_time_s = self.brake.time_to_rest(lag.speed).unwrap_or(S::zero());
+        let stop = self.brake.advance(lag.speed, stop_time_s).distance;
+        let braking = -self.brake.acceleration(lag.speed);
+        let end = End {
+            excursion: lag.distance + stop,
+            switch_lag: lag.distance,
+            switch_speed: lag.speed,
+            rise_time_s: time_s + self.delay_s,
             stop_time_s,
-            excursion: lag + stop,
-            gain: lag_gain + speed_gain * speed / braking,
-        }
+            gain: (lag.distance_gain + lag.speed_gain * lag.speed / braking) * acceleration / approach.speed,
+        };
+        Swing { level_speed: approach.speed, level_acceleration: acceleration, approach: approach.distance, end }
     }
 
     /// Way from the turning point reached by an overshoot to the opposite level.
     pub(super) fn approach_after(&self, excursion: S) -> S {
         excursion + S::two() * self.half_width
-    }
-
-    /// Speed at the level after an approach from rest, and its derivative with respect to the length of the approach.
-    pub(super) fn level_speed(&self, approach: S) -> Option<(S, S)> {
-        let time = self.drive.time_to_distance(S::zero(), approach)?;
-        let passage = self.drive.advance(S::zero(), time);
-        Some((passage.speed, self.drive.drive * passage.speed_gain / passage.speed))
     }
 
     /// Near the time from rest to the level on the limit cycle: where Newton's method starts.

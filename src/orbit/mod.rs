@@ -22,8 +22,6 @@ pub use two_level::{ListedOrbit, OrbitCertificate, OrbitClaim, OrbitListing, Orb
 
 internal! {
     #[cfg(feature = "std")]
-    mod integrate;
-    #[cfg(feature = "std")]
     mod theorem;
 }
 internal! {
@@ -31,5 +29,4 @@ internal! {
         force_left, linear_amplitude_excess, linear_half_cycle, linear_half_width, quadratic_half_cycle,
         quadratic_period, quadratic_speeds, return_slope,
     };
-    use drag_axis::{Return, return_map};
 }

@@ -1,13 +1,13 @@
 //! Eq. 5 in time: thrusters with delays, a disturbance, fixed steps.
 
-use super::error::WHOLE;
-use crate::numeric::domain;
 use std::collections::VecDeque;
 
 use nalgebra::{Quaternion, SVector, Unit, UnitQuaternion, Vector3, Vector6};
 
+use super::error::WHOLE;
 use super::kinematics::joined;
 use super::{Pose, Thruster, Vehicle, VehicleError};
+use crate::numeric::{domain, runge_kutta};
 
 /// A thruster at its place on the vehicle, behind a transport delay.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -177,7 +177,7 @@ impl Simulation {
             pack(&velocity, spin.as_slice(), &acceleration)
         };
         let start = pack(&self.state.pose.position_m, self.state.pose.attitude.coords.as_slice(), &self.state.nu);
-        let next = runge_kutta(&start, self.step_s, rate);
+        let next = Column::from(runge_kutta(start.into(), self.step_s, |column| rate(&column.into()).into()));
         self.steps += 1;
         if !next.iter().all(|value| value.is_finite()) {
             return Err(VehicleError::Diverged { time_s: self.time_s(), step_s: self.step_s });
@@ -185,15 +185,6 @@ impl Simulation {
         self.state = unpack(&next);
         Ok(force)
     }
-}
-
-/// One step of the classical method.
-fn runge_kutta(start: &Column, step: f64, rate: impl Fn(&Column) -> Column) -> Column {
-    let first = rate(start);
-    let second = rate(&(start + first * (step / 2.0)));
-    let third = rate(&(start + second * (step / 2.0)));
-    let fourth = rate(&(start + third * step));
-    start + (first + (second + third) * 2.0 + fourth) * (step / 6.0)
 }
 
 fn pack(position: &Vector3<f64>, quaternion: &[f64], nu: &Vector6<f64>) -> Column {

@@ -8,10 +8,10 @@ use selfosc::balance::{BalanceError, Bias, HarmonicBalance, Intersection, negati
 use selfosc::describing::{ClosedForm, by_quadrature};
 use selfosc::nonlinearity::{Backlash, Custom, Relay, RelayDeadZone, RelayHysteresis, Saturation, Sinusoid};
 use selfosc::numeric::Limit;
-use selfosc::orbit::integrate::{EventSystem, Integrator};
 use selfosc::orbit::{TwoLevelRelay, orbits, tsypkin_locus};
 use selfosc::plant::{StateSpace, TransferFunction};
 
+use crate::event_integrator::{EventSystem, Integrator};
 use crate::tolerance;
 
 fn transfer(numerator: &[f64], denominator: &[f64]) -> TransferFunction {
@@ -221,10 +221,8 @@ fn harmonics_converge_to_the_integrated_orbit_of_a_saturation() {
     let state_space = StateSpace::realise(&plant).unwrap();
     let saturation = Saturation::new(1.0, 1.0).unwrap();
     let mut system = Saturated(&state_space, saturation);
-    let events = Integrator::new(1e-11, 1e-12, 1_000_000)
-        .unwrap()
-        .run(&mut system, vec![0.1, 0.0, 0.0], 200.0, |_, _| {})
-        .unwrap();
+    let integrator = Integrator { relative: 1e-11, absolute: 1e-12, steps: 1_000_000 };
+    let events = integrator.run(&mut system, vec![0.1, 0.0, 0.0], 200.0, |_, _| {});
     let period = events[events.len() - 1].time_s - events[events.len() - 2].time_s;
     let balance = HarmonicBalance::new(&plant, |sweep| saturation.describing_function(sweep)).unwrap();
     let first = balance.intersections().unwrap()[0];

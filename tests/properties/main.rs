@@ -20,6 +20,7 @@ mod describing;
 mod difference;
 mod engine;
 mod errors;
+mod event_integrator;
 mod examples;
 mod existence;
 mod extremes;

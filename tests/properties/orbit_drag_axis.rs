@@ -6,7 +6,7 @@ use selfosc::numeric::Gradient;
 use selfosc::numeric::increasing_root;
 use selfosc::orbit::{
     LimitCycle, OrbitError, limit_cycle, linear_amplitude_excess, linear_half_cycle, linear_half_width,
-    quadratic_half_cycle, quadratic_period, quadratic_speeds, return_map,
+    quadratic_half_cycle, quadratic_period, quadratic_speeds,
 };
 use selfosc::plant::DragAxis;
 
@@ -79,6 +79,28 @@ fn loops(g: core::ops::Range<f64>) -> impl Strategy<Value = Loop> {
 /// One number of a limit cycle.
 type Feature = fn(&LimitCycle<f64>) -> f64;
 
+/// The speed past the upper level a period after it was `speed` there, and its slope, by the motion's closed forms in dual numbers.
+fn return_map(case: &Loop, speed: f64) -> (f64, f64) {
+    let (axis, relay) = build(case.to_array().map(Gradient::<f64, 1>::constant));
+    let force = axis.disturbance() + relay.offset();
+    let ends = [(relay.level() + force, relay.level() - force), (relay.level() - force, relay.level() + force)];
+    let next = ends.into_iter().fold(Gradient::new(speed, [1.0]), |speed, (ahead, back)| {
+        let (drive, brake, next) = (axis.one_way(ahead), axis.one_way(-back), axis.one_way(back));
+        // At zero delay the formula of the lag has no slope to offer.
+        let late = if case.delay_s == 0.0 {
+            (speed, Gradient::constant(0.0))
+        } else {
+            let lag = drive.advance(speed, axis.delay_s());
+            (lag.speed, lag.distance)
+        };
+        let stop = brake.advance(late.0, brake.time_to_rest(late.0).unwrap()).distance;
+        let way = late.1 + stop + Gradient::constant(2.0) * relay.half_width();
+        let time = next.time_to_distance(Gradient::constant(0.0), way).unwrap();
+        next.advance(Gradient::constant(0.0), time).speed
+    });
+    (next.value(), next.slopes()[0])
+}
+
 /// Rounding on the way to a fixed point, magnified by its slope.
 fn magnified(cycle: &LimitCycle<f64>) -> f64 {
     tolerance::REFERENCE / (1.0 - cycle.multiplier)
@@ -127,32 +149,17 @@ proptest! {
     #[test]
     fn multiplier_is_the_slope_of_the_return_map(case in loops(1e-3..1e2)) {
         let cycle = case.solve().unwrap();
-        let (axis, relay) = (case.axis(), case.relay());
         let mut speed = cycle.upper_switch.velocity;
         for _ in 0..50 {
-            let next = return_map(&axis, &relay, speed).unwrap();
-            speed = (speed - (next.speed - speed) / (next.derivative - 1.0)).max(0.1 * speed);
+            let (next, slope) = return_map(&case, speed);
+            speed = (speed - (next - speed) / (slope - 1.0)).max(0.1 * speed);
         }
-        let fixed = return_map(&axis, &relay, speed).unwrap();
-        assert_close("fixed point", fixed.speed, speed, speed, magnified(&cycle));
-        assert_close("multiplier", fixed.derivative, cycle.multiplier, 1.0, tolerance::AXIS_INTEGRATION);
+        let (next, slope) = return_map(&case, speed);
+        assert_close("fixed point", next, speed, speed, magnified(&cycle));
+        assert_close("multiplier", slope, cycle.multiplier, 1.0, tolerance::AXIS_INTEGRATION);
         if case.delay_s == 0.0 {
             assert_close("speed", speed, cycle.upper_switch.velocity, speed, tolerance::AXIS_INTEGRATION);
         }
-    }
-
-    #[test]
-    fn return_map_knows_its_slope(case in loops(1e-3..1e2), portion in 0.05..1.5) {
-        let speed = portion * case.solve().unwrap().upper_switch.velocity;
-        let (axis, relay) = (case.axis(), case.relay());
-        let slope = return_map(&axis, &relay, speed).unwrap().derivative;
-        let (dual_axis, dual_relay) = build(case.to_array().map(Gradient::<f64, 1>::constant));
-        let dual = return_map(&dual_axis, &dual_relay, Gradient::new(speed, [1.0])).unwrap();
-        assert_close("dual slope", dual.speed.slopes()[0], slope, 1.0, tolerance::AXIS_INTEGRATION);
-        let map = |step| return_map(&axis, &relay, speed + step).unwrap().speed;
-        let difference = five_point(1e-3 * speed, tolerance::DIFFERENCE, map);
-        prop_assume!(difference.is_some());
-        assert_close("difference", difference.unwrap(), slope, 1.0, tolerance::DIFFERENCE);
     }
 
     #[test]
@@ -331,11 +338,6 @@ fn no_limit_cycle_is_an_answer() {
     assert!(Loop { delay_s: 1e-3, ..sharp }.solve().is_ok());
     let weak = Loop { linear_drag: 1e-60, quadratic_drag: 0.0, ..PLAIN };
     assert!(matches!(weak.solve(), Err(OrbitError::Unresolved { .. })), "{:?}", weak.solve());
-    for speed in [-1.0, f64::NAN, f64::INFINITY] {
-        let answer = return_map(&PLAIN.axis(), &PLAIN.relay(), speed);
-        assert!(matches!(answer, Err(OrbitError::OutOfDomain(_))), "{answer:?}");
-    }
-    assert_eq!(return_map(&free.axis(), &free.relay(), 1.0), Err(OrbitError::NoDrag));
 }
 
 /// Parameters over the whole range of the arithmetic: an answer or a reason, never NaN.

@@ -5,10 +5,10 @@ use core::f64::consts::PI;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use selfosc::nonlinearity::RelayHysteresis;
-use selfosc::orbit::integrate::{EventSystem, Integrator, Occurrence, RelayFeedback};
 use selfosc::orbit::{ListedOrbit, OrbitListing, TwoLevelRelay, orbits, tsypkin_locus};
 use selfosc::plant::{StateSpace, TransferFunction};
 
+use crate::event_integrator::{EventSystem, Integrator, Occurrence, RelayFeedback};
 use crate::tolerance;
 
 fn plant(numerator: &[f64], denominator: &[f64], delay_s: f64) -> TransferFunction {
@@ -59,17 +59,15 @@ fn simulate(
         rate.copy_from_slice(plant.rate(&DVector::from_column_slice(x), u).as_slice());
     };
     let output = |x: &[f64]| plant.output(&DVector::from_column_slice(x));
-    let mut feedback = RelayFeedback::new(rate, output, relay, reference, plant.delay_s()).unwrap();
+    let mut feedback = RelayFeedback::new(rate, output, relay, reference, plant.delay_s());
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let tail = 0.8 * until_s;
-    let events = Integrator::new(1e-12, 1e-13, 2_000_000)
-        .unwrap()
-        .run(&mut feedback, vec![0.0; plant.order()], until_s, |time, x| {
-            if time > tail {
-                (low, high) = (low.min(output(x)), high.max(output(x)));
-            }
-        })
-        .unwrap();
+    let integrator = Integrator { relative: 1e-12, absolute: 1e-13, steps: 2_000_000 };
+    let events = integrator.run(&mut feedback, vec![0.0; plant.order()], until_s, |time, x| {
+        if time > tail {
+            (low, high) = (low.min(output(x)), high.max(output(x)));
+        }
+    });
     (events.into_iter().filter(|event| event.index == 0).collect(), (low, high))
 }
 
@@ -261,12 +259,10 @@ fn switching_times_of_the_integrator() {
     let half_period = 1.862_223_721_734_969f64;
     let worst = |relative: f64| {
         let rate = |x: &[f64], u: f64, rate: &mut [f64]| (rate[0], rate[1]) = (x[1], u - x[1]);
-        let mut feedback = RelayFeedback::new(rate, |x: &[f64]| x[0], relay(0.2, 0.0), 0.0, 0.0).unwrap();
+        let mut feedback = RelayFeedback::new(rate, |x: &[f64]| x[0], relay(0.2, 0.0), 0.0, 0.0);
         let start = vec![-0.2, -(0.5 * half_period).tanh()];
-        let events = Integrator::new(relative, 0.01 * relative, 1_000_000)
-            .unwrap()
-            .run(&mut feedback, start, 50.5 * half_period, |_, _| {})
-            .unwrap();
+        let integrator = Integrator { relative, absolute: 0.01 * relative, steps: 1_000_000 };
+        let events = integrator.run(&mut feedback, start, 50.5 * half_period, |_, _| {});
         assert_eq!(events.len(), 50);
         let error = |(k, event): (usize, &Occurrence)| (event.time_s - (k + 1) as f64 * half_period).abs();
         events.iter().enumerate().map(error).fold(0.0, f64::max)
@@ -293,8 +289,8 @@ fn short_excursions_past_a_guard() {
     }
     for excess in [1e-2, 1e-3, 1e-4, 1e-5] {
         let start = vec![0.0, -1.0];
-        let events =
-            Integrator::new(1e-8, 1e-10, 10_000).unwrap().run(&mut Cosine(excess), start, 6.0, |_, _| {}).unwrap();
+        let integrator = Integrator { relative: 1e-8, absolute: 1e-10, steps: 10_000 };
+        let events = integrator.run(&mut Cosine(excess), start, 6.0, |_, _| {});
         assert_eq!(events.len(), 1, "{excess}");
         let exact = 1.5 * PI - (1.0 - excess).acos();
         assert!((events[0].time_s - exact).abs() < 1e-4, "{} {exact}", events[0].time_s);

@@ -4,6 +4,7 @@ use super::{Budget, Case, Draw, Verdict, claim, sample, tolerance};
 use crate::balance::{HarmonicBalance, LipschitzLoop, OddCharacteristic, ProvedOscillation};
 use crate::describing::ClosedForm;
 use crate::nonlinearity::Tanh;
+use crate::numeric::{Interval, runge_kutta};
 use crate::plant::TransferFunction;
 
 /// Steps of a period by the classical Runge-Kutta method, of fourth order: `(2 pi/4000)^4 = 6e-12`.
@@ -52,20 +53,13 @@ pub(super) fn return_error(proved: &ProvedOscillation, [a, b]: [f64; 2], gain: f
     let (omega, amplitude) = (proved.omega_rad_s().midpoint(), proved.amplitude().midpoint());
     // Re sum X_k, Re sum jkw X_k, Re sum (jkw)^2 X_k.
     let start = (0..=proved.highest_harmonic()).fold([0.0; 3], |[y, v, w], k| {
-        let [re, im] = proved.harmonic(k).map_or([0.0; 2], |parts| parts.map(crate::numeric::Interval::midpoint));
+        let [re, im] = proved.harmonic(k).map_or([0.0; 2], |parts| parts.map(Interval::midpoint));
         let rate = k as f64 * omega;
         [y + re, v - rate * im, w - rate * rate * re]
     });
     let slope = |[y, v, w]: [f64; 3]| [v, w, -(a + b) * w - a * b * v - gain * n(y)];
-    let moved = |[y, v, w]: [f64; 3], [dy, dv, dw]: [f64; 3], step: f64| [y + step * dy, v + step * dv, w + step * dw];
     let step = core::f64::consts::TAU / omega / f64::from(STEPS);
-    let end = (0..STEPS).fold(start, |state, _| {
-        let first = slope(state);
-        let second = slope(moved(state, first, 0.5 * step));
-        let third = slope(moved(state, second, 0.5 * step));
-        let fourth = slope(moved(state, third, step));
-        core::array::from_fn(|i| state[i] + step / 6.0 * (first[i] + 2.0 * second[i] + 2.0 * third[i] + fourth[i]))
-    });
+    let end = (0..STEPS).fold(start, |state, _| runge_kutta(state, step, slope));
     let scales = [amplitude, amplitude * omega, amplitude * omega * omega];
     (0..3).map(|i| (end[i] - start[i]).abs() / scales[i]).fold(0.0, f64::max)
 }

@@ -8,7 +8,7 @@ use crate::describing::ClosedForm;
 use crate::identify::iso::{Oscillation, Parameters, disturbance_from_times};
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::Real;
-use crate::orbit::{self, LimitCycle, limit_cycle, return_map, theorem};
+use crate::orbit::{self, LimitCycle, limit_cycle, theorem};
 use crate::plant::{DragAxis, PlantError, TransferFunction};
 use crate::proof::polynomial::Rational;
 
@@ -143,12 +143,23 @@ fn attracts(budget: Budget, family: &Family) -> Verdict {
         if (start / fixed - 1.0).abs() < 1e-4 {
             return None;
         }
-        let Ok(next) = return_map(&case.axis, &case.relay, start) else { return Some(Case::truth(false)) };
+        let Some(next) = a_period_on(&case.axis, &case.relay, start) else { return Some(Case::truth(false)) };
         // The distance after a period over the distance before.
-        let left = draw.note("left", (next.speed - fixed) / (start - fixed));
+        let left = draw.note("left", (next - fixed) / (start - fixed));
         let contracts = (0.0..1.0).contains(&cycle.multiplier);
         // Where drag is weak and the start is far off the share is 1 within rounding.
         Some(Case::truth(contracts && left > -tolerance::CANCELLING && left < 1.0 + tolerance::CANCELLING))
+    })
+}
+
+/// The speed at the upper switching a period after a switching there at `speed`, without delay.
+fn a_period_on(axis: &DragAxis<f64>, relay: &RelayHysteresis<f64>, speed: f64) -> Option<f64> {
+    [-1.0, 1.0].into_iter().try_fold(speed, |speed, command| {
+        let force = command * axis.disturbance();
+        let (brake, drive) = (axis.one_way(-relay.level() - force), axis.one_way(relay.level() + force));
+        let stop = brake.advance(speed, brake.time_to_rest(speed)?).distance;
+        let time_s = drive.time_to_distance(0.0, stop + 2.0 * relay.half_width())?;
+        Some(drive.advance(0.0, time_s).speed)
     })
 }
 

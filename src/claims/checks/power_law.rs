@@ -187,23 +187,18 @@ impl Law {
 #[cfg(test)]
 mod tests {
     use super::{INNER, OUTER, most_within, number, steepest_beyond};
+    use crate::numeric::runge_kutta;
 
     /// Values and slopes of a solution between two arguments, by the classical Runge-Kutta method.
     fn solution(bend: impl Fn(f64, [f64; 2]) -> f64, from: f64, to: f64, start: [f64; 2]) -> Vec<[f64; 2]> {
         const STEPS: u32 = 20_000;
         let h = (to - from) / f64::from(STEPS);
-        let rate = |x: f64, y: [f64; 2]| [y[1], bend(x, y)];
-        let ahead = |y: [f64; 2], h: f64, r: [f64; 2]| [y[0] + h * r[0], y[1] + h * r[1]];
-        let step = |y: &mut [f64; 2], k: u32| {
-            let x = from + h * f64::from(k);
-            let a = rate(x, *y);
-            let b = rate(x + 0.5 * h, ahead(*y, 0.5 * h, a));
-            let c = rate(x + 0.5 * h, ahead(*y, 0.5 * h, b));
-            let d = rate(x + h, ahead(*y, h, c));
-            *y = ahead(*y, h / 6.0, [0, 1].map(|i| a[i] + 2.0 * (b[i] + c[i]) + d[i]));
-            Some(*y)
+        let rate = |[x, y, slope]: [f64; 3]| [1.0, slope, bend(x, [y, slope])];
+        let step = |state: &mut [f64; 3], _| {
+            *state = runge_kutta(*state, h, rate);
+            Some([state[1], state[2]])
         };
-        (0..STEPS).scan(start, |y, k| step(y, k)).collect()
+        (0..STEPS).scan([from, start[0], start[1]], step).collect()
     }
 
     const STARTS: [[f64; 2]; 4] = [[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, -1.0]];

@@ -5,6 +5,7 @@ use super::settings::{BoundedModel, DelayBound};
 use super::vector_field::FieldTerm;
 use crate::experiment::Record;
 use crate::identify::DragLaw;
+use crate::numeric::runge_kutta;
 
 const SAMPLE_S: f64 = 0.1;
 /// Steps of a sample's interval.
@@ -12,16 +13,6 @@ const STEPS: usize = 20;
 
 /// Position, velocity and force; and the command.
 pub(super) type Sample = ([f64; 3], f64);
-
-/// A step of the classical method of Runge and Kutta.
-pub(super) fn runge_kutta<const N: usize>(state: [f64; N], h: f64, rate: impl Fn([f64; N]) -> [f64; N]) -> [f64; N] {
-    let more = |by: f64, rate: [f64; N]| core::array::from_fn(|k| state[k] + by * rate[k]);
-    let first = rate(state);
-    let second = rate(more(0.5 * h, first));
-    let third = rate(more(0.5 * h, second));
-    let fourth = rate(more(h, third));
-    core::array::from_fn(|k| state[k] + h / 6.0 * (first[k] + 2.0 * second[k] + 2.0 * third[k] + fourth[k]))
-}
 
 /// Terms over inertia, and the constants.
 #[derive(Clone, Copy, Default)]

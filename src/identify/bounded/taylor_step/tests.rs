@@ -1,7 +1,7 @@
 //! Steps against motions in closed form, each with a false variant that is caught.
 
 use super::super::sensitivities::Variable;
-use super::super::simulated::runge_kutta;
+use crate::numeric::runge_kutta;
 use super::super::vector_field::TERMS;
 use super::*;
 use crate::numeric::{Real, Sizes};

@@ -1,4 +1,4 @@
-use super::super::simulated::runge_kutta;
+use crate::numeric::runge_kutta;
 use super::*;
 
 const FORCES: [f64; 5] = [-2.0, -0.3, 0.0, 0.4, 2.0];
