@@ -121,6 +121,12 @@ fn show(proposals: &[Proposal], output: &mut impl Write) -> Result<Outcome, Comm
         }
     });
     writeln!(output, "{}", table.text())?;
+    if proposals.iter().any(|proposal| proposal.first.locks || proposal.second.is_some_and(|second| second.run.locks)) {
+        writeln!(
+            output,
+            "A cycle that locks to the sampling repeats its roundings, which then do not average: its standard deviations are lower bounds."
+        )?;
+    }
     if let Some(second) = proposals.first().and_then(|proposal| proposal.second.as_ref()) {
         writeln!(
             output,

@@ -51,7 +51,8 @@ pub struct Situation {
     pub delay: Delay,
 }
 
-/// Expected standard deviations; infinite where the record would leave a parameter open.
+/// Expected standard deviations; infinite where the record would leave a parameter open. Where the cycles would lock to the sampling they
+/// are lower bounds: the roundings of one cycle do not average.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Deviations {
     /// Of the inertia.
@@ -182,7 +183,8 @@ const FINEST: f64 = 1e-4;
 type Informed = (Run, Information);
 
 impl Situation {
-    /// Proposals, that of the least variance of the inertia first, each with the second level that best discriminates the laws.
+    /// Proposals, that of the least variance of the inertia first and those that would lock to the sampling last, each with the second level
+    /// that best discriminates the laws.
     ///
     /// # Errors
     /// [`DesignError`] for numbers outside their domain, and where nothing oscillates within the limits.
@@ -208,7 +210,7 @@ impl Situation {
         let runs: Result<Vec<Option<Informed>>, DesignError> =
             grid.into_par_iter().map(|(level, half_width)| self.run(level, half_width)).collect();
         let mut runs: Vec<Informed> = runs?.into_iter().flatten().collect();
-        runs.sort_by(|a, b| a.0.std.alpha.total_cmp(&b.0.std.alpha));
+        runs.sort_by(|(a, _), (b, _)| a.locks.cmp(&b.locks).then(a.std.alpha.total_cmp(&b.std.alpha)));
         if runs.is_empty() {
             let Self { largest_level, time_limit_s, largest_amplitude, .. } = *self;
             return Err(DesignError::NoExperiment { largest_level, time_limit_s, largest_amplitude });
@@ -256,7 +258,7 @@ impl Situation {
         Deviations { alpha: std(0), beta: std(1), beta_quadratic: std(2), delay_s: if known { 0.0 } else { std(3) } }
     }
 
-    /// The second record, at another level, that best discriminates the drag laws.
+    /// The second record, at another level, that best discriminates the drag laws; one that would lock only where all others would.
     fn second(&self, first: &Informed, runs: &[Informed]) -> Option<Second> {
         let others = runs.iter().filter(|(run, _)| run.relay_level != first.0.relay_level);
         let seconds = others.map(|(run, information)| {
@@ -270,6 +272,6 @@ impl Situation {
             }
         });
         let told = |second: &Second| second.linear_needed.max(second.quadratic_needed);
-        seconds.max_by(|a, b| told(a).total_cmp(&told(b)))
+        seconds.max_by(|a, b| b.run.locks.cmp(&a.run.locks).then(told(a).total_cmp(&told(b))))
     }
 }
