@@ -39,7 +39,7 @@ _COUNTS = {"cases", "proposals", "seed"}
 #: Options that are text, those of which several may be given, and those that are switched on.
 _TEXTS = {"coordinate", "form", "method", "model", "nonlinearity", "out", "structure", "time_unit"}
 _REPEATED = {"claim", "only"}
-_SWITCHES = {"degrees", "delay_known", "hold", "pi", "pid", "skip_bad_rows"}
+_SWITCHES = {"degrees", "delay_known", "hold", "hold_command", "pi", "pid", "skip_bad_rows"}
 
 
 def _text(value: Any, name: str) -> str:

@@ -106,6 +106,7 @@ def autotune(
     from_s: float | None = None,
     to_s: float | None = None,
     skip_bad_rows: bool = False,
+    hold_command: bool = False,
 ) -> Autotuned:
     """PI or PID gains for a heater, a tank, an axis: from one record of its relay, thermostat or on-off control.
 
@@ -133,6 +134,8 @@ def autotune(
         Only samples from and up to these times, s on the log's clock.
     skip_bad_rows : bool
         Leaves out rows without three numbers, at most a fifth of all.
+    hold_command : bool
+        Where a command is missing the last one counts, and rows without output are passed over: for topics logged in turn.
 
     Returns
     -------
@@ -170,7 +173,8 @@ def autotune(
     flags = _documents.flags(
         ms=ms, pi=action == "pi", pid=action == "pid", form=_arguments.choice(form, "form", Form), derivative_filter=derivative_filter,
         interval=interval, full_power=full_power, to=to_s,
-        time_unit=None if time_unit is None else _arguments.choice(time_unit, "time_unit", TimeUnit), skip_bad_rows=skip_bad_rows, **{"from": from_s},
+        time_unit=None if time_unit is None else _arguments.choice(time_unit, "time_unit", TimeUnit), skip_bad_rows=skip_bad_rows,
+        hold_command=hold_command, **{"from": from_s},
     )  # fmt: skip
     flags += [f"--{name}={value}" for name, value in names.items() if value is not None]
     [log] = sources

@@ -82,7 +82,7 @@ _USAGE = {
 #: Flags of the command whose Python argument has another name.
 _ARGUMENTS = {"from": "from_s", "to": "to_s", "jitter": "jitter_s", "num": "plant", "den": "plant"}
 #: Flags that are switched on.
-_SWITCHES = {"any-input", "degrees", "even-stamps", "invert", "radians", "skip-bad-rows", "wrap"}
+_SWITCHES = {"any-input", "degrees", "even-stamps", "hold-command", "invert", "radians", "skip-bad-rows", "wrap"}
 #: What the command does, as Python does it.
 _CALLS = {
     ", --budget and --certificate are": " and --budget are",

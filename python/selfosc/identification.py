@@ -216,6 +216,7 @@ def identify(
     part: int | None = None,
     even_stamps: bool = False,
     skip_bad_rows: bool = False,
+    hold_command: bool = False,
     validate: AnyPath | Iterable[AnyPath] = (),
     progress: bool | Callable[[str], object] = False,
 ) -> Identification:
@@ -273,6 +274,8 @@ def identify(
         The samples were taken at even intervals, whatever their stamps: those are of arrival.
     skip_bad_rows : bool
         Leaves out rows without three numbers, or with a time that does not come after the one before: at most a fifth of all.
+    hold_command : bool
+        Where a command is missing the last one counts, and rows without output are passed over: for topics logged in turn.
     validate : path, or sequence of paths
         Text logs that are predicted and take no part in the estimate.
     progress : bool or callable
@@ -295,7 +298,7 @@ def identify(
     The call can be interrupted. What was begun then runs on to its next stage and is dropped. A process that forks may call
     it before and after, and so may its children: each has threads of its own.
 
-    A reading that is masked (``numpy.ma``), null or NA is none: the record is refused, or read without it on ``skip_bad_rows``.
+    A reading that is masked (``numpy.ma``), null or NA is none: the record is refused, or read without it on ``skip_bad_rows`` or ``hold_command``.
 
     Examples
     --------
@@ -314,7 +317,7 @@ def identify(
         "time_unit": None if time_unit is None else _arguments.choice(time_unit, "time_unit", TimeUnit), "invert": switch(invert, "invert"),
         "neutral": _number(neutral, "neutral"), "from_s": _number(from_s, "from_s"), "to_s": _number(to_s, "to_s"),
         "part": None if part is None else whole(part, "part", 1), "even_stamps": switch(even_stamps, "even_stamps"),
-        "skip_bad_rows": switch(skip_bad_rows, "skip_bad_rows"),
+        "skip_bad_rows": switch(skip_bad_rows, "skip_bad_rows"), "hold_command": switch(hold_command, "hold_command"),
     }  # fmt: skip
     wanted: dict[str, Any] = {
         "method": _arguments.choice(method, "method", Method), "relay_level": _number(relay, "relay"),

@@ -87,6 +87,9 @@ pub(super) struct Arguments {
     /// Leaves out rows without three numbers, at most a fifth of all
     #[arg(long)]
     skip_bad_rows: bool,
+    /// Where the command's cell is blank the last one counts, and rows without output are passed over: for topics logged in turn
+    #[arg(long)]
+    hold_command: bool,
     /// Writes one HTML file with figures, which needs no network
     #[arg(long, value_name = "OUT.html")]
     report: Option<PathBuf>,
@@ -245,6 +248,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outc
         part: arguments.part,
         even_stamps: arguments.even_stamps,
         skip_bad_rows: arguments.skip_bad_rows,
+        hold_command: arguments.hold_command,
         process: true,
         // The level of no command is part of the load.
         neutral: Some(0.0),

@@ -135,6 +135,9 @@ pub(super) struct Arguments {
     /// Leaves out rows without three numbers, or with a time that does not come after the one before: at most a fifth of all
     #[arg(long)]
     skip_bad_rows: bool,
+    /// Where the command's cell is blank the last one counts, and rows without output are passed over: for topics logged in turn
+    #[arg(long)]
+    hold_command: bool,
     /// Logs that are predicted and take no part in the estimate; where an answer explains less than half of the variance of one, it is
     /// doubtful
     #[arg(long, value_name = "LOG", num_args = 1..)]
@@ -302,6 +305,7 @@ impl Arguments {
             part: self.part,
             even_stamps: self.even_stamps,
             skip_bad_rows: self.skip_bad_rows,
+            hold_command: self.hold_command,
             radians: self.radians,
             degrees: self.degrees,
             wrap: self.wrap,

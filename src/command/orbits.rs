@@ -66,7 +66,7 @@ pub(super) fn run(given: Loop<'_>, as_json: bool, output: &mut impl Write) -> Re
     let plant = TransferFunction::new(given.num, given.den)?.with_delay(given.delay_s)?;
     let relay = TwoLevelRelay::new(given.high, given.low, given.half_width)?;
     let relay = relay.with_reference(given.reference)?;
-    let listing = crate::orbit::orbits(&plant, &relay, given.periods)?;
+    let listing = crate::orbit::orbits(&plant, &relay, given.periods.clone())?;
     if let Some(path) = given.certificate {
         let proof = OrbitCertificate::new(&plant, &relay, &listing);
         files::write(path, &proof.to_string()).given("--certificate")?;
@@ -81,18 +81,36 @@ pub(super) fn run(given: Loop<'_>, as_json: bool, output: &mut impl Write) -> Re
         write_json(output, &document)?;
     } else {
         table(&listing, output)?;
+        if listing.orbits.is_empty() && listing.is_complete() {
+            writeln!(output, "{}", remedy(&given, &plant))?;
+        }
     }
     Ok(if listing.orbits.is_empty() { Outcome::No } else { Outcome::Done })
+}
+
+/// What to change where nothing oscillates: a stable plant comes to rest between the relay's thresholds, or beside one of them.
+fn remedy(given: &Loop<'_>, plant: &TransferFunction) -> String {
+    let stable = plant.poles().is_ok_and(|poles| poles.iter().all(|pole| pole.re < 0.0));
+    let Some(gain) = plant.static_gain().filter(|gain| stable && *gain > 0.0) else {
+        return "raise the levels (--relay) or narrow the hysteresis (--half-width)".to_owned();
+    };
+    let (low, high) = (gain * given.low, gain * given.high);
+    let thresholds = [given.reference - given.half_width, given.reference + given.half_width];
+    if low < thresholds[0] && thresholds[1] < high {
+        return "narrow the hysteresis (--half-width), or count a delay (--delay)".to_owned();
+    }
+    let [low, high, from, to] = [low, high, thresholds[0], thresholds[1]].map(|value| significant(value, 6));
+    format!(
+        "the levels hold the output at {low} and at {high}, and it must pass {from} and {to}: move --reference between them, widen the levels \
+         (--relay) or narrow the hysteresis (--half-width)"
+    )
 }
 
 fn table(listing: &OrbitListing, output: &mut impl Write) -> Result<(), CommandError> {
     if listing.orbits.is_empty() && !listing.is_complete() {
         writeln!(output, "no oscillation is proved, and some periods are not decided")?;
     } else if listing.orbits.is_empty() {
-        writeln!(
-            output,
-            "no oscillation with one switching each way in the periods searched; raise the levels (--relay) or narrow the hysteresis (--half-width)"
-        )?;
+        writeln!(output, "no oscillation with one switching each way in the periods searched")?;
     } else {
         let head = ["period / s", "at HIGH / s", "at LOW / s", "amplitude", "bias", "multiplier"];
         writeln!(output, "{}  attracting", head.map(|name| format!("{name:>12}")).join("  "))?;
@@ -132,7 +150,7 @@ fn table(listing: &OrbitListing, output: &mut impl Write) -> Result<(), CommandE
         }
     };
     writeln!(output, "searched: {}, one switching each way in a period", periods(&listing.range_s))?;
-    if listing.is_complete() {
+    if listing.is_complete() && !listing.orbits.is_empty() {
         writeln!(output, "no other orbit there")?;
     }
     for range in listing.not_covered.iter().take(SHOWN) {

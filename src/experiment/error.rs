@@ -173,6 +173,14 @@ pub enum ExperimentError {
         /// The names in the header.
         found: String,
     },
+    /// A log that begins with numbers.
+    #[error(
+        "the log begins with numbers ({first}); put a line with the columns' names before them, such as time_s,heading_deg,command"
+    )]
+    NoHeader {
+        /// The first row.
+        first: String,
+    },
     /// Two columns of one name.
     #[error(
         "column {name} is there {count} times: name the one to read by its number (--{role} {name}#1), or rename them"
@@ -247,7 +255,10 @@ pub enum ExperimentError {
         neutral: f64,
     },
     /// A cell without a number.
-    #[error("line {line}, column {column}: the cell is blank; fill it in, or leave such rows out (--skip-bad-rows)")]
+    #[error(
+        "line {line}, column {column}: the cell is blank; fill it in, leave such rows out (--skip-bad-rows), or, where rows hold output and \
+         command in turn, let the command hold (--hold-command)"
+    )]
     Blank {
         /// Line of the file.
         line: u64,
@@ -304,6 +315,7 @@ impl ExperimentError {
             Self::Empty => "empty",
             Self::Binary { .. } => "not-text",
             Self::UnknownColumn { .. } => "unknown-column",
+            Self::NoHeader { .. } => "no-header",
             Self::DuplicateColumn { .. } => "duplicate-column",
             Self::TimeUnit { .. } => "time-unit",
             Self::Degrees { .. } => "degrees",
@@ -326,6 +338,7 @@ impl ExperimentError {
             Self::Empty
                 | Self::Binary { .. }
                 | Self::UnknownColumn { .. }
+                | Self::NoHeader { .. }
                 | Self::SameColumn { .. }
                 | Self::TooLong
                 | Self::Unreadable { .. }

@@ -60,6 +60,9 @@ pub struct Columns {
     /// Rows without three numbers, or with a time not after its predecessor, are omitted, up to
     /// [`MOST_SKIPPED`](Self::MOST_SKIPPED) of all.
     pub skip_bad_rows: bool,
+    /// A command holds until the next: where its cell is blank or NaN, the last one counts. Rows without output, or before the first
+    /// command, are no samples. So merged topics are read, each of which fills its own rows.
+    pub hold_command: bool,
     /// The output is in radians, whatever it looks like.
     pub radians: bool,
     /// The output is in degrees. A column whose name ends in `_deg` always is.
@@ -122,7 +125,8 @@ impl Columns {
     pub const MOST_SKIPPED: f64 = 0.2;
 
     /// Reads a log: a header line, then a line for each sample. The delimiter (comma, semicolon, tabulator, blanks) is seen
-    /// from the header; with any but the comma, a decimal comma is understood. Lines that start with `#` are comments.
+    /// from the header; with any but the comma, a decimal comma is understood. Lines that start with `#` are comments. Times may be dates
+    /// (RFC 3339, in UTC): they count in s from 1970 on.
     ///
     /// # Errors
     /// [`ExperimentError`] with line and value, of the rows inside of the cut; nothing is repaired but whole turns of an angle.
@@ -154,19 +158,24 @@ impl Columns {
         let mut first = reader();
         let names: Vec<String> = first.headers().map_err(unreadable)?.iter().map(str::to_owned).collect();
         let columns = self.choose(&names)?;
+        let unit = self.unit(&names[columns[0]]);
         let cell = |row: &csv::StringRecord, column: usize| {
             let line = row.position().map_or(0, csv::Position::line);
             if row.len() != names.len() {
                 return Err(ExperimentError::Ragged { line, cells: row.len(), columns: names.len() });
             }
-            number(row.get(column).unwrap_or(""), delimiter, line, &names[column])
+            let cell = row.get(column).unwrap_or("");
+            let date = if column == columns[0] { date_s(cell).map(|time_s| time_s * unit.per_second()) } else { None };
+            date.map_or_else(|| number(cell, delimiter, line, &names[column]), Ok)
         };
         let mut values: [Vec<f64>; 3] = Default::default();
         let mut lines = Vec::new();
         let mut row = csv::StringRecord::new();
         while first.read_record(&mut row).map_err(unreadable)? {
             for (&column, values) in columns.iter().zip(&mut values) {
-                values.push(cell(&row, column).unwrap_or(f64::NAN));
+                let no_number =
+                    |fault| if matches!(fault, ExperimentError::Blank { .. }) { f64::NAN } else { f64::INFINITY };
+                values.push(cell(&row, column).unwrap_or_else(no_number));
             }
             lines.push(row.position().map_or(0, csv::Position::line));
         }
@@ -179,12 +188,20 @@ impl Columns {
         self.log(columns.map(|column| names[column].clone()), rows)
     }
 
+    /// The unit of times in a column.
+    fn unit(&self, column: &str) -> TimeUnit {
+        self.time_unit.or(TimeUnit::of_column(column)).unwrap_or(TimeUnit::Seconds)
+    }
+
     /// Which of these columns are time, output and input, by their places.
     ///
     /// # Errors
-    /// [`ExperimentError::UnknownColumn`] with the names there are; [`ExperimentError::DuplicateColumn`];
+    /// [`ExperimentError::NoHeader`] where all names are numbers; [`ExperimentError::UnknownColumn`] with the names there are; [`ExperimentError::DuplicateColumn`];
     /// [`ExperimentError::SameColumn`] where one column is named twice.
     pub fn choose(&self, names: &[String]) -> Result<[usize; 3], ExperimentError> {
+        if names.iter().all(|name| name.parse::<f64>().is_ok()) {
+            return Err(ExperimentError::NoHeader { first: cut(&names.join(", "), LONGEST_LIST) });
+        }
         let (output, input) = if self.process { (PROCESS_OUTPUT, PROCESS_INPUT) } else { (OUTPUT, INPUT) };
         let chosen = [
             column(names, "time", self.time.as_deref(), TIME)?,
@@ -225,8 +242,7 @@ impl Columns {
         if (output, input) != (time, time) {
             return Err(ExperimentError::Lengths { time, output, input });
         }
-        let named = TimeUnit::of_column(&columns[0]);
-        let unit = self.time_unit.or(named).unwrap_or(TimeUnit::Seconds);
+        let (unit, named) = (self.unit(&columns[0]), TimeUnit::of_column(&columns[0]));
         rows.values[0].iter_mut().for_each(|time| *time /= unit.per_second());
         // Tanks and ovens are read by the minute: there a column's name suffices.
         clinic::seconds(&rows.values[0], self.time_unit.is_some() || self.process && named.is_some())?;
@@ -306,6 +322,12 @@ fn column(
             Err(ExperimentError::DuplicateColumn { role, name, count })
         }
     }
+}
+
+/// Seconds from 1970 to a date with its time of day, in UTC.
+fn date_s(cell: &str) -> Option<f64> {
+    let date = humantime::parse_rfc3339_weak(cell).ok()?;
+    Some(date.duration_since(std::time::UNIX_EPOCH).ok()?.as_secs_f64())
 }
 
 /// The number in a cell.

@@ -1,9 +1,11 @@
 //! Rows of a log before they are a record: the part and the cut asked for, and what cannot be used.
 
+use std::borrow::Cow;
+
 use super::record::middle;
 use super::{Columns, ExperimentError, Place, Record};
 
-/// Time in s, output and input of every row; a cell that holds no number is NaN.
+/// Time in s, output and input of every row; a cell is NaN where it is blank, infinite where it holds no number.
 pub(super) struct Rows<'a> {
     pub(super) values: [Vec<f64>; 3],
     /// Where a row stands.
@@ -25,7 +27,17 @@ impl Rows<'_> {
     /// The rows of the part and the cut, without those that cannot be used.
     pub(super) fn chosen(&self, how: &Columns) -> Result<Chosen, ExperimentError> {
         let clock = self.clock();
-        let inside = self.inside(&clock, how)?;
+        let mut inside = self.inside(&clock, how)?;
+        let [_, output, input] = &self.values;
+        let mut input = Cow::Borrowed(input);
+        if how.hold_command {
+            let mut last = f64::NAN;
+            for command in input.to_mut() {
+                last = if command.is_nan() { last } else { *command };
+                *command = last;
+            }
+            inside.retain(|row| !output[*row].is_nan() && !input[*row].is_nan());
+        }
         let mut time_s = self.values[0].clone();
         if how.even_stamps {
             // The line of least squares through the stamps over the number n of the row: the first and the last stamp alone are each
@@ -39,7 +51,7 @@ impl Rows<'_> {
             let interval_s = product / (count * (count * count - 1.0) / 12.0);
             from_middle().for_each(|(n, row)| time_s[row] = mean_s + n * interval_s);
         }
-        let columns = [&time_s, &self.values[1], &self.values[2]];
+        let columns = [&time_s, output, &input];
         let mut rows = Vec::with_capacity(inside.len());
         let mut previous_s = f64::NEG_INFINITY;
         for &row in &inside {

@@ -29,7 +29,7 @@ fn refusals_have_names_and_places() {
         ("\n  \n".to_owned(), "empty", "empty"),
         ("PNG\u{0}\u{1}".to_owned(), "not-text", "line 1"),
         (changed("command", "thrust"), "unknown-column", "thrust"),
-        ("1,2,3\n".repeat(30), "unknown-column", "time_s"),
+        ("1,2,3\n".repeat(30), "no-header", "1, 2, 3"),
         (changed("0.5,2.5,", "0.5,,"), "blank-cell", "line 7"),
         (changed("0.5,2.5,", "0.5,n/a,"), "not-a-number", "line 7"),
         (changed("0.5,2.5,", "0.5,NaN,"), "not-finite", "line 7"),
@@ -56,6 +56,45 @@ fn delimiters_are_seen_and_a_decimal_comma_understood() {
     for other in [semicolon, blanks, tabulated] {
         assert_eq!(Columns::default().read(other.as_bytes()).unwrap(), comma, "{other}");
     }
+}
+
+/// Rows of the output alone, each behind a row of the command alone, are the log that has both; a row before the first command is none.
+#[test]
+fn commands_hold_where_topics_are_merged() {
+    let plain = log(20);
+    let rows: Vec<Vec<&str>> = plain.lines().map(|row| row.split(',').collect()).collect();
+    let in_turn = |row: &Vec<&str>| format!("{},,{}\n{},{},\n", row[0], row[2], row[0], row[1]);
+    let merged: String = rows[1..].iter().map(in_turn).collect();
+    let merged = format!("{}\n-0.1,7,\n{merged}", rows[0].join(","));
+    let holding = Columns { hold_command: true, ..Columns::default() };
+    let read = |columns: &Columns, text: &str| columns.read(text.as_bytes()).map_err(|error| error.code());
+    assert_eq!(read(&Columns::default(), &merged), Err("blank-cell"));
+    assert_eq!(read(&holding, &merged), read(&Columns::default(), &plain));
+    assert_eq!(read(&holding, &merged.replacen(",,-1", ",,off", 1)), Err("not-a-number"));
+    assert_eq!(read(&holding, &merged.replacen(",2.5,", ",n/a,", 1)), Err("not-a-number"));
+}
+
+/// Twenty rows a tenth of a second apart across midnight.
+#[test]
+fn dates_are_seconds() {
+    let plain = log(20);
+    for (day, zone) in [('T', "Z"), (' ', "")] {
+        let dated = |(n, row): (usize, &str)| {
+            let (past, values) = (n % 10, row.split_once(',').unwrap().1);
+            let date = if n < 10 { format!("28{day}23:59:59") } else { format!("29{day}00:00:00") };
+            format!("2026-11-{date}.{past}{zone},{values}\n")
+        };
+        let rows: String = plain.lines().skip(1).enumerate().map(dated).collect();
+        let named =
+            |time: &str| Columns::default().read(format!("{time},output,command\n{rows}").as_bytes()).unwrap().record;
+        let record = named("time");
+        // The microsecond is the last digit of a number of this size.
+        let late = (0..20).map(|n| record.time_s()[n] - (1_795_910_399.0 + 0.1 * n as f64));
+        assert!(late.map(f64::abs).fold(0.0, f64::max) < 1e-6, "{:?}", record.time_s());
+        assert!((named("time_ms").time_s()[19] - record.time_s()[19]).abs() < 1e-6);
+    }
+    let wrong = plain.replacen("\n0.0,", "\n2026-13-01T00:00:00Z,", 1);
+    assert_eq!(refusal(wrong.as_bytes()).0, "not-a-number");
 }
 
 #[test]

@@ -216,6 +216,20 @@ fn dirty() {
             1.0,
         ),
         entry(
+            "output and command in turn",
+            &log.text(header, |_, [t, x, u]| Some(format!("{:.3},,{u}\n{t:.1},{x:.5},", t - 0.001))),
+            &[],
+            &["--hold-command"],
+            1.0,
+        ),
+        entry(
+            "dates",
+            &log.text(header, |_, [t, x, u]| Some(format!("2026-11-29 12:00:{t:04.1},{x:.5},{u}"))),
+            &[],
+            &[],
+            1.0,
+        ),
+        entry(
             "rows cut short",
             &with(&|n, [t, x, u]| if n % 14 == 5 { format!("{t:.1},{x:.2}") } else { plain([t, x, u]) }),
             &[],

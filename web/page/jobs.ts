@@ -29,6 +29,7 @@ const axis: Field[] = [
   number("delay", "Delay (s)"),
 ];
 const skip: Field = { flag: "skip-bad-rows", label: "Leave out rows without three numbers", kind: "switch" };
+const hold: Field = { flag: "hold-command", label: "A blank command holds the last one", kind: "switch" };
 
 export const jobs: Job[] = [
   {
@@ -52,6 +53,7 @@ export const jobs: Job[] = [
       { flag: "invert", label: "Command logged with the opposite sign", kind: "switch" },
       { flag: "even-stamps", label: "Samples evenly spaced", kind: "switch" },
       skip,
+      hold,
     ],
   },
   {
@@ -82,6 +84,7 @@ export const jobs: Job[] = [
       ...columns,
       ...cut,
       skip,
+      hold,
     ],
   },
   {

@@ -1,9 +1,9 @@
 //! Steps against motions in closed form, each with a false variant that is caught.
 
 use super::super::sensitivities::Variable;
-use crate::numeric::runge_kutta;
 use super::super::vector_field::TERMS;
 use super::*;
+use crate::numeric::runge_kutta;
 use crate::numeric::{Real, Sizes};
 
 const U: f64 = 1.0;

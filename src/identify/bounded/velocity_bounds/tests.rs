@@ -1,5 +1,5 @@
-use crate::numeric::runge_kutta;
 use super::*;
+use crate::numeric::runge_kutta;
 
 const FORCES: [f64; 5] = [-2.0, -0.3, 0.0, 0.4, 2.0];
 const VELOCITIES: [f64; 7] = [-1.5, -0.4, -0.01, 0.0, 0.02, 0.5, 1.5];
