@@ -108,6 +108,10 @@ static int index_of(const char *name)
             settings.turn = (NUMBER)6.283185307; \
             settings.longest_hold_s = 1; \
             MEASURED(selfosc_tune_##P(&axis, SELFOSC_STRUCTURE_PID, (NUMBER)0.6, &settings, NULL)); \
+            { \
+                SelfoscMargins_##P margins; \
+                MEASURED(selfosc_margins_##P(&axis, SELFOSC_STRUCTURE_PID, (NUMBER)0.6, &margins, NULL)); \
+            } \
             MEASURED(selfosc_controller_begin_##P(&controller, &settings, NULL)); \
             if (trial > 0) \
                 MEASURED(selfosc_controller_feed_forward_##P(&controller, &axis, (NUMBER)0.5, (NUMBER)0.3, NULL)); \

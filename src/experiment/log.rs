@@ -182,7 +182,11 @@ impl Columns {
         // What is wrong with a row is read again, only where it matters.
         let fault = |row: usize| {
             let row = reader().into_records().nth(row)?.ok()?;
-            columns.iter().find_map(|&column| cell(&row, column).err())
+            let blank = |fault: &ExperimentError| matches!(fault, ExperimentError::Blank { .. });
+            columns
+                .iter()
+                .filter_map(|&column| cell(&row, column).err())
+                .find(|fault| !(self.hold_command && blank(fault)))
         };
         let rows = Rows { values, place: &|row| Place::Line(lines[row]), fault: &fault };
         self.log(columns.map(|column| names[column].clone()), rows)

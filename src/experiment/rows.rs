@@ -33,10 +33,11 @@ impl Rows<'_> {
         if how.hold_command {
             let mut last = f64::NAN;
             for command in input.to_mut() {
-                last = if command.is_nan() { last } else { *command };
-                *command = last;
+                last = if command.is_finite() { *command } else { last };
+                *command = if command.is_nan() { last } else { *command };
             }
-            inside.retain(|row| !output[*row].is_nan() && !input[*row].is_nan());
+            // A command that is no number stays to be named.
+            inside.retain(|row| input[*row].is_infinite() || !output[*row].is_nan() && !input[*row].is_nan());
         }
         let mut time_s = self.values[0].clone();
         if how.even_stamps {
