@@ -110,20 +110,12 @@ pub const DENOMINATOR: Inequality = Inequality {
     margin: Margin::Value(formula!(rate_left)),
 };
 
-fn force<T: Real>([speed, linear, _]: [T; VARIABLES]) -> T {
-    force_left(speed, linear)
-}
-
-fn force_lost<T: Real>(at: [T; VARIABLES]) -> T {
-    -force(at)
-}
-
 /// Up to half the terminal speed.
 pub const FORCE_SLOW: Inequality = Inequality {
     id: "force-slow",
     statement: "drag leaves force up to half the terminal speed",
     variables: [Extent::new("speed", 0.0, 0.5), Extent::new("linear_share", 0.0, 1.0), NONE],
-    margin: Margin::Value(formula!(force)),
+    margin: Margin::Value(formula!(|[speed, linear, _]| force_left(speed, linear))),
 };
 
 /// The force is zero at terminal speed, hence positive below.
@@ -131,7 +123,7 @@ pub const FORCE_FAST: Inequality = Inequality {
     id: "force-fast",
     statement: "the force that drag leaves falls from half the terminal speed to all of it",
     variables: [Extent::new("speed", 0.5, 1.0), Extent::new("linear_share", 0.0, 1.0), NONE],
-    margin: Margin::Slope { of: formula!(force_lost), by: 0 },
+    margin: Margin::Slope { of: formula!(|[speed, linear, _]| -force_left(speed, linear)), by: 0 },
 };
 
 /// The force that brakes after a switching: the opposite command's, less the disturbance, and the drag.
@@ -139,16 +131,12 @@ pub(crate) fn brake<T: Real>([mu, drag, _]: [T; VARIABLES]) -> T {
     T::one() - mu + drag
 }
 
-fn brake_lost<T: Real>(at: [T; VARIABLES]) -> T {
-    -brake(at)
-}
-
 /// Under a disturbance as large as the level the drag brakes alone; a smaller disturbance adds to it.
 pub const BRAKING: Inequality = Inequality {
     id: "braking",
     statement: "the force that brakes after a switching falls as the disturbance grows, up to that of the relay's level",
     variables: [MU_ALL, Extent::new("drag", 0.0, 2.0), NONE],
-    margin: Margin::Slope { of: formula!(brake_lost), by: 0 },
+    margin: Margin::Slope { of: formula!(|at| -brake(at)), by: 0 },
 };
 
 /// It is zero for a disturbance as large as the level at rest, hence zero or more there at every speed.
@@ -171,16 +159,12 @@ pub const QUADRATIC_NEXT: Inequality = Inequality {
     margin: Margin::Slope { of: formula!(quadratic_next), by: 1 },
 };
 
-fn linear_width<T: Real>([z, _, _]: [T; VARIABLES]) -> T {
-    z - z.tanh()
-}
-
 /// The equation of the period has a triple zero at zero.
 pub const LINEAR_WIDTH_SHORT: Inequality = Inequality {
     id: "linear-width-short",
     statement: "linear drag: z - tanh z over z^3 is positive for z <= 1/2",
     variables: [Extent::new("z", 0.0, 0.5), NONE, NONE],
-    margin: Margin::OverPower { of: formula!(linear_width), order: 3, near: 0.5 },
+    margin: Margin::OverPower { of: formula!(|[z, ..]| z - z.tanh()), order: 3, near: 0.5 },
 };
 
 /// Its derivative for all longer periods.
@@ -188,7 +172,7 @@ pub const LINEAR_WIDTH_LONG: Inequality = Inequality {
     id: "linear-width-long",
     statement: "linear drag: z - tanh z grows for z >= 1/2",
     variables: [Extent::new("z", 0.5, f64::INFINITY), NONE, NONE],
-    margin: Margin::Slope { of: formula!(linear_width), by: 0 },
+    margin: Margin::Slope { of: formula!(|[z, ..]| z - z.tanh()), by: 0 },
 };
 
 /// `(1 + r) ln(1 + r) + (1 - r) ln(1 - r)`: positive where the relative overshoot falls with g, `r = y*`.
@@ -246,12 +230,12 @@ pub const LINEAR_OVERSHOOT_STRONG: Inequality = Inequality {
     margin: Margin::Value(formula!(linear_overshoot_bound)),
 };
 
-/// `exp(v) - 2 v`, of `w = exp(-2 v)`: positive where `w ln(1/w) < sqrt w`.
+/// Of `w = exp(-2 v)`: positive where `w ln(1/w) < sqrt w`.
 fn logarithm<T: Real>([v, _, _]: [T; VARIABLES]) -> T {
     v.exp() - T::two() * v
 }
 
-/// `w ln(1/w) < sqrt w` for `w` from `exp(-2)` to 1.
+/// For `w` from `exp(-2)` to 1.
 pub const LOGARITHM_LOW: Inequality = Inequality {
     id: "logarithm-low",
     statement: "exp(v) exceeds 2 v for v <= 1",
@@ -296,12 +280,8 @@ pub const QUADRATIC_DISTURBED: Theorem = Theorem {
     inequalities: &[EXCESS_FIRST, EXCESS_SECOND, DENOMINATOR, FORCE_SLOW, FORCE_FAST, BRAKING, BRAKING_DRAG],
 };
 
-/// Linear drag with a disturbance: a single limit cycle, attracting.
-pub const LINEAR_DISTURBED: Theorem = Theorem {
-    id: "orbit-linear-disturbed",
-    domain: "every alpha, beta, C, x_a > 0 with |delta| < C; every start",
-    inequalities: &[EXCESS_FIRST, EXCESS_SECOND, DENOMINATOR, FORCE_SLOW, FORCE_FAST, BRAKING, BRAKING_DRAG],
-};
+/// Linear drag with a disturbance: a single limit cycle, attracting, by the same inequalities.
+pub const LINEAR_DISTURBED: Theorem = Theorem { id: "orbit-linear-disturbed", ..QUADRATIC_DISTURBED };
 
 /// No switching earlier than in the formulas.
 pub const NO_EARLY_SWITCHING: Theorem = Theorem {

@@ -17,7 +17,7 @@ pub type Series = Jet<4>;
 /// Partial derivatives with their own partial derivatives.
 pub type Curvature = crate::numeric::Gradient<Gradient<VARIABLES>, VARIABLES>;
 
-/// A formula, as each arithmetic evaluates it; by [`formula!`](crate::proof::formula) from a single generic function.
+/// A formula, as each arithmetic evaluates it; by [`formula!`](crate::proof::formula) from a single generic function or closure.
 #[derive(Clone, Copy, Debug)]
 pub struct Formula {
     /// Over a box.
@@ -32,11 +32,11 @@ pub struct Formula {
     pub expression: fn([Expression; VARIABLES]) -> Expression,
 }
 
-/// The [`Formula`] of a function generic over [`Real`](crate::numeric::Real), of an array of three variables.
+/// The [`Formula`] of a function, or of a closure, generic over [`Real`](crate::numeric::Real), of an array of three variables.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! formula {
-    ($function:path) => {
+    ($function:expr) => {
         $crate::proof::margin::Formula {
             interval: $function,
             gradient: $function,
