@@ -55,19 +55,15 @@ impl Algebra {
         // Above the frequency by more than rounding: the norm of nu^2 stays below 1.
         let scale = match (turning, degree) {
             (true, _) => (-square).sqrt().upper() * (1.0 + 1e-12),
-            (false, 1) => 1.0,
             // exp((shift + nu scale) s) decays with shift below -scale.
-            (false, _) if middle > 0.0 => 0.5 * middle,
-            (false, _) => 1.0,
+            (false, 2..) if middle > 0.0 => 0.5 * middle,
+            _ => 1.0,
         };
-        if degree > 1 {
-            for (power, (entry, &coefficient)) in modulus.iter_mut().zip(ascending).enumerate() {
-                let unit = (power..degree).fold(Interval::ONE, |unit, _| unit * Interval::point(scale));
-                *entry = -coefficient / unit;
-            }
+        for (power, (entry, &coefficient)) in modulus.iter_mut().zip(ascending).enumerate() {
+            let unit = (power..degree).fold(Interval::ONE, |unit, _| unit * Interval::point(scale));
+            *entry = -coefficient / unit;
         }
         let frequency = turning.then(|| (-square).sqrt());
-        let shift = if degree == 1 { shift - ascending[0] } else { shift };
         (norm(&modulus) <= 1.0).then_some(Self { degree, shift, scale, modulus, frequency })
     }
 
@@ -157,7 +153,8 @@ impl Algebra {
             }
             ends = ends.map(|(end, last)| (end, term(last, end, power)));
             let peak = (Interval::point(-f64::from(power)) / shift).intersection(time);
-            let at_peak = |time: Interval| (1..=power).fold((shift * time).exp(), |last, power| term(last, time, power));
+            let at_peak =
+                |time: Interval| (1..=power).fold((shift * time).exp(), |last, power| term(last, time, power));
             let between = ends[0].1.hull(ends[1].1);
             sum = add(&sum, &scaled(&nu, peak.map_or(between, |time| between.hull(at_peak(time)))));
             nu = self.times_nu(&nu);

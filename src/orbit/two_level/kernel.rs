@@ -17,6 +17,8 @@ use crate::proof::Gradient;
 
 /// Terms of the series in Bernoulli polynomials: the ratio of successive terms is at most `1/(2 pi)`.
 const TERMS: usize = 22;
+/// `B_j(x)/j!` by degree.
+type Polynomials = [Interval; TERMS + 1];
 
 /// A moment in the period: time since the step, time until the next step, and the share of the period gone.
 #[derive(Clone, Copy, Debug)]
@@ -136,16 +138,10 @@ fn remainder(size: f64) -> f64 {
     0.11 * (terms as f64 + 9.0) * ratio.powi(terms as i32 - 1) / (1.0 - ratio).powi(2)
 }
 
-fn series(
-    weights: &[Interval],
-    rest: f64,
-    polynomials: &[Interval; TERMS + 1],
-    share: Interval,
-    period: Interval,
-) -> Gradient<2> {
+fn series(weights: &[Interval], rest: f64, of: &Polynomials, share: Interval, period: Interval) -> Gradient<2> {
     let (mut value, mut by_time, mut by_period) = (Interval::ZERO, Interval::ZERO, Interval::ZERO);
     for (at, &weight) in weights.iter().enumerate() {
-        let (this, last) = (polynomials[at + 2], polynomials[at + 1]);
+        let (this, last) = (of[at + 2], of[at + 1]);
         value += weight * this;
         by_time += weight * last;
         by_period += weight * (Interval::point((at + 1) as f64) * this - share * last);
@@ -154,8 +150,8 @@ fn series(
     Gradient::new(-value + left_out, [by_time, by_period].map(|slope| -(slope + left_out) * over))
 }
 
-/// `B_j(x)/j!` over `x` in [0, 1] for `j` up to a degree, by Taylor's formula about 1/2.
-fn bernoulli(share: Interval, degree: usize) -> [Interval; TERMS + 1] {
+/// Over `x` in [0, 1], up to a degree, by Taylor's formula about 1/2.
+fn bernoulli(share: Interval, degree: usize) -> Polynomials {
     let mut polynomials = [Interval::ZERO; TERMS + 1];
     if degree == 0 {
         return polynomials;
@@ -165,8 +161,7 @@ fn bernoulli(share: Interval, degree: usize) -> [Interval; TERMS + 1] {
     let mut powers = [Interval::ONE; TERMS + 1];
     for at in 1..=degree {
         // An even power of an interval about zero is not negative.
-        let power = if at % 2 == 0 { powers[at / 2].square() } else { powers[at - 1] * from_middle };
-        powers[at] = power;
+        powers[at] = if at % 2 == 0 { powers[at / 2].square() } else { powers[at - 1] * from_middle };
     }
     for at in 1..=degree {
         powers[at] *= over_factorials[at];

@@ -1,6 +1,6 @@
 //! A transfer function as a sum over groups of poles, with proof: factors by Krawczyk's operator, partial fractions by elimination.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Complex, DMatrix, DVector};
 
 use super::algebra::{Algebra, Element, MOST, ZERO};
 use crate::numeric::Interval;
@@ -55,32 +55,19 @@ impl Mode {
 /// Approximate factors, ascending without the leading coefficient, of a polynomial without a root at zero.
 fn factors(descending: &[f64]) -> Result<Vec<Vec<f64>>, OrbitError> {
     let poles = TransferFunction::new(&[1.0], descending)?.poles()?;
-    let near_axis = |im: f64, size: f64| 2.0 * im.abs() <= GAP * size;
-    let mut real: Vec<f64> = poles.iter().filter(|pole| near_axis(pole.im, pole.norm())).map(|pole| pole.re).collect();
+    let turns = |pole: &Complex<f64>| 2.0 * pole.im.abs() > GAP * pole.norm();
+    let (turning, real): (Vec<_>, Vec<_>) = poles.into_iter().partition(turns);
+    let mut real: Vec<f64> = real.iter().map(|pole| pole.re).collect();
     real.sort_by(f64::total_cmp);
-    let mut groups: Vec<Vec<f64>> = Vec::new();
-    for pole in real {
-        match groups.last_mut() {
-            Some(group) if group.last().is_some_and(|last| (pole - last).abs() <= GAP * pole.abs().max(last.abs())) => {
-                group.push(pole);
-            }
-            _ => groups.push(vec![pole]),
-        }
-    }
-    let mut found = Vec::new();
+    let groups = real.chunk_by(|a, b| (b - a).abs() <= GAP * a.abs().max(b.abs()));
     // More poles than a group takes are divided evenly.
-    let even = |group: &Vec<f64>| group.len().div_ceil(group.len().div_ceil(MOST));
-    for group in groups.iter().flat_map(|group| group.chunks(even(group))) {
+    let groups = groups.flat_map(|group| group.chunks(group.len().div_ceil(group.len().div_ceil(MOST))));
+    let real = groups.map(|group| {
         let monic = group.iter().fold(vec![1.0], |factor, &pole| product(&factor, &[1.0, -pole]));
-        found.push(monic[1..].iter().rev().copied().collect());
-    }
-    found.extend(
-        poles
-            .iter()
-            .filter(|pole| pole.im > 0.0 && !near_axis(pole.im, pole.norm()))
-            .map(|pole| vec![pole.norm_sqr(), -2.0 * pole.re]),
-    );
-    Ok(found)
+        monic[1..].iter().rev().copied().collect()
+    });
+    let pairs = turning.iter().filter(|pole| pole.im > 0.0).map(|pole| vec![pole.norm_sqr(), -2.0 * pole.re]);
+    Ok(real.chain(pairs).collect())
 }
 
 /// Product of monic polynomials, ascending, all but the factor `without`; `None`: of all.
@@ -172,18 +159,18 @@ fn shifted(ascending: &[Interval], shift: Interval) -> Vec<Interval> {
 fn mode(factor: &[Interval], numerator: &[Interval], at_zero: bool) -> Option<Mode> {
     let degree = factor.len();
     let last = factor[degree - 1] / Interval::point(degree as f64);
-    // A pair or a double pole is moved by exactly the mean of its poles: no linear term remains.
+    // Up to two poles are moved by exactly their mean: nothing remains of the last coefficient.
     let shift = match degree {
         _ if at_zero => Interval::ZERO,
-        1 => Interval::ZERO,
+        1 => -factor[0],
         2 => -last,
         _ => Interval::point(-last.midpoint()),
     };
     let monic: Vec<Interval> = factor.iter().copied().chain([Interval::ONE]).collect();
     let mut moved = shifted(&monic, shift);
     moved.pop();
-    if degree == 2 {
-        moved[1] = Interval::ZERO;
+    if degree <= 2 {
+        moved[degree - 1] = Interval::ZERO;
     }
     let numerator = shifted(numerator, shift);
     let algebra = Algebra::new(shift, &moved)?;
