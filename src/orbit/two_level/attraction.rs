@@ -22,13 +22,8 @@ type IntervalMatrix = DMatrix<Interval>;
 
 #[derive(Clone, Copy)]
 enum Event {
-    /// A command that comes later the less steep the output is.
-    Command {
-        slope: Interval,
-    },
-    Input {
-        jump: Interval,
-    },
+    Command { slope: Interval },
+    Input { jump: Interval },
 }
 
 fn order(modes: &[Mode]) -> usize {

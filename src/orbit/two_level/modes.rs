@@ -99,22 +99,23 @@ fn columns(factors: &[Vec<Interval>]) -> DMatrix<Interval> {
     matrix
 }
 
+/// A list in parts as long as these.
+fn cut_like<T>(mut list: &[Interval], parts: &[Vec<T>]) -> Vec<Vec<Interval>> {
+    let cut = |part: &Vec<T>| {
+        let (head, tail) = list.split_at(part.len());
+        list = tail;
+        head.to_vec()
+    };
+    parts.iter().map(cut).collect()
+}
+
 /// Encloses the factors near approximate factors: Krawczyk's operator on the coefficients. `monic` ascends.
 fn enclose(near: &[Vec<f64>], monic: &[Interval]) -> Option<Vec<Vec<Interval>>> {
     if let [_] = near {
         return Some(vec![monic.to_vec()]);
     }
-    let lengths: Vec<usize> = near.iter().map(Vec::len).collect();
     let size = monic.len();
-    let split = |flat: &DVector<Interval>| {
-        let mut rest = flat.as_slice();
-        let part = |&length: &usize| {
-            let (head, tail) = rest.split_at(length);
-            rest = tail;
-            head.to_vec()
-        };
-        lengths.iter().map(part).collect::<Vec<_>>()
-    };
+    let split = |flat: &DVector<Interval>| cut_like(flat.as_slice(), near);
     let miss = |factors: &[Vec<Interval>]| {
         let whole = others(factors, None);
         DVector::from_fn(size, |row, _| whole[row] - monic[row])
@@ -215,12 +216,7 @@ pub(super) fn modes(plant: &TransferFunction) -> Result<Vec<Mode>, OrbitError> {
     let mut right = DMatrix::zeros(order, 1);
     numerator.iter().rev().enumerate().for_each(|(row, &c)| right[(row, 0)] = Interval::point(c) / lead);
     let shares = solve(columns(&parts), right).ok_or(crowded(order))?;
-    let mut place = 0;
-    let mut found = Vec::new();
-    for (index, part) in parts.iter().enumerate() {
-        let share: Vec<Interval> = (place..place + part.len()).map(|row| shares[(row, 0)]).collect();
-        place += part.len();
-        found.push(mode(part, &share, index == 0 && at_zero > 0).ok_or(crowded(order))?);
-    }
-    Ok(found)
+    let shares = cut_like(shares.as_slice(), &parts);
+    let groups = parts.iter().zip(&shares).enumerate();
+    groups.map(|(at, (part, share))| mode(part, share, at == 0 && at_zero > 0).ok_or(crowded(order))).collect()
 }

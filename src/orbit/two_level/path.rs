@@ -64,7 +64,8 @@ fn arcs(switched: &SwitchedLoop, times: &Times<1>, [on, off]: [Interval; 2]) -> 
 impl<'a> Path<'a> {
     /// Undecided where the order of the changes is.
     pub(super) fn new(switched: &'a SwitchedLoop, at: &HalfPeriods) -> Result<Self, Undecided> {
-        let times = Times::constant(at);
+        let [high, low] = at.map(Gradient::constant);
+        let times = Times::free(high, low);
         let periodic = Periodic::new(&switched.modes, times.period.value()).ok_or(Undecided)?;
         let [on, off] = [ON, OFF].map(|change| {
             let place = switched.place(&times, change)?;

@@ -51,10 +51,6 @@ impl PeriodRange {
         let share = 0.5 * (self.share(time.lower()) + self.share(time.upper()));
         (self.unit * share / (1.0 - share)).clamp(time.lower(), time.upper().min(f64::MAX))
     }
-
-    fn width(&self, time: Interval) -> f64 {
-        self.share(time.upper()) - self.share(time.lower())
-    }
 }
 
 impl SwitchedLoop {
@@ -123,7 +119,7 @@ impl SwitchedLoop {
             if excluded {
                 continue;
             }
-            let widths = remaining.map(|side| range.width(side));
+            let widths = remaining.map(|side| range.share(side.upper()) - range.share(side.lower()));
             let side = (0..N).max_by(|&a, &b| widths[a].total_cmp(&widths[b])).unwrap_or(0);
             if widths[side] <= SMALLEST * range.share(period(remaining).upper()) {
                 found.not_covered.push(period(remaining));

@@ -61,14 +61,8 @@ impl<const N: usize> Times<N> {
         Self { high: of(high), low: of(Interval::ONE - high), period: first, share }
     }
 
-    fn free(high: Gradient<N>, low: Gradient<N>) -> Self {
+    pub(super) fn free(high: Gradient<N>, low: Gradient<N>) -> Self {
         Self { high, low, period: high + low, share: None }
-    }
-
-    /// Enclosed half-periods.
-    pub(super) fn constant(at: &[Interval; 2]) -> Self {
-        let [high, low] = at.map(Gradient::constant);
-        Self::free(high, low)
     }
 
     pub(super) fn half_periods(&self) -> [Interval; 2] {
