@@ -13,9 +13,9 @@ use crate::proof::interval_matrix::solve;
 
 /// The most poles of a group.
 pub(super) const MOST: usize = 4;
-/// The most terms of an exponential: a group of four has up to 140.
+/// The most terms of an exponential: four poles in a row take up to 140.
 const TERMS: u32 = 160;
-/// What is left out of an exponential beside its largest term.
+/// Share of its largest term below which the remainder ends an exponential.
 const NEGLIGIBLE: f64 = 1e-22;
 
 /// Coordinates in the powers of `nu`; those from `degree` on are zero.
