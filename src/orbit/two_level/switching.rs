@@ -134,7 +134,7 @@ impl SwitchedLoop {
     pub(super) fn place<const N: usize>(&self, times: &Times<N>, change: Offset) -> Option<Place<N>> {
         let mut places = self.places(times, change)?;
         if self.delay.upper() == 0.0 {
-            places.retain(|place| place.input_high == (change == OFF));
+            places.retain(|place| place.input_high == (change[0] > 0.0));
         }
         <[_; 1]>::try_from(places).ok().map(|[place]| place)
     }
