@@ -3,6 +3,7 @@
 
 use core::f64::consts::E;
 
+use nalgebra::Complex;
 use proptest::prelude::*;
 use selfosc::numeric::Interval;
 use selfosc::orbit::{OrbitCertificate, OrbitClaim, OrbitError, OrbitListing, OrbitRefusal, TwoLevelRelay, orbits};
@@ -64,6 +65,59 @@ fn an_unstable_plant_has_the_cycles_that_exist() {
     assert!(holds(one.orbits[0].period_s, exact, exact), "{:?} {exact}", one.orbits[0]);
     let second_order = slow(&[1.0], &[1.0, 1.0, -2.0], 0.3, 20.0);
     assert!(second_order.is_complete() && second_order.orbits.is_empty(), "{second_order:?}");
+}
+
+/// The plant `(s + 3)^(n-1)/((s + p_1) ... (s + p_n))` is the sum of lags `r/(s + p)`, and its symmetric cycle of period `T` without
+/// dead time has the half-width `sum r tanh(p T/4)/p`: with slow and fast cycles, poles that form a group, pairs and unstable poles.
+#[test]
+fn symmetric_cycles_are_those_of_the_partial_fractions() {
+    let product = |a: Vec<Complex<f64>>, root: Complex<f64>| {
+        let zero = Complex::new(0.0, 0.0);
+        let shifted = a.iter().copied().chain([zero]);
+        shifted.zip([zero].into_iter().chain(a.iter().map(|one| one * root))).map(|(a, b)| a + b).collect()
+    };
+    let polynomial = |roots: &[Complex<f64>]| -> Vec<f64> {
+        let start = vec![Complex::new(1.0, 0.0)];
+        roots.iter().fold(start, |a, &root| product(a, root)).iter().map(|one| one.re).collect()
+    };
+    let real = |poles: &[f64]| poles.iter().map(|&pole| Complex::new(pole, 0.0)).collect::<Vec<_>>();
+    let pair = |re: f64, im: f64| vec![Complex::new(re, im), Complex::new(re, -im)];
+    let groups = [real(&[1.0, 1.05, 1.1]), real(&[1.0, 1.2, 1.44, 1.72])];
+    let apart = [real(&[1.0]), real(&[-0.7]), real(&[0.8, 3.0]), pair(0.2, 1.12), pair(-0.1, 1.0)];
+    for poles in groups.into_iter().chain(apart) {
+        let zero = Complex::new(3.0, 0.0);
+        let residue = |pole: Complex<f64>| {
+            let others = poles.iter().filter(|&&other| other != pole);
+            others.map(|other| (zero - pole) / (other - pole)).product::<Complex<f64>>()
+        };
+        let transfer = plant(&polynomial(&vec![zero; poles.len() - 1]), &polynomial(&poles), 0.0);
+        for period in [0.4, 0.9, 1.3, 2.0] {
+            let parts = poles.iter().map(|&pole| residue(pole) * (pole * period / 4.0).tanh() / pole);
+            let relay = TwoLevelRelay::new(1.0, -1.0, parts.sum::<Complex<f64>>().re).unwrap();
+            let found = orbits(&transfer, &relay, Some(0.9 * period..=1.1 * period)).unwrap();
+            let [one] = &found.orbits[..] else { panic!("{poles:?} {period}: {found:?}") };
+            assert!(found.is_complete() && one.period_s.width() < 1e-10 * period, "{poles:?}: {found:?}");
+            // The partial fractions of a group cancel.
+            let rounding = if poles.len() > 2 { 1e-11 } else { 1e-14 } * period;
+            assert!((one.period_s.midpoint() - period).abs() < rounding, "{poles:?} {period}: {one:?}");
+            assert_eq!(one.attracting, Some(true), "{poles:?} {period}");
+        }
+    }
+}
+
+/// Through a long dead time the output settles at the gain times the level: groups of two and of three equal poles.
+#[test]
+fn the_output_settles_at_the_static_gain() {
+    for den in [&[1.0, 3.0, 2.0][..], &[1.0, 2.0, 1.0], &[1.0, 3.0, 3.0, 1.0]] {
+        let transfer = plant(&[0.4, 1.5], den, 90.0);
+        let relay = TwoLevelRelay::new(2.0, -1.0, 0.1).unwrap();
+        let found = orbits(&transfer, &relay, Some(181.0..=1000.0)).unwrap();
+        let gain = transfer.static_gain().unwrap();
+        assert!(
+            holds(found.orbits[0].maximum, 2.0 * gain, gain) && holds(found.orbits[0].minimum, -gain, gain),
+            "{found:?}"
+        );
+    }
 }
 
 #[test]

@@ -6,7 +6,7 @@ use nalgebra::{Complex, DMatrix, DVector, RowDVector, Schur};
 
 use super::modes::Mode;
 use super::path::Path;
-use super::switching::Conditions;
+use super::switching::SwitchedLoop;
 use crate::numeric::Interval;
 use crate::plant::eigenvalues;
 use crate::proof::interval_matrix::{norm, solve};
@@ -20,37 +20,26 @@ const NONE: f64 = 1e-9;
 
 type IntervalMatrix = DMatrix<Interval>;
 
-/// What deviations do.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Attraction {
-    /// Eigenvalues of the return map, largest first, computed, without the zeros.
-    pub(super) multipliers: Vec<Complex<f64>>,
-    /// Shown: all inside the unit circle, or at least 1 outside.
-    pub(super) attracting: Option<bool>,
-}
-
 #[derive(Clone, Copy)]
 enum Event {
     Command { slope: Interval },
     Input { jump: Interval },
 }
 
+fn order(modes: &[Mode]) -> usize {
+    modes.iter().map(|mode| mode.algebra.degree).sum()
+}
+
+/// Places of the groups' states among all.
+fn places(modes: &[Mode]) -> impl Iterator<Item = (usize, &Mode)> {
+    modes.iter().scan(0, |place, mode| Some((core::mem::replace(place, *place + mode.algebra.degree), mode)))
+}
+
 fn flow(modes: &[Mode], time: Interval) -> IntervalMatrix {
-    let order = modes.iter().map(|mode| mode.algebra.degree).sum();
-    let mut matrix = DMatrix::zeros(order, order);
-    let mut place = 0;
-    for mode in modes {
-        let degree = mode.algebra.degree;
-        let mut column = mode.algebra.exponential(time, false);
-        for power in 0..degree {
-            (0..degree).for_each(|row| matrix[(place + row, place + power)] = column[row]);
-            column = mode.algebra.product(&column, &{
-                let mut nu = super::algebra::ZERO;
-                nu[usize::from(degree > 1)] = if degree > 1 { Interval::ONE } else { Interval::ZERO };
-                nu
-            });
-        }
-        place += degree;
+    let mut matrix = DMatrix::zeros(order(modes), order(modes));
+    for (place, Mode { algebra, .. }) in places(modes) {
+        let group = algebra.matrix(&algebra.exponential(time));
+        matrix.view_mut((place, place), group.shape()).copy_from(&group);
     }
     matrix
 }
@@ -65,11 +54,11 @@ fn whole(time: Interval, period: Interval) -> Option<f64> {
     (low >= high && high < 1e6).then_some(low)
 }
 
-impl Conditions {
+impl SwitchedLoop {
     /// The return map from a passage of the lower level to the next: the deviation of the plant's state and of the
     /// instants of the commands under way. `None` where events cannot be put in order, or too many commands are under way.
     fn return_map(&self, path: &Path<'_>) -> Option<IntervalMatrix> {
-        let (high, period) = (path.times.high.value(), path.times.period.value());
+        let [high, period] = [path.times.high, path.times.period].map(|time| time.value());
         let [falling, rising] = path.slopes();
         if !falling.is_negative() || !rising.is_positive() {
             return None;
@@ -80,7 +69,7 @@ impl Conditions {
         if under_way > UNDER_WAY {
             return None;
         }
-        let order: usize = self.modes.iter().map(|mode| mode.algebra.degree).sum();
+        let order = order(&self.modes);
         let size = order + under_way;
         let at = |turns: f64, time: Interval| time - Interval::point(turns) * period;
         // A command comes before an input at the same time.
@@ -95,14 +84,8 @@ impl Conditions {
         if !undelayed && events.windows(2).any(|pair| !pair[0].0.precedes(pair[1].0)) {
             return None;
         }
-        let output: Vec<Interval> = self.modes.iter().flat_map(|mode| mode.output_row().to_vec()).collect();
-        let output = RowDVector::from_vec(output);
-        // A unit of input raises the first coordinate of every group.
-        let firsts =
-            self.modes.iter().scan(0, |place, mode| Some(core::mem::replace(place, *place + mode.algebra.degree)));
-        let mut input = DVector::from_element(order, Interval::ZERO);
-        firsts.for_each(|place| input[place] = Interval::ONE);
-
+        let output = self.modes.iter().flat_map(Mode::output_row).copied();
+        let output = RowDVector::from_iterator(order, output);
         let identity = IntervalMatrix::identity(size, size);
         let mut state = identity.rows(0, order).into_owned();
         let mut queue: VecDeque<RowDVector<Interval>> =
@@ -117,7 +100,12 @@ impl Conditions {
                 Event::Command { slope } => queue.push_back((&output * &state) * (-Interval::ONE / slope)),
                 Event::Input { jump } => {
                     if let Some(late) = queue.pop_front() {
-                        state -= &input * (late * jump);
+                        // A unit of input raises the first coordinate of every group.
+                        let late = late * jump;
+                        for (place, _) in places(&self.modes) {
+                            let mut moved = state.row_mut(place);
+                            moved -= &late;
+                        }
                     }
                 }
             }
@@ -129,31 +117,21 @@ impl Conditions {
             map.row_mut(order + row).copy_from(late);
         }
         // Deviations along the orbit are none: the passages of the level are compared.
-        let rates = path.rates();
-        let rates = rates.iter().zip(&self.modes).flat_map(|(rate, mode)| rate[..mode.algebra.degree].to_vec());
-        let rates: Vec<Interval> = rates.collect();
-        let along = DVector::from_fn(size, |row, _| if row < order { rates[row] } else { -Interval::ONE });
-        let passage = RowDVector::from_fn(
-            size,
-            |_, column| {
-                if column < order { output[column] / falling } else { Interval::ZERO }
-            },
-        );
-        let passed = &passage * &map;
+        let along = DVector::from_vec(path.rates()).resize_vertically(size, -Interval::ONE);
+        let passed = output.map(|entry| entry / falling) * state;
         Some(map - along * passed)
     }
 
-    /// Multipliers of an orbit and its attraction.
-    pub(super) fn attraction(&self, path: &Path<'_>) -> Attraction {
-        let Some(map) = self.return_map(path).filter(|map| norm(map).is_finite()) else {
-            return Attraction { multipliers: Vec::new(), attracting: None };
-        };
+    /// Eigenvalues of the return map, largest first, computed, without the zeros; and whether all are shown to be inside the
+    /// unit circle, or at least 1 outside.
+    pub(super) fn attraction(&self, path: &Path<'_>) -> (Vec<Complex<f64>>, Option<bool>) {
+        let Some(map) = self.return_map(path).filter(|map| norm(map).is_finite()) else { return (Vec::new(), None) };
         // Printed only: the proof rests on the powers of the map.
         let mut multipliers = eigenvalues(&map.map(Interval::midpoint)).unwrap_or_default();
         multipliers.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
         let largest = multipliers.first().map_or(0.0, |one| one.norm());
         multipliers.retain(|one| one.norm() > NONE * largest.max(1.0));
-        Attraction { multipliers, attracting: shrinks(&map) }
+        (multipliers, shrinks(&map))
     }
 }
 

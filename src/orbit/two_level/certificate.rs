@@ -80,7 +80,7 @@ pub enum OrbitRefusal {
     #[error("the loop: {0}")]
     Loop(#[from] OrbitError),
     /// A statement on an orbit is not shown.
-    #[error("orbit {number}: not shown that {}", claim.words())]
+    #[error("orbit {number}: not shown that {}", claim.code_and_words().1)]
     NotShown {
         /// Place in the file, from 1.
         number: usize,
@@ -103,12 +103,13 @@ pub enum OrbitClaim {
 }
 
 impl OrbitClaim {
-    fn words(self) -> &'static str {
+    /// Its code, and what it says.
+    fn code_and_words(self) -> (&'static str, &'static str) {
         match self {
-            Self::Existence => "its box holds half-periods at whose ends the output passes the levels",
-            Self::Switchings => "the relay switches nowhere else",
-            Self::Extremes => "its extremes are within their bounds",
-            Self::Attraction => "small deviations do what is said",
+            Self::Existence => ("existence", "its box holds half-periods at whose ends the output passes the levels"),
+            Self::Switchings => ("switchings", "the relay switches nowhere else"),
+            Self::Extremes => ("extremes", "its extremes are within their bounds"),
+            Self::Attraction => ("attraction", "small deviations do what is said"),
         }
     }
 }
@@ -121,10 +122,7 @@ impl OrbitRefusal {
             Self::Malformed { .. } => "malformed",
             Self::Foreign { .. } => "foreign",
             Self::Loop(error) => error.code(),
-            Self::NotShown { claim: OrbitClaim::Existence, .. } => "existence",
-            Self::NotShown { claim: OrbitClaim::Switchings, .. } => "switchings",
-            Self::NotShown { claim: OrbitClaim::Extremes, .. } => "extremes",
-            Self::NotShown { claim: OrbitClaim::Attraction, .. } => "attraction",
+            Self::NotShown { claim, .. } => claim.code_and_words().0,
         }
     }
 }
@@ -181,11 +179,8 @@ impl OrbitCertificate {
         let relay = TwoLevelRelay::new(*high, *low, *half_width)?.with_reference(*reference)?;
         let problem = SwitchedLoop::new(&plant, &relay)?;
         for (bounds, number) in self.orbits.iter().zip(1..) {
-            let existence = Some(OrbitClaim::Existence);
-            let not_shown = problem.as_ref().map_or(existence, |problem| problem.first_not_shown(bounds));
-            if let Some(claim) = not_shown {
-                return Err(OrbitRefusal::NotShown { number, claim });
-            }
+            let shown = problem.as_ref().ok_or(OrbitClaim::Existence).and_then(|problem| problem.shows(bounds));
+            shown.map_err(|claim| OrbitRefusal::NotShown { number, claim })?;
         }
         Ok(self.orbits.len())
     }
@@ -206,18 +201,17 @@ impl core::str::FromStr for OrbitCertificate {
 }
 
 impl SwitchedLoop {
-    fn first_not_shown(&self, bounds: &OrbitBounds) -> Option<OrbitClaim> {
+    /// Shows the statements on an orbit, or names the first that is not shown.
+    fn shows(&self, bounds: &OrbitBounds) -> Result<(), OrbitClaim> {
         let box_s = [bounds.time_high_s, bounds.time_low_s];
         let positive = box_s.iter().all(|side| side.is_positive() && side.is_bounded());
-        let Some(at) = positive.then(|| self.conditions.solution_in(&box_s)).flatten() else {
-            return Some(OrbitClaim::Existence);
-        };
-        let Ok(Some(orbit)) = self.orbit(&at) else { return Some(OrbitClaim::Switchings) };
+        let at = positive.then(|| self.solution_in(&box_s)).flatten().ok_or(OrbitClaim::Existence)?;
+        let Ok(Some(orbit)) = self.orbit(&at) else { return Err(OrbitClaim::Switchings) };
         let within = at.iter().zip(&box_s).all(|(side, bound)| side.is_subset_of(*bound));
         let extremes = orbit.minimum.is_subset_of(bounds.minimum) && orbit.maximum.is_subset_of(bounds.maximum);
         let attracting = bounds.attracting.is_none() || bounds.attracting == orbit.attracting;
         let claims =
             [(within, OrbitClaim::Existence), (extremes, OrbitClaim::Extremes), (attracting, OrbitClaim::Attraction)];
-        claims.into_iter().find(|(shown, _)| !shown).map(|(_, claim)| claim)
+        claims.into_iter().find(|(shown, _)| !shown).map_or(Ok(()), |(_, claim)| Err(claim))
     }
 }

@@ -23,12 +23,10 @@ use super::OrbitError;
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::{Interval, domain};
 use crate::plant::TransferFunction;
-use attraction::Attraction;
 pub use certificate::{OrbitCertificate, OrbitClaim, OrbitRefusal};
-use modes::Mode;
-use path::{Genuine, Path};
+use path::Path;
 use search::PeriodRange;
-use switching::Conditions;
+use switching::SwitchedLoop;
 
 /// A relay with two levels: `low` from when the output rises past `reference + half_width`, `high` from when it falls past
 /// `reference - half_width`.
@@ -164,9 +162,9 @@ pub fn orbits(
     let range_s = period_s.as_ref().map_or([None; 2], |range| [Some(*range.start()), Some(*range.end())]);
     let mut listing = OrbitListing { orbits: Vec::new(), range_s, not_covered: Vec::new() };
     let Some(problem) = SwitchedLoop::new(plant, relay)? else { return Ok(listing) };
-    let range = problem.conditions.range(period_s.as_ref());
+    let range = problem.range(period_s.as_ref());
     let mut open: Vec<Interval> = Vec::new();
-    let found = problem.conditions.solutions(&range, |at| match problem.orbit(at) {
+    let found = problem.solutions(&range, |at| match problem.orbit(at) {
         Ok(orbit) => {
             listing.orbits.extend(orbit.clone());
             orbit.is_some()
@@ -193,13 +191,6 @@ pub fn orbits(
 /// A solution that may be an orbit and may not.
 struct Undecided;
 
-/// A loop in intervals.
-struct SwitchedLoop {
-    conditions: Conditions,
-    /// The output less that of the conditions.
-    shift: Interval,
-}
-
 impl SwitchedLoop {
     /// `None` where the output drifts, because the mean of an integrator's input cannot vanish.
     fn new(plant: &TransferFunction, relay: &TwoLevelRelay) -> Result<Option<Self>, OrbitError> {
@@ -220,47 +211,32 @@ impl SwitchedLoop {
         // With a pole at zero the output's constant is free.
         let (middle, shift) = if integrates { (Interval::ZERO, reference) } else { (reference, Interval::ZERO) };
         let (upper, lower) = (middle + half_width, middle - half_width);
-        Ok(Some(Self { conditions: Conditions { modes, delay, high, low, upper, lower, share }, shift }))
+        Ok(Some(Self { modes, delay, high, low, upper, lower, share, shift }))
     }
 
     /// The orbit of a solution of the switching conditions, if it is an orbit.
     fn orbit(&self, at: &search::HalfPeriods) -> Result<Option<ListedOrbit>, Undecided> {
-        let path = Path::new(&self.conditions, at).ok_or(Undecided)?;
-        match path.genuine() {
-            Genuine::Yes => {}
-            Genuine::No => return Ok(None),
-            Genuine::Open => return Err(Undecided),
+        let path = Path::new(self, at)?;
+        if !path.genuine()? {
+            return Ok(None);
         }
         let [minimum, maximum] = path.extremes().ok_or(Undecided)?.map(|extreme| extreme + self.shift);
-        let Attraction { multipliers, attracting } = self.conditions.attraction(&path);
+        let (multipliers, attracting) = self.attraction(&path);
         let [time_high_s, time_low_s] = *at;
-        Ok(Some(ListedOrbit {
-            period_s: time_high_s + time_low_s,
-            time_high_s,
-            time_low_s,
-            minimum,
-            maximum,
-            multipliers,
-            attracting,
-        }))
+        let period_s = time_high_s + time_low_s;
+        Ok(Some(ListedOrbit { period_s, time_high_s, time_low_s, minimum, maximum, multipliers, attracting }))
     }
-}
 
-impl Conditions {
     /// The range of periods searched: from where a period is too short for the output to pass both levels.
     fn range(&self, period_s: Option<&RangeInclusive<f64>>) -> PeriodRange {
         // How long a group takes to decay, or an undamped group to turn a hundred times.
-        let time = |mode: &Mode| 1.0 / mode.algebra.shift.magnitude().max(0.01 * mode.algebra.size());
-        let times = self.modes.iter().filter(|mode| mode.inverse.is_some()).map(time);
+        let moving = self.modes.iter().filter(|mode| mode.inverse.is_some()).map(|mode| &mode.algebra);
+        let times = moving.map(|group| 1.0 / group.shift.magnitude().max(0.01 * group.size()));
         let slowest = times.fold(self.delay.upper(), f64::max);
         // Double integrators without delay have no time but that of their hysteresis.
         let unit = if slowest > 0.0 { slowest } else { 1.0 };
-        let shortest = self.shortest_period(unit);
-        PeriodRange {
-            shortest: period_s.map_or(0.0, |range| *range.start()).max(shortest),
-            longest: period_s.map_or(f64::INFINITY, |range| *range.end()),
-            unit,
-        }
+        let (shortest, longest) = period_s.map_or((0.0, f64::INFINITY), |range| (*range.start(), *range.end()));
+        PeriodRange { shortest: self.shortest_period().max(shortest), longest, unit }
     }
 }
 

@@ -1,6 +1,6 @@
 //! A transfer function as a sum over groups of poles, with proof: factors by Krawczyk's operator, partial fractions by elimination.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Complex, DMatrix, DVector};
 
 use super::algebra::{Algebra, Element, MOST, ZERO};
 use crate::numeric::Interval;
@@ -33,6 +33,15 @@ impl Mode {
         self.output.iter().map(|entry| entry.magnitude()).fold(0.0, f64::max)
     }
 
+    /// The same group with each of its states as the output.
+    pub(super) fn states(&self) -> impl Iterator<Item = Self> {
+        (0..self.algebra.degree).map(|state| {
+            let mut output = ZERO;
+            output[state] = Interval::ONE;
+            Self { output, ..self.clone() }
+        })
+    }
+
     pub(super) fn output_row(&self) -> &[Interval] {
         &self.output[..self.algebra.degree]
     }
@@ -46,32 +55,19 @@ impl Mode {
 /// Approximate factors, ascending without the leading coefficient, of a polynomial without a root at zero.
 fn factors(descending: &[f64]) -> Result<Vec<Vec<f64>>, OrbitError> {
     let poles = TransferFunction::new(&[1.0], descending)?.poles()?;
-    let near_axis = |im: f64, size: f64| 2.0 * im.abs() <= GAP * size;
-    let mut real: Vec<f64> = poles.iter().filter(|pole| near_axis(pole.im, pole.norm())).map(|pole| pole.re).collect();
+    let turns = |pole: &Complex<f64>| 2.0 * pole.im.abs() > GAP * pole.norm();
+    let (turning, real): (Vec<_>, Vec<_>) = poles.into_iter().partition(turns);
+    let mut real: Vec<f64> = real.iter().map(|pole| pole.re).collect();
     real.sort_by(f64::total_cmp);
-    let mut groups: Vec<Vec<f64>> = Vec::new();
-    for pole in real {
-        match groups.last_mut() {
-            Some(group) if group.last().is_some_and(|last| (pole - last).abs() <= GAP * pole.abs().max(last.abs())) => {
-                group.push(pole);
-            }
-            _ => groups.push(vec![pole]),
-        }
-    }
-    let mut found = Vec::new();
+    let groups = real.chunk_by(|a, b| (b - a).abs() <= GAP * a.abs().max(b.abs()));
     // More poles than a group takes are divided evenly.
-    let even = |group: &Vec<f64>| group.len().div_ceil(group.len().div_ceil(MOST));
-    for group in groups.iter().flat_map(|group| group.chunks(even(group))) {
+    let groups = groups.flat_map(|group| group.chunks(group.len().div_ceil(group.len().div_ceil(MOST))));
+    let real = groups.map(|group| {
         let monic = group.iter().fold(vec![1.0], |factor, &pole| product(&factor, &[1.0, -pole]));
-        found.push(monic[1..].iter().rev().copied().collect());
-    }
-    found.extend(
-        poles
-            .iter()
-            .filter(|pole| pole.im > 0.0 && !near_axis(pole.im, pole.norm()))
-            .map(|pole| vec![pole.norm_sqr(), -2.0 * pole.re]),
-    );
-    Ok(found)
+        monic[1..].iter().rev().copied().collect()
+    });
+    let pairs = turning.iter().filter(|pole| pole.im > 0.0).map(|pole| vec![pole.norm_sqr(), -2.0 * pole.re]);
+    Ok(real.chain(pairs).collect())
 }
 
 /// Product of monic polynomials, ascending, all but the factor `without`; `None`: of all.
@@ -103,22 +99,23 @@ fn columns(factors: &[Vec<Interval>]) -> DMatrix<Interval> {
     matrix
 }
 
+/// A list in parts as long as these.
+fn cut_like<T>(mut list: &[Interval], parts: &[Vec<T>]) -> Vec<Vec<Interval>> {
+    let cut = |part: &Vec<T>| {
+        let (head, tail) = list.split_at(part.len());
+        list = tail;
+        head.to_vec()
+    };
+    parts.iter().map(cut).collect()
+}
+
 /// Encloses the factors near approximate factors: Krawczyk's operator on the coefficients. `monic` ascends.
 fn enclose(near: &[Vec<f64>], monic: &[Interval]) -> Option<Vec<Vec<Interval>>> {
     if let [_] = near {
         return Some(vec![monic.to_vec()]);
     }
-    let lengths: Vec<usize> = near.iter().map(Vec::len).collect();
     let size = monic.len();
-    let split = |flat: &DVector<Interval>| {
-        let mut rest = flat.as_slice();
-        let part = |&length: &usize| {
-            let (head, tail) = rest.split_at(length);
-            rest = tail;
-            head.to_vec()
-        };
-        lengths.iter().map(part).collect::<Vec<_>>()
-    };
+    let split = |flat: &DVector<Interval>| cut_like(flat.as_slice(), near);
     let miss = |factors: &[Vec<Interval>]| {
         let whole = others(factors, None);
         DVector::from_fn(size, |row, _| whole[row] - monic[row])
@@ -163,18 +160,18 @@ fn shifted(ascending: &[Interval], shift: Interval) -> Vec<Interval> {
 fn mode(factor: &[Interval], numerator: &[Interval], at_zero: bool) -> Option<Mode> {
     let degree = factor.len();
     let last = factor[degree - 1] / Interval::point(degree as f64);
-    // A pair or a double pole is moved by exactly the mean of its poles: no linear term remains.
+    // Up to two poles are moved by exactly their mean: nothing remains of the last coefficient.
     let shift = match degree {
         _ if at_zero => Interval::ZERO,
-        1 => Interval::ZERO,
+        1 => -factor[0],
         2 => -last,
         _ => Interval::point(-last.midpoint()),
     };
     let monic: Vec<Interval> = factor.iter().copied().chain([Interval::ONE]).collect();
     let mut moved = shifted(&monic, shift);
     moved.pop();
-    if degree == 2 {
-        moved[1] = Interval::ZERO;
+    if degree <= 2 {
+        moved[degree - 1] = Interval::ZERO;
     }
     let numerator = shifted(numerator, shift);
     let algebra = Algebra::new(shift, &moved)?;
@@ -219,34 +216,7 @@ pub(super) fn modes(plant: &TransferFunction) -> Result<Vec<Mode>, OrbitError> {
     let mut right = DMatrix::zeros(order, 1);
     numerator.iter().rev().enumerate().for_each(|(row, &c)| right[(row, 0)] = Interval::point(c) / lead);
     let shares = solve(columns(&parts), right).ok_or(crowded(order))?;
-    let mut place = 0;
-    let mut found = Vec::new();
-    for (index, part) in parts.iter().enumerate() {
-        let share: Vec<Interval> = (place..place + part.len()).map(|row| shares[(row, 0)]).collect();
-        place += part.len();
-        found.push(mode(part, &share, index == 0 && at_zero > 0).ok_or(crowded(order))?);
-    }
-    Ok(found)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn static_gains_add_up_to_the_plants() {
-        for den in [
-            vec![1.0, 3.0, 2.0],
-            vec![1.0, 2.0, 1.0],
-            vec![2.0, 1.0, 3.0, 0.7],
-            vec![1.0, -1.0, 5.0, 2.0],
-            vec![1.0, 3.0, 3.0, 1.0],
-        ] {
-            let plant = TransferFunction::new(&[0.4, 1.5], &den).unwrap();
-            let found = modes(&plant).unwrap();
-            let gain = found.iter().fold(Interval::ZERO, |sum, mode| sum + mode.static_gain().unwrap());
-            let exact = plant.static_gain().unwrap();
-            assert!(gain.contains(exact) && gain.width() < 1e-12 * exact.abs(), "{den:?}: {gain} {exact}");
-        }
-    }
+    let shares = cut_like(shares.as_slice(), &parts);
+    let groups = parts.iter().zip(&shares).enumerate();
+    groups.map(|(at, (part, share))| mode(part, share, at == 0 && at_zero > 0).ok_or(crowded(order))).collect()
 }

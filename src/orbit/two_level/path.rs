@@ -1,9 +1,12 @@
 //! The output over a period of a solution: whether the relay switches earlier, and the extremes.
 
-use super::kernel::{Moment, Periodic};
+use super::Undecided;
+use super::kernel::Periodic;
+use super::modes::Mode;
 use super::search::HalfPeriods;
-use super::switching::{Change, Conditions, Place, Times};
-use crate::numeric::Interval;
+use super::switching::{OFF, ON, Place, SwitchedLoop, Times};
+use crate::numeric::{Component, Interval};
+use crate::proof::Gradient;
 use crate::proof::branch_and_bound::{Visit, subdivide};
 
 /// Cells of an arc on which an earlier switching is ruled out.
@@ -11,23 +14,15 @@ const CELLS: usize = 3000;
 /// Share of the width of a value at a point that its cell may add: the middle of an extreme's bounds is off by half of it.
 const CELL_SHARE: f64 = 1e-6;
 
-/// Whether a solution of the switching conditions is an orbit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Genuine {
-    Yes,
-    /// The output passes a level earlier, or the wrong way.
-    No,
-    Open,
-}
-
-/// A solution with the places of its changes.
+/// A solution of the switching conditions, its output a function of the time since the input's rise.
 #[derive(Debug)]
 pub(super) struct Path<'a> {
-    conditions: &'a Conditions,
+    switched: &'a SwitchedLoop,
     periodic: Periodic<'a>,
-    pub(super) times: Times<2>,
-    pub(super) on: Place,
-    pub(super) off: Place,
+    pub(super) times: Times<1>,
+    /// When the command becomes high and low, with the input just before.
+    changes: [(Interval, bool); 2],
+    arcs: Vec<OutputArc>,
     /// The output's constant where it is free by a pole at zero; zero otherwise.
     constant: Interval,
 }
@@ -44,178 +39,149 @@ struct OutputArc {
     ends: bool,
 }
 
+/// The stretches of a period; `None` where the order of the changes is not decided.
+fn arcs(switched: &SwitchedLoop, times: &Times<1>, [on, off]: [Interval; 2]) -> Option<Vec<OutputArc>> {
+    let [period, high] = [times.period, times.high].map(|time| time.value());
+    let undelayed = switched.delay.upper() == 0.0;
+    // (time, whether the command changes there)
+    let mut borders = vec![(Interval::ZERO, undelayed), (high, undelayed), (period, undelayed)];
+    if !undelayed {
+        borders.extend([(on, true), (off, true)]);
+    }
+    borders.sort_by(|a, b| a.0.midpoint().total_cmp(&b.0.midpoint()));
+    if borders.windows(2).any(|pair| !pair[0].0.precedes(pair[1].0)) {
+        return None;
+    }
+    let arc = |pair: &[(Interval, bool)]| {
+        let [(from, begins), (to, ends)] = [pair[0], pair[1]];
+        let middle = 0.5 * (from.midpoint() + to.midpoint());
+        let (since_on, length) = ((middle - on.midpoint()).rem_euclid(period.midpoint()), high.midpoint());
+        OutputArc { from, to, input_high: middle < high.midpoint(), command_high: since_on < length, begins, ends }
+    };
+    Some(borders.windows(2).map(arc).collect())
+}
+
 impl<'a> Path<'a> {
-    /// `None` where the order of the changes is not decided.
-    pub(super) fn new(conditions: &'a Conditions, at: &HalfPeriods) -> Option<Self> {
-        let times = conditions.times(at);
-        let periodic = Periodic::new(&conditions.modes, times.period.value())?;
-        let on = conditions.place(&times, Change::On)?;
-        let off = conditions.place(&times, Change::Off)?;
-        let constant = match conditions.share {
-            Some(_) => conditions.lower - conditions.output_at(&periodic, &times, &on)?.value(),
-            None => Interval::ZERO,
-        };
-        Some(Self { conditions, periodic, times, on, off, constant })
+    /// Undecided where the order of the changes is.
+    pub(super) fn new(switched: &'a SwitchedLoop, at: &HalfPeriods) -> Result<Self, Undecided> {
+        let [high, low] = at.map(Gradient::constant);
+        let times = Times::free(high, low);
+        let periodic = Periodic::new(&switched.modes, times.period.value()).ok_or(Undecided)?;
+        let [on, off] = [ON, OFF].map(|change| {
+            let place = switched.place(&times, change)?;
+            Some((times.time(&place).value(), place.input_high))
+        });
+        let changes = [on.ok_or(Undecided)?, off.ok_or(Undecided)?];
+        let arcs = arcs(switched, &times, changes.map(|(time, _)| time)).ok_or(Undecided)?;
+        let path = Self { switched, periodic, times, changes, arcs, constant: Interval::ZERO };
+        let (time, input_high) = changes[0];
+        let constant =
+            switched.share.map_or(Interval::ZERO, |_| switched.lower - path.output(time, input_high).value());
+        Ok(Self { constant, ..path })
     }
 
-    fn moments(&self, time: Interval, input_high: bool) -> [Moment; 2] {
-        let (high, low) = (self.times.high.value(), self.times.low.value());
-        let period = self.periodic.period();
-        let moment = |time: Interval, rest: Interval| Moment { time, rest, share: time / period };
-        let since_fall =
-            if input_high { moment(time + low, high - time) } else { moment(time - high, period - time + high) };
-        [moment(time, period - time), since_fall].map(|Moment { time, rest, share }| {
-            let not_negative = |value: Interval| Interval::new(value.lower().max(0.0), value.upper().max(0.0));
-            let unit = |value: Interval| Interval::new(value.lower().clamp(0.0, 1.0), value.upper().clamp(0.0, 1.0));
-            Moment {
-                time: not_negative(time).unwrap_or(time),
-                rest: not_negative(rest).unwrap_or(rest),
-                share: unit(share).unwrap_or(share),
-            }
-        })
+    /// The output with its slope over a stretch of time with the input at a level.
+    fn output(&self, time: Interval, input_high: bool) -> Gradient<1> {
+        self.reading(&self.periodic, time, input_high) + Gradient::constant(self.constant)
     }
 
-    /// Output and its slope over a stretch of time with the input at a level.
-    fn output(&self, time: Interval, input_high: bool) -> (Interval, Interval) {
-        let Conditions { high, low, .. } = *self.conditions;
-        let [since_rise, since_fall] = self.moments(time, input_high).map(|moment| self.periodic.answer(&moment));
-        let (present, mean) = self.periodic.gains();
-        let share = self.times.high.value() / self.periodic.period();
-        let input = if input_high { high } else { low };
-        let mean_input = if self.conditions.share.is_some() { Interval::ZERO } else { low + (high - low) * share };
-        let constant = present * input + mean * mean_input + self.constant;
-        let step = high - low;
-        ((since_rise.value - since_fall.value) * step + constant, (since_rise.by_time - since_fall.by_time) * step)
+    fn reading(&self, periodic: &Periodic<'_>, time: Interval, input_high: bool) -> Gradient<1> {
+        let [shift] = Gradient::variables([time]);
+        let place = Place { rises: 0.0, falls: 0.0, shift, input_high };
+        self.switched.output_at(periodic, &self.times, &place).unwrap_or(Gradient::UNKNOWN)
     }
 
     /// The output over a cell, by its middle and its slope.
-    fn over(&self, cell: Interval, input_high: bool) -> (Interval, Interval) {
-        let (natural, slope) = self.output(cell, input_high);
+    fn over(&self, cell: Interval, input_high: bool) -> Gradient<1> {
+        let natural = self.output(cell, input_high);
         if cell.is_point() {
-            return (natural, slope);
+            return natural;
         }
         let middle = Interval::point(cell.midpoint());
-        let by_slope = self.output(middle, input_high).0 + slope * (cell - middle);
-        (natural.intersection(by_slope).unwrap_or(natural), slope)
+        let by_slope = self.output(middle, input_high).value() + natural.slopes()[0] * (cell - middle);
+        Gradient::new(natural.value().intersection(by_slope).unwrap_or(natural.value()), natural.slopes())
     }
 
     /// Rates of all states where the command becomes high, just before.
-    pub(super) fn rates(&self) -> Vec<super::algebra::Element> {
-        let time = self.conditions.time(&self.times, &self.on);
-        let [since_rise, since_fall] =
-            self.moments(time, self.on.input_high).map(|moment| self.periodic.rates(&moment));
-        let step = self.conditions.high - self.conditions.low;
-        let difference = |(a, b): (&super::algebra::Element, &super::algebra::Element)| {
-            core::array::from_fn(|at| (a[at] - b[at]) * step)
+    pub(super) fn rates(&self) -> Vec<Interval> {
+        let (time, input_high) = self.changes[0];
+        let rate = |state: Mode| {
+            let periodic = Periodic::new(core::slice::from_ref(&state), self.times.period.value());
+            periodic.map_or(Interval::ENTIRE, |periodic| self.reading(&periodic, time, input_high).slopes()[0])
         };
-        since_rise.iter().zip(&since_fall).map(difference).collect()
+        self.switched.modes.iter().flat_map(Mode::states).map(rate).collect()
     }
 
     /// Slopes of the output where the command becomes high and where it becomes low, just before.
     pub(super) fn slopes(&self) -> [Interval; 2] {
-        [self.on, self.off].map(|place| {
-            let time = self.conditions.time(&self.times, &place);
-            self.output(time, place.input_high).1
-        })
-    }
-
-    fn arcs(&self) -> Option<Vec<OutputArc>> {
-        let period = self.periodic.period();
-        let high = self.times.high.value();
-        let [on, off] = [self.on, self.off].map(|place| self.conditions.time(&self.times, &place));
-        let undelayed = self.conditions.delay.upper() == 0.0;
-        // (time, whether the command changes there)
-        let mut borders = vec![(Interval::ZERO, undelayed), (high, undelayed), (period, undelayed)];
-        if !undelayed {
-            borders.extend([(on, true), (off, true)]);
-        }
-        borders.sort_by(|a, b| a.0.midpoint().total_cmp(&b.0.midpoint()));
-        if borders.windows(2).any(|pair| !pair[0].0.precedes(pair[1].0)) {
-            return None;
-        }
-        let arc = |pair: &[(Interval, bool)]| {
-            let [(from, begins), (to, ends)] = [pair[0], pair[1]];
-            let middle = 0.5 * (from.midpoint() + to.midpoint());
-            let (since_on, length) = ((middle - on.midpoint()).rem_euclid(period.midpoint()), high.midpoint());
-            OutputArc { from, to, input_high: middle < high.midpoint(), command_high: since_on < length, begins, ends }
-        };
-        Some(borders.windows(2).map(arc).collect())
+        self.changes.map(|(time, input_high)| self.output(time, input_high).slopes()[0])
     }
 
     /// Whether the relay switches where the solution has it and nowhere else.
-    pub(super) fn genuine(&self) -> Genuine {
-        let Some(arcs) = self.arcs() else { return Genuine::Open };
+    pub(super) fn genuine(&self) -> Result<bool, Undecided> {
         let [falling, rising] = self.slopes();
         if falling.is_positive() || rising.is_negative() {
-            return Genuine::No;
+            return Ok(false);
         }
-        let mut verdict = Genuine::Yes;
-        for arc in &arcs {
+        let mut verdict = Ok(true);
+        for arc in &self.arcs {
             match self.keeps(arc) {
-                Genuine::No => return Genuine::No,
-                Genuine::Open => verdict = Genuine::Open,
-                Genuine::Yes => {}
+                Ok(true) => {}
+                Ok(false) => return Ok(false),
+                undecided => verdict = undecided,
             }
         }
         verdict
     }
 
     /// Whether the output stays on the side of the level that the command looks at.
-    fn keeps(&self, arc: &OutputArc) -> Genuine {
-        let Conditions { upper, lower, .. } = *self.conditions;
-        // The distance from the level, positive before it is passed, and its slope.
+    fn keeps(&self, arc: &OutputArc) -> Result<bool, Undecided> {
+        let [upper, lower] = [self.switched.upper, self.switched.lower];
+        // The distance from the level, positive before it is passed.
         let left = |cell: Interval| {
-            let (value, slope) = self.over(cell, arc.input_high);
-            if arc.command_high { (upper - value, -slope) } else { (value - lower, slope) }
+            let output = self.over(cell, arc.input_high);
+            if arc.command_high { Gradient::constant(upper) - output } else { output - Gradient::constant(lower) }
         };
         let (from, to) = (arc.from.lower(), arc.to.upper());
-        let lengths = || (1..40).map(|halvings| (to - from) * 0.5_f64.powi(halvings));
-        let mut start = from;
+        // The longest of ever shorter cells at an end on which the distance's slope has a sign.
+        let at_an_end = |cell: &dyn Fn(f64) -> Option<Interval>, has_sign: fn(Interval) -> bool| {
+            let mut cells = (1..40).filter_map(|halvings| cell((to - from) * 0.5_f64.powi(halvings)));
+            cells.find(|&cell| has_sign(left(cell).slopes()[0])).ok_or(Undecided)
+        };
+        let (mut start, mut end) = (from, to);
         if arc.begins && upper.lower() <= lower.upper() {
             // Without hysteresis it begins at the level.
-            let leaves =
-                |&length: &f64| Interval::new(from, from + length).is_some_and(|cell| left(cell).1.is_positive());
-            let Some(length) = lengths().find(leaves) else { return Genuine::Open };
-            start = from + length;
+            start = at_an_end(&|length| Interval::new(from, from + length), Interval::is_positive)?.upper();
         }
-        let mut end = to;
         if arc.ends {
-            let arrives = |&length: &f64| Interval::new(to - length, to).is_some_and(|cell| left(cell).1.is_negative());
-            let Some(length) = lengths().find(arrives) else { return Genuine::Open };
-            end = to - length;
+            end = at_an_end(&|length| Interval::new(to - length, to), Interval::is_negative)?.lower();
         }
-        let Some(between) = Interval::new(start, end) else { return Genuine::Yes };
+        let Some(between) = Interval::new(start, end) else { return Ok(true) };
         let mut past = false;
         let found = subdivide([between], CELLS, |&[cell]| {
-            let distance = left(cell).0;
+            let distance = left(cell).value();
             past |= distance.is_negative();
             if past { Visit::Stop } else { Visit::settled(distance.is_positive()) }
         });
-        match (past, found.unsettled) {
-            (true, _) => Genuine::No,
-            (false, None) => Genuine::Yes,
-            (false, Some(_)) => Genuine::Open,
-        }
+        if past || found.unsettled.is_none() { Ok(!past) } else { Err(Undecided) }
     }
 
     /// Bounds of the least and the largest output.
     pub(super) fn extremes(&self) -> Option<[Interval; 2]> {
-        let arcs = self.arcs()?;
-        Some([-self.largest(&arcs, -Interval::ONE)?, self.largest(&arcs, Interval::ONE)?])
+        let [largest, least] = [Interval::ONE, -Interval::ONE].map(|sign| self.largest(Gradient::constant(sign)));
+        Some([-least?, largest?])
     }
 
     /// Bounds of the largest output times `sign`: where the slope keeps its sign it is at an end of the cell; the
     /// remaining cells are halved until the value at a point is nearly as wide as that over the cell.
-    fn largest(&self, arcs: &[OutputArc], sign: Interval) -> Option<Interval> {
+    fn largest(&self, sign: Gradient<1>) -> Option<Interval> {
         let (mut reached, mut top) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-        for arc in arcs {
-            let over = |cell: Interval| {
-                let (value, slope) = self.over(cell, arc.input_high);
-                (sign * value, sign * slope)
-            };
+        for arc in &self.arcs {
+            let over = |cell: Interval| sign * self.over(cell, arc.input_high);
             let mut open = vec![Interval::new(arc.from.lower(), arc.to.upper())?];
             while let Some(cell) = open.pop() {
-                let (value, slope) = over(cell);
+                let here = over(cell);
+                let (value, [slope]) = (here.value(), here.slopes());
                 if value.upper() <= reached {
                     continue;
                 }
@@ -227,15 +193,14 @@ impl<'a> Path<'a> {
                 } else {
                     None
                 };
-                let at = over(end.unwrap_or(Interval::point(cell.midpoint()))).0;
+                let at = over(end.unwrap_or(Interval::point(cell.midpoint()))).value();
                 reached = reached.max(at.lower());
                 if end.is_some() {
                     top = top.max(at.upper());
                 } else if value.width() <= (1.0 + CELL_SHARE) * at.width() + 8.0 * f64::EPSILON * at.magnitude() {
                     top = top.max(value.upper());
                 } else if value.upper() > reached {
-                    let (first, second) = cell.bisect();
-                    open.extend([first, second]);
+                    open.extend(<[Interval; 2]>::from(cell.bisect()));
                 }
             }
         }
