@@ -1,26 +1,16 @@
 //! The inverse frequency response `g_k(w) = 1/G(jkw)` of a strictly proper plant with dead time.
 
+use super::closed_loop::LipschitzLoop;
 use crate::numeric::{Complex, Interval, Real};
-use crate::plant::TransferFunction;
 
-/// `1/G(s) = D(s)/N(s) exp(s delay)` on the imaginary axis.
-#[derive(Clone, Debug)]
-pub(super) struct InverseResponse<'a> {
-    plant: &'a TransferFunction,
-}
-
-impl<'a> InverseResponse<'a> {
-    pub(super) fn new(plant: &'a TransferFunction) -> Self {
-        Self { plant }
-    }
-
+impl LipschitzLoop<'_> {
     /// Degree of the denominator less that of the numerator.
     pub(super) fn relative_degree(&self) -> usize {
         self.plant.denominator().len() - self.plant.numerator().len()
     }
 
     /// `g_k` and its derivative by `w`: with `s = jkw`, `dg_k/dw = jk exp(s L) ((D' N - D N')/N^2 + L D/N)`.
-    pub(super) fn at<T: Real>(&self, omega: T, k: usize) -> (Complex<T>, Complex<T>) {
+    pub(super) fn inverse_response<T: Real>(&self, omega: T, k: usize) -> (Complex<T>, Complex<T>) {
         let order = T::from_f64(k as f64);
         let y = order * omega;
         let (denominator, denominator_slope) = polynomial(self.plant.denominator(), y);
