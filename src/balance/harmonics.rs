@@ -202,10 +202,10 @@ fn turns(theta: f64) -> impl Iterator<Item = Complex<f64>> {
 
 /// Value and derivative at phase `theta`.
 fn evaluate(bias: f64, harmonics: &[Complex<f64>], theta: f64) -> (f64, f64) {
-    let terms = harmonics.iter().zip(turns(theta)).map(|(harmonic, turn)| harmonic * turn);
-    terms
-        .enumerate()
-        .fold((bias, 0.0), |(value, slope), (index, term)| (value + term.im, slope + (index + 1) as f64 * term.re))
+    harmonics.iter().zip(turns(theta)).zip(1..).fold((bias, 0.0), |(value, slope), ((harmonic, turn), k)| {
+        let term = harmonic * turn;
+        (value + term.im, slope + f64::from(k) * term.re)
+    })
 }
 
 /// Phases in `[0, 2 pi)` at which the input turns.
@@ -260,10 +260,11 @@ fn output_harmonics(
             for cell in 0..cells as usize {
                 let centre = piece[0] + half * (2 * cell + 1) as f64;
                 for (node, weight, _) in RULE {
-                    let sides: &[f64] = if node == 0.0 { &[0.0] } else { &[-1.0, 1.0] };
-                    for side in sides {
+                    // The middle twice, half each time.
+                    let share = if node == 0.0 { 0.5 } else { 1.0 };
+                    for side in [-1.0, 1.0] {
                         let theta = centre + side * half * node;
-                        let weighted = half * weight * output(value(theta), branch);
+                        let weighted = share * half * weight * output(value(theta), branch);
                         integrals.0 += weighted;
                         integrals.1.iter_mut().zip(turns(theta)).for_each(|(sum, turn)| *sum += turn.conj() * weighted);
                     }

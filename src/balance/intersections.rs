@@ -6,9 +6,8 @@ use core::ops::RangeInclusive;
 use nalgebra::{Complex, DMatrix, DVector, Matrix2, Vector2};
 
 use super::BalanceError;
-use super::grid::Axis;
 use super::harmonics::{Output, pack};
-use super::nyquist::near;
+use super::nyquist::{Axis, near};
 use super::nyquist_count::roots_beyond;
 use crate::describing::{DescribingError, DescribingFunction};
 use crate::nonlinearity::Sinusoid;
@@ -160,48 +159,40 @@ where
         let failure = Cell::new(None);
         let amplitude = Axis::amplitude(&self.amplitude)?;
         let omega = Axis::frequency(&self.omega_rad_s)?;
-        let response = |omega: f64| self.plant.response(omega).ok();
-
-        let coarse = omega.sample(response, |_, _| true)?;
-        let largest = coarse.iter().filter_map(|(_, g)| g.map(|g| g.norm())).fold(0.0, f64::max);
-        let quiet = |a: Complex<f64>, b: Complex<f64>, other: f64| a.norm().max(b.norm()) * other < QUIET;
         let gains = amplitude.sample(
             |amplitude| Some(self.gains(amplitude, &failure)).filter(|gains| !gains.is_empty()),
-            |a, b| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| near(a.1, b.1) || quiet(a.1, b.1, largest)),
+            |a, b| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| near(a.1, b.1)),
         )?;
         if let Some(error) = failure.take() {
             return Err(error.into());
         }
         let loudest = gains.iter().flat_map(|(_, gains)| gains).flatten().map(|gain| gain.1.norm()).fold(0.0, f64::max);
-        let responses = omega.sample(response, |a, b| near(*a, *b) || quiet(*a, *b, loudest))?;
+        let quiet = |a: &Complex<f64>, b: &Complex<f64>| a.norm().max(b.norm()) * loudest < QUIET;
+        let responses = omega.sample(|omega| self.plant.response(omega).ok(), |a, b| near(*a, *b) || quiet(a, b))?;
 
         let describe: Output = &|bias, harmonics, _| {
             let df = self.describe(harmonics[0].re, bias)?;
             Ok((df.f0, vec![harmonics[0] * Complex::new(df.p, df.q)]))
         };
         let between = |a: f64, b: f64, share: f64| libm::exp(libm::log(a) + share * libm::log(b / a));
+        let steps = responses.windows(2).filter_map(|pair| Some(([pair[0].0, pair[1].0], [pair[0].1?, pair[1].1?])));
+        let response_steps: Vec<([f64; 2], [Complex<f64>; 2])> = steps.collect();
         let mut found: Vec<Intersection> = Vec::new();
         for steps in gains.windows(2) {
             let (Some(here), Some(next)) = (&steps[0].1, &steps[1].1) else { continue };
             for gain in here {
                 let nearest = |a: &&Gain, b: &&Gain| (a.0 - gain.0).abs().total_cmp(&(b.0 - gain.0).abs());
                 let Some(after) = next.iter().min_by(nearest) else { continue };
-                for pair in responses.windows(2) {
-                    let (Some(g), Some(g_after)) = (pair[0].1, pair[1].1) else { continue };
-                    let Some(share) = crossing([gain.1, after.1], [g, g_after]) else { continue };
+                for (omega, response) in &response_steps {
+                    let Some(share) = crossing([gain.1, after.1], *response) else { continue };
                     let amplitude = Complex::new(between(steps[0].0, steps[1].0, share[0]), 0.0);
                     let bias = gain.0 + share[0] * (after.0 - gain.0);
-                    let guess = pack(bias, between(pair[0].0, pair[1].0, share[1]), &[amplitude]);
-                    let Some(root) =
-                        self.settle(describe, guess).ok().and_then(|root| self.intersection(describe, &root))
-                    else {
-                        continue;
+                    let guess = pack(bias, between(omega[0], omega[1], share[1]), &[amplitude]);
+                    let root = self.settle(describe, guess).ok().and_then(|root| self.intersection(describe, &root));
+                    let inside = |one: &Intersection| {
+                        self.amplitude.contains(&one.amplitude) && self.omega_rad_s.contains(&one.omega_rad_s)
                     };
-                    let inside =
-                        self.amplitude.contains(&root.amplitude) && self.omega_rad_s.contains(&root.omega_rad_s);
-                    if inside && !found.iter().any(|known| same(known, &root)) {
-                        found.push(root);
-                    }
+                    found.extend(root.filter(|one| inside(one) && !found.iter().any(|known| same(known, one))));
                 }
             }
         }

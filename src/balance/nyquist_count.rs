@@ -2,7 +2,7 @@
 
 use nalgebra::Complex;
 
-use super::grid::Axis;
+use super::nyquist::Axis;
 use crate::plant::{TransferFunction, horner};
 
 /// Largest change of the argument over a step, rad.

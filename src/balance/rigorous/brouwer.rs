@@ -13,7 +13,7 @@ use super::characteristic::OddCharacteristic;
 use super::closed_loop::LipschitzLoop;
 use super::error::CannotTell;
 use super::spectrum::{EnclosedSpectrum, enclose};
-use super::wave::{HarmonicOrders, Wave, natural};
+use super::wave::{HarmonicOrders, Wave, length, natural};
 use crate::numeric::{Interval, Real};
 
 /// Share by which the range of the slopes reaches beyond the centre's own, where they are bounded on the range alone.
@@ -46,11 +46,6 @@ struct High {
 
 fn point(value: f64) -> Interval {
     Interval::point(value)
-}
-
-/// `sqrt(sum of squares)`.
-fn length(parts: impl Iterator<Item = Interval>) -> Interval {
-    parts.fold(Interval::ZERO, |sum, part| sum + part.square()).sqrt()
 }
 
 /// Upper bounds of `sup abs(h)` and `norm(h)` over a box of radii of frequency and harmonics.
@@ -123,9 +118,8 @@ impl LipschitzLoop<'_> {
         // Listed harmonics, each by itself.
         let mut rho = f64::INFINITY;
         let (mut first, mut output, mut gain) = (Interval::ZERO, Interval::ZERO, Interval::ZERO);
-        let (listed, output_above) = (centre.harmonics.len(), orders.between(centre.highest(), last));
-        for (k, harmonic) in output_above.zip(&outputs[listed..]) {
-            let mut distance = self.inverse_response(omega, k).0;
+        for (place, harmonic) in outputs.iter().enumerate().skip(centre.harmonics.len()) {
+            let mut distance = self.inverse_response(omega, orders.at(place)).0;
             distance.re += middle;
             let square = distance.square_norm();
             let size = harmonic.square_norm() * point(0.5);

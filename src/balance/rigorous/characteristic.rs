@@ -39,13 +39,16 @@ impl OddCharacteristic {
     /// # Errors
     /// [`ExistenceError::Characteristic`] for a characteristic that is not odd, jumps, has memory, or has no slope for the proof.
     pub fn from_catalogue(name: &str, values: &[f64]) -> Result<Self, ExistenceError> {
+        let piecewise = |kinks: &[f64], slopes: &[f64]| {
+            Some(Self::PiecewiseLinear { kinks: kinks.to_vec(), slopes: slopes.to_vec() })
+        };
         let found = match (name, values) {
-            ("saturation", &[slope, breakpoint]) => Self::piecewise(&[breakpoint], &[slope, 0.0]),
-            ("dead-zone", &[slope, half_width]) if half_width > 0.0 => Self::piecewise(&[half_width], &[0.0, slope]),
-            ("dead-zone-saturation", &[slope, half_width, breakpoint]) if half_width > 0.0 => {
-                Self::piecewise(&[half_width, breakpoint], &[0.0, slope, 0.0])
+            ("saturation", &[slope, breakpoint]) => piecewise(&[breakpoint], &[slope, 0.0]),
+            ("dead-zone", &[slope, half_width]) => piecewise(&[half_width], &[0.0, slope]),
+            ("dead-zone-saturation", &[slope, half_width, breakpoint]) => {
+                piecewise(&[half_width, breakpoint], &[0.0, slope, 0.0])
             }
-            ("gain-changing", &[inner, outer, breakpoint]) => Self::piecewise(&[breakpoint], &[inner, outer]),
+            ("gain-changing", &[inner, outer, breakpoint]) => piecewise(&[breakpoint], &[inner, outer]),
             ("tanh", &[gain, scale]) => Some(Self::Tanh { gain, scale }),
             ("polynomial", coefficients) if coefficients.iter().step_by(2).all(|&even| even == 0.0) => {
                 let mut odd: Vec<f64> = coefficients.iter().skip(1).step_by(2).copied().collect();
@@ -56,27 +59,19 @@ impl OddCharacteristic {
             }
             _ => None,
         };
-        let found = found.ok_or_else(|| ExistenceError::Characteristic { name: name.to_owned() })?;
-        found.checked()
-    }
-
-    fn piecewise(kinks: &[f64], slopes: &[f64]) -> Option<Self> {
-        Some(Self::PiecewiseLinear { kinks: kinks.to_vec(), slopes: slopes.to_vec() })
+        let checked = found.and_then(|found| found.checked().ok());
+        checked.ok_or_else(|| ExistenceError::Characteristic { name: name.to_owned() })
     }
 
     /// The same, if its numbers are finite and in order.
     pub(super) fn checked(self) -> Result<Self, ExistenceError> {
-        let (numbers, sound): (Vec<f64>, bool) = match &self {
+        let (numbers, sound) = match &self {
             Self::PiecewiseLinear { kinks, slopes } => {
-                let ordered =
-                    kinks.windows(2).all(|pair| pair[0] < pair[1]) && kinks.first().is_none_or(|&kink| kink > 0.0);
-                (
-                    kinks.iter().chain(slopes).copied().collect(),
-                    ordered && slopes.len() == kinks.len() + 1 && kinks.len() <= MOST_KINKS,
-                )
+                let ordered = [0.0].iter().chain(kinks).is_sorted_by(|a, b| a < b);
+                ([&kinks[..], slopes].concat(), ordered && slopes.len() == kinks.len() + 1 && kinks.len() <= MOST_KINKS)
             }
             Self::Polynomial { odd_coefficients } => {
-                (odd_coefficients.clone(), !odd_coefficients.is_empty() && odd_coefficients.len() <= 5)
+                (odd_coefficients.clone(), (1..=5).contains(&odd_coefficients.len()))
             }
             Self::Tanh { gain, scale } => (vec![*gain, *scale], *scale > 0.0),
         };

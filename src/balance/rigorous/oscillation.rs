@@ -294,32 +294,27 @@ impl ProvedOscillation {
 
     /// Wave and radii, if they can be those of an oscillation.
     fn numbers(&self) -> Result<(Wave, DVector<f64>), ExistenceError> {
-        let malformed = |text: &str| ExistenceError::Malformed { text: text.to_owned() };
-        if self.format != FORMAT || self.claim != Self::CLAIM {
-            return Err(malformed("another format or claim"));
-        }
-        let count = self.harmonics.len();
-        if count <= self.orders.reals() || self.highest_harmonic() > HIGHEST || self.radii.len() != count {
-            return Err(malformed("as many radii as harmonics are wanted, up to at most the 299th"));
-        }
+        let (count, reals) = (self.harmonics.len(), self.orders.reals());
         let numbers = self.harmonics.iter().chain(&self.radii).flatten().chain([&self.omega_rad_s, &self.remainder]);
-        if !numbers.copied().all(f64::is_finite) {
-            return Err(malformed("a number is not finite"));
-        }
-        let reals = self.harmonics.iter().zip(&self.radii).take(self.orders.reals());
-        if reals.flat_map(|(harmonic, radius)| [harmonic[1], radius[1]]).any(|imaginary| imaginary != 0.0) {
-            return Err(malformed("the mean or the first harmonic has an imaginary part"));
-        }
-        let radii: Vec<f64> =
-            core::iter::once(self.omega_radius_rad_s).chain(self.orders.unknowns(&self.radii)).collect();
-        if !radii.iter().all(|&radius| radius > 0.0 && radius.is_finite()) {
-            return Err(malformed("a radius is not above 0"));
-        }
-        if !(self.amplitude().is_positive() && self.omega_rad_s().is_positive()) {
-            return Err(malformed("amplitude or frequency may be 0"));
+        let mut imaginary = self.harmonics.iter().take(reals).chain(self.radii.iter().take(reals)).map(|pair| pair[1]);
+        let radii = core::iter::once(self.omega_radius_rad_s).chain(self.orders.unknowns(&self.radii));
+        let radii = DVector::from_vec(radii.collect());
+        let faults = [
+            (self.format != FORMAT || self.claim != Self::CLAIM, "another format or claim"),
+            (
+                count <= reals || self.highest_harmonic() > HIGHEST || self.radii.len() != count,
+                "as many radii as harmonics are wanted, up to at most the 299th",
+            ),
+            (!numbers.copied().all(f64::is_finite), "a number is not finite"),
+            (imaginary.any(|part| part != 0.0), "the mean or the first harmonic has an imaginary part"),
+            (!radii.iter().all(|&radius| radius > 0.0 && radius.is_finite()), "a radius is not above 0"),
+            (!(self.amplitude().is_positive() && self.omega_rad_s().is_positive()), "amplitude or frequency may be 0"),
+        ];
+        if let Some((_, text)) = faults.into_iter().find(|fault| fault.0) {
+            return Err(ExistenceError::Malformed { text: text.to_owned() });
         }
         let centre = Wave { omega_rad_s: self.omega_rad_s, orders: self.orders, harmonics: self.harmonics.clone() };
-        Ok((centre, DVector::from_vec(radii)))
+        Ok((centre, radii))
     }
 }
 

@@ -21,17 +21,16 @@ const PROOFS: usize = 3;
 impl LipschitzLoop<'_> {
     fn spectrum(&self, centre: &Wave) -> Result<EnclosedSpectrum, CannotTell> {
         let reach = centre.sum_of_magnitudes(0).upper();
-        enclose(&self.characteristic, &centre, reach, 0.0)
+        enclose(&self.characteristic, centre, reach, 0.0)
     }
 
     /// The balance of the harmonics up to `highest` near a centre with fewer.
     pub(super) fn refine(&self, mut centre: Wave, highest: usize) -> Result<Wave, CannotTell> {
         let output = self.spectrum(&centre)?.harmonics.output;
         let orders = centre.orders;
-        for k in orders.between(centre.highest(), highest) {
-            let response = self.inverse_response(centre.omega_rad_s, k).0;
-            let output = orders.place(k).and_then(|place| output.get(place));
-            let input = -output.map_or(Complex::zero(), |output| output.midpoint()).over(response);
+        for place in centre.harmonics.len()..orders.count(highest) {
+            let response = self.inverse_response(centre.omega_rad_s, orders.at(place)).0;
+            let input = -output.get(place).map_or(Complex::zero(), |output| output.midpoint()).over(response);
             centre.harmonics.push([input.re, input.im]);
         }
         let (omega, amplitude) = (centre.omega_rad_s, centre.amplitude());

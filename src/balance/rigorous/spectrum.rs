@@ -5,7 +5,7 @@
 
 use super::characteristic::OddCharacteristic;
 use super::error::CannotTell;
-use super::wave::{HarmonicOrders, KinkPassage, Wave, natural};
+use super::wave::{HarmonicOrders, KinkPassage, Wave, length, natural};
 use crate::numeric::{Complex, Interval, Real};
 
 /// Harmonics of output and slope.
@@ -168,7 +168,8 @@ fn between_kinks(
     // abs(N_k) <= V/(pi k^2) with V the variation of n(u)' over a turn; sum over k > K in steps of s of k^-4 <= 1/(3 s K^3).
     let step = natural(orders.step());
     let steepest = slopes.iter().map(|slope| slope.abs()).fold(0.0, f64::max);
-    let between = Interval::point(steepest) * wave.root_mean_square(2) * Interval::PI * Interval::point(2.0);
+    let bend = length(wave.terms().map(|(k, harmonic)| harmonic.norm() * natural(k * k))) * Interval::point(0.5).sqrt();
+    let between = Interval::point(steepest) * bend * Interval::PI * Interval::point(2.0);
     let variation = between + over_passages(&|at| (at.jump * wave.at(at.theta).1).abs() * step);
     let cubes = Interval::point(6.0) * step * natural(last) * natural(last).square();
     EnclosedSpectrum {

@@ -21,7 +21,6 @@ pub enum HarmonicOrders {
 }
 
 impl HarmonicOrders {
-    /// The least order.
     pub(super) fn first(self) -> usize {
         match self {
             Self::Odd => 1,
@@ -39,20 +38,18 @@ impl HarmonicOrders {
         2 - self.first()
     }
 
-    /// The order at a place.
     pub(super) fn at(self, place: usize) -> usize {
         self.first() + self.step() * place
     }
 
-    /// The place of an order.
     pub(super) fn place(self, order: usize) -> Option<usize> {
         let beyond = order.checked_sub(self.first())?;
         beyond.is_multiple_of(self.step()).then_some(beyond / self.step())
     }
 
-    /// All after an order up to the last.
-    pub(super) fn between(self, after: usize, last: usize) -> impl Iterator<Item = usize> {
-        (after + self.step()..=last).step_by(self.step())
+    /// The number of orders up to the highest.
+    pub(super) fn count(self, highest: usize) -> usize {
+        (highest + 1).div_ceil(self.step())
     }
 
     /// Phases after which the wave repeats itself, with the opposite sign if odd.
@@ -78,6 +75,11 @@ pub(super) const HIGHEST: usize = 299;
 
 pub(super) fn natural(n: usize) -> Interval {
     Interval::point(n as f64)
+}
+
+/// `sqrt(sum of squares)`.
+pub(super) fn length(parts: impl Iterator<Item = Interval>) -> Interval {
+    parts.fold(Interval::ZERO, |sum, part| sum + part.square()).sqrt()
 }
 
 /// The characteristic's input: real and imaginary parts of its harmonics by growing order, `X_1 = a` real.
@@ -117,32 +119,18 @@ impl Wave {
         self.harmonics[self.orders.reals() - 1][0]
     }
 
-    /// Highest harmonic.
     pub(super) fn highest(&self) -> usize {
         self.orders.at(self.harmonics.len() - 1)
     }
 
-    /// Orders and harmonics.
     pub(super) fn terms<T: Real>(&self) -> impl Iterator<Item = (usize, Complex<T>)> + '_ {
         let term = |&[re, im]: &[f64; 2]| Complex::new(T::from_f64(re), T::from_f64(im));
         self.harmonics.iter().enumerate().map(move |(place, pair)| (self.orders.at(place), term(pair)))
     }
 
     /// Upper bound of `sum k^power abs(X_k)`: of the power's derivative, at every phase.
-    pub(super) fn sum_of_magnitudes(&self, power: usize) -> Interval {
-        self.terms::<Interval>().fold(Interval::ZERO, |sum, (k, harmonic)| {
-            let weight = Interval::point((k as f64).powi(power as i32));
-            sum + harmonic.norm() * weight
-        })
-    }
-
-    /// Root mean square of the derivative of that order, above zero.
-    pub(super) fn root_mean_square(&self, power: usize) -> Interval {
-        let half = Interval::point(0.5);
-        let square = self.terms::<Interval>().fold(Interval::ZERO, |sum, (k, harmonic)| {
-            sum + harmonic.square_norm() * Interval::point((k as f64).powi(2 * power as i32)) * half
-        });
-        square.sqrt()
+    pub(super) fn sum_of_magnitudes(&self, power: u32) -> Interval {
+        self.terms().fold(Interval::ZERO, |sum, (k, harmonic)| sum + harmonic.norm() * natural(k.pow(power)))
     }
 
     /// `sum abs(X_k) sinh(k sigma)` and the same with the hyperbolic cosine: bounds of the imaginary and the real part at phases
@@ -163,7 +151,7 @@ impl Wave {
         })
     }
 
-    /// Every passage of a span through `kinks` and their opposites in order, and the wave at its start, which is away from every kink.
+    /// Every passage of a span through `kinks` and their opposites, and the wave at its start, which is away from every kink.
     ///
     /// A cell is settled where the wave keeps more than `margin` from every level, or where its derivative has a constant sign.
     /// A run of cells of the second kind lies between two of the first, hence it passes each level between its ends once.
@@ -174,14 +162,12 @@ impl Wave {
         margin: f64,
     ) -> Result<(Vec<KinkPassage>, Interval), CannotTell> {
         // With what the slope of the characteristic grows by on the way up.
-        let both = |(&kink, pair): (&f64, &[f64])| {
-            let jump = Interval::point(pair[1]) - Interval::point(pair[0]);
-            [(kink, jump), (-kink, -jump)]
-        };
-        let levels: Vec<(f64, Interval)> = kinks.iter().zip(slopes.windows(2)).flat_map(both).collect();
+        let up = |pair: &[f64]| Interval::point(pair[1]) - Interval::point(pair[0]);
+        let both = kinks.iter().zip(slopes.windows(2)).flat_map(|(kink, pair)| [(*kink, up(pair)), (-kink, -up(pair))]);
+        let levels: Vec<(f64, Interval)> = both.collect();
         let bend = self.sum_of_magnitudes(2);
         let span = self.orders.span();
-        let grazing = |theta_rad: f64| CannotTell::Grazing { theta_rad };
+        let grazing = |cell: Interval| CannotTell::Grazing { theta_rad: cell.lower() };
         // From the phase that is farthest from every kink.
         let distance = |theta: f64| {
             let (value, _) = self.at(theta);
@@ -210,7 +196,7 @@ impl Wave {
             } else if !slope.contains_zero() {
                 settled.push((cell, Some(slope)));
             } else if bisections == 0 {
-                return Err(grazing(cell.lower()));
+                return Err(grazing(cell));
             } else {
                 let (left, right) = cell.bisect();
                 open.extend([(right, bisections - 1), (left, bisections - 1)]);
@@ -224,29 +210,28 @@ impl Wave {
             let cell = run[0].0.hull(run[run.len() - 1].0);
             // The first and the last cell of the span are away from every level.
             if slope.contains_zero() || cell.lower() <= start || cell.upper() >= end {
-                return Err(grazing(cell.lower()));
+                return Err(grazing(cell));
             }
-            let before = all.len();
             for &(level, jump) in &levels {
                 let above = |theta: f64| self.at(Interval::point(theta)).0 - Interval::point(level);
-                let (first, last) = (above(cell.lower()), above(cell.upper()));
-                if first.contains_zero() || last.contains_zero() {
-                    return Err(grazing(cell.lower()));
+                let ends = [cell.lower(), cell.upper()].map(above);
+                if ends.iter().any(|end| end.contains_zero()) {
+                    return Err(grazing(cell));
                 }
-                if first.is_positive() == last.is_positive() {
+                if ends[0].is_positive() == ends[1].is_positive() {
                     continue;
                 }
                 // From a guess by the mean value theorem, first over the run, then over what that leaves.
-                let near = scan::bracketed(|theta| Some(self.at(theta).0 - level), cell.lower(), cell.upper());
-                let near = near.ok_or(grazing(cell.lower()))?;
-                let towards = |slope: Interval| Interval::point(near) - above(near) / slope;
-                let first = towards(slope).intersection(cell);
-                let theta = first.and_then(|part| towards(over(part.hull(Interval::point(near))).1).intersection(part));
-                let theta = theta.ok_or(grazing(cell.lower()))?;
+                let guess = scan::bracketed(|theta| Some(self.at(theta).0 - level), cell.lower(), cell.upper());
+                let narrowed = guess.and_then(|guess| {
+                    let towards = |slope: Interval| Interval::point(guess) - above(guess) / slope;
+                    let part = towards(slope).intersection(cell)?;
+                    towards(over(part.hull(Interval::point(guess))).1).intersection(part)
+                });
+                let theta = narrowed.ok_or(grazing(cell))?;
                 let jump = if slope.is_positive() { jump } else { -jump };
                 all.push(KinkPassage { theta, level, jump, speed: slope.abs() });
             }
-            all[before..].sort_by(|a, b| a.theta.lower().total_cmp(&b.theta.lower()));
         }
         Ok((all, self.at(Interval::point(start)).0))
     }
