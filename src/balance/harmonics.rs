@@ -25,7 +25,6 @@ pub struct MultiHarmonic {
     bias: f64,
     /// `b_k + j c_k`, from k = 1.
     harmonics: Vec<Complex<f64>>,
-    turns: Vec<f64>,
 }
 
 impl MultiHarmonic {
@@ -52,7 +51,8 @@ impl MultiHarmonic {
     /// Half the range of the input, which is the plant output's too.
     #[must_use]
     pub fn amplitude(&self) -> f64 {
-        let (low, high) = range(self.turns.iter().map(|&theta| self.input(theta)));
+        let turns = turning_points(self.bias, &self.harmonics);
+        let (low, high) = range(turns.into_iter().map(|theta| self.input(theta)));
         0.5 * (high - low)
     }
 }
@@ -101,8 +101,7 @@ where
             unknowns = self.settle(output, unknowns)?;
             let (bias, omega_rad_s, mut harmonics) = unpack(&unknowns);
             if reached == order {
-                let turns = turning_points(bias, &harmonics);
-                return Ok(MultiHarmonic { omega_rad_s, bias, harmonics, turns });
+                return Ok(MultiHarmonic { omega_rad_s, bias, harmonics });
             }
             // The plant's response to the further harmonics of the output under the present ones.
             reached = order.min(2 * reached);
@@ -119,8 +118,7 @@ where
         let order = unknowns.len() / 2;
         let mut residual = self.miss(output, &unknowns)?;
         for _ in 0..30 {
-            let amplitude = unknowns[1].abs();
-            let size = residual.amax() / amplitude;
+            let size = residual.amax() / unknowns[1].abs();
             let stuck = BalanceError::NotConverged { order, residual: size };
             let step = self.slopes(output, &unknowns, &residual)?.lu().solve(&residual).ok_or(stuck.clone())?;
             let mut share = 1.0;

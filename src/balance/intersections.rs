@@ -95,12 +95,9 @@ where
     /// # Errors
     /// [`BalanceError::Plant`] where the plant's poles cannot be computed.
     pub fn new(plant: &'a TransferFunction, describing: N) -> Result<Self, BalanceError> {
-        let mut corners: Vec<f64> = plant.poles()?.iter().chain(&plant.zeros()?).map(|root| root.norm()).collect();
-        corners.retain(|&corner| corner > 0.0);
-        let delay = plant.delay_s();
-        if delay > 0.0 {
-            corners.push(1.0 / delay);
-        }
+        let (roots, delay) = ([plant.poles()?, plant.zeros()?].concat(), plant.delay_s());
+        let mut corners: Vec<f64> = roots.iter().map(|root| root.norm()).chain([1.0 / delay]).collect();
+        corners.retain(|corner| *corner > 0.0 && corner.is_finite());
         let slowest = corners.iter().copied().reduce(f64::min).unwrap_or(1.0);
         let fastest = corners.iter().copied().reduce(f64::max).unwrap_or(1.0);
         let highest = if delay > 0.0 { (10.0 * fastest).max(100.0 / delay) } else { 1e3 * fastest };
@@ -113,14 +110,12 @@ where
     /// # Errors
     /// [`BalanceError::OutOfDomain`].
     pub fn with_bias(self, bias: Bias) -> Result<Self, BalanceError> {
-        let numbers = match bias {
-            Bias::Fixed(bias) => [("bias", bias, "input units"); 2],
+        match bias {
+            Bias::Fixed(bias) => _ = domain::finite("bias", bias, "input units")?,
             Bias::Loop { reference, disturbance } => {
-                [("reference", reference, "output units"), ("disturbance", disturbance, "plant input units")]
+                domain::finite("reference", reference, "output units")?;
+                domain::finite("disturbance", disturbance, "plant input units")?;
             }
-        };
-        for (quantity, value, unit) in numbers {
-            domain::finite(quantity, value, unit)?;
         }
         Ok(Self { bias, ..self })
     }

@@ -18,10 +18,9 @@ use crate::plant::TransferFunction;
 
 /// Changes with the meaning of a field.
 const FORMAT: u32 = 2;
-/// Highest harmonics that are tried in turn, and the first with which any proof ends the search.
+/// Highest harmonics that are tried in turn: any proof but the first ends the search.
 const ORDERS: [usize; 3] = [49, 97, 197];
-const ENOUGH: usize = 97;
-/// Half-width of the amplitude over the amplitude that ends the search earlier.
+/// Half-width of the amplitude over the amplitude with which the first ends it, too.
 const NARROW: f64 = 1e-10;
 /// Share of the remainder shown that is stated: another checker bounds the same series in another way.
 const STATED: f64 = 1.01;
@@ -178,7 +177,7 @@ impl LipschitzLoop<'_> {
                         radii: orders.pairs(&radii.as_slice()[1..]),
                         remainder: STATED * remainder,
                     };
-                    if highest >= ENOUGH || radii[orders.reals()] <= NARROW * centre.amplitude() {
+                    if highest > ORDERS[0] || radii[orders.reals()] <= NARROW * centre.amplitude() {
                         return Ok(proved);
                     }
                     best = Ok(proved);
