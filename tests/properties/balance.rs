@@ -88,9 +88,8 @@ fn further_roots_are_counted_as_factors_say() {
         (&[1.0, 3.0, 1.0], 0),
         (&[1.0, -0.2, 1.0], 2),
         // On the axis is not beyond it.
-        (&[1.0, 0.0, 4.0], 0),
+        (&[1.0, 1.0, 4.0, 4.0], 0),
         (&[1.0, -3.0, 2.0], 2),
-        (&[1.0, -1.0, 1.0, 1.0], 2),
     ] {
         let order = factor.len() + 1;
         let coefficient = |place: usize| factor.get(place).copied().unwrap_or(0.0);
