@@ -12,8 +12,10 @@ use crate::numeric::scan;
 
 /// The most harmonics: the Jacobian is full.
 const ORDER: usize = 200;
-/// Residual over amplitude at which Newton's method has arrived.
-const ARRIVED: f64 = 1e-11;
+/// Residual over amplitude that rounding may leave.
+const ROUNDING: f64 = 1e-8;
+/// Step of the difference quotients, relative to the amplitude or the frequency.
+const STEP: f64 = 1e-6;
 
 /// A periodic solution with finitely many harmonics: the characteristic's input
 /// `bias + sum over k of b_k sin(k theta) + c_k cos(k theta)`, with `c_1 = 0`.
@@ -23,7 +25,6 @@ pub struct MultiHarmonic {
     bias: f64,
     /// `b_k + j c_k`, from k = 1.
     harmonics: Vec<Complex<f64>>,
-    turns: Vec<f64>,
 }
 
 impl MultiHarmonic {
@@ -50,8 +51,8 @@ impl MultiHarmonic {
     /// Half the range of the input, which is the plant output's too.
     #[must_use]
     pub fn amplitude(&self) -> f64 {
-        let inputs = self.turns.iter().map(|&theta| self.input(theta));
-        let (low, high) = inputs.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let turns = turning_points(self.bias, &self.harmonics);
+        let (low, high) = range(turns.into_iter().map(|theta| self.input(theta)));
         0.5 * (high - low)
     }
 }
@@ -93,88 +94,78 @@ where
         if !(1..=ORDER).contains(&order) {
             return Err(BalanceError::Order { order, limit: ORDER });
         }
-        let mut unknowns = DVector::from_column_slice(&[start.bias, start.amplitude, libm::log(start.omega_rad_s)]);
+        let output: Output = &|bias, harmonics, order| output_harmonics(characteristic, bias, harmonics, order);
+        let mut unknowns = pack(start.bias, start.omega_rad_s, &[Complex::new(start.amplitude, 0.0)]);
         let mut reached = 1;
         loop {
-            unknowns = self.settle(characteristic, unknowns, reached)?;
+            unknowns = self.settle(output, unknowns)?;
+            let (bias, omega_rad_s, mut harmonics) = unpack(&unknowns);
             if reached == order {
-                break;
+                return Ok(MultiHarmonic { omega_rad_s, bias, harmonics });
             }
-            let next = order.min(2 * reached);
-            unknowns = self.extended(characteristic, &unknowns, next)?;
-            reached = next;
+            // The plant's response to the further harmonics of the output under the present ones.
+            reached = order.min(2 * reached);
+            let (_, outputs) = output(bias, &harmonics, reached)?;
+            for (k, output) in outputs.iter().enumerate().skip(harmonics.len()) {
+                harmonics.push(-self.plant().response((k + 1) as f64 * omega_rad_s)? * output);
+            }
+            unknowns = pack(bias, omega_rad_s, &harmonics);
         }
-        let (bias, omega_rad_s, harmonics) = unpack(&unknowns);
-        let turns = turning_points(bias, &harmonics);
-        Ok(MultiHarmonic { omega_rad_s, bias, harmonics, turns })
     }
 
-    /// The plant's response to the harmonics of the characteristic's output under the present harmonics.
-    fn extended(
-        &self,
-        characteristic: &(impl Characteristic<Number = f64> + ?Sized),
-        unknowns: &DVector<f64>,
-        order: usize,
-    ) -> Result<DVector<f64>, BalanceError> {
-        let (bias, omega, mut harmonics) = unpack(unknowns);
-        let (_, outputs) = output_harmonics(characteristic, bias, &harmonics, order)?;
-        for (k, output) in outputs.iter().enumerate().skip(harmonics.len()) {
-            harmonics.push(-self.plant().response((k + 1) as f64 * omega)? * output);
-        }
-        Ok(pack(bias, omega, &harmonics))
-    }
-
-    /// Newton's method with backtracking on the residual's norm. Its own loop: a step counts only if it lessens that
-    /// norm, and the residual when none does is reported; the first harmonic alone stops by its steps.
-    fn settle(
-        &self,
-        characteristic: &(impl Characteristic<Number = f64> + ?Sized),
-        mut unknowns: DVector<f64>,
-        order: usize,
-    ) -> Result<DVector<f64>, BalanceError> {
-        let size = unknowns.len();
-        let mut residual = self.miss(characteristic, &unknowns, order)?;
+    /// Newton's method with backtracking on the residual's norm, until rounding keeps it from shrinking.
+    pub(super) fn settle(&self, output: Output, mut unknowns: DVector<f64>) -> Result<DVector<f64>, BalanceError> {
+        let order = unknowns.len() / 2;
+        let mut residual = self.miss(output, &unknowns)?;
         for _ in 0..30 {
-            let amplitude = unknowns[1].abs();
-            if residual.amax() <= ARRIVED * amplitude {
-                return Ok(unknowns);
-            }
-            let mut slopes = DMatrix::zeros(size, size);
-            for column in 0..size {
-                let step = if column == 2 { 1e-6 } else { 1e-6 * amplitude };
-                let mut moved = unknowns.clone();
-                moved[column] += step;
-                let after = self.miss(characteristic, &moved, order)?;
-                moved[column] -= 2.0 * step;
-                let before = self.miss(characteristic, &moved, order)?;
-                slopes.set_column(column, &((after - before) / (2.0 * step)));
-            }
-            let stuck = BalanceError::NotConverged { order, residual: residual.amax() / amplitude };
-            let step = slopes.lu().solve(&residual).ok_or(stuck.clone())?;
+            let size = residual.amax() / unknowns[1].abs();
+            let stuck = BalanceError::NotConverged { order, residual: size };
+            let step = self.slopes(output, &unknowns, &residual)?.lu().solve(&residual).ok_or(stuck.clone())?;
             let mut share = 1.0;
             (unknowns, residual) = loop {
                 let moved = &unknowns - &step * share;
-                match self.miss(characteristic, &moved, order) {
+                match self.miss(output, &moved) {
                     Ok(after) if after.norm() < residual.norm() => break (moved, after),
-                    // Rounding keeps it from shrinking further.
-                    _ if residual.amax() <= 1e3 * ARRIVED * amplitude && share < 1e-2 => return Ok(unknowns),
+                    _ if size <= ROUNDING => return Ok(unknowns),
                     _ if share < 1e-6 => return Err(stuck),
                     _ => share *= 0.5,
                 }
             };
         }
-        Err(BalanceError::NotConverged { order, residual: residual.amax() / unknowns[1].abs() })
+        let residual = residual.amax() / unknowns[1].abs();
+        if residual <= ROUNDING { Ok(unknowns) } else { Err(BalanceError::NotConverged { order, residual }) }
+    }
+
+    /// Derivatives of the loop's equations by the unknowns; one-sided at an edge of the characteristic's domain.
+    pub(super) fn slopes(
+        &self,
+        output: Output,
+        unknowns: &DVector<f64>,
+        here: &DVector<f64>,
+    ) -> Result<DMatrix<f64>, BalanceError> {
+        let mut slopes = DMatrix::zeros(here.len(), unknowns.len());
+        for column in 0..unknowns.len() {
+            let step = STEP * unknowns[if column == 2 { 2 } else { 1 }].abs();
+            let at = |offset: f64| {
+                let mut moved = unknowns.clone();
+                moved[column] += offset;
+                self.miss(output, &moved)
+            };
+            let slope = match (at(step), at(-step)) {
+                (Ok(after), Ok(before)) => (after - before) / (2.0 * step),
+                (Ok(after), Err(_)) => (after - here) / step,
+                (Err(_), Ok(before)) => (here - before) / step,
+                (Err(error), Err(_)) => return Err(error),
+            };
+            slopes.set_column(column, &slope);
+        }
+        Ok(slopes)
     }
 
     /// The loop's equation in every harmonic: `E_k + G(jkw) U_k`.
-    fn miss(
-        &self,
-        characteristic: &(impl Characteristic<Number = f64> + ?Sized),
-        unknowns: &DVector<f64>,
-        order: usize,
-    ) -> Result<DVector<f64>, BalanceError> {
+    pub(super) fn miss(&self, output: Output, unknowns: &DVector<f64>) -> Result<DVector<f64>, BalanceError> {
         let (bias, omega, harmonics) = unpack(unknowns);
-        let (mean, outputs) = output_harmonics(characteristic, bias, &harmonics, order)?;
+        let (mean, outputs) = output(bias, &harmonics, harmonics.len())?;
         let mut misses = vec![self.bias_miss(bias, mean)];
         for (index, (input, output)) in harmonics.iter().zip(&outputs).enumerate() {
             let miss = input + self.plant().response((index + 1) as f64 * omega)? * output;
@@ -184,30 +175,35 @@ where
     }
 }
 
-/// Unknowns in order: bias, b_1, logarithm of frequency, then b_k and c_k from k = 2.
-fn pack(bias: f64, omega: f64, harmonics: &[Complex<f64>]) -> DVector<f64> {
-    let higher = harmonics.iter().skip(1).flat_map(|harmonic| [harmonic.re, harmonic.im]);
-    let values: Vec<f64> = [bias, harmonics[0].re, libm::log(omega)].into_iter().chain(higher).collect();
-    DVector::from_vec(values)
+/// Mean and `Y_Pk + j Y_Qk` of the characteristic's output, from k = 1.
+type OutputHarmonics = (f64, Vec<Complex<f64>>);
+/// Those up to an order, from the bias and the harmonics of the input.
+pub(super) type Output<'a> = &'a dyn Fn(f64, &[Complex<f64>], usize) -> Result<OutputHarmonics, BalanceError>;
+
+/// Unknowns in order: bias, b_1, frequency, then b_k and c_k from k = 2.
+pub(super) fn pack(bias: f64, omega: f64, harmonics: &[Complex<f64>]) -> DVector<f64> {
+    let higher = harmonics[1..].iter().flat_map(|harmonic| [harmonic.re, harmonic.im]);
+    DVector::from_vec([bias, harmonics[0].re, omega].into_iter().chain(higher).collect())
 }
 
 fn unpack(unknowns: &DVector<f64>) -> (f64, f64, Vec<Complex<f64>>) {
-    let mut harmonics = vec![Complex::new(unknowns[1], 0.0)];
-    harmonics.extend(unknowns.as_slice()[3..].chunks(2).map(|pair| Complex::new(pair[0], pair[1])));
-    (unknowns[0], libm::exp(unknowns[2]), harmonics)
+    let higher = unknowns.as_slice()[3..].chunks(2).map(|pair| Complex::new(pair[0], pair[1]));
+    let harmonics = core::iter::once(Complex::new(unknowns[1], 0.0)).chain(higher).collect();
+    (unknowns[0], unknowns[2], harmonics)
+}
+
+/// `exp(jk theta)` from k = 1.
+fn turns(theta: f64) -> impl Iterator<Item = Complex<f64>> {
+    let turn = Complex::from_polar(1.0, theta);
+    core::iter::successors(Some(turn), move |power| Some(power * turn))
 }
 
 /// Value and derivative at phase `theta`.
 fn evaluate(bias: f64, harmonics: &[Complex<f64>], theta: f64) -> (f64, f64) {
-    let turn = Complex::from_polar(1.0, theta);
-    let mut power = Complex::new(1.0, 0.0);
-    let (mut value, mut slope) = (bias, 0.0);
-    for (index, harmonic) in harmonics.iter().enumerate() {
-        power *= turn;
-        value += harmonic.re * power.im + harmonic.im * power.re;
-        slope += (index + 1) as f64 * (harmonic.re * power.re - harmonic.im * power.im);
-    }
-    (value, slope)
+    harmonics.iter().zip(turns(theta)).zip(1..).fold((bias, 0.0), |(value, slope), ((harmonic, turn), k)| {
+        let term = harmonic * turn;
+        (value + term.im, slope + f64::from(k) * term.re)
+    })
 }
 
 /// Phases in `[0, 2 pi)` at which the input turns.
@@ -219,42 +215,42 @@ fn turning_points(bias: f64, harmonics: &[Complex<f64>]) -> Vec<f64> {
     turns
 }
 
-/// Mean and `Y_Pk + j Y_Qk` of the characteristic's output, `k = 1..=order`.
+fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+}
+
+/// The first harmonics of a characteristic's output, integrated between its kinks and the turning points of the input.
 fn output_harmonics(
     characteristic: &(impl Characteristic<Number = f64> + ?Sized),
     bias: f64,
     harmonics: &[Complex<f64>],
     order: usize,
-) -> Result<(f64, Vec<Complex<f64>>), BalanceError> {
+) -> Result<OutputHarmonics, BalanceError> {
     let value = |theta: f64| evaluate(bias, harmonics, theta).0;
     let mut ends = turning_points(bias, harmonics);
     let Some(&first) = ends.first() else {
         return Err(BalanceError::NotConverged { order, residual: f64::INFINITY });
     };
-    let turns: Vec<f64> = ends.iter().map(|&theta| value(theta)).collect();
+    let extremes: Vec<f64> = ends.iter().map(|&theta| value(theta)).collect();
     ends.push(first + 2.0 * PI);
-    let (low, high) =
-        turns.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| (low.min(x), high.max(x)));
+    let (low, high) = range(extremes.iter().copied());
     let sweep = Sinusoid::new(0.5 * (low + high), 0.5 * (high - low))?;
     characteristic.admits(&sweep)?;
     // A characteristic without memory at the turning points between the extremes needs no more than the extremes.
     let output = |x: f64, branch: Branch| characteristic.output(x, branch, &sweep);
-    for &x in turns.iter().filter(|&&x| turns.len() > 2 && low < x && x < high) {
-        if output(x, Branch::Rising) != output(x, Branch::Falling) {
-            return Err(BalanceError::TurnsInMemory { input: x });
-        }
+    let between = extremes.into_iter().filter(|&x| low < x && x < high);
+    if let Some(input) = between.into_iter().find(|&x| output(x, Branch::Rising) != output(x, Branch::Falling)) {
+        return Err(BalanceError::TurnsInMemory { input });
     }
     let mut kinks = Vec::new();
     characteristic.kinks(&sweep, &mut |x| kinks.push(x));
 
-    let mut sums = vec![Complex::new(0.0, 0.0); order + 1];
+    let mut integrals = (0.0, vec![Complex::new(0.0, 0.0); order]);
     for pair in ends.windows(2) {
         let (from, to) = (pair[0], pair[1]);
         let branch = if value(to) > value(from) { Branch::Rising } else { Branch::Falling };
         let mut cuts = vec![from, to];
-        for &kink in &kinks {
-            cuts.extend(scan::bracketed(|theta| Some(value(theta) - kink), from, to));
-        }
+        cuts.extend(kinks.iter().filter_map(|kink| scan::bracketed(|theta| Some(value(theta) - kink), from, to)));
         cuts.sort_by(f64::total_cmp);
         for piece in cuts.windows(2) {
             let cells = ((piece[1] - piece[0]) * order.max(harmonics.len()) as f64 / PI).ceil().max(1.0);
@@ -262,28 +258,19 @@ fn output_harmonics(
             for cell in 0..cells as usize {
                 let centre = piece[0] + half * (2 * cell + 1) as f64;
                 for (node, weight, _) in RULE {
-                    let sides: &[f64] = if node == 0.0 { &[0.0] } else { &[-1.0, 1.0] };
-                    for side in sides {
+                    // The middle twice, half each time.
+                    let share = if node == 0.0 { 0.5 } else { 1.0 };
+                    for side in [-1.0, 1.0] {
                         let theta = centre + side * half * node;
-                        add(&mut sums, theta, half * weight * output(value(theta), branch));
+                        let weighted = share * half * weight * output(value(theta), branch);
+                        integrals.0 += weighted;
+                        integrals.1.iter_mut().zip(turns(theta)).for_each(|(sum, turn)| *sum += turn.conj() * weighted);
                     }
                 }
             }
         }
     }
-    let mean = sums[0].re / (2.0 * PI);
-    Ok((mean, sums.into_iter().skip(1).map(|sum| sum / PI).collect()))
-}
-
-/// Adds `weighted (sin(k theta) + j cos(k theta))` to the k-th sum; to the sum for zero, `weighted`.
-fn add(sums: &mut [Complex<f64>], theta: f64, weighted: f64) {
-    let turn = Complex::from_polar(1.0, theta);
-    let mut power = Complex::new(1.0, 0.0);
-    if let Some((mean, rest)) = sums.split_first_mut() {
-        mean.re += weighted;
-        for sum in rest {
-            power *= turn;
-            *sum += Complex::new(power.im, power.re) * weighted;
-        }
-    }
+    // sin + j cos = j exp(-j theta)
+    let outputs = integrals.1.into_iter().map(|sum| sum * Complex::i() / PI);
+    Ok((integrals.0 / (2.0 * PI), outputs.collect()))
 }

@@ -3,11 +3,11 @@
 use core::cell::Cell;
 use core::ops::RangeInclusive;
 
-use nalgebra::{Complex, Matrix2, Matrix3, Vector2, Vector3};
+use nalgebra::{Complex, DMatrix, DVector, Matrix2, Vector2};
 
 use super::BalanceError;
-use super::grid::Axis;
-use super::nyquist::near;
+use super::harmonics::{Output, pack};
+use super::nyquist::{Axis, near};
 use super::nyquist_count::roots_beyond;
 use crate::describing::{DescribingError, DescribingFunction};
 use crate::nonlinearity::Sinusoid;
@@ -22,8 +22,6 @@ const SAME: f64 = 1e-6;
 const PARALLEL: f64 = 1e-6;
 /// Distance from the axis, over the frequency, beyond which a root counts in addition to the pair on it.
 const ASIDE: f64 = 1e-4;
-/// Step of the difference quotients, relative.
-const STEP: f64 = 1e-5;
 
 /// The condition on the mean of the characteristic's input.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,12 +82,8 @@ pub struct HarmonicBalance<'a, N> {
     omega_rad_s: RangeInclusive<f64>,
 }
 
-/// The gain of the characteristic at an amplitude and bias.
-#[derive(Clone, Copy, PartialEq)]
-struct Gain {
-    bias: f64,
-    gain: Complex<f64>,
-}
+/// A bias, and the gain of the characteristic there at an amplitude.
+type Gain = (f64, Complex<f64>);
 
 impl<'a, N> HarmonicBalance<'a, N>
 where
@@ -101,12 +95,9 @@ where
     /// # Errors
     /// [`BalanceError::Plant`] where the plant's poles cannot be computed.
     pub fn new(plant: &'a TransferFunction, describing: N) -> Result<Self, BalanceError> {
-        let mut corners: Vec<f64> = plant.poles()?.iter().chain(&plant.zeros()?).map(|root| root.norm()).collect();
-        corners.retain(|&corner| corner > 0.0);
-        let delay = plant.delay_s();
-        if delay > 0.0 {
-            corners.push(1.0 / delay);
-        }
+        let (roots, delay) = ([plant.poles()?, plant.zeros()?].concat(), plant.delay_s());
+        let mut corners: Vec<f64> = roots.iter().map(|root| root.norm()).chain([1.0 / delay]).collect();
+        corners.retain(|corner| *corner > 0.0 && corner.is_finite());
         let slowest = corners.iter().copied().reduce(f64::min).unwrap_or(1.0);
         let fastest = corners.iter().copied().reduce(f64::max).unwrap_or(1.0);
         let highest = if delay > 0.0 { (10.0 * fastest).max(100.0 / delay) } else { 1e3 * fastest };
@@ -119,14 +110,12 @@ where
     /// # Errors
     /// [`BalanceError::OutOfDomain`].
     pub fn with_bias(self, bias: Bias) -> Result<Self, BalanceError> {
-        let numbers = match bias {
-            Bias::Fixed(bias) => [("bias", bias, "input units"); 2],
+        match bias {
+            Bias::Fixed(bias) => _ = domain::finite("bias", bias, "input units")?,
             Bias::Loop { reference, disturbance } => {
-                [("reference", reference, "output units"), ("disturbance", disturbance, "plant input units")]
+                domain::finite("reference", reference, "output units")?;
+                domain::finite("disturbance", disturbance, "plant input units")?;
             }
-        };
-        for (quantity, value, unit) in numbers {
-            domain::finite(quantity, value, unit)?;
         }
         Ok(Self { bias, ..self })
     }
@@ -165,70 +154,57 @@ where
         let failure = Cell::new(None);
         let amplitude = Axis::amplitude(&self.amplitude)?;
         let omega = Axis::frequency(&self.omega_rad_s)?;
-        let response = |omega: f64| self.plant.response(omega).ok();
-
-        let coarse = omega.sample(response, |_, _| true)?;
-        let largest = coarse.iter().filter_map(|(_, g)| g.map(|g| g.norm())).fold(0.0, f64::max);
-        let quiet = |a: Complex<f64>, b: Complex<f64>, other: f64| a.norm().max(b.norm()) * other < QUIET;
         let gains = amplitude.sample(
             |amplitude| Some(self.gains(amplitude, &failure)).filter(|gains| !gains.is_empty()),
-            |a, b| {
-                a.len() == b.len()
-                    && a.iter().zip(b).all(|(a, b)| near(a.gain, b.gain) || quiet(a.gain, b.gain, largest))
-            },
+            |a, b| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| near(a.1, b.1)),
         )?;
         if let Some(error) = failure.take() {
             return Err(error.into());
         }
-        let loudest =
-            gains.iter().flat_map(|(_, gains)| gains).flatten().map(|gain| gain.gain.norm()).fold(0.0, f64::max);
-        let responses = omega.sample(response, |a, b| near(*a, *b) || quiet(*a, *b, loudest))?;
+        let loudest = gains.iter().flat_map(|(_, gains)| gains).flatten().map(|gain| gain.1.norm()).fold(0.0, f64::max);
+        let quiet = |a: &Complex<f64>, b: &Complex<f64>| a.norm().max(b.norm()) * loudest < QUIET;
+        let responses = omega.sample(|omega| self.plant.response(omega).ok(), |a, b| near(*a, *b) || quiet(a, b))?;
 
+        let describe: Output = &|bias, harmonics, _| {
+            let df = self.describe(harmonics[0].re, bias)?;
+            Ok((df.f0, vec![harmonics[0] * Complex::new(df.p, df.q)]))
+        };
+        let between = |a: f64, b: f64, share: f64| libm::exp(libm::log(a) + share * libm::log(b / a));
+        let steps = responses.windows(2).filter_map(|pair| Some(([pair[0].0, pair[1].0], [pair[0].1?, pair[1].1?])));
+        let response_steps: Vec<([f64; 2], [Complex<f64>; 2])> = steps.collect();
         let mut found: Vec<Intersection> = Vec::new();
         for steps in gains.windows(2) {
             let (Some(here), Some(next)) = (&steps[0].1, &steps[1].1) else { continue };
             for gain in here {
-                let nearest = |a: &&Gain, b: &&Gain| (a.bias - gain.bias).abs().total_cmp(&(b.bias - gain.bias).abs());
+                let nearest = |a: &&Gain, b: &&Gain| (a.0 - gain.0).abs().total_cmp(&(b.0 - gain.0).abs());
                 let Some(after) = next.iter().min_by(nearest) else { continue };
-                for pair in responses.windows(2) {
-                    let (Some(g), Some(g_after)) = (pair[0].1, pair[1].1) else { continue };
-                    let Some(share) = crossing(gain.gain, after.gain, g, g_after) else { continue };
-                    let between = |a: f64, b: f64, share: f64| libm::exp(libm::log(a) + share * libm::log(b / a));
-                    let guess = Vector3::new(
-                        between(steps[0].0, steps[1].0, share[0]),
-                        gain.bias + share[0] * (after.bias - gain.bias),
-                        between(pair[0].0, pair[1].0, share[1]),
-                    );
-                    let same = |known: &Intersection, at: &Vector3<f64>| {
-                        libm::log(known.amplitude / at[0]).abs() < SAME
-                            && libm::log(known.omega_rad_s / at[2]).abs() < SAME
-                            && (known.bias - at[1]).abs() < SAME * at[0]
+                for (omega, response) in &response_steps {
+                    let Some(share) = crossing([gain.1, after.1], *response) else { continue };
+                    let amplitude = Complex::new(between(steps[0].0, steps[1].0, share[0]), 0.0);
+                    let bias = gain.0 + share[0] * (after.0 - gain.0);
+                    let guess = pack(bias, between(omega[0], omega[1], share[1]), &[amplitude]);
+                    let root = self.settle(describe, guess).ok().and_then(|root| self.intersection(describe, &root));
+                    let inside = |one: &Intersection| {
+                        self.amplitude.contains(&one.amplitude) && self.omega_rad_s.contains(&one.omega_rad_s)
                     };
-                    let Some((root, slopes)) = self.newton(guess) else { continue };
-                    let inside = self.amplitude.contains(&root[0]) && self.omega_rad_s.contains(&root[2]);
-                    if inside && !found.iter().any(|known| same(known, &root)) {
-                        let unstable_roots = self.unstable_roots(&root);
-                        let grows_beside = unstable_roots.is_some_and(|count| count > 0);
-                        found.push(Intersection {
-                            amplitude: root[0],
-                            bias: root[1],
-                            omega_rad_s: root[2],
-                            stable: if grows_beside { Some(false) } else { loeb(&slopes) },
-                            unstable_roots,
-                        });
-                    }
+                    found.extend(root.filter(|one| inside(one) && !found.iter().any(|known| same(known, one))));
                 }
             }
         }
-        let place = |at: &Intersection| (at.omega_rad_s, at.amplitude);
-        found.sort_by(|a, b| place(a).partial_cmp(&place(b)).unwrap_or(core::cmp::Ordering::Equal));
+        found.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s).then(a.amplitude.total_cmp(&b.amplitude)));
         Ok(found)
     }
 
-    /// Roots of the loop with the gain at an intersection, clearly to the right of the pair on the axis.
-    fn unstable_roots(&self, at: &Vector3<f64>) -> Option<usize> {
-        let df = self.describe(at[0], at[1]).ok()?;
-        (df.q == 0.0).then(|| roots_beyond(self.plant, df.p, ASIDE * at[2]))?
+    /// A solution of the first harmonic's balance with its verdicts.
+    fn intersection(&self, describe: Output, root: &DVector<f64>) -> Option<Intersection> {
+        let slopes = self.slopes(describe, root, &self.miss(describe, root).ok()?).ok()?;
+        let (bias, amplitude, omega_rad_s) = (root[0], root[1], root[2]);
+        // Clearly to the right of the pair on the axis.
+        let gain = self.describe(amplitude, bias).ok().filter(|df| df.q == 0.0);
+        let unstable_roots = gain.and_then(|df| roots_beyond(self.plant, df.p, ASIDE * omega_rad_s));
+        let grows_beside = unstable_roots.is_some_and(|count| count > 0);
+        let stable = if grows_beside { Some(false) } else { loeb(&slopes) };
+        Some(Intersection { amplitude, bias, omega_rad_s, stable, unstable_roots })
     }
 
     fn describe(&self, amplitude: f64, bias: f64) -> Result<DescribingFunction<f64>, DescribingError> {
@@ -268,76 +244,22 @@ where
         };
         let gain = |bias: f64| {
             let df = describe(bias)?;
-            Some(Gain { bias, gain: Complex::new(df.p, df.q) }).filter(|gain| gain.gain.is_finite())
+            Some((bias, Complex::new(df.p, df.q))).filter(|gain| gain.1.is_finite())
         };
         biases.into_iter().filter_map(gain).collect()
     }
+}
 
-    /// Bias condition, real and imaginary part of the balance at (amplitude, bias, frequency).
-    fn residual(&self, at: Vector3<f64>) -> Option<Vector3<f64>> {
-        let df = self.describe(at[0], at[1]).ok()?;
-        let balance = Complex::new(df.p, df.q) * self.plant.response(at[2]).ok()? + 1.0;
-        let residual = Vector3::new(self.bias_miss(at[1], df.f0), balance.re, balance.im);
-        residual.iter().all(|value| value.is_finite()).then_some(residual)
-    }
-
-    /// A solution near `at` and the derivatives there, by logarithm of amplitude, bias over amplitude, logarithm of
-    /// frequency: damped Newton. Its own loop, since amplitude and frequency may at most halve or double in a step and the
-    /// describing function may be undefined beyond it.
-    fn newton(&self, mut at: Vector3<f64>) -> Option<(Vector3<f64>, Matrix3<f64>)> {
-        let mut last = f64::INFINITY;
-        for _ in 0..60 {
-            let residual = self.residual(at)?;
-            let scale = Vector3::new(at[0], at[0], at[2]);
-            let slopes = self.slopes(at, residual, scale)?;
-            let step = slopes.lu().solve(&residual)?;
-            // The amplitude and frequency at most double or halve; a step out of the domain is shortened.
-            let mut share = (0.5 / step[0].abs().max(step[2].abs())).min(1.0);
-            let moved = |share: f64| at - (step * share).component_mul(&scale);
-            for _ in 0..40 {
-                if self.residual(moved(share)).is_some() {
-                    break;
-                }
-                share *= 0.5;
-            }
-            at = moved(share);
-            let size = step.amax();
-            // Until rounding stops the steps from shrinking.
-            if size < 1e-8 && size >= 0.5 * last {
-                let residual = self.residual(at)?;
-                return Some((at, self.slopes(at, residual, scale)?));
-            }
-            last = size;
-        }
-        None
-    }
-
-    fn slopes(&self, at: Vector3<f64>, here: Vector3<f64>, scale: Vector3<f64>) -> Option<Matrix3<f64>> {
-        let mut slopes = Matrix3::zeros();
-        for axis in 0..3 {
-            let mut offset = Vector3::zeros();
-            offset[axis] = STEP * scale[axis];
-            let slope = match (self.residual(at + offset), self.residual(at - offset)) {
-                (Some(after), Some(before)) => (after - before) / (2.0 * STEP),
-                (Some(after), None) => (after - here) / STEP,
-                (None, Some(before)) => (here - before) / STEP,
-                (None, None) => return None,
-            };
-            slopes.set_column(axis, &slope);
-        }
-        Some(slopes)
-    }
+fn same(a: &Intersection, b: &Intersection) -> bool {
+    let near = |a: f64, b: f64| libm::log(a / b).abs() < SAME;
+    let bias = (a.bias - b.bias).abs() < SAME * b.amplitude;
+    near(a.amplitude, b.amplitude) && near(a.omega_rad_s, b.omega_rad_s) && bias
 }
 
 /// Where, in shares of the two steps, the linear part of `1 + N G` vanishes; `None` if not near them.
-fn crossing(
-    gain: Complex<f64>,
-    gain_after: Complex<f64>,
-    response: Complex<f64>,
-    response_after: Complex<f64>,
-) -> Option<Vector2<f64>> {
-    let here = gain * response + 1.0;
-    let (by_gain, by_response) = ((gain_after - gain) * response, gain * (response_after - response));
+fn crossing(gain: [Complex<f64>; 2], response: [Complex<f64>; 2]) -> Option<Vector2<f64>> {
+    let here = gain[0] * response[0] + 1.0;
+    let (by_gain, by_response) = ((gain[1] - gain[0]) * response[0], gain[0] * (response[1] - response[0]));
     let reach = 2.0;
     if here.norm() > reach * (by_gain.norm() + by_response.norm()) {
         return None;
@@ -349,10 +271,10 @@ fn crossing(
 
 /// Loeb's criterion: with `1 + N(X) G(s) = 0` kept, a larger X must move s to the left, that is
 /// `R_X I_w - I_X R_w > 0` for the real and imaginary parts R, I of the balance. The bias follows the amplitude.
-fn loeb(slopes: &Matrix3<f64>) -> Option<bool> {
-    let follow = -slopes[(0, 0)] / slopes[(0, 1)];
-    let by_amplitude = Vector2::new(slopes[(1, 0)] + follow * slopes[(1, 1)], slopes[(2, 0)] + follow * slopes[(2, 1)]);
-    let by_frequency = Vector2::new(slopes[(1, 2)], slopes[(2, 2)]);
+fn loeb(slopes: &DMatrix<f64>) -> Option<bool> {
+    let follow = -slopes[(0, 1)] / slopes[(0, 0)];
+    let balance = slopes.fixed_rows::<2>(1);
+    let (by_amplitude, by_frequency) = (balance.column(1) + balance.column(0) * follow, balance.column(2));
     let determinant = by_amplitude[0] * by_frequency[1] - by_amplitude[1] * by_frequency[0];
     let scale = by_amplitude.norm() * by_frequency.norm();
     (determinant.abs() > PARALLEL * scale).then_some(determinant > 0.0)

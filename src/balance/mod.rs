@@ -4,7 +4,6 @@
 
 mod drag_axis;
 mod error;
-mod grid;
 mod harmonics;
 mod intersections;
 mod nyquist;

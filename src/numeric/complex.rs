@@ -46,12 +46,6 @@ impl<T: Real> Complex<T> {
     }
 }
 
-impl Complex<f64> {
-    pub(crate) fn enclosed(self) -> Complex<Interval> {
-        Complex::new(Interval::point(self.re), Interval::point(self.im))
-    }
-}
-
 impl Complex<Interval> {
     pub(crate) fn midpoint(self) -> Complex<f64> {
         Complex::new(self.re.midpoint(), self.im.midpoint())

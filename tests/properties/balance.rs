@@ -79,6 +79,30 @@ fn further_roots_make_an_intersection_unstable() {
     assert!(!found.is_empty() && found.iter().all(|at| at.stable == Some(false)), "{found:?}");
 }
 
+/// `(s^2 + 1) factor(s)` less one is a denominator: with the gain 1 the loop has the roots of the factor besides the pair at 1 rad/s.
+#[test]
+fn further_roots_are_counted_as_factors_say() {
+    for (factor, roots) in [
+        (&[1.0, 2.0][..], 0),
+        (&[1.0, -2.0], 1),
+        (&[1.0, 3.0, 1.0], 0),
+        (&[1.0, -0.2, 1.0], 2),
+        // On the axis is not beyond it.
+        (&[1.0, 1.0, 4.0, 4.0], 0),
+        (&[1.0, -3.0, 2.0], 2),
+    ] {
+        let order = factor.len() + 1;
+        let coefficient = |place: usize| factor.get(place).copied().unwrap_or(0.0);
+        let product = |place: usize| coefficient(place) + if place < 2 { 0.0 } else { coefficient(place - 2) };
+        let denominator: Vec<f64> =
+            (0..=order).map(|place| product(place) - if place == order { 1.0 } else { 0.0 }).collect();
+        let found = intersections(&transfer(&[1.0], &denominator), &Relay::new(1.0).unwrap());
+        let at =
+            found.iter().find(|at| (at.amplitude * PI / 4.0 - 1.0).abs() < 1e-9 && (at.omega_rad_s - 1.0).abs() < 1e-9);
+        assert_eq!(at.unwrap().unstable_roots, Some(roots), "{factor:?}: {found:?}");
+    }
+}
+
 /// A relay with dead zone has two amplitudes for each gain below its largest: `P = 4 C/(pi X) sqrt(1 - (d/X)^2)`.
 #[test]
 fn both_amplitudes_of_a_gain_that_rises_and_falls() {

@@ -9,25 +9,15 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::closed_loop::{Centre, LipschitzLoop, jacobian, residual};
+use super::characteristic::OddCharacteristic;
+use super::closed_loop::LipschitzLoop;
 use super::error::CannotTell;
 use super::spectrum::{EnclosedSpectrum, enclose};
-use super::wave::HarmonicOrders;
+use super::wave::{HarmonicOrders, Wave, length, natural};
 use crate::numeric::{Interval, Real};
 
 /// Share by which the range of the slopes reaches beyond the centre's own, where they are bounded on the range alone.
 const BEYOND: f64 = 1.01;
-
-/// The result on a box.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct ShownBox {
-    /// Upper bound of the root mean square of the harmonics above K.
-    pub(super) remainder: f64,
-    /// Lower bound of `rho`.
-    pub(super) rho: f64,
-    /// Upper bound of the slopes' half-range.
-    pub(super) slope_radius: f64,
-}
 
 /// Everything about a centre that does not depend on how the radii are compared.
 pub(super) struct LinearisedBalance {
@@ -58,11 +48,6 @@ fn point(value: f64) -> Interval {
     Interval::point(value)
 }
 
-/// `sqrt(sum of squares)`.
-fn length(parts: impl Iterator<Item = Interval>) -> Interval {
-    parts.fold(Interval::ZERO, |sum, part| sum + part.square()).sqrt()
-}
-
 /// Upper bounds of `sup abs(h)` and `norm(h)` over a box of radii of frequency and harmonics.
 fn sizes(orders: HarmonicOrders, radii: &DVector<f64>) -> (Interval, Interval) {
     let pairs = orders.pairs(&radii.as_slice()[1..]);
@@ -76,49 +61,50 @@ fn sizes(orders: HarmonicOrders, radii: &DVector<f64>) -> (Interval, Interval) {
 impl LipschitzLoop<'_> {
     /// Upper bound of the wave's magnitude: at a maximum the derivative vanishes: a sample within `d` of it is below by
     /// at most `bend d^2/2`.
-    fn peak(&self, centre: &Centre) -> Interval {
+    fn peak(&self, centre: &Wave) -> Interval {
         const SAMPLES: u32 = 1024;
-        let step = centre.wave.orders.span() / point(f64::from(SAMPLES));
-        let values = (0..SAMPLES).map(|i| centre.wave.at(step * point(f64::from(i))).0.abs());
+        let step = centre.orders.span() / point(f64::from(SAMPLES));
+        let values = (0..SAMPLES).map(|i| centre.at(step * point(f64::from(i))).0.abs());
         let most = values.reduce(Real::max).unwrap_or(Interval::ZERO);
-        most + centre.wave.sum_of_magnitudes(2) * step.square() * point(0.125)
+        most + centre.sum_of_magnitudes(2) * step.square() * point(0.125)
     }
 
     /// The equations at a centre, linearised over the box's frequencies; kinks are passed with the box's margin.
-    pub(super) fn linearise(&self, centre: &Centre, radii: &DVector<f64>) -> Result<LinearisedBalance, CannotTell> {
+    pub(super) fn linearise(&self, centre: &Wave, radii: &DVector<f64>) -> Result<LinearisedBalance, CannotTell> {
         let omega = point(centre.omega_rad_s) + Interval::symmetric(radii[0]);
-        let range = self.characteristic.is_bounded_on_the_sweep_alone().then(|| {
+        let range = matches!(self.characteristic, OddCharacteristic::Polynomial { .. }).then(|| {
             let peak = self.peak(centre);
             (BEYOND * peak.upper(), peak)
         });
         let reach = range.map_or(f64::INFINITY, |(limit, _)| limit);
-        let (margin, _) = sizes(centre.wave.orders, radii);
-        let spectrum = enclose(&self.characteristic, &centre.wave, reach, margin.upper())?;
+        let (margin, _) = sizes(centre.orders, radii);
+        let spectrum = enclose(&self.characteristic, centre, reach, margin.upper())?;
         let harmonics = &spectrum.harmonics;
-        let error = residual(&self.inverse, point(centre.omega_rad_s), &centre.wave, harmonics);
-        let slopes = jacobian(&self.inverse, omega, &centre.wave, harmonics);
+        let error = self.residual(point(centre.omega_rad_s), centre, harmonics);
+        let slopes = self.jacobian(omega, centre, harmonics);
         let no_inverse = CannotTell::NoContraction { ratio: f64::INFINITY };
         let preconditioner = slopes.map(Interval::midpoint).try_inverse().ok_or(no_inverse)?;
         let high = self.high(centre, omega, &spectrum, range)?;
 
-        let size = preconditioner.nrows();
-        let row = |i: usize| preconditioner.row(i).iter().map(|&entry| point(entry)).collect::<Vec<_>>();
-        let rows: Vec<Vec<Interval>> = (0..size).map(row).collect();
-        let dot =
-            |row: &[Interval], column: &[Interval]| Interval::dot(row.iter().copied().zip(column.iter().copied()));
+        // In columns, for speed.
+        let rows = preconditioner.transpose().map(point);
+        let size = rows.ncols();
+        let times = |i: usize, column: &[Interval]| {
+            Interval::dot(rows.column(i).as_slice().iter().copied().zip(column.iter().copied()))
+        };
         let excess = DMatrix::from_fn(size, size, |i, j| {
             let one = if i == j { Interval::ONE } else { Interval::ZERO };
-            (one - dot(&rows[i], slopes.column(j).as_slice())).magnitude()
+            (one - times(i, slopes.column(j).as_slice())).magnitude()
         });
-        let errors = rows.iter().map(|row| dot(row, error.as_slice()).abs()).collect();
-        let gain = rows.iter().map(|row| length(row.iter().copied()) * point(2.0).sqrt()).collect();
-        Ok(LinearisedBalance { spectrum, error: errors, gain, excess, high })
+        let gain = rows.column_iter().map(|row| length(row.iter().copied()) * point(2.0).sqrt()).collect();
+        let error = (0..size).map(|i| times(i, error.as_slice()).abs()).collect();
+        Ok(LinearisedBalance { spectrum, error, gain, excess, high })
     }
 
     /// Bounds of the harmonics above the wave's, over all frequencies of the box.
     fn high(
         &self,
-        centre: &Centre,
+        centre: &Wave,
         omega: Interval,
         spectrum: &EnclosedSpectrum,
         range: Option<(f64, Interval)>,
@@ -126,15 +112,14 @@ impl LipschitzLoop<'_> {
         let slopes = self.characteristic.slopes(range.map_or(f64::INFINITY, |(limit, _)| limit));
         let middle = (point(slopes.lower()) + point(slopes.upper())) * point(0.5);
         let slope_radius = (point(slopes.upper()) - point(slopes.lower())) * point(0.5);
-        let orders = centre.wave.orders;
+        let orders = centre.orders;
         let outputs = &spectrum.harmonics.output;
         let last = orders.at(outputs.len() - 1);
         // Listed harmonics, each by itself.
         let mut rho = f64::INFINITY;
         let (mut first, mut output, mut gain) = (Interval::ZERO, Interval::ZERO, Interval::ZERO);
-        let (listed, output_above) = (centre.wave.harmonics.len(), orders.between(centre.wave.highest(), last));
-        for (k, harmonic) in output_above.zip(&outputs[listed..]) {
-            let mut distance = self.inverse.at(omega, k).0;
+        for (place, harmonic) in outputs.iter().enumerate().skip(centre.harmonics.len()) {
+            let mut distance = self.inverse_response(omega, orders.at(place)).0;
             distance.re += middle;
             let square = distance.square_norm();
             let size = harmonic.square_norm() * point(0.5);
@@ -144,11 +129,11 @@ impl LipschitzLoop<'_> {
             gain += Interval::ONE / square;
         }
         // From the next on, abs(g_k + c) >= growth (k w)^q - abs(c) >= tail (k w)^q.
-        let degree = self.inverse.relative_degree();
+        let degree = self.relative_degree();
         let power = |y: Interval| (0..degree).fold(Interval::ONE, |product, _| product * y);
-        let from = omega * point((last + orders.step()) as f64);
+        let from = omega * natural(last + orders.step());
         let nearest = point(from.lower());
-        let tail = self.inverse.growth(nearest) - middle.abs() / power(nearest);
+        let tail = self.growth(nearest) - middle.abs() / power(nearest);
         let far = tail * power(nearest);
         rho = rho.min(far.lower());
         // Only if it is positive the bounds below mean anything.
@@ -158,40 +143,37 @@ impl LipschitzLoop<'_> {
         first += (spectrum.rest / far).square();
         output += spectrum.rest.square();
         // sum over k > M in steps of s of k^(-2 q) <= M^(1 - 2 q)/(s (2 q - 1)).
-        let listed = point(last as f64);
-        let sum = listed / (power(listed).square() * point((2 * degree - 1) as f64) * orders.step_enclosed());
+        let listed = natural(last);
+        let sum = listed / (power(listed).square() * natural(2 * degree - 1) * natural(orders.step()));
         gain += sum / (tail * power(point(omega.lower()))).square();
         Ok(High { slope_radius, rho: point(rho), first: first.sqrt(), output: output.sqrt(), gain: gain.sqrt(), range })
     }
 
     /// Upper bound of the input's magnitude on every oscillation that a box was shown to hold.
-    pub(super) fn largest_input(&self, centre: &Centre, radii: &DVector<f64>) -> Result<f64, CannotTell> {
+    pub(super) fn largest_input(&self, centre: &Wave, radii: &DVector<f64>) -> Result<f64, CannotTell> {
         let linearised = self.linearise(centre, radii)?;
         let (_, eta) = linearised.images(radii);
         Ok(linearised.reach(self.peak(centre), radii, eta))
     }
 
-    /// Whether every frequency and wave of the box is mapped into the box.
-    pub(super) fn holds(&self, centre: &Centre, radii: &DVector<f64>) -> Result<ShownBox, CannotTell> {
+    /// Whether every frequency and wave of the box is mapped into the box: then an upper bound of the root mean square of the
+    /// harmonics above K.
+    pub(super) fn holds(&self, centre: &Wave, radii: &DVector<f64>) -> Result<f64, CannotTell> {
         let linearised = self.linearise(centre, radii)?;
         let (images, eta) = linearised.images(radii);
-        let ratio = images
-            .iter()
-            .zip(radii.iter())
-            .map(|(image, radius)| image / radius)
-            .fold(0.0, |a: f64, b| if b.is_nan() { f64::INFINITY } else { a.max(b) });
+        let ratios = images.iter().zip(radii).map(|(image, radius)| image / radius);
+        let ratio = ratios.fold(0.0, |most: f64, one| if one.is_nan() { f64::INFINITY } else { most.max(one) });
         // Strictly: B J, hence B, is invertible and a fixed point solves the equations.
         if !(ratio < 1.0) {
             return Err(CannotTell::NoContraction { ratio });
         }
-        let high = &linearised.high;
-        if let Some((limit, peak)) = high.range {
+        if let Some((limit, peak)) = linearised.high.range {
             let reach = linearised.reach(peak, radii, eta);
             if !(reach <= limit) {
                 return Err(CannotTell::Range { reach, limit });
             }
         }
-        Ok(ShownBox { remainder: eta.upper(), rho: high.rho.lower(), slope_radius: high.slope_radius.upper() })
+        Ok(eta.upper())
     }
 }
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::error::ExistenceError;
-use crate::numeric::{Interval, Real, Scalar};
+use crate::numeric::{Interval, Real};
 
 /// Kinks at most: each costs a search of passages.
 const MOST_KINKS: usize = 64;
@@ -39,13 +39,16 @@ impl OddCharacteristic {
     /// # Errors
     /// [`ExistenceError::Characteristic`] for a characteristic that is not odd, jumps, has memory, or has no slope for the proof.
     pub fn from_catalogue(name: &str, values: &[f64]) -> Result<Self, ExistenceError> {
+        let piecewise = |kinks: &[f64], slopes: &[f64]| {
+            Some(Self::PiecewiseLinear { kinks: kinks.to_vec(), slopes: slopes.to_vec() })
+        };
         let found = match (name, values) {
-            ("saturation", &[slope, breakpoint]) => Self::piecewise(&[breakpoint], &[slope, 0.0]),
-            ("dead-zone", &[slope, half_width]) if half_width > 0.0 => Self::piecewise(&[half_width], &[0.0, slope]),
-            ("dead-zone-saturation", &[slope, half_width, breakpoint]) if half_width > 0.0 => {
-                Self::piecewise(&[half_width, breakpoint], &[0.0, slope, 0.0])
+            ("saturation", &[slope, breakpoint]) => piecewise(&[breakpoint], &[slope, 0.0]),
+            ("dead-zone", &[slope, half_width]) => piecewise(&[half_width], &[0.0, slope]),
+            ("dead-zone-saturation", &[slope, half_width, breakpoint]) => {
+                piecewise(&[half_width, breakpoint], &[0.0, slope, 0.0])
             }
-            ("gain-changing", &[inner, outer, breakpoint]) => Self::piecewise(&[breakpoint], &[inner, outer]),
+            ("gain-changing", &[inner, outer, breakpoint]) => piecewise(&[breakpoint], &[inner, outer]),
             ("tanh", &[gain, scale]) => Some(Self::Tanh { gain, scale }),
             ("polynomial", coefficients) if coefficients.iter().step_by(2).all(|&even| even == 0.0) => {
                 let mut odd: Vec<f64> = coefficients.iter().skip(1).step_by(2).copied().collect();
@@ -56,27 +59,19 @@ impl OddCharacteristic {
             }
             _ => None,
         };
-        let found = found.ok_or_else(|| ExistenceError::Characteristic { name: name.to_owned() })?;
-        found.checked()
-    }
-
-    fn piecewise(kinks: &[f64], slopes: &[f64]) -> Option<Self> {
-        Some(Self::PiecewiseLinear { kinks: kinks.to_vec(), slopes: slopes.to_vec() })
+        let checked = found.and_then(|found| found.checked().ok());
+        checked.ok_or_else(|| ExistenceError::Characteristic { name: name.to_owned() })
     }
 
     /// The same, if its numbers are finite and in order.
     pub(super) fn checked(self) -> Result<Self, ExistenceError> {
-        let (numbers, sound): (Vec<f64>, bool) = match &self {
+        let (numbers, sound) = match &self {
             Self::PiecewiseLinear { kinks, slopes } => {
-                let ordered =
-                    kinks.windows(2).all(|pair| pair[0] < pair[1]) && kinks.first().is_none_or(|&kink| kink > 0.0);
-                (
-                    kinks.iter().chain(slopes).copied().collect(),
-                    ordered && slopes.len() == kinks.len() + 1 && kinks.len() <= MOST_KINKS,
-                )
+                let ordered = [0.0].iter().chain(kinks).is_sorted_by(|a, b| a < b);
+                ([&kinks[..], slopes].concat(), ordered && slopes.len() == kinks.len() + 1 && kinks.len() <= MOST_KINKS)
             }
             Self::Polynomial { odd_coefficients } => {
-                (odd_coefficients.clone(), !odd_coefficients.is_empty() && odd_coefficients.len() <= 5)
+                (odd_coefficients.clone(), (1..=5).contains(&odd_coefficients.len()))
             }
             Self::Tanh { gain, scale } => (vec![*gain, *scale], *scale > 0.0),
         };
@@ -88,25 +83,13 @@ impl OddCharacteristic {
     }
 
     /// Output and slope at an input; of a kink the slope beyond it.
-    pub(super) fn output_and_slope<S: Scalar>(&self, x: S) -> (S, S) {
-        match self {
-            Self::PiecewiseLinear { kinks, slopes } => {
-                let size = x.abs();
-                let line = kinks.iter().zip(slopes.windows(2)).fold(
-                    (S::from_f64(slopes[0]) * size, S::from_f64(slopes[0])),
-                    |(output, slope), (&kink, pair)| {
-                        let beyond = size - S::from_f64(kink);
-                        if beyond > S::zero() {
-                            (output + S::from_f64(pair[1] - pair[0]) * beyond, S::from_f64(pair[1]))
-                        } else {
-                            (output, slope)
-                        }
-                    },
-                );
-                (if x < S::zero() { -line.0 } else { line.0 }, line.1)
-            }
-            _ => self.smooth(x),
-        }
+    pub(super) fn output_and_slope(&self, x: f64) -> (f64, f64) {
+        let Some((kinks, slopes)) = self.kinks() else { return self.smooth(x) };
+        let inside = kinks.iter().take_while(|&&kink| kink < x.abs()).count();
+        let passed = kinks.iter().zip(slopes.windows(2)).take(inside);
+        let size =
+            passed.fold(slopes[0] * x.abs(), |output, (kink, pair)| output + (pair[1] - pair[0]) * (x.abs() - kink));
+        (x.signum() * size, slopes[inside])
     }
 
     /// Output and slope where there are no kinks.
@@ -114,12 +97,8 @@ impl OddCharacteristic {
         match self {
             Self::PiecewiseLinear { slopes, .. } => (T::from_f64(slopes[0]) * x, T::from_f64(slopes[0])),
             Self::Polynomial { odd_coefficients } => {
-                let square = x.square();
-                let horner = |factor: fn(usize) -> f64| {
-                    let terms = odd_coefficients.iter().enumerate().rev();
-                    terms.fold(T::zero(), |sum, (j, &c)| sum * square + T::from_f64(factor(j)) * T::from_f64(c))
-                };
-                (horner(|_| 1.0) * x, horner(|j| (2 * j + 1) as f64))
+                let [output, slope, _] = odd_polynomial(odd_coefficients, x);
+                (output, slope)
             }
             Self::Tanh { gain, scale } => {
                 let (gain, scale) = (T::from_f64(*gain), T::from_f64(*scale));
@@ -137,25 +116,17 @@ impl OddCharacteristic {
         }
     }
 
-    /// Whether the bounds of slope and curvature hold on the sweep alone.
-    pub(super) fn is_bounded_on_the_sweep_alone(&self) -> bool {
-        matches!(self, Self::Polynomial { .. })
-    }
-
-    /// An interval that holds the slope at every input up to `reach` in magnitude.
+    /// An interval that holds the slope at every input up to `reach` in magnitude; only a polynomial's depends on it.
     pub(super) fn slopes(&self, reach: f64) -> Interval {
+        let hull =
+            |slopes: &mut dyn Iterator<Item = Interval>| slopes.reduce(Interval::hull).unwrap_or(Interval::ENTIRE);
         match self {
-            Self::PiecewiseLinear { slopes, .. } => {
-                slopes.iter().map(|&slope| Interval::point(slope)).reduce(Interval::hull).unwrap_or(Interval::ZERO)
-            }
-            Self::Tanh { gain, scale } => {
-                Interval::point(*gain) * Interval::point(*scale) * Interval::new(0.0, 1.0).unwrap_or(Interval::ENTIRE)
-            }
+            Self::PiecewiseLinear { slopes, .. } => hull(&mut slopes.iter().map(|&slope| Interval::point(slope))),
+            Self::Tanh { gain, scale } => Interval::ZERO.hull(Interval::point(*gain) * Interval::point(*scale)),
             Self::Polynomial { .. } => {
                 // In parts: the terms of a polynomial cancel.
-                let part = |i: u32| Interval::new(reach * f64::from(i) / 256.0, reach * f64::from(i + 1) / 256.0);
-                let parts = (0..256).map(|i| part(i).map_or(Interval::ENTIRE, |part| self.smooth(part).1));
-                parts.reduce(Interval::hull).unwrap_or(Interval::ENTIRE)
+                let end = |i: u32| Interval::point(reach * f64::from(i) / 256.0);
+                hull(&mut (0..256).map(|i| self.smooth(end(i).hull(end(i + 1))).1))
             }
         }
     }
@@ -169,30 +140,19 @@ impl OddCharacteristic {
                 (Interval::point(*gain) * Interval::point(*scale).square()).abs() * Interval::point(0.7699)
             }
             Self::Polynomial { odd_coefficients } => {
-                let reach = Interval::point(reach);
-                odd_coefficients.iter().enumerate().skip(1).fold(Interval::ZERO, |sum, (j, &c)| {
-                    let (power, factor) = (2 * j - 1, ((2 * j + 1) * 2 * j) as f64);
-                    sum + Interval::point(c).abs() * Interval::point(factor) * natural_power(reach, power)
-                })
+                odd_polynomial(&magnitudes(odd_coefficients), Interval::point(reach))[2]
             }
         }
     }
 
     /// Upper bounds of output and slope at every complex input of real part at most `real` and imaginary part at most `imaginary` in
-    /// magnitude; `None` where the characteristic may have a singularity there.
+    /// magnitude; none where the characteristic may have a singularity there.
     pub(super) fn complex_bounds(&self, real: Interval, imaginary: Interval) -> Option<(Interval, Interval)> {
         match self {
             Self::PiecewiseLinear { .. } => None,
             Self::Polynomial { odd_coefficients } => {
-                let reach = real + imaginary;
-                let sum = |factor: fn(usize) -> f64, less: usize| {
-                    odd_coefficients.iter().enumerate().fold(Interval::ZERO, |sum, (j, &c)| {
-                        sum + Interval::point(c).abs()
-                            * Interval::point(factor(j))
-                            * natural_power(reach, 2 * j + 1 - less)
-                    })
-                };
-                Some((sum(|_| 1.0, 0), sum(|j| (2 * j + 1) as f64, 1)))
+                let [output, slope, _] = odd_polynomial(&magnitudes(odd_coefficients), real + imaginary);
+                Some((output, slope))
             }
             // abs(tanh(x + j y))^2 = (sinh^2 x + sin^2 y)/(sinh^2 x + cos^2 y) <= 1 for abs(y) <= pi/4.
             Self::Tanh { gain, scale } => {
@@ -203,32 +163,37 @@ impl OddCharacteristic {
         }
     }
 
-    /// Smallest and largest input at which the characteristic bends.
-    pub(super) fn bends(&self) -> (f64, f64) {
+    /// Inputs at which the characteristic bends.
+    pub(super) fn bends(&self) -> Vec<f64> {
         match self {
-            Self::PiecewiseLinear { kinks, .. } => {
-                (kinks.first().copied().unwrap_or(1.0), kinks.last().copied().unwrap_or(1.0))
-            }
-            Self::Tanh { scale, .. } => (1.0 / scale, 1.0 / scale),
+            Self::PiecewiseLinear { kinks, .. } => kinks.clone(),
+            Self::Tanh { scale, .. } => vec![1.0 / scale],
             Self::Polynomial { odd_coefficients } => {
-                // Where two terms are equal.
-                let mut bends = Vec::new();
-                for (i, a) in odd_coefficients.iter().enumerate() {
-                    for (j, b) in odd_coefficients.iter().enumerate().skip(i + 1) {
-                        bends.extend(
-                            Some(libm::pow((a / b).abs(), 0.5 / (j - i) as f64))
-                                .filter(|&one| one.is_finite() && one > 0.0),
-                        );
-                    }
-                }
-                let leading = odd_coefficients.last().map_or(1.0, |c| libm::pow(c.abs(), -0.5));
-                let at = |of: fn(f64, f64) -> f64| bends.iter().copied().reduce(of).unwrap_or(leading);
-                (at(f64::min), at(f64::max))
+                // Where two terms are equal; the only one is as large as its input.
+                let pairs = odd_coefficients.iter().enumerate().flat_map(|(i, a)| {
+                    let later = odd_coefficients.iter().skip(i + 1).zip(1..);
+                    later.map(move |(b, apart)| libm::pow((a / b).abs(), 0.5 / f64::from(apart)))
+                });
+                let bends: Vec<f64> = pairs.filter(|bend| bend.is_finite() && *bend > 0.0).collect();
+                let leading = odd_coefficients.last().map(|c| libm::pow(c.abs(), -0.5));
+                if bends.is_empty() { leading.into_iter().collect() } else { bends }
             }
         }
     }
 }
 
-fn natural_power(base: Interval, power: usize) -> Interval {
-    (0..power).fold(Interval::ONE, |product, _| product * base)
+/// `sum c_j x^j` over odd j, and its first two derivatives.
+fn odd_polynomial<T: Real>(odd_coefficients: &[f64], x: T) -> [T; 3] {
+    let square = x.square();
+    let horner = |from: usize, factor: fn(usize) -> f64| {
+        let terms = odd_coefficients.iter().enumerate().skip(from).rev();
+        terms.fold(T::zero(), |sum, (j, &c)| sum * square + T::from_f64(factor(j)) * T::from_f64(c))
+    };
+    let derivatives =
+        [horner(0, |_| 1.0), horner(0, |j| (2 * j + 1) as f64), horner(1, |j| ((2 * j + 1) * 2 * j) as f64)];
+    [derivatives[0] * x, derivatives[1], derivatives[2] * x]
+}
+
+fn magnitudes(coefficients: &[f64]) -> Vec<f64> {
+    coefficients.iter().map(|c| c.abs()).collect()
 }

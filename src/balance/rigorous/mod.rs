@@ -8,7 +8,6 @@ mod brouwer;
 mod characteristic;
 mod closed_loop;
 mod error;
-mod inverse_response;
 mod oscillation;
 mod refine;
 mod spectrum;

@@ -8,24 +8,23 @@ use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::characteristic::OddCharacteristic;
-use super::closed_loop::{Centre, HIGHEST, LipschitzLoop};
+use super::closed_loop::LipschitzLoop;
 use super::error::{CannotTell, ExistenceError};
-use super::wave::HarmonicOrders;
+use super::refine::COMPARED;
+use super::wave::{HIGHEST, HarmonicOrders, Wave};
 use crate::balance::Intersection;
 use crate::numeric::Interval;
 use crate::plant::TransferFunction;
 
 /// Changes with the meaning of a field.
 const FORMAT: u32 = 2;
-/// Highest harmonics that are tried in turn, and the first with which any proof ends the search.
+/// Highest harmonics that are tried in turn: any proof but the first ends the search.
 const ORDERS: [usize; 3] = [49, 97, 197];
-const ENOUGH: usize = 97;
-/// Half-width of the amplitude over the amplitude that ends the search earlier.
+/// Half-width of the amplitude over the amplitude with which the first ends it, too.
 const NARROW: f64 = 1e-10;
 /// Share of the remainder shown that is stated: another checker bounds the same series in another way.
 const STATED: f64 = 1.01;
-/// Highest harmonic of the centres that are compared, and the relative distance below which two are the same.
-const COMPARED: usize = 9;
+/// Relative distance below which two centres are the same.
 const SAME: f64 = 1e-6;
 
 /// A box of frequency and harmonics in which an oscillation of a loop exists.
@@ -94,7 +93,7 @@ impl LipschitzLoop<'_> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn prove_near(&self, amplitude: f64, omega_rad_s: f64) -> Result<ProvedOscillation, CannotTell> {
-        self.prove(self.compared(first_harmonic(amplitude, omega_rad_s))?)
+        self.prove(self.refine(first_harmonic(amplitude, omega_rad_s), COMPARED)?)
     }
 
     /// Proves an oscillation without the half-wave symmetry near a first harmonic with a bias.
@@ -118,8 +117,8 @@ impl LipschitzLoop<'_> {
         amplitude: f64,
         omega_rad_s: f64,
     ) -> Result<ProvedOscillation, CannotTell> {
-        let start = Centre::new(omega_rad_s, HarmonicOrders::All, &[[bias, 0.0], [amplitude, 0.0]]);
-        self.prove(self.compared(start)?)
+        let harmonics = vec![[bias, 0.0], [amplitude, 0.0]];
+        self.prove(self.refine(Wave { omega_rad_s, orders: HarmonicOrders::All, harmonics }, COMPARED)?)
     }
 
     /// Oscillations of the loop that a scan of harmonic balances finds over a range of frequencies, and those near
@@ -128,95 +127,81 @@ impl LipschitzLoop<'_> {
     /// The scan follows curves on which the loop gain varies, and passes folds, where the first harmonic has no balance.
     #[must_use]
     pub fn oscillations(&self, omega_rad_s: &RangeInclusive<f64>, intersections: &[Intersection]) -> Oscillations {
-        let mut tried: Vec<(Centre, Result<ProvedOscillation, CannotTell>)> = Vec::new();
-        let mut attempt = |centre: Centre| {
+        let mut tried: Vec<(Wave, Result<ProvedOscillation, CannotTell>)> = Vec::new();
+        // Its place among those tried, each of them once.
+        let mut attempt = |start: Wave| {
+            let centre = self.refine(start.clone(), COMPARED).map_err(|reason| start.unproved(reason))?;
             let known = tried.iter().position(|(other, _)| same(other, &centre));
-            known.unwrap_or_else(|| {
-                let proof = self.prove(centre.clone());
-                tried.push((centre, proof));
+            Ok(known.unwrap_or_else(|| {
+                tried.push((centre.clone(), self.prove(centre)));
                 tried.len() - 1
-            })
+            }))
         };
-        let near: Vec<Result<usize, CannotTell>> = intersections
-            .iter()
-            .map(|one| self.compared(first_harmonic(one.amplitude, one.omega_rad_s)).map(&mut attempt))
-            .collect();
-        let mut unproved = Vec::new();
-        for start in self.starts(omega_rad_s) {
-            let (amplitude, omega_rad_s) = (start.amplitude(), start.omega_rad_s);
-            match self.compared(start) {
-                Ok(centre) => _ = attempt(centre),
-                Err(reason) => unproved.push(UnprovedOscillation { amplitude, omega_rad_s, reason }),
-            }
-        }
+        let first = |one: &Intersection| attempt(first_harmonic(one.amplitude, one.omega_rad_s));
+        let near: Vec<Result<usize, UnprovedOscillation>> = intersections.iter().map(first).collect();
+        let lost = self.starts(omega_rad_s).into_iter().filter_map(|start| attempt(start).err());
+        let mut unproved: Vec<UnprovedOscillation> = lost.collect();
+        let elsewhere = tried.iter().enumerate().filter(|(place, _)| !near.contains(&Ok(*place)));
+        unproved.extend(elsewhere.filter_map(|(_, (centre, proof))| Some(centre.unproved(*proof.as_ref().err()?))));
+
         let mut order: Vec<usize> = (0..tried.len()).filter(|&place| tried[place].1.is_ok()).collect();
         order.sort_by(|&a, &b| tried[a].0.amplitude().total_cmp(&tried[b].0.amplitude()));
-        let reached = |place: usize| near.iter().any(|one| one.as_ref().is_ok_and(|&at| at == place));
-        unproved.extend(tried.iter().enumerate().filter_map(|(place, (centre, proof))| {
-            let (amplitude, omega_rad_s) = (centre.amplitude(), centre.omega_rad_s);
-            let reason = *proof.as_ref().err()?;
-            (!reached(place)).then_some(UnprovedOscillation { amplitude, omega_rad_s, reason })
-        }));
-        let at = near
-            .into_iter()
-            .map(|one| {
-                let place = one?;
-                tried[place].1.as_ref().map_err(|&reason| reason)?;
-                Ok(order.iter().position(|&other| other == place).unwrap_or(place))
-            })
-            .collect();
+        let at = near.into_iter().map(|one| {
+            let place = one.map_err(|one| one.reason)?;
+            tried[place].1.as_ref().map_err(|&reason| reason)?;
+            Ok(order.iter().position(|&other| other == place).unwrap_or(place))
+        });
+        let at = at.collect();
         let proved = order.iter().filter_map(|&place| tried[place].1.clone().ok()).collect();
         Oscillations { proved, at, unproved }
     }
 
-    /// The balance of a few harmonics, by which oscillations are separated.
-    fn compared(&self, start: Centre) -> Result<Centre, CannotTell> {
-        self.refine(start, COMPARED)
-    }
-
-    fn prove(&self, mut centre: Centre) -> Result<ProvedOscillation, CannotTell> {
+    /// With more and more harmonics, until the box is narrow enough.
+    fn prove(&self, mut centre: Wave) -> Result<ProvedOscillation, CannotTell> {
+        let orders = centre.orders;
         let mut best = Err(CannotTell::NoBalance);
         for highest in ORDERS {
             centre = self.refine(centre, highest)?;
             match self.enclose_near(&centre) {
-                Ok((radii, shown)) => {
-                    let narrow = radii[centre.wave.orders.reals()] <= NARROW * centre.amplitude();
-                    best = Ok(self.document(&centre, &radii, shown.remainder));
-                    if narrow || highest >= ENOUGH {
-                        return best;
+                Ok((radii, remainder)) => {
+                    let proved = ProvedOscillation {
+                        format: FORMAT,
+                        version: env!("CARGO_PKG_VERSION").to_owned(),
+                        claim: ProvedOscillation::CLAIM.to_owned(),
+                        plant: self.plant.clone(),
+                        characteristic: self.characteristic.clone(),
+                        omega_rad_s: centre.omega_rad_s,
+                        omega_radius_rad_s: radii[0],
+                        orders,
+                        harmonics: centre.harmonics.clone(),
+                        radii: orders.pairs(&radii.as_slice()[1..]),
+                        remainder: STATED * remainder,
+                    };
+                    if highest > ORDERS[0] || radii[orders.reals()] <= NARROW * centre.amplitude() {
+                        return Ok(proved);
                     }
+                    best = Ok(proved);
                 }
                 Err(why) => best = best.or(Err(why)),
             }
         }
         best
     }
-
-    fn document(&self, centre: &Centre, radii: &DVector<f64>, remainder: f64) -> ProvedOscillation {
-        let orders = centre.wave.orders;
-        ProvedOscillation {
-            format: FORMAT,
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            claim: ProvedOscillation::CLAIM.to_owned(),
-            plant: self.plant.clone(),
-            characteristic: self.characteristic.clone(),
-            omega_rad_s: centre.omega_rad_s,
-            omega_radius_rad_s: radii[0],
-            orders,
-            harmonics: centre.pairs(),
-            radii: orders.pairs(&radii.as_slice()[1..]),
-            remainder: STATED * remainder,
-        }
-    }
 }
 
-fn first_harmonic(amplitude: f64, omega_rad_s: f64) -> Centre {
-    Centre::new(omega_rad_s, HarmonicOrders::Odd, &[[amplitude, 0.0]])
+fn first_harmonic(amplitude: f64, omega_rad_s: f64) -> Wave {
+    Wave { omega_rad_s, orders: HarmonicOrders::Odd, harmonics: vec![[amplitude, 0.0]] }
 }
 
-fn same(a: &Centre, b: &Centre) -> bool {
+fn same(a: &Wave, b: &Wave) -> bool {
     let near = |a: f64, b: f64| (a - b).abs() <= SAME * b.abs();
     near(a.amplitude(), b.amplitude()) && near(a.omega_rad_s, b.omega_rad_s)
+}
+
+impl Wave {
+    fn unproved(&self, reason: CannotTell) -> UnprovedOscillation {
+        UnprovedOscillation { amplitude: self.amplitude(), omega_rad_s: self.omega_rad_s, reason }
+    }
 }
 
 fn around(middle: f64, radius: f64) -> Interval {
@@ -291,11 +276,8 @@ impl ProvedOscillation {
     pub fn check(&self) -> Result<(), ExistenceError> {
         let (centre, radii) = self.numbers()?;
         let shown = LipschitzLoop::new(&self.plant, self.characteristic.clone())?.holds(&centre, &radii)?;
-        if shown.remainder <= self.remainder {
-            Ok(())
-        } else {
-            Err(ExistenceError::Remainder { shown: shown.remainder, claimed: self.remainder })
-        }
+        let claimed = self.remainder;
+        if shown <= claimed { Ok(()) } else { Err(ExistenceError::Remainder { shown, claimed }) }
     }
 
     /// Upper bound of the input's magnitude, in input units. Another characteristic that is the same up to there has the same
@@ -309,34 +291,29 @@ impl ProvedOscillation {
         Ok(LipschitzLoop::new(&self.plant, self.characteristic.clone())?.largest_input(&centre, &radii)?)
     }
 
-    /// Centre and radii, if they can be those of an oscillation.
-    fn numbers(&self) -> Result<(Centre, DVector<f64>), ExistenceError> {
-        let malformed = |text: &str| ExistenceError::Malformed { text: text.to_owned() };
-        if self.format != FORMAT || self.claim != Self::CLAIM {
-            return Err(malformed("another format or claim"));
-        }
-        let count = self.harmonics.len();
-        if count <= self.orders.reals() || self.highest_harmonic() > HIGHEST || self.radii.len() != count {
-            return Err(malformed("as many radii as harmonics are wanted, up to at most the 299th"));
-        }
+    /// Wave and radii, if they can be those of an oscillation.
+    fn numbers(&self) -> Result<(Wave, DVector<f64>), ExistenceError> {
+        let (count, reals) = (self.harmonics.len(), self.orders.reals());
         let numbers = self.harmonics.iter().chain(&self.radii).flatten().chain([&self.omega_rad_s, &self.remainder]);
-        if !numbers.copied().all(f64::is_finite) {
-            return Err(malformed("a number is not finite"));
+        let mut imaginary = self.harmonics.iter().take(reals).chain(self.radii.iter().take(reals)).map(|pair| pair[1]);
+        let radii = core::iter::once(self.omega_radius_rad_s).chain(self.orders.unknowns(&self.radii));
+        let radii = DVector::from_vec(radii.collect());
+        let faults = [
+            (self.format != FORMAT || self.claim != Self::CLAIM, "another format or claim"),
+            (
+                count <= reals || self.highest_harmonic() > HIGHEST || self.radii.len() != count,
+                "as many radii as harmonics are wanted, up to at most the 299th",
+            ),
+            (!numbers.copied().all(f64::is_finite), "a number is not finite"),
+            (imaginary.any(|part| part != 0.0), "the mean or the first harmonic has an imaginary part"),
+            (!radii.iter().all(|&radius| radius > 0.0 && radius.is_finite()), "a radius is not above 0"),
+            (!(self.amplitude().is_positive() && self.omega_rad_s().is_positive()), "amplitude or frequency may be 0"),
+        ];
+        if let Some((_, text)) = faults.into_iter().find(|fault| fault.0) {
+            return Err(ExistenceError::Malformed { text: text.to_owned() });
         }
-        let reals = self.harmonics.iter().zip(&self.radii).take(self.orders.reals());
-        if reals.flat_map(|(harmonic, radius)| [harmonic[1], radius[1]]).any(|imaginary| imaginary != 0.0) {
-            return Err(malformed("the mean or the first harmonic has an imaginary part"));
-        }
-        let radii: Vec<f64> =
-            core::iter::once(self.omega_radius_rad_s).chain(self.orders.unknowns(&self.radii)).collect();
-        if !radii.iter().all(|&radius| radius > 0.0 && radius.is_finite()) {
-            return Err(malformed("a radius is not above 0"));
-        }
-        if !(self.amplitude().is_positive() && self.omega_rad_s().is_positive()) {
-            return Err(malformed("amplitude or frequency may be 0"));
-        }
-        let centre = Centre::new(self.omega_rad_s, self.orders, &self.harmonics);
-        Ok((centre, DVector::from_vec(radii)))
+        let centre = Wave { omega_rad_s: self.omega_rad_s, orders: self.orders, harmonics: self.harmonics.clone() };
+        Ok((centre, radii))
     }
 }
 

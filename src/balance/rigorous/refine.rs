@@ -2,12 +2,15 @@
 
 use nalgebra::DVector;
 
-use super::brouwer::{LinearisedBalance, ShownBox};
-use super::closed_loop::{Centre, LipschitzLoop, jacobian, residual};
+use super::brouwer::LinearisedBalance;
+use super::closed_loop::LipschitzLoop;
 use super::error::CannotTell;
 use super::spectrum::{EnclosedSpectrum, enclose};
+use super::wave::Wave;
 use crate::numeric::{Complex, Interval};
 
+/// Highest harmonic of the balances by which oscillations are found and told apart.
+pub(super) const COMPARED: usize = 9;
 /// Newton steps at most, and the step, relative to the amplitude, at which rounding takes over.
 const STEPS: usize = 20;
 const ARRIVED: f64 = 1e-13;
@@ -16,27 +19,27 @@ const ROUNDS: usize = 40;
 const PROOFS: usize = 3;
 
 impl LipschitzLoop<'_> {
-    fn spectrum(&self, centre: &Centre) -> Result<EnclosedSpectrum, CannotTell> {
-        let reach = centre.wave.sum_of_magnitudes(0).upper();
-        enclose(&self.characteristic, &centre.wave, reach, 0.0)
+    fn spectrum(&self, centre: &Wave) -> Result<EnclosedSpectrum, CannotTell> {
+        let reach = centre.sum_of_magnitudes(0).upper();
+        enclose(&self.characteristic, centre, reach, 0.0)
     }
 
     /// The balance of the harmonics up to `highest` near a centre with fewer.
-    pub(super) fn refine(&self, mut centre: Centre, highest: usize) -> Result<Centre, CannotTell> {
+    pub(super) fn refine(&self, mut centre: Wave, highest: usize) -> Result<Wave, CannotTell> {
         let output = self.spectrum(&centre)?.harmonics.output;
-        let orders = centre.wave.orders;
-        for k in orders.between(centre.wave.highest(), highest) {
-            let response = self.inverse.at(centre.omega_rad_s, k).0;
-            let output = orders.place(k).and_then(|place| output.get(place));
-            centre.wave.harmonics.push(-output.map_or(Complex::zero(), |output| output.midpoint()).over(response));
+        let orders = centre.orders;
+        for place in centre.harmonics.len()..orders.count(highest) {
+            let response = self.inverse_response(centre.omega_rad_s, orders.at(place)).0;
+            let input = -output.get(place).map_or(Complex::zero(), |output| output.midpoint()).over(response);
+            centre.harmonics.push([input.re, input.im]);
         }
         let (omega, amplitude) = (centre.omega_rad_s, centre.amplitude());
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
             let spectrum = self.spectrum(&centre)?.harmonics;
             let at = Interval::point(centre.omega_rad_s);
-            let error = residual(&self.inverse, at, &centre.wave, &spectrum).map(Interval::midpoint);
-            let slopes = jacobian(&self.inverse, at, &centre.wave, &spectrum).map(Interval::midpoint);
+            let error = self.residual(at, &centre, &spectrum).map(Interval::midpoint);
+            let slopes = self.jacobian(at, &centre, &spectrum).map(Interval::midpoint);
             let step = slopes.lu().solve(&error).ok_or(CannotTell::NoBalance)?;
             let size = step.amax() / amplitude;
             // A long step is shortened, as the kinks move under it.
@@ -54,8 +57,8 @@ impl LipschitzLoop<'_> {
         Err(CannotTell::NoBalance)
     }
 
-    /// Radii for which the proof holds, with its result.
-    pub(super) fn enclose_near(&self, centre: &Centre) -> Result<(DVector<f64>, ShownBox), CannotTell> {
+    /// Radii for which the proof holds, with its remainder.
+    pub(super) fn enclose_near(&self, centre: &Wave) -> Result<(DVector<f64>, f64), CannotTell> {
         let mut radii = DVector::zeros(centre.unknowns().len());
         let mut why = CannotTell::NoContraction { ratio: f64::INFINITY };
         for _ in 0..PROOFS {
@@ -74,17 +77,13 @@ impl LipschitzLoop<'_> {
 impl LinearisedBalance {
     /// Radii whose image is well inside, frequencies and kinks as they were.
     fn radii(&self, count: usize) -> Option<DVector<f64>> {
-        let from = |images: Vec<f64>| DVector::from_vec(images.into_iter().map(|one| 1.25 * one + 1e-300).collect());
-        let mut radii = from(self.images(&DVector::zeros(count)).0);
-        for _ in 0..ROUNDS {
-            let images = self.images(&radii).0;
-            if images.iter().zip(radii.iter()).all(|(image, radius)| *image <= 0.9 * radius) {
+        let mut radii = DVector::zeros(count);
+        for _ in 0..=ROUNDS {
+            let (images, _) = self.images(&radii);
+            if images.iter().zip(&radii).all(|(image, radius)| *image < 0.9 * radius) {
                 return Some(radii);
             }
-            if images.iter().any(|one| !one.is_finite()) {
-                return None;
-            }
-            radii = from(images);
+            radii = DVector::from_vec(images.into_iter().map(|image| 1.25 * image + 1e-300).collect());
         }
         None
     }

@@ -5,7 +5,7 @@
 
 use super::characteristic::OddCharacteristic;
 use super::error::CannotTell;
-use super::wave::{HarmonicOrders, KinkPassage, KinkPassages, Wave};
+use super::wave::{HarmonicOrders, KinkPassage, Wave, length, natural};
 use crate::numeric::{Complex, Interval, Real};
 
 /// Harmonics of output and slope.
@@ -60,18 +60,15 @@ impl<T: Real> Spectrum<T> {
     ) -> Self {
         let step = T::two() * T::pi() / T::from_f64(samples as f64);
         let turns: Vec<Complex<T>> = (0..samples).map(|j| Complex::turn(step * T::from_f64(j as f64))).collect();
-        let harmonics: Vec<(usize, T, T)> =
-            wave.terms().map(|(k, harmonic)| (k, T::from_f64(harmonic.re), T::from_f64(harmonic.im))).collect();
+        let harmonics: Vec<(usize, Complex<T>)> = wave.terms().collect();
         let orders = wave.orders;
-        let values: Vec<(T, T)> = (0..samples / orders.step())
-            .map(|j| {
-                let input = harmonics.iter().fold(T::zero(), |sum, &(k, re, im)| {
-                    let turn = turns[k * j % samples];
-                    sum + re * turn.re - im * turn.im
-                });
-                output_and_slope(input)
+        let input = |j: usize| {
+            harmonics.iter().fold(T::zero(), |sum, &(k, harmonic)| {
+                let turn = turns[k * j % samples];
+                sum + harmonic.re * turn.re - harmonic.im * turn.im
             })
-            .collect();
+        };
+        let values: Vec<(T, T)> = (0..samples / orders.step()).map(|j| output_and_slope(input(j))).collect();
         let sum = |order: usize, of: fn(&(T, T)) -> T, factor: f64| {
             let sum = values.iter().enumerate().fold(Complex::zero(), |sum, (j, value)| {
                 sum + turns[order * j % samples].conjugate().scaled(of(value))
@@ -94,131 +91,126 @@ pub(super) fn enclose(
     reach: f64,
     margin: f64,
 ) -> Result<EnclosedSpectrum, CannotTell> {
-    match characteristic.kinks() {
-        Some((kinks, slopes)) => {
-            let gap =
-                kinks.iter().zip(kinks.iter().skip(1)).map(|(a, b)| b - a).chain(kinks.first().map(|kink| 2.0 * kink));
-            if gap.fold(f64::INFINITY, f64::min) <= 2.0 * margin {
-                return Err(CannotTell::Grazing { theta_rad: 0.0 });
-            }
-            Ok(between_kinks(kinks, slopes, wave, &wave.passages(kinks, margin)?))
-        }
-        None => smooth(characteristic, wave, reach).ok_or(CannotTell::Range { reach, limit: 0.0 }),
+    let Some((kinks, slopes)) = characteristic.kinks() else {
+        return smooth(characteristic, wave, reach).ok_or(CannotTell::Range { reach, limit: 0.0 });
+    };
+    let gaps = kinks.windows(2).map(|pair| pair[1] - pair[0]).chain(kinks.first().map(|kink| 2.0 * kink));
+    if gaps.fold(f64::INFINITY, f64::min) <= 2.0 * margin {
+        return Err(CannotTell::Grazing { theta_rad: 0.0 });
     }
+    let (passages, start) = wave.passages(kinks, slopes, margin)?;
+    Ok(between_kinks(kinks, slopes, wave, &passages, start))
 }
 
 /// Output harmonics beyond the wave's own that are listed, as a multiple of its highest.
 const LISTED: usize = 4;
 
 /// Exact but for the phases of the passages: `n'(u)` is constant between them, and `n(u)' = n'(u) u'`.
-fn between_kinks(kinks: &[f64], slopes: &[f64], wave: &Wave, passages: &KinkPassages) -> EnclosedSpectrum {
+fn between_kinks(
+    kinks: &[f64],
+    slopes: &[f64],
+    wave: &Wave,
+    passages: &[KinkPassage],
+    start: Interval,
+) -> EnclosedSpectrum {
     let (highest, orders) = (wave.highest(), wave.orders);
     let last = LISTED * highest + 101;
     let per_span = Interval::ONE / orders.span();
-    let jump_at = |kink: usize| Interval::point(slopes[kink + 1]) - Interval::point(slopes[kink]);
-    let signed = |outwards: bool, jump: Interval| if outwards { jump } else { -jump };
-    let jumps: Vec<(Interval, &KinkPassage)> =
-        passages.all.iter().map(|one| (signed(one.outwards, jump_at(one.kink)), one)).collect();
+    let over_passages =
+        |of: &dyn Fn(&KinkPassage) -> Interval| passages.iter().fold(Interval::ZERO, |sum, passage| sum + of(passage));
     // Over a span P from s on: integral of n' = P n'(s) - sum of jump theta, as n' is the same at both ends.
-    let weighted = jumps.iter().fold(Interval::ZERO, |sum, &(jump, at)| sum + jump * at.theta);
-    let mean = Interval::point(slopes[passages.piece]) - weighted * per_span;
+    let inside = kinks.iter().filter(|&&kink| start.abs().lower() > kink).count();
+    let mean = Interval::point(slopes[inside]) - over_passages(&|at| at.jump * at.theta) * per_span;
     let slope_harmonic = |m: usize| {
         if m == 0 {
             return Complex::new(mean, Interval::ZERO);
         }
-        let order = Interval::point(m as f64);
-        let sum = jumps
+        let order = natural(m);
+        let sum = passages
             .iter()
-            .fold(Complex::zero(), |sum, &(jump, at)| sum + Complex::turn(at.theta * order).conjugate().scaled(jump));
+            .fold(Complex::zero(), |sum, at| sum + Complex::turn(at.theta * order).conjugate().scaled(at.jump));
         // Over j m P.
         -sum.times_j().scaled(per_span / order)
     };
     let slope = (0..=last + highest).step_by(orders.step()).map(slope_harmonic).collect();
     let mut harmonics = Spectrum { orders, output: Vec::new(), slope };
     let rates: Vec<(isize, Complex<Interval>)> =
-        wave.terms().map(|(l, harmonic)| (l as isize, harmonic.enclosed().scaled(Interval::point(l as f64)))).collect();
-    let inside = kinks.iter().enumerate().take(passages.piece);
-    let offset = inside.fold(Interval::ZERO, |sum, (kink, &level)| sum - jump_at(kink) * Interval::point(level));
-    let offset = signed(!passages.below_zero, offset);
+        wave.terms().map(|(l, harmonic)| (l as isize, harmonic.scaled(natural(l)))).collect();
+    // Mean of n(u) over a turn. Between kinks n(u) = slope u + offset; where a level is passed the slope jumps, and the offset by
+    // -jump level. With U the antiderivative of u less its mean, and the offset where the turn begins,
+    // mean n = mean n' mean u + offset + sum of jump (level theta - U(theta))/(2 pi).
+    let mean_output = || {
+        let antiderivative = |theta: Interval| {
+            wave.terms().skip(1).fold(Interval::ZERO, |sum, (k, harmonic): (_, Complex<Interval>)| {
+                let order = natural(k);
+                sum + (harmonic * Complex::turn(theta * order)).im / order
+            })
+        };
+        let jumps = over_passages(&|at| at.jump * (Interval::point(at.level) * at.theta - antiderivative(at.theta)));
+        let outwards = kinks.iter().zip(slopes.windows(2)).take(inside).fold(Interval::ZERO, |sum, (&kink, pair)| {
+            sum - (Interval::point(pair[1]) - Interval::point(pair[0])) * Interval::point(kink)
+        });
+        let offset = if start.is_negative() { -outwards } else { outwards };
+        mean * Interval::point(wave.harmonics[0][0]) + offset + jumps * Interval::INVERSE_PI * Interval::point(0.5)
+    };
     // k N_k = sum over l of l (D_(k-l) X_l - D_(k+l) conj X_l), but for the mean.
-    harmonics.output = (orders.first()..=last)
-        .step_by(orders.step())
-        .map(|k| {
-            if k == 0 {
-                return Complex::new(mean_output(offset, mean, wave, &jumps), Interval::ZERO);
-            }
-            let sum = rates.iter().fold(Complex::zero(), |sum, &(l, rate)| {
-                sum + harmonics.slope_at(k as isize - l) * rate - harmonics.slope_at(k as isize + l) * rate.conjugate()
-            });
-            sum.scaled(Interval::ONE / Interval::point(k as f64))
-        })
-        .collect();
+    let output_harmonic = |k: usize| {
+        if k == 0 {
+            return Complex::new(mean_output(), Interval::ZERO);
+        }
+        let sum = rates.iter().fold(Complex::zero(), |sum, &(l, rate)| {
+            sum + harmonics.slope_at(k as isize - l) * rate - harmonics.slope_at(k as isize + l) * rate.conjugate()
+        });
+        sum.scaled(Interval::ONE / natural(k))
+    };
+    harmonics.output = (orders.first()..=last).step_by(orders.step()).map(output_harmonic).collect();
 
     // abs(N_k) <= V/(pi k^2) with V the variation of n(u)' over a turn; sum over k > K in steps of s of k^-4 <= 1/(3 s K^3).
-    let step = orders.step_enclosed();
+    let step = natural(orders.step());
     let steepest = slopes.iter().map(|slope| slope.abs()).fold(0.0, f64::max);
-    let between = Interval::point(steepest) * wave.root_mean_square(2) * Interval::PI * Interval::point(2.0);
-    let variation = jumps.iter().fold(between, |sum, &(jump, at)| sum + (jump * wave.at(at.theta).1).abs() * step);
-    let cubes = Interval::point(6.0) * step * Interval::point(last as f64) * Interval::point(last as f64).square();
-    let kink_sum = jumps.iter().fold(Interval::ZERO, |sum, &(jump, at)| {
-        sum + step * jump.square() / (Interval::point(3.0) * Interval::PI * at.speed)
-    });
+    let bend = length(wave.terms().map(|(k, harmonic)| harmonic.norm() * natural(k * k))) * Interval::point(0.5).sqrt();
+    let between = Interval::point(steepest) * bend * Interval::PI * Interval::point(2.0);
+    let variation = between + over_passages(&|at| (at.jump * wave.at(at.theta).1).abs() * step);
+    let cubes = Interval::point(6.0) * step * natural(last) * natural(last).square();
     EnclosedSpectrum {
         harmonics,
         rest: variation * Interval::INVERSE_PI / cubes.sqrt(),
-        kinks: kink_sum,
+        kinks: over_passages(&|at| step * at.jump.square() / (Interval::point(3.0) * Interval::PI * at.speed)),
         curvature: Interval::ZERO,
     }
 }
 
-/// Mean of `n(u)` over a turn. Between kinks `n(u) = slope u + offset`; where a level is passed the slope jumps, and the offset by
-/// `-jump level`. With U the antiderivative of `u` less its mean, and the offset where the turn begins,
-/// `mean n = mean n' mean u + offset + sum of jump (level theta - U(theta))/(2 pi)`.
-fn mean_output(offset: Interval, mean_slope: Interval, wave: &Wave, jumps: &[(Interval, &KinkPassage)]) -> Interval {
-    let antiderivative = |theta: Interval| {
-        wave.terms().skip(1).fold(Interval::ZERO, |sum, (k, harmonic)| {
-            let order = Interval::point(k as f64);
-            sum + (harmonic.enclosed() * Complex::turn(theta * order)).im / order
-        })
-    };
-    let sum = jumps.iter().fold(Interval::ZERO, |sum, &(jump, at)| {
-        sum + jump * (Interval::point(at.level) * at.theta - antiderivative(at.theta))
-    });
-    mean_slope * Interval::point(wave.harmonics[0].re) + offset + sum * Interval::INVERSE_PI * Interval::point(0.5)
-}
-
-/// Samples of a turn, fewest and most.
-const SAMPLES: core::ops::RangeInclusive<usize> = 256..=16_384;
+/// Samples of a turn, as powers of two, fewest and most.
+const SAMPLES: core::ops::RangeInclusive<u32> = 8..=14;
 
 /// The trapezoid rule; a strip around the real phases on which output and slope are bounded bounds its error.
 fn smooth(characteristic: &OddCharacteristic, wave: &Wave, reach: f64) -> Option<EnclosedSpectrum> {
     let (highest, step) = (wave.highest(), wave.orders.step());
-    let mut samples = *SAMPLES.start();
-    let (strip, last) = loop {
-        // Odd.
-        let last = samples / 4 - 1;
-        let widths = (0..60).map(|i| 4.0 * 0.85f64.powi(i));
-        let strips = widths.filter_map(|width| Strip::new(characteristic, wave, width));
-        let strip = strips.min_by(|a, b| a.rest(last, step).upper().total_cmp(&b.rest(last, step).upper()));
-        let enough = strip.as_ref().is_some_and(|strip| strip.decay(last) < 1e-17);
-        if last > 2 * highest && (enough || 2 * samples > *SAMPLES.end()) {
-            break (strip?, last);
-        }
-        samples *= 2;
+    let widths = (0..60).map(|i| 4.0 * 0.85f64.powi(i));
+    let strips: Vec<Strip> = widths.filter_map(|width| Strip::new(characteristic, wave, width)).collect();
+    let by_rest =
+        |last: usize| strips.iter().min_by(|a, b| a.rest(last, step).upper().total_cmp(&b.rest(last, step).upper()));
+    // Odd.
+    let last_of = |power: u32| (1 << power) / 4 - 1;
+    let enough = |power: &u32| {
+        let last = last_of(*power);
+        last > 2 * highest && by_rest(last).is_some_and(|strip| strip.decay(last) < 1e-17)
     };
+    let power = SAMPLES.into_iter().find(enough).unwrap_or(*SAMPLES.end());
+    let (samples, last) = (1 << power, last_of(power));
+    let strip = by_rest(last)?;
     let mut harmonics = Spectrum::sampled(wave, |x| characteristic.smooth(x), samples, last, 2 * highest);
     // The sampled N_k contains also N_(k + j samples), and D_m likewise.
     let missed = |bound: Interval, order: usize| {
         let far = strip.power(samples - order) * Interval::point(2.0) / (Interval::ONE - strip.power(samples));
-        Interval::symmetric((bound * far).upper())
+        let missed = Interval::symmetric((bound * far).upper());
+        Complex::new(missed, missed)
     };
     for (index, harmonic) in harmonics.output.iter_mut().enumerate() {
-        let missed = missed(strip.output * Interval::point(2.0), wave.orders.at(index));
-        *harmonic = *harmonic + Complex::new(missed, missed);
+        *harmonic = *harmonic + missed(strip.output * Interval::point(2.0), wave.orders.at(index));
     }
     for (index, harmonic) in harmonics.slope.iter_mut().enumerate() {
-        let missed = missed(strip.slope, wave.orders.step() * index);
-        *harmonic = *harmonic + Complex::new(missed, missed);
+        *harmonic = *harmonic + missed(strip.slope, step * index);
     }
     Some(EnclosedSpectrum {
         harmonics,
@@ -246,7 +238,7 @@ impl Strip {
 
     /// `exp(-order width)`.
     fn power(&self, order: usize) -> Interval {
-        (-self.width * Interval::point(order as f64)).exp()
+        (-self.width * natural(order)).exp()
     }
 
     /// Size of a harmonic relative to the whole.

@@ -4,13 +4,13 @@ use core::ops::RangeInclusive;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::closed_loop::{Centre, LipschitzLoop, jacobian, residual};
+use super::closed_loop::LipschitzLoop;
+use super::refine::COMPARED;
 use super::spectrum::Spectrum;
-use super::wave::HarmonicOrders;
+use super::wave::{HarmonicOrders, Wave};
 use crate::numeric::scan;
 
-/// Highest harmonic, and samples of a turn.
-const HIGHEST: usize = 9;
+/// Samples of a turn.
 const SAMPLES: usize = 256;
 /// Amplitudes from this share of the first bend to this multiple of the last.
 const BELOW: f64 = 0.2;
@@ -33,53 +33,45 @@ const SAME: f64 = 1e-3;
 
 /// Logarithms of frequency, gain and amplitude, then real and imaginary parts of `X_k/a` from k = 3.
 type Coordinates = DVector<f64>;
+const SIZE: usize = COMPARED + 2;
+
+/// The direction of a coordinate.
+fn along(coordinate: usize) -> Coordinates {
+    DVector::from_fn(SIZE, |place, _| f64::from(u8::from(place == coordinate)))
+}
 
 impl LipschitzLoop<'_> {
     /// Waves of a few harmonics near which oscillations may be, over a range of frequencies. A scan: it may miss a wave.
     ///
     /// The gain that balances is a function along curves of amplitude and frequency; where it is the loop's own, a wave begins.
-    pub(super) fn starts(&self, omega_rad_s: &RangeInclusive<f64>) -> Vec<Centre> {
-        let (low, high) = self.characteristic.bends();
-        let range = libm::log(BELOW * low)..=libm::log(ABOVE * high);
-        let count = ((range.end() - range.start()) / libm::log(RATIO)).ceil();
-        if !count.is_finite() {
-            return Vec::new();
-        }
-        let count = count as i32;
+    pub(super) fn starts(&self, omega_rad_s: &RangeInclusive<f64>) -> Vec<Wave> {
+        let bends = self.characteristic.bends();
+        let (low, high) =
+            (bends.iter().fold(f64::INFINITY, |a, b| a.min(*b)), bends.iter().fold(0.0, |a: f64, b| a.max(*b)));
+        let ends = [libm::log(BELOW * low), libm::log(ABOVE * high)];
         let mut curves: Vec<Vec<Coordinates>> = Vec::new();
         for omega in self.real_crossings(omega_rad_s) {
-            for i in 0..=count {
-                let log_amplitude = range.start() + (range.end() - range.start()) * f64::from(i) / f64::from(count);
-                let along = DVector::from_fn(3 + HIGHEST - 1, |place, _| f64::from(u8::from(place == 2)));
-                let begin = self.first_harmonic(log_amplitude, omega).and_then(|start| self.corrected(start, &along));
+            for log_amplitude in evenly(ends, (ends[1] - ends[0]) / libm::log(RATIO)) {
+                let begin = self.first_harmonic(log_amplitude, omega).and_then(|near| self.corrected(near, &along(2)));
                 let Some(begin) = begin else { continue };
                 if !curves.iter().any(|curve| is_on(&begin, curve)) {
-                    let mut curve = self.traced(&begin, -1.0, &range);
-                    curve.reverse();
-                    curve.push(begin.clone());
-                    curve.extend(self.traced(&begin, 1.0, &range));
-                    curves.push(curve);
+                    let [down, up] = [-1.0, 1.0].map(|sign| self.traced(&begin, along(2) * sign, ends));
+                    curves.push(down.into_iter().rev().chain([begin]).chain(up).collect());
                 }
             }
         }
-        let mut found: Vec<Centre> = Vec::new();
-        for pair in curves.iter().flat_map(|curve| curve.windows(2)) {
+        let crossing = |pair: &[Coordinates]| {
             let (a, b) = (pair[0][1], pair[1][1]);
-            if (a < 0.0) != (b < 0.0) {
-                let between = &pair[0] + (&pair[1] - &pair[0]) * (a / (a - b));
-                found.push(centre(&between));
-            }
-        }
-        found
+            ((a < 0.0) != (b < 0.0)).then(|| centre(&pair[0].lerp(&pair[1], a / (a - b))))
+        };
+        curves.iter().flat_map(|curve| curve.windows(2)).filter_map(crossing).collect()
     }
 
     /// Frequencies at which `G(jw)` is real.
     fn real_crossings(&self, omega_rad_s: &RangeInclusive<f64>) -> Vec<f64> {
-        let (low, high) = (libm::log(*omega_rad_s.start()), libm::log(*omega_rad_s.end()));
-        let turn = self.plant.delay_s() * omega_rad_s.end();
-        let count = (1000.0 + 40.0 * turn).min(1e5) as i32;
-        let nodes: Vec<f64> =
-            (0..=count).map(|i| libm::exp(low + (high - low) * f64::from(i) / f64::from(count))).collect();
+        let ends = [*omega_rad_s.start(), *omega_rad_s.end()];
+        let count = (1000.0 + 40.0 * self.plant.delay_s() * ends[1]).min(1e5);
+        let nodes: Vec<f64> = evenly(ends.map(libm::log), count).map(libm::exp).collect();
         let mut crossings = scan::roots(&nodes, |omega| Some(self.plant.response(omega).ok()?.im));
         crossings.truncate(CROSSINGS);
         crossings
@@ -87,47 +79,42 @@ impl LipschitzLoop<'_> {
 
     /// The balance of the first harmonic alone, at an amplitude and a frequency at which the plant's response is real.
     fn first_harmonic(&self, log_amplitude: f64, omega_rad_s: f64) -> Option<Coordinates> {
-        let mut point = DVector::zeros(3 + HIGHEST - 1);
-        (point[0], point[2]) = (libm::log(omega_rad_s), log_amplitude);
+        let mut point = along(0) * libm::log(omega_rad_s) + along(2) * log_amplitude;
         let gain = self.sampled(&centre(&point)).output[0].re / libm::exp(log_amplitude);
-        let factor = -1.0 / (gain * self.plant.response(omega_rad_s).ok()?.re);
-        point[1] = libm::log(factor);
+        point[1] = libm::log(-1.0 / (gain * self.plant.response(omega_rad_s).ok()?.re));
         point[1].is_finite().then_some(point)
     }
 
-    fn sampled(&self, centre: &Centre) -> Spectrum<f64> {
-        Spectrum::sampled(&centre.wave, |x| self.characteristic.output_and_slope(x), SAMPLES, HIGHEST, 2 * HIGHEST)
+    fn sampled(&self, centre: &Wave) -> Spectrum<f64> {
+        Spectrum::sampled(centre, |x| self.characteristic.output_and_slope(x), SAMPLES, COMPARED, 2 * COMPARED)
     }
 
-    /// The equations over the amplitude, and their derivatives by the coordinates of a point.
-    fn equations(&self, point: &Coordinates) -> (DVector<f64>, DMatrix<f64>) {
+    /// The equations over the amplitude, with a zero for what is perpendicular to a direction; and the derivatives by the coordinates.
+    fn equations(&self, point: &Coordinates, direction: &Coordinates) -> (DVector<f64>, DMatrix<f64>) {
         let centre = centre(point);
-        let (amplitude, gain) = (centre.amplitude(), libm::exp(point[1]));
+        let (amplitude, gain, omega) = (centre.amplitude(), libm::exp(point[1]), centre.omega_rad_s);
         let mut spectrum = self.sampled(&centre);
         for harmonic in spectrum.output.iter_mut().chain(&mut spectrum.slope) {
             *harmonic = harmonic.scaled(gain);
         }
-        let error = residual(&self.inverse, centre.omega_rad_s, &centre.wave, &spectrum) / amplitude;
-        let slopes = jacobian(&self.inverse, centre.omega_rad_s, &centre.wave, &spectrum);
-        let unknowns = centre.unknowns();
+        let error = self.residual(omega, &centre, &spectrum) / amplitude;
+        let slopes = self.jacobian(omega, &centre, &spectrum);
         let outputs = spectrum.output.iter().flat_map(|output| [output.re, output.im]).collect();
-        let mut by_point = DMatrix::zeros(slopes.nrows(), slopes.ncols() + 1);
-        by_point.set_column(0, &(slopes.column(0) * (centre.omega_rad_s / amplitude)));
-        by_point.set_column(1, &(DVector::from_vec(outputs) / amplitude));
         // All harmonics grow with the amplitude.
-        let growing = (1..unknowns.len()).map(|i| slopes.column(i) * (unknowns[i] / amplitude));
-        by_point.set_column(2, &growing.fold(DVector::zeros(slopes.nrows()), |sum, column| sum + column));
-        for i in 2..unknowns.len() {
-            by_point.set_column(i + 1, &slopes.column(i));
-        }
-        (error, by_point)
+        let growing = slopes.columns(1, SIZE - 2) * centre.unknowns().rows(1, SIZE - 2);
+        let first = [slopes.column(0) * omega, DVector::from_vec(outputs), growing].map(|column| column / amplitude);
+        let columns: Vec<DVector<f64>> =
+            first.into_iter().chain(slopes.column_iter().skip(2).map(|column| column.into_owned())).collect();
+        let mut bordered = DMatrix::from_columns(&columns).insert_row(SIZE - 1, 0.0);
+        bordered.set_row(SIZE - 1, &direction.transpose());
+        (error.push(0.0), bordered)
     }
 
-    /// Newton's method from a guess, perpendicular to `along`.
-    fn corrected(&self, mut point: Coordinates, along: &Coordinates) -> Option<Coordinates> {
+    /// Newton's method from a guess, perpendicular to a direction.
+    fn corrected(&self, mut point: Coordinates, direction: &Coordinates) -> Option<Coordinates> {
         for _ in 0..NEWTON_STEPS {
-            let (error, slopes) = self.equations(&point);
-            let step = bordered(&slopes, along).lu().solve(&error.push(0.0))?;
+            let (error, slopes) = self.equations(&point, direction);
+            let step = slopes.lu().solve(&error)?;
             let size = step.amax();
             if !(size < 1.0) {
                 return None;
@@ -140,40 +127,28 @@ impl LipschitzLoop<'_> {
         None
     }
 
-    /// The curve through a point, in either direction, up to the end of the range.
-    fn traced(&self, begin: &Coordinates, sign: f64, range: &RangeInclusive<f64>) -> Vec<Coordinates> {
+    /// The curve from a point on in a direction, up to an end of the range of amplitudes.
+    fn traced(&self, begin: &Coordinates, mut direction: Coordinates, ends: [f64; 2]) -> Vec<Coordinates> {
         let mut curve = Vec::new();
         let mut at = begin.clone();
-        let mut along = DVector::from_fn(at.len(), |place, _| f64::from(u8::from(place == 2)) * sign);
         let mut step = LONGEST;
         while curve.len() < LENGTH && step > SHORTEST {
-            // The direction in which the equations stay as they are, on from the last direction.
-            let (_, slopes) = self.equations(&at);
-            let onwards = DVector::from_fn(at.len(), |place, _| f64::from(u8::from(place + 1 == at.len())));
-            let Some(tangent) = bordered(&slopes, &along).lu().solve(&onwards) else { break };
+            // The direction in which the equations stay as they are, on from the last.
+            let Some(tangent) = self.equations(&at, &direction).1.lu().solve(&along(SIZE - 1)) else { break };
             let tangent = tangent.normalize();
             let next = self.corrected(&at + &tangent * step, &tangent);
-            match next.filter(|next| (next - &at).norm() < 1.5 * step) {
-                Some(next) => {
-                    let inside = range.contains(&next[2]) && next[1].abs() < FAR;
-                    (at, along) = (next.clone(), tangent);
-                    curve.push(next);
-                    if !inside {
-                        break;
-                    }
-                    step = (1.5 * step).min(LONGEST);
-                }
-                None => step *= 0.5,
+            let Some(next) = next.filter(|next| (next - &at).norm() < 1.5 * step) else {
+                step *= 0.5;
+                continue;
+            };
+            (at, direction, step) = (next.clone(), tangent, (1.5 * step).min(LONGEST));
+            curve.push(next);
+            if !(at[2] >= ends[0] && at[2] <= ends[1] && at[1].abs() < FAR) {
+                break;
             }
         }
         curve
     }
-}
-
-fn bordered(slopes: &DMatrix<f64>, along: &Coordinates) -> DMatrix<f64> {
-    let mut matrix = slopes.clone().insert_row(slopes.nrows(), 0.0);
-    matrix.set_row(slopes.nrows(), &along.transpose());
-    matrix
 }
 
 /// Whether a point lies on a curve, between two of its own.
@@ -185,9 +160,15 @@ fn is_on(point: &Coordinates, curve: &[Coordinates]) -> bool {
     })
 }
 
-fn centre(point: &Coordinates) -> Centre {
-    let amplitude = libm::exp(point[2]);
-    let higher = point.as_slice()[3..].chunks_exact(2).map(|pair| [amplitude * pair[0], amplitude * pair[1]]);
-    let harmonics: Vec<[f64; 2]> = core::iter::once([amplitude, 0.0]).chain(higher).collect();
-    Centre::new(libm::exp(point[0]), HarmonicOrders::Odd, &harmonics)
+fn centre(point: &Coordinates) -> Wave {
+    let (amplitude, orders) = (libm::exp(point[2]), HarmonicOrders::Odd);
+    let harmonics: Vec<f64> = [1.0].iter().chain(&point.as_slice()[3..]).map(|part| amplitude * part).collect();
+    Wave { omega_rad_s: libm::exp(point[0]), orders, harmonics: orders.pairs(&harmonics) }
+}
+
+/// From end to end in at least that many steps; none where the number is not finite.
+fn evenly([low, high]: [f64; 2], steps: f64) -> impl Iterator<Item = f64> {
+    let count = steps.ceil();
+    let last = if count.is_finite() { count as i32 } else { -1 };
+    (0..=last).map(move |i| low + (high - low) * f64::from(i) / count)
 }

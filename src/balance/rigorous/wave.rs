@@ -1,15 +1,14 @@
 //! A trigonometric polynomial `u(theta) = Re sum of X_k exp(jk theta)` of odd orders, or of all, and where it passes kinks.
 
+use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::error::CannotTell;
-use crate::numeric::{Complex, Interval, Real};
+use crate::numeric::{Complex, Interval, Real, scan};
 
 /// Cells into which the wave's span is divided at first, and bisections of a cell at most.
 const CELLS: usize = 64;
 const BISECTIONS: u32 = 30;
-/// Steps that narrow a passage at most: halvings first, then Newton's, which square the width.
-const STEPS: usize = 60;
 
 /// Orders of the harmonics that an oscillation may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -22,7 +21,6 @@ pub enum HarmonicOrders {
 }
 
 impl HarmonicOrders {
-    /// The least order.
     pub(super) fn first(self) -> usize {
         match self {
             Self::Odd => 1,
@@ -32,43 +30,31 @@ impl HarmonicOrders {
 
     /// From an order to the next.
     pub(super) fn step(self) -> usize {
-        match self {
-            Self::Odd => 2,
-            Self::All => 1,
-        }
+        self.first() + 1
     }
 
     /// Harmonics without imaginary part: X_1, which sets the phase, and the mean.
     pub(super) fn reals(self) -> usize {
-        match self {
-            Self::Odd => 1,
-            Self::All => 2,
-        }
+        2 - self.first()
     }
 
-    pub(super) fn step_enclosed(self) -> Interval {
-        Interval::point(self.step() as f64)
-    }
-
-    /// The order at a place.
     pub(super) fn at(self, place: usize) -> usize {
         self.first() + self.step() * place
     }
 
-    /// The place of an order.
     pub(super) fn place(self, order: usize) -> Option<usize> {
         let beyond = order.checked_sub(self.first())?;
         beyond.is_multiple_of(self.step()).then_some(beyond / self.step())
     }
 
-    /// All after an order up to the last.
-    pub(super) fn between(self, after: usize, last: usize) -> impl Iterator<Item = usize> {
-        (after + self.step()..=last).step_by(self.step())
+    /// The number of orders up to the highest.
+    pub(super) fn count(self, highest: usize) -> usize {
+        (highest + 1).div_ceil(self.step())
     }
 
     /// Phases after which the wave repeats itself, with the opposite sign if odd.
     pub(super) fn span(self) -> Interval {
-        Interval::PI * Interval::point(2.0) / self.step_enclosed()
+        Interval::PI * Interval::point(2.0) / natural(self.step())
     }
 
     /// The real unknowns among pairs of real and imaginary parts.
@@ -84,189 +70,169 @@ impl HarmonicOrders {
     }
 }
 
-/// Its harmonics, by growing order.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Wave {
-    pub(super) orders: HarmonicOrders,
-    pub(super) harmonics: Vec<Complex<f64>>,
+/// Highest harmonic of a wave at most: the equations of all of them are solved together.
+pub(super) const HIGHEST: usize = 299;
+
+pub(super) fn natural(n: usize) -> Interval {
+    Interval::point(n as f64)
 }
 
-/// A passage of the wave through a level, within its span.
+/// `sqrt(sum of squares)`.
+pub(super) fn length(parts: impl Iterator<Item = Interval>) -> Interval {
+    parts.fold(Interval::ZERO, |sum, part| sum + part.square()).sqrt()
+}
+
+/// The characteristic's input: real and imaginary parts of its harmonics by growing order, `X_1 = a` real.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Wave {
+    pub(super) omega_rad_s: f64,
+    pub(super) orders: HarmonicOrders,
+    pub(super) harmonics: Vec<[f64; 2]>,
+}
+
+/// A passage of the wave through a kink or its opposite, within its span.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct KinkPassage {
     /// Phase, rad.
     pub(super) theta: Interval,
-    /// Index of the kink, and the input there: that kink or its opposite.
-    pub(super) kink: usize,
+    /// The input there.
     pub(super) level: f64,
-    /// Whether the magnitude of the wave grows there.
-    pub(super) outwards: bool,
+    /// What the slope grows by.
+    pub(super) jump: Interval,
     /// Lower bound of the speed, per rad, wherever the wave is within the margin of the level.
     pub(super) speed: Interval,
 }
 
-/// The passages of a span in order, which begins and ends away from every kink.
-#[derive(Clone, Debug)]
-pub(super) struct KinkPassages {
-    pub(super) all: Vec<KinkPassage>,
-    /// Kinks inside the wave's magnitude at the start, and whether the wave is below zero there.
-    pub(super) piece: usize,
-    pub(super) below_zero: bool,
-}
-
 impl Wave {
-    /// Highest harmonic.
+    /// Real unknowns: frequency, then the harmonics' parts that are not zero by definition.
+    pub(super) fn unknowns(&self) -> DVector<f64> {
+        DVector::from_vec(core::iter::once(self.omega_rad_s).chain(self.orders.unknowns(&self.harmonics)).collect())
+    }
+
+    /// The wave of new unknowns of the same orders.
+    pub(super) fn moved(&self, unknowns: &DVector<f64>) -> Self {
+        let (orders, harmonics) = (self.orders, self.orders.pairs(&unknowns.as_slice()[1..]));
+        Self { omega_rad_s: unknowns[0], orders, harmonics }
+    }
+
+    pub(super) fn amplitude(&self) -> f64 {
+        self.harmonics[self.orders.reals() - 1][0]
+    }
+
     pub(super) fn highest(&self) -> usize {
         self.orders.at(self.harmonics.len() - 1)
     }
 
-    /// Orders and harmonics.
-    pub(super) fn terms(&self) -> impl Iterator<Item = (usize, Complex<f64>)> + '_ {
-        self.harmonics.iter().enumerate().map(|(place, &harmonic)| (self.orders.at(place), harmonic))
+    pub(super) fn terms<T: Real>(&self) -> impl Iterator<Item = (usize, Complex<T>)> + '_ {
+        let term = |&[re, im]: &[f64; 2]| Complex::new(T::from_f64(re), T::from_f64(im));
+        self.harmonics.iter().enumerate().map(move |(place, pair)| (self.orders.at(place), term(pair)))
     }
 
     /// Upper bound of `sum k^power abs(X_k)`: of the power's derivative, at every phase.
-    pub(super) fn sum_of_magnitudes(&self, power: usize) -> Interval {
-        self.terms().fold(Interval::ZERO, |sum, (k, harmonic)| {
-            let weight = Interval::point((k as f64).powi(power as i32));
-            sum + harmonic.enclosed().norm() * weight
-        })
-    }
-
-    /// Root mean square of the derivative of that order, above zero.
-    pub(super) fn root_mean_square(&self, power: usize) -> Interval {
-        let half = Interval::point(0.5);
-        let square = self.terms().fold(Interval::ZERO, |sum, (k, harmonic)| {
-            sum + harmonic.enclosed().square_norm() * Interval::point((k as f64).powi(2 * power as i32)) * half
-        });
-        square.sqrt()
+    pub(super) fn sum_of_magnitudes(&self, power: u32) -> Interval {
+        self.terms().fold(Interval::ZERO, |sum, (k, harmonic)| sum + harmonic.norm() * natural(k.pow(power)))
     }
 
     /// `sum abs(X_k) sinh(k sigma)` and the same with the hyperbolic cosine: bounds of the imaginary and the real part at phases
     /// whose imaginary part is at most `sigma`.
     pub(super) fn strip(&self, sigma: Interval) -> (Interval, Interval) {
-        self.terms().fold((Interval::ZERO, Interval::ZERO), |(sinh, cosh), (k, harmonic)| {
-            let (size, at) = (harmonic.enclosed().norm(), sigma * Interval::point(k as f64));
+        self.terms::<Interval>().fold((Interval::ZERO, Interval::ZERO), |(sinh, cosh), (k, harmonic)| {
+            let (size, at) = (harmonic.norm(), sigma * natural(k));
             (sinh + size * at.sinh(), cosh + size * at.cosh())
         })
     }
 
     /// Value and derivative at a phase.
     pub(super) fn at<T: Real>(&self, theta: T) -> (T, T) {
-        self.terms().fold((T::zero(), T::zero()), |(value, slope), (k, harmonic)| {
+        self.terms().fold((T::zero(), T::zero()), |(value, slope), (k, harmonic): (_, Complex<T>)| {
             let order = T::from_f64(k as f64);
-            let angle = theta * order;
-            let (sin, cos, re, im) = (angle.sin(), angle.cos(), T::from_f64(harmonic.re), T::from_f64(harmonic.im));
-            (value + re * cos - im * sin, slope - order * (re * sin + im * cos))
+            let turned = harmonic * Complex::turn(theta * order);
+            (value + turned.re, slope - order * turned.im)
         })
     }
 
-    /// Every passage of a span through `kinks` and their opposites.
+    /// Every passage of a span through `kinks` and their opposites, and the wave at its start, which is away from every kink.
     ///
     /// A cell is settled where the wave keeps more than `margin` from every level, or where its derivative has a constant sign.
     /// A run of cells of the second kind lies between two of the first, hence it passes each level between its ends once.
-    pub(super) fn passages(&self, kinks: &[f64], margin: f64) -> Result<KinkPassages, CannotTell> {
-        let levels: Vec<(usize, f64)> =
-            kinks.iter().enumerate().flat_map(|(i, &kink)| [(i, kink), (i, -kink)]).collect();
+    pub(super) fn passages(
+        &self,
+        kinks: &[f64],
+        slopes: &[f64],
+        margin: f64,
+    ) -> Result<(Vec<KinkPassage>, Interval), CannotTell> {
+        // With what the slope of the characteristic grows by on the way up.
+        let up = |pair: &[f64]| Interval::point(pair[1]) - Interval::point(pair[0]);
+        let both = kinks.iter().zip(slopes.windows(2)).flat_map(|(kink, pair)| [(*kink, up(pair)), (-kink, -up(pair))]);
+        let levels: Vec<(f64, Interval)> = both.collect();
         let bend = self.sum_of_magnitudes(2);
+        let span = self.orders.span();
+        let grazing = |cell: Interval| CannotTell::Grazing { theta_rad: cell.lower() };
+        // From the phase that is farthest from every kink.
         let distance = |theta: f64| {
             let (value, _) = self.at(theta);
-            levels.iter().map(|(_, level)| (value - level).abs()).fold(f64::INFINITY, f64::min)
+            levels.iter().map(|(level, _)| (value - level).abs()).fold(f64::INFINITY, f64::min)
         };
-        let span = self.orders.span();
         let phases = (0..CELLS).map(|i| span.midpoint() * i as f64 / CELLS as f64);
-        let start_rad = phases.max_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap_or(0.0);
-        let grazing = |theta_rad: f64| CannotTell::Grazing { theta_rad };
-        let end = (Interval::point(start_rad) + span).upper();
-
-        let mut runs: Vec<MonotoneRun> = Vec::new();
-        let mut clear_to = f64::NEG_INFINITY;
-        let ends = |i: usize| if i == CELLS { end } else { start_rad + (end - start_rad) * i as f64 / CELLS as f64 };
-        let mut open: Vec<(f64, f64, u32)> = (0..CELLS).rev().map(|i| (ends(i), ends(i + 1), BISECTIONS)).collect();
-        while let Some((from, to, bisections)) = open.pop() {
-            let Some(cell) = Interval::new(from, to) else { return Err(grazing(from)) };
+        let start = phases.max_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap_or(0.0);
+        let end = (Interval::point(start) + span).upper();
+        // Value and derivative over a cell, by the mean value theorem.
+        let over = |cell: Interval| {
             let middle = Interval::point(cell.midpoint());
             let (value, slope) = self.at(middle);
             let slope = slope + Interval::symmetric((bend * (cell - middle).abs()).upper());
-            let value = value + slope * (cell - middle);
-            if levels.iter().all(|&(_, level)| (value - Interval::point(level)).abs().lower() > margin) {
-                clear_to = to;
+            (value + slope * (cell - middle), slope)
+        };
+
+        // Cells from left to right, with the slope where a level is near.
+        let mut settled: Vec<(Interval, Option<Interval>)> = Vec::new();
+        let ends = |i: usize| if i == CELLS { end } else { start + (end - start) * i as f64 / CELLS as f64 };
+        let cell = |i: usize| Interval::point(ends(i)).hull(Interval::point(ends(i + 1)));
+        let mut open: Vec<(Interval, u32)> = (0..CELLS).rev().map(|i| (cell(i), BISECTIONS)).collect();
+        while let Some((cell, bisections)) = open.pop() {
+            let (value, slope) = over(cell);
+            if levels.iter().all(|&(level, _)| (value - Interval::point(level)).abs().lower() > margin) {
+                settled.push((cell, None));
             } else if !slope.contains_zero() {
-                match runs.last_mut() {
-                    // The cell before is settled the same way.
-                    Some(run) if run.cell.upper() >= from => {
-                        if run.slope.is_positive() != slope.is_positive() {
-                            return Err(grazing(from));
-                        }
-                        *run = MonotoneRun { cell: run.cell.hull(cell), slope: run.slope.hull(slope) };
-                    }
-                    _ if clear_to >= from => runs.push(MonotoneRun { cell, slope }),
-                    _ => return Err(grazing(from)),
-                }
+                settled.push((cell, Some(slope)));
             } else if bisections == 0 {
-                return Err(grazing(from));
+                return Err(grazing(cell));
             } else {
-                let middle = cell.midpoint();
-                open.extend([(middle, to, bisections - 1), (from, middle, bisections - 1)]);
+                let (left, right) = cell.bisect();
+                open.extend([(right, bisections - 1), (left, bisections - 1)]);
             }
-        }
-        // The last cell is away from every level, as the first.
-        if clear_to < end {
-            return Err(grazing(end));
         }
         let mut all = Vec::new();
-        for run in runs {
-            let (low, high) = (Interval::point(run.cell.lower()), Interval::point(run.cell.upper()));
-            let (at_low, at_high) = (self.at(low).0, self.at(high).0);
-            let before = all.len();
-            for &(kink, level) in &levels {
-                let level_at = Interval::point(level);
-                let (first, last) = (at_low - level_at, at_high - level_at);
-                if first.contains_zero() || last.contains_zero() {
-                    return Err(grazing(run.cell.lower()));
+        for run in settled.chunk_by(|a, b| a.1.is_some() == b.1.is_some()) {
+            let Some(slope) = run.iter().map(|cell| cell.1).reduce(|a, b| Some(a?.hull(b?))).flatten() else {
+                continue;
+            };
+            let cell = run[0].0.hull(run[run.len() - 1].0);
+            // The first and the last cell of the span are away from every level.
+            if slope.contains_zero() || cell.lower() <= start || cell.upper() >= end {
+                return Err(grazing(cell));
+            }
+            for &(level, jump) in &levels {
+                let above = |theta: f64| self.at(Interval::point(theta)).0 - Interval::point(level);
+                let ends = [cell.lower(), cell.upper()].map(above);
+                if ends.iter().any(|end| end.contains_zero()) {
+                    return Err(grazing(cell));
                 }
-                if first.is_positive() == last.is_positive() {
+                if ends[0].is_positive() == ends[1].is_positive() {
                     continue;
                 }
-                let theta = self.narrowed(run.cell, level_at, bend).ok_or(grazing(run.cell.lower()))?;
-                let outwards = (level > 0.0) == run.slope.is_positive();
-                all.push(KinkPassage { theta, kink, level, outwards, speed: run.slope.abs() });
+                // From a guess by the mean value theorem, first over the run, then over what that leaves.
+                let guess = scan::bracketed(|theta| Some(self.at(theta).0 - level), cell.lower(), cell.upper());
+                let narrowed = guess.and_then(|guess| {
+                    let towards = |slope: Interval| Interval::point(guess) - above(guess) / slope;
+                    let part = towards(slope).intersection(cell)?;
+                    towards(over(part.hull(Interval::point(guess))).1).intersection(part)
+                });
+                let theta = narrowed.ok_or(grazing(cell))?;
+                let jump = if slope.is_positive() { jump } else { -jump };
+                all.push(KinkPassage { theta, level, jump, speed: slope.abs() });
             }
-            all[before..].sort_by(|a, b| a.theta.lower().total_cmp(&b.theta.lower()));
         }
-        let (value, _) = self.at(Interval::point(start_rad));
-        let piece = kinks.iter().filter(|&&kink| value.abs().lower() > kink).count();
-        Ok(KinkPassages { all, piece, below_zero: value.is_negative() })
+        Ok((all, self.at(Interval::point(start)).0))
     }
-
-    /// The passage through a level in a cell over which the derivative has a constant sign, by interval Newton.
-    fn narrowed(&self, mut cell: Interval, level: Interval, bend: Interval) -> Option<Interval> {
-        for _ in 0..STEPS {
-            let middle = Interval::point(cell.midpoint());
-            let (value, slope) = self.at(middle);
-            let slope = slope + Interval::symmetric((bend * (cell - middle).abs()).upper());
-            if slope.contains_zero() {
-                // Only the run's parts are shown to have a constant sign: halve towards the passage.
-                let (below, above) = cell.bisect();
-                let (start, centre) = (self.at(Interval::point(cell.lower())).0 - level, value - level);
-                if centre.contains_zero() || start.contains_zero() {
-                    return None;
-                }
-                cell = if start.is_positive() == centre.is_positive() { above } else { below };
-                continue;
-            }
-            let next = cell.intersection(middle - (value - level) / slope)?;
-            if next.width() > 0.5 * cell.width() {
-                return Some(next);
-            }
-            cell = next;
-        }
-        Some(cell)
-    }
-}
-
-/// Cells side by side over which the derivative has a constant sign.
-struct MonotoneRun {
-    cell: Interval,
-    slope: Interval,
 }
