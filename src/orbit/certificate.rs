@@ -8,7 +8,7 @@ use crate::numeric::{Interval, Jet, Real};
 use crate::plant::{DragAxis, OneWay, PlantError};
 use crate::proof::Gradient;
 use crate::proof::enclosure::{Roots, krawczyk};
-use crate::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
+use crate::proof::rigorous_quadrature::{CellJet, integrate};
 
 /// The proof about the limit cycle of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -176,7 +176,9 @@ impl Half {
     /// Way from rest: the integral of `speed/rate`.
     fn approach(&self, angle: Gradient<4>) -> Gradient<4> {
         let at = angle.value();
-        let way = at * self.terminal * integral(&Rise { half: self, angle: at })[0];
+        let numbers = [at, self.slow, self.fast - self.slow];
+        let [share] = integral(|share| rise(share, numbers), |share| rise(share, numbers.map(Jet::constant)));
+        let way = at * self.terminal * share;
         angle.chain(way, self.speed(at) / self.rate(at))
     }
 
@@ -201,7 +203,8 @@ impl Half {
         let force = -self.brake.drive;
         let linear = self.brake.linear * speed / force;
         let quadratic = self.brake.quadratic * speed.square() / force;
-        let [way, time] = integral(&Stop { linear, quadratic });
+        let drag = [linear, quadratic];
+        let [way, time] = integral(|share| stop(share, drag), |share| stop(share, drag.map(Jet::constant)));
         [speed.square() / force * way, speed / force * time]
     }
 
@@ -224,52 +227,24 @@ impl Half {
     }
 }
 
-/// Integral over [0, 1], nearly as narrow as rounding allows.
-fn integral<const M: usize>(integrand: &impl Integrand<M>) -> [Interval; M] {
-    let scale = integrand.range(Interval::ONE).map(Interval::magnitude).into_iter().fold(f64::INFINITY, f64::min);
-    integrate(integrand, Interval::ZERO, Interval::ONE, 1e-14 * scale, 300).integrals
+/// Integral over [0, 1], nearly as narrow as rounding allows, of a formula in both arithmetics.
+fn integral<const M: usize>(
+    range: impl Fn(Interval) -> [Interval; M],
+    jet: impl Fn(CellJet) -> [CellJet; M],
+) -> [Interval; M] {
+    let scale = range(Interval::ONE).map(Interval::magnitude).into_iter().fold(f64::INFINITY, f64::min);
+    let integrand = (range, |share| Some(jet(share)));
+    integrate(&integrand, Interval::ZERO, Interval::ONE, 1e-14 * scale, 300).integrals
 }
 
-/// `speed/(terminal rate)` over the share of an angle.
-struct Rise<'a> {
-    half: &'a Half,
-    angle: Interval,
-}
-
-impl Rise<'_> {
-    fn at<T: Real>(&self, share: T, constant: impl Fn(Interval) -> T) -> [T; 1] {
-        let speed = -(-(constant(self.angle) * share)).exp_m1();
-        [speed / (constant(self.half.slow) + constant(self.half.fast - self.half.slow) * speed)]
-    }
-}
-
-impl Integrand<1> for Rise<'_> {
-    fn range(&self, share: Interval) -> [Interval; 1] {
-        self.at(share, |value| value)
-    }
-    fn jet(&self, share: CellJet) -> Option<[CellJet; 1]> {
-        Some(self.at(share, Jet::constant))
-    }
+/// `speed/(terminal rate)` over the share of an angle; rates at rest, and by how much they grow.
+fn rise<T: Real>(share: T, [angle, slow, growth]: [T; 3]) -> [T; 1] {
+    let speed = -(-(angle * share)).exp_m1();
+    [speed / (slow + growth * speed)]
 }
 
 /// Way and time to rest over the share of a speed, with the drag there in units of the braking force.
-struct Stop {
-    linear: Interval,
-    quadratic: Interval,
-}
-
-impl Stop {
-    fn at<T: Real>(&self, share: T, constant: impl Fn(Interval) -> T) -> [T; 2] {
-        let time = T::one() / (T::one() + (constant(self.linear) + constant(self.quadratic) * share) * share);
-        [share * time, time]
-    }
-}
-
-impl Integrand<2> for Stop {
-    fn range(&self, share: Interval) -> [Interval; 2] {
-        self.at(share, |value| value)
-    }
-    fn jet(&self, share: CellJet) -> Option<[CellJet; 2]> {
-        Some(self.at(share, Jet::constant))
-    }
+fn stop<T: Real>(share: T, [linear, quadratic]: [T; 2]) -> [T; 2] {
+    let time = T::one() / (T::one() + (linear + quadratic * share) * share);
+    [share * time, time]
 }

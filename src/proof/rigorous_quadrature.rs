@@ -25,6 +25,16 @@ pub trait Integrand<const M: usize> {
     fn jet(&self, t: CellJet) -> Option<[CellJet; M]>;
 }
 
+/// Ranges and jets.
+impl<const M: usize, R: Fn(Interval) -> [Interval; M], J: Fn(CellJet) -> Option<[CellJet; M]>> Integrand<M> for (R, J) {
+    fn range(&self, t: Interval) -> [Interval; M] {
+        self.0(t)
+    }
+    fn jet(&self, t: CellJet) -> Option<[CellJet; M]> {
+        self.1(t)
+    }
+}
+
 /// What [`integrate`] found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quadrature<const M: usize> {
@@ -44,20 +54,12 @@ pub struct Quadrature<const M: usize> {
 /// the sum is not reached.
 ///
 /// ```
-/// use selfosc::proof::rigorous_quadrature::{CellJet, Integrand, integrate};
+/// use selfosc::proof::rigorous_quadrature::{CellJet, integrate};
 /// use selfosc::numeric::{Interval, Real};
 ///
-/// struct Rectified;
-/// impl Integrand<1> for Rectified {
-///     fn range(&self, t: Interval) -> [Interval; 1] {
-///         [t.sin().abs()]
-///     }
-///     fn jet(&self, t: CellJet) -> Option<[CellJet; 1]> {
-///         Some([t.sin().abs()])
-///     }
-/// }
+/// let rectified = (|t: Interval| [t.sin().abs()], |t: CellJet| Some([t.sin().abs()]));
 /// let turn = Interval::pi() * Interval::two();
-/// let found = integrate(&Rectified, Interval::ZERO, turn, 1e-12, 10_000);
+/// let found = integrate(&rectified, Interval::ZERO, turn, 1e-12, 10_000);
 /// assert!(found.reached && found.integrals[0].contains(4.0));
 /// ```
 #[must_use]

@@ -5,7 +5,7 @@ use selfosc::claims::{CLAIMS, Certificate, Claim};
 use selfosc::identify::iso::Oscillation;
 use selfosc::nonlinearity::RelayHysteresis;
 use selfosc::numeric::Interval;
-use selfosc::orbit::theorem::BUDGET;
+use selfosc::orbit::theorem::{BUDGET, QUADRATIC};
 use selfosc::orbit::{OrbitError, certify, force_left, limit_cycle, return_slope};
 use selfosc::plant::DragAxis;
 use selfosc::proof::inequality::{Inequality, Proof, Refusal};
@@ -322,4 +322,12 @@ fn coordinates_bracket_the_stated_groups() {
         let [lower, upper] = [from, to].map(|coordinate| law.group(Interval::point(coordinate)));
         assert!(lower.upper() < g && g < lower.hull(upper).upper() && upper.lower() > g, "{law:?} {g}");
     }
+}
+
+#[test]
+fn a_theorem_wants_every_inequality() {
+    let mut proofs = QUADRATIC.prove().map_err(|(inequality, _)| inequality.id).unwrap();
+    assert!(QUADRATIC.check(&proofs).is_ok());
+    let dropped = proofs.pop().unwrap();
+    assert!(QUADRATIC.check(&proofs).unwrap_err().to_string().contains(&dropped.inequality));
 }

@@ -163,22 +163,23 @@ impl OddCharacteristic {
         }
     }
 
-    /// Inputs at which the characteristic bends.
-    pub(super) fn bends(&self) -> Vec<f64> {
-        match self {
+    /// The least and the largest input at which the characteristic bends: of a polynomial where two terms are equal, or where the only term
+    /// is as large as its input.
+    pub(super) fn bends(&self) -> Option<[f64; 2]> {
+        let bends: Vec<f64> = match self {
             Self::PiecewiseLinear { kinks, .. } => kinks.clone(),
             Self::Tanh { scale, .. } => vec![1.0 / scale],
             Self::Polynomial { odd_coefficients } => {
-                // Where two terms are equal; the only one is as large as its input.
-                let pairs = odd_coefficients.iter().enumerate().flat_map(|(i, a)| {
-                    let later = odd_coefficients.iter().skip(i + 1).zip(1..);
-                    later.map(move |(b, apart)| libm::pow((a / b).abs(), 0.5 / f64::from(apart)))
-                });
-                let bends: Vec<f64> = pairs.filter(|bend| bend.is_finite() && *bend > 0.0).collect();
-                let leading = odd_coefficients.last().map(|c| libm::pow(c.abs(), -0.5));
-                if bends.is_empty() { leading.into_iter().collect() } else { bends }
+                let terms = || odd_coefficients.iter().zip(0_i32..).filter(|(coefficient, _)| **coefficient != 0.0);
+                let equal = |(a, i): (&f64, i32), (b, j): (&f64, i32)| libm::pow((a / b).abs(), 0.5 / f64::from(j - i));
+                let pairs = terms()
+                    .flat_map(|low| terms().filter(move |high| high.1 > low.1).map(move |high| equal(low, high)));
+                let alone = terms().last().map(|leading| equal((&1.0, 0), leading));
+                let bends: Vec<f64> = pairs.collect();
+                if bends.is_empty() { alone.into_iter().collect() } else { bends }
             }
-        }
+        };
+        Some([bends.iter().copied().reduce(f64::min)?, bends.into_iter().reduce(f64::max)?])
     }
 }
 

@@ -45,10 +45,8 @@ impl LipschitzLoop<'_> {
     ///
     /// The gain that balances is a function along curves of amplitude and frequency; where it is the loop's own, a wave begins.
     pub(super) fn starts(&self, omega_rad_s: &RangeInclusive<f64>) -> Vec<Wave> {
-        let bends = self.characteristic.bends();
-        let (low, high) =
-            (bends.iter().fold(f64::INFINITY, |a, b| a.min(*b)), bends.iter().fold(0.0, |a: f64, b| a.max(*b)));
-        let ends = [libm::log(BELOW * low), libm::log(ABOVE * high)];
+        let Some([least, largest]) = self.characteristic.bends() else { return Vec::new() };
+        let ends = [libm::log(BELOW * least), libm::log(ABOVE * largest)];
         let mut curves: Vec<Vec<Coordinates>> = Vec::new();
         for omega in self.real_crossings(omega_rad_s) {
             for log_amplitude in evenly(ends, (ends[1] - ends[0]) / libm::log(RATIO)) {
