@@ -145,13 +145,6 @@ fn the_practical_covariance_is_that_of_the_practical_intervals() {
     assert!(statistical[0][1] < -0.5 * (statistical[0][0] * statistical[1][1]).sqrt());
 }
 
-/// The readings of `record` at another time of the day: the record itself is not taken twice.
-fn later() -> Record {
-    let record = record();
-    let time_s = record.time_s().iter().map(|time_s| time_s + 64.0).collect();
-    Record::new(time_s, record.output().to_vec(), record.input().to_vec()).unwrap()
-}
-
 /// Two equal records halve the covariance; records that do not agree have none.
 #[test]
 fn records_that_agree_pool_their_covariances() {
@@ -160,12 +153,12 @@ fn records_that_agree_pool_their_covariances() {
         let session = records.iter().fold(session, |session, record| session.record("log", record.clone()));
         session.identify().unwrap().reported().unwrap().drag_covariance
     };
-    let (one, two) = (session(&[record()]).unwrap(), session(&[record(), later()]).unwrap());
+    let (one, two) = (session(&[record()]).unwrap(), session(&[record(), record()]).unwrap());
     for (one, two) in one.combined.unwrap().into_iter().zip(two.combined.unwrap()) {
         one.into_iter().zip(two).for_each(|(one, two)| assert!((two - 0.5 * one).abs() <= 1e-9 * one.abs()));
     }
     // Its diagonal is that of the pooled intervals.
-    let pooled = [record(), later()]
+    let pooled = [record(), record()]
         .into_iter()
         .fold(Session::new(settings(Assumptions::NONE)), |session, record| session.record("log", record));
     let pooled = pooled.identify().unwrap().reported().cloned().unwrap();

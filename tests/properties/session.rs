@@ -176,26 +176,6 @@ fn what_does_not_belong_together_is_refused() {
     assert!(damaged::<Gains<f64>>(&gains, "/proportional", 0.into()).contains("proportional"));
 }
 
-/// Readings given twice would count as independent, and a prediction of them would judge nothing.
-#[test]
-fn a_record_counts_once() {
-    let weak = || Session::new(Settings::default()).record("weak", record(1.0));
-    let validated =
-        weak().record("strong", record(2.0)).validation_reader("copy", text(&record(2.0)).as_bytes()).unwrap();
-    for session in [weak().record("strong", record(2.0)).record("copy", record(1.0)), validated] {
-        let refusal = session.identify().unwrap_err();
-        assert_eq!((refusal.code(), refusal.is_usage()), ("same-record", true));
-        assert!(refusal.to_string().starts_with("copy has the readings of "), "{refusal}");
-    }
-}
-
-/// The record as a log.
-fn text(record: &Record) -> String {
-    let rows = record.time_s().iter().zip(record.output()).zip(record.input());
-    let rows = rows.map(|((time_s, output), input)| format!("{time_s},{output},{input}\n"));
-    std::iter::once("time_s,output,command\n".to_owned()).chain(rows).collect()
-}
-
 #[test]
 fn stages_are_told_in_order() {
     let stages = std::cell::RefCell::new(Vec::new());

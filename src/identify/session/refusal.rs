@@ -41,14 +41,6 @@ pub enum Refusal {
         /// What is missing.
         source: NotAnExperiment,
     },
-    /// A record is given twice, to be identified from or to be predicted.
-    #[error("{name} has the readings of {first}: give each record once")]
-    SameRecord {
-        /// The later record.
-        name: String,
-        /// The earlier.
-        first: String,
-    },
     /// No method gives a model.
     #[error("no model from these records: {0}")]
     Model(#[from] IdentifyError),
@@ -64,7 +56,6 @@ impl Refusal {
             Self::Record { source, .. } => source.code(),
             Self::Features { source, .. } => source.code(),
             Self::NoExperiment { .. } => "no-experiment",
-            Self::SameRecord { .. } => "same-record",
             Self::Model(error) => error.code(),
         }
     }
@@ -76,7 +67,7 @@ impl Refusal {
             Self::Settings(error) => error.out_of_domain(),
             Self::Record { source, .. } => source.out_of_domain(),
             Self::Model(error) => error.out_of_domain(),
-            Self::File(_) | Self::Features { .. } | Self::NoExperiment { .. } | Self::SameRecord { .. } => None,
+            Self::File(_) | Self::Features { .. } | Self::NoExperiment { .. } => None,
         }
     }
 
@@ -85,7 +76,7 @@ impl Refusal {
     #[must_use]
     pub fn is_usage(&self) -> bool {
         match self {
-            Self::Settings(_) | Self::File(_) | Self::SameRecord { .. } => true,
+            Self::Settings(_) | Self::File(_) => true,
             Self::Record { source, .. } => source.is_unreadable(),
             Self::Features { .. } | Self::NoExperiment { .. } | Self::Model(_) => false,
         }

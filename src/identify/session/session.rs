@@ -167,13 +167,6 @@ impl Session {
             let remedy = "the record is no longer: give it in s, or leave it out to have it estimated";
             domain::require("delay", delay_s, "s", limit, remedy).map_err(SettingsError::from)?;
         }
-        let all: Vec<&(String, Log)> = self.logs.iter().chain(&self.validation).collect();
-        for (at, (name, log)) in all.iter().enumerate() {
-            // Readings count as independent, and those that are predicted as new.
-            if let Some((first, _)) = all[..at].iter().find(|(_, earlier)| earlier.record == log.record) {
-                return Err(Refusal::SameRecord { name: name.clone(), first: first.clone() });
-            }
-        }
         progress(Stage::Cycles);
         let mut cautions = Vec::new();
         let mut sources = Vec::with_capacity(self.logs.len());
