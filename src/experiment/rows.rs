@@ -31,13 +31,22 @@ impl Rows<'_> {
         let [_, output, input] = &self.values;
         let mut input = Cow::Borrowed(input);
         if how.hold_command {
-            let mut last = f64::NAN;
-            for command in input.to_mut() {
-                last = if command.is_finite() { *command } else { last };
-                *command = if command.is_nan() { last } else { *command };
+            // A command counts from the output nearest in time on: one that follows an output at once is that sample's.
+            let outputs: Vec<usize> = inside.iter().copied().filter(|row| !output[*row].is_nan()).collect();
+            let mut commands = inside.iter().copied().filter(|row| input[*row].is_finite()).peekable();
+            let (mut last, mut held) = (f64::NAN, input.to_vec());
+            for (k, &row) in outputs.iter().enumerate() {
+                let until = outputs.get(k + 1).map_or(clock[row], |next| f64::midpoint(clock[row], clock[*next]));
+                while let Some(command) =
+                    commands.next_if(|command| clock[*command] <= clock[row] || clock[*command] < until)
+                {
+                    last = input[command];
+                }
+                held[row] = if input[row].is_infinite() { input[row] } else { last };
             }
             // A command that is no number stays to be named.
-            inside.retain(|row| input[*row].is_infinite() || !output[*row].is_nan() && !input[*row].is_nan());
+            inside.retain(|row| held[*row].is_infinite() || !output[*row].is_nan() && !held[*row].is_nan());
+            input = Cow::Owned(held);
         }
         let mut time_s = self.values[0].clone();
         if how.even_stamps {

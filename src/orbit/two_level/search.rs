@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{DMatrix, DVector};
 
 use super::switching::{SwitchedLoop, Times};
 use crate::numeric::Interval;
@@ -170,10 +170,9 @@ fn narrowed<const N: usize>(miss: impl Fn([Gradient<N>; N]) -> [Gradient<N>; N],
     let mut point = at.map(Interval::midpoint);
     for _ in 0..20 {
         let found = miss(Gradient::variables(point.map(Interval::point)));
-        let slopes = SMatrix::<f64, N, N>::from_fn(|row, column| found[row].slopes()[column].midpoint());
-        let values = SVector::<f64, N>::from_fn(|row, _| found[row].value().midpoint());
-        let Some(inverse) = slopes.try_inverse() else { break };
-        let step = inverse * values;
+        let slopes = DMatrix::from_fn(N, N, |row, column| found[row].slopes()[column].midpoint());
+        let values = DVector::from_fn(N, |row, _| found[row].value().midpoint());
+        let Some(step) = slopes.lu().solve(&values) else { break };
         point = core::array::from_fn(|side| (point[side] - step[side]).clamp(at[side].lower(), at[side].upper()));
     }
     let size = point.iter().fold(0.0_f64, |size, coordinate| size.max(coordinate.abs()));
