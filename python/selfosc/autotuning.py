@@ -135,7 +135,7 @@ def autotune(
     skip_bad_rows : bool
         Leaves out rows without three numbers, at most a fifth of all.
     hold_command : bool
-        Where a command is missing the last one counts, and rows without output are passed over: for topics logged in turn.
+        For topics logged in turn: a command that is missing holds, from the output before it on; rows without output are passed over.
 
     Returns
     -------

@@ -275,7 +275,7 @@ def identify(
     skip_bad_rows : bool
         Leaves out rows without three numbers, or with a time that does not come after the one before: at most a fifth of all.
     hold_command : bool
-        Where a command is missing the last one counts, and rows without output are passed over: for topics logged in turn.
+        For topics logged in turn: a command that is missing holds, from the output before it on; rows without output are passed over.
     validate : path, or sequence of paths
         Text logs that are predicted and take no part in the estimate.
     progress : bool or callable

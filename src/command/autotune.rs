@@ -87,7 +87,7 @@ pub(super) struct Arguments {
     /// Leaves out rows without three numbers, at most a fifth of all
     #[arg(long)]
     skip_bad_rows: bool,
-    /// Where the command's cell is blank the last one counts, and rows without output are passed over: for topics logged in turn
+    /// For topics logged in turn: where its cell is blank a command holds, from the output before it on; rows without output are passed over
     #[arg(long)]
     hold_command: bool,
     /// Writes one HTML file with figures, which needs no network

@@ -97,7 +97,7 @@ fn remedy(given: &Loop<'_>, plant: &TransferFunction) -> String {
     let (low, high) = (gain * given.low, gain * given.high);
     let thresholds = [given.reference - given.half_width, given.reference + given.half_width];
     if low < thresholds[0] && thresholds[1] < high {
-        return "narrow the hysteresis (--half-width), or count a delay (--delay)".to_owned();
+        return "search other periods (--periods) or narrow the hysteresis (--half-width)".to_owned();
     }
     let [low, high, from, to] = [low, high, thresholds[0], thresholds[1]].map(|value| significant(value, 6));
     format!(

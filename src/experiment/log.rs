@@ -60,8 +60,9 @@ pub struct Columns {
     /// Rows without three numbers, or with a time not after its predecessor, are omitted, up to
     /// [`MOST_SKIPPED`](Self::MOST_SKIPPED) of all.
     pub skip_bad_rows: bool,
-    /// A command holds until the next: where its cell is blank or NaN, the last one counts, from the output nearest to it in time on. Rows
-    /// without output, or before the first command, are no samples. So merged topics are read, each of which fills its own rows.
+    /// A command holds until the next, where its cell is blank or NaN: merged topics are read, each of which fills its own rows. Rows without
+    /// output, or before the first command, are no samples. A command counts from the output before it on, so that a delay is that from the
+    /// reading to the effect.
     pub hold_command: bool,
     /// The output is in radians, whatever it looks like.
     pub radians: bool,

@@ -1,7 +1,5 @@
 //! Rows of a log before they are a record: the part and the cut asked for, and what cannot be used.
 
-use std::borrow::Cow;
-
 use super::record::middle;
 use super::{Columns, ExperimentError, Place, Record};
 
@@ -29,24 +27,10 @@ impl Rows<'_> {
         let clock = self.clock();
         let mut inside = self.inside(&clock, how)?;
         let [_, output, input] = &self.values;
-        let mut input = Cow::Borrowed(input);
+        let input = if how.hold_command { &self.held(&clock, &inside) } else { input };
         if how.hold_command {
-            // A command counts from the output nearest in time on: one that follows an output at once is that sample's.
-            let outputs: Vec<usize> = inside.iter().copied().filter(|row| !output[*row].is_nan()).collect();
-            let mut commands = inside.iter().copied().filter(|row| input[*row].is_finite()).peekable();
-            let (mut last, mut held) = (f64::NAN, input.to_vec());
-            for (k, &row) in outputs.iter().enumerate() {
-                let until = outputs.get(k + 1).map_or(clock[row], |next| f64::midpoint(clock[row], clock[*next]));
-                while let Some(command) =
-                    commands.next_if(|command| clock[*command] <= clock[row] || clock[*command] < until)
-                {
-                    last = input[command];
-                }
-                held[row] = if input[row].is_infinite() { input[row] } else { last };
-            }
             // A command that is no number stays to be named.
-            inside.retain(|row| held[*row].is_infinite() || !output[*row].is_nan() && !held[*row].is_nan());
-            input = Cow::Owned(held);
+            inside.retain(|row| input[*row].is_infinite() || !output[*row].is_nan() && !input[*row].is_nan());
         }
         let mut time_s = self.values[0].clone();
         if how.even_stamps {
@@ -61,7 +45,7 @@ impl Rows<'_> {
             let interval_s = product / (count * (count * count - 1.0) / 12.0);
             from_middle().for_each(|(n, row)| time_s[row] = mean_s + n * interval_s);
         }
-        let columns = [&time_s, output, &input];
+        let columns = [&time_s, output, input];
         let mut rows = Vec::with_capacity(inside.len());
         let mut previous_s = f64::NEG_INFINITY;
         for &row in &inside {
@@ -81,6 +65,22 @@ impl Rows<'_> {
         }
         let values = columns.map(|column| rows.iter().map(|row| column[*row]).collect());
         Ok(Chosen { values, rows, skipped })
+    }
+
+    /// The command that holds at each output. As a controller answers a reading, a command counts from the output before it on.
+    fn held(&self, clock: &[f64], inside: &[usize]) -> Vec<f64> {
+        let [_, output, input] = &self.values;
+        let outputs: Vec<usize> = inside.iter().copied().filter(|row| !output[*row].is_nan()).collect();
+        let mut commands = inside.iter().copied().filter(|row| input[*row].is_finite()).peekable();
+        let (mut held, mut last) = (input.clone(), f64::NAN);
+        for (k, &row) in outputs.iter().enumerate() {
+            let next_s = outputs.get(k + 1).map_or(f64::INFINITY, |next| clock[*next]);
+            while let Some(command) = commands.next_if(|command| clock[*command] < next_s) {
+                last = input[command];
+            }
+            held[row] = if input[row].is_infinite() { input[row] } else { last };
+        }
+        held
     }
 
     /// The time of every row; where it has none, that of the row before.

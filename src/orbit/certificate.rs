@@ -1,7 +1,7 @@
 //! A limit cycle with proof: for a given axis, existence in a narrow enclosure; uniqueness and attraction by theorem.
 
-use super::drag_axis::{End, LimitCycle, solve};
-use super::half_cycle::{HalfCycle, Swing};
+use super::drag_axis::{LimitCycle, solve};
+use super::half_cycle::{End, HalfCycle, Swing};
 use super::{OrbitError, limit_cycle};
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::{Interval, Jet, Real};

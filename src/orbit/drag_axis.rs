@@ -1,7 +1,7 @@
 //! Limit cycle of a drag axis under a relay with hysteresis.
 
 use super::OrbitError;
-use super::half_cycle::{HalfCycle, Swing};
+use super::half_cycle::{End, HalfCycle, Swing};
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::{Real, Scalar};
 use crate::plant::DragAxis;
@@ -41,21 +41,6 @@ pub struct LimitCycle<T> {
     pub lower_switch: Switching<T>,
     /// Factor by which a small deviation shrinks in a period: the slope of the return map, in (0, 1).
     pub multiplier: T,
-}
-
-/// An end of a limit cycle, seen outwards from the middle; every quantity is positive.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct End<T> {
-    /// Way from the relay's level to rest.
-    pub(super) excursion: T,
-    /// Way from the relay's level to where the opposite command begins to act, and the speed there.
-    pub(super) switch_lag: T,
-    pub(super) switch_speed: T,
-    /// Time from rest at the opposite end to there, and from there to rest at this end.
-    pub(super) rise_time_s: T,
-    pub(super) stop_time_s: T,
-    /// Derivative of the next approach with respect to the approach to this end.
-    pub(super) gain: T,
 }
 
 impl<T: Real> LimitCycle<T> {

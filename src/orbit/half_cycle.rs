@@ -1,7 +1,6 @@
 //! A half cycle: from the turning point across the relay's level to the next turning point.
 
 use super::OrbitError;
-use super::drag_axis::End;
 use crate::nonlinearity::RelayHysteresis;
 use crate::numeric::Scalar;
 use crate::plant::{DragAxis, OneWay, Passage};
@@ -15,6 +14,21 @@ pub(super) struct HalfCycle<S> {
     pub(super) brake: OneWay<S>,
     delay_s: S,
     half_width: S,
+}
+
+/// An end of a limit cycle, seen outwards from the middle; every quantity is positive.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End<T> {
+    /// Way from the relay's level to rest.
+    pub(super) excursion: T,
+    /// Way from the relay's level to where the opposite command begins to act, and the speed there.
+    pub(super) switch_lag: T,
+    pub(super) switch_speed: T,
+    /// Time from rest at the opposite end to there, and from there to rest at this end.
+    pub(super) rise_time_s: T,
+    pub(super) stop_time_s: T,
+    /// Derivative of the next approach with respect to the approach to this end.
+    pub(super) gain: T,
 }
 
 /// The half cycle seen from the turning point before it.

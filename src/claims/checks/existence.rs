@@ -7,8 +7,9 @@ use crate::nonlinearity::Tanh;
 use crate::numeric::{Interval, runge_kutta};
 use crate::plant::TransferFunction;
 
-/// Steps of a period by the classical Runge-Kutta method, of fourth order: `(2 pi/4000)^4 = 6e-12`.
-const STEPS: u32 = 4000;
+/// Steps of a period by the classical Runge-Kutta method, of fourth order: `(2 pi/4000)^4 = 6e-12`; `(2 pi/4000)^3/6 = 6e-10` where quadratic
+/// drag has its kink.
+pub(super) const STEPS: u32 = 4000;
 
 claim! {
     RIGOROUS_DESCRIBING_FUNCTION = "rigorous-describing-function" Theorem

@@ -5,6 +5,7 @@ use core::f64::consts::PI;
 use nalgebra::{Complex, DMatrix};
 
 use super::algebra::exactly;
+use super::existence::STEPS;
 use super::vehicle_proofs::uncoupled_axis;
 use super::{AsPrinted, Budget, Case, ClaimPart, Distortion, Draw, Hypothesis, Verdict, claim, sample, tolerance};
 use crate::describing::ClosedForm;
@@ -151,9 +152,6 @@ claim! {
         hypotheses: &[Hypothesis::needed("integrated", |budget| surge(budget, |[speed, _]| speed))],
     }
 }
-
-/// Steps of a period: of the fourth order `(2 pi/4000)^4 = 6e-12`, `(2 pi/4000)^3/6 = 6e-10` where quadratic drag has its kink.
-const STEPS: u32 = 4000;
 
 /// The speed's own first-order equation and an integrator, integrated step by step, against the limit cycle of eq. 36.
 fn surge(budget: Budget, measured: fn([f64; 2]) -> f64) -> Verdict {
