@@ -271,6 +271,16 @@ fn attempt(
     LipschitzLoop::new(&plant, characteristic).unwrap().prove_near(first.amplitude, first.omega_rad_s)
 }
 
+/// Without an intersection to begin from, an oscillation far beyond the least bend and within reach of the largest.
+#[test]
+fn the_scan_reaches_from_the_least_bend_to_beyond_the_largest() {
+    let plant = TransferFunction::new(&[4.0], &[1.0, 2.0, 1.0, 0.0]).unwrap();
+    let limited = OddCharacteristic::from_catalogue("dead-zone-saturation", &[1.0, 0.001, 1.0]).unwrap();
+    let found = LipschitzLoop::new(&plant, limited).unwrap().oscillations(&(0.1..=10.0), &[]);
+    // The describing function 1/2 of a saturation at 1 is that of an amplitude of 2.475.
+    assert!(found.proved.iter().any(|one| (one.amplitude().midpoint() - 2.475).abs() < 0.1), "{found:?}");
+}
+
 #[test]
 fn what_the_proof_does_not_know_is_refused_by_name() {
     let plant = TransferFunction::new(&[1.0, 1.0], &[1.0, 2.0]).unwrap();

@@ -80,6 +80,7 @@ fn commands_hold_where_topics_are_merged() {
         assert_eq!(read(&holding, &format!("{}\n{late}", rows[0].join(","))), read(&Columns::default(), &plain));
     }
     assert_eq!(read(&holding, &merged.replacen(",,-1", ",,off", 1)), Err("not-a-number"));
+    assert_eq!(read(&holding, &plain.replacen(",-1", ",off", 1)), Err("not-a-number"));
     assert_eq!(read(&holding, &merged.replacen(",2.5,", ",n/a,", 1)), Err("not-a-number"));
 }
 

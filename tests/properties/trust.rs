@@ -290,6 +290,32 @@ fn a_proposed_experiment_keeps_its_promise() {
     assert!(second.together.alpha <= best.std.alpha && second.together.beta <= best.std.beta);
 }
 
+/// A step of a degree without noise: experiments that lock come last, and second records lock only where all others do.
+#[test]
+fn experiments_that_lock_come_last() {
+    let sensor = Sensor { quantum: 0.0175, ..Sensor::default() };
+    let (time_limit_s, largest_amplitude) = (60.0, f64::INFINITY);
+    let situation = Situation {
+        axis: DragAxis::mixed(1.0, 0.2, 0.3).unwrap().with_delay_s(0.1).unwrap(),
+        sensor,
+        rate_hz: 10.0,
+        time_limit_s,
+        largest_level: 1.0,
+        largest_amplitude,
+        delay: Delay::Estimated,
+    };
+    let proposals = situation.experiments().unwrap();
+    let runs: Vec<_> = proposals.iter().map(|proposal| proposal.first).collect();
+    assert!(runs.is_sorted_by_key(|run| run.locks) && !runs[0].locks && runs[runs.len() - 1].locks, "{runs:?}");
+    let best =
+        |locks: bool| runs.iter().filter(|run| run.locks == locks).map(|run| run.std.alpha).fold(f64::MAX, f64::min);
+    assert!(best(true) < best(false), "by their deviations alone one that locks came first");
+    for proposal in &proposals {
+        let free = runs.iter().any(|run| run.relay_level != proposal.first.relay_level && !run.locks);
+        assert!(proposal.second.is_none_or(|second| !second.run.locks || !free), "{proposal:?}");
+    }
+}
+
 #[test]
 fn a_situation_without_an_oscillation_is_refused() {
     let situation = Situation {

@@ -198,3 +198,15 @@ fn odd_polynomial<T: Real>(odd_coefficients: &[f64], x: T) -> [T; 3] {
 fn magnitudes(coefficients: &[f64]) -> Vec<f64> {
     coefficients.iter().map(|c| c.abs()).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn derivatives_of_an_odd_polynomial() {
+        // 3 x - 2 x^3 + x^5
+        let (x, found) = (0.7_f64, super::odd_polynomial(&[3.0, -2.0, 1.0], 0.7));
+        let exact =
+            [3.0 * x - 2.0 * x.powi(3) + x.powi(5), 3.0 - 6.0 * x * x + 5.0 * x.powi(4), -12.0 * x + 20.0 * x.powi(3)];
+        assert!(found.iter().zip(exact).all(|(found, exact)| (found - exact).abs() < 1e-14), "{found:?} {exact:?}");
+    }
+}

@@ -152,11 +152,10 @@ fn attracts(budget: Budget, family: &Family) -> Verdict {
     })
 }
 
-/// The speed at the upper switching a period after a switching there at `speed`, without delay.
+/// The speed at the upper switching a period after a switching there at `speed`: two half cycles without disturbance and delay.
 fn a_period_on(axis: &DragAxis<f64>, relay: &RelayHysteresis<f64>, speed: f64) -> Option<f64> {
-    [-1.0, 1.0].into_iter().try_fold(speed, |speed, command| {
-        let force = command * axis.disturbance();
-        let (brake, drive) = (axis.one_way(-relay.level() - force), axis.one_way(relay.level() + force));
+    let (brake, drive) = (axis.one_way(-relay.level()), axis.one_way(relay.level()));
+    (0..2).try_fold(speed, |speed, _| {
         let stop = brake.advance(speed, brake.time_to_rest(speed)?).distance;
         let time_s = drive.time_to_distance(0.0, stop + 2.0 * relay.half_width())?;
         Some(drive.advance(0.0, time_s).speed)

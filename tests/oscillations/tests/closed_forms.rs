@@ -64,7 +64,7 @@ fn a_lag_with_dead_time_has_one_stable_cycle_and_faster_unstable_ones() {
     let slow = Case::near(control_loop.clone(), 1.5, 1.5);
     let e = f256::ONE.exp();
     digits(slow.orbit.period(), f256::TWO * (f256::TWO * e - f256::ONE).ln());
-    close(slow.path.amplitude(), 1.0 - (-1.0_f64).exp());
+    close(slow.path.amplitude().to_f64(), 1.0 - (-1.0_f64).exp());
     assert_eq!(slow.fate(), Fate::Returns);
     slow.is_where_starts_end();
     // The command of a period before: the slow cycle's e^H = 2 e^L - 1 with L - 2 H for L.
@@ -79,7 +79,7 @@ fn a_lag_with_dead_time_has_one_stable_cycle_and_faster_unstable_ones() {
 fn an_integrator_with_dead_time() {
     let case = Case::near(symmetric(&[1.0], &[1.0, 0.0], 1.0, 0.0), 2.1, 2.0);
     digits(case.orbit.period(), f256::from(4.0));
-    close(case.path.amplitude(), 1.0);
+    close(case.path.amplitude().to_f64(), 1.0);
     assert_eq!((case.fate(), case.radius()), (Fate::Returns, 0.0));
     case.is_where_starts_end();
     // With two more commands under way the instants of switching satisfy t_(k+1) + t_k = 2 t_(k-2) + 2 L: beside the shift of
@@ -114,8 +114,8 @@ fn unequal_levels_hysteresis_dead_time_and_reference_of_a_lag() {
     let (maximum, minimum) = (high - (high - upper) * (-delay).exp(), lower * (-delay).exp());
     digits(case.orbit.time_low, delay + (maximum / lower).ln());
     digits(case.orbit.time_high, delay + ((high - minimum) / (high - upper)).ln());
-    close(case.path.maximum, maximum.to_f64());
-    close(case.path.minimum, minimum.to_f64());
+    close(case.path.maximum.to_f64(), maximum.to_f64());
+    close(case.path.minimum.to_f64(), minimum.to_f64());
     case.is_where_starts_end();
 }
 
@@ -130,6 +130,17 @@ fn a_lag_and_an_integrator_with_hysteresis() {
     case.is_where_starts_end();
 }
 
+/// The digits of a motion are those of the motion, wherever it is.
+#[test]
+fn a_motion_about_a_large_constant_keeps_its_digits() {
+    let about = |reference: f64| {
+        let control_loop = RelayLoop { reference, ..symmetric(&[1.0], &[1.0, 1.0, 0.0], 0.0, 1e-5) };
+        Case::near(control_loop, 0.0495, 0.0495).path.amplitude().to_f64()
+    };
+    let (near, far) = (about(0.0), about(4096.0));
+    assert!((far / near - 1.0).abs() < 1e-12, "{far} {near}");
+}
+
 #[test]
 fn double_integrators_diverge() {
     for (delay, half_width) in [(0.0, 0.3), (0.5, 0.0), (0.5, 0.3)] {
@@ -139,7 +150,7 @@ fn double_integrators_diverge() {
     // Commands that are late by a whole period: the conservative cycle of the loop without dead time, which repels.
     let case = Case::near(symmetric(&[1.0], &[1.0, 0.0, 0.0], 1.0, 0.0), 0.5, 0.5);
     digits(case.orbit.period(), f256::ONE);
-    close(case.path.amplitude(), 0.5 * 0.25 * 0.25);
+    close(case.path.amplitude().to_f64(), 0.5 * 0.25 * 0.25);
     assert_eq!(case.fate(), Fate::Leaves);
 }
 

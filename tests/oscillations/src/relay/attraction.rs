@@ -56,7 +56,7 @@ fn follow(simulator: &Simulator<f256>, orbit: &Orbit, path: &Path, direction: u6
     // The switching itself comes early or late; without dead time, at another output than the threshold.
     match state.due.back_mut() {
         Some(last) => *last += disturbance() * orbit.period(),
-        None => section.lift(&mut state, disturbance() * f256::from(path.amplitude())),
+        None => section.lift(&mut state, disturbance() * path.amplitude()),
     }
 
     let period = orbit.period();

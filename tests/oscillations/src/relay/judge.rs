@@ -231,13 +231,13 @@ impl Judgement {
 
     fn values(&mut self, listed: &ListedOrbit, orbit: &Orbit, path: &Path, attraction: Attraction) {
         let period_s = listed.period_s;
-        let (period, size) = (orbit.period().to_f64(), path.amplitude());
+        let (period, size, bias) = (orbit.period().to_f64(), path.amplitude().to_f64(), path.bias().to_f64());
         let largest = listed.multipliers.iter().map(|one| one.modulus()).reduce(f64::max);
         let radius = attraction.radius.filter(|&radius| radius > SMALL_MULTIPLIER);
         let values = [
             ("period_s", Some(listed.period_s), Some(period), VALUES * period),
             ("amplitude", listed.amplitude, Some(size), VALUES * size),
-            ("bias", listed.bias, Some(path.bias()), VALUES * size.max(path.bias().abs())),
+            ("bias", listed.bias, Some(bias), VALUES * size.max(bias.abs())),
             ("largest multiplier", largest, radius, MULTIPLIER * radius.unwrap_or(0.0)),
         ];
         for (field, listed, exact, tolerance) in values {
@@ -253,8 +253,8 @@ impl Judgement {
             ("period_s", orbit.period(), 0.0),
             ("time_high_s", orbit.time_high, 0.0),
             ("time_low_s", orbit.time_low, 0.0),
-            ("amplitude", f256::from(path.amplitude()), rounding),
-            ("bias", f256::from(path.bias()), rounding),
+            ("amplitude", path.amplitude(), rounding),
+            ("bias", path.bias(), rounding),
         ];
         for (field, exact, rounding) in exact {
             if let Some([low, high]) = listed.bounds(field)
@@ -351,8 +351,8 @@ impl Known {
             period_s: self.orbit.period().to_f64(),
             time_high_s: self.orbit.time_high.to_f64(),
             time_low_s: self.orbit.time_low.to_f64(),
-            amplitude: Some(self.path.amplitude()),
-            bias: Some(self.path.bias()),
+            amplitude: Some(self.path.amplitude().to_f64()),
+            bias: Some(self.path.bias().to_f64()),
             multipliers: self.attraction.radius.map(super::answer::Multiplier::Real).into_iter().collect(),
             attracting: self.attraction.attracting(),
             shown: Some("not proved".to_owned()),

@@ -70,9 +70,9 @@ pub const MOST_COORDINATES: usize = 64;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// Largest output.
-    pub maximum: f64,
+    pub maximum: f256,
     /// Smallest output.
-    pub minimum: f64,
+    pub minimum: f256,
     /// Half the peak-to-peak value of each state of the plant, as far as ends and middles of steps show it.
     pub swing: Vec<f64>,
 }
@@ -80,14 +80,14 @@ pub struct Path {
 impl Path {
     /// Half the peak-to-peak value.
     #[must_use]
-    pub fn amplitude(&self) -> f64 {
-        0.5 * (self.maximum - self.minimum)
+    pub fn amplitude(&self) -> f256 {
+        (self.maximum - self.minimum).div2()
     }
 
     /// Middle of the extremes.
     #[must_use]
-    pub fn bias(&self) -> f64 {
-        0.5 * (self.maximum + self.minimum)
+    pub fn bias(&self) -> f256 {
+        (self.maximum + self.minimum).div2()
     }
 }
 
@@ -150,14 +150,17 @@ impl Orbit {
         let mut state = self.state(simulator.delay);
         let period = self.period().to_f64();
         let limit = Limit { duration: 2.0 * period, distance: f64::MAX };
-        let mut output = (f64::INFINITY, f64::NEG_INFINITY);
-        let mut states = vec![output; self.z.len()];
+        let mut output: Option<(f256, f256)> = None;
+        let mut states = vec![(f64::INFINITY, f64::NEG_INFINITY); self.z.len()];
         for expected in [self.time_low, self.time_high] {
             let event = simulator.run_observed(&mut state, limit, |step| {
-                let series = simulator.motion.output_series(&step.derivatives, step.duration);
+                // The output's motion from the step's start: a small one about a large constant keeps its digits.
+                let mut series = simulator.motion.output_series(&step.derivatives, step.duration);
+                let start = core::mem::replace(&mut series[0], f256::ZERO);
                 let (low, high) = range(&leading(&series));
-                widen(&mut output, low);
-                widen(&mut output, high);
+                let (low, high) = (start + f256::from(low), start + f256::from(high));
+                let (least, most) = output.unwrap_or((low, high));
+                output = Some((if low < least { low } else { least }, if high > most { high } else { most }));
                 let middle = simulator.motion.state(&step.derivatives, step.duration.div2());
                 for state in [step.derivatives.state(), &middle] {
                     states.iter_mut().zip(state).for_each(|(range, z)| widen(range, z.to_f64()));
@@ -173,7 +176,8 @@ impl Orbit {
         let swing: Vec<f64> = states.iter().map(|(low, high)| 0.5 * (high - low)).collect();
         let mut differences = state.z.iter().zip(&self.z).map(|(&a, &b)| (a - b).to_f64().abs());
         if differences.clone().zip(&swing).all(|(difference, &swing)| difference <= EXISTENCE * swing) {
-            Ok(Path { maximum: output.1, minimum: output.0, swing })
+            let (minimum, maximum) = output.unwrap_or((f256::NAN, f256::NAN));
+            Ok(Path { maximum, minimum, swing })
         } else {
             Err(Absent::NotPeriodic { off: differences.next().unwrap_or(f64::NAN) })
         }
