@@ -2,10 +2,9 @@
 
 use crate::numeric::OutOfDomain;
 
-/// Declares the umbrella: one transparent variant for each module's error, each of which has `code` and, where a number
-/// can be the reason, `out_of_domain`.
+/// Declares the umbrella: one transparent variant for each module's error.
 macro_rules! umbrella {
-    ($( $(#[$attribute:meta])* $doc:literal $variant:ident($error:ty) $($numbers:ident)?; )+) => {
+    ($( $(#[$attribute:meta])* $doc:literal $variant:ident($error:ty); )+) => {
         /// Any error of this library, for callers that do not tell the modules apart: `?` turns every module's error into
         /// it. The text names value, limit and remedy.
         ///
@@ -29,53 +28,30 @@ macro_rules! umbrella {
             $( $(#[$attribute])* #[doc = $doc] #[error(transparent)] $variant(#[from] $error), )+
         }
 
-        impl Error {
-            /// Short name for scripts; it does not change with the wording of the message.
-            #[must_use]
-            pub fn code(&self) -> &'static str {
-                match self {
-                    Self::OutOfDomain(_) => "out-of-domain",
-                    $( $(#[$attribute])* Self::$variant(error) => error.code(), )+
-                }
-            }
-
-            /// The number outside its domain, if that is the reason: quantity, value, unit, limit and remedy.
-            #[must_use]
-            pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-                match self {
-                    Self::OutOfDomain(fault) => Some(fault),
-                    $( $(#[$attribute])* Self::$variant(error) => umbrella!(@number error $($numbers)?), )+
-                }
-            }
-        }
+        crate::numeric::codes! { pub Error { OutOfDomain.0, $( $(#[$attribute])* $variant.0 ),+ } }
     };
-    (@number $error:ident numbers) => { $error.out_of_domain() };
-    (@number $error:ident) => {{
-        let _ = $error;
-        None
-    }};
 }
 
 umbrella! {
     "A file that cannot be read or written." Files(crate::files::FileError);
     "A proof that is not accepted." Proof(crate::proof::inequality::Refusal);
-    "A characteristic or its input." Nonlinearity(crate::nonlinearity::NonlinearityError) numbers;
-    "No describing function." Describing(crate::describing::DescribingError) numbers;
-    "A name or setting that the catalogue does not take." Catalogue(crate::describing::CatalogueError) numbers;
-    "A plant that is none." Plant(crate::plant::PlantError) numbers;
-    "No harmonic balance." Balance(crate::balance::BalanceError) numbers;
+    "A characteristic or its input." Nonlinearity(crate::nonlinearity::NonlinearityError);
+    "No describing function." Describing(crate::describing::DescribingError);
+    "A name or setting that the catalogue does not take." Catalogue(crate::describing::CatalogueError);
+    "A plant that is none." Plant(crate::plant::PlantError);
+    "No harmonic balance." Balance(crate::balance::BalanceError);
     "No proof of an oscillation." Existence(crate::balance::ExistenceError);
-    "No limit cycle." Orbit(crate::orbit::OrbitError) numbers;
-    "No record." Experiment(crate::experiment::ExperimentError) numbers;
+    "No limit cycle." Orbit(crate::orbit::OrbitError);
+    "No record." Experiment(crate::experiment::ExperimentError);
     "No steady self-oscillation in a record." Features(crate::features::FeatureError);
-    "No model." Identify(crate::identify::IdentifyError) numbers;
-    "No model from these logs." Identification(crate::identify::Refusal) numbers;
-    "No experiment to propose." Design(crate::identify::design::DesignError) numbers;
+    "No model." Identify(crate::identify::IdentifyError);
+    "No model from these logs." Identification(crate::identify::Refusal);
+    "No experiment to propose." Design(crate::identify::design::DesignError);
     "An experiment on board that was broken off." OnBoard(crate::on_board::Fault);
-    "A vehicle, a thruster or a demand on them." Vehicle(crate::vehicle::VehicleError) numbers;
-    "No controller." Control(crate::control::ControlError) numbers;
+    "A vehicle, a thruster or a demand on them." Vehicle(crate::vehicle::VehicleError);
+    "No controller." Control(crate::control::ControlError);
     "No process from a record." Process(crate::autotune::ProcessError);
-    "A part of the paper that cannot be regenerated." Paper(crate::paper::PaperError) numbers;
+    "A part of the paper that cannot be regenerated." Paper(crate::paper::PaperError);
     #[cfg(feature = "report")]
-    "No report." Report(crate::report::ReportError) numbers;
+    "No report." Report(crate::report::ReportError);
 }

@@ -46,20 +46,13 @@ impl core::fmt::Display for Percent {
     }
 }
 
+crate::numeric::codes! { pub ProcessError {
+    FewChanges => "few-changes", FewSamples => "few-samples", Readings => "readings", NoAnswer => "no-answer",
+} }
+
 impl ProcessError {
     /// Fewest changes of the command: less than that is a step, which tells gain from time constant only if it settles.
     pub const LEAST_CHANGES: usize = 3;
     /// Fewest samples.
     pub const LEAST_SAMPLES: usize = 24;
-
-    /// Short name for scripts.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::FewChanges { .. } => "few-changes",
-            Self::FewSamples { .. } => "few-samples",
-            Self::Readings => "readings",
-            Self::NoAnswer { .. } => "no-answer",
-        }
-    }
 }

@@ -85,32 +85,7 @@ pub enum BalanceError {
     },
 }
 
-impl BalanceError {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Plant(error) => error.code(),
-            Self::Describing(error) => error.code(),
-            Self::Nonlinearity(error) => error.code(),
-            Self::OutOfDomain(_) => "out-of-domain",
-            Self::TooManyPoints { .. } => "too-many-points",
-            Self::Order { .. } => "harmonics",
-            Self::NotConverged { .. } => "no-balance",
-            Self::TurnsInMemory { .. } => "turns-in-memory",
-            Self::NoAxisBalance { .. } => "no-axis-balance",
-        }
-    }
-
-    /// The number outside its domain, if that is the reason.
-    #[must_use]
-    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        match self {
-            Self::Plant(error) => error.out_of_domain(),
-            Self::Describing(error) => error.out_of_domain(),
-            Self::Nonlinearity(error) => error.out_of_domain(),
-            Self::OutOfDomain(fault) => Some(fault),
-            _ => None,
-        }
-    }
-}
+crate::numeric::codes! { pub BalanceError {
+    Plant.0, Describing.0, Nonlinearity.0, OutOfDomain.0, TooManyPoints => "too-many-points", Order => "harmonics",
+    NotConverged => "no-balance", TurnsInMemory => "turns-in-memory", NoAxisBalance => "no-axis-balance",
+} }

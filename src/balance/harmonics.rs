@@ -20,29 +20,17 @@ const STEP: f64 = 1e-6;
 /// A periodic solution with finitely many harmonics: the characteristic's input
 /// `bias + sum over k of b_k sin(k theta) + c_k cos(k theta)`, with `c_1 = 0`.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MultiHarmonic {
-    omega_rad_s: f64,
-    bias: f64,
-    /// `b_k + j c_k`, from k = 1.
-    harmonics: Vec<Complex<f64>>,
+    /// Frequency, rad/s.
+    pub omega_rad_s: f64,
+    /// Mean of the characteristic's input.
+    pub bias: f64,
+    /// `b_k + j c_k` of the input, from k = 1.
+    pub harmonics: Vec<Complex<f64>>,
 }
 
 impl MultiHarmonic {
-    /// Frequency, rad/s.
-    #[must_use]
-    pub fn omega_rad_s(&self) -> f64 {
-        self.omega_rad_s
-    }
-    /// Mean of the characteristic's input.
-    #[must_use]
-    pub fn bias(&self) -> f64 {
-        self.bias
-    }
-    /// `b_k + j c_k` of the input, from k = 1.
-    #[must_use]
-    pub fn harmonics(&self) -> &[Complex<f64>] {
-        &self.harmonics
-    }
     /// The input at phase `theta`, rad.
     #[must_use]
     pub fn input(&self, theta: f64) -> f64 {
@@ -82,7 +70,7 @@ where
     /// let first = balance.intersections()?[0];
     /// let error = |omega: f64| (core::f64::consts::PI / omega / 1.862_223_721_734_969 - 1.0).abs();
     /// let many = balance.with_harmonics(&relay, &first, 15)?;
-    /// assert!(error(many.omega_rad_s()) < 0.05 * error(first.omega_rad_s));
+    /// assert!(error(many.omega_rad_s) < 0.05 * error(first.omega_rad_s));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn with_harmonics(
@@ -107,7 +95,7 @@ where
             reached = order.min(2 * reached);
             let (_, outputs) = output(bias, &harmonics, reached)?;
             for (k, output) in outputs.iter().enumerate().skip(harmonics.len()) {
-                harmonics.push(-self.plant().response((k + 1) as f64 * omega_rad_s)? * output);
+                harmonics.push(-self.plant.response((k + 1) as f64 * omega_rad_s)? * output);
             }
             unknowns = pack(bias, omega_rad_s, &harmonics);
         }
@@ -168,7 +156,7 @@ where
         let (mean, outputs) = output(bias, &harmonics, harmonics.len())?;
         let mut misses = vec![self.bias_miss(bias, mean)];
         for (index, (input, output)) in harmonics.iter().zip(&outputs).enumerate() {
-            let miss = input + self.plant().response((index + 1) as f64 * omega)? * output;
+            let miss = input + self.plant.response((index + 1) as f64 * omega)? * output;
             misses.extend([miss.re, miss.im]);
         }
         Ok(DVector::from_vec(misses))

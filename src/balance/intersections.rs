@@ -75,7 +75,7 @@ pub struct Intersection {
 /// ```
 #[derive(Clone, Debug)]
 pub struct HarmonicBalance<'a, N> {
-    plant: &'a TransferFunction,
+    pub(super) plant: &'a TransferFunction,
     describing: N,
     bias: Bias,
     amplitude: RangeInclusive<f64>,
@@ -136,9 +136,6 @@ where
     #[must_use]
     pub fn omega_rad_s(&self) -> RangeInclusive<f64> {
         self.omega_rad_s.clone()
-    }
-    pub(super) fn plant(&self) -> &TransferFunction {
-        self.plant
     }
 
     /// All solutions of `1 + N(X) G(jw) = 0` and of the condition on the bias, ascending in frequency, then amplitude.

@@ -129,16 +129,4 @@ impl Certificate {
     }
 }
 
-impl core::fmt::Display for Certificate {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(&serde_json::to_string(self).map_err(|_| core::fmt::Error)?)
-    }
-}
-
-impl core::str::FromStr for Certificate {
-    type Err = Refusal;
-
-    fn from_str(text: &str) -> Result<Self, Refusal> {
-        serde_json::from_str(text).map_err(|error| Refusal::Malformed { text: error.to_string() })
-    }
-}
+crate::proof::document!(Certificate, Refusal, to_string);

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use super::suggestion;
 use crate::describing::{CATALOGUE, CatalogueError};
 use crate::error::Error;
-use crate::numeric::OutOfDomain;
 use crate::orbit::OrbitError;
 
 /// Why a subcommand could not answer.
@@ -37,26 +36,10 @@ pub(super) enum CommandError {
     Model { flag: &'static str, path: PathBuf, reason: String },
 }
 
-impl CommandError {
-    /// Short name for scripts.
-    pub(super) fn code(&self) -> &'static str {
-        match self {
-            Self::Library(error) | Self::Given { error, .. } => error.code(),
-            Self::Usage { .. } | Self::UnknownClaim { .. } => "usage",
-            Self::Model { .. } => "model",
-            Self::Proof { .. } | Self::NoCertificate { .. } => "proof",
-            Self::Output(_) => "files",
-        }
-    }
-
-    /// The number outside its domain, if that is the reason.
-    pub(super) fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        match self {
-            Self::Library(error) | Self::Given { error, .. } => error.out_of_domain(),
-            _ => None,
-        }
-    }
-}
+crate::numeric::codes! { pub(super) CommandError {
+    Library.0, Given.error, Usage => "usage", UnknownClaim => "usage", Model => "model", Proof => "proof",
+    NoCertificate => "proof", Output => "files",
+} }
 
 impl<E: Into<Error>> From<E> for CommandError {
     fn from(error: E) -> Self {

@@ -170,31 +170,8 @@ impl core::fmt::Display for Remedy {
     }
 }
 
-impl ControlError {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::OutOfDomain(_) => "out-of-domain",
-            Self::Plant(error) => error.code(),
-            Self::Overdamped { .. } => "overdamped",
-            Self::TooFast { .. } => "too-fast",
-            Self::NoBandwidth { .. } => "no-bandwidth",
-            Self::OutOfReach { .. } => "out-of-reach",
-            Self::Unstable { .. } | Self::NotStabilised { .. } => "unstable",
-            Self::BelowSwitching { .. } => "below-switching",
-            Self::OnePhase { .. } => "one-phase",
-            Self::NoCriticalPoint { .. } => "no-critical-point",
-        }
-    }
-
-    /// The number outside its domain, if that is the reason.
-    #[must_use]
-    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        match self {
-            Self::OutOfDomain(fault) => Some(fault),
-            Self::Plant(error) => error.out_of_domain(),
-            _ => None,
-        }
-    }
-}
+crate::numeric::codes! { pub ControlError {
+    OutOfDomain.0, Plant.0, Overdamped => "overdamped", TooFast => "too-fast", NoBandwidth => "no-bandwidth",
+    OutOfReach => "out-of-reach", Unstable => "unstable", NotStabilised => "unstable",
+    BelowSwitching => "below-switching", OnePhase => "one-phase", NoCriticalPoint => "no-critical-point",
+} }

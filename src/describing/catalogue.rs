@@ -3,7 +3,7 @@
 use super::{ClosedForm, Setting};
 use crate::files::{LONGEST_WORD, cut};
 use crate::nonlinearity::{self, Catalogued, NonlinearityError, ParameterDomain, ParameterSpec, every_characteristic};
-use crate::numeric::{OutOfDomain, special::Special};
+use crate::numeric::special::Special;
 
 /// A characteristic of the catalogue, in the arithmetic `T`.
 pub type Boxed<T> = Box<dyn ClosedForm<Number = T>>;
@@ -65,26 +65,11 @@ pub enum CatalogueError {
     Nonlinearity(#[from] NonlinearityError),
 }
 
-impl CatalogueError {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::UnknownName { .. } => "unknown-characteristic",
-            Self::UnknownParameter { .. } => "unknown-parameter",
-            Self::MissingParameter { .. } => "missing-parameter",
-            Self::Kind { .. } => "parameter-kind",
-            Self::Setting { .. } => "unreadable-setting",
-            Self::Nonlinearity(error) => error.code(),
-        }
-    }
-
-    /// The number outside its domain, if that is the reason.
-    #[must_use]
-    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        if let Self::Nonlinearity(error) = self { error.out_of_domain() } else { None }
-    }
-}
+crate::numeric::codes! { pub CatalogueError {
+    UnknownName => "unknown-characteristic", UnknownParameter => "unknown-parameter",
+    MissingParameter => "missing-parameter", Kind => "parameter-kind", Setting => "unreadable-setting",
+    Nonlinearity.0,
+} }
 
 /// Name, parameters and page of a characteristic.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -47,24 +47,9 @@ pub enum DescribingError {
     },
 }
 
-impl DescribingError {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Nonlinearity(error) => error.code(),
-            Self::Quadrature { .. } => "quadrature",
-            Self::NotFinite { .. } => "output-not-finite",
-            Self::NoClosedForm { .. } => "no-closed-form",
-        }
-    }
-
-    /// The number outside its domain, if that is the reason.
-    #[must_use]
-    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        if let Self::Nonlinearity(error) = self { error.out_of_domain() } else { None }
-    }
-}
+crate::numeric::codes! { pub DescribingError {
+    Nonlinearity.0, Quadrature => "quadrature", NotFinite => "output-not-finite", NoClosedForm => "no-closed-form",
+} }
 
 impl From<OutOfDomain> for DescribingError {
     fn from(fault: OutOfDomain) -> Self {

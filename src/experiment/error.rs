@@ -296,40 +296,17 @@ pub enum ExperimentError {
     Relay(#[from] NonlinearityError),
 }
 
-impl ExperimentError {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Lengths { .. } => "unequal-columns",
-            Self::TooShort { .. } => "too-short",
-            Self::NotFinite { .. } => "not-finite",
-            Self::TooLarge { .. } => "too-large",
-            Self::TimeOrder { .. } => "time-order",
-            Self::Gap { .. } => "gap",
-            Self::Bursts { .. } => "bursts",
-            Self::Restart { .. } => "clock-restarts",
-            Self::TooManyBad { .. } => "too-many-bad-rows",
-            Self::Ragged { .. } => "ragged-row",
-            Self::SameColumn { .. } => "same-column",
-            Self::Empty => "empty",
-            Self::Binary { .. } => "not-text",
-            Self::UnknownColumn { .. } => "unknown-column",
-            Self::NoHeader { .. } => "no-header",
-            Self::DuplicateColumn { .. } => "duplicate-column",
-            Self::TimeUnit { .. } => "time-unit",
-            Self::Degrees { .. } => "degrees",
-            Self::Turns { .. } => "turns",
-            Self::Neutral { .. } => "neutral",
-            Self::Blank { .. } => "blank-cell",
-            Self::NotANumber { .. } => "not-a-number",
-            Self::TooLong => "too-long",
-            Self::Unreadable { .. } => "unreadable",
-            Self::OutOfDomain(_) => "setting",
-            Self::Relay(_) => "relay",
-        }
-    }
+crate::numeric::codes! { pub ExperimentError {
+    Lengths => "unequal-columns", TooShort => "too-short", NotFinite => "not-finite", TooLarge => "too-large",
+    TimeOrder => "time-order", Gap => "gap", Bursts => "bursts", Restart => "clock-restarts",
+    TooManyBad => "too-many-bad-rows", Ragged => "ragged-row", SameColumn => "same-column", Empty => "empty",
+    Binary => "not-text", UnknownColumn => "unknown-column", NoHeader => "no-header",
+    DuplicateColumn => "duplicate-column", TimeUnit => "time-unit", Degrees => "degrees", Turns => "turns",
+    Neutral => "neutral", Blank => "blank-cell", NotANumber => "not-a-number", TooLong => "too-long",
+    Unreadable => "unreadable", OutOfDomain.0 => "setting", Relay.0 => "relay",
+} }
 
+impl ExperimentError {
     /// Whether the text or its columns could not be read, rather than the record in it be used.
     #[must_use]
     pub fn is_unreadable(&self) -> bool {
@@ -343,15 +320,5 @@ impl ExperimentError {
                 | Self::TooLong
                 | Self::Unreadable { .. }
         )
-    }
-
-    /// The number outside its domain, if that is the reason.
-    #[must_use]
-    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        match self {
-            Self::OutOfDomain(fault) => Some(fault),
-            Self::Relay(error) => error.out_of_domain(),
-            _ => None,
-        }
     }
 }

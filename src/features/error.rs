@@ -79,20 +79,7 @@ pub enum FeatureError {
     OutOfDomain(#[from] OutOfDomain),
 }
 
-impl FeatureError {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::ConstantInput { .. } => "constant-input",
-            Self::NotARelay { .. } => "not-a-relay",
-            Self::Saturated { .. } => "saturated",
-            Self::NoCycle { .. } => "no-cycle",
-            Self::TooFewCycles { .. } => "too-few-cycles",
-            Self::Growing { .. } => "growing",
-            Self::Decaying { .. } => "decaying",
-            Self::Drift { .. } => "drift",
-            Self::OutOfDomain(_) => "out-of-domain",
-        }
-    }
-}
+crate::numeric::codes! { pub FeatureError {
+    ConstantInput => "constant-input", NotARelay => "not-a-relay", Saturated => "saturated", NoCycle => "no-cycle",
+    TooFewCycles => "too-few-cycles", Growing => "growing", Decaying => "decaying", Drift => "drift", OutOfDomain.0,
+} }

@@ -38,15 +38,6 @@ pub enum FileError {
     },
 }
 
-impl FileError {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Unreadable { .. } => "unreadable",
-            Self::TooLong { .. } => "file-too-long",
-            Self::Taken { .. } => "output-is-input",
-            Self::Unwritable { .. } => "unwritable",
-        }
-    }
-}
+crate::numeric::codes! { pub FileError {
+    Unreadable => "unreadable", TooLong => "file-too-long", Taken => "output-is-input", Unwritable => "unwritable",
+} }

@@ -143,27 +143,9 @@ impl core::fmt::Display for Within {
     }
 }
 
-impl DesignError {
-    /// Short name for scripts.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::OutOfDomain(_) => "out-of-domain",
-            Self::Experiment(error) => error.code(),
-            Self::NoExperiment { .. } => "no-relay",
-        }
-    }
-
-    /// The number outside its domain, if that is the reason.
-    #[must_use]
-    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        match self {
-            Self::OutOfDomain(fault) => Some(fault),
-            Self::Experiment(error) => error.out_of_domain(),
-            Self::NoExperiment { .. } => None,
-        }
-    }
-}
+crate::numeric::codes! { pub DesignError {
+    OutOfDomain.0, Experiment.0, NoExperiment => "no-relay",
+} }
 
 /// Levels of the grid, in parts of the largest.
 const LEVELS: [f64; 5] = [1.0, 0.7, 0.5, 0.35, 0.25];

@@ -69,24 +69,7 @@ pub enum NonlinearityError {
     },
 }
 
-impl NonlinearityError {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Parameter { .. } | Self::OutOfDomain(_) => "out-of-domain",
-            Self::Order { .. } => "parameter-order",
-            Self::BelowSwitching { .. } => "below-switching",
-            Self::Treads { .. } => "too-many-treads",
-        }
-    }
-
-    /// The number outside its domain, if that is the reason.
-    #[must_use]
-    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        match self {
-            Self::Parameter { fault, .. } | Self::OutOfDomain(fault) => Some(fault),
-            _ => None,
-        }
-    }
-}
+crate::numeric::codes! { pub NonlinearityError {
+    Parameter.fault, OutOfDomain.0, Order => "parameter-order", BelowSwitching => "below-switching",
+    Treads => "too-many-treads",
+} }

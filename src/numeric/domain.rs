@@ -27,6 +27,49 @@ pub struct OutOfDomain {
     pub remedy: &'static str,
 }
 
+/// Short names of the variants of an enum of errors, as `code`, and `out_of_domain`. A variant with a field named has its short name from the
+/// error there, unless another is given, and its number.
+macro_rules! codes {
+    ($visibility:vis $name:ident {
+        $( $(#[$attribute:meta])* $variant:ident $(. $field:tt)? $(=> $code:literal)? ),+ $(,)?
+    }) => {
+        impl $name {
+            /// Short name for scripts; it does not change with the wording of the message.
+            #[must_use]
+            $visibility fn code(&self) -> &'static str {
+                match self { $(
+                    $(#[$attribute])* Self::$variant { $($field: error,)? .. } =>
+                        $crate::numeric::codes!(@code [$($code)?] $(error $field)?),
+                )+ }
+            }
+
+            /// The number outside its domain, if that is the reason.
+            #[must_use]
+            $visibility fn out_of_domain(&self) -> Option<&$crate::numeric::OutOfDomain> {
+                match self { $(
+                    $(#[$attribute])* Self::$variant { $($field: error,)? .. } =>
+                        $crate::numeric::codes!(@number $(error $field)?),
+                )+ }
+            }
+        }
+    };
+    (@code [$code:literal] $($error:ident $field:tt)?) => {{ $(let _ = $error;)? $code }};
+    (@code [] $error:ident $field:tt) => { $error.code() };
+    (@number) => { None };
+    (@number $error:ident $field:tt) => { $error.out_of_domain() };
+}
+pub(crate) use codes;
+
+impl OutOfDomain {
+    pub(crate) fn code(&self) -> &'static str {
+        "out-of-domain"
+    }
+
+    pub(crate) fn out_of_domain(&self) -> Option<&Self> {
+        Some(self)
+    }
+}
+
 /// A condition on a number. Not a number and infinity are within none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]

@@ -45,6 +45,7 @@ pub(crate) use significant::significant;
 pub(crate) use uncertain::Uncertain;
 
 pub(crate) use complex::Complex;
+pub(crate) use domain::codes;
 pub use domain::{Limit, OutOfDomain};
 pub use interval::Interval;
 pub use real::{Real, Scalar};

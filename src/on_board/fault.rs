@@ -147,26 +147,9 @@ pub enum Fault {
     },
 }
 
-impl Fault {
-    /// Short name for telemetry; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::NotFinite { .. } => "not-finite",
-            Self::TimeOrder { .. } => "time-order",
-            Self::CoarseTime { .. } => "coarse-time",
-            Self::Gap { .. } => "gap",
-            Self::Jump { .. } => "jump",
-            Self::Range { .. } => "range",
-            Self::Excursion { .. } => "excursion",
-            Self::WrongWay { .. } => "wrong-way",
-            Self::NoMotion { .. } => "no-motion",
-            Self::Noise { .. } => "noise",
-            Self::Stuck { .. } => "stuck",
-            Self::NoOscillation { .. } => "no-oscillation",
-            Self::NotConverged { .. } => "not-converged",
-            Self::Condition40 { .. } => "condition-40",
-            Self::Overtime { .. } => "overtime",
-        }
-    }
-}
+crate::numeric::codes! { pub Fault {
+    NotFinite => "not-finite", TimeOrder => "time-order", CoarseTime => "coarse-time", Gap => "gap", Jump => "jump",
+    Range => "range", Excursion => "excursion", WrongWay => "wrong-way", NoMotion => "no-motion", Noise => "noise",
+    Stuck => "stuck", NoOscillation => "no-oscillation", NotConverged => "not-converged",
+    Condition40 => "condition-40", Overtime => "overtime",
+} }

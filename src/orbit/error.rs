@@ -78,32 +78,8 @@ pub enum OrbitError {
     },
 }
 
-impl OrbitError {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            #[cfg(feature = "std")]
-            Self::Plant(error) => error.code(),
-            Self::OutOfDomain(_) => "out-of-domain",
-            Self::Drift { .. } => "drifts-away",
-            Self::NoDrag => "no-drag",
-            Self::NoHysteresis => "no-hysteresis",
-            Self::LevelNotPassed { .. } => "level-not-passed",
-            Self::Unresolved { .. } => "orbit-unresolved",
-            Self::NotProved { .. } => "not-proved",
-            Self::CrowdedPoles { .. } => "crowded-poles",
-        }
-    }
-
-    /// The number outside its domain, if that is the reason.
-    #[must_use]
-    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        match self {
-            #[cfg(feature = "std")]
-            Self::Plant(error) => error.out_of_domain(),
-            Self::OutOfDomain(fault) => Some(fault),
-            _ => None,
-        }
-    }
-}
+crate::numeric::codes! { pub OrbitError {
+    #[cfg(feature = "std")] Plant.0, OutOfDomain.0, Drift => "drifts-away", NoDrag => "no-drag",
+    NoHysteresis => "no-hysteresis", LevelNotPassed => "level-not-passed", Unresolved => "orbit-unresolved",
+    NotProved => "not-proved", CrowdedPoles => "crowded-poles",
+} }

@@ -3,7 +3,6 @@
 use crate::experiment::ExperimentError;
 use crate::identify::IdentifyError;
 use crate::nonlinearity::NonlinearityError;
-use crate::numeric::OutOfDomain;
 use crate::plant::PlantError;
 use crate::vehicle::VehicleError;
 
@@ -78,34 +77,7 @@ pub enum PaperError {
     Vehicle(#[from] VehicleError),
 }
 
-impl PaperError {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Cell { .. } => "fixture-cell",
-            Self::Row { .. } => "fixture-row",
-            Self::Missing { .. } => "fixture-missing",
-            Self::Experiment { cause, .. } => cause.code(),
-            Self::Identify(error) => error.code(),
-            Self::Nonlinearity(error) => error.code(),
-            Self::NoQuadraticFit { .. } => "no-quadratic-fit",
-            Self::Plant(error) => error.code(),
-            Self::Simulation(error) => error.code(),
-            Self::Vehicle(error) => error.code(),
-        }
-    }
-
-    /// The number outside its domain, if that is the reason.
-    #[must_use]
-    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        match self {
-            Self::Experiment { cause: error, .. } | Self::Identify(error) => error.out_of_domain(),
-            Self::Nonlinearity(error) => error.out_of_domain(),
-            Self::Plant(error) => error.out_of_domain(),
-            Self::Simulation(error) => error.out_of_domain(),
-            Self::Vehicle(error) => error.out_of_domain(),
-            _ => None,
-        }
-    }
-}
+crate::numeric::codes! { pub PaperError {
+    Cell => "fixture-cell", Row => "fixture-row", Missing => "fixture-missing", Experiment.cause, Identify.0,
+    Nonlinearity.0, NoQuadraticFit => "no-quadratic-fit", Plant.0, Simulation.0, Vehicle.0,
+} }

@@ -90,28 +90,9 @@ pub enum PlantError {
     },
 }
 
-impl PlantError {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::OutOfDomain(_) => "out-of-domain",
-            Self::NoCoefficients { .. } => "no-coefficients",
-            Self::NotFinite { .. } => "entry-not-finite",
-            Self::LeadingZero { .. } => "leading-zero",
-            Self::CommonFactor => "common-factor",
-            Self::Improper { .. } => "improper",
-            Self::NotStrictlyProper { .. } => "not-strictly-proper",
-            Self::PadeOrder { .. } => "pade-order",
-            Self::Shape { .. } => "matrix-shape",
-            Self::PoleAt { .. } => "pole-at-frequency",
-            Self::Eigenvalues { .. } => "eigenvalues",
-        }
-    }
-
-    /// The number outside its domain, if that is the reason.
-    #[must_use]
-    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        if let Self::OutOfDomain(fault) = self { Some(fault) } else { None }
-    }
-}
+crate::numeric::codes! { pub PlantError {
+    OutOfDomain.0, NoCoefficients => "no-coefficients", NotFinite => "entry-not-finite",
+    LeadingZero => "leading-zero", CommonFactor => "common-factor", Improper => "improper",
+    NotStrictlyProper => "not-strictly-proper", PadeOrder => "pade-order", Shape => "matrix-shape",
+    PoleAt => "pole-at-frequency", Eigenvalues => "eigenvalues",
+} }

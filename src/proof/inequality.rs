@@ -99,22 +99,11 @@ pub enum Refusal {
     NotCovered,
 }
 
-impl Refusal {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Malformed { .. } => "malformed-proof",
-            Self::Statement { .. } => "other-statement",
-            Self::Other { .. } => "other-proof",
-            Self::Missing { .. } => "missing-proof",
-            Self::Domain { .. } => "other-domain",
-            Self::Bound { .. } => "vacuous-bound",
-            Self::NotShown { .. } => "not-shown",
-            Self::NotCovered => "not-covered",
-        }
-    }
-}
+crate::numeric::codes! { pub Refusal {
+    Malformed => "malformed-proof", Statement => "other-statement", Other => "other-proof",
+    Missing => "missing-proof", Domain => "other-domain", Bound => "vacuous-bound", NotShown => "not-shown",
+    NotCovered => "not-covered",
+} }
 
 impl Inequality {
     /// The box, or `None` where a range is empty.

@@ -1,6 +1,5 @@
 //! Why there is no report.
 
-use crate::numeric::OutOfDomain;
 use crate::paper::PaperError;
 
 /// Why there is no report.
@@ -31,25 +30,6 @@ pub enum ReportError {
     },
 }
 
-impl ReportError {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Paper(error) => error.code(),
-            Self::Catalogue(error) => error.code(),
-            Self::Figure { .. } => "figure",
-            Self::Table { .. } => "table",
-        }
-    }
-
-    /// The number outside its domain, if that is the reason.
-    #[must_use]
-    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        match self {
-            Self::Paper(error) => error.out_of_domain(),
-            Self::Catalogue(error) => error.out_of_domain(),
-            _ => None,
-        }
-    }
-}
+crate::numeric::codes! { pub ReportError {
+    Paper.0, Catalogue.0, Figure => "figure", Table => "table",
+} }

@@ -139,6 +139,14 @@ pub enum VehicleError {
     },
 }
 
+crate::numeric::codes! { pub VehicleError {
+    OutOfDomain.0, NotMonotone => "thrust-not-monotone", Saturated => "thrust-too-large",
+    InDeadZone => "thrust-in-dead-zone", RankDeficient => "rank-deficient", Count => "count",
+    ThrustAgainstCommand => "thrust-against-command", DeadZoneUnclear => "dead-zone-unclear",
+    PitchSingular => "pitch-singular", Indefinite => "indefinite", Diverged => "diverged",
+    NoConvergence => "no-convergence",
+} }
+
 impl VehicleError {
     /// The same refusal with the number the thruster has in its chain.
     #[must_use]
@@ -148,31 +156,6 @@ impl VehicleError {
             Self::InDeadZone { thrust_n, smallest_n, .. } => Self::InDeadZone { thruster, thrust_n, smallest_n },
             other => other,
         }
-    }
-
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::OutOfDomain(_) => "out-of-domain",
-            Self::NotMonotone { .. } => "thrust-not-monotone",
-            Self::Saturated { .. } => "thrust-too-large",
-            Self::InDeadZone { .. } => "thrust-in-dead-zone",
-            Self::RankDeficient { .. } => "rank-deficient",
-            Self::Count { .. } => "count",
-            Self::ThrustAgainstCommand { .. } => "thrust-against-command",
-            Self::DeadZoneUnclear { .. } => "dead-zone-unclear",
-            Self::PitchSingular { .. } => "pitch-singular",
-            Self::Indefinite { .. } => "indefinite",
-            Self::Diverged { .. } => "diverged",
-            Self::NoConvergence { .. } => "no-convergence",
-        }
-    }
-
-    /// The number outside its domain, if that is the reason.
-    #[must_use]
-    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        if let Self::OutOfDomain(fault) = self { Some(fault) } else { None }
     }
 }
 

@@ -188,8 +188,8 @@ fn harmonics_converge_to_the_orbit_of_a_relay() {
     for order in [1, 3, 7, 15, 31] {
         let many = balance.with_harmonics(&relay, &first, order).unwrap();
         let cut = cut_tsypkin(&state_space, 0.2, order, first.omega_rad_s);
-        assert!((many.omega_rad_s() / cut - 1.0).abs() < tolerance::BALANCE, "{order}: {} {cut}", many.omega_rad_s());
-        let error = (2.0 * PI / many.omega_rad_s() / exact.period_s.midpoint() - 1.0).abs();
+        assert!((many.omega_rad_s / cut - 1.0).abs() < tolerance::BALANCE, "{order}: {} {cut}", many.omega_rad_s);
+        let error = (2.0 * PI / many.omega_rad_s / exact.period_s.midpoint() - 1.0).abs();
         // The term left out is of the order of n^-3 and the tail of n^-2.
         assert!(error < 0.4 * last && error < 0.1 / (order * order) as f64, "{order}: {error}");
         assert!((many.amplitude() / exact.amplitude().midpoint() - 1.0).abs() < 0.1 / order as f64);
@@ -214,7 +214,7 @@ fn harmonics_converge_to_an_asymmetric_orbit() {
     assert_eq!((orbits.len(), found.len()), (1, 1), "{found:?}");
     let error = |order: usize| {
         let many = balance.with_harmonics(&relay, &found[0], order).unwrap();
-        (2.0 * PI / many.omega_rad_s() / orbits[0].period_s.midpoint() - 1.0).abs()
+        (2.0 * PI / many.omega_rad_s / orbits[0].period_s.midpoint() - 1.0).abs()
     };
     let errors = [1, 4, 16, 48].map(error);
     assert!(errors.windows(2).all(|pair| pair[1] < 0.5 * pair[0]) && errors[3] < 1e-4, "{errors:?}");
@@ -252,7 +252,7 @@ fn harmonics_converge_to_the_integrated_orbit_of_a_saturation() {
     let first = balance.intersections().unwrap()[0];
     let error = |order: usize| {
         let many = balance.with_harmonics(&saturation, &first, order).unwrap();
-        (2.0 * PI / many.omega_rad_s() / period - 1.0).abs()
+        (2.0 * PI / many.omega_rad_s / period - 1.0).abs()
     };
     // Kinks in the output make its harmonics fall as k^-2, the plant as k^-3.
     let errors = [1, 5, 21].map(error);
@@ -269,7 +269,7 @@ fn a_memory_that_would_have_to_know_more_is_an_error() {
     let balance = HarmonicBalance::new(&plant, |sweep| backlash.describing_function(sweep)).unwrap();
     for at in balance.intersections().unwrap() {
         match balance.with_harmonics(&backlash, &at, 9) {
-            Ok(many) => assert!((many.omega_rad_s() / at.omega_rad_s - 1.0).abs() < 0.2),
+            Ok(many) => assert!((many.omega_rad_s / at.omega_rad_s - 1.0).abs() < 0.2),
             Err(error) => assert!(matches!(error, BalanceError::TurnsInMemory { .. }), "{error}"),
         }
     }

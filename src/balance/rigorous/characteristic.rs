@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::error::ExistenceError;
-use crate::numeric::{Interval, Real};
+use crate::numeric::{Component, Gradient, Interval, Jet, Real};
 
 /// Kinks at most: each costs a search of passages.
 const MOST_KINKS: usize = 64;
@@ -93,19 +93,15 @@ impl OddCharacteristic {
     }
 
     /// Output and slope where there are no kinks.
-    pub(super) fn smooth<T: Real>(&self, x: T) -> (T, T) {
-        match self {
-            Self::PiecewiseLinear { slopes, .. } => (T::from_f64(slopes[0]) * x, T::from_f64(slopes[0])),
-            Self::Polynomial { odd_coefficients } => {
-                let [output, slope, _] = odd_polynomial(odd_coefficients, x);
-                (output, slope)
-            }
-            Self::Tanh { gain, scale } => {
-                let (gain, scale) = (T::from_f64(*gain), T::from_f64(*scale));
-                let tanh = (scale * x).tanh();
-                (gain * tanh, gain * scale * (T::one() - tanh.square()))
-            }
-        }
+    pub(super) fn smooth<T: Component>(&self, x: T) -> (T, T) {
+        let [x] = Gradient::variables([x]);
+        let constant = |number: f64| Gradient::constant(T::from_f64(number));
+        let output = match self {
+            Self::PiecewiseLinear { slopes, .. } => constant(slopes[0]) * x,
+            Self::Polynomial { odd_coefficients } => odd_polynomial(odd_coefficients, x),
+            Self::Tanh { gain, scale } => constant(*gain) * (constant(*scale) * x).tanh(),
+        };
+        (output.value(), output.slopes()[0])
     }
 
     /// Kinks, and the slopes between them; none of a smooth characteristic.
@@ -140,7 +136,10 @@ impl OddCharacteristic {
                 (Interval::point(*gain) * Interval::point(*scale).square()).abs() * Interval::point(0.7699)
             }
             Self::Polynomial { odd_coefficients } => {
-                odd_polynomial(&magnitudes(odd_coefficients), Interval::point(reach))[2]
+                let [_, _, half] =
+                    *odd_polynomial(&magnitudes(odd_coefficients), Jet::<3>::variable(Interval::point(reach)))
+                        .coefficients();
+                half * Interval::two()
             }
         }
     }
@@ -151,8 +150,7 @@ impl OddCharacteristic {
         match self {
             Self::PiecewiseLinear { .. } => None,
             Self::Polynomial { odd_coefficients } => {
-                let [output, slope, _] = odd_polynomial(&magnitudes(odd_coefficients), real + imaginary);
-                Some((output, slope))
+                Some(Self::Polynomial { odd_coefficients: magnitudes(odd_coefficients) }.smooth(real + imaginary))
             }
             // abs(tanh(x + j y))^2 = (sinh^2 x + sin^2 y)/(sinh^2 x + cos^2 y) <= 1 for abs(y) <= pi/4.
             Self::Tanh { gain, scale } => {
@@ -183,30 +181,12 @@ impl OddCharacteristic {
     }
 }
 
-/// `sum c_j x^j` over odd j, and its first two derivatives.
-fn odd_polynomial<T: Real>(odd_coefficients: &[f64], x: T) -> [T; 3] {
+/// `sum c_j x^j` over odd j.
+fn odd_polynomial<T: Real>(odd_coefficients: &[f64], x: T) -> T {
     let square = x.square();
-    let horner = |from: usize, factor: fn(usize) -> f64| {
-        let terms = odd_coefficients.iter().enumerate().skip(from).rev();
-        terms.fold(T::zero(), |sum, (j, &c)| sum * square + T::from_f64(factor(j)) * T::from_f64(c))
-    };
-    let derivatives =
-        [horner(0, |_| 1.0), horner(0, |j| (2 * j + 1) as f64), horner(1, |j| ((2 * j + 1) * 2 * j) as f64)];
-    [derivatives[0] * x, derivatives[1], derivatives[2] * x]
+    odd_coefficients.iter().rev().fold(T::zero(), |sum, &c| sum * square + T::from_f64(c)) * x
 }
 
 fn magnitudes(coefficients: &[f64]) -> Vec<f64> {
     coefficients.iter().map(|c| c.abs()).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn derivatives_of_an_odd_polynomial() {
-        // 3 x - 2 x^3 + x^5
-        let (x, found) = (0.7_f64, super::odd_polynomial(&[3.0, -2.0, 1.0], 0.7));
-        let exact =
-            [3.0 * x - 2.0 * x.powi(3) + x.powi(5), 3.0 - 6.0 * x * x + 5.0 * x.powi(4), -12.0 * x + 20.0 * x.powi(3)];
-        assert!(found.iter().zip(exact).all(|(found, exact)| (found - exact).abs() < 1e-14), "{found:?} {exact:?}");
-    }
 }

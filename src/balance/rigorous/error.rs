@@ -40,19 +40,10 @@ pub enum ExistenceError {
     },
 }
 
-impl ExistenceError {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Characteristic { .. } => "no-bounded-slope",
-            Self::Feedthrough { .. } => "feedthrough",
-            Self::Malformed { .. } => "no-oscillation-proof",
-            Self::NotShown(_) => "oscillation-not-shown",
-            Self::Remainder { .. } => "remainder",
-        }
-    }
-}
+crate::numeric::codes! { pub ExistenceError {
+    Characteristic => "no-bounded-slope", Feedthrough => "feedthrough", Malformed => "no-oscillation-proof",
+    NotShown => "oscillation-not-shown", Remainder => "remainder",
+} }
 
 /// Why no oscillation is shown to exist. None of these excludes an oscillation.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -93,16 +84,7 @@ pub enum CannotTell {
     NoBalance,
 }
 
-impl CannotTell {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Rho { .. } => "rho",
-            Self::Grazing { .. } => "grazing",
-            Self::Range { .. } => "beyond-range",
-            Self::NoContraction { .. } => "no-contraction",
-            Self::NoBalance => "no-near-balance",
-        }
-    }
-}
+crate::numeric::codes! { pub CannotTell {
+    Rho => "rho", Grazing => "grazing", Range => "beyond-range", NoContraction => "no-contraction",
+    NoBalance => "no-near-balance",
+} }

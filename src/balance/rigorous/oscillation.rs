@@ -1,8 +1,6 @@
 //! Oscillations proved to exist, and the document that shows an oscillation.
 
-use core::fmt;
 use core::ops::RangeInclusive;
-use core::str::FromStr;
 
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
@@ -317,16 +315,4 @@ impl ProvedOscillation {
     }
 }
 
-impl fmt::Display for ProvedOscillation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&serde_json::to_string(self).map_err(|_| fmt::Error)?)
-    }
-}
-
-impl FromStr for ProvedOscillation {
-    type Err = ExistenceError;
-
-    fn from_str(text: &str) -> Result<Self, ExistenceError> {
-        serde_json::from_str(text).map_err(|error| ExistenceError::Malformed { text: error.to_string() })
-    }
-}
+crate::proof::document!(ProvedOscillation, ExistenceError, to_string);

@@ -279,7 +279,7 @@ fn balance_errors(lag_s: f64, half_width: f64, orders: [usize; 3]) -> Option<[f6
     let first = *balance.intersections().ok()?.first()?;
     let error = |order| {
         let found = balance.with_harmonics(&relay, &first, order).ok()?;
-        Some((core::f64::consts::TAU / found.omega_rad_s() / exact - 1.0).abs())
+        Some((core::f64::consts::TAU / found.omega_rad_s / exact - 1.0).abs())
     };
     let [a, b, c] = orders.map(error);
     Some([a?, b?, c?])

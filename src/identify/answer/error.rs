@@ -96,37 +96,12 @@ pub enum IdentifyError {
     Describing(#[from] DescribingError),
 }
 
-impl IdentifyError {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::OutOfDomain(_) => "feature",
-            Self::NoOrbit { .. } => "no-orbit",
-            Self::Unresolved { .. } => "unresolved",
-            Self::TooFewEquations { .. } => "too-few-equations",
-            Self::Confounded { .. } => "confounded",
-            Self::NotSettled { .. } => "not-settled",
-            Self::CommandSign => "command-sign",
-            Self::Unphysical { .. } => "unphysical",
-            Self::Orbit(_) => "orbit",
-            Self::Plant(_) => "plant",
-            Self::Describing(_) => "condition-40",
-        }
-    }
-
-    /// The number outside its domain, if that is the reason.
-    #[must_use]
-    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        match self {
-            Self::OutOfDomain(fault) => Some(fault),
-            Self::Orbit(error) => error.out_of_domain(),
-            Self::Plant(error) => error.out_of_domain(),
-            Self::Describing(error) => error.out_of_domain(),
-            _ => None,
-        }
-    }
-}
+crate::numeric::codes! { pub IdentifyError {
+    OutOfDomain.0 => "feature", NoOrbit => "no-orbit", Unresolved => "unresolved",
+    TooFewEquations => "too-few-equations", Confounded => "confounded", NotSettled => "not-settled",
+    CommandSign => "command-sign", Unphysical => "unphysical", Orbit.0 => "orbit", Plant.0 => "plant",
+    Describing.0 => "condition-40",
+} }
 
 impl From<NonlinearityError> for IdentifyError {
     fn from(error: NonlinearityError) -> Self {

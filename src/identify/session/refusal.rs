@@ -5,7 +5,6 @@ use crate::experiment::ExperimentError;
 use crate::features::{FeatureError, NotAnExperiment};
 use crate::files::FileError;
 use crate::identify::answer::IdentifyError;
-use crate::numeric::OutOfDomain;
 
 /// Why there is no model. [`code`](Self::code) is the name that scripts see.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -46,31 +45,11 @@ pub enum Refusal {
     Model(#[from] IdentifyError),
 }
 
+crate::numeric::codes! { pub Refusal {
+    Settings.0, File.0, Record.source, Features.source, NoExperiment => "no-experiment", Model.0,
+} }
+
 impl Refusal {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Settings(error) => error.code(),
-            Self::File(error) => error.code(),
-            Self::Record { source, .. } => source.code(),
-            Self::Features { source, .. } => source.code(),
-            Self::NoExperiment { .. } => "no-experiment",
-            Self::Model(error) => error.code(),
-        }
-    }
-
-    /// The number outside its domain, if that is the reason.
-    #[must_use]
-    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        match self {
-            Self::Settings(error) => error.out_of_domain(),
-            Self::Record { source, .. } => source.out_of_domain(),
-            Self::Model(error) => error.out_of_domain(),
-            Self::File(_) | Self::Features { .. } | Self::NoExperiment { .. } => None,
-        }
-    }
-
     /// Whether the question was wrong rather than the answer no: settings that contradict each other, or a source that could
     /// not be read to its end.
     #[must_use]

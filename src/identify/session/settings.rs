@@ -108,26 +108,9 @@ pub enum SettingsError {
     OutOfDomain(#[from] OutOfDomain),
 }
 
-impl SettingsError {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::MixedNeedsFit => "mixed-needs-fit",
-            Self::NeedsBounded => "needs-bounded",
-            Self::OutOfDomain(_) => "out-of-domain",
-        }
-    }
-
-    /// The number outside its domain, if that is the reason.
-    #[must_use]
-    pub fn out_of_domain(&self) -> Option<&OutOfDomain> {
-        match self {
-            Self::OutOfDomain(fault) => Some(fault),
-            Self::MixedNeedsFit | Self::NeedsBounded => None,
-        }
-    }
-}
+crate::numeric::codes! { pub SettingsError {
+    MixedNeedsFit => "mixed-needs-fit", NeedsBounded => "needs-bounded", OutOfDomain.0,
+} }
 
 impl Settings {
     /// Whether a method asked for can do what is asked, and each number is in its domain.

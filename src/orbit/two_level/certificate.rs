@@ -80,7 +80,7 @@ pub enum OrbitRefusal {
     #[error("the loop: {0}")]
     Loop(#[from] OrbitError),
     /// A statement on an orbit is not shown.
-    #[error("orbit {number}: not shown that {}", claim.code_and_words().1)]
+    #[error("orbit {number}: not shown that {claim}")]
     NotShown {
         /// Place in the file, from 1.
         number: usize,
@@ -90,42 +90,29 @@ pub enum OrbitRefusal {
 }
 
 /// A statement of a certificate on an orbit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum OrbitClaim {
     /// The box of half-periods holds those of an orbit.
+    #[error("its box holds half-periods at whose ends the output passes the levels")]
     Existence,
     /// The relay switches at the ends of the half-periods and nowhere else.
+    #[error("the relay switches nowhere else")]
     Switchings,
     /// The least and the largest output are within their bounds.
+    #[error("its extremes are within their bounds")]
     Extremes,
     /// Small deviations die out, or grow.
+    #[error("small deviations do what is said")]
     Attraction,
 }
 
-impl OrbitClaim {
-    /// Its code, and what it says.
-    fn code_and_words(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Existence => ("existence", "its box holds half-periods at whose ends the output passes the levels"),
-            Self::Switchings => ("switchings", "the relay switches nowhere else"),
-            Self::Extremes => ("extremes", "its extremes are within their bounds"),
-            Self::Attraction => ("attraction", "small deviations do what is said"),
-        }
-    }
-}
+crate::numeric::codes! { pub OrbitClaim {
+    Existence => "existence", Switchings => "switchings", Extremes => "extremes", Attraction => "attraction",
+} }
 
-impl OrbitRefusal {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Malformed { .. } => "malformed",
-            Self::Foreign { .. } => "foreign",
-            Self::Loop(error) => error.code(),
-            Self::NotShown { claim, .. } => claim.code_and_words().0,
-        }
-    }
-}
+crate::numeric::codes! { pub OrbitRefusal {
+    Malformed => "malformed", Foreign => "foreign", Loop.0, NotShown.claim,
+} }
 
 impl OrbitCertificate {
     /// Name of this kind of certificate, in its field `certificate`.
@@ -186,19 +173,7 @@ impl OrbitCertificate {
     }
 }
 
-impl core::fmt::Display for OrbitCertificate {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(&serde_json::to_string_pretty(self).map_err(|_| core::fmt::Error)?)
-    }
-}
-
-impl core::str::FromStr for OrbitCertificate {
-    type Err = OrbitRefusal;
-
-    fn from_str(text: &str) -> Result<Self, OrbitRefusal> {
-        serde_json::from_str(text).map_err(|error| OrbitRefusal::Malformed { text: error.to_string() })
-    }
-}
+crate::proof::document!(OrbitCertificate, OrbitRefusal, to_string_pretty);
 
 impl SwitchedLoop {
     /// Shows the statements on an orbit, or names the first that is not shown.

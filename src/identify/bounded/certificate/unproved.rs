@@ -105,25 +105,11 @@ pub enum Unproved {
     },
 }
 
-impl Unproved {
-    /// Short name for scripts.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Foreign { .. } => "foreign",
-            Self::Format { .. } => "format",
-            Self::Malformed { .. } => "malformed",
-            Self::Ranges { .. } => "ranges",
-            Self::Logs { .. } | Self::Row { .. } => "log",
-            Self::Late { .. } => "late",
-            Self::Step { .. } => "step",
-            Self::Incomplete { .. } => "incomplete",
-            Self::Witness { .. } => "witness",
-            Self::Statement { .. } => "statement",
-            Self::Outliers { .. } => "outliers",
-            Self::NotFound { .. } => "not-found",
-        }
-    }
-}
+crate::numeric::codes! { pub Unproved {
+    Foreign => "foreign", Format => "format", Malformed => "malformed", Ranges => "ranges", Logs => "log",
+    Row => "log", Late => "late", Step => "step", Incomplete => "incomplete", Witness => "witness",
+    Statement => "statement", Outliers => "outliers", NotFound => "not-found",
+} }
 
 pub(super) fn malformed(text: &str) -> Unproved {
     Unproved::Malformed { text: text.to_owned() }
