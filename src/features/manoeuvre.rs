@@ -56,17 +56,11 @@ pub enum NotAnExperiment {
     },
 }
 
-impl NotAnExperiment {
-    /// Short name for scripts; it does not change with the wording of the message.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::FewCycles { .. } => "few-cycles",
-            Self::NotHeld { .. } => "not-held",
-            Self::NotFollowed { .. } => "not-followed",
-        }
-    }
+crate::numeric::codes! { pub NotAnExperiment {
+    FewCycles => "few-cycles", NotHeld => "not-held", NotFollowed => "not-followed",
+} }
 
+impl NotAnExperiment {
     /// What is missing in a record; `None` for a record of a relay experiment. An output that moves against the command throughout
     /// follows it: its sign is another question.
     ///

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 /// The order of the modules. Those in one row may not import each other.
 const ORDER: &[&[&str]] = &[
-    &["files", "numeric"],
+    &["numeric"],
+    &["files"],
     &["proof"],
     &["nonlinearity"],
     &["describing"],

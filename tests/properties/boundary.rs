@@ -127,11 +127,9 @@ impl Probe {
 /// Modules and functions that need no call, and why.
 const EXEMPT: &[(&str, &str, &str)] = &[
     ("numeric", "", "the arithmetic itself: `interval`, `special` and `libm_single` compare it with others"),
-    ("", "::code", "a word"),
     ("", "::column", "a word"),
     ("", "::name", "a word"),
     ("", "::words", "a word"),
-    ("", "::out_of_domain", "what an error holds"),
     ("nonlinearity", "Kernel::", "a constructor of what it is given"),
     ("nonlinearity", "Characteristic::kinks", "what the kernels report"),
     ("nonlinearity", "PiecewiseLinear::kernels", "what `describing_function` sums"),

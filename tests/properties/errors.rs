@@ -1,6 +1,6 @@
 //! What callers other than people read off an error: its code, and the number outside its domain.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use selfosc::Error;
@@ -32,10 +32,10 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     entries.flat_map(nested).filter(|path| path.extension().is_some_and(|extension| extension == "rs")).collect()
 }
 
-/// The strings that `code` of each enum in this source gives.
-fn codes(source: &str) -> Vec<Vec<&str>> {
-    let bodies = source.split("pub fn code(&self) -> &'static str {").skip(1);
-    bodies.map(|rest| rest.split("\n    }\n").next().unwrap().split('"').skip(1).step_by(2).collect()).collect()
+/// The short names of each enum in this source.
+fn codes(source: &str) -> Vec<BTreeSet<&str>> {
+    let tables = source.split("codes! { pub").skip(1).map(|rest| rest.split("\n} }\n").next().unwrap());
+    tables.map(|table| table.split("=> \"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect()).collect()
 }
 
 #[test]
