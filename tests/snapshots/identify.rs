@@ -224,6 +224,17 @@ fn a_locked_oscillation_asks_for_another_level() {
     assert_eq!(heading("0.01"), (false, false));
 }
 
+/// A record that is given twice is no second record, under whatever name.
+#[test]
+fn a_record_given_twice_is_named() {
+    let folder = simulated(AXIS, &["--noise", "0.003", "--cycles", "8"]);
+    std::fs::copy(folder.path().join("log.csv"), folder.path().join("copy.csv")).unwrap();
+    let (_, text, _) = selfosc(&folder, &["identify", "log.csv", "copy.csv"]);
+    let line = text.lines().find(|line| line.contains("same-record")).unwrap();
+    assert!(line.contains("copy.csv has the samples of log.csv"), "{line}");
+    assert!(!selfosc(&folder, &["identify", "log.csv"]).1.contains("same-record"));
+}
+
 /// Where terms are looked for in a part of the record only, the answer says so, and its interval is that of all samples.
 #[test]
 fn a_long_record_says_where_terms_were_looked_for() {

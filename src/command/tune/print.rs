@@ -9,6 +9,9 @@ use crate::command::CommandError;
 use crate::control::{Answer, Margins, StepResponse, WorstMargin};
 use crate::numeric::significant;
 
+/// A share of the step that sums of some thousand simulated intervals lose.
+const ROUNDING: f64 = 1e-12;
+
 fn step_json(size: f64, response: &StepResponse) -> Value {
     let answer = response.answer();
     json!({
@@ -138,8 +141,13 @@ impl Tuned {
         row("step: rise 10-90 % / s", rise_s)?;
         row("step: overshoot / %", Some(overshoot_percent))?;
         row("step: settling to 2 % / s", settling_s)?;
-        row(&format!("step: error at the end / {x}"), Some(final_error * self.step))?;
+        row(&format!("step: error at the end / {x}"), Some(self.step_error(final_error)))?;
         Ok(())
+    }
+
+    /// An error relative to the step, in units of the output: none below the rounding of the simulation's sums.
+    fn step_error(&self, relative: f64) -> f64 {
+        if relative.abs() < ROUNDING { 0.0 } else { relative * self.step }
     }
 
     /// What the constant force does.
@@ -149,7 +157,7 @@ impl Tuned {
         writeln!(output, "\nunder the constant force of {} F", significant(self.model.delta, 4))?;
         let mut row = |name: &str, value: Option<f64>| writeln!(output, "{name:34}{:>14}", number(value));
         row("step: settling to 2 % / s", answer.settling_s)?;
-        row(&format!("step: error at the end / {x}"), Some(answer.final_error * self.step))?;
+        row(&format!("step: error at the end / {x}"), Some(self.step_error(answer.final_error)))?;
         if self.tuning.gains().integral() == 0.0 {
             let offset = self.offset();
             let degrees =

@@ -185,6 +185,11 @@ impl core::fmt::Display for Reason {
                 1.0 / probability.max(1e-9)
             ),
             Self::Outliers { count } => write!(f, "{count} readings far from all others were left out"),
+            Self::TooWide { relative } if relative >= 1.0 => write!(
+                f,
+                "the record does not show whether there is an inertia; for a process without one, such as a heater, use \
+                 `selfosc autotune`, otherwise `selfosc design` computes which experiment determines it"
+            ),
             Self::TooWide { relative } => write!(
                 f,
                 "the inertia is known to within {:.0} % only; `selfosc design` computes which experiment determines it better",

@@ -59,9 +59,23 @@ pub struct Source {
 
 impl Source {
     /// With the record's name where there are several.
-    pub(super) fn caution(&self, warning: Warning, record: Option<usize>) -> Caution {
-        let text = if record.is_some() { format!("{}: {warning}", self.name) } else { warning.to_string() };
+    pub(super) fn caution(&self, warning: Warning, several: bool) -> Caution {
+        let text = if several { format!("{}: {warning}", self.name) } else { warning.to_string() };
         Caution { code: warning.code().into(), text }
+    }
+
+    /// Of a record with the samples of an earlier record.
+    pub(super) fn same_as_one_of(&self, earlier: &[Self]) -> Option<Caution> {
+        let record = &self.log.record;
+        let same = |other: &&Self| {
+            other.log.record.output() == record.output() && other.log.record.input() == record.input()
+        };
+        let other = earlier.iter().find(same)?;
+        let text = format!(
+            "{} has the samples of {}: they count twice, and the statistical intervals are too narrow; give every record once",
+            self.name, other.name
+        );
+        Some(Caution { code: "same-record".into(), text })
     }
 }
 

@@ -154,11 +154,11 @@ impl<'a> Findings<'a> {
                 let missing = self.records().into_iter().find_map(NotAnExperiment::find).map(Reason::NoExperiment);
                 self.reported = Some(missing.into_iter().fold(reported, Reported::with_reason));
                 self.left_out = several.left_out;
-                self.cautions.extend(self.sources.iter().enumerate().filter_map(|(index, source)| {
+                let several = self.sources.len() > 1;
+                self.cautions.extend(self.sources.iter().filter_map(|source| {
                     let (searched, samples) = (Estimator::SEARCHED, source.log.record.samples());
-                    let alone = self.sources.len() == 1;
                     let warning = Warning::SearchedInPart { searched, samples };
-                    (samples > searched).then(|| source.caution(warning, (!alone).then_some(index)))
+                    (samples > searched).then(|| source.caution(warning, several))
                 }));
             }
             Err(error @ IdentifyError::CommandSign) => return Err(error.into()),
@@ -234,7 +234,7 @@ impl<'a> Findings<'a> {
             let Some(features) = &source.features else { continue };
             let record = several.then_some(index);
             let (attempts, warnings) = self.attempts(features, delay_s, record);
-            let cautions: Vec<Caution> = warnings.into_iter().map(|warning| source.caution(warning, record)).collect();
+            let cautions: Vec<Caution> = warnings.into_iter().map(|warning| source.caution(warning, several)).collect();
             self.cautions.extend(cautions);
             for (method, law, result) in attempts {
                 match result {

@@ -176,8 +176,12 @@ impl Session {
             let log = in_units(&name, log, &self.settings)?;
             validation.push((name, log));
         }
+        let several = self.logs.len() > 1;
         for (index, (name, log)) in self.logs.into_iter().enumerate() {
-            let (source, failure) = source(name, log, &self.settings, &mut cautions)?;
+            let (source, failure) = source(name, log, &self.settings)?;
+            let warnings = source.features.as_ref().map(Warning::of_features).unwrap_or_default();
+            cautions.extend(warnings.into_iter().map(|warning| source.caution(warning, several)));
+            cautions.extend(source.same_as_one_of(&sources));
             sources.push(source);
             failures.extend(failure.map(|error| (index, error)));
         }
@@ -200,12 +204,7 @@ fn in_units(name: &str, mut log: Log, settings: &Settings) -> Result<Log, Refusa
 }
 
 /// The record in the units wanted, with its features or why it has none.
-fn source(
-    name: String,
-    log: Log,
-    settings: &Settings,
-    cautions: &mut Vec<Caution>,
-) -> Result<(Source, Option<FeatureError>), Refusal> {
+fn source(name: String, log: Log, settings: &Settings) -> Result<(Source, Option<FeatureError>), Refusal> {
     let log = in_units(&name, log, settings)?;
     let features = RecordFeatures::of(&log.record);
     if let Err(source @ FeatureError::ConstantInput { .. }) = features {
@@ -218,10 +217,7 @@ fn source(
         return Err(Refusal::NoExperiment { name, source });
     }
     match features {
-        Ok(features) => {
-            cautions.extend(Warning::of_features(&features).into_iter().map(Caution::from));
-            Ok((Source { name, log, features: Some(features) }, None))
-        }
+        Ok(features) => Ok((Source { name, log, features: Some(features) }, None)),
         Err(error) => Ok((Source { name, log, features: None }, Some(error))),
     }
 }
