@@ -4,18 +4,18 @@ mod form;
 mod print;
 
 use std::io::Write;
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::{Value, json};
 
 use super::error::Given;
-use super::number::{count, finite, number, positive, time_unit};
+use super::log::LogArguments;
+use super::number::{number, positive};
 use super::{CommandError, Outcome, files, refused, write_json};
 use crate::autotune::{Actions, Contradiction, GainsWanted, LoopCurves, ProcessRecord, ProvedGains, Ruled, rules};
 use crate::error::Error;
-use crate::experiment::{Columns, Log, TimeUnit};
+use crate::experiment::{Columns, Log};
 use crate::files::Files;
 use crate::identify::NORMAL_95;
 use crate::numeric::Interval;
@@ -48,9 +48,8 @@ pub(super) struct Arguments {
     /// Column of the command [default: the first named duty, power, heater, heating, relay, valve, pwm, command, input, u or output]
     #[arg(long, value_name = "COL")]
     input: Option<String>,
-    /// Unit of the times [default: that which the column's name ends in, as _ms does, else s]
-    #[arg(long, value_name = "UNIT", value_parser = time_unit)]
-    time_unit: Option<TimeUnit>,
+    #[command(flatten)]
+    reading: LogArguments,
     /// Largest sensitivity 1/|1 + L| of any process of the confidence set
     #[arg(long, value_name = "M", default_value_t = 1.4, value_parser = sensitivity, allow_negative_numbers = true)]
     ms: f64,
@@ -72,24 +71,6 @@ pub(super) struct Arguments {
     /// Command at full power, of which a firmware's gains are shares [default: 1, 100 or 255, where it is the largest in the log]
     #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true)]
     full_power: Option<f64>,
-    /// Uses samples from this time on, in s on the log's clock
-    #[arg(long, value_name = "T", value_parser = finite, allow_negative_numbers = true)]
-    from: Option<f64>,
-    /// Uses samples up to this time, in s on the log's clock
-    #[arg(long, value_name = "T", value_parser = finite, allow_negative_numbers = true)]
-    to: Option<f64>,
-    /// Uses this part of a log whose clock starts again, counted from 1
-    #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
-    part: Option<NonZeroUsize>,
-    /// The samples were taken at even intervals, whatever their stamps: those are of arrival
-    #[arg(long)]
-    even_stamps: bool,
-    /// Leaves out rows without three numbers, at most a fifth of all
-    #[arg(long)]
-    skip_bad_rows: bool,
-    /// For topics logged in turn: where its cell is blank a command holds, from the output before it on; rows without output are passed over
-    #[arg(long)]
-    hold_command: bool,
     /// Writes one HTML file with figures, which needs no network
     #[arg(long, value_name = "OUT.html")]
     report: Option<PathBuf>,
@@ -238,22 +219,15 @@ impl Autotuned {
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Outcome, CommandError> {
     let mut known = Files::default();
     let input = files::input(&mut known, &arguments.log, Columns::LONGEST)?;
-    let columns = Columns {
+    let columns = arguments.reading.of(Columns {
         time: arguments.time.clone(),
         output: arguments.output.clone(),
         input: arguments.input.clone(),
-        time_unit: arguments.time_unit,
-        from_s: arguments.from,
-        to_s: arguments.to,
-        part: arguments.part,
-        even_stamps: arguments.even_stamps,
-        skip_bad_rows: arguments.skip_bad_rows,
-        hold_command: arguments.hold_command,
         process: true,
         // The level of no command is part of the load.
         neutral: Some(0.0),
         ..Columns::default()
-    };
+    });
     let report = arguments.report.as_ref().map(|path| known.output(path)).transpose().given("--report")?;
     let log = match columns.read(input.bytes()) {
         Ok(log) => log,

@@ -10,9 +10,10 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use indicatif::ProgressBar;
 
 use super::error::Given;
-use super::number::{count, finite, non_negative, positive, time_unit, whole};
+use super::log::LogArguments;
+use super::number::{count, finite, non_negative, positive, whole};
 use super::{CommandError, Outcome, files, refused, write_json};
-use crate::experiment::{Columns, TimeUnit};
+use crate::experiment::Columns;
 use crate::files::{FileError, Files, Input};
 use crate::identify::document::RefusalDocument;
 use crate::identify::{
@@ -48,6 +49,8 @@ pub(super) struct Arguments {
     /// Column of the command [default: the first of command, input, u, pwm, duty]
     #[arg(long, value_name = "COL")]
     input: Option<String>,
+    #[command(flatten)]
+    reading: LogArguments,
     /// Relay level C; a command logged in other units is scaled to it [default: as logged]
     #[arg(long, value_name = "C", value_parser = positive, allow_negative_numbers = true)]
     relay: Option<f64>,
@@ -111,33 +114,12 @@ pub(super) struct Arguments {
     /// The output is an angle that jumps by a turn; a heading or yaw column always is
     #[arg(long)]
     wrap: bool,
-    /// Unit of the times [default: that which the column's name ends in, as _ms does, else s]
-    #[arg(long, value_name = "UNIT", value_parser = time_unit)]
-    time_unit: Option<TimeUnit>,
     /// The command that does nothing, as logged; it is taken off [default: 0]
     #[arg(long, value_name = "U", value_parser = finite, allow_negative_numbers = true)]
     neutral: Option<f64>,
     /// The command is logged with the opposite sign
     #[arg(long)]
     invert: bool,
-    /// Uses samples from this time on, in s on the log's clock
-    #[arg(long, value_name = "T", value_parser = finite, allow_negative_numbers = true)]
-    from: Option<f64>,
-    /// Uses samples up to this time, in s on the log's clock
-    #[arg(long, value_name = "T", value_parser = finite, allow_negative_numbers = true)]
-    to: Option<f64>,
-    /// Uses this part of a log whose clock starts again, counted from 1
-    #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
-    part: Option<NonZeroUsize>,
-    /// The samples were taken at even intervals, whatever their stamps: those are of arrival
-    #[arg(long)]
-    even_stamps: bool,
-    /// Leaves out rows without three numbers, or with a time that does not come after the one before: at most a fifth of all
-    #[arg(long)]
-    skip_bad_rows: bool,
-    /// For topics logged in turn: where its cell is blank a command holds, from the output before it on; rows without output are passed over
-    #[arg(long)]
-    hold_command: bool,
     /// Logs that are predicted and take no part in the estimate; where an answer explains less than half of the variance of one, it is
     /// doubtful
     #[arg(long, value_name = "LOG", num_args = 1..)]
@@ -293,24 +275,17 @@ impl Arguments {
     }
 
     fn columns(&self) -> Columns {
-        Columns {
+        self.reading.of(Columns {
             time: self.time.clone(),
             output: self.output.clone(),
             input: self.input.clone(),
-            time_unit: self.time_unit,
             neutral: self.neutral,
             invert: self.invert,
-            from_s: self.from,
-            to_s: self.to,
-            part: self.part,
-            even_stamps: self.even_stamps,
-            skip_bad_rows: self.skip_bad_rows,
-            hold_command: self.hold_command,
             radians: self.radians,
             degrees: self.degrees,
             wrap: self.wrap,
-            process: false,
-        }
+            ..Columns::default()
+        })
     }
 
     fn refuse(&self, refusal: Refusal, output: &mut impl Write) -> Result<Outcome, CommandError> {

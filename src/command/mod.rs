@@ -17,6 +17,7 @@ mod gain;
 mod identify;
 mod known;
 mod lines;
+mod log;
 mod manual;
 mod number;
 mod orbits;
